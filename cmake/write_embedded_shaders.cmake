@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: MIT
+file(GLOB files ${FOLDER}/*)
+set(text "#include \"shader/embedded.h\"\n\nnamespace fragtrace {\n\nconst std::vector<EmbeddedShader>& embeddedShaders() {\n  static const std::vector<EmbeddedShader> shaders = {\n")
+foreach(file ${files})
+  get_filename_component(name ${file} NAME)
+  file(READ ${file} body)
+  string(APPEND text "      {\"${name}\", R\"shader(${body})shader\"},\n")
+endforeach()
+string(APPEND text "  };\n  return shaders;\n}\n\n}  // namespace fragtrace\n")
+file(WRITE ${OUTPUT} "${text}")

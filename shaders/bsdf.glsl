@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// The glTF 2.0 material (appendix B, KHR_materials_specular, _transmission, _volume) as one BSDF: metal, dielectric over a
+// diffuse base, and glass, mixed by metallic and transmission. Frame: z is the shading normal, outgoing.z > 0.
+
+struct Bsdf {
+  vec3 baseColor;
+  vec3 dielectricF0;
+  float dielectricF90;
+  float metal;     // weight of the metal
+  float opaque;    // weight of the dielectric over the diffuse base
+  float glass;     // weight of the transmissive dielectric
+  float alpha;     // GGX width, roughness squared
+  bool mirrorLike; // so smooth that its specular lobes are single directions
+  bool solid;      // glass bounds a volume, else thin-walled
+  float eta;       // index behind the surface over the index before it
+};
+
+/// A direction drawn from a Bsdf. weight = f |cos| / density; density 0 for a single direction; weight 0 ends the path.
+struct BsdfSample {
+  vec3 incoming;
+  vec3 weight;
+  float density;
+  bool transmitted;
+};
+
+/// f |cos| and the density with which sampleBsdf draws the direction, single directions left out.
+struct BsdfValue {
+  vec3 value;
+  float density;
+};
+
+/// Below this width a lobe is taken as a single direction: it is narrower than 0.001 radians.
+const float kMirrorAlpha = float(0.001);
+
+vec3 opaqueFresnel(Bsdf b, float cosine) {
+  if (!kSpecular) return vec3(0.0f);
+  vec3 result = vec3(0.0f);
+  if (kMetals) result = b.metal * fresnelSchlick(b.baseColor, 1.0f, cosine);
+  return result + b.opaque * fresnelSchlick(b.dielectricF0, b.dielectricF90, cosine);
+}
+
+/// The share of light that the dielectric layer lets through to the diffuse base.
+float throughLayer(Bsdf b, float cosine) {
+  if (!kSpecular) return 1.0f;
+  return 1.0f - maxComponent(fresnelSchlick(b.dielectricF0, b.dielectricF90, cosine));
+}
+
+/// Reflectance of the glass at a facet seen at `cosine`.
+float glassFresnel(Bsdf b, float cosine) {
+  float eta = b.solid ? b.eta : max(b.eta, 1.0f / b.eta);
+  float single = kSchlick ? schlickDielectric(cosine, eta) : fresnelDielectric(cosine, eta);
+  return b.solid ? single : thinReflectance(single);
+}
+
+/// Chances of drawing from glass (x), the opaque specular lobe (y) and the diffuse lobe (z); they add up to 1.
+vec3 lobeChances(Bsdf b, float cosine) {
+  float glass = kTransmission ? b.glass : 0.0f;
+  if (!kSpecular) return vec3(glass, 0.0f, 1.0f - glass);
+  float specular = maxComponent(opaqueFresnel(b, cosine));
+  float diffuse = b.opaque * throughLayer(b, cosine) * maxComponent(b.baseColor);
+  float sum = specular + diffuse;
+  float share = sum > 0.0f ? specular / sum : 1.0f;
+  share = diffuse > 0.0f && specular > 0.0f ? clamp(share, 0.125f, 0.875f) : share;
+  return vec3(glass, (1.0f - glass) * share, (1.0f - glass) * (1.0f - share));
+}
+
+/// Value and density of the rough glass in one direction.
+BsdfValue evaluateGlass(Bsdf b, vec3 outgoing, vec3 incoming) {
+  BsdfValue none;
+  none.value = vec3(0.0f);
+  none.density = 0.0f;
+  bool transmitted = incoming.z < 0.0f;
+  // A thin wall transmits the mirror image of what it reflects.
+  bool bends = transmitted && b.solid;
+  vec3 image = transmitted && !b.solid ? vec3(incoming.x, incoming.y, -incoming.z) : incoming;
+  vec3 h = bends ? outgoing + b.eta * incoming : outgoing + image;
+  float squared = dot(h, h);
+  if (squared <= 0.0f) return none;
+  h = h / sqrt(squared);
+  h = h.z < 0.0f ? -1.0f * h : h;
+  float oh = dot(outgoing, h);
+  float ih = dot(image, h);
+  if (oh <= 0.0f || (bends ? ih >= 0.0f : ih <= 0.0f)) return none;
+  float fresnel = glassFresnel(b, oh);
+  float density = visibleGgxDensity(outgoing, h, b.alpha);
+  // The masking ratio turns the density of the visible normals into the value (both have D G1(o) / o.z).
+  vec3 mirrored = vec3(image.x, image.y, abs(image.z));
+  float ratio = ggxMaskingShadowing(outgoing, mirrored, b.alpha) / ggxMasking(outgoing, b.alpha);
+  BsdfValue r;
+  float jacobian = 1.0f / (4.0f * oh);
+  vec3 tint = vec3(1.0f);
+  float share = fresnel;
+  if (transmitted) {
+    tint = b.baseColor;
+    share = 1.0f - fresnel;
+    if (bends) {
+      // Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007, equations 17 and 21, times 1 / eta^2 since
+      // radiance is compressed by the denser side.
+      float denominator = oh + b.eta * ih;
+      if (denominator == 0.0f) return none;
+      jacobian = b.eta * b.eta * abs(ih) / (denominator * denominator);
+      tint = tint / (b.eta * b.eta);
+    }
+  }
+  r.density = share * density * jacobian;
+  r.value = tint * (r.density * ratio);
+  return r;
+}
+
+BsdfValue evaluateBsdf(Bsdf b, vec3 outgoing, vec3 incoming) {
+  BsdfValue r;
+  r.value = vec3(0.0f);
+  r.density = 0.0f;
+  vec3 chances = lobeChances(b, outgoing.z);
+  if (incoming.z > 0.0f) {
+    vec3 h = normalize(outgoing + incoming);
+    float oh = max(0.0f, dot(outgoing, h));
+    r.value = (b.opaque * throughLayer(b, oh) * kInversePi * incoming.z) * b.baseColor;
+    r.density = chances.z * incoming.z * kInversePi;
+    if (kSpecular && !b.mirrorLike) {
+      float density = visibleGgxDensity(outgoing, h, b.alpha) / max(4.0f * oh, float(1e-12));
+      float ratio = ggxMaskingShadowing(outgoing, incoming, b.alpha) / ggxMasking(outgoing, b.alpha);
+      r.value = r.value + (density * ratio) * opaqueFresnel(b, oh);
+      r.density = r.density + chances.y * density;
+    }
+  }
+  if (kTransmission && !b.mirrorLike) {
+    BsdfValue g = evaluateGlass(b, outgoing, incoming);
+    r.value = r.value + b.glass * g.value;
+    r.density = r.density + chances.x * g.density;
+  }
+  return r;
+}
+
+/// Draws a single direction of smooth glass: reflected with the chance of its reflectance, else transmitted.
+BsdfSample sampleSmoothGlass(Bsdf b, vec3 outgoing, float choice) {
+  BsdfSample s;
+  float fresnel = glassFresnel(b, outgoing.z);
+  s.transmitted = choice >= fresnel;
+  s.density = 0.0f;
+  s.weight = vec3(1.0f);
+  s.incoming = vec3(-outgoing.x, -outgoing.y, outgoing.z);
+  if (s.transmitted) {
+    s.weight = b.solid ? b.baseColor / (b.eta * b.eta) : b.baseColor;
+    s.incoming = b.solid ? refractThrough(outgoing, vec3(0.0f, 0.0f, 1.0f), b.eta) : -1.0f * outgoing;
+  }
+  return s;
+}
+
+/// choice picks the lobe, (u, v) the direction; each uniform in [0, 1).
+BsdfSample sampleBsdf(Bsdf b, vec3 outgoing, float choice, float u, float v) {
+  BsdfSample s;
+  s.weight = vec3(0.0f);
+  s.density = 0.0f;
+  s.transmitted = false;
+  s.incoming = vec3(0.0f, 0.0f, 1.0f);
+  vec3 chances = lobeChances(b, outgoing.z);
+  bool glass = kTransmission && choice < chances.x;
+  bool specular = kSpecular && !glass && choice < chances.x + chances.y;
+  if (glass && b.mirrorLike) return sampleSmoothGlass(b, outgoing, choice / chances.x);
+  if (specular && b.mirrorLike) {
+    s.incoming = vec3(-outgoing.x, -outgoing.y, outgoing.z);
+    s.weight = opaqueFresnel(b, outgoing.z) / chances.y;
+    return s;
+  }
+  s.incoming = sampleCosineHemisphere(u, v);
+  if (specular || glass) {
+    vec3 h = sampleVisibleGgx(outgoing, b.alpha, u, v);
+    float oh = dot(outgoing, h);
+    s.incoming = mirrorDirection(outgoing, h);
+    if (glass && choice / chances.x >= glassFresnel(b, oh)) {
+      s.incoming = b.solid ? refractThrough(outgoing, h, b.eta) : vec3(s.incoming.x, s.incoming.y, -s.incoming.z);
+      s.transmitted = true;
+    }
+    // Facets can send light to the wrong side of the surface; that share is lost (single scattering).
+    if (s.transmitted == (s.incoming.z > 0.0f)) return s;
+  }
+  BsdfValue value = evaluateBsdf(b, outgoing, s.incoming);
+  s.density = value.density;
+  s.weight = value.density > 0.0f ? value.value / value.density : vec3(0.0f);
+  return s;
+}

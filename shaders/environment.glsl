@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The environment: an equirectangular map, bilinear; drawn from by the luminance of its texels.
+
+/// Texture coordinates of a direction (docs/conventions.md); the rotation is undone first.
+vec2 environmentCoordinates(vec3 d) {
+  float c = frame.environment.z;
+  float s = frame.environment.w;
+  vec3 r = vec3(d.x * c - d.z * s, d.y, d.x * s + d.z * c);
+  return vec2(atan(r.z, r.x) * (0.5 * kInversePi) + 0.5, acos(clamp(r.y, -1.0, 1.0)) * kInversePi);
+}
+
+vec3 environmentDirection(vec2 uv) {
+  float phi = (uv.x - 0.5) * 2.0 * kPi;
+  float theta = uv.y * kPi;
+  vec3 r = vec3(sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi));
+  float c = frame.environment.z;
+  float s = frame.environment.w;
+  return vec3(r.x * c + r.z * s, r.y, -r.x * s + r.z * c);
+}
+
+vec4 environmentTexel(ivec2 p, ivec2 size) { return uintBitsToFloat(readEnvironment(p.y * size.x + p.x)); }
+
+vec3 environmentRadiance(vec3 direction) {
+  if (!kEnvironment) return vec3(0.0);
+  ivec2 size = ivec2(frame.environment.xy);
+  vec2 position = environmentCoordinates(direction) * vec2(size) - 0.5;
+  vec2 base = floor(position);
+  vec2 f = position - base;
+  int x0 = (int(base.x) + size.x) % size.x;
+  int x1 = (x0 + 1) % size.x;
+  int y0 = clamp(int(base.y), 0, size.y - 1);
+  int y1 = clamp(int(base.y) + 1, 0, size.y - 1);
+  vec3 top = mix(environmentTexel(ivec2(x0, y0), size).rgb, environmentTexel(ivec2(x1, y0), size).rgb, f.x);
+  vec3 bottom = mix(environmentTexel(ivec2(x0, y1), size).rgb, environmentTexel(ivec2(x1, y1), size).rgb, f.x);
+  return mix(top, bottom, f.y);
+}
+
+/// Density over solid angle with which sampleEnvironment draws a direction.
+float environmentDensity(vec3 direction) {
+  ivec2 size = ivec2(frame.environment.xy);
+  vec2 uv = environmentCoordinates(direction);
+  ivec2 p = clamp(ivec2(uv * vec2(size)), ivec2(0), size - 1);
+  float sine = sqrt(max(0.0, 1.0 - direction.y * direction.y));
+  return environmentTexel(p, size).w / max(2.0 * kPi * kPi * sine, 1e-12);
+}
+
+/// An index drawn uniformly below count from 32 random bits.
+int randomIndex(uint key, uint dimension, uint count) {
+  uint high;
+  uint low;
+  umulExtended(mixBits(key ^ mixBits(dimension + 0x9e3779b9u)), count, high, low);
+  return int(high);
+}
+
+/// A direction drawn by the alias table of the texels, uniform within one; uses four dimensions from `dimension` on.
+vec3 sampleEnvironment(uint key, uint dimension) {
+  ivec2 size = ivec2(frame.environment.xy);
+  int index = randomIndex(key, dimension, uint(size.x * size.y));
+  uvec2 entry = readEnvironmentAlias(index);
+  if (randomFloat(key, dimension + 1u) >= uintBitsToFloat(entry.x)) index = int(entry.y);
+  vec2 texel = vec2(index % size.x, index / size.x);
+  vec2 jitter = vec2(randomFloat(key, dimension + 2u), randomFloat(key, dimension + 3u));
+  return environmentDirection((texel + jitter) / vec2(size));
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The GGX microfacet distribution, isotropic, in a frame whose z is the normal (glTF 2.0, appendix B).
+
+/// Trowbridge-Reitz density of half vectors, in the form that keeps its digits at small alpha.
+float ggxDensity(vec3 h, float alpha) {
+  float a2 = alpha * alpha;
+  float d = (h.x * h.x + h.y * h.y) / a2 + h.z * h.z;
+  return kInversePi / (a2 * d * d);
+}
+
+/// Smith's Lambda for GGX.
+float ggxLambda(vec3 v, float alpha) {
+  float z2 = v.z * v.z;
+  float tangentSquared = (v.x * v.x + v.y * v.y) / max(z2, float(1e-30));
+  return 0.5f * (sqrt(1.0f + alpha * alpha * tangentSquared) - 1.0f);
+}
+
+float ggxMasking(vec3 v, float alpha) { return 1.0f / (1.0f + ggxLambda(v, alpha)); }
+
+/// Height-correlated masking and shadowing (Heitz, Understanding the Masking-Shadowing Function, 2014).
+float ggxMaskingShadowing(vec3 outgoing, vec3 incoming, float alpha) {
+  return 1.0f / (1.0f + ggxLambda(outgoing, alpha) + ggxLambda(incoming, alpha));
+}
+
+/// A half vector visible from `outgoing` (z > 0), with density D(h) G1(o) max(0, o.h) / o.z (Dupuy and Benyoub,
+/// Sampling Visible GGX Normals with Spherical Caps, 2023).
+vec3 sampleVisibleGgx(vec3 outgoing, float alpha, float u, float v) {
+  vec3 stretched = normalize(vec3(alpha * outgoing.x, alpha * outgoing.y, outgoing.z));
+  float phi = 2.0f * kPi * u;
+  float z = (1.0f - v) * (1.0f + stretched.z) - stretched.z;
+  float sine = sqrt(clamp(1.0f - z * z, 0.0f, 1.0f));
+  vec3 cap = vec3(sine * cos(phi), sine * sin(phi), z) + stretched;
+  return normalize(vec3(alpha * cap.x, alpha * cap.y, max(cap.z, float(1e-12))));
+}
+
+float visibleGgxDensity(vec3 outgoing, vec3 h, float alpha) {
+  return ggxDensity(h, alpha) * ggxMasking(outgoing, alpha) * max(0.0f, dot(outgoing, h)) / max(outgoing.z, float(1e-12));
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Rays against triangles and spheres, and origins moved off the surface they start on.
+
+/// What all triangle tests of one ray share: its largest axis is rotated to z, and x and y are sheared along it
+/// (Woop, Benthin and Wald, Watertight Ray/Triangle Intersection, 2013).
+struct RayShear {
+  int axis;
+  float x;
+  float y;
+  float z;
+};
+
+vec3 rotateToAxis(vec3 v, int axis) {
+  return vec3(axis == 0 ? v.y : (axis == 1 ? v.z : v.x), axis == 0 ? v.z : (axis == 1 ? v.x : v.y),
+              axis == 0 ? v.x : (axis == 1 ? v.y : v.z));
+}
+
+RayShear makeShear(vec3 direction) {
+  float ax = abs(direction.x);
+  float ay = abs(direction.y);
+  float az = abs(direction.z);
+  RayShear s;
+  s.axis = ax >= ay && ax >= az ? 0 : (ay >= az ? 1 : 2);
+  vec3 d = rotateToAxis(direction, s.axis);
+  s.z = 1.0f / d.z;
+  s.x = d.x * s.z;
+  s.y = d.y * s.z;
+  return s;
+}
+
+/// front: the triangle is seen from its counter-clockwise side. Meaningless where hit is false.
+struct TriangleHit {
+  bool hit;
+  bool front;
+  float t;
+  float weight1;  // barycentric weight of v1
+  float weight2;  // of v2
+};
+
+/// Watertight: two triangles that share an edge see the same edge function with opposite sign, and zero counts as
+/// inside for both. Zero-area triangles are never hit. t > 0.
+TriangleHit intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2) {
+  vec3 a = rotateToAxis(v0 - origin, s.axis);
+  vec3 b = rotateToAxis(v1 - origin, s.axis);
+  vec3 c = rotateToAxis(v2 - origin, s.axis);
+  precise float ax = a.x - s.x * a.z;
+  precise float ay = a.y - s.y * a.z;
+  precise float bx = b.x - s.x * b.z;
+  precise float by = b.y - s.y * b.z;
+  precise float cx = c.x - s.x * c.z;
+  precise float cy = c.y - s.y * c.z;
+  precise float u = cx * by - cy * bx;
+  precise float v = ax * cy - ay * cx;
+  precise float w = bx * ay - by * ax;
+  float sum = u + v + w;
+  bool positive = u >= 0.0f && v >= 0.0f && w >= 0.0f;
+  bool negative = u <= 0.0f && v <= 0.0f && w <= 0.0f;
+  TriangleHit h;
+  float inverse = 1.0f / sum;
+  h.t = (u * a.z + v * b.z + w * c.z) * s.z * inverse;
+  h.hit = (positive || negative) && sum != 0.0f && h.t > 0.0f;
+  h.front = (s.z > 0.0f) == (sum > 0.0f);
+  h.weight1 = v * inverse;
+  h.weight2 = w * inverse;
+  return h;
+}
+
+/// Distance to the sphere's nearest surface in front of the origin that may be hit: `outside` and `inside` say which
+/// sides count. A miss is -1. The discriminant is taken from the distance of the centre to the ray, so that a
+/// far sphere keeps its digits (Hearn and Baker's form; Haines et al., Precision Improvements for Ray/Sphere
+/// Intersection, 2019). direction is unit length.
+float intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, bool inside) {
+  vec3 f = origin - center;
+  float b = -dot(f, direction);
+  vec3 l = f + b * direction;
+  float discriminant = radius * radius - dot(l, l);
+  if (discriminant < 0.0f) return -1.0f;
+  float q = b + (b >= 0.0f ? 1.0f : -1.0f) * sqrt(discriminant);
+  float c = dot(f, f) - radius * radius;
+  float t0 = q == 0.0f ? 0.0f : c / q;
+  float nearT = min(t0, q);
+  float farT = max(t0, q);
+  if (nearT > 0.0f) return nearT;
+  return inside && farT > 0.0f ? farT : -1.0f;
+}
+
+/// Moves a point off its surface along the unit geometric normal, to the side of `direction`, by more than the
+/// rounding error `error` (per component) that the point carries (Pharr, Jakob and Humphreys, pbrt, 3rd ed. 3.9.5).
+vec3 offsetOrigin(vec3 point, vec3 error, vec3 normal, vec3 direction) {
+  float distance = dot(abs(normal), error);
+  vec3 offset = dot(direction, normal) < 0.0f ? -distance * normal : distance * normal;
+  return point + offset;
+}
+
+/// A bound on the rounding error of w0 v0 + w1 v1 + w2 v2 in 32-bit floats, and of the next intersection with it,
+/// per component: 32 units of 2^-24 of the largest coordinate involved (docs/accuracy.md).
+vec3 hitPointError(vec3 v0, vec3 v1, vec3 v2) {
+  vec3 largest = max(abs(v0), max(abs(v1), abs(v2)));
+  return float(1.9073486328125e-6) * largest;
+}

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// Bindings, sentinels and packed layouts that C++ and GLSL share (src/shader/layout.h includes this file).
+
+// Scene buffers: each is read through one function of read_*.glsl.
+const uint kNodesBinding = 0u;         // 2 uvec4 a node
+const uint kLeavesBinding = 1u;        // 5 uvec4 a leaf: two primitives, structure of arrays
+const uint kPrimitivesBinding = 2u;    // 1 uvec4 a primitive
+const uint kNormalsBinding = 3u;       // 1 vec4 a vertex
+const uint kTexcoordsBinding = 4u;     // 1 vec4 a vertex: TEXCOORD_0, TEXCOORD_1
+const uint kTangentsBinding = 5u;      // 1 vec4 a vertex
+const uint kColorsBinding = 6u;        // 1 vec4 a vertex
+const uint kMaterialsBinding = 7u;     // kMaterialRows uvec4 a material
+const uint kTexelsBinding = 8u;        // 1 uvec2 a texel: RGBA as linear half floats
+const uint kEmittersBinding = 9u;      // 1 uvec4 an emitter: alias table by power
+const uint kLightsBinding = 10u;       // kLightRows vec4 a punctual light
+const uint kEnvironmentBinding = 11u;  // 1 vec4 a texel: radiance, density
+const uint kEnvironmentAliasBinding = 12u;  // 1 uvec2 a texel: threshold, alias
+const uint kSceneBufferCount = 13u;
+
+// Where scene buffers read as images begin among the image units, behind the film.
+const uint kSceneImageBase = 3u;
+
+// Film images, one texel a pixel.
+const uint kFilmSumBinding = 0u;           // rgba32f: sum of radiance, sum of alpha
+const uint kFilmCompensationBinding = 1u;  // rgba32f: Kahan compensation of the sum, Welford's M2 of the luminance
+const uint kFilmCountsBinding = 2u;        // rgba32ui: samples, rays, non-finite samples, kPixel* flags
+
+// Storage buffers that the tracer writes.
+const uint kPathStatesBinding = 13u;
+const uint kProgressBinding = 14u;
+const uint kPathStateRows = 18u;  // uvec4s a suspended path
+
+// The uniform block of one draw.
+const uint kFrameBinding = 0u;
+
+// Film flags.
+const uint kPixelSuspended = 1u;  // the path of this pixel goes on in the next draw
+const uint kPixelBudgetHit = 2u;  // a loop was ended by something other than its own condition
+
+// Traversal: an inner node is its index, a leaf the complement of its index, the end this sentinel.
+const int kTraversalDone = -2147483647 - 1;
+const uint kLeafRows = 5u;
+const uint kLeafBlock = 4u;  // the iterative traversal tests this many leaves in one loop iteration
+
+// Primitive words in a leaf: index and flags.
+const uint kPrimitiveNone = 0xffffffffu;
+const uint kPrimitiveIndexMask = 0x0fffffffu;
+const uint kPrimitiveCull = 0x80000000u;    // the back is not there
+const uint kPrimitiveAlpha = 0x40000000u;   // alpha MASK or BLEND decides whether it is there
+const uint kPrimitiveSphere = 0x20000000u;  // v0 is the centre, v1.x the radius
+
+// Primitive record: vertex indices (sphere: rotation quaternion x, y, z with w >= 0), then material and flag.
+const uint kMaterialIndexMask = 0x7fffffffu;
+const uint kPrimitiveFlat = 0x80000000u;  // no vertex normals
+
+// Material rows.
+const uint kMaterialBaseColor = 0u;    // base colour factor
+const uint kMaterialEmission = 1u;     // radiance, alpha cutoff
+const uint kMaterialSurface = 2u;      // metallic, roughness, index of refraction, transmission
+const uint kMaterialSpecular = 3u;     // specular colour, specular factor
+const uint kMaterialVolume = 4u;       // absorption coefficient (1/m), thickness
+const uint kMaterialMaps = 5u;         // normal scale, occlusion strength, emitter density (1/m^2), flags
+const uint kMaterialPerlin = 6u;       // frequency, amplitude, octaves
+const uint kMaterialTextures = 7u;     // then one row a texture slot
+const uint kSlotBaseColor = 0u;
+const uint kSlotMetallicRoughness = 1u;
+const uint kSlotNormal = 2u;
+const uint kSlotEmission = 3u;
+const uint kSlotTransmission = 4u;
+const uint kSlotSpecular = 5u;
+const uint kSlotSpecularColor = 6u;
+const uint kSlotCount = 7u;
+const uint kMaterialRows = 14u;
+
+// Material flags.
+const uint kMaterialMask = 1u;
+const uint kMaterialBlend = 2u;
+const uint kMaterialDoubleSided = 4u;
+const uint kMaterialUnlit = 8u;
+
+// Texture slot row: first texel, width | height << 16, flags.
+const uint kTexturePresent = 1u;
+const uint kTextureLinear = 2u;
+const uint kTextureTexcoord1 = 4u;
+const uint kTextureClampU = 8u;
+const uint kTextureMirrorU = 16u;
+const uint kTextureClampV = 32u;
+const uint kTextureMirrorV = 64u;
+
+// Emitter entry: threshold (float), alias, what it is, probability (float).
+const uint kEmitterPunctual = 0x80000000u;  // else the leaf slot (leaf * 2 + side) of an emissive triangle
+
+// Light rows: intensity + type, position + range, direction + spot scale, spot offset.
+const uint kLightRows = 4u;
+const float kLightPoint = 0.0f;
+const float kLightSpot = 1.0f;
+const float kLightDirectional = 2.0f;
+
+// What is constant in one draw; std140, each row 16 bytes.
+struct Frame {
+  vec4 cameraPosition;  // local space; w: 1 when orthographic
+  vec4 cameraRight;     // half of the view's width (at distance 1, or in metres when orthographic)
+  vec4 cameraUp;        // half of its height
+  vec4 cameraForward;   // unit
+  vec4 gridOrigin;      // of the quantised boxes, local space
+  vec4 gridCell;        // metres a step
+  vec4 background;      // radiance that camera rays see; w: 1 when the environment is seen by camera rays
+  vec4 environment;     // width, height, cosine and sine of the rotation
+  vec4 lightChoice;     // probability of sampling the environment, emitter count, scene scale, punctual lights
+  ivec4 picture;        // width, height, samples wanted, seed
+  ivec4 tile;           // x, y (from the bottom), width, height
+  ivec4 limits;         // bounces, roulette depth, step budget, leaf count
+};
+
+// What one draw reports.
+struct Progress {
+  uint unfinished;  // pixels that have a suspended path or samples left
+  uint reserved0;
+  uint reserved1;
+  uint reserved2;
+};

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// Light sampling: punctual lights, emissive triangles by power, and the environment.
+
+/// Light that reaches a point from one direction. density 0: no ray can find it (punctual), so it has no MIS partner.
+struct LightSample {
+  vec3 direction;
+  float distance;   // to the light, kFarAway for the environment and directional lights
+  vec3 irradiance;  // radiance / density, or the punctual light's intensity / d^2; zero when there is none
+  float density;    // over solid angle, the chance of choosing this light counted in
+};
+
+const float kFarAway = 3.0e38;
+
+LightSample noLight() { return LightSample(vec3(0.0, 0.0, 1.0), kFarAway, vec3(0.0), 0.0); }
+
+/// One punctual light seen from a point (KHR_lights_punctual).
+LightSample punctualLight(int index, vec3 point) {
+  int row = index * int(kLightRows);
+  vec4 intensity = uintBitsToFloat(readLights(row));
+  vec4 place = uintBitsToFloat(readLights(row + 1));
+  vec4 axis = uintBitsToFloat(readLights(row + 2));
+  float spotOffset = uintBitsToFloat(readLights(row + 3).x);
+  if (intensity.w == kLightDirectional) return LightSample(-axis.xyz, kFarAway, intensity.rgb, 0.0);
+  vec3 towards = place.xyz - point;
+  float squared = dot(towards, towards);
+  if (squared <= 0.0) return noLight();
+  float distance = sqrt(squared);
+  vec3 direction = towards / distance;
+  float window = 1.0;
+  if (place.w > 0.0) {
+    float ratio = squared / (place.w * place.w);
+    window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
+  }
+  if (intensity.w == kLightSpot) {
+    float falloff = clamp(dot(-direction, axis.xyz) * axis.w + spotOffset, 0.0, 1.0);
+    window *= falloff * falloff;
+  }
+  return LightSample(direction, distance, intensity.rgb * (window / squared), 0.0);
+}
+
+/// Density over solid angle of choosing the point that a ray hit on an emissive triangle.
+float emitterDensity(uint material, float distance, float cosine) {
+  float area = materialFloats(material, kMaterialMaps).z * (1.0 - frame.lightChoice.x);
+  return area * distance * distance / max(cosine, 1e-7);
+}
+
+/// A point on the emissive triangle of a leaf slot, chosen with `chance`.
+LightSample triangleLight(int slot, float chance, vec3 point, float u, float v) {
+  LeafPrimitive p = loadLeafPrimitive(slot);
+  vec3 e1 = p.v1 - p.v0;
+  vec3 e2 = p.v2 - p.v0;
+  vec2 w = sampleTriangle(u, v);
+  vec3 n = cross(e1, e2);
+  float doubleArea = length(n);
+  vec3 towards = p.v0 + w.x * e1 + w.y * e2 - point;
+  float squared = dot(towards, towards);
+  if (squared <= 0.0 || doubleArea <= 0.0) return noLight();
+  float distance = sqrt(squared);
+  vec3 direction = towards / distance;
+  float cosine = -dot(n, direction) / doubleArea;
+  uvec4 record = readPrimitives(int(p.word & kPrimitiveIndexMask));
+  uint material = record.w & kMaterialIndexMask;
+  if ((materialFlags(material) & kMaterialDoubleSided) != 0u) cosine = abs(cosine);
+  if (cosine <= 0.0) return noLight();
+  vec4 texcoords = vec4(0.0);
+  if (kEmissionTexture && kTexcoords) {
+    ivec3 i = ivec3(record.xyz);
+    texcoords = interpolate(readTexcoordsAt(i.x), readTexcoordsAt(i.y), readTexcoordsAt(i.z), w);
+  }
+  float density = chance * squared / (0.5 * doubleArea * cosine);
+  return LightSample(direction, distance, emissionAt(material, texcoords) / density, density);
+}
+
+LightSample environmentLight(float chance, uint key, uint dimension) {
+  vec3 direction = sampleEnvironment(key, dimension);
+  float density = chance * environmentDensity(direction);
+  if (density <= 0.0) return noLight();
+  return LightSample(direction, kFarAway, environmentRadiance(direction) / density, density);
+}
+
+/// An emitter of the alias table (Walker, 1977); onlyTriangles drops punctual lights, which the caller visits one by one.
+LightSample emitterLight(float chance, vec3 point, uint key, uint dimension, bool onlyTriangles) {
+  int count = int(frame.lightChoice.y);
+  int index = randomIndex(key, dimension, uint(count));
+  uvec4 entry = readEmitters(index);
+  if (randomFloat(key, dimension + 1u) >= uintBitsToFloat(entry.x)) entry = readEmitters(int(entry.y));
+  chance *= uintBitsToFloat(entry.w);
+  bool punctual = kPunctualLights && (entry.z & kEmitterPunctual) != 0u;
+  LightSample s = noLight();
+  if (punctual && !onlyTriangles) {
+    s = punctualLight(int(entry.z & ~kEmitterPunctual), point);
+    s.irradiance /= chance;
+  }
+  if (kEmissiveTriangles && !punctual) {
+    s = triangleLight(int(entry.z), chance, point, randomFloat(key, dimension + 2u), randomFloat(key, dimension + 3u));
+  }
+  return s;
+}
+
+/// How many light samples each shaded point takes: one with global illumination; else each punctual light, one point of
+/// the emissive triangles and one direction of the environment.
+int lightSlotCount() {
+  if (kGi) return kPunctualLights || kEmissiveTriangles || kEnvironmentSampling ? 1 : 0;
+  int count = kPunctualLights ? int(frame.lightChoice.w) : 0;
+  return count + (kEmissiveTriangles ? 1 : 0) + (kEnvironmentSampling ? 1 : 0);
+}
+
+/// The light sample of one slot; uses eight dimensions from `dimension` on.
+LightSample lightOfSlot(int slot, vec3 point, uint key, uint dimension) {
+  bool emitters = kPunctualLights || kEmissiveTriangles;
+  if (kGi) {
+    bool environment = kEnvironmentSampling && (!emitters || randomFloat(key, dimension) < frame.lightChoice.x);
+    LightSample s = noLight();
+    if (kEnvironmentSampling && environment) s = environmentLight(frame.lightChoice.x, key, dimension + 1u);
+    if (emitters && !environment) s = emitterLight(1.0 - frame.lightChoice.x, point, key, dimension + 1u, false);
+    return s;
+  }
+  int punctual = kPunctualLights ? int(frame.lightChoice.w) : 0;
+  LightSample s = noLight();
+  if (kPunctualLights && slot < punctual) s = punctualLight(slot, point);
+  if (kEmissiveTriangles && slot == punctual) s = emitterLight(1.0, point, key, dimension, true);
+  if (kEnvironmentSampling && slot == lightSlotCount() - 1) s = environmentLight(1.0, key, dimension + 4u);
+  return s;
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Materials as packed by src/pack/pack_materials.cpp, evaluated at a point.
+
+uvec4 materialRow(uint material, uint row) { return readMaterials(int(material * kMaterialRows + row)); }
+
+vec4 materialFloats(uint material, uint row) { return uintBitsToFloat(materialRow(material, row)); }
+
+uvec4 textureSlot(uint material, uint slot) { return materialRow(material, kMaterialTextures + slot); }
+
+uint materialFlags(uint material) { return materialRow(material, kMaterialMaps).w; }
+
+/// Base colour and alpha at a point: factor x texture x vertex colour.
+vec4 baseColorAt(uint material, vec4 texcoords, vec4 vertexColor) {
+  vec4 color = materialFloats(material, kMaterialBaseColor);
+  if (kVertexColors) color *= vertexColor;
+  if (kBaseColorTexture) color *= sampleTexture(textureSlot(material, kSlotBaseColor), texcoords);
+  return color;
+}
+
+/// Radiance that a surface emits from its emitting side.
+vec3 emissionAt(uint material, vec4 texcoords) {
+  if (!kEmission) return vec3(0.0);
+  vec3 radiance = materialFloats(material, kMaterialEmission).rgb;
+  if (kEmissionTexture) radiance *= sampleTexture(textureSlot(material, kSlotEmission), texcoords).rgb;
+  return radiance;
+}
+
+/// What the reflection models need to know of a material at a point.
+struct SurfaceMaterial {
+  vec3 baseColor;
+  float metallic;
+  float roughness;
+  float transmission;
+  float ior;
+  float specular;      // f90 of the dielectric layer
+  vec3 dielectricF0;   // of the dielectric layer, specular factors counted in
+  vec3 absorption;     // 1/m, inside
+  bool solid;          // bounds a volume, else thin-walled
+};
+
+SurfaceMaterial materialAt(uint material, vec3 baseColor, vec4 texcoords) {
+  vec4 surface = materialFloats(material, kMaterialSurface);
+  SurfaceMaterial m;
+  m.baseColor = baseColor;
+  m.metallic = surface.x;
+  m.roughness = surface.y;
+  m.ior = surface.z;
+  m.transmission = kTransmission ? surface.w : 0.0;
+  if (kMetallicRoughnessTexture) {
+    vec4 texel = sampleTexture(textureSlot(material, kSlotMetallicRoughness), texcoords);
+    m.metallic *= texel.b;
+    m.roughness *= texel.g;
+  }
+  if (kTransmission && kTransmissionTexture) {
+    m.transmission *= sampleTexture(textureSlot(material, kSlotTransmission), texcoords).r;
+  }
+  m.specular = 0.0;
+  m.dielectricF0 = vec3(0.0);
+  if (kSpecular) {
+    vec4 specular = materialFloats(material, kMaterialSpecular);
+    if (kSpecularTexture) {
+      specular.a *= sampleTexture(textureSlot(material, kSlotSpecular), texcoords).a;
+      specular.rgb *= sampleTexture(textureSlot(material, kSlotSpecularColor), texcoords).rgb;
+    }
+    float root = (m.ior - 1.0) / (m.ior + 1.0);
+    m.dielectricF0 = min(root * root * specular.rgb, vec3(1.0)) * specular.a;
+    m.specular = specular.a;
+  } else {
+    m.metallic = 0.0;
+  }
+  vec4 volume = kTransmission ? materialFloats(material, kMaterialVolume) : vec4(0.0);
+  m.absorption = volume.rgb;
+  m.solid = volume.w > 0.0;
+  return m;
+}

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// One camera path from pixel to light, as a state machine whose every step can wait for the next draw.
+
+const uint kCameraDimensions = 0u;
+const uint kAlphaDimensions = 0x40000000u;
+const uint kBounceDimensions = 16u;  // a bounce uses 16 dimensions from 16 (bounce + 1) on
+const uint kLobeDimension = 0u;
+const uint kDirectionDimension = 1u;
+const uint kRouletteDimension = 3u;
+const uint kLightDimension = 4u;  // to 11
+const uint kGlassDimension = 12u;
+
+TreeFrame treeFrame() { return TreeFrame(frame.gridOrigin.xyz, frame.gridCell.xyz, frame.limits.w); }
+
+float pathRandom(Path p, uint offset) {
+  return randomFloat(p.key, kBounceDimensions * uint(p.bounce + 1) + offset);
+}
+
+/// Starts tracing the path's ray, keeping the step count of this draw.
+Path extend(Path p) {
+  int steps = p.traversal.steps;
+  p.phase = kPhaseExtend;
+  p.lightSlot = 0;
+  p.traversal = startTraversal(kFarAway, frame.limits.w);
+  p.traversal.steps = steps;
+  return p;
+}
+
+Path startPath(ivec2 pixel, uint sampleIndex, int steps) {
+  Path p;
+  p.key = pathKey(uint(pixel.x), uint(frame.picture.y - 1 - pixel.y), sampleIndex, uint(frame.picture.w));
+  vec2 jitter = vec2(randomFloat(p.key, kCameraDimensions), randomFloat(p.key, kCameraDimensions + 1u));
+  vec2 point = (vec2(pixel) + jitter) / vec2(frame.picture.xy) * 2.0 - 1.0;
+  CameraRay ray = makeCameraRay(frame.cameraPosition.xyz, frame.cameraRight.xyz, frame.cameraUp.xyz,
+                                frame.cameraForward.xyz, frame.cameraPosition.w != 0.0, point.x, point.y);
+  p.origin = ray.origin;
+  p.direction = ray.direction;
+  p.bounce = 0;
+  p.crossings = 0;
+  p.cameraRay = true;
+  p.emitterSeen = false;
+  p.alpha = 0.0;
+  p.radiance = vec3(0.0);
+  p.throughput = vec3(1.0);
+  p.rouletteScale = 1.0;
+  p.density = 0.0;
+  p.travelled = 0.0;
+  p.medium = kPrimitiveNone;
+  p.shadowOrigin = vec3(0.0);
+  p.shadowDirection = vec3(0.0, 0.0, 1.0);
+  p.shadowLimit = 0.0;
+  p.contribution = vec3(0.0);
+  p.hitSlot = -1;
+  p.hitT = 0.0;
+  p.traversal.steps = steps;
+  return extend(p);
+}
+
+/// The path's ray has met nothing.
+Path meetSurroundings(Path p) {
+  p.phase = kPhaseEnd;
+  if (p.cameraRay) {
+    vec3 seen = frame.background.rgb;
+    if (kEnvironment && frame.background.w != 0.0) seen = environmentRadiance(p.direction);
+    p.radiance += p.throughput * seen;
+    return p;
+  }
+  if (!kEnvironment) return p;
+  float weight = 1.0;
+  if (kGi && kEnvironmentSampling && p.density > 0.0) {
+    weight = misWeight(p.density, frame.lightChoice.x * environmentDensity(p.direction));
+  }
+  p.radiance += p.throughput * (weight * environmentRadiance(p.direction));
+  return p;
+}
+
+/// Decides by the alpha of the point whether the ray goes through it; 1 opaque, 0 not there (docs/conventions.md).
+bool passesThrough(uint flags, float alpha, uint key, int crossing) {
+  if ((flags & kMaterialMask) != 0u) return alpha == 0.0;
+  if ((flags & kMaterialBlend) != 0u) return randomFloat(key, kAlphaDimensions + uint(crossing)) >= alpha;
+  return false;
+}
+
+/// Alpha of a point after the cutoff of MASK.
+float alphaAt(uint material, uint flags, float alpha) {
+  if ((flags & kMaterialMask) != 0u) return alpha >= materialFloats(material, kMaterialEmission).w ? 1.0 : 0.0;
+  return clamp(alpha, 0.0, 1.0);
+}
+
+/// Goes on from the surface in a new direction; weight multiplies the throughput, and zero ends the path.
+Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool transmitted, SurfaceMaterial m) {
+  p.throughput *= weight;
+  p.phase = kPhaseEnd;
+  if (maxComponent(p.throughput) <= 0.0 || p.bounce > frame.limits.x) return p;
+  if (transmitted && m.solid) {
+    p.medium = s.front ? s.material : kPrimitiveNone;
+    p.rouletteScale *= s.front ? m.ior * m.ior : 1.0 / (m.ior * m.ior);
+  }
+  p.bounce += 1;
+  if (kGi && p.bounce >= frame.limits.y) {
+    float survival = min(maxComponent(p.throughput) * p.rouletteScale, 0.95);
+    if (randomFloat(p.key, kBounceDimensions * uint(p.bounce) + kRouletteDimension) >= survival) return p;
+    p.throughput /= survival;
+  }
+  p.cameraRay = false;
+  p.density = density;
+  p.travelled = 0.0;
+  p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, direction);
+  p.direction = direction;
+  return extend(p);
+}
+
+/// Emission of the point hit, weighted against light sampling.
+vec3 emittedAt(Path p, Surface s, uint flags) {
+  if (!s.front && (flags & kMaterialDoubleSided) == 0u) return vec3(0.0);
+  vec3 radiance = emissionAt(s.material, s.texcoords);
+  if (!kGi || !kEmissiveTriangles || !s.emitter || p.density <= 0.0) return radiance;
+  float cosine = abs(dot(s.geometricNormal, p.direction));
+  return radiance * misWeight(p.density, emitterDensity(s.material, p.travelled, cosine));
+}
+
+/// Sets up the shadow ray of a light sample that would add `value`; without shadows it is added at once.
+Path connect(Path p, Surface s, LightSample light, vec3 value) {
+  p.phase = kPhaseShade;
+  p.lightSlot += 1;
+  if (maxComponent(value) <= 0.0) return p;
+  if (!kShadows) {
+    p.radiance += value;
+    return p;
+  }
+  p.contribution = value;
+  p.shadowOrigin = offsetOrigin(s.position, s.positionError, s.geometricNormal, light.direction);
+  p.shadowDirection = light.direction;
+  // The light's own surface is kept out by a relative margin above the rounding of the point chosen on it.
+  p.shadowLimit = light.distance < kFarAway ? light.distance * float(0.9999) : kFarAway;
+  p.phase = kPhaseShadow;
+  int steps = p.traversal.steps;
+  p.traversal = startTraversal(p.shadowLimit, frame.limits.w);
+  p.traversal.steps = steps;
+  return p;
+}

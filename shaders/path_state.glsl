@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// The state of one camera path, and how it is kept from one draw to the next.
+
+const int kPhaseExtend = 0;  // the path's ray is being traced
+const int kPhaseShade = 1;   // it has hit something; light slot `lightSlot` is next
+const int kPhaseShadow = 2;  // the shadow ray of that slot is being traced
+const int kPhaseEnd = 3;     // the sample is complete
+
+struct Path {
+  int phase;
+  int lightSlot;
+  int bounce;      // scatterings so far
+  int crossings;   // surfaces passed because of their alpha
+  uint key;        // of its random numbers
+  bool cameraRay;  // nothing but alpha has touched the path yet
+  bool emitterSeen;  // light sampling could have chosen what the ray meets
+  float alpha;
+  vec3 radiance;
+  vec3 throughput;
+  float rouletteScale;  // undoes the radiance compression inside glass
+  float density;        // of the last scattering over solid angle; 0: a single direction or the camera
+  float travelled;      // since that scattering, past surfaces crossed
+  uint medium;          // material of the solid the ray is inside of, or kPrimitiveNone
+  vec3 origin;
+  vec3 direction;
+  vec3 shadowOrigin;
+  vec3 shadowDirection;
+  float shadowLimit;
+  vec3 contribution;  // added if the shadow ray meets nothing
+  int hitSlot;        // what the ray has hit, or -1
+  float hitT;
+  Traversal traversal;
+};
+
+const int kPathRows = int(kPathStateRows);
+
+layout(std430, binding = kPathStatesBinding) restrict buffer PathStatesBlock { uvec4 pathStates[]; };
+
+void savePath(Path p, int index) {
+  int r = index * kPathRows;
+  uint flags = (p.cameraRay ? 1u : 0u) | (p.emitterSeen ? 2u : 0u);
+  pathStates[r] = uvec4(uint(p.phase) | (flags << 8), uint(p.lightSlot), uint(p.bounce), uint(p.crossings));
+  pathStates[r + 1] = uvec4(floatBitsToUint(p.radiance), floatBitsToUint(p.alpha));
+  pathStates[r + 2] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.rouletteScale));
+  pathStates[r + 3] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.density));
+  pathStates[r + 4] = uvec4(floatBitsToUint(p.direction), floatBitsToUint(p.travelled));
+  pathStates[r + 5] = uvec4(floatBitsToUint(p.shadowOrigin), floatBitsToUint(p.shadowLimit));
+  pathStates[r + 6] = uvec4(floatBitsToUint(p.shadowDirection), p.medium);
+  pathStates[r + 7] = uvec4(floatBitsToUint(p.contribution), uint(p.hitSlot));
+  pathStates[r + 8] = uvec4(floatBitsToUint(p.hitT), p.key, 0u, 0u);
+  Traversal t = p.traversal;
+  pathStates[r + 9] = uvec4(uint(t.node), floatBitsToUint(t.t), uint(t.slot), uint(t.visits));
+  if (kIterative) return;
+  Stack s = t.stack;
+  pathStates[r + 10] = uvec4(ivec4(s.s0, s.s1, s.s2, s.s3));
+  pathStates[r + 11] = uvec4(ivec4(s.s4, s.s5, s.s6, s.s7));
+  if (kStackSize > 8) pathStates[r + 12] = uvec4(ivec4(s.s8, s.s9, s.s10, s.s11));
+  if (kStackSize > 12) pathStates[r + 13] = uvec4(ivec4(s.s12, s.s13, s.s14, s.s15));
+  if (kStackSize > 16) {
+    pathStates[r + 14] = uvec4(ivec4(s.s16, s.s17, s.s18, s.s19));
+    pathStates[r + 15] = uvec4(ivec4(s.s20, s.s21, s.s22, s.s23));
+  }
+  if (kStackSize > 24) {
+    pathStates[r + 16] = uvec4(ivec4(s.s24, s.s25, s.s26, s.s27));
+    pathStates[r + 17] = uvec4(ivec4(s.s28, s.s29, s.s30, s.s31));
+  }
+}
+
+Stack loadStack(int r) {
+  Stack s = emptyStack();
+  ivec4 a = ivec4(pathStates[r]);
+  s.s0 = a.x; s.s1 = a.y; s.s2 = a.z; s.s3 = a.w;
+  a = ivec4(pathStates[r + 1]);
+  s.s4 = a.x; s.s5 = a.y; s.s6 = a.z; s.s7 = a.w;
+  if (kStackSize > 8) {
+    a = ivec4(pathStates[r + 2]);
+    s.s8 = a.x; s.s9 = a.y; s.s10 = a.z; s.s11 = a.w;
+  }
+  if (kStackSize > 12) {
+    a = ivec4(pathStates[r + 3]);
+    s.s12 = a.x; s.s13 = a.y; s.s14 = a.z; s.s15 = a.w;
+  }
+  if (kStackSize > 16) {
+    a = ivec4(pathStates[r + 4]);
+    s.s16 = a.x; s.s17 = a.y; s.s18 = a.z; s.s19 = a.w;
+    a = ivec4(pathStates[r + 5]);
+    s.s20 = a.x; s.s21 = a.y; s.s22 = a.z; s.s23 = a.w;
+  }
+  if (kStackSize > 24) {
+    a = ivec4(pathStates[r + 6]);
+    s.s24 = a.x; s.s25 = a.y; s.s26 = a.z; s.s27 = a.w;
+    a = ivec4(pathStates[r + 7]);
+    s.s28 = a.x; s.s29 = a.y; s.s30 = a.z; s.s31 = a.w;
+  }
+  return s;
+}
+
+Path loadPath(int index) {
+  int r = index * kPathRows;
+  Path p;
+  uvec4 a = pathStates[r];
+  uint flags = a.x >> 8;
+  p.phase = int(a.x & 0xffu);
+  p.cameraRay = (flags & 1u) != 0u;
+  p.emitterSeen = (flags & 2u) != 0u;
+  p.lightSlot = int(a.y);
+  p.bounce = int(a.z);
+  p.crossings = int(a.w);
+  vec4 f = uintBitsToFloat(pathStates[r + 1]);
+  p.radiance = f.xyz;
+  p.alpha = f.w;
+  f = uintBitsToFloat(pathStates[r + 2]);
+  p.throughput = f.xyz;
+  p.rouletteScale = f.w;
+  f = uintBitsToFloat(pathStates[r + 3]);
+  p.origin = f.xyz;
+  p.density = f.w;
+  f = uintBitsToFloat(pathStates[r + 4]);
+  p.direction = f.xyz;
+  p.travelled = f.w;
+  f = uintBitsToFloat(pathStates[r + 5]);
+  p.shadowOrigin = f.xyz;
+  p.shadowLimit = f.w;
+  a = pathStates[r + 6];
+  p.shadowDirection = uintBitsToFloat(a.xyz);
+  p.medium = a.w;
+  a = pathStates[r + 7];
+  p.contribution = uintBitsToFloat(a.xyz);
+  p.hitSlot = int(a.w);
+  a = pathStates[r + 8];
+  p.hitT = uintBitsToFloat(a.x);
+  p.key = a.y;
+  a = pathStates[r + 9];
+  p.traversal.node = int(a.x);
+  p.traversal.t = uintBitsToFloat(a.y);
+  p.traversal.slot = int(a.z);
+  p.traversal.visits = int(a.w);
+  p.traversal.steps = 0;
+  p.traversal.stack = emptyStack();
+  if (!kIterative) p.traversal.stack = loadStack(r + 10);
+  return p;
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// The reflection model of the stages before global illumination (docs/conventions.md).
+
+/// Normal-incidence reflectance of a material: dielectric and metal mixed.
+vec3 phongF0(vec3 baseColor, float metallic, vec3 dielectricF0) {
+  return mix(dielectricF0, baseColor, vec3(metallic));
+}
+
+/// Blinn-Phong exponent of a roughness.
+float phongExponent(float roughness) {
+  float r2 = roughness * roughness;
+  return 2.0f / max(r2 * r2, float(0.001)) - 2.0f;
+}
+
+/// Lambert plus normalised Blinn-Phong (Blinn, Models of Light Reflection, 1977), times the cosine.
+vec3 phongValue(vec3 diffuse, vec3 f0, float exponent, vec3 normal, vec3 outgoing, vec3 incoming) {
+  float cosine = dot(normal, incoming);
+  if (cosine <= 0.0f) return vec3(0.0f);
+  vec3 h = outgoing + incoming;
+  float squared = dot(h, h);
+  float nh = squared > 0.0f ? max(0.0f, dot(normal, h) / sqrt(squared)) : 0.0f;
+  float highlight = nh > 0.0f ? pow(nh, exponent) : 0.0f;
+  return cosine * (kInversePi * diffuse + (0.125f * (exponent + 8.0f) * kInversePi * highlight) * f0);
+}

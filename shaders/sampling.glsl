@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Directions and points drawn from densities, and frames round a normal.
+
+const float kPi = float(3.14159265358979324);
+const float kInversePi = float(0.318309886183790672);
+
+struct Frame3 {
+  vec3 tangent;
+  vec3 bitangent;
+  vec3 normal;
+};
+
+/// A right-handed orthonormal frame round a unit normal (Duff et al., Building an Orthonormal Basis, Revisited, 2017).
+Frame3 frameAround(vec3 normal) {
+  float signZ = normal.z >= 0.0f ? 1.0f : -1.0f;
+  float a = -1.0f / (signZ + normal.z);
+  float b = normal.x * normal.y * a;
+  Frame3 f;
+  f.tangent = vec3(1.0f + signZ * normal.x * normal.x * a, signZ * b, -signZ * normal.x);
+  f.bitangent = vec3(b, signZ + normal.y * normal.y * a, -normal.y);
+  f.normal = normal;
+  return f;
+}
+
+vec3 toWorld(Frame3 f, vec3 v) { return v.x * f.tangent + v.y * f.bitangent + v.z * f.normal; }
+
+vec3 toFrame(Frame3 f, vec3 v) { return vec3(dot(v, f.tangent), dot(v, f.bitangent), dot(v, f.normal)); }
+
+/// A point of the unit disk, uniform by area (Shirley and Chiu, 1997: concentric map).
+vec2 sampleDisk(float u, float v) {
+  float x = 2.0f * u - 1.0f;
+  float y = 2.0f * v - 1.0f;
+  bool wide = abs(x) > abs(y);
+  float radius = wide ? x : y;
+  float ratio = radius == 0.0f ? 0.0f : (wide ? y / x : x / y);
+  float angle = wide ? 0.25f * kPi * ratio : 0.5f * kPi - 0.25f * kPi * ratio;
+  return radius * vec2(cos(angle), sin(angle));
+}
+
+/// A direction about +z with density cos(theta) / pi (Malley's method).
+vec3 sampleCosineHemisphere(float u, float v) {
+  vec2 d = sampleDisk(u, v);
+  return vec3(d.x, d.y, sqrt(max(0.0f, 1.0f - d.x * d.x - d.y * d.y)));
+}
+
+/// Barycentric weights (of the second and the third vertex) of a point uniform in a triangle.
+vec2 sampleTriangle(float u, float v) {
+  float root = sqrt(u);
+  return vec2(root * (1.0f - v), root * v);
+}
+
+/// The weight of a sample drawn with density `own` where `other` could have drawn it too (Veach and Guibas, 1995:
+/// power heuristic, exponent 2). Zero when `own` is zero.
+float misWeight(float own, float other) {
+  if (own <= 0.0f) return 0.0f;
+  float ratio = other / own;
+  return 1.0f / (1.0f + ratio * ratio);
+}
+
+float luminance(vec3 color) { return dot(color, vec3(float(0.2126), float(0.7152), float(0.0722))); }
+
+float maxComponent(vec3 v) { return max(v.x, max(v.y, v.z)); }

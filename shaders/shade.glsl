@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// What happens where a ray hits: alpha, absorption, emission, then light samples one by one, then the next ray.
+
+Bsdf makeBsdf(SurfaceMaterial m, bool front) {
+  Bsdf b;
+  b.baseColor = m.baseColor;
+  b.dielectricF0 = m.dielectricF0;
+  b.dielectricF90 = m.specular;
+  b.metal = kMetals ? m.metallic : 0.0;
+  b.glass = kTransmission ? (1.0 - b.metal) * m.transmission : 0.0;
+  b.opaque = 1.0 - b.metal - b.glass;
+  b.alpha = m.roughness * m.roughness;
+  b.mirrorLike = b.alpha < kMirrorAlpha;
+  b.solid = m.solid;
+  b.eta = front ? m.ior : 1.0 / m.ior;
+  return b;
+}
+
+/// The path-traced material: light slots first, then one direction drawn from the BSDF.
+Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
+  Bsdf b = makeBsdf(m, s.front);
+  Frame3 around = frameAround(normal);
+  vec3 outgoing = toFrame(around, -p.direction);
+  uint dimension = kBounceDimensions * uint(p.bounce + 1);
+  if (p.lightSlot < lightSlotCount()) {
+    LightSample light = lightOfSlot(p.lightSlot, s.position, p.key, dimension + kLightDimension);
+    vec3 incoming = toFrame(around, light.direction);
+    bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (incoming.z > 0.0);
+    BsdfValue value = evaluateBsdf(b, outgoing, incoming);
+    float weight = light.density > 0.0 ? misWeight(light.density, value.density) : 1.0;
+    return connect(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
+  }
+  BsdfSample next = sampleBsdf(b, outgoing, pathRandom(p, kLobeDimension), pathRandom(p, kDirectionDimension),
+                               pathRandom(p, kDirectionDimension + 1u));
+  vec3 direction = normalize(toWorld(around, next.incoming));
+  bool wrongSide = (dot(direction, s.geometricNormal) < 0.0) != next.transmitted;
+  return scatter(p, s, direction, wrongSide ? vec3(0.0) : next.weight, next.density, next.transmitted, m);
+}
+
+/// Smooth glass of the stages before global illumination: one ray, chosen by the reflectance.
+Path scatterGlass(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
+  Bsdf b = makeBsdf(m, s.front);
+  Frame3 around = frameAround(normal);
+  BsdfSample next = sampleSmoothGlass(b, toFrame(around, -p.direction), pathRandom(p, kLobeDimension));
+  vec3 direction = normalize(toWorld(around, next.incoming));
+  bool wrongSide = (dot(direction, s.geometricNormal) < 0.0) != next.transmitted;
+  return scatter(p, s, direction, wrongSide ? vec3(0.0) : next.weight, 0.0, next.transmitted, m);
+}
+
+/// Blinn-Phong, mirror reflection and smooth glass.
+Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
+  if (kRefraction && pathRandom(p, kGlassDimension) < m.transmission * (1.0 - m.metallic)) {
+    return scatterGlass(p, s, m, normal);
+  }
+  vec3 outgoing = -p.direction;
+  vec3 f0 = phongF0(m.baseColor, m.metallic, m.dielectricF0);
+  if (p.lightSlot == 0) p.radiance += 0.03 * p.throughput * m.baseColor;
+  if (p.lightSlot < lightSlotCount()) {
+    uint dimension = kBounceDimensions * uint(p.bounce + 1);
+    LightSample light = lightOfSlot(p.lightSlot, s.position, p.key, dimension + kLightDimension);
+    vec3 diffuse = (1.0 - m.metallic) * m.baseColor;
+    vec3 value = phongValue(diffuse, f0, phongExponent(m.roughness), normal, outgoing, light.direction);
+    bool above = dot(light.direction, s.geometricNormal) > 0.0;
+    return connect(p, s, light, above ? p.throughput * light.irradiance * value : vec3(0.0));
+  }
+  vec3 weight = vec3(0.0);
+  if (kReflections) {
+    float gloss = 1.0 - m.roughness;
+    weight = fresnelSchlick(f0, mix(m.specular, 1.0, m.metallic), dot(normal, outgoing)) * (gloss * gloss);
+  }
+  vec3 direction = normalize(mirrorDirection(outgoing, normal));
+  bool wrongSide = dot(direction, s.geometricNormal) < 0.0;
+  return scatter(p, s, direction, wrongSide ? vec3(0.0) : weight, 0.0, false, m);
+}
+
+/// One step at the point hit. The first visit also settles alpha, absorption and emission.
+Path shade(Path p) {
+  Surface s = surfaceAt(p.hitSlot, p.origin, p.direction, p.hitT);
+  uint flags = materialFlags(s.material);
+  vec4 base = baseColorAt(s.material, s.texcoords, s.color);
+  if (p.lightSlot == 0) {
+    if (kAlpha && passesThrough(flags, alphaAt(s.material, flags, base.a), p.key, p.crossings)) {
+      p.crossings += 1;
+      p.travelled += p.hitT;
+      p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
+      return extend(p);
+    }
+    p.travelled += p.hitT;
+    if (p.cameraRay) p.alpha = 1.0;
+    if (kAbsorption) {
+      // A back face of a solid says what the segment went through even if the camera stands inside.
+      bool leaving = !s.front && materialFloats(s.material, kMaterialVolume).w > 0.0;
+      uint medium = leaving ? s.material : p.medium;
+      if (medium != kPrimitiveNone) p.throughput *= exp(-p.travelled * materialFloats(medium, kMaterialVolume).rgb);
+    }
+    if (!kPhong || (kUnlit && (flags & kMaterialUnlit) != 0u)) {
+      p.radiance += p.throughput * base.rgb;
+      p.phase = kPhaseEnd;
+      return p;
+    }
+    if (kEmission) p.radiance += p.throughput * emittedAt(p, s, flags);
+    if (p.bounce > frame.limits.x) {
+      p.phase = kPhaseEnd;
+      return p;
+    }
+  }
+  SurfaceMaterial m = materialAt(s.material, base.rgb, s.texcoords);
+  vec3 normal = facingNormal(mappedNormal(s), -p.direction);
+  if (kGi) return shadeGlobal(p, s, m, normal);
+  return shadeLocal(p, s, m, normal);
+}
+
+/// The shadow ray is traced. One that met a surface with alpha may go on behind it; else the light slot is settled.
+Path settleShadow(Path p) {
+  int slot = p.traversal.slot;
+  if (kAlpha && slot >= 0) {
+    Surface s = surfaceAt(slot, p.shadowOrigin, p.shadowDirection, p.traversal.t);
+    uint flags = materialFlags(s.material);
+    float alpha = alphaAt(s.material, flags, baseColorAt(s.material, s.texcoords, s.color).a);
+    if (passesThrough(flags, alpha, p.key, p.crossings)) {
+      p.crossings += 1;
+      p.shadowLimit = p.shadowLimit < kFarAway ? p.shadowLimit - p.traversal.t : kFarAway;
+      p.shadowOrigin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.shadowDirection);
+      int steps = p.traversal.steps;
+      p.traversal = startTraversal(p.shadowLimit, frame.limits.w);
+      p.traversal.steps = steps;
+      return p;
+    }
+  }
+  if (slot < 0) p.radiance += p.contribution;
+  p.phase = kPhaseShade;
+  return p;
+}

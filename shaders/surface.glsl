@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// From a hit (a leaf slot and a ray) to everything shading needs to know of the point.
+
+struct Surface {
+  vec3 position;
+  vec3 positionError;    // bound on its rounding error, per component
+  vec3 geometricNormal;  // unit, on the side the ray comes from
+  vec3 shadingNormal;    // unit, on the side the ray comes from; normal map not yet applied
+  vec4 tangent;          // unit, w handedness; (0, 0, 0, 0) when there is none
+  vec4 texcoords;        // TEXCOORD_0, TEXCOORD_1
+  vec4 color;            // vertex colour
+  uint material;
+  bool front;            // the ray comes from the front (a solid's outside)
+  bool emitter;          // a triangle that light sampling can choose
+};
+
+vec4 interpolate(vec4 a, vec4 b, vec4 c, vec2 weights) {
+  return (1.0 - weights.x - weights.y) * a + weights.x * b + weights.y * c;
+}
+
+vec4 readNormalAt(int i) { return uintBitsToFloat(readNormals(i)); }
+vec4 readTexcoordsAt(int i) { return uintBitsToFloat(readTexcoords(i)); }
+vec4 readTangentAt(int i) { return uintBitsToFloat(readTangents(i)); }
+vec4 readColorAt(int i) { return uintBitsToFloat(readColors(i)); }
+
+/// v turned by a unit quaternion.
+vec3 rotateBy(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
+
+Surface sphereSurface(LeafPrimitive p, uvec4 record, vec3 origin, vec3 direction, float t) {
+  Surface s;
+  float radius = p.v1.x;
+  vec3 normal = normalize(origin + t * direction - p.v0);
+  s.position = p.v0 + radius * normal;
+  s.positionError = hitPointError(abs(p.v0) + vec3(radius), vec3(0.0), vec3(0.0));
+  s.front = dot(origin - p.v0, origin - p.v0) > radius * radius && dot(normal, direction) < 0.0;
+  s.geometricNormal = normal;
+  s.shadingNormal = normal;
+  vec3 axis = uintBitsToFloat(record.xyz);
+  vec4 rotation = vec4(axis, sqrt(max(0.0, 1.0 - dot(axis, axis))));
+  vec3 q = rotateBy(vec4(-rotation.xyz, rotation.w), normal);
+  vec2 uv = vec2(atan(q.z, q.x) * (0.5 * kInversePi) + 0.5, acos(clamp(q.y, -1.0, 1.0)) * kInversePi);
+  float ring = length(q.xz);
+  s.tangent = ring > 0.0 ? vec4(rotateBy(rotation, vec3(-q.z, 0.0, q.x) / ring), 1.0) : vec4(rotateBy(rotation, vec3(1.0, 0.0, 0.0)), 1.0);
+  s.texcoords = vec4(uv, uv);
+  s.color = vec4(1.0);
+  return s;
+}
+
+Surface triangleSurface(LeafPrimitive p, uvec4 record, vec3 origin, vec3 direction) {
+  Surface s;
+  TriangleHit h = intersectTriangle(origin, makeShear(direction), p.v0, p.v1, p.v2);
+  vec2 w = vec2(h.weight1, h.weight2);
+  s.front = h.front;
+  s.position = p.v0 + w.x * (p.v1 - p.v0) + w.y * (p.v2 - p.v0);
+  s.positionError = hitPointError(p.v0, p.v1, p.v2);
+  s.geometricNormal = normalize(cross(p.v1 - p.v0, p.v2 - p.v0));
+  s.shadingNormal = s.geometricNormal;
+  ivec3 v = ivec3(record.xyz);
+  if (kVertexNormals && (record.w & kPrimitiveFlat) == 0u) {
+    vec3 n = interpolate(readNormalAt(v.x), readNormalAt(v.y), readNormalAt(v.z), w).xyz;
+    float squared = dot(n, n);
+    s.shadingNormal = squared > 0.0 ? n * inversesqrt(squared) : s.geometricNormal;
+  }
+  s.texcoords = vec4(0.0);
+  if (kTexcoords) s.texcoords = interpolate(readTexcoordsAt(v.x), readTexcoordsAt(v.y), readTexcoordsAt(v.z), w);
+  s.tangent = vec4(0.0);
+  if (kTangents) {
+    vec4 first = readTangentAt(v.x);
+    s.tangent = vec4(interpolate(first, readTangentAt(v.y), readTangentAt(v.z), w).xyz, first.w);
+  }
+  s.color = vec4(1.0);
+  if (kVertexColors) s.color = interpolate(readColorAt(v.x), readColorAt(v.y), readColorAt(v.z), w);
+  return s;
+}
+
+/// The point that a ray hits on the primitive of a leaf slot, at distance t.
+Surface surfaceAt(int slot, vec3 origin, vec3 direction, float t) {
+  LeafPrimitive p = loadLeafPrimitive(slot);
+  uvec4 record = readPrimitives(int(p.word & kPrimitiveIndexMask));
+  bool isSphere = kSpheres && (!kTriangles || (p.word & kPrimitiveSphere) != 0u);
+  Surface s;
+  if (kTriangles) s = triangleSurface(p, record, origin, direction);
+  if (isSphere) s = sphereSurface(p, record, origin, direction, t);
+  s.emitter = !isSphere;
+  s.material = record.w & kMaterialIndexMask;
+  if (!s.front) {
+    s.geometricNormal = -s.geometricNormal;
+    s.shadingNormal = -s.shadingNormal;
+  }
+  return s;
+}
+
+/// The shading normal after normal texture and Perlin map; the handedness of the frame is that of the front.
+vec3 mappedNormal(Surface s) {
+  vec3 normal = s.shadingNormal;
+  if (!kNormalMaps) return normal;
+  vec3 mapped = vec3(0.0, 0.0, 1.0);
+  uvec4 slot = textureSlot(s.material, kSlotNormal);
+  if (kNormalTexture && (slot.z & kTexturePresent) != 0u) {
+    float scale = materialFloats(s.material, kMaterialMaps).x;
+    vec3 texel = sampleTexture(slot, s.texcoords).rgb * 2.0 - 1.0;
+    mapped = vec3(texel.xy * scale, texel.z);
+  }
+  vec4 perlin = materialFloats(s.material, kMaterialPerlin);
+  if (kPerlinNormals && perlin.y != 0.0) mapped = perlinNormal(s.texcoords.xy, perlin.x, perlin.y, int(perlin.z));
+  vec3 tangent = s.tangent.xyz - normal * dot(normal, s.tangent.xyz);
+  float squared = dot(tangent, tangent);
+  if (squared <= 0.0) return normal;
+  float side = s.front ? 1.0 : -1.0;
+  tangent *= inversesqrt(squared);
+  vec3 bitangent = cross(normal * side, tangent) * s.tangent.w;
+  vec3 result = mapped.x * side * tangent + mapped.y * side * bitangent + mapped.z * normal;
+  float length2 = dot(result, result);
+  return length2 > 0.0 ? result * inversesqrt(length2) : normal;
+}
+
+/// A shading normal from which the direction towards the viewer is above the horizon: one that points away is turned just far enough.
+vec3 facingNormal(vec3 shadingNormal, vec3 outgoing) {
+  float cosine = dot(shadingNormal, outgoing);
+  const float least = 0.001;
+  return cosine >= least ? shadingNormal : normalize(shadingNormal + (least - cosine) * outgoing);
+}

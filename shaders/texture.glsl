@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Textures of any size and number, as texels in one buffer, filtered here: level 0, magnification filter.
+
+vec4 readTexel(int index) {
+  uvec2 t = readTexels(index);
+  return vec4(unpackHalf2x16(t.x), unpackHalf2x16(t.y));
+}
+
+/// A texel coordinate brought into 0..size-1 by repeating, clamping or mirroring.
+int wrapTexel(int x, int size, bool clamped, bool mirrored) {
+  int period = mirrored ? 2 * size : size;
+  int m = x % period;
+  m = m < 0 ? m + period : m;
+  m = m >= size ? period - 1 - m : m;
+  return clamped ? clamp(x, 0, size - 1) : m;
+}
+
+/// Samples the texture of a slot row (layout.glsl). A slot without a texture gives white.
+vec4 sampleTexture(uvec4 slot, vec4 texcoords) {
+  uint flags = slot.z;
+  if ((flags & kTexturePresent) == 0u) return vec4(1.0);
+  vec2 uv = (flags & kTextureTexcoord1) != 0u ? texcoords.zw : texcoords.xy;
+  ivec2 size = ivec2(slot.y & 0xffffu, slot.y >> 16);
+  bool linear = (flags & kTextureLinear) != 0u;
+  bool clampU = (flags & kTextureClampU) != 0u;
+  bool clampV = (flags & kTextureClampV) != 0u;
+  bool mirrorU = (flags & kTextureMirrorU) != 0u;
+  bool mirrorV = (flags & kTextureMirrorV) != 0u;
+  // Whole periods are taken off first, so that far coordinates keep their digits and fit an int.
+  uv.x = clampU ? clamp(uv.x, -1.0, 2.0) : uv.x - 2.0 * floor(0.5 * uv.x);
+  uv.y = clampV ? clamp(uv.y, -1.0, 2.0) : uv.y - 2.0 * floor(0.5 * uv.y);
+  vec2 position = uv * vec2(size) - (linear ? 0.5 : 0.0);
+  vec2 base = floor(position);
+  vec2 f = linear ? position - base : vec2(0.0);
+  int x0 = wrapTexel(int(base.x), size.x, clampU, mirrorU);
+  int x1 = linear ? wrapTexel(int(base.x) + 1, size.x, clampU, mirrorU) : x0;
+  int y0 = wrapTexel(int(base.y), size.y, clampV, mirrorV) * size.x;
+  int y1 = linear ? wrapTexel(int(base.y) + 1, size.y, clampV, mirrorV) * size.x : y0;
+  int first = int(slot.x);
+  vec4 top = mix(readTexel(first + y0 + x0), readTexel(first + y0 + x1), f.x);
+  vec4 bottom = mix(readTexel(first + y1 + x0), readTexel(first + y1 + x1), f.x);
+  return mix(top, bottom, f.y);
+}

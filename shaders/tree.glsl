@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Decoding of nodes and leaves: the one place that knows how the tree is packed (src/pack/pack_tree.cpp writes it).
+
+/// Both children of an inner node; boxes in grid steps.
+struct NodePair {
+  vec3 low0;
+  vec3 high0;
+  vec3 low1;
+  vec3 high1;
+  int child0;
+  int child1;
+};
+
+NodePair loadNode(int index) {
+  uvec4 a = readNodes(2 * index);
+  uvec4 b = readNodes(2 * index + 1);
+  NodePair n;
+  n.low0 = vec3(a.x & 0xffffu, a.y & 0xffffu, a.z & 0xffffu);
+  n.high0 = vec3(a.x >> 16, a.y >> 16, a.z >> 16);
+  n.low1 = vec3(b.x & 0xffffu, b.y & 0xffffu, b.z & 0xffffu);
+  n.high1 = vec3(b.x >> 16, b.y >> 16, b.z >> 16);
+  n.child0 = int(a.w);
+  n.child1 = int(b.w);
+  return n;
+}
+
+/// Two primitives side by side; the second word is kPrimitiveNone (and its vertices equal) when there is one.
+struct LeafPair {
+  vec3 v0a, v0b;
+  vec3 v1a, v1b;
+  vec3 v2a, v2b;
+  uint worda, wordb;
+};
+
+LeafPair loadLeaf(int index) {
+  int row = int(kLeafRows) * index;
+  uvec4 r0 = readLeaves(row);
+  uvec4 r1 = readLeaves(row + 1);
+  uvec4 r2 = readLeaves(row + 2);
+  uvec4 r3 = readLeaves(row + 3);
+  uvec4 r4 = readLeaves(row + 4);
+  LeafPair l;
+  l.v0a = uintBitsToFloat(uvec3(r0.x, r0.z, r1.x));
+  l.v0b = uintBitsToFloat(uvec3(r0.y, r0.w, r1.y));
+  l.v1a = uintBitsToFloat(uvec3(r1.z, r2.x, r2.z));
+  l.v1b = uintBitsToFloat(uvec3(r1.w, r2.y, r2.w));
+  l.v2a = uintBitsToFloat(uvec3(r3.x, r3.z, r4.x));
+  l.v2b = uintBitsToFloat(uvec3(r3.y, r3.w, r4.y));
+  l.worda = r4.z;
+  l.wordb = r4.w;
+  return l;
+}
+
+/// The three points of one primitive, by leaf slot (leaf * 2 + side).
+struct LeafPrimitive {
+  vec3 v0;
+  vec3 v1;
+  vec3 v2;
+  uint word;
+};
+
+LeafPrimitive loadLeafPrimitive(int slot) {
+  LeafPair l = loadLeaf(slot >> 1);
+  bool second = (slot & 1) == 1;
+  LeafPrimitive p;
+  p.v0 = second ? l.v0b : l.v0a;
+  p.v1 = second ? l.v1b : l.v1a;
+  p.v2 = second ? l.v2b : l.v2a;
+  p.word = second ? l.wordb : l.worda;
+  return p;
+}

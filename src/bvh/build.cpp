@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// The build across threads: split the top of the tree, build what is below in parts, put them together in
+// order.
+#include "bvh/build.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cassert>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "bvh/parallel.h"
+#include "bvh/split.h"
+#include "bvh/subtree.h"
+
+namespace fragtrace {
+namespace {
+
+constexpr size_t kSmallestPart = 4096;  // primitives; below, handing out work costs more than it saves
+constexpr size_t kPartsWanted = 128;    // many more than threads, so that none waits long for the last one
+
+// A node of the top of the tree, or (without children) a part that one thread builds.
+struct TopNode {
+  std::span<BuildItem> items;
+  uint32_t level = 0;
+  Bounds bounds;
+  std::unique_ptr<TopNode> first;
+  std::unique_ptr<TopNode> second;
+  Subtree part;
+};
+
+std::unique_ptr<TopNode> splitTop(std::span<BuildItem> items, const SplitRules& rules, size_t partSize,
+                                  uint32_t level, uint32_t threadCount) {
+  auto node = std::make_unique<TopNode>();
+  node->items = items;
+  node->level = level;
+  if (items.size() <= partSize) {
+    node->bounds = boundsOf(items);
+    return node;
+  }
+  const uint32_t middle = splitItems(items, rules, rules.capacityBelow(level + 1), threadCount);
+  auto splitFirst = [&](uint32_t threads) {
+    node->first = splitTop(items.first(middle), rules, partSize, level + 1, threads);
+  };
+  auto splitSecond = [&](uint32_t threads) {
+    node->second = splitTop(items.subspan(middle), rules, partSize, level + 1, threads);
+  };
+  if (threadCount > 1) {
+    // Each side gets threads by its share of the primitives, one at least.
+    const auto share = uint32_t(uint64_t(threadCount) * middle / items.size());
+    const uint32_t threads = std::clamp(share, 1u, threadCount - 1);
+    runOnThreads(
+        2, [&](uint32_t side) { side == 0 ? splitFirst(threads) : splitSecond(threadCount - threads); });
+  } else {
+    splitFirst(1);
+    splitSecond(1);
+  }
+  node->bounds = node->first->bounds;
+  node->bounds.include(node->second->bounds);
+  return node;
+}
+
+void collectParts(TopNode& node, std::vector<TopNode*>& parts) {
+  if (!node.first) {
+    parts.push_back(&node);
+    return;
+  }
+  collectParts(*node.first, parts);
+  collectParts(*node.second, parts);
+}
+
+void buildParts(std::vector<TopNode*> parts, const SplitRules& rules, uint32_t threadCount) {
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const TopNode* a, const TopNode* b) { return a->items.size() > b->items.size(); });
+  std::atomic<size_t> next = 0;
+  runOnThreads(std::min(threadCount, uint32_t(parts.size())), [&](uint32_t) {
+    for (size_t i = next++; i < parts.size(); i = next++) {
+      parts[i]->part = buildSubtree(parts[i]->items, rules, parts[i]->level);
+    }
+  });
+}
+
+// Appends a part, whose indices count from its own start, and gives its memory back.
+uint32_t appendPart(Subtree part, uint32_t level, Bvh& bvh) {
+  const auto nodeOffset = uint32_t(bvh.nodes.size());
+  const auto leafOffset = uint32_t(bvh.leaves.size());
+  auto moved = [&](uint32_t child) { return child + ((child & kBvhLeafBit) != 0 ? leafOffset : nodeOffset); };
+  for (BvhNode node : part.nodes) {
+    node.child = {moved(node.child[0]), moved(node.child[1])};
+    bvh.nodes.push_back(node);
+  }
+  bvh.leaves.insert(bvh.leaves.end(), part.leaves.begin(), part.leaves.end());
+  bvh.depth = std::max(bvh.depth, level + part.depth);
+  return moved(part.root);
+}
+
+uint32_t appendTop(TopNode& top, Bvh& bvh) {
+  if (!top.first) return appendPart(std::move(top.part), top.level, bvh);
+  const auto index = uint32_t(bvh.nodes.size());
+  bvh.nodes.emplace_back().bounds = {top.first->bounds, top.second->bounds};
+  bvh.depth = std::max(bvh.depth, top.level + 1);
+  const uint32_t first = appendTop(*top.first, bvh);
+  const uint32_t second = appendTop(*top.second, bvh);
+  bvh.nodes[index].child = {first, second};
+  return index;
+}
+
+SplitRules rulesFor(size_t primitiveCount, uint32_t firstSingle, uint32_t maxDepth) {
+  const uint32_t leafSize = firstSingle < primitiveCount ? 1 : 2;
+  return {firstSingle, leafSize, std::min(maxDepth, kMaxBvhDepth)};
+}
+
+}  // namespace
+
+Bvh buildBvh(std::span<const Bounds> primitiveBounds, uint32_t firstSingle,
+             const BvhBuildSettings& settings) {
+  Bvh bvh;
+  if (primitiveBounds.empty()) return bvh;
+  const SplitRules rules = rulesFor(primitiveBounds.size(), firstSingle, settings.maxDepth);
+  assert(primitiveBounds.size() < kBvhLeafBit && primitiveBounds.size() <= rules.capacityBelow(0));
+  const uint32_t cores = std::max(std::thread::hardware_concurrency(), 1u);
+  const uint32_t wanted = settings.threadCount > 0 ? settings.threadCount : cores;
+  const uint32_t threadCount = primitiveBounds.size() <= kSmallestPart ? 1 : wanted;
+
+  // Build the top, then all parts.
+  std::vector<BuildItem> items(primitiveBounds.size());
+  for (size_t i = 0; i < items.size(); ++i) items[i] = {primitiveBounds[i], uint32_t(i)};
+  const size_t partSize = std::max(kSmallestPart, items.size() / kPartsWanted);
+  const std::unique_ptr<TopNode> top = splitTop(items, rules, partSize, 0, threadCount);
+  std::vector<TopNode*> parts;
+  collectParts(*top, parts);
+  buildParts(parts, rules, threadCount);
+  items = {};
+
+  // Put the parts together.
+  size_t nodeCount = 1;
+  size_t leafCount = 0;
+  for (const TopNode* part : parts) {
+    nodeCount += part->part.nodes.size() + 1;
+    leafCount += part->part.leaves.size();
+  }
+  bvh.nodes.reserve(nodeCount);
+  bvh.leaves.reserve(leafCount);
+  bvh.bounds = top->bounds;
+  const uint32_t root = appendTop(*top, bvh);
+  if ((root & kBvhLeafBit) != 0) {
+    bvh.nodes.push_back({{bvh.bounds, bvh.bounds}, {root, root}});
+    bvh.depth = 1;
+  }
+  return bvh;
+}
+
+Bvh buildBvh(std::span<const Bounds> primitiveBounds, uint32_t firstSingle) {
+  constexpr size_t kLargest = 2000000;  // primitives; a second build of more takes seconds
+  constexpr double kWorthwhile = 1.03;  // a stack one step smaller gains more than this
+  Bvh bvh = buildBvh(primitiveBounds, firstSingle, {});
+  uint32_t smaller = 0;
+  for (uint32_t size : kBvhStackSizes) smaller = size < bvh.depth ? size : smaller;
+  if (smaller == 0 || primitiveBounds.size() > kLargest) return bvh;
+  // A tree with less than one level to spare is no longer the heuristic's, but one of halves.
+  if (primitiveBounds.size() > rulesFor(primitiveBounds.size(), firstSingle, smaller).capacityBelow(1))
+    return bvh;
+  Bvh flatter = buildBvh(primitiveBounds, firstSingle, {.maxDepth = smaller});
+  const bool worthwhile = bvhQuality(flatter).sahCost <= kWorthwhile * bvhQuality(bvh).sahCost;
+  return worthwhile ? flatter : bvh;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// The knobs behind buildBvh(), for tests and measurements.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "bvh/bvh.h"
+
+namespace fragtrace {
+
+/// Sizes in which the shader's stack (shaders/stack.glsl) comes; each step up was measured to cost 4 to 7 %
+/// of the time on llvmpipe.
+inline constexpr std::array<uint32_t, 5> kBvhStackSizes{8, 12, 16, 24, kMaxBvhDepth};
+
+struct BvhBuildSettings {
+  uint32_t threadCount = 0;          ///< 0: all cores; the tree is the same for any number
+  uint32_t maxDepth = kMaxBvhDepth;  ///< must leave room for the primitives: 2^maxDepth leaves
+};
+
+/// One build, as deep as the boxes want it; buildBvh() of bvh.h also tries the stack size below that.
+Bvh buildBvh(std::span<const Bounds> primitiveBounds, uint32_t firstSingle, const BvhBuildSettings& settings);
+
+}  // namespace fragtrace

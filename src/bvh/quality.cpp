@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "bvh/bvh.h"
+#include "bvh/split.h"
+
+namespace fragtrace {
+
+BvhQuality bvhQuality(const Bvh& bvh) {
+  BvhQuality quality;
+  if (bvh.nodes.empty()) return quality;
+  quality.nodeCount = uint32_t(bvh.nodes.size());
+  quality.leafCount = uint32_t(bvh.leaves.size());
+  quality.depth = bvh.depth;
+
+  // A ray through a convex box meets a convex box inside it with the ratio of their areas as probability.
+  // Every child but the root is the child of one node. A root without area counts all as visited.
+  const double rootArea = areaOf(bvh.bounds);
+  double visits = 1.0;
+  for (const BvhNode& node : bvh.nodes) {
+    for (const Bounds& box : node.bounds) visits += rootArea > 0.0 ? areaOf(box) / rootArea : 1.0;
+  }
+  quality.sahCost = visits;
+
+  size_t primitives = 0;
+  for (const BvhLeaf& leaf : bvh.leaves) primitives += leaf.primitive[1] == kMissIndex ? 1 : 2;
+  quality.primitivesPerLeaf = double(primitives) / double(bvh.leaves.size());
+  return quality;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// The commands behind the command line; each returns the exit status and throws what main.cpp maps to one.
+#pragma once
+
+#include "cli/options.h"
+
+namespace fragtrace {
+
+int runRender(const RenderOptions& options);
+int runInfo(const InfoOptions& options);
+int runDiff(const DiffOptions& options);
+
+}  // namespace fragtrace

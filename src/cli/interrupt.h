@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace fragtrace {
+
+/// From now on Ctrl-C (SIGINT) and SIGTERM are counted; until then they end the program with status 130.
+void countInterrupts();
+
+/// How often the program was interrupted: once means stop and write what is finished, more means write nothing.
+int interrupts();
+
+/// Makes the first kind of handler stand: exit with 130 at once, as nothing has been written yet.
+void exitOnInterrupt();
+
+}  // namespace fragtrace

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <new>
+
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "errors.h"
+
+namespace {
+
+enum ExitStatus { kDone = 0, kFailed = 1, kUsage = 2, kInput = 3, kNoContext = 4 };
+
+int fail(ExitStatus status, const char* message) {
+  std::fprintf(stderr, "fragtrace: %s\n", message);
+  return status;
+}
+
+int run(int argc, char** argv) {
+  using namespace fragtrace;
+  exitOnInterrupt();
+  const std::optional<CommandLine> line = parseCommandLine(argc, argv);
+  if (!line) return kDone;
+  switch (line->command) {
+    case Command::Render: return runRender(line->render);
+    case Command::Info: return runInfo(line->info);
+    case Command::Diff: return runDiff(line->diff);
+  }
+  return kUsage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const fragtrace::UsageError& error) {
+    return fail(kUsage, error.what());
+  } catch (const fragtrace::InputError& error) {
+    return fail(kInput, error.what());
+  } catch (const fragtrace::ContextError& error) {
+    return fail(kNoContext, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kInput, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(kFailed, error.what());
+  }
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "image/difference.h"
+#include "stage/options.h"
+
+namespace fragtrace {
+
+struct InfoOptions {
+  std::filesystem::path scene;
+  bool json = false;
+};
+
+struct DiffOptions {
+  std::filesystem::path picture;
+  std::filesystem::path reference;
+  Metric metric = Metric::Rmse;
+  std::optional<double> threshold;
+  std::filesystem::path outfile;
+};
+
+enum class Command : uint8_t { Render, Info, Diff };
+
+/// What the command line asks for; only the options of the command are filled in.
+struct CommandLine {
+  Command command = Command::Render;
+  RenderOptions render;
+  InfoOptions info;
+  DiffOptions diff;
+};
+
+/// Parses the arguments. Prints help or version and returns nothing when that was asked for. Throws UsageError.
+std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv);
+
+}  // namespace fragtrace

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "cli/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "cli/scene_json.h"
+#include "image/whole_file.h"
+
+namespace fragtrace {
+
+namespace {
+
+nlohmann::ordered_json timesJson(std::vector<double> ms) {
+  nlohmann::ordered_json json;
+  if (ms.empty()) return json;
+  std::sort(ms.begin(), ms.end());
+  const double mean = std::accumulate(ms.begin(), ms.end(), 0.0) / double(ms.size());
+  double squares = 0.0;
+  for (double x : ms) squares += (x - mean) * (x - mean);
+  const auto quantile = [&](double q) { return ms[size_t(std::ceil(q * double(ms.size()))) - 1]; };
+  json["median"] = quantile(0.5);
+  json["mean"] = mean;
+  json["stddev"] = std::sqrt(squares / double(std::max<size_t>(1, ms.size() - 1)));
+  json["min"] = ms.front();
+  json["p95"] = quantile(0.95);
+  return json;
+}
+
+}  // namespace
+
+double megaPathsPerSecond(const Statistics& s) {
+  return s.times.renderMs > 0.0 ? double(s.film.samples) / s.times.renderMs / 1000.0 : 0.0;
+}
+
+void writeStatistics(const std::filesystem::path& path, const Statistics& s) {
+  nlohmann::ordered_json json;
+  json["schema"] = 1;
+  json["scene"] = sceneJson(s.scene);
+  json["bvh"] = bvhJson(s.bvh);
+  json["load_ms"] = s.loadMs;
+  json["bvh_build_ms"] = s.bvhBuildMs;
+  json["pack_ms"] = s.packMs;
+  json["upload_ms"] = s.uploadMs;
+  json["compile_ms"] = s.compileMs;
+  json["first_frame_ms"] = s.times.firstFrameMs;
+  json["render_ms"] = s.times.renderMs;
+  json["frame_ms"] = timesJson(s.times.frameMs);
+  json["spp"] = s.spp;
+  json["width"] = s.size.x;
+  json["height"] = s.size.y;
+  json["complete"] = s.complete;
+  json["rays"] = s.film.rays;
+  json["mpaths_per_s"] = megaPathsPerSecond(s);
+  json["mrays_per_s"] = s.times.renderMs > 0.0 ? double(s.film.rays) / s.times.renderMs / 1000.0 : 0.0;
+  json["nonfinite_pixels"] = s.film.nonfinitePixels;
+  json["budget_hits"] = s.film.budgetHits;
+  json["scene_bytes"] = s.sceneBytes;
+  json["default_light"] = s.defaultLight;
+  json["variant"] = s.variant;
+  json["skipped"] = s.skipped;
+  json["backend"] = s.backend;
+  json["gl_renderer"] = s.glRenderer;
+  json["gl_version"] = s.glVersion;
+  json["warnings"] = s.warnings;
+  const std::string text = jsonText(json);
+  replaceFile(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The ways the program can fail; each kind has its exit status, each message names the file and the place.
+#pragma once
+
+#include <stdexcept>
+
+namespace fragtrace {
+
+/// Rendering, comparing or writing failed: exit status 1.
+struct RenderError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The command line is wrong: exit status 2.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A scene, environment or picture cannot be read: exit status 3.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// No OpenGL 4.5 context (or no display) can be had: exit status 4.
+struct ContextError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace fragtrace

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "gl/context.h"
+
+#include "errors.h"
+#include "gl/gl.h"
+
+namespace fragtrace {
+
+bool loadFunctions(Context& context, GetProcAddress getProcAddress, std::string& reason) {
+  const int version = gladLoadGL(getProcAddress);
+  if (version < GLAD_MAKE_VERSION(4, 5)) {
+    reason = "OpenGL " + std::to_string(GLAD_VERSION_MAJOR(version)) + "." +
+             std::to_string(GLAD_VERSION_MINOR(version)) + " is older than 4.5";
+    return false;
+  }
+  const auto text = [](GLenum name) {
+    const GLubyte* value = glGetString(name);
+    return std::string(value ? reinterpret_cast<const char*>(value) : "");
+  };
+  context.renderer = text(GL_RENDERER);
+  context.version = text(GL_VERSION);
+  for (const char* name : {"llvmpipe", "softpipe", "swrast", "SwiftShader", "Software"}) {
+    context.software = context.software || context.renderer.find(name) != std::string::npos;
+  }
+  return true;
+}
+
+std::unique_ptr<Context> makeContext(Backend backend) {
+  std::string tried;
+  std::unique_ptr<Context> context;
+  if (backend != Backend::OsMesa) context = makeEglContext(tried);
+  if (!context && backend != Backend::Egl) context = makeOsMesaContext(tried);
+  if (!context) throw ContextError("no OpenGL 4.5 context; tried " + tried);
+  return context;
+}
+
+}  // namespace fragtrace

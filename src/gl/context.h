@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "stage/options.h"
+
+namespace fragtrace {
+
+/// A headless OpenGL 4.5 core context, current in the thread that made it until it is destroyed. Its libraries are
+/// loaded at run time.
+class Context {
+ public:
+  Context() = default;
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  virtual ~Context() = default;
+
+  std::string backend;    ///< "egl" or "osmesa"
+  std::string renderer;   ///< GL_RENDERER
+  std::string version;    ///< GL_VERSION
+  bool software = false;  ///< a rasteriser on the processor
+};
+
+/// Makes a context: a GPU through EGL, else software EGL, else OSMesa; or only what `backend` names. Throws ContextError
+/// saying what was tried and why each failed.
+std::unique_ptr<Context> makeContext(Backend backend);
+
+/// The two ways, each null on failure with the reasons appended to `tried`.
+std::unique_ptr<Context> makeEglContext(std::string& tried);
+std::unique_ptr<Context> makeOsMesaContext(std::string& tried);
+
+/// Fills the function table and the context's facts; false with a reason when it is no OpenGL 4.5.
+using GetProcAddress = void (*(*)(const char*))();
+bool loadFunctions(Context& context, GetProcAddress getProcAddress, std::string& reason);
+
+}  // namespace fragtrace

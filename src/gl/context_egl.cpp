@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// EGL without a display: devices by name first (hardware before software), then Mesa's surfaceless platform.
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+
+#include <array>
+#include <cstring>
+#include <vector>
+
+#include "gl/context.h"
+#include "gl/dynamic_library.h"
+
+namespace fragtrace {
+
+namespace {
+
+struct EglFunctions {
+  decltype(&eglGetProcAddress) getProcAddress = nullptr;
+  decltype(&eglInitialize) initialize = nullptr;
+  decltype(&eglTerminate) terminate = nullptr;
+  decltype(&eglBindAPI) bindApi = nullptr;
+  decltype(&eglChooseConfig) chooseConfig = nullptr;
+  decltype(&eglCreateContext) createContext = nullptr;
+  decltype(&eglDestroyContext) destroyContext = nullptr;
+  decltype(&eglMakeCurrent) makeCurrent = nullptr;
+  decltype(&eglQueryString) queryString = nullptr;
+  decltype(&eglGetError) getError = nullptr;
+  PFNEGLQUERYDEVICESEXTPROC queryDevices = nullptr;
+  PFNEGLQUERYDEVICESTRINGEXTPROC queryDeviceString = nullptr;
+  PFNEGLGETPLATFORMDISPLAYEXTPROC getPlatformDisplay = nullptr;
+
+  bool load(const DynamicLibrary& library) {
+    const bool complete =
+        library.find("eglGetProcAddress", getProcAddress) && library.find("eglInitialize", initialize) &&
+        library.find("eglTerminate", terminate) && library.find("eglBindAPI", bindApi) &&
+        library.find("eglChooseConfig", chooseConfig) && library.find("eglCreateContext", createContext) &&
+        library.find("eglDestroyContext", destroyContext) && library.find("eglMakeCurrent", makeCurrent) &&
+        library.find("eglQueryString", queryString) && library.find("eglGetError", getError);
+    if (!complete) return false;
+    queryDevices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(getProcAddress("eglQueryDevicesEXT"));
+    queryDeviceString = reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(getProcAddress("eglQueryDeviceStringEXT"));
+    getPlatformDisplay = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(getProcAddress("eglGetPlatformDisplayEXT"));
+    return getPlatformDisplay != nullptr;
+  }
+};
+
+class EglContext : public Context {
+ public:
+  EglContext(const EglFunctions& functions, EGLDisplay display, EGLContext context)
+      : egl_(functions), display_(display), context_(context) {
+    backend = "egl";
+  }
+  ~EglContext() override {
+    egl_.makeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    egl_.destroyContext(display_, context_);
+    egl_.terminate(display_);
+  }
+
+ private:
+  EglFunctions egl_;
+  EGLDisplay display_;
+  EGLContext context_;
+};
+
+/// A place to look for a context: a device, or the surfaceless platform.
+struct Candidate {
+  EGLenum platform;
+  void* native;
+  std::string name;
+};
+
+bool contains(const char* extensions, const char* name) { return extensions && std::strstr(extensions, name); }
+
+std::vector<Candidate> candidates(const EglFunctions& egl) {
+  std::vector<Candidate> hardware;
+  std::vector<Candidate> software;
+  std::array<EGLDeviceEXT, 32> devices{};
+  EGLint count = 0;
+  if (egl.queryDevices && egl.queryDeviceString && egl.queryDevices(EGLint(devices.size()), devices.data(), &count)) {
+    for (EGLint i = 0; i < count; ++i) {
+      const char* extensions = egl.queryDeviceString(devices[size_t(i)], EGL_EXTENSIONS);
+      const bool isSoftware = contains(extensions, "EGL_MESA_device_software");
+      const std::string name = isSoftware ? "EGL software device" : "EGL device " + std::to_string(i);
+      (isSoftware ? software : hardware).push_back({EGL_PLATFORM_DEVICE_EXT, devices[size_t(i)], name});
+    }
+  }
+  hardware.insert(hardware.end(), software.begin(), software.end());
+  if (contains(egl.queryString(EGL_NO_DISPLAY, EGL_EXTENSIONS), "EGL_MESA_platform_surfaceless")) {
+    hardware.push_back({EGL_PLATFORM_SURFACELESS_MESA, nullptr, "EGL surfaceless"});
+  }
+  return hardware;
+}
+
+std::unique_ptr<Context> tryCandidate(const EglFunctions& egl, const Candidate& candidate, std::string& reason) {
+  const auto fail = [&](const char* step) {
+    char code[16];
+    std::snprintf(code, sizeof code, "0x%04x", unsigned(egl.getError()));
+    reason = std::string(step) + " failed (" + code + ")";
+    return nullptr;
+  };
+  EGLDisplay display = egl.getPlatformDisplay(candidate.platform, candidate.native, nullptr);
+  if (display == EGL_NO_DISPLAY) return fail("eglGetPlatformDisplay");
+  if (!egl.initialize(display, nullptr, nullptr)) return fail("eglInitialize");
+  EGLConfig config = EGL_NO_CONFIG_KHR;
+  const char* extensions = egl.queryString(display, EGL_EXTENSIONS);
+  if (!contains(extensions, "EGL_KHR_no_config_context")) {
+    const EGLint wish[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_NONE};
+    EGLint found = 0;
+    if (!egl.chooseConfig(display, wish, &config, 1, &found) || found == 0) return fail("eglChooseConfig");
+  }
+  const EGLint wish[] = {EGL_CONTEXT_MAJOR_VERSION,
+                         4,
+                         EGL_CONTEXT_MINOR_VERSION,
+                         5,
+                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+#ifndef NDEBUG
+                         EGL_CONTEXT_OPENGL_DEBUG,
+                         EGL_TRUE,
+#endif
+                         EGL_NONE};
+  EGLContext context = EGL_NO_CONTEXT;
+  if (egl.bindApi(EGL_OPENGL_API)) context = egl.createContext(display, config, EGL_NO_CONTEXT, wish);
+  if (context == EGL_NO_CONTEXT) {
+    fail("eglCreateContext");
+    egl.terminate(display);
+    return nullptr;
+  }
+  auto result = std::make_unique<EglContext>(egl, display, context);
+  if (!egl.makeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) return fail("eglMakeCurrent");
+  if (!loadFunctions(*result, egl.getProcAddress, reason)) return nullptr;
+  return result;
+}
+
+}  // namespace
+
+std::unique_ptr<Context> makeEglContext(std::string& tried) {
+  static const DynamicLibrary library({"libEGL.so.1", "libEGL.so"});
+  if (!library.loaded()) {
+    tried += "EGL (" + library.error() + "); ";
+    return nullptr;
+  }
+  EglFunctions egl;
+  if (!egl.load(library)) {
+    tried += "EGL (the library lacks functions of EGL 1.5); ";
+    return nullptr;
+  }
+  const std::vector<Candidate> places = candidates(egl);
+  if (places.empty()) tried += "EGL (no device); ";
+  for (const Candidate& candidate : places) {
+    std::string reason;
+    if (auto context = tryCandidate(egl, candidate, reason)) return context;
+    tried += candidate.name + " (" + reason + "); ";
+  }
+  return nullptr;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fragtrace {
+
+/// Collects what the driver says through KHR_debug for as long as it lives (errors always; in debug builds
+/// everything above notifications). Call take() where the messages can be shown.
+class DebugLog {
+ public:
+  DebugLog();
+  DebugLog(const DebugLog&) = delete;
+  DebugLog& operator=(const DebugLog&) = delete;
+  ~DebugLog();
+  std::vector<std::string> take();
+
+ private:
+  std::vector<std::string> messages_;
+};
+
+}  // namespace fragtrace

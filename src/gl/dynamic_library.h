@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <dlfcn.h>
+
+#include <initializer_list>
+#include <string>
+
+namespace fragtrace {
+
+/// A shared library opened by the first of its names that can be; stays open, since drivers do not survive dlclose().
+class DynamicLibrary {
+ public:
+  explicit DynamicLibrary(std::initializer_list<const char*> names) {
+    for (const char* name : names) {
+      if (!handle_) handle_ = dlopen(name, RTLD_NOW | RTLD_LOCAL);
+    }
+    if (!handle_) {
+      const char* reason = dlerror();
+      error_ = reason ? reason : "cannot be opened";
+    }
+  }
+  bool loaded() const { return handle_ != nullptr; }
+  const std::string& error() const { return error_; }
+
+  /// Sets function to the symbol of that name; false when there is none.
+  template <typename Function>
+  bool find(const char* name, Function& function) const {
+    function = reinterpret_cast<Function>(dlsym(handle_, name));
+    return function != nullptr;
+  }
+
+ private:
+  void* handle_ = nullptr;
+  std::string error_;
+};
+
+}  // namespace fragtrace

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "gl/gl.h"
+
+#include "errors.h"
+
+namespace fragtrace {
+
+namespace {
+
+const char* errorName(GLenum error) {
+  switch (error) {
+    case GL_INVALID_ENUM: return "invalid enum";
+    case GL_INVALID_VALUE: return "invalid value";
+    case GL_INVALID_OPERATION: return "invalid operation";
+    case GL_INVALID_FRAMEBUFFER_OPERATION: return "invalid framebuffer operation";
+    case GL_OUT_OF_MEMORY: return "out of memory";
+    case GL_CONTEXT_LOST: return "context lost";
+    default: return "unknown error";
+  }
+}
+
+}  // namespace
+
+void checkGl(const char* where) {
+  std::string errors;
+  // A lost context reports its error for ever.
+  for (int i = 0; i < 8; ++i) {
+    const GLenum error = glGetError();
+    if (error == GL_NO_ERROR) break;
+    errors += (errors.empty() ? "" : ", ") + std::string(errorName(error));
+  }
+  if (!errors.empty()) throw RenderError(std::string("OpenGL: ") + errors + " while " + where);
+}
+
+GlBuffer makeBuffer() {
+  GLuint name = 0;
+  glCreateBuffers(1, &name);
+  return GlBuffer(name);
+}
+
+GlTexture makeTexture(GLenum target) {
+  GLuint name = 0;
+  glCreateTextures(target, 1, &name);
+  return GlTexture(name);
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// OpenGL for the files of src/gl and src/render, and nobody else.
+#pragma once
+
+#include <glad/gl.h>
+
+#include <string>
+#include <utility>
+
+namespace fragtrace {
+
+/// Throws RenderError naming `where` and every pending OpenGL error.
+void checkGl(const char* where);
+
+/// An OpenGL object's name, released by its owner; move-only.
+template <void (*Release)(GLuint)>
+class GlHandle {
+ public:
+  GlHandle() = default;
+  explicit GlHandle(GLuint name) : name_(name) {}
+  GlHandle(GlHandle&& other) noexcept : name_(std::exchange(other.name_, 0u)) {}
+  GlHandle& operator=(GlHandle&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  ~GlHandle() {
+    if (name_ != 0) Release(name_);
+  }
+  GLuint name() const { return name_; }
+
+ private:
+  GLuint name_ = 0;
+};
+
+inline void releaseBuffer(GLuint name) { glDeleteBuffers(1, &name); }
+inline void releaseTexture(GLuint name) { glDeleteTextures(1, &name); }
+inline void releaseFramebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
+inline void releaseVertexArray(GLuint name) { glDeleteVertexArrays(1, &name); }
+inline void releaseShader(GLuint name) { glDeleteShader(name); }
+inline void releaseProgram(GLuint name) { glDeleteProgram(name); }
+
+using GlBuffer = GlHandle<releaseBuffer>;
+using GlTexture = GlHandle<releaseTexture>;
+using GlFramebuffer = GlHandle<releaseFramebuffer>;
+using GlVertexArray = GlHandle<releaseVertexArray>;
+using GlShader = GlHandle<releaseShader>;
+using GlProgram = GlHandle<releaseProgram>;
+
+GlBuffer makeBuffer();
+GlTexture makeTexture(GLenum target);
+
+}  // namespace fragtrace

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "gl/program.h"
+
+#include "errors.h"
+
+namespace fragtrace {
+
+namespace {
+
+GlShader compileShader(GLenum kind, const std::string& text) {
+  GlShader shader(glCreateShader(kind));
+  const char* pointer = text.c_str();
+  glShaderSource(shader.name(), 1, &pointer, nullptr);
+  glCompileShader(shader.name());
+  GLint ok = 0;
+  glGetShaderiv(shader.name(), GL_COMPILE_STATUS, &ok);
+  if (!ok) {
+    GLint length = 0;
+    glGetShaderiv(shader.name(), GL_INFO_LOG_LENGTH, &length);
+    std::string log(size_t(length) + 1, '\0');
+    glGetShaderInfoLog(shader.name(), length, nullptr, log.data());
+    throw RenderError("shader does not compile:\n" + std::string(log.c_str()));
+  }
+  return shader;
+}
+
+}  // namespace
+
+GlProgram buildProgram(const std::string& vertexText, const std::string& fragmentText) {
+  const GlShader vertex = compileShader(GL_VERTEX_SHADER, vertexText);
+  const GlShader fragment = compileShader(GL_FRAGMENT_SHADER, fragmentText);
+  GlProgram program(glCreateProgram());
+  glAttachShader(program.name(), vertex.name());
+  glAttachShader(program.name(), fragment.name());
+  glLinkProgram(program.name());
+  GLint ok = 0;
+  glGetProgramiv(program.name(), GL_LINK_STATUS, &ok);
+  if (!ok) {
+    GLint length = 0;
+    glGetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &length);
+    std::string log(size_t(length) + 1, '\0');
+    glGetProgramInfoLog(program.name(), length, nullptr, log.data());
+    throw RenderError("shader program does not link:\n" + std::string(log.c_str()));
+  }
+  return program;
+}
+
+const GlProgram& ProgramCache::tracer(const ShaderVariant& variant) {
+  const auto found = tracers_.find(variant);
+  if (found != tracers_.end()) return found->second;
+  GlProgram program = buildProgram(assembleShader(source_, "fullscreen.vert", variant),
+                                   assembleShader(source_, "trace.frag", variant));
+  checkGl("building a shader program");
+  return tracers_.emplace(variant, std::move(program)).first->second;
+}
+
+ShaderSource shaderSource(const std::filesystem::path& folder) {
+  return {folder, GLAD_GL_ARB_shading_language_include != 0};
+}
+
+}  // namespace fragtrace

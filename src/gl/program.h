@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "gl/gl.h"
+#include "shader/assemble.h"
+
+namespace fragtrace {
+
+/// Compiles and links one program. Throws RenderError with the driver's log, which names shader file and line.
+GlProgram buildProgram(const std::string& vertexText, const std::string& fragmentText);
+
+/// Programs by variant, built on first use and kept.
+class ProgramCache {
+ public:
+  explicit ProgramCache(ShaderSource source) : source_(std::move(source)) {}
+  const GlProgram& tracer(const ShaderVariant& variant);
+
+ private:
+  ShaderSource source_;
+  std::map<ShaderVariant, GlProgram> tracers_;
+};
+
+/// What this driver's compiler understands; needs a current context.
+ShaderSource shaderSource(const std::filesystem::path& folder);
+
+}  // namespace fragtrace

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "gl/scene_buffers.h"
+
+#include "errors.h"
+
+namespace fragtrace {
+
+namespace {
+
+bool hasTwoWords(uint32_t binding) {
+  return binding == layout::kTexelsBinding || binding == layout::kEnvironmentAliasBinding;
+}
+
+GLint64 limit(GLenum name) {
+  GLint64 value = 0;
+  glGetInteger64v(name, &value);
+  return value;
+}
+
+}  // namespace
+
+BufferReads chooseReads(BufferReads wanted, bool software) {
+  if (wanted != BufferReads::Auto) return wanted;
+  return software ? BufferReads::Image : BufferReads::Ssbo;
+}
+
+SceneBuffers::SceneBuffers(const GpuScene& scene, BufferReads reads) : reads_(reads) {
+  for (uint32_t binding = 0; binding < layout::kSceneBufferCount; ++binding) {
+    static constexpr std::array<uint32_t, 4> kNothing{};
+    const Words& words = scene.buffers[binding];
+    Entry& entry = entries_[binding];
+    entry.format = hasTwoWords(binding) ? GL_RG32UI : GL_RGBA32UI;
+    const size_t texelBytes = hasTwoWords(binding) ? 8 : 16;
+    const size_t bytes = words.empty() ? sizeof kNothing : words.size() * sizeof(uint32_t);
+    const void* data = words.empty() ? kNothing.data() : words.data();
+    const GLint64 most = reads == BufferReads::Image ? limit(GL_MAX_TEXTURE_BUFFER_SIZE) * GLint64(texelBytes)
+                                                     : limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
+    if (GLint64(bytes) > most) {
+      throw RenderError("scene buffer " + std::to_string(binding) + " takes " + std::to_string(bytes) +
+                        " bytes, this driver reads at most " + std::to_string(most));
+    }
+    entry.buffer = makeBuffer();
+    glNamedBufferStorage(entry.buffer.name(), GLsizeiptr(bytes), data, 0);
+    if (reads == BufferReads::Image) {
+      entry.view = makeTexture(GL_TEXTURE_BUFFER);
+      glTextureBuffer(entry.view.name(), entry.format, entry.buffer.name());
+    }
+  }
+  checkGl("uploading the scene");
+}
+
+void SceneBuffers::bind() const {
+  for (uint32_t binding = 0; binding < layout::kSceneBufferCount; ++binding) {
+    const Entry& entry = entries_[binding];
+    if (reads_ == BufferReads::Image) {
+      glBindImageTexture(layout::kSceneImageBase + binding, entry.view.name(), 0, GL_FALSE, 0, GL_READ_ONLY,
+                         entry.format);
+    } else {
+      glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, entry.buffer.name());
+    }
+  }
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// The two containers of glTF: plain JSON, and the binary .glb.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "gltf/diagnostics.h"
+
+namespace fragtrace {
+
+struct Container {
+  std::string json;
+  std::vector<uint8_t> binary;  ///< the BIN chunk of a .glb
+  bool hasBinary = false;
+};
+
+/// Reads the file and takes it apart; which container it is follows from its content, not from its name.
+/// Throws InputError when the file is missing, truncated, or neither.
+Container readContainer(const std::filesystem::path& path, Diagnostics& diagnostics);
+
+}  // namespace fragtrace

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/diagnostics.h"
+
+#include <algorithm>
+
+#include "errors.h"
+
+namespace fragtrace {
+
+std::string inQuotes(std::string_view text) {
+  constexpr size_t kLongestQuote = 80;
+  std::string result = "\"";
+  for (const char c : text.substr(0, kLongestQuote)) {
+    const auto byte = static_cast<unsigned char>(c);
+    result += byte < 0x20 || byte == 0x7f ? '?' : c;
+  }
+  if (text.size() > kLongestQuote) result += "...";
+  return result + "\"";
+}
+
+std::string Diagnostics::line(std::string_view place, std::string_view reason) const {
+  std::string text = file_ + ": ";
+  if (!place.empty()) text.append(place).append(": ");
+  return text.append(reason);
+}
+
+void Diagnostics::refuse(std::string_view place, std::string_view reason) const {
+  throw InputError(line(place, reason));
+}
+
+void Diagnostics::warn(std::string_view place, std::string_view reason, size_t count) {
+  const auto known = std::find_if(warnings_.begin(), warnings_.end(),
+                                  [&](const Warning& warning) { return warning.reason == reason; });
+  if (known == warnings_.end()) {
+    warnings_.push_back({std::string(place), std::string(reason), 1, count});
+  } else {
+    ++known->places;
+    known->count += count;
+  }
+}
+
+std::vector<std::string> Diagnostics::warnings() const {
+  std::vector<std::string> lines;
+  for (const Warning& warning : warnings_) {
+    std::string text = line(warning.place, warning.reason);
+    if (warning.count > 1) text += " (" + std::to_string(warning.count) + " times";
+    if (warning.places > 1) text += ", at " + std::to_string(warning.places) + " places";
+    if (warning.count > 1) text += ")";
+    lines.push_back(std::move(text));
+  }
+  return lines;
+}
+
+}  // namespace fragtrace

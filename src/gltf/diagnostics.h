@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Refusals and warnings of the loader: one line each, with the file, the place as a JSON pointer, and the
+// reason.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace fragtrace {
+
+/// Joins names and indices to a JSON pointer: pointerTo("meshes", 0, "primitives") is "/meshes/0/primitives".
+template <typename... Parts>
+std::string pointerTo(const Parts&... parts) {
+  std::string pointer;
+  const auto append = [&pointer](const auto& part) {
+    pointer += '/';
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(part)>>) {
+      pointer += std::to_string(part);
+    } else {
+      pointer += part;
+    }
+  };
+  (append(parts), ...);
+  return pointer;
+}
+
+/// Text from a file, in quotes, shortened and without control characters, fit for a one-line message.
+std::string inQuotes(std::string_view text);
+
+/// Names the file in every message, and collects the warnings.
+class Diagnostics {
+ public:
+  explicit Diagnostics(std::string file) : file_(std::move(file)) {}
+
+  /// Throws InputError "FILE: PLACE: REASON"; an empty place is left out.
+  [[noreturn]] void refuse(std::string_view place, std::string_view reason) const;
+
+  /// Notes something that is skipped or mended; the same reason at several places makes one line with a
+  /// count.
+  void warn(std::string_view place, std::string_view reason, size_t count = 1);
+
+  /// One line a reason, in the order in which they came.
+  std::vector<std::string> warnings() const;
+
+  const std::string& file() const { return file_; }
+
+ private:
+  struct Warning {
+    std::string place;
+    std::string reason;
+    size_t places = 0;
+    size_t count = 0;
+  };
+  std::string line(std::string_view place, std::string_view reason) const;
+
+  std::string file_;
+  std::vector<Warning> warnings_;
+};
+
+}  // namespace fragtrace

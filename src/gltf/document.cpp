@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/document.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "gltf/container.h"
+#include "gltf/schema.h"
+#include "gltf/uri.h"
+
+namespace fragtrace {
+namespace {
+
+using nlohmann::json;
+
+using Buffers = std::vector<std::vector<uint8_t>>;
+
+/// KHR_mesh_quantization only widens the component types that attributes may have.
+constexpr std::array<std::string_view, 9> kKnownExtensions = {
+    "KHR_lights_punctual",  "KHR_materials_emissive_strength",
+    "KHR_materials_ior",    "KHR_materials_transmission",
+    "KHR_materials_volume", "KHR_materials_specular",
+    "KHR_materials_unlit",  "KHR_implicit_shapes",
+    "KHR_mesh_quantization"};
+
+bool isKnownExtension(std::string_view name) {
+  return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) != kKnownExtensions.end();
+}
+
+/// The array of that name; an empty one is made where there is none.
+json& arrayIn(json& root, const char* name) {
+  json& array = root[name];
+  if (array.is_null()) array = json::array();
+  return array;
+}
+
+void checkVersion(const json& asset, const Diagnostics& diagnostics) {
+  const auto& version = asset["version"].get_ref<const std::string&>();
+  if (!version.starts_with("2.")) {
+    diagnostics.refuse("/asset/version", "glTF " + inQuotes(version) + " is not supported, only 2.x is");
+  }
+  if (asset.contains("minVersion") && asset["minVersion"] != "2.0") {
+    diagnostics.refuse("/asset/minVersion", "glTF 2.0 is supported, not " + asset["minVersion"].dump());
+  }
+}
+
+void checkExtensions(json& root, Diagnostics& diagnostics) {
+  const json& required = arrayIn(root, "extensionsRequired");
+  for (size_t i = 0; i < required.size(); ++i) {
+    const auto& name = required[i].get_ref<const std::string&>();
+    if (!isKnownExtension(name)) {
+      diagnostics.refuse(pointerTo("extensionsRequired", i),
+                         "the extension " + inQuotes(name) + " is required and not supported");
+    }
+  }
+  const json& used = arrayIn(root, "extensionsUsed");
+  for (size_t i = 0; i < used.size(); ++i) {
+    const auto& name = used[i].get_ref<const std::string&>();
+    if (!isKnownExtension(name)) {
+      diagnostics.warn(pointerTo("extensionsUsed", i), "the extension " + inQuotes(name) + " is ignored");
+    }
+  }
+}
+
+/// Brings every buffer into memory, exactly as long as the document says; one without URI stays empty.
+Buffers readBuffers(json& root, Container& container, const std::filesystem::path& folder,
+                    const Diagnostics& diagnostics) {
+  Buffers buffers;
+  const json& described = arrayIn(root, "buffers");
+  for (size_t i = 0; i < described.size(); ++i) {
+    const json& buffer = described[i];
+    std::vector<uint8_t> bytes;
+    std::string reason;
+    if (buffer.contains("uri")) {
+      if (!readUri(folder, buffer["uri"].get_ref<const std::string&>(), bytes, reason)) {
+        diagnostics.refuse(pointerTo("buffers", i, "uri"), reason);
+      }
+    } else if (i == 0 && container.hasBinary) {
+      bytes = std::move(container.binary);
+    } else {
+      buffers.emplace_back();  // an extension may bring it; bytesOf refuses its use
+      continue;
+    }
+    const auto length = buffer["byteLength"].get<uint64_t>();
+    if (length == 0) diagnostics.refuse(pointerTo("buffers", i, "byteLength"), "is 0");
+    if (length > bytes.size()) {
+      diagnostics.refuse(pointerTo("buffers", i), "holds " + std::to_string(bytes.size()) +
+                                                      " bytes, fewer than its byteLength of " +
+                                                      std::to_string(length));
+    }
+    bytes.resize(length);
+    buffers.push_back(std::move(bytes));
+  }
+  return buffers;
+}
+
+void checkBufferViews(json& root, const Diagnostics& diagnostics) {
+  const json& views = arrayIn(root, "bufferViews");
+  for (size_t i = 0; i < views.size(); ++i) {
+    const json& view = views[i];
+    const std::string place = pointerTo("bufferViews", i);
+    const auto size = arrayIn(root, "buffers")[view["buffer"].get<size_t>()]["byteLength"].get<uint64_t>();
+    const uint64_t offset = view.value("byteOffset", uint64_t(0));
+    const auto length = view["byteLength"].get<uint64_t>();
+    if (length == 0) diagnostics.refuse(place + "/byteLength", "is 0");
+    if (offset > size || length > size - offset) {
+      diagnostics.refuse(place, std::to_string(length) + " bytes from byte " + std::to_string(offset) +
+                                    " reach past the " + std::to_string(size) + " of its buffer");
+    }
+    const uint64_t stride = view.value("byteStride", uint64_t(4));
+    if (stride < 4 || stride > 252 || stride % 4 != 0) {
+      diagnostics.refuse(place + "/byteStride",
+                         std::to_string(stride) + " is not a multiple of 4 from 4 to 252");
+    }
+  }
+}
+
+/// Leaves what is not applied out of tinygltf's hands, which would refuse more of it than we need to.
+void dropAnimations(json& root, Diagnostics& diagnostics) {
+  if (!arrayIn(root, "animations").empty()) diagnostics.warn("/animations", "animations are not applied");
+  root.erase("animations");
+  root.erase("skins");
+}
+
+/// Notes where the pictures are, and gives tinygltf a name that leads nowhere, which it takes without
+/// complaint.
+std::vector<ImageSource> takeImages(json& root, const Diagnostics& diagnostics) {
+  std::vector<ImageSource> sources;
+  json& images = arrayIn(root, "images");
+  for (size_t i = 0; i < images.size(); ++i) {
+    if (images[i].contains("uri") == images[i].contains("bufferView")) {
+      diagnostics.refuse(pointerTo("images", i), "needs either a URI or a buffer view");
+    }
+    sources.push_back({images[i].value("uri", std::string()), images[i].value("bufferView", -1)});
+    images[i] = {{"uri", "image"}};
+  }
+  return sources;
+}
+
+/// Gives tinygltf a number as the name of each buffer, behind which it finds our memory.
+void nameBuffers(json& root, Buffers& memory) {
+  json& buffers = arrayIn(root, "buffers");
+  for (size_t i = 0; i < buffers.size(); ++i) {
+    buffers[i]["uri"] = std::to_string(i);
+    if (!memory[i].empty()) continue;
+    memory[i].push_back(0);  // tinygltf refuses empty buffers
+    buffers[i]["byteLength"] = 1;
+  }
+}
+
+bool fileExists(const std::string& name, void*) {
+  return name.find_first_not_of("0123456789") == std::string::npos;
+}
+
+std::string keepPath(const std::string& name, void*) { return name; }
+
+bool takeBuffer(std::vector<unsigned char>* bytes, std::string*, const std::string& name, void* user) {
+  size_t index = 0;
+  std::from_chars(name.data(), name.data() + name.size(), index);
+  *bytes = std::move(static_cast<Buffers*>(user)->at(index));
+  return true;
+}
+
+bool leaveImage(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
+                void*) {
+  return true;
+}
+
+/// tinygltf wants a buffer view for indices, which glTF does not (they are all 0, or sparse): each accessor
+/// without one points past the others until it has been parsed.
+tinygltf::Model parseModel(json& root, Buffers& buffers, const Diagnostics& diagnostics) {
+  json& views = arrayIn(root, "bufferViews");
+  const size_t noView = views.size();
+  views.push_back({{"buffer", 0}, {"byteLength", 1}});
+  for (json& accessor : arrayIn(root, "accessors")) accessor.emplace("bufferView", noView);
+
+  const std::string text = root.dump();
+  if (text.size() > std::numeric_limits<int32_t>::max()) diagnostics.refuse("", "the JSON is too large");
+  tinygltf::TinyGLTF parser;
+  parser.SetFsCallbacks({fileExists, keepPath, takeBuffer, nullptr, &buffers});
+  parser.SetImageLoader(leaveImage, nullptr);
+  tinygltf::Model model;
+  std::string error;
+  std::string warning;
+  if (!parser.LoadASCIIFromString(&model, &error, &warning, text.data(), unsigned(text.size()), "")) {
+    while (!error.empty() && error.back() == '\n') error.pop_back();
+    std::replace(error.begin(), error.end(), '\n', ' ');
+    diagnostics.refuse("", error.empty() ? "tinygltf cannot parse it" : error);
+  }
+  model.bufferViews.pop_back();
+  for (tinygltf::Accessor& accessor : model.accessors) {
+    if (size_t(accessor.bufferView) == noView) accessor.bufferView = -1;
+  }
+  return model;
+}
+
+}  // namespace
+
+std::span<const uint8_t> bytesOf(const Document& document, int bufferView) {
+  const tinygltf::BufferView& view = document.model.bufferViews.at(size_t(bufferView));
+  const std::vector<unsigned char>& bytes = document.model.buffers.at(size_t(view.buffer)).data;
+  if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset) {
+    document.diagnostics.refuse(pointerTo("bufferViews", bufferView), "is used, but its buffer has no data");
+  }
+  return {bytes.data() + view.byteOffset, view.byteLength};
+}
+
+Document readDocument(const std::filesystem::path& path) {
+  Document document(path.string());
+  document.folder = path.parent_path();
+  Diagnostics& diagnostics = document.diagnostics;
+  Container container = readContainer(path, diagnostics);
+  json root = parseJson(container.json, diagnostics);
+  container.json = std::string();
+  checkSchema(root, diagnostics);
+  checkVersion(root["asset"], diagnostics);
+  checkExtensions(root, diagnostics);
+  Buffers buffers = readBuffers(root, container, document.folder, diagnostics);
+  checkBufferViews(root, diagnostics);
+  dropAnimations(root, diagnostics);
+  document.images = takeImages(root, diagnostics);
+  nameBuffers(root, buffers);
+  document.model = parseModel(root, buffers, diagnostics);
+  return document;
+}
+
+}  // namespace fragtrace

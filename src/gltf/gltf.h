@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "scene/scene.h"
+
+namespace fragtrace {
+
+struct GltfOptions {
+  std::optional<glm::dvec3>
+      recenterOn;  ///< world position that becomes the local origin; none: the scene's centre
+};
+
+/// Reads a .gltf (with files beside it or data URIs) or .glb into a Scene whose geometry is recentred.
+/// Throws InputError naming the file, the JSON pointer and the reason; what is skipped lands in
+/// Scene::warnings.
+Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options = {});
+
+}  // namespace fragtrace

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The node tree in double precision.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "gltf/document.h"
+
+namespace fragtrace {
+
+struct PlacedNode {
+  int index = 0;
+  glm::dmat4 world{1.0};  ///< affine: the last row is 0, 0, 0, 1
+};
+
+/// The nodes of the default scene (else of scene 0, else of the whole file), parents before children, in file
+/// order. Throws InputError for a loop, a node with two parents, and a transform that is not affine or not
+/// finite.
+std::vector<PlacedNode> placeNodes(const Document& document);
+
+/// A node's or mesh's name, or its JSON pointer if it has none.
+std::string nameOrPlace(const std::string& name, const char* array, int index);
+
+}  // namespace fragtrace

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/primitives.h"
+
+#include <array>
+#include <cmath>
+#include <glm/gtx/norm.hpp>
+#include <numeric>
+
+#include "gltf/accessor.h"
+#include "gltf/topology.h"
+#include "scene/tangents.h"
+
+namespace fragtrace {
+namespace {
+
+template <glm::length_t components>
+bool isFinite(const glm::vec<components, float>& v) {
+  for (glm::length_t c = 0; c < components; ++c) {
+    if (!std::isfinite(v[c])) return false;
+  }
+  return true;
+}
+
+/// True for what can be normalised: not zero, not NaN, and neither so small nor so large that its square is
+/// not a number.
+bool hasDirection(const glm::vec3& v) {
+  const float squared = glm::length2(v);
+  return squared > 0.0f && std::isfinite(squared);
+}
+
+class PrimitiveReader {
+ public:
+  PrimitiveReader(Document& document, const std::vector<Material>& materials, int mesh, int primitive)
+      : document_(document),
+        diagnostics_(document.diagnostics),
+        source_(document.model.meshes.at(size_t(mesh)).primitives.at(size_t(primitive))),
+        place_(pointerTo("meshes", mesh, "primitives", primitive)),
+        materialIndex_(source_.material >= 0 ? uint32_t(source_.material) : uint32_t(materials.size() - 1)),
+        material_(materials.at(materialIndex_)) {}
+
+  MeshPrimitive read() {
+    constexpr int kLastMode = TINYGLTF_MODE_TRIANGLE_FAN;
+    if (source_.mode > kLastMode)
+      diagnostics_.refuse(place_ + "/mode", std::to_string(source_.mode) + " is no mode");
+    const std::optional<Topology> topology = topologyOf(source_.mode);
+    if (!topology) {
+      diagnostics_.warn(place_, "points and lines are left out");
+      return {};
+    }
+    if (accessorOf("POSITION") < 0) {
+      diagnostics_.warn(place_, "a primitive without POSITION is left out");
+      return {};
+    }
+    if (!source_.targets.empty()) diagnostics_.warn(place_ + "/targets", "morph targets are not applied");
+    readPositions();
+    readTriangles(*topology);
+    readNormals();
+    readTexcoords();
+    readColors();
+    readTangents();
+    return std::move(result_);
+  }
+
+ private:
+  int accessorOf(const char* attribute) const {
+    const auto found = source_.attributes.find(attribute);
+    return found != source_.attributes.end() ? found->second : -1;
+  }
+
+  std::string placeOf(const char* attribute) const { return place_ + "/attributes/" + attribute; }
+
+  /// The attribute's accessor after checking that it has as many elements as there are positions; -1 if not
+  /// given.
+  int matchingAccessor(const char* attribute) const {
+    const int accessor = accessorOf(attribute);
+    if (accessor >= 0 && accessorCount(document_, accessor) != result_.vertices.position.size()) {
+      diagnostics_.refuse(placeOf(attribute),
+                          "has " + std::to_string(accessorCount(document_, accessor)) + " elements for " +
+                              std::to_string(result_.vertices.position.size()) + " positions");
+    }
+    return accessor;
+  }
+
+  void warnMended(const char* attribute, size_t count, const std::string& reason) {
+    if (count > 0) diagnostics_.warn(placeOf(attribute), reason, count);
+  }
+
+  void readPositions() {
+    auto& positions = result_.vertices.position;
+    positions = readVectors<3>(document_, accessorOf("POSITION"), placeOf("POSITION"));
+    if (positions.size() >= kMissIndex) diagnostics_.refuse(placeOf("POSITION"), "has too many elements");
+    for (size_t i = 0; i < positions.size(); ++i) {
+      if (!isFinite(positions[i])) {
+        diagnostics_.refuse(placeOf("POSITION"), "vertex " + std::to_string(i) + " is not finite");
+      }
+    }
+  }
+
+  void readTriangles(Topology topology) {
+    const size_t vertexCount = result_.vertices.position.size();
+    std::vector<uint32_t> indices;
+    if (source_.indices >= 0) {
+      indices = readIndices(document_, source_.indices, vertexCount, place_ + "/indices");
+    } else {
+      indices.resize(vertexCount);
+      std::iota(indices.begin(), indices.end(), 0u);
+    }
+    const std::vector<glm::uvec3> triangles = trianglesOf(topology, indices);
+    if (triangles.empty() || (topology == Topology::List && indices.size() % 3 != 0)) {
+      diagnostics_.warn(place_, "vertices that make no whole triangle are left out");
+    }
+    const bool flat = accessorOf("NORMAL") < 0;
+    result_.triangles.reserve(triangles.size());
+    for (const glm::uvec3& triangle : triangles)
+      result_.triangles.push_back({triangle, materialIndex_, flat});
+  }
+
+  /// Not unit: the triangle's area is its weight.
+  glm::vec3 geometricNormal(const Triangle& triangle) const {
+    const auto& position = result_.vertices.position;
+    const glm::dvec3 a(position[triangle.vertex.x]);
+    const glm::dvec3 cross =
+        glm::cross(glm::dvec3(position[triangle.vertex.y]) - a, glm::dvec3(position[triangle.vertex.z]) - a);
+    const double length = glm::length(cross);
+    return length > 0.0 ? glm::vec3(cross / length) : glm::vec3(0.0f);
+  }
+
+  void readNormals() {
+    const int accessor = matchingAccessor("NORMAL");
+    if (accessor < 0) return;
+    auto& normals = result_.vertices.normal;
+    normals = readVectors<3>(document_, accessor, placeOf("NORMAL"));
+    std::vector<bool> broken(normals.size(), false);
+    size_t count = 0;
+    for (size_t i = 0; i < normals.size(); ++i) {
+      if (hasDirection(normals[i])) continue;
+      broken[i] = true;
+      normals[i] = glm::vec3(0.0f);
+      ++count;
+    }
+    if (count == 0) return;
+    for (const Triangle& triangle : result_.triangles) {
+      const glm::vec3 normal = geometricNormal(triangle);
+      for (int corner = 0; corner < 3; ++corner) {
+        if (broken[triangle.vertex[corner]]) normals[triangle.vertex[corner]] += normal;
+      }
+    }
+    for (glm::vec3& normal : normals) {
+      if (!hasDirection(normal)) normal = glm::vec3(0.0f, 0.0f, 1.0f);
+    }
+    warnMended("NORMAL", count, "a normal without a direction is replaced by that of its triangles");
+  }
+
+  bool needsTexcoord(uint32_t set) const {
+    const std::array<const TextureRef*, 8> textures = {
+        &material_.baseColorTexture, &material_.metallicRoughnessTexture, &material_.normalTexture,
+        &material_.emissiveTexture,  &material_.occlusionTexture,         &material_.transmissionTexture,
+        &material_.specularTexture,  &material_.specularColorTexture};
+    for (const TextureRef* texture : textures) {
+      if (texture->present() && texture->texcoord == set) return true;
+    }
+    return set == 0 && hasPerlin();
+  }
+
+  bool hasPerlin() const { return material_.perlinNormal.amplitude != 0.0f; }
+
+  void readTexcoords() {
+    constexpr std::array<const char*, 2> kNames = {"TEXCOORD_0", "TEXCOORD_1"};
+    for (uint32_t set = 0; set < kNames.size(); ++set) {
+      if (!needsTexcoord(set)) continue;
+      const int accessor = matchingAccessor(kNames[set]);
+      auto& texcoords = set == 0 ? result_.vertices.texcoord0 : result_.vertices.texcoord1;
+      if (accessor < 0) {
+        diagnostics_.warn(place_, std::string(kNames[set]) + " is needed and missing, (0, 0) is taken");
+        texcoords.assign(result_.vertices.position.size(), glm::vec2(0.0f));
+        continue;
+      }
+      texcoords = readVectors<2>(document_, accessor, placeOf(kNames[set]));
+      size_t count = 0;
+      for (glm::vec2& texcoord : texcoords) {
+        if (isFinite(texcoord)) continue;
+        texcoord = glm::vec2(0.0f);
+        ++count;
+      }
+      warnMended(kNames[set], count, "a texture coordinate that is not finite is replaced by (0, 0)");
+    }
+  }
+
+  void readColors() {
+    const int accessor = matchingAccessor("COLOR_0");
+    if (accessor < 0) return;
+    auto& colors = result_.vertices.color;
+    colors = fragtrace::readColors(document_, accessor, placeOf("COLOR_0"));
+    size_t count = 0;
+    for (glm::vec4& color : colors) {
+      if (!isFinite(color)) {
+        color = glm::vec4(1.0f);
+        ++count;
+      }
+      color = glm::clamp(color, 0.0f, 1.0f);  // glTF 2.0, section 3.7.2.1
+    }
+    warnMended("COLOR_0", count, "a vertex colour that is not finite is replaced by white");
+  }
+
+  void readTangents() {
+    if (!material_.normalTexture.present() && !hasPerlin()) return;
+    const uint32_t set = material_.normalTexture.present() ? material_.normalTexture.texcoord : 0;
+    if (result_.vertices.normal.empty()) return makeFlatTangents(set);
+    const int accessor = matchingAccessor("TANGENT");
+    if (accessor < 0) return makeTangents(result_.vertices, result_.triangles, set);
+
+    auto& tangents = result_.vertices.tangent;
+    tangents = readVectors<4>(document_, accessor, placeOf("TANGENT"));
+    size_t count = 0;
+    for (size_t i = 0; i < tangents.size(); ++i) {
+      if (!hasDirection(glm::vec3(tangents[i])) || !std::isfinite(tangents[i].w)) {
+        tangents[i] = glm::vec4(anyPerpendicular(result_.vertices.normal[i]), 1.0f);
+        ++count;
+      }
+      tangents[i].w = tangents[i].w < 0.0f ? -1.0f : 1.0f;
+    }
+    warnMended("TANGENT", count, "a tangent without a direction is replaced by any that fits");
+  }
+
+  /// Without normals each triangle has its own: corners are parted, and given tangents are ignored, as glTF
+  /// demands.
+  void makeFlatTangents(uint32_t set) {
+    std::vector<uint32_t> corners;
+    corners.reserve(result_.triangles.size() * 3);
+    std::vector<glm::vec3> normals;
+    normals.reserve(corners.capacity());
+    for (Triangle& triangle : result_.triangles) {
+      const glm::vec3 normal = geometricNormal(triangle);
+      for (int corner = 0; corner < 3; ++corner) {
+        normals.push_back(normal);
+        corners.push_back(triangle.vertex[corner]);
+        triangle.vertex[corner] = uint32_t(corners.size() - 1);
+      }
+    }
+    const auto part = [&corners](auto& attribute) {
+      if (attribute.empty()) return;
+      auto parted = attribute;
+      parted.resize(corners.size());
+      for (size_t i = 0; i < corners.size(); ++i) parted[i] = attribute[corners[i]];
+      attribute = std::move(parted);
+    };
+    part(result_.vertices.position);
+    part(result_.vertices.texcoord0);
+    part(result_.vertices.texcoord1);
+    part(result_.vertices.color);
+    result_.vertices.normal = std::move(normals);
+    makeTangents(result_.vertices, result_.triangles, set);
+    result_.vertices.normal.clear();
+  }
+
+  Document& document_;
+  Diagnostics& diagnostics_;
+  const tinygltf::Primitive& source_;
+  std::string place_;
+  uint32_t materialIndex_;
+  const Material& material_;
+  MeshPrimitive result_;
+};
+
+}  // namespace
+
+MeshPrimitive decodePrimitive(Document& document, const std::vector<Material>& materials, int mesh,
+                              int primitive) {
+  return PrimitiveReader(document, materials, mesh, primitive).read();
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "image/channels.h"
+
+#include <algorithm>
+
+namespace fragtrace {
+
+std::optional<size_t> findChannel(const Image& image, std::string_view name) {
+  const auto found = std::ranges::find(image.channels, name);
+  if (found == image.channels.end()) return std::nullopt;
+  return size_t(found - image.channels.begin());
+}
+
+std::optional<std::array<size_t, 3>> findColorChannels(const Image& image) {
+  const auto red = findChannel(image, "R");
+  const auto green = findChannel(image, "G");
+  const auto blue = findChannel(image, "B");
+  if (red && green && blue) return std::array{*red, *green, *blue};
+
+  if (const auto grey = findChannel(image, "Y")) return std::array{*grey, *grey, *grey};
+  const auto alpha = findChannel(image, "A");
+  if (image.channelCount() == (alpha ? 2 : 1)) {
+    const size_t only = alpha && *alpha == 0 ? 1 : 0;
+    return std::array{only, only, only};
+  }
+  return std::nullopt;
+}
+
+Image withoutAlpha(const Image& image) {
+  const auto alpha = findChannel(image, "A");
+  if (!alpha) return image;
+  Image result{image.width, image.height, image.channels, {}, image.attributes};
+  result.channels.erase(result.channels.begin() + std::ptrdiff_t(*alpha));
+  result.values.reserve(image.values.size());
+  for (size_t i = 0; i < image.values.size(); ++i)
+    if (i % image.channelCount() != *alpha) result.values.push_back(image.values[i]);
+  return result;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// How far a picture is from its reference, by the formulas of docs/conventions.md.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "image/image.h"
+
+namespace fragtrace {
+
+/// Over all pixels and the channels R, G, B (a grey picture counts as R = G = B); alpha and other channels
+/// are left out.
+struct Difference {
+  double mse = 0;      ///< mean of (a - b)^2
+  double rmse = 0;     ///< its square root
+  double relmse = 0;   ///< mean of (a - b)^2 / (b^2 + 0.01 mean(B)^2); 0 / 0 counts as 0
+  double psnr = 0;     ///< 10 log10(1 / mse) in dB, the peak being 1; infinity for equal pictures
+  double maximum = 0;  ///< largest |a - b|
+};
+
+enum class Metric { Rmse, Mse, Relmse, Psnr, Max };
+
+/// Compares in double precision. A NaN in either picture makes every metric NaN; an infinity makes each of
+/// them NaN or infinite (psnr NaN or minus infinity). Throws RenderError when the sizes differ or a picture
+/// has no colour.
+Difference compare(const Image& picture, const Image& reference);
+
+/// |a - b| in R, G and B. Throws as compare does.
+Image differenceImage(const Image& picture, const Image& reference);
+
+/// The metrics' names on the command line, in the order of Metric.
+std::span<const std::string_view> metricNames();
+std::optional<Metric> parseMetric(std::string_view name);
+double metricValue(const Difference& difference, Metric metric);
+
+/// True when the value is at most the threshold, or for psnr, of which more is better, at least. NaN is never
+/// within.
+bool isWithin(Metric metric, double value, double threshold);
+
+}  // namespace fragtrace

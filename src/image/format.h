@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// The picture formats: what is written is known by its name, what is read by its first bytes.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+
+namespace fragtrace {
+
+enum class ImageFormat { Png, Jpeg, OpenExr, Hdr, WebP, Pfm };
+
+/// The format that a file name's extension (any case) asks to be written; nothing when none is written.
+std::optional<ImageFormat> formatOfName(const std::filesystem::path& path);
+
+/// The format whose signature the bytes begin with.
+std::optional<ImageFormat> formatOfBytes(std::span<const uint8_t> bytes);
+
+}  // namespace fragtrace

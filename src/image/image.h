@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Pictures as named float channels, and reading and writing them. Colour is linear Rec.709 unless a name says
+// otherwise.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fragtrace {
+
+/// Interleaved float channels; the first row is the top.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<std::string> channels;              ///< "R", "G", "B", "A", "albedo.R", ...
+  std::vector<float> values;                      ///< width * height * channels.size()
+  std::map<std::string, std::string> attributes;  ///< kept in EXR files only
+
+  size_t channelCount() const { return channels.size(); }
+  float* pixel(int x, int y) { return values.data() + (size_t(y) * width + x) * channels.size(); }
+  const float* pixel(int x, int y) const { return values.data() + (size_t(y) * width + x) * channels.size(); }
+};
+
+/// 16 bits a channel, RGBA, unassociated alpha, not yet decoded from its transfer curve; the first row is the
+/// top.
+struct TexelImage {
+  int width = 0;
+  int height = 0;
+  std::vector<uint16_t> rgba;  ///< width * height * 4; missing channels: grey to RGB, alpha 65535
+};
+
+/// Reads a picture file (.pfm by our own code, the rest through the image library). Values are as stored:
+/// .exr, .hdr and .pfm linear floats, 8 and 16 bit files scaled to 0..1 and left sRGB-encoded, alpha
+/// unassociated there. Throws InputError.
+Image readImage(const std::filesystem::path& path);
+
+/// Decodes an encoded picture held in memory (glTF textures). Throws InputError naming `name`.
+TexelImage decodeTexels(std::span<const uint8_t> bytes, const std::string& name);
+
+/// True when the extension names a format that is written: .png .jpg .jpeg .exr .hdr .pfm (any case).
+bool isWritableImageName(const std::filesystem::path& path);
+
+/// True for .png and .jpg/.jpeg: formats that hold tone-mapped, sRGB-encoded values.
+bool isDisplayFormat(const std::filesystem::path& path);
+
+/// Writes beside the target and renames, so that the target is the old file or the new one, whole. The
+/// picture's values are written as they are (8 bit, rounded, for .png and .jpg); channels R, G, B and
+/// optionally A, and more for .exr (32-bit float). Colour is taken as unassociated for .png. Throws
+/// RenderError naming the path and the reason.
+void writeImage(const std::filesystem::path& path, const Image& image);
+
+}  // namespace fragtrace

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// The portable float map (Debevec): readable and writable where no image library is.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "image/image.h"
+
+namespace fragtrace {
+
+/// Reads "PF" (R, G, B) and "Pf" (Y) of either byte order; the magnitude of the scale is ignored.
+/// Throws std::runtime_error with the reason when the header is wrong or values are missing.
+Image decodePfm(std::span<const uint8_t> bytes);
+
+/// Little-endian "PF" of the colour channels, or "Pf" for a grey picture; alpha is dropped.
+/// Throws std::runtime_error when there is no colour.
+std::vector<uint8_t> encodePfm(const Image& image);
+
+}  // namespace fragtrace

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// libfragtrace_imageio.so: the only file that sees OpenImageIO. Everything goes from memory to memory, the
+// formats are chosen by name, and errors leave as std::runtime_error with OpenImageIO's own words.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "image/library.h"
+#include "image/limits.h"
+
+namespace fragtrace {
+namespace {
+
+const char* formatName(ImageFormat format) {
+  switch (format) {
+    case ImageFormat::Png:
+      return "png";
+    case ImageFormat::Jpeg:
+      return "jpeg";
+    case ImageFormat::OpenExr:
+      return "openexr";
+    case ImageFormat::Hdr:
+      return "hdr";
+    case ImageFormat::WebP:
+      return "webp";
+    case ImageFormat::Pfm:
+      break;
+  }
+  throw std::runtime_error("the image library is not for this format");
+}
+
+std::string oneLine(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::ranges::replace(text, '\n', ' ');
+  return text.empty() ? "the image library gives no reason" : text;
+}
+
+// Reading
+
+/// An encoded picture in memory, opened.
+struct OpenPicture {
+  OIIO::Filesystem::IOMemReader bytes;
+  std::unique_ptr<OIIO::ImageInput> input;  // declared after the bytes, so that it is closed before they go
+  OIIO::ImageSpec spec;
+
+  OpenPicture(std::span<const uint8_t> encoded, ImageFormat format)
+      : bytes(const_cast<uint8_t*>(encoded.data()), encoded.size()),
+        input(OIIO::ImageInput::create(formatName(format))) {
+    if (!input) throw std::runtime_error(oneLine(OIIO::geterror()));
+    OIIO::ImageSpec configuration;
+    configuration.attribute("oiio:UnassociatedAlpha", 1);  // else the colour is multiplied by alpha
+    if (!input->supports("ioproxy") || !input->set_ioproxy(&bytes))
+      throw std::runtime_error(std::string(formatName(format)) + " cannot be read from memory");
+    if (!input->open(std::string("memory.") + formatName(format), spec, configuration))
+      throw std::runtime_error(oneLine(input->geterror()));
+    checkImageSize(spec.width, spec.height, spec.nchannels);
+  }
+
+  void read(const OIIO::TypeDesc& type, void* values, OIIO::stride_t pixelStride, OIIO::stride_t rowStride) {
+    if (!input->read_image(0, 0, 0, spec.nchannels, type, values, pixelStride, rowStride))
+      throw std::runtime_error(oneLine(input->geterror()));
+    // libjpeg's warnings end up here. Of those, only bytes too many leave the picture whole.
+    if (!input->has_error()) return;
+    const std::string warning = input->geterror();
+    if (warning.find("extraneous bytes") == std::string::npos) throw std::runtime_error(oneLine(warning));
+  }
+};
+
+/// String attributes of a file, without those that say how the file is stored.
+std::map<std::string, std::string> stringAttributes(const OIIO::ImageSpec& spec) {
+  std::map<std::string, std::string> attributes;
+  for (const OIIO::ParamValue& value : spec.extra_attribs) {
+    const std::string name = value.name().string();
+    const bool storage = name.starts_with("oiio:") || name.starts_with("openexr:") || name == "compression";
+    if (value.type() == OIIO::TypeString && !storage) attributes[name] = value.get_string();
+  }
+  return attributes;
+}
+
+/// OpenImageIO 2.4 multiplies WebP's colour by its alpha, whatever it is asked. Divides it again, as well as
+/// the 8 bits left allow; colour under alpha 0 is lost.
+template <typename Value>
+void unassociate(std::span<Value> values, double one) {
+  for (size_t first = 0; first < values.size(); first += 4) {
+    const double alpha = values[first + 3] / one;
+    for (size_t c = first; c < first + 3 && alpha > 0; ++c)
+      values[c] = Value(std::min(values[c] / alpha, one));
+  }
+}
+
+Image decode(std::span<const uint8_t> bytes, ImageFormat format) {
+  OpenPicture picture(bytes, format);
+  const OIIO::ImageSpec& spec = picture.spec;
+
+  // An EXR file may hold only a window of its picture; the rest is black.
+  Image image;
+  image.width = std::max(spec.full_width, 1);
+  image.height = std::max(spec.full_height, 1);
+  const int left = spec.x - spec.full_x;
+  const int top = spec.y - spec.full_y;
+  if (left < 0 || top < 0 || left + spec.width > image.width || top + spec.height > image.height)
+    throw std::runtime_error("its data window is not inside its display window");
+  checkImageSize(image.width, image.height, spec.nchannels);
+
+  image.channels = spec.channelnames;
+  if (format == ImageFormat::OpenExr) image.attributes = stringAttributes(spec);
+  image.values.resize(size_t(image.width) * size_t(image.height) * image.channelCount());
+  const auto pixelStride = OIIO::stride_t(image.channelCount() * sizeof(float));
+  picture.read(OIIO::TypeFloat, image.pixel(left, top), pixelStride, pixelStride * image.width);
+  if (format == ImageFormat::WebP && spec.nchannels == 4) unassociate<float>(image.values, 1);
+  return image;
+}
+
+TexelImage decodeTexels(std::span<const uint8_t> bytes, ImageFormat format) {
+  OpenPicture picture(bytes, format);
+  const int stored = picture.spec.nchannels;
+  if (stored > 4) throw std::runtime_error("it has more than four channels");
+  TexelImage image;
+  image.width = picture.spec.width;
+  image.height = picture.spec.height;
+  const size_t pixelCount = size_t(image.width) * size_t(image.height);
+  checkImageSize(image.width, image.height, 4);
+  image.rgba.resize(pixelCount * 4);
+  const OIIO::stride_t pixelStride = 4 * sizeof(uint16_t);
+  picture.read(OIIO::TypeUInt16, image.rgba.data(), pixelStride, pixelStride * image.width);
+  if (format == ImageFormat::WebP && stored == 4) unassociate<uint16_t>(image.rgba, 65535);
+
+  // Spread what is stored at the front of each texel: Y, YA or RGB.
+  for (size_t i = 0; i < pixelCount; ++i) {
+    uint16_t* texel = image.rgba.data() + i * 4;
+    if (stored <= 2) {
+      texel[3] = stored == 2 ? texel[1] : uint16_t(65535);
+      texel[1] = texel[2] = texel[0];
+    } else if (stored == 3) {
+      texel[3] = 65535;
+    }
+  }
+  return image;
+}
+
+// Writing
+
+std::vector<uint8_t> encode(const OIIO::ImageSpec& spec, ImageFormat format, const void* values) {
+  const auto output = OIIO::ImageOutput::create(formatName(format));
+  if (!output) throw std::runtime_error(oneLine(OIIO::geterror()));
+  std::vector<uint8_t> bytes;
+  OIIO::Filesystem::IOVecOutput sink(bytes);
+  if (!output->supports("ioproxy") || !output->set_ioproxy(&sink))
+    throw std::runtime_error(std::string(formatName(format)) + " cannot be written to memory");
+  if (!output->open(std::string("memory.") + formatName(format), spec) ||
+      !output->write_image(spec.format, values) || !output->close())
+    throw std::runtime_error(oneLine(output->geterror()));
+  return bytes;
+}
+
+std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, std::span<const uint8_t> values,
+                                 ImageFormat format) {
+  OIIO::ImageSpec spec(width, height, channelCount, OIIO::TypeUInt8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("oiio:UnassociatedAlpha", 1);  // else the colour is divided by alpha
+  spec.attribute("Compression", "jpeg:95");
+  spec.attribute("jpeg:subsampling", "4:4:4");
+  return encode(spec, format, values.data());
+}
+
+std::vector<uint8_t> encodeFloats(const Image& image, ImageFormat format) {
+  OIIO::ImageSpec spec(image.width, image.height, int(image.channelCount()), OIIO::TypeFloat);
+  spec.channelnames = image.channels;
+  const auto alpha = std::ranges::find(image.channels, "A");
+  spec.alpha_channel = alpha == image.channels.end() ? -1 : int(alpha - image.channels.begin());
+  for (const auto& [name, text] : image.attributes) spec.attribute(name, text);
+  spec.attribute("oiio:ColorSpace", "Linear");
+  spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "");  // else the time of writing, and the same picture gave different files
+  return encode(spec, format, image.values.data());
+}
+
+}  // namespace
+
+// Found by name: see kImageLibraryEntry.
+extern "C" __attribute__((visibility("default"))) const ImageLibrary* fragtraceImageLibrary() {
+  OIIO::attribute("threads", 1);
+  static const ImageLibrary library{decode, decodeTexels, encodeBytes, encodeFloats};
+  return &library;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// From linear radiance to the sRGB-encoded values of a display.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "image/image.h"
+
+namespace fragtrace {
+
+enum class ToneMap { Linear, Reinhard, Aces, Agx, Neutral };
+
+/// The curves' names on the command line, in the order of ToneMap.
+std::span<const std::string_view> toneMapNames();
+std::optional<ToneMap> parseToneMap(std::string_view name);
+
+/// Linear radiance (exposed, Rec.709) to linear display values in 0..1. Negative values and NaN count as 0.
+glm::dvec3 applyToneMap(ToneMap toneMap, glm::dvec3 color);
+
+/// The sRGB transfer function (IEC 61966-2-1) of a linear value in 0..1.
+double encodeSrgb(double linear);
+
+/// R, G, B in 0..1, sRGB-encoded, after a factor of 2^exposureEv and the curve. With a channel A the colour
+/// is taken as premultiplied and returned unassociated, with A; colour is 0 where A is. Other channels are
+/// dropped. For a format without alpha pass withoutAlpha(linear), which puts it over black. Throws
+/// RenderError without colour.
+Image toDisplay(const Image& linear, double exposureEv, ToneMap toneMap);
+
+}  // namespace fragtrace

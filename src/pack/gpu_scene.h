@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The scene as the arrays the shader reads (shaders/layout.glsl), in upload order; no OpenGL here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "bvh/bvh.h"
+#include "image/image.h"
+#include "scene/scene.h"
+#include "shader/layout.h"
+#include "stage/variant.h"
+
+namespace fragtrace {
+
+using Words = std::vector<uint32_t>;
+
+/// What surrounds the scene: kind and, unless there is none, an equirectangular picture with R, G, B.
+struct Environment {
+  Surroundings kind = Surroundings::None;
+  Image image;
+};
+
+/// The quantisation grid of the tree's boxes: position = origin + steps * cell, steps in 0..65535.
+struct BoxGrid {
+  glm::vec3 origin{0.0f};
+  glm::vec3 cell{1.0f};
+};
+
+struct GpuScene {
+  std::array<Words, layout::kSceneBufferCount> buffers;  ///< by binding; empty when the variant never reads it
+  BoxGrid grid;
+  uint32_t leafCount = 0;
+  glm::ivec2 environmentSize{0};
+  float environmentChance = 0.0f;  ///< of a light sample in gi going to the environment
+  uint32_t emitterCount = 0;
+  uint32_t punctualLights = 0;
+  float radius = 0.0f;  ///< of the sphere round the scene's box, metres
+
+  size_t bytes() const;
+};
+
+/// Packs what the variant reads. The tree may be a plain list of leaves without nodes (iterative traversal).
+/// Throws InputError when a texture cannot be decoded.
+GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment, const ShaderVariant& variant);
+
+}  // namespace fragtrace

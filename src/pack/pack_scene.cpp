@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "pack/gpu_scene.h"
+#include "pack/pack_lights.h"
+#include "pack/pack_textures.h"
+#include "pack/pack_tree.h"
+#include "pack/words.h"
+
+namespace fragtrace {
+
+namespace {
+
+Words packPrimitives(const Scene& scene) {
+  Words words;
+  words.reserve((scene.triangles.size() + scene.spheres.size()) * 4);
+  for (const Triangle& t : scene.triangles) {
+    const uint32_t flat = t.flat ? layout::kPrimitiveFlat : 0u;
+    words.insert(words.end(), {t.vertex.x, t.vertex.y, t.vertex.z, t.material | flat});
+  }
+  for (const Sphere& s : scene.spheres) {
+    // q and -q are the same rotation; the shader derives w >= 0 from the rest.
+    const glm::quat q = s.rotation.w < 0.0f ? -s.rotation : s.rotation;
+    words.insert(words.end(), {floatWord(q.x), floatWord(q.y), floatWord(q.z), s.material});
+  }
+  return words;
+}
+
+template <typename Row>
+Words packVertices(size_t count, Row&& row) {
+  Words words;
+  words.reserve(count * 4);
+  for (size_t i = 0; i < count; ++i) appendRow(words, row(i));
+  return words;
+}
+
+void packAttributes(const Vertices& v, const TraitSet& traits, GpuScene& packed) {
+  using namespace layout;
+  const size_t count = v.position.size();
+  if (has(traits, Trait::VertexNormals)) {
+    packed.buffers[kNormalsBinding] = packVertices(count, [&](size_t i) { return glm::vec4(v.normal[i], 0.0f); });
+  }
+  if (has(traits, Trait::Texcoords)) {
+    packed.buffers[kTexcoordsBinding] = packVertices(count, [&](size_t i) {
+      return glm::vec4(v.texcoord0.empty() ? glm::vec2(0.0f) : v.texcoord0[i],
+                       v.texcoord1.empty() ? glm::vec2(0.0f) : v.texcoord1[i]);
+    });
+  }
+  if (has(traits, Trait::Tangents)) {
+    packed.buffers[kTangentsBinding] = packVertices(count, [&](size_t i) { return v.tangent[i]; });
+  }
+  if (has(traits, Trait::VertexColors)) {
+    packed.buffers[kColorsBinding] = packVertices(count, [&](size_t i) { return v.color[i]; });
+  }
+}
+
+/// 1/m along which light is lost: attenuationColor = exp(-absorption * attenuationDistance); a black channel absorbs all.
+glm::vec3 absorption(const Material& m) {
+  if (!std::isfinite(m.attenuationDistance) || m.attenuationDistance <= 0.0f) return glm::vec3(0.0f);
+  const glm::vec3 color = glm::max(m.attenuationColor, glm::vec3(1e-20f));
+  return glm::max(-glm::log(color) / m.attenuationDistance, glm::vec3(0.0f));
+}
+
+uint32_t materialFlags(const Material& m) {
+  uint32_t flags = 0;
+  if (m.alphaMode == AlphaMode::Mask) flags |= layout::kMaterialMask;
+  if (m.alphaMode == AlphaMode::Blend) flags |= layout::kMaterialBlend;
+  if (m.doubleSided) flags |= layout::kMaterialDoubleSided;
+  if (m.unlit) flags |= layout::kMaterialUnlit;
+  return flags;
+}
+
+void appendMaterial(Words& words, const Material& m, double emitterDensity, const TraitSet& traits,
+                    TexturePacker& textures) {
+  const size_t first = words.size();
+  appendRow(words, m.baseColorFactor);
+  appendRow(words, m.emissiveFactor * m.emissiveStrength, m.alphaCutoff);
+  appendRow(words, glm::vec4(m.metallicFactor, m.roughnessFactor, m.ior, m.transmissionFactor));
+  appendRow(words, m.specularColorFactor, m.specularFactor);
+  appendRow(words, absorption(m), m.thicknessFactor);
+  appendRow(words, glm::vec3(m.normalScale, m.occlusionStrength, float(emitterDensity)), 0.0f);
+  words.back() = materialFlags(m);
+  appendRow(words, glm::vec4(m.perlinNormal.frequency, m.perlinNormal.amplitude, float(m.perlinNormal.octaves), 0.0f));
+  auto slot = [&](Trait trait, const TextureRef& ref, TransferCurve curve) {
+    const glm::uvec4 row = has(traits, trait) ? textures.slot(ref, curve) : glm::uvec4(0u);
+    words.insert(words.end(), {row.x, row.y, row.z, row.w});
+  };
+  slot(Trait::BaseColorTexture, m.baseColorTexture, TransferCurve::Srgb);
+  slot(Trait::MetallicRoughnessTexture, m.metallicRoughnessTexture, TransferCurve::Linear);
+  slot(Trait::NormalTexture, m.normalTexture, TransferCurve::Linear);
+  slot(Trait::EmissionTexture, m.emissive() ? m.emissiveTexture : TextureRef{}, TransferCurve::Srgb);
+  slot(Trait::TransmissionTexture, m.transmissionTexture, TransferCurve::Linear);
+  slot(Trait::SpecularTexture, m.specularTexture, TransferCurve::Linear);
+  slot(Trait::SpecularTexture, m.specularColorTexture, TransferCurve::Srgb);
+  if (words.size() - first != layout::kMaterialRows * 4) std::abort();
+}
+
+std::vector<glm::vec3> meanRadiance(const Scene& scene, const TraitSet& traits, TexturePacker& textures) {
+  std::vector<glm::vec3> radiance(scene.materials.size(), glm::vec3(0.0f));
+  if (!has(traits, Trait::Emission)) return radiance;
+  for (size_t i = 0; i < radiance.size(); ++i) {
+    const Material& m = scene.materials[i];
+    if (!m.emissive()) continue;
+    radiance[i] = m.emissiveFactor * m.emissiveStrength * textures.mean(m.emissiveTexture, TransferCurve::Srgb);
+  }
+  return radiance;
+}
+
+}  // namespace
+
+size_t GpuScene::bytes() const {
+  size_t words = 0;
+  for (const Words& buffer : buffers) words += buffer.size();
+  return words * sizeof(uint32_t);
+}
+
+GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment, const ShaderVariant& variant) {
+  using namespace layout;
+  GpuScene packed;
+  const TraitSet& traits = variant.traits;
+  packed.grid = makeGrid(bvh.bounds);
+  packed.leafCount = uint32_t(bvh.leaves.size());
+  packed.radius = 0.5f * glm::length(bvh.bounds.extent());
+  packed.buffers[kNodesBinding] = packNodes(bvh, packed.grid);
+  packed.buffers[kLeavesBinding] = packLeaves(scene, bvh);
+  packed.buffers[kPrimitivesBinding] = packPrimitives(scene);
+  packAttributes(scene.vertices, traits, packed);
+
+  // Step: lights; the environment shares light samples with the rest by power.
+  TexturePacker textures(scene);
+  const std::vector<glm::vec3> radiance = meanRadiance(scene, traits, textures);
+  std::vector<uint32_t> slots;
+  if (has(traits, Trait::EmissiveTriangles)) slots = leafSlots(scene, bvh);
+  PackedEmitters emitters = packEmitters(scene, radiance, slots, packed.radius, traits);
+  packed.emitterCount = emitters.count;
+  packed.buffers[kEmittersBinding] = std::move(emitters.entries);
+  if (has(traits, Trait::PunctualLights)) {
+    packed.buffers[kLightsBinding] = packLights(scene);
+    packed.punctualLights = uint32_t(scene.lights.size());
+  }
+  if (has(traits, Trait::Environment)) {
+    PackedEnvironment surroundings = packEnvironment(environment.image);
+    packed.environmentSize = surroundings.size;
+    packed.buffers[kEnvironmentBinding] = std::move(surroundings.texels);
+    packed.buffers[kEnvironmentAliasBinding] = std::move(surroundings.alias);
+    const double power = surroundings.power * packed.radius * packed.radius;
+    if (has(traits, Trait::EnvironmentSampling)) {
+      // Neither side is left out altogether: a dim one can still be the only light of a corner.
+      const double share = power + emitters.power > 0.0 ? power / (power + emitters.power) : 0.5;
+      packed.environmentChance = emitters.count == 0 ? 1.0f : float(std::clamp(share, 0.1, 0.9));
+    }
+  }
+
+  Words& materials = packed.buffers[kMaterialsBinding];
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    appendMaterial(materials, scene.materials[i], emitters.materialDensity[i], traits, textures);
+  }
+  packed.buffers[kTexelsBinding] = textures.takeTexels();
+  return packed;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "pack/pack_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pack/words.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr double kGridSteps = 65535.0;
+constexpr double kBoxPadding = 0.125;  // cells
+
+struct GridBox {
+  glm::uvec3 low;
+  glm::uvec3 high;
+};
+
+GridBox quantise(const Bounds& box, const BoxGrid& grid) {
+  GridBox q;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = (double(box.minimum[axis]) - grid.origin[axis]) / grid.cell[axis];
+    const double high = (double(box.maximum[axis]) - grid.origin[axis]) / grid.cell[axis];
+    q.low[axis] = uint32_t(std::clamp(std::floor(low - kBoxPadding), 0.0, kGridSteps));
+    q.high[axis] = uint32_t(std::clamp(std::ceil(high + kBoxPadding), 0.0, kGridSteps));
+  }
+  return q;
+}
+
+/// Inner nodes keep their index; leaves become the complement of theirs, which is negative.
+uint32_t childWord(uint32_t child) { return (child & kBvhLeafBit) != 0 ? ~(child & ~kBvhLeafBit) : child; }
+
+uint32_t triangleFlags(const Material& m) {
+  uint32_t flags = 0;
+  if (!m.doubleSided && !m.transmissive()) flags |= layout::kPrimitiveCull;
+  if (m.alphaMode != AlphaMode::Opaque) flags |= layout::kPrimitiveAlpha;
+  return flags;
+}
+
+struct LeafSide {
+  std::array<glm::vec3, 3> points{};
+  uint32_t word = layout::kPrimitiveNone;
+};
+
+LeafSide leafSide(const Scene& scene, uint32_t primitive) {
+  LeafSide side;
+  if (primitive == kMissIndex) return side;
+  const uint32_t triangles = uint32_t(scene.triangles.size());
+  if (primitive < triangles) {
+    const Triangle& t = scene.triangles[primitive];
+    for (int i = 0; i < 3; ++i) side.points[i] = scene.vertices.position[t.vertex[i]];
+    side.word = primitive | triangleFlags(scene.materials[t.material]);
+  } else {
+    const Sphere& s = scene.spheres[primitive - triangles];
+    side.points = {s.center, glm::vec3(s.radius), glm::vec3(0.0f)};
+    side.word = primitive | triangleFlags(scene.materials[s.material]) | layout::kPrimitiveSphere;
+  }
+  return side;
+}
+
+void appendLeaf(Words& words, const LeafSide& a, const LeafSide& b) {
+  for (int point = 0; point < 3; ++point) {
+    for (int axis = 0; axis < 3; ++axis) {
+      words.push_back(floatWord(a.points[point][axis]));
+      words.push_back(floatWord(b.points[point][axis]));
+    }
+  }
+  words.push_back(a.word);
+  words.push_back(b.word);
+}
+
+}  // namespace
+
+BoxGrid makeGrid(const Bounds& bounds) {
+  BoxGrid grid;
+  if (bounds.empty()) return grid;
+  for (int axis = 0; axis < 3; ++axis) {
+    // Two steps of margin on either side leave room for the padding.
+    const double extent = double(bounds.maximum[axis]) - bounds.minimum[axis];
+    const double largest = std::max(std::abs(double(bounds.minimum[axis])), std::abs(double(bounds.maximum[axis])));
+    const double cell = std::max({extent / (kGridSteps - 4.0), largest * 0x1p-23, 1e-30});
+    grid.cell[axis] = std::nextafter(float(cell), std::numeric_limits<float>::infinity());
+    grid.origin[axis] = float(double(bounds.minimum[axis]) - 2.0 * grid.cell[axis]);
+  }
+  return grid;
+}
+
+Words packNodes(const Bvh& bvh, const BoxGrid& grid) {
+  Words words;
+  words.reserve(bvh.nodes.size() * 8);
+  for (const BvhNode& node : bvh.nodes) {
+    for (int side = 0; side < 2; ++side) {
+      const GridBox q = quantise(node.bounds[side], grid);
+      for (int axis = 0; axis < 3; ++axis) words.push_back(q.low[axis] | q.high[axis] << 16);
+      words.push_back(childWord(node.child[side]));
+    }
+  }
+  return words;
+}
+
+Words packLeaves(const Scene& scene, const Bvh& bvh) {
+  Words words;
+  const size_t padded = (bvh.leaves.size() + layout::kLeafBlock - 1) / layout::kLeafBlock * layout::kLeafBlock;
+  words.reserve(padded * layout::kLeafRows * 4);
+  for (const BvhLeaf& leaf : bvh.leaves) {
+    appendLeaf(words, leafSide(scene, leaf.primitive[0]), leafSide(scene, leaf.primitive[1]));
+  }
+  for (size_t i = bvh.leaves.size(); i < padded; ++i) appendLeaf(words, {}, {});
+  return words;
+}
+
+std::vector<uint32_t> leafSlots(const Scene& scene, const Bvh& bvh) {
+  std::vector<uint32_t> slots(scene.triangles.size(), kMissIndex);
+  for (uint32_t leaf = 0; leaf < bvh.leaves.size(); ++leaf) {
+    for (uint32_t side = 0; side < 2; ++side) {
+      const uint32_t primitive = bvh.leaves[leaf].primitive[side];
+      if (primitive < slots.size()) slots[primitive] = leaf * 2 + side;
+    }
+  }
+  return slots;
+}
+
+Bvh listLeaves(const Scene& scene) {
+  Bvh bvh;
+  const uint32_t count = uint32_t(scene.triangles.size() + scene.spheres.size());
+  for (uint32_t i = 0; i < count; i += 2) bvh.leaves.push_back({{i, i + 1 < count ? i + 1 : kMissIndex}});
+  for (const Bounds& box : primitiveBounds(scene)) bvh.bounds.include(box);
+  return bvh;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// How work is cut into draws: small enough that none nears a driver's limits, large enough to keep it busy.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+
+namespace fragtrace {
+
+/// Largest tile, in pixels: the states of its suspended paths stand in one storage buffer of 72 MiB.
+inline constexpr int kMaxTilePixels = 1 << 18;
+
+/// One round over the picture: every tile of this size is advanced by so many samples.
+struct DrawPlan {
+  glm::ivec2 tile{0};
+  int samples = 1;
+};
+
+/// The plan whose draws take about targetMs at a measured cost of msPerSample a pixel-sample (<= 0: not yet known, a careful
+/// start). At most `remaining` samples, and at most `most` samples a draw.
+inline DrawPlan planDraws(glm::ivec2 picture, int remaining, int most, double msPerSample, double targetMs) {
+  constexpr int kSmallest = 128;  // pixels a side: some tiles of 64 for each core of a software rasteriser
+  const double affordable = msPerSample > 0.0 ? targetMs / msPerSample : double(kSmallest) * kSmallest;
+  const double pixels = double(picture.x) * picture.y;
+  DrawPlan plan;
+  if (pixels <= kMaxTilePixels && affordable >= pixels) {
+    plan.tile = picture;
+    plan.samples = int(std::clamp(affordable / pixels, 1.0, double(std::max(1, std::min(most, remaining)))));
+    return plan;
+  }
+  const double area = std::clamp(affordable, double(kSmallest) * kSmallest, double(kMaxTilePixels));
+  const int side = std::max(kSmallest, int(std::sqrt(area)) / 64 * 64);
+  plan.tile = {std::min(picture.x, side), std::min(picture.y, side)};
+  const double tilePixels = double(plan.tile.x) * plan.tile.y;
+  plan.samples = int(std::clamp(affordable / tilePixels, 1.0, double(std::max(1, std::min(most, remaining)))));
+  return plan;
+}
+
+}  // namespace fragtrace

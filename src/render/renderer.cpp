@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "render/renderer.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "errors.h"
+#include "render/draw_plan.h"
+
+namespace fragtrace {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+/// llvmpipe ends all loops of an invocation after 65,535 iterations in sum. It runs 8 pixels in lockstep, each iteration that
+/// any of them counts may bring up to two more that none counts: 65,535 / 24.
+constexpr int kSoftwareStepBudget = 2700;
+/// GPUs have no such limit; time alone bounds a draw.
+constexpr int kHardwareStepBudget = 1 << 16;
+
+/// A draw's time: short enough to stop within a second and to stay far from a GPU's watchdog.
+constexpr double kSoftwareDrawMs = 80.0;
+constexpr double kHardwareDrawMs = 20.0;
+
+constexpr int kTinyTile = 8;  // pixels
+
+/// Half extents of the view at distance 1 (perspective) or in metres (orthographic).
+glm::dvec2 halfExtents(const Camera& camera, glm::ivec2 size) {
+  const double height = camera.perspective ? std::tan(0.5 * camera.fovY) : camera.halfHeight;
+  return {height * size.x / size.y, height};
+}
+
+GLuint makeVertexArray() {
+  GLuint name = 0;
+  glCreateVertexArrays(1, &name);
+  return name;
+}
+
+GLuint makeFramebuffer() {
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  return name;
+}
+
+}  // namespace
+
+Renderer::Renderer(const Context& context, const GpuScene& scene, const ShaderVariant& variant,
+                   const std::filesystem::path& shaderFolder)
+    : programs_(shaderSource(shaderFolder)),
+      buffers_(scene, variant.reads),
+      variant_(variant),
+      frameBuffer_(makeBuffer()),
+      progressBuffer_(makeBuffer()),
+      pathStates_(makeBuffer()),
+      vertexArray_(makeVertexArray()),
+      framebuffer_(makeFramebuffer()),
+      targetMs_(context.software ? kSoftwareDrawMs : kHardwareDrawMs) {
+  glNamedBufferStorage(frameBuffer_.name(), sizeof(layout::Frame), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferStorage(progressBuffer_.name(), sizeof(layout::Progress), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferStorage(pathStates_.name(), GLsizeiptr(kMaxTilePixels) * layout::kPathStateRows * 16, nullptr, 0);
+  checkGl("making buffers");
+  frame_.gridOrigin = glm::vec4(scene.grid.origin, 0.0f);
+  frame_.gridCell = glm::vec4(scene.grid.cell, 0.0f);
+  frame_.environment = glm::vec4(scene.environmentSize, 1.0f, 0.0f);
+  frame_.lightChoice = glm::vec4(scene.environmentChance, float(scene.emitterCount), scene.radius,
+                                 float(scene.punctualLights));
+  frame_.limits = {0, 0, context.software ? kSoftwareStepBudget : kHardwareStepBudget, int(scene.leafCount)};
+}
+
+void Renderer::setFrame(const Film& film, const View& view) {
+  const Camera& camera = view.camera;
+  const glm::dvec2 half = halfExtents(camera, film.size());
+  const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
+  const glm::dvec3 up = glm::cross(right, camera.forward);
+  frame_.cameraPosition = glm::vec4(glm::vec3(camera.position - view.sceneOrigin), camera.perspective ? 0.0f : 1.0f);
+  frame_.cameraRight = glm::vec4(glm::vec3(right * half.x), 0.0f);
+  frame_.cameraUp = glm::vec4(glm::vec3(up * half.y), 0.0f);
+  frame_.cameraForward = glm::vec4(glm::vec3(camera.forward), 0.0f);
+  frame_.background = glm::vec4(view.background, view.showEnvironment ? 1.0f : 0.0f);
+  frame_.environment.z = float(std::cos(view.hdriRotation));
+  frame_.environment.w = float(std::sin(view.hdriRotation));
+  frame_.picture = {film.size(), 0, int(view.seed)};
+  frame_.limits.x = view.bounces;
+  frame_.limits.y = view.rouletteDepth;
+  film.bind();
+  buffers_.bind();
+  glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, film.size().x);
+  glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, film.size().y);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+  glBindVertexArray(vertexArray_.name());
+  glUseProgram(programs_.tracer(variant_).name());
+  glBindBufferBase(GL_UNIFORM_BUFFER, layout::kFrameBinding, frameBuffer_.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kPathStatesBinding, pathStates_.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kProgressBinding, progressBuffer_.name());
+}
+
+bool Renderer::drawTile(glm::ivec2 corner, glm::ivec2 tile, int target, const std::function<bool()>& goOn) {
+  frame_.tile = {corner, tile};
+  frame_.picture.z = target;
+  glNamedBufferSubData(frameBuffer_.name(), 0, sizeof frame_, &frame_);
+  glViewport(corner.x, corner.y, tile.x, tile.y);
+  suspended_ = false;
+  for (;;) {
+    layout::Progress progress{};
+    glNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    glFinish();
+    glGetNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
+    checkGl("drawing");
+    if (!goOn()) return false;
+    if (progress.unfinished == 0) return true;
+    suspended_ = true;
+  }
+}
+
+double Renderer::compile(Film& film, const View& view) {
+  const auto start = Clock::now();
+  setFrame(film, view);
+  drawTile({0, 0}, glm::min(film.size(), glm::ivec2(kTinyTile)), 1, [] { return true; });
+  film.clear();
+  samplesDone_ = 0;
+  mostSamplesPerDraw_ = 1;
+  return milliseconds(start, Clock::now());
+}
+
+bool Renderer::addSamples(Film& film, const View& view, int samples, RenderTimes& times, const Progress& progress) {
+  setFrame(film, view);
+  const double total = double(film.size().x) * film.size().y * samples;
+  double pixelSamplesDone = 0.0;
+  double msPerSample = 0.0;
+  for (int added = 0; added < samples;) {
+    const DrawPlan plan = planDraws(film.size(), samples - added, mostSamplesPerDraw_, msPerSample, targetMs_);
+    const auto roundStart = Clock::now();
+    double tileMs = 0.0;
+    for (int y = 0; y < film.size().y; y += plan.tile.y) {
+      for (int x = 0; x < film.size().x; x += plan.tile.x) {
+        const glm::ivec2 corner(x, y);
+        const glm::ivec2 tile = glm::min(plan.tile, film.size() - corner);
+        const auto start = Clock::now();
+        const double fraction = pixelSamplesDone / total;
+        if (!drawTile(corner, tile, samplesDone_ + plan.samples, [&] { return progress(fraction); })) return false;
+        tileMs += milliseconds(start, Clock::now());
+        pixelSamplesDone += double(tile.x) * tile.y * plan.samples;
+      }
+    }
+    const double roundMs = milliseconds(roundStart, Clock::now());
+    msPerSample = tileMs / (double(film.size().x) * film.size().y * plan.samples);
+    times.renderMs += roundMs;
+    if (times.frameMs.empty()) times.firstFrameMs = roundMs / plan.samples;
+    times.frameMs.insert(times.frameMs.end(), size_t(plan.samples), roundMs / plan.samples);
+    added += plan.samples;
+    samplesDone_ += plan.samples;
+    // More samples a draw as long as few paths have to be suspended for the step budget.
+    mostSamplesPerDraw_ = suspended_ ? std::max(1, plan.samples / 2) : plan.samples * 2;
+  }
+  progress(1.0);
+  return true;
+}
+
+}  // namespace fragtrace

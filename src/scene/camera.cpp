@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "scene/camera.h"
+
+#include <array>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "errors.h"
+
+namespace fragtrace {
+namespace {
+
+bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+double radiusOf(const BoundsDouble& bounds) {
+  const double radius = 0.5 * glm::length(bounds.extent());
+  return radius > 0.0 && std::isfinite(radius) ? radius : 1.0;
+}
+
+/// The part of `up` that is orthogonal to a unit `forward`, or of the first axis, y, z, x, that is not
+/// parallel to it.
+glm::dvec3 orthogonalUp(const glm::dvec3& up, const glm::dvec3& forward) {
+  // Sine of the angle below which two directions count as parallel: what is left then is mostly rounding.
+  constexpr double kParallelSine = 1e-9;
+  const std::array<glm::dvec3, 4> candidates = {up, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
+  for (const glm::dvec3& candidate : candidates) {
+    const glm::dvec3 rejected = candidate - glm::dot(candidate, forward) * forward;
+    const double length = glm::length(rejected);
+    if (length > kParallelSine * glm::length(candidate)) return rejected / length;
+  }
+  return {0, 1, 0};
+}
+
+}  // namespace
+
+Camera frameScene(const BoundsDouble& bounds) {
+  Camera camera;
+  camera.name = "framing camera";
+  camera.fovY = glm::quarter_pi<double>();
+  const glm::dvec3 center = bounds.empty() ? glm::dvec3(0.0) : bounds.center();
+  camera.position = center + glm::dvec3(0, 0, radiusOf(bounds) / std::sin(0.5 * camera.fovY));
+  return camera;
+}
+
+glm::dvec3 focalPointOf(const Camera& camera, const BoundsDouble& bounds) {
+  const double depth = bounds.empty() ? 0.0 : glm::dot(bounds.center() - camera.position, camera.forward);
+  return camera.position + camera.forward * (depth > 0.0 ? depth : radiusOf(bounds));
+}
+
+Camera withOverrides(Camera camera, const CameraOverrides& overrides, const BoundsDouble& bounds) {
+  const glm::dvec3 focalPoint = overrides.focalPoint.value_or(focalPointOf(camera, bounds));
+  const glm::dvec3 position = overrides.position.value_or(camera.position);
+  const glm::dvec3 up = overrides.viewUp.value_or(camera.up);
+  if (!isFinite(focalPoint) || !isFinite(position) || !isFinite(up)) {
+    throw UsageError("the camera's position, focal point and view-up must be finite");
+  }
+  if (overrides.position || overrides.focalPoint) {
+    const glm::dvec3 view = focalPoint - position;
+    const double distance = glm::length(view);
+    if (!(distance > 0.0)) throw UsageError("the camera's position and focal point are the same");
+    camera.forward = view / distance;
+    camera.position = position;
+  }
+  if (overrides.position || overrides.focalPoint || overrides.viewUp)
+    camera.up = orthogonalUp(up, camera.forward);
+  if (overrides.viewAngleDegrees) {
+    const double degrees = *overrides.viewAngleDegrees;
+    if (!(degrees > 0.0 && degrees < 180.0))
+      throw UsageError("the view angle must be between 0 and 180 degrees");
+    camera.fovY = glm::radians(degrees);
+    camera.perspective = true;
+  }
+  return camera;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// The camera that frames a scene, and single properties of a camera replaced by the command line's.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "math/bounds.h"
+#include "scene/scene.h"
+
+namespace fragtrace {
+
+/// World space, metres; the view angle is vertical.
+struct CameraOverrides {
+  std::optional<glm::dvec3> position{};
+  std::optional<glm::dvec3> focalPoint{};
+  std::optional<glm::dvec3> viewUp{};
+  std::optional<double> viewAngleDegrees{};
+};
+
+/// Looks along -z at the centre of the bounds, 45 degrees high, far enough for the bounding sphere to fit.
+Camera frameScene(const BoundsDouble& bounds);
+
+/// What the camera looks at: the point on its axis that is as deep as the centre of the bounds, or, if that
+/// is not in front of it, as far away as the bounds are large.
+glm::dvec3 focalPointOf(const Camera& camera, const BoundsDouble& bounds);
+
+/// Replaces what is given: the position alone keeps the focal point, as in VTK; a view-up is made orthogonal
+/// to the view, and one parallel to it gives way to another axis; a view angle makes an orthographic camera
+/// perspective. Throws UsageError if the position is the focal point, or the angle is not between 0 and 180
+/// degrees.
+Camera withOverrides(Camera camera, const CameraOverrides& overrides, const BoundsDouble& bounds = {});
+
+}  // namespace fragtrace

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "scene/describe.h"
+
+#include <algorithm>
+
+namespace fragtrace {
+
+SceneDescription describe(const Scene& scene) {
+  SceneDescription result;
+  result.triangles = scene.triangles.size();
+  result.vertices = scene.vertices.position.size();
+  result.spheres = scene.spheres.size();
+  result.instances = scene.origins.size();
+  result.materials = scene.materials.size();
+  result.textures = scene.textures.size();
+  result.images = scene.images.size();
+  for (const EncodedImage& image : scene.images) result.imageBytes += image.bytes.size();
+  for (const Light& light : scene.lights) {
+    switch (light.type) {
+      case LightType::Point:
+        ++result.pointLights;
+        break;
+      case LightType::Spot:
+        ++result.spotLights;
+        break;
+      case LightType::Directional:
+        ++result.directionalLights;
+        break;
+    }
+  }
+  for (const Camera& camera : scene.cameras) {
+    ++(camera.perspective ? result.perspectiveCameras : result.orthographicCameras);
+  }
+  const auto shines = [&scene](const auto& primitive) {
+    const Material& material = scene.materials.at(primitive.material);
+    return material.emissive() && !material.unlit;
+  };
+  result.emissiveTriangles = size_t(std::count_if(scene.triangles.begin(), scene.triangles.end(), shines));
+  result.emissiveSpheres = size_t(std::count_if(scene.spheres.begin(), scene.spheres.end(), shines));
+  result.extensionsUsed = scene.extensionsUsed;
+  result.bounds = scene.bounds;
+  result.origin = scene.origin;
+  return result;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// What is in a scene, as counts, for `fragtrace info` and the statistics.
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "math/bounds.h"
+#include "scene/scene.h"
+
+namespace fragtrace {
+
+struct SceneDescription {
+  size_t triangles = 0;
+  size_t vertices = 0;
+  size_t spheres = 0;
+  size_t instances = 0;  ///< mesh primitives, counted once for each node that shows them
+  size_t materials = 0;
+  size_t textures = 0;
+  size_t images = 0;
+  size_t imageBytes = 0;  ///< encoded
+  size_t pointLights = 0;
+  size_t spotLights = 0;
+  size_t directionalLights = 0;
+  size_t perspectiveCameras = 0;
+  size_t orthographicCameras = 0;
+  size_t emissiveTriangles = 0;
+  size_t emissiveSpheres = 0;
+  std::vector<std::string> extensionsUsed;
+  BoundsDouble bounds;  ///< world space
+  glm::dvec3 origin{0.0};
+
+  size_t lights() const { return pointLights + spotLights + directionalLights; }
+  size_t cameras() const { return perspectiveCameras + orthographicCameras; }
+};
+
+/// Counts; unlit materials do not count as emissive, since they show their base colour only.
+SceneDescription describe(const Scene& scene);
+
+}  // namespace fragtrace

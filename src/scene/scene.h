@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// The scene as plain structs joined by indices. Units are metres and radians, colours linear Rec.709.
+// World space is y up; "local" space is world space minus Scene::origin (recentred in double precision).
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "math/bounds.h"
+
+namespace fragtrace {
+
+/// The one sentinel for "no such index".
+inline constexpr uint32_t kMissIndex = 0xffffffffu;
+
+/// An encoded picture (PNG, JPEG, ...) as it stood in the file, a buffer view or a data URI; decoded when packed.
+struct EncodedImage {
+  std::string name;  ///< for messages: a file path, or the JSON pointer of the image
+  std::vector<uint8_t> bytes;
+};
+
+enum class Wrap : uint8_t { Repeat, ClampToEdge, MirroredRepeat };
+
+/// A glTF texture with its sampler: rays read level 0 with the magnification filter.
+struct Texture {
+  uint32_t image = kMissIndex;
+  Wrap wrapU = Wrap::Repeat;
+  Wrap wrapV = Wrap::Repeat;
+  bool linear = true;  ///< magnification filter: linear, else nearest
+};
+
+/// A material's use of a texture; texture == kMissIndex means the factor alone.
+struct TextureRef {
+  uint32_t texture = kMissIndex;
+  uint32_t texcoord = 0;  ///< which TEXCOORD_n, 0 or 1
+  bool present() const { return texture != kMissIndex; }
+};
+
+enum class AlphaMode : uint8_t { Opaque, Mask, Blend };
+
+/// A procedural smooth Perlin normal map over TEXCOORD_0 (material extras "perlinNormal"); amplitude 0 is none.
+struct PerlinNormal {
+  float frequency = 8.0f;  ///< lattice cells per texture coordinate unit
+  float amplitude = 0.0f;  ///< slope of the height field, dimensionless
+  int octaves = 1;
+};
+
+/// Material of glTF 2.0 with the extensions named in docs/conventions.md; defaults are the specification's.
+struct Material {
+  std::string name;
+  glm::vec4 baseColorFactor{1.0f};
+  float metallicFactor = 1.0f;
+  float roughnessFactor = 1.0f;
+  glm::vec3 emissiveFactor{0.0f};
+  float emissiveStrength = 1.0f;  ///< radiance = emissiveFactor * emissiveStrength (* texture)
+  float normalScale = 1.0f;
+  float occlusionStrength = 1.0f;
+  AlphaMode alphaMode = AlphaMode::Opaque;
+  float alphaCutoff = 0.5f;
+  bool doubleSided = false;
+  bool unlit = false;
+  float ior = 1.5f;
+  float transmissionFactor = 0.0f;
+  float thicknessFactor = 0.0f;  ///< 0: thin-walled, above: the mesh bounds a solid
+  glm::vec3 attenuationColor{1.0f};
+  float attenuationDistance = std::numeric_limits<float>::infinity();
+  float specularFactor = 1.0f;
+  glm::vec3 specularColorFactor{1.0f};
+  PerlinNormal perlinNormal;
+  TextureRef baseColorTexture;          // sRGB + alpha
+  TextureRef metallicRoughnessTexture;  // linear, G roughness, B metallic
+  TextureRef normalTexture;             // linear, tangent space
+  TextureRef emissiveTexture;           // sRGB
+  TextureRef occlusionTexture;          // linear, R
+  TextureRef transmissionTexture;       // linear, R
+  TextureRef specularTexture;           // linear, A
+  TextureRef specularColorTexture;      // sRGB
+
+  bool transmissive() const { return transmissionFactor > 0.0f; }
+  bool emissive() const {
+    return !unlit && emissiveStrength > 0.0f && (emissiveFactor.x > 0 || emissiveFactor.y > 0 || emissiveFactor.z > 0);
+  }
+};
+
+/// Three vertex indices, counter-clockwise seen from the front, and the material.
+struct Triangle {
+  glm::uvec3 vertex;
+  uint32_t material = 0;
+  bool flat = false;  ///< no vertex normals were given: the geometric normal shades
+};
+
+/// A KHR_implicit_shapes sphere, placed by a node; rotation turns its texture coordinates.
+struct Sphere {
+  glm::vec3 center;  ///< local space
+  float radius = 1.0f;
+  glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
+  uint32_t material = 0;
+};
+
+enum class LightType : uint8_t { Point, Spot, Directional };
+
+/// A punctual light; intensity is taken as radiometric (nothing is divided by 683).
+struct Light {
+  LightType type = LightType::Point;
+  glm::vec3 intensity{1.0f};    ///< colour * intensity: W/sr; directional: irradiance on a facing surface, W/m^2
+  glm::vec3 position{0.0f};     ///< local space
+  glm::vec3 direction{0, 0, -1};  ///< unit, the way the light shines
+  float range = std::numeric_limits<float>::infinity();
+  float innerConeAngle = 0.0f;
+  float outerConeAngle = 0.7853981634f;
+};
+
+/// A camera in world space, double precision, so that nothing is lost before recentring.
+struct Camera {
+  std::string name;
+  bool perspective = true;
+  glm::dvec3 position{0.0};
+  glm::dvec3 forward{0.0, 0.0, -1.0};  ///< unit
+  glm::dvec3 up{0.0, 1.0, 0.0};        ///< unit, orthogonal to forward
+  double fovY = 0.7853981633974483;    ///< vertical view angle, radians (perspective)
+  double halfHeight = 1.0;             ///< half of the vertical extent, metres (orthographic)
+  double aspectRatio = 0.0;            ///< width / height; 0: not given
+};
+
+/// Where triangles came from: one entry a (node, mesh primitive), in order of firstTriangle.
+struct PrimitiveOrigin {
+  std::string node;
+  std::string mesh;
+  uint32_t firstTriangle = 0;
+  uint32_t triangleCount = 0;
+};
+
+/// Vertex attributes, one entry a vertex; an array other than position is empty when no primitive needs it.
+struct Vertices {
+  std::vector<glm::vec3> position;  ///< local space
+  std::vector<glm::vec3> normal;    ///< unit; (0,0,0) where a primitive has none
+  std::vector<glm::vec4> tangent;   ///< xyz unit, w handedness (+1/-1); only where a normal map is used
+  std::vector<glm::vec2> texcoord0;
+  std::vector<glm::vec2> texcoord1;
+  std::vector<glm::vec4> color;  ///< linear, multiplies base colour; (1,1,1,1) where a primitive has none
+};
+
+/// Everything the renderer knows of a glTF file. Primitive indices count triangles first, then spheres.
+struct Scene {
+  glm::dvec3 origin{0.0};  ///< world position of the local origin
+  Vertices vertices;
+  std::vector<Triangle> triangles;
+  std::vector<Sphere> spheres;
+  std::vector<Material> materials;  ///< never empty: the default material is appended when something needs it
+  std::vector<Texture> textures;
+  std::vector<EncodedImage> images;
+  std::vector<Light> lights;
+  std::vector<Camera> cameras;  ///< in the order of the scene's node traversal; positions in world space
+  std::vector<PrimitiveOrigin> origins;
+  std::vector<std::string> extensionsUsed;
+  std::vector<std::string> warnings;  ///< one line each, for stderr; names the file and the place
+  BoundsDouble bounds;                ///< world space
+};
+
+}  // namespace fragtrace

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "shader/assemble.h"
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "errors.h"
+#include "shader/embedded.h"
+
+namespace fragtrace {
+
+namespace {
+
+std::string shaderText(const ShaderSource& source, const std::string& name, const std::string& includedFrom) {
+  const std::string where = includedFrom.empty() ? "" : " (included from " + includedFrom + ")";
+  if (!source.folder.empty()) {
+    std::ifstream file(source.folder / name, std::ios::binary);
+    if (!file) throw RenderError((source.folder / name).string() + ": cannot read shader" + where);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  for (const EmbeddedShader& shader : embeddedShaders()) {
+    if (shader.name == name) return std::string(shader.text);
+  }
+  throw RenderError("shader " + name + " does not exist" + where);
+}
+
+struct Assembly {
+  const ShaderSource& source;
+  const ShaderVariant& variant;
+  std::set<std::string> done;
+  std::ostringstream text;
+
+  void lineDirective(int line, const std::string& name) {
+    text << "#line " << line;
+    if (source.namedLines) text << " \"" << name << '"';
+    text << '\n';
+  }
+
+  void append(const std::string& name, const std::string& includedFrom) {
+    if (!done.insert(name).second) return;
+    std::string file = name;
+    if (name == "read.glsl") file = variant.reads == BufferReads::Image ? "read_image.glsl" : "read_ssbo.glsl";
+    std::istringstream lines(shaderText(source, file, includedFrom));
+    lineDirective(1, file);
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+      const size_t open = line.find('"');
+      if (line.starts_with("#include") && open != std::string::npos) {
+        append(line.substr(open + 1, line.rfind('"') - open - 1), file);
+        lineDirective(number + 1, file);
+      } else {
+        text << line << '\n';
+      }
+    }
+  }
+};
+
+void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
+  auto constant = [&](const char* name, bool value) {
+    text << "const bool " << name << " = " << (value ? "true" : "false") << ";\n";
+  };
+  for (const StageRow& row : stageRows()) {
+    if (row.constant) constant(row.constant, has(variant.stages, row.stage));
+  }
+  for (const TraitRow& row : traitRows()) constant(row.constant, has(variant.traits, row.trait));
+  constant("kIterative", variant.traversal == TraversalMethod::Iterative);
+  constant("kFrontToBack", variant.traversal == TraversalMethod::FrontToBack);
+  text << "const int kStackSize = " << variant.stackSize << ";\n";
+}
+
+}  // namespace
+
+std::string assembleShader(const ShaderSource& source, const std::string& entry, const ShaderVariant& variant) {
+  Assembly assembly{source, variant, {}, {}};
+  assembly.text << "#version 450 core\n";
+  if (source.namedLines) assembly.text << "#extension GL_ARB_shading_language_include : enable\n";
+  appendConstants(assembly.text, variant);
+  assembly.append(entry, "");
+  return assembly.text.str();
+}
+
+}  // namespace fragtrace

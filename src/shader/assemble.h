@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "stage/variant.h"
+
+namespace fragtrace {
+
+/// Where shader text comes from and what the driver understands.
+struct ShaderSource {
+  std::filesystem::path folder;  ///< read from disk when not empty, else the embedded text
+  bool namedLines = false;       ///< #line takes file names (GL_ARB_shading_language_include)
+};
+
+/// The whole text of an entry (trace.frag, ...): version, the variant's constants, and the file with its includes
+/// put in once each. Throws RenderError naming an include that is missing.
+std::string assembleShader(const ShaderSource& source, const std::string& entry, const ShaderVariant& variant);
+
+}  // namespace fragtrace

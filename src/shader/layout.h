@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// shaders/layout.glsl seen from C++: the same constants and structs.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+namespace fragtrace::layout {
+
+using uint = uint32_t;
+using glm::ivec4;
+using glm::vec4;
+
+#include "layout.glsl"
+
+static_assert(sizeof(Frame) == 12 * 16);
+static_assert(offsetof(Frame, gridOrigin) == 4 * 16);
+static_assert(offsetof(Frame, picture) == 9 * 16);
+static_assert(sizeof(Progress) == 16);
+
+}  // namespace fragtrace::layout

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Everything a render is asked for, as the command line and the viewer spell it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <limits>
+#include <optional>
+
+#include "image/tone_map.h"
+#include "scene/camera.h"
+#include "stage/stage.h"
+
+namespace fragtrace {
+
+enum class TraversalMethod : uint8_t { Auto, Iterative, Bvh, FrontToBack };
+enum class Backend : uint8_t { Auto, Egl, OsMesa };
+enum class BufferReads : uint8_t { Auto, Ssbo, Image };
+
+inline constexpr int kUnlimitedBounces = std::numeric_limits<int>::max() - 1;
+
+struct RenderOptions {
+  std::filesystem::path scene;
+  std::filesystem::path output;
+  std::optional<glm::ivec2> resolution;
+  StageSet stages = stagesUpTo(Stage::Gi);
+  int spp = 64;
+  uint32_t seed = 0;
+  int bounces = 16;       ///< kUnlimitedBounces: no limit
+  int rouletteDepth = 3;  ///< roulette from this scattering on, the first being 1
+  std::optional<int> cameraIndex;
+  CameraOverrides camera;
+  std::filesystem::path hdriFile;
+  double hdriRotationDegrees = 0.0;
+  bool background = true;
+  glm::vec3 backgroundColor{0.0f};
+  bool defaultLight = true;
+  double exposure = 0.0;
+  ToneMap toneMap = ToneMap::Neutral;
+  TraversalMethod traversal = TraversalMethod::Auto;
+  Backend backend = Backend::Auto;
+  BufferReads bufferReads = BufferReads::Auto;
+  std::filesystem::path statsFile;
+  bool quiet = false;
+  bool verbose = false;
+};
+
+}  // namespace fragtrace

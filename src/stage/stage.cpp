@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "stage/stage.h"
+
+#include <array>
+
+namespace fragtrace {
+
+std::span<const TraitRow> traitRows() {
+  static constexpr std::array<TraitRow, size_t(Trait::Count)> rows = {{
+      {Trait::Triangles, "triangles", "kTriangles", "no triangle"},
+      {Trait::Spheres, "spheres", "kSpheres", "no sphere"},
+      {Trait::SingleSided, "single-sided", "kCulling", "no single-sided surface"},
+      {Trait::Alpha, "alpha", "kAlpha", "no alpha MASK or BLEND"},
+      {Trait::Texcoords, "texcoords", "kTexcoords", "no texture coordinates in use"},
+      {Trait::VertexNormals, "vertex-normals", "kVertexNormals", "no vertex normals"},
+      {Trait::Tangents, "tangents", "kTangents", "no tangents in use"},
+      {Trait::VertexColors, "vertex-colors", "kVertexColors", "no vertex colours"},
+      {Trait::BaseColorTexture, "base-color-texture", "kBaseColorTexture", "no base colour texture"},
+      {Trait::MetallicRoughnessTexture, "metallic-roughness-texture", "kMetallicRoughnessTexture",
+       "no metallic-roughness texture"},
+      {Trait::NormalTexture, "normal-texture", "kNormalTexture", "no normal texture"},
+      {Trait::EmissionTexture, "emission-texture", "kEmissionTexture", "no emissive texture"},
+      {Trait::TransmissionTexture, "transmission-texture", "kTransmissionTexture", "no transmission texture"},
+      {Trait::SpecularTexture, "specular-texture", "kSpecularTexture", "no specular texture"},
+      {Trait::PerlinNormals, "perlin-normals", "kPerlinNormals", "no Perlin normal map"},
+      {Trait::Specular, "specular", "kSpecular", "no surface that reflects"},
+      {Trait::Metals, "metals", "kMetals", "no metal"},
+      {Trait::Transmission, "transmission", "kTransmission", "no transmissive material"},
+      {Trait::Absorption, "absorption", "kAbsorption", "no absorbing volume"},
+      {Trait::Unlit, "unlit", "kUnlit", "no unlit material"},
+      {Trait::Emission, "emission", "kEmission", "no emissive material"},
+      {Trait::EmissiveTriangles, "emissive-triangles", "kEmissiveTriangles", "no emissive triangle"},
+      {Trait::PunctualLights, "punctual-lights", "kPunctualLights", "no punctual light"},
+      {Trait::Environment, "environment", "kEnvironment", "no environment"},
+      {Trait::EnvironmentSampling, "environment-sampling", "kEnvironmentSampling", "no environment map"},
+  }};
+  return rows;
+}
+
+std::span<const StageRow> stageRows() {
+  static constexpr std::array<StageRow, size_t(Stage::Count)> rows = {{
+      {Stage::Flat, "flat", "Flat", "unlit colour or texture where the ray hits", true, nullptr},
+      {Stage::Phong, "phong", "Blinn-Phong", "Lambert and Blinn-Phong under every light", true, "kPhong"},
+      {Stage::Shadows, "shadows", "Shadows", "shadow rays towards each light", true, "kShadows"},
+      {Stage::Reflections, "reflections", "Reflections", "mirror reflections, and specular lobes in gi", true,
+       "kReflections"},
+      {Stage::Refraction, "refraction", "Refraction", "refraction with dielectric Fresnel and absorption", true,
+       "kRefraction"},
+      {Stage::NormalMaps, "normal-maps", "Normal maps", "normal textures and Perlin normal maps", true, "kNormalMaps"},
+      {Stage::Gi, "gi", "Global illumination", "path tracing with the glTF material", true, "kGi"},
+      {Stage::Schlick, "schlick", "Schlick's Fresnel", "Schlick's approximation for glass, in place of the exact Fresnel",
+       false, "kSchlick"},
+      {Stage::BvhHeatmap, "bvh-heatmap", "Node heat map", "paints how many nodes each camera ray visits", false,
+       "kHeatmap"},
+  }};
+  return rows;
+}
+
+std::optional<Stage> parseStage(std::string_view name) {
+  for (const StageRow& row : stageRows()) {
+    if (name == row.name) return row.stage;
+  }
+  return std::nullopt;
+}
+
+StageSet stagesUpTo(Stage stage) {
+  StageSet set;
+  for (const StageRow& row : stageRows()) {
+    if (row.cumulative && row.stage <= stage) set.set(size_t(row.stage));
+  }
+  return set;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// The stages and switches, and what a scene holds: one table row each, which the parser, the statistics, the shader prelude and the
+// documents iterate over.
+#pragma once
+
+#include <bitset>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace fragtrace {
+
+/// What a scene holds, as far as the shader can be cut down by it.
+enum class Trait : uint8_t {
+  Triangles,
+  Spheres,
+  SingleSided,
+  Alpha,
+  Texcoords,
+  VertexNormals,
+  Tangents,
+  VertexColors,
+  BaseColorTexture,
+  MetallicRoughnessTexture,
+  NormalTexture,
+  EmissionTexture,
+  TransmissionTexture,
+  SpecularTexture,
+  PerlinNormals,
+  Specular,
+  Metals,
+  Transmission,
+  Absorption,
+  Unlit,
+  Emission,
+  EmissiveTriangles,
+  PunctualLights,
+  Environment,
+  EnvironmentSampling,
+  Count
+};
+using TraitSet = std::bitset<size_t(Trait::Count)>;
+
+struct TraitRow {
+  Trait trait;
+  const char* name;      ///< in the statistics and the variant's name
+  const char* constant;  ///< in the shader
+  const char* absence;   ///< why something that needs it is off
+};
+std::span<const TraitRow> traitRows();
+
+/// A stage (in the order of --stage) or a switch of its own.
+enum class Stage : uint8_t { Flat, Phong, Shadows, Reflections, Refraction, NormalMaps, Gi, Schlick, BvhHeatmap, Count };
+using StageSet = std::bitset<size_t(Stage::Count)>;
+
+struct StageRow {
+  Stage stage;
+  const char* name;      ///< on the command line
+  const char* label;     ///< in the viewer
+  const char* sentence;  ///< in the help
+  bool cumulative;       ///< --stage NAME turns on this and all cumulative rows before it
+  const char* constant;  ///< in the shader; null: always on
+};
+std::span<const StageRow> stageRows();
+
+/// The row of a name as the command line spells it.
+std::optional<Stage> parseStage(std::string_view name);
+
+/// What --stage NAME turns on.
+StageSet stagesUpTo(Stage stage);
+
+template <typename Set, typename Member>
+bool has(const Set& set, Member member) {
+  return set.test(size_t(member));
+}
+
+}  // namespace fragtrace

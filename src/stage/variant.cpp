@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "stage/variant.h"
+
+#include <algorithm>
+
+namespace fragtrace {
+
+namespace {
+
+/// The trait without which a stage changes nothing; Trait::Count: none.
+Trait neededBy(Stage stage) {
+  switch (stage) {
+    case Stage::Refraction:
+    case Stage::Schlick: return Trait::Transmission;
+    case Stage::Reflections: return Trait::Specular;
+    default: return Trait::Count;
+  }
+}
+
+bool hasNormalMaps(const TraitSet& traits) {
+  return has(traits, Trait::NormalTexture) || has(traits, Trait::PerlinNormals);
+}
+
+bool hasLight(const TraitSet& traits) {
+  return has(traits, Trait::PunctualLights) || has(traits, Trait::EmissiveTriangles) ||
+         has(traits, Trait::EnvironmentSampling);
+}
+
+void addMaterialTraits(const Material& m, const Vertices& vertices, TraitSet& traits) {
+  auto mark = [&](Trait trait, bool present) {
+    if (present) traits.set(size_t(trait));
+  };
+  mark(Trait::SingleSided, !m.doubleSided && !m.transmissive());
+  mark(Trait::Alpha, m.alphaMode != AlphaMode::Opaque);
+  mark(Trait::BaseColorTexture, m.baseColorTexture.present());
+  mark(Trait::Unlit, m.unlit);
+  const bool dielectricReflects =
+      m.ior != 1.0f && m.specularFactor > 0.0f && glm::any(glm::greaterThan(m.specularColorFactor, glm::vec3(0.0f)));
+  mark(Trait::Specular, m.metallicFactor > 0.0f || dielectricReflects || m.transmissive());
+  mark(Trait::Metals, m.metallicFactor > 0.0f);
+  mark(Trait::MetallicRoughnessTexture, m.metallicRoughnessTexture.present());
+  mark(Trait::SpecularTexture, m.specularTexture.present() || m.specularColorTexture.present());
+  mark(Trait::NormalTexture, m.normalTexture.present() && !vertices.tangent.empty());
+  mark(Trait::PerlinNormals, m.perlinNormal.amplitude != 0.0f && !vertices.texcoord0.empty());
+  mark(Trait::Transmission, m.transmissive());
+  mark(Trait::TransmissionTexture, m.transmissive() && m.transmissionTexture.present());
+  mark(Trait::Absorption, m.transmissive() && m.thicknessFactor > 0.0f && m.attenuationColor != glm::vec3(1.0f) &&
+                              std::isfinite(m.attenuationDistance));
+  mark(Trait::Emission, m.emissive());
+  mark(Trait::EmissionTexture, m.emissive() && m.emissiveTexture.present());
+}
+
+}  // namespace
+
+bool hasOwnLight(const Scene& scene) {
+  if (!scene.lights.empty()) return true;
+  const auto emits = [&](const auto& primitive) { return scene.materials[primitive.material].emissive(); };
+  return std::any_of(scene.triangles.begin(), scene.triangles.end(), emits) ||
+         std::any_of(scene.spheres.begin(), scene.spheres.end(), emits);
+}
+
+TraitSet traitsOf(const Scene& scene, Surroundings surroundings) {
+  TraitSet traits;
+  std::vector<bool> used(scene.materials.size(), false);
+  bool emissiveTriangles = false;
+  bool smooth = false;
+  for (const Triangle& t : scene.triangles) {
+    used[t.material] = true;
+    emissiveTriangles = emissiveTriangles || scene.materials[t.material].emissive();
+    smooth = smooth || !t.flat;
+  }
+  for (const Sphere& s : scene.spheres) used[s.material] = true;
+  for (size_t i = 0; i < used.size(); ++i) {
+    if (used[i]) addMaterialTraits(scene.materials[i], scene.vertices, traits);
+  }
+  auto mark = [&](Trait trait, bool present) { traits.set(size_t(trait), present); };
+  mark(Trait::Triangles, !scene.triangles.empty());
+  mark(Trait::Spheres, !scene.spheres.empty());
+  if (!scene.spheres.empty()) {
+    // Spheres bring texture coordinates and tangents of their own.
+    for (const Sphere& s : scene.spheres) {
+      const Material& m = scene.materials[s.material];
+      if (m.normalTexture.present()) traits.set(size_t(Trait::NormalTexture));
+      if (m.perlinNormal.amplitude != 0.0f) traits.set(size_t(Trait::PerlinNormals));
+    }
+  }
+  mark(Trait::VertexNormals, smooth && !scene.vertices.normal.empty());
+  mark(Trait::Tangents, !scene.vertices.tangent.empty());
+  mark(Trait::VertexColors, !scene.vertices.color.empty());
+  mark(Trait::Texcoords, !scene.vertices.texcoord0.empty() || !scene.vertices.texcoord1.empty());
+  mark(Trait::EmissiveTriangles, emissiveTriangles);
+  mark(Trait::PunctualLights, !scene.lights.empty());
+  mark(Trait::Environment, surroundings != Surroundings::None);
+  mark(Trait::EnvironmentSampling, surroundings != Surroundings::None);
+  return traits;
+}
+
+std::string whyOff(Stage stage, const TraitSet& present) {
+  if (stage == Stage::NormalMaps && !hasNormalMaps(present)) return "no normal map";
+  if (stage == Stage::Shadows && !hasLight(present)) return "no light to cast shadows";
+  const Trait needed = neededBy(stage);
+  if (needed == Trait::Count || has(present, needed)) return {};
+  return traitRows()[size_t(needed)].absence;
+}
+
+ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& present, Surroundings surroundings,
+                            uint32_t treeDepth, BufferReads reads) {
+  ShaderVariant v;
+  v.stages = options.stages;
+  v.traits = present;
+  v.reads = reads;
+  auto stage = [&](Stage s) { return has(v.stages, s); };
+  auto drop = [&](Stage s) { v.stages.reset(size_t(s)); };
+  auto without = [&](Trait t) { v.traits.reset(size_t(t)); };
+
+  // Step: between stages. gi shades by itself; without it and phong nothing beyond flat has a meaning.
+  v.stages.set(size_t(Stage::Flat));
+  if (stage(Stage::Gi)) v.stages.set(size_t(Stage::Phong));
+  if (stage(Stage::BvhHeatmap)) v.stages = StageSet(1ul << unsigned(Stage::Flat) | 1ul << unsigned(Stage::BvhHeatmap));
+  if (!stage(Stage::Phong)) {
+    for (Stage s : {Stage::Shadows, Stage::Reflections, Stage::Refraction, Stage::NormalMaps, Stage::Gi, Stage::Schlick}) {
+      drop(s);
+    }
+  }
+
+  // Step: traits that no stage left on asks for.
+  const bool shaded = stage(Stage::Phong);
+  if (!shaded) {
+    for (Trait t : {Trait::VertexNormals, Trait::Specular, Trait::Metals, Trait::MetallicRoughnessTexture,
+                    Trait::SpecularTexture, Trait::Unlit, Trait::Emission, Trait::EmissionTexture,
+                    Trait::EmissiveTriangles, Trait::PunctualLights, Trait::EnvironmentSampling}) {
+      without(t);
+    }
+    if (surroundings != Surroundings::Map) without(Trait::Environment);
+  }
+  if (stage(Stage::BvhHeatmap)) {
+    for (Trait t : {Trait::Alpha, Trait::BaseColorTexture, Trait::VertexColors, Trait::Environment}) without(t);
+  }
+  if (stage(Stage::Gi) && !stage(Stage::Reflections)) without(Trait::Specular);
+  if (!has(v.traits, Trait::Specular)) {
+    for (Trait t : {Trait::Metals, Trait::SpecularTexture, Trait::MetallicRoughnessTexture}) without(t);
+  }
+  if (!stage(Stage::Refraction)) {
+    for (Trait t : {Trait::Transmission, Trait::TransmissionTexture, Trait::Absorption}) without(t);
+  }
+  if (!stage(Stage::NormalMaps)) {
+    for (Trait t : {Trait::NormalTexture, Trait::PerlinNormals}) without(t);
+  }
+  if (!hasNormalMaps(v.traits)) without(Trait::Tangents);
+  // A constant environment is found by scattered rays; only the stages without them sample it.
+  if (stage(Stage::Gi) && surroundings == Surroundings::DefaultLight) without(Trait::EnvironmentSampling);
+  const bool textured = has(v.traits, Trait::BaseColorTexture) || has(v.traits, Trait::MetallicRoughnessTexture) ||
+                        has(v.traits, Trait::NormalTexture) || has(v.traits, Trait::EmissionTexture) ||
+                        has(v.traits, Trait::TransmissionTexture) || has(v.traits, Trait::SpecularTexture) ||
+                        has(v.traits, Trait::PerlinNormals);
+  if (!textured) without(Trait::Texcoords);
+
+  // Step: stages that change nothing in this scene.
+  if (!hasLight(v.traits)) drop(Stage::Shadows);
+  if (!has(v.traits, Trait::Specular)) drop(Stage::Reflections);
+  if (!has(v.traits, Trait::Transmission)) {
+    drop(Stage::Refraction);
+    drop(Stage::Schlick);
+  }
+  if (!hasNormalMaps(v.traits)) drop(Stage::NormalMaps);
+
+  // Step: how rays find triangles.
+  v.traversal = options.traversal == TraversalMethod::Auto ? TraversalMethod::FrontToBack : options.traversal;
+  v.stackSize = 32;
+  for (int size : {24, 16, 12, 8}) {
+    if (treeDepth <= uint32_t(size)) v.stackSize = size;
+  }
+  if (v.traversal == TraversalMethod::Iterative) v.stackSize = 8;
+  return v;
+}
+
+std::string variantName(const ShaderVariant& variant) {
+  std::string name;
+  auto append = [&](const std::string& part) { name += (name.empty() ? "" : "+") + part; };
+  for (const StageRow& row : stageRows()) {
+    if (has(variant.stages, row.stage)) append(row.name);
+  }
+  for (const TraitRow& row : traitRows()) {
+    if (has(variant.traits, row.trait)) append(row.name);
+  }
+  const char* traversal = variant.traversal == TraversalMethod::Iterative ? "iterative"
+                          : variant.traversal == TraversalMethod::Bvh     ? "bvh"
+                                                                          : "front-to-back";
+  append(traversal);
+  if (variant.traversal != TraversalMethod::Iterative) append("stack-" + std::to_string(variant.stackSize));
+  append(variant.reads == BufferReads::Image ? "image-reads" : "ssbo-reads");
+  return name;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The shader variant: what was asked for, cut down to what the scene holds.
+#pragma once
+
+#include <string>
+#include <tuple>
+
+#include "scene/scene.h"
+#include "stage/options.h"
+
+namespace fragtrace {
+
+/// Everything the shader text depends on; small and comparable, so it is the key of the program cache.
+struct ShaderVariant {
+  StageSet stages;
+  TraitSet traits;
+  TraversalMethod traversal = TraversalMethod::FrontToBack;
+  int stackSize = 12;
+  BufferReads reads = BufferReads::Ssbo;
+
+  auto key() const {
+    return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads);
+  }
+  bool operator<(const ShaderVariant& other) const { return key() < other.key(); }
+  bool operator==(const ShaderVariant& other) const { return key() == other.key(); }
+};
+
+/// What lights a scene from outside: an environment map, a constant default light, or nothing.
+enum class Surroundings : uint8_t { None, DefaultLight, Map };
+
+/// What the scene holds, before anything is asked for.
+TraitSet traitsOf(const Scene& scene, Surroundings surroundings);
+
+/// Whether the scene has any light of its own: emission or punctual lights.
+bool hasOwnLight(const Scene& scene);
+
+/// Reduces any wish to a legal variant: all implications between stages and traits stand here, once.
+ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& present, Surroundings surroundings,
+                            uint32_t treeDepth, BufferReads reads);
+
+/// The variant by name: what is on, separated by "+", for the statistics.
+std::string variantName(const ShaderVariant& variant);
+
+/// Why a stage or switch that was asked for is off in this variant; empty when it is on.
+std::string whyOff(Stage stage, const TraitSet& present);
+
+}  // namespace fragtrace

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "scene/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "errors.h"
+
+namespace fragtrace {
+namespace {
+
+constexpr double kTolerance = 1e-12;
+
+void expectNear(const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LE(glm::distance(a, b), kTolerance); }
+
+const BoundsDouble kBox = {{-1, -2, -3}, {3, 2, 1}};  // centre (1, 0, -1), radius sqrt(12)
+
+TEST(FrameScene, BoundingSphereTouchesTheViewCone) {
+  const Camera camera = frameScene(kBox);
+  expectNear(camera.forward, {0, 0, -1});
+  EXPECT_NEAR(camera.fovY, std::acos(-1.0) / 4, kTolerance);
+  EXPECT_EQ(camera.position.x, 1.0);
+  EXPECT_EQ(camera.position.y, 0.0);
+  const double distance = camera.position.z - -1.0;
+  EXPECT_NEAR(distance * std::sin(camera.fovY / 2), std::sqrt(12.0), kTolerance);
+}
+
+TEST(FrameScene, EmptyBoundsStillGiveACamera) {
+  const Camera camera = frameScene({});
+  EXPECT_GT(camera.position.z, 1.0);
+  EXPECT_TRUE(std::isfinite(camera.position.z));
+}
+
+TEST(FocalPoint, IsAsDeepAsTheCentreOfTheBounds) {
+  Camera camera;
+  camera.position = {0, 0, 9};
+  expectNear(focalPointOf(camera, kBox), {0, 0, -1});
+  camera.position = {0, 0, -9};
+  expectNear(focalPointOf(camera, kBox), {0, 0, -9 - std::sqrt(12.0)});
+  expectNear(focalPointOf(camera, {}), {0, 0, -10});
+}
+
+TEST(CameraOverrides, NoneChangeNothing) {
+  Camera camera = frameScene(kBox);
+  camera.perspective = false;
+  const Camera same = withOverrides(camera, {}, kBox);
+  EXPECT_EQ(same.position, camera.position);
+  EXPECT_EQ(same.forward, camera.forward);
+  EXPECT_EQ(same.up, camera.up);
+  EXPECT_FALSE(same.perspective);
+}
+
+TEST(CameraOverrides, PositionAloneKeepsTheFocalPoint) {
+  const Camera camera = withOverrides(frameScene(kBox), {.position = glm::dvec3(11, 0, -1)}, kBox);
+  expectNear(camera.forward, {-1, 0, 0});
+  expectNear(camera.up, {0, 1, 0});
+  expectNear(camera.position, {11, 0, -1});
+}
+
+TEST(CameraOverrides, FocalPointAloneTurnsTheCamera) {
+  Camera camera;
+  camera.position = {1, 2, 3};
+  const Camera turned = withOverrides(camera, {.focalPoint = glm::dvec3(1, 2, 8)});
+  expectNear(turned.forward, {0, 0, 1});
+  expectNear(turned.position, {1, 2, 3});
+}
+
+TEST(CameraOverrides, ViewUpIsMadeOrthogonal) {
+  const Camera camera = withOverrides(Camera(), {.viewUp = glm::dvec3(5, 0, 3)});
+  expectNear(camera.up, {1, 0, 0});
+  expectNear(camera.forward, {0, 0, -1});
+}
+
+TEST(CameraOverrides, ParallelViewUpGivesWayToAnotherAxis) {
+  const Camera down = withOverrides(
+      Camera(),
+      {.position = glm::dvec3(0, 5, 0), .focalPoint = glm::dvec3(0), .viewUp = glm::dvec3(0, 1, 0)});
+  expectNear(down.forward, {0, -1, 0});
+  EXPECT_NEAR(glm::dot(down.up, down.forward), 0.0, kTolerance);
+  EXPECT_NEAR(glm::length(down.up), 1.0, kTolerance);
+  const Camera none = withOverrides(Camera(), {.viewUp = glm::dvec3(0.0)});
+  expectNear(none.up, {0, 1, 0});
+}
+
+TEST(CameraOverrides, ViewAngleMakesThePictureAPerspective) {
+  Camera camera;
+  camera.perspective = false;
+  const Camera perspective = withOverrides(camera, {.viewAngleDegrees = 90.0});
+  EXPECT_TRUE(perspective.perspective);
+  EXPECT_NEAR(perspective.fovY, std::acos(-1.0) / 2, kTolerance);
+}
+
+TEST(CameraOverrides, SenselessOnesAreUsageErrors) {
+  const glm::dvec3 point(1, 2, 3);
+  EXPECT_THROW(withOverrides(Camera(), {.position = point, .focalPoint = point}), UsageError);
+  EXPECT_THROW(withOverrides(Camera(), {.viewAngleDegrees = 0.0}), UsageError);
+  EXPECT_THROW(withOverrides(Camera(), {.viewAngleDegrees = 180.0}), UsageError);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(withOverrides(Camera(), {.viewAngleDegrees = nan}), UsageError);
+  EXPECT_THROW(withOverrides(Camera(), {.viewUp = glm::dvec3(nan)}), UsageError);
+}
+
+TEST(CameraOverrides, FarAwayPositionsKeepDoublePrecision) {
+  const Camera camera = withOverrides(
+      Camera(), {.position = glm::dvec3(1e8, 0.5, 0), .focalPoint = glm::dvec3(1e8, 0.5, -1e-3)});
+  expectNear(camera.forward, {0, 0, -1});
+}
+
+}  // namespace
+}  // namespace fragtrace

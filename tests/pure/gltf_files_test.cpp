@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// Containers, URIs, pictures, extensions, and what is said of files that cannot be loaded.
+#include <gtest/gtest.h>
+
+#include "gltf_builder.h"
+
+namespace fragtrace::gltf_test {
+namespace {
+
+TEST(GltfFiles, GlbHoldsTheSameSceneAsJson) {
+  GltfBuilder builder;
+  builder.addTriangle();
+  const TemporaryFolder folder;
+  const Scene scene = loadGltf(folder.write("box.glb", builder.glb()));
+  ASSERT_EQ(scene.triangles.size(), 1u);
+  EXPECT_TRUE(isNear(worldCornerOf(scene, 0, 1), {1, 0, 0}));
+}
+
+TEST(GltfFiles, ContainerIsToldByContentNotByName) {
+  GltfBuilder builder;
+  builder.addTriangle();
+  const TemporaryFolder folder;
+  EXPECT_EQ(loadGltf(folder.write("box.gltf", builder.glb())).triangles.size(), 1u);
+}
+
+TEST(GltfFiles, BufferMayBeLongerThanItsByteLength) {
+  GltfBuilder builder;
+  builder.addTriangle();
+  const TemporaryFolder folder;
+  folder.write("data.bin", builder.buffer() + "more");
+  builder.root["buffers"] = {{{"byteLength", builder.buffer().size()}, {"uri", "data.bin"}}};
+  EXPECT_EQ(loadGltf(folder.write("box.gltf", builder.text())).triangles.size(), 1u);
+}
+
+TEST(GltfFiles, AnyFileNameWorksEscapedOrNot) {
+  for (const auto& [name, uri] : std::vector<std::pair<std::string, std::string>>{
+           {"a b+c.bin", "a%20b+c.bin"}, {"größe 木.bin", "größe 木.bin"}, {"ü%.bin", "%C3%BC%25.bin"}}) {
+    GltfBuilder builder;
+    builder.addTriangle();
+    const TemporaryFolder folder;
+    folder.write(name, builder.buffer());
+    builder.root["buffers"] = {{{"byteLength", builder.buffer().size()}, {"uri", uri}}};
+    EXPECT_EQ(loadGltf(folder.write("шкаф und so.gltf", builder.text())).triangles.size(), 1u) << uri;
+  }
+}
+
+GltfBuilder withTexture(const json& image) {
+  GltfBuilder builder;
+  builder.root["images"] = {image};
+  builder.root["textures"] = {{{"source", 0}}};
+  builder.root["materials"] = {{{"normalTexture", {{"index", 0}}}}};
+  return builder;
+}
+
+TEST(GltfFiles, ImagesStayEncodedWhereverTheyCameFrom) {
+  const std::vector<uint8_t> expected = {1, 2, 3, 4, 5};
+  const std::string content = "\1\2\3\4\5";
+  const TemporaryFolder folder;
+
+  folder.write("my image.png", content);
+  GltfBuilder beside = withTexture({{"uri", "my%20image.png"}});
+  const EncodedImage fromFile = loadGltf(folder.write("a.gltf", beside.text())).images.at(0);
+  EXPECT_EQ(fromFile.bytes, expected);
+  EXPECT_EQ(fromFile.name, (folder.path() / "my image.png").string());
+
+  GltfBuilder inUri = withTexture({{"uri", "data:image/webp;base64," + base64(content)}});
+  const EncodedImage fromUri = loadGltf(folder.write("b.gltf", inUri.text())).images.at(0);
+  EXPECT_EQ(fromUri.bytes, expected);
+  EXPECT_EQ(fromUri.name, (folder.path() / "b.gltf").string() + ": /images/0");
+
+  GltfBuilder inView = withTexture({{"bufferView", 0}, {"mimeType", "image/png"}});
+  inView.addView(expected);
+  EXPECT_EQ(loadGltf(folder.write("c.glb", inView.glb())).images.at(0).bytes, expected);
+}
+
+TEST(GltfFiles, MissingImageIsRefusedByName) {
+  GltfBuilder builder = withTexture({{"uri", "nowhere.png"}});
+  const std::string refusal = refusalOf(builder);
+  EXPECT_TRUE(refusal.starts_with("test.gltf: /images/0/uri: ")) << refusal;
+  EXPECT_NE(refusal.find("nowhere.png cannot be opened: No such file"), std::string::npos) << refusal;
+}
+
+TEST(GltfFiles, MissingFileIsRefusedInOneLine) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(refusalOf(folder.path() / "none.gltf"), "none.gltf: cannot be opened: No such file or directory");
+  EXPECT_EQ(refusalOf(folder.path() / "."), ".: is a directory");
+}
+
+TEST(GltfFiles, MissingBufferIsRefusedByName) {
+  GltfBuilder builder;
+  builder.addTriangle();
+  builder.root["buffers"] = {{{"byteLength", 36}, {"uri", "none.bin"}}};
+  EXPECT_NE(refusalOf(builder).find("none.bin cannot be opened"), std::string::npos);
+}
+
+TEST(GltfFiles, EveryTruncationOfAGlbIsRefused) {
+  GltfBuilder builder;
+  builder.addTriangle();
+  const std::string whole = builder.glb();
+  const TemporaryFolder folder;
+  for (size_t length = 0; length < whole.size(); ++length) {
+    const auto path = folder.write("cut.glb", whole.substr(0, length));
+    const std::string refusal = refusalOf(path);
+    EXPECT_TRUE(refusal.starts_with("cut.glb: ")) << length;
+    EXPECT_EQ(refusal.find('\n'), std::string::npos) << length;
+  }
+  EXPECT_EQ(refusalOf(folder.write("cut.glb", whole.substr(0, 100))),
+            "cut.glb: truncated .glb: its header says " + std::to_string(whole.size()) +
+                " bytes, the file has 100");
+}
+
+TEST(GltfFiles, WhatIsNotGltfIsRefused) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(refusalOf(folder.write("a.gltf", "solid cube")), "a.gltf: is not glTF: neither JSON nor a .glb");
+  EXPECT_EQ(refusalOf(folder.write("a.gltf", "")), "a.gltf: is empty, not glTF");
+  EXPECT_EQ(refusalOf(folder.write("a.gltf", "{}")), "a.gltf: \"asset\" is missing");
+  EXPECT_TRUE(refusalOf(folder.write("a.gltf", "{\"asset\":")).starts_with("a.gltf: the JSON is broken: "));
+  EXPECT_NE(refusalOf(folder.write("a.gltf", "{\"asset\":{\"version\":\"1.0\"}}")).find("/asset/version"),
+            std::string::npos);
+}
+
+TEST(GltfFiles, JsonNestedTooDeeplyIsRefused) {
+  const TemporaryFolder folder;
+  const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+  const auto path = folder.write("a.gltf", R"({"asset":{"version":"2.0"},"extras":)" + deep + "}");
+  EXPECT_EQ(refusalOf(path), "a.gltf: the JSON is nested deeper than 256");
+}
+
+TEST(GltfFiles, UnknownExtensionIsRefusedOnlyIfRequired) {
+  GltfBuilder builder;
+  builder.root["extensionsUsed"] = {"KHR_materials_ior", "VENDOR_unknown"};
+  const Scene scene = load(builder);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_TRUE(anyWarningHas(scene, "/extensionsUsed/1: the extension \"VENDOR_unknown\" is ignored"));
+  EXPECT_EQ(scene.extensionsUsed.size(), 2u);
+  builder.root["extensionsRequired"] = {"KHR_materials_ior", "VENDOR_unknown"};
+  EXPECT_EQ(
+      refusalOf(builder),
+      "test.gltf: /extensionsRequired/1: the extension \"VENDOR_unknown\" is required and not supported");
+}
+
+TEST(GltfFiles, SkinsMorphTargetsAndAnimationsWarnOnceEach) {
+  GltfBuilder builder;
+  builder.addTriangle()["targets"] = {{{"POSITION", 0}}};
+  builder.addTriangle()["targets"] = {{{"POSITION", 0}}};
+  builder.root["skins"] = {{{"joints", {0}}}};
+  builder.node(0)["skin"] = 0;
+  builder.node(1)["skin"] = 0;
+  builder.root["animations"] = {{{"channels", json::array()}, {"samplers", json::array()}}};
+  const Scene scene = load(builder);
+  EXPECT_EQ(scene.triangles.size(), 2u);
+  EXPECT_EQ(scene.warnings.size(), 3u);
+  EXPECT_TRUE(anyWarningHas(scene, "/nodes/0/skin: skins are not applied"));
+  EXPECT_TRUE(anyWarningHas(scene, "/meshes/0/primitives/0/targets: morph targets are not applied"));
+  EXPECT_TRUE(anyWarningHas(scene, "/animations: animations are not applied"));
+}
+
+TEST(GltfFiles, AFileWithoutGeometryIsAnEmptyScene) {
+  GltfBuilder builder;
+  const Scene scene = load(builder);
+  EXPECT_TRUE(scene.triangles.empty());
+  EXPECT_TRUE(scene.bounds.empty());
+  EXPECT_EQ(scene.origin, glm::dvec3(0.0));
+  EXPECT_EQ(scene.materials.size(), 1u);
+}
+
+}  // namespace
+}  // namespace fragtrace::gltf_test

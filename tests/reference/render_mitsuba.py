@@ -1,0 +1,202 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""References for the stage gi, rendered by Mitsuba 3 with the conventions of docs/conventions.md.
+
+Needs: pip install mitsuba==3.9.1; libLLVM (libllvm19). Usage: render_mitsuba.py [NAME...]
+"""
+
+import json
+import sys
+import tempfile
+from pathlib import Path
+
+import drjit as dr
+import mitsuba as mi
+import numpy as np
+
+mi.set_variant("llvm_ad_rgb")
+
+from gltf_scene import read_scene, unit
+from reference_files import FOLDER, write_reference
+
+REPOSITORY = FOLDER.parent.parent
+SCENES = REPOSITORY / "scenes"
+PASS_SAMPLES = 1 << 20  # samples rendered at once: bounds the memory
+
+
+class PunctualLight(mi.Emitter):
+    """KHR_lights_punctual's point and spot lights, with the range window and the spot falloff that Mitsuba's lack."""
+
+    def __init__(self, properties):
+        super().__init__(properties)
+        self.place = mi.Point3f(properties["position"])
+        self.axis = mi.Vector3f(properties["direction"])
+        self.radiant = mi.Color3f(properties["radiant"])
+        self.range, self.is_spot = properties["range"], properties["spot"]
+        self.scale = 1 / max(0.001, properties["inner_cosine"] - properties["outer_cosine"])
+        self.outer_cosine = properties["outer_cosine"]
+        self.m_flags = mi.EmitterFlags.DeltaPosition
+
+    def sample_direction(self, it, sample, active=True):
+        offset = self.place - it.p
+        ds = dr.zeros(mi.DirectionSample3f)
+        ds.p, ds.time, ds.pdf, ds.delta = self.place, it.time, 1.0, True
+        ds.dist = dr.norm(offset)
+        ds.d = offset / ds.dist
+        ds.emitter = mi.EmitterPtr(self)
+        factor = dr.clip(1 - (ds.dist / self.range) ** 4, 0, 1) / dr.square(ds.dist)
+        if self.is_spot:
+            factor *= dr.square(dr.clip((dr.dot(-ds.d, self.axis) - self.outer_cosine) * self.scale, 0, 1))
+        return ds, self.radiant * factor & active
+
+    def eval_direction(self, it, ds, active=True):
+        return self.sample_direction(it, mi.Point2f(0), active)[1]
+
+    def pdf_direction(self, it, ds, active=True):
+        return mi.Float(0)
+
+    def eval(self, si, active=True):
+        return mi.Color3f(0)
+
+    def bbox(self):
+        return mi.BoundingBox3f(self.place)
+
+
+mi.register_emitter("punctual", PunctualLight)
+
+
+def rgb(values):
+    return {"type": "rgb", "value": [float(x) for x in values[:3]]}
+
+
+def reflectance(material):
+    texture = material.color_texture
+    if not texture:
+        return rgb(material.color)
+    # Mitsuba counts v from the bottom of a bitmap; the texels are linear already.
+    texels = (texture.texels[..., :3] * material.color[:3]).astype(np.float32)
+    assert texture.wrap == ("repeat", "repeat")
+    return {"type": "bitmap", "bitmap": mi.Bitmap(texels), "raw": True, "filter_type": "nearest" if texture.nearest else "bilinear"}
+
+
+def surface(material):
+    """The BSDF, and the medium behind it if it is solid and absorbs."""
+    if material.transmission:
+        assert material.transmission == 1 and material.roughness == 0 and material.thickness > 0 and (material.color == 1).all()
+        result = {"bsdf": {"type": "dielectric", "int_ior": material.ior, "ext_ior": 1.0}}
+        if np.isfinite(material.attenuation_distance):
+            sigma = -np.log(material.attenuation_color) / material.attenuation_distance
+            result["interior"] = {"type": "homogeneous", "sigma_t": rgb(sigma), "albedo": 0.0}
+        return result
+    if material.metallic == 1:
+        assert material.roughness == 0 and (material.color == 1).all()
+        return {"bsdf": {"type": "conductor", "material": "none"}}
+    assert material.specular == 0 and material.metallic == 0
+    result = {"bsdf": {"type": "diffuse", "reflectance": reflectance(material)}}
+    if material.emission.any():
+        result["emitter"] = {"type": "area", "radiance": rgb(material.emission)}
+    return result
+
+
+def write_ply(path, mesh):
+    corners = np.concatenate([mesh.positions.reshape(-1, 3), mesh.uvs[0].reshape(-1, 2)], -1)
+    with open(path, "w", encoding="ascii") as file:
+        file.write("ply\nformat ascii 1.0\nelement vertex %d\n" % len(corners))
+        file.write("".join("property float %s\n" % name for name in "xyzuv"))
+        file.write("element face %d\nproperty list uchar int vertex_indices\nend_header\n" % (len(corners) // 3))
+        np.savetxt(file, corners, "%.9g")
+        np.savetxt(file, np.insert(np.arange(len(corners)).reshape(-1, 3), 0, 3, 1), "%d")
+
+
+def punctual(light):
+    if light.kind == "directional":
+        return {"type": "directional", "direction": light.direction.tolist(), "irradiance": rgb(light.radiant)}
+    return {"type": "punctual", "position": light.position.tolist(), "direction": light.direction.tolist(),
+            "radiant": light.radiant.tolist(), "range": float(min(light.range, 1e6)), "spot": light.kind == "spot",
+            "inner_cosine": float(light.inner_cosine), "outer_cosine": float(light.outer_cosine)}
+
+
+def read_pfm(path):
+    kind, size, scale, body = Path(path).read_bytes().split(b"\n", 3)
+    assert kind == b"PF" and float(scale) < 0
+    width, height = map(int, size.split())
+    return np.frombuffer(body, "<f4").reshape(height, width, 3)[::-1].astype(float)
+
+
+def environment_radiance(texels, rotation_degrees, direction):
+    """The environment along unit directions: bilinear between texel centres, wrapping in u, clamped in v."""
+    angle = np.radians(rotation_degrees)
+    # Turning the environment by +R about y means looking it up along the direction turned by -R.
+    x = np.cos(angle) * direction[..., 0] - np.sin(angle) * direction[..., 2]
+    z = np.sin(angle) * direction[..., 0] + np.cos(angle) * direction[..., 2]
+    height, width = texels.shape[:2]
+    u = (np.arctan2(z, x) / (2 * np.pi) + 0.5) * width - 0.5
+    v = np.clip(np.arccos(np.clip(direction[..., 1], -1, 1)) / np.pi * height - 0.5, 0, height - 1)
+    i, j = np.floor(u).astype(int), np.minimum(np.floor(v).astype(int), height - 2)
+    fu, fv = (u - i)[..., None], (v - j)[..., None]
+    rows = [texels[j + k, i % width] * (1 - fu) + texels[j + k, (i + 1) % width] * fu for k in (0, 1)]
+    return rows[0] * (1 - fv) + rows[1] * fv
+
+
+def environment(texels, rotation_degrees, width=1440):
+    """Mitsuba's nodes lie on texel corners, the first row at the pole: the environment is sampled there.
+
+    width is a multiple of 360 degrees' texels and half texels at every rotation in use, so the bilinear pieces are kept.
+    """
+    height = width // 2 + 1
+    azimuth, polar = np.meshgrid(2 * np.pi * np.arange(width) / width, np.pi * np.arange(height) / (height - 1))
+    direction = np.stack([np.sin(polar) * np.sin(azimuth), np.cos(polar), -np.sin(polar) * np.cos(azimuth)], -1)
+    bitmap = mi.Bitmap(environment_radiance(texels, rotation_degrees, direction).astype(np.float32))
+    return {"type": "envmap", "bitmap": bitmap}
+
+
+def build(scene, entry, scratch):
+    width, height = entry["resolution"]
+    options = dict(zip(entry["options"][::2], entry["options"][1::2]))
+    absorbs = any(np.isfinite(item.material.attenuation_distance) for item in scene.meshes + scene.spheres)
+    camera = scene.cameras[0]
+    result = {
+        "type": "scene",
+        "integrator": {"type": "volpath" if absorbs else "path", "max_depth": int(options["--bounces"]) + 2, "rr_depth": 1000},
+        # Mitsuba's cameras look along +z with +x to the left.
+        "sensor": {"type": "perspective", "fov_axis": "y", "fov": float(np.degrees(camera.yfov)), "near_clip": 1e-3,
+                   "to_world": mi.ScalarTransform4f(camera.to_world @ np.diag([-1.0, 1, -1, 1])),
+                   "film": {"type": "hdrfilm", "width": width, "height": height, "rfilter": {"type": "box"},
+                            "pixel_format": "rgb", "component_format": "float32"},
+                   "sampler": {"type": "independent"}}}
+    for i, mesh in enumerate(scene.meshes):
+        path = scratch / ("mesh%d.ply" % i)
+        write_ply(path, mesh)
+        result["mesh%d" % i] = {"type": "ply", "filename": str(path), "face_normals": True, **surface(mesh.material)}
+    for i, sphere in enumerate(scene.spheres):
+        result["sphere%d" % i] = {"type": "sphere", "center": sphere.center.tolist(), "radius": sphere.radius, **surface(sphere.material)}
+    for i, light in enumerate(scene.lights):
+        result["light%d" % i] = punctual(light)
+    if "--hdri-file" in options:
+        texels = read_pfm(REPOSITORY / options["--hdri-file"])
+        result["environment"] = environment(texels, float(options.get("--hdri-rotation", 0)))
+    return mi.load_dict(result)
+
+
+def render(scene, entry, seed):
+    width, height = entry["resolution"]
+    each = min(entry["spp"], PASS_SAMPLES // (width * height))
+    passes = entry["spp"] // each
+    total = np.zeros((height, width, 3))
+    for k in range(passes):
+        total += np.array(mi.render(scene, spp=each, seed=seed * passes + k))
+    return total / passes
+
+
+def main():
+    names = sys.argv[1:]
+    for entry in json.loads((FOLDER / "references.json").read_text())["references"]:
+        if entry["made_by"] != "render_mitsuba" or (names and entry["name"] not in names):
+            continue
+        with tempfile.TemporaryDirectory() as scratch:
+            scene = build(read_scene(SCENES / (entry["scene"] + ".gltf")), entry, Path(scratch))
+            write_reference(entry["name"], [render(scene, entry, seed) for seed in range(entry["batches"])])
+
+
+if __name__ == "__main__":
+    main()
