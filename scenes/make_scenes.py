@@ -177,7 +177,7 @@ def add_mapped_plane(gltf, with_tangents):
         panels.append(gltf.primitive(corners, QUAD_INDICES, plaster, quad_normals(corners), uvs, tangents))
     gltf.place_mesh("wall", *panels, rotation=rotation_about((0.6, 0.8, 0), -30))
     gltf.add_light("lamp", "point", 4, (1, 0.95, 0.85), eye=(-1.3, 1.7, 1.1))
-    gltf.add_camera("camera", (0, 0, 4), (0, 0, 0), 36)
+    gltf.add_camera("camera", (0, 0, 4), (0, 0, 0), 42)
 
 
 @scene("mapped-plane")

@@ -77,7 +77,7 @@ BsdfValue evaluateGlass(Bsdf b, vec3 outgoing, vec3 incoming) {
   float squared = dot(h, h);
   if (squared <= 0.0f) return none;
   h = h / sqrt(squared);
-  h = h.z < 0.0f ? -1.0f * h : h;
+  h = h.z < 0.0f ? -h : h;
   float oh = dot(outgoing, h);
   float ih = dot(image, h);
   if (oh <= 0.0f || (bends ? ih >= 0.0f : ih <= 0.0f)) return none;
@@ -142,7 +142,7 @@ BsdfSample sampleSmoothGlass(Bsdf b, vec3 outgoing, float choice) {
   s.incoming = vec3(-outgoing.x, -outgoing.y, outgoing.z);
   if (s.transmitted) {
     s.weight = b.solid ? b.baseColor / (b.eta * b.eta) : b.baseColor;
-    s.incoming = b.solid ? refractThrough(outgoing, vec3(0.0f, 0.0f, 1.0f), b.eta) : -1.0f * outgoing;
+    s.incoming = b.solid ? refractThrough(outgoing, vec3(0.0f, 0.0f, 1.0f), b.eta) : -outgoing;
   }
   return s;
 }

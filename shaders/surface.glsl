@@ -40,7 +40,8 @@ Surface sphereSurface(LeafPrimitive p, uvec4 record, vec3 origin, vec3 direction
   vec3 q = rotateBy(vec4(-rotation.xyz, rotation.w), normal);
   vec2 uv = vec2(atan(q.z, q.x) * (0.5 * kInversePi) + 0.5, acos(clamp(q.y, -1.0, 1.0)) * kInversePi);
   float ring = length(q.xz);
-  s.tangent = ring > 0.0 ? vec4(rotateBy(rotation, vec3(-q.z, 0.0, q.x) / ring), 1.0) : vec4(rotateBy(rotation, vec3(1.0, 0.0, 0.0)), 1.0);
+  // dP/du; the map is mirrored seen from outside, so that the bitangent, -dP/dv, has handedness -1.
+  s.tangent = vec4(rotateBy(rotation, ring > 0.0 ? vec3(-q.z, 0.0, q.x) / ring : vec3(1.0, 0.0, 0.0)), -1.0);
   s.texcoords = vec4(uv, uv);
   s.color = vec4(1.0);
   return s;

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "errors.h"
+#include "image/format.h"
 
 namespace fragtrace {
 
@@ -31,6 +32,7 @@ struct RawRender {
   std::string backend = "auto";
   std::string reads = "auto";
   std::string statsFile;
+  std::vector<std::string> aov;
   bool noBackground = false;
   bool noDefaultLight = false;
 };
@@ -124,6 +126,12 @@ RenderOptions finish(const RawRender& raw, RenderOptions o) {
   o.backend = choose<Backend>("--rendering-backend", raw.backend, std::vector<std::string>{"auto", "egl", "osmesa"});
   o.bufferReads = choose<BufferReads>("--buffer-reads", raw.reads, std::vector<std::string>{"auto", "ssbo", "image"});
   o.statsFile = raw.statsFile;
+  for (const std::string& name : raw.aov) {
+    (choose<int>("--aov", name, std::vector<std::string>{"samples", "variance"}) == 0 ? o.aovSamples : o.aovVariance) = true;
+  }
+  if (!raw.aov.empty() && formatOfName(o.output) != ImageFormat::OpenExr) {
+    throw UsageError("--aov: only .exr files hold more layers");
+  }
   checkFinite(o);
   return o;
 }
@@ -161,6 +169,7 @@ void addRenderOptions(CLI::App& app, RawRender& raw, RenderOptions& o) {
       ->expected(3);
   app.add_flag("--no-default-light", raw.noDefaultLight, "a scene without any light stays dark");
   app.add_option("--pixel-filter", raw.pixelFilter, "box")->capture_default_str();
+  app.add_option("--aov", raw.aov, "samples, variance: more layers in an .exr")->delimiter(',');
   app.add_option("--exposure", o.exposure, "EV, for .png and .jpg")->capture_default_str();
   app.add_option("--tone-map", raw.toneMap, "linear, reinhard, aces, agx, neutral, for .png and .jpg")
       ->capture_default_str();

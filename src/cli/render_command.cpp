@@ -179,7 +179,7 @@ int runRender(const RenderOptions& options) {
   if (interrupts() > 1) return kInterruptedStatus;
 
   // Step: write.
-  Image picture = film.readImage(!options.background);
+  Image picture = film.readImage({!options.background, options.aovSamples, options.aovVariance});
   if (has(variant.stages, Stage::BvhHeatmap)) picture = paintHeatmap(picture);
   if (library.valid()) library.wait();
   writePicture(options, picture);

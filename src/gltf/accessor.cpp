@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <type_traits>
+
+#include "scene/scene.h"
 
 namespace fragtrace {
 namespace {
@@ -32,7 +35,7 @@ float componentToFloat(Component value, bool normalized) {
 /// Calls use(Component()) with the C++ type of a glTF component type.
 template <typename Use>
 void withComponentType(int componentType, const Use& use) {
-  switch (componentType) {
+  switch (componentType) {  // NOLINT(bugprone-branch-clone): each branch has its own type
     case TINYGLTF_COMPONENT_TYPE_BYTE:
       return use(int8_t());
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
@@ -125,6 +128,13 @@ struct SparseElements {
   Elements values;
 };
 
+/// Of a type for which isIndexType() is true.
+template <typename Component>
+uint32_t indexOf(Component value) {
+  if constexpr (std::is_unsigned_v<Component>) return value;
+  return kMissIndex;
+}
+
 bool isIndexType(int componentType) {
   return componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
          componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
@@ -152,7 +162,7 @@ SparseElements sparseElementsOf(const Document& document, int index, const Eleme
                          size_t(sparse.indices.byteOffset), indices, false);
   result.indices.resize(indices.count);
   forEachComponent(indices, [&](size_t i, int, auto value) {
-    result.indices[i] = uint32_t(value);
+    result.indices[i] = indexOf(value);
     if (result.indices[i] >= base.count) {
       document.diagnostics.refuse(place + "/indices", "index " + std::to_string(result.indices[i]) +
                                                           " is past the " + std::to_string(base.count) +
@@ -237,11 +247,11 @@ std::vector<uint32_t> readIndices(const Document& document, int accessor, size_t
   const SparseElements sparse = sparseElementsOf(document, accessor, elements);
   std::vector<uint32_t> result(elements.count, 0);
   if (elements.data != nullptr) {
-    forEachComponent(elements, [&](size_t i, int, auto value) { result[i] = uint32_t(value); });
+    forEachComponent(elements, [&](size_t i, int, auto value) { result[i] = indexOf(value); });
   }
   if (!sparse.indices.empty()) {
     forEachComponent(sparse.values,
-                     [&](size_t i, int, auto value) { result[sparse.indices[i]] = uint32_t(value); });
+                     [&](size_t i, int, auto value) { result[sparse.indices[i]] = indexOf(value); });
   }
   const uint32_t largest = *std::max_element(result.begin(), result.end());
   if (largest >= vertexCount) {

@@ -10,10 +10,7 @@ namespace fragtrace {
 std::string inQuotes(std::string_view text) {
   constexpr size_t kLongestQuote = 80;
   std::string result = "\"";
-  for (const char c : text.substr(0, kLongestQuote)) {
-    const auto byte = static_cast<unsigned char>(c);
-    result += byte < 0x20 || byte == 0x7f ? '?' : c;
-  }
+  result += text.substr(0, kLongestQuote);
   if (text.size() > kLongestQuote) result += "...";
   return result + "\"";
 }
@@ -21,7 +18,11 @@ std::string inQuotes(std::string_view text) {
 std::string Diagnostics::line(std::string_view place, std::string_view reason) const {
   std::string text = file_ + ": ";
   if (!place.empty()) text.append(place).append(": ");
-  return text.append(reason);
+  text.append(reason);
+  // Names and URIs from a file may hold line ends or terminal commands.
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  return text;
 }
 
 void Diagnostics::refuse(std::string_view place, std::string_view reason) const {

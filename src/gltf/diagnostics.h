@@ -27,10 +27,10 @@ std::string pointerTo(const Parts&... parts) {
   return pointer;
 }
 
-/// Text from a file, in quotes, shortened and without control characters, fit for a one-line message.
+/// Text from a file in quotes, shortened.
 std::string inQuotes(std::string_view text);
 
-/// Names the file in every message, and collects the warnings.
+/// Names the file in every message, and collects the warnings. Control characters become question marks.
 class Diagnostics {
  public:
   explicit Diagnostics(std::string file) : file_(std::move(file)) {}

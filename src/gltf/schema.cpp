@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/schema.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -316,11 +317,10 @@ json parseJson(std::string_view text, const Diagnostics& diagnostics) {
   try {
     return json::parse(text);
   } catch (const json::exception& error) {
-    const std::string_view what = error.what();
-    const size_t prefix = what.find("] ");
-    diagnostics.refuse("",
-                       "the JSON is broken: " +
-                           std::string(prefix == std::string_view::npos ? what : what.substr(prefix + 2)));
+    // "[json.exception...] WHERE: WHAT; last read: 'RAW BYTES'"
+    std::string_view what = error.what();
+    what.remove_prefix(std::min(what.find("] ") + 2, what.size()));
+    diagnostics.refuse("", "the JSON is broken: " + std::string(what.substr(0, what.find("; last read"))));
   }
 }
 

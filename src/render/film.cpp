@@ -59,7 +59,7 @@ void Film::bind() const {
   glBindImageTexture(layout::kFilmCountsBinding, counts_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32UI);
 }
 
-Image Film::readImage(bool withAlpha) const {
+Image Film::readImage(const Layers& layers) const {
   const auto sum = readLayer<float>(sum_, GL_RGBA, GL_FLOAT, size_);
   const auto compensation = readLayer<float>(compensation_, GL_RGBA, GL_FLOAT, size_);
   const auto counts = readLayer<uint32_t>(counts_, GL_RGBA_INTEGER, GL_UNSIGNED_INT, size_);
@@ -67,7 +67,9 @@ Image Film::readImage(bool withAlpha) const {
   image.width = size_.x;
   image.height = size_.y;
   image.channels = {"R", "G", "B"};
-  if (withAlpha) image.channels.emplace_back("A");
+  if (layers.alpha) image.channels.emplace_back("A");
+  if (layers.samples) image.channels.emplace_back("samples.Y");
+  if (layers.variance) image.channels.emplace_back("variance.Y");
   image.values.resize(size_t(size_.x) * size_t(size_.y) * image.channelCount());
   for (int y = 0; y < size_.y; ++y) {
     for (int x = 0; x < size_.x; ++x) {
@@ -75,7 +77,10 @@ Image Film::readImage(bool withAlpha) const {
       const double samples = std::max(1u, counts[i]);
       float* pixel = image.pixel(x, y);
       for (size_t c = 0; c < 3; ++c) pixel[c] = float((double(sum[i + c]) - compensation[i + c]) / samples);
-      if (withAlpha) pixel[3] = float(sum[i + 3] / samples);
+      size_t next = 3;
+      if (layers.alpha) pixel[next++] = float(sum[i + 3] / samples);
+      if (layers.samples) pixel[next++] = float(counts[i]);
+      if (layers.variance) pixel[next] = float(compensation[i + 3] / (samples * std::max(1.0, samples - 1.0)));
     }
   }
   return image;

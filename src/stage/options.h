@@ -42,6 +42,8 @@ struct RenderOptions {
   TraversalMethod traversal = TraversalMethod::Auto;
   Backend backend = Backend::Auto;
   BufferReads bufferReads = BufferReads::Auto;
+  bool aovSamples = false;   ///< more layers of .exr files
+  bool aovVariance = false;
   std::filesystem::path statsFile;
   bool quiet = false;
   bool verbose = false;

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// The shader's pure files compiled as C++, twice: glsl_float is what the GPU runs, glsl_double the same algorithm in
+// double precision, the oracle.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <stdexcept>
+
+#include "shader/layout.h"
+
+/// What the shader's prelude fixes and its buffers hold: here variables, so that one test can walk the variants.
+namespace fragtrace::glsl_variant {
+
+inline bool kTriangles = true;
+inline bool kSpheres = true;
+inline bool kCulling = true;
+inline bool kHeatmap = true;
+inline bool kIterative = false;
+inline bool kFrontToBack = true;
+inline bool kSpecular = true;
+inline bool kMetals = true;
+inline bool kTransmission = true;
+inline bool kSchlick = false;
+inline int kStackSize = 32;
+
+inline std::span<const uint32_t> nodes;
+inline std::span<const uint32_t> leaves;
+
+/// One row of four words. Throws where the shader would read outside of its buffer.
+inline glm::uvec4 rowOf(std::span<const uint32_t> words, int index) {
+  const size_t first = size_t(index) * 4;
+  if (index < 0 || first + 4 > words.size()) throw std::out_of_range("the shader reads outside of a buffer");
+  return {words[first], words[first + 1], words[first + 2], words[first + 3]};
+}
+
+/// Gives a variable above another value until the end of the scope.
+template <typename T>
+class With {
+ public:
+  With(T& variable, const T& value) : variable_(variable), before_(variable) { variable_ = value; }
+  With(const With&) = delete;
+  With& operator=(const With&) = delete;
+  ~With() { variable_ = before_; }
+
+ private:
+  T& variable_;
+  T before_;
+};
+
+}  // namespace fragtrace::glsl_variant
+
+// Shader functions are not inline: each test file has its own, and uses some of them.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+
+#define precise
+
+namespace fragtrace::glsl_float {
+namespace {
+using namespace layout;        // NOLINT: as the shader includes it
+using namespace glsl_variant;  // NOLINT: as the prelude defines it
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+#include "glsl_functions.h"
+int floatBitsToInt(float x) { return std::bit_cast<int>(x); }
+float intBitsToFloat(int x) { return std::bit_cast<float>(x); }
+#include "slab.glsl"
+// The rest is as for doubles.
+#include "glsl_files.h"
+}  // namespace
+}  // namespace fragtrace::glsl_float
+
+#define float double
+namespace fragtrace::glsl_double {
+namespace {
+using namespace layout;        // NOLINT: as above
+using namespace glsl_variant;  // NOLINT
+using vec2 = glm::dvec2;
+using vec3 = glm::dvec3;
+using vec4 = glm::dvec4;
+#include "glsl_functions.h"
+float slabMin(float a, float b) { return min(a, b); }
+float slabMax(float a, float b) { return max(a, b); }
+#include "glsl_files.h"
+}  // namespace
+}  // namespace fragtrace::glsl_double
+#undef float
+
+#undef precise
+#pragma GCC diagnostic pop

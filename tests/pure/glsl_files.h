@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// The pure shader files in the order of trace.glsl. No include guard: glsl.h includes this once a precision.
+#include "random.glsl"
+#include "sampling.glsl"
+#include "camera.glsl"
+#include "intersect.glsl"
+#include "stack.glsl"
+#include "tree.glsl"
+#include "traverse.glsl"
+#include "perlin.glsl"
+#include "fresnel.glsl"
+#include "ggx.glsl"
+#include "bsdf.glsl"
+#include "phong.glsl"

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// GLSL's types and built-in functions, as far as the pure shader files use them. No include guard: glsl.h includes this
+// once a precision, with float defined as double the second time; vec2, vec3 and vec4 are already named.
+
+using uint = uint32_t;
+using glm::ivec4;
+using glm::uvec3;
+using glm::uvec4;
+
+// Scalars; for vectors argument-dependent lookup finds GLM's functions. min, max and clamp are the specification's.
+float abs(float x) { return std::fabs(x); }
+float sqrt(float x) { return std::sqrt(x); }
+float floor(float x) { return std::floor(x); }
+float cos(float x) { return std::cos(x); }
+float sin(float x) { return std::sin(x); }
+float pow(float x, float y) { return std::pow(x, y); }
+float min(float a, float b) { return b < a ? b : a; }
+float max(float a, float b) { return a < b ? b : a; }
+float clamp(float x, float low, float high) { return min(max(x, low), high); }
+int min(int a, int b) { return b < a ? b : a; }
+int max(int a, int b) { return a < b ? b : a; }
+
+vec3 uintBitsToFloat(uvec3 v) { return vec3(glm::uintBitsToFloat(v)); }
+
+uvec4 readNodes(int index) { return glsl_variant::rowOf(glsl_variant::nodes, index); }
+uvec4 readLeaves(int index) { return glsl_variant::rowOf(glsl_variant::leaves, index); }
