@@ -17,6 +17,7 @@
 #include "image/heatmap.h"
 #include "image/library.h"
 #include "image/tone_map.h"
+#include "image/whole_file.h"
 #include "pack/pack_tree.h"
 
 namespace fragtrace {
@@ -100,6 +101,8 @@ void writePicture(const RenderOptions& options, const Image& linear) {
 }  // namespace
 
 int runRender(const RenderOptions& options) {
+  checkReplaceable(options.output);
+  if (!options.statsFile.empty()) checkReplaceable(options.statsFile);
   Statistics stats;
   Stopwatch watch;
 

@@ -35,7 +35,8 @@ float componentToFloat(Component value, bool normalized) {
 /// Calls use(Component()) with the C++ type of a glTF component type.
 template <typename Use>
 void withComponentType(int componentType, const Use& use) {
-  switch (componentType) {  // NOLINT(bugprone-branch-clone): each branch has its own type
+  switch (componentType) {
+    // Each branch has its own type: NOLINTNEXTLINE(bugprone-branch-clone)
     case TINYGLTF_COMPONENT_TYPE_BYTE:
       return use(int8_t());
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/nodes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -111,7 +112,12 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
   const std::vector<int> roots = rootsOf(document, parentsOf(document));
   std::vector<PlacedNode> placed;
   std::vector<PlacedNode> waiting;  // the last one is next; world is the parent's until then
-  for (auto root = roots.rbegin(); root != roots.rend(); ++root) waiting.push_back({*root, glm::dmat4(1.0)});
+  const auto await = [&waiting](const std::vector<int>& nodes, const glm::dmat4& parent) {
+    const auto first = std::ptrdiff_t(waiting.size());
+    for (const int node : nodes) waiting.push_back({node, parent});
+    std::reverse(waiting.begin() + first, waiting.end());
+  };
+  await(roots, glm::dmat4(1.0));
   while (!waiting.empty()) {
     PlacedNode node = waiting.back();
     waiting.pop_back();
@@ -120,9 +126,7 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
     node.world = node.world * localTransform(source, place, document.diagnostics);
     if (!isFinite(node.world)) document.diagnostics.refuse(place, "its world transform overflows");
     placed.push_back(node);
-    for (auto child = source.children.rbegin(); child != source.children.rend(); ++child) {
-      waiting.push_back({*child, node.world});
-    }
+    await(source.children, node.world);
   }
   return placed;
 }

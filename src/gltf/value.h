@@ -26,6 +26,7 @@ inline std::vector<double> numbersOf(const tinygltf::Value& object, const std::s
   const tinygltf::Value& member = memberOf(object, name);
   if (!member.IsArray()) return otherwise;
   std::vector<double> numbers;
+  numbers.reserve(member.ArrayLen());
   for (int i = 0; i < int(member.ArrayLen()); ++i) numbers.push_back(member.Get(i).GetNumberAsDouble());
   return numbers;
 }

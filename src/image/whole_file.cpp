@@ -63,6 +63,18 @@ std::vector<uint8_t> readWholeFile(const std::filesystem::path& path) {
   }
 }
 
+void checkReplaceable(const std::filesystem::path& path) {
+  const auto check = [&](int code) {
+    if (code != 0) throw RenderError("cannot write " + path.string() + ": " + systemReason(code));
+  };
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  std::error_code error;
+  check(!path.has_filename() || std::filesystem::is_directory(path, error) ? EISDIR : 0);
+  const auto status = std::filesystem::status(folder, error);
+  check(!std::filesystem::exists(status) ? ENOENT : !std::filesystem::is_directory(status) ? ENOTDIR : 0);
+  check(::access(folder.c_str(), W_OK | X_OK) != 0 ? errno : 0);
+}
+
 void replaceFile(const std::filesystem::path& path, std::span<const uint8_t> bytes) {
   const auto fail = [&](int code) -> RenderError {
     return RenderError("cannot write " + path.string() + ": " + systemReason(code));

@@ -1,0 +1,270 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The command line as a user meets it: exit statuses, messages, files, interruption, statistics.
+
+usage: command_test.py FRAGTRACE SOURCE_FOLDER [unittest arguments]
+"""
+import json
+import os
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+FRAGTRACE = Path(sys.argv[1]).resolve()
+SCENES = Path(sys.argv[2]).resolve() / "scenes"
+SMALL = ["--resolution", "16,16", "--spp", "2", "--quiet"]
+
+
+def run(*arguments, **options):
+    return subprocess.run([FRAGTRACE, *map(str, arguments)], capture_output=True, text=True, timeout=120, **options)
+
+
+def read_pfm(path):
+    kind, size, _, body = Path(path).read_bytes().split(b"\n", 3)
+    width, height = map(int, size.split())
+    values = struct.unpack("<%df" % (width * height * 3), body)
+    rows = [values[y * width * 3:(y + 1) * width * 3] for y in range(height)]
+    return [[row[3 * x:3 * x + 3] for x in range(width)] for row in reversed(rows)]
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def fails(self, status, *arguments, says=(), **options):
+        result = run(*arguments, **options)
+        self.assertEqual(result.returncode, status, result.stderr)
+        for text in says:
+            self.assertIn(text, result.stderr)
+        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+        self.assertEqual([p for p in self.folder.iterdir() if p.suffix in (".png", ".exr", ".pfm", ".part")], [])
+
+    def renders(self, *arguments, **options):
+        result = run("render", *arguments, **options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+
+class ExitStatuses(Case):
+    def render(self, scene, name="x.pfm"):
+        return ["render", scene, "-o", self.folder / name, *SMALL]
+
+    def test_a_missing_scene_is_3(self):
+        self.fails(3, *self.render(self.folder / "none.gltf"), says=["none.gltf"])
+
+    def test_a_truncated_glb_is_3(self):
+        path = self.folder / "cut.glb"
+        path.write_bytes(b"glTF" + struct.pack("<III", 2, 1000, 980) + b"JSON{")
+        self.fails(3, *self.render(path), says=["cut.glb"])
+
+    def test_an_index_out_of_range_is_3_and_named(self):
+        scene = json.loads((SCENES / "furnace.gltf").read_text())
+        scene["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 99
+        path = self.folder / "bad.gltf"
+        path.write_text(json.dumps(scene))
+        self.fails(3, *self.render(path), says=["bad.gltf", "/meshes/0/primitives/0/attributes/POSITION"])
+
+    def test_an_unknown_required_extension_is_3_and_named(self):
+        scene = json.loads((SCENES / "furnace.gltf").read_text())
+        scene["extensionsUsed"] = scene["extensionsRequired"] = ["EXT_never_heard_of"]
+        path = self.folder / "ext.gltf"
+        path.write_text(json.dumps(scene))
+        self.fails(3, *self.render(path), says=["EXT_never_heard_of"])
+
+    def test_a_missing_environment_is_3(self):
+        self.fails(3, *self.render(SCENES / "furnace.gltf"), "--hdri-file", self.folder / "no.hdr", says=["no.hdr"])
+
+    def test_an_unwritable_output_is_1(self):
+        self.fails(1, *self.render(SCENES / "furnace.gltf", "no/such/folder/x.pfm"), says=["no/such/folder"])
+
+    def test_an_unwritable_statistics_file_is_1_and_leaves_no_picture(self):
+        self.fails(1, *self.render(SCENES / "furnace.gltf"), "--stats", self.folder / "no/s.json", says=["s.json"])
+
+    def test_unknown_options_values_and_formats_are_2(self):
+        for extra in (["--nonsense"], ["--stage", "fast"], ["--enable", "warp"], ["--spp", "0"], ["--bounces", "-1"],
+                      ["--resolution", "10"], ["--resolution", "0,10"], ["--tone-map", "filmic"],
+                      ["--camera-position", "1,2"], ["--camera-index", "7"], ["--exposure", "nan"]):
+            result = run(*self.render(SCENES / "cornell-box.gltf"), *extra)
+            self.assertEqual(result.returncode, 2, (extra, result.stderr))
+        self.assertEqual(run(*self.render(SCENES / "cornell-box.gltf", "x.tga")).returncode, 2)
+        self.assertEqual(run().returncode, 2)
+
+    def test_help_and_version_are_0(self):
+        self.assertEqual(run("--help").returncode, 0)
+        self.assertEqual(run("--version").returncode, 0)
+        self.assertIn("--bounces", run("render", "--help").stdout)
+
+    def test_a_machine_without_gl_is_4_and_says_what_was_tried(self):
+        for name in ("libEGL.so.1", "libEGL.so", "libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"):
+            (self.folder / name).write_text("no library")
+        environment = {**os.environ, "LD_LIBRARY_PATH": str(self.folder)}
+        self.fails(4, *self.render(SCENES / "furnace.gltf"), says=["EGL", "OSMesa"], env=environment)
+        info = run("info", SCENES / "furnace.gltf", env=environment)
+        self.assertEqual(info.returncode, 0, info.stderr)
+
+    def test_diff_is_1_above_the_threshold_or_when_sizes_differ(self):
+        a, b, c = (self.folder / name for name in ("a.pfm", "b.pfm", "c.pfm"))
+        self.renders(SCENES / "cornell-box.gltf", "-o", a, *SMALL)
+        self.renders(SCENES / "cornell-box.gltf", "-o", b, *SMALL, "--seed", "7")
+        self.renders(SCENES / "cornell-box.gltf", "-o", c, "--resolution", "8,8", "--spp", "1", "--quiet")
+        self.assertEqual(run("diff", a, a, "--threshold", "0").returncode, 0)
+        self.assertEqual(run("diff", a, b, "--threshold", "1e-9").returncode, 1)
+        self.assertEqual(run("diff", a, c).returncode, 1)
+        self.assertEqual(run("diff", a, self.folder / "none.pfm").returncode, 3)
+        self.assertEqual(run("diff", a, a, "--metric", "psnr", "--threshold", "99").returncode, 0)
+        self.assertEqual(run("diff", a, b, "--metric", "psnr", "--threshold", "99").returncode, 1)
+
+
+class Pictures(Case):
+    def test_any_file_name_works(self):
+        name = self.folder / "Gemälde 100 % 図.png"
+        scene = self.folder / "a b ü.gltf"
+        scene.write_bytes((SCENES / "furnace.gltf").read_bytes())
+        self.renders(scene, "-o", name, *SMALL)
+        self.assertTrue(name.read_bytes().startswith(b"\x89PNG"))
+
+    def test_every_format_is_written_and_read(self):
+        reference = self.folder / "x.exr"
+        self.renders(SCENES / "cornell-box.gltf", "-o", reference, *SMALL)
+        for suffix, limit in ((".pfm", "1e-9"), (".hdr", "0.3")):
+            path = self.folder / ("x" + suffix)
+            self.renders(SCENES / "cornell-box.gltf", "-o", path, *SMALL)
+            result = run("diff", path, reference, "--metric", "max", "--threshold", limit)
+            self.assertEqual(result.returncode, 0, result.stdout)
+        for suffix in (".png", ".jpg"):
+            self.renders(SCENES / "cornell-box.gltf", "-o", self.folder / ("x" + suffix), *SMALL)
+
+    def test_the_same_seed_gives_the_same_bits_and_another_seed_does_not(self):
+        a, b, c = (self.folder / name for name in ("a.pfm", "b.pfm", "c.pfm"))
+        options = ["--resolution", "64,64", "--spp", "9", "--quiet"]
+        self.renders(SCENES / "cornell-box.gltf", "-o", a, *options)
+        self.renders(SCENES / "cornell-box.gltf", "-o", b, *options)
+        self.renders(SCENES / "cornell-box.gltf", "-o", c, *options, "--seed", "1")
+        self.assertEqual(a.read_bytes(), b.read_bytes())
+        self.assertNotEqual(a.read_bytes(), c.read_bytes())
+
+    def test_quiet_prints_nothing(self):
+        result = self.renders(SCENES / "furnace.gltf", "-o", self.folder / "x.pfm", *SMALL)
+        self.assertEqual((result.stdout, result.stderr), ("", ""))
+
+    def test_a_numeric_locale_changes_nothing(self):
+        a, b = self.folder / "a.pfm", self.folder / "b.pfm"
+        options = ["--camera-position", "0.5,0.25,3.5", "--exposure", "0.5", *SMALL]
+        self.renders(SCENES / "cornell-box.gltf", "-o", a, *options)
+        self.renders(SCENES / "cornell-box.gltf", "-o", b, *options, env={**os.environ, "LC_ALL": "de_DE.UTF-8"})
+        self.assertEqual(a.read_bytes(), b.read_bytes())
+
+    def test_negative_vectors_are_values_not_options(self):
+        self.renders(SCENES / "cornell-box.gltf", "-o", self.folder / "x.pfm", "--camera-position", "-1,-.5,3",
+                     "--camera-view-up", "-.1,1,0", *SMALL)
+
+    def test_no_background_gives_alpha_of_what_was_hit(self):
+        path = self.folder / "x.exr"
+        self.renders(SCENES / "sphere-black.gltf", "-o", path, "--no-background", "--stage", "flat", *SMALL)
+        self.assertTrue(path.exists())
+
+    def test_the_default_light_is_said_and_can_be_turned_off(self):
+        options = ["--resolution", "16,16", "--spp", "1", "--stats", self.folder / "s.json"]
+        result = self.renders(SCENES / "furnace.gltf", "-o", self.folder / "x.pfm", *options)
+        self.assertIn("--no-default-light", result.stderr)
+        self.assertTrue(json.loads((self.folder / "s.json").read_text())["default_light"])
+        self.renders(SCENES / "furnace.gltf", "-o", self.folder / "x.pfm", *options, "--no-default-light")
+        self.assertFalse(json.loads((self.folder / "s.json").read_text())["default_light"])
+        self.assertTrue(all(v == (0, 0, 0) for row in read_pfm(self.folder / "x.pfm") for v in row))
+
+
+class Statistics(Case):
+    def test_they_hold_what_is_promised(self):
+        self.renders(SCENES / "cornell-box.gltf", "-o", self.folder / "x.pfm", "--stats", self.folder / "s.json",
+                     "--resolution", "20,10", "--spp", "3", "--quiet")
+        stats = json.loads((self.folder / "s.json").read_text())
+        for key in ("scene load_ms bvh_build_ms upload_ms compile_ms first_frame_ms render_ms frame_ms spp width height rays "
+                    "mpaths_per_s mrays_per_s nonfinite_pixels budget_hits gl_renderer backend variant").split():
+            self.assertIn(key, stats)
+        self.assertEqual((stats["width"], stats["height"], stats["spp"]), (20, 10, 3))
+        self.assertEqual(set(stats["frame_ms"]), {"median", "mean", "stddev", "min", "p95"})
+        self.assertEqual(stats["budget_hits"], 0)
+        self.assertGreaterEqual(stats["rays"], 20 * 10 * 3)
+        paths = 20 * 10 * 3 / stats["render_ms"] / 1000
+        self.assertAlmostEqual(stats["mpaths_per_s"], paths, delta=1e-6 + 1e-3 * paths)
+
+    def test_flat_traces_one_ray_a_path(self):
+        self.renders(SCENES / "cornell-box.gltf", "-o", self.folder / "x.pfm", "--stats", self.folder / "s.json",
+                     "--stage", "flat", "--resolution", "20,10", "--spp", "3", "--quiet")
+        self.assertEqual(json.loads((self.folder / "s.json").read_text())["rays"], 20 * 10 * 3)
+
+    def test_info_is_json_with_the_tree(self):
+        result = run("info", "--json", SCENES / "mesh-62975.gltf")
+        data = json.loads(result.stdout)
+        self.assertEqual(data["scene"]["triangles"], 62975)
+        self.assertEqual(json.loads(run("info", "--json", SCENES / "mesh-15743.gltf").stdout)["scene"]["triangles"], 15743)
+        self.assertLessEqual(data["bvh"]["depth"], 32)
+        self.assertGreater(data["bvh"]["sah_cost"], 1)
+
+
+class DriverLimits(Case):
+    """Work that would need more than llvmpipe's 65,535 loop iterations in one invocation goes on in the next draw."""
+
+    def compare(self, scene, backend, traversal, spp, size, stage="flat"):
+        paths = [self.folder / "a.pfm", self.folder / "b.pfm"]
+        common = ["--stage", stage, "--resolution", size, "--spp", spp, "--quiet", "--rendering-backend", backend]
+        stats = self.folder / "s.json"
+        self.renders(SCENES / scene, "-o", paths[0], *common, "--traversal", traversal, "--stats", stats)
+        self.renders(SCENES / scene, "-o", paths[1], *common, "--traversal", "front-to-back")
+        self.assertEqual(json.loads(stats.read_text())["budget_hits"], 0)
+        result = run("diff", *paths, "--metric", "rmse", "--threshold", "1e-4")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        return paths
+
+    def test_iterative_over_63k_triangles(self):
+        for backend in ("egl", "osmesa"):
+            self.compare("mesh-62975.gltf", backend, "iterative", "16", "12,12")
+
+    def test_iterative_with_shadow_rays(self):
+        self.compare("mesh-15743.gltf", "egl", "iterative", "8", "12,12", "gi")
+
+    def test_trees_with_thousands_of_samples(self):
+        for traversal in ("bvh", "front-to-back"):
+            for backend in ("egl", "osmesa"):
+                self.compare("mesh-62975.gltf", backend, traversal, "4000", "8,8")
+
+
+class Interruption(Case):
+    def start(self, spp, *options):
+        process = subprocess.Popen([FRAGTRACE, "render", SCENES / "cornell-box.gltf", "-o", self.folder / "x.pfm",
+                                    "--resolution", "200,200", "--spp", spp, *options],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        time.sleep(3)
+        return process
+
+    def test_ctrl_c_stops_within_a_second_writes_what_is_finished_and_gives_130(self):
+        process = self.start("1000000")
+        began = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        process.wait(10)
+        self.assertLess(time.monotonic() - began, 1.5)
+        self.assertEqual(process.returncode, 130)
+        picture = read_pfm(self.folder / "x.pfm")
+        self.assertGreater(sum(picture[100][100]), 0)
+
+    def test_a_second_ctrl_c_writes_nothing(self):
+        process = self.start("1000000")
+        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGTERM)
+        process.wait(10)
+        self.assertEqual(process.returncode, 130)
+        self.assertFalse((self.folder / "x.pfm").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
