@@ -84,17 +84,17 @@ float intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, bo
   return inside && farT > 0.0f ? farT : -1.0f;
 }
 
-/// Moves a point off its surface along the unit geometric normal, to the side of `direction`, by more than the
-/// rounding error `error` (per component) that the point carries (Pharr, Jakob and Humphreys, pbrt, 3rd ed. 3.9.5).
-vec3 offsetOrigin(vec3 point, vec3 error, vec3 normal, vec3 direction) {
-  float distance = dot(abs(normal), error);
-  vec3 offset = dot(direction, normal) < 0.0f ? -distance * normal : distance * normal;
-  return point + offset;
+/// Moves a point off its surface along the unit geometric normal, to the side of `direction`, by `error` metres
+/// (after Pharr, Jakob and Humphreys, pbrt, 3rd ed. 3.9.5, with one bound for all axes).
+vec3 offsetOrigin(vec3 point, float error, vec3 normal, vec3 direction) {
+  return point + (dot(direction, normal) < 0.0f ? -error : error) * normal;
 }
 
-/// A bound on the rounding error of w0 v0 + w1 v1 + w2 v2 in 32-bit floats, and of the next intersection with it,
-/// per component: 32 units of 2^-24 of the largest coordinate involved (docs/accuracy.md).
-vec3 hitPointError(vec3 v0, vec3 v1, vec3 v2) {
+/// A bound on how far w0 v0 + w1 v1 + w2 v2 in 32-bit floats lies off its triangle, and on how far in front of its own plane a ray
+/// that starts there can still be told to hit it: 32 units of 2^-24 of the largest coordinate. It is one number, not one an axis: a
+/// wall through the origin has no rounding across it, but a grazing ray's distance to it carries the rounding of all axes
+/// (docs/accuracy.md).
+float hitPointError(vec3 v0, vec3 v1, vec3 v2) {
   vec3 largest = max(abs(v0), max(abs(v1), abs(v2)));
-  return float(1.9073486328125e-6) * largest;
+  return 1.9073486328125e-6f * max(largest.x, max(largest.y, largest.z));
 }

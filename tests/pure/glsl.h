@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The shader's pure files compiled as C++, twice: glsl_float is what the GPU runs, glsl_double the same algorithm in
-// double precision, the oracle.
+// The shader's pure files compiled as C++, twice: glsl_float is what the GPU runs, glsl_double the same
+// algorithm in double precision, the oracle.
 #pragma once
 
 #include <bit>
@@ -12,7 +12,8 @@
 
 #include "shader/layout.h"
 
-/// What the shader's prelude fixes and its buffers hold: here variables, so that one test can walk the variants.
+/// What the shader's prelude fixes and its buffers hold: here variables, so that one test can walk the
+/// variants.
 namespace fragtrace::glsl_variant {
 
 inline bool kTriangles = true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The pure shader files in the order of trace.glsl. No include guard: glsl.h includes this once a precision.
+// clang-format off
 #include "random.glsl"
 #include "sampling.glsl"
 #include "camera.glsl"
@@ -12,3 +13,4 @@
 #include "ggx.glsl"
 #include "bsdf.glsl"
 #include "phong.glsl"
+// clang-format on

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// GLSL's types and built-in functions, as far as the pure shader files use them. No include guard: glsl.h includes this
-// once a precision, with float defined as double the second time; vec2, vec3 and vec4 are already named.
+// GLSL's types and built-in functions, as far as the pure shader files use them. No include guard: glsl.h
+// includes this once a precision, with float defined as double the second time; vec2, vec3 and vec4 are
+// already named.
 
 using uint = uint32_t;
 using glm::ivec4;
 using glm::uvec3;
 using glm::uvec4;
 
-// Scalars; for vectors argument-dependent lookup finds GLM's functions. min, max and clamp are the specification's.
+// Scalars; for vectors argument-dependent lookup finds GLM's functions. min, max and clamp are the
+// specification's.
 float abs(float x) { return std::fabs(x); }
 float sqrt(float x) { return std::sqrt(x); }
 float floor(float x) { return std::floor(x); }

@@ -14,7 +14,9 @@ using glsl_double::makeCameraRay;
 
 constexpr double kTolerance = 1e-14;
 
-double angleBetween(const dvec3& a, const dvec3& b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
+double angleBetween(const dvec3& a, const dvec3& b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
 
 // 60 degrees high, twice as wide as high, looking along -z from (1, 2, 3).
 const dvec3 kPosition(1, 2, 3);
@@ -38,7 +40,8 @@ TEST(ShaderCamera, TopAndBottomEdgesAreTheVerticalViewAngleApart) {
 }
 
 TEST(ShaderCamera, SideEdgesAreTheAspectRatioTimesFartherOut) {
-  EXPECT_NEAR(angleBetween(perspective(1, 0), perspective(-1, 0)), 2.0 * std::atan(2.0 * kHalfHeight), kTolerance);
+  EXPECT_NEAR(angleBetween(perspective(1, 0), perspective(-1, 0)), 2.0 * std::atan(2.0 * kHalfHeight),
+              kTolerance);
   EXPECT_GT(perspective(1, 0).x, 0.0);
 }
 
@@ -65,7 +68,7 @@ TEST(ShaderCamera, OrthographicRaysAreParallelAndStartAcrossTheView) {
 TEST(ShaderCamera, FloatRaysAreWithinAMillionthOfARadian) {
   for (float x = -1.0f; x <= 1.0f; x += 0.125f) {
     const auto ray = glsl_float::makeCameraRay(glm::vec3(kPosition), glm::vec3(kRight), glm::vec3(kUp),
-                                                glm::vec3(kForward), false, x, 0.75f);
+                                               glm::vec3(kForward), false, x, 0.75f);
     EXPECT_LT(angleBetween(dvec3(ray.direction), perspective(x, 0.75)), 2e-7);
     EXPECT_NEAR(glm::length(ray.direction), 1.0f, 2e-7f);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// shaders/fresnel.glsl against closed forms (Hecht, Optics, 4.6), in double precision, and in float against double.
+// shaders/fresnel.glsl against closed forms (Hecht, Optics, 4.6), in double precision, and in float against
+// double.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +46,8 @@ TEST(ShaderFresnel, RefractedRaysFollowSnell) {
       EXPECT_NEAR(glm::length(refracted), 1.0, kTolerance);
       EXPECT_LT(glm::dot(refracted, normal), 0.0);
       // Signed: same plane, opposite side of the normal.
-      EXPECT_LE(glm::distance(glm::cross(refracted, normal) * eta, -glm::cross(outgoing, normal)), kTolerance);
+      EXPECT_LE(glm::distance(glm::cross(refracted, normal) * eta, -glm::cross(outgoing, normal)),
+                kTolerance);
     }
   }
 }
@@ -103,7 +105,8 @@ TEST(ShaderFresnel, ParallelPartVanishesAtBrewstersAngle) {
 
 TEST(ShaderFresnel, IsTheClosedFormAtEveryAngle) {
   for (double eta : kIndices) {
-    for (double incident = 0.001; incident < std::min(0.5 * M_PI, std::asin(std::min(1.0, eta))); incident += 0.001) {
+    for (double incident = 0.001; incident < std::min(0.5 * M_PI, std::asin(std::min(1.0, eta)));
+         incident += 0.001) {
       EXPECT_NEAR(fresnelDielectric(std::cos(incident), eta), fresnelByAngles(incident, eta), 1e-9);
     }
   }
@@ -113,8 +116,10 @@ TEST(ShaderFresnel, BothSidesOfABoundaryReflectAlike) {
   for (double eta : {1.33, 1.5, 2.42}) {
     for (double incident = 0.0; incident < 0.5 * M_PI; incident += 0.001) {
       const double refracted = std::asin(std::sin(incident) / eta);
-      EXPECT_NEAR(fresnelDielectric(std::cos(incident), eta), fresnelDielectric(std::cos(refracted), 1.0 / eta), 1e-10);
-      EXPECT_NEAR(schlickDielectric(std::cos(incident), eta), schlickDielectric(std::cos(refracted), 1.0 / eta), 1e-10);
+      EXPECT_NEAR(fresnelDielectric(std::cos(incident), eta),
+                  fresnelDielectric(std::cos(refracted), 1.0 / eta), 1e-10);
+      EXPECT_NEAR(schlickDielectric(std::cos(incident), eta),
+                  schlickDielectric(std::cos(refracted), 1.0 / eta), 1e-10);
     }
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// shaders/perlin.glsl against the height field that docs/conventions.md defines, written down here a second time.
+// shaders/perlin.glsl against the height field that docs/conventions.md defines, written down here a second
+// time.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,7 +39,8 @@ double height(double x, double y, uint32_t octave) {
   const double u = fade(x - double(i));
   const double v = fade(y - double(j));
   const double low = (1.0 - u) * cornerHeight(i, j, octave, x, y) + u * cornerHeight(i + 1, j, octave, x, y);
-  const double high = (1.0 - u) * cornerHeight(i, j + 1, octave, x, y) + u * cornerHeight(i + 1, j + 1, octave, x, y);
+  const double high =
+      (1.0 - u) * cornerHeight(i, j + 1, octave, x, y) + u * cornerHeight(i + 1, j + 1, octave, x, y);
   return (1.0 - v) * low + v * high;
 }
 
@@ -117,7 +119,8 @@ TEST(ShaderPerlin, NormalSumsOctavesOfHalfTheSlopeAndTwiceTheFrequency) {
       dvec2 slope(0.0);
       for (int o = 0; o < octaves; ++o) {
         slope += kAmplitude * std::pow(0.5, o) *
-                 slopeByDifferences(std::pow(2.0, o) * kFrequency * p.x, std::pow(2.0, o) * kFrequency * p.y, uint32_t(o));
+                 slopeByDifferences(std::pow(2.0, o) * kFrequency * p.x, std::pow(2.0, o) * kFrequency * p.y,
+                                    uint32_t(o));
       }
       const dvec3 expected = glm::normalize(dvec3(-slope.x, slope.y, 1.0));
       EXPECT_LE(glm::distance(perlinNormal(dvec2(p), kFrequency, kAmplitude, octaves), expected), kTolerance);

@@ -20,9 +20,13 @@ const dvec3 kNormal(0, 0, 1);
 const dvec3 kDiffuse(0.8, 0.5, 0.1);
 const dvec3 kF0(0.04, 0.5, 1.0);
 
-dvec3 tilted(double degrees) { return {std::sin(degrees * M_PI / 180.0), 0.0, std::cos(degrees * M_PI / 180.0)}; }
+dvec3 tilted(double degrees) {
+  return {std::sin(degrees * M_PI / 180.0), 0.0, std::cos(degrees * M_PI / 180.0)};
+}
 
-void expectNear(const dvec3& a, const dvec3& b) { EXPECT_LE(glm::distance(a, b), kTolerance * (1.0 + glm::length(b))); }
+void expectNear(const dvec3& a, const dvec3& b) {
+  EXPECT_LE(glm::distance(a, b), kTolerance * (1.0 + glm::length(b)));
+}
 
 TEST(ShaderPhong, ExponentFollowsTheFourthPowerOfRoughness) {
   EXPECT_DOUBLE_EQ(phongExponent(1.0), 0.0);
@@ -51,7 +55,8 @@ TEST(ShaderPhong, IsItsPeakWhereTheHalfVectorIsTheNormal) {
 
 TEST(ShaderPhong, HighlightFallsWithTheCosineOfTheHalfVector) {
   // Eye along the normal, light at 50 degrees: the half vector is at 25.
-  const double expected = std::cos(50.0 * M_PI / 180.0) * (38.0 / (8.0 * M_PI)) * std::pow(std::cos(25.0 * M_PI / 180.0), 30.0);
+  const double expected =
+      std::cos(50.0 * M_PI / 180.0) * (38.0 / (8.0 * M_PI)) * std::pow(std::cos(25.0 * M_PI / 180.0), 30.0);
   expectNear(phongValue(dvec3(0), kF0, 30.0, kNormal, kNormal, tilted(50)), expected * kF0);
 }
 
@@ -72,7 +77,8 @@ TEST(ShaderPhong, FloatIsWithinAThousandthOfAPercentOfDouble) {
     const glm::vec3 outgoing(draw.directionAbove());
     const glm::vec3 incoming(draw.directionAbove());
     const dvec3 expected = phongValue(kDiffuse, kF0, 30.0, kNormal, dvec3(outgoing), dvec3(incoming));
-    const dvec3 actual(glsl_float::phongValue(glm::vec3(kDiffuse), glm::vec3(kF0), 30.0f, glm::vec3(kNormal), outgoing, incoming));
+    const dvec3 actual(glsl_float::phongValue(glm::vec3(kDiffuse), glm::vec3(kF0), 30.0f, glm::vec3(kNormal),
+                                              outgoing, incoming));
     EXPECT_LE(glm::distance(actual, expected), 1e-5 * glm::length(expected));
   }
 }

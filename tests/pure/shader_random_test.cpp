@@ -92,7 +92,8 @@ TEST(ShaderRandom, NeighbouringPixelsSamplesAndSeedsAreNotCorrelated) {
   for (int dimension = 0; dimension < 8; ++dimension) {
     auto at = [&](int x, int y, int sample, int seed) {
       return [=](int path) {
-        return randomFloat(pathKey((path & 127) + x, (path >> 7 & 127) + y, (path >> 14) + sample, seed), dimension);
+        return randomFloat(pathKey((path & 127) + x, (path >> 7 & 127) + y, (path >> 14) + sample, seed),
+                           dimension);
       };
     };
     const auto here = at(0, 0, 0, 0);
@@ -117,7 +118,8 @@ TEST(ShaderRandom, DiagonalPixelsAndSamplesHaveKeysOfTheirOwn) {
 }
 
 TEST(ShaderRandom, DoublesDrawTheSameNumbers) {
-  for (uint32_t key = 0; key < 1000; ++key) EXPECT_EQ(double(randomFloat(key, 7)), glsl_double::randomFloat(key, 7));
+  for (uint32_t key = 0; key < 1000; ++key)
+    EXPECT_EQ(double(randomFloat(key, 7)), glsl_double::randomFloat(key, 7));
 }
 
 }  // namespace

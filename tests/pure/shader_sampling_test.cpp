@@ -182,7 +182,8 @@ double integrateHemisphere(Function f) {
     const double area = std::sin(theta) * M_PI * s / kSteps * 2.0 * M_PI / kTurns;
     for (int k = 0; k < kTurns; ++k) {
       const double phi = 2.0 * M_PI * (k + 0.5) / kTurns;
-      sum += area * f(dvec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)));
+      sum +=
+          area * f(dvec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)));
     }
   }
   return sum;
@@ -192,7 +193,8 @@ dvec3 atElevation(double z) { return {std::sqrt(1.0 - z * z) * 0.8, -std::sqrt(1
 
 TEST(ShaderGgx, FacetsCoverTheSurfaceOnce) {
   for (double alpha : {0.05, 0.3, 1.0}) {
-    EXPECT_NEAR(integrateHemisphere([&](const dvec3& h) { return glsl_double::ggxDensity(h, alpha) * h.z; }), 1.0, 1e-4);
+    EXPECT_NEAR(integrateHemisphere([&](const dvec3& h) { return glsl_double::ggxDensity(h, alpha) * h.z; }),
+                1.0, 1e-4);
   }
 }
 
@@ -202,11 +204,13 @@ TEST(ShaderGgx, FacetsSeenFromAnywhereFillItsView) {
     for (double z : {1.0, 0.6, 0.2}) {
       const dvec3 o = atElevation(z);
       const double seen = integrateHemisphere([&](const dvec3& h) {
-        return glsl_double::ggxDensity(h, alpha) * glsl_double::ggxMasking(o, alpha) * std::max(0.0, glm::dot(o, h));
+        return glsl_double::ggxDensity(h, alpha) * glsl_double::ggxMasking(o, alpha) *
+               std::max(0.0, glm::dot(o, h));
       });
       EXPECT_NEAR(seen, z, 2e-3 * z) << "alpha " << alpha << ", z " << z;
-      EXPECT_NEAR(integrateHemisphere([&](const dvec3& h) { return glsl_double::visibleGgxDensity(o, h, alpha); }), 1.0,
-                  2e-3);
+      EXPECT_NEAR(
+          integrateHemisphere([&](const dvec3& h) { return glsl_double::visibleGgxDensity(o, h, alpha); }),
+          1.0, 2e-3);
     }
   }
 }
@@ -225,7 +229,8 @@ TEST(ShaderGgx, VisibleNormalsHaveTheirDensity) {
         const float u = draw.unit();
         const vec3 h = glsl_float::sampleVisibleGgx(vec3(outgoing), float(alpha), u, draw.unit());
         ASSERT_NEAR(glm::length(dvec3(h)), 1.0, 2e-6);
-        ++counts[binOf(std::acos(std::min(1.0, double(h.z))) / (0.5 * M_PI), kBands) * kTurns + binOf(turnOf(h.x, h.y), kTurns)];
+        ++counts[binOf(std::acos(std::min(1.0, double(h.z))) / (0.5 * M_PI), kBands) * kTurns +
+                 binOf(turnOf(h.x, h.y), kTurns)];
       }
       // Step: integrate the density over each bin.
       std::vector<double> expected(kBands * kTurns);

@@ -11,11 +11,12 @@
 
 namespace fragtrace {
 
-/// The chance that a right program fails a whole family of tests; seeds are fixed, so it either does or never does.
+/// The chance that a right program fails a whole family of tests; seeds are fixed, so it either does or never
+/// does.
 inline constexpr double kSignificance = 1e-4;
 
-/// Q(a, x), the regularised upper incomplete gamma function, by series or continued fraction (Press et al., Numerical
-/// Recipes, 6.2).
+/// Q(a, x), the regularised upper incomplete gamma function, by series or continued fraction (Press et al.,
+/// Numerical Recipes, 6.2).
 inline double upperGamma(double a, double x) {
   constexpr double kPrecision = 1e-14;
   if (x <= 0.0) return 1.0;
@@ -45,8 +46,8 @@ inline double upperGamma(double a, double x) {
   return scale * h;
 }
 
-/// The chance that counts as far from the expected ones as these come about (Pearson, 1900). Bins with fewer than 10
-/// expected are joined.
+/// The chance that counts as far from the expected ones as these come about (Pearson, 1900). Bins with fewer
+/// than 10 expected are joined.
 inline double chiSquareChance(const std::vector<double>& expected, const std::vector<double>& counted) {
   constexpr double kLeastExpected = 10.0;
   double statistic = 0.0;
