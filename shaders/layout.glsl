@@ -114,8 +114,8 @@ struct Frame {
 
 // What one draw reports.
 struct Progress {
-  uint unfinished;  // pixels that have a suspended path or samples left
+  uint unfinished;  // pixels that have samples left
+  uint stuck;       // of these, pixels that completed none, so that their path has to be suspended to come to an end
   uint reserved0;
   uint reserved1;
-  uint reserved2;
 };

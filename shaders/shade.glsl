@@ -106,6 +106,7 @@ Path shade(Path p) {
   }
   SurfaceMaterial m = materialAt(s.material, base.rgb, s.texcoords);
   vec3 normal = facingNormal(mappedNormal(s), -p.direction);
+  if (kGi && kSpecular) normal = reflectingNormal(normal, s.geometricNormal, -p.direction);
   if (kGi) return shadeGlobal(p, s, m, normal);
   return shadeLocal(p, s, m, normal);
 }

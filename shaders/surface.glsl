@@ -121,3 +121,12 @@ vec3 facingNormal(vec3 shadingNormal, vec3 outgoing) {
   const float least = 0.001;
   return cosine >= least ? shadingNormal : normalize(shadingNormal + (least - cosine) * outgoing);
 }
+
+/// A shading normal about which the mirror image of `outgoing` lies above the surface: where it would not, the image is lifted to just above the
+/// horizon, and the normal is what mirrors one into the other. Both normals are unit and on the side of `outgoing`.
+vec3 reflectingNormal(vec3 shadingNormal, vec3 geometricNormal, vec3 outgoing) {
+  vec3 image = mirrorDirection(outgoing, shadingNormal);
+  float height = dot(image, geometricNormal);
+  float least = min(0.01, 0.5 * dot(outgoing, geometricNormal));
+  return height >= least ? shadingNormal : normalize(outgoing + normalize(image + (least - height) * geometricNormal));
+}

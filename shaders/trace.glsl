@@ -15,8 +15,8 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "texture.glsl"
 #include "material.glsl"
 #include "perlin.glsl"
-#include "surface.glsl"
 #include "fresnel.glsl"
+#include "surface.glsl"
 #include "ggx.glsl"
 #include "bsdf.glsl"
 #include "phong.glsl"
@@ -35,10 +35,12 @@ void tracePixel(ivec2 pixel) {
   uint wanted = uint(frame.picture.z);
   int budget = frame.limits.z;
   TreeFrame tree = treeFrame();
+  uint samplesBefore = film.samples;
+  uint raysBefore = film.rays;
   Path p;
   p.phase = kPhaseEnd;
   p.traversal.steps = 0;
-  if ((film.flags & kPixelSuspended) != 0u) p = loadPath(state);
+  if (kResumable && (film.flags & kPixelSuspended) != 0u) p = loadPath(state);
   film.flags &= ~kPixelSuspended;
   bool tracing = p.phase != kPhaseEnd;
   bool finished = false;
@@ -50,6 +52,7 @@ void tracePixel(ivec2 pixel) {
         finished = true;
         break;
       }
+      raysBefore = film.rays;
       p = startPath(pixel, film.samples, p.traversal.steps);
       tracing = true;
     }
@@ -98,11 +101,16 @@ void tracePixel(ivec2 pixel) {
   if (!finished) {
     // The budget alone may end the loops above: one that ended below it was cut by the driver.
     if (p.traversal.steps < budget) film.flags |= kPixelBudgetHit;
-    if (tracing) {
+    atomicAdd(progress.unfinished, 1u);
+    if (kResumable && tracing) {
       film.flags |= kPixelSuspended;
       savePath(p, state);
     }
-    atomicAdd(progress.unfinished, 1u);
+    if (!kResumable) {
+      // The sample begins anew in the next draw, unless it is longer than a whole draw.
+      film.rays = raysBefore;
+      if (film.samples == samplesBefore) atomicAdd(progress.stuck, 1u);
+    }
   }
   storeFilm(pixel, film);
 }

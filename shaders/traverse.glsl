@@ -90,7 +90,8 @@ Traversal traverseTree(vec3 origin, vec3 direction, float rayLimit, Traversal s,
   vec3 scale = tree.cell * inverse;
   vec3 bias = (tree.origin - origin) * inverse;
   while (s.node != kTraversalDone && s.steps < stepLimit) {
-    while (s.node >= 0 && s.steps < stepLimit) {
+    // Both conditions in one sign bit: at an inner node, and below the limit.
+    while ((s.node | (stepLimit - 1 - s.steps)) >= 0) {
       NodePair n = loadNode(s.node);
       float limit = kFrontToBack ? s.t : rayLimit;
       vec3 a0 = n.low0 * scale + bias;

@@ -32,6 +32,7 @@ struct RawRender {
   std::string backend = "auto";
   std::string reads = "auto";
   std::string statsFile;
+  std::string shaderFolder;
   std::vector<std::string> aov;
   bool noBackground = false;
   bool noDefaultLight = false;
@@ -126,6 +127,7 @@ RenderOptions finish(const RawRender& raw, RenderOptions o) {
   o.backend = choose<Backend>("--rendering-backend", raw.backend, std::vector<std::string>{"auto", "egl", "osmesa"});
   o.bufferReads = choose<BufferReads>("--buffer-reads", raw.reads, std::vector<std::string>{"auto", "ssbo", "image"});
   o.statsFile = raw.statsFile;
+  o.shaderFolder = raw.shaderFolder;
   for (const std::string& name : raw.aov) {
     (choose<int>("--aov", name, std::vector<std::string>{"samples", "variance"}) == 0 ? o.aovSamples : o.aovVariance) = true;
   }
@@ -178,6 +180,7 @@ void addRenderOptions(CLI::App& app, RawRender& raw, RenderOptions& o) {
   app.add_option("--rendering-backend", raw.backend, "auto, egl, osmesa")->capture_default_str();
   app.add_option("--buffer-reads", raw.reads, "auto, ssbo, image: how the shader reads the scene")->capture_default_str();
   app.add_option("--stats", raw.statsFile, "JSON file for the statistics");
+  app.add_option("--shader-folder", raw.shaderFolder, "read the shaders from here in place of the built-in ones");
   app.add_flag("--quiet", o.quiet, "print nothing but errors");
   app.add_flag("--verbose", o.verbose, "print what is chosen and what it takes");
 }

@@ -148,7 +148,7 @@ int runRender(const RenderOptions& options) {
   const GpuScene packed = packScene(scene, bvh, environment, variant);
   stats.sceneBytes = packed.bytes();
   stats.packMs = watch.lap();
-  Renderer renderer(*context, packed, variant);
+  Renderer renderer(*context, packed, variant, options.shaderFolder);
   stats.uploadMs = watch.lap();
   Film film(size);
   const View view = makeView(options, scene, camera);

@@ -24,7 +24,7 @@ constexpr int kSoftwareStepBudget = 2700;
 constexpr int kHardwareStepBudget = 1 << 16;
 
 /// A draw's time: short enough to stop within a second and to stay far from a GPU's watchdog.
-constexpr double kSoftwareDrawMs = 80.0;
+constexpr double kSoftwareDrawMs = 120.0;
 constexpr double kHardwareDrawMs = 20.0;
 
 constexpr int kTinyTile = 8;  // pixels
@@ -56,13 +56,11 @@ Renderer::Renderer(const Context& context, const GpuScene& scene, const ShaderVa
       variant_(variant),
       frameBuffer_(makeBuffer()),
       progressBuffer_(makeBuffer()),
-      pathStates_(makeBuffer()),
       vertexArray_(makeVertexArray()),
       framebuffer_(makeFramebuffer()),
       targetMs_(context.software ? kSoftwareDrawMs : kHardwareDrawMs) {
   glNamedBufferStorage(frameBuffer_.name(), sizeof(layout::Frame), nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferStorage(progressBuffer_.name(), sizeof(layout::Progress), nullptr, GL_DYNAMIC_STORAGE_BIT);
-  glNamedBufferStorage(pathStates_.name(), GLsizeiptr(kMaxTilePixels) * layout::kPathStateRows * 16, nullptr, 0);
   checkGl("making buffers");
   frame_.gridOrigin = glm::vec4(scene.grid.origin, 0.0f);
   frame_.gridCell = glm::vec4(scene.grid.cell, 0.0f);
@@ -93,10 +91,30 @@ void Renderer::setFrame(const Film& film, const View& view) {
   glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, film.size().y);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glBindVertexArray(vertexArray_.name());
+  if (variant_.resumable) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kPathStatesBinding, pathStates_.name());
   glUseProgram(programs_.tracer(variant_).name());
   glBindBufferBase(GL_UNIFORM_BUFFER, layout::kFrameBinding, frameBuffer_.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kPathStatesBinding, pathStates_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kProgressBinding, progressBuffer_.name());
+}
+
+void Renderer::makeResumable() {
+  variant_.resumable = true;
+  pathStates_ = makeBuffer();
+  glNamedBufferStorage(pathStates_.name(), GLsizeiptr(kMaxTilePixels) * layout::kPathStateRows * 16, nullptr, 0);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kPathStatesBinding, pathStates_.name());
+  glUseProgram(programs_.tracer(variant_).name());
+  checkGl("making room for suspended paths");
+}
+
+layout::Progress Renderer::draw() {
+  layout::Progress progress{};
+  glNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  glFinish();
+  glGetNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
+  checkGl("drawing");
+  return progress;
 }
 
 bool Renderer::drawTile(glm::ivec2 corner, glm::ivec2 tile, int target, const std::function<bool()>& goOn) {
@@ -104,18 +122,13 @@ bool Renderer::drawTile(glm::ivec2 corner, glm::ivec2 tile, int target, const st
   frame_.picture.z = target;
   glNamedBufferSubData(frameBuffer_.name(), 0, sizeof frame_, &frame_);
   glViewport(corner.x, corner.y, tile.x, tile.y);
-  suspended_ = false;
+  overBudget_ = false;
   for (;;) {
-    layout::Progress progress{};
-    glNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    glFinish();
-    glGetNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
-    checkGl("drawing");
+    const layout::Progress progress = draw();
     if (!goOn()) return false;
     if (progress.unfinished == 0) return true;
-    suspended_ = true;
+    if (progress.stuck > 0 && !variant_.resumable) makeResumable();
+    overBudget_ = true;
   }
 }
 
@@ -156,8 +169,8 @@ bool Renderer::addSamples(Film& film, const View& view, int samples, RenderTimes
     times.frameMs.insert(times.frameMs.end(), size_t(plan.samples), roundMs / plan.samples);
     added += plan.samples;
     samplesDone_ += plan.samples;
-    // More samples a draw as long as few paths have to be suspended for the step budget.
-    mostSamplesPerDraw_ = suspended_ ? std::max(1, plan.samples / 2) : plan.samples * 2;
+    // More samples a draw as long as the step budget takes them.
+    mostSamplesPerDraw_ = overBudget_ ? std::max(1, plan.samples / 2) : plan.samples * 2;
   }
   progress(1.0);
   return true;

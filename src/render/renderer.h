@@ -48,6 +48,9 @@ class Renderer {
 
  private:
   void setFrame(const Film& film, const View& view);
+  /// From now on paths are suspended between draws: for scenes with paths that take more than one draw.
+  void makeResumable();
+  layout::Progress draw();
   /// Advances a tile to `target` samples in as many draws as its step budget takes; false when stopped.
   bool drawTile(glm::ivec2 corner, glm::ivec2 tile, int target, const std::function<bool()>& goOn);
 
@@ -63,7 +66,7 @@ class Renderer {
   double targetMs_;
   int samplesDone_ = 0;
   int mostSamplesPerDraw_ = 1;
-  bool suspended_ = false;  ///< the last tile needed more than one draw
+  bool overBudget_ = false;  ///< the last tile needed more than one draw
 };
 
 }  // namespace fragtrace

@@ -66,6 +66,7 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
   for (const TraitRow& row : traitRows()) constant(row.constant, has(variant.traits, row.trait));
   constant("kIterative", variant.traversal == TraversalMethod::Iterative);
   constant("kFrontToBack", variant.traversal == TraversalMethod::FrontToBack);
+  constant("kResumable", variant.resumable);
   text << "const int kStackSize = " << variant.stackSize << ";\n";
 }
 

@@ -45,6 +45,7 @@ struct RenderOptions {
   bool aovSamples = false;   ///< more layers of .exr files
   bool aovVariance = false;
   std::filesystem::path statsFile;
+  std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
   bool quiet = false;
   bool verbose = false;
 };

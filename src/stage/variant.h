@@ -17,9 +17,10 @@ struct ShaderVariant {
   TraversalMethod traversal = TraversalMethod::FrontToBack;
   int stackSize = 12;
   BufferReads reads = BufferReads::Ssbo;
+  bool resumable = false;  ///< paths can be suspended from draw to draw; only needed by those longer than a draw
 
   auto key() const {
-    return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads);
+    return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, resumable);
   }
   bool operator<(const ShaderVariant& other) const { return key() < other.key(); }
   bool operator==(const ShaderVariant& other) const { return key() == other.key(); }

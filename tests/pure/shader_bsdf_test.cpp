@@ -527,6 +527,18 @@ TEST(ShaderBsdf, SmoothMetalReflectsSchlicksShare) {
   }
 }
 
+TEST(ShaderBsdf, SmoothPlasticReflectsSchlicksShareAndTheRestOfItsBase) {
+  for (double metallic : {0.0, 0.3}) {
+    const Bsdf b = makeBsdf(metallic, 0, 0.0, 1.5, false, true);
+    for (double z : {1.0, 0.5, 0.2}) {
+      const dvec3 mirrored =
+          b.metal * schlick(b.baseColor, 1.0, z) + b.opaque * schlick(b.dielectricF0, b.dielectricF90, z);
+      const dvec3 expected = mirrored + albedoByIntegration(b, atElevation(z));
+      EXPECT_LE(glm::distance(albedoByDrawing(b, atElevation(z)), expected), 2e-3) << "elevation " << z;
+    }
+  }
+}
+
 TEST(ShaderBsdf, SmoothLobesHaveNoValueInAnyDirection) {
   Draw draw(67);
   const Bsdf metal = makeBsdf(1, 0, 0.0, 1.5, false, true);

@@ -117,6 +117,15 @@ TEST(ShaderRandom, DiagonalPixelsAndSamplesHaveKeysOfTheirOwn) {
   EXPECT_GE(keys.size(), size_t(kSide * kSide * 16 - 6));
 }
 
+TEST(ShaderRandom, NoPathIsAnotherOneShiftedByADimension) {
+  int same = 0;
+  for (uint32_t key = 0; key < 10000; ++key) {
+    same += randomFloat(key, 6) == randomFloat(key + 1, 5) ? 1 : 0;
+    same += randomFloat(key, 6) == randomFloat(key ^ 3, 5) ? 1 : 0;
+  }
+  EXPECT_LE(same, 2);
+}
+
 TEST(ShaderRandom, DoublesDrawTheSameNumbers) {
   for (uint32_t key = 0; key < 1000; ++key)
     EXPECT_EQ(double(randomFloat(key, 7)), glsl_double::randomFloat(key, 7));

@@ -473,6 +473,22 @@ TEST(ShaderTraverse, AnyHitAndFrontToBackVisitNoMoreThanTheyNeed) {
   EXPECT_LT(frontToBack, 0.7 * fixedOrder);
 }
 
+TEST(ShaderTraverse, FrontToBackMeetsTheNearestWallFirstFromEitherSide) {
+  constexpr int kWalls = 512;
+  std::vector<Corners> walls;
+  for (int i = 0; i < kWalls; ++i) {
+    const float x = float(i);
+    walls.push_back({vec3(x, -9.0f, -9.0f), vec3(x, 9.0f, -9.0f), vec3(x, 0.0f, 9.0f)});
+  }
+  const PackedTree p = packTree(walls);
+  for (float side : {-1.0f, 1.0f}) {
+    const Ray ray{vec3(side < 0.0f ? -5.0f : kWalls + 5.0f, 0.1f, 0.1f), vec3(-side, 0.0f, 0.0f)};
+    // Down to one leaf, and little else.
+    EXPECT_LE(traceFloat(p, Method::FrontToBack, ray).visits, int(p.bvh.depth) + 2);
+    EXPECT_GE(traceFloat(p, Method::Bvh, ray).visits, kWalls / 2);
+  }
+}
+
 TEST(ShaderTraverse, EveryStackSizeHoldsTheWorstTreeOfThatDepth) {
   for (uint32_t size : kBvhStackSizes) {
     const With stackSize(glsl_variant::kStackSize, int(size));
