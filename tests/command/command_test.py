@@ -236,6 +236,24 @@ class DriverLimits(Case):
                 self.compare("mesh-62975.gltf", backend, traversal, "4000", "8,8")
 
 
+class Speed(Case):
+    def test_paths_per_second_agree_with_the_clock_on_the_wall(self):
+        def least(spp):
+            best = None
+            for _ in range(5):
+                began = time.monotonic()
+                self.renders(SCENES / "cornell-box.gltf", "-o", self.folder / "x.pfm", "--resolution", "200,200", "--spp", spp,
+                             "--quiet", "--stats", self.folder / "s.json")
+                run = (time.monotonic() - began, json.loads((self.folder / "s.json").read_text())["render_ms"])
+                best = run if best is None else (min(best[0], run[0]), min(best[1], run[1]))
+            return best
+        once, twice = least("32"), least("64")
+        wall = 200 * 200 * 32 / (twice[0] - once[0])
+        stated = 200 * 200 * 64 / (twice[1] / 1000)
+        print(f"paths a second: {wall:.4g} by wall time, {stated:.4g} by the statistics")
+        self.assertAlmostEqual(stated / wall, 1.0, delta=0.05)
+
+
 class Interruption(Case):
     def start(self, spp, *options):
         process = subprocess.Popen([FRAGTRACE, "render", SCENES / "cornell-box.gltf", "-o", self.folder / "x.pfm",

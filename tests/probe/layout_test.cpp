@@ -31,8 +31,8 @@ const std::vector<Member> kFrameMembers = {
     MEMBER(Frame, "frame", lightChoice),    MEMBER(Frame, "frame", picture),
     MEMBER(Frame, "frame", tile),           MEMBER(Frame, "frame", limits)};
 const std::vector<Member> kProgressMembers = {
-    MEMBER(Progress, "progress", unfinished), MEMBER(Progress, "progress", reserved0),
-    MEMBER(Progress, "progress", reserved1), MEMBER(Progress, "progress", reserved2)};
+    MEMBER(Progress, "progress", unfinished), MEMBER(Progress, "progress", stuck),
+    MEMBER(Progress, "progress", reserved0), MEMBER(Progress, "progress", reserved1)};
 #undef MEMBER
 
 /// One property of one named resource, -1 where the program has no such resource.
@@ -53,6 +53,7 @@ class Layout : public GlProbe {
     variant.stages = stagesUpTo(Stage::Gi);
     variant.traits.set();
     variant.reads = BufferReads::Ssbo;
+    variant.resumable = true;
     const ShaderSource source = shaderSource({});
     program_ = buildProgram(assembleShader(source, "fullscreen.vert", variant),
                             assembleShader(source, "trace.frag", variant));

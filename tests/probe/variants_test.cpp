@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Every switch of the shader compiles and links, on its own and left out of the full shader.
+#include <gtest/gtest.h>
+
+#include "gl/context.h"
+#include "gl/program.h"
+
+namespace fragtrace {
+namespace {
+
+class Variants : public ::testing::TestWithParam<BufferReads> {
+ protected:
+  static void SetUpTestSuite() { context = makeContext(Backend::Egl).release(); }
+  static void TearDownTestSuite() { delete context; }
+  static inline Context* context = nullptr;
+
+  static ShaderVariant full(BufferReads reads) {
+    ShaderVariant v;
+    v.stages.set();
+    v.stages.reset(size_t(Stage::BvhHeatmap));
+    v.traits.set();
+    v.reads = reads;
+    return v;
+  }
+
+  static void links(const ShaderVariant& variant) {
+    ProgramCache cache(shaderSource({}));
+    EXPECT_NO_THROW(cache.tracer(variant)) << variantName(variant);
+  }
+};
+
+TEST_P(Variants, TheFullShaderAndItsEmptyOne) {
+  links(full(GetParam()));
+  ShaderVariant empty;
+  empty.reads = GetParam();
+  links(empty);
+  ShaderVariant resumable = full(GetParam());
+  resumable.resumable = true;
+  links(resumable);
+}
+
+TEST_P(Variants, EachStageLeftOutAndAlone) {
+  for (const StageRow& row : stageRows()) {
+    ShaderVariant without = full(GetParam());
+    without.stages.flip(size_t(row.stage));
+    links(without);
+    ShaderVariant alone = full(GetParam());
+    alone.stages.reset().set(size_t(row.stage));
+    links(alone);
+  }
+}
+
+TEST_P(Variants, EachTraitLeftOutAndAlone) {
+  for (const TraitRow& row : traitRows()) {
+    ShaderVariant without = full(GetParam());
+    without.traits.reset(size_t(row.trait));
+    links(without);
+    ShaderVariant alone = full(GetParam());
+    alone.traits.reset().set(size_t(row.trait));
+    links(alone);
+  }
+}
+
+TEST_P(Variants, EachTraversalAndStack) {
+  for (TraversalMethod method : {TraversalMethod::Iterative, TraversalMethod::Bvh, TraversalMethod::FrontToBack}) {
+    for (int size : {8, 12, 16, 24, 32}) {
+      ShaderVariant v = full(GetParam());
+      v.traversal = method;
+      v.stackSize = size;
+      v.stages.reset().set(size_t(Stage::Flat));
+      links(v);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Reads, Variants, ::testing::Values(BufferReads::Image, BufferReads::Ssbo),
+                         [](const auto& test) { return test.param == BufferReads::Image ? "Image" : "Ssbo"; });
+
+}  // namespace
+}  // namespace fragtrace

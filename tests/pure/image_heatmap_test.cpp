@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "image/heatmap.h"
+
+namespace fragtrace {
+namespace {
+
+Image counts(int width, int height, float value) {
+  Image image{width, height, {"R", "G", "B"}, {}, {}};
+  image.values.assign(size_t(width) * size_t(height) * 3, value);
+  return image;
+}
+
+TEST(Heatmap, ScaleEndsAtARoundNumberAboveTheCounts) {
+  EXPECT_EQ(heatmapLimit(counts(10, 10, 37.0f)), 40.0);
+  EXPECT_EQ(heatmapLimit(counts(10, 10, 100.0f)), 100.0);
+  EXPECT_EQ(heatmapLimit(counts(10, 10, 0.0f)), 1.0);
+  EXPECT_EQ(heatmapLimit(counts(10, 10, 93.0f)), 100.0);
+}
+
+TEST(Heatmap, FewCountsAreBlueManyRedAndTheCountsAreKept) {
+  Image image = counts(100, 100, 0.0f);
+  for (int x = 50; x < 100; ++x) {
+    for (int y = 0; y < 100; ++y) *image.pixel(x, y) = 100.0f;
+  }
+  const Image painted = paintHeatmap(image);
+  EXPECT_GT(painted.pixel(10, 10)[2], painted.pixel(10, 10)[0]);
+  EXPECT_GT(painted.pixel(90, 10)[0], painted.pixel(90, 10)[2]);
+  EXPECT_EQ(painted.channels.back(), "visits");
+  EXPECT_EQ(painted.pixel(90, 10)[3], 100.0f);
+}
+
+TEST(Heatmap, TinyPicturesAreNotOverrun) {
+  for (int size = 1; size < 12; ++size) EXPECT_EQ(paintHeatmap(counts(size, size, 7.0f)).width, size);
+}
+
+}  // namespace
+}  // namespace fragtrace

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "errors.h"
+#include "shader/assemble.h"
+#include "shader/embedded.h"
+#include "stage/variant.h"
+
+namespace fragtrace {
+namespace {
+
+ShaderVariant variantOf(Stage stage, const TraitSet& present, Surroundings surroundings = Surroundings::None) {
+  RenderOptions options;
+  options.stages = stagesUpTo(stage);
+  return chooseVariant(options, present, surroundings, 10, BufferReads::Image);
+}
+
+TraitSet allTraits() { return TraitSet().set(); }
+
+size_t usesOf(const std::string& constant) {
+  size_t uses = 0;
+  for (const EmbeddedShader& shader : embeddedShaders()) {
+    for (size_t at = 0; (at = shader.text.find(constant, at)) != std::string_view::npos; ++at) ++uses;
+  }
+  return uses;
+}
+
+TEST(StageTable, EachRowStandsAtItsOwnIndex) {
+  for (size_t i = 0; i < stageRows().size(); ++i) EXPECT_EQ(size_t(stageRows()[i].stage), i);
+  for (size_t i = 0; i < traitRows().size(); ++i) EXPECT_EQ(size_t(traitRows()[i].trait), i);
+}
+
+TEST(StageTable, EachConstantIsUsedInTheShader) {
+  for (const StageRow& row : stageRows()) {
+    if (row.constant) EXPECT_GT(usesOf(row.constant), 0u) << row.constant;
+  }
+  for (const TraitRow& row : traitRows()) EXPECT_GT(usesOf(row.constant), 0u) << row.constant;
+}
+
+TEST(StageTable, AStageTurnsOnItselfAndAllBeforeIt) {
+  EXPECT_EQ(stagesUpTo(Stage::Flat).count(), 1u);
+  EXPECT_EQ(stagesUpTo(Stage::Gi).count(), 7u);
+  EXPECT_FALSE(has(stagesUpTo(Stage::Gi), Stage::Schlick));
+  EXPECT_EQ(parseStage("normal-maps"), Stage::NormalMaps);
+  EXPECT_EQ(parseStage("nonsense"), std::nullopt);
+}
+
+TEST(Variant, FlatNeedsNoLightAndNoNormals) {
+  const ShaderVariant v = variantOf(Stage::Flat, allTraits(), Surroundings::Map);
+  for (Trait t : {Trait::PunctualLights, Trait::EmissiveTriangles, Trait::VertexNormals, Trait::Tangents, Trait::Specular,
+                  Trait::Transmission, Trait::NormalTexture, Trait::MetallicRoughnessTexture}) {
+    EXPECT_FALSE(has(v.traits, t)) << traitRows()[size_t(t)].name;
+  }
+  EXPECT_TRUE(has(v.traits, Trait::BaseColorTexture));
+}
+
+TEST(Variant, WhatTheSceneLacksIsOffWithItsReason) {
+  TraitSet present;
+  present.set(size_t(Trait::Triangles));
+  const ShaderVariant v = variantOf(Stage::Gi, present);
+  for (Stage s : {Stage::Shadows, Stage::Reflections, Stage::Refraction, Stage::NormalMaps}) {
+    EXPECT_FALSE(has(v.stages, s)) << stageRows()[size_t(s)].name;
+    EXPECT_FALSE(whyOff(s, present).empty());
+  }
+  EXPECT_TRUE(has(v.stages, Stage::Gi));
+}
+
+TEST(Variant, ReducingAVariantTwiceChangesNothing) {
+  for (const StageRow& row : stageRows()) {
+    RenderOptions options;
+    options.stages = stagesUpTo(row.cumulative ? row.stage : Stage::Gi).set(size_t(row.stage));
+    const ShaderVariant once = chooseVariant(options, allTraits(), Surroundings::Map, 10, BufferReads::Image);
+    options.stages = once.stages;
+    const ShaderVariant twice = chooseVariant(options, once.traits, Surroundings::Map, 10, BufferReads::Image);
+    EXPECT_EQ(variantName(once), variantName(twice));
+  }
+}
+
+TEST(Variant, TheStackIsAtLeastTheDepthOfTheTree) {
+  for (uint32_t depth = 0; depth <= 32; ++depth) {
+    const ShaderVariant v = chooseVariant({}, allTraits(), Surroundings::None, depth, BufferReads::Image);
+    EXPECT_GE(uint32_t(v.stackSize), depth);
+  }
+}
+
+TEST(ShaderText, AMissingIncludeThrows) {
+  EXPECT_THROW(assembleShader({}, "nothing.glsl", ShaderVariant{}), RenderError);
+}
+
+TEST(ShaderText, EachFileIsPutInOnce) {
+  const std::string text = assembleShader({}, "trace.frag", ShaderVariant{});
+  EXPECT_EQ(text.find("struct RayShear"), text.rfind("struct RayShear"));
+  EXPECT_EQ(text.find("#include"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace fragtrace
