@@ -13,6 +13,7 @@ struct Bsdf {
   bool mirrorLike; // so smooth that its specular lobes are single directions
   bool solid;      // glass bounds a volume, else thin-walled
   float eta;       // index behind the surface over the index before it
+  vec3 between;    // colour of light scattered more than once between the facets, over pi (1 - average albedo); see compensate
 };
 
 /// A direction drawn from a Bsdf. weight = f |cos| / density; density 0 for a single direction; weight 0 ends the path.
@@ -52,12 +53,35 @@ float glassFresnel(Bsdf b, float cosine) {
   return b.solid ? single : thinReflectance(single);
 }
 
+/// Mean of Schlick's reflectance over cosine-weighted directions.
+vec3 averageFresnel(vec3 f0, float f90) { return f0 + (vec3(f90) - f0) / float(21.0); }
+
+/// The colour of what facets with mean reflectance `fresnel` send out after more than one scattering, given their average loss.
+vec3 manyScatterings(vec3 fresnel, float averageLoss) {
+  float albedo = 1.0f - averageLoss;
+  return fresnel * fresnel * albedo / (vec3(1.0f) - fresnel * averageLoss);
+}
+
+/// Fills in what single scattering loses (Kulla and Conty, Revisiting Physically Based Shading at Imageworks, 2017): the lobe
+/// between (1 - E(o)) (1 - E(i)) cos(i).
+Bsdf compensate(Bsdf b) {
+  b.between = vec3(0.0f);
+  if (!kCompensation || b.mirrorLike) return b;
+  float averageLoss = ggxAverageLoss(b.alpha);
+  if (averageLoss <= 0.0f) return b;
+  vec3 color = b.opaque * manyScatterings(averageFresnel(b.dielectricF0, b.dielectricF90), averageLoss);
+  if (kMetals) color = color + b.metal * manyScatterings(averageFresnel(b.baseColor, 1.0f), averageLoss);
+  b.between = color * (kInversePi / averageLoss);
+  return b;
+}
+
 /// Chances of drawing from glass (x), the opaque specular lobe (y) and the diffuse lobe (z); they add up to 1.
 vec3 lobeChances(Bsdf b, float cosine) {
   float glass = kTransmission ? b.glass : 0.0f;
   if (!kSpecular) return vec3(glass, 0.0f, 1.0f - glass);
   float specular = maxComponent(opaqueFresnel(b, cosine));
   float diffuse = b.opaque * throughLayer(b, cosine) * maxComponent(b.baseColor);
+  if (kCompensation) diffuse = diffuse + maxComponent(b.between) * kPi * ggxLoss(cosine, b.alpha);
   float sum = specular + diffuse;
   float share = sum > 0.0f ? specular / sum : 1.0f;
   share = diffuse > 0.0f && specular > 0.0f ? clamp(share, 0.125f, 0.875f) : share;
@@ -121,6 +145,10 @@ BsdfValue evaluateBsdf(Bsdf b, vec3 outgoing, vec3 incoming) {
       float density = visibleGgxDensity(outgoing, h, b.alpha) / max(4.0f * oh, float(1e-12));
       float ratio = ggxMaskingShadowing(outgoing, incoming, b.alpha) / ggxMasking(outgoing, b.alpha);
       r.value = r.value + (density * ratio) * opaqueFresnel(b, oh);
+      if (kCompensation) {
+        float lost = ggxLoss(outgoing.z, b.alpha) * ggxLoss(incoming.z, b.alpha);
+        r.value = r.value + (lost * incoming.z) * b.between;
+      }
       r.density = r.density + chances.y * density;
     }
   }

@@ -72,6 +72,9 @@ const uint kSlotSpecularColor = 6u;
 const uint kSlotCount = 7u;
 const uint kMaterialRows = 14u;
 
+// Cells along each axis of the energy table, which stands behind the materials.
+const uint kEnergyCells = 32u;
+
 // Material flags.
 const uint kMaterialMask = 1u;
 const uint kMaterialBlend = 2u;
@@ -106,7 +109,7 @@ struct Frame {
   vec4 gridCell;        // metres a step
   vec4 background;      // radiance that camera rays see; w: 1 when the environment is seen by camera rays
   vec4 environment;     // width, height, cosine and sine of the rotation
-  vec4 lightChoice;     // probability of sampling the environment, emitter count, scene scale, punctual lights
+  vec4 lightChoice;     // probability of sampling the environment, emitter count, row of the energy table among the materials, punctual lights
   ivec4 picture;        // width, height, samples wanted, seed
   ivec4 tile;           // x, y (from the bottom), width, height
   ivec4 limits;         // bounces, roulette depth, step budget, leaf count

@@ -13,7 +13,7 @@ Bsdf makeBsdf(SurfaceMaterial m, bool front) {
   b.mirrorLike = b.alpha < kMirrorAlpha;
   b.solid = m.solid;
   b.eta = front ? m.ior : 1.0 / m.ior;
-  return b;
+  return compensate(b);
 }
 
 /// The path-traced material: light slots first, then one direction drawn from the BSDF.

@@ -18,6 +18,7 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "fresnel.glsl"
 #include "surface.glsl"
 #include "ggx.glsl"
+#include "energy.glsl"
 #include "bsdf.glsl"
 #include "phong.glsl"
 #include "environment.glsl"

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pack/ggx_energy.h"
 #include "pack/gpu_scene.h"
 #include "pack/pack_lights.h"
 #include "pack/pack_textures.h"
@@ -96,6 +97,21 @@ void appendMaterial(Words& words, const Material& m, double emitterDensity, cons
   if (words.size() - first != layout::kMaterialRows * 4) std::abort();
 }
 
+/// One row a cell with the loss at its four corners, then one row a cell of the average loss (shaders/energy.glsl).
+void appendEnergyTable(Words& words) {
+  static_assert(kGgxEnergyCells == layout::kEnergyCells);
+  const GgxEnergyTable& table = ggxEnergyTable();
+  for (int j = 0; j < kGgxEnergyCells; ++j) {
+    for (int i = 0; i < kGgxEnergyCells; ++i) {
+      const float* corner = table.loss.data() + size_t(j) * GgxEnergyTable::kNodes + size_t(i);
+      appendRow(words, {corner[0], corner[1], corner[GgxEnergyTable::kNodes], corner[GgxEnergyTable::kNodes + 1]});
+    }
+  }
+  for (size_t j = 0; j < kGgxEnergyCells; ++j) {
+    appendRow(words, {table.averageLoss[j], table.averageLoss[j + 1], 0.0f, 0.0f});
+  }
+}
+
 std::vector<glm::vec3> meanRadiance(const Scene& scene, const TraitSet& traits, TexturePacker& textures) {
   std::vector<glm::vec3> radiance(scene.materials.size(), glm::vec3(0.0f));
   if (!has(traits, Trait::Emission)) return radiance;
@@ -156,6 +172,8 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     appendMaterial(materials, scene.materials[i], emitters.materialDensity[i], traits, textures);
   }
+  packed.energyTableRow = uint32_t(materials.size() / 4);
+  if (has(variant.stages, Stage::EnergyCompensation)) appendEnergyTable(materials);
   packed.buffers[kTexelsBinding] = textures.takeTexels();
   return packed;
 }

@@ -65,7 +65,7 @@ Renderer::Renderer(const Context& context, const GpuScene& scene, const ShaderVa
   frame_.gridOrigin = glm::vec4(scene.grid.origin, 0.0f);
   frame_.gridCell = glm::vec4(scene.grid.cell, 0.0f);
   frame_.environment = glm::vec4(scene.environmentSize, 1.0f, 0.0f);
-  frame_.lightChoice = glm::vec4(scene.environmentChance, float(scene.emitterCount), scene.radius,
+  frame_.lightChoice = glm::vec4(scene.environmentChance, float(scene.emitterCount), float(scene.energyTableRow),
                                  float(scene.punctualLights));
   frame_.limits = {0, 0, context.software ? kSoftwareStepBudget : kHardwareStepBudget, int(scene.leafCount)};
 }

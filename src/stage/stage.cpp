@@ -39,18 +39,20 @@ std::span<const TraitRow> traitRows() {
 
 std::span<const StageRow> stageRows() {
   static constexpr std::array<StageRow, size_t(Stage::Count)> rows = {{
-      {Stage::Flat, "flat", "Flat", "unlit colour or texture where the ray hits", true, nullptr},
-      {Stage::Phong, "phong", "Blinn-Phong", "Lambert and Blinn-Phong under every light", true, "kPhong"},
-      {Stage::Shadows, "shadows", "Shadows", "shadow rays towards each light", true, "kShadows"},
-      {Stage::Reflections, "reflections", "Reflections", "mirror reflections, and specular lobes in gi", true,
+      {Stage::Flat, "flat", "Flat", "unlit colour or texture where the ray hits", true, false, nullptr},
+      {Stage::Phong, "phong", "Blinn-Phong", "Lambert and Blinn-Phong under every light", true, false, "kPhong"},
+      {Stage::Shadows, "shadows", "Shadows", "shadow rays towards each light", true, false, "kShadows"},
+      {Stage::Reflections, "reflections", "Reflections", "mirror reflections, and specular lobes in gi", true, false,
        "kReflections"},
-      {Stage::Refraction, "refraction", "Refraction", "refraction with dielectric Fresnel and absorption", true,
+      {Stage::Refraction, "refraction", "Refraction", "refraction with dielectric Fresnel and absorption", true, false,
        "kRefraction"},
-      {Stage::NormalMaps, "normal-maps", "Normal maps", "normal textures and Perlin normal maps", true, "kNormalMaps"},
-      {Stage::Gi, "gi", "Global illumination", "path tracing with the glTF material", true, "kGi"},
+      {Stage::NormalMaps, "normal-maps", "Normal maps", "normal textures and Perlin normal maps", true, false, "kNormalMaps"},
+      {Stage::Gi, "gi", "Global illumination", "path tracing with the glTF material", true, false, "kGi"},
       {Stage::Schlick, "schlick", "Schlick's Fresnel", "Schlick's approximation for glass, in place of the exact Fresnel",
-       false, "kSchlick"},
-      {Stage::BvhHeatmap, "bvh-heatmap", "Node heat map", "paints how many nodes each camera ray visits", false,
+       false, false, "kSchlick"},
+      {Stage::EnergyCompensation, "energy-compensation", "Energy compensation",
+       "gives back what rough surfaces lose to single scattering in gi (on by default)", false, true, "kCompensation"},
+      {Stage::BvhHeatmap, "bvh-heatmap", "Node heat map", "paints how many nodes each camera ray visits", false, false,
        "kHeatmap"},
   }};
   return rows;
@@ -66,7 +68,7 @@ std::optional<Stage> parseStage(std::string_view name) {
 StageSet stagesUpTo(Stage stage) {
   StageSet set;
   for (const StageRow& row : stageRows()) {
-    if (row.cumulative && row.stage <= stage) set.set(size_t(row.stage));
+    if ((row.cumulative && row.stage <= stage) || row.standard) set.set(size_t(row.stage));
   }
   return set;
 }

@@ -51,7 +51,7 @@ struct TraitRow {
 std::span<const TraitRow> traitRows();
 
 /// A stage (in the order of --stage) or a switch of its own.
-enum class Stage : uint8_t { Flat, Phong, Shadows, Reflections, Refraction, NormalMaps, Gi, Schlick, BvhHeatmap, Count };
+enum class Stage : uint8_t { Flat, Phong, Shadows, Reflections, Refraction, NormalMaps, Gi, Schlick, EnergyCompensation, BvhHeatmap, Count };
 using StageSet = std::bitset<size_t(Stage::Count)>;
 
 struct StageRow {
@@ -60,6 +60,7 @@ struct StageRow {
   const char* label;     ///< in the viewer
   const char* sentence;  ///< in the help
   bool cumulative;       ///< --stage NAME turns on this and all cumulative rows before it
+  bool standard;         ///< a switch that is on unless turned off
   const char* constant;  ///< in the shader; null: always on
 };
 std::span<const StageRow> stageRows();
@@ -67,7 +68,7 @@ std::span<const StageRow> stageRows();
 /// The row of a name as the command line spells it.
 std::optional<Stage> parseStage(std::string_view name);
 
-/// What --stage NAME turns on.
+/// What --stage NAME turns on: the stages up to it, and the switches that are on unless turned off.
 StageSet stagesUpTo(Stage stage);
 
 template <typename Set, typename Member>

@@ -12,7 +12,8 @@ Trait neededBy(Stage stage) {
   switch (stage) {
     case Stage::Refraction:
     case Stage::Schlick: return Trait::Transmission;
-    case Stage::Reflections: return Trait::Specular;
+    case Stage::Reflections:
+    case Stage::EnergyCompensation: return Trait::Specular;
     default: return Trait::Count;
   }
 }
@@ -118,7 +119,8 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   if (stage(Stage::Gi)) v.stages.set(size_t(Stage::Phong));
   if (stage(Stage::BvhHeatmap)) v.stages = StageSet(1ul << unsigned(Stage::Flat) | 1ul << unsigned(Stage::BvhHeatmap));
   if (!stage(Stage::Phong)) {
-    for (Stage s : {Stage::Shadows, Stage::Reflections, Stage::Refraction, Stage::NormalMaps, Stage::Gi, Stage::Schlick}) {
+    for (Stage s : {Stage::Shadows, Stage::Reflections, Stage::Refraction, Stage::NormalMaps, Stage::Gi, Stage::Schlick,
+                    Stage::EnergyCompensation}) {
       drop(s);
     }
   }
@@ -158,6 +160,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   // Step: stages that change nothing in this scene.
   if (!hasLight(v.traits)) drop(Stage::Shadows);
   if (!has(v.traits, Trait::Specular)) drop(Stage::Reflections);
+  if (!stage(Stage::Gi) || !stage(Stage::Reflections)) drop(Stage::EnergyCompensation);
   if (!has(v.traits, Trait::Transmission)) {
     drop(Stage::Refraction);
     drop(Stage::Schlick);

@@ -10,6 +10,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "pack/ggx_energy.h"
 #include "shader/layout.h"
 
 /// What the shader's prelude fixes and its buffers hold: here variables, so that one test can walk the
@@ -26,6 +27,7 @@ inline bool kSpecular = true;
 inline bool kMetals = true;
 inline bool kTransmission = true;
 inline bool kSchlick = false;
+inline bool kCompensation = false;
 inline int kStackSize = 32;
 
 inline std::span<const uint32_t> nodes;
@@ -68,8 +70,8 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 #include "glsl_functions.h"
-int floatBitsToInt(float x) { return std::bit_cast<int>(x); }
-float intBitsToFloat(int x) { return std::bit_cast<float>(x); }
+inline int floatBitsToInt(float x) { return std::bit_cast<int>(x); }
+inline float intBitsToFloat(int x) { return std::bit_cast<float>(x); }
 #include "slab.glsl"
 // The rest is as for doubles.
 #include "glsl_files.h"
@@ -85,8 +87,8 @@ using vec2 = glm::dvec2;
 using vec3 = glm::dvec3;
 using vec4 = glm::dvec4;
 #include "glsl_functions.h"
-float slabMin(float a, float b) { return min(a, b); }
-float slabMax(float a, float b) { return max(a, b); }
+inline float slabMin(float a, float b) { return min(a, b); }
+inline float slabMax(float a, float b) { return max(a, b); }
 #include "glsl_files.h"
 }  // namespace
 }  // namespace fragtrace::glsl_double

@@ -10,19 +10,25 @@ using glm::uvec4;
 
 // Scalars; for vectors argument-dependent lookup finds GLM's functions. min, max and clamp are the
 // specification's.
-float abs(float x) { return std::fabs(x); }
-float sqrt(float x) { return std::sqrt(x); }
-float floor(float x) { return std::floor(x); }
-float cos(float x) { return std::cos(x); }
-float sin(float x) { return std::sin(x); }
-float pow(float x, float y) { return std::pow(x, y); }
-float min(float a, float b) { return b < a ? b : a; }
-float max(float a, float b) { return a < b ? b : a; }
-float clamp(float x, float low, float high) { return min(max(x, low), high); }
-int min(int a, int b) { return b < a ? b : a; }
-int max(int a, int b) { return a < b ? b : a; }
+inline float abs(float x) { return std::fabs(x); }
+inline float sqrt(float x) { return std::sqrt(x); }
+inline float floor(float x) { return std::floor(x); }
+inline float cos(float x) { return std::cos(x); }
+inline float sin(float x) { return std::sin(x); }
+inline float pow(float x, float y) { return std::pow(x, y); }
+inline float min(float a, float b) { return b < a ? b : a; }
+inline float max(float a, float b) { return a < b ? b : a; }
+inline float clamp(float x, float low, float high) { return min(max(x, low), high); }
+inline int min(int a, int b) { return b < a ? b : a; }
+inline int max(int a, int b) { return a < b ? b : a; }
 
-vec3 uintBitsToFloat(uvec3 v) { return vec3(glm::uintBitsToFloat(v)); }
+inline vec3 uintBitsToFloat(uvec3 v) { return vec3(glm::uintBitsToFloat(v)); }
 
-uvec4 readNodes(int index) { return glsl_variant::rowOf(glsl_variant::nodes, index); }
-uvec4 readLeaves(int index) { return glsl_variant::rowOf(glsl_variant::leaves, index); }
+inline uvec4 readNodes(int index) { return glsl_variant::rowOf(glsl_variant::nodes, index); }
+inline uvec4 readLeaves(int index) { return glsl_variant::rowOf(glsl_variant::leaves, index); }
+
+// shaders/energy.glsl reads the same table from a buffer.
+inline float ggxLoss(float cosine, float alpha) {
+  return fragtrace::ggxLoss(ggxEnergyTable(), cosine, alpha);
+}
+inline float ggxAverageLoss(float alpha) { return fragtrace::ggxAverageLoss(ggxEnergyTable(), alpha); }

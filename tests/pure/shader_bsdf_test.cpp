@@ -33,12 +33,23 @@ Bsdf makeBsdf(double metallic, double transmission, double roughness, double ior
   b.mirrorLike = b.alpha < glsl_double::kMirrorAlpha;
   b.solid = solid;
   b.eta = front ? ior : 1.0 / ior;
-  return b;
+  return glsl_double::compensate(b);
 }
 
 glsl_float::Bsdf toFloat(const Bsdf& b) {
-  return {vec3(b.baseColor), vec3(b.dielectricF0), float(b.dielectricF90), float(b.metal), float(b.opaque),
-          float(b.glass),    float(b.alpha),       b.mirrorLike,           b.solid,        float(b.eta)};
+  glsl_float::Bsdf f;
+  f.baseColor = vec3(b.baseColor);
+  f.dielectricF0 = vec3(b.dielectricF0);
+  f.dielectricF90 = float(b.dielectricF90);
+  f.metal = float(b.metal);
+  f.opaque = float(b.opaque);
+  f.glass = float(b.glass);
+  f.alpha = float(b.alpha);
+  f.mirrorLike = b.mirrorLike;
+  f.solid = b.solid;
+  f.eta = float(b.eta);
+  f.between = vec3(b.between);
+  return f;
 }
 
 struct Case {
@@ -50,13 +61,14 @@ Bsdf lambert() {
   Bsdf b = makeBsdf(0, 0, 0.5, 1.5, false, true);
   b.dielectricF0 = dvec3(0.0);
   b.dielectricF90 = 0.0;
-  return b;
+  return glsl_double::compensate(b);
 }
 
 std::vector<Case> opaqueCases() {
   Bsdf tinted = makeBsdf(0.0, 0.0, 0.4, 1.5, false, true);
   tinted.dielectricF0 = dvec3(0.4, 0.1, 0.0);
   tinted.dielectricF90 = 0.6;
+  tinted = glsl_double::compensate(tinted);
   return {{"diffuse", lambert()},
           {"smooth metal", makeBsdf(1, 0, 0.3, 1.5, false, true)},
           {"rough metal", makeBsdf(1, 0, 0.8, 1.5, false, true)},
@@ -422,13 +434,15 @@ dvec3 albedoByIntegration(const Bsdf& b, const dvec3& outgoing) {
   }));
 }
 
+void expectUnbiasedWeights(const Case& c, double elevation) {
+  const dvec3 drawn = albedoByDrawing(c.bsdf, atElevation(elevation));
+  const dvec3 integrated = albedoByIntegration(c.bsdf, atElevation(elevation));
+  EXPECT_LE(glm::distance(drawn, integrated), 0.01) << c.name << ", elevation " << elevation;
+}
+
 TEST(ShaderBsdf, MeanWeightIsTheIntegralOfTheValue) {
   for (const Case& c : allCases()) {
-    for (double z : kElevations) {
-      const dvec3 drawn = albedoByDrawing(c.bsdf, atElevation(z));
-      EXPECT_LE(glm::distance(drawn, albedoByIntegration(c.bsdf, atElevation(z))), 0.01)
-          << c.name << ", elevation " << z;
-    }
+    for (double z : kElevations) expectUnbiasedWeights(c, z);
   }
 }
 
@@ -483,6 +497,22 @@ TEST(ShaderBsdf, LobeChancesAddUpToOne) {
       EXPECT_GE(std::min({chances.x, chances.y, chances.z}), 0.0);
       EXPECT_NEAR(chances.x, c.bsdf.glass, 1e-14);
     }
+  }
+}
+
+// ---- compensation of what single scattering loses (more in ggx_energy_test.cpp) ----
+
+TEST(ShaderBsdf, CompensatedSamplesFollowTheirDensity) {
+  const With compensation(glsl_variant::kCompensation, true);
+  for (const Case& c : allCases()) {
+    for (double z : kElevations) expectSamplesFollowTheDensity(c, z, allCases().size() * kElevations.size());
+  }
+}
+
+TEST(ShaderBsdf, CompensatedMeanWeightIsTheIntegralOfTheValue) {
+  const With compensation(glsl_variant::kCompensation, true);
+  for (const Case& c : allCases()) {
+    for (double z : kElevations) expectUnbiasedWeights(c, z);
   }
 }
 
