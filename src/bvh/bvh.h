@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A binary bounding-volume hierarchy: inner nodes hold the boxes of both children, leaves hold one or two primitives.
+// A binary bounding-volume hierarchy: inner nodes hold the boxes of both children, leaves hold one or two
+// primitives.
 #pragma once
 
 #include <array>
@@ -15,7 +16,8 @@ namespace fragtrace {
 /// Set in BvhNode::child when the child is a leaf (the rest is the index into Bvh::leaves).
 inline constexpr uint32_t kBvhLeafBit = 0x80000000u;
 
-/// No path from the root passes more inner nodes than this, so a traversal stack of this size cannot overflow.
+/// No path from the root passes more inner nodes than this, so a traversal stack of this size cannot
+/// overflow.
 inline constexpr uint32_t kMaxBvhDepth = 32;
 
 struct BvhNode {
@@ -27,8 +29,8 @@ struct BvhLeaf {
   std::array<uint32_t, 2> primitive{kMissIndex, kMissIndex};  ///< the second may be kMissIndex
 };
 
-/// Node 0 is the root. Nodes are empty only when there are no primitives; with one leaf, both children of the root
-/// are that leaf. Children always stand behind their parent.
+/// Node 0 is the root. Nodes are empty only when there are no primitives; with one leaf, both children of the
+/// root are that leaf. Children always stand behind their parent.
 struct Bvh {
   std::vector<BvhNode> nodes;
   std::vector<BvhLeaf> leaves;
@@ -36,8 +38,8 @@ struct Bvh {
   Bounds bounds;
 };
 
-/// Builds the tree by binned SAH over the primitives' boxes, on all cores. Primitives from firstSingle on (spheres)
-/// always get a leaf of their own. Deterministic: the same boxes give the same tree.
+/// Builds the tree by binned SAH over the primitives' boxes, on all cores. Primitives from firstSingle on
+/// (spheres) always get a leaf of their own. Deterministic: the same boxes give the same tree.
 Bvh buildBvh(std::span<const Bounds> primitiveBounds, uint32_t firstSingle);
 
 /// Boxes of the scene's primitives: triangles first, then spheres.

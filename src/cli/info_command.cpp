@@ -11,14 +11,17 @@ namespace fragtrace {
 
 namespace {
 
-void printText(const std::filesystem::path& path, const SceneDescription& s, const BvhQuality& bvh, const TraitSet& traits) {
+void printText(const std::filesystem::path& path, const SceneDescription& s, const BvhQuality& bvh,
+               const TraitSet& traits) {
   std::printf("%s\n", path.string().c_str());
-  std::printf("  triangles   %zu (%zu emissive), vertices %zu, spheres %zu\n", s.triangles, s.emissiveTriangles, s.vertices,
-              s.spheres);
-  std::printf("  materials   %zu, textures %zu, images %zu (%.1f MB encoded)\n", s.materials, s.textures, s.images,
-              double(s.imageBytes) / 1e6);
-  std::printf("  lights      %zu point, %zu spot, %zu directional\n", s.pointLights, s.spotLights, s.directionalLights);
-  std::printf("  cameras     %zu perspective, %zu orthographic\n", s.perspectiveCameras, s.orthographicCameras);
+  std::printf("  triangles   %zu (%zu emissive), vertices %zu, spheres %zu\n", s.triangles,
+              s.emissiveTriangles, s.vertices, s.spheres);
+  std::printf("  materials   %zu, textures %zu, images %zu (%.1f MB encoded)\n", s.materials, s.textures,
+              s.images, double(s.imageBytes) / 1e6);
+  std::printf("  lights      %zu point, %zu spot, %zu directional\n", s.pointLights, s.spotLights,
+              s.directionalLights);
+  std::printf("  cameras     %zu perspective, %zu orthographic\n", s.perspectiveCameras,
+              s.orthographicCameras);
   std::string extensions;
   for (const std::string& name : s.extensionsUsed) extensions += (extensions.empty() ? "" : ", ") + name;
   std::printf("  extensions  %s\n", extensions.empty() ? "none" : extensions.c_str());
@@ -29,8 +32,8 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
     const glm::dvec3& b = s.bounds.maximum;
     std::printf("  bounds      (%g, %g, %g) to (%g, %g, %g) m\n", a.x, a.y, a.z, b.x, b.y, b.z);
   }
-  std::printf("  tree        %u nodes, %u leaves, depth %u, %.2f primitives a leaf, SAH cost %.2f\n", bvh.nodeCount,
-              bvh.leafCount, bvh.depth, bvh.primitivesPerLeaf, bvh.sahCost);
+  std::printf("  tree        %u nodes, %u leaves, depth %u, %.2f primitives a leaf, SAH cost %.2f\n",
+              bvh.nodeCount, bvh.leafCount, bvh.depth, bvh.primitivesPerLeaf, bvh.sahCost);
   for (const StageRow& row : stageRows()) {
     const std::string reason = whyOff(row.stage, traits);
     if (!reason.empty()) std::printf("  not needed  %s (%s)\n", row.name, reason.c_str());

@@ -6,7 +6,8 @@ namespace fragtrace {
 /// From now on Ctrl-C (SIGINT) and SIGTERM are counted; until then they end the program with status 130.
 void countInterrupts();
 
-/// How often the program was interrupted: once means stop and write what is finished, more means write nothing.
+/// How often the program was interrupted: once means stop and write what is finished, more means write
+/// nothing.
 int interrupts();
 
 /// Makes the first kind of handler stand: exit with 130 at once, as nothing has been written yet.

@@ -21,9 +21,12 @@ int run(int argc, char** argv) {
   const std::optional<CommandLine> line = parseCommandLine(argc, argv);
   if (!line) return kDone;
   switch (line->command) {
-    case Command::Render: return runRender(line->render);
-    case Command::Info: return runInfo(line->info);
-    case Command::Diff: return runDiff(line->diff);
+    case Command::Render:
+      return runRender(line->render);
+    case Command::Info:
+      return runInfo(line->info);
+    case Command::Diff:
+      return runDiff(line->diff);
   }
   return kUsage;
 }

@@ -68,7 +68,8 @@ Value choose(const char* option, const std::string& name, const Names& names) {
 
 Stage stageNamed(const char* option, const std::string& name) {
   const std::optional<Stage> stage = parseStage(name);
-  if (!stage) throw UsageError(std::string(option) + ": '" + name + "' is none of " + joined(stageNames(false)));
+  if (!stage)
+    throw UsageError(std::string(option) + ": '" + name + "' is none of " + joined(stageNames(false)));
   return *stage;
 }
 
@@ -99,7 +100,8 @@ void checkFinite(const RenderOptions& o) {
   checkVector("--camera-focal-point", o.camera.focalPoint);
   checkVector("--camera-view-up", o.camera.viewUp);
   checkVector("--background-color", glm::dvec3(o.backgroundColor));
-  if (glm::any(glm::lessThan(o.backgroundColor, glm::vec3(0.0f)))) throw UsageError("--background-color: below 0");
+  if (glm::any(glm::lessThan(o.backgroundColor, glm::vec3(0.0f))))
+    throw UsageError("--background-color: below 0");
 }
 
 RenderOptions finish(const RawRender& raw, RenderOptions o) {
@@ -122,14 +124,17 @@ RenderOptions finish(const RawRender& raw, RenderOptions o) {
   o.defaultLight = !raw.noDefaultLight;
   if (raw.pixelFilter != "box") throw UsageError("--pixel-filter: '" + raw.pixelFilter + "' is none of box");
   o.toneMap = choose<ToneMap>("--tone-map", raw.toneMap, toneMapNames());
-  o.traversal = choose<TraversalMethod>("--traversal", raw.traversal,
-                                        std::vector<std::string>{"auto", "iterative", "bvh", "front-to-back"});
-  o.backend = choose<Backend>("--rendering-backend", raw.backend, std::vector<std::string>{"auto", "egl", "osmesa"});
-  o.bufferReads = choose<BufferReads>("--buffer-reads", raw.reads, std::vector<std::string>{"auto", "ssbo", "image"});
+  o.traversal = choose<TraversalMethod>(
+      "--traversal", raw.traversal, std::vector<std::string>{"auto", "iterative", "bvh", "front-to-back"});
+  o.backend =
+      choose<Backend>("--rendering-backend", raw.backend, std::vector<std::string>{"auto", "egl", "osmesa"});
+  o.bufferReads =
+      choose<BufferReads>("--buffer-reads", raw.reads, std::vector<std::string>{"auto", "ssbo", "image"});
   o.statsFile = raw.statsFile;
   o.shaderFolder = raw.shaderFolder;
   for (const std::string& name : raw.aov) {
-    (choose<int>("--aov", name, std::vector<std::string>{"samples", "variance"}) == 0 ? o.aovSamples : o.aovVariance) = true;
+    (choose<int>("--aov", name, std::vector<std::string>{"samples", "variance"}) == 0 ? o.aovSamples
+                                                                                      : o.aovVariance) = true;
   }
   if (!raw.aov.empty() && formatOfName(o.output) != ImageFormat::OpenExr) {
     throw UsageError("--aov: only .exr files hold more layers");
@@ -144,7 +149,8 @@ void addRenderOptions(CLI::App& app, RawRender& raw, RenderOptions& o) {
   app.add_option("-o,--output", raw.output,
                  "picture: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance)")
       ->required();
-  app.add_option("--resolution", raw.resolution, "WIDTH,HEIGHT; default 1280,720, or 720 high at the camera's aspect ratio")
+  app.add_option("--resolution", raw.resolution,
+                 "WIDTH,HEIGHT; default 1280,720, or 720 high at the camera's aspect ratio")
       ->delimiter(',')
       ->expected(2)
       ->check(CLI::Range(1, 65536));
@@ -158,7 +164,8 @@ void addRenderOptions(CLI::App& app, RawRender& raw, RenderOptions& o) {
   app.add_option("--rr-depth", o.rouletteDepth, "Russian roulette from this scattering on")
       ->check(CLI::Range(1, kMost))
       ->capture_default_str();
-  app.add_option("--camera-index", o.cameraIndex, "camera of the scene, from 0; default: the first, else one that frames it");
+  app.add_option("--camera-index", o.cameraIndex,
+                 "camera of the scene, from 0; default: the first, else one that frames it");
   app.add_option("--camera-position", raw.position, "X,Y,Z in world space")->delimiter(',')->expected(3);
   app.add_option("--camera-focal-point", raw.focalPoint, "X,Y,Z")->delimiter(',')->expected(3);
   app.add_option("--camera-view-up", raw.viewUp, "X,Y,Z")->delimiter(',')->expected(3);
@@ -178,9 +185,11 @@ void addRenderOptions(CLI::App& app, RawRender& raw, RenderOptions& o) {
   app.add_option("--traversal", raw.traversal, "auto, iterative, bvh, front-to-back: how rays find triangles")
       ->capture_default_str();
   app.add_option("--rendering-backend", raw.backend, "auto, egl, osmesa")->capture_default_str();
-  app.add_option("--buffer-reads", raw.reads, "auto, ssbo, image: how the shader reads the scene")->capture_default_str();
+  app.add_option("--buffer-reads", raw.reads, "auto, ssbo, image: how the shader reads the scene")
+      ->capture_default_str();
   app.add_option("--stats", raw.statsFile, "JSON file for the statistics");
-  app.add_option("--shader-folder", raw.shaderFolder, "read the shaders from here in place of the built-in ones");
+  app.add_option("--shader-folder", raw.shaderFolder,
+                 "read the shaders from here in place of the built-in ones");
   app.add_flag("--quiet", o.quiet, "print nothing but errors");
   app.add_flag("--verbose", o.verbose, "print what is chosen and what it takes");
 }
@@ -190,7 +199,8 @@ std::vector<std::string> argumentsOf(int argc, const char* const* argv) {
   std::vector<std::string> arguments;
   for (int i = argc - 1; i > 0; --i) {
     std::string argument = argv[i];
-    if (argument.starts_with("-.") && argument.size() > 2 && std::isdigit(static_cast<unsigned char>(argument[2]))) {
+    if (argument.starts_with("-.") && argument.size() > 2 &&
+        std::isdigit(static_cast<unsigned char>(argument[2]))) {
       argument.insert(1, "0");
     }
     arguments.push_back(std::move(argument));
@@ -201,7 +211,8 @@ std::vector<std::string> argumentsOf(int argc, const char* const* argv) {
 }  // namespace
 
 std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
-  CLI::App app("A real-time ray tracer for glTF whose tracing runs in an OpenGL fragment shader.", "fragtrace");
+  CLI::App app("A real-time ray tracer for glTF whose tracing runs in an OpenGL fragment shader.",
+               "fragtrace");
   app.set_version_flag("--version", std::string("fragtrace ") + FRAGTRACE_VERSION);
   app.require_subcommand(1);
   CommandLine line;

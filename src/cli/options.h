@@ -32,7 +32,8 @@ struct CommandLine {
   DiffOptions diff;
 };
 
-/// Parses the arguments. Prints help or version and returns nothing when that was asked for. Throws UsageError.
+/// Parses the arguments. Prints help or version and returns nothing when that was asked for. Throws
+/// UsageError.
 std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv);
 
 }  // namespace fragtrace

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 
 namespace fragtrace {
@@ -11,8 +12,8 @@ namespace {
 
 std::string timeText(double seconds) {
   char text[32];
-  const int whole = int(seconds + 0.5);
-  std::snprintf(text, sizeof text, "%d:%02d", whole / 60, whole % 60);
+  const long whole = std::lround(seconds);
+  std::snprintf(text, sizeof text, "%ld:%02ld", whole / 60, whole % 60);
   return text;
 }
 
@@ -30,8 +31,9 @@ void ProgressBar::show(double fraction) {
     if (drawn_ && now - last_ < std::chrono::milliseconds(100)) return;
     constexpr int kCells = 30;
     const int full = int(fraction * kCells);
-    std::fprintf(stderr, "\r%s [%s%s] %3d %%  %s left \033[K", label_.c_str(), std::string(size_t(full), '#').c_str(),
-                 std::string(size_t(kCells - full), '.').c_str(), int(fraction * 100.0), left.c_str());
+    std::fprintf(stderr, "\r%s [%s%s] %3d %%  %s left \033[K", label_.c_str(),
+                 std::string(size_t(full), '#').c_str(), std::string(size_t(kCells - full), '.').c_str(),
+                 int(fraction * 100.0), left.c_str());
     std::fflush(stderr);
     drawn_ = true;
     last_ = now;

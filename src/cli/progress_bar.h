@@ -6,8 +6,8 @@
 
 namespace fragtrace {
 
-/// Shows on stderr how far work has come: a bar with the time left on a terminal, a line each 10 % otherwise, nothing
-/// when quiet.
+/// Shows on stderr how far work has come: a bar with the time left on a terminal, a line each 10 % otherwise,
+/// nothing when quiet.
 class ProgressBar {
  public:
   ProgressBar(std::string label, bool quiet);

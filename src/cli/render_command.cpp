@@ -95,7 +95,9 @@ void writePicture(const RenderOptions& options, const Image& linear) {
   if (!isDisplayFormat(options.output)) return writeImage(options.output, linear);
   const bool colors = has(options.stages, Stage::BvhHeatmap);
   const bool keepsAlpha = formatOfName(options.output) == ImageFormat::Png;
-  writeImage(options.output, toDisplay(keepsAlpha ? linear : withoutAlpha(linear), colors ? 0.0 : options.exposure, colors ? ToneMap::Linear : options.toneMap));
+  writeImage(options.output,
+             toDisplay(keepsAlpha ? linear : withoutAlpha(linear), colors ? 0.0 : options.exposure,
+                       colors ? ToneMap::Linear : options.toneMap));
 }
 
 }  // namespace
@@ -121,12 +123,15 @@ int runRender(const RenderOptions& options) {
   for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
   stats.defaultLight = environment.kind == Surroundings::DefaultLight;
   if (stats.defaultLight) {
-    say(options, "no light in the scene: a white environment that the camera does not see lights it (--no-default-light)");
+    say(options,
+        "no light in the scene: a white environment that the camera does not see lights it "
+        "(--no-default-light)");
   }
 
   // Step: build the tree; the iterative traversal needs none.
   const bool iterative = options.traversal == TraversalMethod::Iterative;
-  const Bvh bvh = iterative ? listLeaves(scene) : buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
+  const Bvh bvh =
+      iterative ? listLeaves(scene) : buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
   stats.bvh = bvhQuality(bvh);
   stats.bvhBuildMs = watch.lap();
 
@@ -188,9 +193,11 @@ int runRender(const RenderOptions& options) {
   writePicture(options, picture);
   if (!options.statsFile.empty()) writeStatistics(options.statsFile, stats);
   if (!options.quiet) {
-    const double paths = stats.complete ? options.spp : double(stats.film.samples) / (double(size.x) * size.y);
-    std::printf("%s: %d x %d, %.4g samples a pixel in %.2f s (%.2f million paths/s)\n", options.output.string().c_str(),
-                size.x, size.y, paths, stats.times.renderMs / 1000.0, megaPathsPerSecond(stats));
+    const double paths =
+        stats.complete ? options.spp : double(stats.film.samples) / (double(size.x) * size.y);
+    std::printf("%s: %d x %d, %.4g samples a pixel in %.2f s (%.2f million paths/s)\n",
+                options.output.string().c_str(), size.x, size.y, paths, stats.times.renderMs / 1000.0,
+                megaPathsPerSecond(stats));
   }
   return stats.complete ? 0 : kInterruptedStatus;
 }

@@ -8,8 +8,8 @@
 
 namespace fragtrace {
 
-/// A headless OpenGL 4.5 core context, current in the thread that made it until it is destroyed. Its libraries are
-/// loaded at run time.
+/// A headless OpenGL 4.5 core context, current in the thread that made it until it is destroyed. Its
+/// libraries are loaded at run time.
 class Context {
  public:
   Context() = default;
@@ -23,8 +23,8 @@ class Context {
   bool software = false;  ///< a rasteriser on the processor
 };
 
-/// Makes a context: a GPU through EGL, else software EGL, else OSMesa; or only what `backend` names. Throws ContextError
-/// saying what was tried and why each failed.
+/// Makes a context: a GPU through EGL, else software EGL, else OSMesa; or only what `backend` names. Throws
+/// ContextError saying what was tried and why each failed.
 std::unique_ptr<Context> makeContext(Backend backend);
 
 /// The two ways, each null on failure with the reasons appended to `tried`.

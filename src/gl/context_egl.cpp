@@ -38,8 +38,10 @@ struct EglFunctions {
         library.find("eglQueryString", queryString) && library.find("eglGetError", getError);
     if (!complete) return false;
     queryDevices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(getProcAddress("eglQueryDevicesEXT"));
-    queryDeviceString = reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(getProcAddress("eglQueryDeviceStringEXT"));
-    getPlatformDisplay = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(getProcAddress("eglGetPlatformDisplayEXT"));
+    queryDeviceString =
+        reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(getProcAddress("eglQueryDeviceStringEXT"));
+    getPlatformDisplay =
+        reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(getProcAddress("eglGetPlatformDisplayEXT"));
     return getPlatformDisplay != nullptr;
   }
 };
@@ -69,14 +71,17 @@ struct Candidate {
   std::string name;
 };
 
-bool contains(const char* extensions, const char* name) { return extensions && std::strstr(extensions, name); }
+bool contains(const char* extensions, const char* name) {
+  return extensions && std::strstr(extensions, name);
+}
 
 std::vector<Candidate> candidates(const EglFunctions& egl) {
   std::vector<Candidate> hardware;
   std::vector<Candidate> software;
   std::array<EGLDeviceEXT, 32> devices{};
   EGLint count = 0;
-  if (egl.queryDevices && egl.queryDeviceString && egl.queryDevices(EGLint(devices.size()), devices.data(), &count)) {
+  if (egl.queryDevices && egl.queryDeviceString &&
+      egl.queryDevices(EGLint(devices.size()), devices.data(), &count)) {
     for (EGLint i = 0; i < count; ++i) {
       const char* extensions = egl.queryDeviceString(devices[size_t(i)], EGL_EXTENSIONS);
       const bool isSoftware = contains(extensions, "EGL_MESA_device_software");
@@ -91,7 +96,8 @@ std::vector<Candidate> candidates(const EglFunctions& egl) {
   return hardware;
 }
 
-std::unique_ptr<Context> tryCandidate(const EglFunctions& egl, const Candidate& candidate, std::string& reason) {
+std::unique_ptr<Context> tryCandidate(const EglFunctions& egl, const Candidate& candidate,
+                                      std::string& reason) {
   const auto fail = [&](const char* step) {
     char code[16];
     std::snprintf(code, sizeof code, "0x%04x", unsigned(egl.getError()));

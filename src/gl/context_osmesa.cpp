@@ -19,7 +19,8 @@ struct OsMesaFunctions {
 
   bool load(const DynamicLibrary& library) {
     return library.find("OSMesaCreateContextAttribs", createContext) &&
-           library.find("OSMesaDestroyContext", destroyContext) && library.find("OSMesaMakeCurrent", makeCurrent) &&
+           library.find("OSMesaDestroyContext", destroyContext) &&
+           library.find("OSMesaMakeCurrent", makeCurrent) &&
            library.find("OSMesaGetProcAddress", getProcAddress);
   }
 };
@@ -28,7 +29,8 @@ constexpr int kSurfaceSize = 4;  // pixels; the tracer writes to images, never t
 
 class HeadlessOsMesa : public Context {
  public:
-  HeadlessOsMesa(const OsMesaFunctions& functions, OSMesaContext context) : osMesa_(functions), context_(context) {
+  HeadlessOsMesa(const OsMesaFunctions& functions, OSMesaContext context)
+      : osMesa_(functions), context_(context) {
     backend = "osmesa";
   }
   ~HeadlessOsMesa() override {

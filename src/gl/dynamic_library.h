@@ -8,7 +8,8 @@
 
 namespace fragtrace {
 
-/// A shared library opened by the first of its names that can be; stays open, since drivers do not survive dlclose().
+/// A shared library opened by the first of its names that can be; stays open, since drivers do not survive
+/// dlclose().
 class DynamicLibrary {
  public:
   explicit DynamicLibrary(std::initializer_list<const char*> names) {

@@ -9,7 +9,8 @@
 
 namespace fragtrace {
 
-/// Compiles and links one program. Throws RenderError with the driver's log, which names shader file and line.
+/// Compiles and links one program. Throws RenderError with the driver's log, which names shader file and
+/// line.
 GlProgram buildProgram(const std::string& vertexText, const std::string& fragmentText);
 
 /// Programs by variant, built on first use and kept.

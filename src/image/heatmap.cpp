@@ -79,7 +79,8 @@ Image paintHeatmap(const Image& counts) {
   for (int part = 0; part <= 4; ++part) {
     const int value = int(std::lround(limit * part / 4.0));
     const int width = int(std::to_string(value).size()) * 4 * scale;
-    drawNumber(image, value, std::clamp(image.width * part / 4 - width / 2, scale, image.width - width), textTop, scale);
+    drawNumber(image, value, std::clamp(image.width * part / 4 - width / 2, scale, image.width - width),
+               textTop, scale);
   }
   return image;
 }

@@ -5,8 +5,9 @@
 
 namespace fragtrace {
 
-/// Counts (the picture's first channel) as linear colours from blue (0) over green to red (the 99.5th percentile, rounded up
-/// to a round number, and above), with the scale and its numbers along the bottom. The counts stay as channel "visits".
+/// Counts (the picture's first channel) as linear colours from blue (0) over green to red (the 99.5th
+/// percentile, rounded up to a round number, and above), with the scale and its numbers along the bottom. The
+/// counts stay as channel "visits".
 Image paintHeatmap(const Image& counts);
 
 /// The value at the red end of that scale.

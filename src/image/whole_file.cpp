@@ -67,7 +67,8 @@ void checkReplaceable(const std::filesystem::path& path) {
   const auto check = [&](int code) {
     if (code != 0) throw RenderError("cannot write " + path.string() + ": " + systemReason(code));
   };
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  const std::filesystem::path folder =
+      path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   std::error_code error;
   check(!path.has_filename() || std::filesystem::is_directory(path, error) ? EISDIR : 0);
   const auto status = std::filesystem::status(folder, error);

@@ -7,7 +7,8 @@
 
 namespace fragtrace {
 
-/// One entry of an alias table: drawn uniformly, it stands for itself below the threshold and for its alias above.
+/// One entry of an alias table: drawn uniformly, it stands for itself below the threshold and for its alias
+/// above.
 struct AliasEntry {
   float threshold = 1.0f;
   uint32_t alias = 0;

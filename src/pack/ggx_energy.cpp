@@ -17,7 +17,8 @@ double lambda(const glm::dvec3& v, double alpha) {
   return 0.5 * (std::sqrt(1.0 + alpha * alpha * tangentSquared) - 1.0);
 }
 
-/// Albedo under single scattering: the mean of G2 / G1 over visible normals (Dupuy and Benyoub, 2023, for the sampling).
+/// Albedo under single scattering: the mean of G2 / G1 over visible normals (Dupuy and Benyoub, 2023, for the
+/// sampling).
 double albedo(double cosine, double alpha) {
   if (alpha <= 0.0) return 1.0;
   const double mu = std::max(cosine, 1e-4);
@@ -50,7 +51,8 @@ GgxEnergyTable makeTable() {
       table.loss.push_back(float(1.0 - albedo(x * x, y * y)));
     }
   }
-  // 2 * integral of loss(mu) mu dmu, through the same interpolation the shader uses, so that nothing is gained or lost by it.
+  // 2 * integral of loss(mu) mu dmu, through the same interpolation the shader uses, so that nothing is
+  // gained or lost by it.
   for (int j = 0; j < kNodes; ++j) {
     const double y = double(j) / kGgxEnergyCells;
     constexpr int kSteps = 1024;

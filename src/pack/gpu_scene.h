@@ -29,21 +29,23 @@ struct BoxGrid {
 };
 
 struct GpuScene {
-  std::array<Words, layout::kSceneBufferCount> buffers;  ///< by binding; empty when the variant never reads it
+  std::array<Words, layout::kSceneBufferCount>
+      buffers;  ///< by binding; empty when the variant never reads it
   BoxGrid grid;
   uint32_t leafCount = 0;
   glm::ivec2 environmentSize{0};
   float environmentChance = 0.0f;  ///< of a light sample in gi going to the environment
   uint32_t emitterCount = 0;
   uint32_t punctualLights = 0;
-  float radius = 0.0f;           ///< of the sphere round the scene's box, metres
-  uint32_t energyTableRow = 0;   ///< where the energy table begins among the material rows
+  float radius = 0.0f;          ///< of the sphere round the scene's box, metres
+  uint32_t energyTableRow = 0;  ///< where the energy table begins among the material rows
 
   size_t bytes() const;
 };
 
 /// Packs what the variant reads. The tree may be a plain list of leaves without nodes (iterative traversal).
 /// Throws InputError when a texture cannot be decoded.
-GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment, const ShaderVariant& variant);
+GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
+                   const ShaderVariant& variant);
 
 }  // namespace fragtrace

@@ -25,9 +25,12 @@ double triangleArea(const Scene& scene, const Triangle& t) {
 double lightPower(const Light& light, double radius) {
   const double intensity = luminance(glm::dvec3(light.intensity));
   switch (light.type) {
-    case LightType::Directional: return intensity * kPi * radius * radius;
-    case LightType::Spot: return intensity * 2.0 * kPi * (1.0 - std::cos(double(light.outerConeAngle)));
-    case LightType::Point: break;
+    case LightType::Directional:
+      return intensity * kPi * radius * radius;
+    case LightType::Spot:
+      return intensity * 2.0 * kPi * (1.0 - std::cos(double(light.outerConeAngle)));
+    case LightType::Point:
+      break;
   }
   return intensity * 4.0 * kPi;
 }
@@ -62,8 +65,8 @@ PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> mater
   const std::vector<AliasEntry> table = makeAliasTable(powers);
   for (size_t i = 0; i < powers.size(); ++i) {
     const double probability = packed.power > 0.0 ? powers[i] / packed.power : 1.0 / double(powers.size());
-    packed.entries.insert(packed.entries.end(),
-                          {floatWord(table[i].threshold), table[i].alias, kinds[i], floatWord(float(probability))});
+    packed.entries.insert(packed.entries.end(), {floatWord(table[i].threshold), table[i].alias, kinds[i],
+                                                 floatWord(float(probability))});
   }
   packed.count = uint32_t(powers.size());
   for (size_t m = 0; m < scene.materials.size() && packed.power > 0.0; ++m) {
@@ -106,7 +109,8 @@ PackedEnvironment packEnvironment(const Image& image) {
     for (int x = 0; x < image.width; ++x) {
       double mean = 0.0;
       for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) mean += kTent[dx + 1] * kTent[dy + 1] * texelLuminance(x + dx, y + dy);
+        for (int dx = -1; dx <= 1; ++dx)
+          mean += kTent[dx + 1] * kTent[dy + 1] * texelLuminance(x + dx, y + dy);
       }
       const double weight = mean * sine;
       weights[size_t(y) * size_t(image.width) + size_t(x)] = weight;

@@ -7,13 +7,14 @@ namespace fragtrace {
 
 /// Emissive triangles and punctual lights in one alias table by power.
 struct PackedEmitters {
-  Words entries;                         ///< layout.glsl: emitters
+  Words entries;  ///< layout.glsl: emitters
   uint32_t count = 0;
-  double power = 0.0;                    ///< of all, watts of luminance
-  std::vector<double> materialDensity;   ///< by material: probability per square metre of its triangles
+  double power = 0.0;                   ///< of all, watts of luminance
+  std::vector<double> materialDensity;  ///< by material: probability per square metre of its triangles
 };
 
-/// materialRadiance: mean radiance of each material's surface; slots: leaf slot of each triangle; radius: of the scene.
+/// materialRadiance: mean radiance of each material's surface; slots: leaf slot of each triangle; radius: of
+/// the scene.
 PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> materialRadiance,
                             std::span<const uint32_t> slots, double radius, const TraitSet& traits);
 
@@ -21,10 +22,11 @@ PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> mater
 Words packLights(const Scene& scene);
 
 struct PackedEnvironment {
-  Words texels;        ///< radiance and density (probability * texel count)
+  Words texels;  ///< radiance and density (probability * texel count)
   Words alias;
   glm::ivec2 size{0};
-  double power = 0.0;  ///< luminance that falls on a disk of unit radius from all around: pi * integral over directions
+  double power =
+      0.0;  ///< luminance that falls on a disk of unit radius from all around: pi * integral over directions
 };
 
 PackedEnvironment packEnvironment(const Image& image);

@@ -40,7 +40,8 @@ void packAttributes(const Vertices& v, const TraitSet& traits, GpuScene& packed)
   using namespace layout;
   const size_t count = v.position.size();
   if (has(traits, Trait::VertexNormals)) {
-    packed.buffers[kNormalsBinding] = packVertices(count, [&](size_t i) { return glm::vec4(v.normal[i], 0.0f); });
+    packed.buffers[kNormalsBinding] =
+        packVertices(count, [&](size_t i) { return glm::vec4(v.normal[i], 0.0f); });
   }
   if (has(traits, Trait::Texcoords)) {
     packed.buffers[kTexcoordsBinding] = packVertices(count, [&](size_t i) {
@@ -56,7 +57,8 @@ void packAttributes(const Vertices& v, const TraitSet& traits, GpuScene& packed)
   }
 }
 
-/// 1/m along which light is lost: attenuationColor = exp(-absorption * attenuationDistance); a black channel absorbs all.
+/// 1/m along which light is lost: attenuationColor = exp(-absorption * attenuationDistance); a black channel
+/// absorbs all.
 glm::vec3 absorption(const Material& m) {
   if (!std::isfinite(m.attenuationDistance) || m.attenuationDistance <= 0.0f) return glm::vec3(0.0f);
   const glm::vec3 color = glm::max(m.attenuationColor, glm::vec3(1e-20f));
@@ -82,7 +84,8 @@ void appendMaterial(Words& words, const Material& m, double emitterDensity, cons
   appendRow(words, absorption(m), m.thicknessFactor);
   appendRow(words, glm::vec3(m.normalScale, m.occlusionStrength, float(emitterDensity)), 0.0f);
   words.back() = materialFlags(m);
-  appendRow(words, glm::vec4(m.perlinNormal.frequency, m.perlinNormal.amplitude, float(m.perlinNormal.octaves), 0.0f));
+  appendRow(words, glm::vec4(m.perlinNormal.frequency, m.perlinNormal.amplitude,
+                             float(m.perlinNormal.octaves), 0.0f));
   auto slot = [&](Trait trait, const TextureRef& ref, TransferCurve curve) {
     const glm::uvec4 row = has(traits, trait) ? textures.slot(ref, curve) : glm::uvec4(0u);
     words.insert(words.end(), {row.x, row.y, row.z, row.w});
@@ -97,14 +100,16 @@ void appendMaterial(Words& words, const Material& m, double emitterDensity, cons
   if (words.size() - first != layout::kMaterialRows * 4) std::abort();
 }
 
-/// One row a cell with the loss at its four corners, then one row a cell of the average loss (shaders/energy.glsl).
+/// One row a cell with the loss at its four corners, then one row a cell of the average loss
+/// (shaders/energy.glsl).
 void appendEnergyTable(Words& words) {
   static_assert(kGgxEnergyCells == layout::kEnergyCells);
   const GgxEnergyTable& table = ggxEnergyTable();
   for (int j = 0; j < kGgxEnergyCells; ++j) {
     for (int i = 0; i < kGgxEnergyCells; ++i) {
       const float* corner = table.loss.data() + size_t(j) * GgxEnergyTable::kNodes + size_t(i);
-      appendRow(words, {corner[0], corner[1], corner[GgxEnergyTable::kNodes], corner[GgxEnergyTable::kNodes + 1]});
+      appendRow(words,
+                {corner[0], corner[1], corner[GgxEnergyTable::kNodes], corner[GgxEnergyTable::kNodes + 1]});
     }
   }
   for (size_t j = 0; j < kGgxEnergyCells; ++j) {
@@ -118,7 +123,8 @@ std::vector<glm::vec3> meanRadiance(const Scene& scene, const TraitSet& traits, 
   for (size_t i = 0; i < radiance.size(); ++i) {
     const Material& m = scene.materials[i];
     if (!m.emissive()) continue;
-    radiance[i] = m.emissiveFactor * m.emissiveStrength * textures.mean(m.emissiveTexture, TransferCurve::Srgb);
+    radiance[i] =
+        m.emissiveFactor * m.emissiveStrength * textures.mean(m.emissiveTexture, TransferCurve::Srgb);
   }
   return radiance;
 }
@@ -131,7 +137,8 @@ size_t GpuScene::bytes() const {
   return words * sizeof(uint32_t);
 }
 
-GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment, const ShaderVariant& variant) {
+GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
+                   const ShaderVariant& variant) {
   using namespace layout;
   GpuScene packed;
   const TraitSet& traits = variant.traits;

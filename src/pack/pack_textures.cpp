@@ -46,7 +46,8 @@ const TexturePacker::Placed& TexturePacker::place(uint32_t image, TransferCurve 
   if (!isNew) return placed;
   const EncodedImage& encoded = scene_.images[image];
   const TexelImage texels = decodeTexels(encoded.bytes, encoded.name);
-  if (texels.width > 65535 || texels.height > 65535) throw InputError(encoded.name + ": wider or higher than 65535 pixels");
+  if (texels.width > 65535 || texels.height > 65535)
+    throw InputError(encoded.name + ": wider or higher than 65535 pixels");
   placed.first = uint32_t(texels_.size() / 2);
   placed.width = texels.width;
   placed.height = texels.height;

@@ -79,7 +79,8 @@ BoxGrid makeGrid(const Bounds& bounds) {
   for (int axis = 0; axis < 3; ++axis) {
     // Two steps of margin on either side leave room for the padding.
     const double extent = double(bounds.maximum[axis]) - bounds.minimum[axis];
-    const double largest = std::max(std::abs(double(bounds.minimum[axis])), std::abs(double(bounds.maximum[axis])));
+    const double largest =
+        std::max(std::abs(double(bounds.minimum[axis])), std::abs(double(bounds.maximum[axis])));
     const double cell = std::max({extent / (kGridSteps - 4.0), largest * 0x1p-23, 1e-30});
     grid.cell[axis] = std::nextafter(float(cell), std::numeric_limits<float>::infinity());
     grid.origin[axis] = float(double(bounds.minimum[axis]) - 2.0 * grid.cell[axis]);
@@ -102,7 +103,8 @@ Words packNodes(const Bvh& bvh, const BoxGrid& grid) {
 
 Words packLeaves(const Scene& scene, const Bvh& bvh) {
   Words words;
-  const size_t padded = (bvh.leaves.size() + layout::kLeafBlock - 1) / layout::kLeafBlock * layout::kLeafBlock;
+  const size_t padded =
+      (bvh.leaves.size() + layout::kLeafBlock - 1) / layout::kLeafBlock * layout::kLeafBlock;
   words.reserve(padded * layout::kLeafRows * 4);
   for (const BvhLeaf& leaf : bvh.leaves) {
     appendLeaf(words, leafSide(scene, leaf.primitive[0]), leafSide(scene, leaf.primitive[1]));

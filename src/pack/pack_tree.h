@@ -8,8 +8,8 @@ namespace fragtrace {
 /// The grid that covers the tree's box.
 BoxGrid makeGrid(const Bounds& bounds);
 
-/// Inner nodes with both children's boxes, 16 bits a coordinate, rounded outwards and padded by 1/8 of a cell against the
-/// rounding of the slab test (docs/accuracy.md).
+/// Inner nodes with both children's boxes, 16 bits a coordinate, rounded outwards and padded by 1/8 of a cell
+/// against the rounding of the slab test (docs/accuracy.md).
 Words packNodes(const Bvh& bvh, const BoxGrid& grid);
 
 /// Leaves as structure of arrays, padded with empty ones to a multiple of kLeafBlock.

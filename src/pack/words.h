@@ -15,6 +15,8 @@ inline void appendRow(std::vector<uint32_t>& words, const glm::vec4& v) {
   words.insert(words.end(), {floatWord(v.x), floatWord(v.y), floatWord(v.z), floatWord(v.w)});
 }
 
-inline void appendRow(std::vector<uint32_t>& words, const glm::vec3& v, float w) { appendRow(words, glm::vec4(v, w)); }
+inline void appendRow(std::vector<uint32_t>& words, const glm::vec3& v, float w) {
+  appendRow(words, glm::vec4(v, w));
+}
 
 }  // namespace fragtrace

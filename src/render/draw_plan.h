@@ -17,8 +17,8 @@ struct DrawPlan {
   int samples = 1;
 };
 
-/// The plan whose draws take about targetMs at a measured cost of msPerSample a pixel-sample (<= 0: not yet known, a careful
-/// start). At most `remaining` samples, and at most `most` samples a draw.
+/// The plan whose draws take about targetMs at a measured cost of msPerSample a pixel-sample (<= 0: not yet
+/// known, a careful start). At most `remaining` samples, and at most `most` samples a draw.
 inline DrawPlan planDraws(glm::ivec2 picture, int remaining, int most, double msPerSample, double targetMs) {
   constexpr int kSmallest = 128;  // pixels a side: some tiles of 64 for each core of a software rasteriser
   const double affordable = msPerSample > 0.0 ? targetMs / msPerSample : double(kSmallest) * kSmallest;
@@ -33,7 +33,8 @@ inline DrawPlan planDraws(glm::ivec2 picture, int remaining, int most, double ms
   const int side = std::max(kSmallest, int(std::sqrt(area)) / 64 * 64);
   plan.tile = {std::min(picture.x, side), std::min(picture.y, side)};
   const double tilePixels = double(plan.tile.x) * plan.tile.y;
-  plan.samples = int(std::clamp(affordable / tilePixels, 1.0, double(std::max(1, std::min(most, remaining)))));
+  plan.samples =
+      int(std::clamp(affordable / tilePixels, 1.0, double(std::max(1, std::min(most, remaining)))));
   return plan;
 }
 

@@ -55,7 +55,8 @@ void Film::clear() {
 
 void Film::bind() const {
   glBindImageTexture(layout::kFilmSumBinding, sum_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
-  glBindImageTexture(layout::kFilmCompensationBinding, compensation_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
+  glBindImageTexture(layout::kFilmCompensationBinding, compensation_.name(), 0, GL_FALSE, 0, GL_READ_WRITE,
+                     GL_RGBA32F);
   glBindImageTexture(layout::kFilmCountsBinding, counts_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32UI);
 }
 
@@ -80,7 +81,8 @@ Image Film::readImage(const Layers& layers) const {
       size_t next = 3;
       if (layers.alpha) pixel[next++] = float(sum[i + 3] / samples);
       if (layers.samples) pixel[next++] = float(counts[i]);
-      if (layers.variance) pixel[next] = float(compensation[i + 3] / (samples * std::max(1.0, samples - 1.0)));
+      if (layers.variance)
+        pixel[next] = float(compensation[i + 3] / (samples * std::max(1.0, samples - 1.0)));
     }
   }
   return image;

@@ -24,8 +24,8 @@ class Film {
   void bind() const;
   glm::ivec2 size() const { return size_; }
 
-  /// Mean radiance of the samples so far: R, G, B and, if asked for, A, "samples.Y" (count) and "variance.Y" (of the mean's
-  /// luminance, estimated from the samples); the first row is the top.
+  /// Mean radiance of the samples so far: R, G, B and, if asked for, A, "samples.Y" (count) and "variance.Y"
+  /// (of the mean's luminance, estimated from the samples); the first row is the top.
   struct Layers {
     bool alpha = false;
     bool samples = false;

@@ -17,8 +17,8 @@ double milliseconds(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
-/// llvmpipe ends all loops of an invocation after 65,535 iterations in sum. It runs 8 pixels in lockstep, each iteration that
-/// any of them counts may bring up to two more that none counts: 65,535 / 24.
+/// llvmpipe ends all loops of an invocation after 65,535 iterations in sum. It runs 8 pixels in lockstep,
+/// each iteration that any of them counts may bring up to two more that none counts: 65,535 / 24.
 constexpr int kSoftwareStepBudget = 2700;
 /// GPUs have no such limit; time alone bounds a draw.
 constexpr int kHardwareStepBudget = 1 << 16;
@@ -65,8 +65,8 @@ Renderer::Renderer(const Context& context, const GpuScene& scene, const ShaderVa
   frame_.gridOrigin = glm::vec4(scene.grid.origin, 0.0f);
   frame_.gridCell = glm::vec4(scene.grid.cell, 0.0f);
   frame_.environment = glm::vec4(scene.environmentSize, 1.0f, 0.0f);
-  frame_.lightChoice = glm::vec4(scene.environmentChance, float(scene.emitterCount), float(scene.energyTableRow),
-                                 float(scene.punctualLights));
+  frame_.lightChoice = glm::vec4(scene.environmentChance, float(scene.emitterCount),
+                                 float(scene.energyTableRow), float(scene.punctualLights));
   frame_.limits = {0, 0, context.software ? kSoftwareStepBudget : kHardwareStepBudget, int(scene.leafCount)};
 }
 
@@ -75,7 +75,8 @@ void Renderer::setFrame(const Film& film, const View& view) {
   const glm::dvec2 half = halfExtents(camera, film.size());
   const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
   const glm::dvec3 up = glm::cross(right, camera.forward);
-  frame_.cameraPosition = glm::vec4(glm::vec3(camera.position - view.sceneOrigin), camera.perspective ? 0.0f : 1.0f);
+  frame_.cameraPosition =
+      glm::vec4(glm::vec3(camera.position - view.sceneOrigin), camera.perspective ? 0.0f : 1.0f);
   frame_.cameraRight = glm::vec4(glm::vec3(right * half.x), 0.0f);
   frame_.cameraUp = glm::vec4(glm::vec3(up * half.y), 0.0f);
   frame_.cameraForward = glm::vec4(glm::vec3(camera.forward), 0.0f);
@@ -91,7 +92,8 @@ void Renderer::setFrame(const Film& film, const View& view) {
   glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, film.size().y);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glBindVertexArray(vertexArray_.name());
-  if (variant_.resumable) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kPathStatesBinding, pathStates_.name());
+  if (variant_.resumable)
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kPathStatesBinding, pathStates_.name());
   glUseProgram(programs_.tracer(variant_).name());
   glBindBufferBase(GL_UNIFORM_BUFFER, layout::kFrameBinding, frameBuffer_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kProgressBinding, progressBuffer_.name());
@@ -100,7 +102,8 @@ void Renderer::setFrame(const Film& film, const View& view) {
 void Renderer::makeResumable() {
   variant_.resumable = true;
   pathStates_ = makeBuffer();
-  glNamedBufferStorage(pathStates_.name(), GLsizeiptr(kMaxTilePixels) * layout::kPathStateRows * 16, nullptr, 0);
+  glNamedBufferStorage(pathStates_.name(), GLsizeiptr(kMaxTilePixels) * layout::kPathStateRows * 16, nullptr,
+                       0);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kPathStatesBinding, pathStates_.name());
   glUseProgram(programs_.tracer(variant_).name());
   checkGl("making room for suspended paths");
@@ -110,7 +113,8 @@ layout::Progress Renderer::draw() {
   layout::Progress progress{};
   glNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
+                  GL_BUFFER_UPDATE_BARRIER_BIT);
   glFinish();
   glGetNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
   checkGl("drawing");
@@ -142,13 +146,15 @@ double Renderer::compile(Film& film, const View& view) {
   return milliseconds(start, Clock::now());
 }
 
-bool Renderer::addSamples(Film& film, const View& view, int samples, RenderTimes& times, const Progress& progress) {
+bool Renderer::addSamples(Film& film, const View& view, int samples, RenderTimes& times,
+                          const Progress& progress) {
   setFrame(film, view);
   const double total = double(film.size().x) * film.size().y * samples;
   double pixelSamplesDone = 0.0;
   double msPerSample = 0.0;
   for (int added = 0; added < samples;) {
-    const DrawPlan plan = planDraws(film.size(), samples - added, mostSamplesPerDraw_, msPerSample, targetMs_);
+    const DrawPlan plan =
+        planDraws(film.size(), samples - added, mostSamplesPerDraw_, msPerSample, targetMs_);
     const auto roundStart = Clock::now();
     double tileMs = 0.0;
     for (int y = 0; y < film.size().y; y += plan.tile.y) {
@@ -157,7 +163,8 @@ bool Renderer::addSamples(Film& film, const View& view, int samples, RenderTimes
         const glm::ivec2 tile = glm::min(plan.tile, film.size() - corner);
         const auto start = Clock::now();
         const double fraction = pixelSamplesDone / total;
-        if (!drawTile(corner, tile, samplesDone_ + plan.samples, [&] { return progress(fraction); })) return false;
+        if (!drawTile(corner, tile, samplesDone_ + plan.samples, [&] { return progress(fraction); }))
+          return false;
         tileMs += milliseconds(start, Clock::now());
         pixelSamplesDone += double(tile.x) * tile.y * plan.samples;
       }

@@ -17,7 +17,8 @@ namespace fragtrace {
 /// The one sentinel for "no such index".
 inline constexpr uint32_t kMissIndex = 0xffffffffu;
 
-/// An encoded picture (PNG, JPEG, ...) as it stood in the file, a buffer view or a data URI; decoded when packed.
+/// An encoded picture (PNG, JPEG, ...) as it stood in the file, a buffer view or a data URI; decoded when
+/// packed.
 struct EncodedImage {
   std::string name;  ///< for messages: a file path, or the JSON pointer of the image
   std::vector<uint8_t> bytes;
@@ -42,7 +43,8 @@ struct TextureRef {
 
 enum class AlphaMode : uint8_t { Opaque, Mask, Blend };
 
-/// A procedural smooth Perlin normal map over TEXCOORD_0 (material extras "perlinNormal"); amplitude 0 is none.
+/// A procedural smooth Perlin normal map over TEXCOORD_0 (material extras "perlinNormal"); amplitude 0 is
+/// none.
 struct PerlinNormal {
   float frequency = 8.0f;  ///< lattice cells per texture coordinate unit
   float amplitude = 0.0f;  ///< slope of the height field, dimensionless
@@ -82,7 +84,8 @@ struct Material {
 
   bool transmissive() const { return transmissionFactor > 0.0f; }
   bool emissive() const {
-    return !unlit && emissiveStrength > 0.0f && (emissiveFactor.x > 0 || emissiveFactor.y > 0 || emissiveFactor.z > 0);
+    return !unlit && emissiveStrength > 0.0f &&
+           (emissiveFactor.x > 0 || emissiveFactor.y > 0 || emissiveFactor.z > 0);
   }
 };
 
@@ -106,8 +109,9 @@ enum class LightType : uint8_t { Point, Spot, Directional };
 /// A punctual light; intensity is taken as radiometric (nothing is divided by 683).
 struct Light {
   LightType type = LightType::Point;
-  glm::vec3 intensity{1.0f};    ///< colour * intensity: W/sr; directional: irradiance on a facing surface, W/m^2
-  glm::vec3 position{0.0f};     ///< local space
+  glm::vec3 intensity{
+      1.0f};                 ///< colour * intensity: W/sr; directional: irradiance on a facing surface, W/m^2
+  glm::vec3 position{0.0f};  ///< local space
   glm::vec3 direction{0, 0, -1};  ///< unit, the way the light shines
   float range = std::numeric_limits<float>::infinity();
   float innerConeAngle = 0.0f;

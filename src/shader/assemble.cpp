@@ -40,7 +40,8 @@ struct Assembly {
   void append(const std::string& name, const std::string& includedFrom) {
     if (!done.insert(name).second) return;
     std::string file = name;
-    if (name == "read.glsl") file = variant.reads == BufferReads::Image ? "read_image.glsl" : "read_ssbo.glsl";
+    if (name == "read.glsl")
+      file = variant.reads == BufferReads::Image ? "read_image.glsl" : "read_ssbo.glsl";
     std::istringstream lines(shaderText(source, file, includedFrom));
     lineDirective(1, file);
     std::string line;
@@ -72,7 +73,8 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
 
 }  // namespace
 
-std::string assembleShader(const ShaderSource& source, const std::string& entry, const ShaderVariant& variant) {
+std::string assembleShader(const ShaderSource& source, const std::string& entry,
+                           const ShaderVariant& variant) {
   Assembly assembly{source, variant, {}, {}};
   assembly.text << "#version 450 core\n";
   if (source.namedLines) assembly.text << "#extension GL_ARB_shading_language_include : enable\n";

@@ -14,8 +14,9 @@ struct ShaderSource {
   bool namedLines = false;       ///< #line takes file names (GL_ARB_shading_language_include)
 };
 
-/// The whole text of an entry (trace.frag, ...): version, the variant's constants, and the file with its includes
-/// put in once each. Throws RenderError naming an include that is missing.
-std::string assembleShader(const ShaderSource& source, const std::string& entry, const ShaderVariant& variant);
+/// The whole text of an entry (trace.frag, ...): version, the variant's constants, and the file with its
+/// includes put in once each. Throws RenderError naming an include that is missing.
+std::string assembleShader(const ShaderSource& source, const std::string& entry,
+                           const ShaderVariant& variant);
 
 }  // namespace fragtrace

@@ -42,7 +42,7 @@ struct RenderOptions {
   TraversalMethod traversal = TraversalMethod::Auto;
   Backend backend = Backend::Auto;
   BufferReads bufferReads = BufferReads::Auto;
-  bool aovSamples = false;   ///< more layers of .exr files
+  bool aovSamples = false;  ///< more layers of .exr files
   bool aovVariance = false;
   std::filesystem::path statsFile;
   std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one

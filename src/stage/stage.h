@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The stages and switches, and what a scene holds: one table row each, which the parser, the statistics, the shader prelude and the
-// documents iterate over.
+// The stages and switches, and what a scene holds: one table row each, which the parser, the statistics, the
+// shader prelude and the documents iterate over.
 #pragma once
 
 #include <bitset>
@@ -51,7 +51,19 @@ struct TraitRow {
 std::span<const TraitRow> traitRows();
 
 /// A stage (in the order of --stage) or a switch of its own.
-enum class Stage : uint8_t { Flat, Phong, Shadows, Reflections, Refraction, NormalMaps, Gi, Schlick, EnergyCompensation, BvhHeatmap, Count };
+enum class Stage : uint8_t {
+  Flat,
+  Phong,
+  Shadows,
+  Reflections,
+  Refraction,
+  NormalMaps,
+  Gi,
+  Schlick,
+  EnergyCompensation,
+  BvhHeatmap,
+  Count
+};
 using StageSet = std::bitset<size_t(Stage::Count)>;
 
 struct StageRow {

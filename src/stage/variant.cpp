@@ -11,10 +11,13 @@ namespace {
 Trait neededBy(Stage stage) {
   switch (stage) {
     case Stage::Refraction:
-    case Stage::Schlick: return Trait::Transmission;
+    case Stage::Schlick:
+      return Trait::Transmission;
     case Stage::Reflections:
-    case Stage::EnergyCompensation: return Trait::Specular;
-    default: return Trait::Count;
+    case Stage::EnergyCompensation:
+      return Trait::Specular;
+    default:
+      return Trait::Count;
   }
 }
 
@@ -35,8 +38,8 @@ void addMaterialTraits(const Material& m, const Vertices& vertices, TraitSet& tr
   mark(Trait::Alpha, m.alphaMode != AlphaMode::Opaque);
   mark(Trait::BaseColorTexture, m.baseColorTexture.present());
   mark(Trait::Unlit, m.unlit);
-  const bool dielectricReflects =
-      m.ior != 1.0f && m.specularFactor > 0.0f && glm::any(glm::greaterThan(m.specularColorFactor, glm::vec3(0.0f)));
+  const bool dielectricReflects = m.ior != 1.0f && m.specularFactor > 0.0f &&
+                                  glm::any(glm::greaterThan(m.specularColorFactor, glm::vec3(0.0f)));
   mark(Trait::Specular, m.metallicFactor > 0.0f || dielectricReflects || m.transmissive());
   mark(Trait::Metals, m.metallicFactor > 0.0f);
   mark(Trait::MetallicRoughnessTexture, m.metallicRoughnessTexture.present());
@@ -45,8 +48,8 @@ void addMaterialTraits(const Material& m, const Vertices& vertices, TraitSet& tr
   mark(Trait::PerlinNormals, m.perlinNormal.amplitude != 0.0f && !vertices.texcoord0.empty());
   mark(Trait::Transmission, m.transmissive());
   mark(Trait::TransmissionTexture, m.transmissive() && m.transmissionTexture.present());
-  mark(Trait::Absorption, m.transmissive() && m.thicknessFactor > 0.0f && m.attenuationColor != glm::vec3(1.0f) &&
-                              std::isfinite(m.attenuationDistance));
+  mark(Trait::Absorption, m.transmissive() && m.thicknessFactor > 0.0f &&
+                              m.attenuationColor != glm::vec3(1.0f) && std::isfinite(m.attenuationDistance));
   mark(Trait::Emission, m.emissive());
   mark(Trait::EmissionTexture, m.emissive() && m.emissiveTexture.present());
 }
@@ -117,10 +120,11 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   // Step: between stages. gi shades by itself; without it and phong nothing beyond flat has a meaning.
   v.stages.set(size_t(Stage::Flat));
   if (stage(Stage::Gi)) v.stages.set(size_t(Stage::Phong));
-  if (stage(Stage::BvhHeatmap)) v.stages = StageSet(1ul << unsigned(Stage::Flat) | 1ul << unsigned(Stage::BvhHeatmap));
+  if (stage(Stage::BvhHeatmap))
+    v.stages = StageSet(1ul << unsigned(Stage::Flat) | 1ul << unsigned(Stage::BvhHeatmap));
   if (!stage(Stage::Phong)) {
-    for (Stage s : {Stage::Shadows, Stage::Reflections, Stage::Refraction, Stage::NormalMaps, Stage::Gi, Stage::Schlick,
-                    Stage::EnergyCompensation}) {
+    for (Stage s : {Stage::Shadows, Stage::Reflections, Stage::Refraction, Stage::NormalMaps, Stage::Gi,
+                    Stage::Schlick, Stage::EnergyCompensation}) {
       drop(s);
     }
   }
@@ -136,7 +140,8 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
     if (surroundings != Surroundings::Map) without(Trait::Environment);
   }
   if (stage(Stage::BvhHeatmap)) {
-    for (Trait t : {Trait::Alpha, Trait::BaseColorTexture, Trait::VertexColors, Trait::Environment}) without(t);
+    for (Trait t : {Trait::Alpha, Trait::BaseColorTexture, Trait::VertexColors, Trait::Environment})
+      without(t);
   }
   if (stage(Stage::Gi) && !stage(Stage::Reflections)) without(Trait::Specular);
   if (!has(v.traits, Trait::Specular)) {
@@ -151,7 +156,8 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   if (!hasNormalMaps(v.traits)) without(Trait::Tangents);
   // A constant environment is found by scattered rays; only the stages without them sample it.
   if (stage(Stage::Gi) && surroundings == Surroundings::DefaultLight) without(Trait::EnvironmentSampling);
-  const bool textured = has(v.traits, Trait::BaseColorTexture) || has(v.traits, Trait::MetallicRoughnessTexture) ||
+  const bool textured = has(v.traits, Trait::BaseColorTexture) ||
+                        has(v.traits, Trait::MetallicRoughnessTexture) ||
                         has(v.traits, Trait::NormalTexture) || has(v.traits, Trait::EmissionTexture) ||
                         has(v.traits, Trait::TransmissionTexture) || has(v.traits, Trait::SpecularTexture) ||
                         has(v.traits, Trait::PerlinNormals);

@@ -17,7 +17,8 @@ struct ShaderVariant {
   TraversalMethod traversal = TraversalMethod::FrontToBack;
   int stackSize = 12;
   BufferReads reads = BufferReads::Ssbo;
-  bool resumable = false;  ///< paths can be suspended from draw to draw; only needed by those longer than a draw
+  bool resumable =
+      false;  ///< paths can be suspended from draw to draw; only needed by those longer than a draw
 
   auto key() const {
     return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, resumable);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One picture test: renders through the real command line and compares with a reference EXR, noise taken into account.
-// usage: picture_test NAME BACKEND FRAGTRACE SOURCE_FOLDER OUTPUT_FOLDER
+// One picture test: renders through the real command line and compares with a reference EXR, noise taken into
+// account. usage: picture_test NAME BACKEND FRAGTRACE SOURCE_FOLDER OUTPUT_FOLDER
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -18,8 +18,8 @@ using fragtrace::Image;
 constexpr double kSignificance = 1e-3;
 /// Bound on the bias of the picture's mean.
 constexpr double kMeanBias = 0.005;
-/// What two renderers in float and double may differ by without any noise, relative to a pixel plus a tenth of the picture's
-/// mean: texels are half floats (2^-12 = 2.4e-4).
+/// What two renderers in float and double may differ by without any noise, relative to a pixel plus a tenth
+/// of the picture's mean: texels are half floats (2^-12 = 2.4e-4).
 constexpr double kRounding = 3e-4;
 constexpr int kBlock = 4;  // pixels a side: averages over blocks are near enough to normal
 
@@ -36,8 +36,8 @@ double normalQuantile(double p) {
 
 double luminance(const float* p) { return 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]; }
 
-/// Variance of a pixel's mean as the picture's last channel estimates it, but no less than the mean of its neighbourhood: samples
-/// that all met the same surface say nothing of an edge that a few would have met.
+/// Variance of a pixel's mean as the picture's last channel estimates it, but no less than the mean of its
+/// neighbourhood: samples that all met the same surface say nothing of an edge that a few would have met.
 double pixelVariance(const Image& picture, int x, int y) {
   double sum = 0.0;
   int count = 0;
@@ -87,10 +87,7 @@ double meanOf(const Image& image, size_t channel) {
 
 std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  if (argc != 6) return 2;
+int run(char** argv) {
   const std::string name = argv[1];
   const std::string backend = argv[2];
   const std::filesystem::path source = argv[4];
@@ -108,9 +105,9 @@ int main(int argc, char** argv) {
   const std::string base = (folder / (name + "." + backend)).string();
   const int spp = entry->value("test_spp", (*entry)["stage"] == "gi" ? 256 : 64);
   std::string command = "cd " + quoted(source.string()) + " && " + quoted(argv[3]) + " render scenes/" +
-                        (*entry)["scene"].get<std::string>() + ".gltf -o " + quoted(base + ".exr") + " --quiet --stage " +
-                        (*entry)["stage"].get<std::string>() + " --rendering-backend " + backend +
-                        " --aov variance --spp " + std::to_string(spp) + " --resolution " +
+                        (*entry)["scene"].get<std::string>() + ".gltf -o " + quoted(base + ".exr") +
+                        " --quiet --stage " + (*entry)["stage"].get<std::string>() + " --rendering-backend " +
+                        backend + " --aov variance --spp " + std::to_string(spp) + " --resolution " +
                         std::to_string((*entry)["resolution"][0].get<int>()) + "," +
                         std::to_string((*entry)["resolution"][1].get<int>());
   for (const auto& option : (*entry)["options"]) command += " " + quoted(option.get<std::string>());
@@ -141,8 +138,9 @@ int main(int argc, char** argv) {
   }
   const int columns = (a.width + kBlock - 1) / kBlock;
   bool ok = worst <= limit;
-  std::printf("%s %s: rmse %.5g, worst block z %.2f (limit %.2f) at pixel (%d, %d)\n", name.c_str(), backend.c_str(),
-              difference.rmse, worst, limit, int(worstBlock) % columns * kBlock, int(worstBlock) / columns * kBlock);
+  std::printf("%s %s: rmse %.5g, worst block z %.2f (limit %.2f) at pixel (%d, %d)\n", name.c_str(),
+              backend.c_str(), difference.rmse, worst, limit, int(worstBlock) % columns * kBlock,
+              int(worstBlock) / columns * kBlock);
   const double meanNoise = 4.0 * std::sqrt(sumVariance) / (double(a.width) * a.height);
   for (size_t c = 0; c < 3; ++c) {
     const double bias = meanOf(a, c) - meanOf(b, c);
@@ -154,7 +152,21 @@ int main(int argc, char** argv) {
   if (ok) return 0;
   fragtrace::writeImage(base + ".reference.exr", b);
   fragtrace::writeImage(base + ".difference.exr", fragtrace::differenceImage(a, b));
-  std::printf("FAILED: see %s.exr, .reference.exr and .difference.exr; to remake the reference: tests/reference/%s.py\n",
-              base.c_str(), (*entry)["made_by"].get<std::string>().c_str());
+  std::printf(
+      "FAILED: see %s.exr, .reference.exr and .difference.exr; to remake the reference: "
+      "tests/reference/%s.py\n",
+      base.c_str(), (*entry)["made_by"].get<std::string>().c_str());
   return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 6) return 2;
+  try {
+    return run(argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
 }

@@ -62,7 +62,8 @@ TEST_P(Variants, EachTraitLeftOutAndAlone) {
 }
 
 TEST_P(Variants, EachTraversalAndStack) {
-  for (TraversalMethod method : {TraversalMethod::Iterative, TraversalMethod::Bvh, TraversalMethod::FrontToBack}) {
+  for (TraversalMethod method :
+       {TraversalMethod::Iterative, TraversalMethod::Bvh, TraversalMethod::FrontToBack}) {
     for (int size : {8, 12, 16, 24, 32}) {
       ShaderVariant v = full(GetParam());
       v.traversal = method;
@@ -74,7 +75,9 @@ TEST_P(Variants, EachTraversalAndStack) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Reads, Variants, ::testing::Values(BufferReads::Image, BufferReads::Ssbo),
-                         [](const auto& test) { return test.param == BufferReads::Image ? "Image" : "Ssbo"; });
+                         [](const auto& test) {
+                           return test.param == BufferReads::Image ? "Image" : "Ssbo";
+                         });
 
 }  // namespace
 }  // namespace fragtrace

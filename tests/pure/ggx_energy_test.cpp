@@ -38,14 +38,13 @@ TEST(GgxEnergy, AWhiteMetalOfAnyRoughnessStaysWithinOnePercentOfWhite) {
   const glsl_variant::With compensation(glsl_variant::kCompensation, true);
   for (double roughness : {0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 1.0}) {
     for (double cosine : {0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0}) {
-      EXPECT_NEAR(albedo(whiteMetal(roughness), cosine), 1.0, 0.01) << "roughness " << roughness << ", cosine " << cosine;
+      EXPECT_NEAR(albedo(whiteMetal(roughness), cosine), 1.0, 0.01)
+          << "roughness " << roughness << ", cosine " << cosine;
     }
   }
 }
 
-TEST(GgxEnergy, WithoutCompensationARoughMetalIsDark) {
-  EXPECT_LT(albedo(whiteMetal(1.0), 0.8), 0.75);
-}
+TEST(GgxEnergy, WithoutCompensationARoughMetalIsDark) { EXPECT_LT(albedo(whiteMetal(1.0), 0.8), 0.75); }
 
 TEST(GgxEnergy, TheCompensatedBsdfIsReciprocal) {
   const glsl_variant::With compensation(glsl_variant::kCompensation, true);
@@ -60,7 +59,8 @@ TEST(GgxEnergy, TheCompensatedBsdfIsReciprocal) {
 TEST(GgxEnergy, LossGrowsWithRoughnessAndIsNothingForAMirror) {
   const GgxEnergyTable& table = ggxEnergyTable();
   EXPECT_NEAR(ggxLoss(table, 0.5f, 0.0f), 0.0f, 1e-6f);
-  for (int j = 1; j <= kGgxEnergyCells; ++j) EXPECT_GT(table.averageLoss[size_t(j)], table.averageLoss[size_t(j) - 1]);
+  for (int j = 1; j <= kGgxEnergyCells; ++j)
+    EXPECT_GT(table.averageLoss[size_t(j)], table.averageLoss[size_t(j) - 1]);
   // 1 - 0.4091 by an independent quadrature of 192 x 192 directions.
   EXPECT_NEAR(ggxAverageLoss(table, 1.0f), 1.0f - 0.40914f, 0.002f);
 }

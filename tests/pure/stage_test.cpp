@@ -9,7 +9,8 @@
 namespace fragtrace {
 namespace {
 
-ShaderVariant variantOf(Stage stage, const TraitSet& present, Surroundings surroundings = Surroundings::None) {
+ShaderVariant variantOf(Stage stage, const TraitSet& present,
+                        Surroundings surroundings = Surroundings::None) {
   RenderOptions options;
   options.stages = stagesUpTo(stage);
   return chooseVariant(options, present, surroundings, 10, BufferReads::Image);
@@ -48,8 +49,9 @@ TEST(StageTable, AStageTurnsOnItselfAndAllBeforeIt) {
 
 TEST(Variant, FlatNeedsNoLightAndNoNormals) {
   const ShaderVariant v = variantOf(Stage::Flat, allTraits(), Surroundings::Map);
-  for (Trait t : {Trait::PunctualLights, Trait::EmissiveTriangles, Trait::VertexNormals, Trait::Tangents, Trait::Specular,
-                  Trait::Transmission, Trait::NormalTexture, Trait::MetallicRoughnessTexture}) {
+  for (Trait t :
+       {Trait::PunctualLights, Trait::EmissiveTriangles, Trait::VertexNormals, Trait::Tangents,
+        Trait::Specular, Trait::Transmission, Trait::NormalTexture, Trait::MetallicRoughnessTexture}) {
     EXPECT_FALSE(has(v.traits, t)) << traitRows()[size_t(t)].name;
   }
   EXPECT_TRUE(has(v.traits, Trait::BaseColorTexture));
@@ -72,7 +74,8 @@ TEST(Variant, ReducingAVariantTwiceChangesNothing) {
     options.stages = stagesUpTo(row.cumulative ? row.stage : Stage::Gi).set(size_t(row.stage));
     const ShaderVariant once = chooseVariant(options, allTraits(), Surroundings::Map, 10, BufferReads::Image);
     options.stages = once.stages;
-    const ShaderVariant twice = chooseVariant(options, once.traits, Surroundings::Map, 10, BufferReads::Image);
+    const ShaderVariant twice =
+        chooseVariant(options, once.traits, Surroundings::Map, 10, BufferReads::Image);
     EXPECT_EQ(variantName(once), variantName(twice));
   }
 }
