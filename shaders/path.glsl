@@ -33,12 +33,12 @@ Path startPath(ivec2 pixel, uint sampleIndex, int steps) {
   vec2 point = (vec2(pixel) + jitter) / vec2(frame.picture.xy) * 2.0 - 1.0;
   CameraRay ray = makeCameraRay(frame.cameraPosition.xyz, frame.cameraRight.xyz, frame.cameraUp.xyz,
                                 frame.cameraForward.xyz, frame.cameraPosition.w != 0.0, point.x, point.y);
+  p.after = kPhaseEnd;
   p.origin = ray.origin;
   p.direction = ray.direction;
   p.bounce = 0;
   p.crossings = 0;
   p.cameraRay = true;
-  p.emitterSeen = false;
   p.alpha = 0.0;
   p.radiance = vec3(0.0);
   p.throughput = vec3(1.0);
@@ -87,10 +87,10 @@ float alphaAt(uint material, uint flags, float alpha) {
   return clamp(alpha, 0.0, 1.0);
 }
 
-/// Goes on from the surface in a new direction; weight multiplies the throughput, and zero ends the path.
+/// Settles where the path goes on from the surface, once its shadow ray is done; weight multiplies the throughput, and zero ends the path.
 Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool transmitted, SurfaceMaterial m) {
   p.throughput *= weight;
-  p.phase = kPhaseEnd;
+  p.after = kPhaseEnd;
   if (maxComponent(p.throughput) <= 0.0 || p.bounce > frame.limits.x) return p;
   if (transmitted && m.solid) {
     p.medium = s.front ? s.material : kPrimitiveNone;
@@ -107,7 +107,15 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
   p.travelled = 0.0;
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, direction);
   p.direction = direction;
-  return extend(p);
+  p.after = kPhaseExtend;
+  return p;
+}
+
+/// Enters the phase that was settled.
+Path proceed(Path p) {
+  p.phase = p.after;
+  if (p.phase == kPhaseExtend) p = extend(p);
+  return p;
 }
 
 /// Emission of the point hit, weighted against light sampling.
@@ -121,8 +129,6 @@ vec3 emittedAt(Path p, Surface s, uint flags) {
 
 /// Sets up the shadow ray of a light sample that would add `value`; without shadows it is added at once.
 Path connect(Path p, Surface s, LightSample light, vec3 value) {
-  p.phase = kPhaseShade;
-  p.lightSlot += 1;
   if (maxComponent(value) <= 0.0) return p;
   if (!kShadows) {
     p.radiance += value;

@@ -8,12 +8,12 @@ const int kPhaseEnd = 3;     // the sample is complete
 
 struct Path {
   int phase;
+  int after;       // the phase that follows once the shadow ray is settled
   int lightSlot;
   int bounce;      // scatterings so far
   int crossings;   // surfaces passed because of their alpha
   uint key;        // of its random numbers
   bool cameraRay;  // nothing but alpha has touched the path yet
-  bool emitterSeen;  // light sampling could have chosen what the ray meets
   float alpha;
   vec3 radiance;
   vec3 throughput;
@@ -38,8 +38,8 @@ layout(std430, binding = kPathStatesBinding) restrict buffer PathStatesBlock { u
 
 void savePath(Path p, int index) {
   int r = index * kPathRows;
-  uint flags = (p.cameraRay ? 1u : 0u) | (p.emitterSeen ? 2u : 0u);
-  pathStates[r] = uvec4(uint(p.phase) | (flags << 8), uint(p.lightSlot), uint(p.bounce), uint(p.crossings));
+  uint flags = p.cameraRay ? 1u : 0u;
+  pathStates[r] = uvec4(uint(p.phase) | uint(p.after) << 4 | flags << 8, uint(p.lightSlot), uint(p.bounce), uint(p.crossings));
   pathStates[r + 1] = uvec4(floatBitsToUint(p.radiance), floatBitsToUint(p.alpha));
   pathStates[r + 2] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.rouletteScale));
   pathStates[r + 3] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.density));
@@ -100,9 +100,9 @@ Path loadPath(int index) {
   Path p;
   uvec4 a = pathStates[r];
   uint flags = a.x >> 8;
-  p.phase = int(a.x & 0xffu);
+  p.phase = int(a.x & 0xfu);
+  p.after = int(a.x >> 4 & 0xfu);
   p.cameraRay = (flags & 1u) != 0u;
-  p.emitterSeen = (flags & 2u) != 0u;
   p.lightSlot = int(a.y);
   p.bounce = int(a.z);
   p.crossings = int(a.w);

@@ -16,22 +16,25 @@ Bsdf makeBsdf(SurfaceMaterial m, bool front) {
   return compensate(b);
 }
 
-/// The path-traced material: light slots first, then one direction drawn from the BSDF.
+/// The path-traced material: one light sample, and one direction drawn from the BSDF.
 Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   Bsdf b = makeBsdf(m, s.front);
   Frame3 around = frameAround(normal);
   vec3 outgoing = toFrame(around, -p.direction);
   uint dimension = kBounceDimensions * uint(p.bounce + 1);
-  if (p.lightSlot < lightSlotCount()) {
-    LightSample light = lightOfSlot(p.lightSlot, s.position, p.key, dimension + kLightDimension);
+  // The numbers of this bounce are drawn before it is counted.
+  float lobe = pathRandom(p, kLobeDimension);
+  float u = pathRandom(p, kDirectionDimension);
+  float v = pathRandom(p, kDirectionDimension + 1u);
+  if (lightSlotCount() > 0) {
+    LightSample light = lightOfSlot(0, s.position, p.key, dimension + kLightDimension);
     vec3 incoming = toFrame(around, light.direction);
     bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (incoming.z > 0.0);
     BsdfValue value = evaluateBsdf(b, outgoing, incoming);
     float weight = light.density > 0.0 ? misWeight(light.density, value.density) : 1.0;
-    return connect(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
+    p = connect(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
   }
-  BsdfSample next = sampleBsdf(b, outgoing, pathRandom(p, kLobeDimension), pathRandom(p, kDirectionDimension),
-                               pathRandom(p, kDirectionDimension + 1u));
+  BsdfSample next = sampleBsdf(b, outgoing, lobe, u, v);
   vec3 direction = normalize(toWorld(around, next.incoming));
   bool wrongSide = (dot(direction, s.geometricNormal) < 0.0) != next.transmitted;
   return scatter(p, s, direction, wrongSide ? vec3(0.0) : next.weight, next.density, next.transmitted, m);
@@ -55,14 +58,18 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   vec3 outgoing = -p.direction;
   vec3 f0 = phongF0(m.baseColor, m.metallic, m.dielectricF0);
   if (p.lightSlot == 0) p.radiance += 0.03 * p.throughput * m.baseColor;
-  if (p.lightSlot < lightSlotCount()) {
+  int lights = lightSlotCount();
+  if (p.lightSlot < lights) {
     uint dimension = kBounceDimensions * uint(p.bounce + 1);
     LightSample light = lightOfSlot(p.lightSlot, s.position, p.key, dimension + kLightDimension);
     vec3 diffuse = (1.0 - m.metallic) * m.baseColor;
     vec3 value = phongValue(diffuse, f0, phongExponent(m.roughness), normal, outgoing, light.direction);
     bool above = dot(light.direction, s.geometricNormal) > 0.0;
-    return connect(p, s, light, above ? p.throughput * light.irradiance * value : vec3(0.0));
+    p = connect(p, s, light, above ? p.throughput * light.irradiance * value : vec3(0.0));
   }
+  p.lightSlot += 1;
+  p.after = kPhaseShade;
+  if (p.lightSlot < lights) return p;
   vec3 weight = vec3(0.0);
   if (kReflections) {
     float gloss = 1.0 - m.roughness;
@@ -107,8 +114,10 @@ Path shade(Path p) {
   SurfaceMaterial m = materialAt(s.material, base.rgb, s.texcoords);
   vec3 normal = facingNormal(mappedNormal(s), -p.direction);
   if (kGi && kSpecular) normal = reflectingNormal(normal, s.geometricNormal, -p.direction);
-  if (kGi) return shadeGlobal(p, s, m, normal);
-  return shadeLocal(p, s, m, normal);
+  if (kGi) p = shadeGlobal(p, s, m, normal);
+  if (!kGi) p = shadeLocal(p, s, m, normal);
+  if (p.phase != kPhaseShadow) p = proceed(p);
+  return p;
 }
 
 /// The shadow ray is traced. One that met a surface with alpha may go on behind it; else the light slot is settled.
@@ -129,6 +138,5 @@ Path settleShadow(Path p) {
     }
   }
   if (slot < 0) p.radiance += p.contribution;
-  p.phase = kPhaseShade;
-  return p;
+  return proceed(p);
 }

@@ -105,8 +105,9 @@ TEST(ShaderFresnel, ParallelPartVanishesAtBrewstersAngle) {
 
 TEST(ShaderFresnel, IsTheClosedFormAtEveryAngle) {
   for (double eta : kIndices) {
-    for (double incident = 0.001; incident < std::min(0.5 * M_PI, std::asin(std::min(1.0, eta)));
-         incident += 0.001) {
+    const double largest = std::asin(std::min(1.0, eta));
+    for (int step = 1; step < 1000; ++step) {
+      const double incident = largest * step / 1000.0;
       EXPECT_NEAR(fresnelDielectric(std::cos(incident), eta), fresnelByAngles(incident, eta), 1e-9);
     }
   }
@@ -114,7 +115,8 @@ TEST(ShaderFresnel, IsTheClosedFormAtEveryAngle) {
 
 TEST(ShaderFresnel, BothSidesOfABoundaryReflectAlike) {
   for (double eta : {1.33, 1.5, 2.42}) {
-    for (double incident = 0.0; incident < 0.5 * M_PI; incident += 0.001) {
+    for (int step = 0; step < 1000; ++step) {
+      const double incident = 0.5 * M_PI * step / 1000.0;
       const double refracted = std::asin(std::sin(incident) / eta);
       EXPECT_NEAR(fresnelDielectric(std::cos(incident), eta),
                   fresnelDielectric(std::cos(refracted), 1.0 / eta), 1e-10);
@@ -146,7 +148,8 @@ TEST(ShaderFresnel, SchlickIsF0AtNormalAndF90AtGrazingIncidence) {
 
 TEST(ShaderFresnel, SchlickIsWithinSevenHundredthsOfTheExactReflectance) {
   for (double eta : {1.33, 1.5, 1.8}) {
-    for (double cosine = 0.0; cosine <= 1.0; cosine += 0.001) {
+    for (int step = 0; step <= 1000; ++step) {
+      const double cosine = step / 1000.0;
       EXPECT_NEAR(schlickDielectric(cosine, eta), fresnelDielectric(cosine, eta), 0.07);
     }
   }
@@ -179,7 +182,8 @@ TEST(ShaderFresnel, MirrorDirectionKeepsTheAngleAndThePlane) {
 TEST(ShaderFresnel, FloatIsWithinAMillionthOfDoubleExceptNearTheCriticalAngle) {
   for (double eta : kIndices) {
     const float index = float(eta);
-    for (float cosine = 0.0f; cosine <= 1.0f; cosine += 1.0f / 4096.0f) {
+    for (int step = 0; step <= 4096; ++step) {
+      const float cosine = float(step) / 4096.0f;
       // The square root of what is left to the critical angle divides the rounding error by itself.
       const double left = 1.0 - (1.0 - double(cosine) * cosine) / (double(index) * index);
       const double bound = 1e-6 + 6e-7 / std::sqrt(std::max(std::abs(left), 1e-7));

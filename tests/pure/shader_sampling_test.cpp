@@ -97,9 +97,12 @@ TEST(ShaderSampling, DiskIsUniformByArea) {
 TEST(ShaderSampling, DiskKeepsNeighboursTogether) {
   // The concentric map stretches by at most this much; a seam would tear points apart.
   constexpr double kStretch = 2.6;
-  constexpr double kStep = 1.0 / 512.0;
-  for (double u = 0.0; u < 1.0 - kStep; u += kStep) {
-    for (double v = 0.0; v < 1.0 - kStep; v += kStep) {
+  constexpr int kSteps = 512;
+  constexpr double kStep = 1.0 / kSteps;
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = 0; j < kSteps; ++j) {
+      const double u = i * kStep;
+      const double v = j * kStep;
       const glm::dvec2 p = glsl_double::sampleDisk(u, v);
       EXPECT_LE(glm::distance(p, glsl_double::sampleDisk(u + kStep, v)), kStretch * kStep);
       EXPECT_LE(glm::distance(p, glsl_double::sampleDisk(u, v + kStep)), kStretch * kStep);
