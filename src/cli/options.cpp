@@ -34,6 +34,8 @@ struct RawRender {
   std::string statsFile;
   std::string shaderFolder;
   std::vector<std::string> aov;
+  std::string fresnel = "exact";
+  std::string compensation = "on";
   bool noBackground = false;
   bool noDefaultLight = false;
 };
@@ -112,6 +114,12 @@ RenderOptions finish(const RawRender& raw, RenderOptions o) {
   }
   if (!raw.resolution.empty()) o.resolution = glm::ivec2(raw.resolution[0], raw.resolution[1]);
   o.stages = stagesUpTo(choose<Stage>("--stage", raw.stage, stageNames(true)));
+  if (choose<int>("--fresnel", raw.fresnel, std::vector<std::string>{"exact", "schlick"}) == 1) {
+    o.stages.set(size_t(Stage::Schlick));
+  }
+  if (choose<int>("--energy-compensation", raw.compensation, std::vector<std::string>{"on", "off"}) == 1) {
+    o.stages.reset(size_t(Stage::EnergyCompensation));
+  }
   for (const std::string& name : raw.enable) o.stages.set(size_t(stageNamed("--enable", name)));
   for (const std::string& name : raw.disable) o.stages.reset(size_t(stageNamed("--disable", name)));
   o.bounces = parseBounces(raw.bounces);
@@ -163,6 +171,9 @@ void addRenderOptions(CLI::App& app, RawRender& raw, RenderOptions& o) {
   app.add_option("--bounces", raw.bounces, "scatterings of a path, or 'unlimited'")->capture_default_str();
   app.add_option("--rr-depth", o.rouletteDepth, "Russian roulette from this scattering on")
       ->check(CLI::Range(1, kMost))
+      ->capture_default_str();
+  app.add_option("--fresnel", raw.fresnel, "exact, schlick: of glass")->capture_default_str();
+  app.add_option("--energy-compensation", raw.compensation, "on, off: of rough surfaces in gi")
       ->capture_default_str();
   app.add_option("--camera-index", o.cameraIndex,
                  "camera of the scene, from 0; default: the first, else one that frames it");

@@ -17,24 +17,25 @@ struct DrawPlan {
   int samples = 1;
 };
 
-/// The plan whose draws take about targetMs at a measured cost of msPerSample a pixel-sample (<= 0: not yet
-/// known, a careful start). At most `remaining` samples, and at most `most` samples a draw.
+/// The plan whose draws take about targetMs at a measured cost of msPerSample a pixel-sample (<= 0: not yet known, a careful
+/// start). At most `remaining` samples, and at most `most` samples a draw. Small tiles with several samples come before large tiles with one: a pixel
+/// whose path ends early goes on with its next sample instead of waiting for its neighbours.
 inline DrawPlan planDraws(glm::ivec2 picture, int remaining, int most, double msPerSample, double targetMs) {
   constexpr int kSmallest = 128;  // pixels a side: some tiles of 64 for each core of a software rasteriser
+  constexpr double kEnoughSamples = 16.0;
   const double affordable = msPerSample > 0.0 ? targetMs / msPerSample : double(kSmallest) * kSmallest;
   const double pixels = double(picture.x) * picture.y;
+  const double mostSamples = std::max(1, std::min(most, remaining));
   DrawPlan plan;
-  if (pixels <= kMaxTilePixels && affordable >= pixels) {
+  const double wanted = std::clamp(affordable / (double(kSmallest) * kSmallest), 1.0, std::min(mostSamples, kEnoughSamples));
+  if (pixels <= kMaxTilePixels && affordable >= pixels * wanted) {
     plan.tile = picture;
-    plan.samples = int(std::clamp(affordable / pixels, 1.0, double(std::max(1, std::min(most, remaining)))));
-    return plan;
+  } else {
+    const double area = std::clamp(affordable / wanted, double(kSmallest) * kSmallest, double(kMaxTilePixels));
+    const int side = std::max(kSmallest, int(std::sqrt(area)) / 64 * 64);
+    plan.tile = {std::min(picture.x, side), std::min(picture.y, side)};
   }
-  const double area = std::clamp(affordable, double(kSmallest) * kSmallest, double(kMaxTilePixels));
-  const int side = std::max(kSmallest, int(std::sqrt(area)) / 64 * 64);
-  plan.tile = {std::min(picture.x, side), std::min(picture.y, side)};
-  const double tilePixels = double(plan.tile.x) * plan.tile.y;
-  plan.samples =
-      int(std::clamp(affordable / tilePixels, 1.0, double(std::max(1, std::min(most, remaining)))));
+  plan.samples = int(std::clamp(affordable / (double(plan.tile.x) * plan.tile.y), 1.0, mostSamples));
   return plan;
 }
 

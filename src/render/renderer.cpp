@@ -24,7 +24,7 @@ constexpr int kSoftwareStepBudget = 2700;
 constexpr int kHardwareStepBudget = 1 << 16;
 
 /// A draw's time: short enough to stop within a second and to stay far from a GPU's watchdog.
-constexpr double kSoftwareDrawMs = 120.0;
+constexpr double kSoftwareDrawMs = 200.0;
 constexpr double kHardwareDrawMs = 20.0;
 
 constexpr int kTinyTile = 8;  // pixels
