@@ -45,20 +45,20 @@ float environmentDensity(vec3 direction) {
 }
 
 /// An index drawn uniformly below count from 32 random bits.
-int randomIndex(uint key, uint dimension, uint count) {
+int randomIndex(Sampler numbers, uint dimension, uint count) {
   uint high;
   uint low;
-  umulExtended(mixBits(key ^ mixBits(dimension + 0x9e3779b9u)), count, high, low);
+  umulExtended(drawBits(numbers, dimension), count, high, low);
   return int(high);
 }
 
 /// A direction drawn by the alias table of the texels, uniform within one; uses four dimensions from `dimension` on.
-vec3 sampleEnvironment(uint key, uint dimension) {
+vec3 sampleEnvironment(Sampler numbers, uint dimension) {
   ivec2 size = ivec2(frame.environment.xy);
-  int index = randomIndex(key, dimension, uint(size.x * size.y));
+  int index = randomIndex(numbers, dimension, uint(size.x * size.y));
   uvec2 entry = readEnvironmentAlias(index);
-  if (randomFloat(key, dimension + 1u) >= uintBitsToFloat(entry.x)) index = int(entry.y);
+  if (drawFloat(numbers, dimension + 1u) >= uintBitsToFloat(entry.x)) index = int(entry.y);
   vec2 texel = vec2(index % size.x, index / size.x);
-  vec2 jitter = vec2(randomFloat(key, dimension + 2u), randomFloat(key, dimension + 3u));
+  vec2 jitter = drawPair(numbers, dimension + 2u);
   return environmentDirection((texel + jitter) / vec2(size));
 }

@@ -71,19 +71,19 @@ LightSample triangleLight(int slot, float chance, vec3 point, float u, float v) 
   return LightSample(direction, distance, emissionAt(material, texcoords) / density, density);
 }
 
-LightSample environmentLight(float chance, uint key, uint dimension) {
-  vec3 direction = sampleEnvironment(key, dimension);
+LightSample environmentLight(float chance, Sampler numbers, uint dimension) {
+  vec3 direction = sampleEnvironment(numbers, dimension);
   float density = chance * environmentDensity(direction);
   if (density <= 0.0) return noLight();
   return LightSample(direction, kFarAway, environmentRadiance(direction) / density, density);
 }
 
 /// An emitter of the alias table (Walker, 1977); onlyTriangles drops punctual lights, which the caller visits one by one.
-LightSample emitterLight(float chance, vec3 point, uint key, uint dimension, bool onlyTriangles) {
+LightSample emitterLight(float chance, vec3 point, Sampler numbers, uint dimension, bool onlyTriangles) {
   int count = int(frame.lightChoice.y);
-  int index = randomIndex(key, dimension, uint(count));
+  int index = randomIndex(numbers, dimension, uint(count));
   uvec4 entry = readEmitters(index);
-  if (randomFloat(key, dimension + 1u) >= uintBitsToFloat(entry.x)) entry = readEmitters(int(entry.y));
+  if (drawFloat(numbers, dimension + 1u) >= uintBitsToFloat(entry.x)) entry = readEmitters(int(entry.y));
   chance *= uintBitsToFloat(entry.w);
   bool punctual = kPunctualLights && (entry.z & kEmitterPunctual) != 0u;
   LightSample s = noLight();
@@ -92,7 +92,8 @@ LightSample emitterLight(float chance, vec3 point, uint key, uint dimension, boo
     s.irradiance /= chance;
   }
   if (kEmissiveTriangles && !punctual) {
-    s = triangleLight(int(entry.z), chance, point, randomFloat(key, dimension + 2u), randomFloat(key, dimension + 3u));
+    vec2 uv = drawPair(numbers, dimension + 2u);
+    s = triangleLight(int(entry.z), chance, point, uv.x, uv.y);
   }
   return s;
 }
@@ -106,19 +107,19 @@ int lightSlotCount() {
 }
 
 /// The light sample of one slot; uses eight dimensions from `dimension` on.
-LightSample lightOfSlot(int slot, vec3 point, uint key, uint dimension) {
+LightSample lightOfSlot(int slot, vec3 point, Sampler numbers, uint dimension) {
   bool emitters = kPunctualLights || kEmissiveTriangles;
   if (kGi) {
-    bool environment = kEnvironmentSampling && (!emitters || randomFloat(key, dimension) < frame.lightChoice.x);
+    bool environment = kEnvironmentSampling && (!emitters || drawFloat(numbers, dimension) < frame.lightChoice.x);
     LightSample s = noLight();
-    if (kEnvironmentSampling && environment) s = environmentLight(frame.lightChoice.x, key, dimension + 1u);
-    if (emitters && !environment) s = emitterLight(1.0 - frame.lightChoice.x, point, key, dimension + 1u, false);
+    if (kEnvironmentSampling && environment) s = environmentLight(frame.lightChoice.x, numbers, dimension + 1u);
+    if (emitters && !environment) s = emitterLight(1.0 - frame.lightChoice.x, point, numbers, dimension + 1u, false);
     return s;
   }
   int punctual = kPunctualLights ? int(frame.lightChoice.w) : 0;
   LightSample s = noLight();
   if (kPunctualLights && slot < punctual) s = punctualLight(slot, point);
-  if (kEmissiveTriangles && slot == punctual) s = emitterLight(1.0, point, key, dimension, true);
-  if (kEnvironmentSampling && slot == lightSlotCount() - 1) s = environmentLight(1.0, key, dimension + 4u);
+  if (kEmissiveTriangles && slot == punctual) s = emitterLight(1.0, point, numbers, dimension, true);
+  if (kEnvironmentSampling && slot == lightSlotCount() - 1) s = environmentLight(1.0, numbers, dimension + 4u);
   return s;
 }

@@ -13,7 +13,7 @@ const uint kGlassDimension = 12u;
 TreeFrame treeFrame() { return TreeFrame(frame.gridOrigin.xyz, frame.gridCell.xyz, frame.limits.w); }
 
 float pathRandom(Path p, uint offset) {
-  return randomFloat(p.key, kBounceDimensions * uint(p.bounce + 1) + offset);
+  return drawFloat(p.numbers, kBounceDimensions * uint(p.bounce + 1) + offset);
 }
 
 /// Starts tracing the path's ray, keeping the step count of this draw.
@@ -28,8 +28,8 @@ Path extend(Path p) {
 
 Path startPath(ivec2 pixel, uint sampleIndex, int steps) {
   Path p;
-  p.key = pathKey(uint(pixel.x), uint(frame.picture.y - 1 - pixel.y), sampleIndex, uint(frame.picture.w));
-  vec2 jitter = vec2(randomFloat(p.key, kCameraDimensions), randomFloat(p.key, kCameraDimensions + 1u));
+  p.numbers = makeSampler(uint(pixel.x), uint(frame.picture.y - 1 - pixel.y), sampleIndex, uint(frame.picture.w));
+  vec2 jitter = drawPair(p.numbers, kCameraDimensions);
   vec2 point = (vec2(pixel) + jitter) / vec2(frame.picture.xy) * 2.0 - 1.0;
   CameraRay ray = makeCameraRay(frame.cameraPosition.xyz, frame.cameraRight.xyz, frame.cameraUp.xyz,
                                 frame.cameraForward.xyz, frame.cameraPosition.w != 0.0, point.x, point.y);
@@ -75,9 +75,9 @@ Path meetSurroundings(Path p) {
 }
 
 /// Decides by the alpha of the point whether the ray goes through it; 1 opaque, 0 not there (docs/conventions.md).
-bool passesThrough(uint flags, float alpha, uint key, int crossing) {
+bool passesThrough(uint flags, float alpha, Sampler numbers, int crossing) {
   if ((flags & kMaterialMask) != 0u) return alpha == 0.0;
-  if ((flags & kMaterialBlend) != 0u) return randomFloat(key, kAlphaDimensions + uint(crossing)) >= alpha;
+  if ((flags & kMaterialBlend) != 0u) return hashFloat(numbers, kAlphaDimensions + uint(crossing)) >= alpha;
   return false;
 }
 
@@ -99,7 +99,7 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
   p.bounce += 1;
   if (kGi && p.bounce >= frame.limits.y) {
     float survival = min(maxComponent(p.throughput) * p.rouletteScale, 0.95);
-    if (randomFloat(p.key, kBounceDimensions * uint(p.bounce) + kRouletteDimension) >= survival) return p;
+    if (hashFloat(p.numbers, kBounceDimensions * uint(p.bounce) + kRouletteDimension) >= survival) return p;
     p.throughput /= survival;
   }
   p.cameraRay = false;

@@ -12,7 +12,7 @@ struct Path {
   int lightSlot;
   int bounce;      // scatterings so far
   int crossings;   // surfaces passed because of their alpha
-  uint key;        // of its random numbers
+  Sampler numbers;
   bool cameraRay;  // nothing but alpha has touched the path yet
   float alpha;
   vec3 radiance;
@@ -47,7 +47,7 @@ void savePath(Path p, int index) {
   pathStates[r + 5] = uvec4(floatBitsToUint(p.shadowOrigin), floatBitsToUint(p.shadowLimit));
   pathStates[r + 6] = uvec4(floatBitsToUint(p.shadowDirection), p.medium);
   pathStates[r + 7] = uvec4(floatBitsToUint(p.contribution), uint(p.hitSlot));
-  pathStates[r + 8] = uvec4(floatBitsToUint(p.hitT), p.key, 0u, 0u);
+  pathStates[r + 8] = uvec4(floatBitsToUint(p.hitT), p.numbers.key, p.numbers.index, 0u);
   Traversal t = p.traversal;
   pathStates[r + 9] = uvec4(uint(t.node), floatBitsToUint(t.t), uint(t.slot), uint(t.visits));
   if (kIterative) return;
@@ -129,7 +129,9 @@ Path loadPath(int index) {
   p.hitSlot = int(a.w);
   a = pathStates[r + 8];
   p.hitT = uintBitsToFloat(a.x);
-  p.key = a.y;
+  p.numbers.key = a.y;
+  p.numbers.index = a.z;
+  p.numbers.reversed = reverseBits(a.z);
   a = pathStates[r + 9];
   p.traversal.node = int(a.x);
   p.traversal.t = uintBitsToFloat(a.y);

@@ -21,3 +21,79 @@ float randomFloat(uint key, uint dimension) {
   uint bits = mixBits(key ^ mixBits(dimension + 0x9e3779b9u));
   return float(bits >> 8) * 5.9604644775390625e-8f;
 }
+
+/// What the numbers of one path are drawn from: key of pixel and seed, and the sample's index with and without its bits reversed (kSobol);
+/// else the path's own key.
+struct Sampler {
+  uint key;
+  uint index;
+  uint reversed;
+};
+
+uint reverseBits(uint x) {
+  x = (x >> 16) | (x << 16);
+  x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
+  x = ((x & 0xf0f0f0f0u) >> 4) | ((x & 0x0f0f0f0fu) << 4);
+  x = ((x & 0xccccccccu) >> 2) | ((x & 0x33333333u) << 2);
+  return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
+}
+
+/// An Owen scramble of numbers whose bits are reversed: each bit is flipped by a hash of those below it (Laine and Karras, Stratified
+/// Sampling for Stochastic Transparency, 2011; constants of Vegdahl, 2021).
+uint owenScramble(uint x, uint seed) {
+  x ^= x * 0x3d20adeau;
+  x += seed;
+  x *= (seed >> 16) | 1u;
+  x ^= x * 0x05526c56u;
+  x ^= x * 0x53a22864u;
+  return x;
+}
+
+/// Second dimension of the Sobol sequence, bits reversed: the polynomial of the index over GF(2) shifted by one, since its generator
+/// matrix is Pascal's triangle.
+uint sobolSecond(uint x) {
+  x ^= x >> 16;
+  x ^= (x & 0xff00ff00u) >> 8;
+  x ^= (x & 0xf0f0f0f0u) >> 4;
+  x ^= (x & 0xccccccccu) >> 2;
+  return x ^ ((x & 0xaaaaaaaau) >> 1);
+}
+
+float unitFloat(uint bits) { return float(bits >> 8) * 5.9604644775390625e-8f; }
+
+Sampler makeSampler(uint pixelX, uint pixelY, uint sampleIndex, uint seed) {
+  Sampler s;
+  s.key = kSobol ? pathKey(pixelX, pixelY, 0u, seed) : pathKey(pixelX, pixelY, sampleIndex, seed);
+  s.index = sampleIndex;
+  s.reversed = reverseBits(sampleIndex);
+  return s;
+}
+
+uint dimensionSeed(Sampler s, uint dimension) { return mixBits(s.key ^ mixBits(dimension + 0x9e3779b9u)); }
+
+/// The sample's index, shuffled within blocks of powers of two, so that numbers of different dimensions are independent (Burley, Practical
+/// Hash-based Owen Scrambling, 2020).
+uint shuffledIndex(Sampler s, uint seed) { return reverseBits(owenScramble(s.reversed, seed)); }
+
+/// 32 bits for one dimension: over the samples of a pixel an Owen-scrambled van der Corput sequence, or independent ones.
+uint drawBits(Sampler s, uint dimension) {
+  uint seed = dimensionSeed(s, dimension);
+  return kSobol ? reverseBits(owenScramble(shuffledIndex(s, seed), mixBits(seed + 1u))) : seed;
+}
+
+/// Uniform in [0, 1).
+float drawFloat(Sampler s, uint dimension) { return unitFloat(drawBits(s, dimension)); }
+
+/// Two numbers that are stratified together, Owen-scrambled Sobol points; uses `dimension` and `dimension + 1`.
+vec2 drawPair(Sampler s, uint dimension) {
+  uint seed = dimensionSeed(s, dimension);
+  uint other = dimensionSeed(s, dimension + 1u);
+  if (!kSobol) return vec2(unitFloat(seed), unitFloat(other));
+  uint index = shuffledIndex(s, seed);
+  uint first = reverseBits(owenScramble(index, mixBits(seed + 1u)));
+  uint second = reverseBits(owenScramble(sobolSecond(index), other));
+  return vec2(unitFloat(first), unitFloat(second));
+}
+
+/// Uniform in [0, 1), independent from sample to sample.
+float hashFloat(Sampler s, uint dimension) { return randomFloat(mixBits(s.key + s.index), dimension); }

@@ -24,17 +24,16 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   uint dimension = kBounceDimensions * uint(p.bounce + 1);
   // The numbers of this bounce are drawn before it is counted.
   float lobe = pathRandom(p, kLobeDimension);
-  float u = pathRandom(p, kDirectionDimension);
-  float v = pathRandom(p, kDirectionDimension + 1u);
+  vec2 uv = drawPair(p.numbers, dimension + kDirectionDimension);
   if (lightSlotCount() > 0) {
-    LightSample light = lightOfSlot(0, s.position, p.key, dimension + kLightDimension);
+    LightSample light = lightOfSlot(0, s.position, p.numbers, dimension + kLightDimension);
     vec3 incoming = toFrame(around, light.direction);
     bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (incoming.z > 0.0);
     BsdfValue value = evaluateBsdf(b, outgoing, incoming);
     float weight = light.density > 0.0 ? misWeight(light.density, value.density) : 1.0;
     p = connect(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
   }
-  BsdfSample next = sampleBsdf(b, outgoing, lobe, u, v);
+  BsdfSample next = sampleBsdf(b, outgoing, lobe, uv.x, uv.y);
   vec3 direction = normalize(toWorld(around, next.incoming));
   bool wrongSide = (dot(direction, s.geometricNormal) < 0.0) != next.transmitted;
   return scatter(p, s, direction, wrongSide ? vec3(0.0) : next.weight, next.density, next.transmitted, m);
@@ -61,7 +60,7 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   int lights = lightSlotCount();
   if (p.lightSlot < lights) {
     uint dimension = kBounceDimensions * uint(p.bounce + 1);
-    LightSample light = lightOfSlot(p.lightSlot, s.position, p.key, dimension + kLightDimension);
+    LightSample light = lightOfSlot(p.lightSlot, s.position, p.numbers, dimension + kLightDimension);
     vec3 diffuse = (1.0 - m.metallic) * m.baseColor;
     vec3 value = phongValue(diffuse, f0, phongExponent(m.roughness), normal, outgoing, light.direction);
     bool above = dot(light.direction, s.geometricNormal) > 0.0;
@@ -86,7 +85,7 @@ Path shade(Path p) {
   uint flags = materialFlags(s.material);
   vec4 base = baseColorAt(s.material, s.texcoords, s.color);
   if (p.lightSlot == 0) {
-    if (kAlpha && passesThrough(flags, alphaAt(s.material, flags, base.a), p.key, p.crossings)) {
+    if (kAlpha && passesThrough(flags, alphaAt(s.material, flags, base.a), p.numbers, p.crossings)) {
       p.crossings += 1;
       p.travelled += p.hitT;
       p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
@@ -127,7 +126,7 @@ Path settleShadow(Path p) {
     Surface s = surfaceAt(slot, p.shadowOrigin, p.shadowDirection, p.traversal.t);
     uint flags = materialFlags(s.material);
     float alpha = alphaAt(s.material, flags, baseColorAt(s.material, s.texcoords, s.color).a);
-    if (passesThrough(flags, alpha, p.key, p.crossings)) {
+    if (passesThrough(flags, alpha, p.numbers, p.crossings)) {
       p.crossings += 1;
       p.shadowLimit = p.shadowLimit < kFarAway ? p.shadowLimit - p.traversal.t : kFarAway;
       p.shadowOrigin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.shadowDirection);

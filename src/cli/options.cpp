@@ -36,6 +36,7 @@ struct RawRender {
   std::vector<std::string> aov;
   std::string fresnel = "exact";
   std::string compensation = "on";
+  std::string sampler = "sobol";
   bool noBackground = false;
   bool noDefaultLight = false;
 };
@@ -120,6 +121,9 @@ RenderOptions finish(const RawRender& raw, RenderOptions o) {
   if (choose<int>("--energy-compensation", raw.compensation, std::vector<std::string>{"on", "off"}) == 1) {
     o.stages.reset(size_t(Stage::EnergyCompensation));
   }
+  if (choose<int>("--sampler", raw.sampler, std::vector<std::string>{"sobol", "random"}) == 1) {
+    o.stages.reset(size_t(Stage::Sobol));
+  }
   for (const std::string& name : raw.enable) o.stages.set(size_t(stageNamed("--enable", name)));
   for (const std::string& name : raw.disable) o.stages.reset(size_t(stageNamed("--disable", name)));
   o.bounces = parseBounces(raw.bounces);
@@ -167,6 +171,8 @@ void addRenderOptions(CLI::App& app, RawRender& raw, RenderOptions& o) {
   app.add_option("--enable", raw.enable, "switches over that: " + joined(stageNames(false)))->delimiter(',');
   app.add_option("--disable", raw.disable, "switches off, over that")->delimiter(',');
   app.add_option("--spp", o.spp, "camera paths a pixel")->check(CLI::Range(1, kMost))->capture_default_str();
+  app.add_option("--sampler", raw.sampler, "sobol, random: where sample points come from")
+      ->capture_default_str();
   app.add_option("--seed", o.seed, "of the random numbers")->capture_default_str();
   app.add_option("--bounces", raw.bounces, "scatterings of a path, or 'unlimited'")->capture_default_str();
   app.add_option("--rr-depth", o.rouletteDepth, "Russian roulette from this scattering on")

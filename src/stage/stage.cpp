@@ -55,6 +55,9 @@ std::span<const StageRow> stageRows() {
       {Stage::EnergyCompensation, "energy-compensation", "Energy compensation",
        "gives back what rough surfaces lose to single scattering in gi (on by default)", false, true,
        "kCompensation"},
+      {Stage::Sobol, "sobol", "Sobol samples",
+       "Owen-scrambled Sobol points in place of independent random numbers (on by default)", false, true,
+       "kSobol"},
       {Stage::BvhHeatmap, "bvh-heatmap", "Node heat map", "paints how many nodes each camera ray visits",
        false, false, "kHeatmap"},
   }};

@@ -61,6 +61,7 @@ enum class Stage : uint8_t {
   Gi,
   Schlick,
   EnergyCompensation,
+  Sobol,
   BvhHeatmap,
   Count
 };

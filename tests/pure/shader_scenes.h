@@ -160,7 +160,7 @@ struct Outcome {
 };
 
 enum class Method { Iterative, Bvh, FrontToBack };
-inline constexpr std::array kMethods = {Method::Iterative, Method::Bvh, Method::FrontToBack};
+[[maybe_unused]] constexpr std::array kMethods = {Method::Iterative, Method::Bvh, Method::FrontToBack};
 
 /// Runs the shader's traversal, in draws of at most stepLimit steps each.
 #define DEFINE_TRACE(name, shader, Real, Vector)                                                        \

@@ -39,9 +39,9 @@ TEST(StageTable, EachConstantIsUsedInTheShader) {
 }
 
 TEST(StageTable, AStageTurnsOnItselfAndAllBeforeIt) {
-  // One switch is on unless turned off.
-  EXPECT_EQ(stagesUpTo(Stage::Flat).count(), 2u);
-  EXPECT_EQ(stagesUpTo(Stage::Gi).count(), 8u);
+  // Two switches are on unless turned off.
+  EXPECT_EQ(stagesUpTo(Stage::Flat).count(), 3u);
+  EXPECT_EQ(stagesUpTo(Stage::Gi).count(), 9u);
   EXPECT_FALSE(has(stagesUpTo(Stage::Gi), Stage::Schlick));
   EXPECT_EQ(parseStage("normal-maps"), Stage::NormalMaps);
   EXPECT_EQ(parseStage("nonsense"), std::nullopt);
