@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <csignal>
 #include <cstdio>
+#include <iostream>
 #include <new>
 
 #include "cli/commands.h"
@@ -17,6 +19,9 @@ int fail(ExitStatus status, const char* message) {
 
 int run(int argc, char** argv) {
   using namespace fragtrace;
+  // A full pipe or file gives an error where it is written to, which reaches the user.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   exitOnInterrupt();
   const std::optional<CommandLine> line = parseCommandLine(argc, argv);
   if (!line) return kDone;
@@ -35,7 +40,11 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    const int status = run(argc, argv);
+    std::cout.flush();
+    if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout))
+      return fail(kFailed, "cannot write to standard output");
+    return status;
   } catch (const fragtrace::UsageError& error) {
     return fail(kUsage, error.what());
   } catch (const fragtrace::InputError& error) {

@@ -2,6 +2,7 @@
 #include "cli/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -103,6 +104,12 @@ void checkFinite(const RenderOptions& o) {
   checkVector("--camera-focal-point", o.camera.focalPoint);
   checkVector("--camera-view-up", o.camera.viewUp);
   checkVector("--background-color", glm::dvec3(o.backgroundColor));
+  if (o.camera.viewUp && *o.camera.viewUp == glm::dvec3(0.0)) throw UsageError("--camera-view-up: is zero");
+  constexpr double kFarthest = 1e9;  // metres, as for scenes
+  for (const auto& place : {o.camera.position, o.camera.focalPoint}) {
+    if (place && glm::length(*place) > kFarthest)
+      throw UsageError("camera: farther than 1e9 m from the origin");
+  }
   if (glm::any(glm::lessThan(o.backgroundColor, glm::vec3(0.0f))))
     throw UsageError("--background-color: below 0");
 }
@@ -168,12 +175,16 @@ void addRenderOptions(CLI::App& app, RawRender& raw, RenderOptions& o) {
       ->check(CLI::Range(1, 65536));
   app.add_option("--stage", raw.stage, joined(stageNames(true)) + "; each turns on itself and all before it")
       ->capture_default_str();
-  app.add_option("--enable", raw.enable, "switches over that: " + joined(stageNames(false)))->delimiter(',');
-  app.add_option("--disable", raw.disable, "switches off, over that")->delimiter(',');
+  app.add_option("--enable", raw.enable, "switches over that: " + joined(stageNames(false)))
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--disable", raw.disable, "switches off, over that")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   app.add_option("--spp", o.spp, "camera paths a pixel")->check(CLI::Range(1, kMost))->capture_default_str();
   app.add_option("--sampler", raw.sampler, "sobol, random: where sample points come from")
       ->capture_default_str();
-  app.add_option("--seed", o.seed, "of the random numbers")->capture_default_str();
+  app.add_option("--seed", o.seed, "of the sample points, 0 to 4294967295")->capture_default_str();
   app.add_option("--bounces", raw.bounces, "scatterings of a path, or 'unlimited'")->capture_default_str();
   app.add_option("--rr-depth", o.rouletteDepth, "Russian roulette from this scattering on")
       ->check(CLI::Range(1, kMost))
@@ -195,7 +206,9 @@ void addRenderOptions(CLI::App& app, RawRender& raw, RenderOptions& o) {
       ->expected(3);
   app.add_flag("--no-default-light", raw.noDefaultLight, "a scene without any light stays dark");
   app.add_option("--pixel-filter", raw.pixelFilter, "box")->capture_default_str();
-  app.add_option("--aov", raw.aov, "samples, variance: more layers in an .exr")->delimiter(',');
+  app.add_option("--aov", raw.aov, "samples, variance: more layers in an .exr")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   app.add_option("--exposure", o.exposure, "EV, for .png and .jpg")->capture_default_str();
   app.add_option("--tone-map", raw.toneMap, "linear, reinhard, aces, agx, neutral, for .png and .jpg")
       ->capture_default_str();
@@ -252,13 +265,20 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   diff.add_option("--threshold", line.diff.threshold, "status 1 when the metric is worse than this");
   diff.add_option("--outfile", outfile, "picture of the absolute differences");
 
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+    commands.push_back(command->get_name());
+  if (argc > 1 && argv[1][0] != '-' &&
+      std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
+    throw UsageError("'" + std::string(argv[1]) + "' is no command: " + joined(commands));
+  }
   try {
     app.parse(argumentsOf(argc, argv));
   } catch (const CLI::Success& success) {
     app.exit(success, std::cout, std::cerr);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    throw UsageError(std::string(error.what()) + "\nRun with --help for more information.");
+    throw UsageError(std::string(error.what()) + "; --help says more");
   }
 
   if (render.parsed()) {

@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/outputs.h"
 #include "cli/progress_bar.h"
 #include "cli/statistics.h"
 #include "errors.h"
@@ -17,7 +18,6 @@
 #include "image/heatmap.h"
 #include "image/library.h"
 #include "image/tone_map.h"
-#include "image/whole_file.h"
 #include "pack/pack_tree.h"
 
 namespace fragtrace {
@@ -103,8 +103,7 @@ void writePicture(const RenderOptions& options, const Image& linear) {
 }  // namespace
 
 int runRender(const RenderOptions& options) {
-  checkReplaceable(options.output);
-  if (!options.statsFile.empty()) checkReplaceable(options.statsFile);
+  checkOutputs(options);
   Statistics stats;
   Stopwatch watch;
 
@@ -114,6 +113,10 @@ int runRender(const RenderOptions& options) {
   GltfOptions loading;
   loading.recenterOn = options.camera.focalPoint;
   const Scene scene = loadGltf(options.scene, loading);
+  checkOutputs(options, scene);
+  if (scene.triangles.empty() && scene.spheres.empty()) {
+    say(options, "warning: " + options.scene.string() + ": no triangle and no sphere, nothing to draw");
+  }
   const Environment environment = loadEnvironment(options, scene);
   const Camera camera = chooseCamera(scene, options);
   const glm::ivec2 size = chooseSize(camera, options);
@@ -179,6 +182,10 @@ int runRender(const RenderOptions& options) {
   if (stats.film.budgetHits > 0) {
     throw RenderError("the driver ended loops early in " + std::to_string(stats.film.budgetHits) +
                       " pixels (budget_hits); the picture would be wrong, so none is written");
+  }
+  if (stats.film.emptyPixels > 0) {
+    say(options, "warning: stopped before the first sample of " + std::to_string(stats.film.emptyPixels) +
+                     " pixels; they are black");
   }
   if (stats.film.nonfinitePixels > 0) {
     say(options, "warning: samples of " + std::to_string(stats.film.nonfinitePixels) +

@@ -48,6 +48,7 @@ void writeStatistics(const std::filesystem::path& path, const Statistics& s) {
   json["render_ms"] = s.times.renderMs;
   json["frame_ms"] = timesJson(s.times.frameMs);
   json["spp"] = s.spp;
+  json["samples_per_pixel"] = double(s.film.samples) / (double(s.size.x) * s.size.y);
   json["width"] = s.size.x;
   json["height"] = s.size.y;
   json["complete"] = s.complete;

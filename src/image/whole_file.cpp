@@ -34,7 +34,10 @@ int writeAndClose(int file, std::span<const uint8_t> bytes) {
 std::filesystem::path partOf(const std::filesystem::path& path) {
   // A name may be as long as the file system allows (255 bytes); its part must then be cut.
   constexpr size_t kMaximumNameLength = 240;
-  return path.parent_path() / ("." + path.filename().string().substr(0, kMaximumNameLength) + ".part");
+  std::string name(".");
+  name += path.filename().string().substr(0, kMaximumNameLength);
+  name += ".part";
+  return path.parent_path() / name;
 }
 
 }  // namespace

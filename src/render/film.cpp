@@ -94,6 +94,7 @@ FilmTotals Film::readTotals() const {
   for (size_t i = 0; i < counts.size(); i += 4) {
     totals.samples += counts[i];
     totals.rays += counts[i + 1];
+    totals.emptyPixels += counts[i] == 0;
     totals.nonfinitePixels += counts[i + 2] != 0;
     totals.budgetHits += (counts[i + 3] & layout::kPixelBudgetHit) != 0;
   }

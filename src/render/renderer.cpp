@@ -163,8 +163,10 @@ bool Renderer::addSamples(Film& film, const View& view, int samples, RenderTimes
         const glm::ivec2 tile = glm::min(plan.tile, film.size() - corner);
         const auto start = Clock::now();
         const double fraction = pixelSamplesDone / total;
-        if (!drawTile(corner, tile, samplesDone_ + plan.samples, [&] { return progress(fraction); }))
+        if (!drawTile(corner, tile, samplesDone_ + plan.samples, [&] { return progress(fraction); })) {
+          times.renderMs += milliseconds(roundStart, Clock::now());
           return false;
+        }
         tileMs += milliseconds(start, Clock::now());
         pixelSamplesDone += double(tile.x) * tile.y * plan.samples;
       }

@@ -16,7 +16,7 @@ std::string shaderText(const ShaderSource& source, const std::string& name, cons
   const std::string where = includedFrom.empty() ? "" : " (included from " + includedFrom + ")";
   if (!source.folder.empty()) {
     std::ifstream file(source.folder / name, std::ios::binary);
-    if (!file) throw RenderError((source.folder / name).string() + ": cannot read shader" + where);
+    if (!file) throw InputError((source.folder / name).string() + ": cannot read shader" + where);
     return {std::istreambuf_iterator<char>(file), {}};
   }
   for (const EmbeddedShader& shader : embeddedShaders()) {

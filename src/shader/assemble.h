@@ -15,7 +15,8 @@ struct ShaderSource {
 };
 
 /// The whole text of an entry (trace.frag, ...): version, the variant's constants, and the file with its
-/// includes put in once each. Throws RenderError naming an include that is missing.
+/// includes put in once each. Throws RenderError naming an include that is missing, InputError when
+/// the folder lacks it.
 std::string assembleShader(const ShaderSource& source, const std::string& entry,
                            const ShaderVariant& variant);
 

@@ -96,6 +96,36 @@ class ExitStatuses(Case):
         self.assertEqual(run(*self.render(SCENES / "cornell-box.gltf", "x.tga")).returncode, 2)
         self.assertEqual(run().returncode, 2)
 
+    def test_an_output_that_is_read_by_the_render_is_2_and_untouched(self):
+        scene = self.folder / "scene.gltf"
+        scene.write_bytes((SCENES / "furnace.gltf").read_bytes())
+        sky = self.folder / "sky.hdr"
+        self.renders(scene, "-o", sky, *SMALL)
+        before = scene.read_bytes(), sky.read_bytes()
+        for extra in (["-o", self.folder / "x.jpg", "--stats", scene], ["-o", sky, "--hdri-file", sky],
+                      ["-o", self.folder / "x.jpg", "--stats", self.folder / "x.jpg"]):
+            result = run("render", scene, *SMALL, *extra)
+            self.assertEqual(result.returncode, 2, (extra, result.stderr))
+        self.assertEqual((scene.read_bytes(), sky.read_bytes()), before)
+        textured = run("render", SCENES / "sphere-textured.gltf", *SMALL, "-o", SCENES / "graticule.png")
+        self.assertEqual(textured.returncode, 2, textured.stderr)
+
+    def test_a_full_standard_output_is_1(self):
+        with open("/dev/full", "w") as full:
+            for command in (["info", SCENES / "furnace.gltf"], ["info", "--json", SCENES / "furnace.gltf"]):
+                status = subprocess.run([FRAGTRACE, *command], stdout=full, stderr=subprocess.DEVNULL).returncode
+                self.assertEqual(status, 1)
+
+    def test_a_file_size_limit_is_1_and_leaves_nothing(self):
+        result = subprocess.run(["bash", "-c", 'ulimit -f 1; exec "$0" "$@"', FRAGTRACE, "render", SCENES / "furnace.gltf",
+                                 "-o", self.folder / "big.pfm", "--resolution", "64,64", "--spp", "1", "--quiet"],
+                                capture_output=True, env={**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"})
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_a_list_option_does_not_eat_the_scene(self):
+        self.renders("--enable", "schlick", SCENES / "furnace.gltf", "-o", self.folder / "x.pfm", *SMALL)
+
     def test_help_and_version_are_0(self):
         self.assertEqual(run("--help").returncode, 0)
         self.assertEqual(run("--version").returncode, 0)
