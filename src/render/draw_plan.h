@@ -17,9 +17,10 @@ struct DrawPlan {
   int samples = 1;
 };
 
-/// The plan whose draws take about targetMs at a measured cost of msPerSample a pixel-sample (<= 0: not yet known, a careful
-/// start). At most `remaining` samples, and at most `most` samples a draw. Small tiles with several samples come before large tiles with one: a pixel
-/// whose path ends early goes on with its next sample instead of waiting for its neighbours.
+/// The plan whose draws take about targetMs at a measured cost of msPerSample a pixel-sample (<= 0: not yet
+/// known, a careful start). At most `remaining` samples, and at most `most` samples a draw. Small tiles with
+/// several samples come before large tiles with one: a pixel whose path ends early goes on with its next
+/// sample instead of waiting for its neighbours.
 inline DrawPlan planDraws(glm::ivec2 picture, int remaining, int most, double msPerSample, double targetMs) {
   constexpr int kSmallest = 128;  // pixels a side: some tiles of 64 for each core of a software rasteriser
   constexpr double kEnoughSamples = 16.0;
@@ -27,11 +28,13 @@ inline DrawPlan planDraws(glm::ivec2 picture, int remaining, int most, double ms
   const double pixels = double(picture.x) * picture.y;
   const double mostSamples = std::max(1, std::min(most, remaining));
   DrawPlan plan;
-  const double wanted = std::clamp(affordable / (double(kSmallest) * kSmallest), 1.0, std::min(mostSamples, kEnoughSamples));
+  const double wanted =
+      std::clamp(affordable / (double(kSmallest) * kSmallest), 1.0, std::min(mostSamples, kEnoughSamples));
   if (pixels <= kMaxTilePixels && affordable >= pixels * wanted) {
     plan.tile = picture;
   } else {
-    const double area = std::clamp(affordable / wanted, double(kSmallest) * kSmallest, double(kMaxTilePixels));
+    const double area =
+        std::clamp(affordable / wanted, double(kSmallest) * kSmallest, double(kMaxTilePixels));
     const int side = std::max(kSmallest, int(std::sqrt(area)) / 64 * 64);
     plan.tile = {std::min(picture.x, side), std::min(picture.y, side)};
   }
