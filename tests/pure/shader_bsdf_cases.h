@@ -97,14 +97,14 @@ inline std::vector<Case> allCases() {
 
 inline dvec3 atElevation(double z) { return {std::sqrt(1.0 - z * z) * 0.6, std::sqrt(1.0 - z * z) * 0.8, z}; }
 
-const std::vector<double> kElevations = {1.0, 0.7, 0.2};
+inline const std::vector<double> kElevations = {1.0, 0.7, 0.2};
 
 inline size_t binOf(double x, size_t bins) {
   return std::min(size_t(std::max(0.0, x) * double(bins)), bins - 1);
 }
 
-constexpr size_t kBands = 36;  // over the whole sphere, of equal angle
-constexpr size_t kTurns = 24;
+inline constexpr size_t kBands = 36;  // over the whole sphere, of equal angle
+inline constexpr size_t kTurns = 24;
 
 /// Integrals of f, a number or a vector, over the bins of the sphere.
 template <typename Function>

@@ -22,8 +22,8 @@ using glm::dvec3;
 using glm::vec3;
 using glsl_variant::With;
 
-constexpr double kFar = 1e30;
-constexpr int kUnlimited = std::numeric_limits<int>::max();
+inline constexpr double kFar = 1e30;
+inline constexpr int kUnlimited = std::numeric_limits<int>::max();
 
 // ---- scenes, packed ----
 
@@ -160,7 +160,7 @@ struct Outcome {
 };
 
 enum class Method { Iterative, Bvh, FrontToBack };
-[[maybe_unused]] constexpr std::array kMethods = {Method::Iterative, Method::Bvh, Method::FrontToBack};
+[[maybe_unused]] inline constexpr std::array kMethods = {Method::Iterative, Method::Bvh, Method::FrontToBack};
 
 /// Runs the shader's traversal, in draws of at most stepLimit steps each.
 #define DEFINE_TRACE(name, shader, Real, Vector)                                                        \
