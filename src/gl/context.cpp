@@ -30,7 +30,10 @@ std::unique_ptr<Context> makeContext(Backend backend) {
   std::unique_ptr<Context> context;
   if (backend != Backend::OsMesa) context = makeEglContext(tried);
   if (!context && backend != Backend::Egl) context = makeOsMesaContext(tried);
-  if (!context) throw ContextError("no OpenGL 4.5 context; tried " + tried);
+  if (!context) {
+    if (tried.ends_with("; ")) tried.resize(tried.size() - 2);
+    throw ContextError("no OpenGL 4.5 context; tried " + tried);
+  }
   return context;
 }
 
