@@ -16,14 +16,19 @@ float pathRandom(Path p, uint offset) {
   return drawFloat(p.numbers, kBounceDimensions * uint(p.bounce + 1) + offset);
 }
 
-/// Starts tracing the path's ray, keeping the step count of this draw.
-Path extend(Path p) {
+/// Starts a traversal of a ray up to its limit, keeping the step count of this draw.
+Path traceAnew(Path p, float limit) {
   int steps = p.traversal.steps;
-  p.phase = kPhaseExtend;
-  p.lightSlot = 0;
-  p.traversal = startTraversal(kFarAway, frame.limits.w);
+  p.traversal = startTraversal(limit, frame.limits.w);
   p.traversal.steps = steps;
   return p;
+}
+
+/// Goes on with the path's ray.
+Path extend(Path p) {
+  p.phase = kPhaseExtend;
+  p.lightSlot = 0;
+  return traceAnew(p, kFarAway);
 }
 
 Path startPath(ivec2 pixel, uint sampleIndex, int steps) {
@@ -140,8 +145,5 @@ Path connect(Path p, Surface s, LightSample light, vec3 value) {
   // The light's own surface is kept out by a relative margin above the rounding of the point chosen on it.
   p.shadowLimit = light.distance < kFarAway ? light.distance * float(0.9999) : kFarAway;
   p.phase = kPhaseShadow;
-  int steps = p.traversal.steps;
-  p.traversal = startTraversal(p.shadowLimit, frame.limits.w);
-  p.traversal.steps = steps;
-  return p;
+  return traceAnew(p, p.shadowLimit);
 }

@@ -130,10 +130,7 @@ Path settleShadow(Path p) {
       p.crossings += 1;
       p.shadowLimit = p.shadowLimit < kFarAway ? p.shadowLimit - p.traversal.t : kFarAway;
       p.shadowOrigin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.shadowDirection);
-      int steps = p.traversal.steps;
-      p.traversal = startTraversal(p.shadowLimit, frame.limits.w);
-      p.traversal.steps = steps;
-      return p;
+      return traceAnew(p, p.shadowLimit);
     }
   }
   if (slot < 0) p.radiance += p.contribution;

@@ -37,7 +37,6 @@ struct GpuScene {
   float environmentChance = 0.0f;  ///< of a light sample in gi going to the environment
   uint32_t emitterCount = 0;
   uint32_t punctualLights = 0;
-  float radius = 0.0f;          ///< of the sphere round the scene's box, metres
   uint32_t energyTableRow = 0;  ///< where the energy table begins among the material rows
 
   size_t bytes() const;

@@ -144,7 +144,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   const TraitSet& traits = variant.traits;
   packed.grid = makeGrid(bvh.bounds);
   packed.leafCount = uint32_t(bvh.leaves.size());
-  packed.radius = 0.5f * glm::length(bvh.bounds.extent());
+  const double radius = 0.5f * glm::length(bvh.bounds.extent());
   packed.buffers[kNodesBinding] = packNodes(bvh, packed.grid);
   packed.buffers[kLeavesBinding] = packLeaves(scene, bvh);
   packed.buffers[kPrimitivesBinding] = packPrimitives(scene);
@@ -155,7 +155,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   const std::vector<glm::vec3> radiance = meanRadiance(scene, traits, textures);
   std::vector<uint32_t> slots;
   if (has(traits, Trait::EmissiveTriangles)) slots = leafSlots(scene, bvh);
-  PackedEmitters emitters = packEmitters(scene, radiance, slots, packed.radius, traits);
+  PackedEmitters emitters = packEmitters(scene, radiance, slots, radius, traits);
   packed.emitterCount = emitters.count;
   packed.buffers[kEmittersBinding] = std::move(emitters.entries);
   if (has(traits, Trait::PunctualLights)) {
@@ -167,7 +167,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
     packed.environmentSize = surroundings.size;
     packed.buffers[kEnvironmentBinding] = std::move(surroundings.texels);
     packed.buffers[kEnvironmentAliasBinding] = std::move(surroundings.alias);
-    const double power = surroundings.power * packed.radius * packed.radius;
+    const double power = surroundings.power * radius * radius;
     if (has(traits, Trait::EnvironmentSampling)) {
       // Neither side is left out altogether: a dim one can still be the only light of a corner.
       const double share = power + emitters.power > 0.0 ? power / (power + emitters.power) : 0.5;
