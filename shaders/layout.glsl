@@ -33,9 +33,16 @@ const uint kPathStateRows = 18u;  // uvec4s a suspended path
 // The uniform block of one draw.
 const uint kFrameBinding = 0u;
 
+// What a program draws in place of radiance (kFeature); as enum Feature of src/stage/options.h.
+const int kFeatureNone = 0;
+const int kFeatureAlbedo = 1;
+const int kFeatureNormal = 2;
+const int kFeatureDepth = 3;
+
 // Film flags.
 const uint kPixelSuspended = 1u;  // the path of this pixel goes on in the next draw
 const uint kPixelBudgetHit = 2u;  // a loop was ended by something other than its own condition
+const uint kPixelTargetShift = 2u;  // above: the most samples this pixel is to have; 0: what the draw says
 
 // Traversal: an inner node is its index, a leaf the complement of its index, the end this sentinel.
 const int kTraversalDone = -2147483647 - 1;
@@ -113,6 +120,7 @@ struct Frame {
   ivec4 picture;        // width, height, samples wanted, seed
   ivec4 tile;           // x, y (from the bottom), width, height
   ivec4 limits;         // bounces, roulette depth, step budget, leaf count
+  ivec4 sampling;       // index of the first sample in the seed's sequence; bits of the largest indirect radiance
 };
 
 // What one draw reports.

@@ -35,7 +35,8 @@ Path startPath(ivec2 pixel, uint sampleIndex, int steps) {
   Path p;
   p.numbers = makeSampler(uint(pixel.x), uint(frame.picture.y - 1 - pixel.y), sampleIndex, uint(frame.picture.w));
   vec2 jitter = drawPair(p.numbers, kCameraDimensions);
-  vec2 point = (vec2(pixel) + jitter) / vec2(frame.picture.xy) * 2.0 - 1.0;
+  vec2 place = vec2(pixel) + 0.5 + samplePixelFilter(kPixelFilter, jitter.x, jitter.y);
+  vec2 point = place / vec2(frame.picture.xy) * 2.0 - 1.0;
   CameraRay ray = makeCameraRay(frame.cameraPosition.xyz, frame.cameraRight.xyz, frame.cameraUp.xyz,
                                 frame.cameraForward.xyz, frame.cameraPosition.w != 0.0, point.x, point.y);
   p.after = kPhaseEnd;
@@ -61,9 +62,16 @@ Path startPath(ivec2 pixel, uint sampleIndex, int steps) {
   return extend(p);
 }
 
+/// Light that came over so many scatterings: one is direct light, more may be clamped, which is biased.
+vec3 clampIndirect(vec3 light, int scatterings) {
+  if (!kClampIndirect || scatterings < 2) return light;
+  return light * min(1.0, intBitsToFloat(frame.sampling.y) / max(maxComponent(light), 1e-30));
+}
+
 /// The path's ray has met nothing.
 Path meetSurroundings(Path p) {
   p.phase = kPhaseEnd;
+  if (kFeature != kFeatureNone) return p;
   if (p.cameraRay) {
     vec3 seen = frame.background.rgb;
     if (kEnvironment && frame.background.w != 0.0) seen = environmentRadiance(p.direction);
@@ -75,7 +83,7 @@ Path meetSurroundings(Path p) {
   if (kGi && kEnvironmentSampling && p.density > 0.0) {
     weight = misWeight(p.density, frame.lightChoice.x * environmentDensity(p.direction));
   }
-  p.radiance += p.throughput * (weight * environmentRadiance(p.direction));
+  p.radiance += clampIndirect(p.throughput * (weight * environmentRadiance(p.direction)), p.bounce);
   return p;
 }
 
@@ -135,6 +143,7 @@ vec3 emittedAt(Path p, Surface s, uint flags) {
 /// Sets up the shadow ray of a light sample that would add `value`; without shadows it is added at once.
 Path connect(Path p, Surface s, LightSample light, vec3 value) {
   if (maxComponent(value) <= 0.0) return p;
+  value = clampIndirect(value, p.bounce + 1);
   if (!kShadows) {
     p.radiance += value;
     return p;

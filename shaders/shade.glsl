@@ -79,6 +79,13 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   return scatter(p, s, direction, wrongSide ? vec3(0.0) : weight, 0.0, false, m);
 }
 
+/// What kFeature asks for of the point that a camera ray hits.
+vec3 featureAt(Surface s, vec3 baseColor, vec3 outgoing) {
+  if (kFeature == kFeatureAlbedo) return baseColor;
+  if (kFeature == kFeatureNormal) return facingNormal(mappedNormal(s), outgoing);
+  return vec3(dot(s.position - frame.cameraPosition.xyz, frame.cameraForward.xyz));
+}
+
 /// One step at the point hit. The first visit also settles alpha, absorption and emission.
 Path shade(Path p) {
   Surface s = surfaceAt(p.hitSlot, p.origin, p.direction, p.hitT);
@@ -93,6 +100,11 @@ Path shade(Path p) {
     }
     p.travelled += p.hitT;
     if (p.cameraRay) p.alpha = 1.0;
+    if (kFeature != kFeatureNone) {
+      p.radiance = featureAt(s, base.rgb, -p.direction);
+      p.phase = kPhaseEnd;
+      return p;
+    }
     if (kAbsorption) {
       // A back face of a solid says what the segment went through even if the camera stands inside.
       bool leaving = !s.front && materialFloats(s.material, kMaterialVolume).w > 0.0;
@@ -104,7 +116,7 @@ Path shade(Path p) {
       p.phase = kPhaseEnd;
       return p;
     }
-    if (kEmission) p.radiance += p.throughput * emittedAt(p, s, flags);
+    if (kEmission) p.radiance += clampIndirect(p.throughput * emittedAt(p, s, flags), p.bounce);
     if (p.bounce > frame.limits.x) {
       p.phase = kPhaseEnd;
       return p;

@@ -6,6 +6,7 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "read.glsl"
 #include "random.glsl"
 #include "sampling.glsl"
+#include "pixel_filter.glsl"
 #include "camera.glsl"
 #include "intersect.glsl"
 #include "slab.glsl"
@@ -33,7 +34,9 @@ void tracePixel(ivec2 pixel) {
   ivec2 place = pixel - frame.tile.xy;
   int state = place.y * frame.tile.z + place.x;
   FilmPixel film = loadFilm(pixel);
-  uint wanted = uint(frame.picture.z);
+  // A pixel may want fewer samples than the draw brings (Film::setTargets).
+  uint own = film.flags >> kPixelTargetShift;
+  uint wanted = own > 0u ? min(own, uint(frame.picture.z)) : uint(frame.picture.z);
   int budget = frame.limits.z;
   TreeFrame tree = treeFrame();
   uint samplesBefore = film.samples;
@@ -54,7 +57,7 @@ void tracePixel(ivec2 pixel) {
         break;
       }
       raysBefore = film.rays;
-      p = startPath(pixel, film.samples, p.traversal.steps);
+      p = startPath(pixel, film.samples + uint(frame.sampling.x), p.traversal.steps);
       tracing = true;
     }
     p.traversal.steps += 1;

@@ -9,5 +9,6 @@ namespace fragtrace {
 int runRender(const RenderOptions& options);
 int runInfo(const InfoOptions& options);
 int runDiff(const DiffOptions& options);
+int runMerge(const MergeOptions& options);
 
 }  // namespace fragtrace

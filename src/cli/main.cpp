@@ -32,6 +32,8 @@ int run(int argc, char** argv) {
       return runInfo(line->info);
     case Command::Diff:
       return runDiff(line->diff);
+    case Command::Merge:
+      return runMerge(line->merge);
   }
   return kUsage;
 }

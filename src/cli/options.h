@@ -22,7 +22,12 @@ struct DiffOptions {
   std::filesystem::path outfile;
 };
 
-enum class Command : uint8_t { Render, Info, Diff };
+struct MergeOptions {
+  std::vector<std::filesystem::path> parts;
+  std::filesystem::path output;
+};
+
+enum class Command : uint8_t { Render, Info, Diff, Merge };
 
 /// What the command line asks for; only the options of the command are filled in.
 struct CommandLine {
@@ -30,6 +35,7 @@ struct CommandLine {
   RenderOptions render;
   InfoOptions info;
   DiffOptions diff;
+  MergeOptions merge;
 };
 
 /// Parses the arguments. Prints help or version and returns nothing when that was asked for. Throws

@@ -34,6 +34,8 @@ double megaPathsPerSecond(const Statistics& s) {
   return s.times.renderMs > 0.0 ? double(s.film.samples) / s.times.renderMs / 1000.0 : 0.0;
 }
 
+double samplesPerPixel(const Statistics& s) { return double(s.film.samples) / (double(s.size.x) * s.size.y); }
+
 void writeStatistics(const std::filesystem::path& path, const Statistics& s) {
   nlohmann::ordered_json json;
   json["schema"] = 1;
@@ -48,7 +50,18 @@ void writeStatistics(const std::filesystem::path& path, const Statistics& s) {
   json["render_ms"] = s.times.renderMs;
   json["frame_ms"] = timesJson(s.times.frameMs);
   json["spp"] = s.spp;
-  json["samples_per_pixel"] = double(s.film.samples) / (double(s.size.x) * s.size.y);
+  json["samples_per_pixel"] = samplesPerPixel(s);
+  json["fewest_samples"] = s.film.fewestSamples;
+  json["most_samples"] = s.film.mostSamples;
+  if (s.adaptive) {
+    json["adaptive"] = {{"noise", s.adaptive->noise},
+                        {"seconds", s.adaptive->seconds},
+                        {"error_p95", s.adaptive->error},
+                        {"share_under_noise", s.adaptive->share},
+                        {"rounds", s.adaptive->rounds}};
+  }
+  if (s.clampIndirect > 0.0) json["clamp_indirect"] = s.clampIndirect;
+  if (s.featureMs > 0.0) json["feature_ms"] = s.featureMs;
   json["width"] = s.size.x;
   json["height"] = s.size.y;
   json["complete"] = s.complete;

@@ -2,13 +2,24 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "bvh/bvh.h"
 #include "gl/context.h"
+#include "render/film_pixels.h"
 #include "render/renderer.h"
 #include "scene/describe.h"
 
 namespace fragtrace {
+
+/// Of a render with --noise or --time.
+struct AdaptiveStatistics {
+  double noise = 0.0;    ///< asked for; 0: none
+  double seconds = 0.0;  ///< asked for; 0: none
+  double error = 0.0;    ///< the relative error that 95 % of the pixels are estimated to stay under
+  double share = 0.0;    ///< of the pixels under the noise asked for
+  int rounds = 0;
+};
 
 /// What `--stats` writes about one render; the JSON's keys are the names here.
 struct Statistics {
@@ -23,8 +34,11 @@ struct Statistics {
   int spp = 0;
   glm::ivec2 size{0};
   FilmTotals film;
+  std::optional<AdaptiveStatistics> adaptive;
+  double featureMs = 0.0;  ///< drawing the layers of first hits
   size_t sceneBytes = 0;
   bool defaultLight = false;
+  double clampIndirect = 0.0;  ///< 0: not clamped
   bool complete = true;
   std::string variant;
   std::string backend;
@@ -38,5 +52,6 @@ struct Statistics {
 void writeStatistics(const std::filesystem::path& path, const Statistics& statistics);
 
 double megaPathsPerSecond(const Statistics& statistics);
+double samplesPerPixel(const Statistics& statistics);
 
 }  // namespace fragtrace

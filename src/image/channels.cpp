@@ -26,6 +26,20 @@ std::optional<std::array<size_t, 3>> findColorChannels(const Image& image) {
   return std::nullopt;
 }
 
+void appendChannels(Image& image, const Image& from, const std::vector<std::string>& names) {
+  const size_t before = image.channelCount();
+  std::vector<float> values;
+  values.reserve(size_t(image.width) * size_t(image.height) * (before + names.size()));
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      values.insert(values.end(), image.pixel(x, y), image.pixel(x, y) + before);
+      values.insert(values.end(), from.pixel(x, y), from.pixel(x, y) + names.size());
+    }
+  }
+  image.channels.insert(image.channels.end(), names.begin(), names.end());
+  image.values = std::move(values);
+}
+
 Image withoutAlpha(const Image& image) {
   const auto alpha = findChannel(image, "A");
   if (!alpha) return image;

@@ -17,6 +17,9 @@ std::optional<size_t> findChannel(const Image& image, std::string_view name);
 /// times; nothing when there is no colour.
 std::optional<std::array<size_t, 3>> findColorChannels(const Image& image);
 
+/// Adds as many channels of `from`, which has the same size, as there are names; they get these names.
+void appendChannels(Image& image, const Image& from, const std::vector<std::string>& names);
+
 /// The picture without its channel A. Premultiplied colour then lies over black. Unchanged when there is no
 /// A.
 Image withoutAlpha(const Image& image);

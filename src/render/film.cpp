@@ -60,45 +60,39 @@ void Film::bind() const {
   glBindImageTexture(layout::kFilmCountsBinding, counts_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32UI);
 }
 
-Image Film::readImage(const Layers& layers) const {
+FilmPixels Film::read() const {
   const auto sum = readLayer<float>(sum_, GL_RGBA, GL_FLOAT, size_);
   const auto compensation = readLayer<float>(compensation_, GL_RGBA, GL_FLOAT, size_);
   const auto counts = readLayer<uint32_t>(counts_, GL_RGBA_INTEGER, GL_UNSIGNED_INT, size_);
-  Image image;
-  image.width = size_.x;
-  image.height = size_.y;
-  image.channels = {"R", "G", "B"};
-  if (layers.alpha) image.channels.emplace_back("A");
-  if (layers.samples) image.channels.emplace_back("samples.Y");
-  if (layers.variance) image.channels.emplace_back("variance.Y");
-  image.values.resize(size_t(size_.x) * size_t(size_.y) * image.channelCount());
-  for (int y = 0; y < size_.y; ++y) {
-    for (int x = 0; x < size_.x; ++x) {
-      const size_t i = (size_t(size_.y - 1 - y) * size_t(size_.x) + size_t(x)) * 4;
-      const double samples = std::max(1u, counts[i]);
-      float* pixel = image.pixel(x, y);
-      for (size_t c = 0; c < 3; ++c) pixel[c] = float((double(sum[i + c]) - compensation[i + c]) / samples);
-      size_t next = 3;
-      if (layers.alpha) pixel[next++] = float(sum[i + 3] / samples);
-      if (layers.samples) pixel[next++] = float(counts[i]);
-      if (layers.variance)
-        pixel[next] = float(compensation[i + 3] / (samples * std::max(1.0, samples - 1.0)));
-    }
+  FilmPixels film;
+  film.size = size_;
+  film.pixels.resize(size_t(size_.x) * size_t(size_.y));
+  for (size_t p = 0; p < film.pixels.size(); ++p) {
+    const size_t i = p * 4;
+    FilmPixel& pixel = film.pixels[p];
+    for (int c = 0; c < 3; ++c) pixel.sum[c] = double(sum[i + size_t(c)]) - compensation[i + size_t(c)];
+    pixel.alpha = sum[i + 3];
+    pixel.m2 = compensation[i + 3];
+    pixel.samples = counts[i];
+    pixel.rays = counts[i + 1];
+    pixel.nonfinite = counts[i + 2];
+    pixel.flags = counts[i + 3];
   }
-  return image;
+  return film;
 }
 
-FilmTotals Film::readTotals() const {
-  const auto counts = readLayer<uint32_t>(counts_, GL_RGBA_INTEGER, GL_UNSIGNED_INT, size_);
-  FilmTotals totals;
-  for (size_t i = 0; i < counts.size(); i += 4) {
-    totals.samples += counts[i];
-    totals.rays += counts[i + 1];
-    totals.emptyPixels += counts[i] == 0;
-    totals.nonfinitePixels += counts[i + 2] != 0;
-    totals.budgetHits += (counts[i + 3] & layout::kPixelBudgetHit) != 0;
+void Film::setTargets(const FilmPixels& pixels, std::span<const uint32_t> targets) {
+  constexpr uint32_t kFlagMask = (1u << layout::kPixelTargetShift) - 1u;
+  std::vector<uint32_t> counts;
+  counts.reserve(pixels.pixels.size() * 4);
+  for (size_t i = 0; i < pixels.pixels.size(); ++i) {
+    const FilmPixel& p = pixels.pixels[i];
+    counts.insert(counts.end(), {p.samples, p.rays, p.nonfinite,
+                                 (p.flags & kFlagMask) | targets[i] << layout::kPixelTargetShift});
   }
-  return totals;
+  glTextureSubImage2D(counts_.name(), 0, 0, 0, size_.x, size_.y, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                      counts.data());
+  checkGl("setting how many samples each pixel is to have");
 }
 
 }  // namespace fragtrace

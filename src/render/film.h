@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <glm/glm.hpp>
-
 #include "gl/gl.h"
-#include "image/image.h"
+#include "render/film_pixels.h"
 
 namespace fragtrace {
-
-/// What the film counted, over all pixels.
-struct FilmTotals {
-  uint64_t samples = 0;
-  uint64_t rays = 0;
-  uint64_t emptyPixels = 0;  ///< without any sample
-  uint64_t nonfinitePixels = 0;
-  uint64_t budgetHits = 0;  ///< pixels in which a loop was ended by the driver: the picture is wrong
-};
 
 /// Sum, compensation and counts of every pixel on the device (shaders/film.glsl).
 class Film {
@@ -25,15 +14,11 @@ class Film {
   void bind() const;
   glm::ivec2 size() const { return size_; }
 
-  /// Mean radiance of the samples so far: R, G, B and, if asked for, A, "samples.Y" (count) and "variance.Y"
-  /// (of the mean's luminance, estimated from the samples); the first row is the top.
-  struct Layers {
-    bool alpha = false;
-    bool samples = false;
-    bool variance = false;
-  };
-  Image readImage(const Layers& layers) const;
-  FilmTotals readTotals() const;
+  FilmPixels read() const;
+
+  /// Limits the samples of each pixel from now on, in the order of `pixels`, which is what read() gave and
+  /// nothing has changed since; 0: no limit.
+  void setTargets(const FilmPixels& pixels, std::span<const uint32_t> targets);
 
  private:
   glm::ivec2 size_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "render/renderer.h"
 
+#include <bit>
 #include <chrono>
 #include <cmath>
 
@@ -49,11 +50,10 @@ GLuint makeFramebuffer() {
 
 }  // namespace
 
-Renderer::Renderer(const Context& context, const GpuScene& scene, const ShaderVariant& variant,
+Renderer::Renderer(const Context& context, const GpuScene& scene, BufferReads reads,
                    const std::filesystem::path& shaderFolder)
     : programs_(shaderSource(shaderFolder)),
-      buffers_(scene, variant.reads),
-      variant_(variant),
+      buffers_(scene, reads),
       frameBuffer_(makeBuffer()),
       progressBuffer_(makeBuffer()),
       vertexArray_(makeVertexArray()),
@@ -86,6 +86,7 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.picture = {film.size(), 0, int(view.seed)};
   frame_.limits.x = view.bounces;
   frame_.limits.y = view.rouletteDepth;
+  frame_.sampling = {view.sampleOffset, std::bit_cast<int>(view.clampIndirect), 0, 0};
   film.bind();
   buffers_.bind();
   glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, film.size().x);
@@ -101,9 +102,11 @@ void Renderer::setFrame(const Film& film, const View& view) {
 
 void Renderer::makeResumable() {
   variant_.resumable = true;
-  pathStates_ = makeBuffer();
-  glNamedBufferStorage(pathStates_.name(), GLsizeiptr(kMaxTilePixels) * layout::kPathStateRows * 16, nullptr,
-                       0);
+  if (pathStates_.name() == 0) {
+    pathStates_ = makeBuffer();
+    glNamedBufferStorage(pathStates_.name(), GLsizeiptr(kMaxTilePixels) * layout::kPathStateRows * 16,
+                         nullptr, 0);
+  }
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kPathStatesBinding, pathStates_.name());
   glUseProgram(programs_.tracer(variant_).name());
   checkGl("making room for suspended paths");
@@ -114,7 +117,7 @@ layout::Progress Renderer::draw() {
   glNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
-                  GL_BUFFER_UPDATE_BARRIER_BIT);
+                  GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
   glFinish();
   glGetNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
   checkGl("drawing");
@@ -136,25 +139,28 @@ bool Renderer::drawTile(glm::ivec2 corner, glm::ivec2 tile, int target, const st
   }
 }
 
-double Renderer::compile(Film& film, const View& view) {
+double Renderer::compile(const ShaderVariant& variant, Film& film, const View& view) {
   const auto start = Clock::now();
+  variant_ = variant;
   setFrame(film, view);
   drawTile({0, 0}, glm::min(film.size(), glm::ivec2(kTinyTile)), 1, [] { return true; });
   film.clear();
-  samplesDone_ = 0;
   mostSamplesPerDraw_ = 1;
+  msPerSample_ = 0.0;
   return milliseconds(start, Clock::now());
 }
 
-bool Renderer::addSamples(Film& film, const View& view, int samples, RenderTimes& times,
+void Renderer::adaptPace(int samples) {
+  mostSamplesPerDraw_ = overBudget_ ? std::max(1, samples / 2) : samples * 2;
+}
+
+bool Renderer::addSamples(Film& film, const View& view, int from, int to, RenderTimes& times,
                           const Progress& progress) {
   setFrame(film, view);
-  const double total = double(film.size().x) * film.size().y * samples;
+  const double total = double(film.size().x) * film.size().y * (to - from);
   double pixelSamplesDone = 0.0;
-  double msPerSample = 0.0;
-  for (int added = 0; added < samples;) {
-    const DrawPlan plan =
-        planDraws(film.size(), samples - added, mostSamplesPerDraw_, msPerSample, targetMs_);
+  for (int done = from; done < to;) {
+    const DrawPlan plan = planDraws(film.size(), to - done, mostSamplesPerDraw_, msPerSample_, targetMs_);
     const auto roundStart = Clock::now();
     double tileMs = 0.0;
     for (int y = 0; y < film.size().y; y += plan.tile.y) {
@@ -163,7 +169,7 @@ bool Renderer::addSamples(Film& film, const View& view, int samples, RenderTimes
         const glm::ivec2 tile = glm::min(plan.tile, film.size() - corner);
         const auto start = Clock::now();
         const double fraction = pixelSamplesDone / total;
-        if (!drawTile(corner, tile, samplesDone_ + plan.samples, [&] { return progress(fraction); })) {
+        if (!drawTile(corner, tile, done + plan.samples, [&] { return progress(fraction); })) {
           times.renderMs += milliseconds(roundStart, Clock::now());
           return false;
         }
@@ -172,17 +178,44 @@ bool Renderer::addSamples(Film& film, const View& view, int samples, RenderTimes
       }
     }
     const double roundMs = milliseconds(roundStart, Clock::now());
-    msPerSample = tileMs / (double(film.size().x) * film.size().y * plan.samples);
+    msPerSample_ = tileMs / (double(film.size().x) * film.size().y * plan.samples);
     times.renderMs += roundMs;
     if (times.frameMs.empty()) times.firstFrameMs = roundMs / plan.samples;
     times.frameMs.insert(times.frameMs.end(), size_t(plan.samples), roundMs / plan.samples);
-    added += plan.samples;
-    samplesDone_ += plan.samples;
-    // More samples a draw as long as the step budget takes them.
-    mostSamplesPerDraw_ = overBudget_ ? std::max(1, plan.samples / 2) : plan.samples * 2;
+    done += plan.samples;
+    adaptPace(plan.samples);
   }
   progress(1.0);
   return true;
+}
+
+bool Renderer::addSamples(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
+                          const Progress& progress) {
+  setFrame(film, view);
+  double total = 0.0;
+  for (const Work& w : parts) total += w.busy * w.size.x * w.size.y * (w.to - w.from);
+  double pixelSamplesDone = 0.0;
+  double drawMs = 0.0;
+  const auto start = Clock::now();
+  bool complete = true;
+  for (const Work& w : parts) {
+    const double pixels = w.busy * w.size.x * w.size.y;
+    for (int done = w.from; complete && done < w.to;) {
+      const double affordable = msPerSample_ > 0.0 ? targetMs_ / (msPerSample_ * pixels) : 1.0;
+      const int most = std::min(mostSamplesPerDraw_, w.to - done);
+      const int samples = int(std::clamp(affordable, 1.0, double(most)));
+      const auto drawStart = Clock::now();
+      const double fraction = pixelSamplesDone / total;
+      complete = drawTile(w.corner, w.size, done + samples, [&] { return progress(fraction); });
+      drawMs += milliseconds(drawStart, Clock::now());
+      pixelSamplesDone += pixels * samples;
+      msPerSample_ = drawMs / pixelSamplesDone;
+      done += samples;
+      adaptPace(samples);
+    }
+  }
+  times.renderMs += milliseconds(start, Clock::now());
+  return complete;
 }
 
 }  // namespace fragtrace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "gl/context.h"
@@ -23,6 +24,8 @@ struct View {
   int bounces = 16;
   int rouletteDepth = 3;
   uint32_t seed = 0;
+  int sampleOffset = 0;        ///< index of sample 0 of the film in the seed's sequence
+  float clampIndirect = 0.0f;  ///< largest indirect radiance of a sample, when the variant clamps
 };
 
 /// Time of the draws so far; frames are one sample in every pixel.
@@ -32,19 +35,39 @@ struct RenderTimes {
   std::vector<double> frameMs;
 };
 
+/// A rectangle of the film (from the bottom left) and which samples its pixels are to get: [from, to).
+struct Work {
+  glm::ivec2 corner{0};
+  glm::ivec2 size{0};
+  int from = 0;
+  int to = 0;
+  double busy = 1.0;  ///< part of its pixels that will draw (Film::setTargets)
+};
+
 class Renderer {
  public:
-  Renderer(const Context& context, const GpuScene& scene, const ShaderVariant& variant,
+  /// Uploads the scene, which must hold all that the variants to come read.
+  Renderer(const Context& context, const GpuScene& scene, BufferReads reads,
            const std::filesystem::path& shaderFolder = {});
 
-  /// Builds the program and draws one tiny tile, which is where llvmpipe compiles. Returns milliseconds.
-  double compile(Film& film, const View& view);
+  /// Builds the variant's program and draws one tiny tile, which is where llvmpipe compiles; draws that
+  /// follow use it. The film ends up cleared. Returns milliseconds.
+  double compile(const ShaderVariant& variant, Film& film, const View& view);
 
   /// Called after each draw with the fraction of the work done, 0..1; false stops the work.
   using Progress = std::function<bool(double fraction)>;
 
-  /// Adds samples to every pixel. False when progress stopped it; the film then holds what was finished.
-  bool addSamples(Film& film, const View& view, int samples, RenderTimes& times, const Progress& progress);
+  /// Adds samples [from, to) to every pixel of the film. False when progress stopped it; the film then holds
+  /// what was finished.
+  bool addSamples(Film& film, const View& view, int from, int to, RenderTimes& times,
+                  const Progress& progress);
+
+  /// The same for parts of the film, one after the other.
+  bool addSamples(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
+                  const Progress& progress);
+
+  /// Milliseconds that one sample of one pixel takes, as measured by the latest work; 0: not yet known.
+  double msPerSample() const { return msPerSample_; }
 
  private:
   void setFrame(const Film& film, const View& view);
@@ -53,6 +76,8 @@ class Renderer {
   layout::Progress draw();
   /// Advances a tile to `target` samples in as many draws as its step budget takes; false when stopped.
   bool drawTile(glm::ivec2 corner, glm::ivec2 tile, int target, const std::function<bool()>& goOn);
+  /// More samples a draw as long as the step budget takes them.
+  void adaptPace(int samples);
 
   ProgramCache programs_;
   SceneBuffers buffers_;
@@ -64,7 +89,7 @@ class Renderer {
   GlVertexArray vertexArray_;
   GlFramebuffer framebuffer_;
   double targetMs_;
-  int samplesDone_ = 0;
+  double msPerSample_ = 0.0;
   int mostSamplesPerDraw_ = 1;
   bool overBudget_ = false;  ///< the last tile needed more than one draw
 };

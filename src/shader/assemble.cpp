@@ -68,6 +68,9 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
   constant("kIterative", variant.traversal == TraversalMethod::Iterative);
   constant("kFrontToBack", variant.traversal == TraversalMethod::FrontToBack);
   constant("kResumable", variant.resumable);
+  constant("kClampIndirect", variant.clampIndirect);
+  text << "const int kPixelFilter = " << int(variant.pixelFilter) << ";\n";
+  text << "const int kFeature = " << int(variant.feature) << ";\n";
   text << "const int kStackSize = " << variant.stackSize << ";\n";
 }
 

@@ -8,6 +8,8 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 #include "image/tone_map.h"
 #include "scene/camera.h"
@@ -18,6 +20,13 @@ namespace fragtrace {
 enum class TraversalMethod : uint8_t { Auto, Iterative, Bvh, FrontToBack };
 enum class Backend : uint8_t { Auto, Egl, OsMesa };
 enum class BufferReads : uint8_t { Auto, Ssbo, Image };
+/// How camera samples spread about the middle of their pixel (shaders/pixel_filter.glsl).
+enum class PixelFilter : uint8_t { Box, Gaussian, BlackmanHarris };
+inline constexpr std::array<std::string_view, 3> kPixelFilterNames{"box", "gaussian", "blackman-harris"};
+
+/// What a first hit is, beside its radiance: further layers of .exr files (docs/conventions.md).
+enum class Feature : uint8_t { None, Albedo, Normal, Depth };
+inline constexpr std::array<std::string_view, 4> kFeatureNames{"", "albedo", "normal", "depth"};
 
 inline constexpr int kUnlimitedBounces = std::numeric_limits<int>::max() - 1;
 
@@ -27,9 +36,15 @@ struct RenderOptions {
   std::optional<glm::ivec2> resolution;
   StageSet stages = stagesUpTo(Stage::Gi);
   int spp = 64;
+  int sampleOffset = 0;  ///< index of the first sample in the seed's sequence
   uint32_t seed = 0;
   int bounces = 16;       ///< kUnlimitedBounces: no limit
   int rouletteDepth = 3;  ///< roulette from this scattering on, the first being 1
+  double clampIndirect =
+      0.0;  ///< largest radiance that a path of two scatterings or more may add; 0: no limit
+  PixelFilter pixelFilter = PixelFilter::Box;
+  double noise = 0.0;    ///< relative error to reach, adaptively; 0: spp samples in every pixel
+  double seconds = 0.0;  ///< time to spend, adaptively; 0: no limit
   std::optional<int> cameraIndex;
   CameraOverrides camera;
   std::filesystem::path hdriFile;
@@ -44,6 +59,7 @@ struct RenderOptions {
   BufferReads bufferReads = BufferReads::Auto;
   bool aovSamples = false;  ///< more layers of .exr files
   bool aovVariance = false;
+  std::vector<Feature> aovFeatures;
   std::filesystem::path statsFile;
   std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
   bool quiet = false;

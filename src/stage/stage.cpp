@@ -58,6 +58,10 @@ std::span<const StageRow> stageRows() {
       {Stage::Sobol, "sobol", "Sobol samples",
        "Owen-scrambled Sobol points in place of independent random numbers (on by default)", false, true,
        "kSobol"},
+      {Stage::LightSampling, "light-sampling", "Light sampling",
+       "samples emissive triangles and the environment in gi, which else scattered rays alone find (on by "
+       "default)",
+       false, true, nullptr},
       {Stage::BvhHeatmap, "bvh-heatmap", "Node heat map", "paints how many nodes each camera ray visits",
        false, false, "kHeatmap"},
   }};

@@ -62,6 +62,7 @@ enum class Stage : uint8_t {
   Schlick,
   EnergyCompensation,
   Sobol,
+  LightSampling,
   BvhHeatmap,
   Count
 };

@@ -25,10 +25,12 @@ bool hasNormalMaps(const TraitSet& traits) {
   return has(traits, Trait::NormalTexture) || has(traits, Trait::PerlinNormals);
 }
 
-bool hasLight(const TraitSet& traits) {
-  return has(traits, Trait::PunctualLights) || has(traits, Trait::EmissiveTriangles) ||
-         has(traits, Trait::EnvironmentSampling);
+/// A light that rays can hit, and that can be sampled.
+bool hasAreaLight(const TraitSet& traits) {
+  return has(traits, Trait::EmissiveTriangles) || has(traits, Trait::EnvironmentSampling);
 }
+
+bool hasLight(const TraitSet& traits) { return has(traits, Trait::PunctualLights) || hasAreaLight(traits); }
 
 void addMaterialTraits(const Material& m, const Vertices& vertices, TraitSet& traits) {
   auto mark = [&](Trait trait, bool present) {
@@ -102,6 +104,8 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings) {
 std::string whyOff(Stage stage, const TraitSet& present) {
   if (stage == Stage::NormalMaps && !hasNormalMaps(present)) return "no normal map";
   if (stage == Stage::Shadows && !hasLight(present)) return "no light to cast shadows";
+  if (stage == Stage::LightSampling && !hasAreaLight(present))
+    return "no emissive triangle and no environment";
   const Trait needed = neededBy(stage);
   if (needed == Trait::Count || has(present, needed)) return {};
   return traitRows()[size_t(needed)].absence;
@@ -154,6 +158,10 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
     for (Trait t : {Trait::NormalTexture, Trait::PerlinNormals}) without(t);
   }
   if (!hasNormalMaps(v.traits)) without(Trait::Tangents);
+  if (stage(Stage::Gi) && !stage(Stage::LightSampling)) {
+    without(Trait::EmissiveTriangles);
+    without(Trait::EnvironmentSampling);
+  }
   // A constant environment is found by scattered rays; only the stages without them sample it.
   if (stage(Stage::Gi) && surroundings == Surroundings::DefaultLight) without(Trait::EnvironmentSampling);
   const bool textured = has(v.traits, Trait::BaseColorTexture) ||
@@ -164,6 +172,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   if (!textured) without(Trait::Texcoords);
 
   // Step: stages that change nothing in this scene.
+  if (!stage(Stage::Gi) || !hasAreaLight(v.traits)) drop(Stage::LightSampling);
   if (!hasLight(v.traits)) drop(Stage::Shadows);
   if (!has(v.traits, Trait::Specular)) drop(Stage::Reflections);
   if (!stage(Stage::Gi) || !stage(Stage::Reflections)) drop(Stage::EnergyCompensation);
@@ -180,6 +189,34 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
     if (treeDepth <= uint32_t(size)) v.stackSize = size;
   }
   if (v.traversal == TraversalMethod::Iterative) v.stackSize = 8;
+
+  v.pixelFilter = options.pixelFilter;
+  v.clampIndirect = stage(Stage::Gi) && options.clampIndirect > 0.0;
+  return v;
+}
+
+ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet& present,
+                                   Surroundings surroundings, uint32_t treeDepth, BufferReads reads,
+                                   Feature feature) {
+  RenderOptions wanted = options;
+  for (const StageRow& row : stageRows()) {
+    const bool kept =
+        row.stage == Stage::Sobol || (feature == Feature::Normal && row.stage == Stage::NormalMaps);
+    if (!kept) wanted.stages.reset(size_t(row.stage));
+  }
+  if (feature == Feature::Normal) wanted.stages.set(size_t(Stage::Phong));
+  TraitSet kept = present;
+  for (Trait t :
+       {Trait::PunctualLights, Trait::EmissiveTriangles, Trait::EnvironmentSampling, Trait::Environment,
+        Trait::Emission, Trait::EmissionTexture, Trait::Specular, Trait::Transmission, Trait::Unlit}) {
+    kept.reset(size_t(t));
+  }
+  if (feature == Feature::Depth && !has(present, Trait::Alpha)) {
+    for (Trait t : {Trait::BaseColorTexture, Trait::VertexColors}) kept.reset(size_t(t));
+  }
+  ShaderVariant v = chooseVariant(wanted, kept, surroundings, treeDepth, reads);
+  v.traits.reset(size_t(Trait::Environment));
+  v.feature = feature;
   return v;
 }
 
@@ -197,6 +234,10 @@ std::string variantName(const ShaderVariant& variant) {
                                                                           : "front-to-back";
   append(traversal);
   if (variant.traversal != TraversalMethod::Iterative) append("stack-" + std::to_string(variant.stackSize));
+  if (variant.pixelFilter != PixelFilter::Box)
+    append(std::string(kPixelFilterNames[size_t(variant.pixelFilter)]) + "-filter");
+  if (variant.feature != Feature::None) append(std::string(kFeatureNames[size_t(variant.feature)]));
+  if (variant.clampIndirect) append("clamp-indirect");
   append(variant.reads == BufferReads::Image ? "image-reads" : "ssbo-reads");
   return name;
 }

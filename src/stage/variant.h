@@ -17,11 +17,15 @@ struct ShaderVariant {
   TraversalMethod traversal = TraversalMethod::FrontToBack;
   int stackSize = 12;
   BufferReads reads = BufferReads::Ssbo;
+  PixelFilter pixelFilter = PixelFilter::Box;
+  Feature feature = Feature::None;  ///< what is drawn in place of radiance
+  bool clampIndirect = false;
   bool resumable =
       false;  ///< paths can be suspended from draw to draw; only needed by those longer than a draw
 
   auto key() const {
-    return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, resumable);
+    return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, pixelFilter, feature,
+                      clampIndirect, resumable);
   }
   bool operator<(const ShaderVariant& other) const { return key() < other.key(); }
   bool operator==(const ShaderVariant& other) const { return key() == other.key(); }
@@ -39,6 +43,12 @@ bool hasOwnLight(const Scene& scene);
 /// Reduces any wish to a legal variant: all implications between stages and traits stand here, once.
 ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& present, Surroundings surroundings,
                             uint32_t treeDepth, BufferReads reads);
+
+/// The variant that draws a feature of the first hit for the same samples: what radiance alone needs is left
+/// out. `wanted` are the options as for chooseVariant, which it calls.
+ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet& present,
+                                   Surroundings surroundings, uint32_t treeDepth, BufferReads reads,
+                                   Feature feature);
 
 /// The variant by name: what is on, separated by "+", for the statistics.
 std::string variantName(const ShaderVariant& variant);

@@ -29,7 +29,8 @@ const std::vector<Member> kFrameMembers = {
     MEMBER(Frame, "frame", gridOrigin),     MEMBER(Frame, "frame", gridCell),
     MEMBER(Frame, "frame", background),     MEMBER(Frame, "frame", environment),
     MEMBER(Frame, "frame", lightChoice),    MEMBER(Frame, "frame", picture),
-    MEMBER(Frame, "frame", tile),           MEMBER(Frame, "frame", limits)};
+    MEMBER(Frame, "frame", tile),           MEMBER(Frame, "frame", limits),
+    MEMBER(Frame, "frame", sampling)};
 const std::vector<Member> kProgressMembers = {
     MEMBER(Progress, "progress", unfinished), MEMBER(Progress, "progress", stuck),
     MEMBER(Progress, "progress", reserved0), MEMBER(Progress, "progress", reserved1)};

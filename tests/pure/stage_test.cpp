@@ -39,9 +39,9 @@ TEST(StageTable, EachConstantIsUsedInTheShader) {
 }
 
 TEST(StageTable, AStageTurnsOnItselfAndAllBeforeIt) {
-  // Two switches are on unless turned off.
-  EXPECT_EQ(stagesUpTo(Stage::Flat).count(), 3u);
-  EXPECT_EQ(stagesUpTo(Stage::Gi).count(), 9u);
+  // Three switches are on unless turned off.
+  EXPECT_EQ(stagesUpTo(Stage::Flat).count(), 4u);
+  EXPECT_EQ(stagesUpTo(Stage::Gi).count(), 10u);
   EXPECT_FALSE(has(stagesUpTo(Stage::Gi), Stage::Schlick));
   EXPECT_EQ(parseStage("normal-maps"), Stage::NormalMaps);
   EXPECT_EQ(parseStage("nonsense"), std::nullopt);

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Where in and about its pixel a camera sample lies: drawn with the density of the pixel filter, so that all samples weigh the same
+// (Ernst, Stamminger and Greiner, Filter Importance Sampling, 2006).
+
+const int kBoxFilter = 0;
+const int kGaussianFilter = 1;
+const int kBlackmanHarrisFilter = 2;
+
+/// Pixels: standard deviation of the Gaussian, which is cut off at 4 of them; width of the window of Blackman and Harris.
+const float kGaussianDeviation = float(0.5);
+const float kBlackmanHarrisWidth = float(3.0);
+
+/// Density of the window over its width 0..1 and its integral from 0 (Harris, On the Use of Windows for Harmonic Analysis, 1978: four terms,
+/// 92 dB), both over the window's area.
+vec2 blackmanHarris(float t) {
+  float x = 2.0f * kPi * t;
+  float density = float(0.35875) - float(0.48829) * cos(x) + float(0.14128) * cos(2.0f * x) - float(0.01168) * cos(3.0f * x);
+  float integral = float(0.35875) * t -
+                   (float(0.48829) * sin(x) - float(0.07064) * sin(2.0f * x) + float(0.0038933333) * sin(3.0f * x)) / (2.0f * kPi);
+  return vec2(density, integral) / float(0.35875);
+}
+
+/// Undoes the integral by five steps of Newton's method, which leave 2e-6 pixels.
+float sampleBlackmanHarris(float u) {
+  float low = min(u, 1.0f - u);
+  float t = max(0.5f - float(0.141) * sqrt(max(0.0f, -log(max(4.0f * low * (1.0f - low), float(1e-12))))), float(0.03));
+  for (int i = 0; i < 5; ++i) {
+    vec2 f = blackmanHarris(t);
+    t = clamp(t - (f.y - low) / max(f.x, float(1e-9)), 0.0f, 0.5f);
+  }
+  return kBlackmanHarrisWidth * (u < 0.5f ? t - 0.5f : 0.5f - t);
+}
+
+/// The place of a sample from the middle of its pixel, in pixels.
+vec2 samplePixelFilter(int filterKind, float u, float v) {
+  if (filterKind == kGaussianFilter) {
+    // Box and Muller's polar form, the radius cut off.
+    const float most = float(0.99966453737209749);  // 1 - exp(-4^2 / 2)
+    float radius = kGaussianDeviation * sqrt(max(0.0f, -2.0f * log(1.0f - most * u)));
+    float angle = 2.0f * kPi * v;
+    return radius * vec2(cos(angle), sin(angle));
+  }
+  if (filterKind == kBlackmanHarrisFilter) return vec2(sampleBlackmanHarris(u), sampleBlackmanHarris(v));
+  return vec2(u - 0.5f, v - 0.5f);
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Options whose value is one of some names.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "errors.h"
+
+namespace fragtrace {
+
+template <typename Names>
+std::string joined(const Names& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + std::string(name);
+  return text;
+}
+
+/// The value of a name in a list of names whose order is that of the values. Throws UsageError.
+template <typename Value, typename Names>
+Value choose(const char* option, const std::string& name, const Names& names) {
+  int index = 0;
+  for (const auto& candidate : names) {
+    if (name == candidate) return Value(index);
+    ++index;
+  }
+  throw UsageError(std::string(option) + ": '" + name + "' is none of " + joined(names));
+}
+
+}  // namespace fragtrace

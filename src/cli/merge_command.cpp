@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// `fragtrace merge`: parts of one render, made with --sample-offset, joined into what one run gives.
+#include <algorithm>
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "cli/provenance.h"
+#include "errors.h"
+#include "image/channels.h"
+#include "image/whole_file.h"
+
+namespace fragtrace {
+
+namespace {
+
+struct Part {
+  std::filesystem::path path;
+  Image image;
+  Provenance made;
+};
+
+Part readPart(const std::filesystem::path& path) {
+  Part part{path, readImage(path), {}};
+  part.made = provenanceOf(part.image, path);
+  if (!part.made.uniform) {
+    throw InputError(
+        path.string() +
+        ": its pixels differ in samples (adaptive or interrupted), so it is no part of a render");
+  }
+  if (part.made.samples < 1) throw InputError(path.string() + ": holds no sample");
+  return part;
+}
+
+/// Both must be of one render, and `next` must begin where `first` ends.
+void checkNext(const Part& first, const Part& next) {
+  const std::string both = first.path.string() + " and " + next.path.string();
+  if (first.image.width != next.image.width || first.image.height != next.image.height ||
+      first.image.channels != next.image.channels)
+    throw InputError(both + ": differ in size or layers");
+  if (first.made.settings != next.made.settings)
+    throw InputError(both + ": were made with different settings: " + first.made.settings + " and " +
+                     next.made.settings);
+  if (first.made.seed != next.made.seed)
+    throw InputError(both + ": were made with different seeds, " + std::to_string(first.made.seed) + " and " +
+                     std::to_string(next.made.seed));
+  const int64_t end = first.made.sampleOffset + first.made.samples;
+  if (next.made.sampleOffset < end)
+    throw InputError(both + ": overlap, both hold sample " + std::to_string(next.made.sampleOffset));
+  if (next.made.sampleOffset > end)
+    throw InputError(both + ": samples " + std::to_string(end) + " to " +
+                     std::to_string(next.made.sampleOffset - 1) + " are missing between them");
+}
+
+double luminanceOf(const float* pixel) { return 0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2]; }
+
+/// Means weighed by samples; counts added; variances of the means joined as if all samples had been seen
+/// (Chan, Golub and LeVeque, 1979). The colour channels are the first three.
+Image joined(const std::vector<Part>& parts) {
+  Image result = parts.front().image;
+  const size_t channels = result.channelCount();
+  const auto counts = findChannel(result, "samples.Y");
+  const auto variance = findChannel(result, "variance.Y");
+  double total = 0.0;
+  for (const Part& part : parts) total += double(part.made.samples);
+  for (size_t first = 0; first < result.values.size(); first += channels) {
+    std::vector<double> sums(channels, 0.0);
+    for (const Part& part : parts) {
+      for (size_t c = 0; c < channels; ++c)
+        sums[c] += double(part.image.values[first + c]) * double(part.made.samples);
+    }
+    for (size_t c = 0; c < channels; ++c) result.values[first + c] = float(sums[c] / total);
+    if (counts) result.values[first + *counts] = float(total);
+    if (variance) {
+      double m2 = 0.0;
+      for (const Part& part : parts) {
+        const double n = double(part.made.samples);
+        const double apart = luminanceOf(&part.image.values[first]) - luminanceOf(&result.values[first]);
+        m2 += part.image.values[first + *variance] * n * (n - 1.0) + n * apart * apart;
+      }
+      result.values[first + *variance] = float(m2 / (total * std::max(1.0, total - 1.0)));
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+int runMerge(const MergeOptions& options) {
+  std::vector<Part> parts;
+  for (const std::filesystem::path& path : options.parts) parts.push_back(readPart(path));
+  std::sort(parts.begin(), parts.end(),
+            [](const Part& a, const Part& b) { return a.made.sampleOffset < b.made.sampleOffset; });
+  for (size_t i = 1; i < parts.size(); ++i) checkNext(parts[i - 1], parts[i]);
+  Image result = joined(parts);
+  Provenance made = parts.front().made;
+  for (size_t i = 1; i < parts.size(); ++i) made.samples += parts[i].made.samples;
+  setProvenance(result, made);
+  writeImage(options.output, result);
+  return 0;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "cli/render_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "cli/choose.h"
+#include "image/format.h"
+#include "image/image.h"
+
+namespace fragtrace {
+
+namespace {
+
+std::vector<std::string> stageNames(bool cumulativeOnly) {
+  std::vector<std::string> names;
+  for (const StageRow& row : stageRows()) {
+    if (row.cumulative || !cumulativeOnly) names.emplace_back(row.name);
+  }
+  return names;
+}
+
+Stage stageNamed(const char* option, const std::string& name) {
+  const std::optional<Stage> stage = parseStage(name);
+  if (!stage)
+    throw UsageError(std::string(option) + ": '" + name + "' is none of " + joined(stageNames(false)));
+  return *stage;
+}
+
+std::optional<glm::dvec3> vectorOf(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  return glm::dvec3(values[0], values[1], values[2]);
+}
+
+int parseBounces(const std::string& text) {
+  if (text == "unlimited") return kUnlimitedBounces;
+  int value = -1;
+  if (!CLI::detail::lexical_cast(text, value) || value < 0) {
+    throw UsageError("--bounces: '" + text + "' is neither a number from 0 on nor 'unlimited'");
+  }
+  return value;
+}
+
+void checkFinite(const RenderOptions& o) {
+  const auto check = [](const char* option, double value) {
+    if (!std::isfinite(value)) throw UsageError(std::string(option) + ": not a finite number");
+  };
+  const auto checkVector = [&](const char* option, const std::optional<glm::dvec3>& v) {
+    for (int i = 0; v && i < 3; ++i) check(option, (*v)[i]);
+  };
+  check("--exposure", o.exposure);
+  check("--hdri-rotation", o.hdriRotationDegrees);
+  checkVector("--camera-position", o.camera.position);
+  checkVector("--camera-focal-point", o.camera.focalPoint);
+  checkVector("--camera-view-up", o.camera.viewUp);
+  checkVector("--background-color", glm::dvec3(o.backgroundColor));
+  if (o.camera.viewUp && *o.camera.viewUp == glm::dvec3(0.0)) throw UsageError("--camera-view-up: is zero");
+  constexpr double kFarthest = 1e9;  // metres, as for scenes
+  for (const auto& place : {o.camera.position, o.camera.focalPoint}) {
+    if (place && glm::length(*place) > kFarthest)
+      throw UsageError("camera: farther than 1e9 m from the origin");
+  }
+  if (glm::any(glm::lessThan(o.backgroundColor, glm::vec3(0.0f))))
+    throw UsageError("--background-color: below 0");
+}
+
+constexpr std::array<std::string_view, 5> kLayerNames{"albedo", "normal", "depth", "samples", "variance"};
+
+void chooseLayers(const std::vector<std::string>& names, RenderOptions& o) {
+  for (const std::string& name : names) {
+    const int index = choose<int>("--aov", name, kLayerNames);
+    if (index == 3) o.aovSamples = true;
+    if (index == 4) o.aovVariance = true;
+    const Feature feature = Feature(index + 1);
+    if (index < 3 && std::ranges::find(o.aovFeatures, feature) == o.aovFeatures.end())
+      o.aovFeatures.push_back(feature);
+  }
+}
+
+/// Of any pixel: sample indices have 32 bits, targets of the film 30.
+constexpr int kMostSamples = 1 << 29;
+
+}  // namespace
+
+RenderOptions finishRender(const RawRender& raw) {
+  RenderOptions o = raw.options;
+  o.scene = raw.scene;
+  o.output = raw.output;
+  if (!raw.output.empty() && !isWritableImageName(o.output)) {
+    throw UsageError("--output: '" + raw.output + "' ends in none of .png, .jpg, .exr, .hdr, .pfm");
+  }
+  if (!raw.resolution.empty()) o.resolution = glm::ivec2(raw.resolution[0], raw.resolution[1]);
+  o.stages = stagesUpTo(choose<Stage>("--stage", raw.stage, stageNames(true)));
+  if (choose<int>("--fresnel", raw.fresnel, std::vector<std::string>{"exact", "schlick"}) == 1) {
+    o.stages.set(size_t(Stage::Schlick));
+  }
+  if (choose<int>("--energy-compensation", raw.compensation, std::vector<std::string>{"on", "off"}) == 1) {
+    o.stages.reset(size_t(Stage::EnergyCompensation));
+  }
+  if (choose<int>("--sampler", raw.sampler, std::vector<std::string>{"sobol", "random"}) == 1) {
+    o.stages.reset(size_t(Stage::Sobol));
+  }
+  if (choose<int>("--light-sampling", raw.lightSampling, std::vector<std::string>{"nee", "bsdf"}) == 1) {
+    o.stages.reset(size_t(Stage::LightSampling));
+  }
+  for (const std::string& name : raw.enable) o.stages.set(size_t(stageNamed("--enable", name)));
+  for (const std::string& name : raw.disable) o.stages.reset(size_t(stageNamed("--disable", name)));
+  o.bounces = parseBounces(raw.bounces);
+  o.camera.position = vectorOf(raw.position);
+  o.camera.focalPoint = vectorOf(raw.focalPoint);
+  o.camera.viewUp = vectorOf(raw.viewUp);
+  if (auto color = vectorOf(raw.backgroundColor)) o.backgroundColor = glm::vec3(*color);
+  o.hdriFile = raw.hdriFile;
+  o.background = !raw.noBackground;
+  o.defaultLight = !raw.noDefaultLight;
+  o.pixelFilter = choose<PixelFilter>("--pixel-filter", raw.pixelFilter, kPixelFilterNames);
+  o.toneMap = choose<ToneMap>("--tone-map", raw.toneMap, toneMapNames());
+  o.traversal = choose<TraversalMethod>(
+      "--traversal", raw.traversal, std::vector<std::string>{"auto", "iterative", "bvh", "front-to-back"});
+  o.backend =
+      choose<Backend>("--rendering-backend", raw.backend, std::vector<std::string>{"auto", "egl", "osmesa"});
+  o.bufferReads =
+      choose<BufferReads>("--buffer-reads", raw.reads, std::vector<std::string>{"auto", "ssbo", "image"});
+  o.statsFile = raw.statsFile;
+  o.shaderFolder = raw.shaderFolder;
+  chooseLayers(raw.aov, o);
+  if (!raw.aov.empty() && formatOfName(o.output) != ImageFormat::OpenExr) {
+    throw UsageError("--aov: only .exr files hold more layers");
+  }
+  const bool adaptive = o.noise > 0.0 || o.seconds > 0.0;
+  if (raw.spp) o.spp = *raw.spp;
+  if (adaptive && !raw.spp) o.spp = kMostSamples;
+  if (adaptive && o.spp < 2) throw UsageError("--spp: --noise and --time need at least 2");
+  if (int64_t(o.sampleOffset) + o.spp > kMostSamples && !adaptive)
+    throw UsageError("--sample-offset: with --spp it goes beyond sample " + std::to_string(kMostSamples));
+  checkFinite(o);
+  return o;
+}
+
+void addRenderOptions(CLI::App& app, RawRender& raw) {
+  RenderOptions& o = raw.options;
+  const int kMost = std::numeric_limits<int>::max() / 4;
+  app.add_option("--resolution", raw.resolution,
+                 "WIDTH,HEIGHT; default 1280,720, or 720 high at the camera's aspect ratio")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(CLI::Range(1, 65536));
+  app.add_option("--stage", raw.stage, joined(stageNames(true)) + "; each turns on itself and all before it")
+      ->capture_default_str();
+  app.add_option("--enable", raw.enable, "switches over that: " + joined(stageNames(false)))
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--disable", raw.disable, "switches off, over that")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--spp", raw.spp,
+                 "camera paths a pixel, default 64; with --noise or --time the most, default unlimited")
+      ->check(CLI::Range(1, kMostSamples));
+  app.add_option("--noise", o.noise,
+                 "sample until 95 % of the pixels have a relative error below this, such as 0.01")
+      ->check(CLI::Range(1e-5, 1.0));
+  app.add_option("--time", o.seconds, "seconds to draw, sampling where it helps most")
+      ->check(CLI::Range(0.01, 1e7));
+  app.add_option("--sample-offset", o.sampleOffset,
+                 "index of the first sample: continues a seed's sequence (see merge)")
+      ->check(CLI::Range(0, kMostSamples))
+      ->capture_default_str();
+  app.add_option("--sampler", raw.sampler, "sobol, random: where sample points come from")
+      ->capture_default_str();
+  app.add_option("--seed", o.seed, "of the sample points, 0 to 4294967295")->capture_default_str();
+  app.add_option("--bounces", raw.bounces, "scatterings of a path, or 'unlimited'")->capture_default_str();
+  app.add_option("--rr-depth", o.rouletteDepth, "Russian roulette from this scattering on")
+      ->check(CLI::Range(1, kMost))
+      ->capture_default_str();
+  app.add_option("--fresnel", raw.fresnel, "exact, schlick: of glass")->capture_default_str();
+  app.add_option("--energy-compensation", raw.compensation, "on, off: of rough surfaces in gi")
+      ->capture_default_str();
+  app.add_option("--light-sampling", raw.lightSampling,
+                 "nee, bsdf: lights are sampled in gi, or found by scattered rays only")
+      ->capture_default_str();
+  app.add_option(
+         "--clamp-indirect", o.clampIndirect,
+         "most radiance that light of two scatterings or more may add to a sample: fewer bright dots, "
+         "but biased")
+      ->check(CLI::Range(1e-6, 1e30));
+  app.add_option("--camera-index", o.cameraIndex,
+                 "camera of the scene, from 0; default: the first, else one that frames it");
+  app.add_option("--camera-position", raw.position, "X,Y,Z in world space")->delimiter(',')->expected(3);
+  app.add_option("--camera-focal-point", raw.focalPoint, "X,Y,Z")->delimiter(',')->expected(3);
+  app.add_option("--camera-view-up", raw.viewUp, "X,Y,Z")->delimiter(',')->expected(3);
+  app.add_option("--camera-view-angle", o.camera.viewAngleDegrees, "vertical, in degrees");
+  app.add_option("--hdri-file", raw.hdriFile, "equirectangular environment: .hdr, .exr, .pfm");
+  app.add_option("--hdri-rotation", o.hdriRotationDegrees, "degrees about +Y")->capture_default_str();
+  app.add_flag("--no-background", raw.noBackground, "camera rays that miss see nothing; alpha is written");
+  app.add_option("--background-color", raw.backgroundColor, "R,G,B, linear; seen by camera rays only")
+      ->delimiter(',')
+      ->expected(3);
+  app.add_flag("--no-default-light", raw.noDefaultLight, "a scene without any light stays dark");
+  app.add_option("--pixel-filter", raw.pixelFilter, joined(kPixelFilterNames))->capture_default_str();
+  app.add_option("--aov", raw.aov, joined(kLayerNames) + ": more layers in an .exr")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--exposure", o.exposure, "EV, for .png and .jpg")->capture_default_str();
+  app.add_option("--tone-map", raw.toneMap, "linear, reinhard, aces, agx, neutral, for .png and .jpg")
+      ->capture_default_str();
+  app.add_option("--traversal", raw.traversal, "auto, iterative, bvh, front-to-back: how rays find triangles")
+      ->capture_default_str();
+  app.add_option("--rendering-backend", raw.backend, "auto, egl, osmesa")->capture_default_str();
+  app.add_option("--buffer-reads", raw.reads, "auto, ssbo, image: how the shader reads the scene")
+      ->capture_default_str();
+  app.add_option("--stats", raw.statsFile, "JSON file for the statistics");
+  app.add_option("--shader-folder", raw.shaderFolder,
+                 "read the shaders from here in place of the built-in ones");
+  app.add_flag("--quiet", o.quiet, "print nothing but errors");
+  app.add_flag("--verbose", o.verbose, "print what is chosen and what it takes");
+}
+
+}  // namespace fragtrace

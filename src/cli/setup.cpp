@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "cli/setup.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "cli/outputs.h"
+#include "errors.h"
+#include "gltf/gltf.h"
+#include "image/format.h"
+#include "image/image.h"
+#include "pack/pack_tree.h"
+
+namespace fragtrace {
+
+namespace {
+
+Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
+  Camera camera;
+  if (options.cameraIndex) {
+    if (*options.cameraIndex < 0 || size_t(*options.cameraIndex) >= scene.cameras.size()) {
+      throw UsageError("--camera-index: " + std::to_string(*options.cameraIndex) + ", but the scene has " +
+                       std::to_string(scene.cameras.size()) + " cameras (counted from 0)");
+    }
+    camera = scene.cameras[size_t(*options.cameraIndex)];
+  } else {
+    camera = scene.cameras.empty() ? frameScene(scene.bounds) : scene.cameras.front();
+  }
+  return withOverrides(camera, options.camera, scene.bounds);
+}
+
+glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options) {
+  if (options.resolution) return *options.resolution;
+  if (camera.aspectRatio <= 0.0) return {1280, 720};
+  return {std::clamp(int(std::lround(720.0 * camera.aspectRatio)), 1, 16384), 720};
+}
+
+Environment loadEnvironment(const RenderOptions& options, const Scene& scene) {
+  Environment environment;
+  if (!options.hdriFile.empty()) {
+    environment.kind = Surroundings::Map;
+    environment.image = readImage(options.hdriFile);
+    if (environment.image.channelCount() < 3) throw InputError(options.hdriFile.string() + ": has no colour");
+  } else if (options.defaultLight && !hasOwnLight(scene)) {
+    environment.kind = Surroundings::DefaultLight;
+    environment.image = {1, 1, {"R", "G", "B"}, {1.0f, 1.0f, 1.0f}, {}};
+  }
+  return environment;
+}
+
+View makeView(const RenderOptions& options, const Scene& scene, const Camera& camera) {
+  View view;
+  view.camera = camera;
+  view.sceneOrigin = scene.origin;
+  view.hdriRotation = glm::radians(options.hdriRotationDegrees);
+  view.background = options.background ? options.backgroundColor : glm::vec3(0.0f);
+  view.showEnvironment = options.background && !options.hdriFile.empty();
+  view.bounces = options.bounces;
+  view.rouletteDepth = options.rouletteDepth;
+  view.seed = options.seed;
+  view.sampleOffset = options.sampleOffset;
+  view.clampIndirect = float(options.clampIndirect);
+  return view;
+}
+
+/// FNV-1a over the words of all buffers.
+uint64_t hashOf(const GpuScene& scene) {
+  uint64_t hash = 0xcbf29ce484222325u;
+  for (const Words& buffer : scene.buffers) {
+    for (const uint32_t word : buffer) hash = (hash ^ word) * 0x100000001b3u;
+    hash = (hash ^ buffer.size()) * 0x100000001b3u;
+  }
+  return hash;
+}
+
+}  // namespace
+
+void say(const RenderOptions& options, const std::string& text) {
+  if (!options.quiet) std::fprintf(stderr, "fragtrace: %s\n", text.c_str());
+}
+
+LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
+  Stopwatch watch;
+  LoadedScene loaded;
+  GltfOptions loading;
+  loading.recenterOn = options.camera.focalPoint;
+  loaded.scene = loadGltf(options.scene, loading);
+  const Scene& scene = loaded.scene;
+  checkOutputs(options, scene);
+  if (scene.triangles.empty() && scene.spheres.empty()) {
+    say(options, "warning: " + options.scene.string() + ": no triangle and no sphere, nothing to draw");
+  }
+  loaded.environment = loadEnvironment(options, scene);
+  loaded.camera = chooseCamera(scene, options);
+  loaded.size = chooseSize(loaded.camera, options);
+  loaded.view = makeView(options, scene, loaded.camera);
+  stats.scene = describe(scene);
+  stats.warnings = scene.warnings;
+  stats.size = loaded.size;
+  stats.loadMs = watch.lap();
+  for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
+  stats.defaultLight = loaded.environment.kind == Surroundings::DefaultLight;
+  if (stats.defaultLight) {
+    say(options,
+        "no light in the scene: a white environment that the camera does not see lights it "
+        "(--no-default-light)");
+  }
+  // The iterative traversal needs no tree.
+  const bool iterative = options.traversal == TraversalMethod::Iterative;
+  loaded.bvh =
+      iterative ? listLeaves(scene) : buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
+  stats.bvh = bvhQuality(loaded.bvh);
+  stats.bvhBuildMs = watch.lap();
+  return loaded;
+}
+
+Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
+                  Statistics& stats) {
+  const TraitSet present = traitsOf(loaded.scene, loaded.environment.kind);
+  const BufferReads reads = chooseReads(options.bufferReads, context.software);
+  const uint32_t depth = loaded.bvh.depth;
+  Tracer tracer;
+  tracer.variant = chooseVariant(options, present, loaded.environment.kind, depth, reads);
+  ShaderVariant everything = tracer.variant;
+  for (const Feature feature : options.aovFeatures) {
+    tracer.features.push_back(
+        chooseFeatureVariant(options, present, loaded.environment.kind, depth, reads, feature));
+    everything.traits |= tracer.features.back().traits;
+  }
+  stats.variant = variantName(tracer.variant);
+  if (tracer.variant.clampIndirect) stats.clampIndirect = options.clampIndirect;
+  stats.backend = context.backend;
+  stats.glRenderer = context.renderer;
+  stats.glVersion = context.version;
+  for (const StageRow& row : stageRows()) {
+    const std::string reason = has(options.stages, row.stage) ? whyOff(row.stage, present) : "";
+    if (!reason.empty()) stats.skipped.push_back(std::string(row.name) + ": " + reason);
+  }
+  Stopwatch watch;
+  const GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything);
+  stats.sceneBytes = packed.bytes();
+  if (formatOfName(options.output) == ImageFormat::OpenExr) tracer.sceneHash = hashOf(packed);
+  stats.packMs = watch.lap();
+  tracer.renderer = std::make_unique<Renderer>(context, packed, reads, options.shaderFolder);
+  stats.uploadMs = watch.lap();
+  return tracer;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// From options to a scene that is ready to be drawn: what every front end does before its first draw.
+#pragma once
+
+#include <chrono>
+#include <memory>
+
+#include "bvh/bvh.h"
+#include "cli/statistics.h"
+#include "render/renderer.h"
+#include "stage/options.h"
+
+namespace fragtrace {
+
+/// A scene with all that is seen around it and from where; no OpenGL yet.
+struct LoadedScene {
+  Scene scene;
+  Environment environment;
+  Camera camera;
+  glm::ivec2 size{0};
+  Bvh bvh;
+  View view;
+};
+
+/// Loads scene and environment, chooses camera and size, builds the tree; fills in the statistics of that.
+/// Says warnings on stderr unless quiet. Throws InputError, UsageError.
+LoadedScene loadScene(const RenderOptions& options, Statistics& stats);
+
+/// The scene on the device, and the variant that the options ask for.
+struct Tracer {
+  ShaderVariant variant;
+  std::vector<ShaderVariant> features;  ///< in the order of options.aovFeatures
+  std::unique_ptr<Renderer> renderer;
+  uint64_t sceneHash = 0;  ///< of all that was uploaded; only for .exr, which keeps it
+};
+
+/// Packs and uploads what the variants need. Throws InputError, RenderError.
+Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
+                  Statistics& stats);
+
+/// Says a line on stderr unless quiet.
+void say(const RenderOptions& options, const std::string& text);
+
+/// Milliseconds since the last call.
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = Clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return ms;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace fragtrace

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Samples where they are needed: until the picture's noise or the time is what was asked for.
+#pragma once
+
+#include "render/noise.h"
+#include "render/renderer.h"
+
+namespace fragtrace {
+
+struct AdaptiveGoal {
+  double noise =
+      0.0;  ///< relative error that 95 % of the pixels are to stay under; 0: as good as time allows
+  double seconds = 0.0;  ///< for drawing; 0: no limit
+  int mostSamples = 0;   ///< of any pixel
+};
+
+struct AdaptivePicture {
+  FilmPixels pixels;
+  std::vector<double> variance;  ///< of each pixel's mean, as estimated
+  double error = 0.0;            ///< the relative error that 95 % of the pixels are estimated to stay under
+  double share = 0.0;            ///< of the pixels that are under the noise asked for
+  int rounds = 0;
+  bool stopped = false;  ///< by progress
+};
+
+/// Draws two halves of the samples in rounds. The number of samples doubles in blocks of 8 x 8 pixels, so
+/// that Sobol sequences stay whole: where more than 5 % of a block's pixels are above the noise asked for, or
+/// without such a goal where a sample brings most. The renderer's current variant is used.
+AdaptivePicture renderAdaptively(Renderer& renderer, glm::ivec2 size, const View& view,
+                                 const AdaptiveGoal& goal, RenderTimes& times,
+                                 const Renderer::Progress& progress);
+
+}  // namespace fragtrace

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The film on the host: what was summed in each pixel, and what follows from it.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "image/image.h"
+
+namespace fragtrace {
+
+/// What one pixel holds (shaders/film.glsl).
+struct FilmPixel {
+  glm::dvec3 sum{0.0};  ///< of radiance, or of a feature
+  double alpha = 0.0;   ///< sum
+  double m2 = 0.0;      ///< sum of squared deviations of the samples' luminance from its mean
+  uint32_t samples = 0;
+  uint32_t rays = 0;
+  uint32_t nonfinite = 0;
+  uint32_t flags = 0;
+
+  glm::dvec3 mean() const { return sum / double(samples > 0 ? samples : 1); }
+  double luminance() const { return glm::dot(mean(), glm::dvec3(0.2126, 0.7152, 0.0722)); }
+  /// Of the mean's luminance, from samples taken as independent; 0 below two samples.
+  double variance() const { return samples > 1 ? m2 / (double(samples) * (double(samples) - 1.0)) : 0.0; }
+};
+
+/// size.x * size.y pixels, the first row at the bottom as OpenGL has it.
+struct FilmPixels {
+  glm::ivec2 size{0};
+  std::vector<FilmPixel> pixels;
+};
+
+/// What the film counted, over all pixels.
+struct FilmTotals {
+  uint64_t samples = 0;
+  uint64_t rays = 0;
+  uint64_t emptyPixels = 0;  ///< without any sample
+  uint64_t nonfinitePixels = 0;
+  uint64_t budgetHits = 0;  ///< pixels in which a loop was ended by the driver: the picture is wrong
+  uint32_t fewestSamples = 0;
+  uint32_t mostSamples = 0;
+};
+FilmTotals totalsOf(const FilmPixels& film);
+
+/// The samples of both (of one size), as if drawn on one film (Chan, Golub and LeVeque, 1979, for m2).
+FilmPixels pooled(const FilmPixels& a, const FilmPixels& b);
+
+/// Channels that a picture can have beside R, G and B.
+struct Layers {
+  bool alpha = false;     ///< A
+  bool samples = false;   ///< samples.Y
+  bool variance = false;  ///< variance.Y: of the mean's luminance
+};
+
+/// Means of the samples, the first row at the top. `variance`, if not empty, holds a better estimate than
+/// FilmPixel::variance, in the order of the pixels.
+Image imageOf(const FilmPixels& film, const Layers& layers, std::span<const double> variance = {});
+
+}  // namespace fragtrace
