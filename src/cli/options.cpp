@@ -56,9 +56,9 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   CLI::App& diff = *app.add_subcommand("diff", "compare a picture with a reference");
   diff.add_option("picture", picture)->required();
   diff.add_option("reference", reference)->required();
-  diff.add_option("--metric", metric, "rmse, mse, relmse, psnr, max")->capture_default_str();
+  diff.add_option("--metric", metric, "rmse, mse, relmse, psnr, max, flip")->capture_default_str();
   diff.add_option("--threshold", line.diff.threshold, "status 1 when the metric is worse than this");
-  diff.add_option("--outfile", outfile, "picture of the absolute differences");
+  diff.add_option("--outfile", outfile, "picture of the absolute differences, or of the FLIP error");
 
   std::vector<std::string> parts;
   std::string mergedName;

@@ -1,30 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "cli/statistics.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
 #include "cli/scene_json.h"
 #include "image/whole_file.h"
+#include "math/summary.h"
 
 namespace fragtrace {
 
 namespace {
 
-nlohmann::ordered_json timesJson(std::vector<double> ms) {
+nlohmann::ordered_json timesJson(const std::vector<double>& ms) {
   nlohmann::ordered_json json;
   if (ms.empty()) return json;
-  std::sort(ms.begin(), ms.end());
-  const double mean = std::accumulate(ms.begin(), ms.end(), 0.0) / double(ms.size());
-  double squares = 0.0;
-  for (double x : ms) squares += (x - mean) * (x - mean);
-  const auto quantile = [&](double q) { return ms[size_t(std::ceil(q * double(ms.size()))) - 1]; };
-  json["median"] = quantile(0.5);
-  json["mean"] = mean;
-  json["stddev"] = std::sqrt(squares / double(std::max<size_t>(1, ms.size() - 1)));
-  json["min"] = ms.front();
-  json["p95"] = quantile(0.95);
+  const Summary summary = summarize(ms);
+  json["median"] = summary.median;
+  json["mean"] = summary.mean;
+  json["stddev"] = summary.stddev;
+  json["min"] = summary.min;
+  json["p95"] = summary.p95;
   return json;
 }
 

@@ -4,43 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
+#include <limits>
 
-#include "errors.h"
-#include "image/channels.h"
+#include "image/comparable.h"
 
 namespace fragtrace {
 namespace {
 
-constexpr std::array<std::string_view, 5> kMetricNames{"rmse", "mse", "relmse", "psnr", "max"};
-
-/// Reads the colour of a picture, pixel by pixel.
-struct ColorReader {
-  const Image& image;
-  std::array<size_t, 3> channels;
-
-  double operator()(size_t pixel, size_t color) const {
-    return image.values[pixel * image.channelCount() + channels[color]];
-  }
-};
-
-ColorReader colorReader(const Image& image, const char* which) {
-  const auto channels = findColorChannels(image);
-  if (!channels) throw RenderError(std::string("cannot compare: the ") + which + " has no colour channels");
-  return {image, *channels};
-}
-
-std::string sizeText(const Image& image) {
-  return std::to_string(image.width) + " x " + std::to_string(image.height);
-}
-
-/// The number of pixels, which must be the same in both.
-size_t commonPixelCount(const Image& picture, const Image& reference) {
-  if (picture.width != reference.width || picture.height != reference.height)
-    throw RenderError("cannot compare: the sizes differ, " + sizeText(picture) + " against " +
-                      sizeText(reference) + " pixels");
-  return size_t(picture.width) * size_t(picture.height);
-}
+constexpr std::array<std::string_view, 6> kMetricNames{"rmse", "mse", "relmse", "psnr", "max", "flip"};
 
 }  // namespace
 
@@ -100,8 +71,8 @@ std::optional<Metric> parseMetric(std::string_view name) {
 }
 
 double metricValue(const Difference& difference, Metric metric) {
-  const std::array values{difference.rmse, difference.mse, difference.relmse, difference.psnr,
-                          difference.maximum};
+  const std::array values{difference.rmse, difference.mse,     difference.relmse,
+                          difference.psnr, difference.maximum, std::numeric_limits<double>::quiet_NaN()};
   return values[size_t(metric)];
 }
 

@@ -20,7 +20,7 @@ struct Difference {
   double maximum = 0;  ///< largest |a - b|
 };
 
-enum class Metric { Rmse, Mse, Relmse, Psnr, Max };
+enum class Metric { Rmse, Mse, Relmse, Psnr, Max, Flip };
 
 /// Compares in double precision. A NaN in either picture makes every metric NaN; an infinity makes each of
 /// them NaN or infinite (psnr NaN or minus infinity). Throws RenderError when the sizes differ or a picture
@@ -33,6 +33,8 @@ Image differenceImage(const Image& picture, const Image& reference);
 /// The metrics' names on the command line, in the order of Metric.
 std::span<const std::string_view> metricNames();
 std::optional<Metric> parseMetric(std::string_view name);
+
+/// NaN for Flip, which looks at more than single pixels and is flipError's (image/flip.h).
 double metricValue(const Difference& difference, Metric metric);
 
 /// True when the value is at most the threshold, or for psnr, of which more is better, at least. NaN is never

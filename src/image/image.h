@@ -38,6 +38,10 @@ struct TexelImage {
 /// unassociated there. Throws InputError.
 Image readImage(const std::filesystem::path& path);
 
+/// The same as shown on a display: .exr, .hdr and .pfm (by their first bytes) through toDefaultDisplay, the
+/// rest as stored. Throws InputError, or RenderError where there is no colour to tone-map.
+Image readDisplayImage(const std::filesystem::path& path);
+
 /// Decodes an encoded picture held in memory (glTF textures). Throws InputError naming `name`.
 TexelImage decodeTexels(std::span<const uint8_t> bytes, const std::string& name);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// readImage and decodeTexels: the format is chosen by the first bytes, the file's name only stands in
-// messages.
+// readImage, readDisplayImage and decodeTexels: the format is chosen by the first bytes, the file's name only
+// stands in messages.
 #include <new>
 #include <stdexcept>
 
@@ -11,6 +11,7 @@
 #include "image/library.h"
 #include "image/pfm.h"
 #include "image/png.h"
+#include "image/tone_map.h"
 #include "image/whole_file.h"
 
 namespace fragtrace {
@@ -39,15 +40,25 @@ auto decodeNamed(const std::string& name, Decode decode) {
   }
 }
 
-}  // namespace
-
-Image readImage(const std::filesystem::path& path) {
-  const std::vector<uint8_t> bytes = readWholeFile(path);
+Image decodeImage(std::span<const uint8_t> bytes, const std::filesystem::path& path) {
   return decodeNamed(path.string(), [&] {
     const ImageFormat format = checkedFormat(bytes);
     if (format == ImageFormat::Pfm) return decodePfm(bytes);
     return imageLibrary().decode(bytes, format);
   });
+}
+
+}  // namespace
+
+Image readImage(const std::filesystem::path& path) { return decodeImage(readWholeFile(path), path); }
+
+Image readDisplayImage(const std::filesystem::path& path) {
+  const std::vector<uint8_t> bytes = readWholeFile(path);
+  Image image = decodeImage(bytes, path);
+  const auto format = formatOfBytes(bytes);
+  const bool isLinear =
+      format == ImageFormat::OpenExr || format == ImageFormat::Hdr || format == ImageFormat::Pfm;
+  return isLinear ? toDefaultDisplay(image) : image;
 }
 
 TexelImage decodeTexels(std::span<const uint8_t> bytes, const std::string& name) {

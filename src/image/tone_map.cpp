@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/mat3x3.hpp>
+#include <limits>
 
 #include "errors.h"
 #include "image/channels.h"
@@ -124,6 +125,10 @@ double encodeSrgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
+double decodeSrgb(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
 Image toDisplay(const Image& linear, double exposureEv, ToneMap toneMap) {
   const auto channels = findColorChannels(linear);
   if (!channels) throw RenderError("cannot tone-map a picture without colour channels");
@@ -147,6 +152,19 @@ Image toDisplay(const Image& linear, double exposureEv, ToneMap toneMap) {
     for (int c = 0; c < 3; ++c) display.values.push_back(float(encodeSrgb(color[c])));
     if (alphaChannel) display.values.push_back(float(alpha));
   }
+  return display;
+}
+
+Image toDefaultDisplay(const Image& linear) {
+  Image display = toDisplay(linear, 0, ToneMap::Neutral);
+  for (float& value : display.values) value = std::round(value * 255.0F) * (1 / 255.0F);  // as it is read
+
+  const auto channels = findColorChannels(linear).value();  // toDisplay has thrown where there are none
+  const size_t pixelCount = size_t(linear.width) * size_t(linear.height);
+  for (size_t i = 0; i < pixelCount; ++i)
+    for (size_t c = 0; c < 3; ++c)
+      if (!std::isfinite(linear.values[i * linear.channelCount() + channels[c]]))
+        display.values[i * display.channelCount() + c] = std::numeric_limits<float>::quiet_NaN();
   return display;
 }
 

@@ -23,10 +23,18 @@ glm::dvec3 applyToneMap(ToneMap toneMap, glm::dvec3 color);
 /// The sRGB transfer function (IEC 61966-2-1) of a linear value in 0..1.
 double encodeSrgb(double linear);
 
+/// Its inverse: the linear value of an encoded one in 0..1.
+double decodeSrgb(double encoded);
+
 /// R, G, B in 0..1, sRGB-encoded, after a factor of 2^exposureEv and the curve. With a channel A the colour
 /// is taken as premultiplied and returned unassociated, with A; colour is 0 where A is. Other channels are
 /// dropped. For a format without alpha pass withoutAlpha(linear), which puts it over black. Throws
 /// RenderError without colour.
 Image toDisplay(const Image& linear, double exposureEv, ToneMap toneMap);
+
+/// What a .png holds of a linear picture by default, as readImage reads it: toDisplay at exposure 0 with the
+/// neutral curve, rounded to 8 bits. Only colour that is not finite becomes NaN, so that no comparison takes
+/// a broken picture for a good one. Throws as toDisplay does.
+Image toDefaultDisplay(const Image& linear);
 
 }  // namespace fragtrace

@@ -6,13 +6,11 @@
 #include <glm/gtc/packing.hpp>
 
 #include "errors.h"
+#include "image/tone_map.h"
 
 namespace fragtrace {
 
 namespace {
-
-/// IEC 61966-2-1.
-double decodeSrgb(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); }
 
 struct CurveTable {
   std::vector<uint16_t> half;

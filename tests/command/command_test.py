@@ -151,6 +151,31 @@ class ExitStatuses(Case):
         self.assertEqual(run("diff", a, a, "--metric", "psnr", "--threshold", "99").returncode, 0)
         self.assertEqual(run("diff", a, b, "--metric", "psnr", "--threshold", "99").returncode, 1)
 
+    def test_flip_takes_a_linear_picture_as_the_png_that_render_writes(self):
+        flip = lambda *arguments: run("diff", *arguments, "--metric", "flip")
+        for suffix in (".exr", ".pfm", ".png"):
+            for seed in "17":
+                path = self.folder / (seed + suffix)
+                self.renders(SCENES / "cornell-box.gltf", "-o", path, *SMALL, "--seed", seed)
+        one, seven = ([self.folder / (seed + suffix) for suffix in (".exr", ".pfm", ".png")] for seed in "17")
+        for path in one:
+            self.assertEqual(float(flip(path, one[2]).stdout), 0, path)
+        values = {flip(a, b).stdout for a in one for b in seven}
+        self.assertEqual(len(values), 1, values)
+        self.assertGreater(float(values.pop()), 0.1)
+        self.assertEqual(flip(*one[:2], "--threshold", "0").returncode, 0)
+        self.assertEqual(flip(one[0], seven[0], "--threshold", "0.01").returncode, 1)
+
+    def test_flip_writes_its_error_map(self):
+        a, b, error = (self.folder / name for name in ("a.pfm", "b.pfm", "map.pfm"))
+        self.renders(SCENES / "cornell-box.gltf", "-o", a, *SMALL)
+        self.renders(SCENES / "cornell-box.gltf", "-o", b, *SMALL, "--seed", "7")
+        mean = float(run("diff", a, b, "--metric", "flip", "--outfile", error).stdout)
+        kind, size, _, body = error.read_bytes().split(b"\n", 3)
+        values = struct.unpack("<256f", body)
+        self.assertEqual((kind, size), (b"Pf", b"16 16"))
+        self.assertAlmostEqual(sum(values) / 256, mean, places=6)
+
 
 class Pictures(Case):
     def test_any_file_name_works(self):

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// What all comparisons of two pictures begin with.
+#pragma once
+
+#include <array>
+
+#include "image/image.h"
+
+namespace fragtrace {
+
+/// Reads the colour of a picture, pixel by pixel.
+struct ColorReader {
+  const Image& image;
+  std::array<size_t, 3> channels;
+
+  double operator()(size_t pixel, size_t color) const {
+    return image.values[pixel * image.channelCount() + channels[color]];
+  }
+};
+
+/// Throws RenderError, which calls the picture `which`, when it has no colour (findColorChannels).
+ColorReader colorReader(const Image& image, const char* which);
+
+/// The number of pixels, which must be the same in both. Throws RenderError when the sizes differ.
+size_t commonPixelCount(const Image& picture, const Image& reference);
+
+}  // namespace fragtrace
