@@ -44,21 +44,33 @@ float environmentDensity(vec3 direction) {
   return environmentTexel(p, size).w / max(2.0 * kPi * kPi * sine, 1e-12);
 }
 
-/// An index drawn uniformly below count from 32 random bits.
-int randomIndex(Sampler numbers, uint dimension, uint count) {
+/// An entry of an alias table (Walker, 1977) drawn with 32 random bits: its index, and where in the entry the bits fall, in [0, 1). One number
+/// for both, so that what is stratified over the whole table stays so within its entries.
+struct TablePlace {
+  int index;
+  float within;
+};
+
+TablePlace placeInTable(uint bits, uint count) {
   uint high;
   uint low;
-  umulExtended(drawBits(numbers, dimension), count, high, low);
-  return int(high);
+  umulExtended(bits, count, high, low);
+  return TablePlace(int(high), unitFloat(low));
 }
 
-/// A direction drawn by the alias table of the texels, uniform within one; uses four dimensions from `dimension` on.
-vec3 sampleEnvironment(Sampler numbers, uint dimension) {
+/// `within` as a number of its own in the part below or above the threshold, in [0, 1).
+float withinPart(float within, float threshold) {
+  float u = within < threshold ? within / threshold : (within - threshold) / (1.0 - threshold);
+  return min(u, 0.99999994);
+}
+
+/// A direction drawn by the alias table of the texels, uniform within one.
+vec3 sampleEnvironment(uvec2 bits) {
   ivec2 size = ivec2(frame.environment.xy);
-  int index = randomIndex(numbers, dimension, uint(size.x * size.y));
-  uvec2 entry = readEnvironmentAlias(index);
-  if (drawFloat(numbers, dimension + 1u) >= uintBitsToFloat(entry.x)) index = int(entry.y);
+  TablePlace place = placeInTable(bits.x, uint(size.x * size.y));
+  uvec2 entry = readEnvironmentAlias(place.index);
+  float threshold = uintBitsToFloat(entry.x);
+  int index = place.within < threshold ? place.index : int(entry.y);
   vec2 texel = vec2(index % size.x, index / size.x);
-  vec2 jitter = drawPair(numbers, dimension + 2u);
-  return environmentDirection((texel + jitter) / vec2(size));
+  return environmentDirection((texel + vec2(withinPart(place.within, threshold), unitFloat(bits.y))) / vec2(size));
 }

@@ -71,19 +71,19 @@ LightSample triangleLight(int slot, float chance, vec3 point, float u, float v) 
   return LightSample(direction, distance, emissionAt(material, texcoords) / density, density);
 }
 
-LightSample environmentLight(float chance, Sampler numbers, uint dimension) {
-  vec3 direction = sampleEnvironment(numbers, dimension);
+LightSample environmentLight(float chance, uvec2 bits) {
+  vec3 direction = sampleEnvironment(bits);
   float density = chance * environmentDensity(direction);
   if (density <= 0.0) return noLight();
   return LightSample(direction, kFarAway, environmentRadiance(direction) / density, density);
 }
 
-/// An emitter of the alias table (Walker, 1977); onlyTriangles drops punctual lights, which the caller visits one by one.
-LightSample emitterLight(float chance, vec3 point, Sampler numbers, uint dimension, bool onlyTriangles) {
-  int count = int(frame.lightChoice.y);
-  int index = randomIndex(numbers, dimension, uint(count));
-  uvec4 entry = readEmitters(index);
-  if (drawFloat(numbers, dimension + 1u) >= uintBitsToFloat(entry.x)) entry = readEmitters(int(entry.y));
+/// An emitter of the alias table by power; onlyTriangles drops punctual lights, which the caller visits one by one.
+LightSample emitterLight(float chance, vec3 point, uvec2 bits, bool onlyTriangles) {
+  TablePlace place = placeInTable(bits.x, uint(frame.lightChoice.y));
+  uvec4 entry = readEmitters(place.index);
+  float threshold = uintBitsToFloat(entry.x);
+  if (place.within >= threshold) entry = readEmitters(int(entry.y));
   chance *= uintBitsToFloat(entry.w);
   bool punctual = kPunctualLights && (entry.z & kEmitterPunctual) != 0u;
   LightSample s = noLight();
@@ -92,8 +92,7 @@ LightSample emitterLight(float chance, vec3 point, Sampler numbers, uint dimensi
     s.irradiance /= chance;
   }
   if (kEmissiveTriangles && !punctual) {
-    vec2 uv = drawPair(numbers, dimension + 2u);
-    s = triangleLight(int(entry.z), chance, point, uv.x, uv.y);
+    s = triangleLight(int(entry.z), chance, point, withinPart(place.within, threshold), unitFloat(bits.y));
   }
   return s;
 }
@@ -106,20 +105,21 @@ int lightSlotCount() {
   return count + (kEmissiveTriangles ? 1 : 0) + (kEnvironmentSampling ? 1 : 0);
 }
 
-/// The light sample of one slot; uses eight dimensions from `dimension` on.
+/// The light sample of one slot; uses four dimensions from `dimension` on.
 LightSample lightOfSlot(int slot, vec3 point, Sampler numbers, uint dimension) {
   bool emitters = kPunctualLights || kEmissiveTriangles;
   if (kGi) {
     bool environment = kEnvironmentSampling && (!emitters || drawFloat(numbers, dimension) < frame.lightChoice.x);
     LightSample s = noLight();
-    if (kEnvironmentSampling && environment) s = environmentLight(frame.lightChoice.x, numbers, dimension + 1u);
-    if (emitters && !environment) s = emitterLight(1.0 - frame.lightChoice.x, point, numbers, dimension + 1u, false);
+    uvec2 bits = drawPairBits(numbers, dimension + 1u);
+    if (kEnvironmentSampling && environment) s = environmentLight(frame.lightChoice.x, bits);
+    if (emitters && !environment) s = emitterLight(1.0 - frame.lightChoice.x, point, bits, false);
     return s;
   }
   int punctual = kPunctualLights ? int(frame.lightChoice.w) : 0;
   LightSample s = noLight();
   if (kPunctualLights && slot < punctual) s = punctualLight(slot, point);
-  if (kEmissiveTriangles && slot == punctual) s = emitterLight(1.0, point, numbers, dimension, true);
-  if (kEnvironmentSampling && slot == lightSlotCount() - 1) s = environmentLight(1.0, numbers, dimension + 4u);
+  if (kEmissiveTriangles && slot == punctual) s = emitterLight(1.0, point, drawPairBits(numbers, dimension), true);
+  if (kEnvironmentSampling && slot == lightSlotCount() - 1) s = environmentLight(1.0, drawPairBits(numbers, dimension + 2u));
   return s;
 }

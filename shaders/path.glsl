@@ -7,7 +7,7 @@ const uint kBounceDimensions = 16u;  // a bounce uses 16 dimensions from 16 (bou
 const uint kLobeDimension = 0u;
 const uint kDirectionDimension = 1u;
 const uint kRouletteDimension = 3u;
-const uint kLightDimension = 4u;  // to 11
+const uint kLightDimension = 4u;  // to 7
 const uint kGlassDimension = 12u;
 
 TreeFrame treeFrame() { return TreeFrame(frame.gridOrigin.xyz, frame.gridCell.xyz, frame.limits.w); }

@@ -84,15 +84,19 @@ uint drawBits(Sampler s, uint dimension) {
 /// Uniform in [0, 1).
 float drawFloat(Sampler s, uint dimension) { return unitFloat(drawBits(s, dimension)); }
 
-/// Two numbers that are stratified together, Owen-scrambled Sobol points; uses `dimension` and `dimension + 1`.
-vec2 drawPair(Sampler s, uint dimension) {
+/// Twice 32 bits that are stratified together, Owen-scrambled Sobol points; uses `dimension` and `dimension + 1`.
+uvec2 drawPairBits(Sampler s, uint dimension) {
   uint seed = dimensionSeed(s, dimension);
   uint other = dimensionSeed(s, dimension + 1u);
-  if (!kSobol) return vec2(unitFloat(seed), unitFloat(other));
+  if (!kSobol) return uvec2(seed, other);
   uint index = shuffledIndex(s, seed);
-  uint first = reverseBits(owenScramble(index, mixBits(seed + 1u)));
-  uint second = reverseBits(owenScramble(sobolSecond(index), other));
-  return vec2(unitFloat(first), unitFloat(second));
+  return uvec2(reverseBits(owenScramble(index, mixBits(seed + 1u))), reverseBits(owenScramble(sobolSecond(index), other)));
+}
+
+/// The same as numbers in [0, 1).
+vec2 drawPair(Sampler s, uint dimension) {
+  uvec2 bits = drawPairBits(s, dimension);
+  return vec2(unitFloat(bits.x), unitFloat(bits.y));
 }
 
 /// Uniform in [0, 1), independent from sample to sample.

@@ -10,5 +10,6 @@ int runRender(const RenderOptions& options);
 int runInfo(const InfoOptions& options);
 int runDiff(const DiffOptions& options);
 int runMerge(const MergeOptions& options);
+int runBenchError(const BenchErrorOptions& options);
 
 }  // namespace fragtrace

@@ -34,6 +34,8 @@ int run(int argc, char** argv) {
       return runDiff(line->diff);
     case Command::Merge:
       return runMerge(line->merge);
+    case Command::BenchError:
+      return runBenchError(line->benchError);
   }
   return kUsage;
 }

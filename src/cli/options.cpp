@@ -66,6 +66,12 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   merge.add_option("parts", parts, ".exr files of render, same settings and seed")->required();
   merge.add_option("-o,--output", mergedName, "the .exr to write")->required();
 
+  CLI::App& bench = *app.add_subcommand("bench", "measure speed and error");
+  bench.require_subcommand(1);
+  RawBenchError rawError;
+  CLI::App& benchError = *bench.add_subcommand("error", "error against samples and time");
+  addBenchErrorOptions(benchError, rawError);
+
   std::vector<std::string> commands;
   for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
     commands.push_back(command->get_name());
@@ -88,6 +94,9 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   } else if (info.parsed()) {
     line.command = Command::Info;
     line.info.scene = infoScene;
+  } else if (benchError.parsed()) {
+    line.command = Command::BenchError;
+    line.benchError = finishBenchError(rawError, benchError);
   } else if (merge.parsed()) {
     line.command = Command::Merge;
     line.merge.parts.assign(parts.begin(), parts.end());

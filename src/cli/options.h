@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/bench_options.h"
 #include "image/difference.h"
 #include "stage/options.h"
 
@@ -27,7 +28,7 @@ struct MergeOptions {
   std::filesystem::path output;
 };
 
-enum class Command : uint8_t { Render, Info, Diff, Merge };
+enum class Command : uint8_t { Render, Info, Diff, Merge, BenchError };
 
 /// What the command line asks for; only the options of the command are filled in.
 struct CommandLine {
@@ -36,6 +37,7 @@ struct CommandLine {
   InfoOptions info;
   DiffOptions diff;
   MergeOptions merge;
+  BenchErrorOptions benchError;
 };
 
 /// Parses the arguments. Prints help or version and returns nothing when that was asked for. Throws

@@ -120,10 +120,9 @@ Plane filterColumns(const Plane& in, const Kernel& kernel) {
   Plane out(in.width, in.height);
   for (int y = 0; y < in.height; ++y) {
     double* to = out.row(y);
-    for (int k = -radius; k <= radius; ++k) {
-      const double weight = kernel[size_t(k + radius)];
-      const double* from = in.row(std::clamp(y + k, 0, in.height - 1));
-      for (int x = 0; x < in.width; ++x) to[x] += weight * from[x];
+    for (size_t k = 0; k < kernel.size(); ++k) {
+      const double* from = in.row(std::clamp(y + int(k) - radius, 0, in.height - 1));
+      for (int x = 0; x < in.width; ++x) to[x] += kernel[k] * from[x];
     }
   }
   return out;

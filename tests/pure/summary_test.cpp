@@ -57,7 +57,7 @@ TEST(LogLogSlope, LeavesOutWhatHasNoLogarithm) {
 TEST(LogLogSlope, OfFewerThanTwoDifferentXIsNan) {
   EXPECT_TRUE(std::isnan(logLogSlope({}, {})));
   EXPECT_TRUE(std::isnan(logLogSlope(std::vector<double>{3}, std::vector<double>{1})));
-  EXPECT_TRUE(std::isnan(logLogSlope(std::vector<double>{3, 3}, std::vector<double>{1, 2})));
+  EXPECT_TRUE(std::isnan(logLogSlope(std::vector<double>(5, 7), std::vector<double>{1, 2, 3, 4, 5})));
 }
 
 }  // namespace

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// What `bench error` measured, and what follows from it: tables, curves, and the time to a given error.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "math/summary.h"
+
+namespace fragtrace {
+
+/// One picture of one repetition.
+struct ErrorSample {
+  double samples = 0.0;  ///< a pixel; the mean where they differ
+  double seconds = 0.0;  ///< drawing, without start-up and compilation
+  double mse = 0.0;
+  double relmse = 0.0;
+  double flip = 0.0;  ///< of the tone-mapped picture
+};
+
+/// One configuration: repetitions differ in their seed. Every repetition has the same steps.
+struct ErrorCurve {
+  std::string name;
+  std::string options;  ///< as on the command line
+  std::string variant;
+  double compileMs = 0.0;
+  std::vector<std::vector<ErrorSample>> repetitions;
+};
+
+/// One step of a curve: means over the repetitions, and the spread of the relative error.
+struct ErrorStep {
+  ErrorSample mean;
+  double lowRelmse = 0.0;
+  double highRelmse = 0.0;
+};
+std::vector<ErrorStep> stepsOf(const ErrorCurve& curve);
+
+/// When (in seconds, or in samples) a curve reaches a relative MSE: between its steps by a power law, beyond
+/// its last as 1 / N. Nothing when the last step has fewer than 64 samples and is still above it.
+struct Reached {
+  double seconds = 0.0;
+  double samples = 0.0;
+  bool extrapolated = false;
+};
+std::optional<Reached> timeToReach(const ErrorCurve& curve, double relmse);
+
+/// Everything of one run of the benchmark.
+struct ErrorReport {
+  std::string scene;
+  std::string reference;  ///< where it came from
+  int width = 0;
+  int height = 0;
+  std::string renderer;  ///< of OpenGL
+  double goal = 1e-3;    ///< relative MSE of the summary
+  std::vector<ErrorCurve> curves;
+};
+
+/// The exponent p of relative MSE ~ samples^p over a curve's steps.
+double slopeOf(const ErrorCurve& curve);
+
+std::string errorTable(const ErrorReport& report);
+std::string errorJson(const ErrorReport& report);
+std::string errorCsv(const ErrorReport& report);
+/// Relative MSE against seconds, both axes logarithmic, as SVG.
+std::string errorChart(const ErrorReport& report);
+
+}  // namespace fragtrace

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// `fragtrace bench error`: how far pictures are from the reference, against the samples and the seconds spent.
+#include <cmath>
+#include <cstdio>
+
+#include "bench/error_report.h"
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "cli/progress_bar.h"
+#include "cli/setup.h"
+#include "errors.h"
+#include "image/difference.h"
+#include "image/flip.h"
+#include "image/tone_map.h"
+#include "image/whole_file.h"
+#include "render/adaptive.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr int kInterruptedStatus = 130;
+constexpr int kReferenceFactor = 64;         // samples of a reference over the most that is measured
+constexpr uint32_t kReferenceSeed = 7919;    // apart from those of the repetitions
+constexpr int kAdaptiveSteps = 6;            // goals, each half of the last
+
+struct Interrupted {};
+
+Renderer::Progress untilInterrupted() {
+  return [](double) {
+    if (interrupts() > 0) throw Interrupted();
+    return true;
+  };
+}
+
+/// One configuration on the device.
+struct Contender {
+  const BenchConfiguration& configuration;
+  LoadedScene loaded;
+  Tracer tracer;
+  ErrorCurve curve;
+
+  bool adaptive() const { return configuration.render.noise > 0.0 || configuration.render.seconds > 0.0; }
+};
+
+struct Judge {
+  Image reference;
+  Image display;
+  const RenderOptions& options;
+
+  ErrorSample judge(const Image& picture, double samples, double seconds) const {
+    const Difference difference = compare(picture, reference);
+    const Image shown = toDisplay(picture, options.exposure, options.toneMap);
+    return {samples, seconds, difference.mse, difference.relmse, flipError(shown, display).mean};
+  }
+};
+
+/// Error after 1, 2, 4, ... samples of one sequence.
+std::vector<ErrorSample> measureSteps(Contender& c, const View& view, const Judge& judge) {
+  Film film(c.loaded.size);
+  std::vector<ErrorSample> steps;
+  RenderTimes times;
+  const int most = c.configuration.render.spp;
+  for (int done = 0, next = 1; done < most; next *= 2) {
+    next = std::min(next, most);
+    c.tracer.renderer->addSamples(film, view, done, next, times, untilInterrupted());
+    done = next;
+    steps.push_back(judge.judge(imageOf(film.read(), {}), done, times.renderMs / 1000.0));
+  }
+  return steps;
+}
+
+/// Error of adaptive pictures whose goals come down to the one asked for.
+std::vector<ErrorSample> measureAdaptive(Contender& c, const View& view, const Judge& judge) {
+  std::vector<ErrorSample> steps;
+  for (int i = kAdaptiveSteps - 1; i >= 0; --i) {
+    const RenderOptions& options = c.configuration.render;
+    RenderTimes times;
+    const AdaptiveGoal goal{options.noise * std::exp2(i), options.seconds, options.spp};
+    const AdaptivePicture picture =
+        renderAdaptively(*c.tracer.renderer, c.loaded.size, view, goal, times, untilInterrupted());
+    const double pixels = double(c.loaded.size.x) * c.loaded.size.y;
+    steps.push_back(judge.judge(imageOf(picture.pixels, {}), double(totalsOf(picture.pixels).samples) / pixels,
+                                times.renderMs / 1000.0));
+  }
+  return steps;
+}
+
+Image makeReference(Contender& c, int samples, bool quiet) {
+  View view = c.loaded.view;
+  view.seed += kReferenceSeed;
+  Film film(c.loaded.size);
+  c.tracer.renderer->compile(c.tracer.variant, film, view);
+  ProgressBar bar("reference, " + std::to_string(samples) + " samples", quiet);
+  RenderTimes times;
+  const bool complete = c.tracer.renderer->addSamples(film, view, 0, samples, times, [&](double fraction) {
+    bar.show(fraction);
+    return interrupts() == 0;
+  });
+  bar.clear();
+  if (!complete) throw Interrupted();
+  return imageOf(film.read(), {});
+}
+
+void writeText(const std::filesystem::path& path, const std::string& text) {
+  if (!path.empty()) replaceFile(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
+  const RenderOptions& first = options.configurations.front().render;
+  std::vector<Contender> contenders;
+  int most = 1;
+  for (const BenchConfiguration& configuration : options.configurations) {
+    Statistics stats;
+    RenderOptions wanted = configuration.render;
+    wanted.quiet = wanted.quiet || !contenders.empty();  // warnings are said once
+    LoadedScene loaded = loadScene(wanted, stats);
+    Tracer tracer = makeTracer(context, loaded, wanted, stats);
+    contenders.push_back({configuration, std::move(loaded), std::move(tracer), {}});
+    ErrorCurve& curve = contenders.back().curve;
+    curve.name = configuration.name;
+    curve.options = configuration.text;
+    curve.variant = stats.variant;
+    if (!contenders.back().adaptive()) most = std::max(most, wanted.spp);
+  }
+  ErrorReport report;
+  report.scene = first.scene.filename().string();
+  report.width = contenders.front().loaded.size.x;
+  report.height = contenders.front().loaded.size.y;
+  report.renderer = context.renderer;
+  report.goal = options.goal;
+  const int referenceSamples = int(std::min<int64_t>(int64_t(most) * kReferenceFactor, 1 << 29));
+  report.reference = options.reference.empty()
+                         ? std::to_string(referenceSamples) + " samples of '" +
+                               options.configurations.front().name + "' with another seed"
+                         : options.reference.filename().string();
+  const Image reference = options.reference.empty()
+                              ? makeReference(contenders.front(), referenceSamples, first.quiet)
+                              : readImage(options.reference);
+  const Judge judge{reference, toDisplay(reference, first.exposure, first.toneMap), first};
+
+  // Step: repetitions outermost, so that a machine that slows down does so for all.
+  ProgressBar bar("measuring", first.quiet);
+  double done = 0.0;
+  for (int r = 0; r < options.repetitions; ++r) {
+    for (Contender& c : contenders) {
+      View view = c.loaded.view;
+      view.seed += uint32_t(r);
+      Film film(c.loaded.size);
+      c.curve.compileMs = c.tracer.renderer->compile(c.tracer.variant, film, view);
+      RenderTimes warmUp;
+      c.tracer.renderer->addSamples(film, view, 0, 1, warmUp, untilInterrupted());
+      c.curve.repetitions.push_back(c.adaptive() ? measureAdaptive(c, view, judge)
+                                                 : measureSteps(c, view, judge));
+      done += 1.0;
+      bar.show(done / (double(contenders.size()) * options.repetitions));
+    }
+  }
+  bar.clear();
+  for (Contender& c : contenders) report.curves.push_back(std::move(c.curve));
+  return report;
+}
+
+}  // namespace
+
+int runBenchError(const BenchErrorOptions& options) {
+  for (const auto& path : {options.json, options.csv, options.chart}) {
+    if (!path.empty()) checkReplaceable(path);
+  }
+  const auto context = makeContext(options.configurations.front().render.backend);
+  countInterrupts();
+  try {
+    const ErrorReport report = measure(options, *context);
+    std::fputs(errorTable(report).c_str(), stdout);
+    writeText(options.json, errorJson(report));
+    writeText(options.csv, errorCsv(report));
+    writeText(options.chart, errorChart(report));
+  } catch (const Interrupted&) {
+    std::fprintf(stderr, "fragtrace: interrupted, nothing is written\n");
+    return kInterruptedStatus;
+  }
+  return 0;
+}
+
+}  // namespace fragtrace
