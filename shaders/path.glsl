@@ -112,7 +112,7 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
   p.bounce += 1;
   if (kGi && p.bounce >= frame.limits.y) {
     float survival = min(maxComponent(p.throughput) * p.rouletteScale, 0.95);
-    if (hashFloat(p.numbers, kBounceDimensions * uint(p.bounce) + kRouletteDimension) >= survival) return p;
+    if (drawFloat(p.numbers, kBounceDimensions * uint(p.bounce) + kRouletteDimension) >= survival) return p;
     p.throughput /= survival;
   }
   p.cameraRay = false;

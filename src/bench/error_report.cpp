@@ -189,7 +189,9 @@ std::string errorChart(const ErrorReport& report) {
   chart.logY = true;
   chart.line = ChartLine{report.goal, formatted("%g", report.goal)};
   chart.caption = std::to_string(report.width) + " x " + std::to_string(report.height) + " on " +
-                  report.renderer + ". Points are 1, 2, 4, ... samples a pixel, bars the least and the largest of the repetitions. Reference: " +
+                  report.renderer +
+                  ". Points are 1, 2, 4, ... samples a pixel, bars the least and the largest of the "
+                  "repetitions. Reference: " +
                   report.reference + ".";
   for (const ErrorCurve& curve : report.curves) {
     ChartSeries series;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `fragtrace bench error`: how far pictures are from the reference, against the samples and the seconds spent.
+// `fragtrace bench error`: how far pictures are from the reference, against the samples and the seconds
+// spent.
 #include <cmath>
 #include <cstdio>
 
@@ -20,9 +21,9 @@ namespace fragtrace {
 namespace {
 
 constexpr int kInterruptedStatus = 130;
-constexpr int kReferenceFactor = 64;         // samples of a reference over the most that is measured
-constexpr uint32_t kReferenceSeed = 7919;    // apart from those of the repetitions
-constexpr int kAdaptiveSteps = 6;            // goals, each half of the last
+constexpr int kReferenceFactor = 64;       // samples of a reference over the most that is measured
+constexpr uint32_t kReferenceSeed = 7919;  // apart from those of the repetitions
+constexpr int kAdaptiveSteps = 6;          // goals, each half of the last
 
 struct Interrupted {};
 
@@ -80,8 +81,8 @@ std::vector<ErrorSample> measureAdaptive(Contender& c, const View& view, const J
     const AdaptivePicture picture =
         renderAdaptively(*c.tracer.renderer, c.loaded.size, view, goal, times, untilInterrupted());
     const double pixels = double(c.loaded.size.x) * c.loaded.size.y;
-    steps.push_back(judge.judge(imageOf(picture.pixels, {}), double(totalsOf(picture.pixels).samples) / pixels,
-                                times.renderMs / 1000.0));
+    steps.push_back(judge.judge(imageOf(picture.pixels, {}),
+                                double(totalsOf(picture.pixels).samples) / pixels, times.renderMs / 1000.0));
   }
   return steps;
 }

@@ -77,8 +77,7 @@ RenderOptions parseRender(const std::vector<std::string>& shared, const std::str
 void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
   BenchErrorOptions& o = raw.options;
   app.add_option("scene", raw.scene, ".gltf or .glb file")->required();
-  app.add_option("--configs", raw.names,
-                 joined(configurationNames()) + "; default: default,random,baseline")
+  app.add_option("--configs", raw.names, joined(configurationNames()) + "; default: default,random,baseline")
       ->delimiter(',');
   app.add_option("--config", raw.own, "NAME=OPTIONS: one more, such as \"rough=--bounces 4\"")
       ->allow_extra_args(false);
