@@ -62,8 +62,6 @@ TEST(ChartAxis, LinearBeginsAtZeroWhereThatIsNear) {
   expectValues(labelledTicks(fit({-10}, false)), {-10, -8, -6, -4, -2, 0});
 }
 
-<<<<<<< HEAD
-=======
 TEST(ChartAxis, TicksBetweenDivideRoundly) {
   const std::vector<Tick> fives = ticksOf(fit({12, 27}, false));  // 0 to 30 in steps of 5, divided by 1
   ASSERT_EQ(fives.size(), 31U);
@@ -73,15 +71,11 @@ TEST(ChartAxis, TicksBetweenDivideRoundly) {
   EXPECT_DOUBLE_EQ(twos[3].value, -2.5);
 }
 
->>>>>>> flip
 TEST(ChartAxis, AnyRangeHasFewTicksThatGrowFromEndToEnd) {
   const std::vector<std::vector<double>> ranges{{},
                                                 {0},
                                                 {5e-324, 1e-300},
-<<<<<<< HEAD
-=======
                                                 {5e-324},
->>>>>>> flip
                                                 {-1e149, 1e149},
                                                 {1e15, 1e15},
                                                 {1e15, 1e15 + 0.125},

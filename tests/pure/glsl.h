@@ -67,6 +67,7 @@ namespace fragtrace::glsl_float {
 namespace {
 using namespace layout;        // NOLINT: as the shader includes it
 using namespace glsl_variant;  // NOLINT: as the prelude defines it
+using glm::uvec2;
 using glm::vec2;
 using glm::vec3;
 using glm::vec4;
@@ -84,6 +85,7 @@ namespace fragtrace::glsl_double {
 namespace {
 using namespace layout;        // NOLINT: as above
 using namespace glsl_variant;  // NOLINT
+using glm::uvec2;
 using vec2 = glm::dvec2;
 using vec3 = glm::dvec3;
 using vec4 = glm::dvec4;
