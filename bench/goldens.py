@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Renders the shots of a goldens folder (scenarios.json) and prints PSNR against each engine's picture.
+"""Renders the shots of a goldens folder (scenarios.json) and prints PSNR against Cycles, beside what other engines get.
 
-usage: goldens.py FRAGTRACE ASSETS_FOLDER OUTPUT_FOLDER [--spp N] [--width W] [NAME ...]
+usage: goldens.py FRAGTRACE ASSETS_FOLDER OUTPUT_FOLDER [NAME ...] [--spp N] [--width W]
 Needs numpy and Pillow. Writes OUTPUT/NAME.png: ours, then Cycles', then the difference times 4.
 """
 import argparse
@@ -64,6 +64,12 @@ def psnr(a, b):
     return 10 * math.log10(1 / np.mean((a - b) ** 2))
 
 
+def display(linear, gamma, size):
+    """Tone-mapped at the engines' size and reduced to that of their thumbnails, as theirs were."""
+    picture = Image.fromarray((tone_map(linear, gamma) * 255 + 0.5).astype(np.uint8))
+    return np.asarray(picture.resize(size, Image.LANCZOS)).astype(float) / 255
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program", type=Path)
@@ -71,30 +77,31 @@ def main():
     parser.add_argument("folder", type=Path)
     parser.add_argument("names", nargs="*")
     parser.add_argument("--spp", type=int, default=64)
-    parser.add_argument("--width", type=int, default=512)
+    parser.add_argument("--width", type=int, default=768, help="the engines' own")
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     shots = json.loads((options.assets / "goldens/scenarios.json").read_text())["scenarios"]
     engines = ["blender-cycles", "three-gpu-pathtracer", "stellar", "vray"]
-    print(f"{'shot':34s}" + "".join(f"{e:>22s}" for e in engines) + f"{'three vs Cycles':>18s}")
+    print("PSNR in dB. Against Cycles: ours, and what the other engines get; then ours against each of them")
+    print(f"{'shot':32s}{'ours':>7s}{'three':>7s}{'stellar':>8s}{'vray':>7s}  |{'three':>7s}{'stellar':>8s}{'vray':>7s}")
     against_cycles = []
     for shot in shots:
         if options.names and shot["name"].removeprefix("khronos-") not in options.names:
             continue
         linear = render(options.program.resolve(), options.assets.resolve(), shot, options.folder, options.width, options.spp)
-        size = (linear.shape[1], linear.shape[0])
+        size = Image.open(options.assets / shot["images"]["blender-cycles"]).size
         pictures = {e: golden(options.assets / p, size) for e, p in shot["images"].items()}
-        ours = {e: psnr(tone_map(linear, e == "blender-cycles"), pictures[e]) for e in pictures}
-        row = "".join(f"{ours[e]:22.2f}" if e in ours else f"{'-':>22s}" for e in engines)
-        other = psnr(pictures["three-gpu-pathtracer"], pictures["blender-cycles"]) if len(
-            {"three-gpu-pathtracer", "blender-cycles"} & set(pictures)) == 2 else float("nan")
-        print(f"{shot['name']:34s}{row}{other:18.2f}", flush=True)
-        if "blender-cycles" in ours:
-            against_cycles.append(ours["blender-cycles"])
-            mine, theirs = tone_map(linear, True), pictures["blender-cycles"]
-            sheet = np.concatenate([mine, theirs, np.clip(4 * np.abs(mine - theirs), 0, 1)], 1)
-            Image.fromarray((sheet * 255).astype(np.uint8)).save(options.folder / (shot["name"] + ".png"))
-    print(f"median against Cycles: {np.median(against_cycles):.2f} dB over {len(against_cycles)} shots")
+        mine = {e: display(linear, e == "blender-cycles", size) for e in pictures}
+        cycles = pictures["blender-cycles"]
+        row = [psnr(mine["blender-cycles"], cycles)]
+        row += [psnr(pictures[e], cycles) if e in pictures else math.nan for e in engines[1:]]
+        row += [psnr(mine[e], pictures[e]) if e in pictures else math.nan for e in engines[1:]]
+        cells = ["      -" if math.isnan(x) else f"{x:7.2f}" for x in row]
+        print(f"{shot['name']:32s}{cells[0]}{cells[1]} {cells[2]}{cells[3]}  |{cells[4]} {cells[5]}{cells[6]}", flush=True)
+        against_cycles.append(row[0])
+        sheet = np.concatenate([mine["blender-cycles"], cycles, np.clip(4 * np.abs(mine["blender-cycles"] - cycles), 0, 1)], 1)
+        Image.fromarray((sheet * 255).astype(np.uint8)).save(options.folder / (shot["name"] + ".png"))
+    print(f"median of ours against Cycles: {np.median(against_cycles):.2f} dB over {len(against_cycles)} shots")
 
 
 if __name__ == "__main__":

@@ -175,7 +175,8 @@ BsdfSample sampleSmoothGlass(Bsdf b, vec3 outgoing, float choice) {
   return s;
 }
 
-/// choice picks the lobe, (u, v) the direction; each uniform in [0, 1).
+/// (u, v) picks the lobe and the direction, so that each lobe gets its part of points that are stratified together; choice decides between
+/// reflection and refraction at glass. Each is uniform in [0, 1).
 BsdfSample sampleBsdf(Bsdf b, vec3 outgoing, float choice, float u, float v) {
   BsdfSample s;
   s.weight = vec3(0.0f);
@@ -183,9 +184,12 @@ BsdfSample sampleBsdf(Bsdf b, vec3 outgoing, float choice, float u, float v) {
   s.transmitted = false;
   s.incoming = vec3(0.0f, 0.0f, 1.0f);
   vec3 chances = lobeChances(b, outgoing.z);
-  bool glass = kTransmission && choice < chances.x;
-  bool specular = kSpecular && !glass && choice < chances.x + chances.y;
-  if (glass && b.mirrorLike) return sampleSmoothGlass(b, outgoing, choice / chances.x);
+  bool glass = kTransmission && u < chances.x;
+  bool specular = kSpecular && !glass && u < chances.x + chances.y;
+  float first = glass ? 0.0f : specular ? chances.x : chances.x + chances.y;
+  float width = glass ? chances.x : specular ? chances.y : chances.z;
+  if (kSpecular || kTransmission) u = clamp((u - first) / max(width, float(1e-12)), 0.0f, float(0.99999994));
+  if (glass && b.mirrorLike) return sampleSmoothGlass(b, outgoing, choice);
   if (specular && b.mirrorLike) {
     s.incoming = vec3(-outgoing.x, -outgoing.y, outgoing.z);
     s.weight = opaqueFresnel(b, outgoing.z) / chances.y;
@@ -196,7 +200,7 @@ BsdfSample sampleBsdf(Bsdf b, vec3 outgoing, float choice, float u, float v) {
     vec3 h = sampleVisibleGgx(outgoing, b.alpha, u, v);
     float oh = dot(outgoing, h);
     s.incoming = mirrorDirection(outgoing, h);
-    if (glass && choice / chances.x >= glassFresnel(b, oh)) {
+    if (glass && choice >= glassFresnel(b, oh)) {
       s.incoming = b.solid ? refractThrough(outgoing, h, b.eta) : vec3(s.incoming.x, s.incoming.y, -s.incoming.z);
       s.transmitted = true;
     }

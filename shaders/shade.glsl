@@ -23,7 +23,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   vec3 outgoing = toFrame(around, -p.direction);
   uint dimension = kBounceDimensions * uint(p.bounce + 1);
   // The numbers of this bounce are drawn before it is counted.
-  float lobe = pathRandom(p, kLobeDimension);
+  float choice = kTransmission ? pathRandom(p, kLobeDimension) : 0.0;
   vec2 uv = drawPair(p.numbers, dimension + kDirectionDimension);
   if (lightSlotCount() > 0) {
     LightSample light = lightOfSlot(0, s.position, p.numbers, dimension + kLightDimension);
@@ -33,7 +33,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
     float weight = light.density > 0.0 ? misWeight(light.density, value.density) : 1.0;
     p = connect(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
   }
-  BsdfSample next = sampleBsdf(b, outgoing, lobe, uv.x, uv.y);
+  BsdfSample next = sampleBsdf(b, outgoing, choice, uv.x, uv.y);
   vec3 direction = normalize(toWorld(around, next.incoming));
   bool wrongSide = (dot(direction, s.geometricNormal) < 0.0) != next.transmitted;
   return scatter(p, s, direction, wrongSide ? vec3(0.0) : next.weight, next.density, next.transmitted, m);

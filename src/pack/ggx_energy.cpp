@@ -29,8 +29,12 @@ double albedo(double cosine, double alpha) {
   for (int a = 0; a < kQuadrature; ++a) {
     // The integrand is even in phi, so half of the circle does.
     const double phi = glm::pi<double>() * (a + 0.5) / kQuadrature;
+    // Each column is shifted by another golden part of a step: the value falls to 0 where light would go
+    // below the horizon, and seen from above that edge would lie between two rows of a plain grid for all
+    // phi.
+    const double shift = glm::fract((a + 0.5) * 0.6180339887498949);
     for (int b = 0; b < kQuadrature; ++b) {
-      const double z = (1.0 - (b + 0.5) / kQuadrature) * (1.0 + stretched.z) - stretched.z;
+      const double z = (1.0 - (b + shift) / kQuadrature) * (1.0 + stretched.z) - stretched.z;
       const double sine = std::sqrt(std::max(0.0, 1.0 - z * z));
       const glm::dvec3 cap = glm::dvec3(sine * std::cos(phi), sine * std::sin(phi), z) + stretched;
       const glm::dvec3 h = glm::normalize(glm::dvec3(alpha * cap.x, alpha * cap.y, std::max(cap.z, 1e-12)));

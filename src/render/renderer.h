@@ -22,7 +22,7 @@ struct View {
   glm::vec3 background{0.0f};   ///< seen by camera rays that miss
   bool showEnvironment = true;  ///< camera rays that miss see the environment map instead
   int bounces = 16;
-  int rouletteDepth = 3;
+  int rouletteDepth = 6;
   uint32_t seed = 0;
   int sampleOffset = 0;        ///< index of sample 0 of the film in the seed's sequence
   float clampIndirect = 0.0f;  ///< largest indirect radiance of a sample, when the variant clamps

@@ -39,7 +39,7 @@ struct RenderOptions {
   int sampleOffset = 0;  ///< index of the first sample in the seed's sequence
   uint32_t seed = 0;
   int bounces = 16;       ///< kUnlimitedBounces: no limit
-  int rouletteDepth = 3;  ///< roulette from this scattering on, the first being 1
+  int rouletteDepth = 6;  ///< roulette from this scattering on, the first being 1
   double clampIndirect =
       0.0;  ///< largest radiance that a path of two scatterings or more may add; 0: no limit
   PixelFilter pixelFilter = PixelFilter::Box;

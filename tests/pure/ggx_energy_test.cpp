@@ -23,7 +23,7 @@ Bsdf whiteMetal(double roughness) {
 /// Mean of the weights of sampled directions over a low-discrepancy sequence (Roberts, 2018: R3): the albedo.
 double albedo(const Bsdf& b, double cosine) {
   const glm::dvec3 outgoing(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
-  constexpr int kSamples = 100000;
+  constexpr int kSamples = 200000;
   constexpr double kRoot = 1.2207440846057596;
   const glm::dvec3 step(1.0 / kRoot, 1.0 / (kRoot * kRoot), 1.0 / (kRoot * kRoot * kRoot));
   double sum = 0.0;
@@ -34,11 +34,11 @@ double albedo(const Bsdf& b, double cosine) {
   return sum / kSamples;
 }
 
-TEST(GgxEnergy, AWhiteMetalOfAnyRoughnessStaysWithinOnePercentOfWhite) {
+TEST(GgxEnergy, AWhiteMetalOfAnyRoughnessStaysWithinHalfAPercentOfWhite) {
   const glsl_variant::With compensation(glsl_variant::kCompensation, true);
   for (double roughness : {0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 1.0}) {
     for (double cosine : {0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0}) {
-      EXPECT_NEAR(albedo(whiteMetal(roughness), cosine), 1.0, 0.01)
+      EXPECT_NEAR(albedo(whiteMetal(roughness), cosine), 1.0, 0.005)
           << "roughness " << roughness << ", cosine " << cosine;
     }
   }

@@ -173,20 +173,18 @@ inline double smithLambda(const dvec3& v, double alpha) {
 /// The mean weight over a lattice of samples: what the surface sends back of white light from all around.
 /// Radiance through a solid's boundary is scaled by 1 / eta^2, which is no energy, so it is scaled back.
 inline dvec3 albedoByDrawing(const Bsdf& b, const dvec3& outgoing) {
-  constexpr int kSide = 32;
-  constexpr int kChoices = 32;
+  // The first number picks the lobe, too, so it takes finer steps.
+  constexpr int kColumns = 1024;
+  constexpr int kRows = 32;
   dvec3 sum(0.0);
-  for (int x = 0; x < kSide; ++x) {
-    for (int y = 0; y < kSide; ++y) {
-      const double shift = std::fmod((x * kSide + y) * 0.6180339887498949, 1.0);
-      for (int c = 0; c < kChoices; ++c) {
-        const auto s = glsl_double::sampleBsdf(b, outgoing, (c + shift) / kChoices, (x + 0.5) / kSide,
-                                               (y + 0.5) / kSide);
-        sum += s.weight * (s.transmitted && b.solid ? b.eta * b.eta : 1.0);
-      }
+  for (int x = 0; x < kColumns; ++x) {
+    for (int y = 0; y < kRows; ++y) {
+      const double choice = std::fmod((x * kRows + y) * 0.6180339887498949, 1.0);
+      const auto s = glsl_double::sampleBsdf(b, outgoing, choice, (x + 0.5) / kColumns, (y + 0.5) / kRows);
+      sum += s.weight * (s.transmitted && b.solid ? b.eta * b.eta : 1.0);
     }
   }
-  return sum / double(kSide * kSide * kChoices);
+  return sum / double(kColumns * kRows);
 }
 
 inline dvec3 albedoByIntegration(const Bsdf& b, const dvec3& outgoing) {
