@@ -99,7 +99,7 @@ def thin_glass(gltf):
                     translation=[x, 0.001, -0.5], rotation=rotation_about((0, 1, 0), 30))
     pane = quad((-0.6, 0.03, 0), (1.2, 0, 0), (0, 1.3, 0))
     place_quad(gltf, "clear", pane, glass(gltf, "clear", (0.95, 0.75, 0.7)), translation=[-0.7, 0, 0.5], rotation=rotation_about((0, 1, 0), 25))
-    place_quad(gltf, "frosted", pane, glass(gltf, "frosted", (0.75, 0.9, 0.95), 0.35), translation=[0.7, 0, 0.5],
+    place_quad(gltf, "frosted", pane, glass(gltf, "frosted", (0.75, 0.9, 0.95), 0.6), translation=[0.7, 0, 0.5],
                rotation=rotation_about((0, 1, 0), -15))
 
 
@@ -134,13 +134,13 @@ def sun_sky(gltf):
     """To be lit by sun-sky.pfm: shadows, a diffuse and a metal sphere."""
     write_pfm(gltf.folder / "sun-sky.pfm", 64, 32, sun_sky_radiance)
     place_quad(gltf, "ground", ground(2.6, 2), gltf.add_lambert("ground", (0.6, 0.6, 0.6)))
-    place_row(gltf, [gltf.add_lambert("clay", (0.8, 0.55, 0.4)), gltf.add_material("metal", (0.9, 0.85, 0.75), 1, 0.35)], 0.6, 1.4)
+    place_row(gltf, [gltf.add_lambert("clay", (0.8, 0.55, 0.4)), gltf.add_material("metal", (0.9, 0.85, 0.75), 1, 0.5)], 0.6, 1.4)
     gltf.add_camera("camera", (0, 1.7, 4.2), (0, 0.45, 0), 32)
 
 
 def metal_rough_texel(x, y):
     """Metallic in blue, roughness in green; red, which means nothing, is loud."""
-    return 255 if (x + y) % 2 else 0, 90 + 20 * x, (0, 0, 60, 160, 255, 255, 200, 100)[y]
+    return 255 if (x + y) % 2 else 0, 130 + 15 * x, (0, 0, 60, 160, 255, 255, 200, 100)[y]
 
 
 def glow_texel(x, y):
@@ -154,7 +154,7 @@ def mapped_metal(gltf):
     write_png(gltf.folder / "metal-rough.png", 8, 8, metal_rough_texel)
     write_png(gltf.folder / "glow.png", 8, 8, glow_texel)
     arrows, normals = gltf.add_texture("arrows.png", "nearest"), gltf.add_texture("bricks-normal.png")
-    wall = gltf.add_material("wall", (0.9, 0.9, 0.9), metallic=0.9, texture=arrows, normalTexture={"index": normals, "scale": 0.8})
+    wall = gltf.add_material("wall", (0.9, 0.9, 0.9), metallic=0.9, texture=arrows, normalTexture={"index": normals, "scale": 0.5})
     gltf.root["materials"][wall]["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {"index": gltf.add_texture("metal-rough.png")}
     place_quad(gltf, "wall", quad((-1.4, 0, 0), (2.8, 0, 0), (0, 2, 0)), wall, uvs=[(1.4 * u, v) for u, v in QUAD_UVS])
     place_quad(gltf, "ground", quad((-1.4, -0.01, 1.4), (2.8, 0, 0), (0, 0, -1.38)), gltf.add_lambert("ground", (0.6, 0.6, 0.6)))
@@ -167,16 +167,16 @@ def mapped_metal(gltf):
                           ("high", 1.2, gltf.add_lambert("weak", (0.5, 0.5, 0.5), emissiveFactor=[0.3, 0.8, 0.9]))):
         corners = [(-1.9, y, 1.2), (-1.9, y, 0.3), (-1.9, y + 0.7, 0.6)]
         gltf.place_mesh(name, gltf.primitive(corners, [0, 1, 2], lamp))
-    gltf.add_camera("camera", (0, 1.1, 4.8), (0, 0.95, 0), 27)
+    gltf.add_camera("camera", (0, 1.1, 4.8), (0, 0.95, 0), 32)
 
 
 @scene("coverage")
 def coverage(gltf):
     """A sheet of alpha 0.5 and one with holes throw shadows and are seen through; both have two sides."""
-    place_quad(gltf, "ground", ground(2, 1.5), gltf.add_lambert("ground", (0.65, 0.6, 0.5)))
+    place_quad(gltf, "ground", ground(2, 1.5), gltf.add_lambert("ground", (0.8, 0.75, 0.65)))
     place_quad(gltf, "lamp", geometry.flip(ground(0.4, 0.4)), gltf.add_lamp("lamp", (24, 23, 21)), translation=[0, 3, 0.4])
-    half = gltf.add_lambert("half", (0.8, 0.2, 0.15, 0.5), alphaMode="BLEND", doubleSided=True)
-    place_quad(gltf, "half", ground(0.5, 0.5), half, translation=[-0.85, 0.7, 0.1], rotation=rotation_about((0, 0, 1), -8))
+    half = gltf.add_lambert("half", (0.9, 0.85, 0.15, 0.5), alphaMode="BLEND", doubleSided=True)
+    place_quad(gltf, "half", ground(0.6, 0.6), half, translation=[-0.75, 0.3, 0.1], rotation=rotation_about((0, 0, 1), -8))
     disc = gltf.add_lambert("disc", (0.9, 0.9, 0.9), texture=gltf.add_texture("disc.png", "nearest"), alphaMode="MASK", alphaCutoff=0.6,
                             doubleSided=True)
     sheet = gltf.primitive(ground(0.6, 0.6), QUAD_INDICES, disc, quad_normals(ground(0.6, 0.6)), QUAD_UVS)
