@@ -222,12 +222,16 @@ def build(scene, entry, scratch):
     options = dict(zip(entry["options"][::2], entry["options"][1::2]))
     compensated = options.get("--energy-compensation", "on") == "on"
     materials = [item.material for item in scene.meshes + scene.spheres]
-    # Only this integrator sees through media, and through holes on the way to a light.
-    volumetric = any(np.isfinite(m.attenuation_distance) or m.alpha_mode != "OPAQUE" for m in materials)
+    # volpath sees lights through holes; volpathmis weighs the colours of a medium against one another.
+    integrator = "path"
+    if any(m.alpha_mode != "OPAQUE" for m in materials):
+        integrator = "volpath"
+    if any(np.isfinite(m.attenuation_distance) for m in materials):
+        integrator = "volpathmis"
     camera = scene.cameras[0]
     result = {
         "type": "scene",
-        "integrator": {"type": "volpath" if volumetric else "path", "max_depth": int(options["--bounces"]) + 2, "rr_depth": 1000},
+        "integrator": {"type": integrator, "max_depth": int(options["--bounces"]) + 2, "rr_depth": 1000},
         # Mitsuba's cameras look along +z with +x to the left.
         "sensor": {"type": "perspective", "fov_axis": "y", "fov": float(np.degrees(camera.yfov)), "near_clip": 1e-3,
                    "to_world": mi.ScalarTransform4f(camera.to_world @ np.diag([-1.0, 1, -1, 1])),
