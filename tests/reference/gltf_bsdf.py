@@ -7,6 +7,11 @@ import mitsuba as mi
 import numpy as np
 
 
+# Facets can send light below the surface; that share is lost (single scattering). A blend asks its parts for the value of a direction that any
+# of them has drawn, so a lost one must not be the direction of another part.
+NOWHERE = mi.Vector3f(0)
+
+
 def correlated_masking(facets, outgoing, incoming, half):
     """G of appendix B (height-correlated Smith) from the G1 = 1 / (1 + Lambda) of each direction."""
     lambdas = 1 / facets.smith_g1(outgoing, half) + 1 / facets.smith_g1(incoming, half) - 1
@@ -146,6 +151,7 @@ class GltfSurface(mi.BSDF):
         mirrored = 2 * dr.dot(si.wi, half) * half - si.wi
         bs = dr.zeros(mi.BSDFSample3f)
         bs.wo = dr.select(choice < self.specular_chance, mirrored, mi.warp.square_to_cosine_hemisphere(pair))
+        bs.wo = dr.select(bs.wo.z > 0, bs.wo, NOWHERE)
         value, bs.pdf = self.eval_pdf(context, si, bs.wo, active)
         bs.eta, bs.sampled_component = 1.0, mi.UInt32(0)
         bs.sampled_type = mi.UInt32(+(mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.DiffuseReflection))
@@ -202,11 +208,11 @@ class ThinRoughGlass(mi.BSDF):
         transmitted = choice >= self.reflectance(v_dot_h)
         bs = dr.zeros(mi.BSDFSample3f)
         bs.wo = mi.Vector3f(image.x, image.y, dr.select(transmitted, -side, side) * image.z)
+        bs.wo = dr.select(image.z > 0, bs.wo, NOWHERE)
         value, bs.pdf = self.eval_pdf(context, si, bs.wo, active)
         bs.eta, bs.sampled_component = 1.0, dr.select(transmitted, mi.UInt32(1), mi.UInt32(0))
         bs.sampled_type = dr.select(transmitted, mi.UInt32(+mi.BSDFFlags.GlossyTransmission), mi.UInt32(+mi.BSDFFlags.GlossyReflection))
-        # Facets can send light below the surface; that share is lost (single scattering).
-        kept = active & (bs.pdf > 0) & (image.z > 0)
+        kept = active & (bs.pdf > 0)
         return bs, dr.select(kept, value / bs.pdf, 0)
 
 

@@ -81,8 +81,8 @@ def colored(texture, factor):
     return bitmap(texture, texture.texels[..., :3] * factor[:3]) if texture else rgb(factor)
 
 
-def channel(texture, index):
-    return bitmap(texture, np.repeat(texture.texels[..., index:index + 1], 3, -1))
+def channel(texture, index, factor=1.0):
+    return bitmap(texture, np.repeat(texture.texels[..., index:index + 1] * factor, 3, -1))
 
 
 def glass(material):
@@ -136,7 +136,9 @@ def surface(material, compensated):
         bsdf = glass(material)
     elif material.transmission:
         # A blend is the glTF mix, and its opaque part, too, has two sides.
-        weight = bitmap(material.transmission_texture, material.transmission_texture.texels[..., :1].repeat(3, -1) * material.transmission)
+        weight, texture = float(material.transmission), material.transmission_texture
+        if texture:
+            weight = channel(texture, 0, weight)
         bsdf = {"type": "blendbsdf", "weight": weight, "first": {"type": "twosided", "bsdf": opaque(material, compensated)}, "second": glass(material)}
     else:
         bsdf = opaque(material, compensated)
