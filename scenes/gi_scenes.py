@@ -172,8 +172,11 @@ def mapped_metal(gltf):
 
 @scene("coverage")
 def coverage(gltf):
-    """A sheet of alpha 0.5 and one with holes throw shadows and are seen through; both have two sides."""
-    place_quad(gltf, "ground", ground(2, 1.5), gltf.add_lambert("ground", (0.8, 0.75, 0.65)))
+    """A sheet of alpha 0.5 and one with holes throw shadows and are seen through; both have two sides. The ground has vertex colours."""
+    colors = gltf.add_accessor([(255, 240, 200, 255), (200, 255, 230, 255), (230, 200, 255, 255), (255, 255, 255, 255)], "B", normalized=True)
+    corners = ground(2, 1.5)
+    paper = gltf.primitive(corners, QUAD_INDICES, gltf.add_lambert("ground", (0.85, 0.85, 0.8)), quad_normals(corners), COLOR_0=colors)
+    gltf.place_mesh("ground", paper)
     place_quad(gltf, "lamp", geometry.flip(ground(0.4, 0.4)), gltf.add_lamp("lamp", (24, 23, 21)), translation=[0, 3, 0.4])
     half = gltf.add_lambert("half", (0.9, 0.85, 0.15, 0.5), alphaMode="BLEND", doubleSided=True)
     place_quad(gltf, "half", ground(0.6, 0.6), half, translation=[-0.75, 0.3, 0.1], rotation=rotation_about((0, 0, 1), -8))
