@@ -98,7 +98,8 @@ def thin_glass(gltf):
         place_faces(gltf, "post", box_faces((-0.2, 0, -0.2), (0.2, 1.1, 0.2)), gltf.add_lambert("post", color),
                     translation=[x, 0.001, -0.5], rotation=rotation_about((0, 1, 0), 30))
     pane = quad((-0.6, 0.03, 0), (1.2, 0, 0), (0, 1.3, 0))
-    place_quad(gltf, "clear", pane, glass(gltf, "clear", (0.95, 0.75, 0.7)), translation=[-0.7, 0, 0.5], rotation=rotation_about((0, 1, 0), 25))
+    # Seen at about 63 degrees, where Schlick's reflectance departs most from Fresnel's.
+    place_quad(gltf, "clear", pane, glass(gltf, "clear", (0.95, 0.65, 0.6)), translation=[-0.7, 0, 0.5], rotation=rotation_about((0, 1, 0), -53))
     place_quad(gltf, "frosted", pane, glass(gltf, "frosted", (0.75, 0.9, 0.95), 0.6), translation=[0.7, 0, 0.5],
                rotation=rotation_about((0, 1, 0), -15))
 
