@@ -13,6 +13,7 @@ from picture_files import encode_srgb, write_pfm, write_png
 from scene_parts import SCENES, place_faces, place_quad, scene
 
 import feature_scene  # noqa: F401, registers its scene
+from gi_scenes import sky_radiance
 
 # Closed forms
 
@@ -282,19 +283,6 @@ def lights(gltf):
                    spot={"innerConeAngle": 0.2, "outerConeAngle": 0.42})
     gltf.add_light("sun", "directional", 0.45, (0.45, 0.55, 1), direction=(0.8, -1, -0.7))
     gltf.add_camera("camera", (0, 2.1, 4.4), (0, 0.75, -0.4), 40)
-
-
-def sky_radiance(x, y, width=64, height=32):
-    """Blue above, brown below, reddish towards +X (the middle), a bright patch between +X and -Z high up."""
-    azimuth, polar = 2 * math.pi * ((x + 0.5) / width - 0.5), math.pi * (y + 0.5) / height
-    d = (math.sin(polar) * math.cos(azimuth), math.cos(polar), math.sin(polar) * math.sin(azimuth))
-    up = 0.5 + 0.5 * d[1]
-    base = (0.28 * (1 - up) + 0.25 * up, 0.2 * (1 - up) + 0.45 * up, 0.12 * (1 - up) + 0.9 * up)
-    red, green = 0.5 * max(d[0], 0.0) ** 2, 0.35 * max(d[2], 0.0) ** 2
-    sun = (0.55, 0.6, -0.58)
-    cosine = sum(a * b for a, b in zip(d, sun)) / math.sqrt(sum(a * a for a in sun))
-    patch = 9 * math.exp(40 * (cosine - 1))
-    return (base[0] + red + patch, base[1] + green + 0.92 * patch, base[2] + 0.75 * patch)
 
 
 @scene("environment-diffuse")

@@ -87,6 +87,13 @@ Path meetSurroundings(Path p) {
   return p;
 }
 
+/// The number of a meeting with a surface that may let the path pass. One that stops it counts too: the rays that follow must not meet the
+/// same chance again.
+int nextCrossing(inout Path p) {
+  p.crossings += 1;
+  return p.crossings - 1;
+}
+
 /// Decides by the alpha of the point whether the ray goes through it; 1 opaque, 0 not there (docs/conventions.md).
 bool passesThrough(uint flags, float alpha, Sampler numbers, int crossing) {
   if ((flags & kMaterialMask) != 0u) return alpha == 0.0;

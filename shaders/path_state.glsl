@@ -11,7 +11,7 @@ struct Path {
   int after;       // the phase that follows once the shadow ray is settled
   int lightSlot;
   int bounce;      // scatterings so far
-  int crossings;   // surfaces passed because of their alpha
+  int crossings;   // meetings with surfaces, where there is alpha; see nextCrossing
   Sampler numbers;
   bool cameraRay;  // nothing but alpha has touched the path yet
   float alpha;

@@ -92,8 +92,7 @@ Path shade(Path p) {
   uint flags = materialFlags(s.material);
   vec4 base = baseColorAt(s.material, s.texcoords, s.color);
   if (p.lightSlot == 0) {
-    if (kAlpha && passesThrough(flags, alphaAt(s.material, flags, base.a), p.numbers, p.crossings)) {
-      p.crossings += 1;
+    if (kAlpha && passesThrough(flags, alphaAt(s.material, flags, base.a), p.numbers, nextCrossing(p))) {
       p.travelled += p.hitT;
       p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
       return extend(p);
@@ -138,8 +137,7 @@ Path settleShadow(Path p) {
     Surface s = surfaceAt(slot, p.shadowOrigin, p.shadowDirection, p.traversal.t);
     uint flags = materialFlags(s.material);
     float alpha = alphaAt(s.material, flags, baseColorAt(s.material, s.texcoords, s.color).a);
-    if (passesThrough(flags, alpha, p.numbers, p.crossings)) {
-      p.crossings += 1;
+    if (passesThrough(flags, alpha, p.numbers, nextCrossing(p))) {
       p.shadowLimit = p.shadowLimit < kFarAway ? p.shadowLimit - p.traversal.t : kFarAway;
       p.shadowOrigin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.shadowDirection);
       return traceAnew(p, p.shadowLimit);

@@ -36,6 +36,11 @@ class Material:
     roughness: float
     emission: np.ndarray
     color_texture: Texture = None
+    metallic_roughness_texture: Texture = None
+    emission_texture: Texture = None
+    specular_texture: Texture = None
+    specular_color_texture: Texture = None
+    transmission_texture: Texture = None
     normal_texture: Texture = None
     normal_scale: float = 1.0
     alpha_mode: str = "OPAQUE"
@@ -167,18 +172,23 @@ class Reader:
         pbr, ext = m.get("pbrMetallicRoughness", {}), m.get("extensions", {})
         specular, volume = ext.get("KHR_materials_specular", {}), ext.get("KHR_materials_volume", {})
         strength = ext.get("KHR_materials_emissive_strength", {}).get("emissiveStrength", 1)
-        normal = m.get("normalTexture")
+        transmission, normal = ext.get("KHR_materials_transmission", {}), m.get("normalTexture")
         return Material(
             name=m["name"], color=np.array(pbr.get("baseColorFactor", [1, 1, 1, 1]), float),
             metallic=pbr.get("metallicFactor", 1), roughness=pbr.get("roughnessFactor", 1),
             emission=np.array(m.get("emissiveFactor", [0, 0, 0]), float) * strength,
             color_texture=self.texture(pbr["baseColorTexture"]).linear() if "baseColorTexture" in pbr else None,
+            metallic_roughness_texture=self.texture(pbr["metallicRoughnessTexture"]) if "metallicRoughnessTexture" in pbr else None,
+            emission_texture=self.texture(m["emissiveTexture"]).linear() if "emissiveTexture" in m else None,
+            specular_texture=self.texture(specular["specularTexture"]) if "specularTexture" in specular else None,
+            specular_color_texture=self.texture(specular["specularColorTexture"]).linear() if "specularColorTexture" in specular else None,
+            transmission_texture=self.texture(transmission["transmissionTexture"]) if "transmissionTexture" in transmission else None,
             normal_texture=self.texture(normal) if normal else None, normal_scale=normal.get("scale", 1) if normal else 1,
             alpha_mode=m.get("alphaMode", "OPAQUE"), alpha_cutoff=m.get("alphaCutoff", 0.5),
             double_sided=m.get("doubleSided", False), unlit="KHR_materials_unlit" in ext,
             ior=ext.get("KHR_materials_ior", {}).get("ior", 1.5), specular=specular.get("specularFactor", 1),
             specular_color=np.array(specular.get("specularColorFactor", [1, 1, 1]), float),
-            transmission=ext.get("KHR_materials_transmission", {}).get("transmissionFactor", 0),
+            transmission=transmission.get("transmissionFactor", 0),
             thickness=volume.get("thicknessFactor", 0),
             attenuation_color=np.array(volume.get("attenuationColor", [1, 1, 1]), float),
             attenuation_distance=volume.get("attenuationDistance", np.inf),

@@ -16,12 +16,13 @@ import numpy as np
 
 mi.set_variant("llvm_ad_rgb")
 
+import gltf_bsdf  # noqa: F401, registers its materials
 from gltf_scene import read_scene, unit
 from reference_files import FOLDER, write_reference
 
 REPOSITORY = FOLDER.parent.parent
 SCENES = REPOSITORY / "scenes"
-PASS_SAMPLES = 1 << 20  # samples rendered at once: bounds the memory
+PASS_SAMPLES = 1 << 22  # samples rendered at once: bounds the memory
 
 
 class PunctualLight(mi.Emitter):
@@ -69,40 +70,107 @@ def rgb(values):
     return {"type": "rgb", "value": [float(x) for x in values[:3]]}
 
 
-def reflectance(material):
-    texture = material.color_texture
-    if not texture:
-        return rgb(material.color)
-    # Mitsuba counts v from the bottom of a bitmap; the texels are linear already.
-    texels = (texture.texels[..., :3] * material.color[:3]).astype(np.float32)
-    assert texture.wrap == ("repeat", "repeat")
-    return {"type": "bitmap", "bitmap": mi.Bitmap(texels), "raw": True, "filter_type": "nearest" if texture.nearest else "bilinear"}
+def bitmap(texture, texels):
+    """A texture with other texels, taken as linear; both Mitsuba and glTF count v from the top row."""
+    assert texture.wrap == ("repeat", "repeat") and texture.coordinate_set == 0
+    return {"type": "bitmap", "bitmap": mi.Bitmap(np.ascontiguousarray(texels, np.float32)), "raw": True,
+            "filter_type": "nearest" if texture.nearest else "bilinear"}
 
 
-def surface(material):
-    """The BSDF, and the medium behind it if it is solid and absorbs."""
-    if material.transmission:
-        assert material.transmission == 1 and material.roughness == 0 and material.thickness > 0 and (material.color == 1).all()
-        result = {"bsdf": {"type": "dielectric", "int_ior": material.ior, "ext_ior": 1.0}}
-        if np.isfinite(material.attenuation_distance):
-            sigma = -np.log(material.attenuation_color) / material.attenuation_distance
-            result["interior"] = {"type": "homogeneous", "sigma_t": rgb(sigma), "albedo": 0.0}
-        return result
-    if material.metallic == 1:
-        assert material.roughness == 0 and (material.color == 1).all()
-        return {"bsdf": {"type": "conductor", "material": "none"}}
-    assert material.specular == 0 and material.metallic == 0
-    result = {"bsdf": {"type": "diffuse", "reflectance": reflectance(material)}}
+def colored(texture, factor):
+    return bitmap(texture, texture.texels[..., :3] * factor[:3]) if texture else rgb(factor)
+
+
+def channel(texture, index, factor=1.0):
+    return bitmap(texture, np.repeat(texture.texels[..., index:index + 1] * factor, 3, -1))
+
+
+def glass(material):
+    """Mitsuba's own where it has one. Its G is the separable one: at the roughness of these scenes it differs from appendix B's only near
+    grazing, by less than the noise."""
+    assert material.metallic == 0
+    if material.thickness > 0:
+        assert (material.color == 1).all()
+        indices = {"int_ior": material.ior, "ext_ior": 1.0}
+        if material.roughness == 0:
+            return {"type": "dielectric", **indices}
+        return {"type": "roughdielectric", "distribution": "ggx", "alpha": material.roughness ** 2, **indices}
+    if material.roughness == 0:
+        return {"type": "thindielectric", "int_ior": material.ior, "ext_ior": 1.0, "specular_transmittance": rgb(material.color)}
+    return {"type": "thin-rough-glass", "tint": material.color[:3].tolist(), "ior": material.ior, "roughness": material.roughness}
+
+
+def opaque(material, compensated, vertex_colors):
+    color = colored(material.color_texture, material.color)
+    if vertex_colors:
+        assert not material.color_texture
+        color = {"type": "mesh_attribute", "name": "vertex_color"}
+    if material.metallic == 1 and material.roughness == 0:
+        assert (material.color == 1).all()
+        return {"type": "conductor", "material": "none"}
+    if material.specular == 0 and material.metallic == 0:
+        return {"type": "diffuse", "reflectance": color}
+    result = {"type": "gltf", "base_color": color, "compensated": compensated, "specular_color": material.specular_color.tolist(),
+              **{name: float(getattr(material, name)) for name in ("metallic", "roughness", "ior", "specular")}}
+    maps = {"metallic_roughness_map": material.metallic_roughness_texture, "specular_color_map": material.specular_color_texture}
+    result.update({name: colored(texture, np.ones(3)) for name, texture in maps.items() if texture})
+    if material.specular_texture:
+        result["specular_map"] = channel(material.specular_texture, 3)
+    return result
+
+
+def normal_mapped(material, bsdf):
+    texture, scale = material.normal_texture, np.array([material.normal_scale, material.normal_scale, 1])
+    scaled = ((2 * texture.texels[..., :3] - 1) * scale + 1) / 2
+    return {"type": "normalmap", "normalmap": bitmap(texture, scaled), "bsdf": bsdf, "use_shadowing_function": False}
+
+
+def covered(material, bsdf):
+    texture, opacity = material.color_texture, float(material.color[3])
+    if texture:
+        opacity = opacity * texture.texels[..., 3:]
+        if material.alpha_mode == "MASK":
+            assert texture.nearest  # the cut-off comes after filtering, which Mitsuba has no place for
+            opacity = np.where(opacity >= material.alpha_cutoff, 1, 0)
+        opacity = bitmap(texture, np.repeat(opacity, 3, -1))
+    return {"type": "mask", "opacity": opacity, "bsdf": bsdf}
+
+
+def surface(material, compensated, vertex_colors=False):
+    """The BSDF, the light, and the medium behind it if it is solid and absorbs."""
+    if material.transmission == 1 and not material.transmission_texture:
+        bsdf = glass(material)
+    elif material.transmission:
+        # A blend is the glTF mix, and its opaque part, too, has two sides.
+        weight, texture = float(material.transmission), material.transmission_texture
+        if texture:
+            weight = channel(texture, 0, weight)
+        first = {"type": "twosided", "bsdf": opaque(material, compensated, vertex_colors)}
+        bsdf = {"type": "blendbsdf", "weight": weight, "first": first, "second": glass(material)}
+    else:
+        bsdf = opaque(material, compensated, vertex_colors)
+    if material.normal_texture:
+        bsdf = normal_mapped(material, bsdf)
+    if material.double_sided:
+        bsdf = {"type": "twosided", "bsdf": bsdf}
+    if material.alpha_mode != "OPAQUE":
+        bsdf = covered(material, bsdf)
+    result = {"bsdf": bsdf}
+    if np.isfinite(material.attenuation_distance):
+        sigma = -np.log(material.attenuation_color) / material.attenuation_distance
+        result["interior"] = {"type": "homogeneous", "sigma_t": rgb(sigma / sigma.max()), "scale": float(sigma.max()), "albedo": 0.0}
     if material.emission.any():
-        result["emitter"] = {"type": "area", "radiance": rgb(material.emission)}
+        assert not material.double_sided
+        result["emitter"] = {"type": "area", "radiance": colored(material.emission_texture, material.emission)}
     return result
 
 
 def write_ply(path, mesh):
-    corners = np.concatenate([mesh.positions.reshape(-1, 3), mesh.uvs[0].reshape(-1, 2)], -1)
+    colors = mesh.colors[..., :3] * mesh.material.color[:3]
+    corners = np.concatenate([mesh.positions.reshape(-1, 3), mesh.uvs[0].reshape(-1, 2), colors.reshape(-1, 3)], -1)
     with open(path, "w", encoding="ascii") as file:
         file.write("ply\nformat ascii 1.0\nelement vertex %d\n" % len(corners))
-        file.write("".join("property float %s\n" % name for name in "xyzuv"))
+        file.write("".join("property float %s\n" % name for name in "xyzuvrgb"))
         file.write("element face %d\nproperty list uchar int vertex_indices\nend_header\n" % (len(corners) // 3))
         np.savetxt(file, corners, "%.9g")
         np.savetxt(file, np.insert(np.arange(len(corners)).reshape(-1, 3), 0, 3, 1), "%d")
@@ -162,23 +230,32 @@ def check_environment(scene, texels, rotation_degrees):
 def build(scene, entry, scratch):
     width, height = entry["resolution"]
     options = dict(zip(entry["options"][::2], entry["options"][1::2]))
-    absorbs = any(np.isfinite(item.material.attenuation_distance) for item in scene.meshes + scene.spheres)
+    compensated = options.get("--energy-compensation", "on") == "on"
+    materials = [item.material for item in scene.meshes + scene.spheres]
+    # volpath sees lights through holes; volpathmis weighs the colours of a medium against one another.
+    integrator = "path"
+    if any(m.alpha_mode != "OPAQUE" for m in materials):
+        integrator = "volpath"
+    if any(np.isfinite(m.attenuation_distance) for m in materials):
+        integrator = "volpathmis"
     camera = scene.cameras[0]
     result = {
         "type": "scene",
-        "integrator": {"type": "volpath" if absorbs else "path", "max_depth": int(options["--bounces"]) + 2, "rr_depth": 1000},
+        "integrator": {"type": integrator, "max_depth": int(options["--bounces"]) + 2, "rr_depth": 1000},
         # Mitsuba's cameras look along +z with +x to the left.
         "sensor": {"type": "perspective", "fov_axis": "y", "fov": float(np.degrees(camera.yfov)), "near_clip": 1e-3,
                    "to_world": mi.ScalarTransform4f(camera.to_world @ np.diag([-1.0, 1, -1, 1])),
                    "film": {"type": "hdrfilm", "width": width, "height": height, "rfilter": {"type": "box"},
                             "pixel_format": "rgb", "component_format": "float32"},
-                   "sampler": {"type": "independent"}}}
+                   "sampler": {"type": "stratified", "sample_count": pass_samples(entry)}}}
     for i, mesh in enumerate(scene.meshes):
         path = scratch / ("mesh%d.ply" % i)
         write_ply(path, mesh)
-        result["mesh%d" % i] = {"type": "ply", "filename": str(path), "face_normals": True, **surface(mesh.material)}
+        result["mesh%d" % i] = {"type": "ply", "filename": str(path), "face_normals": True, 
+                                **surface(mesh.material, compensated, (mesh.colors != 1).any())}
     for i, sphere in enumerate(scene.spheres):
-        result["sphere%d" % i] = {"type": "sphere", "center": sphere.center.tolist(), "radius": sphere.radius, **surface(sphere.material)}
+        result["sphere%d" % i] = {"type": "sphere", "center": sphere.center.tolist(), "radius": sphere.radius,
+                                  **surface(sphere.material, compensated)}
     for i, light in enumerate(scene.lights):
         result["light%d" % i] = punctual(light)
     if "--hdri-file" in options:
@@ -190,20 +267,25 @@ def build(scene, entry, scratch):
     return built
 
 
+def pass_samples(entry):
+    """Samples of one pass: a power of 4, which is a square as stratified samples need it."""
+    width, height = entry["resolution"]
+    return 4 ** int(np.log2(min(entry["spp"], PASS_SAMPLES // (width * height))) / 2)
+
+
 def render(scene, entry, seed):
     width, height = entry["resolution"]
-    each = min(entry["spp"], PASS_SAMPLES // (width * height))
-    passes = entry["spp"] // each
+    passes = entry["spp"] // pass_samples(entry)
     total = np.zeros((height, width, 3))
     for k in range(passes):
-        total += np.array(mi.render(scene, spp=each, seed=seed * passes + k))
+        total += np.array(mi.render(scene, spp=pass_samples(entry), seed=seed * passes + k))
     return total / passes
 
 
 def main():
     names = sys.argv[1:]
     for entry in json.loads((FOLDER / "references.json").read_text())["references"]:
-        if entry["made_by"] != "render_mitsuba" or (names and entry["name"] not in names):
+        if entry["made_by"] != "render_mitsuba" or "same_as" in entry or (names and entry["name"] not in names):
             continue
         with tempfile.TemporaryDirectory() as scratch:
             scene = build(read_scene(SCENES / (entry["scene"] + ".gltf")), entry, Path(scratch))

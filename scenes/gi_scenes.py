@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: MIT
+"""Scenes for the stage gi that hold one glTF material each, or a few side by side. Lamps that stand before a sky have a black back:
+what lies behind a single-sided lamp would shine through it."""
+
+import math
+
+import geometry
+from geometry import QUAD_INDICES, QUAD_UVS, box_faces, ground, quad, quad_normals
+from gltf_writer import rotation_about
+from picture_files import write_pfm, write_png
+from scene_parts import place_faces, place_quad, scene
+
+
+def sky_radiance(x, y, width=64, height=32):
+    """Blue above, brown below, reddish towards +X (the middle), a bright patch between +X and -Z high up."""
+    azimuth, polar = 2 * math.pi * ((x + 0.5) / width - 0.5), math.pi * (y + 0.5) / height
+    d = (math.sin(polar) * math.cos(azimuth), math.cos(polar), math.sin(polar) * math.sin(azimuth))
+    up = 0.5 + 0.5 * d[1]
+    base = (0.28 * (1 - up) + 0.25 * up, 0.2 * (1 - up) + 0.45 * up, 0.12 * (1 - up) + 0.9 * up)
+    red, green = 0.5 * max(d[0], 0.0) ** 2, 0.35 * max(d[2], 0.0) ** 2
+    sun = (0.55, 0.6, -0.58)
+    cosine = sum(a * b for a, b in zip(d, sun)) / math.sqrt(sum(a * a for a in sun))
+    patch = 9 * math.exp(40 * (cosine - 1))
+    return (base[0] + red + patch, base[1] + green + 0.92 * patch, base[2] + 0.75 * patch)
+
+
+def sun_sky_radiance(x, y):
+    """The same sky, dimmer, and a sun of four texels a thousand times as bright, high up between -X and +Z."""
+    sun = (240, 220, 180) if x in (58, 59) and y in (9, 10) else (0, 0, 0)
+    return tuple(0.3 * a + b for a, b in zip(sky_radiance(x, y), sun))
+
+
+def place_backed_lamp(gltf, half, radiance, translation):
+    lamp, back = gltf.add_lamp("lamp", radiance), gltf.add_lambert("lamp-back", (0, 0, 0))
+    place_quad(gltf, "lamp", geometry.flip(ground(half, half)), lamp, translation=translation)
+    place_quad(gltf, "lamp-back", ground(half, half, 0.001), back, translation=translation)
+
+
+def place_row(gltf, materials, radius, spacing):
+    """A row of spheres along x, a hair above the ground."""
+    for i, material in enumerate(materials):
+        x = round((i - (len(materials) - 1) / 2) * spacing, 6)
+        gltf.add_sphere("sphere-%d" % i, radius, material, translation=[x, radius + 0.01, 0])
+
+
+def add_stage(gltf):
+    """Ground, lamp and camera; to be lit by sky.pfm, too."""
+    place_quad(gltf, "ground", ground(2.6, 2), gltf.add_lambert("ground", (0.5, 0.48, 0.42)))
+    place_backed_lamp(gltf, 0.8, (5, 4.7, 4.2), [-0.8, 2.6, 1.4])
+    gltf.add_camera("camera", (0, 1.5, 4.4), (0, 0.5, 0), 32)
+
+
+@scene("rough-metals")
+def rough_metals(gltf):
+    add_stage(gltf)
+    metals = (("gold", (1, 0.77, 0.34), 0.15), ("copper", (0.95, 0.64, 0.54), 0.4), ("blue", (0.35, 0.5, 0.9), 0.8))
+    place_row(gltf, [gltf.add_material(name, color, 1, roughness) for name, color, roughness in metals], 0.55, 1.3)
+
+
+@scene("plastics")
+def plastics(gltf):
+    """Plain plastics, coloured and weakened reflections of a higher index, and a half-metal."""
+    add_stage(gltf)
+    materials = [gltf.add_material("red", (0.75, 0.12, 0.08), roughness=0.3),
+                 gltf.add_material("green", (0.15, 0.6, 0.2), roughness=0.1),
+                 gltf.add_material("specular", (0.1, 0.12, 0.3), roughness=0.25, extensions={
+                     "KHR_materials_ior": {"ior": 1.9},
+                     "KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [1, 0.8, 0.3]}}),
+                 gltf.add_material("half-metal", (0.9, 0.6, 0.3), metallic=0.5, roughness=0.45)]
+    place_row(gltf, materials, 0.46, 1.0)
+
+
+# Glass
+
+def glass(gltf, name, color=(1, 1, 1), roughness=0.0, ior=1.5, **volume):
+    extensions = {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": ior}}
+    if volume:
+        extensions["KHR_materials_volume"] = volume
+    return gltf.add_material(name, color, roughness=roughness, extensions=extensions)
+
+
+@scene("rough-glass")
+def rough_glass(gltf):
+    """A frosted sphere and one of green glass, lit by sky.pfm."""
+    place_quad(gltf, "ground", ground(2.6, 2), gltf.add_lambert("ground", (0.6, 0.5, 0.4)))
+    place_faces(gltf, "post", box_faces((-0.25, 0, -0.25), (0.25, 1.4, 0.25)), gltf.add_lambert("post", (0.8, 0.25, 0.15)),
+                translation=[0, 0.001, -1.1], rotation=rotation_about((0, 1, 0), 30))
+    place_row(gltf, [glass(gltf, "frosted", roughness=0.3, thicknessFactor=1),
+                     glass(gltf, "green", thicknessFactor=1, attenuationColor=[0.3, 0.8, 0.5], attenuationDistance=0.8)], 0.65, 1.45)
+    gltf.add_camera("camera", (0, 1.5, 4.2), (0, 0.6, 0), 30)
+
+
+@scene("thin-glass")
+def thin_glass(gltf):
+    """Two tinted panes, a clear and a frosted one, before coloured posts; lit by sky.pfm, too."""
+    add_stage(gltf)
+    for x, color in ((-0.75, (0.8, 0.6, 0.15)), (0.75, (0.2, 0.35, 0.8))):
+        place_faces(gltf, "post", box_faces((-0.2, 0, -0.2), (0.2, 1.1, 0.2)), gltf.add_lambert("post", color),
+                    translation=[x, 0.001, -0.5], rotation=rotation_about((0, 1, 0), 30))
+    pane = quad((-0.6, 0.03, 0), (1.2, 0, 0), (0, 1.3, 0))
+    # Seen at about 63 degrees, where Schlick's reflectance departs most from Fresnel's.
+    place_quad(gltf, "clear", pane, glass(gltf, "clear", (0.95, 0.65, 0.6)), translation=[-0.7, 0, 0.5], rotation=rotation_about((0, 1, 0), -53))
+    place_quad(gltf, "frosted", pane, glass(gltf, "frosted", (0.75, 0.9, 0.95), 0.6), translation=[0.7, 0, 0.5],
+               rotation=rotation_about((0, 1, 0), -15))
+
+
+# Textures, emitters, coverage
+
+def layers_texel(x, y):
+    """Transmission in red (a checker), a specular colour, its strength in alpha; green and blue differ from all of them."""
+    return 230 if (x + y) % 2 else 40, 255 - 30 * y, 60 + 25 * x, (255, 200, 120, 20, 0, 90, 180, 240)[x]
+
+
+@scene("mapped-layers")
+def mapped_layers(gltf):
+    """A half-transmissive thin pane and a plastic panel, both with the maps of their extensions; lit by sky.pfm, too."""
+    write_png(gltf.folder / "layers.png", 8, 8, layers_texel)
+    add_stage(gltf)
+    layers = {"index": gltf.add_texture("layers.png")}
+    pane = gltf.add_material("pane", (0.5, 0.85, 0.6), roughness=0.35, extensions={
+        "KHR_materials_transmission": {"transmissionFactor": 0.9, "transmissionTexture": layers}})
+    panel = gltf.add_material("panel", (0.25, 0.1, 0.1), roughness=0.3, doubleSided=True, extensions={
+        "KHR_materials_ior": {"ior": 2.2}, "KHR_materials_specular": {"specularTexture": layers, "specularColorTexture": layers}})
+    place_faces(gltf, "post", box_faces((-0.2, 0, -0.2), (0.2, 1.1, 0.2)), gltf.add_lambert("post", (0.8, 0.6, 0.15)),
+                translation=[-0.75, 0.001, -0.5], rotation=rotation_about((0, 1, 0), 30))
+    corners = quad((-0.6, 0.03, 0), (1.2, 0, 0), (0, 1.2, 0))
+    place_quad(gltf, "pane", corners, pane, uvs=QUAD_UVS, translation=[-0.7, 0, 0.5], rotation=rotation_about((0, 1, 0), 15))
+    # It leans back, so that it mirrors the sky; from the ground behind it its back is seen.
+    place_quad(gltf, "panel", corners, panel, uvs=QUAD_UVS, translation=[0.7, 0.02, 0.5], rotation=rotation_about((1, 0, 0), -40))
+
+
+
+@scene("sun-sky")
+def sun_sky(gltf):
+    """To be lit by sun-sky.pfm: shadows, a diffuse and a metal sphere."""
+    write_pfm(gltf.folder / "sun-sky.pfm", 64, 32, sun_sky_radiance)
+    place_quad(gltf, "ground", ground(2.6, 2), gltf.add_lambert("ground", (0.6, 0.6, 0.6)))
+    place_row(gltf, [gltf.add_lambert("clay", (0.8, 0.55, 0.4)), gltf.add_material("metal", (0.9, 0.85, 0.75), 1, 0.5)], 0.6, 1.4)
+    gltf.add_camera("camera", (0, 1.7, 4.2), (0, 0.45, 0), 32)
+
+
+def metal_rough_texel(x, y):
+    """Metallic in blue, roughness in green; red, which means nothing, is loud."""
+    return 255 if (x + y) % 2 else 0, 130 + 15 * x, (0, 0, 60, 160, 255, 255, 200, 100)[y]
+
+
+def glow_texel(x, y):
+    """Four stripes of light and a dark diagonal: no two turns or flips look alike."""
+    return (5, 5, 5) if x == y else ((255, 90, 40), (250, 220, 120), (90, 220, 255), (60, 80, 250))[y // 2]
+
+
+@scene("mapped-metal")
+def mapped_metal(gltf):
+    """A wall with all maps of the metallic-roughness material, lit by a picture on the right and two triangles on the left."""
+    write_png(gltf.folder / "metal-rough.png", 8, 8, metal_rough_texel)
+    write_png(gltf.folder / "glow.png", 8, 8, glow_texel)
+    arrows, normals = gltf.add_texture("arrows.png", "nearest"), gltf.add_texture("bricks-normal.png")
+    wall = gltf.add_material("wall", (0.9, 0.9, 0.9), metallic=0.9, texture=arrows, normalTexture={"index": normals, "scale": 0.5})
+    gltf.root["materials"][wall]["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {"index": gltf.add_texture("metal-rough.png")}
+    place_quad(gltf, "wall", quad((-1.4, 0, 0), (2.8, 0, 0), (0, 2, 0)), wall, uvs=[(1.4 * u, v) for u, v in QUAD_UVS])
+    place_quad(gltf, "ground", quad((-1.4, -0.01, 1.4), (2.8, 0, 0), (0, 0, -1.38)), gltf.add_lambert("ground", (0.6, 0.6, 0.6)))
+    glow = gltf.add_texture("glow.png")
+    picture = gltf.add_lambert("picture", (0, 0, 0), emissiveFactor=[1, 0.9, 0.8], emissiveTexture={"index": glow},
+                               extensions={"KHR_materials_emissive_strength": {"emissiveStrength": 5}})
+    corners = quad((1.9, 0.3, 0.2), (0, 0, 1.1), (0, 1.5, 0))
+    place_quad(gltf, "picture", geometry.turned_towards(corners, (0, 1, 1)), picture, uvs=QUAD_UVS)
+    for name, y, lamp in (("low", 0.3, gltf.add_lamp("strong", (9, 4, 2))),
+                          ("high", 1.2, gltf.add_lambert("weak", (0.5, 0.5, 0.5), emissiveFactor=[0.3, 0.8, 0.9]))):
+        corners = [(-1.9, y, 1.2), (-1.9, y, 0.3), (-1.9, y + 0.7, 0.6)]
+        gltf.place_mesh(name, gltf.primitive(corners, [0, 1, 2], lamp))
+    gltf.add_camera("camera", (0, 1.1, 4.8), (0, 0.95, 0), 32)
+
+
+@scene("coverage")
+def coverage(gltf):
+    """A sheet of alpha 0.5 and one with holes throw shadows and are seen through; both have two sides. The ground has vertex colours."""
+    colors = gltf.add_accessor([(255, 240, 200, 255), (200, 255, 230, 255), (230, 200, 255, 255), (255, 255, 255, 255)], "B", normalized=True)
+    corners = ground(2, 1.5)
+    paper = gltf.primitive(corners, QUAD_INDICES, gltf.add_lambert("ground", (0.85, 0.85, 0.8)), quad_normals(corners), COLOR_0=colors)
+    gltf.place_mesh("ground", paper)
+    place_quad(gltf, "lamp", geometry.flip(ground(0.4, 0.4)), gltf.add_lamp("lamp", (24, 23, 21)), translation=[0, 3, 0.4])
+    half = gltf.add_lambert("half", (0.9, 0.85, 0.15, 0.5), alphaMode="BLEND", doubleSided=True)
+    place_quad(gltf, "half", ground(0.6, 0.6), half, translation=[-0.75, 0.3, 0.1], rotation=rotation_about((0, 0, 1), -8))
+    disc = gltf.add_lambert("disc", (0.9, 0.9, 0.9), texture=gltf.add_texture("disc.png", "nearest"), alphaMode="MASK", alphaCutoff=0.6,
+                            doubleSided=True)
+    sheet = gltf.primitive(ground(0.6, 0.6), QUAD_INDICES, disc, quad_normals(ground(0.6, 0.6)), QUAD_UVS)
+    gltf.place_mesh("disc", sheet, translation=[0.75, 0.75, 0.1], rotation=rotation_about((1, 0, 0), 25))
+    gltf.add_camera("camera", (0.2, 2.3, 3.6), (0, 0.35, 0), 40)
