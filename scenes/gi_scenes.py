@@ -186,3 +186,27 @@ def coverage(gltf):
     sheet = gltf.primitive(ground(0.6, 0.6), QUAD_INDICES, disc, quad_normals(ground(0.6, 0.6)), QUAD_UVS)
     gltf.place_mesh("disc", sheet, translation=[0.75, 0.75, 0.1], rotation=rotation_about((1, 0, 0), 25))
     gltf.add_camera("camera", (0.2, 2.3, 3.6), (0, 0.35, 0), 40)
+
+
+@scene("many-lights")
+def many_lights(gltf):
+    """A closed room under 256 small lamps of many colours, whose powers span a factor of 64; two matt blocks and a metal ball."""
+    walls = gltf.add_lambert("walls", (0.6, 0.6, 0.58))
+    for name, face in zip("abcdef", box_faces((-2, 0, -2), (2, 2, 3))):
+        place_quad(gltf, "wall-" + name, geometry.flip(face), walls)
+    place_faces(gltf, "tall", box_faces((-1.2, 0, -1.2), (-0.5, 1.2, -0.5)), gltf.add_lambert("tall", (0.7, 0.35, 0.3)))
+    place_faces(gltf, "low", box_faces((0.2, 0, -0.9), (1.2, 0.5, -0.1)), gltf.add_lambert("low", (0.35, 0.5, 0.7)))
+    gltf.add_sphere("ball", 0.35, gltf.add_material("metal", (0.9, 0.8, 0.6), 1, 0.3), translation=[-0.2, 0.36, 0.6])
+    colors = ((1, 0.3, 0.2), (0.3, 1, 0.4), (0.3, 0.4, 1), (1, 0.9, 0.7))
+    lamps = [gltf.add_lamp("lamp-%d" % i, [c * 4 ** (i // 4) for c in colors[i % 4]]) for i in range(16)]
+    quads = [[] for _ in lamps]
+    for k in range(256):
+        x, z = round(-1.83 + 3.66 * (k % 16) / 15, 6), round(-1.83 + 4.66 * (k // 16) / 15, 6)
+        # 7 and 16 have no common divisor: neighbours differ. Bright lamps are the rare ones.
+        index = 7 * k % 16
+        index = index if index < 12 or k % 5 == 0 else index - 8
+        quads[index].append([(x + i, y, z + j) for i, y, j in geometry.flip(ground(0.03, 0.03, 1.98))])
+    for lamp, placed in zip(lamps, quads):
+        positions, indices = geometry.join_quads(placed)
+        gltf.place_mesh("lamps", gltf.primitive(positions, indices, lamp))
+    gltf.add_camera("camera", (0, 1.1, 2.9), (0, 0.7, -1), 60)
