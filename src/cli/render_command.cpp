@@ -78,10 +78,11 @@ void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film) {
   }
 }
 
-/// Adds the layers of first hits, drawn with as many samples as the picture has at most.
+/// Adds the layers of first hits, drawn with the picture's samples; of an adaptive one, those that all pixels
+/// have.
 void addFeatures(Image& picture, const Tracer& tracer, const RenderOptions& options,
                  const LoadedScene& loaded, Statistics& stats) {
-  const int samples = int(std::max(1u, stats.film.mostSamples));
+  const int samples = int(std::max(1u, stats.adaptive ? stats.film.fewestSamples : stats.film.mostSamples));
   const int before = interrupts();
   for (const ShaderVariant& variant : tracer.features) {
     Film film(loaded.size);
