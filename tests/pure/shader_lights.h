@@ -66,8 +66,8 @@ inline std::vector<Light> threeLights() {
   spot.position = {-1, 0.5f, 0.75f};
   spot.direction = glm::normalize(vec3(1.0f, -0.7f, -0.6f));
   spot.range = 3.0f;
-  spot.innerConeAngle = 0.2f;
-  spot.outerConeAngle = 0.6f;
+  spot.innerConeAngle = 0.1f;  // the origin lies at 0.18
+  spot.outerConeAngle = 0.4f;
   Light sun;
   sun.type = LightType::Directional;
   sun.intensity = {0.4f, 0.5f, 0.6f};
