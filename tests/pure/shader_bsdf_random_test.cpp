@@ -153,6 +153,37 @@ TEST(ShaderBsdfAtRandom, PlasticOverABlackBaseGivesNoMoreThanItGets) {
   });
 }
 
+TEST(ShaderBsdfAtRandom, WhatFacetsGiveBackIsTheSumOverAllFurtherScatterings) {
+  Draw draw(277);
+  for (int k = 0; k < 100; ++k) {
+    // A scattering keeps `fresnel`; of what it sends out the share `loss` meets a further facet.
+    const dvec3 fresnel = 0.5 + draw.inCube(0.5);
+    const double loss = draw.between(0.0, 0.6);
+    dvec3 sum(0.0);
+    dvec3 kept = fresnel;
+    for (double inside = 1.0; inside > 1e-16; inside *= loss) {
+      kept *= fresnel;
+      sum += kept * inside * (1.0 - loss);
+    }
+    EXPECT_LE(glm::distance(glsl_double::manyScatterings(fresnel, loss), sum), 1e-12);
+  }
+}
+
+TEST(ShaderBsdfAtRandom, AverageFresnelIsTheCosineWeightedMeanOfSchlicks) {
+  Draw draw(281);
+  for (int k = 0; k < 20; ++k) {
+    const dvec3 f0 = 0.5 + draw.inCube(0.5);
+    const double f90 = draw.between(0.0, 1.0);
+    constexpr int kSteps = 2000;
+    dvec3 mean(0.0);
+    for (int i = 0; i < kSteps; ++i) {
+      const double cosine = (i + 0.5) / kSteps;
+      mean += schlick(f0, f90, cosine) * (2.0 * cosine / kSteps);
+    }
+    EXPECT_LE(glm::distance(glsl_double::averageFresnel(f0, f90), mean), 1e-6);
+  }
+}
+
 /// The part of the samples that facets send to the wrong side, over a low-discrepancy sequence (Roberts,
 /// 2018: R3).
 double lostByDrawing(const Bsdf& b, const dvec3& outgoing) {
