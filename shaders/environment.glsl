@@ -6,11 +6,11 @@ vec2 environmentCoordinates(vec3 d) {
   float c = frame.environment.z;
   float s = frame.environment.w;
   vec3 r = vec3(d.x * c - d.z * s, d.y, d.x * s + d.z * c);
-  return vec2(atan(r.z, r.x) * (0.5 * kInversePi) + 0.5, acos(clamp(r.y, -1.0, 1.0)) * kInversePi);
+  return vec2(atan(r.z, r.x) * (0.5f * kInversePi) + 0.5f, acos(clamp(r.y, -1.0f, 1.0f)) * kInversePi);
 }
 
 vec3 environmentDirection(vec2 uv) {
-  float phi = (uv.x - 0.5) * 2.0 * kPi;
+  float phi = (uv.x - 0.5f) * 2.0f * kPi;
   float theta = uv.y * kPi;
   vec3 r = vec3(sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi));
   float c = frame.environment.z;
@@ -21,27 +21,27 @@ vec3 environmentDirection(vec2 uv) {
 vec4 environmentTexel(ivec2 p, ivec2 size) { return uintBitsToFloat(readEnvironment(p.y * size.x + p.x)); }
 
 vec3 environmentRadiance(vec3 direction) {
-  if (!kEnvironment) return vec3(0.0);
-  ivec2 size = ivec2(frame.environment.xy);
-  vec2 position = environmentCoordinates(direction) * vec2(size) - 0.5;
+  if (!kEnvironment) return vec3(0.0f);
+  ivec2 size = ivec2(frame.environment);
+  vec2 position = environmentCoordinates(direction) * vec2(size) - vec2(0.5f);
   vec2 base = floor(position);
   vec2 f = position - base;
   int x0 = (int(base.x) + size.x) % size.x;
   int x1 = (x0 + 1) % size.x;
   int y0 = clamp(int(base.y), 0, size.y - 1);
   int y1 = clamp(int(base.y) + 1, 0, size.y - 1);
-  vec3 top = mix(environmentTexel(ivec2(x0, y0), size).rgb, environmentTexel(ivec2(x1, y0), size).rgb, f.x);
-  vec3 bottom = mix(environmentTexel(ivec2(x0, y1), size).rgb, environmentTexel(ivec2(x1, y1), size).rgb, f.x);
-  return mix(top, bottom, f.y);
+  vec4 top = mix(environmentTexel(ivec2(x0, y0), size), environmentTexel(ivec2(x1, y0), size), f.x);
+  vec4 bottom = mix(environmentTexel(ivec2(x0, y1), size), environmentTexel(ivec2(x1, y1), size), f.x);
+  return vec3(mix(top, bottom, f.y));
 }
 
 /// Density over solid angle with which sampleEnvironment draws a direction.
 float environmentDensity(vec3 direction) {
-  ivec2 size = ivec2(frame.environment.xy);
+  ivec2 size = ivec2(frame.environment);
   vec2 uv = environmentCoordinates(direction);
   ivec2 p = clamp(ivec2(uv * vec2(size)), ivec2(0), size - 1);
-  float sine = sqrt(max(0.0, 1.0 - direction.y * direction.y));
-  return environmentTexel(p, size).w / max(2.0 * kPi * kPi * sine, 1e-12);
+  float sine = sqrt(max(0.0f, 1.0f - direction.y * direction.y));
+  return environmentTexel(p, size).w / max(2.0f * kPi * kPi * sine, float(1e-12));
 }
 
 /// An entry of an alias table (Walker, 1977) drawn with 32 random bits: its index, and where in the entry the bits fall, in [0, 1). One number
@@ -55,18 +55,21 @@ TablePlace placeInTable(uint bits, uint count) {
   uint high;
   uint low;
   umulExtended(bits, count, high, low);
-  return TablePlace(int(high), unitFloat(low));
+  TablePlace place;
+  place.index = int(high);
+  place.within = unitFloat(low);
+  return place;
 }
 
 /// `within` as a number of its own in the part below or above the threshold, in [0, 1).
 float withinPart(float within, float threshold) {
-  float u = within < threshold ? within / threshold : (within - threshold) / (1.0 - threshold);
-  return min(u, 0.99999994);
+  float u = within < threshold ? within / threshold : (within - threshold) / (1.0f - threshold);
+  return min(u, float(0.99999994));
 }
 
 /// A direction drawn by the alias table of the texels, uniform within one.
 vec3 sampleEnvironment(uvec2 bits) {
-  ivec2 size = ivec2(frame.environment.xy);
+  ivec2 size = ivec2(frame.environment);
   TablePlace place = placeInTable(bits.x, uint(size.x * size.y));
   uvec2 entry = readEnvironmentAlias(place.index);
   float threshold = uintBitsToFloat(entry.x);

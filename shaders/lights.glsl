@@ -9,9 +9,18 @@ struct LightSample {
   float density;    // over solid angle, the chance of choosing this light counted in
 };
 
-const float kFarAway = 3.0e38;
+const float kFarAway = float(3.0e38);
 
-LightSample noLight() { return LightSample(vec3(0.0, 0.0, 1.0), kFarAway, vec3(0.0), 0.0); }
+LightSample makeLight(vec3 direction, float distance, vec3 irradiance, float density) {
+  LightSample s;
+  s.direction = direction;
+  s.distance = distance;
+  s.irradiance = irradiance;
+  s.density = density;
+  return s;
+}
+
+LightSample noLight() { return makeLight(vec3(0.0f, 0.0f, 1.0f), kFarAway, vec3(0.0f), 0.0f); }
 
 /// One punctual light seen from a point (KHR_lights_punctual).
 LightSample punctualLight(int index, vec3 point) {
@@ -20,28 +29,28 @@ LightSample punctualLight(int index, vec3 point) {
   vec4 place = uintBitsToFloat(readLights(row + 1));
   vec4 axis = uintBitsToFloat(readLights(row + 2));
   float spotOffset = uintBitsToFloat(readLights(row + 3).x);
-  if (intensity.w == kLightDirectional) return LightSample(-axis.xyz, kFarAway, intensity.rgb, 0.0);
-  vec3 towards = place.xyz - point;
+  if (intensity.w == kLightDirectional) return makeLight(-vec3(axis), kFarAway, vec3(intensity), 0.0f);
+  vec3 towards = vec3(place) - point;
   float squared = dot(towards, towards);
-  if (squared <= 0.0) return noLight();
+  if (squared <= 0.0f) return noLight();
   float distance = sqrt(squared);
   vec3 direction = towards / distance;
-  float window = 1.0;
-  if (place.w > 0.0) {
+  float window = 1.0f;
+  if (place.w > 0.0f) {
     float ratio = squared / (place.w * place.w);
-    window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
+    window = clamp(1.0f - ratio * ratio, 0.0f, 1.0f);
   }
   if (intensity.w == kLightSpot) {
-    float falloff = clamp(dot(-direction, axis.xyz) * axis.w + spotOffset, 0.0, 1.0);
+    float falloff = clamp(dot(-direction, vec3(axis)) * axis.w + spotOffset, 0.0f, 1.0f);
     window *= falloff * falloff;
   }
-  return LightSample(direction, distance, intensity.rgb * (window / squared), 0.0);
+  return makeLight(direction, distance, vec3(intensity) * (window / squared), 0.0f);
 }
 
 /// Density over solid angle of choosing the point that a ray hit on an emissive triangle.
 float emitterDensity(uint material, float distance, float cosine) {
-  float area = materialFloats(material, kMaterialMaps).z * (1.0 - frame.lightChoice.x);
-  return area * distance * distance / max(cosine, 1e-7);
+  float area = materialFloats(material, kMaterialMaps).z * (1.0f - frame.lightChoice.x);
+  return area * distance * distance / max(cosine, float(1e-7));
 }
 
 /// A point on the emissive triangle of a leaf slot, chosen with `chance`.
@@ -54,28 +63,28 @@ LightSample triangleLight(int slot, float chance, vec3 point, float u, float v) 
   float doubleArea = length(n);
   vec3 towards = p.v0 + w.x * e1 + w.y * e2 - point;
   float squared = dot(towards, towards);
-  if (squared <= 0.0 || doubleArea <= 0.0) return noLight();
+  if (squared <= 0.0f || doubleArea <= 0.0f) return noLight();
   float distance = sqrt(squared);
   vec3 direction = towards / distance;
   float cosine = -dot(n, direction) / doubleArea;
   uvec4 record = readPrimitives(int(p.word & kPrimitiveIndexMask));
   uint material = record.w & kMaterialIndexMask;
   if ((materialFlags(material) & kMaterialDoubleSided) != 0u) cosine = abs(cosine);
-  if (cosine <= 0.0) return noLight();
-  vec4 texcoords = vec4(0.0);
+  if (cosine <= 0.0f) return noLight();
+  vec4 texcoords = vec4(0.0f);
   if (kEmissionTexture && kTexcoords) {
-    ivec3 i = ivec3(record.xyz);
+    ivec3 i = ivec3(record);
     texcoords = interpolate(readTexcoordsAt(i.x), readTexcoordsAt(i.y), readTexcoordsAt(i.z), w);
   }
-  float density = chance * squared / (0.5 * doubleArea * cosine);
-  return LightSample(direction, distance, emissionAt(material, texcoords) / density, density);
+  float density = chance * squared / (0.5f * doubleArea * cosine);
+  return makeLight(direction, distance, emissionAt(material, texcoords) / density, density);
 }
 
 LightSample environmentLight(float chance, uvec2 bits) {
   vec3 direction = sampleEnvironment(bits);
   float density = chance * environmentDensity(direction);
-  if (density <= 0.0) return noLight();
-  return LightSample(direction, kFarAway, environmentRadiance(direction) / density, density);
+  if (density <= 0.0f) return noLight();
+  return makeLight(direction, kFarAway, environmentRadiance(direction) / density, density);
 }
 
 /// An emitter of the alias table by power; onlyTriangles drops punctual lights, which the caller visits one by one.
@@ -113,13 +122,13 @@ LightSample lightOfSlot(int slot, vec3 point, Sampler numbers, uint dimension) {
     LightSample s = noLight();
     uvec2 bits = drawPairBits(numbers, dimension + 1u);
     if (kEnvironmentSampling && environment) s = environmentLight(frame.lightChoice.x, bits);
-    if (emitters && !environment) s = emitterLight(1.0 - frame.lightChoice.x, point, bits, false);
+    if (emitters && !environment) s = emitterLight(1.0f - frame.lightChoice.x, point, bits, false);
     return s;
   }
   int punctual = kPunctualLights ? int(frame.lightChoice.w) : 0;
   LightSample s = noLight();
   if (kPunctualLights && slot < punctual) s = punctualLight(slot, point);
-  if (kEmissiveTriangles && slot == punctual) s = emitterLight(1.0, point, drawPairBits(numbers, dimension), true);
-  if (kEnvironmentSampling && slot == lightSlotCount() - 1) s = environmentLight(1.0, drawPairBits(numbers, dimension + 2u));
+  if (kEmissiveTriangles && slot == punctual) s = emitterLight(1.0f, point, drawPairBits(numbers, dimension), true);
+  if (kEnvironmentSampling && slot == lightSlotCount() - 1) s = environmentLight(1.0f, drawPairBits(numbers, dimension + 2u));
   return s;
 }

@@ -28,6 +28,17 @@ const ErrorCurve* curveNamed(const ErrorReport& report, const std::string& name)
   return nullptr;
 }
 
+/// A field of a CSV file (RFC 4180): names of configurations are the user's.
+std::string csvField(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
 /// How many times sooner, and with how many times fewer samples, `curve` reaches the goal than `slower`.
 struct Gain {
   double time = 0.0;
@@ -70,8 +81,8 @@ std::optional<Reached> timeToReach(const ErrorCurve& curve, double relmse) {
   const std::vector<ErrorStep> steps = stepsOf(curve);
   for (size_t i = 0; i < steps.size(); ++i) {
     const ErrorSample& here = steps[i].mean;
-    if (here.relmse > relmse) continue;
-    if (i == 0) return Reached{here.seconds, here.samples, false};
+    if (!(here.relmse <= relmse)) continue;
+    if (i == 0 || here.relmse <= 0.0) return Reached{here.seconds, here.samples, false};
     const ErrorSample& before = steps[i - 1].mean;
     const double part = std::log(before.relmse / relmse) / std::log(before.relmse / here.relmse);
     return Reached{before.seconds * std::pow(here.seconds / before.seconds, part),
@@ -79,6 +90,7 @@ std::optional<Reached> timeToReach(const ErrorCurve& curve, double relmse) {
   }
   if (steps.empty() || steps.back().mean.samples < kEnoughSamples) return std::nullopt;
   const ErrorSample& last = steps.back().mean;
+  if (!std::isfinite(last.relmse)) return std::nullopt;
   const double factor = last.relmse / relmse;
   return Reached{last.seconds * factor, last.samples * factor, true};
 }
@@ -172,8 +184,8 @@ std::string errorCsv(const ErrorReport& report) {
   for (const ErrorCurve& curve : report.curves) {
     for (size_t r = 0; r < curve.repetitions.size(); ++r) {
       for (const ErrorSample& s : curve.repetitions[r]) {
-        text += curve.name + formatted(",%zu,%.9g,%.9g,%.9g,%.9g,%.9g\n", r, s.samples, s.seconds, s.mse,
-                                       s.relmse, s.flip);
+        text += csvField(curve.name) + formatted(",%zu,%.9g,%.9g,%.9g,%.9g,%.9g\n", r, s.samples, s.seconds,
+                                                 s.mse, s.relmse, s.flip);
       }
     }
   }

@@ -4,6 +4,8 @@
 // already named.
 
 using uint = uint32_t;
+using glm::ivec2;
+using glm::ivec3;
 using glm::ivec4;
 using glm::uvec3;
 using glm::uvec4;
@@ -13,6 +15,10 @@ using glm::uvec4;
 inline float abs(float x) { return std::fabs(x); }
 inline float sqrt(float x) { return std::sqrt(x); }
 inline float floor(float x) { return std::floor(x); }
+inline float exp(float x) { return std::exp(x); }
+inline float log(float x) { return std::log(x); }
+inline float acos(float x) { return std::acos(x); }
+inline float atan(float y, float x) { return std::atan2(y, x); }
 inline float cos(float x) { return std::cos(x); }
 inline float sin(float x) { return std::sin(x); }
 inline float pow(float x, float y) { return std::pow(x, y); }
@@ -22,7 +28,14 @@ inline float clamp(float x, float low, float high) { return min(max(x, low), hig
 inline int min(int a, int b) { return b < a ? b : a; }
 inline int max(int a, int b) { return a < b ? b : a; }
 
+inline float uintBitsToFloat(uint x) { return glm::uintBitsToFloat(x); }
 inline vec3 uintBitsToFloat(uvec3 v) { return vec3(glm::uintBitsToFloat(v)); }
+inline vec4 uintBitsToFloat(uvec4 v) { return vec4(glm::uintBitsToFloat(v)); }
+inline void umulExtended(uint a, uint b, uint& high, uint& low) {
+  const uint64_t product = uint64_t(a) * b;
+  high = uint(product >> 32);
+  low = uint(product);
+}
 
 inline uvec4 readNodes(int index) { return glsl_variant::rowOf(glsl_variant::nodes, index); }
 inline uvec4 readLeaves(int index) { return glsl_variant::rowOf(glsl_variant::leaves, index); }

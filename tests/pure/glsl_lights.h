@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// shaders/environment.glsl and lights.glsl compiled as C++, behind the files of glsl.h: what they read lies
+// in spans here.
+#pragma once
+
+#include "glsl.h"
+
+namespace fragtrace::glsl_variant {
+
+inline bool kGi = true;
+inline bool kEnvironment = true;
+inline bool kEnvironmentSampling = true;
+inline bool kPunctualLights = true;
+inline bool kEmissiveTriangles = true;
+inline bool kEmissionTexture = false;
+inline bool kTexcoords = false;
+
+inline layout::Frame frame{};
+inline std::span<const uint32_t> primitives;
+inline std::span<const uint32_t> texcoords;
+inline std::span<const uint32_t> materials;
+inline std::span<const uint32_t> emitters;
+inline std::span<const uint32_t> lights;
+inline std::span<const uint32_t> environment;
+inline std::span<const uint32_t> environmentAlias;
+
+}  // namespace fragtrace::glsl_variant
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+
+namespace fragtrace::glsl_float {
+namespace {
+#include "glsl_lights_files.h"
+}  // namespace
+}  // namespace fragtrace::glsl_float
+
+#define float double
+namespace fragtrace::glsl_double {
+namespace {
+#include "glsl_lights_files.h"
+}  // namespace
+}  // namespace fragtrace::glsl_double
+#undef float
+
+#pragma GCC diagnostic pop

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The shader files that choose lights, and the reads they need. No include guard: glsl_lights.h includes this
+// once a precision.
+
+inline uvec4 readPrimitives(int index) { return rowOf(glsl_variant::primitives, index); }
+inline uvec4 readTexcoords(int index) { return rowOf(glsl_variant::texcoords, index); }
+inline uvec4 readMaterials(int index) { return rowOf(glsl_variant::materials, index); }
+inline uvec4 readEmitters(int index) { return rowOf(glsl_variant::emitters, index); }
+inline uvec4 readLights(int index) { return rowOf(glsl_variant::lights, index); }
+inline uvec4 readEnvironment(int index) { return rowOf(glsl_variant::environment, index); }
+inline uvec2 readEnvironmentAlias(int index) {
+  // Two entries of the table fill a row.
+  const uvec4 row = rowOf(glsl_variant::environmentAlias, index / 2);
+  return index % 2 == 0 ? uvec2(row.x, row.y) : uvec2(row.z, row.w);
+}
+
+// As material.glsl and surface.glsl have them; the tests' emission has no textures.
+inline vec4 readTexcoordsAt(int i) { return uintBitsToFloat(readTexcoords(i)); }
+inline vec4 materialFloats(uint material, uint row) {
+  return uintBitsToFloat(readMaterials(int(material * kMaterialRows + row)));
+}
+inline uint materialFlags(uint material) {
+  return readMaterials(int(material * kMaterialRows + kMaterialMaps)).w;
+}
+inline vec3 emissionAt(uint material, vec4 /*texcoords*/) {
+  return vec3(materialFloats(material, kMaterialEmission));
+}
+inline vec4 interpolate(vec4 a, vec4 b, vec4 c, vec2 weights) {
+  return (1.0f - weights.x - weights.y) * a + weights.x * b + weights.y * c;
+}
+
+// clang-format off
+#include "environment.glsl"
+#include "lights.glsl"
+// clang-format on
