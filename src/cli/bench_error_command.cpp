@@ -7,9 +7,11 @@
 #include "bench/error_report.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/outputs.h"
 #include "cli/progress_bar.h"
 #include "cli/setup.h"
 #include "errors.h"
+#include "image/channels.h"
 #include "image/difference.h"
 #include "image/flip.h"
 #include "image/tone_map.h"
@@ -40,8 +42,6 @@ struct Contender {
   LoadedScene loaded;
   Tracer tracer;
   ErrorCurve curve;
-
-  bool adaptive() const { return configuration.render.noise > 0.0 || configuration.render.seconds > 0.0; }
 };
 
 struct Judge {
@@ -71,13 +71,14 @@ std::vector<ErrorSample> measureSteps(Contender& c, const View& view, const Judg
   return steps;
 }
 
-/// Error of adaptive pictures whose goals come down to the one asked for.
+/// Error of adaptive pictures whose goals come down to the one asked for: the noise, else the time.
 std::vector<ErrorSample> measureAdaptive(Contender& c, const View& view, const Judge& judge) {
   std::vector<ErrorSample> steps;
   for (int i = kAdaptiveSteps - 1; i >= 0; --i) {
     const RenderOptions& options = c.configuration.render;
     RenderTimes times;
-    const AdaptiveGoal goal{options.noise * std::exp2(i), options.seconds, options.spp};
+    const double part = options.noise > 0.0 ? 1.0 : std::exp2(-i);
+    const AdaptiveGoal goal{options.noise * std::exp2(i), options.seconds * part, options.spp};
     const AdaptivePicture picture =
         renderAdaptively(*c.tracer.renderer, c.loaded.size, view, goal, times, untilInterrupted());
     const double pixels = double(c.loaded.size.x) * c.loaded.size.y;
@@ -103,6 +104,30 @@ Image makeReference(Contender& c, int samples, bool quiet) {
   return imageOf(film.read(), {});
 }
 
+std::string sizeText(glm::ivec2 size) { return std::to_string(size.x) + " x " + std::to_string(size.y); }
+
+Image readReference(const BenchErrorOptions& options, glm::ivec2 size) {
+  const std::string name = options.reference.string();
+  Image reference = readImage(options.reference);
+  if (glm::ivec2(reference.width, reference.height) != size)
+    throw InputError(name + ": is of " + sizeText({reference.width, reference.height}) +
+                     " pixels, those to be measured are of " + sizeText(size));
+  if (!findColorChannels(reference)) throw InputError(name + ": has no colour");
+  return reference;
+}
+
+/// All pictures are compared with one reference.
+void checkSize(const BenchErrorOptions& options, glm::ivec2 first, const BenchConfiguration& configuration,
+               glm::ivec2 own) {
+  if (own == first) return;
+  throw UsageError("configuration '" + configuration.name + "': its picture is of " + sizeText(own) +
+                   " pixels, that of '" + options.configurations.front().name + "' is of " + sizeText(first));
+}
+
+std::vector<NamedOutput> outputsOf(const BenchErrorOptions& options) {
+  return {{"--json", options.json}, {"--csv", options.csv}, {"--chart", options.chart}};
+}
+
 void writeText(const std::filesystem::path& path, const std::string& text) {
   if (!path.empty()) replaceFile(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
@@ -122,7 +147,9 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
     curve.name = configuration.name;
     curve.options = configuration.text;
     curve.variant = stats.variant;
-    if (!contenders.back().adaptive()) most = std::max(most, wanted.spp);
+    if (!configuration.adaptive()) most = std::max(most, wanted.spp);
+    checkOutputs(outputsOf(options), inputsOf(contenders.back().loaded.scene));
+    checkSize(options, contenders.front().loaded.size, configuration, contenders.back().loaded.size);
   }
   ErrorReport report;
   report.scene = first.scene.filename().string();
@@ -137,7 +164,7 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
                          : options.reference.filename().string();
   const Image reference = options.reference.empty()
                               ? makeReference(contenders.front(), referenceSamples, first.quiet)
-                              : readImage(options.reference);
+                              : readReference(options, contenders.front().loaded.size);
   const Judge judge{reference, toDisplay(reference, first.exposure, first.toneMap), first};
 
   // Step: repetitions outermost, so that a machine that slows down does so for all.
@@ -151,8 +178,8 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
       c.curve.compileMs = c.tracer.renderer->compile(c.tracer.variant, film, view);
       RenderTimes warmUp;
       c.tracer.renderer->addSamples(film, view, 0, 1, warmUp, untilInterrupted());
-      c.curve.repetitions.push_back(c.adaptive() ? measureAdaptive(c, view, judge)
-                                                 : measureSteps(c, view, judge));
+      c.curve.repetitions.push_back(c.configuration.adaptive() ? measureAdaptive(c, view, judge)
+                                                               : measureSteps(c, view, judge));
       done += 1.0;
       bar.show(done / (double(contenders.size()) * options.repetitions));
     }
@@ -165,9 +192,11 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
 }  // namespace
 
 int runBenchError(const BenchErrorOptions& options) {
-  for (const auto& path : {options.json, options.csv, options.chart}) {
-    if (!path.empty()) checkReplaceable(path);
+  std::vector<std::filesystem::path> inputs{options.reference};
+  for (const BenchConfiguration& configuration : options.configurations) {
+    for (const std::filesystem::path& input : inputsOf(configuration.render)) inputs.push_back(input);
   }
+  checkOutputs(outputsOf(options), inputs);
   const auto context = makeContext(options.configurations.front().render.backend);
   countInterrupts();
   try {

@@ -2,7 +2,10 @@
 #include "cli/bench_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <map>
 
 #include "cli/choose.h"
 #include "cli/render_options.h"
@@ -36,40 +39,52 @@ std::vector<std::string_view> configurationNames() {
   return names;
 }
 
-/// The options of `render` that were given to an app which has them, as arguments.
-std::vector<std::string> renderArguments(const CLI::App& app) {
+/// Options of `render` as arguments, by their names.
+using GivenOptions = std::map<std::string, std::vector<std::string>>;
+
+/// Those that were given to an app which has them.
+GivenOptions givenOptions(const CLI::App& app) {
   CLI::App render;
   RawRender raw;
   addRenderOptions(render, raw);
-  std::vector<std::string> arguments;
+  GivenOptions given;
   for (const CLI::Option* option : render.get_options()) {
-    const CLI::Option* given = app.get_option_no_throw(option->get_name());
-    if (given == nullptr || given->count() == 0 || option->get_name() == "--help") continue;
+    const CLI::Option* here = app.get_option_no_throw(option->get_name());
+    if (here == nullptr || here->count() == 0 || option->get_name() == "--help") continue;
+    std::vector<std::string>& arguments = given[option->get_name()];
     arguments.push_back(option->get_name());
-    if (option->get_items_expected_max() > 0) arguments.push_back(CLI::detail::join(given->results(), ","));
+    if (option->get_items_expected_max() > 0) arguments.push_back(CLI::detail::join(here->results(), ","));
   }
-  return arguments;
+  return given;
 }
 
-RenderOptions parseRender(const std::vector<std::string>& shared, const std::string& own,
-                          const std::string& scene) {
-  CLI::App app;
-  RawRender raw;
-  raw.scene = scene;
-  addRenderOptions(app, raw);
-  std::vector<std::string> arguments = shared;
-  for (const std::string& argument : CLI::detail::split_up(own)) arguments.push_back(argument);
-  std::reverse(arguments.begin(), arguments.end());  // last first, as the library wants them
-  // Of an option given twice, the configuration's own stands.
-  for (CLI::Option* option : app.get_options()) {
-    if (option->get_items_expected_max() == 1) option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  }
-  try {
-    app.parse(arguments);
-  } catch (const CLI::ParseError& error) {
-    throw UsageError("configuration '" + own + "': " + error.what());
-  }
-  return finishRender(raw);
+/// The options of one configuration: its own, and those given for all where it has none.
+RenderOptions parseRender(const GivenOptions& shared, const BenchConfiguration& c, const std::string& scene) {
+  const auto parsed = [&](std::vector<std::string> arguments, const auto& use) {
+    CLI::App app;
+    RawRender raw;
+    raw.scene = scene;
+    addRenderOptions(app, raw);
+    std::reverse(arguments.begin(), arguments.end());  // last first, as the library wants them
+    try {
+      app.parse(arguments);
+    } catch (const CLI::ParseError& error) {
+      throw UsageError("configuration '" + c.name + "': " + error.what());
+    }
+    return use(app, raw);
+  };
+  std::vector<std::string> arguments;
+  for (const std::string& argument : CLI::detail::split_up(c.text))
+    arguments.push_back(withNumberSettled(argument));
+  GivenOptions given =
+      parsed(arguments, [](const CLI::App& app, const RawRender&) { return givenOptions(app); });
+  for (const auto& [name, option] : shared) given.try_emplace(name, option);
+  // An adaptive one goes on until its goal.
+  if (!given.contains("--noise") && !given.contains("--time"))
+    given.try_emplace("--spp", std::vector<std::string>{"--spp", kDefaultSamples});
+  arguments.clear();
+  for (const auto& [name, option] : given) arguments.insert(arguments.end(), option.begin(), option.end());
+  return parsed(arguments, [](const CLI::App&, const RawRender& raw) { return finishRender(raw); });
 }
 
 }  // namespace
@@ -81,8 +96,9 @@ void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
       ->delimiter(',');
   app.add_option("--config", raw.own, "NAME=OPTIONS: one more, such as \"rough=--bounces 4\"")
       ->allow_extra_args(false);
-  app.add_option("--reference", o.reference,
-                 "picture to measure against; default: one made with 64 times the samples");
+  app.add_option(
+      "--reference", o.reference,
+      "picture to measure against; default: one of the first configuration with 64 times the samples");
   app.add_option("--repetitions", o.repetitions, "with different seeds")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
@@ -97,8 +113,7 @@ void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
 
 BenchErrorOptions finishBenchError(const RawBenchError& raw, const CLI::App& app) {
   BenchErrorOptions options = raw.options;
-  std::vector<std::string> shared = renderArguments(app);
-  if (!raw.shared.spp) shared.insert(shared.begin(), {"--spp", kDefaultSamples});
+  const GivenOptions shared = givenOptions(app);
   std::vector<std::string> names = raw.names;
   if (names.empty() && raw.own.empty()) names = {"default", "random", "baseline"};
   for (const std::string& name : names) {
@@ -113,11 +128,16 @@ BenchErrorOptions finishBenchError(const RawBenchError& raw, const CLI::App& app
     options.configurations.push_back({text.substr(0, equals), text.substr(equals + 1), {}});
   }
   for (BenchConfiguration& c : options.configurations) {
-    c.render = parseRender(shared, c.text, raw.scene);
+    c.render = parseRender(shared, c, raw.scene);
     for (const BenchConfiguration& other : options.configurations) {
       if (&other != &c && other.name == c.name) throw UsageError("--config: '" + c.name + "' stands twice");
     }
   }
+  if (!std::isfinite(options.goal)) throw UsageError("--goal: not a finite number");
+  if (!raw.shared.statsFile.empty()) throw UsageError("--stats: --json holds what was measured");
+  const auto isAdaptive = [](const BenchConfiguration& c) { return c.adaptive(); };
+  if (options.reference.empty() && std::ranges::all_of(options.configurations, isAdaptive))
+    throw UsageError("--reference: needed where every configuration is adaptive");
   if (!options.chart.empty() && options.chart.extension() != ".svg")
     throw UsageError("--chart: '" + options.chart.string() + "' does not end in .svg");
   return options;

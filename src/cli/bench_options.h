@@ -18,6 +18,8 @@ struct BenchConfiguration {
   std::string name;
   std::string text;  ///< as on the command line
   RenderOptions render;
+
+  bool adaptive() const { return render.noise > 0.0 || render.seconds > 0.0; }
 };
 
 struct BenchErrorOptions {
@@ -42,7 +44,7 @@ struct RawBenchError {
 /// Adds those of `render`, too.
 void addBenchErrorOptions(CLI::App& app, RawBenchError& raw);
 
-/// Each configuration is what was given for all, followed by its own. Throws UsageError.
+/// Each configuration has its own options, and what was given for all where it has none. Throws UsageError.
 BenchErrorOptions finishBenchError(const RawBenchError& raw, const CLI::App& app);
 
 }  // namespace fragtrace

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <cstdio>
 
 #include "cli/commands.h"
+#include "cli/outputs.h"
 #include "image/flip.h"
 #include "image/image.h"
 
@@ -28,6 +30,8 @@ Comparison compareFiles(const DiffOptions& options) {
 }  // namespace
 
 int runDiff(const DiffOptions& options) {
+  checkOutputs(std::array{NamedOutput{"--outfile", options.outfile}},
+               std::array{options.picture, options.reference});
   const auto [value, map] = compareFiles(options);
   std::printf("%.9g\n", value);
   if (!options.outfile.empty()) writeImage(options.outfile, map);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // `fragtrace merge`: parts of one render, made with --sample-offset, joined into what one run gives.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "cli/commands.h"
+#include "cli/outputs.h"
 #include "cli/provenance.h"
 #include "errors.h"
 #include "image/channels.h"
-#include "image/whole_file.h"
 
 namespace fragtrace {
 
@@ -86,6 +87,7 @@ Image joined(const std::vector<Part>& parts) {
 }  // namespace
 
 int runMerge(const MergeOptions& options) {
+  checkOutputs(std::array{NamedOutput{"--output", options.output}}, options.parts);
   std::vector<Part> parts;
   for (const std::filesystem::path& path : options.parts) parts.push_back(readPart(path));
   std::sort(parts.begin(), parts.end(),

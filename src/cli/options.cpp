@@ -14,17 +14,9 @@ namespace fragtrace {
 
 namespace {
 
-/// Numbers such as "-.5,0,1" look like short options to the library; a zero before the point settles it.
 std::vector<std::string> argumentsOf(int argc, const char* const* argv) {
   std::vector<std::string> arguments;
-  for (int i = argc - 1; i > 0; --i) {
-    std::string argument = argv[i];
-    if (argument.starts_with("-.") && argument.size() > 2 &&
-        std::isdigit(static_cast<unsigned char>(argument[2]))) {
-      argument.insert(1, "0");
-    }
-    arguments.push_back(std::move(argument));
-  }
+  for (int i = argc - 1; i > 0; --i) arguments.push_back(withNumberSettled(argv[i]));
   return arguments;  // last first, as the library wants them
 }
 

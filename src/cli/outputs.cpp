@@ -16,31 +16,34 @@ bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
   return std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error);
 }
 
-void refuseInput(const char* option, const std::filesystem::path& output,
-                 const std::filesystem::path& input) {
-  if (sameFile(output, input))
-    throw UsageError(std::string(option) + ": " + output.string() + " is read by this render");
-}
-
 }  // namespace
 
-void checkOutputs(const RenderOptions& options) {
-  checkReplaceable(options.output);
-  if (!options.statsFile.empty()) checkReplaceable(options.statsFile);
-  if (sameFile(options.output, options.statsFile)) {
-    throw UsageError("--stats: " + options.statsFile.string() + " is the picture's name, too");
-  }
-  for (const std::filesystem::path& input : {options.scene, options.hdriFile}) {
-    refuseInput("--output", options.output, input);
-    refuseInput("--stats", options.statsFile, input);
+void checkOutputs(std::span<const NamedOutput> outputs, std::span<const std::filesystem::path> inputs) {
+  for (const NamedOutput& output : outputs) {
+    if (!output.path.empty()) checkReplaceable(output.path);
+    const std::string name = std::string(output.option) + ": " + output.path.string();
+    for (const std::filesystem::path& input : inputs) {
+      if (sameFile(output.path, input)) throw UsageError(name + " is read by this command");
+    }
+    for (const NamedOutput& other : outputs) {
+      if (&other != &output && sameFile(output.path, other.path))
+        throw UsageError(name + " is the file of " + other.option + ", too");
+    }
   }
 }
 
-void checkOutputs(const RenderOptions& options, const Scene& scene) {
-  for (const EncodedImage& image : scene.images) {
-    refuseInput("--output", options.output, image.name);
-    refuseInput("--stats", options.statsFile, image.name);
-  }
+std::vector<std::filesystem::path> inputsOf(const RenderOptions& options) {
+  return {options.scene, options.hdriFile};
+}
+
+std::vector<std::filesystem::path> inputsOf(const Scene& scene) {
+  std::vector<std::filesystem::path> inputs;
+  for (const EncodedImage& image : scene.images) inputs.emplace_back(image.name);
+  return inputs;
+}
+
+std::vector<NamedOutput> outputsOf(const RenderOptions& options) {
+  return {{"--output", options.output}, {"--stats", options.statsFile}};
 }
 
 }  // namespace fragtrace

@@ -3,17 +3,28 @@
 
 #include <filesystem>
 #include <span>
+#include <vector>
 
 #include "scene/scene.h"
 #include "stage/options.h"
 
 namespace fragtrace {
 
-/// Before long work: throws RenderError when an output cannot be written, UsageError when one is a file that
-/// the render reads, or both are one file.
-void checkOutputs(const RenderOptions& options);
+/// A file to be written, and the option that says so. No path: not asked for.
+struct NamedOutput {
+  const char* option;
+  std::filesystem::path path;
+};
 
-/// The same for the pictures that the scene refers to, once it is loaded.
-void checkOutputs(const RenderOptions& options, const Scene& scene);
+/// Before long work: throws RenderError when an output cannot be written, UsageError when one is a file that
+/// is read, or two are one file.
+void checkOutputs(std::span<const NamedOutput> outputs, std::span<const std::filesystem::path> inputs);
+
+/// The files that a render reads, but for the pictures that the scene refers to.
+std::vector<std::filesystem::path> inputsOf(const RenderOptions& options);
+/// Those pictures, once the scene is loaded.
+std::vector<std::filesystem::path> inputsOf(const Scene& scene);
+/// What a render writes.
+std::vector<NamedOutput> outputsOf(const RenderOptions& options);
 
 }  // namespace fragtrace

@@ -78,11 +78,13 @@ void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film) {
   }
 }
 
-/// Adds the layers of first hits, drawn with the picture's samples; of an adaptive one, those that all pixels
-/// have.
+/// Adds the layers of first hits, drawn with the picture's samples: of an adaptive one those that all pixels
+/// have, of an interrupted one a few, since somebody waits.
 void addFeatures(Image& picture, const Tracer& tracer, const RenderOptions& options,
                  const LoadedScene& loaded, Statistics& stats) {
-  const int samples = int(std::max(1u, stats.adaptive ? stats.film.fewestSamples : stats.film.mostSamples));
+  constexpr unsigned kFewSamples = 16;
+  const unsigned drawn = std::max(1u, stats.adaptive ? stats.film.fewestSamples : stats.film.mostSamples);
+  const int samples = int(stats.complete ? drawn : std::min(drawn, kFewSamples));
   const int before = interrupts();
   for (const ShaderVariant& variant : tracer.features) {
     Film film(loaded.size);
@@ -134,7 +136,7 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
 }  // namespace
 
 int runRender(const RenderOptions& options) {
-  checkOutputs(options);
+  checkOutputs(outputsOf(options), inputsOf(options));
   Statistics stats;
 
   // Step: load. The image library opens meanwhile when the output needs it.
@@ -171,6 +173,7 @@ int runRender(const RenderOptions& options) {
   if (has(tracer.variant.stages, Stage::BvhHeatmap)) picture = paintHeatmap(picture);
   addFeatures(picture, tracer, options, loaded, stats);
   sayDriverLog();
+  if (interrupts() > 1) return kInterruptedStatus;
 
   // Step: write.
   if (formatOfName(options.output) == ImageFormat::OpenExr) {

@@ -50,6 +50,10 @@ void checkFinite(const RenderOptions& o) {
     for (int i = 0; v && i < 3; ++i) check(option, (*v)[i]);
   };
   check("--exposure", o.exposure);
+  // The library's ranges let NaN pass.
+  check("--noise", o.noise);
+  check("--time", o.seconds);
+  check("--clamp-indirect", o.clampIndirect);
   check("--hdri-rotation", o.hdriRotationDegrees);
   checkVector("--camera-position", o.camera.position);
   checkVector("--camera-focal-point", o.camera.focalPoint);
@@ -131,11 +135,20 @@ RenderOptions finishRender(const RawRender& raw) {
   const bool adaptive = o.noise > 0.0 || o.seconds > 0.0;
   if (raw.spp) o.spp = *raw.spp;
   if (adaptive && !raw.spp) o.spp = kMostSamples;
-  if (adaptive && o.spp < 2) throw UsageError("--spp: --noise and --time need at least 2");
+  // Two halves of two: one sample says nothing of its error.
+  if (adaptive && o.spp < 4) throw UsageError("--spp: --noise and --time need at least 4");
   if (int64_t(o.sampleOffset) + o.spp > kMostSamples && !adaptive)
     throw UsageError("--sample-offset: with --spp it goes beyond sample " + std::to_string(kMostSamples));
   checkFinite(o);
   return o;
+}
+
+std::string withNumberSettled(std::string argument) {
+  if (argument.starts_with("-.") && argument.size() > 2 &&
+      std::isdigit(static_cast<unsigned char>(argument[2]))) {
+    argument.insert(1, "0");
+  }
+  return argument;
 }
 
 void addRenderOptions(CLI::App& app, RawRender& raw) {

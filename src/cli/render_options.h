@@ -46,6 +46,9 @@ struct RawRender {
   bool noDefaultLight = false;
 };
 
+/// Numbers such as "-.5,0,1" look like short options to the library; a zero before the point settles it.
+std::string withNumberSettled(std::string argument);
+
 /// Adds all options but scene and output.
 void addRenderOptions(CLI::App& app, RawRender& raw);
 

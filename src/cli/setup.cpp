@@ -86,7 +86,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
   loading.recenterOn = options.camera.focalPoint;
   loaded.scene = loadGltf(options.scene, loading);
   const Scene& scene = loaded.scene;
-  checkOutputs(options, scene);
+  checkOutputs(outputsOf(options), inputsOf(scene));
   if (scene.triangles.empty() && scene.spheres.empty()) {
     say(options, "warning: " + options.scene.string() + ": no triangle and no sphere, nothing to draw");
   }

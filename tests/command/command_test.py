@@ -1,55 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The command line as a user meets it: exit statuses, messages, files, interruption, statistics.
-
-usage: command_test.py FRAGTRACE SOURCE_FOLDER [unittest arguments]
-"""
+"""The command line as a user meets it: exit statuses, messages, files, interruption, statistics."""
 import json
 import os
 import signal
 import struct
 import subprocess
-import sys
-import tempfile
 import time
-import unittest
-from pathlib import Path
 
-FRAGTRACE = Path(sys.argv[1]).resolve()
-SCENES = Path(sys.argv[2]).resolve() / "scenes"
-SMALL = ["--resolution", "16,16", "--spp", "2", "--quiet"]
-
-
-def run(*arguments, **options):
-    return subprocess.run([FRAGTRACE, *map(str, arguments)], capture_output=True, text=True, timeout=120, **options)
-
-
-def read_pfm(path):
-    kind, size, _, body = Path(path).read_bytes().split(b"\n", 3)
-    width, height = map(int, size.split())
-    values = struct.unpack("<%df" % (width * height * 3), body)
-    rows = [values[y * width * 3:(y + 1) * width * 3] for y in range(height)]
-    return [[row[3 * x:3 * x + 3] for x in range(width)] for row in reversed(rows)]
-
-
-class Case(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def fails(self, status, *arguments, says=(), **options):
-        result = run(*arguments, **options)
-        self.assertEqual(result.returncode, status, result.stderr)
-        for text in says:
-            self.assertIn(text, result.stderr)
-        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
-        self.assertEqual([p for p in self.folder.iterdir() if p.suffix in (".png", ".exr", ".pfm", ".part")], [])
-
-    def renders(self, *arguments, **options):
-        result = run("render", *arguments, **options)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result
+from support import FRAGTRACE, SCENES, SMALL, Case, main, read_pfm, run
 
 
 class ExitStatuses(Case):
@@ -144,6 +103,9 @@ class ExitStatuses(Case):
         self.renders(SCENES / "cornell-box.gltf", "-o", a, *SMALL)
         self.renders(SCENES / "cornell-box.gltf", "-o", b, *SMALL, "--seed", "7")
         self.renders(SCENES / "cornell-box.gltf", "-o", c, "--resolution", "8,8", "--spp", "1", "--quiet")
+        before = a.read_bytes()
+        self.fails(2, "diff", a, b, "--outfile", a, says=["--outfile"])
+        self.assertEqual(a.read_bytes(), before)
         self.assertEqual(run("diff", a, a, "--threshold", "0").returncode, 0)
         self.assertEqual(run("diff", a, b, "--threshold", "1e-9").returncode, 1)
         self.assertEqual(run("diff", a, c).returncode, 1)
@@ -340,4 +302,4 @@ class Interruption(Case):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
+    main()

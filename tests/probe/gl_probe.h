@@ -15,6 +15,7 @@ namespace fragtrace {
 class GlProbe : public testing::TestWithParam<Backend> {
  protected:
   void SetUp() override { context_ = makeContext(GetParam()); }
+  const Context& context() const { return *context_; }
 
  private:
   std::unique_ptr<Context> context_;

@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""--noise and --time: what they promise of the picture, and when they end."""
+import json
+import math
+import signal
+import statistics
+import subprocess
+import time
+
+from support import FRAGTRACE, SCENES, Case, Exr, luminances, main, read_pfm
+
+BOX = SCENES / "cornell-box.gltf"
+
+
+def quantile(values, part):
+    return sorted(values)[max(0, math.ceil(part * len(values)) - 1)]
+
+
+class Seeds:
+    """Pictures of one scene that differ in their seed, and the standard errors that they show."""
+
+    def __init__(self, case, scene, options, seeds):
+        pictures = [luminances(case.picture(scene, "x.pfm", *options, "--seed", 1000 + 17 * s)) for s in range(seeds)]
+        self.means = [statistics.fmean(pixel) for pixel in zip(*pictures)]
+        self.mean = statistics.fmean(self.means)
+        self.mean_error = statistics.stdev(map(statistics.fmean, pictures)) / math.sqrt(seeds) / self.mean
+        errors = [statistics.stdev(pixel) / (mean + 0.01 * self.mean) for pixel, mean in zip(zip(*pictures), self.means)]
+        self.p95 = quantile(errors, 0.95)
+        self.rms = math.sqrt(statistics.fmean(e * e for e in errors))
+
+
+class Noise(Case):
+    def test_the_true_error_of_the_cornell_box_is_the_one_asked_for(self):
+        seeds = Seeds(self, "cornell-box", ["--resolution", "24,24", "--noise", "0.05"], 8)
+        plain = statistics.fmean(luminances(self.picture("cornell-box", "p.pfm", "--resolution", "24,24", "--spp", 4096)))
+        bias = seeds.mean / plain - 1
+        print(f"standard error: 95th percentile {seeds.p95:.4f}, rms {seeds.rms:.4f}, mean against plain {bias:+.4f}")
+        # The deviation of 8 pictures scatters by a quarter, which lifts the largest of 576.
+        self.assertLess(seeds.p95, 0.06)
+        self.assertGreater(seeds.p95, 0.025)
+        self.assertLess(abs(bias), 0.005)
+
+    def test_what_the_statistics_say_is_in_the_layers(self):
+        stats = self.folder / "s.json"
+        exr = self.picture("cornell-box", "x.exr", "--resolution", "24,20", "--noise", "0.1", "--aov", "samples,variance,normal",
+                           "--stats", stats)
+        stats = json.loads(stats.read_text())
+        mean = statistics.fmean(exr.luminances())
+        errors = [math.sqrt(v) / (l + 0.01 * mean) for v, l in zip(exr.values("variance.Y"), exr.luminances())]
+        self.assertAlmostEqual(stats["adaptive"]["error_p95"] / quantile(errors, 0.95), 1, delta=1e-4)
+        self.assertLessEqual(stats["adaptive"]["error_p95"], 0.1)
+        self.assertEqual(stats["adaptive"]["noise"], 0.1)
+        under = sum(e <= 0.1 for e in errors) / len(errors)
+        self.assertAlmostEqual(stats["adaptive"]["share_under_noise"], under, delta=1e-9)
+        self.assertGreaterEqual(under, 0.95)
+        samples = exr.values("samples.Y")
+        self.assertEqual((min(samples), max(samples)), (stats["fewest_samples"], stats["most_samples"]))
+        self.assertAlmostEqual(statistics.fmean(samples), stats["samples_per_pixel"], delta=1e-6)
+        self.assertLess(min(samples), max(samples))
+        self.assertTrue(stats["complete"])
+
+    def test_the_same_seed_gives_the_same_bits(self):
+        options = ["--resolution", "24,20", "--noise", "0.1"]
+        one, two, other = (self.picture("cornell-box", "x.pfm", *options, "--seed", seed) for seed in (1, 1, 2))
+        self.assertEqual(one, two)
+        self.assertNotEqual(one, other)
+
+    def test_spp_is_the_most(self):
+        for most, reached in ((200, 128), (128, 128), (70, 64), (5, 4)):
+            self.renders(BOX, "-o", self.folder / "x.pfm", "--quiet", "--resolution", "16,16", "--noise", "0.001", "--spp", most,
+                         "--stats", self.folder / "s.json")
+            stats = json.loads((self.folder / "s.json").read_text())
+            self.assertEqual((stats["most_samples"], stats["spp"], stats["complete"]), (reached, most, True))
+            self.assertGreater(stats["adaptive"]["error_p95"], 0.001)
+
+    def test_a_black_picture_has_no_error(self):
+        self.renders(SCENES / "furnace.gltf", "-o", self.folder / "x.pfm", "--quiet", "--resolution", "16,16", "--noise", "0.01",
+                     "--no-default-light", "--stats", self.folder / "s.json")
+        self.assertEqual(json.loads((self.folder / "s.json").read_text())["adaptive"]["error_p95"], 0)
+
+    def test_values_that_make_no_sense(self):
+        for options in (["--noise", "0"], ["--noise", "-1"], ["--noise", "nan"], ["--time", "0"], ["--time", "-2"],
+                        ["--noise", "0.1", "--spp", "3"]):
+            self.fails(2, "render", BOX, "-o", self.folder / "x.pfm", *options, says=[options[-2]])
+
+
+class Time(Case):
+    def render(self, name, *options):
+        """Seconds on the clock, and the statistics."""
+        began = time.monotonic()
+        self.renders(BOX, "-o", self.folder / name, "--quiet", "--resolution", "100,100", "--stats", self.folder / "s.json", *options)
+        return time.monotonic() - began, json.loads((self.folder / "s.json").read_text())
+
+    def error(self, name):
+        picture, reference = (luminances(read_pfm(self.folder / n)) for n in (name, "reference.pfm"))
+        return statistics.fmean((a - b) ** 2 for a, b in zip(picture, reference))
+
+    def test_it_takes_the_time_given_and_makes_use_of_it(self):
+        self.render("reference.pfm", "--spp", 1024, "--seed", 1)
+        start, _ = self.render("short.pfm", "--time", "0.2")
+        seconds, stats = self.render("long.pfm", "--time", "2")
+        print(f"--time 0.2: {start:.2f} s, --time 2: {seconds:.2f} s on the clock, {stats['render_ms'] / 1000:.2f} s drawing")
+        self.assertLess(seconds - start, 2.3)
+        self.assertGreater(seconds - start, 1.3)
+        self.assertLess(stats["render_ms"], 2300)
+        self.assertGreater(stats["render_ms"], 1700)
+        self.assertEqual((stats["adaptive"]["seconds"], stats["complete"]), (2, True))
+        self.assertLess(self.error("long.pfm"), 0.5 * self.error("short.pfm"))
+
+    def test_of_noise_and_time_the_first_to_be_reached_ends_it(self):
+        seconds, stats = self.render("x.pfm", "--time", "60", "--noise", "0.5")
+        self.assertLess(seconds, 20)
+        self.assertGreaterEqual(stats["adaptive"]["share_under_noise"], 0.95)
+        seconds, stats = self.render("x.pfm", "--time", "1", "--noise", "0.0001")
+        self.assertLess(stats["render_ms"], 1500)
+        self.assertLess(stats["adaptive"]["share_under_noise"], 0.95)
+        self.assertTrue(stats["complete"])
+
+    def test_too_little_time_for_a_sample_in_every_pixel_gives_a_picture_all_the_same(self):
+        result = self.renders(BOX, "-o", self.folder / "x.exr", "--resolution", "2000,2000", "--time", "0.05", "--aov", "samples,variance",
+                              "--stats", self.folder / "s.json")
+        stats = json.loads((self.folder / "s.json").read_text())
+        self.assertEqual(stats["fewest_samples"], 0)
+        self.assertIn("first sample", result.stderr)
+
+
+class AdaptiveInterruption(Case):
+    def test_ctrl_c_writes_what_is_there(self):
+        path = self.folder / "x.exr"
+        process = subprocess.Popen([FRAGTRACE, "render", BOX, "-o", path, "--resolution", "128,128", "--noise", "0.0001", "--quiet",
+                                    "--aov", "samples,variance,albedo", "--stats", self.folder / "s.json"])
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        time.sleep(4)
+        began = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(20), 130)
+        self.assertLess(time.monotonic() - began, 2)
+        exr, stats = Exr(path), json.loads((self.folder / "s.json").read_text())
+        self.assertFalse(stats["complete"])
+        self.assertEqual((min(exr.values("samples.Y")), max(exr.values("samples.Y"))),
+                         (stats["fewest_samples"], stats["most_samples"]))
+        self.assertGreaterEqual(stats["fewest_samples"], 32)
+        self.assertGreater(min(exr.pixel(64, 40, "albedo.R")), 0.5)
+
+
+class NoisePromise(Case):
+    """`--noise 0.01` leaves 95 % of the pixels a standard error below 1 %, on scenes of every kind, and is not biased."""
+
+    SCENES = {"cornell-box": ["--resolution", "16,16"], "glass-sphere": ["--resolution", "16,16"],
+              "mirror-sphere": ["--resolution", "16,16"], "corner-diffuse": ["--resolution", "16,16"],
+              "environment-diffuse": ["--resolution", "16,16", "--hdri-file", SCENES / "sky.pfm"]}
+
+    def test_five_scenes(self):
+        for scene, options in self.SCENES.items():
+            with self.subTest(scene):
+                began = time.monotonic()
+                seeds = Seeds(self, scene, [*options, "--noise", "0.01", "--stats", self.folder / "s.json"], 16)
+                stats = json.loads((self.folder / "s.json").read_text())
+                plain = self.picture(scene, "p.pfm", *options, "--spp", 32768, "--seed", 5)
+                bias = seeds.mean / statistics.fmean(luminances(plain)) - 1
+                print(f"{scene}: standard error, 95th percentile {100 * seeds.p95:.2f} %, rms {100 * seeds.rms:.2f} %; mean "
+                      f"against plain {100 * bias:+.3f} % (standard error {100 * seeds.mean_error:.3f} %); last seed: estimated "
+                      f"{100 * stats['adaptive']['error_p95']:.2f} %, {stats['samples_per_pixel']:.0f} samples a pixel, "
+                      f"{stats['fewest_samples']} to {stats['most_samples']}; {time.monotonic() - began:.0f} s", flush=True)
+                self.assertGreater(seeds.p95, 0.004)
+                self.assertLess(seeds.p95, 0.012)
+                self.assertLess(abs(bias), 0.003)
+
+
+if __name__ == "__main__":
+    main()

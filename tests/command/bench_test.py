@@ -1,0 +1,187 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""`bench error`: what it measures, writes and refuses."""
+import csv
+import json
+import math
+import signal
+import subprocess
+import time
+import xml.etree.ElementTree
+
+from support import FRAGTRACE, SCENES, Case, main, run
+
+BOX = SCENES / "cornell-box.gltf"
+SIZE = ["--resolution", "8,8"]
+SHORT = ["--quiet", "--repetitions", "1", "--spp", "2", *SIZE]
+
+
+class Bench(Case):
+    def bench(self, *arguments, timeout=120):
+        """The result, and what --json holds, by configuration."""
+        path = self.folder / "bench.json"
+        result = run("bench", "error", BOX, "--json", path, *arguments, timeout=timeout)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        report = json.loads(path.read_text())
+        return result, report, {c["name"]: c for c in report["configurations"]}
+
+    def refused(self, status, *arguments, says=()):
+        self.fails(status, "bench", "error", *arguments, says=says)
+
+
+class BenchMeasures(Bench):
+    def test_the_reports_agree_and_hold_what_is_promised(self):
+        table, chart = self.folder / "b.csv", self.folder / "b.svg"
+        result, report, found = self.bench(*SIZE, "--spp", 100, "--repetitions", 2, "--seed", 3, "--goal", "0.01", "--quiet",
+                                           "--csv", table, "--chart", chart)
+        self.assertEqual(result.stderr, "")
+        self.assertEqual((report["scene"], report["width"], report["height"], report["goal_relmse"]), ("cornell-box.gltf", 8, 8, 0.01))
+        self.assertEqual(report["reference"], "6400 samples of 'default' with another seed")
+        self.assertEqual(list(found), ["default", "random", "baseline"])
+        self.assertEqual(found["baseline"]["options"], "--light-sampling bsdf --sampler random")
+        rows = iter(csv.DictReader(table.read_text().splitlines()))
+        for name, entry in found.items():
+            self.assertEqual(len(entry["repetitions"]), 2)
+            self.assertNotEqual(*[[step["mse"] for step in steps] for steps in entry["repetitions"]])
+            for number, steps in enumerate(entry["repetitions"]):
+                self.assertEqual([step["samples"] for step in steps], [1, 2, 4, 8, 16, 32, 64, 100])
+                self.assertEqual([s["seconds"] for s in steps], sorted(s["seconds"] for s in steps))
+                for step in steps:
+                    row = next(rows)
+                    self.assertEqual((row.pop("configuration"), int(row.pop("repetition"))), (name, number))
+                    self.assertEqual(set(row), set(step))
+                    for key, text in row.items():
+                        self.assertTrue(math.isfinite(step[key]) and step[key] > 0, (key, step))
+                        self.assertAlmostEqual(float(text) / step[key], 1, delta=1e-8)
+            self.assertLess(entry["slope"], -0.5)
+            self.assertIn(name, result.stdout)
+        self.assertIsNone(next(rows, None))
+        # One picture of 100 samples of 8 x 8 pixels says little, but the baseline needs many times more.
+        self.assertNotIn("default_is", found["default"])
+        for name in ("random", "baseline"):
+            self.assertIn(f"default against {name}: ", result.stdout)
+            self.assertEqual(set(found[name]["default_is"]), {"times_sooner", "times_fewer_samples"})
+        gain = found["baseline"]["goal"]["samples"] / found["default"]["goal"]["samples"]
+        self.assertAlmostEqual(found["baseline"]["default_is"]["times_fewer_samples"] / gain, 1, delta=1e-6)
+        self.assertGreater(gain, 4)
+        root = xml.etree.ElementTree.fromstring(chart.read_text())
+        self.assertEqual(root.tag, "{http://www.w3.org/2000/svg}svg")
+        texts = " ".join("".join(node.itertext()) for node in root.iter())
+        for name in found:
+            self.assertIn(name, texts)
+
+    def test_the_steps_are_pictures_of_render_against_the_reference(self):
+        reference, picture = self.folder / "r.pfm", self.folder / "p.pfm"
+        self.renders(BOX, "-o", reference, "--quiet", *SIZE, "--spp", 512, "--seed", 99)
+        _, report, found = self.bench("--quiet", *SIZE, "--spp", 6, "--seed", 5, "--repetitions", 2, "--configs", "default",
+                                      "--reference", reference)
+        self.assertEqual(report["reference"], "r.pfm")
+        for number, steps in enumerate(found["default"]["repetitions"]):
+            for step in steps:
+                self.renders(BOX, "-o", picture, "--quiet", *SIZE, "--spp", int(step["samples"]), "--seed", 5 + number)
+                for metric in ("mse", "relmse", "flip"):
+                    # FLIP of a display picture; ours there has 8 bits.
+                    value = float(run("diff", picture, reference, "--metric", metric).stdout)
+                    self.assertAlmostEqual(value / step[metric], 1, delta=0.02 if metric == "flip" else 1e-5)
+
+    def test_options_of_a_configuration_stand_before_those_for_all(self):
+        own = ["few=--spp 2 --bounces 1 --camera-position -.5,0,3", "many=", "a,\"b\"=--spp 3", "size=--resolution 8,8"]
+        table = self.folder / "b.csv"
+        _, _, found = self.bench("--quiet", "--resolution", "8,8", "--spp", 4, "--repetitions", 1, "--camera-position", "0,0,4",
+                                 *(a for c in own for a in ("--config", c)), "--csv", table)
+        samples = {name: c["repetitions"][0][-1]["samples"] for name, c in found.items()}
+        self.assertEqual(samples, {"few": 2, "many": 4, "a,\"b\"": 3, "size": 4})
+        names = {row["configuration"] for row in csv.DictReader(table.read_text().splitlines())}
+        self.assertEqual(names, set(samples))
+        # Same options, same pictures; another camera, another picture.
+        first = {name: c["repetitions"][0][0]["mse"] for name, c in found.items()}
+        self.assertEqual(first["many"], first["size"])
+        self.assertNotEqual(first["many"], first["few"])
+
+    def test_adaptive_configurations_come_down_to_their_goal(self):
+        _, _, found = self.bench("--quiet", *SIZE, "--spp", 16, "--repetitions", 1, "--configs", "default", "--config",
+                                 "coarse=--noise 0.05 --spp 100000", "--config", "timed=--time 0.4 --spp 100000")
+        for name, factor in (("coarse", 2), ("timed", 4)):
+            steps = found[name]["repetitions"][0]
+            self.assertEqual(len(steps), 6)
+            self.assertGreater(steps[-1]["samples"], factor * steps[0]["samples"])
+        self.assertGreater(found["coarse"]["repetitions"][0][-1]["samples"], 64)
+        self.assertLess(found["timed"]["repetitions"][0][-1]["seconds"], 1.0)
+
+
+class BenchRefusals(Bench):
+    def test_options_that_make_no_sense(self):
+        for options, says in ((["--configs", "fast"], "fast"), (["--config", "bounces 3"], "NAME=OPTIONS"),
+                              (["--config", "=--bounces 3"], "NAME=OPTIONS"), (["--config", "a=--nonsense"], "nonsense"),
+                              (["--config", "a=--spp 0"], "a"), (["--config", "a=--spp 1 --spp 2"], "--spp"),
+                              (["--config", "a=other.gltf"], "other.gltf"), (["--config", "a=--stage fast"], "fast"),
+                              (["--config", "a=--spp 2", "--config", "a=--spp 3"], "twice"),
+                              (["--configs", "default", "--config", "default=--spp 3"], "twice"),
+                              (["--configs", "random,random"], "twice"), (["--chart", self.folder / "b.png"], ".svg"),
+                              (["--repetitions", "0"], "repetitions"), (["--goal", "-1"], "goal"), (["--goal", "nan"], "goal"),
+                              (["--stats", self.folder / "s.json"], "--stats"), (["--configs", "adaptive"], "--reference"),
+                              (["--configs", "default", "--config", "wide=--resolution 9,8"], "wide")):
+            with self.subTest(options):
+                self.refused(2, BOX, *SIZE, "--quiet", *options, says=[says])
+        self.refused(2, says=["scene"])
+        self.fails(2, "bench", says=["subcommand"])
+
+    def test_inputs_that_cannot_be_used(self):
+        reference = self.folder / "r.pfm"
+        self.renders(BOX, "-o", reference, "--quiet", "--resolution", "9,8", "--spp", 1)
+        self.refused(3, BOX, *SHORT, "--reference", reference, says=[reference, "9 x 8", "8 x 8"])
+        self.refused(3, BOX, *SHORT, "--reference", self.folder / "none.exr", says=["none.exr"])
+        self.refused(3, self.folder / "none.gltf", *SHORT, says=["none.gltf"])
+
+    def test_outputs_that_cannot_be_written_before_work(self):
+        for option, name in (("--json", "no/b.json"), ("--csv", "no/b.csv"), ("--chart", "no/b.svg")):
+            began = time.monotonic()
+            # A reference of 64 x 2^20 samples would take minutes.
+            self.refused(1, BOX, "--quiet", "--resolution", "512,512", "--spp", 2**20, option, self.folder / name, says=[name])
+            self.assertLess(time.monotonic() - began, 20)
+
+    def test_outputs_that_are_inputs_or_each_other(self):
+        scene, reference = self.folder / "scene.gltf", self.folder / "r.pfm"
+        scene.write_bytes(BOX.read_bytes())
+        self.renders(BOX, "-o", reference, "--quiet", *SIZE, "--spp", 1)
+        before = scene.read_bytes(), reference.read_bytes()
+        for options in (["--json", scene], ["--csv", reference], ["--json", self.folder / "b", "--csv", self.folder / "b"]):
+            self.refused(2, scene, *SHORT, "--reference", reference, *options)
+        self.assertEqual((scene.read_bytes(), reference.read_bytes()), before)
+        # A picture that the scene refers to.
+        for name in ("sphere-textured.gltf", "graticule.png"):
+            (self.folder / name).write_bytes((SCENES / name).read_bytes())
+        picture = (self.folder / "graticule.png").read_bytes()
+        self.refused(2, self.folder / "sphere-textured.gltf", *SHORT, "--json", self.folder / "graticule.png")
+        self.assertEqual((self.folder / "graticule.png").read_bytes(), picture)
+
+
+class BenchInterruption(Bench):
+    def interrupt(self, *options):
+        """After some seconds; the folder must hold what it held before."""
+        files = set(self.folder.iterdir())
+        process = subprocess.Popen([FRAGTRACE, "bench", "error", BOX, "--quiet", "--resolution", "64,64", "--spp", str(2**20),
+                                    "--json", self.folder / "b.json", "--csv", self.folder / "b.csv", *options],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        time.sleep(3)
+        began = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        output, error = process.communicate(timeout=20)
+        self.assertLess(time.monotonic() - began, 2)
+        self.assertEqual((process.returncode, output), (130, ""))
+        self.assertEqual(len(error.splitlines()), 1, error)
+        self.assertEqual(set(self.folder.iterdir()), files)
+
+    def test_ctrl_c_while_the_reference_is_drawn_writes_nothing_and_gives_130(self):
+        self.interrupt()
+
+    def test_ctrl_c_while_measuring_writes_nothing_and_gives_130(self):
+        reference = self.folder / "r.pfm"
+        self.renders(BOX, "-o", reference, "--quiet", "--resolution", "64,64", "--spp", 1)
+        self.interrupt("--reference", reference)
+
+
+if __name__ == "__main__":
+    main()

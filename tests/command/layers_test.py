@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The layers that --aov adds to an .exr."""
+import json
+import math
+
+from support import SCENES, Case, Exr, main
+
+BOX = SCENES / "cornell-box.gltf"
+FEATURES = {"albedo": "RGB", "normal": "XYZ", "depth": "Z"}
+NAMES = {layer: [f"{layer}.{c}" for c in channels] for layer, channels in FEATURES.items()}
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def normalized(a):
+    return tuple(x / math.sqrt(dot(a, a)) for x in a)
+
+
+class View:
+    """A perspective camera: the direction through a place of the picture, of length 1 along its axis."""
+
+    def __init__(self, eye, target, degrees, width, height):
+        self.eye, self.size = eye, (width, height)
+        self.forward = normalized([t - e for t, e in zip(target, eye)])
+        self.right = normalized(cross(self.forward, (0, 1, 0)))
+        self.up = cross(self.right, self.forward)
+        self.half = math.tan(math.radians(degrees) / 2)
+
+    def through(self, x, y):
+        width, height = self.size
+        across, along = (2 * x / width - 1) * width / height * self.half, (1 - 2 * y / height) * self.half
+        return [f + across * r + along * u for f, r, u in zip(self.forward, self.right, self.up)]
+
+    def mean(self, x, y, value, steps=16):
+        """Of a function of the direction, over the square of a pixel."""
+        places = [(i + 0.5) / steps for i in range(steps)]
+        return sum(value(self.through(x + i, y + j)) for i in places for j in places) / steps**2
+
+
+class FirstHits(Case):
+    def layers(self, scene, samples, *options):
+        return self.picture(scene, "x.exr", "--spp", samples, "--aov", "albedo,normal,depth", *options)
+
+    def close(self, pixel, expected, delta=2e-6):
+        self.assertEqual(len(pixel), len(expected))
+        for a, b in zip(pixel, expected):
+            self.assertAlmostEqual(a, b, delta=delta, msg=f"{pixel} is not {expected}")
+
+    def test_the_back_wall_of_the_cornell_box(self):
+        exr = self.layers("cornell-box", 64, "--resolution", "40,40")
+        for x in (14, 20, 26):
+            self.close(exr.pixel(x, 12, *NAMES["albedo"]), (0.725, 0.71, 0.68))
+            self.close(exr.pixel(x, 12, *NAMES["normal"]), (0, 0, 1))
+            # From z = (279.6 + 800) / 278 to z = -279.6 / 278, the same over the whole wall.
+            self.close(exr.pixel(x, 12, *NAMES["depth"]), (1359.2 / 278,), 1e-5)
+        self.close(exr.pixel(4, 20, *NAMES["albedo"]), (0.63, 0.065, 0.05))
+        self.close(exr.pixel(35, 20, *NAMES["albedo"]), (0.14, 0.45, 0.091))
+        self.assertGreater(exr.pixel(4, 20, "normal.X")[0], 0.99)
+        self.assertLess(exr.pixel(35, 20, "normal.X")[0], -0.99)
+
+    def test_a_sphere_on_a_plane(self):
+        width, height = 48, 32
+        view = View((0, 2.2, 5.5), (0, 0.7, 0), 42, width, height)
+        exr = self.layers("sphere-plane", 256, "--resolution", f"{width},{height}")
+        # The ground in front of the sphere, left, right and lowest: depth -2.2 / d.y.
+        for x, y in ((24, 30), (5, 25), (43, 27)):
+            self.close(exr.pixel(x, y, *NAMES["albedo"]), (0.55, 0.55, 0.5))
+            self.close(exr.pixel(x, y, *NAMES["normal"]), (0, 1, 0))
+            depth = view.mean(x, y, lambda d: -2.2 / d[1])
+            self.close(exr.pixel(x, y, "depth.Z"), (depth,), 1e-3 * depth)
+
+        # The sphere about (0, 1, 0) of radius 1.
+        def hit(d):
+            half_b, c = dot(view.eye, d) - d[1], 2.2**2 + 5.5**2 - 2 * 2.2
+            return (-half_b - math.sqrt(half_b**2 - dot(d, d) * c)) / dot(d, d)
+
+        for x, y in ((24, 13), (21, 15), (27, 10)):
+            self.close(exr.pixel(x, y, *NAMES["albedo"]), (0.75, 0.12, 0.08))
+            self.close(exr.pixel(x, y, "depth.Z"), (view.mean(x, y, hit),), 2e-3)
+            normal = [view.mean(x, y, lambda d: view.eye[i] + hit(d) * d[i] - (i == 1)) for i in range(3)]
+            self.close(exr.pixel(x, y, *NAMES["normal"]), normal, 2e-3)
+        # The sky.
+        for x in range(width):
+            self.assertEqual(exr.pixel(x, 0, *sum(NAMES.values(), [])), (0,) * 7)
+
+    def test_normals_are_unit_and_face_the_camera(self):
+        view = View((0, 0, 1079.6 / 278), (0, 0, 0), math.degrees(2 * math.atan(0.0125 / 0.035)), 24, 24)
+        exr = self.layers("cornell-box", 1, "--resolution", "24,24")
+        hits = 0
+        for y in range(24):
+            for x in range(24):
+                normal = exr.pixel(x, y, *NAMES["normal"])
+                if exr.pixel(x, y, "depth.Z")[0] == 0:
+                    self.assertEqual(normal, (0, 0, 0))
+                    continue
+                hits += 1
+                self.assertAlmostEqual(dot(normal, normal), 1, delta=1e-5)
+                # The one sample lies somewhere in the pixel, and a face seen edge-on may tip over by as much.
+                self.assertLess(dot(normal, normalized(view.through(x + 0.5, y + 0.5))), 0.03)
+        self.assertGreater(hits, 500)
+
+    def test_normal_maps_count_unless_they_are_off(self):
+        mapped, plain = (self.layers("sphere-mapped", 64, "--resolution", "24,24", *extra) for extra in ([], ["--disable", "normal-maps"]))
+        self.assertNotEqual(mapped.values("normal.X"), plain.values("normal.X"))
+        self.assertEqual(mapped.values("depth.Z"), plain.values("depth.Z"))
+
+    def test_they_have_the_samples_of_the_picture(self):
+        """What stage flat shows is the albedo, so with the same samples through the same filter both are the same bits."""
+        for options in ([], ["--pixel-filter", "gaussian"], ["--pixel-filter", "blackman-harris", "--sampler", "random"],
+                        ["--seed", "9", "--sample-offset", "1000"]):
+            for scene in ("sphere-plane", "sphere-textured"):
+                with self.subTest(scene=scene, options=options):
+                    exr = self.layers(scene, 16, "--stage", "flat", "--resolution", "24,16", *options)
+                    for channel in "RGB":
+                        self.assertEqual(exr.values(channel), exr.values("albedo." + channel))
+
+
+class LayerFiles(Case):
+    def test_names_and_order(self):
+        every = self.picture("cornell-box", "x.exr", "--resolution", "8,8", "--spp", 4, "--aov",
+                             "variance,depth,samples,normal,albedo")
+        self.assertEqual(sorted(every.layers), sorted(["R", "G", "B", "samples.Y", "variance.Y", *sum(NAMES.values(), [])]))
+        self.assertEqual(sorted(self.picture("cornell-box", "x.exr", "--resolution", "8,8", "--spp", 4).layers), ["B", "G", "R"])
+
+    def test_order_and_duplicates_change_no_byte(self):
+        files = []
+        for i, layers in enumerate((["normal,albedo,samples"], ["samples,albedo,albedo,normal,normal"],
+                                    ["albedo", "--aov", "samples", "--aov", "normal"])):
+            path = self.folder / f"{i}.exr"
+            self.renders(BOX, "-o", path, "--quiet", "--resolution", "8,8", "--spp", 4, "--aov", *layers)
+            files.append(path.read_bytes())
+        self.assertEqual(files[0], files[1])
+        self.assertEqual(files[0], files[2])
+
+    def test_layers_change_nothing_of_the_picture(self):
+        plain = self.picture("cornell-box", "a.exr", "--resolution", "8,8", "--spp", 4)
+        layered = self.picture("cornell-box", "b.exr", "--resolution", "8,8", "--spp", 4, "--aov", "albedo,depth,variance")
+        for channel in "RGB":
+            self.assertEqual(plain.values(channel), layered.values(channel))
+
+    def test_the_variance_is_that_of_the_mean_of_independent_samples(self):
+        pictures = [self.picture("cornell-box", "x.exr", "--resolution", "8,8", "--spp", 64, "--sampler", "random", "--seed", s,
+                                 "--aov", "variance,samples", "--bounces", 1) for s in range(12)]
+        columns = list(zip(*(p.luminances() for p in pictures)))
+        seen = sum(sum((v - sum(c) / 12) ** 2 for v in c) / 11 for c in columns)
+        stated = sum(sum(p.values("variance.Y")) for p in pictures) / 12
+        # 64 pixels x 11 degrees of freedom, though a few bright pixels weigh most.
+        self.assertAlmostEqual(seen / stated, 1, delta=0.35)
+        self.assertEqual(set(pictures[0].values("samples.Y")), {64})
+
+    def test_only_exr_holds_layers(self):
+        for name in ("x.png", "x.jpg", "x.pfm", "x.hdr"):
+            self.fails(2, "render", BOX, "-o", self.folder / name, "--aov", "albedo", says=["--aov"])
+        self.fails(2, "render", BOX, "-o", self.folder / "x.exr", "--aov", "albedo,colour", says=["colour"])
+
+    def test_statistics_say_what_the_layers_took(self):
+        for extra, there in ((["--aov", "depth"], True), (["--aov", "samples"], False)):
+            self.renders(BOX, "-o", self.folder / "x.exr", "--quiet", "--resolution", "8,8", "--spp", 4, *extra, "--stats",
+                         self.folder / "s.json")
+            self.assertEqual("feature_ms" in json.loads((self.folder / "s.json").read_text()), there)
+
+
+if __name__ == "__main__":
+    main()

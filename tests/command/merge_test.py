@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Parts of a render (--sample-offset) and `merge`, which joins them into what one run gives."""
+import json
+import signal
+import subprocess
+import time
+
+from support import FRAGTRACE, SCENES, Case, Exr, luminances, main, run
+
+BOX = SCENES / "cornell-box.gltf"
+SIZE = ["--resolution", "16,12"]
+LAYERS = ["--aov", "albedo,normal,depth,samples,variance"]
+ATTRIBUTES = ("fragtrace:settings", "fragtrace:seed", "fragtrace:sampleOffset", "fragtrace:samples", "fragtrace:uniform")
+
+
+class Parts(Case):
+    def part(self, name, first, samples, *options, scene=BOX, size="16,12"):
+        path = self.folder / name
+        self.renders(scene, "-o", path, "--quiet", "--resolution", size, "--sample-offset", first, "--spp", samples, *options)
+        return path
+
+    def merged(self, name, *parts):
+        path = self.folder / name
+        result = run("merge", *parts, "-o", path)
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+        return path
+
+
+class Merging(Parts):
+    def compare(self, whole, merged, limit):
+        self.assertEqual((whole.width, whole.height, list(whole.layers)), (merged.width, merged.height, list(merged.layers)))
+        for name in whole.layers:
+            largest = max(map(abs, whole.values(name)))
+            for a, b in zip(whole.values(name), merged.values(name)):
+                # Of the pixel itself; of the largest where rounding leaves next to nothing of a sum of both signs.
+                self.assertLessEqual(abs(a - b), limit[name.partition(".")[0] if "." in name else ""] * max(abs(a), 0.01 * largest),
+                                     name)
+
+    def test_parts_give_what_one_run_gives_in_every_layer(self):
+        for options in ([], ["--pixel-filter", "blackman-harris", "--sampler", "random", "--no-background"]):
+            with self.subTest(options):
+                whole = Exr(self.part("whole.exr", 0, 64, *LAYERS, *options))
+                one, two = self.part("a.exr", 0, 24, *LAYERS, *options), self.part("b.exr", 24, 40, *LAYERS, *options)
+                merged = Exr(self.merged("m.exr", one, two))
+                limit = dict.fromkeys(("", "albedo", "normal", "depth", "samples"), 1e-6)
+                # The film sums squares in floats, one after the other.
+                limit["variance"] = 5e-6
+                self.compare(whole, merged, limit)
+                self.assertEqual(set(merged.values("samples.Y")), {64})
+                for name in ATTRIBUTES:
+                    self.assertEqual(merged.texts[name], whole.texts[name])
+                # Not because all parts are alike: the mean of both alone is no better than noise.
+                first, second = Exr(one).luminances(), Exr(two).luminances()
+                self.assertGreater(max(abs(a - b) for a, b in zip(first, second)), 0.01)
+
+    def test_the_order_of_the_parts_changes_no_byte(self):
+        a, b, c = (self.part(f"{n}.exr", 8 * n, 8, *LAYERS) for n in range(3))
+        expected = self.merged("m.exr", a, b, c).read_bytes()
+        for i, order in enumerate(((c, b, a), (b, c, a), (a, c, b))):
+            self.assertEqual(self.merged(f"m{i}.exr", *order).read_bytes(), expected)
+
+    def test_what_was_merged_can_be_merged_again(self):
+        a, b, c = (self.part(f"{n}.exr", 100 + 8 * n, 8, *LAYERS) for n in range(3))
+        once = Exr(self.merged("all.exr", a, b, c))
+        twice = Exr(self.merged("again.exr", c, self.merged("ab.exr", a, b)))
+        self.compare(once, twice, dict.fromkeys(("", "albedo", "normal", "depth", "samples", "variance"), 1e-6))
+        self.assertEqual((twice.texts["fragtrace:sampleOffset"], twice.texts["fragtrace:samples"]), ("100", "24"))
+        self.assertEqual(once.texts, twice.texts)
+
+    def test_one_part_alone_stays_as_it_is(self):
+        part = self.part("a.exr", 3, 5, *LAYERS)
+        self.compare(Exr(part), Exr(self.merged("m.exr", part)), dict.fromkeys(("", "albedo", "normal", "depth", "samples", "variance"), 1e-6))
+
+    def test_colour_alone_is_enough(self):
+        whole = self.part("whole.exr", 0, 16)
+        merged = self.merged("m.exr", self.part("a.exr", 0, 8), self.part("b.exr", 8, 8))
+        self.compare(Exr(whole), Exr(merged), {"": 1e-6})
+
+    def test_the_attributes_say_how_the_picture_was_made(self):
+        texts = Exr(self.part("a.exr", 7, 5, "--seed", "4294967295", "--bounces", "3")).texts
+        self.assertEqual([texts[name] for name in ATTRIBUTES[1:]], ["4294967295", "7", "5", "1"])
+        settings = json.loads(texts["fragtrace:settings"])
+        self.assertEqual((settings["scene"], settings["width"], settings["height"], settings["bounces"]),
+                         ("cornell-box.gltf", 16, 12, 3))
+
+
+class RefusedMerges(Parts):
+    def setUp(self):
+        super().setUp()
+        self.first = self.part("first.exr", 0, 4)
+
+    def refuses(self, other, *says):
+        for parts in ((self.first, other), (other, self.first)):
+            self.fails(3, "merge", *parts, "-o", self.folder / "m.exr", says=says)
+            self.assertFalse((self.folder / "m.exr").exists())
+
+    def test_samples_that_overlap_or_miss(self):
+        for first, samples, says in ((3, 4, "sample 3"), (0, 4, "sample 0"), (5, 4, "samples 4 to 4 "), (9, 1, "samples 4 to 8 ")):
+            other = self.part("other.exr", first, samples)
+            self.refuses(other, self.first, other, says)
+        self.fails(3, "merge", self.first, self.first, "-o", self.folder / "m.exr", says=["overlap"])
+
+    def test_another_seed(self):
+        other = self.part("other.exr", 4, 4, "--seed", "1")
+        self.refuses(other, self.first, other, "seeds")
+
+    def test_other_settings(self):
+        for options in (["--bounces", "2"], ["--camera-position", "0,0,4"], ["--camera-view-angle", "30"], ["--light-sampling", "bsdf"],
+                        ["--sampler", "random"], ["--rr-depth", "5"], ["--clamp-indirect", "3"], ["--pixel-filter", "gaussian"],
+                        ["--hdri-file", SCENES / "sky.pfm"]):
+            with self.subTest(options):
+                other = self.part("other.exr", 4, 4, *options)
+                self.refuses(other, self.first, other, "settings")
+
+    def test_another_scene_even_of_the_same_name(self):
+        scene = json.loads(BOX.read_text())
+        scene["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = [0.1, 0.2, 0.3, 1]
+        changed = self.folder / "cornell-box.gltf"
+        changed.write_text(json.dumps(scene))
+        other = self.part("other.exr", 4, 4, scene=changed)
+        self.refuses(other, self.first, other, "settings")
+
+    def test_another_size_or_other_layers(self):
+        for size, *options in (["16,13"], ["16,12", "--aov", "samples"], ["16,12", "--no-background"]):
+            with self.subTest(size=size, options=options):
+                other = self.part("other.exr", 4, 4, *options, size=size)
+                self.refuses(other, self.first, other, "differ in size or layers")
+
+    def test_an_adaptive_part(self):
+        other = self.folder / "other.exr"
+        self.renders(BOX, "-o", other, "--quiet", *SIZE, "--noise", "0.5", "--sample-offset", "4")
+        self.assertEqual(Exr(other).texts["fragtrace:uniform"], "0")
+        self.refuses(other, other, "adaptive or interrupted")
+
+    def test_files_that_are_no_parts(self):
+        foreign, text = self.folder / "p.pfm", self.folder / "text.exr"
+        self.renders(BOX, "-o", foreign, "--quiet", *SIZE, "--spp", "4")
+        text.write_text("no picture")
+        for other in (foreign, text, self.folder / "none.exr"):
+            self.refuses(other, other)
+        cut = self.folder / "cut.exr"
+        cut.write_bytes(self.first.read_bytes()[:-40])
+        self.refuses(cut, cut)
+        cut.unlink()
+        text.unlink()
+
+    def test_attributes_that_are_no_numbers(self):
+        data = self.first.read_bytes()
+        other = self.folder / "other.exr"
+        start = data.index(b"fragtrace:samples\0string\0") + len(b"fragtrace:samples\0string\0") + 4
+        other.write_bytes(data[:start] + b"x" + data[start + 1:])
+        self.refuses(other, other, "fragtrace:samples")
+
+    def test_outputs_that_cannot_be_written_or_are_parts(self):
+        other = self.part("other.exr", 4, 4)
+        before = self.first.read_bytes(), other.read_bytes()
+        self.fails(1, "merge", self.first, other, "-o", self.folder / "no/m.exr", says=["no/m.exr"])
+        self.fails(2, "merge", self.first, other, "-o", self.folder / "m.pfm", says=["m.pfm"])
+        for part in (self.first, other):
+            self.fails(2, "merge", self.first, other, "-o", part, says=[part])
+        self.fails(2, "merge", "-o", self.folder / "m.exr")
+        self.assertEqual((self.first.read_bytes(), other.read_bytes()), before)
+
+    def test_a_sample_beyond_the_last_there_is(self):
+        self.fails(2, "render", BOX, "-o", self.folder / "x.exr", *SIZE, "--sample-offset", 2**29, "--spp", 1,
+                   says=["--sample-offset"])
+
+
+class InterruptedParts(Parts):
+    def test_an_interrupted_part_is_refused(self):
+        first, other = self.part("first.exr", 0, 4), self.folder / "other.exr"
+        process = subprocess.Popen([FRAGTRACE, "render", BOX, "-o", other, "--resolution", "200,200", "--spp", "1000000",
+                                    "--sample-offset", "4", "--quiet"])
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        time.sleep(3)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(20), 130)
+        self.fails(3, "merge", first, other, "-o", self.folder / "m.exr", says=[other, "adaptive or interrupted"])
+
+
+if __name__ == "__main__":
+    main()

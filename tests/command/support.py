@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: MIT
+"""What the tests of the command line share: running it, reading the pictures that it writes.
+
+A test file is run as FILE FRAGTRACE SOURCE_FOLDER [unittest arguments].
+"""
+import math
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+from array import array
+from pathlib import Path
+
+FRAGTRACE = Path(sys.argv[1]).resolve()
+SCENES = Path(sys.argv[2]).resolve() / "scenes"
+SMALL = ["--resolution", "16,16", "--spp", "2", "--quiet"]
+WEIGHTS = (0.2126, 0.7152, 0.0722)  # of luminance
+
+
+def run(*arguments, timeout=120, **options):
+    return subprocess.run([FRAGTRACE, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, **options)
+
+
+def floats(data):
+    values = array("f", data)
+    if sys.byteorder == "big":
+        values.byteswap()
+    return values
+
+
+def read_pfm(path):
+    kind, size, _, body = Path(path).read_bytes().split(b"\n", 3)
+    width, height = map(int, size.split())
+    values = struct.unpack("<%df" % (width * height * 3), body)
+    rows = [values[y * width * 3:(y + 1) * width * 3] for y in range(height)]
+    return [[row[3 * x:3 * x + 3] for x in range(width)] for row in reversed(rows)]
+
+
+def luminances(picture):
+    """Of a picture as read_pfm gives it, in one list."""
+    return [sum(w * c for w, c in zip(WEIGHTS, pixel)) for row in picture for pixel in row]
+
+
+def unzipped(data, size):
+    """One block of a ZIP-compressed OpenEXR file (openexr.com, "OpenEXR File Layout")."""
+    if len(data) == size:
+        return data
+    deltas = bytearray(zlib.decompress(data))
+    for i in range(1, size):
+        deltas[i] = (deltas[i - 1] + deltas[i] - 128) & 255
+    result = bytearray(size)
+    result[0::2], result[1::2] = deltas[:(size + 1) // 2], deltas[(size + 1) // 2:]
+    return bytes(result)
+
+
+class Exr:
+    """Scan lines of 32-bit floats, uncompressed or ZIP: `layers` by name, rows from the top; `texts`: the string attributes."""
+
+    def __init__(self, path):
+        data = Path(path).read_bytes()
+        assert data[:4] == struct.pack("<I", 20000630) and data[4:8] == struct.pack("<I", 2), path
+        self.texts, at, header = {}, 8, {}
+        while data[at]:
+            name, kind, rest = data[at:].split(b"\0", 2)
+            at += len(name) + len(kind) + 2
+            size = struct.unpack_from("<I", data, at)[0]
+            header[name.decode()] = data[at + 4:at + 4 + size]
+            if kind == b"string":
+                self.texts[name.decode()] = data[at + 4:at + 4 + size].decode()
+            at += 4 + size
+        names, channels = [], header["channels"]
+        while channels != b"\0":
+            name, channels = channels.split(b"\0", 1)
+            assert struct.unpack_from("<I", channels)[0] == 2, f"{path}: {name} is not of 32-bit floats"
+            names.append(name.decode())
+            channels = channels[16:]
+        left, top, right, bottom = struct.unpack("<4i", header["dataWindow"])
+        self.width, self.height = right - left + 1, bottom - top + 1
+        lines = {0: 1, 2: 1, 3: 16}[header["compression"][0]]
+        self.layers = {name: [None] * self.height for name in names}
+        for block in range(-(-self.height // lines)):
+            place = struct.unpack_from("<Q", data, at + 1 + 8 * block)[0]
+            y, size = struct.unpack_from("<iI", data, place)
+            rows = range(y - top, min(y - top + lines, self.height))
+            line = 4 * self.width * len(names)
+            body = unzipped(data[place + 8:place + 8 + size], line * len(rows))
+            for i, row in enumerate(rows):
+                for c, name in enumerate(names):
+                    first = i * line + 4 * self.width * c
+                    self.layers[name][row] = floats(body[first:first + 4 * self.width])
+
+    def pixel(self, x, y, *names):
+        return tuple(self.layers[name][y][x] for name in names)
+
+    def values(self, name):
+        return [value for row in self.layers[name] for value in row]
+
+    def luminances(self):
+        return [sum(w * c for w, c in zip(WEIGHTS, pixel)) for pixel in zip(*map(self.values, "RGB"))]
+
+
+class Case(unittest.TestCase):
+    """Has a folder of its own. Every .pfm and .exr that a test leaves there must be finite throughout."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def tearDown(self):
+        for path in self.folder.glob("**/*.pfm"):
+            self.finite(path, floats(path.read_bytes().split(b"\n", 3)[3]))
+        for path in self.folder.glob("**/*.exr"):
+            exr = Exr(path)
+            for name in exr.layers:
+                self.finite(f"{path} {name}", exr.values(name))
+
+    def finite(self, what, values):
+        self.assertTrue(all(map(math.isfinite, values)), f"{what} holds a value that is not finite")
+
+    def fails(self, status, *arguments, says=(), **options):
+        """Gives that status, one line on stderr and no picture beside those that were there."""
+        pictures = lambda: {p for p in self.folder.iterdir() if p.suffix in (".png", ".exr", ".pfm", ".part")}
+        before = pictures()
+        result = run(*arguments, **options)
+        self.assertEqual(result.returncode, status, result.stderr)
+        for text in says:
+            self.assertIn(str(text), result.stderr)
+        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+        self.assertEqual(pictures(), before)
+        return result
+
+    def renders(self, *arguments, **options):
+        result = run("render", *arguments, **options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def picture(self, scene, name, *options):
+        """Renders quietly into the folder and reads what was written: a list of rows, or an Exr."""
+        path = self.folder / name
+        self.renders(SCENES / (scene + ".gltf"), "-o", path, "--quiet", *options)
+        return read_pfm(path) if path.suffix == ".pfm" else Exr(path)
+
+
+def main():
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
