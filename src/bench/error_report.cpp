@@ -21,14 +21,6 @@ std::string formatted(const char* format, Values... values) {
   return text;
 }
 
-/// As RFC 4180 has it.
-std::string csvField(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string field = "\"";
-  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
-  return field + "\"";
-}
-
 const ErrorCurve* curveNamed(const ErrorReport& report, const std::string& name) {
   for (const ErrorCurve& curve : report.curves) {
     if (curve.name == name) return &curve;
