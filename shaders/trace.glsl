@@ -112,7 +112,7 @@ void tracePixel(ivec2 pixel) {
     }
     if (!kResumable) {
       // The sample begins anew in the next draw, unless it is longer than a whole draw.
-      film.rays = raysBefore;
+      if (tracing) film.rays = raysBefore;
       if (film.samples == samplesBefore) atomicAdd(progress.stuck, 1u);
     }
   }

@@ -34,8 +34,8 @@ constexpr std::array<NamedConfiguration, 8> kNamedConfigurations = {{
 }};
 
 std::vector<std::string_view> configurationNames() {
-  std::vector<std::string_view> names;
-  for (const NamedConfiguration& c : kNamedConfigurations) names.push_back(c.name);
+  std::vector<std::string_view> names(kNamedConfigurations.size());
+  std::ranges::transform(kNamedConfigurations, names.begin(), &NamedConfiguration::name);
   return names;
 }
 

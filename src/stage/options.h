@@ -41,19 +41,19 @@ struct RenderOptions {
   int bounces = 16;       ///< kUnlimitedBounces: no limit
   int rouletteDepth = 6;  ///< roulette from this scattering on, the first being 1
   double clampIndirect =
-      0.0;  ///< largest radiance that a path of two scatterings or more may add; 0: no limit
-  PixelFilter pixelFilter = PixelFilter::Box;
+      0.0;               ///< largest radiance that a path of two scatterings or more may add; 0: no limit
   double noise = 0.0;    ///< relative error to reach, adaptively; 0: spp samples in every pixel
   double seconds = 0.0;  ///< time to spend, adaptively; 0: no limit
   std::optional<int> cameraIndex;
   CameraOverrides camera;
   std::filesystem::path hdriFile;
   double hdriRotationDegrees = 0.0;
-  bool background = true;
-  glm::vec3 backgroundColor{0.0f};
-  bool defaultLight = true;
   double exposure = 0.0;
+  glm::vec3 backgroundColor{0.0f};
+  bool background = true;
+  bool defaultLight = true;
   ToneMap toneMap = ToneMap::Neutral;
+  PixelFilter pixelFilter = PixelFilter::Box;
   TraversalMethod traversal = TraversalMethod::Auto;
   Backend backend = Backend::Auto;
   BufferReads bufferReads = BufferReads::Auto;

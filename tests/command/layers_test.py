@@ -4,7 +4,7 @@
 import json
 import math
 
-from support import SCENES, Case, Exr, main
+from support import SCENES, Case, main
 
 BOX = SCENES / "cornell-box.gltf"
 FEATURES = {"albedo": "RGB", "normal": "XYZ", "depth": "Z"}

@@ -6,7 +6,7 @@ import signal
 import subprocess
 import time
 
-from support import FRAGTRACE, SCENES, Case, Exr, luminances, main, run
+from support import FRAGTRACE, SCENES, Case, Exr, main, run
 
 BOX = SCENES / "cornell-box.gltf"
 SIZE = ["--resolution", "16,12"]

@@ -66,11 +66,17 @@ class Draws : public GlProbe {
     EXPECT_TRUE(renderer_->addSamples(film, view_, parts, times_, [](double) { return true; }));
   }
 
+  Film& scratch() {
+    if (!scratch_) scratch_ = std::make_unique<Film>(size_);
+    return *scratch_;
+  }
+
   FilmPixels atOnce() {
     return drawn([&](Film& film) { add(film, 0, kSamples); });
   }
 
   std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<Film> scratch_;
   ShaderVariant variant_;
   View view_;
   RenderTimes times_;
@@ -143,6 +149,22 @@ TEST_P(Draws, AnOffsetIsWhereAnEarlierPartEnded) {
     ASSERT_EQ(after.pixels[i].rays - before.pixels[i].rays, own.pixels[i].rays);
   }
   EXPECT_LT(largest, 1e-6);
+}
+
+/// Draws of ever more samples end at their budget of steps, in the middle of a sample, which then begins
+/// anew.
+TEST_P(Draws, SamplesThatBeginAnew) {
+  constexpr int kMany = 700;
+  size_ = {16, 12};
+  const FilmPixels expected = drawn([&](Film& film) { add(film, 0, kMany); });
+  EXPECT_EQ(totalsOf(expected).fewestSamples, uint32_t(kMany));
+  EXPECT_EQ(bitsOf(drawn([&](Film& film) {
+              for (int i = 0; i < kMany; i += 20) {
+                renderer_->compile(variant_, scratch(), view_);  // forgets the pace
+                add(film, i, i + 20);
+              }
+            })),
+            bitsOf(expected));
 }
 
 /// Paths that are longer than a draw go on in the next one.
