@@ -175,7 +175,8 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
       View view = c.loaded.view;
       view.seed += uint32_t(r);
       Film film(c.loaded.size);
-      c.curve.compileMs = c.tracer.renderer->compile(c.tracer.variant, film, view);
+      const double compileMs = c.tracer.renderer->compile(c.tracer.variant, film, view);
+      if (r == 0) c.curve.compileMs = compileMs;  // later ones are in the program cache
       RenderTimes warmUp;
       c.tracer.renderer->addSamples(film, view, 0, 1, warmUp, untilInterrupted());
       c.curve.repetitions.push_back(c.configuration.adaptive() ? measureAdaptive(c, view, judge)
