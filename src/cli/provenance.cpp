@@ -63,7 +63,7 @@ void setProvenance(Image& image, const Provenance& provenance) {
   image.attributes[kSeed] = std::to_string(provenance.seed);
   image.attributes[kSampleOffset] = std::to_string(provenance.sampleOffset);
   image.attributes[kSamples] = std::to_string(provenance.samples);
-  image.attributes[kUniform] = provenance.uniform ? "1" : "0";
+  image.attributes[kUniform] = std::to_string(int(provenance.uniform));
 }
 
 Provenance provenanceOf(const Image& image, const std::filesystem::path& path) {
