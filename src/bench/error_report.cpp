@@ -72,6 +72,8 @@ std::vector<ErrorStep> stepsOf(const ErrorCurve& curve) {
       step.lowRelmse = std::min(step.lowRelmse, s.relmse);
       step.highRelmse = std::max(step.highRelmse, s.relmse);
     }
+    // Adaptive goals that one number of samples meets are one step.
+    if (!steps.empty() && steps.back().mean.samples == step.mean.samples) steps.pop_back();
     steps.push_back(step);
   }
   return steps;
@@ -120,13 +122,19 @@ std::string errorTable(const ErrorReport& report) {
       text += i + 1 == steps.size() ? formatted(" %8.2f\n", slopeOf(curve)) : "\n";
     }
   }
+  for (const ErrorCurve& curve : report.curves) {
+    if (curve.nearReference)
+      text += "\nwarning: " + curve.name +
+              " has more than an eighth of the reference's samples: the reference's own noise counts in its "
+              "error";
+  }
   text += formatted("\ntime to a relative MSE of %g\n", report.goal);
   for (const ErrorCurve& curve : report.curves) {
     const auto reached = timeToReach(curve, report.goal);
     text += formatted("%-18s ", curve.name.c_str());
     text += reached ? formatted("%10.4g s %12.4g samples%s\n", reached->seconds, reached->samples,
                                 reached->extrapolated ? "  (extrapolated as 1 / N)" : "")
-                    : "not reached\n";
+                    : "not reached, with fewer than 64 samples\n";
   }
   const ErrorCurve* best = curveNamed(report, "default");
   for (const ErrorCurve& curve : report.curves) {
@@ -154,6 +162,7 @@ std::string errorJson(const ErrorReport& report) {
     entry["options"] = curve.options;
     entry["variant"] = curve.variant;
     entry["compile_ms"] = curve.compileMs;
+    entry["near_reference"] = curve.nearReference;
     entry["slope"] = slopeOf(curve);
     if (const auto reached = timeToReach(curve, report.goal)) {
       entry["goal"] = {{"seconds", reached->seconds},
@@ -199,12 +208,12 @@ std::string errorChart(const ErrorReport& report) {
   chart.yLabel = "relative MSE";
   chart.logX = true;
   chart.logY = true;
-  chart.line = ChartLine{report.goal, formatted("%g", report.goal)};
-  chart.caption = std::to_string(report.width) + " x " + std::to_string(report.height) + " on " +
-                  report.renderer +
-                  ". Points are 1, 2, 4, ... samples a pixel, bars the least and the largest of the "
-                  "repetitions. Reference: " +
-                  report.reference + ".";
+  chart.line = ChartLine{report.goal, formatted("goal %g", report.goal)};
+  chart.caption =
+      std::to_string(report.width) + " x " + std::to_string(report.height) + " on " + report.renderer +
+      ". Points are 1, 2, 4, ... samples a pixel, or adaptive goals; bars the least and the largest of the "
+      "repetitions. Reference: " +
+      report.reference + ".";
   for (const ErrorCurve& curve : report.curves) {
     ChartSeries series;
     series.name = curve.name + formatted(" (slope %.2f)", slopeOf(curve));

@@ -26,6 +26,7 @@ struct ErrorCurve {
   std::string options;  ///< as on the command line
   std::string variant;
   double compileMs = 0.0;
+  bool nearReference = false;  ///< measured with so many samples that the reference's own noise counts
   std::vector<std::vector<ErrorSample>> repetitions;
 };
 

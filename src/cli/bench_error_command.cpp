@@ -186,6 +186,12 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
     }
   }
   bar.clear();
+  constexpr double kFarFewer = 8.0;
+  for (Contender& c : contenders) {
+    for (const std::vector<ErrorSample>& steps : c.curve.repetitions)
+      c.curve.nearReference = c.curve.nearReference || (options.reference.empty() &&
+                                                        steps.back().samples * kFarFewer > referenceSamples);
+  }
   for (Contender& c : contenders) report.curves.push_back(std::move(c.curve));
   return report;
 }

@@ -92,7 +92,9 @@ RenderOptions parseRender(const GivenOptions& shared, const BenchConfiguration& 
 void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
   BenchErrorOptions& o = raw.options;
   app.add_option("scene", raw.scene, ".gltf or .glb file")->required();
-  app.add_option("--configs", raw.names, joined(configurationNames()) + "; default: default,random,baseline")
+  app.add_option(
+         "--configs", raw.names,
+         joined(configurationNames()) + "; default: default,random,baseline, or with --config only default")
       ->delimiter(',');
   app.add_option("--config", raw.own, "NAME=OPTIONS: one more, such as \"rough=--bounces 4\"")
       ->allow_extra_args(false);
@@ -109,13 +111,16 @@ void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
   app.add_option("--csv", o.csv, "the same as a table");
   app.add_option("--chart", o.chart, ".svg: error against time");
   addRenderOptions(app, raw.shared);
+  app.get_option("--spp")->description(std::string("camera paths a pixel of the last step, default ") +
+                                       kDefaultSamples);
 }
 
 BenchErrorOptions finishBenchError(const RawBenchError& raw, const CLI::App& app) {
   BenchErrorOptions options = raw.options;
   const GivenOptions shared = givenOptions(app);
   std::vector<std::string> names = raw.names;
-  if (names.empty() && raw.own.empty()) names = {"default", "random", "baseline"};
+  if (names.empty()) names = {"default"};
+  if (raw.names.empty() && raw.own.empty()) names = {"default", "random", "baseline"};
   for (const std::string& name : names) {
     const NamedConfiguration& c =
         kNamedConfigurations[choose<size_t>("--configs", name, configurationNames())];
@@ -125,6 +130,8 @@ BenchErrorOptions finishBenchError(const RawBenchError& raw, const CLI::App& app
     const size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
       throw UsageError("--config: '" + text + "' is not NAME=OPTIONS");
+    if (std::ranges::count(configurationNames(), text.substr(0, equals)) > 0)
+      throw UsageError("--config: '" + text.substr(0, equals) + "' is one of --configs; choose another name");
     options.configurations.push_back({text.substr(0, equals), text.substr(equals + 1), {}});
   }
   for (BenchConfiguration& c : options.configurations) {

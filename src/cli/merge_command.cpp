@@ -39,8 +39,8 @@ void checkNext(const Part& first, const Part& next) {
       first.image.channels != next.image.channels)
     throw InputError(both + ": differ in size or layers");
   if (first.made.settings != next.made.settings)
-    throw InputError(both + ": were made with different settings: " + first.made.settings + " and " +
-                     next.made.settings);
+    throw InputError(both + ": were made with different settings: " +
+                     differenceOf(first.made.settings, next.made.settings));
   if (first.made.seed != next.made.seed)
     throw InputError(both + ": were made with different seeds, " + std::to_string(first.made.seed) + " and " +
                      std::to_string(next.made.seed));

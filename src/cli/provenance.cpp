@@ -2,6 +2,7 @@
 #include "cli/provenance.h"
 
 #include <charconv>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "errors.h"
@@ -40,10 +41,15 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   const Camera& camera = loaded.camera;
   nlohmann::ordered_json json;
   json["scene"] = options.scene.filename().string();
-  json["scene_hash"] = tracer.sceneHash;
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(tracer.sceneHash));
+  json["scene_hash"] = hash;
   json["width"] = loaded.size.x;
   json["height"] = loaded.size.y;
-  json["variant"] = variantName(tracer.variant);
+  // How buffers are read changes no sample.
+  ShaderVariant variant = tracer.variant;
+  variant.reads = BufferReads::Ssbo;
+  json["variant"] = variantName(variant);
   json["bounces"] = options.bounces;
   json["rr_depth"] = options.rouletteDepth;
   json["clamp_indirect"] = options.clampIndirect;
@@ -56,6 +62,20 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   json["camera_up"] = numbers(camera.up);
   json["camera_view"] = camera.perspective ? camera.fovY : -camera.halfHeight;
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string differenceOf(const std::string& settings, const std::string& others) {
+  const auto a = nlohmann::json::parse(settings, nullptr, false);
+  const auto b = nlohmann::json::parse(others, nullptr, false);
+  if (!a.is_object() || !b.is_object()) return "they are not written as this version writes them";
+  std::string text;
+  for (const auto& [key, value] : a.items()) {
+    const auto other = b.find(key);
+    if (other != b.end() && *other == value) continue;
+    text += (text.empty() ? "" : ", ") + key + " " + value.dump() + " and " +
+            (other == b.end() ? "none" : other->dump());
+  }
+  return text.empty() ? "of another version" : text;
 }
 
 void setProvenance(Image& image, const Provenance& provenance) {

@@ -19,6 +19,9 @@ struct Provenance {
 /// The settings of a render as JSON, in one line.
 std::string settingsText(const RenderOptions& options, const LoadedScene& loaded, const Tracer& tracer);
 
+/// What differs in two settings: "bounces 16 and 4, ...".
+std::string differenceOf(const std::string& settings, const std::string& others);
+
 void setProvenance(Image& image, const Provenance& provenance);
 
 /// Throws InputError naming the file when an attribute is missing or no number.

@@ -53,7 +53,8 @@ Drawing draw(Renderer& renderer, Film& film, const RenderOptions& options, const
     const AdaptiveGoal goal{options.noise, options.seconds, options.spp};
     AdaptivePicture picture = renderAdaptively(renderer, film.size(), view, goal, stats.times, progress);
     stats.complete = !picture.stopped;
-    stats.adaptive = {options.noise, options.seconds, picture.error, picture.share, picture.rounds};
+    stats.adaptive = {options.noise, options.seconds, picture.error,
+                      picture.share, picture.rounds,  picture.black};
     drawing = {std::move(picture.pixels), std::move(picture.variance)};
   } else {
     stats.complete = renderer.addSamples(film, view, 0, options.spp, stats.times, progress);
@@ -126,6 +127,12 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
     std::snprintf(text, sizeof text, ", 95 %% of the pixels within %.3g %% (estimated)",
                   100.0 * stats.adaptive->error);
     noise = text;
+  }
+  if (!stats.complete) say(options, "interrupted: what was finished is written");
+  if (stats.adaptive && stats.adaptive->black) {
+    say(options, "warning: the picture is black, so nothing is known of its noise");
+  } else if (stats.complete && options.noise > 0.0 && stats.adaptive->share < 0.95) {
+    say(options, "warning: --spp or --time ended the render before the noise asked for");
   }
   if (options.quiet) return;
   std::printf("%s: %d x %d, %.4g samples a pixel in %.2f s (%.2f million paths/s)%s\n",

@@ -136,6 +136,8 @@ RenderOptions finishRender(const RawRender& raw) {
   if (raw.spp) o.spp = *raw.spp;
   if (adaptive && !raw.spp) o.spp = kMostSamples;
   // Two halves of two: one sample says nothing of its error.
+  if (adaptive && o.sampleOffset > 0)
+    throw UsageError("--sample-offset: adaptive pictures (--noise, --time) are no parts of a render");
   if (adaptive && o.spp < 4) throw UsageError("--spp: --noise and --time need at least 4");
   if (int64_t(o.sampleOffset) + o.spp > kMostSamples && !adaptive)
     throw UsageError("--sample-offset: with --spp it goes beyond sample " + std::to_string(kMostSamples));

@@ -17,15 +17,24 @@ constexpr int kBlock = 8;          // pixels a side that share one number of sam
 constexpr int kTile = 256;         // pixels a side of one draw
 constexpr int kFirstSamples = 32;  // of each half
 constexpr double kPart = 0.95;     // of the pixels that have to be under the noise
-constexpr uint32_t kOtherHalf = 0x9e3779b9u;
+
+/// The seed of the second half; no involution, so that two seeds never give the same picture.
+uint32_t seedOfOtherHalf(uint32_t seed) { return seed * 0x9e3779b1u + 0x7f4a7c15u; }
 
 /// One block of pixels: its samples in each half, and what the next ones are worth.
 struct Block {
   int samples = kFirstSamples;
+  int target = kFirstSamples;  ///< samples after this round
   int pixels = 0;
   int above = 0;       ///< pixels above the noise asked for
   double error = 0.0;  ///< sum of the squared relative errors
-  bool chosen = false;
+
+  /// Samples after a round that has time enough: twice as many, so that Sobol sequences stay whole, or what
+  /// is left.
+  int next(int mostSamples) const { return int(std::min<int64_t>(int64_t(samples) * 2, mostSamples / 2)); }
+
+  /// Samples in both halves that it takes to get there.
+  double cost(int to) const { return 2.0 * (to - samples) * pixels; }
 
   /// What a sample takes from the picture's squared error; it falls with the square of the samples.
   double worth() const { return error / (double(samples) * pixels); }
@@ -44,7 +53,7 @@ struct Blocks {
 };
 
 void weigh(Blocks& blocks, const std::vector<double>& errors, double noise) {
-  for (Block& b : blocks.blocks) b = {b.samples, 0, 0, 0.0, false};
+  for (Block& b : blocks.blocks) b = {b.samples, b.samples, 0, 0, 0.0};
   for (int y = 0; y < blocks.picture.y; ++y) {
     for (int x = 0; x < blocks.picture.x; ++x) {
       const double e = errors[size_t(y) * size_t(blocks.picture.x) + size_t(x)];
@@ -56,49 +65,59 @@ void weigh(Blocks& blocks, const std::vector<double>& errors, double noise) {
   }
 }
 
-/// Marks the blocks whose samples are to double. Returns the samples that this takes in both halves.
-double chooseBlocks(Blocks& blocks, const AdaptiveGoal& goal, double affordable) {
+/// Sets the targets of the blocks that are to get more samples, anywhere if `blind`. Returns the samples that
+/// this takes in both halves; at most what is affordable.
+double chooseTargets(Blocks& blocks, const AdaptiveGoal& goal, double affordable, bool blind) {
   std::vector<Block*> candidates;
   double spent = 0.0;
+  double all = 0.0;
   for (Block& b : blocks.blocks) {
-    spent += 2.0 * b.samples * b.pixels;
+    spent += b.cost(2 * b.samples);
     const bool wanted = goal.noise > 0.0 ? b.above > (1.0 - kPart) * b.pixels : b.error > 0.0;
-    if (wanted && b.samples <= goal.mostSamples / 4) candidates.push_back(&b);
+    if ((!wanted && !blind) || b.next(goal.mostSamples) <= b.samples) continue;
+    candidates.push_back(&b);
+    all += b.cost(b.next(goal.mostSamples));
   }
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Block* a, const Block* b) { return a->worth() > b->worth(); });
+  std::sort(candidates.begin(), candidates.end(), [](const Block* a, const Block* b) {
+    return std::pair(-a->worth(), a->samples) < std::pair(-b->worth(), b->samples);
+  });
   // Without a noise to reach, half as much as so far at a time: worth changes as samples come in.
   const double most = goal.noise > 0.0 ? affordable : std::min(affordable, 0.5 * spent);
   double cost = 0.0;
   for (Block* b : candidates) {
-    const double own = 2.0 * b->samples * b->pixels;
+    const double own = b->cost(b->next(goal.mostSamples));
     if (cost + own > most && (cost > 0.0 || own > affordable)) break;
-    b->chosen = true;
+    b->target = b->next(goal.mostSamples);
     cost += own;
+  }
+  if (cost > 0.0) return cost;
+  // What is left of the time is too short to double any: all get a part of it.
+  for (Block* b : candidates) {
+    b->target = b->samples + int((b->next(goal.mostSamples) - b->samples) * (affordable / all));
+    cost += b->cost(b->target);
   }
   return cost;
 }
 
-/// The chosen blocks as draws, by tiles and numbers of samples; doubles their samples.
+/// The targets of all pixels, and the draws that lead to them, by tiles and numbers of samples.
 std::vector<Work> takeWork(Blocks& blocks, std::vector<uint32_t>& targets) {
-  std::map<std::tuple<int, int, int>, int> busy;  // samples, tile y, tile x: pixels
+  std::map<std::tuple<int, int, int, int>, int> busy;  // samples, target, tile y, tile x: pixels
   targets.resize(size_t(blocks.picture.x) * size_t(blocks.picture.y));
   for (int y = 0; y < blocks.picture.y; ++y) {
     for (int x = 0; x < blocks.picture.x; ++x) {
       const Block& b = blocks.ofPixel(x, y);
-      targets[size_t(y) * size_t(blocks.picture.x) + size_t(x)] =
-          uint32_t(b.chosen ? 2 * b.samples : b.samples);
-      if (b.chosen) ++busy[{b.samples, y / kTile, x / kTile}];
+      targets[size_t(y) * size_t(blocks.picture.x) + size_t(x)] = uint32_t(b.target);
+      if (b.target > b.samples) ++busy[{b.samples, b.target, y / kTile, x / kTile}];
     }
   }
   std::vector<Work> work;
   for (const auto& [key, pixels] : busy) {
-    const auto [samples, tileY, tileX] = key;
+    const auto [from, to, tileY, tileX] = key;
     const glm::ivec2 corner = glm::ivec2(tileX, tileY) * kTile;
     const glm::ivec2 size = glm::min(glm::ivec2(kTile), blocks.picture - corner);
-    work.push_back({corner, size, samples, 2 * samples, double(pixels) / (double(size.x) * size.y)});
+    work.push_back({corner, size, from, to, double(pixels) / (double(size.x) * size.y)});
   }
-  for (Block& b : blocks.blocks) b.samples *= b.chosen ? 2 : 1;
+  for (Block& b : blocks.blocks) b.samples = b.target;
   return work;
 }
 
@@ -119,7 +138,7 @@ AdaptivePicture renderAdaptively(Renderer& renderer, glm::ivec2 size, const View
 
   Film films[2] = {Film(size), Film(size)};
   View views[2] = {view, view};
-  views[1].seed ^= kOtherHalf;
+  views[1].seed = seedOfOtherHalf(view.seed);
   Blocks blocks(size);
   for (Block& b : blocks.blocks) b.samples = std::max(1, std::min(kFirstSamples, goal.mostSamples / 2));
   const int first = blocks.blocks.front().samples;
@@ -131,20 +150,28 @@ AdaptivePicture renderAdaptively(Renderer& renderer, glm::ivec2 size, const View
     picture.pixels = pooled(halves.a, halves.b);
     picture.variance = varianceOfMean(halves);
     const std::vector<double> errors = relativeErrors(picture.pixels, picture.variance);
-    picture.error = quantileOf(errors, kPart);
     picture.rounds += 1;
     weigh(blocks, errors, goal.noise);
     double under = double(errors.size());
     for (const Block& b : blocks.blocks) under -= b.above;
     picture.share = goal.noise > 0.0 ? under / double(errors.size()) : 0.0;
+    picture.error = quantileOf(errors, kPart);
+    // Two samples a half are the fewest that tell an error.
+    if (totalsOf(picture.pixels).fewestSamples < 4) {
+      picture.share = 0.0;
+      picture.error = 1.0;
+    }
+    picture.black =
+        std::ranges::all_of(picture.pixels.pixels, [](const FilmPixel& p) { return p.luminance() == 0.0; });
+    const bool blind = goal.seconds > 0.0 && std::ranges::all_of(errors, [](double e) { return e == 0.0; });
     // Errors fall with the root of the samples.
     roundsDone = goal.noise > 0.0 ? std::pow(goal.noise / std::max(picture.error, goal.noise), 2.0) : 0.0;
-    if (!more || (goal.noise > 0.0 && picture.share >= kPart)) return picture;
+    if (!more || (goal.noise > 0.0 && picture.share >= kPart && !(picture.black && blind))) return picture;
 
     const double msLeft = (goal.seconds - elapsed()) * 1000.0;
     const double affordable = goal.seconds > 0.0 ? msLeft / std::max(renderer.msPerSample(), 1e-9)
                                                  : std::numeric_limits<double>::infinity();
-    if (chooseBlocks(blocks, goal, affordable) <= 0.0) return picture;
+    if (chooseTargets(blocks, goal, affordable, blind) <= 0.0) return picture;
     std::vector<uint32_t> targets;
     const std::vector<Work> work = takeWork(blocks, targets);
     films[0].setTargets(halves.a, targets);

@@ -20,12 +20,14 @@ struct AdaptivePicture {
   double error = 0.0;            ///< the relative error that 95 % of the pixels are estimated to stay under
   double share = 0.0;            ///< of the pixels that are under the noise asked for
   int rounds = 0;
+  bool black = false;    ///< no sample has brought any light, so that nothing is known of the noise
   bool stopped = false;  ///< by progress
 };
 
 /// Draws two halves of the samples in rounds. The number of samples doubles in blocks of 8 x 8 pixels, so
-/// that Sobol sequences stay whole: where more than 5 % of a block's pixels are above the noise asked for, or
-/// without such a goal where a sample brings most. The renderer's current variant is used.
+/// that Sobol sequences stay whole (the last time to what mostSamples leaves): where more than 5 % of a
+/// block's pixels are above the noise asked for, or without such a goal where a sample brings most. The
+/// renderer's current variant is used.
 AdaptivePicture renderAdaptively(Renderer& renderer, glm::ivec2 size, const View& view,
                                  const AdaptiveGoal& goal, RenderTimes& times,
                                  const Renderer::Progress& progress);

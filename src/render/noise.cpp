@@ -74,7 +74,8 @@ std::vector<double> varianceOfMean(const Halves& halves) {
       whole.add(own);
     }
   }
-  const double overall = whole.independent > 0.0 ? whole.differences / whole.independent : 1.0;
+  // The whole picture's ratio is drawn towards 1, that of independent samples: one pixel tells nothing.
+  const double overall = whole.independent > 0.0 ? sharesOf(whole, 1.0) : 1.0;
 
   std::vector<double> shares(grid.cells.size());
   for (int y = 0; y < grid.size.y; ++y) {

@@ -71,7 +71,7 @@ class Noise(Case):
         self.assertNotEqual(one, other)
 
     def test_spp_is_the_most(self):
-        for most, reached in ((200, 128), (128, 128), (70, 64), (5, 4)):
+        for most, reached in ((200, 200), (128, 128), (71, 70), (5, 4)):
             self.renders(BOX, "-o", self.folder / "x.pfm", "--quiet", "--resolution", "16,16", "--noise", "0.001", "--spp", most,
                          "--stats", self.folder / "s.json")
             stats = json.loads((self.folder / "s.json").read_text())
@@ -82,6 +82,20 @@ class Noise(Case):
         self.renders(SCENES / "furnace.gltf", "-o", self.folder / "x.pfm", "--quiet", "--resolution", "16,16", "--noise", "0.01",
                      "--no-default-light", "--stats", self.folder / "s.json")
         self.assertEqual(json.loads((self.folder / "s.json").read_text())["adaptive"]["error_p95"], 0)
+
+    def test_what_is_not_known_is_said(self):
+        where = ["-o", self.folder / "x.pfm", "--stats", self.folder / "s.json"]
+        dark = self.renders(SCENES / "furnace.gltf", *where, "--resolution", "16,16", "--no-default-light", "--noise", "0.01")
+        self.assertIn("nothing is known of its noise", dark.stderr)
+        short = self.renders(BOX, *where, "--resolution", "16,16", "--noise", "0.001", "--spp", "64")
+        self.assertIn("before the noise asked for", short.stderr)
+
+    def test_one_pixel_is_not_taken_for_sure(self):
+        # Two halves of 32 samples that happen to agree were taken for an error of 0.
+        for seed in (1002, 1003, 1007):
+            self.renders(BOX, "-o", self.folder / "x.pfm", "--quiet", "--resolution", "1,1", "--noise", "0.1", "--seed", seed,
+                         "--stats", self.folder / "s.json")
+            self.assertGreater(json.loads((self.folder / "s.json").read_text())["most_samples"], 500)
 
     def test_values_that_make_no_sense(self):
         for options in (["--noise", "0"], ["--noise", "-1"], ["--noise", "nan"], ["--time", "0"], ["--time", "-2"],

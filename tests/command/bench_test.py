@@ -90,7 +90,7 @@ class BenchMeasures(Bench):
         _, _, found = self.bench("--quiet", "--resolution", "8,8", "--spp", 4, "--repetitions", 1, "--camera-position", "0,0,4",
                                  *(a for c in own for a in ("--config", c)), "--csv", table)
         samples = {name: c["repetitions"][0][-1]["samples"] for name, c in found.items()}
-        self.assertEqual(samples, {"few": 2, "many": 4, "a,\"b\"": 3, "size": 4})
+        self.assertEqual(samples, {"default": 4, "few": 2, "many": 4, "a,\"b\"": 3, "size": 4})
         names = {row["configuration"] for row in csv.DictReader(table.read_text().splitlines())}
         self.assertEqual(names, set(samples))
         # Same options, same pictures; another camera, another picture.
@@ -116,7 +116,7 @@ class BenchRefusals(Bench):
                               (["--config", "a=--spp 0"], "a"), (["--config", "a=--spp 1 --spp 2"], "--spp"),
                               (["--config", "a=other.gltf"], "other.gltf"), (["--config", "a=--stage fast"], "fast"),
                               (["--config", "a=--spp 2", "--config", "a=--spp 3"], "twice"),
-                              (["--configs", "default", "--config", "default=--spp 3"], "twice"),
+                              (["--config", "default=--spp 3"], "one of --configs"),
                               (["--configs", "random,random"], "twice"), (["--chart", self.folder / "b.png"], ".svg"),
                               (["--repetitions", "0"], "repetitions"), (["--goal", "-1"], "goal"), (["--goal", "nan"], "goal"),
                               (["--stats", self.folder / "s.json"], "--stats"), (["--configs", "adaptive"], "--reference"),

@@ -129,9 +129,12 @@ class RefusedMerges(Parts):
 
     def test_an_adaptive_part(self):
         other = self.folder / "other.exr"
-        self.renders(BOX, "-o", other, "--quiet", *SIZE, "--noise", "0.5", "--sample-offset", "4")
+        self.renders(BOX, "-o", other, "--quiet", *SIZE, "--noise", "0.5")
         self.assertEqual(Exr(other).texts["fragtrace:uniform"], "0")
         self.refuses(other, other, "adaptive or interrupted")
+
+    def test_an_adaptive_picture_has_no_offset(self):
+        self.fails(2, "render", BOX, "-o", self.folder / "x.pfm", *SIZE, "--noise", "0.5", "--sample-offset", "4", says=["--sample-offset"])
 
     def test_files_that_are_no_parts(self):
         foreign, text = self.folder / "p.pfm", self.folder / "text.exr"
