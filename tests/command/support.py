@@ -19,7 +19,7 @@ SMALL = ["--resolution", "16,16", "--spp", "2", "--quiet"]
 WEIGHTS = (0.2126, 0.7152, 0.0722)  # of luminance
 
 
-def run(*arguments, timeout=120, **options):
+def run(*arguments, timeout=600, **options):
     return subprocess.run([FRAGTRACE, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, **options)
 
 
