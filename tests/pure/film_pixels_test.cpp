@@ -29,13 +29,13 @@ TEST(FilmPixels, PooledFilmsAreOneFilmOfAllSamples) {
   FilmPixels parts[3] = {all, all, all};
   Draw draw(197);
   for (size_t i = 0; i < all.pixels.size(); ++i) {
-    for (int part = 0; part < 3; ++part) {
+    for (FilmPixels& part : parts) {
       // Some have no sample, some one; a bright offset shows what cancels.
       const int samples = draw.integer(0, 4) * draw.integer(0, 30);
       const double offset = i % 3 == 0 ? 1000.0 : 0.0;
       for (int k = 0; k < samples; ++k) {
         const glm::dvec3 color = draw.inCube(1.0) + offset;
-        for (FilmPixel* p : {&all.pixels[i], &parts[part].pixels[i]}) {
+        for (FilmPixel* p : {&all.pixels[i], &part.pixels[i]}) {
           addSample(*p, color);
           p->alpha += 0.25;
           p->rays += 3;

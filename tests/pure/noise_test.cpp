@@ -144,9 +144,9 @@ TEST(Noise, VarianceIsFiniteAndNotNegativeWhateverTheFilmHolds) {
     halves.a = film();
     halves.b = film();
     const std::vector<double> variance = varianceOfMean(halves);
-    for (size_t i = 0; i < variance.size(); ++i) {
-      EXPECT_TRUE(std::isfinite(variance[i]));
-      EXPECT_GE(variance[i], 0.0);
+    for (double v : variance) {
+      EXPECT_TRUE(std::isfinite(v));
+      EXPECT_GE(v, 0.0);
     }
     for (double e : relativeErrors(pooled(halves.a, halves.b), variance)) {
       EXPECT_TRUE(std::isfinite(e));
