@@ -54,7 +54,10 @@ class Worker:
 
     def __init__(self, name, command):
         self.name, self.lines = name, []
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        # Debian's Blender takes its Python's home from the first python3 in PATH: let that be the one beside it.
+        program = shutil.which(command[0]) or command[0]
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                        env={**os.environ, "PATH": os.path.dirname(program) + os.pathsep + os.environ["PATH"]})
         try:
             self.version = self.answer()["version"]
         except RuntimeError as error:

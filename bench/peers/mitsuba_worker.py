@@ -65,7 +65,12 @@ def principled(material):
     if material.normal_texture:
         scaled = (2 * material.normal_texture.texels[..., :3] - 1) * [material.normal_scale, material.normal_scale, 1]
         result = {"type": "normalmap", "normalmap": bitmap((scaled + 1) / 2), "bsdf": result}
-    return {"type": "twosided", "bsdf": result} if material.double_sided else result
+    if material.double_sided:
+        result = {"type": "twosided", "bsdf": result}
+    if material.alpha_mode == "BLEND":
+        result = {"type": "mask", "bsdf": result,
+                  "opacity": bitmap(color.texels[..., 3:] * material.color[3]) if color else float(material.color[3])}
+    return result
 
 
 def environment(path):
@@ -73,11 +78,11 @@ def environment(path):
     texels = np.array(mi.Bitmap(path).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32)).astype(float)
     height = len(texels)
     rows = np.clip(np.arange(height + 1) - 0.5, 0, height - 1)
-    low, part = np.minimum(rows.astype(int), height - 2), None
+    low = np.minimum(rows.astype(int), height - 2)
     part = (rows - low)[:, None, None]
     nodes = (1 - part) * texels[low] + part * texels[low + 1]
     return {"type": "envmap", "bitmap": mi.Bitmap(nodes.astype(np.float32)),
-            "to_world": mi.ScalarTransform4f().rotate([0, 1, 0], -90)}
+            "to_world": mi.ScalarTransform4f().rotate([0, 1, 0], 90)}
 
 
 def asset(description):

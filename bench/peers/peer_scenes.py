@@ -101,7 +101,7 @@ def room_scene(folder, kind):
 def asset_scene(folder, program, asset, environment):
     """Framed as we frame a scene without a camera, seen from the front and somewhat above."""
     info = json.loads(subprocess.run([program, "info", asset, "--json"], check=True, capture_output=True, text=True).stdout)
-    low, high = info["bounds"]["min"], info["bounds"]["max"]
+    low, high = (info["scene"]["bounds"][end] for end in ("min", "max"))
     middle = [(a + b) / 2 for a, b in zip(low, high)]
     radius = math.dist(low, high) / 2
     away = normalize((0.3, 0.35, 1))
