@@ -13,6 +13,8 @@ import os
 import statistics
 import sys
 import tempfile
+import time
+from math import exp, inf, log
 from pathlib import Path
 
 import engines
@@ -20,7 +22,7 @@ import peer_scenes
 import pictures
 
 PEERS = ("mitsuba-llvm", "mitsuba-scalar", "cycles", "cycles-roulette")
-MEAN_LEVEL, BLOCK_LEVEL = 0.005, 0.01  # of the mean; of the blocks' root mean square, beyond the noise
+MEAN_LEVEL, BLOCK_LEVEL = 0.005, 0.01  # relative; of the blocks' root mean square beyond the noise
 
 
 def arguments():
@@ -44,6 +46,8 @@ def arguments():
     options = parser.parse_args()
     options.program = options.program.resolve()
     options.scenes, options.only = options.scenes.split(","), options.only.split(",")
+    if not options.program.is_file():
+        parser.error(f"no program {options.program}; scripts/build makes it")
     for name in set(options.only) - set(PEERS):
         parser.error(f"--only: no peer {name}")
     if options.rounds < 2 or options.spp < 1 or options.spp & (options.spp - 1):
@@ -78,7 +82,15 @@ def start(options, scene, resolution, plain):
     return running
 
 
+def machine():
+    """What the figures hold for."""
+    model = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo", encoding="utf-8") if line.startswith("model name")), "?")
+    return f"{time.strftime('%Y-%m-%d')}, {model}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f} before"
+
+
 def progress(text):
+    if not text and not sys.stderr.isatty():
+        return
     print(f"\r\033[K{text}" if sys.stderr.isatty() else text, end="" if sys.stderr.isatty() else "\n", file=sys.stderr, flush=True)
 
 
@@ -123,10 +135,10 @@ def speed(name, running, folder, options):
 
 
 def time_to_error(engine, folder, options, seeds=4):
-    """Samples and seconds to the goal: doubles the samples until the error is below, then goes back along 1 / N' where N' is fitted
-    to the last two steps."""
+    """(samples, error, seconds) of each step: the samples are doubled until the error is below the goal or falls no further, as that of
+    an adaptive renderer does where its own goal is met."""
     steps, spp = [], 32
-    while not steps or (steps[-1][1] > options.goal and spp <= 1 << 14):
+    while len(steps) < 2 or (steps[-1][1] > options.goal and steps[-1][1] < 0.9 * steps[-2][1]):
         paths = [str(folder / f"seed{k}.pfm") for k in range(seeds)]
         taken = statistics.median(engine.draw(spp, 100 + k, path)[options.clock] for k, path in enumerate(paths))
         steps.append((spp, pictures.relative_mse(paths), taken))
@@ -138,11 +150,9 @@ def time_to_error(engine, folder, options, seeds=4):
 
 def at_goal(steps, goal):
     """Samples and seconds at the goal, on the straight line through the last two steps in logarithms."""
-    from math import exp, log
-    if len(steps) == 1:
-        spp, error, seconds = steps[0]
-        return spp * error / goal, seconds * error / goal
     (n0, e0, t0), (n1, e1, t1) = steps[-2:]
+    if e1 > goal:
+        return inf, inf
     part = log(e0 / goal) / log(e0 / e1)
     return tuple(exp(log(a) + part * log(b / a)) for a, b in ((n0, n1), (t0, t1)))
 
@@ -163,7 +173,8 @@ def error_table(name, running, folder, options):
 
 def main():
     options = arguments()
-    agree, figures = True, {"machine": os.uname().machine, "cores": os.cpu_count(), "clock": options.clock, "spp": options.spp}
+    agree, figures = True, {"machine": machine(), "clock": options.clock, "spp": options.spp}
+    print(figures["machine"])
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
         for name in options.scenes:
@@ -173,9 +184,11 @@ def main():
                 if kind == "error" and not options.error:
                     continue
                 running = start(options, scene, size, plain)
-                result = table(name, running, folder, options)
-                for engine in running:
-                    engine.close()
+                try:
+                    result = table(name, running, folder, options)
+                finally:
+                    for engine in running:
+                        engine.close()
                 if kind == "speed":
                     agree, result = agree and result[0], result[1]
                 figures.setdefault(name, {})[kind] = result

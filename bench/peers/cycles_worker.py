@@ -29,6 +29,16 @@ def node_material(name):
     return material, material.node_tree.nodes, material.node_tree.links
 
 
+def plastic(mesh):
+    """glTF's dielectric; its importer makes the same nodes of it."""
+    material, nodes, links = node_material(mesh["name"])
+    output, surface = nodes.new("ShaderNodeOutputMaterial"), nodes.new("ShaderNodeBsdfPrincipled")
+    surface.inputs["Base Color"].default_value = (*mesh["color"], 1)
+    surface.inputs["Roughness"].default_value = mesh["roughness"]
+    links.new(surface.outputs[0], output.inputs["Surface"])
+    return material
+
+
 def matt(mesh):
     """A diffuse surface; a lamp shines to the front only, as in the other renderers."""
     material, nodes, links = node_material(mesh["name"])
@@ -63,8 +73,23 @@ def add_mesh(mesh):
     data = bpy.data.meshes.new(mesh["name"])
     indices = mesh["indices"]
     data.from_pydata(mesh["positions"], [], [indices[i:i + 3] for i in range(0, len(indices), 3)])
-    data.materials.append(matt(mesh))
+    data.materials.append(plastic(mesh) if "roughness" in mesh else matt(mesh))
+    if mesh.get("smooth"):
+        data.polygons.foreach_set("use_smooth", [True] * len(data.polygons))
     add_object(mesh["name"], data).matrix_world = UPRIGHT
+
+
+def add_light(light):
+    """KHR_lights_punctual: watts per steradian of a point, watts per square metre of a sun; both hard."""
+    data = bpy.data.lights.new(light["name"], "POINT" if "position" in light else "SUN")
+    data.color = light["color"]
+    item = add_object(light["name"], data)
+    if "position" in light:
+        data.energy, data.shadow_soft_size = 4 * math.pi * light["intensity"], 0
+        item.location = UPRIGHT @ Vector(light["position"])
+    else:
+        data.energy, data.angle = light["intensity"], 0
+        item.matrix_world = (UPRIGHT @ Vector((*light["direction"], 0))).to_3d().to_track_quat("-Z", "Y").to_matrix().to_4x4()
 
 
 def set_world(path):
@@ -168,6 +193,8 @@ def main():
         bpy.ops.import_scene.gltf(filepath=description["gltf"])
     for mesh in description["meshes"]:
         add_mesh(mesh)
+    for light in description.get("lights", []):
+        add_light(light)
     set_world(description["environment"])
     set_camera(description["camera"])
     set_renderer(int(resolution), settings)

@@ -32,8 +32,6 @@ class Fragtrace:
             self.command += ["--hdri-file", description["environment"]]
         self.command += options
         self.version, self.start_cpu = "fragtrace", 0.0
-        if not program.is_file():
-            raise Absent(f"no program {program}")
         self.start_cpu = self.draw(1, 0, str(self.stats.with_name("first.pfm")))["cpu"]
 
     def draw(self, spp, seed, picture):

@@ -43,15 +43,17 @@ def mean_and_variance(pictures):
 
 
 def apart(ours, theirs):
-    """Two lists of block pictures: the relative difference of the means channel by channel (the largest, signed), the part of the
-    blocks' difference that noise does not explain, and the noise, both as root mean square over that of the blocks."""
+    """Two lists of block pictures: the relative difference of the channels' means (the largest, signed); the root mean square of the
+    blocks' relative differences without the part that noise explains; and the noise in them. Relative to a block's value and a
+    tenth of the picture's mean, so that neither lamps nor dark corners decide."""
     (a, va), (b, vb) = mean_and_variance(ours), mean_and_variance(theirs)
     third = len(a) // 3
     means = [sum(a[c * third:(c + 1) * third]) / sum(b[c * third:(c + 1) * third]) - 1 for c in range(3)]
-    square = math.fsum(x * x for x in b)
-    noise = math.fsum(va) + math.fsum(vb)
-    difference = math.fsum((x - y) ** 2 for x, y in zip(a, b))
-    return max(means, key=abs), math.sqrt(max(0, difference - noise) / square), math.sqrt(noise / square)
+    floor = 0.1 * math.fsum(b) / len(b)
+    weights = [1 / (y + floor) ** 2 / len(b) for y in b]
+    difference = math.fsum(w * (x - y) ** 2 for w, x, y in zip(weights, a, b))
+    noise = math.fsum(w * (v + u) for w, v, u in zip(weights, va, vb))
+    return max(means, key=abs), math.sqrt(max(0, difference - noise)), math.sqrt(noise)
 
 
 def relative_mse(paths):
