@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Beside other path tracers: the same scenes in fragtrace, Mitsuba 3 and Cycles, in turn, with pictures that are checked.
 
-usage: compare.py FRAGTRACE [--scenes cornell-box,room-ball,asset] [--only PEERS] [--spp N] [--rounds N] [--error] ...
+usage: compare.py FRAGTRACE [--scenes cornell-box,room-ball,asset] [--only PEERS] [--spp N] [--rounds N] [--measure both] ...
 A peer that is not installed is said and left out. Times are those of drawing alone: without start-up, loading, building trees and
 compiling. Status 1: a picture is not that of the others. docs/benchmarks.md says more. Run it on a quiet machine.
 """
@@ -14,7 +14,7 @@ import statistics
 import sys
 import tempfile
 import time
-from math import exp, inf, log
+from math import exp, log
 from pathlib import Path
 
 import engines
@@ -34,7 +34,8 @@ def arguments():
     parser.add_argument("--rounds", type=int, default=5, help="pictures of each engine, drawn in turn (at least 2)")
     parser.add_argument("--resolution", type=int, default=500)
     parser.add_argument("--clock", choices=("wall", "cpu"), default="wall", help="cpu: CPU seconds, for a machine that is not quiet")
-    parser.add_argument("--error", action="store_true", help="also time to a relative MSE, each with its own defaults")
+    parser.add_argument("--measure", choices=("speed", "error", "both"), default="speed",
+                        help="error: time to a relative MSE, each with its own defaults")
     parser.add_argument("--goal", type=float, default=1e-3, help="that relative MSE")
     parser.add_argument("--error-resolution", type=int, default=250)
     parser.add_argument("--asset", type=Path, help="a .gltf, for the scene asset")
@@ -69,7 +70,7 @@ def start(options, scene, resolution, plain):
     """Ours and the peers that are there."""
     makers = {"mitsuba-llvm": lambda: engines.mitsuba("llvm_ad_rgb", options.python, scene, resolution, plain),
               "mitsuba-scalar": lambda: engines.mitsuba("scalar_rgb", options.python, scene, resolution, plain),
-              "cycles": lambda: engines.cycles(options.python, options.blender, scene, resolution, "plain" if plain else "defaults"),
+              "cycles": lambda: engines.cycles(options.python, options.blender, scene, resolution, "plain" if plain else "roulette"),
               "cycles-roulette": lambda: engines.cycles(options.python, options.blender, scene, resolution, "roulette")}
     running = [engines.Fragtrace(options.program, scene, resolution, plain, options.ours.split())]
     for name in options.only:
@@ -135,10 +136,9 @@ def speed(name, running, folder, options):
 
 
 def time_to_error(engine, folder, options, seeds=4):
-    """(samples, error, seconds) of each step: the samples are doubled until the error is below the goal or falls no further, as that of
-    an adaptive renderer does where its own goal is met."""
+    """(samples, error, seconds) of each step: the samples are doubled until the error is below the goal."""
     steps, spp = [], 32
-    while len(steps) < 2 or (steps[-1][1] > options.goal and steps[-1][1] < 0.9 * steps[-2][1]):
+    while len(steps) < 2 or steps[-1][1] > options.goal:
         paths = [str(folder / f"seed{k}.pfm") for k in range(seeds)]
         taken = statistics.median(engine.draw(spp, 100 + k, path)[options.clock] for k, path in enumerate(paths))
         steps.append((spp, pictures.relative_mse(paths), taken))
@@ -151,15 +151,13 @@ def time_to_error(engine, folder, options, seeds=4):
 def at_goal(steps, goal):
     """Samples and seconds at the goal, on the straight line through the last two steps in logarithms."""
     (n0, e0, t0), (n1, e1, t1) = steps[-2:]
-    if e1 > goal:
-        return inf, inf
     part = log(e0 / goal) / log(e0 / e1)
     return tuple(exp(log(a) + part * log(b / a)) for a, b in ((n0, n1), (t0, t1)))
 
 
 def error_table(name, running, folder, options):
     size = options.error_resolution
-    print(f"\n{name}, {size} x {size}: to a relative MSE of {options.goal:g}, each with its own sampler, roulette and adaptivity, box filter")
+    print(f"\n{name}, {size} x {size}: to a relative MSE of {options.goal:g}, each with its own sampler and roulette, box filter")
     print("| engine | samples | seconds | theirs / ours |\n| --- | --- | --- | --- |")
     ours, figures = None, {}
     for engine in running:
@@ -181,7 +179,7 @@ def main():
             scene = make_scene(name, folder, options)
             for kind, plain, size, table in (("speed", True, options.resolution, speed),
                                              ("error", False, options.error_resolution, error_table)):
-                if kind == "error" and not options.error:
+                if options.measure not in (kind, "both"):
                     continue
                 running = start(options, scene, size, plain)
                 try:
@@ -198,4 +196,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except KeyboardInterrupt:
+        sys.exit(130)

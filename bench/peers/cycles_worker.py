@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Renders one scene of peer_scenes.py in Cycles, again and again on request. Started by compare.py.
 
-usage: blender -b --factory-startup --python cycles_worker.py -- SCENE.json RESOLUTION (plain | roulette | defaults)
+usage: blender -b --factory-startup --python cycles_worker.py -- SCENE.json RESOLUTION (plain | roulette)
 (or python cycles_worker.py -- ... where the module bpy is installed). Each line of stdin is {"spp", "seed", "output"}; each answer
-{"wall", "cpu"} in seconds: Cycles' own time of drawing, without building the scene; and CPU time, with it. plain: no Russian roulette, no
-adaptive sampling; roulette: with Cycles' own, from the first bounce on; defaults: with its adaptive sampling, too. What would change the
-expected picture is never Cycles' default: no clamping, no denoising, the box filter, equal bounces.
+{"wall", "cpu"} in seconds: Cycles' own time of drawing, without building the scene; and CPU time, with it. plain: no Russian roulette;
+roulette: with Cycles' own, from the first bounce on. Never clamping, denoising or adaptive sampling; the box filter; equal bounces.
 """
 
 import json
@@ -130,7 +129,7 @@ def set_renderer(resolution, settings, bounces=6):
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
     cycles.blur_glossy = 0
     cycles.pixel_filter_type = "BOX"
-    cycles.use_adaptive_sampling = settings == "defaults"
+    cycles.use_adaptive_sampling = False
     cycles.min_light_bounces = bounces if settings == "plain" else 0  # Russian roulette begins after these
 
 
@@ -198,7 +197,7 @@ def main():
     set_world(description["environment"])
     set_camera(description["camera"])
     set_renderer(int(resolution), settings)
-    print("peer", json.dumps({"version": "Cycles %s%s" % (bpy.app.version_string, ", its roulette" if settings == "roulette" else "")}), flush=True)
+    print("peer", json.dumps({"version": "Cycles %s%s" % (bpy.app.version_string, "" if settings == "plain" else ", its roulette")}), flush=True)
     for line in sys.stdin:
         request = json.loads(line)
         print("peer", json.dumps(draw(request["spp"], request["seed"], request["output"])), flush=True)
