@@ -112,10 +112,49 @@ SplitRules rulesFor(size_t primitiveCount, uint32_t firstSingle, uint32_t maxDep
   return {firstSingle, leafSize, std::min(maxDepth, kMaxBvhDepth)};
 }
 
+double areaOfTop(const TopNode& top) {
+  if (!top.first) return 0.0;
+  return areaOf(top.first->bounds) + areaOf(top.second->bounds) + areaOfTop(*top.first) +
+         areaOfTop(*top.second);
+}
+
+// Parts that are deeper than a smaller stack than they need now are built anew within it, where that costs
+// little.
+void flatten(const TopNode& top, const std::vector<TopNode*>& parts, const SplitRules& rules,
+             uint32_t threadCount) {
+  constexpr double kWorthwhile = 1.03;  // a stack one step smaller gains more than this
+  const auto depthOf = [](const TopNode* part) { return part->level + part->part.depth; };
+  uint32_t depth = 0;
+  for (const TopNode* part : parts) depth = std::max(depth, depthOf(part));
+  SplitRules flatter = rules;
+  flatter.maxDepth = 0;
+  for (const uint32_t size : kBvhStackSizes) flatter.maxDepth = size < depth ? size : flatter.maxDepth;
+  std::vector<TopNode*> deep;
+  for (TopNode* part : parts) {
+    if (depthOf(part) <= flatter.maxDepth) continue;
+    // With less than one level to spare it would no longer be the heuristic's tree, but one of halves.
+    if (part->level + 1 >= flatter.maxDepth || part->items.size() > flatter.capacityBelow(part->level + 1))
+      return;
+    deep.push_back(part);
+  }
+
+  double before = areaOf(top.bounds) + areaOfTop(top);
+  for (const TopNode* part : parts) before += part->part.area;
+  double after = before;
+  std::vector<Subtree> kept;
+  for (TopNode* part : deep) {
+    after -= part->part.area;
+    kept.push_back(std::move(part->part));
+  }
+  buildParts(deep, flatter, threadCount);
+  for (const TopNode* part : deep) after += part->part.area;
+  if (after <= kWorthwhile * before) return;
+  for (size_t i = 0; i < deep.size(); ++i) deep[i]->part = std::move(kept[i]);
+}
+
 }  // namespace
 
-Bvh buildBvh(std::span<const Bounds> primitiveBounds, uint32_t firstSingle,
-             const BvhBuildSettings& settings) {
+Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle, const BvhBuildSettings& settings) {
   Bvh bvh;
   if (primitiveBounds.empty()) return bvh;
   const SplitRules rules = rulesFor(primitiveBounds.size(), firstSingle, settings.maxDepth);
@@ -127,11 +166,13 @@ Bvh buildBvh(std::span<const Bounds> primitiveBounds, uint32_t firstSingle,
   // Build the top, then all parts.
   std::vector<BuildItem> items(primitiveBounds.size());
   for (size_t i = 0; i < items.size(); ++i) items[i] = {primitiveBounds[i], uint32_t(i)};
+  primitiveBounds = {};
   const size_t partSize = std::max(kSmallestPart, items.size() / kPartsWanted);
   const std::unique_ptr<TopNode> top = splitTop(items, rules, partSize, 0, threadCount);
   std::vector<TopNode*> parts;
   collectParts(*top, parts);
   buildParts(parts, rules, threadCount);
+  if (settings.flatten) flatten(*top, parts, rules, threadCount);
   items = {};
 
   // Put the parts together.
@@ -152,19 +193,8 @@ Bvh buildBvh(std::span<const Bounds> primitiveBounds, uint32_t firstSingle,
   return bvh;
 }
 
-Bvh buildBvh(std::span<const Bounds> primitiveBounds, uint32_t firstSingle) {
-  constexpr size_t kLargest = 2000000;  // primitives; a second build of more takes seconds
-  constexpr double kWorthwhile = 1.03;  // a stack one step smaller gains more than this
-  Bvh bvh = buildBvh(primitiveBounds, firstSingle, {});
-  uint32_t smaller = 0;
-  for (uint32_t size : kBvhStackSizes) smaller = size < bvh.depth ? size : smaller;
-  if (smaller == 0 || primitiveBounds.size() > kLargest) return bvh;
-  // A tree with less than one level to spare is no longer the heuristic's, but one of halves.
-  if (primitiveBounds.size() > rulesFor(primitiveBounds.size(), firstSingle, smaller).capacityBelow(1))
-    return bvh;
-  Bvh flatter = buildBvh(primitiveBounds, firstSingle, {.maxDepth = smaller});
-  const bool worthwhile = bvhQuality(flatter).sahCost <= kWorthwhile * bvhQuality(bvh).sahCost;
-  return worthwhile ? flatter : bvh;
+Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle) {
+  return buildBvh(std::move(primitiveBounds), firstSingle, {.flatten = true});
 }
 
 }  // namespace fragtrace

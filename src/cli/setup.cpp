@@ -117,17 +117,16 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
                   Statistics& stats) {
   const TraitSet present = traitsOf(loaded.scene, loaded.environment.kind);
-  const BufferReads reads = chooseReads(options.bufferReads, context.software);
   const uint32_t depth = loaded.bvh.depth;
+  const BufferReads undecided = options.bufferReads;  // what is packed does not depend on it
   Tracer tracer;
-  tracer.variant = chooseVariant(options, present, loaded.environment.kind, depth, reads);
+  tracer.variant = chooseVariant(options, present, loaded.environment.kind, depth, undecided);
   ShaderVariant everything = tracer.variant;
   for (const Feature feature : options.aovFeatures) {
     tracer.features.push_back(
-        chooseFeatureVariant(options, present, loaded.environment.kind, depth, reads, feature));
+        chooseFeatureVariant(options, present, loaded.environment.kind, depth, undecided, feature));
     everything.traits |= tracer.features.back().traits;
   }
-  stats.variant = variantName(tracer.variant);
   if (tracer.variant.clampIndirect) stats.clampIndirect = options.clampIndirect;
   stats.backend = context.backend;
   stats.glRenderer = context.renderer;
@@ -137,13 +136,26 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
     if (!reason.empty()) stats.skipped.push_back(std::string(row.name) + ": " + reason);
   }
   Stopwatch watch;
-  const GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything);
+  GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything);
   stats.sceneBytes = packed.bytes();
+  stats.geometryBytes = packed.geometryBytes();
   if (formatOfName(options.output) == ImageFormat::OpenExr) tracer.sceneHash = hashOf(packed);
   stats.packMs = watch.lap();
-  tracer.renderer = std::make_unique<Renderer>(context, packed, reads, options.shaderFolder);
+  const ReadChoice choice = chooseReads(options.bufferReads, context.software, packed, readLimits());
+  tracer.variant.reads = choice.reads;
+  for (ShaderVariant& feature : tracer.features) feature.reads = choice.reads;
+  stats.variant = variantName(tracer.variant);
+  stats.readFallback = choice.fallback;
+  tracer.renderer = std::make_unique<Renderer>(context, std::move(packed), choice.reads, options.shaderFolder);
   stats.uploadMs = watch.lap();
   return tracer;
+}
+
+void releaseGeometry(LoadedScene& loaded) {
+  loaded.scene.triangles = {};
+  loaded.scene.vertices = {};
+  loaded.scene.images = {};
+  loaded.bvh = {};
 }
 
 }  // namespace fragtrace
