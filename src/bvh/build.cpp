@@ -113,43 +113,63 @@ SplitRules rulesFor(size_t primitiveCount, uint32_t firstSingle, uint32_t maxDep
 }
 
 double areaOfTop(const TopNode& top) {
-  if (!top.first) return 0.0;
+  if (!top.first) return top.part.area;
   return areaOf(top.first->bounds) + areaOf(top.second->bounds) + areaOfTop(*top.first) +
          areaOfTop(*top.second);
 }
 
-// Parts that are deeper than a smaller stack than they need now are built anew within it, where that costs
-// little.
-void flatten(const TopNode& top, const std::vector<TopNode*>& parts, const SplitRules& rules,
-             uint32_t threadCount) {
+// All of a tree, in parts.
+struct WholeTree {
+  std::unique_ptr<TopNode> top;
+  std::vector<TopNode*> parts;
+
+  // Of all boxes, which the heuristic's cost goes with.
+  double area() const { return areaOf(top->bounds) + areaOfTop(*top); }
+  uint32_t depth() const {
+    uint32_t depth = 0;
+    for (const TopNode* part : parts) depth = std::max(depth, part->level + part->part.depth);
+    return depth;
+  }
+};
+
+WholeTree buildWhole(std::span<BuildItem> items, const SplitRules& rules, uint32_t threadCount) {
+  WholeTree tree;
+  const size_t partSize = std::max(kSmallestPart, items.size() / kPartsWanted);
+  tree.top = splitTop(items, rules, partSize, 0, threadCount);
+  collectParts(*tree.top, tree.parts);
+  buildParts(tree.parts, rules, threadCount);
+  return tree;
+}
+
+// A tree that fits the next smaller stack, where that costs little: parts that are too deep are built again, or
+// all is, where they are too large for that.
+void flatten(WholeTree& tree, std::span<BuildItem> items, const SplitRules& rules, uint32_t threadCount) {
   constexpr double kWorthwhile = 1.03;  // a stack one step smaller gains more than this
-  const auto depthOf = [](const TopNode* part) { return part->level + part->part.depth; };
-  uint32_t depth = 0;
-  for (const TopNode* part : parts) depth = std::max(depth, depthOf(part));
+  constexpr size_t kLargest = 2000000;  // primitives; a second build of more takes seconds
   SplitRules flatter = rules;
   flatter.maxDepth = 0;
-  for (const uint32_t size : kBvhStackSizes) flatter.maxDepth = size < depth ? size : flatter.maxDepth;
+  for (const uint32_t size : kBvhStackSizes) flatter.maxDepth = size < tree.depth() ? size : flatter.maxDepth;
+  // With less than one level to spare a tree would no longer be the heuristic's, but one of halves.
+  if (flatter.maxDepth == 0 || items.size() > flatter.capacityBelow(1)) return;
   std::vector<TopNode*> deep;
-  for (TopNode* part : parts) {
-    if (depthOf(part) <= flatter.maxDepth) continue;
-    // With less than one level to spare it would no longer be the heuristic's tree, but one of halves.
-    if (part->level + 1 >= flatter.maxDepth || part->items.size() > flatter.capacityBelow(part->level + 1))
-      return;
+  bool fits = true;
+  for (TopNode* part : tree.parts) {
+    if (part->level + part->part.depth <= flatter.maxDepth) continue;
+    fits = fits && part->level + 1 < flatter.maxDepth &&
+           part->items.size() <= flatter.capacityBelow(part->level + 1);
     deep.push_back(part);
   }
-
-  double before = areaOf(top.bounds) + areaOfTop(top);
-  for (const TopNode* part : parts) before += part->part.area;
-  double after = before;
-  std::vector<Subtree> kept;
-  for (TopNode* part : deep) {
-    after -= part->part.area;
-    kept.push_back(std::move(part->part));
+  const double before = tree.area();
+  if (fits) {
+    std::vector<Subtree> kept;
+    for (TopNode* part : deep) kept.push_back(std::move(part->part));
+    buildParts(deep, flatter, threadCount);
+    if (tree.area() <= kWorthwhile * before) return;
+    for (size_t i = 0; i < deep.size(); ++i) deep[i]->part = std::move(kept[i]);
   }
-  buildParts(deep, flatter, threadCount);
-  for (const TopNode* part : deep) after += part->part.area;
-  if (after <= kWorthwhile * before) return;
-  for (size_t i = 0; i < deep.size(); ++i) deep[i]->part = std::move(kept[i]);
+  if (items.size() > kLargest) return;
+  WholeTree other = buildWhole(items, flatter, threadCount);
+  if (other.area() <= kWorthwhile * before) tree = std::move(other);
 }
 
 }  // namespace
@@ -166,26 +186,22 @@ Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle, const Bv
   // Build the top, then all parts.
   std::vector<BuildItem> items(primitiveBounds.size());
   for (size_t i = 0; i < items.size(); ++i) items[i] = {primitiveBounds[i], uint32_t(i)};
-  primitiveBounds = {};
-  const size_t partSize = std::max(kSmallestPart, items.size() / kPartsWanted);
-  const std::unique_ptr<TopNode> top = splitTop(items, rules, partSize, 0, threadCount);
-  std::vector<TopNode*> parts;
-  collectParts(*top, parts);
-  buildParts(parts, rules, threadCount);
-  if (settings.flatten) flatten(*top, parts, rules, threadCount);
-  items = {};
+  primitiveBounds = std::vector<Bounds>();
+  WholeTree tree = buildWhole(items, rules, threadCount);
+  if (settings.flatten) flatten(tree, items, rules, threadCount);
+  items = std::vector<BuildItem>();
 
   // Put the parts together.
   size_t nodeCount = 1;
   size_t leafCount = 0;
-  for (const TopNode* part : parts) {
+  for (const TopNode* part : tree.parts) {
     nodeCount += part->part.nodes.size() + 1;
     leafCount += part->part.leaves.size();
   }
   bvh.nodes.reserve(nodeCount);
   bvh.leaves.reserve(leafCount);
-  bvh.bounds = top->bounds;
-  const uint32_t root = appendTop(*top, bvh);
+  bvh.bounds = tree.top->bounds;
+  const uint32_t root = appendTop(*tree.top, bvh);
   if ((root & kBvhLeafBit) != 0) {
     bvh.nodes.push_back({{bvh.bounds, bvh.bounds}, {root, root}});
     bvh.depth = 1;

@@ -152,10 +152,10 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
 }
 
 void releaseGeometry(LoadedScene& loaded) {
-  loaded.scene.triangles = {};
-  loaded.scene.vertices = {};
-  loaded.scene.images = {};
-  loaded.bvh = {};
+  loaded.scene.triangles = std::vector<Triangle>();
+  loaded.scene.vertices = Vertices();
+  loaded.scene.images = std::vector<EncodedImage>();
+  loaded.bvh = Bvh();
 }
 
 }  // namespace fragtrace

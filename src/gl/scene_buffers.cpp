@@ -65,7 +65,7 @@ SceneBuffers::SceneBuffers(GpuScene& scene, BufferReads reads) : reads_(reads) {
     const void* data = words.empty() ? kNothing.data() : words.data();
     entry.buffer = makeBuffer();
     glNamedBufferStorage(entry.buffer.name(), GLsizeiptr(bytes), data, 0);
-    words = {};
+    words = Words();
     if (reads == BufferReads::Image) {
       entry.view = makeTexture(GL_TEXTURE_BUFFER);
       glTextureBuffer(entry.view.name(), entry.format, entry.buffer.name());
