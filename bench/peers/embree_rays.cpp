@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The rays that `fragtrace bench traversal --rays FILE` wrote, traced by Embree 3 one at a time on all cores.
-// Usage: embree_rays FILE ROUNDS. One line of JSON a kind of rays: rays, hits, milliseconds of each round, and on how
-// many rays Embree differs from what the file says was hit.
+// Usage: embree_rays FILE ROUNDS. One line of JSON a kind of rays: rays, hits, milliseconds of each round,
+// and on how many rays Embree differs from what the file says was hit.
 #include <embree3/rtcore.h>
 
 #include <algorithm>
@@ -65,7 +65,8 @@ Input readInput(const char* path) {
 RTCScene makeScene(RTCDevice device, const std::vector<float>& corners) {
   const size_t triangles = corners.size() / 9;
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, triangles * 3);
+  void* vertices =
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, triangles * 3);
   std::memcpy(vertices, corners.data(), corners.size() * sizeof(float));
   auto* indices = static_cast<uint32_t*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, triangles));

@@ -60,7 +60,8 @@ size_t proveTree(const ExactTracer& tracer, size_t primitives, std::span<const R
   for (const Ray& ray : rays) {
     if (ray.limit > 0.0f) chosen.push_back(ray);
   }
-  const size_t wanted = std::clamp(size_t(kTests / double(std::max<size_t>(primitives, 1))), size_t(4), kMost);
+  const size_t wanted =
+      std::clamp(size_t(kTests / double(std::max<size_t>(primitives, 1))), size_t(4), kMost);
   const size_t count = std::min(wanted, chosen.size());
   for (size_t i = 0; i < count; ++i) chosen[i] = chosen[i * chosen.size() / count];
   chosen.resize(count);

@@ -16,7 +16,8 @@ struct FoundHit {
 };
 
 /// Rays whose nearest hit is another one: a miss for a hit or the other way round, or another primitive at
-/// another distance (more than 1e-5 of it and of the size of the scene apart; where two meet, either is right).
+/// another distance (more than 1e-5 of it and of the size of the scene apart; where two meet, either is
+/// right).
 size_t countWrongNearest(std::span<const Ray> rays, std::span<const FoundHit> found,
                          std::span<const ExactHit> exact, double sceneSize);
 

@@ -25,8 +25,8 @@ std::vector<Ray> diffuseRays(const ExactTracer& tracer, std::span<const Ray> pri
                              std::span<const ExactHit> hits, uint32_t seed);
 
 /// One ray from each such point towards a point on an emissive triangle, uniform over their area, or, in a
-/// scene without any, to a point of the scene's box; it ends just before that point. Where the point is behind
-/// the surface there is no ray.
+/// scene without any, to a point of the scene's box; it ends just before that point. Where the point is
+/// behind the surface there is no ray.
 std::vector<Ray> shadowRays(const ExactTracer& tracer, const Scene& scene, std::span<const Ray> primary,
                             std::span<const ExactHit> hits, uint32_t seed);
 

@@ -29,7 +29,8 @@ void fitExponents(Growth& growth) {
 }
 
 template <typename Value>
-Growth growthOf(const ScaleReport& report, const std::string& name, const std::string& unit, const Value& valueOf) {
+Growth growthOf(const ScaleReport& report, const std::string& name, const std::string& unit,
+                const Value& valueOf) {
   Growth growth{name, unit, {}, {}, 0.0, 0.0};
   for (const ScaleRow& row : report.rows) {
     const double value = valueOf(row);
@@ -41,9 +42,7 @@ Growth growthOf(const ScaleReport& report, const std::string& name, const std::s
   return growth;
 }
 
-std::string exponentText(double exponent) {
-  return std::isnan(exponent) ? "-" : formatted("%.2f", exponent);
-}
+std::string exponentText(double exponent) { return std::isnan(exponent) ? "-" : formatted("%.2f", exponent); }
 
 }  // namespace
 
@@ -67,22 +66,25 @@ std::vector<Growth> growthOf(const ScaleReport& report) {
       return 0.0;
     }));
   }
-  all.push_back(growthOf(report, "GPU memory", "bytes", [](const ScaleRow& r) { return double(r.gpuBytes); }));
-  all.push_back(growthOf(report, "peak memory", "bytes", [](const ScaleRow& r) { return double(r.peakBytes); }));
+  all.push_back(
+      growthOf(report, "GPU memory", "bytes", [](const ScaleRow& r) { return double(r.gpuBytes); }));
+  all.push_back(
+      growthOf(report, "peak memory", "bytes", [](const ScaleRow& r) { return double(r.peakBytes); }));
   return all;
 }
 
 std::string scaleTable(const ScaleReport& report) {
-  std::string text = formatted("%d x %d, stage flat\n%s\n\n", report.width, report.height, report.renderer.c_str());
+  std::string text =
+      formatted("%d x %d, stage flat\n%s\n\n", report.width, report.height, report.renderer.c_str());
   text += formatted("%10s %9s %9s %9s %9s %8s %6s %8s %8s\n", "triangles", "make ms", "build ms", "pack ms",
                     "upload ms", "SAH", "depth", "GPU B/t", "peak MB");
   for (const ScaleRow& r : report.rows) {
-    text += formatted("%10zu %9.4g %9.4g %9.4g %9.4g %8.4g %6u %8.1f %8.0f\n", r.triangles, r.makeMs, r.buildMs,
-                      r.packMs, r.uploadMs, r.sahCost, r.depth, double(r.gpuBytes) / double(r.triangles),
-                      double(r.peakBytes) / 1e6);
+    text += formatted("%10zu %9.4g %9.4g %9.4g %9.4g %8.4g %6u %8.1f %8.0f\n", r.triangles, r.makeMs,
+                      r.buildMs, r.packMs, r.uploadMs, r.sahCost, r.depth,
+                      double(r.gpuBytes) / double(r.triangles), double(r.peakBytes) / 1e6);
   }
-  text += formatted("\n%10s  %-14s %10s %10s %10s %10s %8s %8s\n", "triangles", "traversal", "frame ms", "least",
-                    "p95", "compared", "wrong", "differ");
+  text += formatted("\n%10s  %-14s %10s %10s %10s %10s %8s %8s\n", "triangles", "traversal", "frame ms",
+                    "least", "p95", "compared", "wrong", "differ");
   for (const ScaleRow& r : report.rows) {
     for (const ScaleFrames& f : r.frames) {
       text += formatted("%10zu  %-14s ", r.triangles, f.traversal.c_str());
@@ -161,15 +163,17 @@ std::string scaleChart(const ScaleReport& report) {
   chart.yLabel = "milliseconds";
   chart.logX = true;
   chart.logY = true;
-  chart.caption = formatted("%d x %d, stage flat, one sample a pixel a frame, on ", report.width, report.height) +
-                  report.renderer +
-                  ". p: the exponent of time ~ triangles^p over the larger half of the sizes. Bars: the least "
-                  "and the largest frame.";
+  chart.caption =
+      formatted("%d x %d, stage flat, one sample a pixel a frame, on ", report.width, report.height) +
+      report.renderer +
+      ". p: the exponent of time ~ triangles^p over the larger half of the sizes. Bars: the least "
+      "and the largest frame.";
   for (const Growth& g : growthOf(report)) {
     if (g.unit != "ms" || g.values.empty()) continue;
     ChartSeries series;
     series.name = g.name + " (p " + exponentText(g.lateExponent) + ")";
-    for (size_t i = 0; i < g.values.size(); ++i) series.points.push_back({g.triangles[i], g.values[i], {}, {}});
+    for (size_t i = 0; i < g.values.size(); ++i)
+      series.points.push_back({g.triangles[i], g.values[i], {}, {}});
     for (const ScaleRow& row : report.rows) {
       for (const ScaleFrames& f : row.frames) {
         if (f.frameMs.empty() || f.traversal + " frame" != g.name) continue;

@@ -15,7 +15,8 @@ struct TraversalRow {
   std::vector<double> ms;   ///< one a round
   size_t wrong = 0;         ///< rays whose hit is not that of double precision
   size_t wrongAllowed = 0;  ///< as ties at edges may come out
-  size_t provedByAll = 0;   ///< rays on which double precision by the tree was itself held against all primitives
+  size_t provedByAll =
+      0;  ///< rays on which double precision by the tree was itself held against all primitives
 
   double megaRaysPerSecond() const;  ///< of the median round; 0 without any
 };

@@ -141,8 +141,8 @@ WholeTree buildWhole(std::span<BuildItem> items, const SplitRules& rules, uint32
   return tree;
 }
 
-// A tree that fits the next smaller stack, where that costs little: parts that are too deep are built again, or
-// all is, where they are too large for that.
+// A tree that fits the next smaller stack, where that costs little: parts that are too deep are built again,
+// or all is, where they are too large for that.
 void flatten(WholeTree& tree, std::span<BuildItem> items, const SplitRules& rules, uint32_t threadCount) {
   constexpr double kWorthwhile = 1.03;  // a stack one step smaller gains more than this
   constexpr size_t kLargest = 2000000;  // primitives; a second build of more takes seconds

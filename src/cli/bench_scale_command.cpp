@@ -65,8 +65,9 @@ void check(Runner& runner, const Scene& scene, std::span<const ExactHit> hits, c
   runner.report.compared = seen.compared;
   runner.report.wrong = seen.wrong;
   for (size_t i = 0; first && i < picture.values.size(); i += 3) {
-    const bool same = std::equal(picture.values.begin() + ptrdiff_t(i), picture.values.begin() + ptrdiff_t(i + 3),
-                                 first->values.begin() + ptrdiff_t(i));
+    const bool same =
+        std::equal(picture.values.begin() + ptrdiff_t(i), picture.values.begin() + ptrdiff_t(i + 3),
+                   first->values.begin() + ptrdiff_t(i));
     runner.report.differing += same ? 0 : 1;
   }
   // A bump that is thinner than a pixel can pass between the middles of pixels.
@@ -104,8 +105,12 @@ void timeFrames(const Stage& stage, Runner& runner) {
 ScaleFrames measureIterative(const Stage& stage, const Scene& scene, std::span<const ExactHit> hits,
                              const Image* first) {
   const Bvh list = listLeaves(scene);
-  Runner runner{TraversalMethod::Iterative, variantFor(stage, TraversalMethod::Iterative, scene, 0), nullptr, {},
-                1, {}};
+  Runner runner{TraversalMethod::Iterative,
+                variantFor(stage, TraversalMethod::Iterative, scene, 0),
+                nullptr,
+                {},
+                1,
+                {}};
   runner.report.traversal = "iterative";
   const auto renderer = upload(stage, packScene(scene, list, {}, runner.variant), runner.variant);
   runner.renderer = renderer.get();
@@ -149,8 +154,12 @@ ScaleRow measureSize(Stage& stage, size_t wanted, double iterativeMsPerTriangle)
   std::vector<Runner> runners;
   for (size_t i = 0; i < options.traversals.size(); ++i) {
     if (options.traversals[i] == TraversalMethod::Iterative) continue;
-    runners.push_back({options.traversals[i], variantFor(stage, options.traversals[i], scene, bvh.depth), nullptr,
-                       {}, 1, {}});
+    runners.push_back({options.traversals[i],
+                       variantFor(stage, options.traversals[i], scene, bvh.depth),
+                       nullptr,
+                       {},
+                       1,
+                       {}});
     runners.back().report.traversal = options.traversalNames[i];
   }
   std::unique_ptr<Renderer> renderer;

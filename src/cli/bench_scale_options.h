@@ -19,7 +19,7 @@ struct BenchScaleOptions {
   std::vector<std::string> traversalNames;
   size_t from = 1000;
   size_t to = 10000000;
-  int perDecade = 2;     ///< sizes in a factor of ten
+  int perDecade = 2;  ///< sizes in a factor of ten
   int rounds = 5;
   double longest = 60.0;  ///< seconds a frame of the iterative traversal may take
   std::filesystem::path json;

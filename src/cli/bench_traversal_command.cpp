@@ -67,8 +67,9 @@ void check(MeasuredSet& set, const ExactTracer& tracer, const Scene& scene) {
   set.row.provedByAll = proveTree(tracer, scene.triangles.size() + scene.spheres.size(), set.rays);
 }
 
-/// Little-endian: "FTRAYS1", 0; numbers of triangles and of rays a set, 32 bits each; nine floats a triangle; for
-/// each kind origin, limit, direction and the distance found (for shadow rays 0; -1: nothing) of each ray.
+/// Little-endian: "FTRAYS1", 0; numbers of triangles and of rays a set, 32 bits each; nine floats a triangle;
+/// for each kind origin, limit, direction and the distance found (for shadow rays 0; -1: nothing) of each
+/// ray.
 void writeRays(const std::filesystem::path& path, const Scene& scene, const std::vector<MeasuredSet>& sets) {
   std::vector<uint8_t> bytes{'F', 'T', 'R', 'A', 'Y', 'S', '1', 0};
   const auto append = [&](const auto& value) {
@@ -102,8 +103,7 @@ TraversalReport measure(const BenchTraversalOptions& options, const Context& con
   ShaderVariant variant = chooseVariant(options.render, traitsOf(scene, Surroundings::None),
                                         Surroundings::None, loaded.bvh.depth, BufferReads::Auto);
   GpuScene packed = packScene(scene, loaded.bvh, {}, variant);
-  variant.reads =
-      chooseReads(options.render.bufferReads, context.software, packed, readLimits()).reads;
+  variant.reads = chooseReads(options.render.bufferReads, context.software, packed, readLimits()).reads;
 
   TraversalReport report;
   report.scene = options.render.scene.filename().string();

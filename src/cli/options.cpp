@@ -64,7 +64,8 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   CLI::App& benchError = *bench.add_subcommand("error", "error against samples and time");
   addBenchErrorOptions(benchError, rawError);
   RawBenchScale rawScale;
-  CLI::App& benchScale = *bench.add_subcommand("scale", "1 thousand to 10 million triangles: time and memory");
+  CLI::App& benchScale =
+      *bench.add_subcommand("scale", "1 thousand to 10 million triangles: time and memory");
   addBenchScaleOptions(benchScale, rawScale);
   RawBenchTraversal rawTraversal;
   CLI::App& benchTraversal = *bench.add_subcommand("traversal", "rays a second, nothing shaded");

@@ -146,7 +146,8 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   for (ShaderVariant& feature : tracer.features) feature.reads = choice.reads;
   stats.variant = variantName(tracer.variant);
   stats.readFallback = choice.fallback;
-  tracer.renderer = std::make_unique<Renderer>(context, std::move(packed), choice.reads, options.shaderFolder);
+  tracer.renderer =
+      std::make_unique<Renderer>(context, std::move(packed), choice.reads, options.shaderFolder);
   stats.uploadMs = watch.lap();
   return tracer;
 }

@@ -36,7 +36,7 @@ struct Statistics {
   glm::ivec2 size{0};
   FilmTotals film;
   std::optional<AdaptiveStatistics> adaptive;
-  double featureMs = 0.0;  ///< drawing the layers of first hits
+  double featureMs = 0.0;    ///< drawing the layers of first hits
   size_t sceneBytes = 0;     ///< on the device
   size_t geometryBytes = 0;  ///< of these, tree, leaves, records and vertex attributes
   bool defaultLight = false;

@@ -30,8 +30,8 @@ TEST_P(RayCasting, FindsWhatDoublePrecisionFinds) {
       RenderOptions options;
       options.stages = stagesUpTo(Stage::Flat);
       options.traversal = method;
-      const ShaderVariant variant = chooseVariant(options, traitsOf(scene, Surroundings::None),
-                                                  Surroundings::None, bvh.depth, reads);
+      const ShaderVariant variant =
+          chooseVariant(options, traitsOf(scene, Surroundings::None), Surroundings::None, bvh.depth, reads);
       RayCaster caster(context(), packScene(scene, bvh, {}, variant), variant, size);
       EXPECT_STREQ(caster.clockName(), "wall clock");
       const auto found = [&](const std::vector<Ray>& rays, bool anyHit) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Arrays above what a driver reads one way are read another way, and memory of what is uploaded is given back.
+// Arrays above what a driver reads one way are read another way, and memory of what is uploaded is given
+// back.
 #include <gtest/gtest.h>
 
 #include "errors.h"
@@ -38,8 +39,10 @@ TEST_P(SceneArrays, AreReadTheFastestWayThatHoldsThem) {
   const ReadChoice storage = chooseReads(BufferReads::Auto, true, sceneWith(rows, 816), smallImages);
   EXPECT_EQ(storage.reads, BufferReads::Ssbo);
   EXPECT_NE(storage.fallback.find("image"), std::string::npos);
-  EXPECT_EQ(chooseReads(BufferReads::Auto, true, sceneWith(pairs, 408), smallImages).reads, BufferReads::Ssbo);
-  EXPECT_EQ(chooseReads(BufferReads::Auto, true, sceneWith(pairs, 400), smallImages).reads, BufferReads::Image);
+  EXPECT_EQ(chooseReads(BufferReads::Auto, true, sceneWith(pairs, 408), smallImages).reads,
+            BufferReads::Ssbo);
+  EXPECT_EQ(chooseReads(BufferReads::Auto, true, sceneWith(pairs, 400), smallImages).reads,
+            BufferReads::Image);
   // What was asked for stays; what neither holds stays the first, whose upload says why it fails.
   EXPECT_EQ(chosen(rows, 1600, BufferReads::Ssbo, true).reads, BufferReads::Ssbo);
   EXPECT_EQ(chosen(rows, 1616, BufferReads::Auto, true).reads, BufferReads::Image);

@@ -17,8 +17,8 @@ double areaInDouble(const Bounds& box) {
   return 2.0 * (extent.x * extent.y + extent.y * extent.z + extent.z * extent.x);
 }
 
-// The areas of all nodes and leaves, themselves not counted, when every cut between two centroids on every axis
-// is tried. Indices stand in order along each axis, and stay so when a range is cut.
+// The areas of all nodes and leaves, themselves not counted, when every cut between two centroids on every
+// axis is tried. Indices stand in order along each axis, and stay so when a range is cut.
 class FullSweep {
  public:
   explicit FullSweep(const std::vector<Bounds>& boxes)

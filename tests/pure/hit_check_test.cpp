@@ -91,10 +91,12 @@ TEST(ProveTree, RefusesATreeThatLosesTriangles) {
 TEST(CountWrong, TellsOtherHitsFromTies) {
   const Ray there{{0, 0, 0}, {0, 0, 1}, kFar};
   const std::vector<Ray> rays{there, there, there, there, there, there, Ray{}};
-  const std::vector<ExactHit> exact{{2.0, 5}, {2.0, 5}, {2.0, 5}, {2.0, 5}, {kFar, kMissIndex}, {2.0, 5}, {2.0, 5}};
-  const std::vector<FoundHit> found{{5, 2.0f},         {6, 2.00001f},  {6, 2.001f}, {kMissIndex, 0.0f},
-                                    {5, 2.0f},         {5, 2.001f},    {kMissIndex, 0.0f}};
-  // Another at another distance, a miss, a hit of nothing; but neither the tie, nor a grazing hit, nor no ray.
+  const std::vector<ExactHit> exact{{2.0, 5},           {2.0, 5}, {2.0, 5}, {2.0, 5},
+                                    {kFar, kMissIndex}, {2.0, 5}, {2.0, 5}};
+  const std::vector<FoundHit> found{{5, 2.0f}, {6, 2.00001f}, {6, 2.001f},       {kMissIndex, 0.0f},
+                                    {5, 2.0f}, {5, 2.001f},   {kMissIndex, 0.0f}};
+  // Another at another distance, a miss, a hit of nothing; but neither the tie, nor a grazing hit, nor no
+  // ray.
   EXPECT_EQ(countWrongNearest(rays, found, exact, 1.0), 3u);
   EXPECT_EQ(countWrongAny(rays, found, exact), 2u);
   EXPECT_LT(wrongRaysAllowed(1000000), 100u);

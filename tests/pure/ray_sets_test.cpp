@@ -20,7 +20,7 @@ struct Room {
   explicit Room(bool lit = true) {
     scene.materials.resize(2);
     scene.materials[1].emissiveFactor = glm::vec3(lit ? 1.0f : 0.0f);
-    scene.vertices.position = {{-100, 0, -100}, {-100, 0, 100},   {100, 0, 100},    {100, 0, -100},
+    scene.vertices.position = {{-100, 0, -100},   {-100, 0, 100},   {100, 0, 100},   {100, 0, -100},
                                {-0.5f, 2, -0.5f}, {0.5f, 2, -0.5f}, {0.5f, 2, 0.5f}, {-0.5f, 2, 0.5f}};
     for (const uint32_t first : {0u, 4u}) {
       const uint32_t material = first == 0 ? 0 : 1;

@@ -25,7 +25,8 @@ ScaleReport someReport() {
     row.buildMs = double(n) / 1000.0;
     row.gpuBytes = n * 80;
     row.peakBytes = 1000000;
-    row.frames.push_back({"front-to-back", "flat", 7.0, {10.0, 10.0 + double(n) / 1e5, 90.0}, "", 1000, 0, 0});
+    row.frames.push_back(
+        {"front-to-back", "flat", 7.0, {10.0, 10.0 + double(n) / 1e5, 90.0}, "", 1000, 0, 0});
     row.frames.push_back({"iterative", "", 0.0, {}, "too long", 0, 0, 0});
     if (n == 1000) row.frames.back() = {"iterative", "flat", 3.0, {500.0}, "", 1000, 1, 2};
     report.rows.push_back(row);
@@ -82,7 +83,8 @@ TEST(ScaleReport, SaysWhatWasMeasuredAndWhatWasNot) {
 
 TEST(ScaleReport, DrawsTimesWithTheirExponents) {
   const std::string chart = scaleChart(someReport());
-  for (const char* text : {"build (p 1.00)", "front-to-back frame (p 0.26)", "iterative frame (p -)", "triangles"})
+  for (const char* text :
+       {"build (p 1.00)", "front-to-back frame (p 0.26)", "iterative frame (p -)", "triangles"})
     EXPECT_NE(chart.find(text), std::string::npos) << text;
   EXPECT_EQ(chart.find("memory"), std::string::npos);
   EXPECT_EQ(chart.find("pack"), std::string::npos);
