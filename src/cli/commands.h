@@ -11,5 +11,7 @@ int runInfo(const InfoOptions& options);
 int runDiff(const DiffOptions& options);
 int runMerge(const MergeOptions& options);
 int runBenchError(const BenchErrorOptions& options);
+int runBenchScale(const BenchScaleOptions& options);
+int runBenchTraversal(const BenchTraversalOptions& options);
 
 }  // namespace fragtrace

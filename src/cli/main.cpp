@@ -36,6 +36,10 @@ int run(int argc, char** argv) {
       return runMerge(line->merge);
     case Command::BenchError:
       return runBenchError(line->benchError);
+    case Command::BenchScale:
+      return runBenchScale(line->benchScale);
+    case Command::BenchTraversal:
+      return runBenchTraversal(line->benchTraversal);
   }
   return kUsage;
 }

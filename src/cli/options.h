@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "cli/bench_options.h"
+#include "cli/bench_scale_options.h"
+#include "cli/bench_traversal_options.h"
 #include "image/difference.h"
 #include "stage/options.h"
 
@@ -28,7 +30,7 @@ struct MergeOptions {
   std::filesystem::path output;
 };
 
-enum class Command : uint8_t { Render, Info, Diff, Merge, BenchError };
+enum class Command : uint8_t { Render, Info, Diff, Merge, BenchError, BenchScale, BenchTraversal };
 
 /// What the command line asks for; only the options of the command are filled in.
 struct CommandLine {
@@ -38,6 +40,8 @@ struct CommandLine {
   DiffOptions diff;
   MergeOptions merge;
   BenchErrorOptions benchError;
+  BenchScaleOptions benchScale;
+  BenchTraversalOptions benchTraversal;
 };
 
 /// Parses the arguments. Prints help or version and returns nothing when that was asked for. Throws

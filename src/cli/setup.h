@@ -38,6 +38,9 @@ struct Tracer {
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
                   Statistics& stats);
 
+/// Frees what only packing needs: triangles, vertices, pictures, the tree. For front ends that pack once.
+void releaseGeometry(LoadedScene& loaded);
+
 /// Says a line on stderr unless quiet.
 void say(const RenderOptions& options, const std::string& text);
 
