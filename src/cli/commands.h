@@ -11,5 +11,8 @@ int runInfo(const InfoOptions& options);
 int runDiff(const DiffOptions& options);
 int runMerge(const MergeOptions& options);
 int runBenchError(const BenchErrorOptions& options);
+int runBenchFrame(const BenchFrameOptions& options);
+int runBenchReport(const BenchReportOptions& options);
+int runBenchVariants(const BenchVariantsOptions& options);
 
 }  // namespace fragtrace

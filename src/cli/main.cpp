@@ -36,6 +36,12 @@ int run(int argc, char** argv) {
       return runMerge(line->merge);
     case Command::BenchError:
       return runBenchError(line->benchError);
+    case Command::BenchFrame:
+      return runBenchFrame(line->benchFrame);
+    case Command::BenchReport:
+      return runBenchReport(line->benchReport);
+    case Command::BenchVariants:
+      return runBenchVariants(line->benchVariants);
   }
   return kUsage;
 }

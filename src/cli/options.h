@@ -4,7 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "cli/bench_frame_options.h"
 #include "cli/bench_options.h"
+#include "cli/bench_report_options.h"
+#include "cli/bench_variants_options.h"
 #include "image/difference.h"
 #include "stage/options.h"
 
@@ -28,7 +31,7 @@ struct MergeOptions {
   std::filesystem::path output;
 };
 
-enum class Command : uint8_t { Render, Info, Diff, Merge, BenchError };
+enum class Command : uint8_t { Render, Info, Diff, Merge, BenchError, BenchFrame, BenchReport, BenchVariants };
 
 /// What the command line asks for; only the options of the command are filled in.
 struct CommandLine {
@@ -38,6 +41,9 @@ struct CommandLine {
   DiffOptions diff;
   MergeOptions merge;
   BenchErrorOptions benchError;
+  BenchFrameOptions benchFrame;
+  BenchReportOptions benchReport;
+  BenchVariantsOptions benchVariants;
 };
 
 /// Parses the arguments. Prints help or version and returns nothing when that was asked for. Throws

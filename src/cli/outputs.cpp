@@ -32,6 +32,10 @@ void checkOutputs(std::span<const NamedOutput> outputs, std::span<const std::fil
   }
 }
 
+void replaceText(const std::filesystem::path& path, const std::string& text) {
+  if (!path.empty()) replaceFile(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
 std::vector<std::filesystem::path> inputsOf(const RenderOptions& options) {
   return {options.scene, options.hdriFile};
 }

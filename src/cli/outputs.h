@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "scene/scene.h"
@@ -19,6 +20,9 @@ struct NamedOutput {
 /// Before long work: throws RenderError when an output cannot be written, UsageError when one is a file that
 /// is read, or two are one file.
 void checkOutputs(std::span<const NamedOutput> outputs, std::span<const std::filesystem::path> inputs);
+
+/// Makes a file hold this text, whole or not at all; nothing when there is no path. Throws RenderError.
+void replaceText(const std::filesystem::path& path, const std::string& text);
 
 /// The files that a render reads, but for the pictures that the scene refers to.
 std::vector<std::filesystem::path> inputsOf(const RenderOptions& options);

@@ -37,12 +37,14 @@ inline void releaseTexture(GLuint name) { glDeleteTextures(1, &name); }
 inline void releaseFramebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
 inline void releaseVertexArray(GLuint name) { glDeleteVertexArrays(1, &name); }
 inline void releaseShader(GLuint name) { glDeleteShader(name); }
+inline void releaseQuery(GLuint name) { glDeleteQueries(1, &name); }
 inline void releaseProgram(GLuint name) { glDeleteProgram(name); }
 
 using GlBuffer = GlHandle<releaseBuffer>;
 using GlTexture = GlHandle<releaseTexture>;
 using GlFramebuffer = GlHandle<releaseFramebuffer>;
 using GlVertexArray = GlHandle<releaseVertexArray>;
+using GlQuery = GlHandle<releaseQuery>;
 using GlShader = GlHandle<releaseShader>;
 using GlProgram = GlHandle<releaseProgram>;
 
