@@ -31,8 +31,9 @@ std::string nameOf(const std::string& scene, const std::string& options) {
 }
 
 bool matches(const BaselineEntry& e, const BenchMachine& machine, const FrameSetting& s) {
-  return e.scene == s.scene && e.options == s.options && e.renderer == machine.glRenderer && e.clock == s.clock &&
-         e.width == s.width && e.height == s.height && e.samplesPerDraw == s.samplesPerDraw;
+  return e.scene == s.scene && e.options == s.options && e.renderer == machine.glRenderer &&
+         e.clock == s.clock && e.width == s.width && e.height == s.height &&
+         e.samplesPerDraw == s.samplesPerDraw;
 }
 
 }  // namespace
@@ -78,13 +79,15 @@ std::vector<BaselineChange> compareWithBaseline(const std::vector<BaselineEntry>
     changes.push_back(std::move(change));
   }
   for (size_t i = 0; i < baseline.size(); ++i) {
-    if (!used[i]) changes.push_back({nameOf(baseline[i].scene, baseline[i].options), 0.0, false, "only in the baseline"});
+    if (!used[i])
+      changes.push_back({nameOf(baseline[i].scene, baseline[i].options), 0.0, false, "only in the baseline"});
   }
   return changes;
 }
 
 std::string baselineTable(const std::vector<BaselineChange>& changes, double tolerance) {
-  std::string text = formatted("\nmedian frame time over that of the baseline (slower: above %.3g)\n", 1.0 + tolerance);
+  std::string text =
+      formatted("\nmedian frame time over that of the baseline (slower: above %.3g)\n", 1.0 + tolerance);
   for (const BaselineChange& c : changes) {
     text += c.note.empty() ? formatted("%8.3f  %s%s\n", c.ratio, c.name.c_str(), c.slower ? "  SLOWER" : "")
                            : formatted("%8s  %s: %s\n", "-", c.name.c_str(), c.note.c_str());

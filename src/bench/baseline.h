@@ -26,14 +26,14 @@ std::vector<BaselineEntry> parseBaseline(const std::string& text, const std::str
 
 /// What became of one setting, or of one entry that no setting matches.
 struct BaselineChange {
-  std::string name;  ///< scene and options
+  std::string name;    ///< scene and options
   double ratio = 0.0;  ///< of the medians, now over then; 0: one of the two is missing
   bool slower = false;
   std::string note;  ///< what is missing
 };
 
-/// Settings match by scene, options, size, samples a draw, clock and OpenGL renderer; of several entries that match, the last counts. Slower is
-/// what takes more than (1 + tolerance) times as long.
+/// Settings match by scene, options, size, samples a draw, clock and OpenGL renderer; of several entries that
+/// match, the last counts. Slower is what takes more than (1 + tolerance) times as long.
 std::vector<BaselineChange> compareWithBaseline(const std::vector<BaselineEntry>& baseline,
                                                 const BenchMachine& machine,
                                                 const std::vector<FrameSetting>& settings, double tolerance);

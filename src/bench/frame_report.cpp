@@ -17,9 +17,7 @@ Json timesJson(const std::vector<double>& ms) {
   return {{"median", s.median}, {"mean", s.mean}, {"stddev", s.stddev}, {"min", s.min}, {"p95", s.p95}};
 }
 
-Json machineJson(const BenchMachine& m) {
-  return {{"processor", m.processor}, {"cores", m.cores}};
-}
+Json machineJson(const BenchMachine& m) { return {{"processor", m.processor}, {"cores", m.cores}}; }
 
 Json pictureJson(const PictureVerdict& p) {
   Json json = {{"right", p.wrong.empty()}, {"against", p.against}};
@@ -62,19 +60,22 @@ std::string frameTable(const BenchMachine& machine, const std::vector<FrameSetti
   for (const FrameSetting& s : settings) {
     if (before == nullptr || before->scene != s.scene) {
       if (before != nullptr) text += '\n';
-      text += formatted("%s, %d x %d, %zu triangles: milliseconds a frame by %s, %s\n", s.scene.c_str(), s.width,
-                        s.height, s.triangles, s.clock.c_str(), machine.glRenderer.c_str());
-      text += formatted("%-18s %10s %10s %8s %10s %10s %10s  %-22s %s\n", "configuration", "median", "mean", "stddev",
-                        "p95", "Mpaths/s", "Mrays/s", "ratio to the first", "n");
+      text += formatted("%s, %d x %d, %zu triangles: milliseconds a frame by %s, %s\n", s.scene.c_str(),
+                        s.width, s.height, s.triangles, s.clock.c_str(), machine.glRenderer.c_str());
+      text += formatted("%-18s %10s %10s %8s %10s %10s %10s  %-22s %s\n", "configuration", "median", "mean",
+                        "stddev", "p95", "Mpaths/s", "Mrays/s", "ratio to the first", "n");
     }
     before = &s;
     const Summary t = summarize(s.frameMs);
     const FrameSetting& first = firstOfScene(settings, s);
-    text += formatted("%-18s %10.4g %10.4g %8.3g %10.4g %10.4g %10.4g  %-22s %zu x %d\n", s.configuration.c_str(),
-                      t.median, t.mean, t.stddev, t.p95, s.megaPathsPerSecond(), s.megaPathsPerSecond() * s.raysPerPath,
-                      &first == &s ? "1" : ratioText(ratioOf(s.frameMs, first.frameMs)).c_str(), s.frameMs.size(), s.frames);
-    text += formatted("%-18s compiled in %.4g ms, first frame %.4g ms; picture %s\n", "", s.compileMs, s.firstFrameMs,
-                      s.picture.wrong.empty() ? "right" : ("WRONG: " + s.picture.wrong).c_str());
+    text += formatted("%-18s %10.4g %10.4g %8.3g %10.4g %10.4g %10.4g  %-22s %zu x %d\n",
+                      s.configuration.c_str(), t.median, t.mean, t.stddev, t.p95, s.megaPathsPerSecond(),
+                      s.megaPathsPerSecond() * s.raysPerPath,
+                      &first == &s ? "1" : ratioText(ratioOf(s.frameMs, first.frameMs)).c_str(),
+                      s.frameMs.size(), s.frames);
+    text +=
+        formatted("%-18s compiled in %.4g ms, first frame %.4g ms; picture %s\n", "", s.compileMs,
+                  s.firstFrameMs, s.picture.wrong.empty() ? "right" : ("WRONG: " + s.picture.wrong).c_str());
   }
   return text;
 }
@@ -113,9 +114,9 @@ std::string frameJson(const std::string& command, const BenchMachine& machine,
     json["mrays_per_s"] = s.megaPathsPerSecond() * s.raysPerPath;
     const FrameSetting& first = firstOfScene(settings, s);
     if (const auto ratio = ratioOf(s.frameMs, first.frameMs); ratio && &first != &s) {
-      json["ratio"] = {{"to", first.configuration},       {"median", ratio->summary.median},
-                       {"mean", ratio->summary.mean},     {"stddev", ratio->summary.stddev},
-                       {"min", ratio->summary.min},       {"max", ratio->most}};
+      json["ratio"] = {{"to", first.configuration},   {"median", ratio->summary.median},
+                       {"mean", ratio->summary.mean}, {"stddev", ratio->summary.stddev},
+                       {"min", ratio->summary.min},   {"max", ratio->most}};
     }
     json["nonfinite_pixels"] = s.nonfinitePixels;
     json["budget_hits"] = s.budgetHits;

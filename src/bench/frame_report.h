@@ -23,16 +23,16 @@ struct BenchMachine {
 
 /// How the picture of a setting was judged.
 struct PictureVerdict {
-  std::string against;      ///< what it was compared with
-  double rmse = 0.0;        ///< these as in render/picture_check.h
+  std::string against;  ///< what it was compared with
+  double rmse = 0.0;    ///< these as in render/picture_check.h
   double differing = 0.0;
   double meanErrors = 0.0;
   double farBlocks = 0.0;
   std::string wrong;  ///< why it is wrong; empty: right
 };
 
-/// One timed setting. A frame is one sample in every pixel. Every round draws `frames` of them; times of a round are
-/// milliseconds a frame.
+/// One timed setting. A frame is one sample in every pixel. Every round draws `frames` of them; times of a
+/// round are milliseconds a frame.
 struct FrameSetting {
   std::string scene;          ///< file name
   std::string configuration;  ///< its name
@@ -45,9 +45,9 @@ struct FrameSetting {
   int frames = 1;
   int samplesPerDraw = 0;  ///< at most; 0: as many as the renderer puts into a draw
   double compileMs = 0.0;
-  double firstFrameMs = 0.0;           ///< by the clock
-  std::vector<double> frameMs;         ///< a round each, by the clock
-  std::vector<double> wallFrameMs;     ///< by the wall's clock, with all that is done between draws
+  double firstFrameMs = 0.0;        ///< by the clock
+  std::vector<double> frameMs;      ///< a round each, by the clock
+  std::vector<double> wallFrameMs;  ///< by the wall's clock, with all that is done between draws
   double raysPerPath = 0.0;
   size_t nonfinitePixels = 0;
   size_t budgetHits = 0;

@@ -11,14 +11,16 @@ namespace fragtrace {
 namespace {
 
 constexpr const char* kNothing = "nothing hit";
-constexpr const char* kAway = "--stage flat --camera-position 0,900,0 --camera-focal-point 0,1000,0 --camera-view-up 0,0,1";
+constexpr const char* kAway =
+    "--stage flat --camera-position 0,900,0 --camera-focal-point 0,1000,0 --camera-view-up 0,0,1";
 
 // The planes of the scenes are two triangles each.
-constexpr ReportRow primitive(const char* subject, const char* scene, const char* method, const char* options) {
+constexpr ReportRow primitive(const char* subject, const char* scene, const char* method,
+                              const char* options) {
   return {ReportPart::Primitives, subject, method, scene, options, 0.29, 0.30};
 }
-constexpr ReportRow mesh(const char* subject, const char* scene, const char* traversal, const char* options, double ms,
-                         double faces) {
+constexpr ReportRow mesh(const char* subject, const char* scene, const char* traversal, const char* options,
+                         double ms, double faces) {
   return {ReportPart::Traversal, subject, traversal, scene, options, ms, ms, 1, faces};
 }
 
@@ -58,11 +60,16 @@ constexpr std::array<ReportRow, 22> kRows = {{
     {ReportPart::Gi, "Cornell box", "128 samples", "cornell-box.gltf", "--stage gi", 125, 125, 128},
 }};
 
+/// Three figures and more, never an exponent.
+std::string milliseconds(double ms) {
+  return ms >= 100.0 ? formatted("%.0f", ms) : ms >= 10.0 ? formatted("%.1f", ms) : formatted("%.3f", ms);
+}
+
 std::string figures(const ReportRow& row, const std::optional<FrameSetting>& s) {
   if (!s) return "-";
   const Summary t = summarize(s->frameMs);
-  if (s->frameMs.size() < 2) return formatted("%.4g", t.mean * row.samples);
-  return formatted("%.4g +- %.2g", t.mean * row.samples, t.stddev * row.samples);
+  const std::string mean = milliseconds(t.mean * row.samples);
+  return s->frameMs.size() < 2 ? mean : mean + " +- " + milliseconds(t.stddev * row.samples);
 }
 
 std::string countText(const std::optional<FrameSetting>& s) {
@@ -75,7 +82,8 @@ std::string reportText(const ReportRow& row) {
                                          : formatted("%.2f-%.2f", row.reportLow, row.reportHigh);
 }
 
-const MeasuredRow* find(std::span<const MeasuredRow> rows, std::string_view subject, std::string_view method) {
+const MeasuredRow* find(std::span<const MeasuredRow> rows, std::string_view subject,
+                        std::string_view method) {
   for (const MeasuredRow& m : rows) {
     if (subject == m.row->subject && method == m.row->method) return &m;
   }
@@ -97,7 +105,7 @@ std::vector<double> less(std::vector<double> ms, const std::vector<double>& fixe
 }
 
 std::string line(const std::string& name, const std::optional<PairedRatio>& ratio, const char* report) {
-  return formatted("%-58s %-24s %s\n", name.c_str(), ratioText(ratio).c_str(), report);
+  return formatted("%-62s %-24s %s\n", name.c_str(), ratioText(ratio).c_str(), report);
 }
 
 }  // namespace
@@ -107,30 +115,35 @@ std::span<const ReportRow> reportRows() { return kRows; }
 std::string reportTable(const BenchMachine& machine, std::span<const MeasuredRow> rows) {
   if (rows.empty()) return {};
   const auto& any = rows.front().many ? rows.front().many : rows.front().single;
-  std::string text =
-      formatted("%d x %d, milliseconds a picture (mean +- standard deviation of the rounds) by %s\n%s, %s\n\n",
-                any ? any->width : 0, any ? any->height : 0, any ? any->clock.c_str() : "-",
-                machine.glRenderer.c_str(), machine.processor.c_str());
-  text += formatted("%-18s %-14s %-20s %-20s %-10s %-12s %s\n", "scene", "method", "a draw a sample", "samples together",
-                    "report", "rounds x n", "picture");
+  std::string text = formatted(
+      "%d x %d, milliseconds a picture (mean +- standard deviation of the rounds) by %s\n%s, %s\n\n",
+      any ? any->width : 0, any ? any->height : 0, any ? any->clock.c_str() : "-", machine.glRenderer.c_str(),
+      machine.processor.c_str());
+  text += formatted("%-18s %-14s %-20s %-20s %-10s %-12s %s\n", "scene", "method", "a draw a sample",
+                    "samples together", "report", "rounds x n", "picture");
   for (const MeasuredRow& m : rows) {
     std::string wrong;
     for (const auto* s : {&m.single, &m.many}) {
       if (*s && !(*s)->picture.wrong.empty()) wrong = "WRONG: " + (*s)->picture.wrong;
     }
     text += formatted("%-18s %-14s %-20s %-20s %-10s %-12s %s\n", m.row->subject, m.row->method,
-                      figures(*m.row, m.single).c_str(), figures(*m.row, m.many).c_str(), reportText(*m.row).c_str(),
-                      countText(m.many ? m.many : m.single).c_str(), wrong.empty() ? "right" : wrong.c_str());
+                      figures(*m.row, m.single).c_str(), figures(*m.row, m.many).c_str(),
+                      reportText(*m.row).c_str(), countText(m.many ? m.many : m.single).c_str(),
+                      wrong.empty() ? "right" : wrong.c_str());
   }
   return text +
-         "\nThe report's figures come from another GPU: compare the shapes, not the times. \"nothing hit\" is the flat "
-         "stage with the camera\nturned away: what a frame costs before anything is traced. A picture is one sample in "
+         "\nThe report's figures come from another GPU: compare the shapes, not the times. \"nothing hit\" "
+         "is the flat "
+         "stage with the camera\nturned away: what a frame costs before anything is traced. A picture is one "
+         "sample in "
          "every pixel, or 128 (n: samples a round).\n";
 }
 
 std::string reportRatios(std::span<const MeasuredRow> rows) {
-  std::string text = formatted("\n%-58s %-24s %s\n", "shape, as ratio (median, least to largest)", "here", "report");
-  for (const auto& [method, report] : {std::pair("iterative", "4.11"), {"bvh", "1.38"}, {"front-to-back", "1.13"}}) {
+  std::string text =
+      formatted("\n%-62s %-24s %s\n", "shape, as ratio (median, least to largest)", "here", "report");
+  for (const auto& [method, report] :
+       {std::pair("iterative", "4.11"), {"bvh", "1.38"}, {"front-to-back", "1.13"}}) {
     const MeasuredRow* large = find(rows, kLarge, method);
     const bool single = large != nullptr && !large->many;
     if (large != nullptr)
@@ -177,8 +190,10 @@ std::string reportChart(const BenchMachine& machine, std::span<const MeasuredRow
     if (!here.points.empty()) chart.series.push_back(std::move(here));
     if (!report.points.empty()) chart.series.push_back(std::move(report));
   }
-  chart.caption = "Flat stage, 500 x 500 in the report. Here: " + machine.glRenderer + ", " + machine.processor + ", by " +
-                  clock + ", one sample a draw; bars are the standard deviation. The report's figures come from another GPU.";
+  chart.caption =
+      "Flat stage, 500 x 500 in the report. Here: " + machine.glRenderer + ", " + machine.processor +
+      ", by " + clock +
+      ", one sample a draw; bars are the standard deviation. The report's figures come from another GPU.";
   return chartSvg(chart);
 }
 

@@ -33,18 +33,20 @@ struct ReportRow {
 };
 std::span<const ReportRow> reportRows();
 
-/// What was measured of a row: with a draw for every sample, as a viewer draws, and with many samples a draw. Either
-/// may be missing.
+/// What was measured of a row: with a draw for every sample, as a viewer draws, and with many samples a draw.
+/// Either may be missing.
 struct MeasuredRow {
   const ReportRow* row = nullptr;
   std::optional<FrameSetting> single;
   std::optional<FrameSetting> many;
 };
 
-/// The rows of a table for people: mean and standard deviation of the milliseconds of a picture, beside the report's.
+/// The rows of a table for people: mean and standard deviation of the milliseconds of a picture, beside the
+/// report's.
 std::string reportTable(const BenchMachine& machine, std::span<const MeasuredRow> rows);
 
-/// What the shapes are: iterative against the number of triangles, the trees against it, shadows against flat.
+/// What the shapes are: iterative against the number of triangles, the trees against it, shadows against
+/// flat.
 std::string reportRatios(std::span<const MeasuredRow> rows);
 
 /// Figure 9: frame time against faces, both axes logarithmic, as SVG.

@@ -93,7 +93,8 @@ void parseRender(const GivenOptions& shared, BenchConfiguration& c, const std::s
 }  // namespace
 
 void addConfigurationOptions(CLI::App& app, RawConfigurations& raw, const char* defaults) {
-  app.add_option("--configs", raw.names, joined(configurationNames()) + "; default: " + defaults)->delimiter(',');
+  app.add_option("--configs", raw.names, joined(configurationNames()) + "; default: " + defaults)
+      ->delimiter(',');
   app.add_option("--config", raw.own, "NAME=OPTIONS: one more, such as \"rough=--bounces 4\"")
       ->allow_extra_args(false);
   addRenderOptions(app, raw.shared);

@@ -37,8 +37,8 @@ void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
 
 BenchErrorOptions finishBenchError(const RawBenchError& raw, const CLI::App& app) {
   BenchErrorOptions options = raw.options;
-  options.configurations =
-      configurationsOf(raw.configurations, app, raw.scene, {"default", "random", "baseline"}, kDefaultSamples);
+  options.configurations = configurationsOf(raw.configurations, app, raw.scene,
+                                            {"default", "random", "baseline"}, kDefaultSamples);
   if (!std::isfinite(options.goal)) throw UsageError("--goal: not a finite number");
   const auto isAdaptive = [](const BenchConfiguration& c) { return c.adaptive(); };
   if (options.reference.empty() && std::ranges::all_of(options.configurations, isAdaptive))

@@ -13,19 +13,21 @@ namespace fragtrace {
 
 namespace {
 
-constexpr double kMostSecondsOfSlowRows = 10.0;
+constexpr double kMostSecondsOfSlowRows = 20.0;
+constexpr int kSamplesTogether = 16;  // so many that what a draw costs once is shared
 
 std::vector<NamedOutput> outputsOf(const BenchReportOptions& options) {
   return {{"--json", options.json}, {"--chart", options.chart}};
 }
 
-/// A row is drawn with a draw for every sample and with many samples a draw. Only the latter has a meaning for a picture
-/// of many samples, and frames of the iterative traversal are so long that both are one.
+/// A row is drawn with a draw for every sample and with many samples a draw. Only the latter has a meaning
+/// for a picture of many samples, and frames of the iterative traversal are so long that both are one.
 std::vector<TimedSetting> settingsOf(const BenchReportOptions& options, const Context& context) {
   std::vector<TimedSetting> settings;
   for (const BenchReportRow& r : options.rows) {
     FrameTiming timing = options.timing;
     timing.mostSeconds = kMostSecondsOfSlowRows;
+    timing.leastFrames = kSamplesTogether;
     BenchConfiguration configuration = r.configuration;
     configuration.render.quiet = true;
     settings.push_back(makeSetting(context, configuration, timing));

@@ -27,7 +27,8 @@ void addBenchReportOptions(CLI::App& app, RawBenchReport& raw) {
 BenchReportOptions finishBenchReport(const RawBenchReport& raw, const CLI::App& app) {
   BenchReportOptions options = raw.options;
   std::vector<ReportPart> parts;
-  for (const std::string& name : raw.parts) parts.push_back(choose<ReportPart>("--parts", name, kReportPartNames));
+  for (const std::string& name : raw.parts)
+    parts.push_back(choose<ReportPart>("--parts", name, kReportPartNames));
   const std::string size = app.count("--resolution") > 0 ? "" : " --resolution 500,500";
   for (const ReportRow& row : reportRows()) {
     if (!parts.empty() && std::ranges::find(parts, row.part) == parts.end()) continue;

@@ -26,8 +26,9 @@ Tracer makeForcedTracer(const Context& context, const LoadedScene& loaded, const
   if (environment.image.values.empty()) environment.image = {1, 1, {"R", "G", "B"}, {0.0f, 0.0f, 0.0f}, {}};
   Tracer tracer;
   tracer.variant = variant;
-  tracer.renderer = std::make_unique<Renderer>(
-      context, packScene(loaded.scene, loaded.bvh, environment, variant), variant.reads, options.shaderFolder);
+  tracer.renderer =
+      std::make_unique<Renderer>(context, packScene(loaded.scene, loaded.bvh, environment, variant),
+                                 variant.reads, options.shaderFolder);
   return tracer;
 }
 
@@ -46,7 +47,8 @@ SceneResult measure(const BenchVariantsOptions& options, const BenchConfiguratio
   const BufferReads reads = settings.front().tracer.variant.reads;
   const Surroundings surroundings = loaded->environment.kind;
   for (const ForcedVariant& forced :
-       forcedVariants(configuration.render, traitsOf(loaded->scene, surroundings), surroundings, loaded->bvh.depth, reads)) {
+       forcedVariants(configuration.render, traitsOf(loaded->scene, surroundings), surroundings,
+                      loaded->bvh.depth, reads)) {
     if (!options.only.empty() && std::ranges::find(options.only, forced.name) == options.only.end()) continue;
     if (!forced.whyNot.empty()) {
       result.notForced.emplace_back(forced.name, forced.whyNot);

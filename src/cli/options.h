@@ -31,7 +31,16 @@ struct MergeOptions {
   std::filesystem::path output;
 };
 
-enum class Command : uint8_t { Render, Info, Diff, Merge, BenchError, BenchFrame, BenchReport, BenchVariants };
+enum class Command : uint8_t {
+  Render,
+  Info,
+  Diff,
+  Merge,
+  BenchError,
+  BenchFrame,
+  BenchReport,
+  BenchVariants
+};
 
 /// What the command line asks for; only the options of the command are filled in.
 struct CommandLine {

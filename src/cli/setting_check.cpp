@@ -18,7 +18,8 @@ constexpr int kLeastSamples = 4;  // that tell of noise
 void judge(TimedSetting& s, const FilmPixels& other, CheckAgainst against, const std::string& name) {
   if (against != CheckAgainst::SameSamples && s.report.frames < kLeastSamples) {
     RenderTimes times;
-    s.tracer.renderer->addSamples(*s.film, s.loaded->view, s.report.frames, kLeastSamples, times, untilInterrupted());
+    s.tracer.renderer->addSamples(*s.film, s.loaded->view, s.report.frames, kLeastSamples, times,
+                                  untilInterrupted());
   }
   const FilmPixels pixels = s.film->read();
   const PictureCheck check = checkPicture(pixels, other, against);
@@ -42,7 +43,8 @@ RenderOptions otherWay(const RenderOptions& options) {
 }
 
 /// Settings that are to show one picture, against that of the first of them by the other way.
-void checkGroup(const Context& context, std::vector<TimedSetting*> group, ProgressBar& bar, double done, double part) {
+void checkGroup(const Context& context, std::vector<TimedSetting*> group, ProgressBar& bar, double done,
+                double part) {
   const BenchConfiguration& first = group.front()->configuration;
   Statistics stats;
   const RenderOptions options = otherWay(first.render);
@@ -78,7 +80,8 @@ void checkAgainstFile(std::span<TimedSetting> settings, const std::filesystem::p
   for (TimedSetting& s : settings) {
     if (film.size != s.loaded->size)
       throw InputError(reference.string() + ": is not of the size of '" + s.configuration.name + "'");
-    judge(s, film, noiseFree ? CheckAgainst::NoiseFree : CheckAgainst::OtherSamples, reference.filename().string());
+    judge(s, film, noiseFree ? CheckAgainst::NoiseFree : CheckAgainst::OtherSamples,
+          reference.filename().string());
   }
 }
 
@@ -104,8 +107,8 @@ bool drawSameSamples(const RenderOptions& a, const RenderOptions& b) {
          a.rouletteDepth == b.rouletteDepth;
 }
 
-void checkSettings(const Context& context, std::span<TimedSetting> settings, const std::filesystem::path& reference,
-                   bool quiet) {
+void checkSettings(const Context& context, std::span<TimedSetting> settings,
+                   const std::filesystem::path& reference, bool quiet) {
   if (!reference.empty()) {
     checkAgainstFile(settings, reference);
     return;
@@ -115,7 +118,8 @@ void checkSettings(const Context& context, std::span<TimedSetting> settings, con
   for (size_t i = 0; i < settings.size(); ++i) {
     std::vector<TimedSetting*> group;
     for (size_t j = i; j < settings.size(); ++j) {
-      if (judged[j] || !showSame(settings[i].configuration.render, settings[j].configuration.render)) continue;
+      if (judged[j] || !showSame(settings[i].configuration.render, settings[j].configuration.render))
+        continue;
       judged[j] = true;
       group.push_back(&settings[j]);
     }
@@ -129,8 +133,8 @@ std::string wrongPictures(std::span<const FrameSetting> settings) {
   std::string text;
   for (const FrameSetting& s : settings) {
     if (s.picture.wrong.empty()) continue;
-    text += (text.empty() ? "" : "; ") + s.scene + ", " + s.configuration + ": " + s.picture.wrong + " (against " +
-            s.picture.against + ")";
+    text += (text.empty() ? "" : "; ") + s.scene + ", " + s.configuration + ": " + s.picture.wrong +
+            " (against " + s.picture.against + ")";
   }
   return text;
 }

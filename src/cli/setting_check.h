@@ -8,12 +8,12 @@
 
 namespace fragtrace {
 
-/// Fills in the verdict of each setting on the picture of its last round. Without a reference it is compared with the
-/// picture that the first setting which is to show the same makes by the other traversal of the tree: pixel by pixel
-/// where the samples are the same, else by its noise. With one (a file) by its noise; all must show that. Throws
-/// InputError when the file is of another size.
-void checkSettings(const Context& context, std::span<TimedSetting> settings, const std::filesystem::path& reference,
-                   bool quiet);
+/// Fills in the verdict of each setting on the picture of its last round. Without a reference it is compared
+/// with the picture that the first setting which is to show the same makes by the other traversal of the
+/// tree: pixel by pixel where the samples are the same, else by its noise. With one (a file) by its noise;
+/// all must show that. Throws InputError when the file is of another size.
+void checkSettings(const Context& context, std::span<TimedSetting> settings,
+                   const std::filesystem::path& reference, bool quiet);
 
 /// Both are to converge to one picture.
 bool showSame(const RenderOptions& a, const RenderOptions& b);

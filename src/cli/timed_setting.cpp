@@ -15,6 +15,8 @@ namespace {
 
 /// Far from a GPU's watchdog, and so long that what is done between draws does not count.
 constexpr double kHardwareDrawMs = 250.0;
+/// How many times a round's time its least frames may take.
+constexpr double kMostOverTime = 5.0;
 
 /// Adds samples [from, to), by draws as the timing wants them. Milliseconds go into `times`.
 void drawSamples(TimedSetting& s, int from, int to, RenderTimes& times) {
@@ -54,8 +56,9 @@ TimedSetting makeSetting(const Context& context, const BenchConfiguration& confi
   return makeSetting(context, configuration, timing, std::move(loaded), std::move(tracer));
 }
 
-TimedSetting makeSetting(const Context& context, const BenchConfiguration& configuration, const FrameTiming& timing,
-                         std::shared_ptr<const LoadedScene> loaded, Tracer tracer) {
+TimedSetting makeSetting(const Context& context, const BenchConfiguration& configuration,
+                         const FrameTiming& timing, std::shared_ptr<const LoadedScene> loaded,
+                         Tracer tracer) {
   TimedSetting s;
   s.configuration = configuration;
   s.timing = timing;
@@ -95,11 +98,14 @@ void warmUp(TimedSetting& s) {
     const double missing = std::max(1.0, (roundMs - spent) / frameMs);
     frames = int(std::min({2.0 * frames, std::ceil(missing), double(kMost)}));
   }
-  s.report.frames = s.configuration.samplesGiven ? s.configuration.render.spp
-                                                 : int(std::clamp(std::round(roundMs / frameMs), 1.0, double(kMost)));
+  // Step: what a draw costs once must not weigh differently in settings that are compared.
+  const double affordable = kMostOverTime * roundMs / frameMs;
+  const double least = std::min(double(s.timing.leastFrames), affordable);
+  const double wanted = std::clamp(std::max(roundMs / frameMs, least), 1.0, double(kMost));
+  s.report.frames = s.configuration.samplesGiven ? s.configuration.render.spp : int(wanted);
   if (s.timing.mostSeconds > 0.0) {
-    const double affordable = 1000.0 * s.timing.mostSeconds / (frameMs * s.report.frames);
-    s.timing.rounds = int(std::clamp(affordable, 1.0, double(s.timing.rounds)));
+    const double rounds = 1000.0 * s.timing.mostSeconds / (frameMs * s.report.frames);
+    s.timing.rounds = int(std::clamp(rounds, 1.0, double(s.timing.rounds)));
   }
 }
 

@@ -21,8 +21,10 @@ namespace fragtrace {
 struct FrameTiming {
   int rounds = 10;
   double roundSeconds = 0.5;  ///< as many frames a round as take this long, unless --spp says how many
-  double mostSeconds = 0.0;   ///< fewer rounds when frames are so long that they take more, but one; 0: no limit
-  int samplesPerDraw = 0;     ///< at most; 0: as many as the renderer puts into a draw
+  int leastFrames = 8;        ///< a round, as long as these take no more than 5 times as long
+  double mostSeconds =
+      0.0;                 ///< fewer rounds when frames are so long that they take more, but one; 0: no limit
+  int samplesPerDraw = 0;  ///< at most; 0: as many as the renderer puts into a draw
 };
 
 /// Adds --rounds, --round-time and --samples-per-draw.
@@ -45,10 +47,11 @@ struct TimedSetting {
 TimedSetting makeSetting(const Context& context, const BenchConfiguration& configuration,
                          const FrameTiming& timing);
 /// Of what is loaded and uploaded already.
-TimedSetting makeSetting(const Context& context, const BenchConfiguration& configuration, const FrameTiming& timing,
-                         std::shared_ptr<const LoadedScene> loaded, Tracer tracer);
+TimedSetting makeSetting(const Context& context, const BenchConfiguration& configuration,
+                         const FrameTiming& timing, std::shared_ptr<const LoadedScene> loaded, Tracer tracer);
 
-/// Compiles, draws the first frame and more until a round's time has passed, and chooses the frames of a round.
+/// Compiles, draws the first frame and more until a round's time has passed, and chooses the frames of a
+/// round.
 void warmUp(TimedSetting& setting);
 
 /// Draws one round on a cleared film.

@@ -51,14 +51,12 @@ void packAttributes(const Vertices& v, const TraitSet& traits, GpuScene& packed)
     });
   }
   if (has(traits, Trait::Tangents)) {
-    packed.buffers[kTangentsBinding] = packVertices(count, [&](size_t i) {
-      return v.tangent.empty() ? glm::vec4(0.0f) : v.tangent[i];
-    });
+    packed.buffers[kTangentsBinding] =
+        packVertices(count, [&](size_t i) { return v.tangent.empty() ? glm::vec4(0.0f) : v.tangent[i]; });
   }
   if (has(traits, Trait::VertexColors)) {
-    packed.buffers[kColorsBinding] = packVertices(count, [&](size_t i) {
-      return v.color.empty() ? glm::vec4(1.0f) : v.color[i];
-    });
+    packed.buffers[kColorsBinding] =
+        packVertices(count, [&](size_t i) { return v.color.empty() ? glm::vec4(1.0f) : v.color[i]; });
   }
 }
 

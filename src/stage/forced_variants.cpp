@@ -39,7 +39,8 @@ TraitSet withNeeded(Trait trait) {
 }
 
 bool choosesLights(Trait trait) {
-  return trait == Trait::EmissiveTriangles || trait == Trait::PunctualLights || trait == Trait::EnvironmentSampling;
+  return trait == Trait::EmissiveTriangles || trait == Trait::PunctualLights ||
+         trait == Trait::EnvironmentSampling;
 }
 
 }  // namespace

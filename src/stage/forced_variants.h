@@ -16,9 +16,9 @@ struct ForcedVariant {
   std::string whyNot;         ///< why it cannot be drawn; empty: it can
 };
 
-/// One for every trait that the chosen variant lacks, with what the trait cannot be without; then all of these that can be
-/// drawn together ("all traits"), the largest stack, and paths that can be suspended. The variant of the scene itself
-/// is none of them.
+/// One for every trait that the chosen variant lacks, with what the trait cannot be without; then all of
+/// these that can be drawn together ("all traits"), the largest stack, and paths that can be suspended. The
+/// variant of the scene itself is none of them.
 std::vector<ForcedVariant> forcedVariants(const RenderOptions& options, const TraitSet& present,
                                           Surroundings surroundings, uint32_t treeDepth, BufferReads reads);
 
