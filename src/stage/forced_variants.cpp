@@ -5,7 +5,7 @@ namespace fragtrace {
 
 namespace {
 
-/// A trait and those without which chooseVariant drops it, or without which its data are not packed.
+/// A trait and those that a scene which has it would have, too, and without which it would change nothing.
 TraitSet withNeeded(Trait trait) {
   TraitSet set;
   const auto add = [&](auto... traits) { (set.set(size_t(traits)), ...); };
@@ -14,20 +14,31 @@ TraitSet withNeeded(Trait trait) {
     case Trait::Texcoords:
       add(Trait::BaseColorTexture);
       break;
-    case Trait::Metals:
+    case Trait::BaseColorTexture:
+      add(Trait::Texcoords);
+      break;
     case Trait::MetallicRoughnessTexture:
     case Trait::SpecularTexture:
+      add(Trait::Specular, Trait::Texcoords);
+      break;
+    case Trait::Metals:
       add(Trait::Specular);
       break;
-    case Trait::Tangents:
-      add(Trait::NormalTexture);
-      break;
     case Trait::TransmissionTexture:
+      add(Trait::Transmission, Trait::Texcoords);
+      break;
     case Trait::Absorption:
       add(Trait::Transmission);
       break;
     case Trait::EmissionTexture:
-      add(Trait::Emission);
+      add(Trait::Emission, Trait::Texcoords);
+      break;
+    case Trait::Tangents:
+    case Trait::NormalTexture:
+      add(Trait::NormalTexture, Trait::Tangents, Trait::Texcoords);
+      break;
+    case Trait::PerlinNormals:
+      add(Trait::Tangents, Trait::Texcoords);
       break;
     case Trait::EnvironmentSampling:
       add(Trait::Environment);
@@ -74,6 +85,9 @@ std::vector<ForcedVariant> forcedVariants(const RenderOptions& options, const Tr
       f.whyNot = "there is no light for its table";
     } else {
       all |= withNeeded(row.trait);
+    }
+    for (const ForcedVariant& other : forced) {
+      if (f.whyNot.empty() && other.variant == f.variant) f.whyNot = "comes with " + other.name;
     }
     f.otherSamples = choosesLights(row.trait);
     forced.push_back(std::move(f));

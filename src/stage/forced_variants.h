@@ -16,7 +16,8 @@ struct ForcedVariant {
   std::string whyNot;         ///< why it cannot be drawn; empty: it can
 };
 
-/// One for every trait that the chosen variant lacks, with what the trait cannot be without; then all of
+/// One for every trait that the chosen variant lacks, with those it brings (a texture:
+/// coordinates); then all of
 /// these that can be drawn together ("all traits"), the largest stack, and paths that can be suspended. The
 /// variant of the scene itself is none of them.
 std::vector<ForcedVariant> forcedVariants(const RenderOptions& options, const TraitSet& present,
