@@ -13,8 +13,8 @@ namespace fragtrace {
 
 namespace {
 
-constexpr double kMostSecondsOfSlowRows = 20.0;
-constexpr int kSamplesTogether = 16;  // so many that what a draw costs once is shared
+constexpr double kMostSecondsOfSlowRows = 10.0;
+constexpr int kSamplesTogether = 8;  // so many that what a draw costs once is shared
 
 std::vector<NamedOutput> outputsOf(const BenchReportOptions& options) {
   return {{"--json", options.json}, {"--chart", options.chart}};
@@ -33,6 +33,7 @@ std::vector<TimedSetting> settingsOf(const BenchReportOptions& options, const Co
     settings.push_back(makeSetting(context, configuration, timing));
     if (r.row->samples > 1 || r.row->iterative()) continue;
     timing.samplesPerDraw = 1;
+    timing.leastFrames = 2;
     settings.push_back(makeSetting(context, configuration, timing));
   }
   return settings;

@@ -84,6 +84,12 @@ void warmUp(TimedSetting& s) {
   RenderTimes first;
   drawSamples(s, 0, 1, first);
   s.report.firstFrameMs = first.drawMs;
+  if (s.timing.mostSeconds > 0.0 && first.drawMs > 1000.0 * s.timing.mostSeconds) {
+    s.report.frameMs.push_back(first.drawMs);
+    s.report.wallFrameMs.push_back(first.renderMs);
+    s.timing.rounds = 0;
+    return;
+  }
   // Step: frames until a round's time has passed; the last of them tell how many a round needs.
   const double roundMs = 1000.0 * s.timing.roundSeconds;
   double frameMs = std::max(first.drawMs, 1e-6);

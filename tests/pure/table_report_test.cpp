@@ -80,6 +80,16 @@ TEST(TableReport, ShapesAreRatiosPairByPair) {
       << text;
 }
 
+TEST(TableReport, NoRatioOfWhatIsWithinTheNoise) {
+  std::vector<MeasuredRow> rows = shaped();
+  for (MeasuredRow& m : rows) {
+    if (std::string_view(m.row->method) == "nothing hit") m.many->frameMs = {4.0, 11.0};  // flat: 10
+  }
+  EXPECT_NE(
+      lineWith(reportRatios(rows), "shadow rays / flat, 3 primitives, without").find("within the noise"),
+      std::string::npos);
+}
+
 TEST(TableReport, WhatWasNotMeasuredIsLeftOut) {
   std::vector<MeasuredRow> rows = shaped();
   std::erase_if(rows, [](const MeasuredRow& m) { return m.row->part != ReportPart::Gi; });
