@@ -66,6 +66,11 @@ class BenchVariants(Report):
                 self.assertLess(line["picture"]["differing_pixels"], 0.005)
             self.assertEqual(name in line["variant"], name in ("alpha", "vertex-colors", "emissive-triangles", "environment-sampling"))
 
+    def test_lights_that_are_chosen_otherwise_give_the_same_light_by_other_samples(self):
+        _, lines = self.bench("variants", SCENES / "cornell-box.gltf", *QUICK, "--spp", 16, "--only", "environment-sampling")
+        self.assertTrue(lines[1]["picture"]["right"], lines[1]["picture"])
+        self.assertGreater(lines[1]["picture"]["differing_pixels"], 0.5)
+
     def test_what_cannot_be_done_is_refused(self):
         box = SCENES / "cornell-box.gltf"
         for options, status, says in ((["--only", "nonsense"], 2, "nonsense"), (["--time", "1"], 2, "--time"),
