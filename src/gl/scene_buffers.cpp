@@ -19,12 +19,13 @@ GLint64 limit(GLenum name) {
 
 }  // namespace
 
-BufferReads chooseReads(BufferReads wanted, bool software) {
-  if (wanted != BufferReads::Auto) return wanted;
-  return software ? BufferReads::Image : BufferReads::Ssbo;
-}
-
 SceneBuffers::SceneBuffers(const GpuScene& scene, BufferReads reads) : reads_(reads) {
+  const GLint64 images = limit(GL_MAX_IMAGE_UNITS);
+  if (reads == BufferReads::Image && images < layout::kSceneImageBase + layout::kSceneBufferCount) {
+    throw RenderError("--buffer-reads image needs " +
+                      std::to_string(layout::kSceneImageBase + layout::kSceneBufferCount) +
+                      " image units, this driver has " + std::to_string(images));
+  }
   for (uint32_t binding = 0; binding < layout::kSceneBufferCount; ++binding) {
     static constexpr std::array<uint32_t, 4> kNothing{};
     const Words& words = scene.buffers[binding];
@@ -33,15 +34,15 @@ SceneBuffers::SceneBuffers(const GpuScene& scene, BufferReads reads) : reads_(re
     const size_t texelBytes = hasTwoWords(binding) ? 8 : 16;
     const size_t bytes = words.empty() ? sizeof kNothing : words.size() * sizeof(uint32_t);
     const void* data = words.empty() ? kNothing.data() : words.data();
-    const GLint64 most = reads == BufferReads::Image ? limit(GL_MAX_TEXTURE_BUFFER_SIZE) * GLint64(texelBytes)
-                                                     : limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
+    const GLint64 most = reads == BufferReads::Ssbo ? limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE)
+                                                    : limit(GL_MAX_TEXTURE_BUFFER_SIZE) * GLint64(texelBytes);
     if (GLint64(bytes) > most) {
       throw RenderError("scene buffer " + std::to_string(binding) + " takes " + std::to_string(bytes) +
                         " bytes, this driver reads at most " + std::to_string(most));
     }
     entry.buffer = makeBuffer();
     glNamedBufferStorage(entry.buffer.name(), GLsizeiptr(bytes), data, 0);
-    if (reads == BufferReads::Image) {
+    if (reads != BufferReads::Ssbo) {
       entry.view = makeTexture(GL_TEXTURE_BUFFER);
       glTextureBuffer(entry.view.name(), entry.format, entry.buffer.name());
     }
@@ -52,11 +53,16 @@ SceneBuffers::SceneBuffers(const GpuScene& scene, BufferReads reads) : reads_(re
 void SceneBuffers::bind() const {
   for (uint32_t binding = 0; binding < layout::kSceneBufferCount; ++binding) {
     const Entry& entry = entries_[binding];
-    if (reads_ == BufferReads::Image) {
-      glBindImageTexture(layout::kSceneImageBase + binding, entry.view.name(), 0, GL_FALSE, 0, GL_READ_ONLY,
-                         entry.format);
-    } else {
-      glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, entry.buffer.name());
+    switch (reads_) {
+      case BufferReads::Image:
+        glBindImageTexture(layout::kSceneImageBase + binding, entry.view.name(), 0, GL_FALSE, 0, GL_READ_ONLY,
+                           entry.format);
+        break;
+      case BufferReads::Texel:
+        glBindTextureUnit(binding, entry.view.name());
+        break;
+      default:
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, entry.buffer.name());
     }
   }
 }

@@ -8,7 +8,7 @@
 
 namespace fragtrace {
 
-/// The packed scene on the device, bound as storage buffers or as image buffers.
+/// The packed scene on the device, bound as storage buffers, image buffers or texel buffers.
 class SceneBuffers {
  public:
   /// Throws RenderError when an array is larger than this driver reads that way, or memory runs out.
@@ -18,14 +18,11 @@ class SceneBuffers {
  private:
   struct Entry {
     GlBuffer buffer;
-    GlTexture view;  ///< image reads only
+    GlTexture view;  ///< image and texel reads
     GLenum format = GL_RGBA32UI;
   };
   std::array<Entry, layout::kSceneBufferCount> entries_;
   BufferReads reads_;
 };
-
-/// The read that is fastest on this driver: image buffers on software, storage buffers on GPUs.
-BufferReads chooseReads(BufferReads wanted, bool software);
 
 }  // namespace fragtrace
