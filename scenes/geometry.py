@@ -67,6 +67,28 @@ def icosphere(radius, subdivisions):
     return [tuple(radius * x for x in p) for p in points], [i for face in faces for i in face]
 
 
+def bumpy_ball(columns, rows, radius, centre):
+    """A closed ball of 2 * columns * (rows - 1) triangles with bumps of two sizes, shared vertices."""
+    def point(longitude, latitude):
+        r = radius * (1 + 0.1 * math.sin(9 * longitude) * math.sin(7 * latitude)
+                      + 0.02 * math.sin(60 * longitude) * math.sin(50 * latitude))
+        direction = (math.sin(latitude) * math.cos(longitude), math.cos(latitude), math.sin(latitude) * math.sin(longitude))
+        return tuple(c + r * d for c, d in zip(centre, direction))
+
+    positions = [point(2 * math.pi * i / columns, math.pi * j / rows) for j in range(1, rows) for i in range(columns)]
+    north, south = len(positions), len(positions) + 1
+    positions += [point(0, 0), point(0, math.pi)]
+    last = (rows - 2) * columns
+    indices = []
+    for i in range(columns):
+        right = (i + 1) % columns
+        indices += [north, right, i, last + i, last + right, south]
+        for above in range(0, last, columns):
+            a, b, c, d = above + i, above + right, above + columns + i, above + columns + right
+            indices += [a, b, c, b, d, c]
+    return positions, indices
+
+
 def torus_knot(around, along, ring, tube, bump):
     """A closed bumpy tube along a (2,3) torus knot: 2 * around * along triangles, shared vertices."""
     def curve(t):

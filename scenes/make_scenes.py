@@ -205,6 +205,18 @@ def mesh_62975(gltf):
 
 # Global illumination
 
+@scene("room-ball")
+def room_ball(gltf):
+    """A closed room of 12 triangles and a lamp of 2 round a bumpy ball of 69,312: what traversal is measured in."""
+    white = gltf.add_lambert("white", (0.73, 0.73, 0.73))
+    place_faces(gltf, "room", [geometry.flip(face) for face in box_faces((-2, -1.5, -2), (2, 1.5, 2))], white)
+    lamp = geometry.quad((-0.6, 1.499, -0.6), (1.2, 0, 0), (0, 0, 1.2))
+    place_quad(gltf, "lamp", lamp, gltf.add_lamp("lamp", (12, 11, 9)))
+    positions, indices = geometry.bumpy_ball(228, 153, 0.9, (0, -0.4, 0))
+    gltf.place_mesh("ball", gltf.primitive(positions, indices, gltf.add_lambert("clay", (0.8, 0.55, 0.35))))
+    gltf.add_camera("camera", (1.4, 0.4, 1.9), (0, -0.3, 0), 60)
+
+
 @scene("cornell-box")
 def cornell_box(gltf):
     """Cornell University Program of Computer Graphics, Cornell Box Data, 1998, turned half about y and scaled to 2 m."""

@@ -112,10 +112,69 @@ SplitRules rulesFor(size_t primitiveCount, uint32_t firstSingle, uint32_t maxDep
   return {firstSingle, leafSize, std::min(maxDepth, kMaxBvhDepth)};
 }
 
+double areaOfTop(const TopNode& top) {
+  if (!top.first) return top.part.area;
+  return areaOf(top.first->bounds) + areaOf(top.second->bounds) + areaOfTop(*top.first) +
+         areaOfTop(*top.second);
+}
+
+// All of a tree, in parts.
+struct WholeTree {
+  std::unique_ptr<TopNode> top;
+  std::vector<TopNode*> parts;
+
+  // Of all boxes, which the heuristic's cost goes with.
+  double area() const { return areaOf(top->bounds) + areaOfTop(*top); }
+  uint32_t depth() const {
+    uint32_t depth = 0;
+    for (const TopNode* part : parts) depth = std::max(depth, part->level + part->part.depth);
+    return depth;
+  }
+};
+
+WholeTree buildWhole(std::span<BuildItem> items, const SplitRules& rules, uint32_t threadCount) {
+  WholeTree tree;
+  const size_t partSize = std::max(kSmallestPart, items.size() / kPartsWanted);
+  tree.top = splitTop(items, rules, partSize, 0, threadCount);
+  collectParts(*tree.top, tree.parts);
+  buildParts(tree.parts, rules, threadCount);
+  return tree;
+}
+
+// A tree that fits the next smaller stack, where that costs little: parts that are too deep are built again,
+// or all is, where they are too large for that.
+void flatten(WholeTree& tree, std::span<BuildItem> items, const SplitRules& rules, uint32_t threadCount) {
+  constexpr double kWorthwhile = 1.03;  // a stack one step smaller gains more than this
+  constexpr size_t kLargest = 2000000;  // primitives; a second build of more takes seconds
+  SplitRules flatter = rules;
+  flatter.maxDepth = 0;
+  for (const uint32_t size : kBvhStackSizes) flatter.maxDepth = size < tree.depth() ? size : flatter.maxDepth;
+  // With less than one level to spare a tree would no longer be the heuristic's, but one of halves.
+  if (flatter.maxDepth == 0 || items.size() > flatter.capacityBelow(1)) return;
+  std::vector<TopNode*> deep;
+  bool fits = true;
+  for (TopNode* part : tree.parts) {
+    if (part->level + part->part.depth <= flatter.maxDepth) continue;
+    fits = fits && part->level + 1 < flatter.maxDepth &&
+           part->items.size() <= flatter.capacityBelow(part->level + 1);
+    deep.push_back(part);
+  }
+  const double before = tree.area();
+  if (fits) {
+    std::vector<Subtree> kept;
+    for (TopNode* part : deep) kept.push_back(std::move(part->part));
+    buildParts(deep, flatter, threadCount);
+    if (tree.area() <= kWorthwhile * before) return;
+    for (size_t i = 0; i < deep.size(); ++i) deep[i]->part = std::move(kept[i]);
+  }
+  if (items.size() > kLargest) return;
+  WholeTree other = buildWhole(items, flatter, threadCount);
+  if (other.area() <= kWorthwhile * before) tree = std::move(other);
+}
+
 }  // namespace
 
-Bvh buildBvh(std::span<const Bounds> primitiveBounds, uint32_t firstSingle,
-             const BvhBuildSettings& settings) {
+Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle, const BvhBuildSettings& settings) {
   Bvh bvh;
   if (primitiveBounds.empty()) return bvh;
   const SplitRules rules = rulesFor(primitiveBounds.size(), firstSingle, settings.maxDepth);
@@ -127,24 +186,22 @@ Bvh buildBvh(std::span<const Bounds> primitiveBounds, uint32_t firstSingle,
   // Build the top, then all parts.
   std::vector<BuildItem> items(primitiveBounds.size());
   for (size_t i = 0; i < items.size(); ++i) items[i] = {primitiveBounds[i], uint32_t(i)};
-  const size_t partSize = std::max(kSmallestPart, items.size() / kPartsWanted);
-  const std::unique_ptr<TopNode> top = splitTop(items, rules, partSize, 0, threadCount);
-  std::vector<TopNode*> parts;
-  collectParts(*top, parts);
-  buildParts(parts, rules, threadCount);
-  items = {};
+  primitiveBounds = std::vector<Bounds>();
+  WholeTree tree = buildWhole(items, rules, threadCount);
+  if (settings.flatten) flatten(tree, items, rules, threadCount);
+  items = std::vector<BuildItem>();
 
   // Put the parts together.
   size_t nodeCount = 1;
   size_t leafCount = 0;
-  for (const TopNode* part : parts) {
+  for (const TopNode* part : tree.parts) {
     nodeCount += part->part.nodes.size() + 1;
     leafCount += part->part.leaves.size();
   }
   bvh.nodes.reserve(nodeCount);
   bvh.leaves.reserve(leafCount);
-  bvh.bounds = top->bounds;
-  const uint32_t root = appendTop(*top, bvh);
+  bvh.bounds = tree.top->bounds;
+  const uint32_t root = appendTop(*tree.top, bvh);
   if ((root & kBvhLeafBit) != 0) {
     bvh.nodes.push_back({{bvh.bounds, bvh.bounds}, {root, root}});
     bvh.depth = 1;
@@ -152,19 +209,8 @@ Bvh buildBvh(std::span<const Bounds> primitiveBounds, uint32_t firstSingle,
   return bvh;
 }
 
-Bvh buildBvh(std::span<const Bounds> primitiveBounds, uint32_t firstSingle) {
-  constexpr size_t kLargest = 2000000;  // primitives; a second build of more takes seconds
-  constexpr double kWorthwhile = 1.03;  // a stack one step smaller gains more than this
-  Bvh bvh = buildBvh(primitiveBounds, firstSingle, {});
-  uint32_t smaller = 0;
-  for (uint32_t size : kBvhStackSizes) smaller = size < bvh.depth ? size : smaller;
-  if (smaller == 0 || primitiveBounds.size() > kLargest) return bvh;
-  // A tree with less than one level to spare is no longer the heuristic's, but one of halves.
-  if (primitiveBounds.size() > rulesFor(primitiveBounds.size(), firstSingle, smaller).capacityBelow(1))
-    return bvh;
-  Bvh flatter = buildBvh(primitiveBounds, firstSingle, {.maxDepth = smaller});
-  const bool worthwhile = bvhQuality(flatter).sahCost <= kWorthwhile * bvhQuality(bvh).sahCost;
-  return worthwhile ? flatter : bvh;
+Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle) {
+  return buildBvh(std::move(primitiveBounds), firstSingle, {.flatten = true});
 }
 
 }  // namespace fragtrace

@@ -4,7 +4,7 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
+#include <vector>
 
 #include "bvh/bvh.h"
 
@@ -17,9 +17,10 @@ inline constexpr std::array<uint32_t, 5> kBvhStackSizes{8, 12, 16, 24, kMaxBvhDe
 struct BvhBuildSettings {
   uint32_t threadCount = 0;          ///< 0: all cores; the tree is the same for any number
   uint32_t maxDepth = kMaxBvhDepth;  ///< must leave room for the primitives: 2^maxDepth leaves
+  bool flatten =
+      false;  ///< try for the stack size below the depth that the boxes want, as buildBvh() of bvh.h does
 };
 
-/// One build, as deep as the boxes want it; buildBvh() of bvh.h also tries the stack size below that.
-Bvh buildBvh(std::span<const Bounds> primitiveBounds, uint32_t firstSingle, const BvhBuildSettings& settings);
+Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle, const BvhBuildSettings& settings);
 
 }  // namespace fragtrace

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "math/bounds.h"
@@ -34,13 +33,15 @@ struct BvhLeaf {
 struct Bvh {
   std::vector<BvhNode> nodes;
   std::vector<BvhLeaf> leaves;
-  uint32_t depth = 0;  ///< inner nodes on the longest path from the root, at most kMaxBvhDepth
+  uint32_t besideTree = 0;  ///< leaves at the end that no node holds: see large_first.h
+  uint32_t depth = 0;       ///< inner nodes on the longest path from the root, at most kMaxBvhDepth
   Bounds bounds;
 };
 
 /// Builds the tree by binned SAH over the primitives' boxes, on all cores. Primitives from firstSingle on
-/// (spheres) always get a leaf of their own. Deterministic: the same boxes give the same tree.
-Bvh buildBvh(std::span<const Bounds> primitiveBounds, uint32_t firstSingle);
+/// (spheres) always get a leaf of their own. Deterministic: the same boxes give the same tree. Boxes that are
+/// moved in are freed before the tree is made, which takes another 40 bytes a primitive beside itself.
+Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle);
 
 /// Boxes of the scene's primitives: triangles first, then spheres.
 std::vector<Bounds> primitiveBounds(const Scene& scene);

@@ -57,10 +57,14 @@ Bounds boundsOf(std::span<const BuildItem> items) {
 
 Subtree buildSubtree(std::span<BuildItem> items, const SplitRules& rules, uint32_t level) {
   SubtreeBuilder builder{rules, {}};
-  builder.tree.nodes.reserve(items.size() / 2);
-  builder.tree.leaves.reserve(items.size() / 2 + 1);
+  // Nearly all leaves hold two.
+  builder.tree.nodes.reserve(items.size() * 9 / 16);
+  builder.tree.leaves.reserve(items.size() * 9 / 16 + 1);
   builder.tree.root = builder.add(items, level);
   builder.tree.depth -= std::min(builder.tree.depth, level);
+  for (const BvhNode& node : builder.tree.nodes) {
+    for (const Bounds& box : node.bounds) builder.tree.area += areaOf(box);
+  }
   return std::move(builder.tree);
 }
 

@@ -11,7 +11,6 @@
 #include "cli/setting_check.h"
 #include "errors.h"
 #include "pack/gpu_scene.h"
-#include "pack/literals.h"
 #include "stage/forced_variants.h"
 
 namespace fragtrace {
@@ -26,14 +25,13 @@ Tracer makeForcedTracer(const Context& context, const LoadedScene& loaded, const
                         const ShaderVariant& own, const RenderOptions& options) {
   Environment environment = loaded.environment;
   if (environment.image.values.empty()) environment.image = {1, 1, {"R", "G", "B"}, {0.0f, 0.0f, 0.0f}, {}};
-  const GpuScene packed = packScene(loaded.scene, loaded.bvh, environment, forced);
+  GpuScene packed = packScene(loaded.scene, loaded.bvh, environment, forced);
   Tracer tracer;
   tracer.variant = forced;
   tracer.variant.dispatch = own.dispatch;
-  tracer.variant.traversal = own.traversal;
-  if (own.traversal == TraversalMethod::Literals)
-    tracer.variant.literals = literalScene(loaded.scene, loaded.bvh, packed, tracer.variant);
-  tracer.renderer = std::make_unique<Renderer>(context, packed, forced.reads, options.shaderFolder);
+  useLiterals(loaded, packed, options, tracer.variant);
+  tracer.renderer =
+      std::make_unique<Renderer>(context, std::move(packed), forced.reads, options.shaderFolder);
   return tracer;
 }
 

@@ -14,5 +14,7 @@ int runBenchError(const BenchErrorOptions& options);
 int runBenchFrame(const BenchFrameOptions& options);
 int runBenchReport(const BenchReportOptions& options);
 int runBenchVariants(const BenchVariantsOptions& options);
+int runBenchScale(const BenchScaleOptions& options);
+int runBenchTraversal(const BenchTraversalOptions& options);
 
 }  // namespace fragtrace

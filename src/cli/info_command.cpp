@@ -5,14 +5,27 @@
 #include "cli/commands.h"
 #include "cli/scene_json.h"
 #include "gltf/gltf.h"
+#include "pack/gpu_scene.h"
 #include "stage/variant.h"
 
 namespace fragtrace {
 
 namespace {
 
+/// What a scene takes on the device by default, textures and lights left out.
+double gpuBytesPerTriangle(const Scene& scene, const Bvh& bvh, const TraitSet& traits,
+                           Surroundings surroundings) {
+  ShaderVariant variant = chooseVariant({}, traits, surroundings, bvh.depth, BufferReads::Auto);
+  for (const Trait t : {Trait::BaseColorTexture, Trait::MetallicRoughnessTexture, Trait::NormalTexture,
+                        Trait::EmissionTexture, Trait::TransmissionTexture, Trait::SpecularTexture,
+                        Trait::EmissiveTriangles, Trait::PunctualLights, Trait::Environment}) {
+    variant.traits.reset(size_t(t));
+  }
+  return double(packScene(scene, bvh, {}, variant).geometryBytes()) / double(scene.triangles.size());
+}
+
 void printText(const std::filesystem::path& path, const SceneDescription& s, const BvhQuality& bvh,
-               const TraitSet& traits) {
+               double bytesPerTriangle, const TraitSet& traits) {
   std::printf("%s\n", path.string().c_str());
   std::printf("  triangles   %zu (%zu emissive), vertices %zu, spheres %zu\n", s.triangles,
               s.emissiveTriangles, s.vertices, s.spheres);
@@ -34,6 +47,7 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
   }
   std::printf("  tree        %u nodes, %u leaves, depth %u, %.2f primitives a leaf, SAH cost %.2f\n",
               bvh.nodeCount, bvh.leafCount, bvh.depth, bvh.primitivesPerLeaf, bvh.sahCost);
+  if (bytesPerTriangle > 0.0) std::printf("  GPU memory  %.1f bytes a triangle\n", bytesPerTriangle);
   for (const StageRow& row : stageRows()) {
     const std::string reason = whyOff(row.stage, traits);
     if (!reason.empty()) std::printf("  not needed  %s (%s)\n", row.name, reason.c_str());
@@ -45,12 +59,15 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
 int runInfo(const InfoOptions& options) {
   const Scene scene = loadGltf(options.scene);
   const SceneDescription description = describe(scene);
-  const BvhQuality bvh = bvhQuality(buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size())));
+  const Bvh tree = buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
+  const BvhQuality bvh = bvhQuality(tree);
   for (const std::string& warning : scene.warnings) std::cerr << "fragtrace: warning: " << warning << '\n';
   const Surroundings surroundings = hasOwnLight(scene) ? Surroundings::None : Surroundings::DefaultLight;
   const TraitSet traits = traitsOf(scene, surroundings);
+  const double bytesPerTriangle =
+      scene.triangles.empty() ? 0.0 : gpuBytesPerTriangle(scene, tree, traits, surroundings);
   if (!options.json) {
-    printText(options.scene, description, bvh, traits);
+    printText(options.scene, description, bvh, bytesPerTriangle, traits);
     return 0;
   }
   nlohmann::ordered_json json;
@@ -58,6 +75,7 @@ int runInfo(const InfoOptions& options) {
   json["file"] = options.scene.string();
   json["scene"] = sceneJson(description);
   json["bvh"] = bvhJson(bvh);
+  if (bytesPerTriangle > 0.0) json["gpu_bytes_per_triangle"] = bytesPerTriangle;
   nlohmann::ordered_json notNeeded = nlohmann::ordered_json::object();
   for (const StageRow& row : stageRows()) {
     const std::string reason = whyOff(row.stage, traits);

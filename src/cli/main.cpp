@@ -42,6 +42,10 @@ int run(int argc, char** argv) {
       return runBenchReport(line->benchReport);
     case Command::BenchVariants:
       return runBenchVariants(line->benchVariants);
+    case Command::BenchScale:
+      return runBenchScale(line->benchScale);
+    case Command::BenchTraversal:
+      return runBenchTraversal(line->benchTraversal);
   }
   return kUsage;
 }

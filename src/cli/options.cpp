@@ -73,6 +73,13 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   CLI::App& benchVariants =
       *bench.add_subcommand("variants", "what leaving out what a scene does not need saves");
   addBenchVariantsOptions(benchVariants, rawVariants);
+  RawBenchScale rawScale;
+  CLI::App& benchScale =
+      *bench.add_subcommand("scale", "1 thousand to 10 million triangles: time and memory");
+  addBenchScaleOptions(benchScale, rawScale);
+  RawBenchTraversal rawTraversal;
+  CLI::App& benchTraversal = *bench.add_subcommand("traversal", "rays a second, nothing shaded");
+  addBenchTraversalOptions(benchTraversal, rawTraversal);
 
   std::vector<std::string> commands;
   for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
@@ -108,6 +115,12 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   } else if (benchVariants.parsed()) {
     line.command = Command::BenchVariants;
     line.benchVariants = finishBenchVariants(rawVariants, benchVariants);
+  } else if (benchScale.parsed()) {
+    line.command = Command::BenchScale;
+    line.benchScale = finishBenchScale(rawScale);
+  } else if (benchTraversal.parsed()) {
+    line.command = Command::BenchTraversal;
+    line.benchTraversal = finishBenchTraversal(rawTraversal);
   } else if (merge.parsed()) {
     line.command = Command::Merge;
     line.merge.parts.assign(parts.begin(), parts.end());

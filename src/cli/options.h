@@ -7,6 +7,8 @@
 #include "cli/bench_frame_options.h"
 #include "cli/bench_options.h"
 #include "cli/bench_report_options.h"
+#include "cli/bench_scale_options.h"
+#include "cli/bench_traversal_options.h"
 #include "cli/bench_variants_options.h"
 #include "image/difference.h"
 #include "stage/options.h"
@@ -39,7 +41,9 @@ enum class Command : uint8_t {
   BenchError,
   BenchFrame,
   BenchReport,
-  BenchVariants
+  BenchVariants,
+  BenchScale,
+  BenchTraversal
 };
 
 /// What the command line asks for; only the options of the command are filled in.
@@ -53,6 +57,8 @@ struct CommandLine {
   BenchFrameOptions benchFrame;
   BenchReportOptions benchReport;
   BenchVariantsOptions benchVariants;
+  BenchScaleOptions benchScale;
+  BenchTraversalOptions benchTraversal;
 };
 
 /// Parses the arguments. Prints help or version and returns nothing when that was asked for. Throws

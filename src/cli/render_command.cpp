@@ -149,12 +149,13 @@ int runRender(const RenderOptions& options) {
   // Step: load. The image library opens meanwhile when the output needs it.
   std::future<void> library;
   if (options.output.extension() != ".pfm") library = std::async(std::launch::async, preloadImageLibrary);
-  const LoadedScene loaded = loadScene(options, stats);
+  LoadedScene loaded = loadScene(options, stats);
 
   // Step: the shader variant, and the arrays that it reads.
   const auto context = makeContext(options.backend);
   DebugLog driverLog;
   const Tracer tracer = makeTracer(*context, loaded, options, stats);
+  releaseGeometry(loaded);
   Film film(loaded.size);
   stats.compileMs = tracer.renderer->compile(tracer.variant, film, loaded.view);
   if (options.verbose) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bvh/large_first.h"
 #include "cli/outputs.h"
 #include "errors.h"
 #include "gl/driver_choice.h"
@@ -16,6 +17,9 @@
 namespace fragtrace {
 
 namespace {
+
+/// Smaller scenes are literals as a whole, or not at all.
+constexpr size_t kLeastBesideLarge = 256;
 
 Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
   Camera camera;
@@ -75,17 +79,18 @@ uint64_t hashOf(const GpuScene& scene) {
   return hash;
 }
 
-/// A scene that is small enough becomes part of the shader's text, unless another traversal was asked for.
-void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
-                 ShaderVariant& variant) {
-  if (has(variant.stages, Stage::BvhHeatmap)) return;
-  const bool asked = options.traversal == TraversalMethod::Literals;
-  if (!asked && options.traversal != TraversalMethod::Auto) return;
-  if (asked && !fitsAsLiterals(loaded.scene, packed))
-    throw UsageError("--traversal literals: the scene has spheres, or is too large for it");
-  if (!asked && !paysAsLiterals(loaded.scene, loaded.bvh, packed)) return;
-  variant.traversal = TraversalMethod::Literals;
-  variant.literals = literalScene(loaded.scene, loaded.bvh, packed, variant);
+/// The tree of the options' traversal. The iterative one needs none; where it is chosen for them, the largest
+/// triangles stand beside it when that pays.
+Bvh buildTree(const Scene& scene, const RenderOptions& options) {
+  if (options.traversal == TraversalMethod::Iterative) return listLeaves(scene);
+  const std::vector<Bounds> bounds = primitiveBounds(scene);
+  const uint32_t triangles = uint32_t(scene.triangles.size());
+  Bvh bvh = buildBvh(bounds, triangles);
+  if (options.traversal != TraversalMethod::Auto || has(options.stages, Stage::BvhHeatmap)) return bvh;
+  const std::vector<uint32_t> large = largeTriangles(bounds, triangles);
+  if (large.empty() || bounds.size() < kLeastBesideLarge) return bvh;
+  Bvh beside = buildBvhBeside(bounds, triangles, large);
+  return paysBeside(bvh, beside) ? beside : bvh;
 }
 
 }  // namespace
@@ -120,28 +125,41 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
         "no light in the scene: a white environment that the camera does not see lights it "
         "(--no-default-light)");
   }
-  // The iterative traversal needs no tree.
-  const bool iterative = options.traversal == TraversalMethod::Iterative;
-  loaded.bvh =
-      iterative ? listLeaves(scene) : buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
+  loaded.bvh = buildTree(scene, options);
   stats.bvh = bvhQuality(loaded.bvh);
   stats.bvhBuildMs = watch.lap();
   return loaded;
 }
 
+void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
+                 ShaderVariant& variant) {
+  if (loaded.bvh.besideTree > 0) {
+    variant.literals = largeFirst(loaded.scene, loaded.bvh, variant);
+    return;
+  }
+  if (has(variant.stages, Stage::BvhHeatmap)) return;
+  const bool asked = options.traversal == TraversalMethod::Literals;
+  if (!asked && options.traversal != TraversalMethod::Auto) return;
+  if (asked && !fitsAsLiterals(loaded.scene, packed))
+    throw UsageError("--traversal literals: the scene has spheres, or is too large for it");
+  if (!asked && !paysAsLiterals(loaded.scene, loaded.bvh, packed)) return;
+  variant.traversal = TraversalMethod::Literals;
+  variant.literals = literalScene(loaded.scene, loaded.bvh, packed, variant);
+}
+
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
                   Statistics& stats) {
   const TraitSet present = traitsOf(loaded.scene, loaded.environment.kind);
-  const BufferReads reads = chooseReads(options.bufferReads, context);
   const uint32_t depth = loaded.bvh.depth;
+  const BufferReads undecided = options.bufferReads;  // what is packed does not depend on it
   Tracer tracer;
   const Dispatch dispatch = chooseDispatch(options.dispatch, context);
-  tracer.variant = chooseVariant(options, present, loaded.environment.kind, depth, reads);
+  tracer.variant = chooseVariant(options, present, loaded.environment.kind, depth, undecided);
   tracer.variant.dispatch = dispatch;
   ShaderVariant everything = tracer.variant;
   for (const Feature feature : options.aovFeatures) {
     tracer.features.push_back(
-        chooseFeatureVariant(options, present, loaded.environment.kind, depth, reads, feature));
+        chooseFeatureVariant(options, present, loaded.environment.kind, depth, undecided, feature));
     tracer.features.back().dispatch = dispatch;
     everything.traits |= tracer.features.back().traits;
   }
@@ -154,15 +172,31 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
     if (!reason.empty()) stats.skipped.push_back(std::string(row.name) + ": " + reason);
   }
   Stopwatch watch;
-  const GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything);
+  GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything);
   useLiterals(loaded, packed, options, tracer.variant);
-  stats.variant = variantName(tracer.variant);
+  for (ShaderVariant& feature : tracer.features) {
+    if (loaded.bvh.besideTree > 0) useLiterals(loaded, packed, options, feature);
+  }
   stats.sceneBytes = packed.bytes();
+  stats.geometryBytes = packed.geometryBytes();
   if (formatOfName(options.output) == ImageFormat::OpenExr) tracer.sceneHash = hashOf(packed);
   stats.packMs = watch.lap();
-  tracer.renderer = std::make_unique<Renderer>(context, packed, reads, options.shaderFolder);
+  const ReadChoice choice = chooseReads(options.bufferReads, context.software, packed, readLimits());
+  tracer.variant.reads = choice.reads;
+  for (ShaderVariant& feature : tracer.features) feature.reads = choice.reads;
+  stats.variant = variantName(tracer.variant);
+  stats.readFallback = choice.fallback;
+  tracer.renderer =
+      std::make_unique<Renderer>(context, std::move(packed), choice.reads, options.shaderFolder);
   stats.uploadMs = watch.lap();
   return tracer;
+}
+
+void releaseGeometry(LoadedScene& loaded) {
+  loaded.scene.triangles = std::vector<Triangle>();
+  loaded.scene.vertices = Vertices();
+  loaded.scene.images = std::vector<EncodedImage>();
+  loaded.bvh = Bvh();
 }
 
 }  // namespace fragtrace

@@ -64,8 +64,11 @@ void writeStatistics(const std::filesystem::path& path, const Statistics& s) {
   json["nonfinite_pixels"] = s.film.nonfinitePixels;
   json["budget_hits"] = s.film.budgetHits;
   json["scene_bytes"] = s.sceneBytes;
+  if (s.scene.triangles > 0)
+    json["gpu_bytes_per_triangle"] = double(s.geometryBytes) / double(s.scene.triangles);
   json["default_light"] = s.defaultLight;
   json["variant"] = s.variant;
+  if (!s.readFallback.empty()) json["buffer_reads_fallback"] = s.readFallback;
   json["skipped"] = s.skipped;
   json["backend"] = s.backend;
   json["gl_renderer"] = s.glRenderer;

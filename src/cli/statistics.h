@@ -36,12 +36,14 @@ struct Statistics {
   glm::ivec2 size{0};
   FilmTotals film;
   std::optional<AdaptiveStatistics> adaptive;
-  double featureMs = 0.0;  ///< drawing the layers of first hits
-  size_t sceneBytes = 0;
+  double featureMs = 0.0;    ///< drawing the layers of first hits
+  size_t sceneBytes = 0;     ///< on the device
+  size_t geometryBytes = 0;  ///< of these, tree, leaves, records and vertex attributes
   bool defaultLight = false;
   double clampIndirect = 0.0;  ///< 0: not clamped
   bool complete = true;
   std::string variant;
+  std::string readFallback;  ///< why buffers are not read the fastest way; empty when they are
   std::string backend;
   std::string glRenderer;
   std::string glVersion;

@@ -6,11 +6,6 @@
 
 namespace fragtrace {
 
-BufferReads chooseReads(BufferReads wanted, const Context& context) {
-  if (wanted != BufferReads::Auto) return wanted;
-  return context.software ? BufferReads::Image : BufferReads::Ssbo;
-}
-
 Dispatch chooseDispatch(Dispatch wanted, const Context& context) {
   if (wanted != Dispatch::Auto) return wanted;
   static constexpr std::array<std::string_view, 9> kDataCentre{"A100", "A800", "H100",  "H800", "H200",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gl/scene_buffers.h"
 
+#include <algorithm>
+
 #include "errors.h"
 
 namespace fragtrace {
@@ -11,37 +13,64 @@ bool hasTwoWords(uint32_t binding) {
   return binding == layout::kTexelsBinding || binding == layout::kEnvironmentAliasBinding;
 }
 
+int64_t texelBytes(uint32_t binding) { return hasTwoWords(binding) ? 8 : 16; }
+
 GLint64 limit(GLenum name) {
   GLint64 value = 0;
   glGetInteger64v(name, &value);
   return value;
 }
 
+int64_t mostBytes(BufferReads reads, uint32_t binding, const ReadLimits& limits) {
+  return reads == BufferReads::Ssbo ? limits.storageBytes : limits.texels * texelBytes(binding);
+}
+
+/// Says what the driver has too little of to read the scene that way; empty when it has enough.
+std::string whatIsTooLarge(const GpuScene& scene, BufferReads reads, const ReadLimits& limits) {
+  constexpr int64_t kUnits = layout::kSceneImageBase + layout::kSceneBufferCount;
+  if (reads == BufferReads::Image && limits.imageUnits < kUnits)
+    return "image buffers take " + std::to_string(kUnits) + " image units, this driver has " +
+           std::to_string(limits.imageUnits);
+  for (uint32_t binding = 0; binding < layout::kSceneBufferCount; ++binding) {
+    const int64_t bytes = int64_t(scene.buffers[binding].size() * sizeof(uint32_t));
+    const int64_t most = mostBytes(reads, binding, limits);
+    if (bytes <= most) continue;
+    return "scene buffer " + std::to_string(binding) + " takes " + std::to_string(bytes) +
+           " bytes, this driver reads at most " + std::to_string(most) + " as " +
+           std::string(kBufferReadsNames[size_t(reads)]) + " buffer";
+  }
+  return {};
+}
+
 }  // namespace
 
-SceneBuffers::SceneBuffers(const GpuScene& scene, BufferReads reads) : reads_(reads) {
-  const GLint64 images = limit(GL_MAX_IMAGE_UNITS);
-  if (reads == BufferReads::Image && images < layout::kSceneImageBase + layout::kSceneBufferCount) {
-    throw RenderError("--buffer-reads image needs " +
-                      std::to_string(layout::kSceneImageBase + layout::kSceneBufferCount) +
-                      " image units, this driver has " + std::to_string(images));
-  }
+ReadLimits readLimits() {
+  return {limit(GL_MAX_TEXTURE_BUFFER_SIZE), limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE),
+          limit(GL_MAX_IMAGE_UNITS)};
+}
+
+ReadChoice chooseReads(BufferReads wanted, bool software, const GpuScene& scene, const ReadLimits& limits) {
+  if (wanted != BufferReads::Auto) return {wanted, {}};
+  const BufferReads first = software ? BufferReads::Image : BufferReads::Ssbo;
+  const BufferReads other = software ? BufferReads::Ssbo : BufferReads::Texel;
+  const std::string reason = whatIsTooLarge(scene, first, limits);
+  if (reason.empty() || !whatIsTooLarge(scene, other, limits).empty()) return {first, {}};
+  return {other, reason};
+}
+
+SceneBuffers::SceneBuffers(GpuScene& scene, BufferReads reads) : reads_(reads) {
+  const std::string tooLarge = whatIsTooLarge(scene, reads, readLimits());
+  if (!tooLarge.empty()) throw RenderError(tooLarge + " (--buffer-reads)");
   for (uint32_t binding = 0; binding < layout::kSceneBufferCount; ++binding) {
     static constexpr std::array<uint32_t, 4> kNothing{};
-    const Words& words = scene.buffers[binding];
+    Words& words = scene.buffers[binding];
     Entry& entry = entries_[binding];
     entry.format = hasTwoWords(binding) ? GL_RG32UI : GL_RGBA32UI;
-    const size_t texelBytes = hasTwoWords(binding) ? 8 : 16;
     const size_t bytes = words.empty() ? sizeof kNothing : words.size() * sizeof(uint32_t);
     const void* data = words.empty() ? kNothing.data() : words.data();
-    const GLint64 most = reads == BufferReads::Ssbo ? limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE)
-                                                    : limit(GL_MAX_TEXTURE_BUFFER_SIZE) * GLint64(texelBytes);
-    if (GLint64(bytes) > most) {
-      throw RenderError("scene buffer " + std::to_string(binding) + " takes " + std::to_string(bytes) +
-                        " bytes, this driver reads at most " + std::to_string(most));
-    }
     entry.buffer = makeBuffer();
     glNamedBufferStorage(entry.buffer.name(), GLsizeiptr(bytes), data, 0);
+    words = Words();
     if (reads != BufferReads::Ssbo) {
       entry.view = makeTexture(GL_TEXTURE_BUFFER);
       glTextureBuffer(entry.view.name(), entry.format, entry.buffer.name());

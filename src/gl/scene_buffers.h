@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "gl/gl.h"
 #include "pack/gpu_scene.h"
@@ -11,8 +12,9 @@ namespace fragtrace {
 /// The packed scene on the device, bound as storage buffers, image buffers or texel buffers.
 class SceneBuffers {
  public:
-  /// Throws RenderError when an array is larger than this driver reads that way, or memory runs out.
-  SceneBuffers(const GpuScene& scene, BufferReads reads);
+  /// Frees each array of the scene as soon as the driver has it. Throws RenderError when one is larger than
+  /// this driver reads that way, or memory runs out.
+  SceneBuffers(GpuScene& scene, BufferReads reads);
   void bind() const;
 
  private:
@@ -24,5 +26,23 @@ class SceneBuffers {
   std::array<Entry, layout::kSceneBufferCount> entries_;
   BufferReads reads_;
 };
+
+/// How much a driver reads each way.
+struct ReadLimits {
+  int64_t texels = 0;  ///< of image and texel buffers
+  int64_t storageBytes = 0;
+  int64_t imageUnits = 0;
+};
+/// Of the current context.
+ReadLimits readLimits();
+
+struct ReadChoice {
+  BufferReads reads = BufferReads::Ssbo;
+  std::string fallback;  ///< why it is not the read that is fastest on this driver; empty when it is
+};
+
+/// What was asked for; for Auto the read that is fastest on this driver (image buffers on software, storage
+/// buffers on GPUs), or the other one when only that reads arrays of this size.
+ReadChoice chooseReads(BufferReads wanted, bool software, const GpuScene& scene, const ReadLimits& limits);
 
 }  // namespace fragtrace

@@ -40,6 +40,8 @@ struct GpuScene {
   uint32_t energyTableRow = 0;  ///< where the energy table begins among the material rows
 
   size_t bytes() const;
+  /// Of these, what the primitives take: tree, leaves, records and vertex attributes.
+  size_t geometryBytes() const;
 };
 
 /// Packs what the variant reads. The tree may be a plain list of leaves without nodes (iterative traversal).

@@ -126,6 +126,16 @@ size_t GpuScene::bytes() const {
   return words * sizeof(uint32_t);
 }
 
+size_t GpuScene::geometryBytes() const {
+  using namespace layout;
+  size_t words = 0;
+  for (const uint32_t binding : {kNodesBinding, kLeavesBinding, kFacesBinding, kNormalsBinding,
+                                 kTexcoordsBinding, kTangentsBinding, kColorsBinding}) {
+    words += buffers[binding].size();
+  }
+  return words * sizeof(uint32_t);
+}
+
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
                    const ShaderVariant& variant) {
   using namespace layout;

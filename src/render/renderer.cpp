@@ -57,7 +57,7 @@ GLuint makeTimer() {
 
 }  // namespace
 
-Renderer::Renderer(const Context& context, const GpuScene& scene, BufferReads reads,
+Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads,
                    const std::filesystem::path& shaderFolder)
     : programs_(shaderSource(shaderFolder)),
       buffers_(scene, reads),

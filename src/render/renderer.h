@@ -47,8 +47,8 @@ struct Work {
 
 class Renderer {
  public:
-  /// Uploads the scene, which must hold all that the variants to come read.
-  Renderer(const Context& context, const GpuScene& scene, BufferReads reads,
+  /// Uploads the scene, which must hold all that the variants to come read; its arrays are freed one by one.
+  Renderer(const Context& context, GpuScene scene, BufferReads reads,
            const std::filesystem::path& shaderFolder = {});
 
   /// Builds the variant's program and draws one tiny tile, which is where llvmpipe compiles; draws that

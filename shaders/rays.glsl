@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Traversal alone: one ray a pixel out of a buffer, and what it hits into another.
+#include "layout.glsl"
+layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frame; };
+#include "read.glsl"
+#include "intersect.glsl"
+#include "slab.glsl"
+#include "stack.glsl"
+#include "tree.glsl"
+#include "traverse.glsl"
+
+// Bindings that the tracer uses for what is not here.
+const uint kRaysBinding = kPathStatesBinding;
+const uint kRayHitsBinding = kProgressBinding;
+const uint kRayUnfinished = 0xfffffffeu;  // in place of a slot: the step limit ended it
+
+layout(std430, binding = kRaysBinding) readonly restrict buffer RaysBlock { vec4 rays[]; };  // origin, limit; direction
+layout(std430, binding = kRayHitsBinding) writeonly restrict buffer RayHitsBlock { uvec2 rayHits[]; };  // slot, t
+
+void traceRay(ivec2 pixel, bool anyHit) {
+  int index = pixel.y * frame.picture.x + pixel.x;
+  vec4 a = rays[2 * index];
+  vec3 direction = rays[2 * index + 1].xyz;
+  TreeFrame tree = TreeFrame(frame.gridOrigin.xyz, frame.gridCell.xyz, frame.limits.w);
+  Traversal s = startTraversal(a.w, a.w > 0.0f ? tree.leafCount : 0);
+  s = traverse(a.xyz, direction, a.w, s, tree, frame.limits.z, anyHit);
+  rayHits[index] = uvec2(s.node == kTraversalDone ? uint(s.slot) : kRayUnfinished, floatBitsToUint(s.t));
+}

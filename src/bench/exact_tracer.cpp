@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "bench/exact_tracer.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "bvh/parallel.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr double kMiss = std::numeric_limits<double>::infinity();
+
+struct Crossing {
+  double t = kMiss;
+  bool front = false;
+};
+
+/// By the signs of the edges as the ray sees them, which two triangles with a common edge see alike (Woop,
+/// Benthin and Wald, Watertight Ray/Triangle Intersection, 2013).
+Crossing crossTriangle(const Ray& ray, const std::array<glm::dvec3, 3>& points) {
+  const glm::dvec3 d(ray.direction);
+  const glm::dvec3 size = glm::abs(d);
+  const int z = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+  const int x = (z + 1) % 3;
+  const int y = (z + 2) % 3;
+  std::array<glm::dvec3, 3> p;
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 q = points[i] - glm::dvec3(ray.origin);
+    p[i] = {q[x] - d[x] / d[z] * q[z], q[y] - d[y] / d[z] * q[z], q[z] / d[z]};
+  }
+  const double u = p[2].x * p[1].y - p[2].y * p[1].x;
+  const double v = p[0].x * p[2].y - p[0].y * p[2].x;
+  const double w = p[1].x * p[0].y - p[1].y * p[0].x;
+  const double sum = u + v + w;
+  const bool inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
+  if (!inside || sum == 0.0) return {};
+  return {(u * p[0].z + v * p[1].z + w * p[2].z) / sum, (d[z] > 0.0) == (sum > 0.0)};
+}
+
+double crossSphere(const Ray& ray, const Sphere& sphere, bool inside) {
+  const glm::dvec3 f = glm::dvec3(ray.origin) - glm::dvec3(sphere.center);
+  const glm::dvec3 d = glm::normalize(glm::dvec3(ray.direction));
+  const double b = -glm::dot(f, d);
+  const double discriminant = double(sphere.radius) * sphere.radius - glm::dot(f + b * d, f + b * d);
+  if (discriminant < 0.0) return kMiss;
+  const double root = std::sqrt(discriminant);
+  if (b - root > 0.0) return b - root;
+  return inside && b + root > 0.0 ? b + root : kMiss;
+}
+
+/// Where the ray enters the box, widened against rounding, or kMiss.
+double enterBox(const Ray& ray, const glm::dvec3& inverse, const Bounds& box, double farthest) {
+  constexpr double kWiden = 1e-9;
+  double enter = 0.0;
+  double leave = farthest;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double margin =
+        kWiden * (1.0 + std::abs(double(box.minimum[axis])) + std::abs(double(box.maximum[axis])));
+    const double a = (double(box.minimum[axis]) - margin - ray.origin[axis]) * inverse[axis];
+    const double b = (double(box.maximum[axis]) + margin - ray.origin[axis]) * inverse[axis];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter <= leave ? enter : kMiss;
+}
+
+/// Calls work for blocks of indices on all cores.
+template <typename Work>
+void forAll(size_t count, const Work& work) {
+  constexpr size_t kBlock = 256;
+  std::atomic<size_t> next = 0;
+  runOnThreads(std::max(std::thread::hardware_concurrency(), 1u), [&](uint32_t) {
+    for (size_t first = next.fetch_add(kBlock); first < count; first = next.fetch_add(kBlock)) {
+      for (size_t i = first; i < std::min(first + kBlock, count); ++i) work(i);
+    }
+  });
+}
+
+}  // namespace
+
+void ExactTracer::meet(const Ray& ray, uint32_t primitive, ExactHit& hit) const {
+  const uint32_t triangles = uint32_t(scene_.triangles.size());
+  double t = kMiss;
+  if (primitive < triangles) {
+    const Triangle& triangle = scene_.triangles[primitive];
+    const Material& m = scene_.materials[triangle.material];
+    std::array<glm::dvec3, 3> points;
+    for (int i = 0; i < 3; ++i) points[i] = scene_.vertices.position[triangle.vertex[i]];
+    const Crossing crossing = crossTriangle(ray, points);
+    if (crossing.front || m.doubleSided || m.transmissive()) t = crossing.t;
+  } else {
+    const Sphere& sphere = scene_.spheres[primitive - triangles];
+    const Material& m = scene_.materials[sphere.material];
+    t = crossSphere(ray, sphere, m.doubleSided || m.transmissive());
+  }
+  if (t > 0.0 && t < hit.t) hit = {t, primitive};
+}
+
+ExactHit ExactTracer::nearest(const Ray& ray) const {
+  ExactHit hit{double(ray.limit), kMissIndex};
+  if (bvh_.nodes.empty() || !(ray.limit > 0.0f)) return hit;
+  glm::dvec3 inverse;
+  for (int axis = 0; axis < 3; ++axis) {
+    // Far below what a direction of 24 bits can hold beside a larger component.
+    const double d = ray.direction[axis];
+    inverse[axis] = 1.0 / (std::abs(d) < 1e-30 ? std::copysign(1e-30, d) : d);
+  }
+  struct Entry {
+    uint32_t child;
+    double enter;
+  };
+  std::array<Entry, kMaxBvhDepth + 1> stack;
+  size_t depth = 0;
+  stack[depth++] = {0, 0.0};
+  while (depth > 0) {
+    const Entry entry = stack[--depth];
+    if (entry.enter > hit.t) continue;
+    if ((entry.child & kBvhLeafBit) != 0) {
+      for (const uint32_t primitive : bvh_.leaves[entry.child & ~kBvhLeafBit].primitive) {
+        if (primitive != kMissIndex) meet(ray, primitive, hit);
+      }
+      continue;
+    }
+    const BvhNode& node = bvh_.nodes[entry.child];
+    std::array<Entry, 2> children;
+    for (int side = 0; side < 2; ++side)
+      children[side] = {node.child[side], enterBox(ray, inverse, node.bounds[side], hit.t)};
+    if (children[0].enter < children[1].enter) std::swap(children[0], children[1]);
+    for (const Entry& child : children) {
+      if (child.enter != kMiss) stack[depth++] = child;
+    }
+  }
+  return hit;
+}
+
+ExactHit ExactTracer::nearestOfAll(const Ray& ray) const {
+  ExactHit hit{double(ray.limit), kMissIndex};
+  const auto count = uint32_t(scene_.triangles.size() + scene_.spheres.size());
+  for (uint32_t primitive = 0; primitive < count && ray.limit > 0.0f; ++primitive) meet(ray, primitive, hit);
+  return hit;
+}
+
+std::vector<ExactHit> ExactTracer::nearest(std::span<const Ray> rays) const {
+  std::vector<ExactHit> hits(rays.size());
+  forAll(rays.size(), [&](size_t i) { hits[i] = nearest(rays[i]); });
+  return hits;
+}
+
+std::vector<ExactHit> ExactTracer::nearestOfAll(std::span<const Ray> rays) const {
+  std::vector<ExactHit> hits(rays.size());
+  // Each takes long: one after the other, so that all cores are busy to the end.
+  std::atomic<size_t> next = 0;
+  runOnThreads(std::max(std::thread::hardware_concurrency(), 1u), [&](uint32_t) {
+    for (size_t i = next++; i < rays.size(); i = next++) hits[i] = nearestOfAll(rays[i]);
+  });
+  return hits;
+}
+
+glm::dvec3 ExactTracer::normal(uint32_t primitive, const glm::dvec3& point) const {
+  const size_t triangles = scene_.triangles.size();
+  if (primitive >= triangles)
+    return glm::normalize(point - glm::dvec3(scene_.spheres[primitive - triangles].center));
+  const glm::uvec3& v = scene_.triangles[primitive].vertex;
+  const std::vector<glm::vec3>& positions = scene_.vertices.position;
+  const glm::dvec3 a(positions[v.x]);
+  return glm::normalize(glm::cross(glm::dvec3(positions[v.y]) - a, glm::dvec3(positions[v.z]) - a));
+}
+
+double ExactTracer::pointError(uint32_t primitive) const {
+  constexpr double kUnits = 32.0 * 0x1p-24;
+  const size_t triangles = scene_.triangles.size();
+  glm::vec3 largest(0.0f);
+  if (primitive >= triangles) {
+    const Sphere& sphere = scene_.spheres[primitive - triangles];
+    largest = glm::abs(sphere.center) + glm::vec3(sphere.radius);
+  } else {
+    const glm::uvec3& v = scene_.triangles[primitive].vertex;
+    for (int i = 0; i < 3; ++i) largest = glm::max(largest, glm::abs(scene_.vertices.position[v[i]]));
+  }
+  return kUnits * std::max({largest.x, largest.y, largest.z});
+}
+
+}  // namespace fragtrace

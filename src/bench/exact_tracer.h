@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Hits in double precision on the processor: what measurements hold the device against.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bvh/bvh.h"
+#include "scene/ray.h"
+#include "scene/scene.h"
+
+namespace fragtrace {
+
+/// What a ray meets first, or kMissIndex.
+struct ExactHit {
+  double t = 0.0;  ///< metres
+  uint32_t primitive = kMissIndex;
+};
+
+/// Alpha is not looked at; the back of single-sided surfaces is not there (docs/conventions.md).
+class ExactTracer {
+ public:
+  /// Keeps references. The tree may be empty when nearest() is not called.
+  ExactTracer(const Scene& scene, const Bvh& bvh) : scene_(scene), bvh_(bvh) {}
+
+  /// By the tree's own boxes.
+  ExactHit nearest(const Ray& ray) const;
+  /// By testing every primitive.
+  ExactHit nearestOfAll(const Ray& ray) const;
+
+  /// nearest() of every ray, on all cores; rays that are not there give a miss.
+  std::vector<ExactHit> nearest(std::span<const Ray> rays) const;
+  std::vector<ExactHit> nearestOfAll(std::span<const Ray> rays) const;
+
+  /// Unit, on the front.
+  glm::dvec3 normal(uint32_t primitive, const glm::dvec3& point) const;
+  /// A bound on the error of a 32-bit point on the primitive (hitPointError of shaders/intersect.glsl).
+  double pointError(uint32_t primitive) const;
+
+ private:
+  void meet(const Ray& ray, uint32_t primitive, ExactHit& hit) const;
+
+  const Scene& scene_;
+  const Bvh& bvh_;
+};
+
+}  // namespace fragtrace

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Traversal alone on the device: rays in, what they hit out, for measurements.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "gl/context.h"
+#include "gl/program.h"
+#include "gl/scene_buffers.h"
+#include "scene/ray.h"
+
+namespace fragtrace {
+
+/// What a ray met: its leaf slot (leaf * 2 + side) or -1, and how far away, metres.
+struct TracedRay {
+  int32_t slot = -1;
+  float t = 0.0f;
+};
+
+class RayCaster {
+ public:
+  /// Uploads the scene for the variant's traversal and reads; the size is that of all sets of rays. Throws
+  /// RenderError when an array is larger than the driver reads.
+  RayCaster(const Context& context, GpuScene scene, const ShaderVariant& variant, glm::ivec2 size,
+            const std::filesystem::path& shaderFolder = {});
+
+  /// A set of rays on the device, width x height of them, rows from the bottom.
+  class RaySet {
+   public:
+    explicit RaySet(std::span<const Ray> rays);
+
+   private:
+    friend class RayCaster;
+    GlBuffer buffer_;
+  };
+
+  /// Traces a set, one ray a pixel. anyHit: any hit ends a ray, else the nearest is found. Returns
+  /// milliseconds: by the wall clock round glFinish on software, by the device's own timer elsewhere.
+  double trace(const RaySet& rays, bool anyHit);
+
+  /// What the latest trace found. Throws RenderError when a ray took more steps than one draw allows.
+  std::vector<TracedRay> hits() const;
+
+  /// Which clock trace() reads: "wall clock" or "gpu timer".
+  const char* clockName() const { return software_ ? "wall clock" : "gpu timer"; }
+
+ private:
+  SceneBuffers buffers_;
+  std::array<GlProgram, 2> programs_;  // nearest hit, any hit
+  GlBuffer frameBuffer_;
+  GlBuffer hitBuffer_;
+  GlVertexArray vertexArray_;
+  GlFramebuffer framebuffer_;
+  GlQuery timer_;
+  glm::ivec2 size_;
+  bool software_;
+};
+
+}  // namespace fragtrace

@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""`bench scale` and `bench traversal`: what they measure, write and refuse; memory stated by `info` and `--stats`."""
+import json
+import math
+import shutil
+import signal
+import struct
+import subprocess
+import time
+import xml.etree.ElementTree
+
+from support import FRAGTRACE, SCENES, SMALL, Case, main, run
+
+SHADERS = SCENES.parent / "shaders"
+FEW = ["--from", 1000, "--to", 3000, "--per-decade", 2, "--resolution", "40,30", "--rounds", 2, "--quiet"]
+RAYS = ["--resolution", "64,48", "--rounds", 2, "--quiet"]
+ROOM = SCENES / "room-ball.gltf"
+
+
+class Bench(Case):
+    def lines(self, *arguments):
+        path = self.folder / "b.json"
+        result = run("bench", *arguments, "--json", path)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return result, [json.loads(line) for line in path.read_text().splitlines()]
+
+    def broken(self, name, old, new):
+        """A folder of shaders in which one line is wrong."""
+        folder = self.folder / "shaders"
+        shutil.copytree(SHADERS, folder)
+        text = (folder / name).read_text()
+        self.assertEqual(text.count(old), 1, old)
+        (folder / name).write_text(text.replace(old, new))
+        return folder
+
+
+class BenchScale(Bench):
+    def test_every_size_is_timed_checked_and_drawn(self):
+        chart = self.folder / "s.svg"
+        result, (*sizes, growth) = self.lines("scale", *FEW, "--chart", chart)
+        self.assertEqual([round(s["triangles"], -2) for s in sizes], [1000, 3000])
+        for size in sizes:
+            self.assertEqual((size["schema"], size["bench"], size["width"], size["height"]), (1, "scale", 40, 30))
+            for key in ("make_ms", "build_ms", "pack_ms", "upload_ms", "peak_bytes", "sah_cost"):
+                self.assertGreater(size[key], 0, key)
+            self.assertLess(size["gpu_bytes_per_triangle"], 160)
+            self.assertEqual([t["traversal"] for t in size["traversals"]], ["front-to-back", "bvh", "iterative"])
+            for entry in size["traversals"]:
+                self.assertIn(entry["traversal"], entry["variant"])
+                self.assertEqual(len(entry["frame_ms"]), 1 if entry["traversal"] == "iterative" else 2)
+                self.assertEqual((entry["wrong_pixels"], entry["differing_pixels"]), (0, 0))
+                self.assertGreater(entry["compared_pixels"], 40 * 30 // 2)
+        self.assertEqual(growth["schema"], 1)
+        self.assertAlmostEqual(growth["exponents"]["GPU memory"]["all"], 1, delta=0.1)
+        self.assertIn("iterative frame", growth["exponents"])
+        self.assertIn("growth", result.stdout)
+        root = xml.etree.ElementTree.fromstring(chart.read_text())
+        texts = " ".join("".join(node.itertext()) for node in root.iter())
+        for name in ("front-to-back frame (p ", "bvh frame (p ", "build (p ", "triangles"):
+            self.assertIn(name, texts)
+
+    def test_the_iterative_traversal_ends_with_its_time(self):
+        _, (first, last, _) = self.lines("scale", *FEW, "--longest", "0.001", "--traversals", "front-to-back,iterative")
+        for size in (first, last):
+            self.assertIn("--longest", size["traversals"][1]["left_out"])
+            self.assertEqual(size["traversals"][0]["traversal"], "front-to-back")
+
+    def test_a_wrong_picture_fails(self):
+        # Every second triangle is lost.
+        folder = self.broken("traverse.glsl", "bool hitb = tb > 0.0f && tb < s.t;", "bool hitb = false;")
+        result = run("bench", "scale", *FEW, "--shader-folder", folder, "--json", self.folder / "b.json")
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+        self.assertIn("wrong", result.stderr)
+        self.assertFalse((self.folder / "b.json").exists())
+
+    def test_refusals(self):
+        for options, says in ((["--from", 2000, "--to", 1000], "--to"), (["--from", 1], "--from"), (["--to", 10**9], "--to"),
+                              (["--traversals", "fast"], "fast"), (["--traversals", "bvh,bvh"], "twice"),
+                              (["--chart", "c.png"], ".svg"), (["--rounds", 0], "--rounds"), (["--longest", 0], "--longest"),
+                              (["--resolution", "4,4"], "--resolution"), (["--per-decade", 0], "--per-decade"),
+                              (["--json", self.folder / "x", "--chart", self.folder / "x"], "x")):
+            with self.subTest(options):
+                self.fails(2, "bench", "scale", *options, says=[says])
+        self.fails(1, "bench", "scale", "--json", self.folder / "no" / "b.json", says=["b.json"])
+
+
+class BenchTraversal(Bench):
+    def test_each_kind_of_rays_is_timed_and_checked(self):
+        result, rows = self.lines("traversal", ROOM, *RAYS)
+        self.assertEqual([row["kind"] for row in rows], ["primary", "diffuse", "shadow"])
+        for row in rows:
+            self.assertEqual((row["schema"], row["bench"], row["scene"], row["triangles"]), (1, "traversal", "room-ball.gltf", 69326))
+            self.assertEqual(len(row["ms"]), 2)
+            self.assertAlmostEqual(row["mrays_per_s"] / (row["rays"] / min(row["ms"]) / 1000), 1, delta=1e-6)
+            self.assertLessEqual(row["wrong"], 2)
+            self.assertGreater(row["proved_by_all"], 50)
+            self.assertIn(row["kind"], result.stdout)
+        primary, diffuse, shadow = rows
+        # The room is closed.
+        self.assertEqual((primary["rays"], primary["hits"]), (64 * 48, 64 * 48))
+        self.assertEqual((diffuse["rays"], diffuse["hits"]), (64 * 48, 64 * 48))
+        self.assertTrue(0 < shadow["hits"] < shadow["rays"] < 64 * 48, shadow)
+        self.assertEqual(primary["clock"], "wall clock")
+        self.assertLess(primary["gpu_bytes_per_triangle"], 160)
+
+    def test_spheres_and_open_scenes_are_traced_too(self):
+        _, (primary, diffuse, _) = self.lines("traversal", SCENES / "sphere-plane.gltf", *RAYS, "--traversal", "bvh")
+        self.assertTrue(0 < primary["hits"] < primary["rays"])
+        self.assertEqual(diffuse["rays"], primary["hits"])
+        self.assertIn("bvh", primary["variant"])
+
+    def test_rays_are_written_for_others(self):
+        path = self.folder / "rays"
+        _, rows = self.lines("traversal", ROOM, *RAYS, "--rays", path)
+        data = path.read_bytes()
+        self.assertEqual(data[:8], b"FTRAYS1\0")
+        triangles, rays = struct.unpack_from("<2I", data, 8)
+        self.assertEqual((triangles, rays), (69326, 64 * 48))
+        self.assertEqual(len(data), 16 + 36 * triangles + 3 * 32 * rays)
+        for number, row in enumerate(rows):
+            at = 16 + 36 * triangles + number * 32 * rays
+            found = [struct.unpack_from("<8f", data, at + 32 * i) for i in range(rays)]
+            there = [ray for ray in found if ray[3] > 0]
+            self.assertEqual((len(there), sum(ray[7] >= 0 for ray in there)), (row["rays"], row["hits"]))
+            for ray in there[:100]:
+                self.assertAlmostEqual(math.hypot(*ray[4:7]), 1, delta=1e-5)
+        self.fails(3, "bench", "traversal", SCENES / "sphere-plane.gltf", *RAYS, "--rays", path, says=["spheres"])
+
+    def test_wrong_hits_fail(self):
+        for name, old, new in (("traverse.glsl", "bool hita = ta > 0.0f && ta < s.t;", "bool hita = ta > 0.0f;"),
+                               ("traverse.glsl", "bool hit1 = near1 <= far1;", "bool hit1 = near1 < 0.9f * far1;")):
+            with self.subTest(new):
+                folder = self.broken(name, old, new)
+                self.fails(1, "bench", "traversal", ROOM, *RAYS, "--shader-folder", folder, says=["rays hit something else"])
+                shutil.rmtree(folder)
+
+    def test_refusals(self):
+        self.fails(2, "bench", "traversal", ROOM, *RAYS, "--traversal", "iterative", says=["iterative"])
+        self.fails(2, "bench", "traversal", ROOM, *RAYS, "--camera-index", 3, says=["--camera-index"])
+        self.fails(3, "bench", "traversal", self.folder / "none.gltf", *RAYS, says=["none.gltf"])
+        self.fails(1, "bench", "traversal", ROOM, *RAYS, "--rays", self.folder / "no" / "rays", says=["rays"])
+        self.fails(2, "bench", "traversal", ROOM, *RAYS, "--json", ROOM, says=["room-ball"])
+
+
+class GpuMemory(Bench):
+    def test_bytes_a_triangle_are_stated(self):
+        stats = self.folder / "s.json"
+        self.renders(ROOM, "-o", self.folder / "p.pfm", *SMALL, "--stats", stats)
+        told = json.loads(stats.read_text())
+        info = json.loads(run("info", ROOM, "--json").stdout)
+        self.assertEqual(info["gpu_bytes_per_triangle"], told["gpu_bytes_per_triangle"])
+        self.assertTrue(60 < told["gpu_bytes_per_triangle"] < 160, told["gpu_bytes_per_triangle"])
+        self.assertLessEqual(told["gpu_bytes_per_triangle"] * 69326, told["scene_bytes"])
+        self.assertNotIn("buffer_reads_fallback", told)
+        self.assertIn("bytes a triangle", run("info", ROOM).stdout)
+        self.assertNotIn("bytes a triangle", run("info", SCENES / "sphere-black.gltf").stdout)
+        self.renders(SCENES / "sphere-black.gltf", "-o", self.folder / "p.pfm", *SMALL, "--stats", stats)
+        self.assertNotIn("gpu_bytes_per_triangle", json.loads(stats.read_text()))
+
+
+class BenchScaleInterruption(Bench):
+    def interrupt(self, *arguments):
+        files = set(self.folder.iterdir())
+        process = subprocess.Popen([FRAGTRACE, "bench", *map(str, arguments), "--quiet", "--json", self.folder / "b.json"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        time.sleep(3)
+        began = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        output, error = process.communicate(timeout=60)
+        self.assertLess(time.monotonic() - began, 10)
+        self.assertEqual((process.returncode, output), (130, ""))
+        self.assertEqual(len(error.splitlines()), 1, error)
+        self.assertEqual(set(self.folder.iterdir()), files)
+
+    def test_ctrl_c_writes_nothing_and_gives_130(self):
+        self.interrupt("scale", "--to", 30000, "--rounds", 1000, "--traversals", "iterative")
+        self.interrupt("traversal", ROOM, "--rounds", 10000)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Traversal alone finds what double precision finds, whichever way buffers are read.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bench/ball_scene.h"
+#include "bench/hit_check.h"
+#include "bench/ray_sets.h"
+#include "gl_probe.h"
+#include "render/ray_caster.h"
+#include "scene/camera.h"
+
+namespace fragtrace {
+namespace {
+
+class RayCasting : public GlProbe {};
+
+TEST_P(RayCasting, FindsWhatDoublePrecisionFinds) {
+  const Scene scene = makeBallScene(3000);
+  const Bvh bvh = buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
+  const ExactTracer tracer(scene, bvh);
+  const glm::ivec2 size(120, 90);
+  std::vector<Ray> primary = primaryRays(frameScene(scene.bounds), glm::dvec3(0.0), size);
+  const std::vector<ExactHit> hits = tracer.nearest(primary);
+  const std::vector<Ray> shadow = shadowRays(tracer, scene, primary, hits, 1);
+  primary[0] = Ray{};  // none
+  for (const BufferReads reads : {BufferReads::Image, BufferReads::Ssbo}) {
+    for (const TraversalMethod method : {TraversalMethod::Bvh, TraversalMethod::FrontToBack}) {
+      RenderOptions options;
+      options.stages = stagesUpTo(Stage::Flat);
+      options.traversal = method;
+      const ShaderVariant variant =
+          chooseVariant(options, traitsOf(scene, Surroundings::None), Surroundings::None, bvh.depth, reads);
+      RayCaster caster(context(), packScene(scene, bvh, {}, variant), variant, size);
+      EXPECT_STREQ(caster.clockName(), "wall clock");
+      const auto found = [&](const std::vector<Ray>& rays, bool anyHit) {
+        EXPECT_GT(caster.trace(RayCaster::RaySet(rays), anyHit), 0.0);
+        std::vector<FoundHit> all;
+        for (const TracedRay& hit : caster.hits()) {
+          const uint32_t primitive =
+              hit.slot < 0 ? kMissIndex : bvh.leaves.at(size_t(hit.slot) / 2).primitive[size_t(hit.slot) % 2];
+          all.push_back({primitive, hit.t});
+        }
+        return all;
+      };
+      const std::vector<FoundHit> nearest = found(primary, false);
+      EXPECT_EQ(nearest.size(), primary.size());
+      EXPECT_EQ(nearest[0].primitive, kMissIndex);
+      EXPECT_LE(countWrongNearest(primary, nearest, tracer.nearest(primary), 2.0), 1u);
+      const std::vector<FoundHit> any = found(shadow, true);
+      EXPECT_LE(countWrongAny(shadow, any, tracer.nearest(shadow)), 1u);
+      const auto met = [](const FoundHit& hit) { return hit.primitive != kMissIndex; };
+      EXPECT_GT(std::ranges::count_if(nearest, met), 1000);
+      EXPECT_GT(std::ranges::count_if(any, met), 20);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Driver, RayCasting, bothBackends(), backendName);
+
+}  // namespace
+}  // namespace fragtrace
