@@ -28,7 +28,7 @@ constexpr int kHardwareStepBudget = 1 << 16;
 constexpr double kSoftwareDrawMs = 200.0;
 constexpr double kHardwareDrawMs = 20.0;
 
-constexpr int kTinyTile = 8;  // pixels
+constexpr int kTinyTile = 8;        // pixels
 constexpr uint32_t kGroupSide = 8;  // pixels a side of a work group, as in trace.comp
 
 /// Half extents of the view at distance 1 (perspective) or in metres (orthographic).

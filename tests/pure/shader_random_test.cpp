@@ -93,8 +93,9 @@ TEST(ShaderRandom, NeighbouringPixelsSamplesAndSeedsAreNotCorrelated) {
   for (int dimension = 0; dimension < 8; ++dimension) {
     auto at = [&](int x, int y, int sample, int seed) {
       return [=](int path) {
-        return randomFloat(pathKey(pixelKey((path & 127) + x, (path >> 7 & 127) + y, seed), (path >> 14) + sample),
-                           dimension);
+        return randomFloat(
+            pathKey(pixelKey((path & 127) + x, (path >> 7 & 127) + y, seed), (path >> 14) + sample),
+            dimension);
       };
     };
     const auto here = at(0, 0, 0, 0);

@@ -60,7 +60,8 @@ TEST(ShaderSobol, EachElementaryIntervalOfAPairHoldsOneOfTheFirstSamples) {
 TEST(ShaderSobol, EachIntervalOfOneDimensionHoldsOneOfTheFirstSamples) {
   for (uint32_t dimension = 0; dimension < 40; ++dimension) {
     std::set<uint32_t> cells;
-    for (uint32_t k = 0; k < 64; ++k) cells.insert(drawBits(makeSampler(pixelKey(5, 9, 0), k), dimension) >> 26);
+    for (uint32_t k = 0; k < 64; ++k)
+      cells.insert(drawBits(makeSampler(pixelKey(5, 9, 0), k), dimension) >> 26);
     EXPECT_EQ(cells.size(), 64u);
   }
 }
