@@ -153,14 +153,11 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   const uint32_t depth = loaded.bvh.depth;
   const BufferReads undecided = options.bufferReads;  // what is packed does not depend on it
   Tracer tracer;
-  const Dispatch dispatch = chooseDispatch(options.dispatch, context);
   tracer.variant = chooseVariant(options, present, loaded.environment.kind, depth, undecided);
-  tracer.variant.dispatch = dispatch;
   ShaderVariant everything = tracer.variant;
   for (const Feature feature : options.aovFeatures) {
     tracer.features.push_back(
         chooseFeatureVariant(options, present, loaded.environment.kind, depth, undecided, feature));
-    tracer.features.back().dispatch = dispatch;
     everything.traits |= tracer.features.back().traits;
   }
   if (tracer.variant.clampIndirect) stats.clampIndirect = options.clampIndirect;
@@ -182,8 +179,13 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   if (formatOfName(options.output) == ImageFormat::OpenExr) tracer.sceneHash = hashOf(packed);
   stats.packMs = watch.lap();
   const ReadChoice choice = chooseReads(options.bufferReads, context.software, packed, readLimits());
+  const bool literals = tracer.variant.traversal == TraversalMethod::Literals;
   tracer.variant.reads = choice.reads;
-  for (ShaderVariant& feature : tracer.features) feature.reads = choice.reads;
+  tracer.variant.dispatch = chooseDispatch(options.dispatch, context, literals);
+  for (ShaderVariant& feature : tracer.features) {
+    feature.reads = choice.reads;
+    feature.dispatch = chooseDispatch(options.dispatch, context, false);
+  }
   stats.variant = variantName(tracer.variant);
   stats.readFallback = choice.fallback;
   tracer.renderer =

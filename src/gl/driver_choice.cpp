@@ -6,13 +6,14 @@
 
 namespace fragtrace {
 
-Dispatch chooseDispatch(Dispatch wanted, const Context& context) {
+Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals) {
   if (wanted != Dispatch::Auto) return wanted;
+  if (context.software) return literals ? Dispatch::Compute : Dispatch::Fragment;
   static constexpr std::array<std::string_view, 9> kDataCentre{"A100", "A800", "H100",  "H800", "H200",
                                                                "H20",  "B200", "GH200", "GB200"};
   const bool fewRasterisers = std::ranges::any_of(
       kDataCentre, [&](std::string_view name) { return context.renderer.find(name) != std::string::npos; });
-  return fewRasterisers && !context.software ? Dispatch::Compute : Dispatch::Fragment;
+  return fewRasterisers ? Dispatch::Compute : Dispatch::Fragment;
 }
 
 }  // namespace fragtrace

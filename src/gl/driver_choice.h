@@ -6,8 +6,9 @@
 
 namespace fragtrace {
 
-/// Fragments, but compute where only a small part of the chip runs fragment shaders: NVIDIA's data-centre
-/// GPUs, known by their names.
-Dispatch chooseDispatch(Dispatch wanted, const Context& context);
+/// Fragments, but compute where that was measured to be faster (docs/benchmarks.md): on NVIDIA's data-centre
+/// GPUs, which run fragment shaders on a small part of the chip only and are known by their names; and on
+/// software for scenes that are literals.
+Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals);
 
 }  // namespace fragtrace
