@@ -30,11 +30,7 @@ struct MeasuredSet {
 
 std::vector<FoundHit> foundBy(const RayCaster& caster, const Bvh& bvh) {
   std::vector<FoundHit> found;
-  for (const TracedRay& hit : caster.hits()) {
-    const uint32_t primitive =
-        hit.slot < 0 ? kMissIndex : bvh.leaves.at(size_t(hit.slot) / 2).primitive[size_t(hit.slot) % 2];
-    found.push_back({primitive, hit.t});
-  }
+  for (const TracedRay& hit : caster.hits()) found.push_back({primitiveInSlot(bvh, hit.slot), hit.t});
   return found;
 }
 
