@@ -10,9 +10,9 @@ vec2 environmentCoordinates(vec3 d) {
 }
 
 vec3 environmentDirection(vec2 uv) {
-  float phi = (uv.x - 0.5f) * 2.0f * kPi;
-  float theta = uv.y * kPi;
-  vec3 r = vec3(sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi));
+  vec2 around = unitCircle(uv.x);  // half a turn from the direction
+  vec2 down = unitCircle(0.5f * uv.y);
+  vec3 r = vec3(-down.y * around.x, down.x, -down.y * around.y);
   float c = frame.environment.z;
   float s = frame.environment.w;
   return vec3(r.x * c + r.z * s, r.y, -r.x * s + r.z * c);
@@ -26,8 +26,9 @@ vec3 environmentRadiance(vec3 direction) {
   vec2 position = environmentCoordinates(direction) * vec2(size) - vec2(0.5f);
   vec2 base = floor(position);
   vec2 f = position - base;
-  int x0 = (int(base.x) + size.x) % size.x;
-  int x1 = (x0 + 1) % size.x;
+  // Round the seam without a division of integers, which llvmpipe does lane by lane; the position is in -0.5..width.
+  int x0 = int(base.x) < 0 ? size.x - 1 : min(int(base.x), size.x - 1);
+  int x1 = x0 + 1 == size.x ? 0 : x0 + 1;
   int y0 = clamp(int(base.y), 0, size.y - 1);
   int y1 = clamp(int(base.y) + 1, 0, size.y - 1);
   vec4 top = mix(environmentTexel(ivec2(x0, y0), size), environmentTexel(ivec2(x1, y0), size), f.x);

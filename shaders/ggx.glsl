@@ -26,10 +26,10 @@ float ggxMaskingShadowing(vec3 outgoing, vec3 incoming, float alpha) {
 /// Sampling Visible GGX Normals with Spherical Caps, 2023).
 vec3 sampleVisibleGgx(vec3 outgoing, float alpha, float u, float v) {
   vec3 stretched = normalize(vec3(alpha * outgoing.x, alpha * outgoing.y, outgoing.z));
-  float phi = 2.0f * kPi * u;
+  vec2 around = unitCircle(u);
   float z = (1.0f - v) * (1.0f + stretched.z) - stretched.z;
   float sine = sqrt(clamp(1.0f - z * z, 0.0f, 1.0f));
-  vec3 cap = vec3(sine * cos(phi), sine * sin(phi), z) + stretched;
+  vec3 cap = vec3(sine * around.x, sine * around.y, z) + stretched;
   return normalize(vec3(alpha * cap.x, alpha * cap.y, max(cap.z, float(1e-12))));
 }
 

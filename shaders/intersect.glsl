@@ -90,11 +90,9 @@ vec3 offsetOrigin(vec3 point, float error, vec3 normal, vec3 direction) {
   return point + (dot(direction, normal) < 0.0f ? -error : error) * normal;
 }
 
-/// A bound on how far w0 v0 + w1 v1 + w2 v2 in 32-bit floats lies off its triangle, and on how far in front of its own plane a ray
-/// that starts there can still be told to hit it: 32 units of 2^-24 of the largest coordinate. It is one number, not one an axis: a
-/// wall through the origin has no rounding across it, but a grazing ray's distance to it carries the rounding of all axes
-/// (docs/accuracy.md).
-float hitPointError(vec3 v0, vec3 v1, vec3 v2) {
-  vec3 largest = max(abs(v0), max(abs(v1), abs(v2)));
-  return 1.9073486328125e-6f * max(largest.x, max(largest.y, largest.z));
+/// The point at distance t along a ray, moved onto the plane dot(normal, x) = distance that it lies on but for rounding: along the normal its
+/// error no longer grows with the distance from the ray's origin.
+vec3 pointOnPlane(vec3 origin, vec3 direction, float t, vec3 normal, float distance) {
+  vec3 point = origin + t * direction;
+  return point - (dot(normal, point) - distance) * normal;
 }

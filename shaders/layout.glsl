@@ -4,14 +4,14 @@
 // Scene buffers: each is read through one function of read_*.glsl.
 const uint kNodesBinding = 0u;         // 2 uvec4 a node
 const uint kLeavesBinding = 1u;        // 5 uvec4 a leaf: two primitives, structure of arrays
-const uint kPrimitivesBinding = 2u;    // 1 uvec4 a primitive
+const uint kFacesBinding = 2u;         // kFaceRows uvec4 a leaf slot (leaf * 2 + side): what shading needs of a primitive
 const uint kNormalsBinding = 3u;       // 1 vec4 a vertex
 const uint kTexcoordsBinding = 4u;     // 1 vec4 a vertex: TEXCOORD_0, TEXCOORD_1
 const uint kTangentsBinding = 5u;      // 1 vec4 a vertex
 const uint kColorsBinding = 6u;        // 1 vec4 a vertex
 const uint kMaterialsBinding = 7u;     // kMaterialRows uvec4 a material
 const uint kTexelsBinding = 8u;        // 1 uvec2 a texel: RGBA as linear half floats
-const uint kEmittersBinding = 9u;      // 1 uvec4 an emitter: alias table by power
+const uint kEmittersBinding = 9u;      // kEmitterRows uvec4 an emitter: alias table by power, emissive triangles
 const uint kLightsBinding = 10u;       // kLightRows vec4 a punctual light
 const uint kEnvironmentBinding = 11u;  // 1 vec4 a texel: radiance, density
 const uint kEnvironmentAliasBinding = 12u;  // 1 uvec2 a texel: threshold, alias
@@ -28,7 +28,7 @@ const uint kFilmCountsBinding = 2u;        // rgba32ui: samples, rays, non-finit
 // Storage buffers that the tracer writes.
 const uint kPathStatesBinding = 13u;
 const uint kProgressBinding = 14u;
-const uint kPathStateRows = 18u;  // uvec4s a suspended path
+const uint kPathStateRows = 19u;  // uvec4s a suspended path
 
 // The uniform block of one draw.
 const uint kFrameBinding = 0u;
@@ -56,9 +56,15 @@ const uint kPrimitiveCull = 0x80000000u;    // the back is not there
 const uint kPrimitiveAlpha = 0x40000000u;   // alpha MASK or BLEND decides whether it is there
 const uint kPrimitiveSphere = 0x20000000u;  // v0 is the centre, v1.x the radius
 
-// Primitive record: vertex indices (sphere: rotation quaternion x, y, z with w >= 0), then material and flag.
-const uint kMaterialIndexMask = 0x7fffffffu;
-const uint kPrimitiveFlat = 0x80000000u;  // no vertex normals
+// Face rows. Triangle: unit normal and face word; distance of its plane from the origin, vertex indices. Sphere: rotation quaternion
+// x, y, z with w >= 0 and face word; centre, radius. Face word: material, flag, and the bound on a hit point's error (metres) as
+// the upper bits of a float.
+const uint kFaceRows = 2u;
+const uint kFaceMaterialMask = 0xfffffu;
+const uint kFaceSphere = 0x100000u;
+const uint kFaceFlat = 0x200000u;   // no vertex normals
+const uint kFaceErrorShift = 22u;   // the bits above are those of a positive float from bit 21 on
+const uint kFloatErrorShift = 21u;
 
 // Material rows.
 const uint kMaterialBaseColor = 0u;    // base colour factor
@@ -97,8 +103,11 @@ const uint kTextureMirrorU = 16u;
 const uint kTextureClampV = 32u;
 const uint kTextureMirrorV = 64u;
 
-// Emitter entry: threshold (float), alias, what it is, probability (float).
-const uint kEmitterPunctual = 0x80000000u;  // else the leaf slot (leaf * 2 + side) of an emissive triangle
+// Emitter rows: threshold (float), alias, what it is, probability (float); of an emissive triangle its first vertex and material,
+// its edges from there with 1 / area (float) and leaf slot.
+const uint kEmitterRows = 4u;
+const uint kEmitterPunctual = 0x80000000u;     // else the leaf slot of an emissive triangle; below it the light's index
+const uint kEmitterDoubleSided = 0x80000000u;  // beside the material
 
 // Light rows: intensity + type, position + range, direction + spot scale, spot offset.
 const uint kLightRows = 4u;

@@ -53,31 +53,34 @@ float emitterDensity(uint material, float distance, float cosine) {
   return area * distance * distance / max(cosine, float(1e-7));
 }
 
-/// A point on the emissive triangle of a leaf slot, chosen with `chance`.
-LightSample triangleLight(int slot, float chance, vec3 point, float u, float v) {
-  LeafPrimitive p = loadLeafPrimitive(slot);
-  vec3 e1 = p.v1 - p.v0;
-  vec3 e2 = p.v2 - p.v0;
+uvec4 emitterRow(int emitter, int row) {
+  return kLiterals ? literalEmitter(emitter, row) : readEmitters(emitter * int(kEmitterRows) + row);
+}
+
+/// A point on the triangle of an emitter, chosen with `chance`.
+LightSample triangleLight(int emitter, float chance, vec3 point, float u, float v) {
+  uvec4 corner = emitterRow(emitter, 1);
+  uvec4 edge1 = emitterRow(emitter, 2);
+  uvec4 edge2 = emitterRow(emitter, 3);
+  vec3 e1 = uintBitsToFloat(uvec3(edge1));
+  vec3 e2 = uintBitsToFloat(uvec3(edge2));
+  float inverseArea = uintBitsToFloat(edge1.w);
   vec2 w = sampleTriangle(u, v);
-  vec3 n = cross(e1, e2);
-  float doubleArea = length(n);
-  vec3 towards = p.v0 + w.x * e1 + w.y * e2 - point;
+  vec3 towards = uintBitsToFloat(uvec3(corner)) + w.x * e1 + w.y * e2 - point;
   float squared = dot(towards, towards);
-  if (squared <= 0.0f || doubleArea <= 0.0f) return noLight();
+  if (squared <= 0.0f) return noLight();
   float distance = sqrt(squared);
   vec3 direction = towards / distance;
-  float cosine = -dot(n, direction) / doubleArea;
-  uvec4 record = readPrimitives(int(p.word & kPrimitiveIndexMask));
-  uint material = record.w & kMaterialIndexMask;
-  if ((materialFlags(material) & kMaterialDoubleSided) != 0u) cosine = abs(cosine);
+  float cosine = -0.5f * inverseArea * dot(cross(e1, e2), direction);
+  if ((corner.w & kEmitterDoubleSided) != 0u) cosine = abs(cosine);
   if (cosine <= 0.0f) return noLight();
   vec4 texcoords = vec4(0.0f);
   if (kEmissionTexture && kTexcoords) {
-    ivec3 i = ivec3(record);
-    texcoords = interpolate(readTexcoordsAt(i.x), readTexcoordsAt(i.y), readTexcoordsAt(i.z), w);
+    uvec4 place = faceRow(int(edge2.w), 1);
+    texcoords = interpolate(readTexcoordsAt(int(place.y)), readTexcoordsAt(int(place.z)), readTexcoordsAt(int(place.w)), w);
   }
-  float density = chance * squared / (0.5f * doubleArea * cosine);
-  return makeLight(direction, distance, emissionAt(material, texcoords) / density, density);
+  float density = chance * inverseArea * squared / cosine;
+  return makeLight(direction, distance, emissionAt(corner.w & kFaceMaterialMask, texcoords) / density, density);
 }
 
 LightSample environmentLight(float chance, uvec2 bits) {
@@ -90,9 +93,10 @@ LightSample environmentLight(float chance, uvec2 bits) {
 /// An emitter of the alias table by power; onlyTriangles drops punctual lights, which the caller visits one by one.
 LightSample emitterLight(float chance, vec3 point, uvec2 bits, bool onlyTriangles) {
   TablePlace place = placeInTable(bits.x, uint(frame.lightChoice.y));
-  uvec4 entry = readEmitters(place.index);
+  uvec4 entry = emitterRow(place.index, 0);
   float threshold = uintBitsToFloat(entry.x);
-  if (place.within >= threshold) entry = readEmitters(int(entry.y));
+  int emitter = place.within >= threshold ? int(entry.y) : place.index;
+  entry = emitterRow(emitter, 0);
   chance *= uintBitsToFloat(entry.w);
   bool punctual = kPunctualLights && (entry.z & kEmitterPunctual) != 0u;
   LightSample s = noLight();
@@ -101,7 +105,7 @@ LightSample emitterLight(float chance, vec3 point, uvec2 bits, bool onlyTriangle
     s.irradiance /= chance;
   }
   if (kEmissiveTriangles && !punctual) {
-    s = triangleLight(int(entry.z), chance, point, withinPart(place.within, threshold), unitFloat(bits.y));
+    s = triangleLight(emitter, chance, point, withinPart(place.within, threshold), unitFloat(bits.y));
   }
   return s;
 }

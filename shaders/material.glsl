@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Materials as packed by src/pack/pack_materials.cpp, evaluated at a point.
 
-uvec4 materialRow(uint material, uint row) { return readMaterials(int(material * kMaterialRows + row)); }
+uvec4 materialRow(uint material, uint row) {
+  return kLiterals ? literalMaterial(material, row) : readMaterials(int(material * kMaterialRows + row));
+}
 
 vec4 materialFloats(uint material, uint row) { return uintBitsToFloat(materialRow(material, row)); }
 

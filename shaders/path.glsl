@@ -31,9 +31,9 @@ Path extend(Path p) {
   return traceAnew(p, kFarAway);
 }
 
-Path startPath(ivec2 pixel, uint sampleIndex, int steps) {
+Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   Path p;
-  p.numbers = makeSampler(uint(pixel.x), uint(frame.picture.y - 1 - pixel.y), sampleIndex, uint(frame.picture.w));
+  p.numbers = makeSampler(key, sampleIndex);
   vec2 jitter = drawPair(p.numbers, kCameraDimensions);
   vec2 place = vec2(pixel) + 0.5 + samplePixelFilter(kPixelFilter, jitter.x, jitter.y);
   vec2 point = place / vec2(frame.picture.xy) * 2.0 - 1.0;
@@ -58,6 +58,7 @@ Path startPath(ivec2 pixel, uint sampleIndex, int steps) {
   p.contribution = vec3(0.0);
   p.hitSlot = -1;
   p.hitT = 0.0;
+  p.hitWeights = vec2(0.0);
   p.traversal.steps = steps;
   return extend(p);
 }

@@ -29,6 +29,7 @@ struct Path {
   vec3 contribution;  // added if the shadow ray meets nothing
   int hitSlot;        // what the ray has hit, or -1
   float hitT;
+  vec2 hitWeights;  // barycentric (kWeights)
   Traversal traversal;
 };
 
@@ -50,19 +51,20 @@ void savePath(Path p, int index) {
   pathStates[r + 8] = uvec4(floatBitsToUint(p.hitT), p.numbers.key, p.numbers.index, 0u);
   Traversal t = p.traversal;
   pathStates[r + 9] = uvec4(uint(t.node), floatBitsToUint(t.t), uint(t.slot), uint(t.visits));
-  if (kIterative) return;
+  pathStates[r + 10] = uvec4(floatBitsToUint(p.hitWeights), floatBitsToUint(t.weights));
+  if (kIterative || kLiterals) return;
   Stack s = t.stack;
-  pathStates[r + 10] = uvec4(ivec4(s.s0, s.s1, s.s2, s.s3));
-  pathStates[r + 11] = uvec4(ivec4(s.s4, s.s5, s.s6, s.s7));
-  if (kStackSize > 8) pathStates[r + 12] = uvec4(ivec4(s.s8, s.s9, s.s10, s.s11));
-  if (kStackSize > 12) pathStates[r + 13] = uvec4(ivec4(s.s12, s.s13, s.s14, s.s15));
+  pathStates[r + 11] = uvec4(ivec4(s.s0, s.s1, s.s2, s.s3));
+  pathStates[r + 12] = uvec4(ivec4(s.s4, s.s5, s.s6, s.s7));
+  if (kStackSize > 8) pathStates[r + 13] = uvec4(ivec4(s.s8, s.s9, s.s10, s.s11));
+  if (kStackSize > 12) pathStates[r + 14] = uvec4(ivec4(s.s12, s.s13, s.s14, s.s15));
   if (kStackSize > 16) {
-    pathStates[r + 14] = uvec4(ivec4(s.s16, s.s17, s.s18, s.s19));
-    pathStates[r + 15] = uvec4(ivec4(s.s20, s.s21, s.s22, s.s23));
+    pathStates[r + 15] = uvec4(ivec4(s.s16, s.s17, s.s18, s.s19));
+    pathStates[r + 16] = uvec4(ivec4(s.s20, s.s21, s.s22, s.s23));
   }
   if (kStackSize > 24) {
-    pathStates[r + 16] = uvec4(ivec4(s.s24, s.s25, s.s26, s.s27));
-    pathStates[r + 17] = uvec4(ivec4(s.s28, s.s29, s.s30, s.s31));
+    pathStates[r + 17] = uvec4(ivec4(s.s24, s.s25, s.s26, s.s27));
+    pathStates[r + 18] = uvec4(ivec4(s.s28, s.s29, s.s30, s.s31));
   }
 }
 
@@ -137,8 +139,11 @@ Path loadPath(int index) {
   p.traversal.t = uintBitsToFloat(a.y);
   p.traversal.slot = int(a.z);
   p.traversal.visits = int(a.w);
+  f = uintBitsToFloat(pathStates[r + 10]);
+  p.hitWeights = f.xy;
+  p.traversal.weights = f.zw;
   p.traversal.steps = 0;
   p.traversal.stack = emptyStack();
-  if (!kIterative) p.traversal.stack = loadStack(r + 10);
+  if (!kIterative && !kLiterals) p.traversal.stack = loadStack(r + 11);
   return p;
 }

@@ -37,8 +37,8 @@ vec2 samplePixelFilter(int filterKind, float u, float v) {
     // Box and Muller's polar form, the radius cut off.
     const float most = float(0.99966453737209749);  // 1 - exp(-4^2 / 2)
     float radius = kGaussianDeviation * sqrt(max(0.0f, -2.0f * log(1.0f - most * u)));
-    float angle = 2.0f * kPi * v;
-    return radius * vec2(cos(angle), sin(angle));
+    vec2 around = unitCircle(v);
+    return vec2(radius * around.x, radius * around.y);
   }
   if (filterKind == kBlackmanHarrisFilter) return vec2(sampleBlackmanHarris(u), sampleBlackmanHarris(v));
   return vec2(u - 0.5f, v - 0.5f);

@@ -11,10 +11,11 @@ uint mixBits(uint x) {
   return x;
 }
 
-/// The key of one path; every random number of the path derives from it.
-uint pathKey(uint pixelX, uint pixelY, uint sampleIndex, uint seed) {
-  return mixBits(pixelX + mixBits(pixelY + mixBits(sampleIndex + mixBits(seed))));
-}
+/// What all random numbers of a pixel derive from.
+uint pixelKey(uint pixelX, uint pixelY, uint seed) { return mixBits(pixelX + mixBits(pixelY + mixBits(seed))); }
+
+/// The same for one path.
+uint pathKey(uint key, uint sampleIndex) { return mixBits(key + mixBits(sampleIndex)); }
 
 /// Uniform in [0, 1), 24 bits, for one dimension of a path.
 float randomFloat(uint key, uint dimension) {
@@ -61,9 +62,9 @@ uint sobolSecond(uint x) {
 
 float unitFloat(uint bits) { return float(bits >> 8) * 5.9604644775390625e-8f; }
 
-Sampler makeSampler(uint pixelX, uint pixelY, uint sampleIndex, uint seed) {
+Sampler makeSampler(uint key, uint sampleIndex) {
   Sampler s;
-  s.key = kSobol ? pathKey(pixelX, pixelY, 0u, seed) : pathKey(pixelX, pixelY, sampleIndex, seed);
+  s.key = kSobol ? key : pathKey(key, sampleIndex);
   s.index = sampleIndex;
   s.reversed = reverseBits(sampleIndex);
   return s;

@@ -5,8 +5,8 @@ layout(rgba32ui, binding = kSceneImageBase + kNodesBinding) uniform readonly res
 uvec4 readNodes(int index) { return imageLoad(nodesBuffer, index); }
 layout(rgba32ui, binding = kSceneImageBase + kLeavesBinding) uniform readonly restrict uimageBuffer leavesBuffer;
 uvec4 readLeaves(int index) { return imageLoad(leavesBuffer, index); }
-layout(rgba32ui, binding = kSceneImageBase + kPrimitivesBinding) uniform readonly restrict uimageBuffer primitivesBuffer;
-uvec4 readPrimitives(int index) { return imageLoad(primitivesBuffer, index); }
+layout(rgba32ui, binding = kSceneImageBase + kFacesBinding) uniform readonly restrict uimageBuffer facesBuffer;
+uvec4 readFaces(int index) { return imageLoad(facesBuffer, index); }
 layout(rgba32ui, binding = kSceneImageBase + kNormalsBinding) uniform readonly restrict uimageBuffer normalsBuffer;
 uvec4 readNormals(int index) { return imageLoad(normalsBuffer, index); }
 layout(rgba32ui, binding = kSceneImageBase + kTexcoordsBinding) uniform readonly restrict uimageBuffer texcoordsBuffer;

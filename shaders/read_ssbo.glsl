@@ -5,8 +5,8 @@ layout(std430, binding = kNodesBinding) readonly restrict buffer NodesBlock { uv
 uvec4 readNodes(int index) { return nodesBuffer[index]; }
 layout(std430, binding = kLeavesBinding) readonly restrict buffer LeavesBlock { uvec4 leavesBuffer[]; };
 uvec4 readLeaves(int index) { return leavesBuffer[index]; }
-layout(std430, binding = kPrimitivesBinding) readonly restrict buffer PrimitivesBlock { uvec4 primitivesBuffer[]; };
-uvec4 readPrimitives(int index) { return primitivesBuffer[index]; }
+layout(std430, binding = kFacesBinding) readonly restrict buffer FacesBlock { uvec4 facesBuffer[]; };
+uvec4 readFaces(int index) { return facesBuffer[index]; }
 layout(std430, binding = kNormalsBinding) readonly restrict buffer NormalsBlock { uvec4 normalsBuffer[]; };
 uvec4 readNormals(int index) { return normalsBuffer[index]; }
 layout(std430, binding = kTexcoordsBinding) readonly restrict buffer TexcoordsBlock { uvec4 texcoordsBuffer[]; };

@@ -26,16 +26,19 @@ vec4 readColorAt(int i) { return uintBitsToFloat(readColors(i)); }
 /// v turned by a unit quaternion.
 vec3 rotateBy(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 
-Surface sphereSurface(LeafPrimitive p, uvec4 record, vec3 origin, vec3 direction, float t) {
+/// Row of the face in a leaf slot.
+uvec4 faceRow(int slot, int row) { return kLiterals ? literalFace(slot, row) : readFaces(slot * int(kFaceRows) + row); }
+
+Surface sphereSurface(uvec4 face, uvec4 place, vec3 origin, vec3 direction, float t) {
   Surface s;
-  float radius = p.v1.x;
-  vec3 normal = normalize(origin + t * direction - p.v0);
-  s.position = p.v0 + radius * normal;
-  s.positionError = hitPointError(abs(p.v0) + vec3(radius), vec3(0.0), vec3(0.0));
-  s.front = dot(origin - p.v0, origin - p.v0) > radius * radius && dot(normal, direction) < 0.0;
+  vec3 center = uintBitsToFloat(place.xyz);
+  float radius = uintBitsToFloat(place.w);
+  vec3 normal = normalize(origin + t * direction - center);
+  s.position = center + radius * normal;
+  s.front = dot(origin - center, origin - center) > radius * radius && dot(normal, direction) < 0.0;
   s.geometricNormal = normal;
   s.shadingNormal = normal;
-  vec3 axis = uintBitsToFloat(record.xyz);
+  vec3 axis = uintBitsToFloat(face.xyz);
   vec4 rotation = vec4(axis, sqrt(max(0.0, 1.0 - dot(axis, axis))));
   vec3 q = rotateBy(vec4(-rotation.xyz, rotation.w), normal);
   vec2 uv = vec2(atan(q.z, q.x) * (0.5 * kInversePi) + 0.5, acos(clamp(q.y, -1.0, 1.0)) * kInversePi);
@@ -47,17 +50,14 @@ Surface sphereSurface(LeafPrimitive p, uvec4 record, vec3 origin, vec3 direction
   return s;
 }
 
-Surface triangleSurface(LeafPrimitive p, uvec4 record, vec3 origin, vec3 direction) {
+Surface triangleSurface(uvec4 face, uvec4 place, vec3 origin, vec3 direction, float t, vec2 w) {
   Surface s;
-  TriangleHit h = intersectTriangle(origin, makeShear(direction), p.v0, p.v1, p.v2);
-  vec2 w = vec2(h.weight1, h.weight2);
-  s.front = h.front;
-  s.position = p.v0 + w.x * (p.v1 - p.v0) + w.y * (p.v2 - p.v0);
-  s.positionError = hitPointError(p.v0, p.v1, p.v2);
-  s.geometricNormal = normalize(cross(p.v1 - p.v0, p.v2 - p.v0));
+  s.geometricNormal = uintBitsToFloat(face.xyz);
+  s.front = dot(s.geometricNormal, direction) < 0.0;
+  s.position = pointOnPlane(origin, direction, t, s.geometricNormal, uintBitsToFloat(place.x));
   s.shadingNormal = s.geometricNormal;
-  ivec3 v = ivec3(record.xyz);
-  if (kVertexNormals && (record.w & kPrimitiveFlat) == 0u) {
+  ivec3 v = ivec3(place.yzw);
+  if (kVertexNormals && (face.w & kFaceFlat) == 0u) {
     vec3 n = interpolate(readNormalAt(v.x), readNormalAt(v.y), readNormalAt(v.z), w).xyz;
     float squared = dot(n, n);
     s.shadingNormal = squared > 0.0 ? n * inversesqrt(squared) : s.geometricNormal;
@@ -74,16 +74,17 @@ Surface triangleSurface(LeafPrimitive p, uvec4 record, vec3 origin, vec3 directi
   return s;
 }
 
-/// The point that a ray hits on the primitive of a leaf slot, at distance t.
-Surface surfaceAt(int slot, vec3 origin, vec3 direction, float t) {
-  LeafPrimitive p = loadLeafPrimitive(slot);
-  uvec4 record = readPrimitives(int(p.word & kPrimitiveIndexMask));
-  bool isSphere = kSpheres && (!kTriangles || (p.word & kPrimitiveSphere) != 0u);
+/// The point that a ray hits on the primitive of a leaf slot, at distance t and with barycentric weights.
+Surface surfaceAt(int slot, vec3 origin, vec3 direction, float t, vec2 weights) {
+  uvec4 face = faceRow(slot, 0);
+  uvec4 place = faceRow(slot, 1);
+  bool isSphere = kSpheres && (!kTriangles || (face.w & kFaceSphere) != 0u);
   Surface s;
-  if (kTriangles) s = triangleSurface(p, record, origin, direction);
-  if (isSphere) s = sphereSurface(p, record, origin, direction, t);
+  if (kTriangles) s = triangleSurface(face, place, origin, direction, t, weights);
+  if (isSphere) s = sphereSurface(face, place, origin, direction, t);
+  s.positionError = uintBitsToFloat((face.w >> kFaceErrorShift) << kFloatErrorShift);
   s.emitter = !isSphere;
-  s.material = record.w & kMaterialIndexMask;
+  s.material = face.w & kFaceMaterialMask;
   if (!s.front) {
     s.geometricNormal = -s.geometricNormal;
     s.shadingNormal = -s.shadingNormal;

@@ -4,5 +4,5 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 void main() {
   ivec2 place = ivec2(gl_GlobalInvocationID.xy);
-  if (place.x < frame.tile.z && place.y < frame.tile.w) tracePixel(frame.tile.xy + place);
+  if (place.x < frameBlock.tile.z && place.y < frameBlock.tile.w) tracePixel(frameBlock.tile.xy + place);
 }

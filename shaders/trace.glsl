@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The tracer: what both entries (fragment and compute) include and call.
 #include "layout.glsl"
-layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frame; };
+layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frameBlock; };
+// The block once more as a variable: llvmpipe reads a uniform lane by lane, so each is read once a draw.
+Frame frame = Frame(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), ivec4(0), ivec4(0), ivec4(0), ivec4(0));
 layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progress progress; };
 #include "read.glsl"
 #include "random.glsl"
@@ -29,15 +31,28 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "path.glsl"
 #include "shade.glsl"
 
+/// Each round of the loop is one ray of a path, its shading and its shadow ray, without the phases of a path that can be suspended.
+const bool kDirect = kGi && !kAlpha && !kResumable && kFeature == kFeatureNone;
+
+Traversal beginTraversal(float limit, bool wanted, int steps) {
+  Traversal t = startTraversal(limit, frame.limits.w);
+  t.steps = steps;
+  if (!wanted) t.node = kTraversalDone;
+  return t;
+}
+
 /// Advances one pixel (y from the bottom) until it has the samples wanted or has used the step budget of this draw.
 void tracePixel(ivec2 pixel) {
+  FilmPixel film = loadFilm(pixel);
+  // Always so, but compilers do not know: they would put the block's reads back to where they are used, inside the loop.
+  if (film.flags != 0xffffffffu) frame = frameBlock;
   ivec2 place = pixel - frame.tile.xy;
   int state = place.y * frame.tile.z + place.x;
-  FilmPixel film = loadFilm(pixel);
   // A pixel may want fewer samples than the draw brings (Film::setTargets).
   uint own = film.flags >> kPixelTargetShift;
   uint wanted = own > 0u ? min(own, uint(frame.picture.z)) : uint(frame.picture.z);
   int budget = frame.limits.z;
+  uint key = pixelKey(uint(pixel.x), uint(frame.picture.y - 1 - pixel.y), uint(frame.picture.w));
   TreeFrame tree = treeFrame();
   uint samplesBefore = film.samples;
   uint raysBefore = film.rays;
@@ -49,7 +64,50 @@ void tracePixel(ivec2 pixel) {
   bool tracing = p.phase != kPhaseEnd;
   bool finished = false;
 
-  while (!finished && p.traversal.steps < budget) {
+  while (kDirect && !finished && p.traversal.steps < budget) {
+    if (!tracing) {
+      if (film.samples >= wanted) {
+        finished = true;
+        break;
+      }
+      raysBefore = film.rays;
+      p = startPath(pixel, key, film.samples + uint(frame.sampling.x), p.traversal.steps);
+    }
+    // Step: find what the ray hits. A traversal that does not come to its end here begins its sample anew in the next draw.
+    tracing = true;
+    Traversal hit = beginTraversal(kFarAway, true, p.traversal.steps + 1);
+    hit = traverse(p.origin, p.direction, kFarAway, hit, tree, budget, false);
+    p.traversal.steps = hit.steps;
+    if (hit.node != kTraversalDone) break;
+    film.rays += 1u;
+
+    // Step: shade it.
+    if (hit.slot < 0) {
+      p = meetSurroundings(p);
+    } else {
+      p.hitSlot = hit.slot;
+      p.hitT = hit.t;
+      p.hitWeights = hit.weights;
+      p = shade(p);
+    }
+    p.traversal.steps = hit.steps;
+
+    // Step: is the light seen? Literals are tested for lanes without a shadow ray, too: a branch would save nothing.
+    if (kShadows) {
+      bool waiting = p.phase == kPhaseShadow;
+      Traversal shadow = beginTraversal(p.shadowLimit, waiting, hit.steps);
+      shadow = traverse(p.shadowOrigin, p.shadowDirection, p.shadowLimit, shadow, tree, budget, true);
+      p.traversal.steps = shadow.steps;
+      if (waiting && shadow.node != kTraversalDone) break;
+      film.rays += waiting ? 1u : 0u;
+      p.radiance += waiting && shadow.slot < 0 ? p.contribution : vec3(0.0);
+      p.phase = waiting ? p.after : p.phase;
+    }
+    tracing = p.phase == kPhaseExtend;
+    if (!tracing) film = addSample(film, p.radiance, p.alpha);
+  }
+
+  while (!kDirect && !finished && p.traversal.steps < budget) {
     // Step: begin the next sample.
     if (!tracing) {
       if (film.samples >= wanted) {
@@ -57,7 +115,7 @@ void tracePixel(ivec2 pixel) {
         break;
       }
       raysBefore = film.rays;
-      p = startPath(pixel, film.samples + uint(frame.sampling.x), p.traversal.steps);
+      p = startPath(pixel, key, film.samples + uint(frame.sampling.x), p.traversal.steps);
       tracing = true;
     }
     p.traversal.steps += 1;
@@ -69,6 +127,7 @@ void tracePixel(ivec2 pixel) {
         film.rays += 1u;
         p.hitSlot = p.traversal.slot;
         p.hitT = p.traversal.t;
+        p.hitWeights = p.traversal.weights;
         p.phase = kPhaseShade;
       }
     }

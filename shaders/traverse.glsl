@@ -6,6 +6,7 @@ struct Traversal {
   int node;   // next inner node, complement of a leaf, or kTraversalDone; iterative: next block of leaves
   float t;    // nearest hit so far, else the ray's limit
   int slot;   // its leaf slot (leaf * 2 + side), or -1
+  vec2 weights;  // barycentric, of its second and third vertex (kWeights)
   int steps;  // loop iterations so far in this draw
   int visits; // nodes and leaves visited, counted for the heat map only
   Stack stack;
@@ -23,6 +24,7 @@ Traversal startTraversal(float limit, int leafCount) {
   s.node = leafCount == 0 ? kTraversalDone : 0;
   s.t = limit;
   s.slot = -1;
+  s.weights = vec2(0.0f);
   s.steps = 0;
   s.visits = 0;
   s.stack = emptyStack();
@@ -34,33 +36,43 @@ float awayFromZero(float d) {
   return abs(d) < 8.6736173798840355e-19f ? (d < 0.0f ? -8.6736173798840355e-19f : 8.6736173798840355e-19f) : d;
 }
 
-/// Distance to one primitive of a leaf, or -1.
-float intersectWord(vec3 origin, vec3 direction, RayShear shear, vec3 v0, vec3 v1, vec3 v2, uint word) {
-  float t = -1.0f;
+/// A hit on one primitive of a leaf; t is -1 for a miss.
+struct PrimitiveHit {
+  float t;
+  vec2 weights;
+};
+
+PrimitiveHit intersectWord(vec3 origin, vec3 direction, RayShear shear, vec3 v0, vec3 v1, vec3 v2, uint word) {
+  PrimitiveHit r;
+  r.t = -1.0f;
+  r.weights = vec2(0.0f);
   if (kTriangles) {
     TriangleHit h = intersectTriangle(origin, shear, v0, v1, v2);
     bool there = !kCulling || h.front || (word & kPrimitiveCull) == 0u;
-    t = h.hit && there ? h.t : -1.0f;
+    r.t = h.hit && there ? h.t : -1.0f;
+    if (kWeights) r.weights = vec2(h.weight1, h.weight2);
   }
   if (kSpheres) {
     float s = intersectSphere(origin, direction, v0, v1.x, !kCulling || (word & kPrimitiveCull) == 0u);
     bool isSphere = (word & kPrimitiveSphere) != 0u && word != kPrimitiveNone;
-    t = isSphere ? s : (kTriangles ? t : -1.0f);
+    r.t = isSphere ? s : (kTriangles ? r.t : -1.0f);
   }
-  return t;
+  return r;
 }
 
 /// The nearest of what the traversal has and the two primitives of a leaf.
 Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayShear shear) {
   LeafPair l = loadLeaf(leaf);
-  float ta = intersectWord(origin, direction, shear, l.v0a, l.v1a, l.v2a, l.worda);
-  float tb = intersectWord(origin, direction, shear, l.v0b, l.v1b, l.v2b, l.wordb);
-  bool hita = ta > 0.0f && ta < s.t;
-  s.t = hita ? ta : s.t;
+  PrimitiveHit a = intersectWord(origin, direction, shear, l.v0a, l.v1a, l.v2a, l.worda);
+  PrimitiveHit b = intersectWord(origin, direction, shear, l.v0b, l.v1b, l.v2b, l.wordb);
+  bool hita = a.t > 0.0f && a.t < s.t;
+  s.t = hita ? a.t : s.t;
   s.slot = hita ? 2 * leaf : s.slot;
-  bool hitb = tb > 0.0f && tb < s.t;
-  s.t = hitb ? tb : s.t;
+  if (kWeights) s.weights = hita ? a.weights : s.weights;
+  bool hitb = b.t > 0.0f && b.t < s.t;
+  s.t = hitb ? b.t : s.t;
   s.slot = hitb ? 2 * leaf + 1 : s.slot;
+  if (kWeights) s.weights = hitb ? b.weights : s.weights;
   return s;
 }
 
@@ -127,9 +139,12 @@ Traversal traverseTree(vec3 origin, vec3 direction, float rayLimit, Traversal s,
   return s;
 }
 
+#include "literals.glsl"
+
 /// Goes on with a traversal of the ray until it is done or has taken stepLimit steps. direction is unit length.
 Traversal traverse(vec3 origin, vec3 direction, float rayLimit, Traversal s, TreeFrame tree, int stepLimit,
                    bool anyHit) {
+  if (kLiterals) return traverseLiterals(origin, direction, s, anyHit);
   if (kIterative) return traverseIterative(origin, direction, s, tree, stepLimit, anyHit);
   return traverseTree(origin, direction, rayLimit, s, tree, stepLimit, anyHit);
 }

@@ -50,22 +50,3 @@ LeafPair loadLeaf(int index) {
   l.wordb = r4.w;
   return l;
 }
-
-/// The three points of one primitive, by leaf slot (leaf * 2 + side).
-struct LeafPrimitive {
-  vec3 v0;
-  vec3 v1;
-  vec3 v2;
-  uint word;
-};
-
-LeafPrimitive loadLeafPrimitive(int slot) {
-  LeafPair l = loadLeaf(slot >> 1);
-  bool second = (slot & 1) == 1;
-  LeafPrimitive p;
-  p.v0 = second ? l.v0b : l.v0a;
-  p.v1 = second ? l.v1b : l.v1a;
-  p.v2 = second ? l.v2b : l.v2a;
-  p.word = second ? l.wordb : l.worda;
-  return p;
-}

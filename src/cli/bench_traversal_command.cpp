@@ -12,6 +12,7 @@
 #include "cli/progress_bar.h"
 #include "cli/setup.h"
 #include "errors.h"
+#include "gl/driver_choice.h"
 #include "image/whole_file.h"
 #include "render/ray_caster.h"
 

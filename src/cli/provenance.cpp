@@ -46,9 +46,10 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   json["scene_hash"] = hash;
   json["width"] = loaded.size.x;
   json["height"] = loaded.size.y;
-  // How buffers are read changes no sample.
+  // How buffers are read, and by which stage of the pipeline, changes no sample.
   ShaderVariant variant = tracer.variant;
   variant.reads = BufferReads::Ssbo;
+  variant.dispatch = Dispatch::Fragment;
   json["variant"] = variantName(variant);
   json["bounces"] = options.bounces;
   json["rr_depth"] = options.rouletteDepth;

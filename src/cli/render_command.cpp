@@ -175,6 +175,10 @@ int runRender(const RenderOptions& options) {
   };
   sayDriverLog();
   sayWhatWentWrong(options, stats.film);
+  if (stats.complete && !stats.adaptive && stats.film.fewestSamples < unsigned(options.spp)) {
+    throw RenderError("the driver drew " + std::to_string(stats.film.fewestSamples) + " of " +
+                      std::to_string(options.spp) + " samples and reported no error; no picture is written");
+  }
   if (interrupts() > 1) return kInterruptedStatus;
   Image picture = imageOf(drawing.pixels, {!options.background, options.aovSamples, options.aovVariance},
                           drawing.variance);

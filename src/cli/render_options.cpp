@@ -120,12 +120,11 @@ RenderOptions finishRender(const RawRender& raw) {
   o.defaultLight = !raw.noDefaultLight;
   o.pixelFilter = choose<PixelFilter>("--pixel-filter", raw.pixelFilter, kPixelFilterNames);
   o.toneMap = choose<ToneMap>("--tone-map", raw.toneMap, toneMapNames());
-  o.traversal = choose<TraversalMethod>(
-      "--traversal", raw.traversal, std::vector<std::string>{"auto", "iterative", "bvh", "front-to-back"});
+  o.traversal = choose<TraversalMethod>("--traversal", raw.traversal, kTraversalNames);
   o.backend =
       choose<Backend>("--rendering-backend", raw.backend, std::vector<std::string>{"auto", "egl", "osmesa"});
-  o.bufferReads =
-      choose<BufferReads>("--buffer-reads", raw.reads, std::vector<std::string>{"auto", "ssbo", "image"});
+  o.bufferReads = choose<BufferReads>("--buffer-reads", raw.reads, kBufferReadsNames);
+  o.dispatch = choose<Dispatch>("--dispatch", raw.dispatch, kDispatchNames);
   o.statsFile = raw.statsFile;
   o.shaderFolder = raw.shaderFolder;
   chooseLayers(raw.aov, o);
@@ -219,10 +218,12 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--exposure", o.exposure, "EV, for .png and .jpg")->capture_default_str();
   app.add_option("--tone-map", raw.toneMap, "linear, reinhard, aces, agx, neutral, for .png and .jpg")
       ->capture_default_str();
-  app.add_option("--traversal", raw.traversal, "auto, iterative, bvh, front-to-back: how rays find triangles")
+  app.add_option("--traversal", raw.traversal, joined(kTraversalNames) + ": how rays find triangles")
       ->capture_default_str();
   app.add_option("--rendering-backend", raw.backend, "auto, egl, osmesa")->capture_default_str();
-  app.add_option("--buffer-reads", raw.reads, "auto, ssbo, image: how the shader reads the scene")
+  app.add_option("--buffer-reads", raw.reads, joined(kBufferReadsNames) + ": how the shader reads the scene")
+      ->capture_default_str();
+  app.add_option("--dispatch", raw.dispatch, joined(kDispatchNames) + ": which shader stage runs the tracer")
       ->capture_default_str();
   app.add_option("--stats", raw.statsFile, "JSON file for the statistics");
   app.add_option("--shader-folder", raw.shaderFolder,

@@ -35,6 +35,7 @@ struct RawRender {
   std::string traversal = "auto";
   std::string backend = "auto";
   std::string reads = "auto";
+  std::string dispatch = "auto";
   std::string statsFile;
   std::string shaderFolder;
   std::vector<std::string> aov;

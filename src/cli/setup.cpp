@@ -6,9 +6,11 @@
 
 #include "cli/outputs.h"
 #include "errors.h"
+#include "gl/driver_choice.h"
 #include "gltf/gltf.h"
 #include "image/format.h"
 #include "image/image.h"
+#include "pack/literals.h"
 #include "pack/pack_tree.h"
 
 namespace fragtrace {
@@ -73,6 +75,19 @@ uint64_t hashOf(const GpuScene& scene) {
   return hash;
 }
 
+/// A scene that is small enough becomes part of the shader's text, unless another traversal was asked for.
+void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
+                 ShaderVariant& variant) {
+  if (has(variant.stages, Stage::BvhHeatmap)) return;
+  const bool asked = options.traversal == TraversalMethod::Literals;
+  if (!asked && options.traversal != TraversalMethod::Auto) return;
+  if (asked && !fitsAsLiterals(loaded.scene, packed))
+    throw UsageError("--traversal literals: the scene has spheres, or is too large for it");
+  if (!asked && !paysAsLiterals(loaded.scene, loaded.bvh, packed)) return;
+  variant.traversal = TraversalMethod::Literals;
+  variant.literals = literalScene(loaded.scene, loaded.bvh, packed, variant);
+}
+
 }  // namespace
 
 void say(const RenderOptions& options, const std::string& text) {
@@ -120,11 +135,14 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   const uint32_t depth = loaded.bvh.depth;
   const BufferReads undecided = options.bufferReads;  // what is packed does not depend on it
   Tracer tracer;
+  const Dispatch dispatch = chooseDispatch(options.dispatch, context);
   tracer.variant = chooseVariant(options, present, loaded.environment.kind, depth, undecided);
+  tracer.variant.dispatch = dispatch;
   ShaderVariant everything = tracer.variant;
   for (const Feature feature : options.aovFeatures) {
     tracer.features.push_back(
         chooseFeatureVariant(options, present, loaded.environment.kind, depth, undecided, feature));
+    tracer.features.back().dispatch = dispatch;
     everything.traits |= tracer.features.back().traits;
   }
   if (tracer.variant.clampIndirect) stats.clampIndirect = options.clampIndirect;
@@ -137,6 +155,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   }
   Stopwatch watch;
   GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything);
+  useLiterals(loaded, packed, options, tracer.variant);
   stats.sceneBytes = packed.bytes();
   stats.geometryBytes = packed.geometryBytes();
   if (formatOfName(options.output) == ImageFormat::OpenExr) tracer.sceneHash = hashOf(packed);

@@ -24,14 +24,9 @@ GlShader compileShader(GLenum kind, const std::string& text) {
   return shader;
 }
 
-}  // namespace
-
-GlProgram buildProgram(const std::string& vertexText, const std::string& fragmentText) {
-  const GlShader vertex = compileShader(GL_VERTEX_SHADER, vertexText);
-  const GlShader fragment = compileShader(GL_FRAGMENT_SHADER, fragmentText);
+GlProgram link(std::initializer_list<const GlShader*> shaders) {
   GlProgram program(glCreateProgram());
-  glAttachShader(program.name(), vertex.name());
-  glAttachShader(program.name(), fragment.name());
+  for (const GlShader* shader : shaders) glAttachShader(program.name(), shader->name());
   glLinkProgram(program.name());
   GLint ok = 0;
   glGetProgramiv(program.name(), GL_LINK_STATUS, &ok);
@@ -45,11 +40,26 @@ GlProgram buildProgram(const std::string& vertexText, const std::string& fragmen
   return program;
 }
 
+}  // namespace
+
+GlProgram buildProgram(const std::string& vertexText, const std::string& fragmentText) {
+  const GlShader vertex = compileShader(GL_VERTEX_SHADER, vertexText);
+  const GlShader fragment = compileShader(GL_FRAGMENT_SHADER, fragmentText);
+  return link({&vertex, &fragment});
+}
+
+GlProgram buildComputeProgram(const std::string& text) {
+  const GlShader compute = compileShader(GL_COMPUTE_SHADER, text);
+  return link({&compute});
+}
+
 const GlProgram& ProgramCache::tracer(const ShaderVariant& variant) {
   const auto found = tracers_.find(variant);
   if (found != tracers_.end()) return found->second;
-  GlProgram program = buildProgram(assembleShader(source_, "fullscreen.vert", variant),
-                                   assembleShader(source_, "trace.frag", variant));
+  GlProgram program = variant.dispatch == Dispatch::Compute
+                          ? buildComputeProgram(assembleShader(source_, "trace.comp", variant))
+                          : buildProgram(assembleShader(source_, "fullscreen.vert", variant),
+                                         assembleShader(source_, "trace.frag", variant));
   checkGl("building a shader program");
   return tracers_.emplace(variant, std::move(program)).first->second;
 }

@@ -12,6 +12,7 @@ namespace fragtrace {
 /// Compiles and links one program. Throws RenderError with the driver's log, which names shader file and
 /// line.
 GlProgram buildProgram(const std::string& vertexText, const std::string& fragmentText);
+GlProgram buildComputeProgram(const std::string& text);
 
 /// Programs by variant, built on first use and kept.
 class ProgramCache {

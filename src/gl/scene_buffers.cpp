@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gl/scene_buffers.h"
 
-#include <algorithm>
-
 #include "errors.h"
 
 namespace fragtrace {
@@ -21,41 +19,34 @@ GLint64 limit(GLenum name) {
   return value;
 }
 
-int64_t mostBytes(BufferReads reads, uint32_t binding, const ReadLimits& limits) {
-  return reads == BufferReads::Image ? limits.imageTexels * texelBytes(binding) : limits.storageBytes;
+}  // namespace
+
+ReadLimits readLimits() {
+  return {limit(GL_MAX_TEXTURE_BUFFER_SIZE), limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE),
+          limit(GL_MAX_IMAGE_UNITS)};
 }
 
-/// Says which array is larger than the driver reads that way; empty when none is.
-std::string whatIsTooLarge(const GpuScene& scene, BufferReads reads, const ReadLimits& limits) {
+std::string whyNotRead(const GpuScene& scene, BufferReads reads, const ReadLimits& limits) {
+  constexpr int64_t kUnits = layout::kSceneImageBase + layout::kSceneBufferCount;
+  if (reads == BufferReads::Image && limits.imageUnits < kUnits) {
+    return "--buffer-reads image needs " + std::to_string(kUnits) + " image units, this driver has " +
+           std::to_string(limits.imageUnits);
+  }
   for (uint32_t binding = 0; binding < layout::kSceneBufferCount; ++binding) {
     const int64_t bytes = int64_t(scene.buffers[binding].size() * sizeof(uint32_t));
-    const int64_t most = mostBytes(reads, binding, limits);
+    const int64_t most =
+        reads == BufferReads::Ssbo ? limits.storageBytes : limits.texels * texelBytes(binding);
     if (bytes <= most) continue;
     return "scene buffer " + std::to_string(binding) + " takes " + std::to_string(bytes) +
-           " bytes, this driver reads at most " + std::to_string(most) + " as " +
-           (reads == BufferReads::Image ? "image buffer" : "storage buffer");
+           " bytes, this driver reads at most " + std::to_string(most) + " by --buffer-reads " +
+           std::string(kBufferReadsNames[size_t(reads)]);
   }
   return {};
 }
 
-}  // namespace
-
-ReadLimits readLimits() {
-  return {limit(GL_MAX_TEXTURE_BUFFER_SIZE), limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE)};
-}
-
-ReadChoice chooseReads(BufferReads wanted, bool software, const GpuScene& scene, const ReadLimits& limits) {
-  if (wanted != BufferReads::Auto) return {wanted, {}};
-  const BufferReads first = software ? BufferReads::Image : BufferReads::Ssbo;
-  const BufferReads other = software ? BufferReads::Ssbo : BufferReads::Image;
-  const std::string reason = whatIsTooLarge(scene, first, limits);
-  if (reason.empty() || !whatIsTooLarge(scene, other, limits).empty()) return {first, {}};
-  return {other, reason};
-}
-
 SceneBuffers::SceneBuffers(GpuScene& scene, BufferReads reads) : reads_(reads) {
-  const std::string tooLarge = whatIsTooLarge(scene, reads, readLimits());
-  if (!tooLarge.empty()) throw RenderError(tooLarge + " (--buffer-reads)");
+  const std::string reason = whyNotRead(scene, reads, readLimits());
+  if (!reason.empty()) throw RenderError(reason);
   for (uint32_t binding = 0; binding < layout::kSceneBufferCount; ++binding) {
     static constexpr std::array<uint32_t, 4> kNothing{};
     Words& words = scene.buffers[binding];
@@ -66,7 +57,7 @@ SceneBuffers::SceneBuffers(GpuScene& scene, BufferReads reads) : reads_(reads) {
     entry.buffer = makeBuffer();
     glNamedBufferStorage(entry.buffer.name(), GLsizeiptr(bytes), data, 0);
     words = Words();
-    if (reads == BufferReads::Image) {
+    if (reads != BufferReads::Ssbo) {
       entry.view = makeTexture(GL_TEXTURE_BUFFER);
       glTextureBuffer(entry.view.name(), entry.format, entry.buffer.name());
     }
@@ -77,11 +68,16 @@ SceneBuffers::SceneBuffers(GpuScene& scene, BufferReads reads) : reads_(reads) {
 void SceneBuffers::bind() const {
   for (uint32_t binding = 0; binding < layout::kSceneBufferCount; ++binding) {
     const Entry& entry = entries_[binding];
-    if (reads_ == BufferReads::Image) {
-      glBindImageTexture(layout::kSceneImageBase + binding, entry.view.name(), 0, GL_FALSE, 0, GL_READ_ONLY,
-                         entry.format);
-    } else {
-      glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, entry.buffer.name());
+    switch (reads_) {
+      case BufferReads::Image:
+        glBindImageTexture(layout::kSceneImageBase + binding, entry.view.name(), 0, GL_FALSE, 0, GL_READ_ONLY,
+                           entry.format);
+        break;
+      case BufferReads::Texel:
+        glBindTextureUnit(binding, entry.view.name());
+        break;
+      default:
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, entry.buffer.name());
     }
   }
 }

@@ -9,7 +9,7 @@
 
 namespace fragtrace {
 
-/// The packed scene on the device, bound as storage buffers or as image buffers.
+/// The packed scene on the device, bound as storage buffers, image buffers or texel buffers.
 class SceneBuffers {
  public:
   /// Frees each array of the scene as soon as the driver has it. Throws RenderError when one is larger than
@@ -20,28 +20,24 @@ class SceneBuffers {
  private:
   struct Entry {
     GlBuffer buffer;
-    GlTexture view;  ///< image reads only
+    GlTexture view;  ///< image and texel reads
     GLenum format = GL_RGBA32UI;
   };
   std::array<Entry, layout::kSceneBufferCount> entries_;
   BufferReads reads_;
 };
 
-/// The largest array that a driver reads each way.
+/// What a driver says of how much it reads each way.
 struct ReadLimits {
-  int64_t imageTexels = 0;
-  int64_t storageBytes = 0;
+  int64_t texels = 0;        ///< of one texel or image buffer
+  int64_t storageBytes = 0;  ///< of one storage buffer
+  int64_t imageUnits = 0;
 };
 /// Of the current context.
 ReadLimits readLimits();
 
-struct ReadChoice {
-  BufferReads reads = BufferReads::Ssbo;
-  std::string fallback;  ///< why it is not the read that is fastest on this driver; empty when it is
-};
-
-/// What was asked for; for Auto the read that is fastest on this driver (image buffers on software, storage
-/// buffers on GPUs), or the other one when only that reads arrays of this size.
-ReadChoice chooseReads(BufferReads wanted, bool software, const GpuScene& scene, const ReadLimits& limits);
+/// Why this scene cannot be read that way: which array is too large, or that image units lack; empty when it
+/// can.
+std::string whyNotRead(const GpuScene& scene, BufferReads reads, const ReadLimits& limits);
 
 }  // namespace fragtrace

@@ -21,6 +21,19 @@ double triangleArea(const Scene& scene, const Triangle& t) {
   return 0.5 * glm::length(glm::cross(b - a, c - a));
 }
 
+/// Rows 1 to 3 of an emissive triangle.
+void appendEdges(Words& words, const Scene& scene, const Triangle& t, uint32_t slot) {
+  const glm::vec3 v0 = scene.vertices.position[t.vertex[0]];
+  const glm::vec3 e1 = scene.vertices.position[t.vertex[1]] - v0;
+  const glm::vec3 e2 = scene.vertices.position[t.vertex[2]] - v0;
+  const uint32_t doubleSided = scene.materials[t.material].doubleSided ? layout::kEmitterDoubleSided : 0u;
+  appendRow(words, v0, 0.0f);
+  words.back() = t.material | doubleSided;
+  appendRow(words, e1, float(1.0 / triangleArea(scene, t)));
+  appendRow(words, e2, 0.0f);
+  words.back() = slot;
+}
+
 /// Luminous power of a punctual light; a directional one shines through the scene's cross-section.
 double lightPower(const Light& light, double radius) {
   const double intensity = luminance(glm::dvec3(light.intensity));
@@ -45,6 +58,7 @@ PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> mater
   packed.materialDensity.assign(scene.materials.size(), 0.0);
   std::vector<double> powers;
   std::vector<uint32_t> kinds;
+  std::vector<uint32_t> triangles;  // by emitter, those of the triangles come first
   if (has(traits, Trait::EmissiveTriangles)) {
     for (size_t i = 0; i < scene.triangles.size(); ++i) {
       const Triangle& t = scene.triangles[i];
@@ -53,6 +67,7 @@ PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> mater
       if (area <= 0.0 || slots[i] == kMissIndex) continue;
       powers.push_back(radiance * kPi * area);
       kinds.push_back(slots[i]);
+      triangles.push_back(uint32_t(i));
     }
   }
   if (has(traits, Trait::PunctualLights)) {
@@ -67,6 +82,11 @@ PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> mater
     const double probability = packed.power > 0.0 ? powers[i] / packed.power : 1.0 / double(powers.size());
     packed.entries.insert(packed.entries.end(), {floatWord(table[i].threshold), table[i].alias, kinds[i],
                                                  floatWord(float(probability))});
+    if (i < triangles.size()) {
+      appendEdges(packed.entries, scene, scene.triangles[triangles[i]], kinds[i]);
+    } else {
+      packed.entries.insert(packed.entries.end(), (layout::kEmitterRows - 1) * 4, 0u);
+    }
   }
   packed.count = uint32_t(powers.size());
   for (size_t m = 0; m < scene.materials.size() && packed.power > 0.0; ++m) {

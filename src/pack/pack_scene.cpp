@@ -4,6 +4,7 @@
 
 #include "pack/ggx_energy.h"
 #include "pack/gpu_scene.h"
+#include "pack/pack_faces.h"
 #include "pack/pack_lights.h"
 #include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
@@ -12,21 +13,6 @@
 namespace fragtrace {
 
 namespace {
-
-Words packPrimitives(const Scene& scene) {
-  Words words;
-  words.reserve((scene.triangles.size() + scene.spheres.size()) * 4);
-  for (const Triangle& t : scene.triangles) {
-    const uint32_t flat = t.flat ? layout::kPrimitiveFlat : 0u;
-    words.insert(words.end(), {t.vertex.x, t.vertex.y, t.vertex.z, t.material | flat});
-  }
-  for (const Sphere& s : scene.spheres) {
-    // q and -q are the same rotation; the shader derives w >= 0 from the rest.
-    const glm::quat q = s.rotation.w < 0.0f ? -s.rotation : s.rotation;
-    words.insert(words.end(), {floatWord(q.x), floatWord(q.y), floatWord(q.z), s.material});
-  }
-  return words;
-}
 
 template <typename Row>
 Words packVertices(size_t count, Row&& row) {
@@ -140,7 +126,7 @@ size_t GpuScene::bytes() const {
 size_t GpuScene::geometryBytes() const {
   using namespace layout;
   size_t words = 0;
-  for (const uint32_t binding : {kNodesBinding, kLeavesBinding, kPrimitivesBinding, kNormalsBinding,
+  for (const uint32_t binding : {kNodesBinding, kLeavesBinding, kFacesBinding, kNormalsBinding,
                                  kTexcoordsBinding, kTangentsBinding, kColorsBinding}) {
     words += buffers[binding].size();
   }
@@ -157,7 +143,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   const double radius = 0.5f * glm::length(bvh.bounds.extent());
   packed.buffers[kNodesBinding] = packNodes(bvh, packed.grid);
   packed.buffers[kLeavesBinding] = packLeaves(scene, bvh);
-  packed.buffers[kPrimitivesBinding] = packPrimitives(scene);
+  packed.buffers[kFacesBinding] = packFaces(scene, bvh);
   packAttributes(scene.vertices, traits, packed);
 
   // Step: lights; the environment shares light samples with the rest by power.

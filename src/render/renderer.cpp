@@ -28,7 +28,8 @@ constexpr int kHardwareStepBudget = 1 << 16;
 constexpr double kSoftwareDrawMs = 200.0;
 constexpr double kHardwareDrawMs = 20.0;
 
-constexpr int kTinyTile = 8;  // pixels
+constexpr int kTinyTile = 8;        // pixels
+constexpr uint32_t kGroupSide = 8;  // pixels a side of a work group, as in trace.comp
 
 /// Half extents of the view at distance 1 (perspective) or in metres (orthographic).
 glm::dvec2 halfExtents(const Camera& camera, glm::ivec2 size) {
@@ -115,7 +116,12 @@ void Renderer::makeResumable() {
 layout::Progress Renderer::draw() {
   layout::Progress progress{};
   glNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  if (variant_.dispatch == Dispatch::Compute) {
+    const glm::uvec2 groups = (glm::uvec2(frame_.tile.z, frame_.tile.w) + kGroupSide - 1u) / kGroupSide;
+    glDispatchCompute(groups.x, groups.y, 1);
+  } else {
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
                   GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
   glFinish();

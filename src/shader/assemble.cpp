@@ -40,9 +40,9 @@ struct Assembly {
   void append(const std::string& name, const std::string& includedFrom) {
     if (!done.insert(name).second) return;
     std::string file = name;
-    if (name == "read.glsl")
-      file = variant.reads == BufferReads::Image ? "read_image.glsl" : "read_ssbo.glsl";
-    std::istringstream lines(shaderText(source, file, includedFrom));
+    if (name == "read.glsl") file = "read_" + std::string(kBufferReadsNames[size_t(variant.reads)]) + ".glsl";
+    const bool literal = name == "literals.glsl" && !variant.literals.empty();
+    std::istringstream lines(literal ? variant.literals : shaderText(source, file, includedFrom));
     lineDirective(1, file);
     std::string line;
     for (int number = 1; std::getline(lines, line); ++number) {
@@ -65,6 +65,8 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
     if (row.constant) constant(row.constant, has(variant.stages, row.stage));
   }
   for (const TraitRow& row : traitRows()) constant(row.constant, has(variant.traits, row.trait));
+  constant("kWeights", has(variant.traits, Trait::VertexNormals) || has(variant.traits, Trait::Texcoords) ||
+                           has(variant.traits, Trait::Tangents) || has(variant.traits, Trait::VertexColors));
   constant("kIterative", variant.traversal == TraversalMethod::Iterative);
   constant("kFrontToBack", variant.traversal == TraversalMethod::FrontToBack);
   constant("kResumable", variant.resumable);

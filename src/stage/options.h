@@ -17,9 +17,19 @@
 
 namespace fragtrace {
 
-enum class TraversalMethod : uint8_t { Auto, Iterative, Bvh, FrontToBack };
+/// How rays find triangles. Literals: a small scene's triangles are part of the shader's text
+/// (src/pack/literals.h).
+enum class TraversalMethod : uint8_t { Auto, Iterative, Bvh, FrontToBack, Literals };
+inline constexpr std::array<std::string_view, 5> kTraversalNames{"auto", "iterative", "bvh", "front-to-back",
+                                                                 "literals"};
 enum class Backend : uint8_t { Auto, Egl, OsMesa };
-enum class BufferReads : uint8_t { Auto, Ssbo, Image };
+/// How the shader reads the scene: storage buffers, image buffers, texel buffers; the same buffers, bound
+/// otherwise.
+enum class BufferReads : uint8_t { Auto, Ssbo, Image, Texel };
+inline constexpr std::array<std::string_view, 4> kBufferReadsNames{"auto", "ssbo", "image", "texel"};
+/// Which stage of the pipeline runs the tracer: one fragment or one compute invocation a pixel.
+enum class Dispatch : uint8_t { Auto, Fragment, Compute };
+inline constexpr std::array<std::string_view, 3> kDispatchNames{"auto", "fragment", "compute"};
 /// How camera samples spread about the middle of their pixel (shaders/pixel_filter.glsl).
 enum class PixelFilter : uint8_t { Box, Gaussian, BlackmanHarris };
 inline constexpr std::array<std::string_view, 3> kPixelFilterNames{"box", "gaussian", "blackman-harris"};
@@ -57,6 +67,7 @@ struct RenderOptions {
   TraversalMethod traversal = TraversalMethod::Auto;
   Backend backend = Backend::Auto;
   BufferReads bufferReads = BufferReads::Auto;
+  Dispatch dispatch = Dispatch::Auto;
   bool aovSamples = false;  ///< more layers of .exr files
   bool aovVariance = false;
   std::vector<Feature> aovFeatures;

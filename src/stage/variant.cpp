@@ -183,7 +183,10 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   if (!hasNormalMaps(v.traits)) drop(Stage::NormalMaps);
 
   // Step: how rays find triangles.
-  v.traversal = options.traversal == TraversalMethod::Auto ? TraversalMethod::FrontToBack : options.traversal;
+  // Literals need the packed scene; who has it puts them in (useLiterals of src/cli/setup.cpp).
+  const bool named =
+      options.traversal != TraversalMethod::Auto && options.traversal != TraversalMethod::Literals;
+  v.traversal = named ? options.traversal : TraversalMethod::FrontToBack;
   v.stackSize = 32;
   for (int size : {24, 16, 12, 8}) {
     if (treeDepth <= uint32_t(size)) v.stackSize = size;
@@ -229,16 +232,15 @@ std::string variantName(const ShaderVariant& variant) {
   for (const TraitRow& row : traitRows()) {
     if (has(variant.traits, row.trait)) append(row.name);
   }
-  const char* traversal = variant.traversal == TraversalMethod::Iterative ? "iterative"
-                          : variant.traversal == TraversalMethod::Bvh     ? "bvh"
-                                                                          : "front-to-back";
-  append(traversal);
-  if (variant.traversal != TraversalMethod::Iterative) append("stack-" + std::to_string(variant.stackSize));
+  append(std::string(kTraversalNames[size_t(variant.traversal)]));
+  if (variant.traversal == TraversalMethod::Bvh || variant.traversal == TraversalMethod::FrontToBack)
+    append("stack-" + std::to_string(variant.stackSize));
   if (variant.pixelFilter != PixelFilter::Box)
     append(std::string(kPixelFilterNames[size_t(variant.pixelFilter)]) + "-filter");
   if (variant.feature != Feature::None) append(std::string(kFeatureNames[size_t(variant.feature)]));
   if (variant.clampIndirect) append("clamp-indirect");
-  append(variant.reads == BufferReads::Image ? "image-reads" : "ssbo-reads");
+  append(std::string(kBufferReadsNames[size_t(variant.reads)]) + "-reads");
+  append(std::string(kDispatchNames[size_t(variant.dispatch)]));
   return name;
 }
 

@@ -17,15 +17,18 @@ struct ShaderVariant {
   TraversalMethod traversal = TraversalMethod::FrontToBack;
   int stackSize = 12;
   BufferReads reads = BufferReads::Ssbo;
+  Dispatch dispatch = Dispatch::Fragment;
   PixelFilter pixelFilter = PixelFilter::Box;
   Feature feature = Feature::None;  ///< what is drawn in place of radiance
   bool clampIndirect = false;
   bool resumable =
       false;  ///< paths can be suspended from draw to draw; only needed by those longer than a draw
 
+  std::string literals;  ///< the scene as shader text, when it is drawn that way
+
   auto key() const {
-    return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, pixelFilter, feature,
-                      clampIndirect, resumable);
+    return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, dispatch,
+                      pixelFilter, feature, clampIndirect, resumable, literals);
   }
   bool operator<(const ShaderVariant& other) const { return key() < other.key(); }
   bool operator==(const ShaderVariant& other) const { return key() == other.key(); }

@@ -24,13 +24,13 @@ struct Member {
 #define MEMBER(type, block, member) \
   Member { block "." #member, offsetof(layout::type, member) }
 const std::vector<Member> kFrameMembers = {
-    MEMBER(Frame, "frame", cameraPosition), MEMBER(Frame, "frame", cameraRight),
-    MEMBER(Frame, "frame", cameraUp),       MEMBER(Frame, "frame", cameraForward),
-    MEMBER(Frame, "frame", gridOrigin),     MEMBER(Frame, "frame", gridCell),
-    MEMBER(Frame, "frame", background),     MEMBER(Frame, "frame", environment),
-    MEMBER(Frame, "frame", lightChoice),    MEMBER(Frame, "frame", picture),
-    MEMBER(Frame, "frame", tile),           MEMBER(Frame, "frame", limits),
-    MEMBER(Frame, "frame", sampling)};
+    MEMBER(Frame, "frameBlock", cameraPosition), MEMBER(Frame, "frameBlock", cameraRight),
+    MEMBER(Frame, "frameBlock", cameraUp),       MEMBER(Frame, "frameBlock", cameraForward),
+    MEMBER(Frame, "frameBlock", gridOrigin),     MEMBER(Frame, "frameBlock", gridCell),
+    MEMBER(Frame, "frameBlock", background),     MEMBER(Frame, "frameBlock", environment),
+    MEMBER(Frame, "frameBlock", lightChoice),    MEMBER(Frame, "frameBlock", picture),
+    MEMBER(Frame, "frameBlock", tile),           MEMBER(Frame, "frameBlock", limits),
+    MEMBER(Frame, "frameBlock", sampling)};
 const std::vector<Member> kProgressMembers = {
     MEMBER(Progress, "progress", unfinished), MEMBER(Progress, "progress", stuck),
     MEMBER(Progress, "progress", reserved0), MEMBER(Progress, "progress", reserved1)};
@@ -98,7 +98,7 @@ TEST_P(Layout, SceneBuffersHaveTheirBindingsAndRows) {
   const std::vector<Row> rows = {
       {"NodesBlock", "nodesBuffer", layout::kNodesBinding, 16},
       {"LeavesBlock", "leavesBuffer", layout::kLeavesBinding, 16},
-      {"PrimitivesBlock", "primitivesBuffer", layout::kPrimitivesBinding, 16},
+      {"FacesBlock", "facesBuffer", layout::kFacesBinding, 16},
       {"NormalsBlock", "normalsBuffer", layout::kNormalsBinding, 16},
       {"TexcoordsBlock", "texcoordsBuffer", layout::kTexcoordsBinding, 16},
       {"TangentsBlock", "tangentsBuffer", layout::kTangentsBinding, 16},

@@ -103,15 +103,16 @@ TEST_P(Probe, RandomNumbersAreTheSameBits) {
   Draw draw(1);
   for (int i = 0; i < 20000; ++i)
     given.values.insert(given.values.end(), {float(draw.integer(0, 1 << 24)), float(draw.integer(0, 4096))});
-  const Table results =
-      runOnDriver(given, 2,
-                  "  result(0, randomFloat(mixBits(uint(given(0))), uint(given(1))));\n"
-                  "  result(1, randomFloat(pathKey(uint(given(0)), uint(given(1)), 3u, 4u), 5u));\n");
+  const Table results = runOnDriver(
+      given, 2,
+      "  result(0, randomFloat(mixBits(uint(given(0))), uint(given(1))));\n"
+      "  result(1, randomFloat(pathKey(pixelKey(uint(given(0)), uint(given(1)), 4u), 3u), 5u));\n");
   for (int i = 0; i < given.rows(); ++i) {
     const auto a = uint32_t(given.row(i)[0]);
     const auto b = uint32_t(given.row(i)[1]);
     ASSERT_EQ(results.row(i)[0], glsl_float::randomFloat(glsl_float::mixBits(a), b));
-    ASSERT_EQ(results.row(i)[1], glsl_float::randomFloat(glsl_float::pathKey(a, b, 3, 4), 5));
+    ASSERT_EQ(results.row(i)[1],
+              glsl_float::randomFloat(glsl_float::pathKey(glsl_float::pixelKey(a, b, 4), 3), 5));
   }
 }
 

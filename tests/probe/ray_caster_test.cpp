@@ -25,7 +25,7 @@ TEST_P(RayCasting, FindsWhatDoublePrecisionFinds) {
   const std::vector<ExactHit> hits = tracer.nearest(primary);
   const std::vector<Ray> shadow = shadowRays(tracer, scene, primary, hits, 1);
   primary[0] = Ray{};  // none
-  for (const BufferReads reads : {BufferReads::Image, BufferReads::Ssbo}) {
+  for (const BufferReads reads : {BufferReads::Image, BufferReads::Ssbo, BufferReads::Texel}) {
     for (const TraversalMethod method : {TraversalMethod::Bvh, TraversalMethod::FrontToBack}) {
       RenderOptions options;
       options.stages = stagesUpTo(Stage::Flat);

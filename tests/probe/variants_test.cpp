@@ -37,6 +37,8 @@ TEST_P(Variants, TheFullShaderAndItsEmptyOne) {
   ShaderVariant resumable = full(GetParam());
   resumable.resumable = true;
   links(resumable);
+  resumable.dispatch = Dispatch::Compute;
+  links(resumable);
 }
 
 TEST_P(Variants, EachStageLeftOutAndAlone) {
@@ -74,10 +76,9 @@ TEST_P(Variants, EachTraversalAndStack) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Reads, Variants, ::testing::Values(BufferReads::Image, BufferReads::Ssbo),
-                         [](const auto& test) {
-                           return test.param == BufferReads::Image ? "Image" : "Ssbo";
-                         });
+INSTANTIATE_TEST_SUITE_P(Reads, Variants,
+                         ::testing::Values(BufferReads::Image, BufferReads::Ssbo, BufferReads::Texel),
+                         [](const auto& test) { return std::string(kBufferReadsNames[size_t(test.param)]); });
 
 }  // namespace
 }  // namespace fragtrace

@@ -28,6 +28,7 @@ inline bool kMetals = true;
 inline bool kTransmission = true;
 inline bool kSchlick = false;
 inline bool kCompensation = false;
+inline bool kWeights = true;
 inline bool kSobol = true;
 inline int kStackSize = 32;
 

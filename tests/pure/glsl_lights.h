@@ -16,7 +16,7 @@ inline bool kEmissionTexture = false;
 inline bool kTexcoords = false;
 
 inline layout::Frame frame{};
-inline std::span<const uint32_t> primitives;
+inline std::span<const uint32_t> faces;
 inline std::span<const uint32_t> texcoords;
 inline std::span<const uint32_t> materials;
 inline std::span<const uint32_t> emitters;

@@ -2,7 +2,7 @@
 // The shader files that choose lights, and the reads they need. No include guard: glsl_lights.h includes this
 // once a precision.
 
-inline uvec4 readPrimitives(int index) { return rowOf(glsl_variant::primitives, index); }
+inline uvec4 readFaces(int index) { return rowOf(glsl_variant::faces, index); }
 inline uvec4 readTexcoords(int index) { return rowOf(glsl_variant::texcoords, index); }
 inline uvec4 readMaterials(int index) { return rowOf(glsl_variant::materials, index); }
 inline uvec4 readEmitters(int index) { return rowOf(glsl_variant::emitters, index); }
@@ -19,9 +19,7 @@ inline vec4 readTexcoordsAt(int i) { return uintBitsToFloat(readTexcoords(i)); }
 inline vec4 materialFloats(uint material, uint row) {
   return uintBitsToFloat(readMaterials(int(material * kMaterialRows + row)));
 }
-inline uint materialFlags(uint material) {
-  return readMaterials(int(material * kMaterialRows + kMaterialMaps)).w;
-}
+inline uvec4 faceRow(int slot, int row) { return readFaces(slot * int(kFaceRows) + row); }
 inline vec3 emissionAt(uint material, vec4 /*texcoords*/) {
   return vec3(materialFloats(material, kMaterialEmission));
 }

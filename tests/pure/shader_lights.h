@@ -97,7 +97,7 @@ class Lit {
         packed(packScene(scene, bvh, {Surroundings::Map, environment ? dimMap() : Image{}},
                          variantOf(scene, environment))),
         leaves_(glsl_variant::leaves, packed.buffers[layout::kLeavesBinding]),
-        primitives_(glsl_variant::primitives, packed.buffers[layout::kPrimitivesBinding]),
+        faces_(glsl_variant::faces, packed.buffers[layout::kFacesBinding]),
         materials_(glsl_variant::materials, packed.buffers[layout::kMaterialsBinding]),
         emitters_(glsl_variant::emitters, packed.buffers[layout::kEmittersBinding]),
         lights_(glsl_variant::lights, packed.buffers[layout::kLightsBinding]),
@@ -172,7 +172,7 @@ class Lit {
 
   using Span = std::span<const uint32_t>;
   With<Span> leaves_;
-  With<Span> primitives_;
+  With<Span> faces_;
   With<Span> materials_;
   With<Span> emitters_;
   With<Span> lights_;

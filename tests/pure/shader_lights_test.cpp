@@ -125,20 +125,19 @@ TEST(ShaderLights, OnlyDoubleSidedTrianglesShineBackwards) {
   const Lit lit(octantScene());
   std::vector<double> lights(lit.scene.materials.size());
   Draw draw(181);
+  int emitter = 0;
   for (size_t i = 0; i < lit.scene.triangles.size(); ++i) {
     if (!lit.shines(i)) continue;
     const auto [a, b, c] = lit.cornersOf(i);
     const dvec3 behind = (a + b + c) / 3.0 - 2.0 * lit.normalOf(i);
-    for (int slot = 0; slot < 2 * int(lit.bvh.leaves.size()); ++slot) {
-      if (lit.bvh.leaves[size_t(slot) / 2].primitive[size_t(slot) % 2] != i) continue;
-      for (int k = 0; k < 100; ++k) {
-        const double u = draw.unit();
-        const auto s = glsl_double::triangleLight(slot, 0.5, behind, u, draw.unit());
-        EXPECT_EQ(s.density > 0.0, lit.scene.triangles[i].material == 0);
-        EXPECT_EQ(luminanceOf(s.irradiance) > 0.0, lit.scene.triangles[i].material == 0);
-        lights[lit.scene.triangles[i].material] += 1.0;
-      }
+    for (int k = 0; k < 100; ++k) {
+      const double u = draw.unit();
+      const auto s = glsl_double::triangleLight(emitter, 0.5, behind, u, draw.unit());
+      EXPECT_EQ(s.density > 0.0, lit.scene.triangles[i].material == 0);
+      EXPECT_EQ(luminanceOf(s.irradiance) > 0.0, lit.scene.triangles[i].material == 0);
+      lights[lit.scene.triangles[i].material] += 1.0;
     }
+    ++emitter;
   }
   EXPECT_GT(lights[0], 0.0);
   EXPECT_GT(lights[1], 0.0);
@@ -146,14 +145,15 @@ TEST(ShaderLights, OnlyDoubleSidedTrianglesShineBackwards) {
 
 TEST(ShaderLights, APointOnTheTriangleItselfGetsNothingThatIsNotFinite) {
   const Lit lit(octantScene());
-  for (int slot = 0; slot < 2 * int(lit.bvh.leaves.size()); ++slot) {
-    const uint32_t primitive = lit.bvh.leaves[size_t(slot) / 2].primitive[size_t(slot) % 2];
-    if (primitive == kMissIndex) continue;
-    const auto corners = lit.cornersOf(primitive);
+  int emitter = -1;
+  for (size_t triangle = 0; triangle < lit.scene.triangles.size(); ++triangle) {
+    if (!lit.shines(triangle)) continue;
+    ++emitter;
+    const auto corners = lit.cornersOf(triangle);
     for (const vec3& point : {vec3(corners[0]), vec3((corners[0] + corners[1]) * 0.5)}) {
       for (float u : {0.0f, 0.5f, 0x1.fffffep-1f}) {
         for (float v : {0.0f, 0.5f, 0x1.fffffep-1f}) {
-          const auto s = glsl_float::triangleLight(slot, 0.3f, point, u, v);
+          const auto s = glsl_float::triangleLight(emitter, 0.3f, point, u, v);
           EXPECT_TRUE(std::isfinite(s.irradiance.x + s.irradiance.y + s.irradiance.z + s.density));
         }
       }
@@ -266,7 +266,7 @@ TEST(ShaderLights, OneSampleOfAllLightsAndTheEnvironmentIsUnbiased) {
   ASSERT_EQ(glsl_double::lightSlotCount(), 1);
   Estimate estimate;
   for (uint32_t k = 0; k < kSamples; ++k) {
-    const auto numbers = glsl_double::makeSampler(11, 13, k, 17);
+    const auto numbers = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
     estimate.add(luminanceOf(glsl_double::lightOfSlot(0, kOrigin, numbers, 5).irradiance));
   }
   const double exact = trianglesAtOrigin(lit) + punctualsAtOrigin(lit) + environmentAllAround();
@@ -286,7 +286,7 @@ TEST(ShaderLights, BeforeGlobalIlluminationEverySlotIsALightOfItsOwn) {
   for (int slot = 0; slot < 5; ++slot) {
     Estimate estimate;
     for (uint32_t k = 0; k < kSamples; ++k) {
-      const auto numbers = glsl_double::makeSampler(11, 13, k, 17);
+      const auto numbers = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
       estimate.add(luminanceOf(glsl_double::lightOfSlot(slot, kOrigin, numbers, 5).irradiance));
     }
     EXPECT_LE(std::abs(estimate.mean() - expected[slot]), kLimit * estimate.error() + 3e-5 * expected[slot])

@@ -14,13 +14,14 @@ namespace {
 
 using glsl_float::mixBits;
 using glsl_float::pathKey;
+using glsl_float::pixelKey;
 using glsl_float::randomFloat;
 
 constexpr int kDimensions = 48;
 constexpr int kPaths = 1 << 17;
 
 // Paths as a picture has them: neighbouring pixels, a few samples each.
-uint32_t keyOf(int path) { return pathKey(path & 127, path >> 7 & 127, path >> 14, 0); }
+uint32_t keyOf(int path) { return pathKey(pixelKey(path & 127, path >> 7 & 127, 0), path >> 14); }
 
 TEST(ShaderRandom, MixBitsJoinsNoTwoOfAMillionNeighbours) {
   std::unordered_set<uint32_t> seen;
@@ -92,8 +93,9 @@ TEST(ShaderRandom, NeighbouringPixelsSamplesAndSeedsAreNotCorrelated) {
   for (int dimension = 0; dimension < 8; ++dimension) {
     auto at = [&](int x, int y, int sample, int seed) {
       return [=](int path) {
-        return randomFloat(pathKey((path & 127) + x, (path >> 7 & 127) + y, (path >> 14) + sample, seed),
-                           dimension);
+        return randomFloat(
+            pathKey(pixelKey((path & 127) + x, (path >> 7 & 127) + y, seed), (path >> 14) + sample),
+            dimension);
       };
     };
     const auto here = at(0, 0, 0, 0);
@@ -110,7 +112,7 @@ TEST(ShaderRandom, DiagonalPixelsAndSamplesHaveKeysOfTheirOwn) {
   constexpr int kSide = 64;
   for (int x = 0; x < kSide; ++x) {
     for (int y = 0; y < kSide; ++y) {
-      for (int sample = 0; sample < 16; ++sample) keys.insert(pathKey(x, y, sample, 1));
+      for (int sample = 0; sample < 16; ++sample) keys.insert(pathKey(pixelKey(x, y, 1), sample));
     }
   }
   // 65536 keys of 32 bits meet half a time on average.

@@ -12,6 +12,7 @@ namespace {
 using glsl_float::drawBits;
 using glsl_float::drawPair;
 using glsl_float::makeSampler;
+using glsl_float::pixelKey;
 using glsl_variant::With;
 
 /// Direction numbers of the second Sobol dimension, most significant bit first (Bratley and Fox, 1988).
@@ -45,7 +46,7 @@ TEST(ShaderSobol, EachElementaryIntervalOfAPairHoldsOneOfTheFirstSamples) {
       for (int across = 0; across <= bits; ++across) {
         std::set<int> cells;
         for (uint32_t k = 0; k < 1u << bits; ++k) {
-          const auto p = drawPair(makeSampler(pixel, 3, k, 1), 17 * pixel);
+          const auto p = drawPair(makeSampler(pixelKey(pixel, 3, 1), k), 17 * pixel);
           const int x = int(p.x * float(1 << across));
           const int y = int(p.y * float(1 << (bits - across)));
           cells.insert(x << 16 | y);
@@ -59,7 +60,8 @@ TEST(ShaderSobol, EachElementaryIntervalOfAPairHoldsOneOfTheFirstSamples) {
 TEST(ShaderSobol, EachIntervalOfOneDimensionHoldsOneOfTheFirstSamples) {
   for (uint32_t dimension = 0; dimension < 40; ++dimension) {
     std::set<uint32_t> cells;
-    for (uint32_t k = 0; k < 64; ++k) cells.insert(drawBits(makeSampler(5, 9, k, 0), dimension) >> 26);
+    for (uint32_t k = 0; k < 64; ++k)
+      cells.insert(drawBits(makeSampler(pixelKey(5, 9, 0), k), dimension) >> 26);
     EXPECT_EQ(cells.size(), 64u);
   }
 }
@@ -72,7 +74,7 @@ double correlation(First first, Second second) {
   constexpr uint32_t kSamples = 16;
   for (uint32_t pixel = 0; pixel < kPixels; ++pixel) {
     for (uint32_t k = 0; k < kSamples; ++k) {
-      const auto s = makeSampler(pixel & 63u, pixel >> 6, k, 7);
+      const auto s = makeSampler(pixelKey(pixel & 63u, pixel >> 6, 7), k);
       sum += (first(s) - 0.5) * (second(s) - 0.5) * 12.0;
     }
   }
@@ -99,7 +101,7 @@ TEST(ShaderSobol, PairsOfDifferentDimensionsCoverAllQuadrants) {
   std::set<int> quadrants;
   for (uint32_t pixel = 0; pixel < 64; ++pixel) {
     for (uint32_t k = 0; k < 4; ++k) {
-      const auto s = makeSampler(pixel, 0, k, 0);
+      const auto s = makeSampler(pixelKey(pixel, 0, 0), k);
       quadrants.insert(int(pixel) << 2 | int(glsl_float::drawFloat(s, 4) * 2) << 1 |
                        int(glsl_float::drawFloat(s, 9) * 2));
     }
@@ -112,7 +114,7 @@ TEST(ShaderSobol, PairsOfDifferentDimensionsCoverAllQuadrants) {
 TEST(ShaderSobol, TheRandomSamplerIsIndependentFromSampleToSample) {
   const With random(glsl_variant::kSobol, false);
   std::set<uint32_t> cells;
-  for (uint32_t k = 0; k < 64; ++k) cells.insert(drawBits(makeSampler(5, 9, k, 0), 3) >> 26);
+  for (uint32_t k = 0; k < 64; ++k) cells.insert(drawBits(makeSampler(pixelKey(5, 9, 0), k), 3) >> 26);
   EXPECT_LT(cells.size(), 50u);
 }
 

@@ -69,26 +69,31 @@ TEST(ShaderTree, LeafSlotsHoldThePrimitivesOfTheirLeaves) {
   const With leaves(glsl_variant::leaves, std::span<const uint32_t>(p.leaves));
   size_t found = 0;
   for (size_t slot = 0; slot < p.bvh.leaves.size() * 2; ++slot) {
-    const auto primitive = glsl_float::loadLeafPrimitive(int(slot));
+    const auto leaf = glsl_float::loadLeaf(int(slot / 2));
+    const bool second = slot % 2 == 1;
+    const auto v0 = second ? leaf.v0b : leaf.v0a;
+    const auto v1 = second ? leaf.v1b : leaf.v1a;
+    const auto v2 = second ? leaf.v2b : leaf.v2a;
+    const uint32_t word = second ? leaf.wordb : leaf.worda;
     const uint32_t expected = p.primitiveOf(int(slot));
     if (expected == kMissIndex) {
-      EXPECT_EQ(primitive.word, layout::kPrimitiveNone);
+      EXPECT_EQ(word, layout::kPrimitiveNone);
       continue;
     }
     ++found;
-    EXPECT_EQ(primitive.word & layout::kPrimitiveIndexMask, expected);
+    EXPECT_EQ(word & layout::kPrimitiveIndexMask, expected);
     const bool sphere = expected >= p.scene.triangles.size();
-    EXPECT_EQ((primitive.word & layout::kPrimitiveSphere) != 0, sphere);
-    EXPECT_EQ((primitive.word & layout::kPrimitiveCull) != 0, sphere);  // material 1 is the single-sided one
+    EXPECT_EQ((word & layout::kPrimitiveSphere) != 0, sphere);
+    EXPECT_EQ((word & layout::kPrimitiveCull) != 0, sphere);  // material 1 is the single-sided one
     if (sphere) {
       const Sphere& s = p.scene.spheres[expected - p.scene.triangles.size()];
-      EXPECT_EQ(primitive.v0, s.center);
-      EXPECT_EQ(primitive.v1.x, s.radius);
+      EXPECT_EQ(v0, s.center);
+      EXPECT_EQ(v1.x, s.radius);
     } else {
       const glm::uvec3 v = p.scene.triangles[expected].vertex;
-      EXPECT_EQ(primitive.v0, p.scene.vertices.position[v.x]);
-      EXPECT_EQ(primitive.v1, p.scene.vertices.position[v.y]);
-      EXPECT_EQ(primitive.v2, p.scene.vertices.position[v.z]);
+      EXPECT_EQ(v0, p.scene.vertices.position[v.x]);
+      EXPECT_EQ(v1, p.scene.vertices.position[v.y]);
+      EXPECT_EQ(v2, p.scene.vertices.position[v.z]);
     }
   }
   EXPECT_EQ(found, 108u);

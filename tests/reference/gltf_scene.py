@@ -141,10 +141,9 @@ class Reader:
         return base64.b64decode(uri.split(",", 1)[1]) if uri.startswith("data:") else (self.folder / uri).read_bytes()
 
     def view(self, index, dtype, count, width, offset=0):
-        view = self.root["bufferViews"][index]
-        assert "byteStride" not in view
-        data = self.buffers[view["buffer"]]
-        return np.frombuffer(data, dtype, count * width, view.get("byteOffset", 0) + offset).reshape(count, width)
+        view, dtype = self.root["bufferViews"][index], np.dtype(dtype)
+        strides = (view.get("byteStride", width * dtype.itemsize), dtype.itemsize)
+        return np.ndarray((count, width), dtype, self.buffers[view["buffer"]], view.get("byteOffset", 0) + offset, strides)
 
     def accessor(self, index):
         a = self.root["accessors"][index]

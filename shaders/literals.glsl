@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// What src/pack/literals.cpp puts in place of this file when a scene is so small that it becomes part of the shader's text: all its
+// triangles are tested without a tree, and its faces, materials and emitters are constants to choose from.
+
+const bool kLiterals = false;
+
+/// The nearest hit of the ray, or any.
+Traversal traverseLiterals(vec3 origin, vec3 direction, Traversal s, bool anyHit) { return s; }
+
+uvec4 literalFace(int slot, int row) { return uvec4(0u); }
+uvec4 literalMaterial(uint material, uint row) { return uvec4(0u); }
+uvec4 literalEmitter(int emitter, int row) { return uvec4(0u); }

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "pack/literal_traversal.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdio>
+#include <map>
+#include <set>
+
+namespace fragtrace {
+
+namespace {
+
+std::string number(double x) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.9g", double(float(x)));
+  std::string s(text);
+  if (s.find_first_of(".e") == std::string::npos) s += ".0";
+  return x < 0.0 ? "(" + s + ")" : s;
+}
+
+/// A number that is known by its name or by the name of its opposite: negating would cost an instruction.
+struct Term {
+  std::string name;
+  bool negated = false;
+};
+
+/// The sum of products of terms and factors (none: the term alone), those that count as positive first.
+std::string sumOf(std::vector<std::pair<Term, std::string>> products) {
+  std::ranges::stable_sort(products, {}, [](const auto& p) { return p.first.negated; });
+  std::string text;
+  for (const auto& [term, factor] : products) {
+    const char* sign = term.negated ? " - " : " + ";
+    text += text.empty() ? (term.negated ? "-" : "") : sign;
+    text += factor.empty() ? term.name : term.name + " * " + factor;
+  }
+  return text;
+}
+
+/// The rows turn a point into the sheared plane (x mirrored, so that fronts count as positive) and into the
+/// distance along the ray; w is what the origin takes off.
+constexpr const char* kHead = R"(
+vec4 literalRow(vec3 row, vec3 origin) { return vec4(row, -dot(row, origin)); }
+
+Traversal traverseLiterals(vec3 origin, vec3 direction, Traversal s, bool anyHit) {
+  RayShear r = makeShear(direction);
+  float side = r.z < 0.0 ? -1.0 : 1.0;
+  vec4 rx = literalRow(side * (r.axis == 0 ? vec3(-r.x, 1.0, 0.0) : (r.axis == 1 ? vec3(0.0, -r.x, 1.0) : vec3(1.0, 0.0, -r.x))), origin);
+  vec4 ry = literalRow(r.axis == 0 ? vec3(-r.y, 0.0, 1.0) : (r.axis == 1 ? vec3(1.0, -r.y, 0.0) : vec3(0.0, 1.0, -r.y)), origin);
+  vec4 rz = literalRow(r.axis == 0 ? vec3(r.z, 0.0, 0.0) : (r.axis == 1 ? vec3(0.0, r.z, 0.0) : vec3(0.0, 0.0, r.z)), origin);
+  float best = s.t;
+  float bestSum = 1.0;
+  vec2 weights = vec2(0.0);
+  float sum;
+  float t;
+  bool hit;
+)";
+constexpr const char* kWeightsTail = "  s.weights = weights / bestSum;\n";
+constexpr const char* kTail = R"(  if (!anyHit) s.t = best / bestSum;
+  s.node = kTraversalDone;
+  return s;
+}
+)";
+
+class TraversalText {
+ public:
+  TraversalText(const LiteralMesh& mesh, bool weights)
+      : mesh_(mesh), weights_(weights), single_(singleAxis()) {}
+
+  std::string text() {
+    for (const LiteralFace& face : mesh_.faces) test(face);
+    return kHead + body_ + (weights_ ? kWeightsTail : "") + kTail;
+  }
+
+ private:
+  static constexpr const char* kAxes[3] = {".x", ".y", ".z"};
+
+  /// The axis along which most points share both other coordinates: their part of the projection is made
+  /// once.
+  int singleAxis() const {
+    int best = 0;
+    size_t fewest = SIZE_MAX;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::set<std::pair<float, float>> pairs;
+      for (const glm::vec3& p : mesh_.points) pairs.insert({p[(axis + 1) % 3], p[(axis + 2) % 3]});
+      if (pairs.size() < fewest) best = axis;
+      fewest = std::min(fewest, pairs.size());
+    }
+    return best;
+  }
+
+  /// A variable that holds an expression, made where it is first needed, so that few are alive at a time.
+  std::string variable(const std::string& expression) {
+    const auto [found, isNew] =
+        variables_.emplace(expression, std::string("v") + std::to_string(variables_.size()));
+    if (isNew) body_ += "  float " + found->second + " = " + expression + ";\n";
+    return found->second;
+  }
+
+  static std::string product(double x, const std::string& row, int axis) {
+    if (x == 0.0) return {};
+    return x == 1.0 ? row + kAxes[axis] : number(x) + " * " + row + kAxes[axis];
+  }
+
+  static std::string added(const std::string& a, const std::string& b) {
+    return a.empty() || b.empty() ? a + b : a + " + " + b;
+  }
+
+  /// A point's coordinate in a row.
+  std::string place(const std::string& row, uint32_t point) {
+    const glm::vec3& p = mesh_.points[point];
+    const int a = (single_ + 1) % 3;
+    const int b = (single_ + 2) % 3;
+    const std::string pair = added(product(p[a], row, a), product(p[b], row, b));
+    const std::string rest = variable(added(product(p[single_], row, single_), row + ".w"));
+    return pair.empty() ? rest : variable(variable(pair) + " + " + rest);
+  }
+
+  /// Twice the distance along the ray from one point to another; parallel sides of faces share it.
+  Term twiceApart(uint32_t from, uint32_t to) {
+    glm::dvec3 d = 2.0 * (glm::dvec3(mesh_.points[to]) - glm::dvec3(mesh_.points[from]));
+    const bool negated = d.x < 0.0 || (d.x == 0.0 && (d.y < 0.0 || (d.y == 0.0 && d.z < 0.0)));
+    if (negated) d = -d;
+    std::string text;
+    for (int axis = 0; axis < 3; ++axis) text = added(text, product(d[axis], "rz", axis));
+    return {text.empty() ? "0.0" : variable(text), negated};
+  }
+
+  /// The edge function from one corner to another, x_i y_j - y_i x_j, made once for both directions.
+  Term edge(uint32_t i, uint32_t j) {
+    const uint32_t low = std::min(i, j);
+    const uint32_t high = std::max(i, j);
+    const std::string xi = place("rx", low);
+    const std::string yi = place("ry", low);
+    const std::string xj = place("rx", high);
+    const std::string yj = place("ry", high);
+    return {variable(xi + " * " + yj + " - " + yi + " * " + xj), i > j};
+  }
+
+  static Term times(const Term& a, bool negated) { return {a.name, a.negated != negated}; }
+
+  void test(const LiteralFace& f) {
+    const size_t corners = f.quad ? 4 : 3;
+    std::vector<Term> e;
+    std::vector<std::pair<Term, std::string>> all;
+    std::string positive;
+    std::string negative;
+    for (size_t i = 0; i < corners; ++i) {
+      e.push_back(edge(f.corner[(i + 1) % corners], f.corner[i]));
+      all.push_back({e[i], ""});
+      positive += e[i].name + (e[i].negated ? " <= 0.0 && " : " >= 0.0 && ");
+      negative += e[i].name + (e[i].negated ? " >= 0.0 && " : " <= 0.0 && ");
+    }
+    const std::string z0 = place("rz", f.corner[0]);
+    std::string t;
+    if (f.parallelogram) {
+      // The first corner's two sides lead away from it: edge 3 grows along side 0, edge 0 along side 3.
+      const Term along = twiceApart(f.corner[0], f.corner[1]);
+      const Term up = twiceApart(f.corner[0], f.corner[3]);
+      t = sumOf({{{z0, false}, "sum"},
+                 {times(e[3], along.negated), along.name},
+                 {times(e[0], up.negated), up.name}});
+    } else {
+      // Corner i lies opposite of edge i + 1. A quadrilateral's plane is that of its first three corners.
+      const Term last = f.quad ? edge(f.corner[0], f.corner[2]) : e[2];
+      all = {{e[0], ""}, {e[1], ""}, {last, ""}};
+      t = sumOf({{e[1], z0}, {last, place("rz", f.corner[1])}, {e[0], place("rz", f.corner[2])}});
+    }
+    body_ += "  sum = " + sumOf(all) + ";\n  t = " + t + ";\n";
+    if (f.culled) {
+      // All edges zero make t zero, too.
+      body_ += "  hit = " + positive + "t > 0.0;\n";
+    } else {
+      body_ += "  hit = (" + positive + "sum > 0.0) || (" + negative + "sum < 0.0);\n";
+      body_ += "  t = sum < 0.0 ? -t : t;\n  sum = abs(sum);\n  hit = hit && t > 0.0;\n";
+    }
+    body_ += "  hit = hit && t * bestSum < best * sum;\n";
+    body_ += "  s.slot = hit ? " + std::to_string(f.slot) + " : s.slot;\n";
+    body_ += "  if (!anyHit) {\n    best = hit ? t : best;\n    bestSum = hit ? sum : bestSum;\n  }\n";
+    if (weights_) body_ += "  weights = hit ? abs(vec2(" + e[2].name + ", " + e[0].name + ")) : weights;\n";
+  }
+
+  const LiteralMesh& mesh_;
+  bool weights_;
+  int single_;
+  std::map<std::string, std::string> variables_;
+  std::string body_;
+};
+
+}  // namespace
+
+std::string literalTraversal(const LiteralMesh& mesh, bool weights) {
+  return TraversalText(mesh, weights).text();
+}
+
+}  // namespace fragtrace

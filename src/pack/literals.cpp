@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "pack/literals.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+#include "pack/literal_faces.h"
+#include "pack/literal_traversal.h"
+
+namespace fragtrace {
+
+namespace {
+
+std::string word(uint32_t x) {
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%xu", x);
+  return text;
+}
+
+/// An expression that is values[index], by halves; equal values need no choice. Values nobody asks for are
+/// nothing.
+std::string chosen(const std::string& index, const std::vector<std::optional<uint32_t>>& values, size_t from,
+                   size_t to) {
+  std::optional<uint32_t> only;
+  bool same = true;
+  for (size_t i = from; i < to; ++i) {
+    if (!values[i]) continue;
+    same = same && (!only || *only == *values[i]);
+    only = values[i];
+  }
+  if (same) return word(only.value_or(0u));
+  const size_t mid = (from + to) / 2;
+  return "(" + index + " < " + std::to_string(mid) + " ? " + chosen(index, values, from, mid) + " : " +
+         chosen(index, values, mid, to) + ")";
+}
+
+/// The row of the index-th entry of a buffer that holds `rows` rows an entry.
+std::string chosenRow(const Words& words, const std::string& index, size_t count, size_t rows, size_t row,
+                      const std::vector<bool>& used) {
+  std::string text = "uvec4(";
+  for (size_t c = 0; c < 4; ++c) {
+    std::vector<std::optional<uint32_t>> values(count);
+    for (size_t i = 0; i < count; ++i) {
+      if (used.empty() || used[i]) values[i] = words[(i * rows + row) * 4 + c];
+    }
+    text += (c > 0 ? ", " : "") + chosen(index, values, 0, count);
+  }
+  return text + ")";
+}
+
+/// A function of an entry and a row, which is a constant where it is called.
+std::string rowFunction(const std::string& head, const std::string& index, const Words& words, size_t count,
+                        size_t rows, const std::vector<bool>& used = {}) {
+  std::string text = head + " {\n";
+  for (size_t row = 0; row + 1 < rows; ++row)
+    text += "  if (row == " + std::to_string(row) + ") return " +
+            chosenRow(words, index, count, rows, row, used) + ";\n";
+  return text + "  return " + chosenRow(words, index, count, rows, rows - 1, used) + ";\n}\n";
+}
+
+}  // namespace
+
+bool fitsAsLiterals(const Scene& scene, const GpuScene& packed) {
+  constexpr size_t kMostTriangles = 256;
+  constexpr size_t kMostMaterials = 16;
+  constexpr uint32_t kMostEmitters = 16;
+  return scene.spheres.empty() && !scene.triangles.empty() && scene.triangles.size() <= kMostTriangles &&
+         scene.materials.size() <= kMostMaterials && packed.emitterCount <= kMostEmitters;
+}
+
+bool paysAsLiterals(const Scene& scene, const Bvh& bvh, const GpuScene& packed) {
+  if (!fitsAsLiterals(scene, packed)) return false;
+  // Instructions for eight rays, counted on llvmpipe: a face with its part of the vertices and edges, a visit
+  // of a node or a leaf. Rays in lockstep wait for the longest of them.
+  constexpr double kFace = 55.0;
+  constexpr double kVisit = 260.0;
+  constexpr double kLockstep = 1.6;
+  const double faces = double(literalMesh(scene, bvh, false).faces.size());
+  return faces * kFace < bvhQuality(bvh).sahCost * kLockstep * kVisit;
+}
+
+std::string literalScene(const Scene& scene, const Bvh& bvh, const GpuScene& packed,
+                         const ShaderVariant& variant) {
+  const TraitSet& traits = variant.traits;
+  const bool weights = has(traits, Trait::VertexNormals) || has(traits, Trait::Texcoords) ||
+                       has(traits, Trait::Tangents) || has(traits, Trait::VertexColors);
+  const LiteralMesh mesh = literalMesh(scene, bvh, !weights);
+  const size_t slots = bvh.leaves.size() * 2;
+  std::vector<bool> used(slots, false);
+  for (const LiteralFace& face : mesh.faces) used[face.slot] = true;
+  Words faces = packed.buffers[layout::kFacesBinding];
+  for (size_t slot = 0; slot < slots && !weights; ++slot) {
+    // Vertices are read by their index only where they have attributes.
+    for (size_t c = 1; c < 4; ++c) faces[(slot * layout::kFaceRows + 1) * 4 + c] = 0u;
+  }
+  std::string text = "const bool kLiterals = true;\n";
+  text += literalTraversal(mesh, weights);
+  text += rowFunction("uvec4 literalFace(int slot, int row)", "slot", faces, slots, layout::kFaceRows, used);
+  text +=
+      rowFunction("uvec4 literalMaterial(uint material, uint row)", "material",
+                  packed.buffers[layout::kMaterialsBinding], scene.materials.size(), layout::kMaterialRows);
+  if (packed.emitterCount > 0) {
+    text += rowFunction("uvec4 literalEmitter(int emitter, int row)", "emitter",
+                        packed.buffers[layout::kEmittersBinding], packed.emitterCount, layout::kEmitterRows);
+  } else {
+    text += "uvec4 literalEmitter(int emitter, int row) { return uvec4(0u); }\n";
+  }
+  return text;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Scenes so small that they become part of the shader's text: no tree, no reads.
+#pragma once
+
+#include <string>
+
+#include "pack/gpu_scene.h"
+
+namespace fragtrace {
+
+/// No spheres, and not too many triangles, materials or emitters.
+bool fitsAsLiterals(const Scene& scene, const GpuScene& packed);
+
+/// Whether testing every triangle as a literal takes less work than walking the tree, by the expected
+/// instructions of both (docs/architecture.md). Never for scenes with spheres, or whose faces, materials and
+/// emitters are too many to choose from.
+bool paysAsLiterals(const Scene& scene, const Bvh& bvh, const GpuScene& packed);
+
+/// The text that takes the place of shaders/literals.glsl for this scene: triangles that share a vertex share
+/// its projection, those that share an edge its edge function, so that the tests are as watertight as those
+/// of the tree; two triangles that make a parallelogram are one test.
+std::string literalScene(const Scene& scene, const Bvh& bvh, const GpuScene& packed,
+                         const ShaderVariant& variant);
+
+}  // namespace fragtrace

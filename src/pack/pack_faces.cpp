@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "pack/pack_faces.h"
+
+#include "errors.h"
+#include "pack/words.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// The upper bits of a positive float that is at least this error.
+uint32_t errorBits(double error) {
+  constexpr uint32_t kDropped = (1u << layout::kFloatErrorShift) - 1u;
+  const uint32_t up = floatWord(std::nextafter(float(error), std::numeric_limits<float>::infinity()));
+  return (up + kDropped) >> layout::kFloatErrorShift << layout::kFaceErrorShift;
+}
+
+void appendTriangle(Words& words, const Scene& scene, const Triangle& t) {
+  const glm::vec3 v0 = scene.vertices.position[t.vertex[0]];
+  const glm::vec3 v1 = scene.vertices.position[t.vertex[1]];
+  const glm::vec3 v2 = scene.vertices.position[t.vertex[2]];
+  const glm::vec4 plane = planeOf(v0, v1, v2);
+  const uint32_t flat = t.flat ? layout::kFaceFlat : 0u;
+  const uint32_t word = t.material | flat | errorBits(hitPointError(v0, v1, v2));
+  words.insert(words.end(), {floatWord(plane.x), floatWord(plane.y), floatWord(plane.z), word,
+                             floatWord(plane.w), t.vertex.x, t.vertex.y, t.vertex.z});
+}
+
+void appendSphere(Words& words, const Sphere& s) {
+  // q and -q are the same rotation; the shader derives w >= 0 from the rest.
+  const glm::quat q = s.rotation.w < 0.0f ? -s.rotation : s.rotation;
+  const glm::vec3 reach = glm::abs(s.center) + glm::vec3(s.radius);
+  const uint32_t word = s.material | layout::kFaceSphere | errorBits(hitPointError(reach, reach, reach));
+  words.insert(words.end(), {floatWord(q.x), floatWord(q.y), floatWord(q.z), word});
+  appendRow(words, s.center, s.radius);
+}
+
+}  // namespace
+
+double hitPointError(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2) {
+  const glm::vec3 largest = glm::max(glm::abs(v0), glm::max(glm::abs(v1), glm::abs(v2)));
+  return 0x1p-19 * std::max(largest.x, std::max(largest.y, largest.z));
+}
+
+glm::vec4 planeOf(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2) {
+  const glm::dvec3 cross = glm::cross(glm::dvec3(v1) - glm::dvec3(v0), glm::dvec3(v2) - glm::dvec3(v0));
+  const double length = glm::length(cross);
+  if (length <= 0.0) return glm::vec4(0.0f);
+  const glm::vec3 normal(cross / length);
+  const glm::dvec3 middle = (glm::dvec3(v0) + glm::dvec3(v1) + glm::dvec3(v2)) / 3.0;
+  return {normal, float(glm::dot(glm::dvec3(normal), middle))};
+}
+
+Words packFaces(const Scene& scene, const Bvh& bvh) {
+  if (scene.materials.size() > layout::kFaceMaterialMask)
+    throw InputError("the scene has " + std::to_string(scene.materials.size()) + " materials, at most " +
+                     std::to_string(layout::kFaceMaterialMask) + " can be drawn");
+  Words words;
+  words.reserve(bvh.leaves.size() * 2 * layout::kFaceRows * 4);
+  for (const BvhLeaf& leaf : bvh.leaves) {
+    for (const uint32_t primitive : leaf.primitive) {
+      if (primitive == kMissIndex) {
+        words.insert(words.end(), layout::kFaceRows * 4, 0u);
+      } else if (primitive < scene.triangles.size()) {
+        appendTriangle(words, scene, scene.triangles[primitive]);
+      } else {
+        appendSphere(words, scene.spheres[primitive - scene.triangles.size()]);
+      }
+    }
+  }
+  return words;
+}
+
+}  // namespace fragtrace
