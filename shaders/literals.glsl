@@ -2,7 +2,8 @@
 // What src/pack/literals.cpp puts in place of this file when a scene is so small that it becomes part of the shader's text: all its
 // triangles are tested without a tree, and its faces, materials and emitters are constants to choose from.
 
-const bool kLiterals = false;
+const bool kLiterals = false;    // the whole scene
+const bool kLargeFirst = false;  // its largest triangles, which the tree does not hold
 
 /// The nearest hit of the ray, or any.
 Traversal traverseLiterals(vec3 origin, vec3 direction, Traversal s, bool anyHit) { return s; }

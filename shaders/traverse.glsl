@@ -145,6 +145,10 @@ Traversal traverseTree(vec3 origin, vec3 direction, float rayLimit, Traversal s,
 Traversal traverse(vec3 origin, vec3 direction, float rayLimit, Traversal s, TreeFrame tree, int stepLimit,
                    bool anyHit) {
   if (kLiterals) return traverseLiterals(origin, direction, s, anyHit);
+  if (kLargeFirst) {
+    s = traverseLiterals(origin, direction, s, anyHit);
+    if (anyHit && s.slot >= 0) s.node = kTraversalDone;
+  }
   if (kIterative) return traverseIterative(origin, direction, s, tree, stepLimit, anyHit);
   return traverseTree(origin, direction, rayLimit, s, tree, stepLimit, anyHit);
 }

@@ -3,23 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "bench/chart.h"
+#include "bench/formatted.h"
 
 namespace fragtrace {
 
 namespace {
 
 constexpr double kEnoughSamples = 64.0;  // from which on errors fall as 1 / N, or faster
-
-template <typename... Values>
-std::string formatted(const char* format, Values... values) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 const ErrorCurve* curveNamed(const ErrorReport& report, const std::string& name) {
   for (const ErrorCurve& curve : report.curves) {

@@ -33,7 +33,8 @@ struct BvhLeaf {
 struct Bvh {
   std::vector<BvhNode> nodes;
   std::vector<BvhLeaf> leaves;
-  uint32_t depth = 0;  ///< inner nodes on the longest path from the root, at most kMaxBvhDepth
+  uint32_t besideTree = 0;  ///< leaves at the end that no node holds: see large_first.h
+  uint32_t depth = 0;       ///< inner nodes on the longest path from the root, at most kMaxBvhDepth
   Bounds bounds;
 };
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "bench/error_report.h"
+#include "cli/bench_interrupt.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/outputs.h"
@@ -15,26 +16,15 @@
 #include "image/difference.h"
 #include "image/flip.h"
 #include "image/tone_map.h"
-#include "image/whole_file.h"
 #include "render/adaptive.h"
 
 namespace fragtrace {
 
 namespace {
 
-constexpr int kInterruptedStatus = 130;
 constexpr int kReferenceFactor = 64;       // samples of a reference over the most that is measured
 constexpr uint32_t kReferenceSeed = 7919;  // apart from those of the repetitions
 constexpr int kAdaptiveSteps = 6;          // goals, each half of the last
-
-struct Interrupted {};
-
-Renderer::Progress untilInterrupted() {
-  return [](double) {
-    if (interrupts() > 0) throw Interrupted();
-    return true;
-  };
-}
 
 /// One configuration on the device.
 struct Contender {
@@ -128,10 +118,6 @@ std::vector<NamedOutput> outputsOf(const BenchErrorOptions& options) {
   return {{"--json", options.json}, {"--csv", options.csv}, {"--chart", options.chart}};
 }
 
-void writeText(const std::filesystem::path& path, const std::string& text) {
-  if (!path.empty()) replaceFile(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
-}
-
 ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
   const RenderOptions& first = options.configurations.front().render;
   std::vector<Contender> contenders;
@@ -209,12 +195,11 @@ int runBenchError(const BenchErrorOptions& options) {
   try {
     const ErrorReport report = measure(options, *context);
     std::fputs(errorTable(report).c_str(), stdout);
-    writeText(options.json, errorJson(report));
-    writeText(options.csv, errorCsv(report));
-    writeText(options.chart, errorChart(report));
+    replaceText(options.json, errorJson(report));
+    replaceText(options.csv, errorCsv(report));
+    replaceText(options.chart, errorChart(report));
   } catch (const Interrupted&) {
-    std::fprintf(stderr, "fragtrace: interrupted, nothing is written\n");
-    return kInterruptedStatus;
+    return sayInterrupted();
   }
   return 0;
 }

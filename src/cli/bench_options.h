@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The options of `bench`.
+// The options of `bench error`.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "cli/render_options.h"
+#include "cli/bench_configurations.h"
 
 namespace CLI {
 class App;
 }
 
 namespace fragtrace {
-
-/// A set of options to be measured against others.
-struct BenchConfiguration {
-  std::string name;
-  std::string text;  ///< as on the command line
-  RenderOptions render;
-
-  bool adaptive() const { return render.noise > 0.0 || render.seconds > 0.0; }
-};
 
 struct BenchErrorOptions {
   std::vector<BenchConfiguration> configurations;
@@ -35,9 +26,7 @@ struct BenchErrorOptions {
 /// Options as the library parses them.
 struct RawBenchError {
   std::string scene;
-  RawRender shared;
-  std::vector<std::string> names;
-  std::vector<std::string> own;
+  RawConfigurations configurations;
   BenchErrorOptions options;
 };
 

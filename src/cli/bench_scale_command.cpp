@@ -15,7 +15,6 @@
 #include "cli/progress_bar.h"
 #include "cli/setup.h"
 #include "errors.h"
-#include "gl/driver_choice.h"
 #include "pack/pack_tree.h"
 
 namespace fragtrace {

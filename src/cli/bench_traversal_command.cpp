@@ -12,8 +12,8 @@
 #include "cli/progress_bar.h"
 #include "cli/setup.h"
 #include "errors.h"
-#include "gl/driver_choice.h"
 #include "image/whole_file.h"
+#include "pack/literals.h"
 #include "render/ray_caster.h"
 
 namespace fragtrace {
@@ -99,6 +99,7 @@ TraversalReport measure(const BenchTraversalOptions& options, const Context& con
     throw InputError(options.render.scene.string() + ": has spheres, which --rays does not write");
   ShaderVariant variant = chooseVariant(options.render, traitsOf(scene, Surroundings::None),
                                         Surroundings::None, loaded.bvh.depth, BufferReads::Auto);
+  if (loaded.bvh.besideTree > 0) variant.literals = largeFirst(scene, loaded.bvh, variant);
   GpuScene packed = packScene(scene, loaded.bvh, {}, variant);
   variant.reads = chooseReads(options.render.bufferReads, context.software, packed, readLimits()).reads;
 

@@ -13,5 +13,8 @@ int runMerge(const MergeOptions& options);
 int runBenchError(const BenchErrorOptions& options);
 int runBenchScale(const BenchScaleOptions& options);
 int runBenchTraversal(const BenchTraversalOptions& options);
+int runBenchFrame(const BenchFrameOptions& options);
+int runBenchReport(const BenchReportOptions& options);
+int runBenchVariants(const BenchVariantsOptions& options);
 
 }  // namespace fragtrace

@@ -40,6 +40,12 @@ int run(int argc, char** argv) {
       return runBenchScale(line->benchScale);
     case Command::BenchTraversal:
       return runBenchTraversal(line->benchTraversal);
+    case Command::BenchFrame:
+      return runBenchFrame(line->benchFrame);
+    case Command::BenchReport:
+      return runBenchReport(line->benchReport);
+    case Command::BenchVariants:
+      return runBenchVariants(line->benchVariants);
   }
   return kUsage;
 }

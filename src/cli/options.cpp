@@ -70,6 +70,16 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   RawBenchTraversal rawTraversal;
   CLI::App& benchTraversal = *bench.add_subcommand("traversal", "rays a second, nothing shaded");
   addBenchTraversalOptions(benchTraversal, rawTraversal);
+  RawBenchFrame rawFrame;
+  CLI::App& benchFrame = *bench.add_subcommand("frame", "frame times of sets of options, in turn");
+  addBenchFrameOptions(benchFrame, rawFrame);
+  RawBenchReport rawReport;
+  CLI::App& benchReport = *bench.add_subcommand("report", "the report's table of frame times, measured here");
+  addBenchReportOptions(benchReport, rawReport);
+  RawBenchVariants rawVariants;
+  CLI::App& benchVariants =
+      *bench.add_subcommand("variants", "what leaving out what a scene does not need saves");
+  addBenchVariantsOptions(benchVariants, rawVariants);
 
   std::vector<std::string> commands;
   for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
@@ -102,6 +112,15 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   } else if (benchTraversal.parsed()) {
     line.command = Command::BenchTraversal;
     line.benchTraversal = finishBenchTraversal(rawTraversal);
+  } else if (benchFrame.parsed()) {
+    line.command = Command::BenchFrame;
+    line.benchFrame = finishBenchFrame(rawFrame, benchFrame);
+  } else if (benchReport.parsed()) {
+    line.command = Command::BenchReport;
+    line.benchReport = finishBenchReport(rawReport, benchReport);
+  } else if (benchVariants.parsed()) {
+    line.command = Command::BenchVariants;
+    line.benchVariants = finishBenchVariants(rawVariants, benchVariants);
   } else if (merge.parsed()) {
     line.command = Command::Merge;
     line.merge.parts.assign(parts.begin(), parts.end());

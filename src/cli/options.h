@@ -4,9 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "cli/bench_frame_options.h"
 #include "cli/bench_options.h"
+#include "cli/bench_report_options.h"
 #include "cli/bench_scale_options.h"
 #include "cli/bench_traversal_options.h"
+#include "cli/bench_variants_options.h"
 #include "image/difference.h"
 #include "stage/options.h"
 
@@ -30,7 +33,18 @@ struct MergeOptions {
   std::filesystem::path output;
 };
 
-enum class Command : uint8_t { Render, Info, Diff, Merge, BenchError, BenchScale, BenchTraversal };
+enum class Command : uint8_t {
+  Render,
+  Info,
+  Diff,
+  Merge,
+  BenchError,
+  BenchScale,
+  BenchTraversal,
+  BenchFrame,
+  BenchReport,
+  BenchVariants
+};
 
 /// What the command line asks for; only the options of the command are filled in.
 struct CommandLine {
@@ -42,6 +56,9 @@ struct CommandLine {
   BenchErrorOptions benchError;
   BenchScaleOptions benchScale;
   BenchTraversalOptions benchTraversal;
+  BenchFrameOptions benchFrame;
+  BenchReportOptions benchReport;
+  BenchVariantsOptions benchVariants;
 };
 
 /// Parses the arguments. Prints help or version and returns nothing when that was asked for. Throws

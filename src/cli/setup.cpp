@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bvh/large_first.h"
 #include "cli/outputs.h"
 #include "errors.h"
 #include "gl/driver_choice.h"
@@ -16,6 +17,9 @@
 namespace fragtrace {
 
 namespace {
+
+/// Smaller scenes are literals as a whole, or not at all.
+constexpr size_t kLeastBesideLarge = 256;
 
 Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
   Camera camera;
@@ -75,9 +79,27 @@ uint64_t hashOf(const GpuScene& scene) {
   return hash;
 }
 
+/// The tree of the options' traversal. The iterative one needs none; where it is chosen for them, the largest
+/// triangles stand beside it when that pays.
+Bvh buildTree(const Scene& scene, const RenderOptions& options) {
+  if (options.traversal == TraversalMethod::Iterative) return listLeaves(scene);
+  const std::vector<Bounds> bounds = primitiveBounds(scene);
+  const uint32_t triangles = uint32_t(scene.triangles.size());
+  Bvh bvh = buildBvh(bounds, triangles);
+  if (options.traversal != TraversalMethod::Auto || has(options.stages, Stage::BvhHeatmap)) return bvh;
+  const std::vector<uint32_t> large = largeTriangles(bounds, triangles);
+  if (large.empty() || bounds.size() < kLeastBesideLarge) return bvh;
+  Bvh beside = buildBvhBeside(bounds, triangles, large);
+  return paysBeside(bvh, beside) ? beside : bvh;
+}
+
 /// A scene that is small enough becomes part of the shader's text, unless another traversal was asked for.
 void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
                  ShaderVariant& variant) {
+  if (loaded.bvh.besideTree > 0) {
+    variant.literals = largeFirst(loaded.scene, loaded.bvh, variant);
+    return;
+  }
   if (has(variant.stages, Stage::BvhHeatmap)) return;
   const bool asked = options.traversal == TraversalMethod::Literals;
   if (!asked && options.traversal != TraversalMethod::Auto) return;
@@ -120,10 +142,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
         "no light in the scene: a white environment that the camera does not see lights it "
         "(--no-default-light)");
   }
-  // The iterative traversal needs no tree.
-  const bool iterative = options.traversal == TraversalMethod::Iterative;
-  loaded.bvh =
-      iterative ? listLeaves(scene) : buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
+  loaded.bvh = buildTree(scene, options);
   stats.bvh = bvhQuality(loaded.bvh);
   stats.bvhBuildMs = watch.lap();
   return loaded;
@@ -156,6 +175,9 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   Stopwatch watch;
   GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything);
   useLiterals(loaded, packed, options, tracer.variant);
+  for (ShaderVariant& feature : tracer.features) {
+    if (loaded.bvh.besideTree > 0) useLiterals(loaded, packed, options, feature);
+  }
   stats.sceneBytes = packed.bytes();
   stats.geometryBytes = packed.geometryBytes();
   if (formatOfName(options.output) == ImageFormat::OpenExr) tracer.sceneHash = hashOf(packed);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gl/scene_buffers.h"
 
+#include <algorithm>
+
 #include "errors.h"
 
 namespace fragtrace {
@@ -19,6 +21,27 @@ GLint64 limit(GLenum name) {
   return value;
 }
 
+int64_t mostBytes(BufferReads reads, uint32_t binding, const ReadLimits& limits) {
+  return reads == BufferReads::Ssbo ? limits.storageBytes : limits.texels * texelBytes(binding);
+}
+
+/// Says what the driver has too little of to read the scene that way; empty when it has enough.
+std::string whatIsTooLarge(const GpuScene& scene, BufferReads reads, const ReadLimits& limits) {
+  constexpr int64_t kUnits = layout::kSceneImageBase + layout::kSceneBufferCount;
+  if (reads == BufferReads::Image && limits.imageUnits < kUnits)
+    return "image buffers take " + std::to_string(kUnits) + " image units, this driver has " +
+           std::to_string(limits.imageUnits);
+  for (uint32_t binding = 0; binding < layout::kSceneBufferCount; ++binding) {
+    const int64_t bytes = int64_t(scene.buffers[binding].size() * sizeof(uint32_t));
+    const int64_t most = mostBytes(reads, binding, limits);
+    if (bytes <= most) continue;
+    return "scene buffer " + std::to_string(binding) + " takes " + std::to_string(bytes) +
+           " bytes, this driver reads at most " + std::to_string(most) + " as " +
+           std::string(kBufferReadsNames[size_t(reads)]) + " buffer";
+  }
+  return {};
+}
+
 }  // namespace
 
 ReadLimits readLimits() {
@@ -26,27 +49,18 @@ ReadLimits readLimits() {
           limit(GL_MAX_IMAGE_UNITS)};
 }
 
-std::string whyNotRead(const GpuScene& scene, BufferReads reads, const ReadLimits& limits) {
-  constexpr int64_t kUnits = layout::kSceneImageBase + layout::kSceneBufferCount;
-  if (reads == BufferReads::Image && limits.imageUnits < kUnits) {
-    return "--buffer-reads image needs " + std::to_string(kUnits) + " image units, this driver has " +
-           std::to_string(limits.imageUnits);
-  }
-  for (uint32_t binding = 0; binding < layout::kSceneBufferCount; ++binding) {
-    const int64_t bytes = int64_t(scene.buffers[binding].size() * sizeof(uint32_t));
-    const int64_t most =
-        reads == BufferReads::Ssbo ? limits.storageBytes : limits.texels * texelBytes(binding);
-    if (bytes <= most) continue;
-    return "scene buffer " + std::to_string(binding) + " takes " + std::to_string(bytes) +
-           " bytes, this driver reads at most " + std::to_string(most) + " by --buffer-reads " +
-           std::string(kBufferReadsNames[size_t(reads)]);
-  }
-  return {};
+ReadChoice chooseReads(BufferReads wanted, bool software, const GpuScene& scene, const ReadLimits& limits) {
+  if (wanted != BufferReads::Auto) return {wanted, {}};
+  const BufferReads first = software ? BufferReads::Image : BufferReads::Ssbo;
+  const BufferReads other = software ? BufferReads::Ssbo : BufferReads::Texel;
+  const std::string reason = whatIsTooLarge(scene, first, limits);
+  if (reason.empty() || !whatIsTooLarge(scene, other, limits).empty()) return {first, {}};
+  return {other, reason};
 }
 
 SceneBuffers::SceneBuffers(GpuScene& scene, BufferReads reads) : reads_(reads) {
-  const std::string reason = whyNotRead(scene, reads, readLimits());
-  if (!reason.empty()) throw RenderError(reason);
+  const std::string tooLarge = whatIsTooLarge(scene, reads, readLimits());
+  if (!tooLarge.empty()) throw RenderError(tooLarge + " (--buffer-reads)");
   for (uint32_t binding = 0; binding < layout::kSceneBufferCount; ++binding) {
     static constexpr std::array<uint32_t, 4> kNothing{};
     Words& words = scene.buffers[binding];

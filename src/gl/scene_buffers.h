@@ -27,17 +27,22 @@ class SceneBuffers {
   BufferReads reads_;
 };
 
-/// What a driver says of how much it reads each way.
+/// How much a driver reads each way.
 struct ReadLimits {
-  int64_t texels = 0;        ///< of one texel or image buffer
-  int64_t storageBytes = 0;  ///< of one storage buffer
+  int64_t texels = 0;  ///< of image and texel buffers
+  int64_t storageBytes = 0;
   int64_t imageUnits = 0;
 };
 /// Of the current context.
 ReadLimits readLimits();
 
-/// Why this scene cannot be read that way: which array is too large, or that image units lack; empty when it
-/// can.
-std::string whyNotRead(const GpuScene& scene, BufferReads reads, const ReadLimits& limits);
+struct ReadChoice {
+  BufferReads reads = BufferReads::Ssbo;
+  std::string fallback;  ///< why it is not the read that is fastest on this driver; empty when it is
+};
+
+/// What was asked for; for Auto the read that is fastest on this driver (image buffers on software, storage
+/// buffers on GPUs), or the other one when only that reads arrays of this size.
+ReadChoice chooseReads(BufferReads wanted, bool software, const GpuScene& scene, const ReadLimits& limits);
 
 }  // namespace fragtrace

@@ -70,10 +70,10 @@ std::optional<LiteralFace> joined(const LiteralFace& a, const LiteralFace& b,
 
 }  // namespace
 
-LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, bool merge) {
+LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, bool merge) {
   LiteralMesh mesh;
   std::vector<uint32_t> materials;
-  for (uint32_t leaf = 0; leaf < bvh.leaves.size(); ++leaf) {
+  for (uint32_t leaf = firstLeaf; leaf < bvh.leaves.size(); ++leaf) {
     for (uint32_t side = 0; side < 2; ++side) {
       const uint32_t primitive = bvh.leaves[leaf].primitive[side];
       if (primitive == kMissIndex) continue;

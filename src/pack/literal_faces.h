@@ -26,8 +26,8 @@ struct LiteralMesh {
   std::vector<LiteralFace> faces;
 };
 
-/// Triangles only; `merge` joins two of the same plane, material and sides where they make a convex
-/// quadrilateral.
-LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, bool merge);
+/// The triangles in the leaves from firstLeaf on; `merge` joins two of the same plane, material and sides
+/// where they make a convex quadrilateral.
+LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, bool merge);
 
 }  // namespace fragtrace

@@ -50,14 +50,14 @@ Traversal traverseLiterals(vec3 origin, vec3 direction, Traversal s, bool anyHit
   vec4 rz = literalRow(r.axis == 0 ? vec3(r.z, 0.0, 0.0) : (r.axis == 1 ? vec3(0.0, r.z, 0.0) : vec3(0.0, 0.0, r.z)), origin);
   float best = s.t;
   float bestSum = 1.0;
-  vec2 weights = vec2(0.0);
+  vec2 weights = s.weights;
   float sum;
   float t;
   bool hit;
 )";
 constexpr const char* kWeightsTail = "  s.weights = weights / bestSum;\n";
+constexpr const char* kWholeTail = "  s.node = kTraversalDone;\n";
 constexpr const char* kTail = R"(  if (!anyHit) s.t = best / bestSum;
-  s.node = kTraversalDone;
   return s;
 }
 )";
@@ -67,9 +67,9 @@ class TraversalText {
   TraversalText(const LiteralMesh& mesh, bool weights)
       : mesh_(mesh), weights_(weights), single_(singleAxis()) {}
 
-  std::string text() {
+  std::string text(bool whole) {
     for (const LiteralFace& face : mesh_.faces) test(face);
-    return kHead + body_ + (weights_ ? kWeightsTail : "") + kTail;
+    return kHead + body_ + (weights_ ? kWeightsTail : "") + (whole ? kWholeTail : "") + kTail;
   }
 
  private:
@@ -189,8 +189,8 @@ class TraversalText {
 
 }  // namespace
 
-std::string literalTraversal(const LiteralMesh& mesh, bool weights) {
-  return TraversalText(mesh, weights).text();
+std::string literalTraversal(const LiteralMesh& mesh, bool weights, bool whole) {
+  return TraversalText(mesh, weights).text(whole);
 }
 
 }  // namespace fragtrace

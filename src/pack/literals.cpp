@@ -59,6 +59,24 @@ std::string rowFunction(const std::string& head, const std::string& index, const
   return text + "  return " + chosenRow(words, index, count, rows, rows - 1, used) + ";\n}\n";
 }
 
+bool keepsWeights(const ShaderVariant& variant) {
+  const TraitSet& traits = variant.traits;
+  return has(traits, Trait::VertexNormals) || has(traits, Trait::Texcoords) || has(traits, Trait::Tangents) ||
+         has(traits, Trait::VertexColors);
+}
+
+constexpr const char* kNoRows = R"(
+uvec4 literalFace(int slot, int row) { return uvec4(0u); }
+uvec4 literalMaterial(uint material, uint row) { return uvec4(0u); }
+uvec4 literalEmitter(int emitter, int row) { return uvec4(0u); }
+)";
+
+// Instructions for eight rays, counted on llvmpipe: a face with its part of the points and edges, a visit of
+// a node or a leaf. Rays in lockstep wait for the longest of them.
+constexpr double kFace = 55.0;
+constexpr double kVisit = 260.0;
+constexpr double kLockstep = 1.6;
+
 }  // namespace
 
 bool fitsAsLiterals(const Scene& scene, const GpuScene& packed) {
@@ -71,21 +89,26 @@ bool fitsAsLiterals(const Scene& scene, const GpuScene& packed) {
 
 bool paysAsLiterals(const Scene& scene, const Bvh& bvh, const GpuScene& packed) {
   if (!fitsAsLiterals(scene, packed)) return false;
-  // Instructions for eight rays, counted on llvmpipe: a face with its part of the vertices and edges, a visit
-  // of a node or a leaf. Rays in lockstep wait for the longest of them.
-  constexpr double kFace = 55.0;
-  constexpr double kVisit = 260.0;
-  constexpr double kLockstep = 1.6;
-  const double faces = double(literalMesh(scene, bvh, false).faces.size());
+  const double faces = double(literalMesh(scene, bvh, 0, false).faces.size());
   return faces * kFace < bvhQuality(bvh).sahCost * kLockstep * kVisit;
+}
+
+bool paysBeside(const Bvh& tree, const Bvh& beside) {
+  const double faces = 2.0 * beside.besideTree;
+  return faces * kFace < (bvhQuality(tree).sahCost - bvhQuality(beside).sahCost) * kLockstep * kVisit;
+}
+
+std::string largeFirst(const Scene& scene, const Bvh& bvh, const ShaderVariant& variant) {
+  const bool weights = keepsWeights(variant);
+  const LiteralMesh mesh = literalMesh(scene, bvh, uint32_t(bvh.leaves.size()) - bvh.besideTree, !weights);
+  return "const bool kLiterals = false;\nconst bool kLargeFirst = true;\n" +
+         literalTraversal(mesh, weights, false) + kNoRows;
 }
 
 std::string literalScene(const Scene& scene, const Bvh& bvh, const GpuScene& packed,
                          const ShaderVariant& variant) {
-  const TraitSet& traits = variant.traits;
-  const bool weights = has(traits, Trait::VertexNormals) || has(traits, Trait::Texcoords) ||
-                       has(traits, Trait::Tangents) || has(traits, Trait::VertexColors);
-  const LiteralMesh mesh = literalMesh(scene, bvh, !weights);
+  const bool weights = keepsWeights(variant);
+  const LiteralMesh mesh = literalMesh(scene, bvh, 0, !weights);
   const size_t slots = bvh.leaves.size() * 2;
   std::vector<bool> used(slots, false);
   for (const LiteralFace& face : mesh.faces) used[face.slot] = true;
@@ -94,8 +117,8 @@ std::string literalScene(const Scene& scene, const Bvh& bvh, const GpuScene& pac
     // Vertices are read by their index only where they have attributes.
     for (size_t c = 1; c < 4; ++c) faces[(slot * layout::kFaceRows + 1) * 4 + c] = 0u;
   }
-  std::string text = "const bool kLiterals = true;\n";
-  text += literalTraversal(mesh, weights);
+  std::string text = "const bool kLiterals = true;\nconst bool kLargeFirst = false;\n";
+  text += literalTraversal(mesh, weights, true);
   text += rowFunction("uvec4 literalFace(int slot, int row)", "slot", faces, slots, layout::kFaceRows, used);
   text +=
       rowFunction("uvec4 literalMaterial(uint material, uint row)", "material",

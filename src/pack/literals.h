@@ -16,6 +16,12 @@ bool fitsAsLiterals(const Scene& scene, const GpuScene& packed);
 /// emitters are too many to choose from.
 bool paysAsLiterals(const Scene& scene, const Bvh& bvh, const GpuScene& packed);
 
+/// Whether a tree without the large triangles, which are tested first, takes less work than one of all.
+bool paysBeside(const Bvh& tree, const Bvh& beside);
+
+/// The text for a tree beside which there are triangles (Bvh::besideTree): only these are literals.
+std::string largeFirst(const Scene& scene, const Bvh& bvh, const ShaderVariant& variant);
+
 /// The text that takes the place of shaders/literals.glsl for this scene: triangles that share a vertex share
 /// its projection, those that share an edge its edge function, so that the tests are as watertight as those
 /// of the tree; two triangles that make a parallelogram are one test.

@@ -25,9 +25,10 @@ Words packVertices(size_t count, Row&& row) {
 void packAttributes(const Vertices& v, const TraitSet& traits, GpuScene& packed) {
   using namespace layout;
   const size_t count = v.position.size();
+  // A variant may read what the scene lacks (stage/forced_variants.h).
   if (has(traits, Trait::VertexNormals)) {
-    packed.buffers[kNormalsBinding] =
-        packVertices(count, [&](size_t i) { return glm::vec4(v.normal[i], 0.0f); });
+    packed.buffers[kNormalsBinding] = packVertices(
+        count, [&](size_t i) { return v.normal.empty() ? glm::vec4(0.0f) : glm::vec4(v.normal[i], 0.0f); });
   }
   if (has(traits, Trait::Texcoords)) {
     packed.buffers[kTexcoordsBinding] = packVertices(count, [&](size_t i) {
@@ -36,10 +37,12 @@ void packAttributes(const Vertices& v, const TraitSet& traits, GpuScene& packed)
     });
   }
   if (has(traits, Trait::Tangents)) {
-    packed.buffers[kTangentsBinding] = packVertices(count, [&](size_t i) { return v.tangent[i]; });
+    packed.buffers[kTangentsBinding] =
+        packVertices(count, [&](size_t i) { return v.tangent.empty() ? glm::vec4(0.0f) : v.tangent[i]; });
   }
   if (has(traits, Trait::VertexColors)) {
-    packed.buffers[kColorsBinding] = packVertices(count, [&](size_t i) { return v.color[i]; });
+    packed.buffers[kColorsBinding] =
+        packVertices(count, [&](size_t i) { return v.color.empty() ? glm::vec4(1.0f) : v.color[i]; });
   }
 }
 

@@ -49,6 +49,12 @@ GLuint makeFramebuffer() {
   return name;
 }
 
+GLuint makeTimer() {
+  GLuint name = 0;
+  glCreateQueries(GL_TIME_ELAPSED, 1, &name);
+  return name;
+}
+
 }  // namespace
 
 Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads,
@@ -59,6 +65,7 @@ Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads,
       progressBuffer_(makeBuffer()),
       vertexArray_(makeVertexArray()),
       framebuffer_(makeFramebuffer()),
+      timer_(context.software ? 0 : makeTimer()),
       targetMs_(context.software ? kSoftwareDrawMs : kHardwareDrawMs) {
   glNamedBufferStorage(frameBuffer_.name(), sizeof(layout::Frame), nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferStorage(progressBuffer_.name(), sizeof(layout::Progress), nullptr, GL_DYNAMIC_STORAGE_BIT);
@@ -94,37 +101,50 @@ void Renderer::setFrame(const Film& film, const View& view) {
   glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, film.size().y);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glBindVertexArray(vertexArray_.name());
-  if (variant_.resumable)
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kPathStatesBinding, pathStates_.name());
+  if (variant_.resumable) bindPathStates();
   glUseProgram(programs_.tracer(variant_).name());
   glBindBufferBase(GL_UNIFORM_BUFFER, layout::kFrameBinding, frameBuffer_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kProgressBinding, progressBuffer_.name());
 }
 
-void Renderer::makeResumable() {
-  variant_.resumable = true;
+void Renderer::bindPathStates() {
   if (pathStates_.name() == 0) {
     pathStates_ = makeBuffer();
     glNamedBufferStorage(pathStates_.name(), GLsizeiptr(kMaxTilePixels) * layout::kPathStateRows * 16,
                          nullptr, 0);
   }
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kPathStatesBinding, pathStates_.name());
-  glUseProgram(programs_.tracer(variant_).name());
   checkGl("making room for suspended paths");
+}
+
+void Renderer::makeResumable() {
+  variant_.resumable = true;
+  bindPathStates();
+  glUseProgram(programs_.tracer(variant_).name());
 }
 
 layout::Progress Renderer::draw() {
   layout::Progress progress{};
   glNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
+  const auto start = Clock::now();
+  if (timer_.name() != 0) glBeginQuery(GL_TIME_ELAPSED, timer_.name());
   if (variant_.dispatch == Dispatch::Compute) {
     const glm::uvec2 groups = (glm::uvec2(frame_.tile.z, frame_.tile.w) + kGroupSide - 1u) / kGroupSide;
     glDispatchCompute(groups.x, groups.y, 1);
   } else {
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
+  if (timer_.name() != 0) glEndQuery(GL_TIME_ELAPSED);
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
                   GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
   glFinish();
+  if (timer_.name() != 0) {
+    GLuint64 nanoseconds = 0;
+    glGetQueryObjectui64v(timer_.name(), GL_QUERY_RESULT, &nanoseconds);
+    drawnMs_ += 1e-6 * double(nanoseconds);
+  } else {
+    drawnMs_ += milliseconds(start, Clock::now());
+  }
   glGetNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
   checkGl("drawing");
   return progress;
@@ -157,12 +177,13 @@ double Renderer::compile(const ShaderVariant& variant, Film& film, const View& v
 }
 
 void Renderer::adaptPace(int samples) {
-  mostSamplesPerDraw_ = overBudget_ ? std::max(1, samples / 2) : samples * 2;
+  mostSamplesPerDraw_ = overBudget_ ? std::max(1, samples / 2) : std::max(mostSamplesPerDraw_, samples * 2);
 }
 
 bool Renderer::addSamples(Film& film, const View& view, int from, int to, RenderTimes& times,
                           const Progress& progress) {
   setFrame(film, view);
+  const double drawnBefore = drawnMs_;
   const double total = double(film.size().x) * film.size().y * (to - from);
   double pixelSamplesDone = 0.0;
   for (int done = from; done < to;) {
@@ -177,6 +198,7 @@ bool Renderer::addSamples(Film& film, const View& view, int from, int to, Render
         const double fraction = pixelSamplesDone / total;
         if (!drawTile(corner, tile, done + plan.samples, [&] { return progress(fraction); })) {
           times.renderMs += milliseconds(roundStart, Clock::now());
+          times.drawMs += drawnMs_ - drawnBefore;
           return false;
         }
         tileMs += milliseconds(start, Clock::now());
@@ -191,6 +213,7 @@ bool Renderer::addSamples(Film& film, const View& view, int from, int to, Render
     done += plan.samples;
     adaptPace(plan.samples);
   }
+  times.drawMs += drawnMs_ - drawnBefore;
   progress(1.0);
   return true;
 }
@@ -202,6 +225,7 @@ bool Renderer::addSamples(Film& film, const View& view, std::span<const Work> pa
   for (const Work& w : parts) total += w.busy * w.size.x * w.size.y * (w.to - w.from);
   double pixelSamplesDone = 0.0;
   double drawMs = 0.0;
+  const double drawnBefore = drawnMs_;
   const auto start = Clock::now();
   bool complete = true;
   for (const Work& w : parts) {
@@ -221,6 +245,7 @@ bool Renderer::addSamples(Film& film, const View& view, std::span<const Work> pa
     }
   }
   times.renderMs += milliseconds(start, Clock::now());
+  times.drawMs += drawnMs_ - drawnBefore;
   return complete;
 }
 

@@ -30,7 +30,8 @@ struct View {
 
 /// Time of the draws so far; frames are one sample in every pixel.
 struct RenderTimes {
-  double renderMs = 0.0;
+  double renderMs = 0.0;  ///< by the wall's clock, with all that is done between draws
+  double drawMs = 0.0;    ///< of the draws alone, by Renderer::clock()
   double firstFrameMs = 0.0;
   std::vector<double> frameMs;
 };
@@ -69,10 +70,18 @@ class Renderer {
   /// Milliseconds that one sample of one pixel takes, as measured by the latest work; 0: not yet known.
   double msPerSample() const { return msPerSample_; }
 
+  /// What measures RenderTimes::drawMs: the GPU's timer, or the wall's clock round glFinish where a software
+  /// driver's timer is wrong.
+  const char* clock() const { return timer_.name() != 0 ? "gpu timer" : "wall clock"; }
+
+  /// How long a draw may take from now on; for benchmarks, whose frames are known to be short.
+  void setDrawTime(double ms) { targetMs_ = ms; }
+
  private:
   void setFrame(const Film& film, const View& view);
   /// From now on paths are suspended between draws: for scenes with paths that take more than one draw.
   void makeResumable();
+  void bindPathStates();
   layout::Progress draw();
   /// Advances a tile to `target` samples in as many draws as its step budget takes; false when stopped.
   bool drawTile(glm::ivec2 corner, glm::ivec2 tile, int target, const std::function<bool()>& goOn);
@@ -88,6 +97,8 @@ class Renderer {
   GlBuffer pathStates_;
   GlVertexArray vertexArray_;
   GlFramebuffer framebuffer_;
+  GlQuery timer_;         ///< none: the wall's clock
+  double drawnMs_ = 0.0;  ///< by all draws
   double targetMs_;
   double msPerSample_ = 0.0;
   int mostSamplesPerDraw_ = 1;

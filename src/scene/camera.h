@@ -16,6 +16,8 @@ struct CameraOverrides {
   std::optional<glm::dvec3> focalPoint{};
   std::optional<glm::dvec3> viewUp{};
   std::optional<double> viewAngleDegrees{};
+
+  bool operator==(const CameraOverrides&) const = default;
 };
 
 /// Looks along -z at the centre of the bounds, 45 degrees high, far enough for the bounding sphere to fit.

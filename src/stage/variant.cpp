@@ -235,6 +235,7 @@ std::string variantName(const ShaderVariant& variant) {
   append(std::string(kTraversalNames[size_t(variant.traversal)]));
   if (variant.traversal == TraversalMethod::Bvh || variant.traversal == TraversalMethod::FrontToBack)
     append("stack-" + std::to_string(variant.stackSize));
+  if (variant.traversal != TraversalMethod::Literals && !variant.literals.empty()) append("large-first");
   if (variant.pixelFilter != PixelFilter::Box)
     append(std::string(kPixelFilterNames[size_t(variant.pixelFilter)]) + "-filter");
   if (variant.feature != Feature::None) append(std::string(kFeatureNames[size_t(variant.feature)]));

@@ -149,7 +149,8 @@ class GpuMemory(Bench):
         self.renders(ROOM, "-o", self.folder / "p.pfm", *SMALL, "--stats", stats)
         told = json.loads(stats.read_text())
         info = json.loads(run("info", ROOM, "--json").stdout)
-        self.assertEqual(info["gpu_bytes_per_triangle"], told["gpu_bytes_per_triangle"])
+        # `render` may keep the largest triangles beside the tree.
+        self.assertAlmostEqual(info["gpu_bytes_per_triangle"], told["gpu_bytes_per_triangle"], delta=0.1)
         self.assertTrue(60 < told["gpu_bytes_per_triangle"] < 160, told["gpu_bytes_per_triangle"])
         self.assertLessEqual(told["gpu_bytes_per_triangle"] * 69326, told["scene_bytes"])
         self.assertNotIn("buffer_reads_fallback", told)

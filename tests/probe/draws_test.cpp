@@ -167,6 +167,36 @@ TEST_P(Draws, SamplesThatBeginAnew) {
             bitsOf(expected));
 }
 
+/// Draws are timed by the clock that is named, which misses nothing but what is done between them.
+TEST_P(Draws, AreTimed) {
+  size_ = {64, 64};
+  Film film(size_);
+  renderer_->compile(variant_, film, view_);
+  RenderTimes times;
+  for (int i = 0; i < 3; ++i) {
+    const RenderTimes before = times;
+    renderer_->addSamples(film, view_, i, i + 1, times, [](double) { return true; });
+    const double drawn = times.drawMs - before.drawMs;
+    const double all = times.renderMs - before.renderMs;
+    EXPECT_GT(drawn, 0.0);
+    if (context().software) {
+      EXPECT_LE(drawn, all);
+      EXPECT_GT(drawn, 0.5 * all);
+    }
+  }
+  EXPECT_STREQ(renderer_->clock(), context().software ? "wall clock" : "gpu timer");
+}
+
+/// A variant whose paths can be suspended from the first draw on draws the same, when draws end in their
+/// midst.
+TEST_P(Draws, AVariantThatSuspendsFromTheStart) {
+  constexpr int kMany = 700;
+  size_ = {16, 12};
+  const FilmPixels expected = drawn([&](Film& film) { add(film, 0, kMany); });
+  variant_.resumable = true;
+  EXPECT_EQ(bitsOf(drawn([&](Film& film) { add(film, 0, kMany); })), bitsOf(expected));
+}
+
 /// Paths that are longer than a draw go on in the next one.
 TEST_P(Draws, PathsThatAreSuspended) {
   RenderOptions options;

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// What was measured of frame times, as a table for people and as lines of JSON for programs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "math/summary.h"
+
+namespace fragtrace {
+
+/// Where and when; the same for all settings of a run.
+struct BenchMachine {
+  std::string processor;
+  int cores = 0;
+  std::string glRenderer;
+  std::string glVersion;
+  std::string backend;
+  std::string program;  ///< name and version
+  std::string date;     ///< ISO 8601, UTC
+};
+
+/// How the picture of a setting was judged.
+struct PictureVerdict {
+  std::string against;  ///< what it was compared with
+  double rmse = 0.0;    ///< these as in render/picture_check.h
+  double differing = 0.0;
+  double meanErrors = 0.0;
+  double farBlocks = 0.0;
+  std::string wrong;  ///< why it is wrong; empty: right
+};
+
+/// One timed setting. A frame is one sample in every pixel. Every round draws `frames` of them; times of a
+/// round are milliseconds a frame.
+struct FrameSetting {
+  std::string scene;          ///< file name
+  std::string configuration;  ///< its name
+  std::string options;        ///< those of `render` that were given, in alphabetical order
+  std::string variant;        ///< of the shader
+  std::string clock;          ///< "gpu timer", "wall clock"
+  int width = 0;
+  int height = 0;
+  size_t triangles = 0;
+  int frames = 1;
+  int samplesPerDraw = 0;  ///< at most; 0: as many as the renderer puts into a draw
+  double compileMs = 0.0;
+  double firstFrameMs = 0.0;        ///< by the clock
+  std::vector<double> frameMs;      ///< a round each, by the clock
+  std::vector<double> wallFrameMs;  ///< by the wall's clock, with all that is done between draws
+  double raysPerPath = 0.0;
+  size_t nonfinitePixels = 0;
+  size_t budgetHits = 0;
+  PictureVerdict picture;
+
+  /// Of the median frame.
+  double megaPathsPerSecond() const;
+};
+
+/// How many times as long as another, round by round. Nothing when there is no round.
+struct PairedRatio {
+  Summary summary;
+  double most = 0.0;
+};
+std::optional<PairedRatio> ratioOf(const std::vector<double>& ms, const std::vector<double>& othersMs);
+
+/// "1.03 (1.01 to 1.08)"; "-" when there is none.
+std::string ratioText(const std::optional<PairedRatio>& ratio);
+
+/// Settings of one scene stand together; the first of each is what the others are compared with.
+std::string frameTable(const BenchMachine& machine, const std::vector<FrameSetting>& settings);
+
+/// One object a line and setting, "schema": 1. `command` is that of `bench`.
+std::string frameJson(const std::string& command, const BenchMachine& machine,
+                      const std::vector<FrameSetting>& settings);
+
+/// The first setting of a scene, which ratios are to.
+const FrameSetting& firstOfScene(const std::vector<FrameSetting>& settings, const FrameSetting& setting);
+
+}  // namespace fragtrace

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// `fragtrace bench frame`: how long a frame takes with one set of options and another.
+#include <cstdio>
+
+#include "bench/baseline.h"
+#include "cli/bench_interrupt.h"
+#include "cli/commands.h"
+#include "cli/machine.h"
+#include "cli/outputs.h"
+#include "cli/setting_check.h"
+#include "errors.h"
+#include "image/whole_file.h"
+
+namespace fragtrace {
+
+namespace {
+
+std::vector<NamedOutput> outputsOf(const BenchFrameOptions& options) { return {{"--json", options.json}}; }
+
+std::vector<BaselineEntry> readBaseline(const std::filesystem::path& path) {
+  if (path.empty()) return {};
+  const std::vector<uint8_t> bytes = readWholeFile(path);
+  return parseBaseline({bytes.begin(), bytes.end()}, path.string());
+}
+
+/// Scene by scene, so that one after the other is in memory.
+std::vector<FrameSetting> measure(const BenchFrameOptions& options, const Context& context) {
+  std::vector<FrameSetting> measured;
+  for (const std::vector<BenchConfiguration>& configurations : options.scenes) {
+    std::vector<TimedSetting> settings;
+    for (const BenchConfiguration& configuration : configurations) {
+      BenchConfiguration wanted = configuration;
+      wanted.render.quiet = wanted.render.quiet || !settings.empty();  // warnings are said once
+      settings.push_back(makeSetting(context, wanted, options.timing));
+      checkOutputs(outputsOf(options), inputsOf(settings.back().loaded->scene));
+    }
+    measureInTurn(settings, options.first().quiet);
+    checkSettings(context, settings, options.reference, options.first().quiet);
+    for (TimedSetting& s : settings) measured.push_back(std::move(s.report));
+  }
+  return measured;
+}
+
+}  // namespace
+
+int runBenchFrame(const BenchFrameOptions& options) {
+  std::vector<std::filesystem::path> inputs{options.reference, options.baseline};
+  for (const std::vector<BenchConfiguration>& configurations : options.scenes) {
+    for (const BenchConfiguration& c : configurations) {
+      for (const std::filesystem::path& input : inputsOf(c.render)) inputs.push_back(input);
+    }
+  }
+  checkOutputs(outputsOf(options), inputs);
+  const std::vector<BaselineEntry> baseline = readBaseline(options.baseline);
+  const auto context = makeContext(options.first().backend);
+  countInterrupts();
+  try {
+    const BenchMachine machine = describeMachine(*context);
+    const std::vector<FrameSetting> measured = measure(options, *context);
+    std::fputs(frameTable(machine, measured).c_str(), stdout);
+    replaceText(options.json, frameJson("frame", machine, measured));
+    bool slower = false;
+    if (!options.baseline.empty()) {
+      const auto changes = compareWithBaseline(baseline, machine, measured, options.tolerance);
+      std::fputs(baselineTable(changes, options.tolerance).c_str(), stdout);
+      for (const BaselineChange& change : changes) slower = slower || change.slower;
+    }
+    const std::string wrong = wrongPictures(measured);
+    if (!wrong.empty()) throw RenderError("wrong picture: " + wrong);
+    return slower ? 1 : 0;
+  } catch (const Interrupted&) {
+    return sayInterrupted();
+  }
+}
+
+}  // namespace fragtrace

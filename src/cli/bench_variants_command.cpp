@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// `fragtrace bench variants`: what leaving out of the shader what a scene does not need saves.
+#include <algorithm>
+#include <cstdio>
+
+#include "bench/variants_table.h"
+#include "cli/bench_interrupt.h"
+#include "cli/commands.h"
+#include "cli/machine.h"
+#include "cli/outputs.h"
+#include "cli/setting_check.h"
+#include "errors.h"
+#include "pack/gpu_scene.h"
+#include "stage/forced_variants.h"
+
+namespace fragtrace {
+
+namespace {
+
+std::vector<NamedOutput> outputsOf(const BenchVariantsOptions& options) { return {{"--json", options.json}}; }
+
+/// The scene as a variant reads it, which may want an environment where there is none: a black one.
+Tracer makeForcedTracer(const Context& context, const LoadedScene& loaded, const ShaderVariant& variant,
+                        const RenderOptions& options) {
+  Environment environment = loaded.environment;
+  if (environment.image.values.empty()) environment.image = {1, 1, {"R", "G", "B"}, {0.0f, 0.0f, 0.0f}, {}};
+  Tracer tracer;
+  tracer.variant = variant;
+  tracer.renderer =
+      std::make_unique<Renderer>(context, packScene(loaded.scene, loaded.bvh, environment, variant),
+                                 variant.reads, options.shaderFolder);
+  return tracer;
+}
+
+struct SceneResult {
+  std::vector<FrameSetting> measured;  ///< its own variant first
+  std::vector<std::pair<std::string, std::string>> notForced;
+};
+
+SceneResult measure(const BenchVariantsOptions& options, const BenchConfiguration& configuration,
+                    const Context& context) {
+  SceneResult result;
+  std::vector<TimedSetting> settings;
+  settings.push_back(makeSetting(context, configuration, options.timing));
+  const std::shared_ptr<const LoadedScene> loaded = settings.front().loaded;
+  checkOutputs(outputsOf(options), inputsOf(loaded->scene));
+  const BufferReads reads = settings.front().tracer.variant.reads;
+  const Surroundings surroundings = loaded->environment.kind;
+  for (const ForcedVariant& forced :
+       forcedVariants(configuration.render, traitsOf(loaded->scene, surroundings), surroundings,
+                      loaded->bvh.depth, reads)) {
+    if (!options.only.empty() && std::ranges::find(options.only, forced.name) == options.only.end()) continue;
+    if (!forced.whyNot.empty()) {
+      result.notForced.emplace_back(forced.name, forced.whyNot);
+      continue;
+    }
+    BenchConfiguration named = configuration;
+    named.name = forced.name;
+    settings.push_back(makeSetting(context, named, options.timing, loaded,
+                                   makeForcedTracer(context, *loaded, forced.variant, configuration.render)));
+    settings.back().otherSamples = forced.otherSamples;
+  }
+  measureInTurn(settings, options.first().quiet);
+  checkSettings(context, settings, {}, options.first().quiet);
+  for (TimedSetting& s : settings) result.measured.push_back(std::move(s.report));
+  return result;
+}
+
+}  // namespace
+
+int runBenchVariants(const BenchVariantsOptions& options) {
+  std::vector<std::filesystem::path> inputs;
+  for (const BenchConfiguration& scene : options.scenes) {
+    for (const std::filesystem::path& input : inputsOf(scene.render)) inputs.push_back(input);
+  }
+  checkOutputs(outputsOf(options), inputs);
+  const auto context = makeContext(options.first().backend);
+  countInterrupts();
+  try {
+    const BenchMachine machine = describeMachine(*context);
+    std::string table;
+    std::string json;
+    std::string wrong;
+    for (const BenchConfiguration& scene : options.scenes) {
+      const SceneResult result = measure(options, scene, *context);
+      if (!table.empty()) table += "\n";
+      table += variantsTable(machine, result.measured, result.notForced);
+      json += frameJson("variants", machine, result.measured);
+      if (wrong.empty()) wrong = wrongPictures(result.measured);
+    }
+    std::fputs(table.c_str(), stdout);
+    replaceText(options.json, json);
+    if (!wrong.empty()) throw RenderError("wrong picture: " + wrong);
+  } catch (const Interrupted&) {
+    return sayInterrupted();
+  }
+  return 0;
+}
+
+}  // namespace fragtrace
