@@ -19,16 +19,19 @@ namespace {
 
 std::vector<NamedOutput> outputsOf(const BenchVariantsOptions& options) { return {{"--json", options.json}}; }
 
-/// The scene as a variant reads it, which may want an environment where there is none: a black one.
-Tracer makeForcedTracer(const Context& context, const LoadedScene& loaded, const ShaderVariant& variant,
-                        const RenderOptions& options) {
+/// The scene as a variant reads it, which may want an environment where there is none: a black one. Entry and
+/// traversal are those of the scene's own variant.
+Tracer makeForcedTracer(const Context& context, const LoadedScene& loaded, const ShaderVariant& forced,
+                        const ShaderVariant& own, const RenderOptions& options) {
   Environment environment = loaded.environment;
   if (environment.image.values.empty()) environment.image = {1, 1, {"R", "G", "B"}, {0.0f, 0.0f, 0.0f}, {}};
+  GpuScene packed = packScene(loaded.scene, loaded.bvh, environment, forced);
   Tracer tracer;
-  tracer.variant = variant;
+  tracer.variant = forced;
+  tracer.variant.dispatch = own.dispatch;
+  useLiterals(loaded, packed, options, tracer.variant);
   tracer.renderer =
-      std::make_unique<Renderer>(context, packScene(loaded.scene, loaded.bvh, environment, variant),
-                                 variant.reads, options.shaderFolder);
+      std::make_unique<Renderer>(context, std::move(packed), forced.reads, options.shaderFolder);
   return tracer;
 }
 
@@ -44,20 +47,22 @@ SceneResult measure(const BenchVariantsOptions& options, const BenchConfiguratio
   settings.push_back(makeSetting(context, configuration, options.timing));
   const std::shared_ptr<const LoadedScene> loaded = settings.front().loaded;
   checkOutputs(outputsOf(options), inputsOf(loaded->scene));
-  const BufferReads reads = settings.front().tracer.variant.reads;
+  const ShaderVariant own = settings.front().tracer.variant;
   const Surroundings surroundings = loaded->environment.kind;
   for (const ForcedVariant& forced :
        forcedVariants(configuration.render, traitsOf(loaded->scene, surroundings), surroundings,
-                      loaded->bvh.depth, reads)) {
+                      loaded->bvh.depth, own.reads)) {
     if (!options.only.empty() && std::ranges::find(options.only, forced.name) == options.only.end()) continue;
-    if (!forced.whyNot.empty()) {
-      result.notForced.emplace_back(forced.name, forced.whyNot);
+    const bool noTree = own.traversal == TraversalMethod::Literals && forced.name == "stack-32";
+    if (!forced.whyNot.empty() || noTree) {
+      result.notForced.emplace_back(forced.name, noTree ? "no tree, no stack" : forced.whyNot);
       continue;
     }
     BenchConfiguration named = configuration;
     named.name = forced.name;
-    settings.push_back(makeSetting(context, named, options.timing, loaded,
-                                   makeForcedTracer(context, *loaded, forced.variant, configuration.render)));
+    settings.push_back(
+        makeSetting(context, named, options.timing, loaded,
+                    makeForcedTracer(context, *loaded, forced.variant, own, configuration.render)));
     settings.back().otherSamples = forced.otherSamples;
   }
   measureInTurn(settings, options.first().quiet);

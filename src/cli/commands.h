@@ -11,10 +11,10 @@ int runInfo(const InfoOptions& options);
 int runDiff(const DiffOptions& options);
 int runMerge(const MergeOptions& options);
 int runBenchError(const BenchErrorOptions& options);
-int runBenchScale(const BenchScaleOptions& options);
-int runBenchTraversal(const BenchTraversalOptions& options);
 int runBenchFrame(const BenchFrameOptions& options);
 int runBenchReport(const BenchReportOptions& options);
 int runBenchVariants(const BenchVariantsOptions& options);
+int runBenchScale(const BenchScaleOptions& options);
+int runBenchTraversal(const BenchTraversalOptions& options);
 
 }  // namespace fragtrace

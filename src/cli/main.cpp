@@ -36,16 +36,16 @@ int run(int argc, char** argv) {
       return runMerge(line->merge);
     case Command::BenchError:
       return runBenchError(line->benchError);
-    case Command::BenchScale:
-      return runBenchScale(line->benchScale);
-    case Command::BenchTraversal:
-      return runBenchTraversal(line->benchTraversal);
     case Command::BenchFrame:
       return runBenchFrame(line->benchFrame);
     case Command::BenchReport:
       return runBenchReport(line->benchReport);
     case Command::BenchVariants:
       return runBenchVariants(line->benchVariants);
+    case Command::BenchScale:
+      return runBenchScale(line->benchScale);
+    case Command::BenchTraversal:
+      return runBenchTraversal(line->benchTraversal);
   }
   return kUsage;
 }

@@ -63,13 +63,6 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   RawBenchError rawError;
   CLI::App& benchError = *bench.add_subcommand("error", "error against samples and time");
   addBenchErrorOptions(benchError, rawError);
-  RawBenchScale rawScale;
-  CLI::App& benchScale =
-      *bench.add_subcommand("scale", "1 thousand to 10 million triangles: time and memory");
-  addBenchScaleOptions(benchScale, rawScale);
-  RawBenchTraversal rawTraversal;
-  CLI::App& benchTraversal = *bench.add_subcommand("traversal", "rays a second, nothing shaded");
-  addBenchTraversalOptions(benchTraversal, rawTraversal);
   RawBenchFrame rawFrame;
   CLI::App& benchFrame = *bench.add_subcommand("frame", "frame times of sets of options, in turn");
   addBenchFrameOptions(benchFrame, rawFrame);
@@ -80,6 +73,13 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   CLI::App& benchVariants =
       *bench.add_subcommand("variants", "what leaving out what a scene does not need saves");
   addBenchVariantsOptions(benchVariants, rawVariants);
+  RawBenchScale rawScale;
+  CLI::App& benchScale =
+      *bench.add_subcommand("scale", "1 thousand to 10 million triangles: time and memory");
+  addBenchScaleOptions(benchScale, rawScale);
+  RawBenchTraversal rawTraversal;
+  CLI::App& benchTraversal = *bench.add_subcommand("traversal", "rays a second, nothing shaded");
+  addBenchTraversalOptions(benchTraversal, rawTraversal);
 
   std::vector<std::string> commands;
   for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
@@ -106,12 +106,6 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   } else if (benchError.parsed()) {
     line.command = Command::BenchError;
     line.benchError = finishBenchError(rawError, benchError);
-  } else if (benchScale.parsed()) {
-    line.command = Command::BenchScale;
-    line.benchScale = finishBenchScale(rawScale);
-  } else if (benchTraversal.parsed()) {
-    line.command = Command::BenchTraversal;
-    line.benchTraversal = finishBenchTraversal(rawTraversal);
   } else if (benchFrame.parsed()) {
     line.command = Command::BenchFrame;
     line.benchFrame = finishBenchFrame(rawFrame, benchFrame);
@@ -121,6 +115,12 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   } else if (benchVariants.parsed()) {
     line.command = Command::BenchVariants;
     line.benchVariants = finishBenchVariants(rawVariants, benchVariants);
+  } else if (benchScale.parsed()) {
+    line.command = Command::BenchScale;
+    line.benchScale = finishBenchScale(rawScale);
+  } else if (benchTraversal.parsed()) {
+    line.command = Command::BenchTraversal;
+    line.benchTraversal = finishBenchTraversal(rawTraversal);
   } else if (merge.parsed()) {
     line.command = Command::Merge;
     line.merge.parts.assign(parts.begin(), parts.end());

@@ -39,11 +39,11 @@ enum class Command : uint8_t {
   Diff,
   Merge,
   BenchError,
-  BenchScale,
-  BenchTraversal,
   BenchFrame,
   BenchReport,
-  BenchVariants
+  BenchVariants,
+  BenchScale,
+  BenchTraversal
 };
 
 /// What the command line asks for; only the options of the command are filled in.
@@ -54,11 +54,11 @@ struct CommandLine {
   DiffOptions diff;
   MergeOptions merge;
   BenchErrorOptions benchError;
-  BenchScaleOptions benchScale;
-  BenchTraversalOptions benchTraversal;
   BenchFrameOptions benchFrame;
   BenchReportOptions benchReport;
   BenchVariantsOptions benchVariants;
+  BenchScaleOptions benchScale;
+  BenchTraversalOptions benchTraversal;
 };
 
 /// Parses the arguments. Prints help or version and returns nothing when that was asked for. Throws

@@ -93,23 +93,6 @@ Bvh buildTree(const Scene& scene, const RenderOptions& options) {
   return paysBeside(bvh, beside) ? beside : bvh;
 }
 
-/// A scene that is small enough becomes part of the shader's text, unless another traversal was asked for.
-void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
-                 ShaderVariant& variant) {
-  if (loaded.bvh.besideTree > 0) {
-    variant.literals = largeFirst(loaded.scene, loaded.bvh, variant);
-    return;
-  }
-  if (has(variant.stages, Stage::BvhHeatmap)) return;
-  const bool asked = options.traversal == TraversalMethod::Literals;
-  if (!asked && options.traversal != TraversalMethod::Auto) return;
-  if (asked && !fitsAsLiterals(loaded.scene, packed))
-    throw UsageError("--traversal literals: the scene has spheres, or is too large for it");
-  if (!asked && !paysAsLiterals(loaded.scene, loaded.bvh, packed)) return;
-  variant.traversal = TraversalMethod::Literals;
-  variant.literals = literalScene(loaded.scene, loaded.bvh, packed, variant);
-}
-
 }  // namespace
 
 void say(const RenderOptions& options, const std::string& text) {
@@ -146,6 +129,22 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
   stats.bvh = bvhQuality(loaded.bvh);
   stats.bvhBuildMs = watch.lap();
   return loaded;
+}
+
+void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
+                 ShaderVariant& variant) {
+  if (loaded.bvh.besideTree > 0) {
+    variant.literals = largeFirst(loaded.scene, loaded.bvh, variant);
+    return;
+  }
+  if (has(variant.stages, Stage::BvhHeatmap)) return;
+  const bool asked = options.traversal == TraversalMethod::Literals;
+  if (!asked && options.traversal != TraversalMethod::Auto) return;
+  if (asked && !fitsAsLiterals(loaded.scene, packed))
+    throw UsageError("--traversal literals: the scene has spheres, or is too large for it");
+  if (!asked && !paysAsLiterals(loaded.scene, loaded.bvh, packed)) return;
+  variant.traversal = TraversalMethod::Literals;
+  variant.literals = literalScene(loaded.scene, loaded.bvh, packed, variant);
 }
 
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,

@@ -34,6 +34,11 @@ struct Tracer {
   uint64_t sceneHash = 0;  ///< of all that was uploaded; only for .exr, which keeps it
 };
 
+/// A scene that is small enough becomes part of the shader's text, unless another traversal was asked for.
+/// Throws UsageError.
+void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
+                 ShaderVariant& variant);
+
 /// Packs and uploads what the variants need. Throws InputError, RenderError.
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
                   Statistics& stats);

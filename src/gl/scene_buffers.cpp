@@ -37,7 +37,9 @@ std::string whatIsTooLarge(const GpuScene& scene, BufferReads reads, const ReadL
     if (bytes <= most) continue;
     return "scene buffer " + std::to_string(binding) + " takes " + std::to_string(bytes) +
            " bytes, this driver reads at most " + std::to_string(most) + " as " +
-           std::string(kBufferReadsNames[size_t(reads)]) + " buffer";
+           (reads == BufferReads::Ssbo    ? "storage buffer"
+            : reads == BufferReads::Image ? "image buffer"
+                                          : "texel buffer");
   }
   return {};
 }

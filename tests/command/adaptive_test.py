@@ -92,10 +92,14 @@ class Noise(Case):
 
     def test_one_pixel_is_not_taken_for_sure(self):
         # Two halves of 32 samples that happen to agree were taken for an error of 0.
-        for seed in (1002, 1003, 1007):
+        taken = []
+        for seed in range(1000, 1012):
             self.renders(BOX, "-o", self.folder / "x.pfm", "--quiet", "--resolution", "1,1", "--noise", "0.1", "--seed", seed,
                          "--stats", self.folder / "s.json")
-            self.assertGreater(json.loads((self.folder / "s.json").read_text())["most_samples"], 500)
+            taken.append(json.loads((self.folder / "s.json").read_text())["most_samples"])
+        print(f"samples of one pixel: {taken}")
+        self.assertGreater(min(taken), 64)
+        self.assertGreater(statistics.median(taken), 500)
 
     def test_values_that_make_no_sense(self):
         for options in (["--noise", "0"], ["--noise", "-1"], ["--noise", "nan"], ["--time", "0"], ["--time", "-2"],

@@ -102,7 +102,7 @@ class FramePictures(Frame):
                 self.assertIn("Path shade(Path p) {", text)
                 text = text.replace("Path shade(Path p) {", "Path shade(Path p) {\n  if (kFrontToBack && p.hitSlot == 0) p.throughput *= 0.0;")
             (shaders / file.name).write_text(text)
-        result, _ = self.frame(*QUICK, "--spp", 4, "--shader-folder", shaders, status=1)
+        result, _ = self.frame(*QUICK, "--spp", 4, "--traversal", "front-to-back", "--shader-folder", shaders, status=1)
         self.assertIn("although their samples are the same", result.stderr)
 
     def test_references_that_cannot_be_used(self):

@@ -29,7 +29,9 @@ class Variants : public ::testing::TestWithParam<BufferReads> {
   }
 };
 
-TEST_P(Variants, TheFullShaderAndItsEmptyOne) {
+class EveryRead : public Variants {};
+
+TEST_P(EveryRead, TheFullShaderAndItsEmptyOne) {
   links(full(GetParam()));
   ShaderVariant empty;
   empty.reads = GetParam();
@@ -76,9 +78,14 @@ TEST_P(Variants, EachTraversalAndStack) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Reads, Variants,
+std::string nameOf(const ::testing::TestParamInfo<BufferReads>& test) {
+  return std::string(kBufferReadsNames[size_t(test.param)]);
+}
+
+INSTANTIATE_TEST_SUITE_P(Reads, Variants, ::testing::Values(BufferReads::Image, BufferReads::Ssbo), nameOf);
+INSTANTIATE_TEST_SUITE_P(Reads, EveryRead,
                          ::testing::Values(BufferReads::Image, BufferReads::Ssbo, BufferReads::Texel),
-                         [](const auto& test) { return std::string(kBufferReadsNames[size_t(test.param)]); });
+                         nameOf);
 
 }  // namespace
 }  // namespace fragtrace

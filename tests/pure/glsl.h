@@ -61,6 +61,7 @@ class With {
 // Shader functions are not inline: each test file has its own, and uses some of them.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wunused-parameter"
 
 #define precise
 
