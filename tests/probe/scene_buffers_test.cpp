@@ -32,7 +32,7 @@ TEST_P(SceneArrays, AreReadTheFastestWayThatHoldsThem) {
   // A GPU whose storage blocks are too small falls back to texels, and says which array it was.
   const ReadChoice image = chosen(rows, 1600, BufferReads::Auto, false);
   EXPECT_EQ(image.reads, BufferReads::Texel);
-  for (const char* text : {"1600", "800", "buffer 1", "ssbo"})
+  for (const char* text : {"1600", "800", "buffer 1", "storage"})
     EXPECT_NE(image.fallback.find(text), std::string::npos) << image.fallback;
   // A software driver whose images are too small, the other way round.
   const ReadLimits smallImages{.texels = 50, .storageBytes = 4000, .imageUnits = 16};
