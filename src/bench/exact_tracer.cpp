@@ -104,7 +104,14 @@ void ExactTracer::meet(const Ray& ray, uint32_t primitive, ExactHit& hit) const 
 
 ExactHit ExactTracer::nearest(const Ray& ray) const {
   ExactHit hit{double(ray.limit), kMissIndex};
-  if (bvh_.nodes.empty() || !(ray.limit > 0.0f)) return hit;
+  if (!(ray.limit > 0.0f)) return hit;
+  const auto meetLeaf = [&](const BvhLeaf& leaf) {
+    for (const uint32_t primitive : leaf.primitive) {
+      if (primitive != kMissIndex) meet(ray, primitive, hit);
+    }
+  };
+  for (size_t i = bvh_.leaves.size() - bvh_.besideTree; i < bvh_.leaves.size(); ++i) meetLeaf(bvh_.leaves[i]);
+  if (bvh_.nodes.empty()) return hit;
   glm::dvec3 inverse;
   for (int axis = 0; axis < 3; ++axis) {
     // Far below what a direction of 24 bits can hold beside a larger component.
@@ -122,9 +129,7 @@ ExactHit ExactTracer::nearest(const Ray& ray) const {
     const Entry entry = stack[--depth];
     if (entry.enter > hit.t) continue;
     if ((entry.child & kBvhLeafBit) != 0) {
-      for (const uint32_t primitive : bvh_.leaves[entry.child & ~kBvhLeafBit].primitive) {
-        if (primitive != kMissIndex) meet(ray, primitive, hit);
-      }
+      meetLeaf(bvh_.leaves[entry.child & ~kBvhLeafBit]);
       continue;
     }
     const BvhNode& node = bvh_.nodes[entry.child];

@@ -162,6 +162,7 @@ void flatten(WholeTree& tree, std::span<BuildItem> items, const SplitRules& rule
   const double before = tree.area();
   if (fits) {
     std::vector<Subtree> kept;
+    kept.reserve(deep.size());
     for (TopNode* part : deep) kept.push_back(std::move(part->part));
     buildParts(deep, flatter, threadCount);
     if (tree.area() <= kWorthwhile * before) return;

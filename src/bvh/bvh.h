@@ -38,6 +38,11 @@ struct Bvh {
   Bounds bounds;
 };
 
+/// The primitive in a leaf slot (leaf * 2 + side), as shaders name hits; kMissIndex for a negative one.
+inline uint32_t primitiveInSlot(const Bvh& bvh, int32_t slot) {
+  return slot < 0 ? kMissIndex : bvh.leaves.at(size_t(slot) / 2).primitive[size_t(slot) % 2];
+}
+
 /// Builds the tree by binned SAH over the primitives' boxes, on all cores. Primitives from firstSingle on
 /// (spheres) always get a leaf of their own. Deterministic: the same boxes give the same tree. Boxes that are
 /// moved in are freed before the tree is made, which takes another 40 bytes a primitive beside itself.

@@ -13,6 +13,7 @@
 #include "cli/setup.h"
 #include "errors.h"
 #include "image/whole_file.h"
+#include "pack/literals.h"
 #include "render/ray_caster.h"
 
 namespace fragtrace {
@@ -30,11 +31,7 @@ struct MeasuredSet {
 
 std::vector<FoundHit> foundBy(const RayCaster& caster, const Bvh& bvh) {
   std::vector<FoundHit> found;
-  for (const TracedRay& hit : caster.hits()) {
-    const uint32_t primitive =
-        hit.slot < 0 ? kMissIndex : bvh.leaves.at(size_t(hit.slot) / 2).primitive[size_t(hit.slot) % 2];
-    found.push_back({primitive, hit.t});
-  }
+  for (const TracedRay& hit : caster.hits()) found.push_back({primitiveInSlot(bvh, hit.slot), hit.t});
   return found;
 }
 
@@ -102,6 +99,7 @@ TraversalReport measure(const BenchTraversalOptions& options, const Context& con
     throw InputError(options.render.scene.string() + ": has spheres, which --rays does not write");
   ShaderVariant variant = chooseVariant(options.render, traitsOf(scene, Surroundings::None),
                                         Surroundings::None, loaded.bvh.depth, BufferReads::Auto);
+  if (loaded.bvh.besideTree > 0) variant.literals = largeFirst(scene, loaded.bvh, variant);
   GpuScene packed = packScene(scene, loaded.bvh, {}, variant);
   variant.reads = chooseReads(options.render.bufferReads, context.software, packed, readLimits()).reads;
 

@@ -35,6 +35,8 @@ BenchTraversalOptions finishBenchTraversal(const RawBenchTraversal& raw) {
   options.render = finishRender(render);
   if (options.render.traversal == TraversalMethod::Iterative)
     throw UsageError("--traversal: 'iterative' takes more than one draw; `bench scale` measures it");
+  if (options.render.traversal == TraversalMethod::Literals)
+    throw UsageError("--traversal: 'literals' has no tree; 'bench traversal' measures trees");
   return options;
 }
 

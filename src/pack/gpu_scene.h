@@ -40,7 +40,7 @@ struct GpuScene {
   uint32_t energyTableRow = 0;  ///< where the energy table begins among the material rows
 
   size_t bytes() const;
-  /// Of these, what the primitives take: tree, leaves, records and vertex attributes.
+  /// Of these, what the primitives take: tree, leaves, faces and vertex attributes.
   size_t geometryBytes() const;
 };
 

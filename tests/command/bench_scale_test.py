@@ -26,7 +26,7 @@ class Bench(Case):
         return result, [json.loads(line) for line in path.read_text().splitlines()]
 
     def broken(self, name, old, new):
-        """A folder of shaders in which one line is wrong."""
+        """A folder of shaders in which one place is wrong."""
         folder = self.folder / "shaders"
         shutil.copytree(SHADERS, folder)
         text = (folder / name).read_text()
@@ -68,7 +68,7 @@ class BenchScale(Bench):
 
     def test_a_wrong_picture_fails(self):
         # Every second triangle is lost.
-        folder = self.broken("traverse.glsl", "bool hitb = tb > 0.0f && tb < s.t;", "bool hitb = false;")
+        folder = self.broken("traverse.glsl", "bool hitb = ", "bool hitb = false && ")
         result = run("bench", "scale", *FEW, "--shader-folder", folder, "--json", self.folder / "b.json")
         self.assertEqual((result.returncode, result.stdout), (1, ""))
         self.assertIn("wrong", result.stderr)
@@ -128,7 +128,7 @@ class BenchTraversal(Bench):
         self.fails(3, "bench", "traversal", SCENES / "sphere-plane.gltf", *RAYS, "--rays", path, says=["spheres"])
 
     def test_wrong_hits_fail(self):
-        for name, old, new in (("traverse.glsl", "bool hita = ta > 0.0f && ta < s.t;", "bool hita = ta > 0.0f;"),
+        for name, old, new in (("traverse.glsl", "bool hita = ", "bool hita = s.slot < 0 && "),
                                ("traverse.glsl", "bool hit1 = near1 <= far1;", "bool hit1 = near1 < 0.9f * far1;")):
             with self.subTest(new):
                 folder = self.broken(name, old, new)
@@ -149,7 +149,8 @@ class GpuMemory(Bench):
         self.renders(ROOM, "-o", self.folder / "p.pfm", *SMALL, "--stats", stats)
         told = json.loads(stats.read_text())
         info = json.loads(run("info", ROOM, "--json").stdout)
-        self.assertEqual(info["gpu_bytes_per_triangle"], told["gpu_bytes_per_triangle"])
+        # `render` may keep the largest triangles beside the tree.
+        self.assertAlmostEqual(info["gpu_bytes_per_triangle"], told["gpu_bytes_per_triangle"], delta=0.1)
         self.assertTrue(60 < told["gpu_bytes_per_triangle"] < 160, told["gpu_bytes_per_triangle"])
         self.assertLessEqual(told["gpu_bytes_per_triangle"] * 69326, told["scene_bytes"])
         self.assertNotIn("buffer_reads_fallback", told)

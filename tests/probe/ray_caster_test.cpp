@@ -25,7 +25,7 @@ TEST_P(RayCasting, FindsWhatDoublePrecisionFinds) {
   const std::vector<ExactHit> hits = tracer.nearest(primary);
   const std::vector<Ray> shadow = shadowRays(tracer, scene, primary, hits, 1);
   primary[0] = Ray{};  // none
-  for (const BufferReads reads : {BufferReads::Image, BufferReads::Ssbo}) {
+  for (const BufferReads reads : {BufferReads::Image, BufferReads::Ssbo, BufferReads::Texel}) {
     for (const TraversalMethod method : {TraversalMethod::Bvh, TraversalMethod::FrontToBack}) {
       RenderOptions options;
       options.stages = stagesUpTo(Stage::Flat);
@@ -37,11 +37,7 @@ TEST_P(RayCasting, FindsWhatDoublePrecisionFinds) {
       const auto found = [&](const std::vector<Ray>& rays, bool anyHit) {
         EXPECT_GT(caster.trace(RayCaster::RaySet(rays), anyHit), 0.0);
         std::vector<FoundHit> all;
-        for (const TracedRay& hit : caster.hits()) {
-          const uint32_t primitive =
-              hit.slot < 0 ? kMissIndex : bvh.leaves.at(size_t(hit.slot) / 2).primitive[size_t(hit.slot) % 2];
-          all.push_back({primitive, hit.t});
-        }
+        for (const TracedRay& hit : caster.hits()) all.push_back({primitiveInSlot(bvh, hit.slot), hit.t});
         return all;
       };
       const std::vector<FoundHit> nearest = found(primary, false);

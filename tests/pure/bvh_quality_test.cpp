@@ -66,7 +66,9 @@ class FullSweep {
     for (size_t cut = 1; cut < count; ++cut) {
       box.include(boxAt(cut - 1));
       const double areaLeft = areaInDouble(box);
-      const double cost = areaLeft * double((cut + 1) / 2) + areaRight_[cut] * double((count - cut + 1) / 2);
+      const size_t leavesLeft = (cut + 1) / 2;
+      const size_t leavesRight = (count - cut + 1) / 2;
+      const double cost = areaLeft * double(leavesLeft) + areaRight_[cut] * double(leavesRight);
       if (cost < best.cost) best = {cost, areaLeft + areaRight_[cut], axis, cut};
     }
   }
