@@ -51,7 +51,9 @@ Stack stepStack(Stack s, bool push, bool pop, int value) {
     s.s16 = push ? t.s15 : (pop ? t.s17 : t.s16);
     s.s17 = push ? t.s16 : (pop ? t.s18 : t.s17);
     s.s18 = push ? t.s17 : (pop ? t.s19 : t.s18);
-    s.s19 = push ? t.s18 : (pop ? t.s20 : t.s19);
+    s.s19 = push ? t.s18 : (pop ? (kStackSize > 20 ? t.s20 : kTraversalDone) : t.s19);
+  }
+  if (kStackSize > 20) {
     s.s20 = push ? t.s19 : (pop ? t.s21 : t.s20);
     s.s21 = push ? t.s20 : (pop ? t.s22 : t.s21);
     s.s22 = push ? t.s21 : (pop ? t.s23 : t.s22);

@@ -12,7 +12,7 @@ namespace fragtrace {
 
 /// Sizes in which the shader's stack (shaders/stack.glsl) comes; each step up was measured to cost 4 to 7 %
 /// of the time on llvmpipe.
-inline constexpr std::array<uint32_t, 5> kBvhStackSizes{8, 12, 16, 24, kMaxBvhDepth};
+inline constexpr std::array<uint32_t, 6> kBvhStackSizes{8, 12, 16, 20, 24, kMaxBvhDepth};
 
 struct BvhBuildSettings {
   uint32_t threadCount = 0;          ///< 0: all cores; the tree is the same for any number

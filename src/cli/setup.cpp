@@ -83,12 +83,15 @@ uint64_t hashOf(const GpuScene& scene) {
 /// triangles stand beside it when that pays.
 Bvh buildTree(const Scene& scene, const RenderOptions& options) {
   if (options.traversal == TraversalMethod::Iterative) return listLeaves(scene);
-  const std::vector<Bounds> bounds = primitiveBounds(scene);
+  std::vector<Bounds> bounds = primitiveBounds(scene);
   const uint32_t triangles = uint32_t(scene.triangles.size());
+  std::vector<uint32_t> large;
+  if (options.traversal == TraversalMethod::Auto && !has(options.stages, Stage::BvhHeatmap) &&
+      bounds.size() >= kLeastBesideLarge) {
+    large = largeTriangles(bounds, triangles);
+  }
+  if (large.empty()) return buildBvh(std::move(bounds), triangles);
   Bvh bvh = buildBvh(bounds, triangles);
-  if (options.traversal != TraversalMethod::Auto || has(options.stages, Stage::BvhHeatmap)) return bvh;
-  const std::vector<uint32_t> large = largeTriangles(bounds, triangles);
-  if (large.empty() || bounds.size() < kLeastBesideLarge) return bvh;
   Bvh beside = buildBvhBeside(bounds, triangles, large);
   return paysBeside(bvh, beside) ? beside : bvh;
 }

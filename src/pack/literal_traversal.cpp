@@ -91,10 +91,12 @@ class TraversalText {
 
   /// A variable that holds an expression, made where it is first needed, so that few are alive at a time.
   std::string variable(const std::string& expression) {
-    const auto [found, isNew] =
-        variables_.emplace(expression, std::string("v") + std::to_string(variables_.size()));
-    if (isNew) body_ += "  float " + found->second + " = " + expression + ";\n";
-    return found->second;
+    const auto found = variables_.find(expression);
+    if (found != variables_.end()) return found->second;
+    std::string name = "v";
+    name += std::to_string(variables_.size());
+    body_ += "  float " + name + " = " + expression + ";\n";
+    return variables_.emplace(expression, name).first->second;
   }
 
   static std::string product(double x, const std::string& row, int axis) {

@@ -188,7 +188,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
       options.traversal != TraversalMethod::Auto && options.traversal != TraversalMethod::Literals;
   v.traversal = named ? options.traversal : TraversalMethod::FrontToBack;
   v.stackSize = 32;
-  for (int size : {24, 16, 12, 8}) {
+  for (int size : {24, 20, 16, 12, 8}) {
     if (treeDepth <= uint32_t(size)) v.stackSize = size;
   }
   if (v.traversal == TraversalMethod::Iterative) v.stackSize = 8;

@@ -68,7 +68,7 @@ TEST_P(Variants, EachTraitLeftOutAndAlone) {
 TEST_P(Variants, EachTraversalAndStack) {
   for (TraversalMethod method :
        {TraversalMethod::Iterative, TraversalMethod::Bvh, TraversalMethod::FrontToBack}) {
-    for (int size : {8, 12, 16, 24, 32}) {
+    for (int size : {8, 12, 16, 20, 24, 32}) {
       ShaderVariant v = full(GetParam());
       v.traversal = method;
       v.stackSize = size;
