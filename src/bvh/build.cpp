@@ -142,15 +142,15 @@ WholeTree buildWhole(std::span<BuildItem> items, const SplitRules& rules, uint32
 }
 
 // A tree that fits the next smaller stack, where that costs little: parts that are too deep are built again,
-// or all is, where they are too large for that.
-void flatten(WholeTree& tree, std::span<BuildItem> items, const SplitRules& rules, uint32_t threadCount) {
+// or all is, where they are too large for that. Whether it was done.
+bool flatten(WholeTree& tree, std::span<BuildItem> items, const SplitRules& rules, uint32_t threadCount) {
   constexpr double kWorthwhile = 1.03;  // a stack one step smaller gains more than this
   constexpr size_t kLargest = 2000000;  // primitives; a second build of more takes seconds
   SplitRules flatter = rules;
   flatter.maxDepth = 0;
   for (const uint32_t size : kBvhStackSizes) flatter.maxDepth = size < tree.depth() ? size : flatter.maxDepth;
   // With less than one level to spare a tree would no longer be the heuristic's, but one of halves.
-  if (flatter.maxDepth == 0 || items.size() > flatter.capacityBelow(1)) return;
+  if (flatter.maxDepth == 0 || items.size() > flatter.capacityBelow(1)) return false;
   std::vector<TopNode*> deep;
   bool fits = true;
   for (TopNode* part : tree.parts) {
@@ -165,12 +165,14 @@ void flatten(WholeTree& tree, std::span<BuildItem> items, const SplitRules& rule
     kept.reserve(deep.size());
     for (TopNode* part : deep) kept.push_back(std::move(part->part));
     buildParts(deep, flatter, threadCount);
-    if (tree.area() <= kWorthwhile * before) return;
+    if (tree.area() <= kWorthwhile * before) return true;
     for (size_t i = 0; i < deep.size(); ++i) deep[i]->part = std::move(kept[i]);
   }
-  if (items.size() > kLargest) return;
+  if (items.size() > kLargest) return false;
   WholeTree other = buildWhole(items, flatter, threadCount);
-  if (other.area() <= kWorthwhile * before) tree = std::move(other);
+  if (other.area() > kWorthwhile * before) return false;
+  tree = std::move(other);
+  return true;
 }
 
 }  // namespace
@@ -189,7 +191,9 @@ Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle, const Bv
   for (size_t i = 0; i < items.size(); ++i) items[i] = {primitiveBounds[i], uint32_t(i)};
   primitiveBounds = std::vector<Bounds>();
   WholeTree tree = buildWhole(items, rules, threadCount);
-  if (settings.flatten) flatten(tree, items, rules, threadCount);
+  while (settings.flatten && flatten(tree, items, rules, threadCount)) {
+    // One step after the other, as long as each is worth it.
+  }
   items = std::vector<BuildItem>();
 
   // Put the parts together.
