@@ -2,6 +2,8 @@
 // `fragtrace bench frame`: how long a frame takes with one set of options and another.
 #include <cstdio>
 
+#include <algorithm>
+
 #include "bench/baseline.h"
 #include "cli/bench_interrupt.h"
 #include "cli/commands.h"
@@ -33,6 +35,10 @@ std::vector<FrameSetting> measure(const BenchFrameOptions& options, const Contex
       wanted.render.quiet = wanted.render.quiet || !settings.empty();  // warnings are said once
       settings.push_back(makeSetting(context, wanted, options.timing));
       checkOutputs(outputsOf(options), inputsOf(settings.back().loaded->scene));
+      if (settings.back().loaded->size != settings.front().loaded->size)
+        throw UsageError("configuration '" + configuration.name +
+                         "': its picture is of another size than that of '" + configurations.front().name +
+                         "'");
     }
     measureInTurn(settings, options.first().quiet);
     checkSettings(context, settings, options.reference, options.first().quiet);
@@ -64,6 +70,9 @@ int runBenchFrame(const BenchFrameOptions& options) {
       const auto changes = compareWithBaseline(baseline, machine, measured, options.tolerance);
       std::fputs(baselineTable(changes, options.tolerance).c_str(), stdout);
       for (const BaselineChange& change : changes) slower = slower || change.slower;
+      const bool compared =
+          std::ranges::any_of(changes, [](const BaselineChange& c) { return c.ratio > 0.0; });
+      if (!compared) throw InputError(options.baseline.string() + ": holds none of these settings");
     }
     const std::string wrong = wrongPictures(measured);
     if (!wrong.empty()) throw RenderError("wrong picture: " + wrong);

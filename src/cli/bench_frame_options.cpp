@@ -2,6 +2,7 @@
 #include "cli/bench_frame_options.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 #include "errors.h"
 
@@ -31,6 +32,7 @@ BenchFrameOptions finishBenchFrame(const RawBenchFrame& raw, const CLI::App& app
       if (raw.scenes[i] == scene) throw UsageError("scenes: '" + scene + "' stands twice");
     }
   }
+  if (!std::isfinite(options.tolerance)) throw UsageError("--tolerance: not a finite number");
   if (!options.reference.empty() && raw.scenes.size() > 1)
     throw UsageError("--reference: is of one scene, but there are " + std::to_string(raw.scenes.size()));
   return options;

@@ -143,8 +143,8 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
   if (has(variant.stages, Stage::BvhHeatmap)) return;
   const bool asked = options.traversal == TraversalMethod::Literals;
   if (!asked && options.traversal != TraversalMethod::Auto) return;
-  if (asked && !fitsAsLiterals(loaded.scene, packed))
-    throw UsageError("--traversal literals: the scene has spheres, or is too large for it");
+  const std::string reason = asked ? whyNoLiterals(loaded.scene, packed) : "";
+  if (!reason.empty()) throw UsageError("--traversal literals: " + reason);
   if (!asked && !paysAsLiterals(loaded.scene, loaded.bvh, packed)) return;
   variant.traversal = TraversalMethod::Literals;
   variant.literals = literalScene(loaded.scene, loaded.bvh, packed, variant);

@@ -79,16 +79,25 @@ constexpr double kLockstep = 1.6;
 
 }  // namespace
 
-bool fitsAsLiterals(const Scene& scene, const GpuScene& packed) {
+std::string whyNoLiterals(const Scene& scene, const GpuScene& packed) {
   constexpr size_t kMostTriangles = 256;
   constexpr size_t kMostMaterials = 16;
-  constexpr uint32_t kMostEmitters = 16;
-  return scene.spheres.empty() && !scene.triangles.empty() && scene.triangles.size() <= kMostTriangles &&
-         scene.materials.size() <= kMostMaterials && packed.emitterCount <= kMostEmitters;
+  constexpr size_t kMostEmitters = 16;
+  const auto tooMany = [](size_t count, size_t most, const char* what) {
+    return count <= most
+               ? std::string()
+               : std::to_string(count) + " " + what + ", at most " + std::to_string(most) + " can be";
+  };
+  if (!scene.spheres.empty()) return "the scene has spheres";
+  if (scene.triangles.empty()) return "the scene has no triangle";
+  std::string reason = tooMany(scene.triangles.size(), kMostTriangles, "triangles");
+  if (reason.empty()) reason = tooMany(scene.materials.size(), kMostMaterials, "materials");
+  if (reason.empty()) reason = tooMany(packed.emitterCount, kMostEmitters, "emitters");
+  return reason;
 }
 
 bool paysAsLiterals(const Scene& scene, const Bvh& bvh, const GpuScene& packed) {
-  if (!fitsAsLiterals(scene, packed)) return false;
+  if (!whyNoLiterals(scene, packed).empty()) return false;
   const double faces = double(literalMesh(scene, bvh, 0, false).faces.size());
   return faces * kFace < bvhQuality(bvh).sahCost * kLockstep * kVisit;
 }

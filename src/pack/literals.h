@@ -8,8 +8,9 @@
 
 namespace fragtrace {
 
-/// No spheres, and not too many triangles, materials or emitters.
-bool fitsAsLiterals(const Scene& scene, const GpuScene& packed);
+/// Why a scene cannot be literals: spheres, nothing, or too many triangles, materials or emitters. Empty when
+/// it can.
+std::string whyNoLiterals(const Scene& scene, const GpuScene& packed);
 
 /// Whether testing every triangle as a literal takes less work than walking the tree, by the expected
 /// instructions of both (docs/architecture.md). Never for scenes with spheres, or whose faces, materials and

@@ -130,8 +130,13 @@ class FrameBaseline(Frame):
         self.assertIn("--sampler random --spp 4: only in the baseline", result.stdout)
         result, _ = self.frame(*options, "--configs", "default", "--baseline", self.baseline(found, 1e-4))
         self.assertNotIn("SLOWER", result.stdout)
-        result, _ = self.frame(*options, "--configs", "default", "--bounces", 2, "--baseline", self.baseline(found, 1e6))
+        result, _ = self.frame(*options, "--configs", "default", "--bounces", 2, "--baseline", self.baseline(found, 1e6), status=3)
         self.assertIn("not in the baseline", result.stdout)
+        self.assertIn("none of these settings", result.stderr)
+
+    def test_a_tolerance_that_is_no_number_and_pictures_of_two_sizes(self):
+        self.fails(2, "bench", "frame", BOX, *QUICK, "--tolerance", "nan", says=["--tolerance"])
+        self.fails(2, "bench", "frame", BOX, *QUICK, "--config", "big=--resolution 9,9", says=["'big'", "size"])
 
     def test_files_that_are_no_baseline(self):
         for text in ("", "nonsense\n", "{\"schema\": 2}\n"):
