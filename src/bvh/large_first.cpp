@@ -20,6 +20,7 @@ std::vector<uint32_t> largeTriangles(std::span<const Bounds> primitiveBounds, ui
   std::ranges::sort(found);
   if (found.size() > kMost) found.resize(kMost);
   std::vector<uint32_t> large;
+  large.reserve(found.size());
   for (const auto& [area, index] : found) large.push_back(index);
   std::ranges::sort(large);
   return large;

@@ -68,6 +68,7 @@ TEST(LiteralMesh, WhatIsBentOrNotConvexOrOfTwoMaterialsStaysApart) {
 
 TEST(LiteralMesh, EveryPlaceIsOnePoint) {
   std::vector<Corners> fan;
+  fan.reserve(6);
   for (int i = 0; i < 6; ++i)
     fan.push_back({glm::vec3(0), glm::vec3(i, 7 - i, i * i), glm::vec3(i + 1, 6 - i, (i + 1) * (i + 1))});
   EXPECT_EQ(meshOf(sceneOf(fan), false).points.size(), 8u);
