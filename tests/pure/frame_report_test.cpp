@@ -166,8 +166,11 @@ TEST(Baseline, WhatIsNoSettingIsRefusedWithItsLine) {
   std::string other = good;
   other.replace(other.find("\"schema\":1"), 10, "\"schema\":2");
   for (const std::string& bad : {std::string("nonsense\n"), std::string("{\"schema\":1}\n"), other}) {
+    std::string text = good;
+    text += "\n";
+    text += bad;
     try {
-      parseBaseline(good + "\n" + bad, "old.json");
+      parseBaseline(text, "old.json");
       ADD_FAILURE() << bad;
     } catch (const InputError& error) {
       EXPECT_EQ(std::string(error.what()).find("old.json: line 3 "), 0u) << error.what();

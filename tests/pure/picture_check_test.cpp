@@ -19,6 +19,7 @@ FilmPixels noisy(uint32_t seed, int samples, double rare = 0.5, double brighter 
   std::uniform_real_distribution<double> chance(0.0, 1.0);
   return filmOf(kSize, [&](int x, int) {
     std::vector<double> values;
+    values.reserve(size_t(samples));
     for (int i = 0; i < samples; ++i)
       values.push_back(chance(random) < rare ? brighter * (1.0 + x / 64.0) / rare : 0.0);
     return values;
