@@ -59,12 +59,6 @@ std::string rowFunction(const std::string& head, const std::string& index, const
   return text + "  return " + chosenRow(words, index, count, rows, rows - 1, used) + ";\n}\n";
 }
 
-bool keepsWeights(const ShaderVariant& variant) {
-  const TraitSet& traits = variant.traits;
-  return has(traits, Trait::VertexNormals) || has(traits, Trait::Texcoords) || has(traits, Trait::Tangents) ||
-         has(traits, Trait::VertexColors);
-}
-
 constexpr const char* kNoRows = R"(
 uvec4 literalFace(int slot, int row) { return uvec4(0u); }
 uvec4 literalMaterial(uint material, uint row) { return uvec4(0u); }

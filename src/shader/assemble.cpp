@@ -65,8 +65,7 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
     if (row.constant) constant(row.constant, has(variant.stages, row.stage));
   }
   for (const TraitRow& row : traitRows()) constant(row.constant, has(variant.traits, row.trait));
-  constant("kWeights", has(variant.traits, Trait::VertexNormals) || has(variant.traits, Trait::Texcoords) ||
-                           has(variant.traits, Trait::Tangents) || has(variant.traits, Trait::VertexColors));
+  constant("kWeights", keepsWeights(variant));
   constant("kIterative", variant.traversal == TraversalMethod::Iterative);
   constant("kFrontToBack", variant.traversal == TraversalMethod::FrontToBack);
   constant("kResumable", variant.resumable);

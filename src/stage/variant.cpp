@@ -223,6 +223,12 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
   return v;
 }
 
+bool keepsWeights(const ShaderVariant& variant) {
+  const TraitSet& traits = variant.traits;
+  return has(traits, Trait::VertexNormals) || has(traits, Trait::Texcoords) || has(traits, Trait::Tangents) ||
+         has(traits, Trait::VertexColors);
+}
+
 std::string variantName(const ShaderVariant& variant) {
   std::string name;
   auto append = [&](const std::string& part) { name += (name.empty() ? "" : "+") + part; };

@@ -53,6 +53,9 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
                                    Surroundings surroundings, uint32_t treeDepth, BufferReads reads,
                                    Feature feature);
 
+/// Whether hits keep their barycentric weights: only vertex attributes need them.
+bool keepsWeights(const ShaderVariant& variant);
+
 /// The variant by name: what is on, separated by "+", for the statistics.
 std::string variantName(const ShaderVariant& variant);
 
