@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/baseline.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -12,7 +13,7 @@ namespace fragtrace {
 namespace {
 
 BaselineEntry entryOf(const nlohmann::json& json) {
-  if (json.at("schema") != 1) throw std::runtime_error("its schema is not 1");
+  if (json.at("schema") != 1) throw std::runtime_error("its \"schema\" is not 1");
   BaselineEntry e;
   e.scene = json.at("scene");
   e.options = json.at("options");
@@ -21,6 +22,7 @@ BaselineEntry entryOf(const nlohmann::json& json) {
   e.width = json.at("width");
   e.height = json.at("height");
   e.samplesPerDraw = json.at("samples_per_draw");
+  e.triangles = json.at("triangles");
   e.medianMs = json.at("frame_ms").at("median");
   if (!(e.medianMs > 0.0)) throw std::runtime_error("its median frame time is not above 0");
   return e;
@@ -31,9 +33,9 @@ std::string nameOf(const std::string& scene, const std::string& options) {
 }
 
 bool matches(const BaselineEntry& e, const BenchMachine& machine, const FrameSetting& s) {
-  return e.scene == s.scene && e.options == s.options && e.renderer == machine.glRenderer &&
-         e.clock == s.clock && e.width == s.width && e.height == s.height &&
-         e.samplesPerDraw == s.samplesPerDraw;
+  return e.scene == s.scene && e.triangles == s.triangles && e.options == s.options &&
+         e.renderer == machine.glRenderer && e.clock == s.clock && e.width == s.width &&
+         e.height == s.height && e.samplesPerDraw == s.samplesPerDraw;
 }
 
 }  // namespace
@@ -45,11 +47,18 @@ std::vector<BaselineEntry> parseBaseline(const std::string& text, const std::str
   for (std::string line; std::getline(lines, line);) {
     ++number;
     if (line.empty()) continue;
+    const auto refuse = [&](const std::string& why) {
+      std::string text = name + ": line " + std::to_string(number) + " is none of `bench frame --json`: ";
+      return InputError(text += why);
+    };
     try {
       entries.push_back(entryOf(nlohmann::json::parse(line)));
-    } catch (const std::exception& error) {
-      throw InputError(name + ": line " + std::to_string(number) +
-                       " is none of `bench frame --json`: " + error.what());
+    } catch (const nlohmann::json::parse_error& error) {
+      throw refuse("no JSON from its character " + std::to_string(error.byte) + " on");
+    } catch (const nlohmann::json::exception&) {
+      throw refuse("a member is missing, or not of its type");
+    } catch (const std::runtime_error& error) {
+      throw refuse(error.what());
     }
   }
   if (entries.empty()) throw InputError(name + ": holds no setting of `bench frame --json`");
@@ -74,7 +83,10 @@ std::vector<BaselineChange> compareWithBaseline(const std::vector<BaselineEntry>
       change.ratio = summarize(s.frameMs).median / then->medianMs;
       change.slower = !(change.ratio <= 1.0 + tolerance);
     } else {
-      change.note = "not in the baseline";
+      const bool otherScene = std::ranges::any_of(
+          baseline, [&](const BaselineEntry& e) { return e.scene == s.scene && e.triangles != s.triangles; });
+      change.note = otherScene ? "the baseline's scene of that name has another number of triangles"
+                               : "not in the baseline";
     }
     changes.push_back(std::move(change));
   }

@@ -18,6 +18,7 @@ struct BaselineEntry {
   int width = 0;
   int height = 0;
   int samplesPerDraw = 0;
+  size_t triangles = 0;
   double medianMs = 0.0;
 };
 
@@ -32,8 +33,9 @@ struct BaselineChange {
   std::string note;  ///< what is missing
 };
 
-/// Settings match by scene, options, size, samples a draw, clock and OpenGL renderer; of several entries that
-/// match, the last counts. Slower is what takes more than (1 + tolerance) times as long.
+/// Settings match by scene (name and number of triangles), options, size, samples a draw, clock and OpenGL
+/// renderer; of several entries that match, the last counts. Slower is what takes more than (1 + tolerance)
+/// times as long.
 std::vector<BaselineChange> compareWithBaseline(const std::vector<BaselineEntry>& baseline,
                                                 const BenchMachine& machine,
                                                 const std::vector<FrameSetting>& settings, double tolerance);

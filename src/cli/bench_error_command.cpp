@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "bench/error_report.h"
-#include "cli/bench_interrupt.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/outputs.h"
@@ -54,7 +53,7 @@ std::vector<ErrorSample> measureSteps(Contender& c, const View& view, const Judg
   const int most = c.configuration.render.spp;
   for (int done = 0, next = 1; done < most; next *= 2) {
     next = std::min(next, most);
-    c.tracer.renderer->addSamples(film, view, done, next, times, untilInterrupted());
+    c.tracer.renderer->addSamples(film, view, done, next, times);
     done = next;
     steps.push_back(judge.judge(imageOf(film.read(), {}), done, times.renderMs / 1000.0));
   }
@@ -69,8 +68,7 @@ std::vector<ErrorSample> measureAdaptive(Contender& c, const View& view, const J
     RenderTimes times;
     const double part = options.noise > 0.0 ? 1.0 : std::exp2(-i);
     const AdaptiveGoal goal{options.noise * std::exp2(i), options.seconds * part, options.spp};
-    const AdaptivePicture picture =
-        renderAdaptively(*c.tracer.renderer, c.loaded.size, view, goal, times, untilInterrupted());
+    const AdaptivePicture picture = renderAdaptively(*c.tracer.renderer, c.loaded.size, view, goal, times);
     const double pixels = double(c.loaded.size.x) * c.loaded.size.y;
     steps.push_back(judge.judge(imageOf(picture.pixels, {}),
                                 double(totalsOf(picture.pixels).samples) / pixels, times.renderMs / 1000.0));
@@ -85,12 +83,11 @@ Image makeReference(Contender& c, int samples, bool quiet) {
   c.tracer.renderer->compile(c.tracer.variant, film, view);
   ProgressBar bar("reference, " + std::to_string(samples) + " samples", quiet);
   RenderTimes times;
-  const bool complete = c.tracer.renderer->addSamples(film, view, 0, samples, times, [&](double fraction) {
+  c.tracer.renderer->addSamples(film, view, 0, samples, times, [&](double fraction) {
     bar.show(fraction);
-    return interrupts() == 0;
+    return true;
   });
   bar.clear();
-  if (!complete) throw Interrupted();
   return imageOf(film.read(), {});
 }
 
@@ -164,7 +161,7 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
       const double compileMs = c.tracer.renderer->compile(c.tracer.variant, film, view);
       if (r == 0) c.curve.compileMs = compileMs;  // later ones are in the program cache
       RenderTimes warmUp;
-      c.tracer.renderer->addSamples(film, view, 0, 1, warmUp, untilInterrupted());
+      c.tracer.renderer->addSamples(film, view, 0, 1, warmUp);
       c.curve.repetitions.push_back(c.configuration.adaptive() ? measureAdaptive(c, view, judge)
                                                                : measureSteps(c, view, judge));
       done += 1.0;
@@ -191,16 +188,12 @@ int runBenchError(const BenchErrorOptions& options) {
   }
   checkOutputs(outputsOf(options), inputs);
   const auto context = makeContext(options.configurations.front().render.backend);
-  countInterrupts();
-  try {
-    const ErrorReport report = measure(options, *context);
-    std::fputs(errorTable(report).c_str(), stdout);
-    replaceText(options.json, errorJson(report));
-    replaceText(options.csv, errorCsv(report));
-    replaceText(options.chart, errorChart(report));
-  } catch (const Interrupted&) {
-    return sayInterrupted();
-  }
+  const ErrorReport report = measure(options, *context);
+  countInterrupts();  // what is measured is written whole
+  std::fputs(errorTable(report).c_str(), stdout);
+  replaceText(options.json, errorJson(report));
+  replaceText(options.csv, errorCsv(report));
+  replaceText(options.chart, errorChart(report));
   return 0;
 }
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "bench/baseline.h"
-#include "cli/bench_interrupt.h"
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "cli/machine.h"
 #include "cli/outputs.h"
 #include "cli/setting_check.h"
@@ -26,7 +26,8 @@ std::vector<BaselineEntry> readBaseline(const std::filesystem::path& path) {
 }
 
 /// Scene by scene, so that one after the other is in memory.
-std::vector<FrameSetting> measure(const BenchFrameOptions& options, const Context& context) {
+std::vector<FrameSetting> measure(const BenchFrameOptions& options, const Context& context,
+                                  const std::optional<ReferencePicture>& reference) {
   std::vector<FrameSetting> measured;
   for (const std::vector<BenchConfiguration>& configurations : options.scenes) {
     std::vector<TimedSetting> settings;
@@ -35,13 +36,14 @@ std::vector<FrameSetting> measure(const BenchFrameOptions& options, const Contex
       wanted.render.quiet = wanted.render.quiet || !settings.empty();  // warnings are said once
       settings.push_back(makeSetting(context, wanted, options.timing));
       checkOutputs(outputsOf(options), inputsOf(settings.back().loaded->scene));
+      if (reference) checkSize(*reference, settings.back());
       if (settings.back().loaded->size != settings.front().loaded->size)
         throw UsageError("configuration '" + configuration.name +
                          "': its picture is of another size than that of '" + configurations.front().name +
                          "'");
     }
     measureInTurn(settings, options.first().quiet);
-    checkSettings(context, settings, options.reference, options.first().quiet);
+    checkSettings(context, settings, reference, options.first().quiet);
     for (TimedSetting& s : settings) measured.push_back(std::move(s.report));
   }
   return measured;
@@ -58,28 +60,25 @@ int runBenchFrame(const BenchFrameOptions& options) {
   }
   checkOutputs(outputsOf(options), inputs);
   const std::vector<BaselineEntry> baseline = readBaseline(options.baseline);
+  std::optional<ReferencePicture> reference;
+  if (!options.reference.empty()) reference = readReference(options.reference);
   const auto context = makeContext(options.first().backend);
-  countInterrupts();
-  try {
-    const BenchMachine machine = describeMachine(*context);
-    const std::vector<FrameSetting> measured = measure(options, *context);
-    std::fputs(frameTable(machine, measured).c_str(), stdout);
-    replaceText(options.json, frameJson("frame", machine, measured));
-    bool slower = false;
-    if (!options.baseline.empty()) {
-      const auto changes = compareWithBaseline(baseline, machine, measured, options.tolerance);
-      std::fputs(baselineTable(changes, options.tolerance).c_str(), stdout);
-      for (const BaselineChange& change : changes) slower = slower || change.slower;
-      const bool compared =
-          std::ranges::any_of(changes, [](const BaselineChange& c) { return c.ratio > 0.0; });
-      if (!compared) throw InputError(options.baseline.string() + ": holds none of these settings");
-    }
-    const std::string wrong = wrongPictures(measured);
-    if (!wrong.empty()) throw RenderError("wrong picture: " + wrong);
-    return slower ? 1 : 0;
-  } catch (const Interrupted&) {
-    return sayInterrupted();
+  const BenchMachine machine = describeMachine(*context);
+  const std::vector<FrameSetting> measured = measure(options, *context, reference);
+  countInterrupts();  // what is measured is written whole
+  std::fputs(frameTable(machine, measured).c_str(), stdout);
+  replaceText(options.json, frameJson("frame", machine, measured));
+  bool slower = false;
+  if (!options.baseline.empty()) {
+    const auto changes = compareWithBaseline(baseline, machine, measured, options.tolerance);
+    std::fputs(baselineTable(changes, options.tolerance).c_str(), stdout);
+    for (const BaselineChange& change : changes) slower = slower || change.slower;
+    const bool compared = std::ranges::any_of(changes, [](const BaselineChange& c) { return c.ratio > 0.0; });
+    if (!compared) throw InputError(options.baseline.string() + ": holds none of these settings");
   }
+  const std::string wrong = wrongPictures(measured);
+  if (!wrong.empty()) throw RenderError("wrong picture: " + wrong);
+  return slower ? 1 : 0;
 }
 
 }  // namespace fragtrace

@@ -2,8 +2,8 @@
 // `fragtrace bench report`: the rows of the report's Table I, and its Figure 9.
 #include <cstdio>
 
-#include "cli/bench_interrupt.h"
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "cli/machine.h"
 #include "cli/outputs.h"
 #include "cli/setting_check.h"
@@ -48,32 +48,28 @@ int runBenchReport(const BenchReportOptions& options) {
   }
   checkOutputs(outputsOf(options), inputs);
   const auto context = makeContext(options.first().backend);
-  countInterrupts();
-  try {
-    const BenchMachine machine = describeMachine(*context);
-    std::vector<TimedSetting> settings = settingsOf(options, *context);
-    measureInTurn(settings, options.first().quiet);
-    checkSettings(*context, settings, {}, options.first().quiet);
-    std::vector<FrameSetting> measured;
-    std::vector<MeasuredRow> rows;
-    size_t next = 0;
-    for (const BenchReportRow& r : options.rows) {
-      MeasuredRow row;
-      row.row = r.row;
-      for (; next < settings.size() && settings[next].configuration.name == r.configuration.name; ++next) {
-        measured.push_back(settings[next].report);
-        (measured.back().samplesPerDraw == 1 ? row.single : row.many) = measured.back();
-      }
-      rows.push_back(std::move(row));
+  const BenchMachine machine = describeMachine(*context);
+  std::vector<TimedSetting> settings = settingsOf(options, *context);
+  measureInTurn(settings, options.first().quiet);
+  checkSettings(*context, settings, {}, options.first().quiet);
+  std::vector<FrameSetting> measured;
+  std::vector<MeasuredRow> rows;
+  size_t next = 0;
+  for (const BenchReportRow& r : options.rows) {
+    MeasuredRow row;
+    row.row = r.row;
+    for (; next < settings.size() && settings[next].configuration.name == r.configuration.name; ++next) {
+      measured.push_back(settings[next].report);
+      (measured.back().samplesPerDraw == 1 ? row.single : row.many) = measured.back();
     }
-    std::fputs((reportTable(machine, rows) + reportRatios(rows)).c_str(), stdout);
-    replaceText(options.json, frameJson("report", machine, measured));
-    replaceText(options.chart, options.chart.empty() ? "" : reportChart(machine, rows));
-    const std::string wrong = wrongPictures(measured);
-    if (!wrong.empty()) throw RenderError("wrong picture: " + wrong);
-  } catch (const Interrupted&) {
-    return sayInterrupted();
+    rows.push_back(std::move(row));
   }
+  countInterrupts();  // what is measured is written whole
+  std::fputs((reportTable(machine, rows) + reportRatios(rows)).c_str(), stdout);
+  replaceText(options.json, frameJson("report", machine, measured));
+  replaceText(options.chart, options.chart.empty() ? "" : reportChart(machine, rows));
+  const std::string wrong = wrongPictures(measured);
+  if (!wrong.empty()) throw RenderError("wrong picture: " + wrong);
   return 0;
 }
 

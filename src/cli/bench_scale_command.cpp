@@ -8,8 +8,8 @@
 #include "bench/hit_check.h"
 #include "bench/ray_sets.h"
 #include "bench/scale_report.h"
-#include "cli/bench_interrupt.h"
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "cli/outputs.h"
 #include "cli/peak_memory.h"
 #include "cli/progress_bar.h"
@@ -87,7 +87,7 @@ void warmUp(const Stage& stage, Runner& runner) {
   runner.report.compileMs = runner.renderer->compile(runner.variant, *runner.film, stage.view);
   runner.report.variant = variantName(runner.variant);
   RenderTimes times;
-  runner.renderer->addSamples(*runner.film, stage.view, 0, 4, times, untilInterrupted());
+  runner.renderer->addSamples(*runner.film, stage.view, 0, 4, times);
   runner.frames = int(std::clamp(kRoundMs / times.frameMs.back(), 1.0, double(kMostFrames)));
 }
 
@@ -95,9 +95,9 @@ void warmUp(const Stage& stage, Runner& runner) {
 void timeFrames(const Stage& stage, Runner& runner) {
   runner.renderer->compile(runner.variant, *runner.film, stage.view);
   RenderTimes unused;
-  runner.renderer->addSamples(*runner.film, stage.view, 0, 2, unused, untilInterrupted());
+  runner.renderer->addSamples(*runner.film, stage.view, 0, 2, unused);
   RenderTimes times;
-  runner.renderer->addSamples(*runner.film, stage.view, 2, 2 + runner.frames, times, untilInterrupted());
+  runner.renderer->addSamples(*runner.film, stage.view, 2, 2 + runner.frames, times);
   runner.report.frameMs.push_back(times.renderMs / runner.frames);
 }
 
@@ -121,7 +121,6 @@ ScaleFrames measureIterative(const Stage& stage, const Scene& scene, std::span<c
   Stopwatch watch;
   double spent = 0.0;
   const bool complete = runner.renderer->addSamples(*runner.film, stage.view, 0, 1, times, [&](double) {
-    if (interrupts() > 0) throw Interrupted();
     spent += watch.lap();
     return spent < 1000.0 * stage.options.longest;
   });
@@ -148,7 +147,6 @@ ScaleRow measureSize(Stage& stage, size_t wanted, double iterativeMsPerTriangle)
   row.sahCost = quality.sahCost;
   row.depth = quality.depth;
   stage.view.camera = frameScene(scene.bounds);
-  if (interrupts() > 0) throw Interrupted();
 
   // Step: both tree traversals read the same arrays.
   std::vector<Runner> runners;
@@ -186,13 +184,12 @@ ScaleRow measureSize(Stage& stage, size_t wanted, double iterativeMsPerTriangle)
   const std::vector<Ray> rays = primaryRays(stage.view.camera, stage.view.sceneOrigin, stage.size);
   proveTree(tracer, row.triangles, rays);
   const std::vector<ExactHit> hits = tracer.nearest(rays);
-  if (interrupts() > 0) throw Interrupted();
   std::unique_ptr<Image> first;
   for (Runner& runner : runners) {
     // The same samples for all.
     runner.renderer->compile(runner.variant, *runner.film, stage.view);
     RenderTimes unused;
-    runner.renderer->addSamples(*runner.film, stage.view, 0, 1, unused, untilInterrupted());
+    runner.renderer->addSamples(*runner.film, stage.view, 0, 1, unused);
     check(runner, scene, hits, first.get());
     if (!first) first = std::make_unique<Image>(imageOf(runner.film->read(), {}));
     row.frames.push_back(std::move(runner.report));
@@ -240,15 +237,11 @@ int runBenchScale(const BenchScaleOptions& options) {
   const std::vector<NamedOutput> outputs{{"--json", options.json}, {"--chart", options.chart}};
   checkOutputs(outputs, {});
   const auto context = makeContext(options.render.backend);
-  countInterrupts();
-  try {
-    const ScaleReport report = measure(options, *context);
-    std::fputs(scaleTable(report).c_str(), stdout);
-    replaceText(options.json, scaleJson(report));
-    replaceText(options.chart, scaleChart(report));
-  } catch (const Interrupted&) {
-    return sayInterrupted();
-  }
+  const ScaleReport report = measure(options, *context);
+  countInterrupts();  // what is measured is written whole
+  std::fputs(scaleTable(report).c_str(), stdout);
+  replaceText(options.json, scaleJson(report));
+  replaceText(options.chart, scaleChart(report));
   return 0;
 }
 

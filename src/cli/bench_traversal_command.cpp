@@ -6,8 +6,8 @@
 #include "bench/hit_check.h"
 #include "bench/ray_sets.h"
 #include "bench/traversal_report.h"
-#include "cli/bench_interrupt.h"
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "cli/outputs.h"
 #include "cli/progress_bar.h"
 #include "cli/setup.h"
@@ -122,7 +122,6 @@ TraversalReport measure(const BenchTraversalOptions& options, const Context& con
   std::vector<MeasuredSet> sets = makeSets(loaded, tracer, options.render.seed);
   std::vector<RayCaster::RaySet> uploaded;
   for (MeasuredSet& set : sets) {
-    if (interrupts() > 0) throw Interrupted();
     uploaded.emplace_back(set.rays);
     caster.trace(uploaded.back(), set.anyHit());
     set.found = foundBy(caster, loaded.bvh);
@@ -133,7 +132,6 @@ TraversalReport measure(const BenchTraversalOptions& options, const Context& con
   ProgressBar bar("measuring", options.render.quiet);
   for (int round = 0; round < options.rounds; ++round) {
     for (size_t i = 0; i < sets.size(); ++i) {
-      if (interrupts() > 0) throw Interrupted();
       sets[i].row.ms.push_back(caster.trace(uploaded[i], sets[i].anyHit()));
     }
     bar.show(double(round + 1) / options.rounds);
@@ -150,14 +148,10 @@ int runBenchTraversal(const BenchTraversalOptions& options) {
   const std::vector<NamedOutput> outputs{{"--json", options.json}, {"--rays", options.rays}};
   checkOutputs(outputs, inputsOf(options.render));
   const auto context = makeContext(options.render.backend);
-  countInterrupts();
-  try {
-    const TraversalReport report = measure(options, *context);
-    std::fputs(traversalTable(report).c_str(), stdout);
-    replaceText(options.json, traversalJson(report));
-  } catch (const Interrupted&) {
-    return sayInterrupted();
-  }
+  const TraversalReport report = measure(options, *context);
+  countInterrupts();  // what is measured is written whole
+  std::fputs(traversalTable(report).c_str(), stdout);
+  replaceText(options.json, traversalJson(report));
   return 0;
 }
 

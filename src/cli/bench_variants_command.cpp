@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "bench/variants_table.h"
-#include "cli/bench_interrupt.h"
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "cli/machine.h"
 #include "cli/outputs.h"
 #include "cli/setting_check.h"
@@ -49,9 +49,14 @@ SceneResult measure(const BenchVariantsOptions& options, const BenchConfiguratio
   checkOutputs(outputsOf(options), inputsOf(loaded->scene));
   const ShaderVariant own = settings.front().tracer.variant;
   const Surroundings surroundings = loaded->environment.kind;
-  for (const ForcedVariant& forced :
-       forcedVariants(configuration.render, traitsOf(loaded->scene, surroundings), surroundings,
-                      loaded->bvh.depth, own.reads)) {
+  const std::vector<ForcedVariant> left =
+      forcedVariants(configuration.render, traitsOf(loaded->scene, surroundings), surroundings,
+                     loaded->bvh.depth, own.reads);
+  for (const std::string& name : options.only) {
+    if (std::ranges::find(left, name, &ForcedVariant::name) == left.end())
+      result.notForced.emplace_back(name, "on in this scene");
+  }
+  for (const ForcedVariant& forced : left) {
     if (!options.only.empty() && std::ranges::find(options.only, forced.name) == options.only.end()) continue;
     const bool noTree = own.traversal == TraversalMethod::Literals && forced.name == "stack-32";
     if (!forced.whyNot.empty() || noTree) {
@@ -80,25 +85,21 @@ int runBenchVariants(const BenchVariantsOptions& options) {
   }
   checkOutputs(outputsOf(options), inputs);
   const auto context = makeContext(options.first().backend);
-  countInterrupts();
-  try {
-    const BenchMachine machine = describeMachine(*context);
-    std::string table;
-    std::string json;
-    std::string wrong;
-    for (const BenchConfiguration& scene : options.scenes) {
-      const SceneResult result = measure(options, scene, *context);
-      if (!table.empty()) table += "\n";
-      table += variantsTable(machine, result.measured, result.notForced);
-      json += frameJson("variants", machine, result.measured);
-      if (wrong.empty()) wrong = wrongPictures(result.measured);
-    }
-    std::fputs(table.c_str(), stdout);
-    replaceText(options.json, json);
-    if (!wrong.empty()) throw RenderError("wrong picture: " + wrong);
-  } catch (const Interrupted&) {
-    return sayInterrupted();
+  const BenchMachine machine = describeMachine(*context);
+  std::string table;
+  std::string json;
+  std::string wrong;
+  for (const BenchConfiguration& scene : options.scenes) {
+    const SceneResult result = measure(options, scene, *context);
+    if (!table.empty()) table += "\n";
+    table += variantsTable(machine, result.measured, result.notForced);
+    json += frameJson("variants", machine, result.measured);
+    if (wrong.empty()) wrong = wrongPictures(result.measured);
   }
+  countInterrupts();  // what is measured is written whole
+  std::fputs(table.c_str(), stdout);
+  replaceText(options.json, json);
+  if (!wrong.empty()) throw RenderError("wrong picture: " + wrong);
   return 0;
 }
 

@@ -3,13 +3,18 @@
 
 #include <unistd.h>
 #include <csignal>
+#include <string_view>
 
 namespace fragtrace {
 
 namespace {
 
 constexpr int kInterruptedStatus = 130;
+// The first line ends that of a progress bar.
+constexpr std::string_view kSaidOnTerminal = "\nfragtrace: interrupted, nothing is written\n";
+constexpr std::string_view kSaid = kSaidOnTerminal.substr(1);
 volatile std::sig_atomic_t interruptCount = 0;
+volatile std::sig_atomic_t onTerminal = 0;
 
 void handle(void (*handler)(int)) {
   struct sigaction action {};
@@ -22,7 +27,12 @@ void handle(void (*handler)(int)) {
 }  // namespace
 
 void exitOnInterrupt() {
-  handle([](int) { _exit(kInterruptedStatus); });
+  onTerminal = isatty(STDERR_FILENO);
+  handle([](int) {
+    const std::string_view said = onTerminal != 0 ? kSaidOnTerminal : kSaid;
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, said.data(), said.size());
+    _exit(kInterruptedStatus);
+  });
 }
 
 void countInterrupts() {

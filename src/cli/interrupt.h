@@ -10,7 +10,8 @@ void countInterrupts();
 /// nothing.
 int interrupts();
 
-/// Makes the first kind of handler stand: exit with 130 at once, as nothing has been written yet.
+/// Until then: either ends the program at once with status 130 and a line that says so, as nothing has been
+/// written yet.
 void exitOnInterrupt();
 
 }  // namespace fragtrace

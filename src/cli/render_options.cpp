@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "cli/choose.h"
 #include "image/format.h"
@@ -149,6 +150,9 @@ std::string withNumberSettled(std::string argument) {
       std::isdigit(static_cast<unsigned char>(argument[2]))) {
     argument.insert(1, "0");
   }
+  static const std::regex kSize("(--resolution=)?([0-9]+)x([0-9]+)");
+  if (std::smatch size; std::regex_match(argument, size, kSize))
+    return size.str(1) + size.str(2) + "," + size.str(3);
   return argument;
 }
 
@@ -156,7 +160,7 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
   RenderOptions& o = raw.options;
   const int kMost = std::numeric_limits<int>::max() / 4;
   app.add_option("--resolution", raw.resolution,
-                 "WIDTH,HEIGHT; default 1280,720, or 720 high at the camera's aspect ratio")
+                 "WIDTH,HEIGHT or WIDTHxHEIGHT; default 1280,720, or 720 high at the camera's aspect ratio")
       ->delimiter(',')
       ->expected(2)
       ->check(CLI::Range(1, 65536));

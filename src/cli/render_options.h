@@ -47,7 +47,8 @@ struct RawRender {
   bool noDefaultLight = false;
 };
 
-/// Numbers such as "-.5,0,1" look like short options to the library; a zero before the point settles it.
+/// Numbers such as "-.5,0,1" look like short options to the library; a zero before the point settles it. And
+/// a size may be written as 640x480.
 std::string withNumberSettled(std::string argument);
 
 /// Adds all options but scene and output.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "cli/bench_interrupt.h"
 #include "cli/progress_bar.h"
 #include "errors.h"
 #include "image/channels.h"
@@ -18,8 +17,7 @@ constexpr int kLeastSamples = 4;  // that tell of noise
 void judge(TimedSetting& s, const FilmPixels& other, CheckAgainst against, const std::string& name) {
   if (against != CheckAgainst::SameSamples && s.report.frames < kLeastSamples) {
     RenderTimes times;
-    s.tracer.renderer->addSamples(*s.film, s.loaded->view, s.report.frames, kLeastSamples, times,
-                                  untilInterrupted());
+    s.tracer.renderer->addSamples(*s.film, s.loaded->view, s.report.frames, kLeastSamples, times);
   }
   const FilmPixels pixels = s.film->read();
   const PictureCheck check = checkPicture(pixels, other, against);
@@ -62,26 +60,13 @@ void checkGroup(const Context& context, std::vector<TimedSetting*> group, Progre
       RenderTimes times;
       tracer.renderer->addSamples(film, loaded.view, samples, wanted, times, [&](double fraction) {
         bar.show(done + part * fraction);
-        return untilInterrupted()(fraction);
+        return true;
       });
       samples = wanted;
     }
     const bool inStep = same && samples == s->report.frames;
     judge(*s, film.read(), inStep ? CheckAgainst::SameSamples : CheckAgainst::OtherSamples,
           "'" + first.name + "' by " + way);
-  }
-}
-
-void checkAgainstFile(std::span<TimedSetting> settings, const std::filesystem::path& reference) {
-  const Image image = readImage(reference);
-  if (!findColorChannels(image)) throw InputError(reference.string() + ": has no colour");
-  bool noiseFree = false;
-  const FilmPixels film = filmOf(image, noiseFree);
-  for (TimedSetting& s : settings) {
-    if (film.size != s.loaded->size)
-      throw InputError(reference.string() + ": is not of the size of '" + s.configuration.name + "'");
-    judge(s, film, noiseFree ? CheckAgainst::NoiseFree : CheckAgainst::OtherSamples,
-          reference.filename().string());
   }
 }
 
@@ -107,10 +92,27 @@ bool drawSameSamples(const RenderOptions& a, const RenderOptions& b) {
          a.rouletteDepth == b.rouletteDepth;
 }
 
+ReferencePicture readReference(const std::filesystem::path& path) {
+  const Image image = readImage(path);
+  if (!findColorChannels(image)) throw InputError(path.string() + ": has no colour");
+  ReferencePicture reference;
+  reference.path = path;
+  reference.film = filmOf(image, reference.noiseFree);
+  return reference;
+}
+
+void checkSize(const ReferencePicture& reference, const TimedSetting& setting) {
+  if (reference.film.size != setting.loaded->size)
+    throw InputError(reference.path.string() + ": is not of the size of '" + setting.configuration.name +
+                     "'");
+}
+
 void checkSettings(const Context& context, std::span<TimedSetting> settings,
-                   const std::filesystem::path& reference, bool quiet) {
-  if (!reference.empty()) {
-    checkAgainstFile(settings, reference);
+                   const std::optional<ReferencePicture>& reference, bool quiet) {
+  if (reference) {
+    for (TimedSetting& s : settings)
+      judge(s, reference->film, reference->noiseFree ? CheckAgainst::NoiseFree : CheckAgainst::OtherSamples,
+            reference->path.filename().string());
     return;
   }
   ProgressBar bar("checking pictures", quiet);

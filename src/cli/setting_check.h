@@ -2,18 +2,33 @@
 // Every setting that is timed shows the right picture, or the benchmark fails.
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <span>
 
 #include "cli/timed_setting.h"
+#include "render/film_pixels.h"
 
 namespace fragtrace {
 
+/// A picture that settings are to show.
+struct ReferencePicture {
+  std::filesystem::path path;
+  FilmPixels film;
+  bool noiseFree = false;
+};
+
+/// Throws InputError.
+ReferencePicture readReference(const std::filesystem::path& path);
+/// Throws InputError when the setting draws another size.
+void checkSize(const ReferencePicture& reference, const TimedSetting& setting);
+
 /// Fills in the verdict of each setting on the picture of its last round. Without a reference it is compared
 /// with the picture that the first setting which is to show the same makes by the other traversal of the
-/// tree: pixel by pixel where the samples are the same, else by its noise. With one (a file) by its noise;
-/// all must show that. Throws InputError when the file is of another size.
+/// tree: pixel by pixel where the samples are the same, else by its noise. With one by its noise; all
+/// must show that.
 void checkSettings(const Context& context, std::span<TimedSetting> settings,
-                   const std::filesystem::path& reference, bool quiet);
+                   const std::optional<ReferencePicture>& reference, bool quiet);
 
 /// Both are to converge to one picture.
 bool showSame(const RenderOptions& a, const RenderOptions& b);

@@ -140,12 +140,18 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
     variant.literals = largeFirst(loaded.scene, loaded.bvh, variant);
     return;
   }
-  if (has(variant.stages, Stage::BvhHeatmap)) return;
   const bool asked = options.traversal == TraversalMethod::Literals;
+  if (has(variant.stages, Stage::BvhHeatmap)) {
+    if (asked) throw UsageError("--traversal literals: has no tree whose nodes the heat map could count");
+    return;
+  }
   if (!asked && options.traversal != TraversalMethod::Auto) return;
   const std::string reason = asked ? whyNoLiterals(loaded.scene, packed) : "";
   if (!reason.empty()) throw UsageError("--traversal literals: " + reason);
-  if (!asked && !paysAsLiterals(loaded.scene, loaded.bvh, packed)) return;
+  const bool adaptive = options.noise > 0.0 || options.seconds > 0.0;
+  const double paths = double(loaded.size.x) * loaded.size.y *
+                       (adaptive ? std::numeric_limits<double>::infinity() : options.spp);
+  if (!asked && !paysAsLiterals(loaded.scene, loaded.bvh, packed, paths)) return;
   variant.traversal = TraversalMethod::Literals;
   variant.literals = literalScene(loaded.scene, loaded.bvh, packed, variant);
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/bench_interrupt.h"
 #include "cli/progress_bar.h"
 #include "errors.h"
 
@@ -23,7 +22,7 @@ void drawSamples(TimedSetting& s, int from, int to, RenderTimes& times) {
   const int most = s.timing.samplesPerDraw > 0 ? s.timing.samplesPerDraw : to - from;
   for (int done = from; done < to;) {
     const int next = std::min(to, done + most);
-    s.tracer.renderer->addSamples(*s.film, s.loaded->view, done, next, times, untilInterrupted());
+    s.tracer.renderer->addSamples(*s.film, s.loaded->view, done, next, times);
     done = next;
   }
 }
@@ -51,8 +50,11 @@ void checkTimed(const BenchConfiguration& configuration) {
 TimedSetting makeSetting(const Context& context, const BenchConfiguration& configuration,
                          const FrameTiming& timing) {
   Statistics stats;
-  auto loaded = std::make_shared<LoadedScene>(loadScene(configuration.render, stats));
-  Tracer tracer = makeTracer(context, *loaded, configuration.render, stats);
+  RenderOptions options = configuration.render;
+  // Frames are timed without what comes before them, so the variant is that of a long render.
+  if (!configuration.samplesGiven) options.spp = std::numeric_limits<int>::max();
+  auto loaded = std::make_shared<LoadedScene>(loadScene(options, stats));
+  Tracer tracer = makeTracer(context, *loaded, options, stats);
   return makeSetting(context, configuration, timing, std::move(loaded), std::move(tracer));
 }
 

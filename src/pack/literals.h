@@ -12,10 +12,10 @@ namespace fragtrace {
 /// it can.
 std::string whyNoLiterals(const Scene& scene, const GpuScene& packed);
 
-/// Whether testing every triangle as a literal takes less work than walking the tree, by the expected
-/// instructions of both (docs/architecture.md). Never for scenes with spheres, or whose faces, materials and
-/// emitters are too many to choose from.
-bool paysAsLiterals(const Scene& scene, const Bvh& bvh, const GpuScene& packed);
+/// Whether drawing so many paths with every triangle as a literal takes less time than walking the tree, by
+/// the expected instructions of both and the longer compilation (docs/architecture.md). Never for scenes with
+/// spheres, or whose faces, materials and emitters are too many to choose from.
+bool paysAsLiterals(const Scene& scene, const Bvh& bvh, const GpuScene& packed, double paths);
 
 /// Whether a tree without the large triangles, which are tested first, takes less work than one of all.
 bool paysBeside(const Bvh& tree, const Bvh& beside);

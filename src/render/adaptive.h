@@ -30,6 +30,6 @@ struct AdaptivePicture {
 /// renderer's current variant is used.
 AdaptivePicture renderAdaptively(Renderer& renderer, glm::ivec2 size, const View& view,
                                  const AdaptiveGoal& goal, RenderTimes& times,
-                                 const Renderer::Progress& progress);
+                                 const Renderer::Progress& progress = Renderer::toTheEnd);
 
 }  // namespace fragtrace

@@ -57,15 +57,16 @@ class Renderer {
 
   /// Called after each draw with the fraction of the work done, 0..1; false stops the work.
   using Progress = std::function<bool(double fraction)>;
+  static bool toTheEnd(double) { return true; }
 
   /// Adds samples [from, to) to every pixel of the film. False when progress stopped it; the film then holds
   /// what was finished.
   bool addSamples(Film& film, const View& view, int from, int to, RenderTimes& times,
-                  const Progress& progress);
+                  const Progress& progress = toTheEnd);
 
   /// The same for parts of the film, one after the other.
   bool addSamples(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
-                  const Progress& progress);
+                  const Progress& progress = toTheEnd);
 
   /// Milliseconds that one sample of one pixel takes, as measured by the latest work; 0: not yet known.
   double msPerSample() const { return msPerSample_; }

@@ -71,6 +71,11 @@ class BenchVariants(Report):
         self.assertTrue(lines[1]["picture"]["right"], lines[1]["picture"])
         self.assertGreater(lines[1]["picture"]["differing_pixels"], 0.5)
 
+    def test_what_the_scene_has_is_said(self):
+        table, lines = self.bench("variants", SCENES / "cornell-box.gltf", *QUICK, "--only", "triangles")
+        self.assertEqual([line["configuration"] for line in lines], ["own variant"])
+        self.assertIn("not forced: on in this scene", table)
+
     def test_what_cannot_be_done_is_refused(self):
         box = SCENES / "cornell-box.gltf"
         for options, status, says in ((["--only", "nonsense"], 2, "nonsense"), (["--time", "1"], 2, "--time"),

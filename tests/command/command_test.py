@@ -182,6 +182,14 @@ class Pictures(Case):
         self.renders(SCENES / "cornell-box.gltf", "-o", self.folder / "x.pfm", "--camera-position", "-1,-.5,3",
                      "--camera-view-up", "-.1,1,0", *SMALL)
 
+    def test_a_size_may_be_written_as_people_do(self):
+        box = SCENES / "cornell-box.gltf"
+        for size in (["--resolution", "10x8"], ["--resolution=10x8"]):
+            self.renders(box, "-o", self.folder / "x.pfm", "--spp", 1, "--stage", "flat", "--quiet", *size)
+            picture = read_pfm(self.folder / "x.pfm")
+            self.assertEqual((len(picture), len(picture[0])), (8, 10))
+        self.fails(2, "render", box, "-o", self.folder / "y.pfm", "--resolution", "10xx8", says=["--resolution"])
+
     def test_no_background_gives_alpha_of_what_was_hit(self):
         path = self.folder / "x.exr"
         self.renders(SCENES / "sphere-black.gltf", "-o", path, "--no-background", "--stage", "flat", *SMALL)

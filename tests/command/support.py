@@ -4,10 +4,12 @@
 A test file is run as FILE FRAGTRACE SOURCE_FOLDER [unittest arguments].
 """
 import math
+import signal
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import zlib
 from array import array
@@ -131,6 +133,21 @@ class Case(unittest.TestCase):
         self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
         self.assertEqual(pictures(), before)
         return result
+
+    def interrupts(self, *arguments):
+        """Ctrl-C after some seconds ends it at once with status 130 and one line; the folder holds what it held before."""
+        files = set(self.folder.iterdir())
+        process = subprocess.Popen([FRAGTRACE, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        time.sleep(3)
+        began = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        output, error = process.communicate(timeout=20)
+        self.assertLess(time.monotonic() - began, 2)
+        self.assertEqual((process.returncode, output), (130, ""))
+        self.assertEqual(len(error.splitlines()), 1, error)
+        self.assertEqual(set(self.folder.iterdir()), files)
 
     def renders(self, *arguments, **options):
         result = run("render", *arguments, **options)

@@ -10,9 +10,9 @@ SIZE = ["--resolution", "48,48", "--spp", 8]
 
 
 class Traversals(Case):
-    def drawn(self, scene, *options):
+    def drawn(self, scene, *options, size=SIZE):
         picture, stats = self.folder / "x.pfm", self.folder / "x.json"
-        self.renders(SCENES / (scene + ".gltf"), "-o", picture, "--quiet", "--stats", stats, *SIZE, *options)
+        self.renders(SCENES / (scene + ".gltf"), "-o", picture, "--quiet", "--stats", stats, *size, *options)
         return read_pfm(picture), json.loads(stats.read_text())["variant"].split("+")
 
     def same(self, scene, expected, *options, traversal="auto"):
@@ -30,8 +30,8 @@ class Traversals(Case):
         self.assertAlmostEqual(mean(picture) / mean(tree), 1.0, delta=1e-3)
 
     def test_small_scenes_as_literals(self):
-        self.same("cornell-box", "literals")
-        self.same("corner-diffuse", "literals")
+        self.same("cornell-box", "literals", traversal="literals")
+        self.same("corner-diffuse", "literals", traversal="literals")
         self.same("closed-furnace", "literals", traversal="literals")
 
     def test_literals_with_vertex_attributes_keep_their_weights(self):
@@ -42,9 +42,18 @@ class Traversals(Case):
         self.same("coverage", "literals", traversal="literals")
         self.same("water-cube-plain", "literals", traversal="literals")
 
+    def test_the_heat_map_has_no_tree_to_count_in_literals(self):
+        self.fails(2, "render", SCENES / "cornell-box.gltf", "-o", self.folder / "x.pfm", "--traversal", "literals", "--enable",
+                   "bvh-heatmap", "--quiet", says=["--traversal literals"])
+
     def test_every_stage_with_literals(self):
         for stage in ("flat", "phong", "shadows", "reflections"):
-            self.same("cornell-box", "literals", "--stage", stage)
+            self.same("cornell-box", "literals", "--stage", stage, traversal="literals")
+
+    def test_literals_are_chosen_where_drawing_takes_longer_than_compiling_them(self):
+        for expected, size in (("front-to-back", SIZE), ("literals", ["--resolution", "256,256", "--spp", 8]),
+                               ("literals", ["--resolution", "16,16", "--noise", 0.5])):
+            self.assertIn(expected, self.drawn("cornell-box", size=size)[1])
 
     def test_the_largest_triangles_before_the_tree(self):
         self.same("room-ball", "large-first")

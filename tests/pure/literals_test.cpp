@@ -75,16 +75,19 @@ TEST(LiteralMesh, EveryPlaceIsOnePoint) {
 }
 
 TEST(Literals, PayForAFewTrianglesAndNotForMany) {
-  const auto pays = [](size_t count) {
+  const auto pays = [](size_t count, double paths = 1e9) {
     const Scene scene = sceneOf(randomTriangles(count, 0.3f));
     const Bvh bvh = buildBvh(primitiveBounds(scene), uint32_t(count));
-    return paysAsLiterals(scene, bvh, packScene(scene, bvh, {}, {}));
+    return paysAsLiterals(scene, bvh, packScene(scene, bvh, {}, {}), paths);
   };
   EXPECT_TRUE(pays(1));
   EXPECT_TRUE(pays(12));
   EXPECT_TRUE(pays(36));
   EXPECT_FALSE(pays(200));
   EXPECT_FALSE(pays(300));
+  // A few paths are drawn before literals are compiled.
+  EXPECT_FALSE(pays(36, 256.0));
+  EXPECT_TRUE(pays(36, 1e7));
 }
 
 TEST(Literals, DoNotHoldSpheres) {
