@@ -13,6 +13,8 @@ struct Bsdf {
   bool mirrorLike; // so smooth that its specular lobes are single directions
   bool solid;      // glass bounds a volume, else thin-walled
   float eta;       // index behind the surface over the index before it
+  vec3 faceNormal;    // of the flat triangle
+  vec3 vertexNormal;  // interpolated, before any map (both kVertexNormals)
   vec3 between;    // colour of light scattered more than once between the facets, over pi (1 - average albedo); see compensate
 };
 
@@ -32,6 +34,12 @@ struct BsdfValue {
 
 /// Below this width a lobe is taken as a single direction: it is narrower than 0.001 radians.
 const float kMirrorAlpha = float(0.001);
+
+/// Between indices that are closer than this a rough boundary bends light by less than kMirrorAlpha, and half vectors lose their digits.
+const float kEqualIndices = float(0.001);
+
+/// Whether glass is a single direction each way. A thin wall spreads light by its roughness alone.
+bool isSmoothGlass(Bsdf b) { return b.mirrorLike || (b.solid && abs(b.eta - 1.0f) < kEqualIndices); }
 
 vec3 opaqueFresnel(Bsdf b, float cosine) {
   if (!kSpecular) return vec3(0.0f);
@@ -139,7 +147,9 @@ BsdfValue evaluateBsdf(Bsdf b, vec3 outgoing, vec3 incoming) {
   if (incoming.z > 0.0f) {
     vec3 h = normalize(outgoing + incoming);
     float oh = max(0.0f, dot(outgoing, h));
-    r.value = (b.opaque * throughLayer(b, oh) * kInversePi * incoming.z) * b.baseColor;
+    float lit = b.opaque * throughLayer(b, oh) * kInversePi * incoming.z;
+    if (kVertexNormals) lit *= terminatorFade(b.faceNormal, b.vertexNormal, incoming);
+    r.value = lit * b.baseColor;
     r.density = chances.z * incoming.z * kInversePi;
     if (kSpecular && !b.mirrorLike) {
       float density = visibleGgxDensity(outgoing, h, b.alpha) / max(4.0f * oh, float(1e-12));
@@ -152,7 +162,7 @@ BsdfValue evaluateBsdf(Bsdf b, vec3 outgoing, vec3 incoming) {
       r.density = r.density + chances.y * density;
     }
   }
-  if (kTransmission && !b.mirrorLike) {
+  if (kTransmission && !isSmoothGlass(b)) {
     BsdfValue g = evaluateGlass(b, outgoing, incoming);
     r.value = r.value + b.glass * g.value;
     r.density = r.density + chances.x * g.density;
@@ -189,7 +199,7 @@ BsdfSample sampleBsdf(Bsdf b, vec3 outgoing, float choice, float u, float v) {
   float first = glass ? 0.0f : specular ? chances.x : chances.x + chances.y;
   float width = glass ? chances.x : specular ? chances.y : chances.z;
   if (kSpecular || kTransmission) u = clamp((u - first) / max(width, float(1e-12)), 0.0f, float(0.99999994));
-  if (glass && b.mirrorLike) return sampleSmoothGlass(b, outgoing, choice);
+  if (glass && isSmoothGlass(b)) return sampleSmoothGlass(b, outgoing, choice);
   if (specular && b.mirrorLike) {
     s.incoming = vec3(-outgoing.x, -outgoing.y, outgoing.z);
     s.weight = opaqueFresnel(b, outgoing.z) / chances.y;

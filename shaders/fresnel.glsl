@@ -8,14 +8,20 @@ vec3 fresnelSchlick(vec3 f0, float f90, float cosine) {
   return f0 + (vec3(f90) - f0) * (m2 * m2 * m);
 }
 
+/// The square of eta times the cosine behind the boundary; negative at total internal reflection. As a product it keeps its digits where index and
+/// angle bring it near zero, and an index of 1 refracts at every angle.
+float refractedSquared(float cosine, float eta) { return (eta - 1.0f) * (eta + 1.0f) + cosine * cosine; }
+
 /// Unpolarised reflectance of a smooth dielectric boundary. cosine >= 0 is that of the incident side, eta the index
 /// behind the boundary over the index before it. 1 at total internal reflection.
 float fresnelDielectric(float cosine, float eta) {
-  float sineSquared = (1.0f - cosine * cosine) / (eta * eta);
-  if (sineSquared >= 1.0f) return 1.0f;
-  float refracted = sqrt(1.0f - sineSquared);
-  float parallel = (eta * cosine - refracted) / (eta * cosine + refracted);
-  float perpendicular = (cosine - eta * refracted) / (cosine + eta * refracted);
+  float squared = refractedSquared(cosine, eta);
+  if (squared < 0.0f) return 1.0f;
+  float refracted = sqrt(squared);
+  // Both are zero in the plane of a boundary between equals, which reflects nothing.
+  const float tiny = float(1e-30);
+  float parallel = (eta * eta * cosine - refracted) / max(eta * eta * cosine + refracted, tiny);
+  float perpendicular = (cosine - refracted) / max(cosine + refracted, tiny);
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
@@ -26,23 +32,21 @@ float schlickDielectric(float cosine, float eta) {
   float f0 = root * root;
   float used = cosine;
   if (eta < 1.0f) {
-    float sineSquared = (1.0f - cosine * cosine) / (eta * eta);
-    if (sineSquared >= 1.0f) return 1.0f;
-    used = sqrt(1.0f - sineSquared);
+    float squared = refractedSquared(cosine, eta);
+    if (squared < 0.0f) return 1.0f;
+    used = sqrt(squared) / eta;
   }
   float m = 1.0f - used;
   float m2 = m * m;
   return f0 + (1.0f - f0) * (m2 * m2 * m);
 }
 
-/// Snell: the direction behind the boundary. outgoing and normal are unit and on the same side; the zero vector at total
-/// internal reflection.
+/// Snell: the direction behind the boundary. outgoing and normal are unit and on the same side; at total internal reflection, which who asks has
+/// ruled out but for rounding, along the boundary.
 vec3 refractThrough(vec3 outgoing, vec3 normal, float eta) {
   float cosine = dot(outgoing, normal);
-  float sineSquared = (1.0f - cosine * cosine) / (eta * eta);
-  if (sineSquared >= 1.0f) return vec3(0.0f);
-  float refracted = sqrt(1.0f - sineSquared);
-  return normalize((cosine / eta - refracted) * normal - outgoing / eta);
+  float refracted = sqrt(max(refractedSquared(cosine, eta), 0.0f));
+  return normalize((cosine - refracted) * normal - outgoing);
 }
 
 vec3 mirrorDirection(vec3 outgoing, vec3 normal) { return 2.0f * dot(outgoing, normal) * normal - outgoing; }

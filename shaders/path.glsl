@@ -48,7 +48,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   p.alpha = 0.0;
   p.radiance = vec3(0.0);
   p.throughput = vec3(1.0);
-  p.rouletteScale = 1.0;
+  p.compression = 1.0;
   p.density = 0.0;
   p.travelled = 0.0;
   p.medium = kPrimitiveNone;
@@ -80,6 +80,8 @@ Path meetSurroundings(Path p) {
     return p;
   }
   if (!kEnvironment) return p;
+  // Surroundings are outside of everything: who has left less than was entered has missed a face that touches another.
+  if (kTransmission) p.throughput *= p.compression;
   float weight = 1.0;
   if (kGi && kEnvironmentSampling && p.density > 0.0) {
     weight = misWeight(p.density, frame.lightChoice.x * environmentDensity(p.direction));
@@ -115,11 +117,15 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
   if (maxComponent(p.throughput) <= 0.0 || p.bounce > frame.limits.x) return p;
   if (transmitted && m.solid) {
     p.medium = s.front ? s.material : kPrimitiveNone;
-    p.rouletteScale *= s.front ? m.ior * m.ior : 1.0 / (m.ior * m.ior);
+    float squared = m.ior * m.ior;
+    float before = p.compression;
+    p.compression = s.front ? before * squared : max(before / squared, 1.0);
+    // Nothing is thinner than air: who leaves more than was entered has missed a face that touches another. The weight has counted it all.
+    if (!s.front) p.throughput *= before / (squared * p.compression);
   }
   p.bounce += 1;
   if (kGi && p.bounce >= frame.limits.y) {
-    float survival = min(maxComponent(p.throughput) * p.rouletteScale, 0.95);
+    float survival = min(maxComponent(p.throughput) * p.compression, 0.95);
     if (drawFloat(p.numbers, kBounceDimensions * uint(p.bounce) + kRouletteDimension) >= survival) return p;
     p.throughput /= survival;
   }

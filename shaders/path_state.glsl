@@ -17,7 +17,7 @@ struct Path {
   float alpha;
   vec3 radiance;
   vec3 throughput;
-  float rouletteScale;  // undoes the radiance compression inside glass
+  float compression;  // undoes the radiance compression inside glass
   float density;        // of the last scattering over solid angle; 0: a single direction or the camera
   float travelled;      // since that scattering, past surfaces crossed
   uint medium;          // material of the solid the ray is inside of, or kPrimitiveNone
@@ -42,7 +42,7 @@ void savePath(Path p, int index) {
   uint flags = p.cameraRay ? 1u : 0u;
   pathStates[r] = uvec4(uint(p.phase) | uint(p.after) << 4 | flags << 8, uint(p.lightSlot), uint(p.bounce), uint(p.crossings));
   pathStates[r + 1] = uvec4(floatBitsToUint(p.radiance), floatBitsToUint(p.alpha));
-  pathStates[r + 2] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.rouletteScale));
+  pathStates[r + 2] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.compression));
   pathStates[r + 3] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.density));
   pathStates[r + 4] = uvec4(floatBitsToUint(p.direction), floatBitsToUint(p.travelled));
   pathStates[r + 5] = uvec4(floatBitsToUint(p.shadowOrigin), floatBitsToUint(p.shadowLimit));
@@ -113,7 +113,7 @@ Path loadPath(int index) {
   p.alpha = f.w;
   f = uintBitsToFloat(pathStates[r + 2]);
   p.throughput = f.xyz;
-  p.rouletteScale = f.w;
+  p.compression = f.w;
   f = uintBitsToFloat(pathStates[r + 3]);
   p.origin = f.xyz;
   p.density = f.w;

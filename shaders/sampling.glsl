@@ -77,6 +77,14 @@ float misWeight(float own, float other) {
   return 1.0f / (1.0f + ratio * ratio);
 }
 
+/// How much of a diffuse reflection is left towards `incoming`: where an interpolated normal sees light that is near the horizon of its flat triangle,
+/// light fades, which would else end at once, triangle by triangle (Chiang, Li and Burley, Taming the Shadow Terminator, 2019). At most 1.
+float terminatorFade(vec3 faceNormal, vec3 vertexNormal, vec3 incoming) {
+  float above = dot(vertexNormal, incoming) * dot(vertexNormal, faceNormal);
+  float g = above > 0.0f ? clamp(dot(faceNormal, incoming) / above, 0.0f, 1.0f) : 1.0f;
+  return g * (1.0f + g * (1.0f - g));
+}
+
 float luminance(vec3 color) { return dot(color, vec3(float(0.2126), float(0.7152), float(0.0722))); }
 
 float maxComponent(vec3 v) { return max(v.x, max(v.y, v.z)); }

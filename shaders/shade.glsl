@@ -20,6 +20,8 @@ Bsdf makeBsdf(SurfaceMaterial m, bool front) {
 Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   Bsdf b = makeBsdf(m, s.front);
   Frame3 around = frameAround(normal);
+  b.faceNormal = toFrame(around, s.geometricNormal);
+  b.vertexNormal = toFrame(around, s.shadingNormal);
   vec3 outgoing = toFrame(around, -p.direction);
   uint dimension = kBounceDimensions * uint(p.bounce + 1);
   // The numbers of this bounce are drawn before it is counted.
@@ -62,6 +64,7 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
     uint dimension = kBounceDimensions * uint(p.bounce + 1);
     LightSample light = lightOfSlot(p.lightSlot, s.position, p.numbers, dimension + kLightDimension);
     vec3 diffuse = (1.0 - m.metallic) * m.baseColor;
+    if (kVertexNormals) diffuse *= terminatorFade(s.geometricNormal, s.shadingNormal, light.direction);
     vec3 value = phongValue(diffuse, f0, phongExponent(m.roughness), normal, outgoing, light.direction);
     bool above = dot(light.direction, s.geometricNormal) > 0.0;
     p = connect(p, s, light, above ? p.throughput * light.irradiance * value : vec3(0.0));
@@ -103,6 +106,11 @@ Path shade(Path p) {
       p.radiance = featureAt(s, base.rgb, -p.direction);
       p.phase = kPhaseEnd;
       return p;
+    }
+    // A camera that sees the back of a solid first stands inside.
+    if (kTransmission && p.cameraRay && !s.front && materialFloats(s.material, kMaterialVolume).w > 0.0) {
+      float ior = materialFloats(s.material, kMaterialSurface).z;
+      p.compression = ior * ior;
     }
     if (kAbsorption) {
       // A back face of a solid says what the segment went through even if the camera stands inside.

@@ -59,8 +59,10 @@ Surface triangleSurface(uvec4 face, uvec4 place, vec3 origin, vec3 direction, fl
   ivec3 v = ivec3(place.yzw);
   if (kVertexNormals && (face.w & kFaceFlat) == 0u) {
     vec3 n = interpolate(readNormalAt(v.x), readNormalAt(v.y), readNormalAt(v.z), w).xyz;
+    // One that points backwards is turned round: which side is the front is told by the order of the vertices.
     float squared = dot(n, n);
-    s.shadingNormal = squared > 0.0 ? n * inversesqrt(squared) : s.geometricNormal;
+    float side = dot(n, s.geometricNormal) < 0.0 ? -1.0 : 1.0;
+    s.shadingNormal = squared > 0.0 ? n * (side * inversesqrt(squared)) : s.geometricNormal;
   }
   s.texcoords = vec4(0.0);
   if (kTexcoords) s.texcoords = interpolate(readTexcoordsAt(v.x), readTexcoordsAt(v.y), readTexcoordsAt(v.z), w);

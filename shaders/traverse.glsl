@@ -47,7 +47,9 @@ PrimitiveHit intersectWord(vec3 origin, vec3 direction, RayShear shear, vec3 v0,
   r.t = -1.0f;
   r.weights = vec2(0.0f);
   if (kTriangles) {
-    TriangleHit h = intersectTriangle(origin, shear, v0, v1, v2);
+    TriangleHit h;
+    if (kWatertight) h = intersectTriangle(origin, shear, v0, v1, v2);
+    if (!kWatertight) h = intersectTriangleFast(origin, direction, v0, v1, v2);
     bool there = !kCulling || h.front || (word & kPrimitiveCull) == 0u;
     r.t = h.hit && there ? h.t : -1.0f;
     if (kWeights) r.weights = vec2(h.weight1, h.weight2);

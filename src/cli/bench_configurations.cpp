@@ -18,7 +18,7 @@ struct NamedConfiguration {
 };
 
 /// What the questions "what does it cost, what does it bring?" are asked of most.
-constexpr std::array<NamedConfiguration, 8> kNamedConfigurations = {{
+constexpr std::array<NamedConfiguration, 9> kNamedConfigurations = {{
     {"default", ""},
     {"baseline", "--light-sampling bsdf --sampler random"},
     {"random", "--sampler random"},
@@ -27,6 +27,7 @@ constexpr std::array<NamedConfiguration, 8> kNamedConfigurations = {{
     {"schlick", "--fresnel schlick"},
     {"no-compensation", "--energy-compensation off"},
     {"clamped", "--clamp-indirect 10"},
+    {"fast-triangles", "--disable watertight"},
 }};
 
 std::vector<std::string_view> configurationNames() {

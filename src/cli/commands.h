@@ -16,5 +16,6 @@ int runBenchReport(const BenchReportOptions& options);
 int runBenchVariants(const BenchVariantsOptions& options);
 int runBenchScale(const BenchScaleOptions& options);
 int runBenchTraversal(const BenchTraversalOptions& options);
+int runBenchStress(const BenchStressOptions& options);
 
 }  // namespace fragtrace

@@ -46,6 +46,8 @@ int run(int argc, char** argv) {
       return runBenchScale(line->benchScale);
     case Command::BenchTraversal:
       return runBenchTraversal(line->benchTraversal);
+    case Command::BenchStress:
+      return runBenchStress(line->benchStress);
   }
   return kUsage;
 }

@@ -80,6 +80,9 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   RawBenchTraversal rawTraversal;
   CLI::App& benchTraversal = *bench.add_subcommand("traversal", "rays a second, nothing shaded");
   addBenchTraversalOptions(benchTraversal, rawTraversal);
+  RawBenchStress rawStress;
+  CLI::App& benchStress = *bench.add_subcommand("stress", "what breaks ray tracers, as rates of failure");
+  addBenchStressOptions(benchStress, rawStress);
 
   std::vector<std::string> commands;
   for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
@@ -121,6 +124,9 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   } else if (benchTraversal.parsed()) {
     line.command = Command::BenchTraversal;
     line.benchTraversal = finishBenchTraversal(rawTraversal);
+  } else if (benchStress.parsed()) {
+    line.command = Command::BenchStress;
+    line.benchStress = finishBenchStress(rawStress);
   } else if (merge.parsed()) {
     line.command = Command::Merge;
     line.merge.parts.assign(parts.begin(), parts.end());

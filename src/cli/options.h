@@ -8,6 +8,7 @@
 #include "cli/bench_options.h"
 #include "cli/bench_report_options.h"
 #include "cli/bench_scale_options.h"
+#include "cli/bench_stress_options.h"
 #include "cli/bench_traversal_options.h"
 #include "cli/bench_variants_options.h"
 #include "image/difference.h"
@@ -43,7 +44,8 @@ enum class Command : uint8_t {
   BenchReport,
   BenchVariants,
   BenchScale,
-  BenchTraversal
+  BenchTraversal,
+  BenchStress
 };
 
 /// What the command line asks for; only the options of the command are filled in.
@@ -59,6 +61,7 @@ struct CommandLine {
   BenchVariantsOptions benchVariants;
   BenchScaleOptions benchScale;
   BenchTraversalOptions benchTraversal;
+  BenchStressOptions benchStress;
 };
 
 /// Parses the arguments. Prints help or version and returns nothing when that was asked for. Throws

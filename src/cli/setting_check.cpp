@@ -77,6 +77,7 @@ bool showSame(const RenderOptions& a, const RenderOptions& b) {
     StageSet stages = o.stages;
     stages.reset(size_t(Stage::Sobol));
     stages.reset(size_t(Stage::LightSampling));
+    stages.reset(size_t(Stage::Watertight));
     return stages;
   };
   const bool walked = has(a.stages, Stage::BvhHeatmap) && a.traversal != b.traversal;
@@ -88,7 +89,10 @@ bool showSame(const RenderOptions& a, const RenderOptions& b) {
 }
 
 bool drawSameSamples(const RenderOptions& a, const RenderOptions& b) {
-  return showSame(a, b) && a.stages == b.stages && a.seed == b.seed && a.sampleOffset == b.sampleOffset &&
+  const auto sampled = [](const RenderOptions& o) {
+    return StageSet(o.stages).reset(size_t(Stage::Watertight));
+  };
+  return showSame(a, b) && sampled(a) == sampled(b) && a.seed == b.seed && a.sampleOffset == b.sampleOffset &&
          a.rouletteDepth == b.rouletteDepth;
 }
 

@@ -2,7 +2,7 @@
 #include "pack/literal_traversal.h"
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <set>
@@ -38,15 +38,17 @@ std::string sumOf(std::vector<std::pair<Term, std::string>> products) {
 }
 
 /// The rows turn a point into the sheared plane (x mirrored, so that fronts count as positive) and into the
-/// distance along the ray; w is what the origin takes off.
+/// distance along the ray; w is what the origin takes off. The plane is scaled by kLiteralScale, a power of
+/// two that makes the mesh about one wide, so that products of areas and distances neither overflow nor
+/// underflow.
 constexpr const char* kHead = R"(
 vec4 literalRow(vec3 row, vec3 origin) { return vec4(row, -dot(row, origin)); }
 
 Traversal traverseLiterals(vec3 origin, vec3 direction, Traversal s, bool anyHit) {
   RayShear r = makeShear(direction);
-  float side = r.z < 0.0 ? -1.0 : 1.0;
+  float side = r.z < 0.0 ? -kLiteralScale : kLiteralScale;
   vec4 rx = literalRow(side * (r.axis == 0 ? vec3(-r.x, 1.0, 0.0) : (r.axis == 1 ? vec3(0.0, -r.x, 1.0) : vec3(1.0, 0.0, -r.x))), origin);
-  vec4 ry = literalRow(r.axis == 0 ? vec3(-r.y, 0.0, 1.0) : (r.axis == 1 ? vec3(1.0, -r.y, 0.0) : vec3(0.0, 1.0, -r.y)), origin);
+  vec4 ry = literalRow(kLiteralScale * (r.axis == 0 ? vec3(-r.y, 0.0, 1.0) : (r.axis == 1 ? vec3(1.0, -r.y, 0.0) : vec3(0.0, 1.0, -r.y))), origin);
   vec4 rz = literalRow(r.axis == 0 ? vec3(r.z, 0.0, 0.0) : (r.axis == 1 ? vec3(0.0, r.z, 0.0) : vec3(0.0, 0.0, r.z)), origin);
   float best = s.t;
   float bestSum = 1.0;
@@ -65,11 +67,13 @@ constexpr const char* kTail = R"(  if (!anyHit) s.t = best / bestSum;
 class TraversalText {
  public:
   TraversalText(const LiteralMesh& mesh, bool weights)
-      : mesh_(mesh), weights_(weights), single_(singleAxis()) {}
+      : mesh_(mesh), weights_(weights), single_(singleAxis()), size_(size()) {}
 
   std::string text(bool whole) {
     for (const LiteralFace& face : mesh_.faces) test(face);
-    return kHead + body_ + (weights_ ? kWeightsTail : "") + (whole ? kWholeTail : "") + kTail;
+    const int exponent = size_ > 0.0 ? std::ilogb(size_) : 0;
+    const std::string scale = "const float kLiteralScale = " + number(std::ldexp(1.0, -exponent)) + ";\n";
+    return scale + kHead + body_ + (weights_ ? kWeightsTail : "") + (whole ? kWholeTail : "") + kTail;
   }
 
  private:
@@ -87,6 +91,12 @@ class TraversalText {
       fewest = std::min(fewest, pairs.size());
     }
     return best;
+  }
+
+  double size() const {
+    BoundsDouble box;
+    for (const glm::vec3& p : mesh_.points) box.include(glm::dvec3(p));
+    return glm::length(box.extent());
   }
 
   /// A variable that holds an expression, made where it is first needed, so that few are alive at a time.
@@ -139,6 +149,31 @@ class TraversalText {
     return {variable(xi + " * " + yj + " - " + yi + " * " + xj), i > j};
   }
 
+  /// Whether some corner's sides are so close beside the mesh that rays which pass far away see the edge
+  /// functions of both as zero.
+  bool isTiny(const LiteralFace& f) const {
+    constexpr double kShare = 0x1p-18;
+    const size_t corners = f.quad ? 4 : 3;
+    double least = HUGE_VAL;
+    for (size_t i = 0; i < corners; ++i) {
+      const glm::dvec3 corner(mesh_.points[f.corner[i]]);
+      const glm::dvec3 a = glm::dvec3(mesh_.points[f.corner[(i + 1) % corners]]) - corner;
+      const glm::dvec3 b = glm::dvec3(mesh_.points[f.corner[(i + corners - 1) % corners]]) - corner;
+      least = std::min(least, glm::length(glm::cross(a, b)) / std::max(glm::length(a), glm::length(b)));
+    }
+    return !(least >= kShare * size_);
+  }
+
+  /// True where a row of all corners has one sign: the ray passes outside of their box (zeroBeyond of
+  /// shaders/intersect.glsl).
+  std::string sameSigns(const std::string& row, const LiteralFace& f, size_t corners) {
+    std::string text;
+    for (size_t i = 0; i + 1 < corners; ++i)
+      text +=
+          (i > 0 ? " && " : "") + place(row, f.corner[i]) + " * " + place(row, f.corner[i + 1]) + " > 0.0";
+    return text;
+  }
+
   static Term times(const Term& a, bool negated) { return {a.name, a.negated != negated}; }
 
   void test(const LiteralFace& f) {
@@ -176,6 +211,10 @@ class TraversalText {
       body_ += "  hit = (" + positive + "sum > 0.0) || (" + negative + "sum < 0.0);\n";
       body_ += "  t = sum < 0.0 ? -t : t;\n  sum = abs(sum);\n  hit = hit && t > 0.0;\n";
     }
+    if (isTiny(f)) {
+      for (const std::string row : {"rx", "ry"})
+        body_ += "  hit = hit && !(" + sameSigns(row, f, corners) + ");\n";
+    }
     body_ += "  hit = hit && t * bestSum < best * sum;\n";
     body_ += "  s.slot = hit ? " + std::to_string(f.slot) + " : s.slot;\n";
     body_ += "  if (!anyHit) {\n    best = hit ? t : best;\n    bestSum = hit ? sum : bestSum;\n  }\n";
@@ -185,6 +224,7 @@ class TraversalText {
   const LiteralMesh& mesh_;
   bool weights_;
   int single_;
+  double size_;  // of the mesh, metres
   std::map<std::string, std::string> variables_;
   std::string body_;
 };

@@ -62,6 +62,11 @@ std::span<const StageRow> stageRows() {
        "samples emissive triangles and the environment in gi, which else scattered rays alone find (on by "
        "default)",
        false, true, nullptr},
+      {Stage::Watertight, "watertight", "Watertight triangles",
+       "triangle test of the trees that lets no ray through between neighbours, in place of a faster one (on "
+       "by "
+       "default)",
+       false, true, "kWatertight"},
       {Stage::BvhHeatmap, "bvh-heatmap", "Node heat map", "paints how many nodes each camera ray visits",
        false, false, "kHeatmap"},
   }};

@@ -63,6 +63,7 @@ enum class Stage : uint8_t {
   EnergyCompensation,
   Sobol,
   LightSampling,
+  Watertight,
   BvhHeatmap,
   Count
 };

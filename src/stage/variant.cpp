@@ -16,6 +16,8 @@ Trait neededBy(Stage stage) {
     case Stage::Reflections:
     case Stage::EnergyCompensation:
       return Trait::Specular;
+    case Stage::Watertight:
+      return Trait::Triangles;
     default:
       return Trait::Count;
   }
@@ -124,8 +126,10 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   // Step: between stages. gi shades by itself; without it and phong nothing beyond flat has a meaning.
   v.stages.set(size_t(Stage::Flat));
   if (stage(Stage::Gi)) v.stages.set(size_t(Stage::Phong));
-  if (stage(Stage::BvhHeatmap))
-    v.stages = StageSet(1ul << unsigned(Stage::Flat) | 1ul << unsigned(Stage::BvhHeatmap));
+  if (stage(Stage::BvhHeatmap)) {
+    v.stages &= StageSet(1ul << unsigned(Stage::Flat) | 1ul << unsigned(Stage::BvhHeatmap) |
+                         1ul << unsigned(Stage::Watertight));
+  }
   if (!stage(Stage::Phong)) {
     for (Stage s : {Stage::Shadows, Stage::Reflections, Stage::Refraction, Stage::NormalMaps, Stage::Gi,
                     Stage::Schlick, Stage::EnergyCompensation}) {
@@ -181,6 +185,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
     drop(Stage::Schlick);
   }
   if (!hasNormalMaps(v.traits)) drop(Stage::NormalMaps);
+  if (!has(v.traits, Trait::Triangles)) drop(Stage::Watertight);
 
   // Step: how rays find triangles.
   // Literals need the packed scene; who has it puts them in (useLiterals of src/cli/setup.cpp).
@@ -203,8 +208,9 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
                                    Feature feature) {
   RenderOptions wanted = options;
   for (const StageRow& row : stageRows()) {
-    const bool kept =
-        row.stage == Stage::Sobol || (feature == Feature::Normal && row.stage == Stage::NormalMaps);
+    // The same samples, and the same hits.
+    const bool kept = row.stage == Stage::Sobol || row.stage == Stage::Watertight ||
+                      (feature == Feature::Normal && row.stage == Stage::NormalMaps);
     if (!kept) wanted.stages.reset(size_t(row.stage));
   }
   if (feature == Feature::Normal) wanted.stages.set(size_t(Stage::Phong));

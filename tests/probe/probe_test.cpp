@@ -55,7 +55,9 @@ class Probe : public GlProbe {
  protected:
   /// Runs `body`, which reads given(k) and writes result(k, x), for every row of the table.
   static Table runOnDriver(const Table& given, int resultWidth, const std::string& body) {
-    std::string text = "#version 450 core\nconst bool kSobol = true;\nlayout(local_size_x = 64) in;\n";
+    std::string text =
+        "#version 450 core\nconst bool kSobol = true;\nconst bool kWatertight = true;\nconst bool kIterative "
+        "= true;\nlayout(local_size_x = 64) in;\n";
     for (const char* file :
          {"random.glsl", "sampling.glsl", "intersect.glsl", "perlin.glsl", "fresnel.glsl", "ggx.glsl"}) {
       text += shaderText(file);

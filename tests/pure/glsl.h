@@ -29,7 +29,9 @@ inline bool kTransmission = true;
 inline bool kSchlick = false;
 inline bool kCompensation = false;
 inline bool kWeights = true;
+inline bool kWatertight = true;
 inline bool kSobol = true;
+inline bool kVertexNormals = false;
 inline int kStackSize = 32;
 
 inline std::span<const uint32_t> nodes;

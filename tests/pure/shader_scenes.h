@@ -12,6 +12,7 @@
 #include "bvh_triangles.h"
 #include "glsl.h"
 #include "pack/pack_tree.h"
+#include "scene/ray.h"
 #include "shader_meshes.h"
 #include "shader_statistics.h"
 
@@ -37,27 +38,33 @@ struct PackedTree {
   uint32_t primitiveOf(int slot) const { return bvh.leaves.at(size_t(slot) / 2).primitive[size_t(slot) % 2]; }
 };
 
-/// Materials: 0 is double-sided, 1 is not.
-inline PackedTree packTree(const std::vector<Corners>& triangles, const std::vector<Sphere>& spheres = {},
-                           bool culled = false, const Bvh* ready = nullptr) {
+inline PackedTree packTreeOf(Scene scene, const Bvh* ready = nullptr) {
   PackedTree packed;
-  packed.scene.materials.resize(2);
-  packed.scene.materials[0].doubleSided = true;
-  for (const Corners& corners : triangles) {
-    const auto first = uint32_t(packed.scene.vertices.position.size());
-    packed.scene.vertices.position.insert(packed.scene.vertices.position.end(), corners.begin(),
-                                          corners.end());
-    Triangle triangle;
-    triangle.vertex = {first, first + 1, first + 2};
-    triangle.material = culled && packed.scene.triangles.size() % 2 == 1 ? 1 : 0;
-    packed.scene.triangles.push_back(triangle);
-  }
-  packed.scene.spheres = spheres;
-  packed.bvh = ready ? *ready : buildBvh(primitiveBounds(packed.scene), uint32_t(triangles.size()));
+  packed.scene = std::move(scene);
+  packed.bvh =
+      ready ? *ready : buildBvh(primitiveBounds(packed.scene), uint32_t(packed.scene.triangles.size()));
   packed.grid = makeGrid(packed.bvh.bounds);
   packed.nodes = packNodes(packed.bvh, packed.grid);
   packed.leaves = packLeaves(packed.scene, packed.bvh);
   return packed;
+}
+
+/// Materials: 0 is double-sided, 1 is not.
+inline PackedTree packTree(const std::vector<Corners>& triangles, const std::vector<Sphere>& spheres = {},
+                           bool culled = false, const Bvh* ready = nullptr) {
+  Scene scene;
+  scene.materials.resize(2);
+  scene.materials[0].doubleSided = true;
+  for (const Corners& corners : triangles) {
+    const auto first = uint32_t(scene.vertices.position.size());
+    scene.vertices.position.insert(scene.vertices.position.end(), corners.begin(), corners.end());
+    Triangle triangle;
+    triangle.vertex = {first, first + 1, first + 2};
+    triangle.material = culled && scene.triangles.size() % 2 == 1 ? 1 : 0;
+    scene.triangles.push_back(triangle);
+  }
+  scene.spheres = spheres;
+  return packTreeOf(std::move(scene), ready);
 }
 
 /// The tree that needs the most stack: a chain, one triangle a leaf, every box the whole, the chain visited
@@ -108,11 +115,6 @@ inline std::vector<Corners> closedMesh() {
   }
   return triangles;
 }
-
-struct Ray {
-  vec3 origin;
-  vec3 direction;
-};
 
 // A third points anywhere, a third at the middle of a primitive, a third along an axis through a corner or a
 // middle.

@@ -39,9 +39,9 @@ TEST(StageTable, EachConstantIsUsedInTheShader) {
 }
 
 TEST(StageTable, AStageTurnsOnItselfAndAllBeforeIt) {
-  // Three switches are on unless turned off.
-  EXPECT_EQ(stagesUpTo(Stage::Flat).count(), 4u);
-  EXPECT_EQ(stagesUpTo(Stage::Gi).count(), 10u);
+  // Four switches are on unless turned off.
+  EXPECT_EQ(stagesUpTo(Stage::Flat).count(), 5u);
+  EXPECT_EQ(stagesUpTo(Stage::Gi).count(), 11u);
   EXPECT_FALSE(has(stagesUpTo(Stage::Gi), Stage::Schlick));
   EXPECT_EQ(parseStage("normal-maps"), Stage::NormalMaps);
   EXPECT_EQ(parseStage("nonsense"), std::nullopt);

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// What `bench stress` found.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fragtrace {
+
+/// What one case found: rays, pixels or scenes that were tried, and how many were wrong.
+struct StressOutcome {
+  size_t cases = 0;
+  size_t failures = 0;
+  double seconds = 0.0;
+  std::string worst;  ///< where failures were seen, for people
+
+  double rate() const { return cases > 0 ? double(failures) / double(cases) : 1.0; }
+};
+
+struct StressResult {
+  std::string row;
+  std::string sentence;
+  double limit = 0.0;  ///< share of the cases that may fail
+  StressOutcome robust;
+  std::optional<StressOutcome> fast;  ///< the same with the fast triangle test
+
+  /// A row without a single case proves nothing and counts as over.
+  bool over() const { return robust.cases == 0 || robust.rate() > limit; }
+};
+
+struct StressReport {
+  std::string backend;
+  std::string renderer;  ///< of OpenGL
+  bool quick = false;
+  std::vector<StressResult> rows;
+
+  size_t rowsOver() const;
+};
+
+std::string stressTable(const StressReport& report);
+/// One line of JSON a row.
+std::string stressJson(const StressReport& report);
+
+}  // namespace fragtrace

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include "cli/bench_stress_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "cli/device_options.h"
+
+namespace fragtrace {
+
+void addBenchStressOptions(CLI::App& app, RawBenchStress& raw) {
+  BenchStressOptions& o = raw.options;
+  app.add_flag("--quick", o.quick, "about a hundredth of the cases");
+  app.add_option("--rows", o.rows, "only rows whose name holds one of these")->delimiter(',');
+  app.add_option("--json", o.json, "file for everything found, a line a row");
+  addDeviceOptions(app, raw.render);
+}
+
+BenchStressOptions finishBenchStress(const RawBenchStress& raw) {
+  BenchStressOptions options = raw.options;
+  options.render = finishRender(raw.render);
+  return options;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "stress/drawn.h"
+
+#include <glm/gtc/constants.hpp>
+
+#include "errors.h"
+#include "pack/pack_tree.h"
+
+namespace fragtrace {
+
+Environment whiteWorld(float radiance) {
+  Environment world;
+  world.kind = Surroundings::Map;
+  world.image = {2, 1, {"R", "G", "B"}, std::vector<float>(6, radiance), {}};
+  return world;
+}
+
+RenderOptions optionsOf(const StressSetting& setting, Stage stage) {
+  RenderOptions options;
+  options.stages = stagesUpTo(stage);
+  options.stages.set(size_t(Stage::Watertight), setting.watertight);
+  return options;
+}
+
+StressPicture::StressPicture(const StressSetting& setting, const Scene& scene, const Environment& environment,
+                             const RenderOptions& options)
+    : setting_(setting) {
+  const bool iterative = options.traversal == TraversalMethod::Iterative;
+  const Bvh bvh =
+      iterative ? listLeaves(scene) : buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
+  variant_ = chooseVariant(options, traitsOf(scene, environment.kind), environment.kind, bvh.depth,
+                           BufferReads::Auto);
+  GpuScene packed = packScene(scene, bvh, environment, variant_);
+  variant_.reads = chooseReads(BufferReads::Auto, setting.context.software, packed, readLimits()).reads;
+  renderer_ =
+      std::make_unique<Renderer>(setting.context, std::move(packed), variant_.reads, setting.shaderFolder);
+}
+
+FilmPixels StressPicture::draw(const View& view, glm::ivec2 size, int samples) {
+  Film film(size);
+  renderer_->compile(variant_, film, view);
+  RenderTimes times;
+  renderer_->addSamples(film, view, 0, samples, times, [&](double) {
+    setting_.goOn();
+    return true;
+  });
+  FilmPixels pixels = film.read();
+  if (totalsOf(pixels).budgetHits > 0) throw RenderError("the driver ended loops early (budget_hits)");
+  return pixels;
+}
+
+std::vector<View> viewsAround(const glm::dvec3& position) {
+  std::vector<View> views;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) {
+      View view;
+      view.camera.position = position;
+      view.camera.forward = glm::dvec3(0.0);
+      view.camera.forward[axis] = sign;
+      view.camera.up = glm::dvec3(0.0);
+      view.camera.up[(axis + 1) % 3] = 1.0;
+      view.camera.fovY = glm::half_pi<double>();
+      views.push_back(view);
+    }
+  }
+  return views;
+}
+
+}  // namespace fragtrace
