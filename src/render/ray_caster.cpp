@@ -70,8 +70,8 @@ RayCaster::RaySet::RaySet(std::span<const Ray> rays) : buffer_(makeBuffer()) {
 RayCaster::RayCaster(const Context& context, GpuScene scene, const ShaderVariant& variant, glm::ivec2 size,
                      const std::filesystem::path& shaderFolder)
     : buffers_(scene, variant.reads),
-      programs_{buildEntry(shaderFolder, "rays_nearest.frag", variant),
-                buildEntry(shaderFolder, "rays_any.frag", variant)},
+      variant_(variant),
+      shaderFolder_(shaderFolder),
       frameBuffer_(makeFrameBuffer(frameOf(scene, size))),
       hitBuffer_(makeBuffer()),
       vertexArray_(makeVertexArray()),
@@ -84,12 +84,18 @@ RayCaster::RayCaster(const Context& context, GpuScene scene, const ShaderVariant
   checkGl("making room for hits");
 }
 
+const GlProgram& RayCaster::program(bool anyHit) {
+  std::optional<GlProgram>& program = programs_[anyHit ? 1 : 0];
+  if (!program) program = buildEntry(shaderFolder_, anyHit ? "rays_any.frag" : "rays_nearest.frag", variant_);
+  return *program;
+}
+
 double RayCaster::trace(const RaySet& rays, bool anyHit) {
   buffers_.bind();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glBindVertexArray(vertexArray_.name());
   glViewport(0, 0, size_.x, size_.y);
-  glUseProgram(programs_[anyHit ? 1 : 0].name());
+  glUseProgram(program(anyHit).name());
   glBindBufferBase(GL_UNIFORM_BUFFER, layout::kFrameBinding, frameBuffer_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kPathStatesBinding, rays.buffer_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kProgressBinding, hitBuffer_.name());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,7 +49,11 @@ class RayCaster {
 
  private:
   SceneBuffers buffers_;
-  std::array<GlProgram, 2> programs_;  // nearest hit, any hit
+  const GlProgram& program(bool anyHit);
+
+  ShaderVariant variant_;
+  std::filesystem::path shaderFolder_;
+  std::array<std::optional<GlProgram>, 2> programs_;  // nearest hit, any hit; built when first used
   GlBuffer frameBuffer_;
   GlBuffer hitBuffer_;
   GlVertexArray vertexArray_;

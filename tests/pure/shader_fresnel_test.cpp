@@ -13,6 +13,7 @@ namespace fragtrace {
 namespace {
 
 using glm::dvec3;
+using glm::vec3;
 using glsl_double::fresnelDielectric;
 using glsl_double::fresnelSchlick;
 using glsl_double::mirrorDirection;
@@ -49,6 +50,39 @@ TEST(ShaderFresnel, RefractedRaysFollowSnell) {
       EXPECT_LE(glm::distance(glm::cross(refracted, normal) * eta, -glm::cross(outgoing, normal)),
                 kTolerance);
     }
+  }
+}
+
+TEST(ShaderFresnel, InFloatAnIndexOfOneIsNotThereAtAnyAngle) {
+  for (float cosine = 1.0f; cosine > 0.0f; cosine *= 0.7f) {
+    EXPECT_EQ(glsl_float::fresnelDielectric(cosine, 1.0f), 0.0f) << cosine;
+    const vec3 outgoing(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
+    const vec3 through = glsl_float::refractThrough(outgoing, vec3(0, 0, 1), 1.0f);
+    EXPECT_LE(glm::distance(through, -outgoing), 2e-7f) << cosine;
+  }
+  EXPECT_EQ(glsl_float::fresnelDielectric(0.0f, 1.0f), 0.0f);
+}
+
+TEST(ShaderFresnel, InFloatTheCriticalAngleIsABorderBetweenNumbers) {
+  for (const float index : {1.0001f, 1.33f, 1.5f, 2.42f}) {
+    const float eta = 1.0f / index;
+    float cosine = float(std::sqrt(1.0 - double(eta) * double(eta)));
+    for (int i = 0; i < 200; ++i) cosine = std::nextafter(cosine, 0.0f);
+    int reflected = 0;
+    for (int i = 0; i < 400; ++i) {
+      const float fresnel = glsl_float::fresnelDielectric(cosine, eta);
+      EXPECT_TRUE(fresnel >= 0.0f && fresnel <= 1.0f) << index;
+      reflected += fresnel == 1.0f ? 1 : 0;
+      // Who goes through by rounding alone goes along the boundary.
+      const vec3 outgoing(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
+      const vec3 through = glsl_float::refractThrough(outgoing, vec3(0, 0, 1), eta);
+      EXPECT_NEAR(glm::length(through), 1.0f, 1e-6f);
+      EXPECT_LE(through.z, 1e-6f);
+      EXPECT_GT(through.z, -0.02f);
+      cosine = std::nextafter(cosine, 1.0f);
+    }
+    EXPECT_GT(reflected, 20) << index;
+    EXPECT_LT(reflected, 380) << index;
   }
 }
 

@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""`bench stress`: no row is over its limit, and each protection that is taken out of the shader makes one fail."""
+import json
+import shutil
+
+from support import SCENES, Case, main, run
+
+SHADERS = SCENES.parent / "shaders"
+
+
+class Stress(Case):
+    def rows(self, *options, status=0):
+        """What the command wrote, by row."""
+        path = self.folder / "stress.json"
+        result = run("bench", "stress", "--quick", "--quiet", "--json", path, *options)
+        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        lines = [json.loads(line) for line in path.read_text().splitlines()]
+        self.assertEqual(status, int(any(line["over"] for line in lines)))
+        return {line["row"]: line for line in lines}
+
+    def mutated(self, file, before, after, *rows):
+        """With a shader in which a protection is taken out, every one of these rows is over its limit."""
+        folder = self.folder / "shaders"
+        shutil.copytree(SHADERS, folder)
+        text = (folder / file).read_text()
+        self.assertIn(before, text)
+        (folder / file).write_text(text.replace(before, after))
+        found = self.rows("--rows", ",".join(rows), "--shader-folder", folder, status=1)
+        for row in found.values():
+            self.assertTrue(row["over"], row)
+
+
+class StressRows(Stress):
+    def test_no_row_is_over_its_limit(self):
+        for backend in ("egl", "osmesa"):
+            rows = self.rows("--rendering-backend", backend)
+            self.assertGreater(len(rows), 15)
+            for row in rows.values():
+                self.assertGreater(row["cases"], 100, row)
+                self.assertEqual(row["backend"], backend)
+            # What the fast test is there to show.
+            self.assertGreater(rows["rays rims-from-inside"]["fast_failures"], 0)
+
+
+class StressMutations(Stress):
+    def test_an_edge_that_belongs_to_neither_neighbour(self):
+        self.mutated("intersect.glsl", ">= 0.0f && v >= 0.0f && w >= 0.0f", "> 0.0f && v > 0.0f && w > 0.0f", "rims-from-inside")
+
+    def test_rays_that_start_on_the_surface_itself(self):
+        self.mutated("intersect.glsl", "? -error : error", "? -0.0f * error : 0.0f * error", "shell white")
+
+
+class StressRefusals(Stress):
+    def test_a_row_that_is_none(self):
+        self.fails(2, "bench", "stress", "--rows", "nonsense", says=["--rows", "nonsense"])
+
+
+if __name__ == "__main__":
+    main()
