@@ -114,9 +114,12 @@ vec3 offsetOrigin(vec3 point, float error, vec3 normal, vec3 direction) {
   return point + (dot(direction, normal) < 0.0f ? -error : error) * normal;
 }
 
-/// The point at distance t along a ray, moved onto the plane dot(normal, x) = distance that it lies on but for rounding: along the normal its
-/// error no longer grows with the distance from the ray's origin.
+/// The point at distance t along a ray, moved onto the plane dot(normal, x) = distance that it lies on but for rounding: off the plane its error no
+/// longer grows with the distance from the ray's origin. It is moved along the ray, on which the distance to a sliver is what is known
+/// worst; but along the normal where the ray grazes, which would carry the point's own rounding away.
 vec3 pointOnPlane(vec3 origin, vec3 direction, float t, vec3 normal, float distance) {
   vec3 point = origin + t * direction;
-  return point - (dot(normal, point) - distance) * normal;
+  float facing = dot(normal, direction);
+  float height = dot(normal, point) - distance;
+  return point - (abs(facing) > 0.0625f ? direction * (height / facing) : height * normal);
 }

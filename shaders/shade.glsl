@@ -37,6 +37,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   }
   BsdfSample next = sampleBsdf(b, outgoing, choice, uv.x, uv.y);
   vec3 direction = normalize(toWorld(around, next.incoming));
+  if (kSpecular && next.density == 0.0) direction = ontoSide(direction, s.geometricNormal, next.transmitted);
   bool wrongSide = (dot(direction, s.geometricNormal) < 0.0) != next.transmitted;
   return scatter(p, s, direction, wrongSide ? vec3(0.0) : next.weight, next.density, next.transmitted, m);
 }
@@ -46,9 +47,8 @@ Path scatterGlass(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   Bsdf b = makeBsdf(m, s.front);
   Frame3 around = frameAround(normal);
   BsdfSample next = sampleSmoothGlass(b, toFrame(around, -p.direction), pathRandom(p, kLobeDimension));
-  vec3 direction = normalize(toWorld(around, next.incoming));
-  bool wrongSide = (dot(direction, s.geometricNormal) < 0.0) != next.transmitted;
-  return scatter(p, s, direction, wrongSide ? vec3(0.0) : next.weight, 0.0, next.transmitted, m);
+  vec3 direction = ontoSide(normalize(toWorld(around, next.incoming)), s.geometricNormal, next.transmitted);
+  return scatter(p, s, direction, next.weight, 0.0, next.transmitted, m);
 }
 
 /// Blinn-Phong, mirror reflection and smooth glass.
@@ -77,9 +77,8 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
     float gloss = 1.0 - m.roughness;
     weight = fresnelSchlick(f0, mix(m.specular, 1.0, m.metallic), dot(normal, outgoing)) * (gloss * gloss);
   }
-  vec3 direction = normalize(mirrorDirection(outgoing, normal));
-  bool wrongSide = dot(direction, s.geometricNormal) < 0.0;
-  return scatter(p, s, direction, wrongSide ? vec3(0.0) : weight, 0.0, false, m);
+  vec3 direction = ontoSide(normalize(mirrorDirection(outgoing, normal)), s.geometricNormal, false);
+  return scatter(p, s, direction, weight, 0.0, false, m);
 }
 
 /// What kFeature asks for of the point that a camera ray hits.

@@ -125,6 +125,12 @@ vec3 facingNormal(vec3 shadingNormal, vec3 outgoing) {
   return cosine >= least ? shadingNormal : normalize(shadingNormal + (least - cosine) * outgoing);
 }
 
+/// A single direction that a bent normal has sent to the wrong side of the surface, folded back onto the right one, so that it is not lost.
+vec3 ontoSide(vec3 direction, vec3 geometricNormal, bool below) {
+  float height = dot(direction, geometricNormal);
+  return (height < 0.0) == below ? direction : direction - 2.0 * height * geometricNormal;
+}
+
 /// A shading normal about which the mirror image of `outgoing` lies above the surface: where it would not, the image is lifted to just above the
 /// horizon, and the normal is what mirrors one into the other. Both normals are unit and on the side of `outgoing`.
 vec3 reflectingNormal(vec3 shadingNormal, vec3 geometricNormal, vec3 outgoing) {

@@ -227,7 +227,7 @@ Scene hugeAndTiny() {
     const dvec3 a = 3.0 * dice.direction();
     add(scene, a + 1e4 * dice.direction(), a + 1e4 * dice.direction(), a + 1e4 * dice.direction());
   }
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 50; ++i) {
     const dvec3 place = dice.inCube(1.0);
     const double size = std::pow(10.0, dice.between(-6.0, -1.0));
     const dvec3 a = place + size * dice.direction();
@@ -241,8 +241,8 @@ Scene hugeAndTiny() {
 Scene nested() {
   Dice dice(19);
   Scene scene = emptyScene();
-  for (int i = 0; i < 80; ++i) {
-    const double size = std::pow(1.2, -i);
+  for (int i = 0; i < 40; ++i) {
+    const double size = std::pow(1.4, -i);
     const dvec3 a = size * dice.direction();
     const dvec3 b = size * dice.direction();
     add(scene, a, b, -a - b);

@@ -61,17 +61,41 @@ class Shape {
     return over ? heightOver(p) : rim;
   }
 
-  /// How far the line passes from where rays begin to miss: the edges, or the sphere's outline.
-  double rimBeside(const dvec3& origin, const dvec3& direction) const {
-    const auto beside = [&](const dvec3& p) {
+  /// How the line of a ray passes a shape.
+  struct Passage {
+    double rim = HUGE_VAL;  ///< from where rays begin to miss: the edges, or the sphere's outline
+    double beside = 0.0;    ///< from the shape itself; 0: through it
+    double spread =
+        1.0;  ///< square of the farthest corner's distance over the area that the ray sees, times two
+  };
+
+  Passage passageOf(const dvec3& origin, const dvec3& direction) const {
+    const auto across = [&](const dvec3& p) {
       const dvec3 q = p - origin;
       return q - glm::dot(q, direction) * direction;
     };
-    if (sphere_) return std::abs(glm::length(beside(dvec3(sphere_->center))) - double(sphere_->radius));
-    double rim = HUGE_VAL;
-    for (size_t i = 0; i < 3; ++i)
-      rim = std::min(rim, distanceToSegment(dvec3(0.0), beside(corner_[i]), beside(corner_[(i + 1) % 3])));
-    return rim;
+    Passage passage;
+    if (sphere_) {
+      const double off = glm::length(across(dvec3(sphere_->center))) - double(sphere_->radius);
+      passage.rim = std::abs(off);
+      passage.beside = std::max(off, 0.0);
+      return passage;
+    }
+    std::array<dvec3, 3> p;
+    double farthest = 0.0;
+    for (size_t i = 0; i < 3; ++i) {
+      p[i] = across(corner_[i]);
+      farthest = std::max(farthest, glm::dot(p[i], p[i]));
+    }
+    const double area = glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), direction);
+    bool inside = area != 0.0;
+    for (size_t i = 0; i < 3; ++i) {
+      passage.rim = std::min(passage.rim, distanceToSegment(dvec3(0.0), p[i], p[(i + 1) % 3]));
+      inside = inside && glm::dot(glm::cross(p[i], p[(i + 1) % 3]), direction) * area >= 0.0;
+    }
+    passage.beside = inside ? 0.0 : passage.rim;
+    passage.spread = farthest / std::abs(area);
+    return passage;
   }
 
  private:
@@ -87,27 +111,34 @@ double largestOf(const dvec3& p) { return std::max({std::abs(p.x), std::abs(p.y)
 RayFault judgeRay(const Scene& scene, const Ray& ray, const FoundHit& found, const ExactHit& exact) {
   const bool hit = found.primitive != kMissIndex;
   const bool exactHit = exact.primitive != kMissIndex;
-  if (hit && exactHit && found.primitive == exact.primitive && double(found.t) == exact.t)
-    return RayFault::None;
   const dvec3 origin(ray.origin);
-  const dvec3 direction = glm::normalize(dvec3(ray.direction));
-  const dvec3 point = origin + double(found.t) * dvec3(ray.direction);
+  const double length = glm::length(dvec3(ray.direction));
+  const dvec3 direction = dvec3(ray.direction) / length;
   const auto boundOf = [&](const Shape& shape, const dvec3& at) {
     return kRayRoundings * 0x1p-24 * std::max({largestOf(origin), largestOf(at), shape.largestCoordinate()});
   };
+  // Weights round by the spread, and the distance with them.
+  const auto alongOf = [&](double bound, const Shape::Passage& passage) {
+    return bound * (1.0 + passage.spread);
+  };
+  double foundAlong = 0.0;
   if (hit) {
     const Shape shape(scene, found.primitive);
-    if (!std::isfinite(found.t) || !(shape.distance(point) <= boundOf(shape, point)))
+    const dvec3 point = origin + double(found.t) * dvec3(ray.direction);
+    const double bound = boundOf(shape, point);
+    const Shape::Passage passage = shape.passageOf(origin, direction);
+    foundAlong = alongOf(bound, passage);
+    if (!std::isfinite(found.t) || passage.beside > bound || !(shape.distance(point) <= foundAlong))
       return RayFault::FalseHit;
   }
-  if (!exactHit || (hit && found.primitive == exact.primitive) || (hit && double(found.t) <= exact.t))
-    return RayFault::None;
+  if (!exactHit || (hit && found.primitive == exact.primitive)) return RayFault::None;
   const Shape shape(scene, exact.primitive);
-  const dvec3 exactPoint = origin + exact.t * dvec3(ray.direction);
-  const double bound = boundOf(shape, exactPoint);
-  if (shape.rimBeside(origin, direction) <= bound || shape.heightOver(origin) <= bound) return RayFault::None;
+  const double bound = boundOf(shape, origin + exact.t * dvec3(ray.direction));
+  const Shape::Passage passage = shape.passageOf(origin, direction);
+  if (passage.rim <= bound || shape.heightOver(origin) <= bound) return RayFault::None;
   if (!hit) return RayFault::Missed;
-  return shape.heightOver(point) > bound ? RayFault::Behind : RayFault::None;
+  const double behind = (double(found.t) - exact.t) * length;
+  return behind > foundAlong + alongOf(bound, passage) ? RayFault::Behind : RayFault::None;
 }
 
 }  // namespace fragtrace

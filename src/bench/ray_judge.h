@@ -13,8 +13,9 @@ namespace fragtrace {
 /// passed through that and met nothing.
 enum class RayFault : uint8_t { None, FalseHit, Behind, Missed };
 
-/// What positions may be off by, in metres: kRayRoundings units of 2^-24 of the largest coordinate of ray,
-/// hit and primitive (docs/accuracy.md).
+/// What a ray may pass beside a primitive that it hits, or inside of one that it misses: so many units of
+/// 2^-24 of the largest coordinate of ray, hit and primitive. The distance of a hit may be off by that times
+/// one plus the aspect of the triangle as the ray sees it (docs/accuracy.md).
 inline constexpr double kRayRoundings = 16.0;
 
 /// Compares a hit with that of double precision (ExactTracer), which tells where the ray is well inside of a

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "stress/rays.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "bench/formatted.h"
 #include "bench/ray_judge.h"
@@ -21,6 +23,7 @@ struct Way {
   const char* name;
   Bvh bvh;
   ShaderVariant variant;
+  bool merges = false;  ///< a hit names either triangle of a quadrilateral
 };
 
 ShaderVariant variantOf(const StressSetting& setting, const Scene& scene, TraversalMethod method,
@@ -52,16 +55,39 @@ std::vector<Way> waysOf(const StressSetting& setting, const Scene& scene) {
   if (whyNoLiterals(scene, packed).empty()) {
     literal.traversal = TraversalMethod::Literals;
     literal.literals = literalScene(scene, bvh, packed, literal);
-    ways.push_back({"literals", bvh, literal});
+    ways.push_back({"literals", bvh, literal, true});
   }
   const std::vector<uint32_t> large = largeTriangles(bounds, triangles);
   if (!large.empty() && large.size() < triangles) {
     Bvh beside = buildBvhBeside(bounds, triangles, large);
     ShaderVariant variant = variantOf(setting, scene, TraversalMethod::FrontToBack, beside.depth);
     variant.literals = largeFirst(scene, beside, variant);
-    ways.push_back({"large-first", std::move(beside), std::move(variant)});
+    ways.push_back({"large-first", std::move(beside), std::move(variant), true});
   }
   return ways;
+}
+
+/// Triangles that share an edge with this one and lie in its plane.
+std::vector<uint32_t> matesOf(const Scene& scene, uint32_t primitive) {
+  constexpr double kSamePlane = 1.0 - 1e-9;
+  const Bvh none;
+  const ExactTracer tracer(scene, none);
+  const auto cornersOf = [&](uint32_t i) {
+    const glm::uvec3& v = scene.triangles[i].vertex;
+    return std::array{scene.vertices.position[v.x], scene.vertices.position[v.y],
+                      scene.vertices.position[v.z]};
+  };
+  const auto own = cornersOf(primitive);
+  std::vector<uint32_t> mates;
+  for (uint32_t i = 0; i < scene.triangles.size(); ++i) {
+    const auto others = cornersOf(i);
+    const auto shared = std::ranges::count_if(
+        own, [&](const glm::vec3& p) { return std::ranges::find(others, p) != others.end(); });
+    if (i != primitive && shared == 2 &&
+        std::abs(glm::dot(tracer.normal(i, {}), tracer.normal(primitive, {}))) >= kSamePlane)
+      mates.push_back(i);
+  }
+  return mates;
 }
 
 const char* nameOf(RayFault fault) {
@@ -89,9 +115,18 @@ StressOutcome attackByRays(const StressSetting& setting, const RayAttack& attack
     caster.trace(RayCaster::RaySet(rays), false);
     const std::vector<TracedRay> traced = caster.hits();
     for (size_t i = 0; i < rays.size(); ++i) {
-      const FoundHit found{primitiveInSlot(way.bvh, traced[i].slot), traced[i].t};
+      FoundHit found{primitiveInSlot(way.bvh, traced[i].slot), traced[i].t};
       RayFault fault = judgeRay(scene, rays[i], found, exact[i]);
       if (attack.closed && found.primitive == kMissIndex) fault = RayFault::Missed;
+      for (const uint32_t mate : fault == RayFault::FalseHit && way.merges ? matesOf(scene, found.primitive)
+                                                                           : std::vector<uint32_t>()) {
+        const FoundHit other{mate, found.t};
+        const RayFault otherFault = judgeRay(scene, rays[i], other, exact[i]);
+        if (otherFault == RayFault::FalseHit) continue;
+        found = other;
+        fault = otherFault;
+        break;
+      }
       if (!leaves.empty() && found.primitive == leaves[i]) fault = RayFault::FalseHit;
       ++outcome.cases;
       if (fault == RayFault::None) continue;
