@@ -343,6 +343,59 @@ Scene scaled(Scene scene, double factor) {
   return scene;
 }
 
+constexpr int kTiles = 24;  // along each side of a wall
+constexpr std::array kTiledLow{-1.7, 0.3, -2.2};
+constexpr std::array kTiledHigh{1.1, 2.9, 0.9};
+
+double tileLine(int axis, int line) {
+  const auto i = size_t(axis);
+  return kTiledLow[i] + (kTiledHigh[i] - kTiledLow[i]) * line / kTiles;
+}
+
+/// A closed room along the axes, its walls cut into tiles: neighbours' boxes meet in planes.
+Scene tiledRoom() {
+  Scene scene = emptyScene();
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    for (const int side : {0, kTiles}) {
+      const auto corner = [&](int i, int j) {
+        dvec3 p;
+        p[axis] = tileLine(axis, side);
+        p[u] = tileLine(u, i);
+        p[v] = tileLine(v, j);
+        return p;
+      };
+      for (int i = 0; i < kTiles; ++i) {
+        for (int j = 0; j < kTiles; ++j) {
+          add(scene, corner(i, j), corner(i + 1, j), corner(i, j + 1));
+          add(scene, corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1));
+        }
+      }
+    }
+  }
+  return scene;
+}
+
+/// Along an axis, in the planes in which the boxes of tiles meet.
+AttackRays betweenTiles(const Scene& scene, size_t count, uint32_t seed) {
+  Dice dice(seed);
+  std::vector<Ray> rays(count);
+  for (Ray& ray : rays) {
+    const int axis = int(dice.below(3));
+    const int u = (axis + (dice.coin() ? 1 : 2)) % 3;
+    const int v = 3 - axis - u;
+    dvec3 origin;
+    origin[axis] = scene.bounds.center()[axis] + dice.between(-0.3, 0.3);
+    origin[u] = tileLine(u, 1 + int(dice.below(kTiles - 1)));
+    const int line = 1 + int(dice.below(kTiles - 1));
+    origin[v] = dice.coin() ? tileLine(v, line) : tileLine(v, line) + 0.01;
+    ray = {vec3(origin), vec3(dice.coin() ? 0.0f : -0.0f), kFar};
+    ray.direction[axis] = dice.coin() ? 1.0f : -1.0f;
+  }
+  return {std::move(rays), {}};
+}
+
 Scene tinyRoom() { return scaled(room(), 1e-7); }
 Scene hugeRoom() { return scaled(room(), 1e8); }
 
@@ -400,6 +453,8 @@ constexpr std::array kAttacks = {
     RayAttack{"leaving-room", "the same of 36 large triangles", 0.0, false, room, leaving},
     RayAttack{"room", "edges, vertices and walls of a closed room of 36 triangles", 0.0, true, room,
               insideRoom},
+    RayAttack{"tiles", "along axes, in the planes in which the boxes of neighbours meet", 0.0, true,
+              tiledRoom, betweenTiles},
     RayAttack{"room-tiny", "the same of 500 nanometres", 0.0, true, tinyRoom, insideRoom},
     RayAttack{"room-huge", "the same of 500,000 km", 0.0, true, hugeRoom, insideRoom},
     RayAttack{"room-far-cameras", "the same from 10 to 100,000 of its sizes away", 0.0, false, room,

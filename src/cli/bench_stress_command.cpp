@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "cli/bench_interrupt.h"
 #include "cli/choose.h"
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "cli/outputs.h"
 #include "cli/progress_bar.h"
 #include "cli/setup.h"
@@ -46,17 +46,15 @@ StressReport measure(const BenchStressOptions& options, const std::vector<Stress
   report.backend = context.backend;
   report.renderer = context.renderer;
   report.quick = options.quick;
-  const auto goOn = [] {
-    if (interrupts() > 0) throw Interrupted();
-  };
   ProgressBar bar("trying", options.render.quiet);
+  const auto goOn = [&] { bar.show(double(report.rows.size()) / double(rows.size())); };
   for (const StressRow& row : rows) {
     StressSetting setting{context, options.render.shaderFolder, options.quick, true, goOn};
     StressResult result{row.name, row.sentence, row.limit, timed(row, setting), {}};
     setting.watertight = false;
     if (row.fastToo) result.fast = timed(row, setting);
     report.rows.push_back(std::move(result));
-    bar.show(double(report.rows.size()) / double(rows.size()));
+    goOn();
   }
   bar.clear();
   return report;
@@ -69,17 +67,13 @@ int runBenchStress(const BenchStressOptions& options) {
   checkOutputs(outputs, {});
   const std::vector<StressRow> rows = chosenRows(options);
   const auto context = makeContext(options.render.backend);
-  countInterrupts();
-  try {
-    const StressReport report = measure(options, rows, *context);
-    std::fputs(stressTable(report).c_str(), stdout);
-    replaceText(options.json, stressJson(report));
-    if (report.rowsOver() > 0)
-      throw RenderError(std::to_string(report.rowsOver()) + " of " + std::to_string(report.rows.size()) +
-                        " rows are over their limit");
-  } catch (const Interrupted&) {
-    return sayInterrupted();
-  }
+  const StressReport report = measure(options, rows, *context);
+  countInterrupts();  // what was found is written whole
+  std::fputs(stressTable(report).c_str(), stdout);
+  replaceText(options.json, stressJson(report));
+  if (report.rowsOver() > 0)
+    throw RenderError(std::to_string(report.rowsOver()) + " of " + std::to_string(report.rows.size()) +
+                      " rows are over their limit");
   return 0;
 }
 

@@ -19,7 +19,7 @@ struct StressSetting {
   std::filesystem::path shaderFolder;  ///< shaders from disk in place of the built-in ones
   bool quick = false;                  ///< about a hundredth of the cases
   bool watertight = true;              ///< else with the fast triangle test
-  std::function<void()> goOn;          ///< to be called now and then: throws when the user interrupts
+  std::function<void()> goOn;          ///< to be called now and then, so that progress shows
 };
 
 struct StressRow {
