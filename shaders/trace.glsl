@@ -26,6 +26,7 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "phong.glsl"
 #include "environment.glsl"
 #include "lights.glsl"
+#include "film_pixel.glsl"
 #include "film.glsl"
 #include "path_state.glsl"
 #include "path.glsl"

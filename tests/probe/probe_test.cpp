@@ -9,11 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "errors.h"
-#include "gl/gl.h"
 #include "gl_probe.h"
 #include "glsl.h"
-#include "shader/embedded.h"
+#include "probe_program.h"
 #include "shader_statistics.h"
 
 namespace fragtrace {
@@ -21,24 +19,6 @@ namespace {
 
 using glm::vec2;
 using glm::vec3;
-
-std::string shaderText(const std::string& name) {
-  for (const EmbeddedShader& shader : embeddedShaders()) {
-    if (shader.name == name) return std::string(shader.text) + "\n";
-  }
-  throw RenderError("shader " + name + " does not exist");
-}
-
-GlProgram buildComputeProgram(const std::string& text) {
-  const char* pointer = text.c_str();
-  GlProgram program(glCreateShaderProgramv(GL_COMPUTE_SHADER, 1, &pointer));
-  GLint ok = 0;
-  glGetProgramiv(program.name(), GL_LINK_STATUS, &ok);
-  std::string log(4096, '\0');
-  glGetProgramInfoLog(program.name(), GLsizei(log.size()), nullptr, log.data());
-  if (!ok) throw RenderError("probe does not link:\n" + std::string(log.c_str()));
-  return program;
-}
 
 /// Rows of floats, one a case.
 struct Table {
@@ -55,13 +35,7 @@ class Probe : public GlProbe {
  protected:
   /// Runs `body`, which reads given(k) and writes result(k, x), for every row of the table.
   static Table runOnDriver(const Table& given, int resultWidth, const std::string& body) {
-    std::string text =
-        "#version 450 core\nconst bool kSobol = true;\nconst bool kWatertight = true;\nconst bool kIterative "
-        "= true;\nlayout(local_size_x = 64) in;\n";
-    for (const char* file :
-         {"random.glsl", "sampling.glsl", "intersect.glsl", "perlin.glsl", "fresnel.glsl", "ggx.glsl"}) {
-      text += shaderText(file);
-    }
+    std::string text = probePrelude() + "layout(local_size_x = 64) in;\n";
     text +=
         "layout(std430, binding = 0) readonly buffer Given { float givenValues[]; };\n"
         "layout(std430, binding = 1) writeonly buffer Results { float resultValues[]; };\n"

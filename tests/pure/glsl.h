@@ -79,8 +79,11 @@ using glm::vec4;
 inline int floatBitsToInt(float x) { return std::bit_cast<int>(x); }
 inline float intBitsToFloat(int x) { return std::bit_cast<float>(x); }
 #include "slab.glsl"
+inline uint floatBitsToUint(float x) { return std::bit_cast<uint>(x); }
 // The rest is as for doubles.
 #include "glsl_files.h"
+// The film is of floats.
+#include "film_pixel.glsl"
 }  // namespace
 }  // namespace fragtrace::glsl_float
 

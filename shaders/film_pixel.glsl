@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// One pixel of the film: the compensated sum of all samples, their variance and their counts. Samples are added one by one
+// in order, so the result does not depend on how they were split into draws.
+
+struct FilmPixel {
+  vec3 sum;
+  float alpha;
+  vec3 compensation;
+  float m2;          // sum of squared deviations of the luminance from its mean
+  uint samples;
+  uint rays;
+  uint nonfinite;
+  uint flags;
+};
+
+/// Infinite, NaN, or so large (2^96) that the most samples a pixel can have would add up to infinity; told by its bits, since a
+/// compiler may take isnan() for false.
+bool isNonfinite(float x) { return (floatBitsToUint(x) & 0x7f800000u) >= 0x6f800000u; }
+
+/// Adds one sample (Kahan, Further Remarks on Reducing Truncation Errors, 1965; Welford, 1962). One that is not finite is counted and adds black.
+FilmPixel addSample(FilmPixel f, vec3 radiance, float alpha) {
+  if (isNonfinite(radiance.x) || isNonfinite(radiance.y) || isNonfinite(radiance.z)) {
+    f.nonfinite += 1u;
+    radiance = vec3(0.0f);
+  }
+  float before = f.samples > 0u ? luminance(f.sum) / float(f.samples) : 0.0f;
+  precise vec3 y = radiance - f.compensation;
+  precise vec3 t = f.sum + y;
+  precise vec3 lost = (t - f.sum) - y;
+  f.compensation = lost;
+  f.sum = t;
+  f.alpha += alpha;
+  f.samples += 1u;
+  float value = luminance(radiance);
+  float after = luminance(f.sum) / float(f.samples);
+  // Its square may be infinite where the value is not.
+  f.m2 = min(f.m2 + (value - before) * (value - after), float(3.0e38));
+  return f;
+}
