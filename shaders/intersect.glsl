@@ -108,7 +108,7 @@ float intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, bo
   return inside && farT > 0.0f ? farT : -1.0f;
 }
 
-/// Moves a point off its surface along the unit geometric normal, to the side of `direction`, by `error` metres
+/// Moves a point off its surface along the unit geometric normal, to the side of `direction`, by `error`
 /// (after Pharr, Jakob and Humphreys, pbrt, 3rd ed. 3.9.5, with one bound for all axes).
 vec3 offsetOrigin(vec3 point, float error, vec3 normal, vec3 direction) {
   return point + (dot(direction, normal) < 0.0f ? -error : error) * normal;

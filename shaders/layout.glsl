@@ -57,7 +57,7 @@ const uint kPrimitiveAlpha = 0x40000000u;   // alpha MASK or BLEND decides wheth
 const uint kPrimitiveSphere = 0x20000000u;  // v0 is the centre, v1.x the radius
 
 // Face rows. Triangle: unit normal and face word; distance of its plane from the origin, vertex indices. Sphere: rotation quaternion
-// x, y, z with w >= 0 and face word; centre, radius. Face word: material, flag, and the bound on a hit point's error (metres) as
+// x, y, z with w >= 0 and face word; centre, radius. Face word: material, flag, and the bound on a hit point's error (local space) as
 // the upper bits of a float.
 const uint kFaceRows = 2u;
 const uint kFaceMaterialMask = 0xfffffu;
@@ -71,8 +71,8 @@ const uint kMaterialBaseColor = 0u;    // base colour factor
 const uint kMaterialEmission = 1u;     // radiance, alpha cutoff
 const uint kMaterialSurface = 2u;      // metallic, roughness, index of refraction, transmission
 const uint kMaterialSpecular = 3u;     // specular colour, specular factor
-const uint kMaterialVolume = 4u;       // absorption coefficient (1/m), thickness
-const uint kMaterialMaps = 5u;         // normal scale, occlusion strength, emitter density (1/m^2), flags
+const uint kMaterialVolume = 4u;       // absorption coefficient (1 / local space), whether there is any thickness
+const uint kMaterialMaps = 5u;         // normal scale, occlusion strength, emitter density (1 / area in local space), flags
 const uint kMaterialPerlin = 6u;       // frequency, amplitude, octaves
 const uint kMaterialTextures = 7u;     // then one row a texture slot
 const uint kSlotBaseColor = 0u;
@@ -118,11 +118,11 @@ const float kLightDirectional = 2.0f;
 // What is constant in one draw; std140, each row 16 bytes.
 struct Frame {
   vec4 cameraPosition;  // local space; w: 1 when orthographic
-  vec4 cameraRight;     // half of the view's width (at distance 1, or in metres when orthographic)
+  vec4 cameraRight;     // half of the view's width (at distance 1, or in local space when orthographic)
   vec4 cameraUp;        // half of its height
-  vec4 cameraForward;   // unit
+  vec4 cameraForward;   // unit; w: metres a unit of local space
   vec4 gridOrigin;      // of the quantised boxes, local space
-  vec4 gridCell;        // metres a step
+  vec4 gridCell;        // local space, a step
   vec4 background;      // radiance that camera rays see; w: 1 when the environment is seen by camera rays
   vec4 environment;     // width, height, cosine and sine of the rotation
   vec4 lightChoice;     // probability of sampling the environment, emitter count, row of the energy table among the materials, punctual lights

@@ -36,7 +36,7 @@ struct SurfaceMaterial {
   float ior;
   float specular;      // f90 of the dielectric layer
   vec3 dielectricF0;   // of the dielectric layer, specular factors counted in
-  vec3 absorption;     // 1/m, inside
+  vec3 absorption;     // 1 / local space, inside
   bool solid;          // bounds a volume, else thin-walled
 };
 

@@ -85,7 +85,7 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
 vec3 featureAt(Surface s, vec3 baseColor, vec3 outgoing) {
   if (kFeature == kFeatureAlbedo) return baseColor;
   if (kFeature == kFeatureNormal) return facingNormal(mappedNormal(s), outgoing);
-  return vec3(dot(s.position - frame.cameraPosition.xyz, frame.cameraForward.xyz));
+  return vec3(dot(s.position - frame.cameraPosition.xyz, frame.cameraForward.xyz) * frame.cameraForward.w);
 }
 
 /// One step at the point hit. The first visit also settles alpha, absorption and emission.

@@ -3,7 +3,7 @@
 
 struct Surface {
   vec3 position;
-  float positionError;   // bound on its rounding error, metres
+  float positionError;   // bound on its rounding error, local space
   vec3 geometricNormal;  // unit, on the side the ray comes from
   vec3 shadingNormal;    // unit, on the side the ray comes from; normal map not yet applied
   vec4 tangent;          // unit, w handedness; (0, 0, 0, 0) when there is none

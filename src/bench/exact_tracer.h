@@ -14,7 +14,7 @@ namespace fragtrace {
 
 /// What a ray meets first, or kMissIndex.
 struct ExactHit {
-  double t = 0.0;  ///< metres
+  double t = 0.0;  ///< local space
   uint32_t primitive = kMissIndex;
 };
 

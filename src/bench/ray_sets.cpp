@@ -90,11 +90,11 @@ class Targets {
 
 }  // namespace
 
-std::vector<Ray> primaryRays(const Camera& camera, const glm::dvec3& sceneOrigin, glm::ivec2 size) {
-  const double height = camera.perspective ? std::tan(0.5 * camera.fovY) : camera.halfHeight;
+std::vector<Ray> primaryRays(const Camera& camera, const LocalSpace& space, glm::ivec2 size) {
+  const double height = camera.perspective ? std::tan(0.5 * camera.fovY) : camera.halfHeight / space.unit;
   const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
   const glm::dvec3 up = glm::cross(right, camera.forward);
-  const glm::dvec3 position = camera.position - sceneOrigin;
+  const glm::dvec3 position = space.localOf(camera.position);
   std::vector<Ray> rays;
   rays.reserve(size_t(size.x) * size_t(size.y));
   for (int y = 0; y < size.y; ++y) {

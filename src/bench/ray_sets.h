@@ -16,8 +16,8 @@ namespace fragtrace {
 enum class RayKind : uint8_t { Primary, Diffuse, Shadow };
 inline constexpr std::array<std::string_view, 3> kRayKindNames{"primary", "diffuse", "shadow"};
 
-/// One ray through the middle of each pixel, rows from the bottom.
-std::vector<Ray> primaryRays(const Camera& camera, const glm::dvec3& sceneOrigin, glm::ivec2 size);
+/// One ray through the middle of each pixel, in local space, rows from the bottom.
+std::vector<Ray> primaryRays(const Camera& camera, const LocalSpace& space, glm::ivec2 size);
 
 /// One ray from each point that the primary rays hit, in directions whose density goes with the cosine to the
 /// geometric normal. Where nothing was hit there is no ray.

@@ -181,7 +181,7 @@ ScaleRow measureSize(Stage& stage, size_t wanted, double iterativeMsPerTriangle)
 
   // Step: right pictures only.
   const ExactTracer tracer(scene, bvh);
-  const std::vector<Ray> rays = primaryRays(stage.view.camera, stage.view.sceneOrigin, stage.size);
+  const std::vector<Ray> rays = primaryRays(stage.view.camera, stage.view.space, stage.size);
   proveTree(tracer, row.triangles, rays);
   const std::vector<ExactHit> hits = tracer.nearest(rays);
   std::unique_ptr<Image> first;

@@ -36,7 +36,7 @@ std::vector<FoundHit> foundBy(const RayCaster& caster, const Bvh& bvh) {
 }
 
 std::vector<MeasuredSet> makeSets(const LoadedScene& loaded, const ExactTracer& tracer, uint32_t seed) {
-  std::vector<Ray> primary = primaryRays(loaded.camera, loaded.scene.origin, loaded.size);
+  std::vector<Ray> primary = primaryRays(loaded.camera, loaded.scene.space, loaded.size);
   const std::vector<ExactHit> hits = tracer.nearest(primary);
   std::vector<MeasuredSet> sets;
   sets.push_back({RayKind::Diffuse, diffuseRays(tracer, primary, hits, seed), {}, {}});
@@ -52,7 +52,7 @@ std::vector<MeasuredSet> makeSets(const LoadedScene& loaded, const ExactTracer& 
 /// Holds what was found against double precision. Throws RenderError when it is wrong.
 void check(MeasuredSet& set, const ExactTracer& tracer, const Scene& scene) {
   const std::vector<ExactHit> exact = tracer.nearest(set.rays);
-  const double size = glm::length(scene.bounds.extent());
+  const double size = glm::length(scene.bounds.extent()) / scene.space.unit;
   set.row.wrong = set.anyHit() ? countWrongAny(set.rays, set.found, exact)
                                : countWrongNearest(set.rays, set.found, exact, size);
   set.row.wrongAllowed = wrongRaysAllowed(set.row.rays);

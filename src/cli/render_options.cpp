@@ -61,10 +61,10 @@ void checkFinite(const RenderOptions& o) {
   checkVector("--camera-view-up", o.camera.viewUp);
   checkVector("--background-color", glm::dvec3(o.backgroundColor));
   if (o.camera.viewUp && *o.camera.viewUp == glm::dvec3(0.0)) throw UsageError("--camera-view-up: is zero");
-  constexpr double kFarthest = 1e9;  // metres, as for scenes
+  constexpr double kFarthest = 1e30;  // metres, as for scenes
   for (const auto& place : {o.camera.position, o.camera.focalPoint}) {
     if (place && glm::length(*place) > kFarthest)
-      throw UsageError("camera: farther than 1e9 m from the origin");
+      throw UsageError("camera: farther than 1e30 m from the origin");
   }
   if (glm::any(glm::lessThan(o.backgroundColor, glm::vec3(0.0f))))
     throw UsageError("--background-color: below 0");

@@ -35,10 +35,30 @@ Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
   return withOverrides(camera, options.camera, scene.bounds);
 }
 
+/// Refuses what would not leave shaders room to multiply lengths (src/gltf/gltf.cpp).
+void checkDistance(const Camera& camera, const LocalSpace& space) {
+  constexpr double kFarthest = 1e12;  // local space
+  const double size = camera.perspective ? 0.0 : camera.halfHeight * std::max(1.0, camera.aspectRatio);
+  if (!(std::max(glm::length(camera.position - space.origin), size) <= kFarthest * space.unit)) {
+    throw UsageError(
+        "the camera is too far away for a scene of this size, or sees too much of its surroundings");
+  }
+}
+
 glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options) {
   if (options.resolution) return *options.resolution;
   if (camera.aspectRatio <= 0.0) return {1280, 720};
   return {std::clamp(int(std::lround(720.0 * camera.aspectRatio)), 1, 16384), 720};
+}
+
+/// Throws InputError for the first pixel that is NaN or infinite.
+void checkFinite(const Image& image, const std::filesystem::path& path) {
+  for (size_t i = 0; i < image.values.size(); ++i) {
+    if (std::isfinite(image.values[i])) continue;
+    const size_t pixel = i / image.channelCount();
+    throw InputError(path.string() + ": pixel (" + std::to_string(pixel % size_t(image.width)) + ", " +
+                     std::to_string(pixel / size_t(image.width)) + ") is not finite");
+  }
 }
 
 Environment loadEnvironment(const RenderOptions& options, const Scene& scene) {
@@ -47,6 +67,7 @@ Environment loadEnvironment(const RenderOptions& options, const Scene& scene) {
     environment.kind = Surroundings::Map;
     environment.image = readImage(options.hdriFile);
     if (environment.image.channelCount() < 3) throw InputError(options.hdriFile.string() + ": has no colour");
+    checkFinite(environment.image, options.hdriFile);
   } else if (options.defaultLight && !hasOwnLight(scene)) {
     environment.kind = Surroundings::DefaultLight;
     environment.image = {1, 1, {"R", "G", "B"}, {1.0f, 1.0f, 1.0f}, {}};
@@ -57,7 +78,7 @@ Environment loadEnvironment(const RenderOptions& options, const Scene& scene) {
 View makeView(const RenderOptions& options, const Scene& scene, const Camera& camera) {
   View view;
   view.camera = camera;
-  view.sceneOrigin = scene.origin;
+  view.space = scene.space;
   view.hdriRotation = glm::radians(options.hdriRotationDegrees);
   view.background = options.background ? options.backgroundColor : glm::vec3(0.0f);
   view.showEnvironment = options.background && !options.hdriFile.empty();
@@ -107,6 +128,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
   LoadedScene loaded;
   GltfOptions loading;
   loading.recenterOn = options.camera.focalPoint;
+  loading.cameraPosition = options.camera.position;
+  loading.cameraIndex = options.cameraIndex.value_or(0);
   loaded.scene = loadGltf(options.scene, loading);
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));
@@ -115,6 +138,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
   }
   loaded.environment = loadEnvironment(options, scene);
   loaded.camera = chooseCamera(scene, options);
+  checkDistance(loaded.camera, scene.space);
   loaded.size = chooseSize(loaded.camera, options);
   loaded.view = makeView(options, scene, loaded.camera);
   stats.scene = describe(scene);

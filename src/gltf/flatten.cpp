@@ -67,12 +67,11 @@ void reserveIfUsed(std::span<const PrimitiveInstance> instances, size_t total,
   }
 }
 
-void appendVertices(const Vertices& from, const Transform& transform, const glm::dvec3& origin,
-                    Vertices& to) {
+void appendVertices(const Vertices& from, const Transform& transform, const LocalSpace& space, Vertices& to) {
   const size_t first = to.position.size();
   const size_t count = from.position.size();
   for (const glm::vec3& position : from.position) {
-    to.position.emplace_back(transform.positionOf(position) - origin);
+    to.position.emplace_back(space.localOf(transform.positionOf(position)));
   }
   append(to.normal, from.normal, count, glm::vec3(0.0f));
   append(to.tangent, from.tangent, count, glm::vec4(0.0f));
@@ -124,7 +123,7 @@ void flatten(std::span<const PrimitiveInstance> instances, Scene& scene) {
     const Transform transform(instance.world);
     const auto firstVertex = uint32_t(scene.vertices.position.size());
     const auto firstTriangle = uint32_t(scene.triangles.size());
-    appendVertices(instance.primitive->vertices, transform, scene.origin, scene.vertices);
+    appendVertices(instance.primitive->vertices, transform, scene.space, scene.vertices);
     for (Triangle triangle : instance.primitive->triangles) {
       triangle.vertex += glm::uvec3(firstVertex);
       if (transform.mirrors) std::swap(triangle.vertex.y, triangle.vertex.z);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mesh primitives from their own space into the scene's: world space in double precision, recentred, rounded
-// once.
+// Mesh primitives from their own space into the scene's: world space in double precision, then local space,
+// rounded once.
 #pragma once
 
 #include <span>
@@ -23,9 +23,9 @@ struct PrimitiveInstance {
 /// World bounds of all triangles; vertices that no triangle uses do not count.
 BoundsDouble boundsOf(std::span<const PrimitiveInstance> instances);
 
-/// Appends all instances to the scene's vertices, triangles and origins, relative to scene.origin. A
-/// transform that mirrors turns the winding and the handedness of tangents round, so that front stays front.
-/// The totals must fit 32-bit indices.
+/// Appends all instances to the scene's vertices, triangles and origins, in scene.space. A transform that
+/// mirrors turns the winding and the handedness of tangents round, so that front stays front. The totals must
+/// fit 32-bit indices.
 void flatten(std::span<const PrimitiveInstance> instances, Scene& scene);
 
 }  // namespace fragtrace

@@ -2,6 +2,7 @@
 #include "gltf/gltf.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <new>
 
@@ -12,6 +13,7 @@
 #include "gltf/nodes.h"
 #include "gltf/placed.h"
 #include "gltf/primitives.h"
+#include "scene/camera.h"
 
 namespace fragtrace {
 namespace {
@@ -60,20 +62,37 @@ BoundsDouble boundsOf(const std::vector<PlacedSphere>& spheres) {
   return bounds;
 }
 
-/// Chooses the origin and sees to it that single precision can hold the scene around it.
+/// Where the picture will be taken from, as far as it is known; none: the camera that frames the scene.
+std::optional<glm::dvec3> cameraFor(const GltfOptions& options, const Scene& scene) {
+  if (options.cameraPosition) return options.cameraPosition;
+  const size_t index = size_t(std::max(options.cameraIndex, 0));
+  return index < scene.cameras.size() ? std::optional(scene.cameras[index].position) : std::nullopt;
+}
+
+/// Chooses local space.
 void recentre(const GltfOptions& options, const Diagnostics& diagnostics, Scene& scene) {
   const BoundsDouble& bounds = scene.bounds;
-  scene.origin = options.recenterOn.value_or(bounds.empty() ? glm::dvec3(0.0) : bounds.center());
+  LocalSpace& space = scene.space;
+  space.origin =
+      options.recenterOn ? *options.recenterOn : recentringPoint(cameraFor(options, scene), bounds);
   if (bounds.empty()) return;
-  // Shaders multiply up to four lengths (a squared area), which must stay below the largest float, about
-  // 3e38.
-  constexpr double kLargestCoordinate = 1e9;
+  constexpr double kLargest = 1e30;  // metres; depths are floats
   const glm::dvec3 farthest =
-      glm::max(glm::abs(bounds.minimum - scene.origin), glm::abs(bounds.maximum - scene.origin));
-  if (!(std::max({farthest.x, farthest.y, farthest.z}) <= kLargestCoordinate)) {
+      glm::max(glm::abs(bounds.minimum - space.origin), glm::abs(bounds.maximum - space.origin));
+  const double reach = std::max({farthest.x, farthest.y, farthest.z});
+  if (!(reach <= kLargest)) {
     diagnostics.refuse("",
-                       "the scene is more than 1e9 m in size, or as far from the point it is recentred on");
+                       "the scene is more than 1e30 m in size, or as far from the point it is recentred on");
   }
+  // Shaders multiply up to five lengths. Where the scene reaches so far from its origin, triangles of a ten
+  // millionth of it, and cameras a million times as far away, stay within what floats can hold.
+  constexpr double kLeastReach = 0x1p-4;
+  constexpr double kMostReach = 0x1p16;
+  constexpr int kReachBits = 10;
+  if (reach == 0.0 || (reach >= kLeastReach && reach <= kMostReach)) return;
+  int exponent = 0;
+  std::frexp(reach, &exponent);
+  space.unit = std::ldexp(1.0, std::max(exponent, -900) - kReachBits);
 }
 
 /// The default material was appended last, and goes again if nothing uses it.
@@ -109,11 +128,12 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   recentre(options, document.diagnostics, scene);
   flatten(instances, scene);
   for (const PlacedSphere& sphere : spheres) {
-    scene.spheres.push_back({glm::vec3(sphere.center - scene.origin), float(sphere.radius),
-                             glm::quat(sphere.rotation), sphere.material});
+    scene.spheres.push_back({glm::vec3(scene.space.localOf(sphere.center)),
+                             float(sphere.radius / scene.space.unit), glm::quat(sphere.rotation),
+                             sphere.material});
   }
   for (const PlacedNode& node : nodes) {
-    if (const auto light = lightAt(document, node, scene.origin)) scene.lights.push_back(*light);
+    if (const auto light = lightAt(document, node, scene.space)) scene.lights.push_back(*light);
   }
   dropUnusedDefaultMaterial(scene);
   scene.warnings = document.diagnostics.warnings();

@@ -23,7 +23,7 @@ void readSpot(const tinygltf::SpotLight& spot, const std::string& place, const D
 
 }  // namespace
 
-std::optional<Light> lightAt(Document& document, const PlacedNode& node, const glm::dvec3& origin) {
+std::optional<Light> lightAt(Document& document, const PlacedNode& node, const LocalSpace& space) {
   const tinygltf::Node& source = document.model.nodes.at(size_t(node.index));
   const auto extension = source.extensions.find("KHR_lights_punctual");
   if (extension == source.extensions.end()) return std::nullopt;
@@ -40,17 +40,19 @@ std::optional<Light> lightAt(Document& document, const PlacedNode& node, const g
   } else if (described.type != "point") {
     document.diagnostics.refuse(place + "/type", inQuotes(described.type) + " is not a kind of light");
   }
+  // What arrives at a distance of 1 in local space.
+  const double scale = light.type == LightType::Directional ? 1.0 : 1.0 / (space.unit * space.unit);
   for (int c = 0; c < 3; ++c) {
     const double color = described.color.empty() ? 1.0 : described.color.at(size_t(c));
-    light.intensity[c] = float(color * described.intensity);
+    light.intensity[c] = float(color * described.intensity * scale);
     if (!std::isfinite(light.intensity[c]) || light.intensity[c] < 0.0f) {
       document.diagnostics.refuse(place, "colour times intensity is negative or too large");
     }
   }
   // tinygltf says 0 where no range is given.
   if (described.range < 0.0) document.diagnostics.refuse(place + "/range", "is negative");
-  if (described.range > 0.0) light.range = float(described.range);
-  light.position = glm::vec3(glm::dvec3(node.world[3]) - origin);
+  if (described.range > 0.0) light.range = float(described.range / space.unit);
+  light.position = glm::vec3(space.localOf(glm::dvec3(node.world[3])));
   const glm::dvec3 backward(node.world[2]);
   if (glm::length(backward) > 0.0) light.direction = glm::vec3(-glm::normalize(backward));
   return light;

@@ -2,6 +2,7 @@
 #include "gltf/materials.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "gltf/textures.h"
@@ -110,6 +111,10 @@ class MaterialReader {
     if (const auto* emissive = extension("KHR_materials_emissive_strength")) {
       result_.emissiveStrength =
           factor(numberOf(*emissive, "emissiveStrength", 1.0), 0.0f, kLargest, "extensions/emissiveStrength");
+    }
+    for (int c = 0; c < 3; ++c) {
+      if (!std::isfinite(result_.emissiveFactor[c] * result_.emissiveStrength))
+        diagnostics_.refuse(place_, "emissiveFactor times emissiveStrength is too large");
     }
     if (const auto* ior = extension("KHR_materials_ior")) result_.ior = iorOf(numberOf(*ior, "ior", 1.5));
     if (const auto* transmission = extension("KHR_materials_transmission")) {

@@ -9,10 +9,12 @@
 namespace fragtrace {
 namespace {
 
-bool isFinite(const glm::dmat4& matrix) {
+/// Finite, and so are the products of four of its numbers.
+bool isMultiplicable(const glm::dmat4& matrix) {
+  constexpr double kLargest = 1e75;
   for (int c = 0; c < 4; ++c) {
     for (int r = 0; r < 4; ++r) {
-      if (!std::isfinite(matrix[c][r])) return false;
+      if (!(std::abs(matrix[c][r]) <= kLargest)) return false;
     }
   }
   return true;
@@ -124,7 +126,7 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
     const tinygltf::Node& source = document.model.nodes.at(size_t(node.index));
     const std::string place = pointerTo("nodes", node.index);
     node.world = node.world * localTransform(source, place, document.diagnostics);
-    if (!isFinite(node.world)) document.diagnostics.refuse(place, "its world transform overflows");
+    if (!isMultiplicable(node.world)) document.diagnostics.refuse(place, "its world transform overflows");
     placed.push_back(node);
     await(source.children, node.world);
   }

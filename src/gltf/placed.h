@@ -12,8 +12,8 @@ namespace fragtrace {
 /// The node's camera in world space, free of the node's scale; none if the node has no camera.
 std::optional<Camera> cameraAt(const Document& document, const PlacedNode& node);
 
-/// The node's KHR_lights_punctual light; its position is recentred on `origin`.
-std::optional<Light> lightAt(Document& document, const PlacedNode& node, const glm::dvec3& origin);
+/// The node's KHR_lights_punctual light in local space. Throws InputError for one that is too bright there.
+std::optional<Light> lightAt(Document& document, const PlacedNode& node, const LocalSpace& space);
 
 /// A sphere in world space and double precision, as a node places it.
 struct PlacedSphere {

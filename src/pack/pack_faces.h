@@ -5,7 +5,7 @@
 
 namespace fragtrace {
 
-/// A bound in metres on how far a hit point on a triangle of these vertices, rounded to 32-bit floats, lies
+/// A bound on how far a hit point on a triangle of these vertices, rounded to 32-bit floats, lies
 /// off its plane, and on how far in front of its own plane a ray that starts there can still be told to hit
 /// it: 32 units of 2^-24 of the largest coordinate (docs/accuracy.md). It is one number, not one an axis: a
 /// wall through the origin has no rounding across it, but a grazing ray's distance to it carries the rounding

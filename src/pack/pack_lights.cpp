@@ -64,7 +64,9 @@ PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> mater
       const Triangle& t = scene.triangles[i];
       const double radiance = luminance(glm::dvec3(materialRadiance[t.material]));
       const double area = radiance > 0.0 ? triangleArea(scene, t) : 0.0;
-      if (area <= 0.0 || slots[i] == kMissIndex) continue;
+      // Far below what a ray can be aimed at; the shader divides by the area.
+      constexpr double kLeastArea = 1e-30;
+      if (area <= kLeastArea || slots[i] == kMissIndex) continue;
       powers.push_back(radiance * kPi * area);
       kinds.push_back(slots[i]);
       triangles.push_back(uint32_t(i));

@@ -46,12 +46,14 @@ void packAttributes(const Vertices& v, const TraitSet& traits, GpuScene& packed)
   }
 }
 
-/// 1/m along which light is lost: attenuationColor = exp(-absorption * attenuationDistance); a black channel
-/// absorbs all.
-glm::vec3 absorption(const Material& m) {
+/// 1 / local space along which light is lost: attenuationColor = exp(-absorption * attenuationDistance); a
+/// black channel absorbs all.
+glm::vec3 absorption(const Material& m, double unit) {
   if (!std::isfinite(m.attenuationDistance) || m.attenuationDistance <= 0.0f) return glm::vec3(0.0f);
   const glm::vec3 color = glm::max(m.attenuationColor, glm::vec3(1e-20f));
-  return glm::max(-glm::log(color) / m.attenuationDistance, glm::vec3(0.0f));
+  constexpr double kMost = 1e30;  // finite, so that no distance of zero makes it a NaN
+  const glm::dvec3 lost = -glm::log(glm::dvec3(color)) * (unit / double(m.attenuationDistance));
+  return glm::vec3(glm::clamp(lost, glm::dvec3(0.0), glm::dvec3(kMost)));
 }
 
 uint32_t materialFlags(const Material& m) {
@@ -63,14 +65,14 @@ uint32_t materialFlags(const Material& m) {
   return flags;
 }
 
-void appendMaterial(Words& words, const Material& m, double emitterDensity, const TraitSet& traits,
-                    TexturePacker& textures) {
+void appendMaterial(Words& words, const Material& m, double unit, double emitterDensity,
+                    const TraitSet& traits, TexturePacker& textures) {
   const size_t first = words.size();
   appendRow(words, m.baseColorFactor);
   appendRow(words, m.emissiveFactor * m.emissiveStrength, m.alphaCutoff);
   appendRow(words, glm::vec4(m.metallicFactor, m.roughnessFactor, m.ior, m.transmissionFactor));
   appendRow(words, m.specularColorFactor, m.specularFactor);
-  appendRow(words, absorption(m), m.thicknessFactor);
+  appendRow(words, absorption(m, unit), m.thicknessFactor > 0.0f ? 1.0f : 0.0f);
   appendRow(words, glm::vec3(m.normalScale, m.occlusionStrength, float(emitterDensity)), 0.0f);
   words.back() = materialFlags(m);
   appendRow(words, glm::vec4(m.perlinNormal.frequency, m.perlinNormal.amplitude,
@@ -176,7 +178,8 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
 
   Words& materials = packed.buffers[kMaterialsBinding];
   for (size_t i = 0; i < scene.materials.size(); ++i) {
-    appendMaterial(materials, scene.materials[i], emitters.materialDensity[i], traits, textures);
+    appendMaterial(materials, scene.materials[i], scene.space.unit, emitters.materialDensity[i], traits,
+                   textures);
   }
   packed.energyTableRow = uint32_t(materials.size() / 4);
   if (has(variant.stages, Stage::EnergyCompensation)) appendEnergyTable(materials);

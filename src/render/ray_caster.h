@@ -14,7 +14,7 @@
 
 namespace fragtrace {
 
-/// What a ray met: its leaf slot (leaf * 2 + side) or -1, and how far away, metres.
+/// What a ray met: its leaf slot (leaf * 2 + side) or -1, and how far away.
 struct TracedRay {
   int32_t slot = -1;
   float t = 0.0f;

@@ -31,9 +31,9 @@ constexpr double kHardwareDrawMs = 20.0;
 constexpr int kTinyTile = 8;        // pixels
 constexpr uint32_t kGroupSide = 8;  // pixels a side of a work group, as in trace.comp
 
-/// Half extents of the view at distance 1 (perspective) or in metres (orthographic).
-glm::dvec2 halfExtents(const Camera& camera, glm::ivec2 size) {
-  const double height = camera.perspective ? std::tan(0.5 * camera.fovY) : camera.halfHeight;
+/// Half extents of the view at distance 1 (perspective) or in local space (orthographic).
+glm::dvec2 halfExtents(const Camera& camera, double unit, glm::ivec2 size) {
+  const double height = camera.perspective ? std::tan(0.5 * camera.fovY) : camera.halfHeight / unit;
   return {height * size.x / size.y, height};
 }
 
@@ -80,14 +80,14 @@ Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads,
 
 void Renderer::setFrame(const Film& film, const View& view) {
   const Camera& camera = view.camera;
-  const glm::dvec2 half = halfExtents(camera, film.size());
+  const glm::dvec2 half = halfExtents(camera, view.space.unit, film.size());
   const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
   const glm::dvec3 up = glm::cross(right, camera.forward);
   frame_.cameraPosition =
-      glm::vec4(glm::vec3(camera.position - view.sceneOrigin), camera.perspective ? 0.0f : 1.0f);
+      glm::vec4(glm::vec3(view.space.localOf(camera.position)), camera.perspective ? 0.0f : 1.0f);
   frame_.cameraRight = glm::vec4(glm::vec3(right * half.x), 0.0f);
   frame_.cameraUp = glm::vec4(glm::vec3(up * half.y), 0.0f);
-  frame_.cameraForward = glm::vec4(glm::vec3(camera.forward), 0.0f);
+  frame_.cameraForward = glm::vec4(glm::vec3(camera.forward), float(view.space.unit));
   frame_.background = glm::vec4(view.background, view.showEnvironment ? 1.0f : 0.0f);
   frame_.environment.z = float(std::cos(view.hdriRotation));
   frame_.environment.w = float(std::sin(view.hdriRotation));

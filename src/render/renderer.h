@@ -17,7 +17,7 @@ namespace fragtrace {
 /// What can change from picture to picture without touching program or buffers.
 struct View {
   Camera camera;                ///< world space
-  glm::dvec3 sceneOrigin{0.0};  ///< world position of the local origin
+  LocalSpace space;             ///< of the scene
   double hdriRotation = 0.0;    ///< radians about +Y
   glm::vec3 background{0.0f};   ///< seen by camera rays that miss
   bool showEnvironment = true;  ///< camera rays that miss see the environment map instead

@@ -47,6 +47,14 @@ glm::dvec3 focalPointOf(const Camera& camera, const BoundsDouble& bounds) {
   return camera.position + camera.forward * (depth > 0.0 ? depth : radiusOf(bounds));
 }
 
+glm::dvec3 recentringPoint(const std::optional<glm::dvec3>& camera, const BoundsDouble& bounds) {
+  if (bounds.empty()) return camera.value_or(glm::dvec3(0.0));
+  if (!camera) return bounds.center();
+  const glm::dvec3 nearest = glm::clamp(*camera, bounds.minimum, bounds.maximum);
+  const bool close = glm::distance(*camera, nearest) <= 0.125 * glm::length(bounds.extent());
+  return close ? nearest : bounds.center();
+}
+
 Camera withOverrides(Camera camera, const CameraOverrides& overrides, const BoundsDouble& bounds) {
   const glm::dvec3 focalPoint = overrides.focalPoint.value_or(focalPointOf(camera, bounds));
   const glm::dvec3 position = overrides.position.value_or(camera.position);

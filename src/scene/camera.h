@@ -27,6 +27,12 @@ Camera frameScene(const BoundsDouble& bounds);
 /// is not in front of it, as far away as the bounds are large.
 glm::dvec3 focalPointOf(const Camera& camera, const BoundsDouble& bounds);
 
+/// The point on which geometry is best recentred for a picture from `camera`: the nearest point of the
+/// scene's box if the camera stands in it or no farther from it than an eighth of its diagonal, so that
+/// rounding stays small for what is near the camera; else, and without a camera, the centre, which keeps
+/// rounding small everywhere.
+glm::dvec3 recentringPoint(const std::optional<glm::dvec3>& camera, const BoundsDouble& bounds);
+
 /// Replaces what is given: the position alone keeps the focal point, as in VTK; a view-up is made orthogonal
 /// to the view, and one parallel to it gives way to another axis; a view angle makes an orthographic camera
 /// perspective. Throws UsageError if the position is the focal point, or the angle is not between 0 and 180

@@ -39,7 +39,7 @@ SceneDescription describe(const Scene& scene) {
   result.emissiveSpheres = size_t(std::count_if(scene.spheres.begin(), scene.spheres.end(), shines));
   result.extensionsUsed = scene.extensionsUsed;
   result.bounds = scene.bounds;
-  result.origin = scene.origin;
+  result.origin = scene.space.origin;
   return result;
 }
 

@@ -9,7 +9,7 @@ namespace fragtrace {
 struct Ray {
   glm::vec3 origin{0.0f};
   glm::vec3 direction{0.0f};  ///< unit
-  float limit = 0.0f;         ///< hits count nearer than this, metres; 0: there is no ray
+  float limit = 0.0f;         ///< hits count nearer than this; 0: there is no ray
 };
 
 }  // namespace fragtrace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The scene as plain structs joined by indices. Units are metres and radians, colours linear Rec.709.
-// World space is y up; "local" space is world space minus Scene::origin (recentred in double precision).
+// World space is y up; "local" space is what shaders see of it (LocalSpace).
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,16 @@ namespace fragtrace {
 
 /// The one sentinel for "no such index".
 inline constexpr uint32_t kMissIndex = 0xffffffffu;
+
+/// World space recentred, in double precision. Scenes that are very small or very large are also measured in
+/// a power of two of metres, which rounds nothing, so that no number overflows or underflows, as drivers
+/// flush the smallest floats to zero.
+struct LocalSpace {
+  glm::dvec3 origin{0.0};  ///< world position of the local origin
+  double unit = 1.0;       ///< metres a unit of local space
+
+  glm::dvec3 localOf(const glm::dvec3& world) const { return (world - origin) / unit; }
+};
 
 /// An encoded picture (PNG, JPEG, ...) as it stood in the file, a buffer view or a data URI; decoded when
 /// packed.
@@ -98,8 +108,8 @@ struct Triangle {
 
 /// A KHR_implicit_shapes sphere, placed by a node; rotation turns its texture coordinates.
 struct Sphere {
-  glm::vec3 center;  ///< local space
-  float radius = 1.0f;
+  glm::vec3 center;     ///< local space
+  float radius = 1.0f;  ///< local space
   glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
   uint32_t material = 0;
 };
@@ -109,11 +119,11 @@ enum class LightType : uint8_t { Point, Spot, Directional };
 /// A punctual light; intensity is taken as radiometric (nothing is divided by 683).
 struct Light {
   LightType type = LightType::Point;
-  glm::vec3 intensity{
-      1.0f};                 ///< colour * intensity: W/sr; directional: irradiance on a facing surface, W/m^2
-  glm::vec3 position{0.0f};  ///< local space
-  glm::vec3 direction{0, 0, -1};  ///< unit, the way the light shines
-  float range = std::numeric_limits<float>::infinity();
+  glm::vec3 intensity{1.0f};  ///< colour * intensity: irradiance on a facing surface at a distance of 1 in
+                              ///< local space, W/m^2; directional: anywhere
+  glm::vec3 position{0.0f};   ///< local space
+  glm::vec3 direction{0, 0, -1};                         ///< unit, the way the light shines
+  float range = std::numeric_limits<float>::infinity();  ///< local space
   float innerConeAngle = 0.0f;
   float outerConeAngle = 0.7853981634f;
 };
@@ -150,7 +160,7 @@ struct Vertices {
 
 /// Everything the renderer knows of a glTF file. Primitive indices count triangles first, then spheres.
 struct Scene {
-  glm::dvec3 origin{0.0};  ///< world position of the local origin
+  LocalSpace space;
   Vertices vertices;
   std::vector<Triangle> triangles;
   std::vector<Sphere> spheres;

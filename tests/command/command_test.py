@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The command line as a user meets it: exit statuses, messages, files, interruption, statistics."""
 import json
+import math
 import os
 import signal
 import struct
@@ -39,6 +40,11 @@ class ExitStatuses(Case):
 
     def test_a_missing_environment_is_3(self):
         self.fails(3, *self.render(SCENES / "furnace.gltf"), "--hdri-file", self.folder / "no.hdr", says=["no.hdr"])
+
+    def test_an_environment_with_infinity_is_3_and_the_pixel_is_named(self):
+        path = self.folder / "bad-map"
+        path.write_bytes(b"PF\n2 1\n-1.0\n" + struct.pack("<6f", 1, 1, 1, 1, math.inf, 1))
+        self.fails(3, *self.render(SCENES / "furnace.gltf"), "--hdri-file", path, says=["bad-map", "pixel (1, 0)"])
 
     def test_an_unwritable_output_is_1(self):
         self.fails(1, *self.render(SCENES / "furnace.gltf", "no/such/folder/x.pfm"), says=["no/such/folder"])

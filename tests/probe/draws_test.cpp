@@ -46,7 +46,7 @@ class Draws : public GlProbe {
     renderer_ = std::make_unique<Renderer>(context(), packScene(scene, bvh, surroundings, variant_),
                                            BufferReads::Image);
     view_.camera = scene.cameras.front();
-    view_.sceneOrigin = scene.origin;
+    view_.space = scene.space;
     view_.showEnvironment = false;
   }
 

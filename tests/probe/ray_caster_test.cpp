@@ -21,7 +21,7 @@ TEST_P(RayCasting, FindsWhatDoublePrecisionFinds) {
   const Bvh bvh = buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
   const ExactTracer tracer(scene, bvh);
   const glm::ivec2 size(120, 90);
-  std::vector<Ray> primary = primaryRays(frameScene(scene.bounds), glm::dvec3(0.0), size);
+  std::vector<Ray> primary = primaryRays(frameScene(scene.bounds), {}, size);
   const std::vector<ExactHit> hits = tracer.nearest(primary);
   const std::vector<Ray> shadow = shadowRays(tracer, scene, primary, hits, 1);
   primary[0] = Ray{};  // none

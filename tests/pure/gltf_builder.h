@@ -170,7 +170,7 @@ inline glm::vec3 cornerOf(const Scene& scene, size_t triangle, int corner) {
 
 /// World position, from the local one.
 inline glm::dvec3 worldCornerOf(const Scene& scene, size_t triangle, int corner) {
-  return glm::dvec3(cornerOf(scene, triangle, corner)) + scene.origin;
+  return glm::dvec3(cornerOf(scene, triangle, corner)) * scene.space.unit + scene.space.origin;
 }
 
 /// Not unit; on the front side.

@@ -160,7 +160,7 @@ TEST(GltfFiles, AFileWithoutGeometryIsAnEmptyScene) {
   const Scene scene = load(builder);
   EXPECT_TRUE(scene.triangles.empty());
   EXPECT_TRUE(scene.bounds.empty());
-  EXPECT_EQ(scene.origin, glm::dvec3(0.0));
+  EXPECT_EQ(scene.space.origin, glm::dvec3(0.0));
   EXPECT_EQ(scene.materials.size(), 1u);
 }
 

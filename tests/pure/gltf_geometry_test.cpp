@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include "gltf_builder.h"
 
 namespace fragtrace::gltf_test {
@@ -109,6 +110,37 @@ TEST(GltfGeometry, NormalsThatAreNotNumbersAreReplacedAndCounted) {
   EXPECT_TRUE(isNear(scene.vertices.normal.at(2), {1, 0, 0}));
   EXPECT_TRUE(anyWarningHas(scene, "/meshes/0/primitives/0/attributes/NORMAL"));
   EXPECT_TRUE(anyWarningHas(scene, "(2 times)"));
+}
+
+TEST(GltfGeometry, AttributesThatAreNotNumbersAreReplacedAndCounted) {
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    GltfBuilder builder;
+    json& primitive = builder.addTriangle();
+    json& attributes = primitive["attributes"];
+    attributes["NORMAL"] = builder.addAccessor<float>("VEC3", {0, 0, 1, 0, 0, 1, 0, bad, 1});
+    attributes["TEXCOORD_0"] = builder.addAccessor<float>("VEC2", {bad, 0, 0, bad, 0.5, 0.5});
+    attributes["COLOR_0"] = builder.addAccessor<float>("VEC4", {0, 0, 0, bad, 0, 0, 0, 0, 0, 0, 0, 0});
+    attributes["TANGENT"] = builder.addAccessor<float>("VEC4", {1, 0, 0, bad, bad, 0, 0, 1, 1, 0, 0, 1});
+    primitive["material"] = 0;
+    builder.root["materials"] = {{{"extras", {{"perlinNormal", {{"amplitude", 1}}}}}}};
+    const Scene scene = load(builder);
+    const auto finite = [](const auto& vectors) {
+      for (const auto& v : vectors) {
+        for (int c = 0; c < v.length(); ++c) {
+          if (!std::isfinite(v[c])) return false;
+        }
+      }
+      return vectors.size() == 3;
+    };
+    const Vertices& v = scene.vertices;
+    EXPECT_TRUE(finite(v.normal) && finite(v.texcoord0) && finite(v.color) && finite(v.tangent)) << bad;
+    EXPECT_EQ(scene.warnings.size(), 4u);
+    EXPECT_TRUE(anyWarningHas(scene, "TEXCOORD_0: a texture coordinate that is not finite"));
+    EXPECT_TRUE(anyWarningHas(scene, "(2 times)"));
+    EXPECT_TRUE(anyWarningHas(scene, "COLOR_0: a vertex colour that is not finite"));
+    EXPECT_TRUE(anyWarningHas(scene, "TANGENT: a tangent without a direction"));
+    EXPECT_TRUE(anyWarningHas(scene, "NORMAL: a normal without a direction"));
+  }
 }
 
 template <typename Component>

@@ -93,17 +93,45 @@ TEST(GltfNodes, RecentringKeepsPrecisionFarFromTheOrigin) {
   builder.addMesh({{"POSITION", builder.addAccessor<float>("VEC3", {0, 0, 0, 0.001f, 0, 0, 0, 0.001f, 0})}});
   builder.node(0)["translation"] = {1e6, -1e6, 1e6};
   const Scene scene = load(builder);
-  EXPECT_TRUE(isNear(scene.origin, {1e6, -1e6, 1e6}, 1.0));
-  const double edge = double(glm::distance(cornerOf(scene, 0, 0), cornerOf(scene, 0, 1)));
+  EXPECT_TRUE(isNear(scene.space.origin, {1e6, -1e6, 1e6}, 1.0));
+  const double edge = scene.space.unit * double(glm::distance(cornerOf(scene, 0, 0), cornerOf(scene, 0, 1)));
   EXPECT_NEAR(edge, 0.001, 0.001 * 1e-6);
   EXPECT_TRUE(isNear(scene.bounds.maximum, {1e6 + 0.001, -1e6 + 0.001, 1e6}, 1e-9));
+}
+
+/// Numbers that drivers flush to zero, and those whose squares overflow.
+TEST(GltfNodes, LocalSpaceIsOfAnOrdinarySize) {
+  for (const float size : {1e-44f, 1e-39f, 1e-6f, 1e9f, 1e30f}) {
+    GltfBuilder builder;
+    builder.addMesh({{"POSITION", builder.addAccessor<float>("VEC3", {0, 0, 0, size, 0, 0, 0, size, 0})}});
+    const Scene scene = load(builder);
+    const float edge = glm::distance(cornerOf(scene, 0, 0), cornerOf(scene, 0, 1));
+    EXPECT_GT(edge, 1.0f) << size;
+    EXPECT_LE(edge, 2048.0f) << size;
+    EXPECT_EQ(double(edge) * scene.space.unit, double(size));
+    EXPECT_EQ(worldCornerOf(scene, 0, 1), glm::dvec3(double(size), 0, 0));
+  }
+}
+
+/// The nearest point of the scene to the camera, unless it stands far outside.
+TEST(GltfNodes, TheOriginIsNearTheCamera) {
+  GltfBuilder builder;
+  builder.addMesh({{"POSITION", builder.addAccessor<float>("VEC3", {0, 0, 0, 8, 0, 0, 0, 8, 8})}});
+  EXPECT_EQ(load(builder).space.origin, glm::dvec3(4, 4, 4));
+  EXPECT_EQ(load(builder, {.cameraPosition = glm::dvec3(1, 2, 3)}).space.origin, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(load(builder, {.cameraPosition = glm::dvec3(1, 9, 3)}).space.origin, glm::dvec3(1, 8, 3));
+  EXPECT_EQ(load(builder, {.cameraPosition = glm::dvec3(1, 20, 3)}).space.origin, glm::dvec3(4, 4, 4));
+  builder.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+  builder.root["nodes"].push_back({{"camera", 0}, {"translation", {7, 7, 7}}});
+  EXPECT_EQ(load(builder).space.origin, glm::dvec3(7, 7, 7));
+  EXPECT_EQ(load(builder, {.recenterOn = glm::dvec3(2, 2, 2)}).space.origin, glm::dvec3(2, 2, 2));
 }
 
 TEST(GltfNodes, TheOriginMayBeChosen) {
   GltfBuilder builder;
   builder.addTriangle();
   const Scene scene = load(builder, {.recenterOn = glm::dvec3(0, 0, 2)});
-  EXPECT_EQ(scene.origin, glm::dvec3(0, 0, 2));
+  EXPECT_EQ(scene.space.origin, glm::dvec3(0, 0, 2));
   EXPECT_EQ(cornerOf(scene, 0, 1), glm::vec3(1, 0, -2));
 }
 
@@ -183,7 +211,7 @@ TEST(GltfNodes, SphereIsPlacedByItsNode) {
   ASSERT_EQ(scene.spheres.size(), 1u);
   EXPECT_EQ(scene.spheres[0].radius, 0.5f);
   EXPECT_EQ(scene.spheres[0].material, 0u);
-  EXPECT_TRUE(isNear(glm::dvec3(scene.spheres[0].center) + scene.origin, {1, 2, 3}));
+  EXPECT_TRUE(isNear(glm::dvec3(scene.spheres[0].center) + scene.space.origin, {1, 2, 3}));
   EXPECT_EQ(scene.bounds.minimum, glm::dvec3(0.5, 1.5, 2.5));
   EXPECT_EQ(scene.materials.size(), 1u);
 }

@@ -157,6 +157,26 @@ TEST(GltfRefusals, PositionsThatAreNotFinite) {
   }
 }
 
+/// JSON itself has no NaN and no infinity; products of what it has may be.
+TEST(GltfRefusals, FactorsThatAreNotFinite) {
+  const std::string text =
+      R"({"asset": {"version": "2.0"}, "materials": [{"emissiveFactor": [1, 1, NUMBER]}]})";
+  for (const char* number : {"1e999", "-1e999", "NaN", "Infinity"}) {
+    const TemporaryFolder folder;
+    std::string broken = text;
+    broken.replace(broken.find("NUMBER"), 6, number);
+    const std::string refusal = refusalOf(folder.write("test.gltf", broken));
+    EXPECT_TRUE(refusal.starts_with("test.gltf: the JSON is broken: ")) << refusal;
+  }
+  EXPECT_EQ(refusalAfter("/materials/0",
+                         {{"emissiveFactor", {0, 3e38, 0}},
+                          {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 2}}}}}}),
+            "test.gltf: /materials/0: emissiveFactor times emissiveStrength is too large");
+  EXPECT_EQ(
+      refusalAfter("/extensions/KHR_lights_punctual/lights/0/intensity", 1e39),
+      "test.gltf: /extensions/KHR_lights_punctual/lights/0: colour times intensity is negative or too large");
+}
+
 TEST(GltfRefusals, NodesThatAreNoTrees) {
   EXPECT_EQ(refusalAfter("/nodes/1/children", {0}),
             "test.gltf: /nodes/0: is in a loop: it is its own ancestor");
@@ -173,7 +193,10 @@ TEST(GltfRefusals, TransformsThatAreNone) {
   EXPECT_EQ(refusalAfter("/nodes/0/scale", {1, 2}), "test.gltf: /nodes/0/scale: does not hold 3 numbers");
   EXPECT_EQ(refusalAfter("/nodes/0/matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}),
             "test.gltf: /nodes/0/matrix: is not affine: its last row is not 0, 0, 0, 1");
-  EXPECT_NE(refusalAfter("/nodes/0/scale", {1e300, 1, 1}), "");
+  EXPECT_EQ(refusalAfter("/nodes/0/scale", {1e300, 1, 1}),
+            "test.gltf: /nodes/0: its world transform overflows");
+  EXPECT_EQ(refusalAfter("/nodes/0/scale", {1, 1e31, 1}).substr(0, 48),
+            "test.gltf: the scene is more than 1e30 m in size");
 }
 
 TEST(GltfRefusals, ALongChainOfNodesNeitherRecursesNorTakesLong) {

@@ -66,7 +66,7 @@ TEST(ExactTracer, FindsByTheTreeWhatAllPrimitivesGive) {
   const Scene scene = makeBallScene(2000);
   const Bvh bvh = treeOf(scene);
   const ExactTracer tracer(scene, bvh);
-  const std::vector<Ray> rays = primaryRays(frameScene(scene.bounds), glm::dvec3(0.0), {40, 30});
+  const std::vector<Ray> rays = primaryRays(frameScene(scene.bounds), LocalSpace{}, {40, 30});
   EXPECT_EQ(proveTree(tracer, scene.triangles.size(), rays), 500u);
   const std::vector<ExactHit> byTree = tracer.nearest(rays);
   const std::vector<ExactHit> byAll = tracer.nearestOfAll(rays);
@@ -84,7 +84,7 @@ TEST(ProveTree, RefusesATreeThatLosesTriangles) {
   Bvh bvh = treeOf(scene);
   for (size_t i = 0; i < bvh.leaves.size(); i += 7) bvh.leaves[i].primitive = {kMissIndex, kMissIndex};
   const ExactTracer tracer(scene, bvh);
-  const std::vector<Ray> rays = primaryRays(frameScene(scene.bounds), glm::dvec3(0.0), {32, 32});
+  const std::vector<Ray> rays = primaryRays(frameScene(scene.bounds), LocalSpace{}, {32, 32});
   EXPECT_THROW(proveTree(tracer, scene.triangles.size(), rays), RenderError);
 }
 
@@ -121,7 +121,7 @@ TEST(CheckFlatPicture, SeesEveryWrongPixelAwayFromBorders) {
   const Bvh bvh = treeOf(scene);
   const glm::ivec2 size(60, 40);
   const std::vector<ExactHit> hits =
-      ExactTracer(scene, bvh).nearest(primaryRays(frameScene(scene.bounds), glm::dvec3(0.0), size));
+      ExactTracer(scene, bvh).nearest(primaryRays(frameScene(scene.bounds), LocalSpace{}, size));
   const Image right = pictureOf(scene, hits, size);
   const PictureCheck check = checkFlatPicture(right, scene, hits);
   EXPECT_GT(check.compared, 60u * 40u * 8u / 10u);

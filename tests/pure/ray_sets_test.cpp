@@ -38,7 +38,7 @@ struct Room {
 TEST(RaySets, PrimaryRaysGoThroughTheMiddlesOfPixels) {
   Room room;
   room.camera.fovY = glm::radians(90.0);
-  const std::vector<Ray> rays = primaryRays(room.camera, {0.0, 0.25, 0.0}, {4, 2});
+  const std::vector<Ray> rays = primaryRays(room.camera, {{0.0, 0.25, 0.0}}, {4, 2});
   ASSERT_EQ(rays.size(), 8u);
   EXPECT_EQ(countRays(rays), 8u);
   // The first is the bottom left: x from -2 to 2 and the view's up, -z, from -1 to 1 at distance 1.
@@ -49,7 +49,7 @@ TEST(RaySets, PrimaryRaysGoThroughTheMiddlesOfPixels) {
   EXPECT_NEAR(glm::length(rays[3].direction), 1.0, 1e-6);
   room.camera.perspective = false;
   room.camera.halfHeight = 3.0;
-  const std::vector<Ray> parallel = primaryRays(room.camera, glm::dvec3(0.0), {1, 1});
+  const std::vector<Ray> parallel = primaryRays(room.camera, {}, {1, 1});
   EXPECT_EQ(parallel[0].direction, glm::vec3(0, -1, 0));
   EXPECT_EQ(parallel[0].origin, glm::vec3(0, 1, 0));
 }
@@ -57,7 +57,7 @@ TEST(RaySets, PrimaryRaysGoThroughTheMiddlesOfPixels) {
 TEST(RaySets, DiffuseRaysLeaveTheSurfaceWithTheCosine) {
   const Room room;
   const ExactTracer tracer(room.scene, room.bvh);
-  const std::vector<Ray> primary = primaryRays(room.camera, glm::dvec3(0.0), {100, 100});
+  const std::vector<Ray> primary = primaryRays(room.camera, {}, {100, 100});
   const std::vector<ExactHit> hits = tracer.nearest(primary);
   const std::vector<Ray> rays = diffuseRays(tracer, primary, hits, 3);
   ASSERT_EQ(countRays(rays), 10000u);
@@ -86,7 +86,7 @@ TEST(RaySets, DiffuseRaysLeaveTheSurfaceWithTheCosine) {
 TEST(RaySets, ShadowRaysEndJustBeforeTheLamp) {
   const Room room;
   const ExactTracer tracer(room.scene, room.bvh);
-  const std::vector<Ray> primary = primaryRays(room.camera, glm::dvec3(0.0), {64, 64});
+  const std::vector<Ray> primary = primaryRays(room.camera, {}, {64, 64});
   const std::vector<Ray> rays = shadowRays(tracer, room.scene, primary, tracer.nearest(primary), 5);
   ASSERT_EQ(countRays(rays), 64u * 64u);
   glm::dvec3 mean(0.0);
@@ -105,7 +105,7 @@ TEST(RaySets, WithoutALampShadowRaysCrossTheBoxAndNoneGoesBehindItsSurface) {
   const Scene scene = makeBallScene(2000);
   const Bvh bvh = treeOf(scene);
   const ExactTracer tracer(scene, bvh);
-  const std::vector<Ray> primary = primaryRays(frameScene(scene.bounds), glm::dvec3(0.0), {64, 64});
+  const std::vector<Ray> primary = primaryRays(frameScene(scene.bounds), {}, {64, 64});
   const std::vector<ExactHit> hits = tracer.nearest(primary);
   const std::vector<Ray> rays = shadowRays(tracer, scene, primary, hits, 5);
   EXPECT_GT(countRays(rays), 50u);
