@@ -105,7 +105,9 @@ PictureCheck checkPicture(const FilmPixels& picture, const FilmPixels& other, Ch
     block.variance = std::max(block.variance, all.variance / all.pixels * block.pixels);
     const double least = kRounding * (std::abs(block.shown) / block.pixels + 0.01 * shown);
     // All black in both: no error at all.
-    check.farBlocks += block.difference != 0.0 && !(block.errors(least) <= kBlockErrors);
+    const double errors = block.difference != 0.0 ? block.errors(least) : 0.0;
+    check.farBlocks += !(errors <= kBlockErrors);
+    check.worstBlock = std::max(check.worstBlock, errors);
   }
   check.farBlocks /= double(blocks.size());
   check.differing = differing / all.pixels;

@@ -23,6 +23,7 @@ struct PictureCheck {
   double differing = 0.0;   ///< part of the pixels that are apart by more than rounding
   double meanErrors = 0.0;  ///< how many standard errors the means of the whole pictures are apart
   double farBlocks = 0.0;   ///< part of the blocks that are apart by more than kBlockErrors
+  double worstBlock = 0.0;  ///< how many standard errors the worst block is apart
   std::string wrong;        ///< why they do not show the same; empty: they do
 };
 

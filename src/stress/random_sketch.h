@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "bench/dice.h"
+#include "stress/sketch.h"
+
+namespace fragtrace {
+
+/// Scenes of one kind need the same shader.
+inline constexpr uint32_t kSketchKinds = 4;
+
+/// A scene of a few metres: objects in a tree of nodes over a floor and below a lamp, with triangles that
+/// have no area, slivers and duplicates among theirs. Its kind is seed % kSketchKinds: diffuse; metals and
+/// plastics; glass that absorbs; blended surfaces under a point light, too.
+SceneSketch randomSketch(uint32_t seed);
+
+}  // namespace fragtrace

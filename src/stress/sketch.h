@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// A small scene as its author would have it, and as a glTF file: what property tests turn into equivalent
+// forms.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+namespace fragtrace {
+
+struct SketchMaterial {
+  glm::dvec3 color{0.8};
+  double alpha = 1.0;  ///< below 1: blended
+  double metallic = 0.0;
+  double roughness = 0.5;
+  bool doubleSided = false;
+  glm::dvec3 emission{0.0};
+  double transmission = 0.0;
+  double thickness = 0.0;            ///< metres
+  double attenuationDistance = 0.0;  ///< metres; 0: none
+};
+
+struct SketchMesh {
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;  ///< none: flat
+  std::vector<glm::uvec3> triangles;
+  size_t material = 0;
+};
+
+/// Nodes stand behind their parents; those without one are children of the sketch's root.
+struct SketchNode {
+  glm::dmat4 local{1.0};
+  int parent = -1;
+  int mesh = -1;
+};
+
+struct SketchLight {
+  glm::dvec3 position{0.0};
+  double intensity = 1.0;
+};
+
+struct SceneSketch {
+  std::vector<SketchMaterial> materials;
+  std::vector<SketchMesh> meshes;
+  std::vector<SketchNode> nodes;
+  std::vector<SketchLight> lights;
+  glm::dmat4 camera{1.0};
+  double fovY = 0.7;     ///< radians
+  glm::dmat4 root{1.0};  ///< of nodes, lights and the camera
+};
+
+/// The matrix of a camera at a point that looks at another, +y up.
+glm::dmat4 lookingFrom(const glm::dvec3& from, const glm::dvec3& at);
+
+/// The whole file, with its buffer inside.
+std::string gltfText(const SceneSketch& sketch);
+
+}  // namespace fragtrace
