@@ -2,6 +2,7 @@
 #include "stress/stress.h"
 
 #include "stress/rays.h"
+#include "stress/scene_rows.h"
 #include "stress/shading.h"
 #include "stress/shell.h"
 
@@ -25,6 +26,19 @@ std::vector<StressRow> stressRows() {
   rows.push_back({"glass", "nested, touching, of index 1, from inside, in a white furnace", 0.0, false,
                   lookThroughGlass});
   rows.push_back({"contact shadow", "the foot of a wall, from close by", 0.0, false, lookAtContactShadow});
+  for (size_t i = 0; i < kFormNames.size(); ++i) {
+    const std::string name(kFormNames[i]);
+    rows.push_back({"scenes " + name, "random scenes, " + name + ": pictures that differ", 0.0, false,
+                    [i](const StressSetting& setting) { return drawForms(setting, Form(i)); }});
+    rows.push_back({"hits " + name, "random scenes, " + name + ": pixels that show something else", 1e-3,
+                    false, [i](const StressSetting& setting) { return hitForms(setting, Form(i)); }});
+  }
+  rows.push_back({"tree identical", "a million identical triangles, 64 samples a pixel, beside one", 0.0,
+                  false, drawIdentical});
+  rows.push_back({"tree shrinking", "a million triangles from 1 to 1e-6, rays against double precision",
+                  1.0 / 20000.0, false, castAtShrinking});
+  rows.push_back({"film", "16 million samples of 1/3 in a pixel", 0.0, false, addThirds});
+  rows.push_back({"no numbers", "files with NaN, infinity or the largest float", 0.0, false, drawNoNumbers});
   return rows;
 }
 

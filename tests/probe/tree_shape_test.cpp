@@ -27,7 +27,6 @@ class TreeShapes : public GlProbe {
     bvh_ = buildBvh(primitiveBounds(scene_), uint32_t(scene_.triangles.size()));
     RenderOptions options;
     options.stages = stagesUpTo(Stage::Flat);
-    options.stages.set(size_t(Stage::Sobol));
     options.traversal = TraversalMethod::FrontToBack;
     variant_ = chooseVariant(options, traitsOf(scene_, Surroundings::None), Surroundings::None, bvh_.depth,
                              BufferReads::Image);
