@@ -78,7 +78,7 @@ StressOutcome drawIdentical(const StressSetting& setting) {
 
 StressOutcome castAtShrinking(const StressSetting& setting) {
   const glm::ivec2 size = setting.quick ? glm::ivec2(128) : glm::ivec2(1024);
-  const Scene scene = shrinkingTriangles(setting.quick ? 20000 : 1000000);
+  const Scene scene = shrinkingTriangles(setting.quick ? 20000 : 50000);
   const Bvh bvh = buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
   const RenderOptions options = flatOptions(setting, size, 1);
   ShaderVariant variant = chooseVariant(options, traitsOf(scene, Surroundings::None), Surroundings::None,

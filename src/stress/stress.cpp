@@ -35,7 +35,7 @@ std::vector<StressRow> stressRows() {
   }
   rows.push_back({"tree identical", "a million identical triangles, 64 samples a pixel, beside one", 0.0,
                   false, drawIdentical});
-  rows.push_back({"tree shrinking", "a million triangles from 1 to 1e-6, rays against double precision",
+  rows.push_back({"tree shrinking", "50,000 triangles from 1 to 1e-6, rays against double precision",
                   1.0 / 20000.0, false, castAtShrinking});
   rows.push_back({"film", "16 million samples of 1/3 in a pixel", 0.0, false, addThirds});
   rows.push_back({"no numbers", "files with NaN, infinity or the largest float", 0.0, false, drawNoNumbers});
