@@ -17,6 +17,7 @@ namespace fragtrace {
 
 struct InfoOptions {
   std::filesystem::path scene;
+  InputLimits limits;
   bool json = false;
 };
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "image/limits.h"
 #include "scene/scene.h"
 
 namespace fragtrace {
@@ -11,6 +12,7 @@ namespace fragtrace {
 struct GltfOptions {
   std::optional<glm::dvec3>
       recenterOn;  ///< world position that becomes the local origin; none: the scene's centre
+  InputLimits limits;
 };
 
 /// Reads a .gltf (with files beside it or data URIs) or .glb into a Scene whose geometry is recentred.

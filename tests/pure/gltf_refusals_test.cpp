@@ -16,7 +16,7 @@ GltfBuilder validScene() {
   json& primitive = builder.addTriangle();
   primitive["indices"] = builder.addAccessor<uint16_t>("SCALAR", {0, 1, 2});
   primitive["material"] = 0;
-  builder.root["images"] = {{{"uri", "data:image/png;base64,AAAA"}}};
+  builder.root["images"] = {{{"uri", kPixelUri}}};
   builder.root["textures"] = {{{"source", 0}}};
   builder.root["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
   builder.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};

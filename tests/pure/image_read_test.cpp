@@ -123,8 +123,9 @@ TEST(ImageTexels, EveryTruncationIsAnErrorThatNamesThePicture) {
 
 TEST(ImageTexels, JpegIsCompleteOnlyWithItsEndMarker) {
   const Bytes whole = samples::kProgressiveJpeg;
-  EXPECT_TRUE(isCompleteJpeg(whole));
-  for (size_t size = 0; size < whole.size(); ++size) EXPECT_FALSE(isCompleteJpeg(whole.first(size))) << size;
+  EXPECT_TRUE(readJpegFrame(whole).complete);
+  for (size_t size = 0; size < whole.size(); ++size)
+    EXPECT_FALSE(readJpegFrame(whole.first(size)).complete) << size;
 }
 
 TEST(ImageTexels, WrongProfileAndTruncationOfPngPrintNothing) {
