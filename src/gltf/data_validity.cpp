@@ -146,6 +146,7 @@ class DataChecker {
       if (accessor.contains("byteOffset")) warn(place + "/byteOffset", "has no buffer view to begin in");
       return;
     }
+    checkStride(accessor, place);
     constexpr uint64_t kColumnAlignment = 4;
     const uint64_t offset = accessor.value("byteOffset", uint64_t(0));
     const uint64_t size = componentSizeOf(accessor);
@@ -154,6 +155,16 @@ class DataChecker {
       warn(place + "/byteOffset", "is not aligned to its components; it is read all the same");
     if (total % size != 0)
       warn(place, "does not begin at a multiple of its component's size; it is read all the same");
+  }
+
+  /// Used ones are refused when they are read.
+  void checkStride(const json& accessor, const std::string& place) {
+    const std::string type = accessor.value("type", "");
+    const uint64_t components = type.starts_with("VEC") ? uint64_t(type.back() - '0')
+                                : type == "SCALAR"      ? 1
+                                                        : 0;
+    const uint64_t stride = viewOf(accessor).value("byteStride", UINT64_MAX);
+    if (stride < components * componentSizeOf(accessor)) warn(place, "has elements that overlap");
   }
 
   void checkImage(const json& image, const std::string& place) {

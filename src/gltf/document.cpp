@@ -74,6 +74,8 @@ Buffers readBuffers(json& root, Container& container, Document& document) {
   const json& described = arrayIn(root, "buffers");
   for (size_t i = 0; i < described.size(); ++i) {
     const json& buffer = described[i];
+    const auto length = buffer["byteLength"].get<uint64_t>();
+    if (length == 0) diagnostics.refuse(pointerTo("buffers", i, "byteLength"), "is 0");
     std::vector<uint8_t> bytes;
     if (buffer.contains("uri")) {
       const std::string place = pointerTo("buffers", i, "uri");
@@ -90,8 +92,6 @@ Buffers readBuffers(json& root, Container& container, Document& document) {
       buffers.emplace_back();  // an extension may bring it; bytesOf refuses its use
       continue;
     }
-    const auto length = buffer["byteLength"].get<uint64_t>();
-    if (length == 0) diagnostics.refuse(pointerTo("buffers", i, "byteLength"), "is 0");
     if (length > bytes.size()) {
       diagnostics.refuse(pointerTo("buffers", i), "holds " + std::to_string(bytes.size()) +
                                                       " bytes, fewer than its byteLength of " +
@@ -139,6 +139,15 @@ void emptyUnknownAccessors(json& root, Diagnostics& diagnostics) {
     if (isKnown) continue;
     diagnostics.warn(pointerTo("accessors", i), "has a type that glTF does not know, and is taken as empty");
     accessor = {{"type", "SCALAR"}, {"componentType", kComponentTypes.back()}, {"count", 0}};
+  }
+}
+
+/// tinygltf refuses spot lights without a cone, of which the default is meant.
+void addDefaultCones(json& root) {
+  const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+  if (!root.contains(lights)) return;
+  for (json& light : root[lights]) {
+    if (light["type"] == "spot") light.emplace("spot", json::object());
   }
 }
 
@@ -252,6 +261,7 @@ Document readDocument(const std::filesystem::path& path, const GltfOptions& opti
   checkBufferViews(root, diagnostics);
   checkDataValidity(root, diagnostics);
   emptyUnknownAccessors(root, diagnostics);
+  addDefaultCones(root);
   dropAnimations(root, diagnostics);
   document.images = takeImages(root, diagnostics);
   nameBuffers(root, buffers);

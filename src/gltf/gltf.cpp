@@ -48,9 +48,10 @@ std::vector<PrimitiveInstance> placeMeshes(Document& document, const std::vector
                                         std::to_string(vertexCount) +
                                         " vertices are too many for 32-bit indices");
   }
-  // The scene's own copy, the tree over it, and what is packed for the device.
-  constexpr uint64_t kBytesOfAVertex = 200;
-  constexpr uint64_t kBytesOfATriangle = 300;
+  // The scene's own copy, the tree over it, and what is packed for the device, which are not all there at
+  // once.
+  constexpr uint64_t kBytesOfAVertex = 100;
+  constexpr uint64_t kBytesOfATriangle = 150;
   takeMemory(document, "", vertexCount * kBytesOfAVertex + triangleCount * kBytesOfATriangle);
   return instances;
 }

@@ -98,7 +98,7 @@ TEST(GltfLimits, ManyNodesThatShowAMeshAreCountedBeforeItIsCopied) {
   builder.addTriangle();
   for (int i = 0; i < 10000; ++i) builder.root["nodes"].push_back({{"mesh", 0}});
   GltfOptions options;
-  options.limits.memoryBytes = 10'000'000;
+  options.limits.memoryBytes = 20'000'000;
   EXPECT_EQ(load(builder, options).triangles.size(), 10001u);
   options.limits.memoryBytes = 8'000'000;
   EXPECT_THROW(load(builder, options), InputError);

@@ -162,7 +162,8 @@ TEST(GltfRefusals, NodesThatAreNoTrees) {
             "test.gltf: /nodes/0: is in a loop: it is its own ancestor");
   EXPECT_EQ(refusalAfter("/nodes/0/children", {0}),
             "test.gltf: /nodes/0: is in a loop: it is its own ancestor");
-  EXPECT_EQ(refusalAfter("/nodes/0/children", {1, 1}), "test.gltf: /nodes/1: has two parents, nodes 0 and 0");
+  EXPECT_EQ(refusalAfter("/nodes/0/children", {1, 1}),
+            "test.gltf: /nodes/0/children/1: node 1 is already a child of node 0");
   EXPECT_EQ(refusalAfter("/scenes/0/nodes", {1}), "test.gltf: /scenes/0/nodes: node 1 is not a root node");
   EXPECT_EQ(refusalAfter("/scenes/0/nodes", {0, 0}), "test.gltf: /scenes/0/nodes: names node 0 twice");
 }
