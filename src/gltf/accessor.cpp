@@ -107,7 +107,8 @@ Elements elementsOf(const Document& document, int index) {
   elements.componentType = accessor.componentType;
   elements.components = tinygltf::GetNumComponentsInType(uint32_t(accessor.type));
   elements.normalized = accessor.normalized;
-  if (accessor.count == 0) document.diagnostics.refuse(place + "/count", "is 0");
+  if (accessor.count == 0)
+    document.diagnostics.refuse(place, "has no elements, or a type that glTF does not know");
   if (componentSize(accessor.componentType) == 0) {
     document.diagnostics.refuse(place + "/componentType",
                                 std::to_string(accessor.componentType) + " is not a component type");

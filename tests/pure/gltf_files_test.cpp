@@ -147,7 +147,7 @@ TEST(GltfFiles, SkinsMorphTargetsAndAnimationsWarnOnceEach) {
   builder.root["skins"] = {{{"joints", {0}}}};
   builder.node(0)["skin"] = 0;
   builder.node(1)["skin"] = 0;
-  builder.root["animations"] = {{{"channels", json::array()}, {"samplers", json::array()}}};
+  builder.root["animations"] = {{{"channels", {{}}}, {"samplers", {{}}}}};
   const Scene scene = load(builder);
   EXPECT_EQ(scene.triangles.size(), 2u);
   EXPECT_EQ(scene.warnings.size(), 3u);

@@ -44,7 +44,8 @@ TEST(GltfLimits, AnyIntegerMayBeAnyOther) {
   const GltfBuilder valid = integerScene();
   const TemporaryFolder folder;
   size_t count = 0;
-  for (const auto& member : valid.root.flatten().items()) {
+  const json flat = valid.root.flatten();
+  for (const auto& member : flat.items()) {
     if (!member.value().is_number_integer()) continue;
     for (const uint64_t value :
          {uint64_t(0), uint64_t(1) << 31, uint64_t(1) << 32, uint64_t(1) << 62, UINT64_MAX}) {
@@ -120,7 +121,7 @@ std::string refusalOfUri(const TemporaryFolder& folder, const std::string& uri, 
   builder.root["buffers"] = {{{"byteLength", builder.buffer().size()}, {"uri", uri}}};
   GltfOptions options;
   options.limits.allowExternalFiles = allowExternal;
-  std::filesystem::create_directories(folder.path() / "scene");
+  std::filesystem::create_directories(folder.path() / "scene/sub");
   folder.write("out.bin", builder.buffer());
   folder.write("scene/in.bin", builder.buffer());
   try {
