@@ -150,7 +150,10 @@ std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, uin
     if (file < 0) throw std::runtime_error("cannot be opened: " + std::generic_category().message(errno));
     return readRegularFile(file, access, limit);
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(path.string() + " " + error.what());
+    // A data URI whose first letters are wrong is such a name, too.
+    constexpr size_t kLongestName = 512;
+    const std::string name = path.string();
+    throw std::runtime_error((name.size() <= kLongestName ? name : inQuotes(uri)) + " " + error.what());
   }
 }
 

@@ -149,6 +149,14 @@ TEST(GltfLimits, UrisStayInTheFolder) {
         << uri;
 }
 
+/// Found by the fuzzer: a data URI whose "data:" is misspelt is a file's name.
+TEST(GltfLimits, ANameOfThousandsOfBytesIsShortened) {
+  const TemporaryFolder folder;
+  const std::string refusal = refusalOfUri(folder, "dat~:a/b;base64," + std::string(5000, 'A'));
+  EXPECT_NE(refusal.find("AA...\" cannot be opened"), std::string::npos) << refusal;
+  EXPECT_LT(refusal.size(), 500u);
+}
+
 TEST(GltfLimits, UrisLeadToRegularFilesOnly) {
   const TemporaryFolder folder;
   EXPECT_EQ(refusalOfUri(folder, "in.bin"), "");
