@@ -58,6 +58,8 @@ std::vector<uint8_t> decodeBase64(std::string_view text) {
 std::vector<uint8_t> decodeDataUri(std::string_view uri, uint64_t limit) {
   const size_t comma = uri.find(',');
   if (comma == std::string_view::npos) throw std::runtime_error("the data URI has no comma");
+  if (uri.substr(0, comma).find(";;") != std::string_view::npos)
+    throw std::runtime_error("the data URI has an empty parameter");
   const std::string_view payload = uri.substr(comma + 1);
   MemoryBudget(limit).take(payload.size());
   if (uri.substr(0, comma).ends_with(";base64")) return decodeBase64(payload);

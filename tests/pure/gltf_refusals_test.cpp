@@ -117,6 +117,8 @@ TEST(GltfRefusals, BufferShorterThanItSays) {
             "test.gltf: /buffers/0: holds 42 bytes, fewer than its byteLength of 43");
   EXPECT_EQ(refusalAfter("/buffers/0/uri", "data:;base64,!!!!"),
             "test.gltf: /buffers/0/uri: the data URI is not valid base64");
+  EXPECT_EQ(refusalAfter("/buffers/0/uri", "data:application/octet-stream;;base64,AA=="),
+            "test.gltf: /buffers/0/uri: the data URI has an empty parameter");
   EXPECT_NE(refusalAfter("/buffers/0/uri", "/dev/zero").find("leads out of the scene's folder"),
             std::string::npos);
 }
