@@ -48,8 +48,8 @@ std::vector<BaselineEntry> parseBaseline(const std::string& text, const std::str
     ++number;
     if (line.empty()) continue;
     const auto refuse = [&](const std::string& why) {
-      std::string text = name + ": line " + std::to_string(number) + " is none of `bench frame --json`: ";
-      return InputError(text += why);
+      std::string said = name + ": line " + std::to_string(number) + " is none of `bench frame --json`: ";
+      return InputError(said += why);
     };
     try {
       entries.push_back(entryOf(nlohmann::json::parse(line)));

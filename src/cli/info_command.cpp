@@ -47,7 +47,10 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
   }
   std::printf("  tree        %u nodes, %u leaves, depth %u, %.2f primitives a leaf, SAH cost %.2f\n",
               bvh.nodeCount, bvh.leafCount, bvh.depth, bvh.primitivesPerLeaf, bvh.sahCost);
-  if (bytesPerTriangle > 0.0) std::printf("  GPU memory  %.1f bytes a triangle\n", bytesPerTriangle);
+  const double geometry = bytesPerTriangle * double(s.triangles);
+  std::printf("  GPU memory  %.1f MB: geometry %.1f (%.1f bytes a triangle), textures %.1f\n",
+              (geometry + double(s.texelBytes)) / 1e6, geometry / 1e6, bytesPerTriangle,
+              double(s.texelBytes) / 1e6);
   for (const StageRow& row : stageRows()) {
     const std::string reason = whyOff(row.stage, traits);
     if (!reason.empty()) std::printf("  not needed  %s (%s)\n", row.name, reason.c_str());
@@ -57,7 +60,9 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
 }  // namespace
 
 int runInfo(const InfoOptions& options) {
-  const Scene scene = loadGltf(options.scene);
+  GltfOptions loading;
+  loading.limits = options.limits;
+  const Scene scene = loadGltf(options.scene, loading);
   const SceneDescription description = describe(scene);
   const Bvh tree = buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
   const BvhQuality bvh = bvhQuality(tree);
@@ -76,6 +81,7 @@ int runInfo(const InfoOptions& options) {
   json["scene"] = sceneJson(description);
   json["bvh"] = bvhJson(bvh);
   if (bytesPerTriangle > 0.0) json["gpu_bytes_per_triangle"] = bytesPerTriangle;
+  json["texture_bytes"] = description.texelBytes;
   nlohmann::ordered_json notNeeded = nlohmann::ordered_json::object();
   for (const StageRow& row : stageRows()) {
     const std::string reason = whyOff(row.stage, traits);

@@ -13,6 +13,7 @@ constexpr int kInterruptedStatus = 130;
 // The first line ends that of a progress bar.
 constexpr std::string_view kSaidOnTerminal = "\nfragtrace: interrupted, nothing is written\n";
 constexpr std::string_view kSaid = kSaidOnTerminal.substr(1);
+constexpr int kCrashedStatus = 1;
 volatile std::sig_atomic_t interruptCount = 0;
 volatile std::sig_atomic_t onTerminal = 0;
 
@@ -33,6 +34,20 @@ void exitOnInterrupt() {
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, said.data(), said.size());
     _exit(kInterruptedStatus);
   });
+}
+
+void sayWhenCrashing() {
+#ifndef __SANITIZE_ADDRESS__  // which says more
+  struct sigaction action {};
+  action.sa_handler = [](int) {
+    static constexpr char kMessage[] =
+        "fragtrace: a library or the driver crashed, perhaps for want of memory; nothing is written\n";
+    (void)!::write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
+    _exit(kCrashedStatus);
+  };
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(signal, &action, nullptr);
+#endif
 }
 
 void countInterrupts() {

@@ -14,4 +14,7 @@ int interrupts();
 /// written yet.
 void exitOnInterrupt();
 
+/// From now on a crash, such as Mesa's when an allocation fails, ends with a message and status 1.
+void sayWhenCrashing();
+
 }  // namespace fragtrace

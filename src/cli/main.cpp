@@ -23,6 +23,7 @@ int run(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   exitOnInterrupt();
+  sayWhenCrashing();
   const std::optional<CommandLine> line = parseCommandLine(argc, argv);
   if (!line) return kDone;
   switch (line->command) {

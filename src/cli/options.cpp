@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "cli/choose.h"
+#include "cli/input_options.h"
 #include "cli/render_options.h"
 #include "image/format.h"
 #include "image/image.h"
@@ -45,6 +46,7 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   CLI::App& info = *app.add_subcommand("info", "say what is in a scene");
   info.add_option("scene", infoScene, ".gltf or .glb file")->required();
   info.add_flag("--json", line.info.json, "as JSON");
+  addInputOptions(info, line.info.limits);
   CLI::App& diff = *app.add_subcommand("diff", "compare a picture with a reference");
   diff.add_option("picture", picture)->required();
   diff.add_option("reference", reference)->required();

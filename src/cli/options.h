@@ -18,6 +18,7 @@ namespace fragtrace {
 
 struct InfoOptions {
   std::filesystem::path scene;
+  InputLimits limits;
   bool json = false;
 };
 

@@ -2,7 +2,6 @@
 // The command line as a pipeline: scene, tree, context, packed scene, renderer, film, picture.
 #include <cmath>
 #include <cstdio>
-#include <future>
 
 #include "cli/commands.h"
 #include "cli/interrupt.h"
@@ -15,7 +14,7 @@
 #include "image/channels.h"
 #include "image/format.h"
 #include "image/heatmap.h"
-#include "image/library.h"
+#include "image/process.h"
 #include "image/tone_map.h"
 #include "render/adaptive.h"
 
@@ -146,9 +145,8 @@ int runRender(const RenderOptions& options) {
   checkOutputs(outputsOf(options), inputsOf(options));
   Statistics stats;
 
-  // Step: load. The image library opens meanwhile when the output needs it.
-  std::future<void> library;
-  if (options.output.extension() != ".pfm") library = std::async(std::launch::async, preloadImageLibrary);
+  // Step: load. The image library opens meanwhile, in its own process, when the output needs it.
+  if (options.output.extension() != ".pfm") startImageProcess();
   LoadedScene loaded = loadScene(options, stats);
 
   // Step: the shader variant, and the arrays that it reads.
@@ -194,7 +192,6 @@ int runRender(const RenderOptions& options) {
     setProvenance(picture, {settingsText(options, loaded, tracer), options.seed, options.sampleOffset,
                             std::llround(samplesPerPixel(stats)), uniform});
   }
-  if (library.valid()) library.wait();
   writePicture(options, picture);
   if (!options.statsFile.empty()) writeStatistics(options.statsFile, stats);
   sayWhatWasDone(options, stats);

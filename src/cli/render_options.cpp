@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "cli/choose.h"
+#include "cli/input_options.h"
 #include "image/format.h"
 #include "image/image.h"
 
@@ -229,6 +230,7 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
       ->capture_default_str();
   app.add_option("--dispatch", raw.dispatch, joined(kDispatchNames) + ": which shader stage runs the tracer")
       ->capture_default_str();
+  addInputOptions(app, o.limits);
   app.add_option("--stats", raw.statsFile, "JSON file for the statistics");
   app.add_option("--shader-folder", raw.shaderFolder,
                  "read the shaders from here in place of the built-in ones");

@@ -11,7 +11,9 @@
 #include "gltf/gltf.h"
 #include "image/format.h"
 #include "image/image.h"
+#include "image/process.h"
 #include "pack/literals.h"
+#include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
 
 namespace fragtrace {
@@ -65,7 +67,7 @@ Environment loadEnvironment(const RenderOptions& options, const Scene& scene) {
   Environment environment;
   if (!options.hdriFile.empty()) {
     environment.kind = Surroundings::Map;
-    environment.image = readImage(options.hdriFile);
+    environment.image = readImage(options.hdriFile, options.limits.memoryBytes);
     if (environment.image.channelCount() < 3) throw InputError(options.hdriFile.string() + ": has no colour");
     checkFinite(environment.image, options.hdriFile);
   } else if (options.defaultLight && !hasOwnLight(scene)) {
@@ -130,7 +132,9 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
   loading.recenterOn = options.camera.focalPoint;
   loading.cameraPosition = options.camera.position;
   loading.cameraIndex = options.cameraIndex.value_or(0);
+  loading.limits = options.limits;
   loaded.scene = loadGltf(options.scene, loading);
+  if (!loaded.scene.images.empty()) startImageProcess();
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));
   if (scene.triangles.empty() && scene.spheres.empty()) {
@@ -202,7 +206,12 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
     if (!reason.empty()) stats.skipped.push_back(std::string(row.name) + ": " + reason);
   }
   Stopwatch watch;
-  GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything);
+  const int textureSide = textureSideWithin(loaded.scene, mostTexelBytes(options.bufferReads, readLimits()));
+  if (textureSide < kLargestTextureSide) {
+    say(options, "warning: the textures are larger than what this driver reads; those wider or higher than " +
+                     std::to_string(textureSide) + " pixels are scaled down");
+  }
+  GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, textureSide);
   useLiterals(loaded, packed, options, tracer.variant);
   for (ShaderVariant& feature : tracer.features) {
     if (loaded.bvh.besideTree > 0) useLiterals(loaded, packed, options, feature);

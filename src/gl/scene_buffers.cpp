@@ -51,6 +51,12 @@ ReadLimits readLimits() {
           limit(GL_MAX_IMAGE_UNITS)};
 }
 
+int64_t mostTexelBytes(BufferReads wanted, const ReadLimits& limits) {
+  const auto most = [&](BufferReads reads) { return mostBytes(reads, layout::kTexelsBinding, limits); };
+  return wanted == BufferReads::Auto ? std::max(most(BufferReads::Ssbo), most(BufferReads::Image))
+                                     : most(wanted);
+}
+
 ReadChoice chooseReads(BufferReads wanted, bool software, const GpuScene& scene, const ReadLimits& limits) {
   if (wanted != BufferReads::Auto) return {wanted, {}};
   const BufferReads first = software ? BufferReads::Image : BufferReads::Ssbo;

@@ -107,7 +107,8 @@ Elements elementsOf(const Document& document, int index) {
   elements.componentType = accessor.componentType;
   elements.components = tinygltf::GetNumComponentsInType(uint32_t(accessor.type));
   elements.normalized = accessor.normalized;
-  if (accessor.count == 0) document.diagnostics.refuse(place + "/count", "is 0");
+  if (accessor.count == 0)
+    document.diagnostics.refuse(place, "has no elements, or a type that glTF does not know");
   if (componentSize(accessor.componentType) == 0) {
     document.diagnostics.refuse(place + "/componentType",
                                 std::to_string(accessor.componentType) + " is not a component type");
@@ -205,6 +206,23 @@ std::vector<Vector> decodeAttribute(const Document& document, int accessor, cons
 }
 
 }  // namespace
+
+void checkAccessors(const Document& document) {
+  const auto hasData = [&document](int index) {
+    if (index < 0) return true;
+    const tinygltf::BufferView& view = document.model.bufferViews.at(size_t(index));
+    const size_t size = document.model.buffers.at(size_t(view.buffer)).data.size();
+    return view.byteOffset <= size && view.byteLength <= size - view.byteOffset;
+  };
+  for (size_t i = 0; i < document.model.accessors.size(); ++i) {
+    const tinygltf::Accessor& accessor = document.model.accessors[i];
+    if (accessor.count == 0 || !hasData(accessor.bufferView)) continue;
+    const Elements elements = elementsOf(document, int(i));
+    if (!accessor.sparse.isSparse) continue;
+    if (hasData(accessor.sparse.indices.bufferView) && hasData(accessor.sparse.values.bufferView))
+      sparseElementsOf(document, int(i), elements);
+  }
+}
 
 size_t accessorCount(const Document& document, int accessor) {
   return document.model.accessors.at(size_t(accessor)).count;

@@ -11,6 +11,10 @@
 
 namespace fragtrace {
 
+/// Refuses every accessor, used or not, that reaches out of its buffer view, and every sparse index past its
+/// elements; left out are those whose buffer an extension would bring.
+void checkAccessors(const Document& document);
+
 /// Number of elements of an accessor.
 size_t accessorCount(const Document& document, int accessor);
 

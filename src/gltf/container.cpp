@@ -4,13 +4,14 @@
 #include <cstring>
 #include <string_view>
 
-#include "gltf/uri.h"
+#include "image/whole_file.h"
 
 namespace fragtrace {
 namespace {
 
 constexpr size_t kHeaderSize = 12;
 constexpr size_t kChunkHeaderSize = 8;
+constexpr size_t kChunkAlignment = 4;
 constexpr uint32_t kJsonChunk = 0x4e4f534a;
 constexpr uint32_t kBinaryChunk = 0x004e4942;
 
@@ -30,7 +31,10 @@ Container splitGlb(const std::vector<uint8_t>& bytes, Diagnostics& diagnostics) 
                                " bytes, the file has " + std::to_string(bytes.size()));
   }
 
+  if (length < bytes.size()) diagnostics.warn("", "holds more bytes than its header says; they are ignored");
+
   Container container;
+  container.isGlb = true;
   size_t offset = kHeaderSize;
   for (size_t chunk = 0; offset < length; ++chunk) {
     if (length - offset < kChunkHeaderSize) {
@@ -44,12 +48,17 @@ Container splitGlb(const std::vector<uint8_t>& bytes, Diagnostics& diagnostics) 
                                  " bytes reaches past the end of the file");
     }
     const uint8_t* data = bytes.data() + offset;
+    if (size % kChunkAlignment != 0)
+      diagnostics.warn("",
+                       "chunk " + std::to_string(chunk) + " of the .glb is not a multiple of 4 bytes long");
     if (chunk == 0) {
       if (type != kJsonChunk) diagnostics.refuse("", "broken .glb: its first chunk is not JSON");
       container.json.assign(reinterpret_cast<const char*>(data), size);
     } else if (chunk == 1 && type == kBinaryChunk) {
       container.binary.assign(data, data + size);
       container.hasBinary = true;
+    } else if (type == kBinaryChunk || type == kJsonChunk) {
+      diagnostics.warn("", "chunk " + std::to_string(chunk) + " of the .glb is one too many, and ignored");
     }
     offset += size;
   }
@@ -59,20 +68,18 @@ Container splitGlb(const std::vector<uint8_t>& bytes, Diagnostics& diagnostics) 
 
 }  // namespace
 
-Container readContainer(const std::filesystem::path& path, Diagnostics& diagnostics) {
-  std::string reason;
-  std::vector<uint8_t> bytes;
-  if (!readFile(path, bytes, reason)) diagnostics.refuse("", reason);
+Container readContainer(const std::filesystem::path& path, uint64_t memoryLimit, Diagnostics& diagnostics) {
+  const std::vector<uint8_t> bytes = diagnostics.attempt("", [&] { return readBytes(path, memoryLimit); });
   if (bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0) return splitGlb(bytes, diagnostics);
 
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const std::string_view withoutMark = text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
-  const size_t start = withoutMark.find_first_not_of(" \t\r\n");
-  if (start == std::string_view::npos || withoutMark[start] != '{') {
+  const size_t mark = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
+  const size_t start = text.find_first_not_of(" \t\r\n", mark);
+  if (start == std::string_view::npos || text[start] != '{') {
     diagnostics.refuse("", bytes.empty() ? "is empty, not glTF" : "is not glTF: neither JSON nor a .glb");
   }
   Container container;
-  container.json = withoutMark;
+  container.json = text;
   return container;
 }
 

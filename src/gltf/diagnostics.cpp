@@ -7,6 +7,20 @@
 
 namespace fragtrace {
 
+std::string escapedForPointer(std::string_view name) {
+  std::string escaped;
+  for (const char c : name) {
+    if (c == '~') {
+      escaped += "~0";
+    } else if (c == '/') {
+      escaped += "~1";
+    } else {
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
 std::string inQuotes(std::string_view text) {
   constexpr size_t kLongestQuote = 80;
   std::string result = "\"";

@@ -9,7 +9,12 @@
 #include <type_traits>
 #include <vector>
 
+#include "errors.h"
+
 namespace fragtrace {
+
+/// A name as a part of a JSON pointer: ~ and / are escaped (RFC 6901).
+std::string escapedForPointer(std::string_view name);
 
 /// Joins names and indices to a JSON pointer: pointerTo("meshes", 0, "primitives") is "/meshes/0/primitives".
 template <typename... Parts>
@@ -20,7 +25,7 @@ std::string pointerTo(const Parts&... parts) {
     if constexpr (std::is_arithmetic_v<std::decay_t<decltype(part)>>) {
       pointer += std::to_string(part);
     } else {
-      pointer += part;
+      pointer += escapedForPointer(part);
     }
   };
   (append(parts), ...);
@@ -37,6 +42,18 @@ class Diagnostics {
 
   /// Throws InputError "FILE: PLACE: REASON"; an empty place is left out.
   [[noreturn]] void refuse(std::string_view place, std::string_view reason) const;
+
+  /// Does something whose std::runtime_error is the reason to refuse that place.
+  template <typename Action>
+  auto attempt(std::string_view place, const Action& action) const {
+    try {
+      return action();
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      refuse(place, error.what());
+    }
+  }
 
   /// Notes something that is skipped or mended; the same reason at several places makes one line with a
   /// count.

@@ -8,9 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "gltf/accessor.h"
 #include "gltf/container.h"
+#include "gltf/json.h"
 #include "gltf/schema.h"
-#include "gltf/uri.h"
+#include "gltf/validity.h"
 
 namespace fragtrace {
 namespace {
@@ -38,14 +40,13 @@ json& arrayIn(json& root, const char* name) {
   return array;
 }
 
-void checkVersion(const json& asset, const Diagnostics& diagnostics) {
-  const auto& version = asset["version"].get_ref<const std::string&>();
-  if (!version.starts_with("2.")) {
-    diagnostics.refuse("/asset/version", "glTF " + inQuotes(version) + " is not supported, only 2.x is");
-  }
-  if (asset.contains("minVersion") && asset["minVersion"] != "2.0") {
-    diagnostics.refuse("/asset/minVersion", "glTF 2.0 is supported, not " + asset["minVersion"].dump());
-  }
+/// Warns of a data URI that says it is something else.
+void warnMediaType(std::string_view uri, const std::string& place,
+                   std::initializer_list<std::string_view> expected, Diagnostics& diagnostics) {
+  if (!isDataUri(uri)) return;
+  const std::string_view type = mediaTypeOf(uri);
+  if (std::find(expected.begin(), expected.end(), type) == expected.end())
+    diagnostics.warn(place, "has the media type " + inQuotes(type) + ", which is none of a buffer");
 }
 
 void checkExtensions(json& root, Diagnostics& diagnostics) {
@@ -67,26 +68,30 @@ void checkExtensions(json& root, Diagnostics& diagnostics) {
 }
 
 /// Brings every buffer into memory, exactly as long as the document says; one without URI stays empty.
-Buffers readBuffers(json& root, Container& container, const std::filesystem::path& folder,
-                    const Diagnostics& diagnostics) {
+Buffers readBuffers(json& root, Container& container, Document& document) {
+  Diagnostics& diagnostics = document.diagnostics;
   Buffers buffers;
   const json& described = arrayIn(root, "buffers");
   for (size_t i = 0; i < described.size(); ++i) {
     const json& buffer = described[i];
+    const auto length = buffer["byteLength"].get<uint64_t>();
+    if (length == 0) diagnostics.refuse(pointerTo("buffers", i, "byteLength"), "is 0");
     std::vector<uint8_t> bytes;
-    std::string reason;
     if (buffer.contains("uri")) {
-      if (!readUri(folder, buffer["uri"].get_ref<const std::string&>(), bytes, reason)) {
-        diagnostics.refuse(pointerTo("buffers", i, "uri"), reason);
-      }
+      const std::string place = pointerTo("buffers", i, "uri");
+      const auto& uri = buffer["uri"].get_ref<const std::string&>();
+      warnMediaType(uri, place, {"application/octet-stream", "application/gltf-buffer"}, diagnostics);
+      bytes =
+          diagnostics.attempt(place, [&] { return readUri(document.access, uri, document.memory.left()); });
+      takeMemory(document, place, bytes.size());
     } else if (i == 0 && container.hasBinary) {
       bytes = std::move(container.binary);
     } else {
+      if (i == 0 && container.isGlb)
+        diagnostics.warn(pointerTo("buffers", i), "has neither URI nor BIN chunk");
       buffers.emplace_back();  // an extension may bring it; bytesOf refuses its use
       continue;
     }
-    const auto length = buffer["byteLength"].get<uint64_t>();
-    if (length == 0) diagnostics.refuse(pointerTo("buffers", i, "byteLength"), "is 0");
     if (length > bytes.size()) {
       diagnostics.refuse(pointerTo("buffers", i), "holds " + std::to_string(bytes.size()) +
                                                       " bytes, fewer than its byteLength of " +
@@ -119,6 +124,33 @@ void checkBufferViews(json& root, const Diagnostics& diagnostics) {
   }
 }
 
+/// tinygltf refuses files with an accessor of a kind that it does not know, used or not. Such a one becomes
+/// empty, which is refused where it is used.
+void emptyUnknownAccessors(json& root, Diagnostics& diagnostics) {
+  constexpr std::array<std::string_view, 7> kTypes = {"SCALAR", "VEC2", "VEC3", "VEC4",
+                                                      "MAT2",   "MAT3", "MAT4"};
+  constexpr std::array<int, 6> kComponentTypes = {5120, 5121, 5122, 5123, 5125, 5126};
+  json& accessors = arrayIn(root, "accessors");
+  for (size_t i = 0; i < accessors.size(); ++i) {
+    json& accessor = accessors[i];
+    const bool isKnown = std::find(kTypes.begin(), kTypes.end(), accessor["type"]) != kTypes.end() &&
+                         std::find(kComponentTypes.begin(), kComponentTypes.end(),
+                                   accessor["componentType"]) != kComponentTypes.end();
+    if (isKnown) continue;
+    diagnostics.warn(pointerTo("accessors", i), "has a type that glTF does not know, and is taken as empty");
+    accessor = {{"type", "SCALAR"}, {"componentType", kComponentTypes.back()}, {"count", 0}};
+  }
+}
+
+/// tinygltf refuses spot lights without a cone, of which the default is meant.
+void addDefaultCones(json& root) {
+  const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+  if (!root.contains(lights)) return;
+  for (json& light : root[lights]) {
+    if (light["type"] == "spot") light.emplace("spot", json::object());
+  }
+}
+
 /// Leaves what is not applied out of tinygltf's hands, which would refuse more of it than we need to.
 void dropAnimations(json& root, Diagnostics& diagnostics) {
   if (!arrayIn(root, "animations").empty()) diagnostics.warn("/animations", "animations are not applied");
@@ -135,7 +167,8 @@ std::vector<ImageSource> takeImages(json& root, const Diagnostics& diagnostics) 
     if (images[i].contains("uri") == images[i].contains("bufferView")) {
       diagnostics.refuse(pointerTo("images", i), "needs either a URI or a buffer view");
     }
-    sources.push_back({images[i].value("uri", std::string()), images[i].value("bufferView", -1)});
+    sources.push_back({images[i].value("uri", std::string()), images[i].value("bufferView", -1),
+                       images[i].value("mimeType", std::string())});
     images[i] = {{"uri", "image"}};
   }
   return sources;
@@ -209,22 +242,31 @@ std::span<const uint8_t> bytesOf(const Document& document, int bufferView) {
   return {bytes.data() + view.byteOffset, view.byteLength};
 }
 
-Document readDocument(const std::filesystem::path& path) {
-  Document document(path.string());
-  document.folder = path.parent_path();
+void takeMemory(Document& document, const std::string& place, uint64_t bytes) {
+  document.diagnostics.attempt(place, [&] { document.memory.take(bytes); });
+}
+
+Document readDocument(const std::filesystem::path& path, const GltfOptions& options) {
+  Document document(path.string(), options.limits);
+  document.access = {path.parent_path(), options.limits.allowExternalFiles};
   Diagnostics& diagnostics = document.diagnostics;
-  Container container = readContainer(path, diagnostics);
-  json root = parseJson(container.json, diagnostics);
+  Container container = readContainer(path, options.limits.memoryBytes, diagnostics);
+  takeMemory(document, "", container.binary.size());
+  json root = parseJson(container.json, document.memory, diagnostics);
   container.json = std::string();
   checkSchema(root, diagnostics);
-  checkVersion(root["asset"], diagnostics);
+  checkValidity(root, diagnostics);
   checkExtensions(root, diagnostics);
-  Buffers buffers = readBuffers(root, container, document.folder, diagnostics);
+  Buffers buffers = readBuffers(root, container, document);
   checkBufferViews(root, diagnostics);
+  checkDataValidity(root, diagnostics);
+  emptyUnknownAccessors(root, diagnostics);
+  addDefaultCones(root);
   dropAnimations(root, diagnostics);
   document.images = takeImages(root, diagnostics);
   nameBuffers(root, buffers);
   document.model = parseModel(root, buffers, diagnostics);
+  checkAccessors(document);
   return document;
 }
 

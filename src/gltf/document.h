@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "gltf/diagnostics.h"
+#include "gltf/gltf.h"
+#include "gltf/uri.h"
+#include "image/limits.h"
 
 namespace fragtrace {
 
@@ -18,21 +21,28 @@ namespace fragtrace {
 struct ImageSource {
   std::string uri;
   int bufferView = -1;
+  std::string mimeType;
 };
 
 struct Document {
-  explicit Document(std::string file) : diagnostics(std::move(file)) {}
+  Document(std::string file, const InputLimits& limits)
+      : diagnostics(std::move(file)), textureSide(limits.textureSide), memory(limits.memoryBytes) {}
 
   tinygltf::Model model;  ///< without skins and animations, which are not applied, and without pictures
-  std::filesystem::path folder;  ///< what relative URIs start from
+  FileAccess access;
   std::vector<ImageSource> images;
   Diagnostics diagnostics;
+  int textureSide;      ///< larger pictures are scaled down
+  MemoryBudget memory;  ///< what loading may still take
 };
 
 /// The bytes of a buffer view. Throws InputError if its buffer has none, as a buffer without URI may.
 std::span<const uint8_t> bytesOf(const Document& document, int bufferView);
 
+/// Counts memory that `place` asks for. Throws InputError when it is too much.
+void takeMemory(Document& document, const std::string& place, uint64_t bytes);
+
 /// Reads and checks the document; pictures beside it are not read yet. Throws InputError.
-Document readDocument(const std::filesystem::path& path);
+Document readDocument(const std::filesystem::path& path, const GltfOptions& options);
 
 }  // namespace fragtrace

@@ -50,6 +50,11 @@ std::vector<PrimitiveInstance> placeMeshes(Document& document, const std::vector
                                         std::to_string(vertexCount) +
                                         " vertices are too many for 32-bit indices");
   }
+  // The scene's own copy, the tree over it, and what is packed for the device, which are not all there at
+  // once.
+  constexpr uint64_t kBytesOfAVertex = 100;
+  constexpr uint64_t kBytesOfATriangle = 150;
+  takeMemory(document, "", vertexCount * kBytesOfAVertex + triangleCount * kBytesOfATriangle);
   return instances;
 }
 
@@ -106,7 +111,7 @@ void dropUnusedDefaultMaterial(Scene& scene) {
 }
 
 Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) {
-  Document document = readDocument(path);
+  Document document = readDocument(path, options);
   Scene scene;
   scene.extensionsUsed = document.model.extensionsUsed;
   addMaterials(document, scene);

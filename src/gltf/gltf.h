@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "image/limits.h"
 #include "scene/scene.h"
 
 namespace fragtrace {
@@ -12,6 +13,7 @@ struct GltfOptions {
   std::optional<glm::dvec3> recenterOn{};      ///< world position that becomes the local origin
   std::optional<glm::dvec3> cameraPosition{};  ///< else the origin is chosen for a camera there,
   int cameraIndex = 0;                         ///< or for this one of the file: see recentringPoint()
+  InputLimits limits;
 };
 
 /// Reads a .gltf (with files beside it or data URIs) or .glb into a Scene whose geometry is recentred.

@@ -109,8 +109,8 @@ class MaterialReader {
   void readExtensions() {
     result_.unlit = extension("KHR_materials_unlit") != nullptr;
     if (const auto* emissive = extension("KHR_materials_emissive_strength")) {
-      result_.emissiveStrength =
-          factor(numberOf(*emissive, "emissiveStrength", 1.0), 0.0f, kLargest, "extensions/emissiveStrength");
+      result_.emissiveStrength = factor(numberOf(*emissive, "emissiveStrength", 1.0), 0.0f, kLargest,
+                                        "extensions/KHR_materials_emissive_strength/emissiveStrength");
     }
     for (int c = 0; c < 3; ++c) {
       if (!std::isfinite(result_.emissiveFactor[c] * result_.emissiveStrength))
@@ -119,15 +119,15 @@ class MaterialReader {
     if (const auto* ior = extension("KHR_materials_ior")) result_.ior = iorOf(numberOf(*ior, "ior", 1.5));
     if (const auto* transmission = extension("KHR_materials_transmission")) {
       result_.transmissionFactor = factor(numberOf(*transmission, "transmissionFactor", 0.0), 0.0f, 1.0f,
-                                          "extensions/transmissionFactor");
+                                          "extensions/KHR_materials_transmission/transmissionFactor");
       result_.transmissionTexture = texture(*transmission, "transmissionTexture");
     }
     if (const auto* volume = extension("KHR_materials_volume")) readVolume(*volume);
     if (const auto* specular = extension("KHR_materials_specular")) {
-      result_.specularFactor =
-          factor(numberOf(*specular, "specularFactor", 1.0), 0.0f, 1.0f, "extensions/specularFactor");
+      result_.specularFactor = factor(numberOf(*specular, "specularFactor", 1.0), 0.0f, 1.0f,
+                                      "extensions/KHR_materials_specular/specularFactor");
       result_.specularColorFactor = color(numbersOf(*specular, "specularColorFactor", {1.0, 1.0, 1.0}),
-                                          kLargest, "extensions/specularColorFactor");
+                                          kLargest, "extensions/KHR_materials_specular/specularColorFactor");
       result_.specularTexture = texture(*specular, "specularTexture");
       result_.specularColorTexture = texture(*specular, "specularColorTexture");
     }
@@ -137,17 +137,17 @@ class MaterialReader {
     // KHR_materials_ior: 0 asks for a Fresnel factor of 1, that is for an infinite index; here it is 1 -
     // 4e-6.
     constexpr float kInfiniteIor = 1e6f;
-    return ior == 0.0 ? kInfiniteIor : factor(ior, 1.0f, kInfiniteIor, "extensions/ior");
+    return ior == 0.0 ? kInfiniteIor : factor(ior, 1.0f, kInfiniteIor, "extensions/KHR_materials_ior/ior");
   }
 
   void readVolume(const tinygltf::Value& volume) {
-    result_.thicknessFactor =
-        factor(numberOf(volume, "thicknessFactor", 0.0), 0.0f, kLargest, "extensions/thicknessFactor");
-    result_.attenuationColor =
-        color(numbersOf(volume, "attenuationColor", {1.0, 1.0, 1.0}), 1.0f, "extensions/attenuationColor");
+    result_.thicknessFactor = factor(numberOf(volume, "thicknessFactor", 0.0), 0.0f, kLargest,
+                                     "extensions/KHR_materials_volume/thicknessFactor");
+    result_.attenuationColor = color(numbersOf(volume, "attenuationColor", {1.0, 1.0, 1.0}), 1.0f,
+                                     "extensions/KHR_materials_volume/attenuationColor");
     if (volume.Has("attenuationDistance")) {
       result_.attenuationDistance = factor(numberOf(volume, "attenuationDistance", 1.0), kSmallestPositive,
-                                           kLargest, "extensions/attenuationDistance");
+                                           kLargest, "extensions/KHR_materials_volume/attenuationDistance");
     }
     if (volume.Has("thicknessTexture")) {
       diagnostics_.warn(place_, "thickness textures are ignored: the mesh itself decides how thick it is");

@@ -57,12 +57,13 @@ std::vector<int> parentsOf(const Document& document) {
   const auto& nodes = document.model.nodes;
   std::vector<int> parents(nodes.size(), -1);
   for (size_t i = 0; i < nodes.size(); ++i) {
-    for (const int child : nodes[i].children) {
+    for (size_t k = 0; k < nodes[i].children.size(); ++k) {
+      const int child = nodes[i].children[k];
       int& parent = parents.at(size_t(child));
       if (parent >= 0) {
         document.diagnostics.refuse(
-            pointerTo("nodes", child),
-            "has two parents, nodes " + std::to_string(parent) + " and " + std::to_string(i));
+            pointerTo("nodes", i, "children", k),
+            "node " + std::to_string(child) + " is already a child of node " + std::to_string(parent));
       }
       parent = int(i);
     }

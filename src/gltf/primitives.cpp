@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/primitives.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/gtx/norm.hpp>
@@ -26,6 +27,12 @@ bool isFinite(const glm::vec<components, float>& v) {
 bool hasDirection(const glm::vec3& v) {
   const float squared = glm::length2(v);
   return squared > 0.0f && std::isfinite(squared);
+}
+
+/// Three components in bytes may each be off by half of 1 / 127.
+bool isUnit(const glm::vec3& v) {
+  constexpr float kRoundedToBytes = 0.00683f;
+  return std::abs(glm::length(v) - 1.0f) <= kRoundedToBytes;
 }
 
 class PrimitiveReader {
@@ -86,6 +93,11 @@ class PrimitiveReader {
   }
 
   void readPositions() {
+    // Elements may take no room in the file: without a buffer view they are zeros.
+    constexpr uint64_t kBytesOfAVertex =
+        sizeof(glm::vec3) * 2 + sizeof(glm::vec4) * 2 + sizeof(glm::vec2) * 2;
+    takeMemory(document_, placeOf("POSITION"),
+               kBytesOfAVertex * accessorCount(document_, accessorOf("POSITION")));
     auto& positions = result_.vertices.position;
     positions = readVectors<3>(document_, accessorOf("POSITION"), placeOf("POSITION"));
     if (positions.size() >= kMissIndex) diagnostics_.refuse(placeOf("POSITION"), "has too many elements");
@@ -100,7 +112,10 @@ class PrimitiveReader {
     const size_t vertexCount = result_.vertices.position.size();
     std::vector<uint32_t> indices;
     if (source_.indices >= 0) {
+      constexpr uint64_t kBytesOfAnIndex = sizeof(uint32_t) + sizeof(Triangle);
+      takeMemory(document_, place_ + "/indices", kBytesOfAnIndex * accessorCount(document_, source_.indices));
       indices = readIndices(document_, source_.indices, vertexCount, place_ + "/indices");
+      warnRestart(indices);
     } else {
       indices.resize(vertexCount);
       std::iota(indices.begin(), indices.end(), 0u);
@@ -113,6 +128,17 @@ class PrimitiveReader {
     result_.triangles.reserve(triangles.size());
     for (const glm::uvec3& triangle : triangles)
       result_.triangles.push_back({triangle, materialIndex_, flat});
+  }
+
+  /// glTF 2.0, 3.7.2.1: the largest value of the index type is none.
+  void warnRestart(const std::vector<uint32_t>& indices) {
+    const int type = document_.model.accessors.at(size_t(source_.indices)).componentType;
+    const uint32_t restart = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE    ? 0xffu
+                             : type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? 0xffffu
+                                                                              : 0xffffffffu;
+    if (result_.vertices.position.size() <= restart) return;
+    if (std::find(indices.begin(), indices.end(), restart) != indices.end())
+      diagnostics_.warn(place_ + "/indices", "holds the primitive restart value, which is taken as an index");
   }
 
   /// Not unit: the triangle's area is its weight.
@@ -132,12 +158,17 @@ class PrimitiveReader {
     normals = readVectors<3>(document_, accessor, placeOf("NORMAL"));
     std::vector<bool> broken(normals.size(), false);
     size_t count = 0;
+    size_t notUnit = 0;
     for (size_t i = 0; i < normals.size(); ++i) {
-      if (hasDirection(normals[i])) continue;
+      if (hasDirection(normals[i])) {
+        notUnit += !isUnit(normals[i]);
+        continue;
+      }
       broken[i] = true;
       normals[i] = glm::vec3(0.0f);
       ++count;
     }
+    warnMended("NORMAL", notUnit, "a normal that is not of unit length is normalized");
     if (count == 0) return;
     for (const Triangle& triangle : result_.triangles) {
       const glm::vec3 normal = geometricNormal(triangle);
@@ -192,13 +223,17 @@ class PrimitiveReader {
     auto& colors = result_.vertices.color;
     colors = fragtrace::readColors(document_, accessor, placeOf("COLOR_0"));
     size_t count = 0;
+    size_t clamped = 0;
     for (glm::vec4& color : colors) {
       if (!isFinite(color)) {
         color = glm::vec4(1.0f);
         ++count;
       }
-      color = glm::clamp(color, 0.0f, 1.0f);  // glTF 2.0, section 3.7.2.1
+      const glm::vec4 given = color;
+      color = glm::clamp(given, 0.0f, 1.0f);  // glTF 2.0, section 3.7.2.1
+      clamped += color != given;
     }
+    warnMended("COLOR_0", clamped, "a vertex colour is clamped to 0..1");
     warnMended("COLOR_0", count, "a vertex colour that is not finite is replaced by white");
   }
 
@@ -212,13 +247,16 @@ class PrimitiveReader {
     auto& tangents = result_.vertices.tangent;
     tangents = readVectors<4>(document_, accessor, placeOf("TANGENT"));
     size_t count = 0;
+    size_t notUnit = 0;
     for (size_t i = 0; i < tangents.size(); ++i) {
+      notUnit += !isUnit(glm::vec3(tangents[i])) || std::abs(tangents[i].w) != 1.0f;
       if (!hasDirection(glm::vec3(tangents[i])) || !std::isfinite(tangents[i].w)) {
         tangents[i] = glm::vec4(anyPerpendicular(result_.vertices.normal[i]), 1.0f);
         ++count;
       }
       tangents[i].w = tangents[i].w < 0.0f ? -1.0f : 1.0f;
     }
+    warnMended("TANGENT", notUnit, "a tangent is not of unit length with 1 or -1 behind it, and made so");
     warnMended("TANGENT", count, "a tangent without a direction is replaced by any that fits");
   }
 

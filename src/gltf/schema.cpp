@@ -71,6 +71,7 @@ constexpr Rule kRules[] = {
 
     {"/images", Kind::Objects},
     {"/images/*/uri", Kind::Text},
+    {"/images/*/mimeType", Kind::Text},
     {"/images/*/bufferView", Kind::Index, "/bufferViews"},
     {"/samplers", Kind::Objects},
     {"/samplers/*/magFilter", Kind::Int},
@@ -203,7 +204,7 @@ class Checker {
 
   void visit(json& value, const std::string& name, std::string_view rest) {
     const size_t length = place_.size();
-    place_.append("/").append(name);
+    place_.append("/").append(escapedForPointer(name));
     rest.empty() ? check(value) : descend(value, rest);
     place_.resize(length);
   }
@@ -291,38 +292,7 @@ class Checker {
   std::string place_;
 };
 
-/// Nesting of objects and arrays; counted before parsing, since later steps recurse.
-size_t nestingDepth(std::string_view text) {
-  size_t depth = 0;
-  size_t deepest = 0;
-  for (size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '"') {
-      for (++i; i < text.size() && text[i] != '"'; ++i) i += text[i] == '\\';
-    } else if (text[i] == '{' || text[i] == '[') {
-      deepest = std::max(deepest, ++depth);
-    } else if ((text[i] == '}' || text[i] == ']') && depth > 0) {
-      --depth;
-    }
-  }
-  return deepest;
-}
-
 }  // namespace
-
-json parseJson(std::string_view text, const Diagnostics& diagnostics) {
-  constexpr size_t kDeepestNesting = 256;
-  if (nestingDepth(text) > kDeepestNesting) {
-    diagnostics.refuse("", "the JSON is nested deeper than " + std::to_string(kDeepestNesting));
-  }
-  try {
-    return json::parse(text);
-  } catch (const json::exception& error) {
-    // "[json.exception...] WHERE: WHAT; last read: 'RAW BYTES'"
-    std::string_view what = error.what();
-    what.remove_prefix(std::min(what.find("] ") + 2, what.size()));
-    diagnostics.refuse("", "the JSON is broken: " + std::string(what.substr(0, what.find("; last read"))));
-  }
-}
 
 void checkSchema(json& root, const Diagnostics& diagnostics) {
   if (!root.is_object()) diagnostics.refuse("", "is not glTF: the JSON is not an object");

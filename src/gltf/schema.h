@@ -4,14 +4,10 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <string_view>
 
 #include "gltf/diagnostics.h"
 
 namespace fragtrace {
-
-/// Parses JSON whose nesting is bounded. Throws InputError with line and column.
-nlohmann::json parseJson(std::string_view text, const Diagnostics& diagnostics);
 
 /// Throws InputError with the place of the first member that is read by the loader and has the wrong type, is
 /// missing though required, or refers to something that is not there. Whole numbers written as 1.0 become

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/textures.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "gltf/uri.h"
+#include "image/header.h"
 
 namespace fragtrace {
 namespace {
@@ -19,22 +23,58 @@ Wrap wrapOf(int mode, const std::string& place, Diagnostics& diagnostics) {
   }
 }
 
-EncodedImage readImage(const Document& document, int index) {
+/// The bytes of a picture where it stands, not decoded.
+std::vector<uint8_t> imageBytes(Document& document, int index) {
   const ImageSource& source = document.images.at(size_t(index));
-  const Diagnostics& diagnostics = document.diagnostics;
-  EncodedImage result;
-  result.name = diagnostics.file() + ": " + pointerTo("images", index);
   if (source.bufferView >= 0) {
     const std::span<const uint8_t> bytes = bytesOf(document, source.bufferView);
-    result.bytes.assign(bytes.begin(), bytes.end());
-    return result;
+    return {bytes.begin(), bytes.end()};
   }
-  std::string reason;
-  if (!readUri(document.folder, source.uri, result.bytes, reason)) {
-    diagnostics.refuse(pointerTo("images", index, "uri"), reason);
+  return document.diagnostics.attempt(pointerTo("images", index, "uri"), [&] {
+    return readUri(document.access, source.uri, document.memory.left());
+  });
+}
+
+/// Warns of a media type, declared for the picture, that its bytes are not of.
+void warnMediaType(std::string_view declared, ImageFormat format, const std::string& place,
+                   Diagnostics& diagnostics) {
+  const std::string_view found = format == ImageFormat::Png    ? "image/png"
+                                 : format == ImageFormat::Jpeg ? "image/jpeg"
+                                 : format == ImageFormat::WebP ? "image/webp"
+                                                               : "";
+  if (found.empty()) {
+    diagnostics.warn(place, "is neither PNG nor JPEG nor WebP, as glTF wants it");
+  } else if (!declared.empty() && declared != found) {
+    diagnostics.warn(place, "is declared " + inQuotes(declared) + " and is " + std::string(found));
   }
-  if (!isDataUri(source.uri)) result.name = pathOfUri(document.folder, source.uri).string();
-  if (result.bytes.empty()) diagnostics.refuse(pointerTo("images", index), "the picture is empty");
+}
+
+EncodedImage readImage(Document& document, int index) {
+  const ImageSource& source = document.images.at(size_t(index));
+  const std::string place = pointerTo("images", index);
+  EncodedImage result;
+  const bool isFile = source.bufferView < 0 && !isDataUri(source.uri);
+  result.name =
+      isFile ? pathOfUri(document.access, source.uri).string() : document.diagnostics.file() + ": " + place;
+  result.bytes = imageBytes(document, index);
+  const ImageHeader header =
+      document.diagnostics.attempt(place, [&] { return readImageHeader(result.bytes); });
+  if (header.format == ImageFormat::Pfm || header.format == ImageFormat::Hdr ||
+      header.format == ImageFormat::OpenExr)
+    document.diagnostics.refuse(place, "is no picture that a texture may have: PNG, JPEG, WebP");
+  result.width = header.width;
+  result.height = header.height;
+  if (std::max(header.width, header.height) > document.textureSide) {
+    const double scale = double(document.textureSide) / std::max(header.width, header.height);
+    result.width = std::max(1, int(std::lround(header.width * scale)));
+    result.height = std::max(1, int(std::lround(header.height * scale)));
+    document.diagnostics.warn(place, "pictures wider or higher than " + std::to_string(document.textureSide) +
+                                         " pixels are scaled down");
+  }
+  takeMemory(document, place, result.bytes.size() + texelBytes(result));
+  warnMediaType(
+      source.bufferView < 0 && !isFile ? mediaTypeOf(source.uri) : std::string_view(source.mimeType),
+      header.format, isFile || source.bufferView >= 0 ? place : place + "/uri", document.diagnostics);
   return result;
 }
 

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/uri.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <fstream>
+#include <stdexcept>
 #include <system_error>
 
 #include "gltf/diagnostics.h"
+#include "image/limits.h"
+#include "image/whole_file.h"
 
 namespace fragtrace {
 namespace {
@@ -18,8 +25,8 @@ int hexValue(char c) {
   return -1;
 }
 
-/// RFC 4648 base64 with or without padding; false at the first character that does not belong.
-bool decodeBase64(std::string_view text, std::vector<uint8_t>& bytes) {
+/// RFC 4648 base64 with or without padding. Throws at the first character that does not belong.
+std::vector<uint8_t> decodeBase64(std::string_view text) {
   static constexpr std::string_view kAlphabet =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   static const std::array<int8_t, 256> kValues = [] {
@@ -28,15 +35,16 @@ bool decodeBase64(std::string_view text, std::vector<uint8_t>& bytes) {
     for (size_t i = 0; i < kAlphabet.size(); ++i) values[uint8_t(kAlphabet[i])] = int8_t(i);
     return values;
   }();
+  const auto refuse = [] { throw std::runtime_error("the data URI is not valid base64"); };
   while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-  if (text.size() % 4 == 1) return false;
-  bytes.clear();
-  bytes.reserve(text.size() * 3 / 4);
+  if (text.size() % 4 == 1) refuse();
+  std::vector<uint8_t> bytes;
+  bytes.reserve(text.size() / 4 * 3 + 2);
   uint32_t bits = 0;
   int bitCount = 0;
   for (const char c : text) {
     const int8_t value = kValues[uint8_t(c)];
-    if (value < 0) return false;
+    if (value < 0) refuse();
     bits = bits << 6 | uint32_t(value);
     bitCount += 6;
     if (bitCount >= 8) {
@@ -44,55 +52,64 @@ bool decodeBase64(std::string_view text, std::vector<uint8_t>& bytes) {
       bytes.push_back(uint8_t(bits >> bitCount));
     }
   }
-  return true;
+  return bytes;
 }
 
-bool decodeDataUri(std::string_view uri, std::vector<uint8_t>& bytes, std::string& reason) {
+std::vector<uint8_t> decodeDataUri(std::string_view uri, uint64_t limit) {
   const size_t comma = uri.find(',');
-  if (comma == std::string_view::npos) {
-    reason = "the data URI has no comma";
-    return false;
-  }
+  if (comma == std::string_view::npos) throw std::runtime_error("the data URI has no comma");
+  if (uri.substr(0, comma).find(";;") != std::string_view::npos)
+    throw std::runtime_error("the data URI has an empty parameter");
   const std::string_view payload = uri.substr(comma + 1);
-  if (uri.substr(0, comma).ends_with(";base64")) {
-    if (decodeBase64(payload, bytes)) return true;
-    reason = "the data URI is not valid base64";
-    return false;
-  }
+  MemoryBudget(limit).take(payload.size());
+  if (uri.substr(0, comma).ends_with(";base64")) return decodeBase64(payload);
   const std::string text = percentDecoded(payload);
-  bytes.assign(text.begin(), text.end());
-  return true;
+  return {text.begin(), text.end()};
+}
+
+/// RFC 3986, 3.1: a letter, then letters, digits, + - and . up to a colon.
+bool hasScheme(std::string_view uri) {
+  const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  if (uri.empty() || (!isLetter(uri[0]) && uri[0] != ':')) return false;
+  for (const char c : uri) {
+    if (c == ':') return true;
+    if (!isLetter(c) && !(c >= '0' && c <= '9') && c != '+' && c != '-' && c != '.') return false;
+  }
+  return false;
+}
+
+/// True when the path, its "." and ".." taken away, starts at the root or above the folder.
+bool leadsOut(const std::filesystem::path& path) {
+  const std::filesystem::path normal = path.lexically_normal();
+  return normal.is_absolute() || (!normal.empty() && *normal.begin() == "..");
+}
+
+/// True when the open file lies in the folder or below, symbolic links followed.
+bool isBelow(int file, const std::filesystem::path& folder) {
+  std::error_code error;
+  const auto there = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(file), error);
+  if (error) return true;  // no /proc: nothing is known
+  const auto root = std::filesystem::canonical(folder.empty() ? "." : folder, error);
+  if (error) return false;
+  const auto [rootEnd, thereAt] = std::mismatch(root.begin(), root.end(), there.begin(), there.end());
+  return rootEnd == root.end();
+}
+
+/// Owns the descriptor until it is read.
+std::vector<uint8_t> readRegularFile(int file, const FileAccess& access, uint64_t limit) {
+  struct stat status {};
+  std::string reason;
+  if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
+    reason = "is not a regular file";
+  } else if (!access.allowExternal && !isBelow(file, access.folder)) {
+    reason = "is a link out of the scene's folder (--allow-external-files)";
+  }
+  if (reason.empty()) return readOpenFile(file, limit);
+  ::close(file);
+  throw std::runtime_error(reason);
 }
 
 }  // namespace
-
-bool readFile(const std::filesystem::path& path, std::vector<uint8_t>& bytes, std::string& reason) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    reason = "is a directory";
-    return false;
-  }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    reason = "cannot be opened: " + std::generic_category().message(errno != 0 ? errno : ENOENT);
-    return false;
-  }
-  // A pipe has no size: it is read to its end in pieces, as is a file that grows meanwhile.
-  const uintmax_t size = std::filesystem::file_size(path, error);
-  bytes.resize(error ? 0 : size_t(size));
-  file.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()));
-  bytes.resize(size_t(file.gcount()));
-  std::array<char, 65536> piece;
-  while (file.read(piece.data(), piece.size()) || file.gcount() > 0) {
-    bytes.insert(bytes.end(), piece.begin(), piece.begin() + file.gcount());
-  }
-  if (file.bad()) {
-    reason = "cannot be read";
-    return false;
-  }
-  return true;
-}
 
 std::string percentDecoded(std::string_view text) {
   std::string result;
@@ -110,29 +127,36 @@ std::string percentDecoded(std::string_view text) {
 
 bool isDataUri(std::string_view uri) { return uri.starts_with("data:"); }
 
-std::filesystem::path pathOfUri(const std::filesystem::path& folder, std::string_view uri) {
-  return folder / percentDecoded(uri);
+std::string_view mediaTypeOf(std::string_view dataUri) {
+  dataUri.remove_prefix(std::string_view("data:").size());
+  return dataUri.substr(0, dataUri.find_first_of(";,"));
 }
 
-bool readUri(const std::filesystem::path& folder, std::string_view uri, std::vector<uint8_t>& bytes,
-             std::string& reason) {
-  if (isDataUri(uri)) return decodeDataUri(uri, bytes, reason);
+std::filesystem::path pathOfUri(const FileAccess& access, std::string_view uri) {
+  return access.folder / percentDecoded(uri);
+}
+
+std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, uint64_t limit) {
+  if (isDataUri(uri)) return decodeDataUri(uri, limit);
   const std::string decoded = percentDecoded(uri);
-  if (decoded.empty() || decoded.front() == '/' || decoded.find("://") != std::string::npos ||
-      decoded.find('\0') != std::string::npos) {
-    reason = "the URI " + inQuotes(uri) + " is neither a data URI nor a relative path";
-    return false;
+  if (decoded.empty() || hasScheme(uri) || decoded.find('\0') != std::string::npos)
+    throw std::runtime_error("the URI " + inQuotes(uri) + " is neither a data URI nor a relative path");
+  if (!access.allowExternal && leadsOut(decoded)) {
+    throw std::runtime_error("the URI " + inQuotes(uri) +
+                             " leads out of the scene's folder (--allow-external-files)");
   }
-  // A device or a pipe could be read for ever.
-  const std::filesystem::path path = pathOfUri(folder, uri);
-  std::error_code error;
-  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
-    reason = path.string() + " is not a regular file";
-    return false;
+  const std::filesystem::path path = pathOfUri(access, uri);
+  // Opening a pipe that nobody writes to would wait for ever.
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  try {
+    if (file < 0) throw std::runtime_error("cannot be opened: " + std::generic_category().message(errno));
+    return readRegularFile(file, access, limit);
+  } catch (const std::runtime_error& error) {
+    // A data URI whose first letters are wrong is such a name, too.
+    constexpr size_t kLongestName = 512;
+    const std::string name = path.string();
+    throw std::runtime_error((name.size() <= kLongestName ? name : inQuotes(uri)) + " " + error.what());
   }
-  if (readFile(path, bytes, reason)) return true;
-  reason = path.string() + " " + reason;
-  return false;
 }
 
 }  // namespace fragtrace

@@ -10,19 +10,25 @@
 
 namespace fragtrace {
 
-/// Reads a whole file; false with a reason such as "cannot be opened: No such file or directory".
-bool readFile(const std::filesystem::path& path, std::vector<uint8_t>& bytes, std::string& reason);
+/// Where a file's URIs may lead.
+struct FileAccess {
+  std::filesystem::path folder;  ///< what relative URIs start from
+  bool allowExternal = false;    ///< also out of the folder
+};
 
 /// "%20" to " ", byte by byte, so that UTF-8 stays UTF-8; what is no valid escape is kept as it is.
 std::string percentDecoded(std::string_view text);
 
 bool isDataUri(std::string_view uri);
 
-/// The file that a relative URI names.
-std::filesystem::path pathOfUri(const std::filesystem::path& folder, std::string_view uri);
+/// The media type of a data URI, such as "image/png"; empty if it has none.
+std::string_view mediaTypeOf(std::string_view dataUri);
 
-/// The bytes that a data URI holds or that a relative URI names; false with a reason.
-bool readUri(const std::filesystem::path& folder, std::string_view uri, std::vector<uint8_t>& bytes,
-             std::string& reason);
+/// The file that a relative URI names.
+std::filesystem::path pathOfUri(const FileAccess& access, std::string_view uri);
+
+/// The bytes, at most `limit`, that a data URI holds or that a relative URI names. Throws std::runtime_error
+/// with the reason: no such file, not a regular file, out of the folder, a scheme, broken base64.
+std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, uint64_t limit);
 
 }  // namespace fragtrace

@@ -6,9 +6,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "image/limits.h"
 
 namespace fragtrace {
 
@@ -30,13 +33,14 @@ struct Image {
 struct TexelImage {
   int width = 0;
   int height = 0;
-  std::vector<uint16_t> rgba;  ///< width * height * 4; missing channels: grey to RGB, alpha 65535
+  std::span<const uint16_t> rgba;      ///< width * height * 4; missing channels: grey to RGB, alpha 65535
+  std::shared_ptr<const void> memory;  ///< where they lie
 };
 
 /// Reads a picture file (.pfm by our own code, the rest through the image library). Values are as stored:
 /// .exr, .hdr and .pfm linear floats, 8 and 16 bit files scaled to 0..1 and left sRGB-encoded, alpha
-/// unassociated there. Throws InputError.
-Image readImage(const std::filesystem::path& path);
+/// unassociated there. Throws InputError, also when it would take more than `memoryLimit` bytes.
+Image readImage(const std::filesystem::path& path, uint64_t memoryLimit = defaultMemoryLimit());
 
 /// The same as shown on a display: .exr, .hdr and .pfm (by their first bytes) through toDefaultDisplay, the
 /// rest as stored. Throws InputError, or RenderError where there is no colour to tone-map.

@@ -7,8 +7,16 @@
 
 namespace fragtrace {
 
-/// True when the end marker follows the first scan. libjpeg makes up the rest of a truncated picture in grey
-/// and only warns; after another warning it does not even do that.
-bool isCompleteJpeg(std::span<const uint8_t> bytes);
+struct JpegFrame {
+  int width = 0;
+  int height = 0;
+  int scans = 0;
+  /// The end marker follows a scan. libjpeg makes up the rest of a truncated picture in grey and only warns;
+  /// after another warning it does not even do that.
+  bool complete = false;
+};
+
+/// What the markers say, as far as they reach. Never throws.
+JpegFrame readJpegFrame(std::span<const uint8_t> bytes);
 
 }  // namespace fragtrace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a picture's header may ask for before memory is given to it.
+// What a file may ask for before memory is given to it.
 #pragma once
 
 #include <cstdint>
@@ -19,5 +19,33 @@ inline void checkImageSize(int64_t width, int64_t height, int64_t channelCount) 
   throw std::runtime_error("a size of " + std::to_string(width) + " x " + std::to_string(height) +
                            " pixels of " + std::to_string(channelCount) + " channels is not supported");
 }
+
+/// Bytes that files may ask for unless the user says otherwise: the least of 8 GiB, half of the machine's
+/// memory, and what the process may address (RLIMIT_AS).
+uint64_t defaultMemoryLimit();
+
+inline constexpr int kLargestTextureSide = 65535;  // what the shader's slots hold
+
+/// What the user allows files from anywhere.
+struct InputLimits {
+  uint64_t memoryBytes = defaultMemoryLimit();
+  int textureSide = kLargestTextureSide;  ///< wider or higher textures are scaled down to this
+  bool allowExternalFiles = false;        ///< URIs may lead out of the scene's folder
+};
+
+/// Counts what is about to be allocated for one file.
+class MemoryBudget {
+ public:
+  explicit MemoryBudget(uint64_t limit = defaultMemoryLimit()) : limit_(limit) {}
+
+  /// Throws std::runtime_error when all that was taken, with these bytes, is more than the limit.
+  void take(uint64_t bytes);
+
+  uint64_t left() const { return limit_ - taken_; }
+
+ private:
+  uint64_t limit_;
+  uint64_t taken_ = 0;
+};
 
 }  // namespace fragtrace

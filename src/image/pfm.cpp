@@ -45,32 +45,41 @@ float loadFloat(const uint8_t* bytes, bool littleEndian) {
 
 }  // namespace
 
-Image decodePfm(std::span<const uint8_t> bytes) {
-  // Read the header: kind, width, height, scale, one white-space character.
+PfmHeader readPfmHeader(std::span<const uint8_t> bytes) {
+  // Kind, width, height, scale, one white-space character.
   const std::string_view kind = takeWord(bytes);
   if (kind != "PF" && kind != "Pf") throw std::runtime_error("the PFM header is wrong");
-  Image image;
-  image.width = parseNumber<int>(takeWord(bytes));
-  image.height = parseNumber<int>(takeWord(bytes));
+  PfmHeader header;
+  header.width = parseNumber<int>(takeWord(bytes));
+  header.height = parseNumber<int>(takeWord(bytes));
+  header.channelCount = kind == "PF" ? 3 : 1;
   const double scale = parseNumber<double>(takeWord(bytes));
   if (scale == 0 || !std::isfinite(scale) || bytes.empty())
     throw std::runtime_error("the PFM header is wrong");
-  bytes = bytes.subspan(bytes.size() > 1 && bytes[0] == '\r' && bytes[1] == '\n' ? 2 : 1);
-  if (kind == "PF")
+  header.littleEndian = scale < 0;
+  header.rows = bytes.subspan(bytes.size() > 1 && bytes[0] == '\r' && bytes[1] == '\n' ? 2 : 1);
+  checkImageSize(header.width, header.height, header.channelCount);
+  const size_t rowBytes = size_t(header.width) * size_t(header.channelCount) * sizeof(float);
+  if (header.rows.size() / rowBytes < size_t(header.height))
+    throw std::runtime_error("the file is truncated");
+  return header;
+}
+
+Image decodePfm(std::span<const uint8_t> bytes) {
+  const PfmHeader header = readPfmHeader(bytes);
+  Image image;
+  image.width = header.width;
+  image.height = header.height;
+  if (header.channelCount == 3)
     image.channels = {"R", "G", "B"};
   else
     image.channels = {"Y"};
-  checkImageSize(image.width, image.height, int(image.channelCount()));
-
-  // Read the rows, of which the file holds the bottom one first.
   const size_t rowValues = size_t(image.width) * image.channelCount();
-  if (bytes.size() / sizeof(float) / rowValues < size_t(image.height))
-    throw std::runtime_error("the file is truncated");
   image.values.resize(rowValues * size_t(image.height));
   for (int y = 0; y < image.height; ++y) {
-    const uint8_t* row = bytes.data() + size_t(image.height - 1 - y) * rowValues * sizeof(float);
+    const uint8_t* row = header.rows.data() + size_t(image.height - 1 - y) * rowValues * sizeof(float);
     for (size_t i = 0; i < rowValues; ++i)
-      image.pixel(0, y)[i] = loadFloat(row + i * sizeof(float), scale < 0);
+      image.pixel(0, y)[i] = loadFloat(row + i * sizeof(float), header.littleEndian);
   }
   return image;
 }

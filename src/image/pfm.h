@@ -10,6 +10,17 @@
 
 namespace fragtrace {
 
+struct PfmHeader {
+  int width = 0;
+  int height = 0;
+  int channelCount = 0;  ///< 3, or 1
+  bool littleEndian = false;
+  std::span<const uint8_t> rows;  ///< the bottom one first
+};
+
+/// Throws std::runtime_error with the reason when the header is wrong or values are missing.
+PfmHeader readPfmHeader(std::span<const uint8_t> bytes);
+
 /// Reads "PF" (R, G, B) and "Pf" (Y) of either byte order; the magnitude of the scale is ignored.
 /// Throws std::runtime_error with the reason when the header is wrong or values are missing.
 Image decodePfm(std::span<const uint8_t> bytes);

@@ -6,27 +6,15 @@
 
 #include "errors.h"
 #include "image/format.h"
+#include "image/header.h"
 #include "image/image.h"
-#include "image/jpeg.h"
-#include "image/library.h"
 #include "image/pfm.h"
-#include "image/png.h"
+#include "image/process.h"
 #include "image/tone_map.h"
 #include "image/whole_file.h"
 
 namespace fragtrace {
 namespace {
-
-/// The format of a picture that is whole as far as its container tells.
-ImageFormat checkedFormat(std::span<const uint8_t> bytes) {
-  if (bytes.empty()) throw std::runtime_error("it is empty");
-  const auto format = formatOfBytes(bytes);
-  if (!format) throw std::runtime_error("it is no PNG, JPEG, WebP, OpenEXR, Radiance HDR or PFM picture");
-  if ((format == ImageFormat::Png && !isCompletePng(bytes)) ||
-      (format == ImageFormat::Jpeg && !isCompleteJpeg(bytes)))
-    throw std::runtime_error("the file is truncated");
-  return *format;
-}
 
 /// Runs a decoder, and says in its errors which picture it was.
 template <typename Decode>
@@ -40,21 +28,25 @@ auto decodeNamed(const std::string& name, Decode decode) {
   }
 }
 
-Image decodeImage(std::span<const uint8_t> bytes, const std::filesystem::path& path) {
+Image decodeImage(std::span<const uint8_t> bytes, const std::filesystem::path& path, uint64_t memoryLimit) {
   return decodeNamed(path.string(), [&] {
-    const ImageFormat format = checkedFormat(bytes);
-    if (format == ImageFormat::Pfm) return decodePfm(bytes);
-    return imageLibrary().decode(bytes, format);
+    const ImageHeader header = readImageHeader(bytes);
+    const uint64_t values = uint64_t(header.width) * uint64_t(header.height) * uint64_t(header.channelCount);
+    MemoryBudget(memoryLimit).take(bytes.size() + values * sizeof(float));
+    return header.format == ImageFormat::Pfm ? decodePfm(bytes) : decodeByProcess(bytes, header);
   });
 }
 
 }  // namespace
 
-Image readImage(const std::filesystem::path& path) { return decodeImage(readWholeFile(path), path); }
+Image readImage(const std::filesystem::path& path, uint64_t memoryLimit) {
+  return decodeImage(readWholeFile(path, memoryLimit), path, memoryLimit);
+}
 
 Image readDisplayImage(const std::filesystem::path& path) {
-  const std::vector<uint8_t> bytes = readWholeFile(path);
-  Image image = decodeImage(bytes, path);
+  const uint64_t memoryLimit = defaultMemoryLimit();
+  const std::vector<uint8_t> bytes = readWholeFile(path, memoryLimit);
+  Image image = decodeImage(bytes, path, memoryLimit);
   const auto format = formatOfBytes(bytes);
   const bool isLinear =
       format == ImageFormat::OpenExr || format == ImageFormat::Hdr || format == ImageFormat::Pfm;
@@ -63,9 +55,9 @@ Image readDisplayImage(const std::filesystem::path& path) {
 
 TexelImage decodeTexels(std::span<const uint8_t> bytes, const std::string& name) {
   return decodeNamed(name, [&] {
-    const ImageFormat format = checkedFormat(bytes);
-    if (format == ImageFormat::Pfm) throw std::runtime_error("a texture cannot be a .pfm picture");
-    return imageLibrary().decodeTexels(bytes, format);
+    const ImageHeader header = readImageHeader(bytes);
+    if (header.format == ImageFormat::Pfm) throw std::runtime_error("a texture cannot be a .pfm picture");
+    return decodeTexelsByProcess(bytes, header);
   });
 }
 

@@ -7,14 +7,23 @@
 #include <span>
 #include <vector>
 
+#include "image/limits.h"
+
 namespace fragtrace {
 
-/// All bytes of a file. Throws InputError naming the path and the system's reason.
-std::vector<uint8_t> readWholeFile(const std::filesystem::path& path);
+/// All bytes of an open regular file or pipe, which is closed. Throws std::runtime_error with the bare reason
+/// when it is something else, has more than `limit` bytes, or cannot be read.
+std::vector<uint8_t> readOpenFile(int file, uint64_t limit);
+
+/// The same of the file at a path.
+std::vector<uint8_t> readBytes(const std::filesystem::path& path, uint64_t limit);
+/// The same, but throws InputError naming the path, too.
+std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, uint64_t limit = defaultMemoryLimit());
 
 /// Makes the file hold exactly these bytes: they are written to .NAME.part beside it, which is then renamed,
 /// so that anybody sees the old file or the new one. On failure the old file is untouched and the part
-/// removed. Throws RenderError naming the path and the system's reason.
+/// removed. A symbolic link stays, the file that it leads to is replaced; a device or a pipe is written to.
+/// Throws RenderError naming the path and the system's reason.
 void replaceFile(const std::filesystem::path& path, std::span<const uint8_t> bytes);
 
 /// Throws what replaceFile would when the folder is missing or closed to us: to be asked before long work.

@@ -9,8 +9,8 @@
 #include "image/channels.h"
 #include "image/format.h"
 #include "image/image.h"
-#include "image/library.h"
 #include "image/pfm.h"
+#include "image/process.h"
 #include "image/whole_file.h"
 
 namespace fragtrace {
@@ -38,7 +38,7 @@ std::vector<uint8_t> encodeBytes(const Image& image, ImageFormat format) {
   bytes.reserve(image.values.size() / image.channelCount() * channels.size());
   for (size_t first = 0; first < image.values.size(); first += image.channelCount())
     for (const size_t channel : channels) bytes.push_back(quantize(image.values[first + channel]));
-  return imageLibrary().encodeBytes(image.width, image.height, int(channels.size()), bytes, format);
+  return encodeBytesByProcess(image.width, image.height, int(channels.size()), bytes, format);
 }
 
 /// The nearest colour that three 8-bit mantissas with one exponent hold (Ward, "Real Pixels", Graphics Gems
@@ -61,7 +61,7 @@ std::vector<uint8_t> encodeHdr(const Image& image) {
     for (const size_t channel : channels) color.values.push_back(image.values[first + channel]);
   for (size_t first = 0; first < color.values.size(); first += 3)
     roundToRgbe(std::span<float, 3>(color.values.data() + first, 3));
-  return imageLibrary().encodeFloats(color, ImageFormat::Hdr);
+  return encodeFloatsByProcess(color, ImageFormat::Hdr);
 }
 
 std::vector<uint8_t> encode(const Image& image, const std::filesystem::path& path) {
@@ -73,7 +73,7 @@ std::vector<uint8_t> encode(const Image& image, const std::filesystem::path& pat
   if (!format) throw std::runtime_error("the name must end in .png, .jpg, .exr, .hdr or .pfm");
   if (format == ImageFormat::Pfm) return encodePfm(image);
   if (format == ImageFormat::Hdr) return encodeHdr(image);
-  if (format == ImageFormat::OpenExr) return imageLibrary().encodeFloats(image, *format);
+  if (format == ImageFormat::OpenExr) return encodeFloatsByProcess(image, *format);
   return encodeBytes(image, *format);
 }
 

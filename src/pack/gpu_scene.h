@@ -44,9 +44,10 @@ struct GpuScene {
   size_t geometryBytes() const;
 };
 
-/// Packs what the variant reads. The tree may be a plain list of leaves without nodes (iterative traversal).
-/// Throws InputError when a texture cannot be decoded.
+/// Packs what the variant reads; textures wider or higher than `textureSide` are scaled down. The tree may be
+/// a plain list of leaves without nodes (iterative traversal). Throws InputError when a texture cannot be
+/// decoded.
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
-                   const ShaderVariant& variant);
+                   const ShaderVariant& variant, int textureSide = kLargestTextureSide);
 
 }  // namespace fragtrace

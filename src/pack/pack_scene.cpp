@@ -139,7 +139,7 @@ size_t GpuScene::geometryBytes() const {
 }
 
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
-                   const ShaderVariant& variant) {
+                   const ShaderVariant& variant, int textureSide) {
   using namespace layout;
   GpuScene packed;
   const TraitSet& traits = variant.traits;
@@ -152,7 +152,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   packAttributes(scene.vertices, traits, packed);
 
   // Step: lights; the environment shares light samples with the rest by power.
-  TexturePacker textures(scene);
+  TexturePacker textures(scene, textureSide);
   const std::vector<glm::vec3> radiance = meanRadiance(scene, traits, textures);
   std::vector<uint32_t> slots;
   if (has(traits, Trait::EmissiveTriangles)) slots = leafSlots(scene, bvh);

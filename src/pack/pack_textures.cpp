@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 
-#include "errors.h"
 #include "image/tone_map.h"
 
 namespace fragtrace {
@@ -36,7 +35,30 @@ uint32_t wrapFlags(Wrap wrap, uint32_t clamp, uint32_t mirror) {
   return wrap == Wrap::ClampToEdge ? clamp : wrap == Wrap::MirroredRepeat ? mirror : 0u;
 }
 
+/// The size scaled down until both sides are at most `side`.
+glm::ivec2 within(glm::ivec2 size, int side) {
+  const int larger = std::max(size.x, size.y);
+  if (larger <= side) return size;
+  const double scale = double(side) / larger;
+  return glm::max(glm::ivec2(glm::round(glm::dvec2(size) * scale)), glm::ivec2(1));
+}
+
 }  // namespace
+
+int textureSideWithin(const Scene& scene, int64_t mostBytes) {
+  constexpr int64_t kTexelBytes = 8;
+  int side = kLargestTextureSide;
+  const auto bytes = [&] {
+    int64_t sum = 0;
+    for (const EncodedImage& image : scene.images) {
+      const glm::ivec2 size = within({image.width, image.height}, side);
+      sum += int64_t(size.x) * size.y * kTexelBytes;
+    }
+    return sum;
+  };
+  while (side > 1 && bytes() > mostBytes) side = side * 3 / 4;
+  return side;
+}
 
 const TexturePacker::Placed& TexturePacker::place(uint32_t image, TransferCurve curve) {
   const auto [entry, isNew] = placed_.try_emplace({image, curve});
@@ -44,24 +66,57 @@ const TexturePacker::Placed& TexturePacker::place(uint32_t image, TransferCurve 
   if (!isNew) return placed;
   const EncodedImage& encoded = scene_.images[image];
   const TexelImage texels = decodeTexels(encoded.bytes, encoded.name);
-  if (texels.width > 65535 || texels.height > 65535)
-    throw InputError(encoded.name + ": wider or higher than 65535 pixels");
   placed.first = uint32_t(texels_.size() / 2);
-  placed.width = texels.width;
-  placed.height = texels.height;
+  const glm::ivec2 stored(texels.width, texels.height);
+  const glm::ivec2 size =
+      within(encoded.width > 0 ? glm::ivec2(encoded.width, encoded.height) : stored, side_);
+  placed.width = size.x;
+  placed.height = size.y;
+  const size_t count = size_t(placed.width) * size_t(placed.height);
+  texels_.reserve(texels_.size() + count * 2);
+  const glm::dvec3 sum = size == stored ? append(texels, curve) : appendScaled(texels, curve, size);
+  placed.mean = glm::vec3(sum / double(std::max<size_t>(count, 1)));
+  return placed;
+}
+
+glm::dvec3 TexturePacker::append(const TexelImage& texels, TransferCurve curve) {
   const CurveTable& color = curveTable(curve);
   const CurveTable& alpha = curveTable(TransferCurve::Linear);
-  const size_t count = size_t(texels.width) * size_t(texels.height);
-  texels_.reserve(texels_.size() + count * 2);
   glm::dvec3 sum(0.0);
-  for (size_t i = 0; i < count; ++i) {
-    const uint16_t* t = &texels.rgba[i * 4];
+  for (size_t i = 0; i < texels.rgba.size(); i += 4) {
+    const uint16_t* t = &texels.rgba[i];
     texels_.push_back(uint32_t(color.half[t[0]]) | uint32_t(color.half[t[1]]) << 16);
     texels_.push_back(uint32_t(color.half[t[2]]) | uint32_t(alpha.half[t[3]]) << 16);
     sum += glm::dvec3(color.linear[t[0]], color.linear[t[1]], color.linear[t[2]]);
   }
-  placed.mean = glm::vec3(sum / double(std::max<size_t>(count, 1)));
-  return placed;
+  return sum;
+}
+
+glm::dvec3 TexturePacker::appendScaled(const TexelImage& texels, TransferCurve curve, glm::ivec2 size) {
+  const CurveTable& color = curveTable(curve);
+  const CurveTable& alpha = curveTable(TransferCurve::Linear);
+  const auto begin = [](int i, int from, int to) { return int(int64_t(i) * from / to); };
+  glm::dvec3 total(0.0);
+  for (int y = 0; y < size.y; ++y) {
+    const int top = begin(y, texels.height, size.y);
+    const int bottom = begin(y + 1, texels.height, size.y);
+    for (int x = 0; x < size.x; ++x) {
+      const int left = begin(x, texels.width, size.x);
+      const int right = begin(x + 1, texels.width, size.x);
+      glm::vec4 sum(0.0f);
+      for (int v = top; v < bottom; ++v) {
+        for (int u = left; u < right; ++u) {
+          const uint16_t* t = &texels.rgba[(size_t(v) * size_t(texels.width) + size_t(u)) * 4];
+          sum += glm::vec4(color.linear[t[0]], color.linear[t[1]], color.linear[t[2]], alpha.linear[t[3]]);
+        }
+      }
+      const glm::vec4 mean = sum / float((bottom - top) * (right - left));
+      texels_.push_back(glm::packHalf2x16(glm::vec2(mean)));
+      texels_.push_back(glm::packHalf2x16(glm::vec2(mean.z, mean.w)));
+      total += glm::dvec3(mean);
+    }
+  }
+  return total;
 }
 
 glm::uvec4 TexturePacker::slot(const TextureRef& ref, TransferCurve curve) {

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "image/image.h"
 #include "pack/gpu_scene.h"
 
 namespace fragtrace {
@@ -10,10 +11,14 @@ namespace fragtrace {
 /// How a texture's colour channels are encoded.
 enum class TransferCurve : uint8_t { Linear, Srgb };
 
+/// The largest width and height at which all of the scene's pictures together take at most so many bytes.
+int textureSideWithin(const Scene& scene, int64_t mostBytes);
+
 /// Decodes textures on demand into one array of texels (RGBA as linear half floats); each image once a curve.
 class TexturePacker {
  public:
-  explicit TexturePacker(const Scene& scene) : scene_(scene) {}
+  /// Wider or higher pictures than `side` are scaled down to it.
+  TexturePacker(const Scene& scene, int side) : scene_(scene), side_(side) {}
 
   /// The slot row (shaders/layout.glsl) of a use of a texture; all zero for none.
   glm::uvec4 slot(const TextureRef& ref, TransferCurve curve);
@@ -31,8 +36,13 @@ class TexturePacker {
     glm::vec3 mean{1.0f};
   };
   const Placed& place(uint32_t image, TransferCurve curve);
+  /// Both append the texels and return the sum of their linear colours.
+  glm::dvec3 append(const TexelImage& texels, TransferCurve curve);
+  /// Each texel is the mean of those that it stands for, in linear light.
+  glm::dvec3 appendScaled(const TexelImage& texels, TransferCurve curve, glm::ivec2 size);
 
   const Scene& scene_;
+  int side_;
   std::map<std::pair<uint32_t, TransferCurve>, Placed> placed_;
   Words texels_;
 };

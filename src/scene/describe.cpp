@@ -14,7 +14,10 @@ SceneDescription describe(const Scene& scene) {
   result.materials = scene.materials.size();
   result.textures = scene.textures.size();
   result.images = scene.images.size();
-  for (const EncodedImage& image : scene.images) result.imageBytes += image.bytes.size();
+  for (const EncodedImage& image : scene.images) {
+    result.imageBytes += image.bytes.size();
+    result.texelBytes += texelBytes(image);
+  }
   for (const Light& light : scene.lights) {
     switch (light.type) {
       case LightType::Point:

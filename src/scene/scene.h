@@ -32,7 +32,12 @@ struct LocalSpace {
 struct EncodedImage {
   std::string name;  ///< for messages: a file path, or the JSON pointer of the image
   std::vector<uint8_t> bytes;
+  int width = 0;  ///< to be scaled down to once decoded; 0: as it is
+  int height = 0;
 };
+
+/// What a picture takes on the device: four half floats a texel.
+inline size_t texelBytes(const EncodedImage& image) { return size_t(image.width) * size_t(image.height) * 8; }
 
 enum class Wrap : uint8_t { Repeat, ClampToEdge, MirroredRepeat };
 

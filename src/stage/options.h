@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "image/limits.h"
 #include "image/tone_map.h"
 #include "scene/camera.h"
 #include "stage/stage.h"
@@ -73,6 +74,7 @@ struct RenderOptions {
   std::vector<Feature> aovFeatures;
   std::filesystem::path statsFile;
   std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
+  InputLimits limits;
   bool quiet = false;
   bool verbose = false;
 };

@@ -20,6 +20,11 @@ namespace fragtrace::gltf_test {
 
 using nlohmann::json;
 
+/// A PNG of one bluish pixel.
+inline const std::string kPixelUri =
+    "data:image/png;base64,"
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNoaPgPAAODAgAApfuJAAAAAElFTkSuQmCC";
+
 /// A folder that goes with the test.
 class TemporaryFolder {
  public:

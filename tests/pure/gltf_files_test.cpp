@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
+#include "image_samples.h"
 
 namespace fragtrace::gltf_test {
 namespace {
@@ -53,8 +54,8 @@ GltfBuilder withTexture(const json& image) {
 }
 
 TEST(GltfFiles, ImagesStayEncodedWhereverTheyCameFrom) {
-  const std::vector<uint8_t> expected = {1, 2, 3, 4, 5};
-  const std::string content = "\1\2\3\4\5";
+  const std::vector<uint8_t> expected(std::begin(samples::kRgba8Png), std::end(samples::kRgba8Png));
+  const std::string content(expected.begin(), expected.end());
   const TemporaryFolder folder;
 
   folder.write("my image.png", content);
@@ -146,7 +147,7 @@ TEST(GltfFiles, SkinsMorphTargetsAndAnimationsWarnOnceEach) {
   builder.root["skins"] = {{{"joints", {0}}}};
   builder.node(0)["skin"] = 0;
   builder.node(1)["skin"] = 0;
-  builder.root["animations"] = {{{"channels", json::array()}, {"samplers", json::array()}}};
+  builder.root["animations"] = {{{"channels", {{}}}, {"samplers", {{}}}}};
   const Scene scene = load(builder);
   EXPECT_EQ(scene.triangles.size(), 2u);
   EXPECT_EQ(scene.warnings.size(), 3u);

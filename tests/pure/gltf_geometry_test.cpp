@@ -184,7 +184,7 @@ TEST(GltfGeometry, TextureCoordinatesAreKeptWhereTheMaterialReadsThem) {
   primitive["attributes"]["TEXCOORD_1"] =
       builder.addAccessor<uint16_t>("VEC2", {0, 0, 65535, 0, 0, 65535}, true);
   primitive["material"] = 0;
-  builder.root["images"] = {{{"uri", "data:image/png;base64,AAAA"}}};
+  builder.root["images"] = {{{"uri", kPixelUri}}};
   builder.root["textures"] = {{{"source", 0}}};
   builder.root["materials"] = {{{"emissiveTexture", {{"index", 0}, {"texCoord", 1}}}}};
   const Scene scene = load(builder);

@@ -103,7 +103,7 @@ TEST(GltfMaterials, DefaultMaterialIsAppendedOnceWhereItIsNeeded) {
 
 TEST(GltfMaterials, TexturesKeepTheirOwnSamplerAndShareTheirImage) {
   GltfBuilder builder;
-  builder.root["images"] = {{{"uri", "data:image/png;base64,AAAA"}}, {{"uri", "nowhere.png"}}};
+  builder.root["images"] = {{{"uri", kPixelUri}}, {{"uri", "nowhere.png"}}};
   builder.root["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}};
   builder.root["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}}, {{"source", 1}}};
   builder.root["materials"] = {
@@ -123,7 +123,7 @@ TEST(GltfMaterials, TexturesKeepTheirOwnSamplerAndShareTheirImage) {
 
 TEST(GltfMaterials, TextureCoordinatesBeyondTheSecondSetWarn) {
   GltfBuilder builder;
-  builder.root["images"] = {{{"uri", "data:image/png;base64,AAAA"}}};
+  builder.root["images"] = {{{"uri", kPixelUri}}};
   builder.root["textures"] = {{{"source", 0}}};
   builder.root["materials"] = {{{"emissiveTexture", {{"index", 0}, {"texCoord", 2}}}}};
   const Scene scene = load(builder);

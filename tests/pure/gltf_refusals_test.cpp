@@ -16,9 +16,10 @@ GltfBuilder validScene() {
   json& primitive = builder.addTriangle();
   primitive["indices"] = builder.addAccessor<uint16_t>("SCALAR", {0, 1, 2});
   primitive["material"] = 0;
-  builder.root["images"] = {{{"uri", "data:image/png;base64,AAAA"}}};
+  builder.root["images"] = {{{"uri", kPixelUri}}};
   builder.root["textures"] = {{{"source", 0}}};
   builder.root["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
+  builder.root["extensionsUsed"] = {"KHR_lights_punctual"};
   builder.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
   builder.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
   builder.node(0)["children"] = {1};
@@ -116,7 +117,9 @@ TEST(GltfRefusals, BufferShorterThanItSays) {
             "test.gltf: /buffers/0: holds 42 bytes, fewer than its byteLength of 43");
   EXPECT_EQ(refusalAfter("/buffers/0/uri", "data:;base64,!!!!"),
             "test.gltf: /buffers/0/uri: the data URI is not valid base64");
-  EXPECT_NE(refusalAfter("/buffers/0/uri", "/dev/zero").find("neither a data URI nor a relative path"),
+  EXPECT_EQ(refusalAfter("/buffers/0/uri", "data:application/octet-stream;;base64,AA=="),
+            "test.gltf: /buffers/0/uri: the data URI has an empty parameter");
+  EXPECT_NE(refusalAfter("/buffers/0/uri", "/dev/zero").find("leads out of the scene's folder"),
             std::string::npos);
 }
 
@@ -131,7 +134,7 @@ TEST(GltfRefusals, WrongTypesOfAccessors) {
   EXPECT_EQ(refusalAfter("/accessors/0/type", "VEC2"),
             "test.gltf: /meshes/0/primitives/0/attributes/POSITION: accessor 0 is not of type VEC3");
   EXPECT_EQ(refusalAfter("/accessors/0/componentType", 5130),
-            "test.gltf: /accessors/0/componentType: 5130 is not a component type");
+            "test.gltf: /accessors/0: has no elements, or a type that glTF does not know");
   EXPECT_EQ(
       refusalAfter("/accessors/1/componentType", 5122),
       "test.gltf: /meshes/0/primitives/0/indices: accessor 1 does not hold unsigned integers of type SCALAR");
@@ -182,7 +185,8 @@ TEST(GltfRefusals, NodesThatAreNoTrees) {
             "test.gltf: /nodes/0: is in a loop: it is its own ancestor");
   EXPECT_EQ(refusalAfter("/nodes/0/children", {0}),
             "test.gltf: /nodes/0: is in a loop: it is its own ancestor");
-  EXPECT_EQ(refusalAfter("/nodes/0/children", {1, 1}), "test.gltf: /nodes/1: has two parents, nodes 0 and 0");
+  EXPECT_EQ(refusalAfter("/nodes/0/children", {1, 1}),
+            "test.gltf: /nodes/0/children/1: node 1 is already a child of node 0");
   EXPECT_EQ(refusalAfter("/scenes/0/nodes", {1}), "test.gltf: /scenes/0/nodes: node 1 is not a root node");
   EXPECT_EQ(refusalAfter("/scenes/0/nodes", {0, 0}), "test.gltf: /scenes/0/nodes: names node 0 twice");
 }

@@ -22,7 +22,10 @@ using Bytes = std::span<const uint8_t>;
 
 constexpr uint16_t from8(int value) { return uint16_t(value * 257); }
 
-Texels texelsOf(Bytes bytes) { return decodeTexels(bytes, "sample").rgba; }
+Texels texelsOf(Bytes bytes) {
+  const TexelImage image = decodeTexels(bytes, "sample");
+  return {image.rgba.begin(), image.rgba.end()};
+}
 
 std::string errorOf(Bytes bytes) {
   try {
@@ -51,8 +54,9 @@ TEST(ImageTexels, GreyBecomesRgbAndTheFirstRowIsTheTop) {
   const TexelImage image = decodeTexels(samples::kGrey8Png, "sample");
   EXPECT_EQ(image.width, 2);
   EXPECT_EQ(image.height, 2);
-  EXPECT_EQ(image.rgba, (Texels{0, 0, 0, 65535, from8(128), from8(128), from8(128), 65535, 65535, 65535,
-                                65535, 65535, from8(1), from8(1), from8(1), 65535}));
+  EXPECT_EQ(Texels(image.rgba.begin(), image.rgba.end()),
+            (Texels{0, 0, 0, 65535, from8(128), from8(128), from8(128), 65535, 65535, 65535, 65535, 65535,
+                    from8(1), from8(1), from8(1), 65535}));
 }
 
 TEST(ImageTexels, OneBitPngIsBlackAndWhite) {
@@ -123,8 +127,9 @@ TEST(ImageTexels, EveryTruncationIsAnErrorThatNamesThePicture) {
 
 TEST(ImageTexels, JpegIsCompleteOnlyWithItsEndMarker) {
   const Bytes whole = samples::kProgressiveJpeg;
-  EXPECT_TRUE(isCompleteJpeg(whole));
-  for (size_t size = 0; size < whole.size(); ++size) EXPECT_FALSE(isCompleteJpeg(whole.first(size))) << size;
+  EXPECT_TRUE(readJpegFrame(whole).complete);
+  for (size_t size = 0; size < whole.size(); ++size)
+    EXPECT_FALSE(readJpegFrame(whole.first(size)).complete) << size;
 }
 
 TEST(ImageTexels, WrongProfileAndTruncationOfPngPrintNothing) {

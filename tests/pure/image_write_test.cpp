@@ -15,7 +15,7 @@
 #include "errors.h"
 #include "image/channels.h"
 #include "image/image.h"
-#include "image/library.h"
+#include "image/process.h"
 #include "image/whole_file.h"
 #include "image_test_folder.h"
 
@@ -234,8 +234,8 @@ TEST_F(ImageWrite, ExistingFileSurvivesAWriteThatRunsOutOfSpace) {
   EXPECT_EQ(fileCount(), 5U);
 }
 
-TEST_F(ImageWrite, LibraryMayBePreloadedWhileItIsFirstUsed) {
-  std::thread preload(preloadImageLibrary);
+TEST_F(ImageWrite, LibraryMayBeStartedWhileItIsFirstUsed) {
+  std::thread preload(startImageProcess);
   EXPECT_EQ(written(folder / "a.png", smoothPicture(3, 2, {"R", "G", "B"})).width, 3);
   preload.join();
 }

@@ -149,7 +149,7 @@ GltfBuilder normalMapped() {
   primitive["attributes"]["TEXCOORD_0"] = builder.addAccessor<float>("VEC2", {0, 1, 1, 1, 0, 0});
   primitive["attributes"]["TEXCOORD_1"] = builder.addAccessor<float>("VEC2", {0, 0, 0, 1, 1, 0});
   primitive["material"] = 0;
-  builder.root["images"] = {{{"uri", "data:image/png;base64,AAAA"}}};
+  builder.root["images"] = {{{"uri", kPixelUri}}};
   builder.root["textures"] = {{{"source", 0}}};
   builder.root["materials"] = {{{"normalTexture", {{"index", 0}}}}};
   return builder;

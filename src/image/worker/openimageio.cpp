@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// libfragtrace_imageio.so: the only file that sees OpenImageIO. Everything goes from memory to memory, the
-// formats are chosen by name, and errors leave as std::runtime_error with OpenImageIO's own words.
+// The only file that sees OpenImageIO; formats are chosen by name.
+#include "image/worker/openimageio.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -9,7 +10,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "image/library.h"
 #include "image/limits.h"
 
 namespace fragtrace {
@@ -92,7 +92,9 @@ void unassociate(std::span<Value> values, double one) {
   }
 }
 
-Image decode(std::span<const uint8_t> bytes, ImageFormat format) {
+}  // namespace
+
+Image decodeFloats(std::span<const uint8_t> bytes, ImageFormat format) {
   OpenPicture picture(bytes, format);
   const OIIO::ImageSpec& spec = picture.spec;
 
@@ -115,23 +117,20 @@ Image decode(std::span<const uint8_t> bytes, ImageFormat format) {
   return image;
 }
 
-TexelImage decodeTexels(std::span<const uint8_t> bytes, ImageFormat format) {
+void decodeTexels(std::span<const uint8_t> bytes, ImageFormat format, int width, int height,
+                  std::span<uint16_t> rgba) {
   OpenPicture picture(bytes, format);
   const int stored = picture.spec.nchannels;
   if (stored > 4) throw std::runtime_error("it has more than four channels");
-  TexelImage image;
-  image.width = picture.spec.width;
-  image.height = picture.spec.height;
-  const size_t pixelCount = size_t(image.width) * size_t(image.height);
-  checkImageSize(image.width, image.height, 4);
-  image.rgba.resize(pixelCount * 4);
+  if (picture.spec.width != width || picture.spec.height != height)
+    throw std::runtime_error("its size is not what its header says");
   const OIIO::stride_t pixelStride = 4 * sizeof(uint16_t);
-  picture.read(OIIO::TypeUInt16, image.rgba.data(), pixelStride, pixelStride * image.width);
-  if (format == ImageFormat::WebP && stored == 4) unassociate<uint16_t>(image.rgba, 65535);
+  picture.read(OIIO::TypeUInt16, rgba.data(), pixelStride, pixelStride * width);
+  if (format == ImageFormat::WebP && stored == 4) unassociate<uint16_t>(rgba, 65535);
 
   // Spread what is stored at the front of each texel: Y, YA or RGB.
-  for (size_t i = 0; i < pixelCount; ++i) {
-    uint16_t* texel = image.rgba.data() + i * 4;
+  for (size_t first = 0; first < rgba.size(); first += 4) {
+    uint16_t* texel = rgba.data() + first;
     if (stored <= 2) {
       texel[3] = stored == 2 ? texel[1] : uint16_t(65535);
       texel[1] = texel[2] = texel[0];
@@ -139,10 +138,11 @@ TexelImage decodeTexels(std::span<const uint8_t> bytes, ImageFormat format) {
       texel[3] = 65535;
     }
   }
-  return image;
 }
 
 // Writing
+
+namespace {
 
 std::vector<uint8_t> encode(const OIIO::ImageSpec& spec, ImageFormat format, const void* values) {
   const auto output = OIIO::ImageOutput::create(formatName(format));
@@ -157,6 +157,8 @@ std::vector<uint8_t> encode(const OIIO::ImageSpec& spec, ImageFormat format, con
   return bytes;
 }
 
+}  // namespace
+
 std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, std::span<const uint8_t> values,
                                  ImageFormat format) {
   OIIO::ImageSpec spec(width, height, channelCount, OIIO::TypeUInt8);
@@ -167,7 +169,7 @@ std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, std::s
   return encode(spec, format, values.data());
 }
 
-std::vector<uint8_t> encodeFloats(const Image& image, ImageFormat format) {
+std::vector<uint8_t> encodeFloats(const Image& image, std::span<const float> values, ImageFormat format) {
   OIIO::ImageSpec spec(image.width, image.height, int(image.channelCount()), OIIO::TypeFloat);
   spec.channelnames = image.channels;
   const auto alpha = std::ranges::find(image.channels, "A");
@@ -176,16 +178,12 @@ std::vector<uint8_t> encodeFloats(const Image& image, ImageFormat format) {
   spec.attribute("oiio:ColorSpace", "Linear");
   spec.attribute("compression", "zip");
   spec.attribute("DateTime", "");  // else the time of writing, and the same picture gave different files
-  return encode(spec, format, image.values.data());
+  return encode(spec, format, values.data());
 }
 
-}  // namespace
-
-// Found by name: see kImageLibraryEntry.
-extern "C" __attribute__((visibility("default"))) const ImageLibrary* fragtraceImageLibrary() {
+void openImageLibrary() {
   OIIO::attribute("threads", 1);
-  static const ImageLibrary library{decode, decodeTexels, encodeBytes, encodeFloats};
-  return &library;
+  OIIO::ImageInput::create("png");  // fills the catalogue of formats
 }
 
 }  // namespace fragtrace

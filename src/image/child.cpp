@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "image/child.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+#include <vector>
+
+namespace fragtrace {
+namespace {
+
+std::vector<std::filesystem::path> programFolders() {
+  std::vector<std::filesystem::path> folders;
+  if (const char* folder = std::getenv("FRAGTRACE_LIBRARY_PATH")) folders.emplace_back(folder);
+  std::error_code error;
+  const auto executable = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) folders.push_back(executable.parent_path());
+  return folders;
+}
+
+std::filesystem::path pathOf(const std::string& name) {
+  std::string places;
+  for (const auto& folder : programFolders()) {
+    std::error_code error;
+    if (std::filesystem::exists(folder / name, error)) return folder / name;
+    places += (places.empty() ? "" : ", ") + folder.string();
+  }
+  throw std::runtime_error("the image library " + name + " is not in " + places + "; .pfm files need none");
+}
+
+/// The error of posix_spawn, or 0. Signals of the terminal do not reach the child, whose output is dropped.
+int spawn(const std::filesystem::path& path, int socket, int socketThere, pid_t& process) {
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawnattr_init(&attributes);
+  posix_spawn_file_actions_adddup2(&actions, socket, socketThere);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+#ifndef __SANITIZE_ADDRESS__
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+#endif
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  std::string name = path.string();
+  char* const arguments[] = {name.data(), nullptr};
+  const int error = ::posix_spawn(&process, path.c_str(), &actions, &attributes, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
+  return error;
+}
+
+/// Seconds of processor time that a process has taken.
+rlim_t secondsTaken(pid_t process) {
+  clockid_t clock{};
+  timespec time{};
+  if (::clock_getcpuclockid(process, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return 0;
+  return rlim_t(time.tv_sec) + 1;
+}
+
+}  // namespace
+
+Child::~Child() {
+  if (process <= 0) return;
+  ::kill(process, SIGKILL);
+  endChild(*this);
+}
+
+std::unique_ptr<Child> startChild(const std::string& name, int socketThere) {
+  const std::filesystem::path path = pathOf(name);
+  int sockets[2] = {-1, -1};
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, sockets) != 0)
+    throw std::runtime_error("no socket for " + name + ": " + std::generic_category().message(errno));
+  auto child = std::make_unique<Child>();
+  child->socket = sockets[0];
+  // dup2 of a descriptor to itself would leave it closed on exec.
+  if (sockets[1] == socketThere) {
+    const int moved = ::fcntl(sockets[1], F_DUPFD_CLOEXEC, socketThere + 1);
+    ::close(sockets[1]);
+    sockets[1] = moved;
+  }
+  const int error = spawn(path, sockets[1], socketThere, child->process);
+  ::close(sockets[1]);
+  if (error != 0) {
+    child->process = -1;
+    ::close(child->socket);
+    throw std::runtime_error("the image library " + path.string() + " cannot be started (" +
+                             std::generic_category().message(error) + "); .pfm files need none");
+  }
+  return child;
+}
+
+void limitChild(const Child& child, uint64_t dataBytes, unsigned cpuSeconds) {
+  const auto limit = [&](auto resource, rlim_t value) {
+    rlimit both{};
+    if (::prlimit(child.process, resource, nullptr, &both) != 0) return;
+    both.rlim_cur = std::min(value, both.rlim_max);
+    ::prlimit(child.process, resource, &both, nullptr);
+  };
+#ifndef __SANITIZE_ADDRESS__  // whose shadow memory is data, too
+  limit(RLIMIT_DATA, dataBytes);
+#endif
+  limit(RLIMIT_CPU, cpuSeconds == 0 ? RLIM_INFINITY : secondsTaken(child.process) + cpuSeconds);
+}
+
+std::string endChild(Child& child) {
+  ::close(child.socket);
+  // One that has ended by itself keeps its own status.
+  constexpr int kPatienceMs = 20;
+  int status = 0;
+  pid_t ended = 0;
+  int waited = 0;
+  for (; ended == 0; ++waited) {
+    if (waited == kPatienceMs) ::kill(child.process, SIGKILL);
+    ended = ::waitpid(child.process, &status, waited < kPatienceMs ? WNOHANG : 0);
+    if (ended == 0) ::usleep(1000);
+    if (ended < 0 && errno == EINTR) ended = 0;
+  }
+  child.process = -1;
+  if (ended < 0) return "it is gone";
+  if (!WIFSIGNALED(status)) return "status " + std::to_string(WEXITSTATUS(status));
+  const int signal = WTERMSIG(status);
+  if (signal == SIGXCPU || (signal == SIGKILL && waited > kPatienceMs)) return kOutOfTime;
+  return "signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// A process of our own that is talked to through a socket and can be limited and ended.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace fragtrace {
+
+/// Ended and waited for when it goes.
+struct Child {
+  pid_t process = -1;
+  int socket = -1;
+  Child() = default;
+  ~Child();
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+};
+
+/// What endChild says of one that was stopped for its processor time.
+inline constexpr const char* kOutOfTime = "out of time";
+
+/// Starts an executable, looked for in the folder FRAGTRACE_LIBRARY_PATH, then beside our own, with a
+/// sequential-packet socket as its descriptor `socketThere`. Throws std::runtime_error naming it.
+std::unique_ptr<Child> startChild(const std::string& name, int socketThere);
+
+/// Sets how much data it may have, and how many more seconds of processor time it may take (0: any number).
+void limitChild(const Child& child, uint64_t dataBytes, unsigned cpuSeconds);
+
+/// Ends it if it has not ended, and says how: kOutOfTime, "signal 11 (Segmentation fault)", "status 1".
+std::string endChild(Child& child);
+
+}  // namespace fragtrace

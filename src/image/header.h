@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// What the header of an encoded picture says, read by our own code before any library sees the file.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "image/format.h"
+
+namespace fragtrace {
+
+struct ImageHeader {
+  ImageFormat format = ImageFormat::Png;
+  int width = 0;  ///< of an .exr: of its display window
+  int height = 0;
+  int channelCount = 0;  ///< at most, once decoded
+};
+
+/// Takes the header apart and checks that the file is long enough for what it promises. Throws
+/// std::runtime_error with the reason: unknown format, truncated, a size that is not supported, more work
+/// than its length can be worth.
+ImageHeader readImageHeader(std::span<const uint8_t> bytes);
+
+}  // namespace fragtrace

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// What the program and its image process say to each other: a request with a piece of shared memory, a
+// reply. The memory holds the input and, from the next multiple of kSharedAlignment on, the output.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "image/format.h"
+
+namespace fragtrace {
+
+enum class ImageTask : uint32_t { DecodeFloats, DecodeTexels, EncodeBytes, EncodeFloats };
+
+/// Encoded pictures are their file's bytes; decoded ones their values, then texts.
+struct ImageRequest {
+  ImageTask task = ImageTask::DecodeFloats;
+  ImageFormat format = ImageFormat::Png;
+  int32_t width = 0;
+  int32_t height = 0;
+  int32_t channelCount = 0;
+  uint64_t inputBytes = 0;
+  uint64_t outputBytes = 0;  ///< room for the output
+};
+
+struct ImageReply {
+  bool done = false;
+  int32_t channelCount = 0;
+  uint64_t outputBytes = 0;
+  char reason[1000] = {};  ///< why it is not done
+};
+
+inline constexpr uint64_t kSharedAlignment = 4096;
+inline constexpr int kImageProcessSocket = 3;  ///< the image process's end
+
+inline uint64_t outputOffset(const ImageRequest& request) {
+  return (request.inputBytes + kSharedAlignment - 1) / kSharedAlignment * kSharedAlignment;
+}
+
+/// Texts with their lengths before them.
+std::vector<uint8_t> packTexts(const std::vector<std::string>& texts);
+/// Throws std::runtime_error when a length does not fit.
+std::vector<std::string> unpackTexts(std::span<const uint8_t> bytes);
+
+/// Sends a request and the file descriptor of its memory; false when nobody listens.
+bool sendRequest(int socket, const ImageRequest& request, int memoryFile);
+/// Waits for a request; the descriptor becomes the caller's. Nothing when the other side has gone.
+std::optional<ImageRequest> receiveRequest(int socket, int& memoryFile);
+
+}  // namespace fragtrace

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Encoding and decoding by OpenImageIO, from memory to memory. Every function throws std::runtime_error with
+// OpenImageIO's own words.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "image/format.h"
+#include "image/image.h"
+
+namespace fragtrace {
+
+/// All channels as floats; values as stored, alpha unassociated in 8 and 16 bit formats.
+Image decodeFloats(std::span<const uint8_t> bytes, ImageFormat format);
+
+/// Fills `rgba`, which holds width x height texels; throws when the picture has another size.
+void decodeTexels(std::span<const uint8_t> bytes, ImageFormat format, int width, int height,
+                  std::span<uint16_t> rgba);
+
+/// Interleaved 8-bit RGB, or RGBA with unassociated alpha, as .png or .jpg.
+std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, std::span<const uint8_t> values,
+                                 ImageFormat format);
+
+/// Every channel as .exr, or three as .hdr.
+std::vector<uint8_t> encodeFloats(const Image& image, std::span<const float> values, ImageFormat format);
+
+/// Everything that the first use of the library would spend its time on.
+void openImageLibrary();
+
+}  // namespace fragtrace
