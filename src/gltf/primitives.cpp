@@ -249,10 +249,11 @@ class PrimitiveReader {
     size_t count = 0;
     size_t notUnit = 0;
     for (size_t i = 0; i < tangents.size(); ++i) {
-      notUnit += !isUnit(glm::vec3(tangents[i])) || std::abs(tangents[i].w) != 1.0f;
       if (!hasDirection(glm::vec3(tangents[i])) || !std::isfinite(tangents[i].w)) {
         tangents[i] = glm::vec4(anyPerpendicular(result_.vertices.normal[i]), 1.0f);
         ++count;
+      } else {
+        notUnit += !isUnit(glm::vec3(tangents[i])) || std::abs(tangents[i].w) != 1.0f;
       }
       tangents[i].w = tangents[i].w < 0.0f ? -1.0f : 1.0f;
     }

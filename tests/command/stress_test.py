@@ -37,7 +37,9 @@ class StressRows(Stress):
             rows = self.rows("--rendering-backend", backend)
             self.assertGreater(len(rows), 15)
             for row in rows.values():
-                self.assertGreater(row["cases"], 100, row)
+                # Cases are rays or pixels, where they are not whole scenes, files or trees.
+                whole = row["row"].split()[0] in ("scenes", "tree", "film", "no")
+                self.assertGreater(row["cases"], 0 if whole else 100, row)
                 self.assertEqual(row["backend"], backend)
             # What the fast test is there to show.
             self.assertGreater(rows["rays rims-from-inside"]["fast_failures"], 0)
