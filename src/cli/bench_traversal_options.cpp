@@ -20,7 +20,7 @@ void addBenchTraversalOptions(CLI::App& app, RawBenchTraversal& raw) {
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   app.add_option("--traversal", raw.render.traversal, "auto, bvh, front-to-back")->capture_default_str();
-  app.add_option("--camera-index", raw.render.options.cameraIndex, "camera of the primary rays, from 0");
+  app.add_option("--camera-index", raw.render.camera.index, "camera of the primary rays, from 0");
   app.add_option("--seed", raw.render.options.seed, "of diffuse and shadow rays")->capture_default_str();
   app.add_option("--json", o.json, "file for everything measured, a line a kind of rays");
   app.add_option("--rays", o.rays, "file for triangles and rays, to be traced by another (bench/peers)");

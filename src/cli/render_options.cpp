@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <regex>
 
 #include "cli/choose.h"
 #include "image/format.h"
@@ -29,11 +28,6 @@ Stage stageNamed(const char* option, const std::string& name) {
   return *stage;
 }
 
-std::optional<glm::dvec3> vectorOf(const std::vector<double>& values) {
-  if (values.empty()) return std::nullopt;
-  return glm::dvec3(values[0], values[1], values[2]);
-}
-
 int parseBounces(const std::string& text) {
   if (text == "unlimited") return kUnlimitedBounces;
   int value = -1;
@@ -47,25 +41,13 @@ void checkFinite(const RenderOptions& o) {
   const auto check = [](const char* option, double value) {
     if (!std::isfinite(value)) throw UsageError(std::string(option) + ": not a finite number");
   };
-  const auto checkVector = [&](const char* option, const std::optional<glm::dvec3>& v) {
-    for (int i = 0; v && i < 3; ++i) check(option, (*v)[i]);
-  };
   check("--exposure", o.exposure);
   // The library's ranges let NaN pass.
   check("--noise", o.noise);
   check("--time", o.seconds);
   check("--clamp-indirect", o.clampIndirect);
   check("--hdri-rotation", o.hdriRotationDegrees);
-  checkVector("--camera-position", o.camera.position);
-  checkVector("--camera-focal-point", o.camera.focalPoint);
-  checkVector("--camera-view-up", o.camera.viewUp);
-  checkVector("--background-color", glm::dvec3(o.backgroundColor));
-  if (o.camera.viewUp && *o.camera.viewUp == glm::dvec3(0.0)) throw UsageError("--camera-view-up: is zero");
-  constexpr double kFarthest = 1e9;  // metres, as for scenes
-  for (const auto& place : {o.camera.position, o.camera.focalPoint}) {
-    if (place && glm::length(*place) > kFarthest)
-      throw UsageError("camera: farther than 1e9 m from the origin");
-  }
+  for (int i = 0; i < 3; ++i) check("--background-color", o.backgroundColor[i]);
   if (glm::any(glm::lessThan(o.backgroundColor, glm::vec3(0.0f))))
     throw UsageError("--background-color: below 0");
 }
@@ -95,7 +77,7 @@ RenderOptions finishRender(const RawRender& raw) {
   if (!raw.output.empty() && !isWritableImageName(o.output)) {
     throw UsageError("--output: '" + raw.output + "' ends in none of .png, .jpg, .exr, .hdr, .pfm");
   }
-  if (!raw.resolution.empty()) o.resolution = glm::ivec2(raw.resolution[0], raw.resolution[1]);
+  finishCamera(raw.camera, o);
   o.stages = stagesUpTo(choose<Stage>("--stage", raw.stage, stageNames(true)));
   if (choose<int>("--fresnel", raw.fresnel, std::vector<std::string>{"exact", "schlick"}) == 1) {
     o.stages.set(size_t(Stage::Schlick));
@@ -112,10 +94,8 @@ RenderOptions finishRender(const RawRender& raw) {
   for (const std::string& name : raw.enable) o.stages.set(size_t(stageNamed("--enable", name)));
   for (const std::string& name : raw.disable) o.stages.reset(size_t(stageNamed("--disable", name)));
   o.bounces = parseBounces(raw.bounces);
-  o.camera.position = vectorOf(raw.position);
-  o.camera.focalPoint = vectorOf(raw.focalPoint);
-  o.camera.viewUp = vectorOf(raw.viewUp);
-  if (auto color = vectorOf(raw.backgroundColor)) o.backgroundColor = glm::vec3(*color);
+  if (!raw.backgroundColor.empty())
+    o.backgroundColor = glm::vec3(raw.backgroundColor[0], raw.backgroundColor[1], raw.backgroundColor[2]);
   o.hdriFile = raw.hdriFile;
   o.background = !raw.noBackground;
   o.defaultLight = !raw.noDefaultLight;
@@ -145,25 +125,10 @@ RenderOptions finishRender(const RawRender& raw) {
   return o;
 }
 
-std::string withNumberSettled(std::string argument) {
-  if (argument.starts_with("-.") && argument.size() > 2 &&
-      std::isdigit(static_cast<unsigned char>(argument[2]))) {
-    argument.insert(1, "0");
-  }
-  static const std::regex kSize("(--resolution=)?([0-9]+)x([0-9]+)");
-  if (std::smatch size; std::regex_match(argument, size, kSize))
-    return size.str(1) + size.str(2) + "," + size.str(3);
-  return argument;
-}
-
 void addRenderOptions(CLI::App& app, RawRender& raw) {
   RenderOptions& o = raw.options;
   const int kMost = std::numeric_limits<int>::max() / 4;
-  app.add_option("--resolution", raw.resolution,
-                 "WIDTH,HEIGHT or WIDTHxHEIGHT; default 1280,720, or 720 high at the camera's aspect ratio")
-      ->delimiter(',')
-      ->expected(2)
-      ->check(CLI::Range(1, 65536));
+  addCameraOptions(app, raw.camera);
   app.add_option("--stage", raw.stage, joined(stageNames(true)) + "; each turns on itself and all before it")
       ->capture_default_str();
   app.add_option("--enable", raw.enable, "switches over that: " + joined(stageNames(false)))
@@ -202,12 +167,6 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
          "most radiance that light of two scatterings or more may add to a sample: fewer bright dots, "
          "but biased")
       ->check(CLI::Range(1e-6, 1e30));
-  app.add_option("--camera-index", o.cameraIndex,
-                 "camera of the scene, from 0; default: the first, else one that frames it");
-  app.add_option("--camera-position", raw.position, "X,Y,Z in world space")->delimiter(',')->expected(3);
-  app.add_option("--camera-focal-point", raw.focalPoint, "X,Y,Z")->delimiter(',')->expected(3);
-  app.add_option("--camera-view-up", raw.viewUp, "X,Y,Z")->delimiter(',')->expected(3);
-  app.add_option("--camera-view-angle", o.camera.viewAngleDegrees, "vertical, in degrees");
   app.add_option("--hdri-file", raw.hdriFile, "equirectangular environment: .hdr, .exr, .pfm");
   app.add_option("--hdri-rotation", o.hdriRotationDegrees, "degrees about +Y")->capture_default_str();
   app.add_flag("--no-background", raw.noBackground, "camera rays that miss see nothing; alpha is written");

@@ -21,20 +21,6 @@ namespace {
 /// Smaller scenes are literals as a whole, or not at all.
 constexpr size_t kLeastBesideLarge = 256;
 
-Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
-  Camera camera;
-  if (options.cameraIndex) {
-    if (*options.cameraIndex < 0 || size_t(*options.cameraIndex) >= scene.cameras.size()) {
-      throw UsageError("--camera-index: " + std::to_string(*options.cameraIndex) + ", but the scene has " +
-                       std::to_string(scene.cameras.size()) + " cameras (counted from 0)");
-    }
-    camera = scene.cameras[size_t(*options.cameraIndex)];
-  } else {
-    camera = scene.cameras.empty() ? frameScene(scene.bounds) : scene.cameras.front();
-  }
-  return withOverrides(camera, options.camera, scene.bounds);
-}
-
 glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options) {
   if (options.resolution) return *options.resolution;
   if (camera.aspectRatio <= 0.0) return {1280, 720};
@@ -106,7 +92,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
   Stopwatch watch;
   LoadedScene loaded;
   GltfOptions loading;
-  loading.recenterOn = options.camera.focalPoint;
+  loading.recenterOn = options.sceneOrigin ? options.sceneOrigin : options.camera.focalPoint;
   loaded.scene = loadGltf(options.scene, loading);
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));
@@ -114,7 +100,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
     say(options, "warning: " + options.scene.string() + ": no triangle and no sphere, nothing to draw");
   }
   loaded.environment = loadEnvironment(options, scene);
-  loaded.camera = chooseCamera(scene, options);
+  loaded.camera = chooseCamera(scene.cameras, options.cameraIndex, options.camera, scene.bounds);
   loaded.size = chooseSize(loaded.camera, options);
   loaded.view = makeView(options, scene, loaded.camera);
   stats.scene = describe(scene);

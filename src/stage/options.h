@@ -56,6 +56,8 @@ struct RenderOptions {
   double seconds = 0.0;  ///< time to spend, adaptively; 0: no limit
   std::optional<int> cameraIndex;
   CameraOverrides camera;
+  std::optional<glm::dvec3>
+      sceneOrigin;  ///< place that positions are rounded about; none: the focal point given
   std::filesystem::path hdriFile;
   double hdriRotationDegrees = 0.0;
   double exposure = 0.0;
