@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "cli/choose.h"
+#include "cli/config_file.h"
 #include "cli/render_options.h"
 #include "image/format.h"
 #include "image/image.h"
@@ -37,11 +38,11 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
 
   CLI::App& render = *app.add_subcommand("render", "render a scene to a file");
   render.add_option("scene", raw.scene, ".gltf or .glb file")->required();
-  render
-      .add_option("-o,--output", raw.output,
-                  "picture: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance)")
-      ->required();
+  render.add_option("-o,--output", raw.output,
+                    "picture: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); required");
   addRenderOptions(render, raw);
+  std::string config;
+  addConfigOption(render, config);
   CLI::App& info = *app.add_subcommand("info", "say what is in a scene");
   info.add_option("scene", infoScene, ".gltf or .glb file")->required();
   info.add_flag("--json", line.info.json, "as JSON");
@@ -99,7 +100,8 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
 
   if (render.parsed()) {
     line.command = Command::Render;
-    line.render = finishRender(raw);
+    line.render = finishConfigured(raw, config, render);
+    if (line.render.output.empty()) throw UsageError("--output is required; --help says more");
   } else if (info.parsed()) {
     line.command = Command::Info;
     line.info.scene = infoScene;

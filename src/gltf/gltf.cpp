@@ -110,7 +110,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   flatten(instances, scene);
   for (const PlacedSphere& sphere : spheres) {
     scene.spheres.push_back({glm::vec3(sphere.center - scene.origin), float(sphere.radius),
-                             glm::quat(sphere.rotation), sphere.material});
+                             glm::quat(sphere.rotation), sphere.material, sphere.node});
   }
   for (const PlacedNode& node : nodes) {
     if (const auto light = lightAt(document, node, scene.origin)) scene.lights.push_back(*light);

@@ -102,6 +102,7 @@ struct Sphere {
   float radius = 1.0f;
   glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
   uint32_t material = 0;
+  std::string node{};  ///< as in PrimitiveOrigin
 };
 
 enum class LightType : uint8_t { Point, Spot, Directional };

@@ -93,8 +93,8 @@ struct Control {
   int modifiers = 0;
   Action action = Action::Quit;
   int argument = 0;
-  std::string
-      sentence;  ///< what it does, as in the sheet; rows in a row with the same one are one line there
+  /// What it does, as in the sheet; neighbours with the same one are one line there.
+  std::string sentence{};
 };
 
 /// All controls, in the order of the sheet.
