@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <future>
 
+#include "bvh/tree_boxes.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/outputs.h"
@@ -16,8 +17,10 @@
 #include "image/format.h"
 #include "image/heatmap.h"
 #include "image/library.h"
+#include "image/lines.h"
 #include "image/tone_map.h"
 #include "render/adaptive.h"
+#include "render/debug_picture.h"
 
 namespace fragtrace {
 
@@ -25,13 +28,23 @@ namespace {
 
 constexpr int kInterruptedStatus = 130;
 
-void writePicture(const RenderOptions& options, const Image& linear) {
+/// Lines over what a display shows of the picture.
+void drawBoxes(Image& display, std::span<const PictureLine> lines) {
+  const glm::vec3 orange(1.0f, 0.55f, 0.1f);
+  const glm::dvec2 half(0.5 * display.width, -0.5 * display.height);
+  const glm::dvec2 middle(0.5 * display.width, 0.5 * display.height);
+  for (const PictureLine& line : lines)
+    drawLine(display, middle + line.from * half, middle + line.to * half, orange);
+}
+
+void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> boxes) {
   if (!isDisplayFormat(options.output)) return writeImage(options.output, linear);
-  const bool colors = has(options.stages, Stage::BvhHeatmap);
+  const bool colors = has(options.stages, Stage::BvhHeatmap) || options.debugView != DebugView::None;
   const bool keepsAlpha = formatOfName(options.output) == ImageFormat::Png;
-  writeImage(options.output,
-             toDisplay(keepsAlpha ? linear : withoutAlpha(linear), colors ? 0.0 : options.exposure,
-                       colors ? ToneMap::Linear : options.toneMap));
+  Image display = toDisplay(keepsAlpha ? linear : withoutAlpha(linear), colors ? 0.0 : options.exposure,
+                            colors ? ToneMap::Linear : options.toneMap);
+  drawBoxes(display, boxes);
+  writeImage(options.output, display);
 }
 
 /// What was drawn, before it is a picture.
@@ -88,10 +101,11 @@ void addFeatures(Image& picture, const Tracer& tracer, const RenderOptions& opti
   const int samples = int(stats.complete ? drawn : std::min(drawn, kFewSamples));
   const int before = interrupts();
   for (const ShaderVariant& variant : tracer.features) {
+    const FeatureRow& row = rowOf(variant.feature);
     Film film(loaded.size);
     RenderTimes times;
     stats.compileMs += tracer.renderer->compile(variant, film, loaded.view);
-    ProgressBar bar("layer " + std::string(kFeatureNames[size_t(variant.feature)]), options.quiet);
+    ProgressBar bar("layer " + std::string(row.name), options.quiet);
     const bool complete =
         tracer.renderer->addSamples(film, loaded.view, 0, samples, times, [&](double fraction) {
           bar.show(fraction);
@@ -103,20 +117,9 @@ void addFeatures(Image& picture, const Tracer& tracer, const RenderOptions& opti
     const FilmPixels pixels = film.read();
     sayWhatWentWrong(options, totalsOf(pixels));
     const Image layer = imageOf(pixels, {});
-    const std::string name(kFeatureNames[size_t(variant.feature)]);
-    switch (variant.feature) {
-      case Feature::Albedo:
-        appendChannels(picture, layer, {{name + ".R", name + ".G", name + ".B"}});
-        break;
-      case Feature::Normal:
-        appendChannels(picture, layer, {{name + ".X", name + ".Y", name + ".Z"}});
-        break;
-      case Feature::Depth:
-        appendChannels(picture, layer, {{name + ".Z"}});
-        break;
-      case Feature::None:
-        break;
-    }
+    std::vector<std::string> names;
+    for (const char channel : row.channels) names.push_back(std::string(row.name) + "." + channel);
+    appendChannels(picture, layer, names);
   }
 }
 
@@ -140,6 +143,15 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
               stats.times.renderMs / 1000.0, megaPathsPerSecond(stats), noise.c_str());
 }
 
+/// The edges of the boxes of the level asked for, if any.
+std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedScene& loaded) {
+  if (!options.treeLevel) return {};
+  const std::vector<Bounds> boxes = boxesAtLevel(loaded.bvh, uint32_t(*options.treeLevel));
+  if (boxes.empty()) say(options, "warning: the tree has no level " + std::to_string(*options.treeLevel));
+  const Projection projection = projectionOf(loaded.camera, double(loaded.size.x) / loaded.size.y);
+  return boxEdges(boxes, projection, loaded.scene.origin);
+}
+
 }  // namespace
 
 int runRender(const RenderOptions& options) {
@@ -155,6 +167,7 @@ int runRender(const RenderOptions& options) {
   const auto context = makeContext(options.backend);
   DebugLog driverLog;
   const Tracer tracer = makeTracer(*context, loaded, options, stats);
+  const std::vector<PictureLine> boxes = treeLines(options, loaded);
   releaseGeometry(loaded);
   Film film(loaded.size);
   stats.compileMs = tracer.renderer->compile(tracer.variant, film, loaded.view);
@@ -182,20 +195,24 @@ int runRender(const RenderOptions& options) {
   if (interrupts() > 1) return kInterruptedStatus;
   Image picture = imageOf(drawing.pixels, {!options.background, options.aovSamples, options.aovVariance},
                           drawing.variance);
-  if (has(tracer.variant.stages, Stage::BvhHeatmap)) picture = paintHeatmap(picture);
+  if (has(tracer.variant.stages, Stage::BvhHeatmap)) {
+    picture = paintHeatmap(picture);
+  } else if (options.debugView != DebugView::None) {
+    replaceColor(picture, debugPicture(options.debugView, drawing.pixels, drawing.variance));
+  }
   addFeatures(picture, tracer, options, loaded, stats);
   sayDriverLog();
   if (interrupts() > 1) return kInterruptedStatus;
 
   // Step: write.
-  if (formatOfName(options.output) == ImageFormat::OpenExr) {
+  if (formatOfName(options.output) == ImageFormat::OpenExr && options.debugView == DebugView::None) {
     const bool uniform =
         stats.complete && stats.film.fewestSamples == stats.film.mostSamples && !stats.adaptive;
     setProvenance(picture, {settingsText(options, loaded, tracer), options.seed, options.sampleOffset,
                             std::llround(samplesPerPixel(stats)), uniform});
   }
   if (library.valid()) library.wait();
-  writePicture(options, picture);
+  writePicture(options, picture, boxes);
   if (!options.statsFile.empty()) writeStatistics(options.statsFile, stats);
   sayWhatWasDone(options, stats);
   return stats.complete ? 0 : kInterruptedStatus;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bvh/bvh.h"
 #include "cli/choose.h"
 #include "image/format.h"
 #include "image/image.h"
@@ -52,17 +53,35 @@ void checkFinite(const RenderOptions& o) {
     throw UsageError("--background-color: below 0");
 }
 
-constexpr std::array<std::string_view, 5> kLayerNames{"albedo", "normal", "depth", "samples", "variance"};
+/// Of first hits, then those of the film.
+std::vector<std::string_view> layerNames() {
+  std::vector<std::string_view> names;
+  for (const FeatureRow& row : kFeatureRows) {
+    if (!row.name.empty()) names.push_back(row.name);
+  }
+  names.insert(names.end(), {"samples", "variance"});
+  return names;
+}
 
 void chooseLayers(const std::vector<std::string>& names, RenderOptions& o) {
+  const std::vector<std::string_view> known = layerNames();
   for (const std::string& name : names) {
-    const int index = choose<int>("--aov", name, kLayerNames);
-    if (index == 3) o.aovSamples = true;
-    if (index == 4) o.aovVariance = true;
-    const Feature feature = Feature(index + 1);
-    if (index < 3 && std::ranges::find(o.aovFeatures, feature) == o.aovFeatures.end())
+    const auto index = choose<size_t>("--aov", name, known);
+    if (name == "samples") {
+      o.aovSamples = true;
+    } else if (name == "variance") {
+      o.aovVariance = true;
+    } else if (const Feature feature = Feature(index + 1);
+               std::ranges::find(o.aovFeatures, feature) == o.aovFeatures.end()) {
       o.aovFeatures.push_back(feature);
+    }
   }
+}
+
+std::vector<std::string_view> debugViewNames() {
+  std::vector<std::string_view> names;
+  for (const DebugViewRow& row : kDebugViewRows) names.push_back(row.name);
+  return names;
 }
 
 /// Of any pixel: sample indices have 32 bits, targets of the film 30.
@@ -112,6 +131,10 @@ RenderOptions finishRender(const RawRender& raw) {
   if (!raw.aov.empty() && formatOfName(o.output) != ImageFormat::OpenExr) {
     throw UsageError("--aov: only .exr files hold more layers");
   }
+  if (o.treeLevel && !raw.output.empty() && !isDisplayFormat(o.output))
+    throw UsageError("--tree-level: boxes are drawn over a .png or .jpg only");
+  o.debugView = choose<DebugView>("--debug-view", raw.debugView, debugViewNames());
+  if (o.debugView == DebugView::Visits) o.stages.set(size_t(Stage::BvhHeatmap));
   const bool adaptive = o.noise > 0.0 || o.seconds > 0.0;
   if (raw.spp) o.spp = *raw.spp;
   if (adaptive && !raw.spp) o.spp = kMostSamples;
@@ -175,9 +198,14 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
       ->expected(3);
   app.add_flag("--no-default-light", raw.noDefaultLight, "a scene without any light stays dark");
   app.add_option("--pixel-filter", raw.pixelFilter, joined(kPixelFilterNames))->capture_default_str();
-  app.add_option("--aov", raw.aov, joined(kLayerNames) + ": more layers in an .exr")
+  app.add_option("--aov", raw.aov, joined(layerNames()) + ": more layers in an .exr")
       ->delimiter(',')
       ->allow_extra_args(false);
+  app.add_option("--debug-view", raw.debugView, joined(debugViewNames()) + ": what the picture shows")
+      ->capture_default_str();
+  app.add_option("--tree-level", o.treeLevel,
+                 "draws the boxes of this level of the tree over a .png or .jpg; 0: the root")
+      ->check(CLI::Range(0, int(kMaxBvhDepth)));
   app.add_option("--exposure", o.exposure, "EV, for .png and .jpg")->capture_default_str();
   app.add_option("--tone-map", raw.toneMap, "linear, reinhard, aces, agx, neutral, for .png and .jpg")
       ->capture_default_str();

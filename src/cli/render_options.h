@@ -37,6 +37,7 @@ struct RawRender {
   std::string statsFile;
   std::string shaderFolder;
   std::vector<std::string> aov;
+  std::string debugView = "none";
   std::string fresnel = "exact";
   std::string compensation = "on";
   std::string sampler = "sobol";

@@ -126,6 +126,7 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
     variant.literals = largeFirst(loaded.scene, loaded.bvh, variant);
     return;
   }
+  if (variant.feature != Feature::None) return;
   const bool asked = options.traversal == TraversalMethod::Literals;
   if (has(variant.stages, Stage::BvhHeatmap)) {
     if (asked) throw UsageError("--traversal literals: has no tree whose nodes the heat map could count");
@@ -148,7 +149,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   const uint32_t depth = loaded.bvh.depth;
   const BufferReads undecided = options.bufferReads;  // what is packed does not depend on it
   Tracer tracer;
-  tracer.variant = chooseVariant(options, present, loaded.environment.kind, depth, undecided);
+  tracer.variant = choosePictureVariant(options, present, loaded.environment.kind, depth, undecided);
   ShaderVariant everything = tracer.variant;
   for (const Feature feature : options.aovFeatures) {
     tracer.features.push_back(
@@ -167,7 +168,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything);
   useLiterals(loaded, packed, options, tracer.variant);
   for (ShaderVariant& feature : tracer.features) {
-    if (loaded.bvh.besideTree > 0) useLiterals(loaded, packed, options, feature);
+    useLiterals(loaded, packed, options, feature);
   }
   stats.sceneBytes = packed.bytes();
   stats.geometryBytes = packed.geometryBytes();

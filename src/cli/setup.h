@@ -34,7 +34,8 @@ struct Tracer {
   uint64_t sceneHash = 0;  ///< of all that was uploaded; only for .exr, which keeps it
 };
 
-/// A scene that is small enough becomes part of the shader's text, unless another traversal was asked for.
+/// A scene that is small enough becomes part of the shader's text, unless another traversal was asked for, or
+/// first hits or visits are drawn.
 /// Throws UsageError.
 void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
                  ShaderVariant& variant);

@@ -13,6 +13,7 @@
 
 #include "image/tone_map.h"
 #include "scene/camera.h"
+#include "stage/feature.h"
 #include "stage/stage.h"
 
 namespace fragtrace {
@@ -33,10 +34,6 @@ inline constexpr std::array<std::string_view, 3> kDispatchNames{"auto", "fragmen
 /// How camera samples spread about the middle of their pixel (shaders/pixel_filter.glsl).
 enum class PixelFilter : uint8_t { Box, Gaussian, BlackmanHarris };
 inline constexpr std::array<std::string_view, 3> kPixelFilterNames{"box", "gaussian", "blackman-harris"};
-
-/// What a first hit is, beside its radiance: further layers of .exr files (docs/conventions.md).
-enum class Feature : uint8_t { None, Albedo, Normal, Depth };
-inline constexpr std::array<std::string_view, 4> kFeatureNames{"", "albedo", "normal", "depth"};
 
 inline constexpr int kUnlimitedBounces = std::numeric_limits<int>::max() - 1;
 
@@ -73,6 +70,8 @@ struct RenderOptions {
   bool aovSamples = false;  ///< more layers of .exr files
   bool aovVariance = false;
   std::vector<Feature> aovFeatures;
+  DebugView debugView = DebugView::None;
+  std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
   std::filesystem::path statsFile;
   std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
   bool quiet = false;

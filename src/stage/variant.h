@@ -53,6 +53,10 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
                                    Surroundings surroundings, uint32_t treeDepth, BufferReads reads,
                                    Feature feature);
 
+/// The variant that draws what the picture shows: radiance, or what the options' debug view needs.
+ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet& present,
+                                   Surroundings surroundings, uint32_t treeDepth, BufferReads reads);
+
 /// Whether hits keep their barycentric weights: only vertex attributes need them.
 bool keepsWeights(const ShaderVariant& variant);
 
