@@ -32,15 +32,18 @@ double halfHeightOf(const CameraPose& pose) {
   return pose.perspective ? distanceOf(pose) * tangentOf(pose) : pose.halfHeight;
 }
 
-/// The moved pose, unless it is out of reach.
-CameraPose within(const CameraPose& moved, const CameraPose& pose) {
-  const bool reached = glm::length(moved.position) <= kFarthest && glm::length(moved.focalPoint) <= kFarthest;
-  return reached ? moved : pose;
-}
-
 /// The part of `up` that is orthogonal to a unit `forward`, to which it is not parallel.
 glm::dvec3 orthogonal(const glm::dvec3& up, const glm::dvec3& forward) {
   return glm::normalize(up - glm::dot(up, forward) * forward);
+}
+
+/// The moved pose, unless it is out of reach. Its up follows the view, which rounding turns, too: close by,
+/// far from the world's origin.
+CameraPose settled(CameraPose moved, const CameraPose& before) {
+  const bool reached = glm::length(moved.position) <= kFarthest && glm::length(moved.focalPoint) <= kFarthest;
+  if (!reached || moved.position == moved.focalPoint) return before;
+  moved.viewUp = orthogonal(moved.viewUp, forwardOf(moved));
+  return moved;
 }
 
 /// The rotation that turns a view: about the world's up, then about the horizontal axis across the view, as
@@ -48,7 +51,7 @@ glm::dvec3 orthogonal(const glm::dvec3& up, const glm::dvec3& forward) {
 glm::dquat turn(const CameraPose& pose, double azimuth, double elevation) {
   const glm::dvec3 forward = forwardOf(pose);
   const double polar = std::acos(std::clamp(forward.y, -1.0, 1.0));  // 0: looks up
-  const bool atPole = std::sin(polar) < kPoleAngle;
+  const bool atPole = std::sin(polar) < 0.5 * kPoleAngle;
   // At a pole the camera's own axis says where elevation leads; upside down, the pointer leads the other way.
   const bool upright = pose.viewUp.y >= 0.0;
   const glm::dvec3 axis = atPole ? rightOf(pose) : glm::normalize(glm::cross(forward, kWorldUp));
@@ -90,8 +93,8 @@ CameraPose orbit(CameraPose pose, double azimuth, double elevation) {
   const glm::dquat rotation = turn(pose, azimuth, -elevation);
   const glm::dvec3 view = rotation * (pose.focalPoint - pose.position);
   pose.position = pose.focalPoint - view;
-  pose.viewUp = orthogonal(rotation * pose.viewUp, glm::normalize(view));
-  return within(pose, before);
+  pose.viewUp = rotation * pose.viewUp;
+  return settled(pose, before);
 }
 
 CameraPose look(CameraPose pose, double yaw, double pitch) {
@@ -99,8 +102,8 @@ CameraPose look(CameraPose pose, double yaw, double pitch) {
   const glm::dquat rotation = turn(pose, yaw, pitch);
   const glm::dvec3 view = rotation * (pose.focalPoint - pose.position);
   pose.focalPoint = pose.position + view;
-  pose.viewUp = orthogonal(rotation * pose.viewUp, glm::normalize(view));
-  return within(pose, before);
+  pose.viewUp = rotation * pose.viewUp;
+  return settled(pose, before);
 }
 
 CameraPose roll(CameraPose pose, double angle) {
@@ -116,7 +119,7 @@ CameraPose pan(CameraPose pose, const glm::dvec2& shift) {
   const glm::dvec3 step = -height * (shift.x * rightOf(pose) + shift.y * pose.viewUp);
   pose.position += step;
   pose.focalPoint += step;
-  return within(pose, before);
+  return settled(pose, before);
 }
 
 CameraPose zoom(CameraPose pose, double amount) {
@@ -129,7 +132,7 @@ CameraPose zoom(CameraPose pose, double amount) {
   const double nearest = kNearest * std::max(1.0, glm::length(pose.focalPoint));
   const double wanted = std::max(distance * std::exp(-amount), std::min(distance, nearest));
   pose.position = pose.focalPoint + (pose.position - pose.focalPoint) * (wanted / distance);
-  return within(pose, before);
+  return settled(pose, before);
 }
 
 CameraPose fly(CameraPose pose, const glm::dvec3& amount) {
@@ -138,21 +141,22 @@ CameraPose fly(CameraPose pose, const glm::dvec3& amount) {
       distanceOf(pose) * (amount.x * rightOf(pose) + amount.y * pose.viewUp + amount.z * forwardOf(pose));
   pose.position += step;
   pose.focalPoint += step;
-  return within(pose, before);
+  return settled(pose, before);
 }
 
 CameraPose centerOn(CameraPose pose, const glm::dvec3& point) {
   const glm::dvec3 forward = forwardOf(pose);
   const double depth = glm::dot(point - pose.position, forward);
   if (!(depth > 0.0)) return pose;
+  const CameraPose before = pose;
   pose.focalPoint = point;
   pose.position = point - depth * forward;
-  pose.viewUp = orthogonal(pose.viewUp, forward);
-  return pose;
+  return settled(pose, before);
 }
 
 CameraPose frameAll(CameraPose pose, const BoundsDouble& bounds, double aspectRatio) {
   if (bounds.empty()) return pose;
+  const CameraPose before = pose;
   const glm::dvec3 forward = forwardOf(pose);
   const double extent = 0.5 * glm::length(bounds.extent());
   const double radius = extent > 0.0 ? extent : 1.0;
@@ -162,14 +166,14 @@ CameraPose frameAll(CameraPose pose, const BoundsDouble& bounds, double aspectRa
   pose.focalPoint = bounds.center();
   pose.position = pose.focalPoint - forward * (radius / std::sin(halfAngle));
   pose.halfHeight = radius / narrow;
-  return pose;
+  return settled(pose, before);
 }
 
 CameraPose lookAlong(CameraPose pose, const glm::dvec3& direction, const glm::dvec3& viewUp) {
-  const glm::dvec3 forward = glm::normalize(direction);
-  pose.position = pose.focalPoint - distanceOf(pose) * forward;
-  pose.viewUp = orthogonal(viewUp, forward);
-  return pose;
+  const CameraPose before = pose;
+  pose.position = pose.focalPoint - distanceOf(pose) * glm::normalize(direction);
+  pose.viewUp = viewUp;
+  return settled(pose, before);
 }
 
 CameraPose widen(CameraPose pose, double amount) {
@@ -178,6 +182,7 @@ CameraPose widen(CameraPose pose, double amount) {
 }
 
 CameraPose withOtherProjection(CameraPose pose) {
+  const CameraPose before = pose;
   const double halfHeight = halfHeightOf(pose);
   if (!pose.perspective) {
     const double distance = std::clamp(halfHeight / tangentOf(pose), kNearest, kFarthest);
@@ -185,7 +190,7 @@ CameraPose withOtherProjection(CameraPose pose) {
   }
   pose.halfHeight = halfHeight;
   pose.perspective = !pose.perspective;
-  return pose;
+  return settled(pose, before);
 }
 
 }  // namespace fragtrace
