@@ -111,6 +111,11 @@ std::string whyOff(Stage stage, const TraitSet& present) {
   return traitRows()[size_t(needed)].absence;
 }
 
+std::string whyBlank(DebugView view, const TraitSet& present) {
+  const bool coordinates = has(present, Trait::Texcoords) || has(present, Trait::Spheres);
+  return view == DebugView::Texcoords && !coordinates ? traitRows()[size_t(Trait::Texcoords)].absence : "";
+}
+
 ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& present, Surroundings surroundings,
                             uint32_t treeDepth, BufferReads reads) {
   ShaderVariant v;

@@ -144,9 +144,10 @@ std::string codeName(const Control& control) {
     default:
       break;
   }
+  std::string name;
   if (control.code >= key::kF1 && control.code <= key::kF12)
-    return "F" + std::to_string(control.code - key::kF1 + 1);
-  return {char(control.code)};
+    return name.append("F").append(std::to_string(control.code - key::kF1 + 1));
+  return name.append(1, char(control.code));
 }
 
 }  // namespace

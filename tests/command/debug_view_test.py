@@ -60,12 +60,14 @@ class DebugViews(Case):
         path.write_text(json.dumps(scene))
         return path
 
-    VIEW = ["--camera-position", "0,0,5", "--camera-focal-point", "0,0,0", "--camera-parallel-scale", 2, "--resolution", "16,16", "--spp", 4, "--quiet"]
+    def view(self, scale=2):
+        return ["--camera-position", "0,0,5", "--camera-focal-point", "0,0,0", "--camera-parallel-scale", scale, "--resolution", "16,16",
+                "--spp", 4, "--quiet"]
 
-    def shown(self, view, *options):
+    def shown(self, view, *options, scale=2):
         """Display values, rows from the top."""
         path = self.folder / "x.pfm"
-        self.renders(self.card(), "-o", path, *self.VIEW, "--debug-view", view, *options)
+        self.renders(self.card(), "-o", path, *self.view(scale), "--debug-view", view, *options)
         return [[tuple(map(encoded, pixel)) for pixel in row] for row in read_pfm(path)]
 
     def close(self, pixel, expected, delta=1e-5):
@@ -88,7 +90,7 @@ class DebugViews(Case):
 
     def test_the_layers_behind_them_are_numbers(self):
         path = self.folder / "x.exr"
-        self.renders(self.card(), "-o", path, *self.VIEW, "--aov", "geometric-normal,roughness,texcoords")
+        self.renders(self.card(), "-o", path, *self.view(), "--aov", "geometric-normal,roughness,texcoords")
         exr = Exr(path)
         self.assertEqual(sorted(n for n in exr.layers if "." in n), [
             "geometric-normal.X", "geometric-normal.Y", "geometric-normal.Z", "roughness.Y", "texcoords.U", "texcoords.V"])
@@ -98,7 +100,7 @@ class DebugViews(Case):
         self.close(exr.pixel(12, 5, "texcoords.U", "texcoords.V"), (12.5 / 8, 5.5 / 8), 0.0625)
 
     def test_a_miss_is_black(self):
-        picture = self.shown("normal", "--camera-parallel-scale", 4, "--background-color", "1,1,1")
+        picture = self.shown("normal", "--background-color", "1,1,1", scale=4)
         self.close(picture[0][8], (0, 0, 0))
 
     def test_only_what_the_view_needs_is_compiled(self):

@@ -177,6 +177,8 @@ TEST(LookAlong, KeepsFocalPointAndDistance) {
   const CameraPose top = lookAlong(inFront(), {0, -2, 0}, {0, 0, -1});
   expectNear(top.position, {1, 6, 3});
   expectNear(top.viewUp, {0, 0, -1});
+  // An up that is not across the view is made so.
+  expectSound(lookAlong(inFront(), {0, -1, -1}, {0, 1, 0}));
 }
 
 TEST(Projection, ChangesThereAndBack) {
