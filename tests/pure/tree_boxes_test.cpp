@@ -76,7 +76,7 @@ TEST(BoxEdges, AreTwelveLinesWhereTheyAreSeen) {
   EXPECT_TRUE(hasLine(lines, {0.5, 0.5}, {0.25, 0.25}));
   EXPECT_TRUE(hasLine(lines, {-0.25, 0.25}, {-0.25, -0.25}));
   // Moved with the origin.
-  EXPECT_TRUE(hasLine(boxEdges(boxes, frontView(), {2, 0, 0}), {0.5, -0.5}, {0.5, 0.5}));
+  EXPECT_TRUE(hasLine(boxEdges(boxes, frontView(), {4, 0, 0}), {1.5, -0.5}, {1.5, 0.5}));
 }
 
 TEST(BoxEdges, EndAtTheCamera) {
