@@ -43,6 +43,9 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   addRenderOptions(render, raw);
   std::string config;
   addConfigOption(render, config);
+  RawView rawView;
+  CLI::App& view = *app.add_subcommand("view", "show a scene in a window");
+  addViewOptions(view, rawView);
   CLI::App& info = *app.add_subcommand("info", "say what is in a scene");
   info.add_option("scene", infoScene, ".gltf or .glb file")->required();
   info.add_flag("--json", line.info.json, "as JSON");
@@ -102,6 +105,9 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
     line.command = Command::Render;
     line.render = finishConfigured(raw, config, render);
     if (line.render.output.empty()) throw UsageError("--output is required; --help says more");
+  } else if (view.parsed()) {
+    line.command = Command::View;
+    line.view = finishView(rawView, view);
   } else if (info.parsed()) {
     line.command = Command::Info;
     line.info.scene = infoScene;

@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <future>
 
-#include "bvh/tree_boxes.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/outputs.h"
+#include "cli/picture_file.h"
 #include "cli/progress_bar.h"
 #include "cli/provenance.h"
 #include "cli/setup.h"
@@ -15,37 +15,14 @@
 #include "gl/debug_log.h"
 #include "image/channels.h"
 #include "image/format.h"
-#include "image/heatmap.h"
 #include "image/library.h"
-#include "image/lines.h"
-#include "image/tone_map.h"
 #include "render/adaptive.h"
-#include "render/debug_picture.h"
 
 namespace fragtrace {
 
 namespace {
 
 constexpr int kInterruptedStatus = 130;
-
-/// Lines over what a display shows of the picture.
-void drawBoxes(Image& display, std::span<const PictureLine> lines) {
-  const glm::vec3 orange(1.0f, 0.55f, 0.1f);
-  const glm::dvec2 half(0.5 * display.width, -0.5 * display.height);
-  const glm::dvec2 middle(0.5 * display.width, 0.5 * display.height);
-  for (const PictureLine& line : lines)
-    drawLine(display, middle + line.from * half, middle + line.to * half, orange);
-}
-
-void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> boxes) {
-  if (!isDisplayFormat(options.output)) return writeImage(options.output, linear);
-  const bool colors = has(options.stages, Stage::BvhHeatmap) || options.debugView != DebugView::None;
-  const bool keepsAlpha = formatOfName(options.output) == ImageFormat::Png;
-  Image display = toDisplay(keepsAlpha ? linear : withoutAlpha(linear), colors ? 0.0 : options.exposure,
-                            colors ? ToneMap::Linear : options.toneMap);
-  drawBoxes(display, boxes);
-  writeImage(options.output, display);
-}
 
 /// What was drawn, before it is a picture.
 struct Drawing {
@@ -143,15 +120,6 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
               stats.times.renderMs / 1000.0, megaPathsPerSecond(stats), noise.c_str());
 }
 
-/// The edges of the boxes of the level asked for, if any.
-std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedScene& loaded) {
-  if (!options.treeLevel) return {};
-  const std::vector<Bounds> boxes = boxesAtLevel(loaded.bvh, uint32_t(*options.treeLevel));
-  if (boxes.empty()) say(options, "warning: the tree has no level " + std::to_string(*options.treeLevel));
-  const Projection projection = projectionOf(loaded.camera, double(loaded.size.x) / loaded.size.y);
-  return boxEdges(boxes, projection, loaded.scene.origin);
-}
-
 }  // namespace
 
 int runRender(const RenderOptions& options) {
@@ -167,7 +135,7 @@ int runRender(const RenderOptions& options) {
   const auto context = makeContext(options.backend);
   DebugLog driverLog;
   const Tracer tracer = makeTracer(*context, loaded, options, stats);
-  const std::vector<PictureLine> boxes = treeLines(options, loaded);
+  const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
   releaseGeometry(loaded);
   Film film(loaded.size);
   stats.compileMs = tracer.renderer->compile(tracer.variant, film, loaded.view);
@@ -193,13 +161,9 @@ int runRender(const RenderOptions& options) {
                       std::to_string(options.spp) + " samples and reported no error; no picture is written");
   }
   if (interrupts() > 1) return kInterruptedStatus;
-  Image picture = imageOf(drawing.pixels, {!options.background, options.aovSamples, options.aovVariance},
-                          drawing.variance);
-  if (has(tracer.variant.stages, Stage::BvhHeatmap)) {
-    picture = paintHeatmap(picture);
-  } else if (options.debugView != DebugView::None) {
-    replaceColor(picture, debugPicture(options.debugView, drawing.pixels, drawing.variance));
-  }
+  Image picture =
+      shownPicture(options, tracer.variant, drawing.pixels,
+                   {!options.background, options.aovSamples, options.aovVariance}, drawing.variance);
   addFeatures(picture, tracer, options, loaded, stats);
   sayDriverLog();
   if (interrupts() > 1) return kInterruptedStatus;

@@ -84,9 +84,6 @@ std::vector<std::string_view> debugViewNames() {
   return names;
 }
 
-/// Of any pixel: sample indices have 32 bits, targets of the film 30.
-constexpr int kMostSamples = 1 << 29;
-
 }  // namespace
 
 RenderOptions finishRender(const RawRender& raw) {

@@ -15,6 +15,9 @@ class App;
 
 namespace fragtrace {
 
+/// Of any pixel: sample indices have 32 bits, targets of the film 30.
+inline constexpr int kMostSamples = 1 << 29;
+
 /// Option values as the library parses them, before they become RenderOptions.
 struct RawRender {
   RenderOptions options;

@@ -40,6 +40,22 @@ Environment loadEnvironment(const RenderOptions& options, const Scene& scene) {
   return environment;
 }
 
+/// FNV-1a over the words of all buffers.
+uint64_t hashOf(const GpuScene& scene) {
+  uint64_t hash = 0xcbf29ce484222325u;
+  for (const Words& buffer : scene.buffers) {
+    for (const uint32_t word : buffer) hash = (hash ^ word) * 0x100000001b3u;
+    hash = (hash ^ buffer.size()) * 0x100000001b3u;
+  }
+  return hash;
+}
+
+bool besideAllowed(const RenderOptions& options) {
+  return options.traversal == TraversalMethod::Auto && !has(options.stages, Stage::BvhHeatmap);
+}
+
+}  // namespace
+
 View makeView(const RenderOptions& options, const Scene& scene, const Camera& camera) {
   View view;
   view.camera = camera;
@@ -55,41 +71,33 @@ View makeView(const RenderOptions& options, const Scene& scene, const Camera& ca
   return view;
 }
 
-/// FNV-1a over the words of all buffers.
-uint64_t hashOf(const GpuScene& scene) {
-  uint64_t hash = 0xcbf29ce484222325u;
-  for (const Words& buffer : scene.buffers) {
-    for (const uint32_t word : buffer) hash = (hash ^ word) * 0x100000001b3u;
-    hash = (hash ^ buffer.size()) * 0x100000001b3u;
-  }
-  return hash;
-}
-
-/// The tree of the options' traversal. The iterative one needs none; where it is chosen for them, the largest
-/// triangles stand beside it when that pays.
 Bvh buildTree(const Scene& scene, const RenderOptions& options) {
   if (options.traversal == TraversalMethod::Iterative) return listLeaves(scene);
   std::vector<Bounds> bounds = primitiveBounds(scene);
   const uint32_t triangles = uint32_t(scene.triangles.size());
   std::vector<uint32_t> large;
-  if (options.traversal == TraversalMethod::Auto && !has(options.stages, Stage::BvhHeatmap) &&
-      bounds.size() >= kLeastBesideLarge) {
-    large = largeTriangles(bounds, triangles);
-  }
+  if (besideAllowed(options) && bounds.size() >= kLeastBesideLarge) large = largeTriangles(bounds, triangles);
   if (large.empty()) return buildBvh(std::move(bounds), triangles);
   Bvh bvh = buildBvh(bounds, triangles);
   Bvh beside = buildBvhBeside(bounds, triangles, large);
   return paysBeside(bvh, beside) ? beside : bvh;
 }
 
-}  // namespace
+bool sameTree(const RenderOptions& a, const RenderOptions& b) {
+  const auto iterative = [](const RenderOptions& o) { return o.traversal == TraversalMethod::Iterative; };
+  return iterative(a) == iterative(b) && besideAllowed(a) == besideAllowed(b);
+}
 
 void say(const RenderOptions& options, const std::string& text) {
   if (!options.quiet) std::fprintf(stderr, "fragtrace: %s\n", text.c_str());
 }
 
-LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
+LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress) {
+  const auto step = [&](const char* name, double fraction) {
+    if (progress) progress(name, fraction);
+  };
   Stopwatch watch;
+  step("reading the scene", 0.0);
   LoadedScene loaded;
   GltfOptions loading;
   loading.recenterOn = options.sceneOrigin ? options.sceneOrigin : options.camera.focalPoint;
@@ -99,6 +107,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
   if (scene.triangles.empty() && scene.spheres.empty()) {
     say(options, "warning: " + options.scene.string() + ": no triangle and no sphere, nothing to draw");
   }
+  step("reading the environment", 0.5);
   loaded.environment = loadEnvironment(options, scene);
   loaded.camera = chooseCamera(scene.cameras, options.cameraIndex, options.camera, scene.bounds);
   loaded.size = chooseSize(loaded.camera, options);
@@ -114,6 +123,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
         "no light in the scene: a white environment that the camera does not see lights it "
         "(--no-default-light)");
   }
+  step("building the tree", 0.6);
   loaded.bvh = buildTree(scene, options);
   stats.bvh = bvhQuality(loaded.bvh);
   stats.bvhBuildMs = watch.lap();
@@ -145,6 +155,11 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
 
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
                   Statistics& stats) {
+  return makeTracer(context, loaded, options, stats, formatOfName(options.output) == ImageFormat::OpenExr);
+}
+
+Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
+                  Statistics& stats, bool withHash) {
   const TraitSet present = traitsOf(loaded.scene, loaded.environment.kind);
   const uint32_t depth = loaded.bvh.depth;
   const BufferReads undecided = options.bufferReads;  // what is packed does not depend on it
@@ -172,7 +187,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   }
   stats.sceneBytes = packed.bytes();
   stats.geometryBytes = packed.geometryBytes();
-  if (formatOfName(options.output) == ImageFormat::OpenExr) tracer.sceneHash = hashOf(packed);
+  if (withHash) tracer.sceneHash = hashOf(packed);
   stats.packMs = watch.lap();
   const ReadChoice choice = chooseReads(options.bufferReads, context.software, packed, readLimits());
   const bool literals = tracer.variant.traversal == TraversalMethod::Literals;

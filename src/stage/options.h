@@ -76,6 +76,8 @@ struct RenderOptions {
   std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
   bool quiet = false;
   bool verbose = false;
+
+  bool operator==(const RenderOptions&) const = default;
 };
 
 }  // namespace fragtrace
