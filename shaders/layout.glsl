@@ -33,11 +33,14 @@ const uint kPathStateRows = 19u;  // uvec4s a suspended path
 // The uniform block of one draw.
 const uint kFrameBinding = 0u;
 
-// What a program draws in place of radiance (kFeature); as enum Feature of src/stage/options.h.
+// What a program draws in place of radiance (kFeature); as enum Feature of src/stage/feature.h.
 const int kFeatureNone = 0;
 const int kFeatureAlbedo = 1;
 const int kFeatureNormal = 2;
 const int kFeatureDepth = 3;
+const int kFeatureGeometricNormal = 4;
+const int kFeatureRoughness = 5;
+const int kFeatureTexcoords = 6;
 
 // Film flags.
 const uint kPixelSuspended = 1u;  // the path of this pixel goes on in the next draw

@@ -85,6 +85,9 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
 vec3 featureAt(Surface s, vec3 baseColor, vec3 outgoing) {
   if (kFeature == kFeatureAlbedo) return baseColor;
   if (kFeature == kFeatureNormal) return facingNormal(mappedNormal(s), outgoing);
+  if (kFeature == kFeatureGeometricNormal) return s.geometricNormal;
+  if (kFeature == kFeatureRoughness) return vec3(materialAt(s.material, baseColor, s.texcoords).roughness);
+  if (kFeature == kFeatureTexcoords) return vec3(s.texcoords.xy, 0.0);
   return vec3(dot(s.position - frame.cameraPosition.xyz, frame.cameraForward.xyz) * frame.cameraForward.w);
 }
 

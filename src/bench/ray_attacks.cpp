@@ -6,7 +6,7 @@
 
 #include "bench/ball_scene.h"
 #include "bench/dice.h"
-#include "bench/exact_tracer.h"
+#include "bvh/exact_tracer.h"
 
 namespace fragtrace {
 

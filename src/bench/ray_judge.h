@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "bench/exact_tracer.h"
+#include "bvh/exact_tracer.h"
 #include "bench/hit_check.h"
 
 namespace fragtrace {

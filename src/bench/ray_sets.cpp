@@ -6,6 +6,8 @@
 #include <glm/gtc/constants.hpp>
 #include <random>
 
+#include "scene/projection.h"
+
 namespace fragtrace {
 
 namespace {
@@ -91,20 +93,13 @@ class Targets {
 }  // namespace
 
 std::vector<Ray> primaryRays(const Camera& camera, const LocalSpace& space, glm::ivec2 size) {
-  const double height = camera.perspective ? std::tan(0.5 * camera.fovY) : camera.halfHeight / space.unit;
-  const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
-  const glm::dvec3 up = glm::cross(right, camera.forward);
-  const glm::dvec3 position = space.localOf(camera.position);
+  const Projection projection = projectionOf(camera, double(size.x) / size.y);
   std::vector<Ray> rays;
   rays.reserve(size_t(size.x) * size_t(size.y));
   for (int y = 0; y < size.y; ++y) {
     for (int x = 0; x < size.x; ++x) {
-      const double sx = (2.0 * (x + 0.5) / size.x - 1.0) * height * size.x / size.y;
-      const double sy = (2.0 * (y + 0.5) / size.y - 1.0) * height;
-      const glm::dvec3 offset = sx * right + sy * up;
-      const glm::dvec3 origin = camera.perspective ? position : position + offset;
-      const glm::dvec3 direction = camera.perspective ? camera.forward + offset : camera.forward;
-      rays.push_back({glm::vec3(origin), glm::vec3(glm::normalize(direction)), kFar});
+      const glm::dvec2 place = 2.0 * (glm::dvec2(x, y) + 0.5) / glm::dvec2(size) - 1.0;
+      rays.push_back(rayThrough(projection, space, place));
     }
   }
   return rays;

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/exact_tracer.h"
+#include "bvh/exact_tracer.h"
 #include "scene/camera.h"
 #include "scene/ray.h"
 

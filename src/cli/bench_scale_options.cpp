@@ -33,11 +33,11 @@ void addBenchScaleOptions(CLI::App& app, RawBenchScale& raw) {
   app.add_option("--per-decade", o.perDecade, "sizes in each factor of ten")
       ->check(CLI::Range(1, 10))
       ->capture_default_str();
-  app.add_option("--resolution", raw.render.resolution, "WIDTH,HEIGHT of the picture")
+  app.add_option("--resolution", raw.render.camera.resolution, "WIDTH,HEIGHT of the picture")
       ->delimiter(',')
       ->expected(2)
       ->check(CLI::Range(8, 4096));
-  raw.render.resolution = {500, 500};
+  raw.render.camera.resolution = {500, 500};
   app.add_option("--traversals", raw.traversals, joined(traversalNames()) + "; the first is compared with")
       ->delimiter(',');
   app.add_option("--rounds", o.rounds, "how often frames are timed, in turn")

@@ -7,6 +7,7 @@
 namespace fragtrace {
 
 int runRender(const RenderOptions& options);
+int runView(const ViewOptions& options);
 int runInfo(const InfoOptions& options);
 int runDiff(const DiffOptions& options);
 int runMerge(const MergeOptions& options);

@@ -29,6 +29,8 @@ int run(int argc, char** argv) {
   switch (line->command) {
     case Command::Render:
       return runRender(line->render);
+    case Command::View:
+      return runView(line->view);
     case Command::Info:
       return runInfo(line->info);
     case Command::Diff:

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "cli/choose.h"
+#include "cli/config_file.h"
 #include "cli/input_options.h"
 #include "cli/render_options.h"
 #include "image/format.h"
@@ -38,11 +39,14 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
 
   CLI::App& render = *app.add_subcommand("render", "render a scene to a file");
   render.add_option("scene", raw.scene, ".gltf or .glb file")->required();
-  render
-      .add_option("-o,--output", raw.output,
-                  "picture: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance)")
-      ->required();
+  render.add_option("-o,--output", raw.output,
+                    "picture: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); required");
   addRenderOptions(render, raw);
+  std::string config;
+  addConfigOption(render, config);
+  RawView rawView;
+  CLI::App& view = *app.add_subcommand("view", "show a scene in a window");
+  addViewOptions(view, rawView);
   CLI::App& info = *app.add_subcommand("info", "say what is in a scene");
   info.add_option("scene", infoScene, ".gltf or .glb file")->required();
   info.add_flag("--json", line.info.json, "as JSON");
@@ -104,7 +108,11 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
 
   if (render.parsed()) {
     line.command = Command::Render;
-    line.render = finishRender(raw);
+    line.render = finishConfigured(raw, config, render);
+    if (line.render.output.empty()) throw UsageError("--output is required; --help says more");
+  } else if (view.parsed()) {
+    line.command = Command::View;
+    line.view = finishView(rawView, view);
   } else if (info.parsed()) {
     line.command = Command::Info;
     line.info.scene = infoScene;

@@ -11,6 +11,7 @@
 #include "cli/bench_stress_options.h"
 #include "cli/bench_traversal_options.h"
 #include "cli/bench_variants_options.h"
+#include "cli/view_options.h"
 #include "image/difference.h"
 #include "stage/options.h"
 
@@ -37,6 +38,7 @@ struct MergeOptions {
 
 enum class Command : uint8_t {
   Render,
+  View,
   Info,
   Diff,
   Merge,
@@ -53,6 +55,7 @@ enum class Command : uint8_t {
 struct CommandLine {
   Command command = Command::Render;
   RenderOptions render;
+  ViewOptions view;
   InfoOptions info;
   DiffOptions diff;
   MergeOptions merge;

@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/outputs.h"
+#include "cli/picture_file.h"
 #include "cli/progress_bar.h"
 #include "cli/provenance.h"
 #include "cli/setup.h"
@@ -13,9 +14,7 @@
 #include "gl/debug_log.h"
 #include "image/channels.h"
 #include "image/format.h"
-#include "image/heatmap.h"
 #include "image/process.h"
-#include "image/tone_map.h"
 #include "render/adaptive.h"
 
 namespace fragtrace {
@@ -23,15 +22,6 @@ namespace fragtrace {
 namespace {
 
 constexpr int kInterruptedStatus = 130;
-
-void writePicture(const RenderOptions& options, const Image& linear) {
-  if (!isDisplayFormat(options.output)) return writeImage(options.output, linear);
-  const bool colors = has(options.stages, Stage::BvhHeatmap);
-  const bool keepsAlpha = formatOfName(options.output) == ImageFormat::Png;
-  writeImage(options.output,
-             toDisplay(keepsAlpha ? linear : withoutAlpha(linear), colors ? 0.0 : options.exposure,
-                       colors ? ToneMap::Linear : options.toneMap));
-}
 
 /// What was drawn, before it is a picture.
 struct Drawing {
@@ -87,10 +77,11 @@ void addFeatures(Image& picture, const Tracer& tracer, const RenderOptions& opti
   const int samples = int(stats.complete ? drawn : std::min(drawn, kFewSamples));
   const int before = interrupts();
   for (const ShaderVariant& variant : tracer.features) {
+    const FeatureRow& row = rowOf(variant.feature);
     Film film(loaded.size);
     RenderTimes times;
     stats.compileMs += tracer.renderer->compile(variant, film, loaded.view);
-    ProgressBar bar("layer " + std::string(kFeatureNames[size_t(variant.feature)]), options.quiet);
+    ProgressBar bar("layer " + std::string(row.name), options.quiet);
     const bool complete =
         tracer.renderer->addSamples(film, loaded.view, 0, samples, times, [&](double fraction) {
           bar.show(fraction);
@@ -102,20 +93,9 @@ void addFeatures(Image& picture, const Tracer& tracer, const RenderOptions& opti
     const FilmPixels pixels = film.read();
     sayWhatWentWrong(options, totalsOf(pixels));
     const Image layer = imageOf(pixels, {});
-    const std::string name(kFeatureNames[size_t(variant.feature)]);
-    switch (variant.feature) {
-      case Feature::Albedo:
-        appendChannels(picture, layer, {{name + ".R", name + ".G", name + ".B"}});
-        break;
-      case Feature::Normal:
-        appendChannels(picture, layer, {{name + ".X", name + ".Y", name + ".Z"}});
-        break;
-      case Feature::Depth:
-        appendChannels(picture, layer, {{name + ".Z"}});
-        break;
-      case Feature::None:
-        break;
-    }
+    std::vector<std::string> names;
+    for (const char channel : row.channels) names.push_back(std::string(row.name) + "." + channel);
+    appendChannels(picture, layer, names);
   }
 }
 
@@ -153,6 +133,7 @@ int runRender(const RenderOptions& options) {
   const auto context = makeContext(options.backend);
   DebugLog driverLog;
   const Tracer tracer = makeTracer(*context, loaded, options, stats);
+  const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
   releaseGeometry(loaded);
   Film film(loaded.size);
   stats.compileMs = tracer.renderer->compile(tracer.variant, film, loaded.view);
@@ -178,21 +159,21 @@ int runRender(const RenderOptions& options) {
                       std::to_string(options.spp) + " samples and reported no error; no picture is written");
   }
   if (interrupts() > 1) return kInterruptedStatus;
-  Image picture = imageOf(drawing.pixels, {!options.background, options.aovSamples, options.aovVariance},
-                          drawing.variance);
-  if (has(tracer.variant.stages, Stage::BvhHeatmap)) picture = paintHeatmap(picture);
+  Image picture =
+      shownPicture(options, tracer.variant, drawing.pixels,
+                   {!options.background, options.aovSamples, options.aovVariance}, drawing.variance);
   addFeatures(picture, tracer, options, loaded, stats);
   sayDriverLog();
   if (interrupts() > 1) return kInterruptedStatus;
 
   // Step: write.
-  if (formatOfName(options.output) == ImageFormat::OpenExr) {
+  if (formatOfName(options.output) == ImageFormat::OpenExr && options.debugView == DebugView::None) {
     const bool uniform =
         stats.complete && stats.film.fewestSamples == stats.film.mostSamples && !stats.adaptive;
     setProvenance(picture, {settingsText(options, loaded, tracer), options.seed, options.sampleOffset,
                             std::llround(samplesPerPixel(stats)), uniform});
   }
-  writePicture(options, picture);
+  writePicture(options, picture, boxes);
   if (!options.statsFile.empty()) writeStatistics(options.statsFile, stats);
   sayWhatWasDone(options, stats);
   return stats.complete ? 0 : kInterruptedStatus;

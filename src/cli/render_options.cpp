@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <regex>
 
+#include "bvh/bvh.h"
 #include "cli/choose.h"
 #include "cli/input_options.h"
 #include "image/format.h"
@@ -30,11 +30,6 @@ Stage stageNamed(const char* option, const std::string& name) {
   return *stage;
 }
 
-std::optional<glm::dvec3> vectorOf(const std::vector<double>& values) {
-  if (values.empty()) return std::nullopt;
-  return glm::dvec3(values[0], values[1], values[2]);
-}
-
 int parseBounces(const std::string& text) {
   if (text == "unlimited") return kUnlimitedBounces;
   int value = -1;
@@ -48,44 +43,47 @@ void checkFinite(const RenderOptions& o) {
   const auto check = [](const char* option, double value) {
     if (!std::isfinite(value)) throw UsageError(std::string(option) + ": not a finite number");
   };
-  const auto checkVector = [&](const char* option, const std::optional<glm::dvec3>& v) {
-    for (int i = 0; v && i < 3; ++i) check(option, (*v)[i]);
-  };
   check("--exposure", o.exposure);
   // The library's ranges let NaN pass.
   check("--noise", o.noise);
   check("--time", o.seconds);
   check("--clamp-indirect", o.clampIndirect);
   check("--hdri-rotation", o.hdriRotationDegrees);
-  checkVector("--camera-position", o.camera.position);
-  checkVector("--camera-focal-point", o.camera.focalPoint);
-  checkVector("--camera-view-up", o.camera.viewUp);
-  checkVector("--background-color", glm::dvec3(o.backgroundColor));
-  if (o.camera.viewUp && *o.camera.viewUp == glm::dvec3(0.0)) throw UsageError("--camera-view-up: is zero");
-  constexpr double kFarthest = 1e30;  // metres, as for scenes
-  for (const auto& place : {o.camera.position, o.camera.focalPoint}) {
-    if (place && glm::length(*place) > kFarthest)
-      throw UsageError("camera: farther than 1e30 m from the origin");
-  }
+  for (int i = 0; i < 3; ++i) check("--background-color", o.backgroundColor[i]);
   if (glm::any(glm::lessThan(o.backgroundColor, glm::vec3(0.0f))))
     throw UsageError("--background-color: below 0");
 }
 
-constexpr std::array<std::string_view, 5> kLayerNames{"albedo", "normal", "depth", "samples", "variance"};
+/// Of first hits, then those of the film.
+std::vector<std::string_view> layerNames() {
+  std::vector<std::string_view> names;
+  for (const FeatureRow& row : kFeatureRows) {
+    if (!row.name.empty()) names.push_back(row.name);
+  }
+  names.insert(names.end(), {"samples", "variance"});
+  return names;
+}
 
 void chooseLayers(const std::vector<std::string>& names, RenderOptions& o) {
+  const std::vector<std::string_view> known = layerNames();
   for (const std::string& name : names) {
-    const int index = choose<int>("--aov", name, kLayerNames);
-    if (index == 3) o.aovSamples = true;
-    if (index == 4) o.aovVariance = true;
-    const Feature feature = Feature(index + 1);
-    if (index < 3 && std::ranges::find(o.aovFeatures, feature) == o.aovFeatures.end())
+    const auto index = choose<size_t>("--aov", name, known);
+    if (name == "samples") {
+      o.aovSamples = true;
+    } else if (name == "variance") {
+      o.aovVariance = true;
+    } else if (const Feature feature = Feature(index + 1);
+               std::ranges::find(o.aovFeatures, feature) == o.aovFeatures.end()) {
       o.aovFeatures.push_back(feature);
+    }
   }
 }
 
-/// Of any pixel: sample indices have 32 bits, targets of the film 30.
-constexpr int kMostSamples = 1 << 29;
+std::vector<std::string_view> debugViewNames() {
+  std::vector<std::string_view> names;
+  for (const DebugViewRow& row : kDebugViewRows) names.push_back(row.name);
+  return names;
+}
 
 }  // namespace
 
@@ -96,7 +94,7 @@ RenderOptions finishRender(const RawRender& raw) {
   if (!raw.output.empty() && !isWritableImageName(o.output)) {
     throw UsageError("--output: '" + raw.output + "' ends in none of .png, .jpg, .exr, .hdr, .pfm");
   }
-  if (!raw.resolution.empty()) o.resolution = glm::ivec2(raw.resolution[0], raw.resolution[1]);
+  finishCamera(raw.camera, o);
   o.stages = stagesUpTo(choose<Stage>("--stage", raw.stage, stageNames(true)));
   if (choose<int>("--fresnel", raw.fresnel, std::vector<std::string>{"exact", "schlick"}) == 1) {
     o.stages.set(size_t(Stage::Schlick));
@@ -113,10 +111,8 @@ RenderOptions finishRender(const RawRender& raw) {
   for (const std::string& name : raw.enable) o.stages.set(size_t(stageNamed("--enable", name)));
   for (const std::string& name : raw.disable) o.stages.reset(size_t(stageNamed("--disable", name)));
   o.bounces = parseBounces(raw.bounces);
-  o.camera.position = vectorOf(raw.position);
-  o.camera.focalPoint = vectorOf(raw.focalPoint);
-  o.camera.viewUp = vectorOf(raw.viewUp);
-  if (auto color = vectorOf(raw.backgroundColor)) o.backgroundColor = glm::vec3(*color);
+  if (!raw.backgroundColor.empty())
+    o.backgroundColor = glm::vec3(raw.backgroundColor[0], raw.backgroundColor[1], raw.backgroundColor[2]);
   o.hdriFile = raw.hdriFile;
   o.background = !raw.noBackground;
   o.defaultLight = !raw.noDefaultLight;
@@ -133,6 +129,10 @@ RenderOptions finishRender(const RawRender& raw) {
   if (!raw.aov.empty() && formatOfName(o.output) != ImageFormat::OpenExr) {
     throw UsageError("--aov: only .exr files hold more layers");
   }
+  if (o.treeLevel && !raw.output.empty() && !isDisplayFormat(o.output))
+    throw UsageError("--tree-level: boxes are drawn over a .png or .jpg only");
+  o.debugView = choose<DebugView>("--debug-view", raw.debugView, debugViewNames());
+  if (o.debugView == DebugView::Visits) o.stages.set(size_t(Stage::BvhHeatmap));
   const bool adaptive = o.noise > 0.0 || o.seconds > 0.0;
   if (raw.spp) o.spp = *raw.spp;
   if (adaptive && !raw.spp) o.spp = kMostSamples;
@@ -146,25 +146,10 @@ RenderOptions finishRender(const RawRender& raw) {
   return o;
 }
 
-std::string withNumberSettled(std::string argument) {
-  if (argument.starts_with("-.") && argument.size() > 2 &&
-      std::isdigit(static_cast<unsigned char>(argument[2]))) {
-    argument.insert(1, "0");
-  }
-  static const std::regex kSize("(--resolution=)?([0-9]+)x([0-9]+)");
-  if (std::smatch size; std::regex_match(argument, size, kSize))
-    return size.str(1) + size.str(2) + "," + size.str(3);
-  return argument;
-}
-
 void addRenderOptions(CLI::App& app, RawRender& raw) {
   RenderOptions& o = raw.options;
   const int kMost = std::numeric_limits<int>::max() / 4;
-  app.add_option("--resolution", raw.resolution,
-                 "WIDTH,HEIGHT or WIDTHxHEIGHT; default 1280,720, or 720 high at the camera's aspect ratio")
-      ->delimiter(',')
-      ->expected(2)
-      ->check(CLI::Range(1, 65536));
+  addCameraOptions(app, raw.camera);
   app.add_option("--stage", raw.stage, joined(stageNames(true)) + "; each turns on itself and all before it")
       ->capture_default_str();
   app.add_option("--enable", raw.enable, "switches over that: " + joined(stageNames(false)))
@@ -203,12 +188,6 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
          "most radiance that light of two scatterings or more may add to a sample: fewer bright dots, "
          "but biased")
       ->check(CLI::Range(1e-6, 1e30));
-  app.add_option("--camera-index", o.cameraIndex,
-                 "camera of the scene, from 0; default: the first, else one that frames it");
-  app.add_option("--camera-position", raw.position, "X,Y,Z in world space")->delimiter(',')->expected(3);
-  app.add_option("--camera-focal-point", raw.focalPoint, "X,Y,Z")->delimiter(',')->expected(3);
-  app.add_option("--camera-view-up", raw.viewUp, "X,Y,Z")->delimiter(',')->expected(3);
-  app.add_option("--camera-view-angle", o.camera.viewAngleDegrees, "vertical, in degrees");
   app.add_option("--hdri-file", raw.hdriFile, "equirectangular environment: .hdr, .exr, .pfm");
   app.add_option("--hdri-rotation", o.hdriRotationDegrees, "degrees about +Y")->capture_default_str();
   app.add_flag("--no-background", raw.noBackground, "camera rays that miss see nothing; alpha is written");
@@ -217,9 +196,14 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
       ->expected(3);
   app.add_flag("--no-default-light", raw.noDefaultLight, "a scene without any light stays dark");
   app.add_option("--pixel-filter", raw.pixelFilter, joined(kPixelFilterNames))->capture_default_str();
-  app.add_option("--aov", raw.aov, joined(kLayerNames) + ": more layers in an .exr")
+  app.add_option("--aov", raw.aov, joined(layerNames()) + ": more layers in an .exr")
       ->delimiter(',')
       ->allow_extra_args(false);
+  app.add_option("--debug-view", raw.debugView, joined(debugViewNames()) + ": what the picture shows")
+      ->capture_default_str();
+  app.add_option("--tree-level", o.treeLevel,
+                 "draws the boxes of this level of the tree over a .png or .jpg; 0: the root")
+      ->check(CLI::Range(0, int(kMaxBvhDepth)));
   app.add_option("--exposure", o.exposure, "EV, for .png and .jpg")->capture_default_str();
   app.add_option("--tone-map", raw.toneMap, "linear, reinhard, aces, agx, neutral, for .png and .jpg")
       ->capture_default_str();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/camera_options.h"
 #include "stage/options.h"
 
 namespace CLI {
@@ -14,20 +15,20 @@ class App;
 
 namespace fragtrace {
 
+/// Of any pixel: sample indices have 32 bits, targets of the film 30.
+inline constexpr int kMostSamples = 1 << 29;
+
 /// Option values as the library parses them, before they become RenderOptions.
 struct RawRender {
   RenderOptions options;
   std::optional<int> spp;
   std::string scene;
   std::string output;
-  std::vector<int> resolution;
+  RawCamera camera;
   std::string stage = "gi";
   std::vector<std::string> enable;
   std::vector<std::string> disable;
   std::string bounces = "16";
-  std::vector<double> position;
-  std::vector<double> focalPoint;
-  std::vector<double> viewUp;
   std::vector<double> backgroundColor;
   std::string hdriFile;
   std::string pixelFilter = "box";
@@ -39,6 +40,7 @@ struct RawRender {
   std::string statsFile;
   std::string shaderFolder;
   std::vector<std::string> aov;
+  std::string debugView = "none";
   std::string fresnel = "exact";
   std::string compensation = "on";
   std::string sampler = "sobol";
@@ -46,10 +48,6 @@ struct RawRender {
   bool noBackground = false;
   bool noDefaultLight = false;
 };
-
-/// Numbers such as "-.5,0,1" look like short options to the library; a zero before the point settles it. And
-/// a size may be written as 640x480.
-std::string withNumberSettled(std::string argument);
 
 /// Adds all options but scene and output.
 void addRenderOptions(CLI::App& app, RawRender& raw);

@@ -85,7 +85,7 @@ bool showSame(const RenderOptions& a, const RenderOptions& b) {
          a.bounces == b.bounces && a.clampIndirect == b.clampIndirect && a.cameraIndex == b.cameraIndex &&
          a.camera == b.camera && a.hdriFile == b.hdriFile && a.hdriRotationDegrees == b.hdriRotationDegrees &&
          a.backgroundColor == b.backgroundColor && a.background == b.background &&
-         a.defaultLight == b.defaultLight && a.pixelFilter == b.pixelFilter;
+         a.defaultLight == b.defaultLight && a.pixelFilter == b.pixelFilter && a.debugView == b.debugView;
 }
 
 bool drawSameSamples(const RenderOptions& a, const RenderOptions& b) {

@@ -23,20 +23,6 @@ namespace {
 /// Smaller scenes are literals as a whole, or not at all.
 constexpr size_t kLeastBesideLarge = 256;
 
-Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
-  Camera camera;
-  if (options.cameraIndex) {
-    if (*options.cameraIndex < 0 || size_t(*options.cameraIndex) >= scene.cameras.size()) {
-      throw UsageError("--camera-index: " + std::to_string(*options.cameraIndex) + ", but the scene has " +
-                       std::to_string(scene.cameras.size()) + " cameras (counted from 0)");
-    }
-    camera = scene.cameras[size_t(*options.cameraIndex)];
-  } else {
-    camera = scene.cameras.empty() ? frameScene(scene.bounds) : scene.cameras.front();
-  }
-  return withOverrides(camera, options.camera, scene.bounds);
-}
-
 /// Refuses what would not leave shaders room to multiply lengths (src/gltf/gltf.cpp).
 void checkDistance(const Camera& camera, const LocalSpace& space) {
   constexpr double kFarthest = 1e12;  // local space
@@ -77,6 +63,22 @@ Environment loadEnvironment(const RenderOptions& options, const Scene& scene) {
   return environment;
 }
 
+/// FNV-1a over the words of all buffers.
+uint64_t hashOf(const GpuScene& scene) {
+  uint64_t hash = 0xcbf29ce484222325u;
+  for (const Words& buffer : scene.buffers) {
+    for (const uint32_t word : buffer) hash = (hash ^ word) * 0x100000001b3u;
+    hash = (hash ^ buffer.size()) * 0x100000001b3u;
+  }
+  return hash;
+}
+
+bool besideAllowed(const RenderOptions& options) {
+  return options.traversal == TraversalMethod::Auto && !has(options.stages, Stage::BvhHeatmap);
+}
+
+}  // namespace
+
 View makeView(const RenderOptions& options, const Scene& scene, const Camera& camera) {
   View view;
   view.camera = camera;
@@ -92,44 +94,36 @@ View makeView(const RenderOptions& options, const Scene& scene, const Camera& ca
   return view;
 }
 
-/// FNV-1a over the words of all buffers.
-uint64_t hashOf(const GpuScene& scene) {
-  uint64_t hash = 0xcbf29ce484222325u;
-  for (const Words& buffer : scene.buffers) {
-    for (const uint32_t word : buffer) hash = (hash ^ word) * 0x100000001b3u;
-    hash = (hash ^ buffer.size()) * 0x100000001b3u;
-  }
-  return hash;
-}
-
-/// The tree of the options' traversal. The iterative one needs none; where it is chosen for them, the largest
-/// triangles stand beside it when that pays.
 Bvh buildTree(const Scene& scene, const RenderOptions& options) {
   if (options.traversal == TraversalMethod::Iterative) return listLeaves(scene);
   std::vector<Bounds> bounds = primitiveBounds(scene);
   const uint32_t triangles = uint32_t(scene.triangles.size());
   std::vector<uint32_t> large;
-  if (options.traversal == TraversalMethod::Auto && !has(options.stages, Stage::BvhHeatmap) &&
-      bounds.size() >= kLeastBesideLarge) {
-    large = largeTriangles(bounds, triangles);
-  }
+  if (besideAllowed(options) && bounds.size() >= kLeastBesideLarge) large = largeTriangles(bounds, triangles);
   if (large.empty()) return buildBvh(std::move(bounds), triangles);
   Bvh bvh = buildBvh(bounds, triangles);
   Bvh beside = buildBvhBeside(bounds, triangles, large);
   return paysBeside(bvh, beside) ? beside : bvh;
 }
 
-}  // namespace
+bool sameTree(const RenderOptions& a, const RenderOptions& b) {
+  const auto iterative = [](const RenderOptions& o) { return o.traversal == TraversalMethod::Iterative; };
+  return iterative(a) == iterative(b) && besideAllowed(a) == besideAllowed(b);
+}
 
 void say(const RenderOptions& options, const std::string& text) {
   if (!options.quiet) std::fprintf(stderr, "fragtrace: %s\n", text.c_str());
 }
 
-LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
+LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress) {
+  const auto step = [&](const char* name, double fraction) {
+    if (progress) progress(name, fraction);
+  };
   Stopwatch watch;
+  step("reading the scene", 0.0);
   LoadedScene loaded;
   GltfOptions loading;
-  loading.recenterOn = options.camera.focalPoint;
+  loading.recenterOn = options.sceneOrigin ? options.sceneOrigin : options.camera.focalPoint;
   loading.cameraPosition = options.camera.position;
   loading.cameraIndex = options.cameraIndex.value_or(0);
   loading.limits = options.limits;
@@ -140,8 +134,9 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
   if (scene.triangles.empty() && scene.spheres.empty()) {
     say(options, "warning: " + options.scene.string() + ": no triangle and no sphere, nothing to draw");
   }
+  step("reading the environment", 0.5);
   loaded.environment = loadEnvironment(options, scene);
-  loaded.camera = chooseCamera(scene, options);
+  loaded.camera = chooseCamera(scene.cameras, options.cameraIndex, options.camera, scene.bounds);
   checkDistance(loaded.camera, scene.space);
   loaded.size = chooseSize(loaded.camera, options);
   loaded.view = makeView(options, scene, loaded.camera);
@@ -156,6 +151,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats) {
         "no light in the scene: a white environment that the camera does not see lights it "
         "(--no-default-light)");
   }
+  step("building the tree", 0.6);
   loaded.bvh = buildTree(scene, options);
   stats.bvh = bvhQuality(loaded.bvh);
   stats.bvhBuildMs = watch.lap();
@@ -168,6 +164,7 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
     variant.literals = largeFirst(loaded.scene, loaded.bvh, variant);
     return;
   }
+  if (variant.feature != Feature::None) return;
   const bool asked = options.traversal == TraversalMethod::Literals;
   if (has(variant.stages, Stage::BvhHeatmap)) {
     if (asked) throw UsageError("--traversal literals: has no tree whose nodes the heat map could count");
@@ -186,11 +183,16 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
 
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
                   Statistics& stats) {
+  return makeTracer(context, loaded, options, stats, formatOfName(options.output) == ImageFormat::OpenExr);
+}
+
+Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
+                  Statistics& stats, bool withHash) {
   const TraitSet present = traitsOf(loaded.scene, loaded.environment.kind);
   const uint32_t depth = loaded.bvh.depth;
   const BufferReads undecided = options.bufferReads;  // what is packed does not depend on it
   Tracer tracer;
-  tracer.variant = chooseVariant(options, present, loaded.environment.kind, depth, undecided);
+  tracer.variant = choosePictureVariant(options, present, loaded.environment.kind, depth, undecided);
   ShaderVariant everything = tracer.variant;
   for (const Feature feature : options.aovFeatures) {
     tracer.features.push_back(
@@ -214,11 +216,11 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, textureSide);
   useLiterals(loaded, packed, options, tracer.variant);
   for (ShaderVariant& feature : tracer.features) {
-    if (loaded.bvh.besideTree > 0) useLiterals(loaded, packed, options, feature);
+    useLiterals(loaded, packed, options, feature);
   }
   stats.sceneBytes = packed.bytes();
   stats.geometryBytes = packed.geometryBytes();
-  if (formatOfName(options.output) == ImageFormat::OpenExr) tracer.sceneHash = hashOf(packed);
+  if (withHash) tracer.sceneHash = hashOf(packed);
   stats.packMs = watch.lap();
   const ReadChoice choice = chooseReads(options.bufferReads, context.software, packed, readLimits());
   const bool literals = tracer.variant.traversal == TraversalMethod::Literals;

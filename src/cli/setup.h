@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 
 #include "bvh/bvh.h"
@@ -22,9 +23,22 @@ struct LoadedScene {
   View view;
 };
 
+/// Called before each step with its name and the part of the work done, 0..1; what it throws ends loading.
+using LoadProgress = std::function<void(const char* step, double fraction)>;
+
 /// Loads scene and environment, chooses camera and size, builds the tree; fills in the statistics of that.
 /// Says warnings on stderr unless quiet. Throws InputError, UsageError.
-LoadedScene loadScene(const RenderOptions& options, Statistics& stats);
+LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress = {});
+
+/// What of the options needs neither another program nor other buffers.
+View makeView(const RenderOptions& options, const Scene& scene, const Camera& camera);
+
+/// The tree of the options' traversal. The iterative one needs none; where it is chosen for them, the largest
+/// triangles stand beside it when that pays.
+Bvh buildTree(const Scene& scene, const RenderOptions& options);
+
+/// Whether buildTree() builds the same for both.
+bool sameTree(const RenderOptions& a, const RenderOptions& b);
 
 /// The scene on the device, and the variant that the options ask for.
 struct Tracer {
@@ -34,12 +48,16 @@ struct Tracer {
   uint64_t sceneHash = 0;  ///< of all that was uploaded; only for .exr, which keeps it
 };
 
-/// A scene that is small enough becomes part of the shader's text, unless another traversal was asked for.
+/// A scene that is small enough becomes part of the shader's text, unless another traversal was asked for, or
+/// first hits or visits are drawn.
 /// Throws UsageError.
 void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
                  ShaderVariant& variant);
 
-/// Packs and uploads what the variants need. Throws InputError, RenderError.
+/// Packs and uploads what the variants need; by default with the hash where the options' output keeps it.
+/// Throws InputError, RenderError.
+Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
+                  Statistics& stats, bool withHash);
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
                   Statistics& stats);
 

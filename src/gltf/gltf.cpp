@@ -135,7 +135,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   for (const PlacedSphere& sphere : spheres) {
     scene.spheres.push_back({glm::vec3(scene.space.localOf(sphere.center)),
                              float(sphere.radius / scene.space.unit), glm::quat(sphere.rotation),
-                             sphere.material});
+                             sphere.material, sphere.node});
   }
   for (const PlacedNode& node : nodes) {
     if (const auto light = lightAt(document, node, scene.space)) scene.lights.push_back(*light);

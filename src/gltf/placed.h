@@ -21,6 +21,7 @@ struct PlacedSphere {
   double radius = 1.0;
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
   uint32_t material = 0;
+  std::string node{};  ///< its name, or its JSON pointer
 };
 
 /// The node's KHR_implicit_shapes sphere (extras "shape" and "material"), which must not be scaled unevenly.

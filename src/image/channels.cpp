@@ -40,6 +40,12 @@ void appendChannels(Image& image, const Image& from, const std::vector<std::stri
   image.values = std::move(values);
 }
 
+void replaceColor(Image& image, const Image& color) {
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) std::copy_n(color.pixel(x, y), 3, image.pixel(x, y));
+  }
+}
+
 Image withoutAlpha(const Image& image) {
   const auto alpha = findChannel(image, "A");
   if (!alpha) return image;

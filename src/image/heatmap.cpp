@@ -55,13 +55,14 @@ double heatmapLimit(const Image& counts) {
   return 10.0 * power;
 }
 
-Image paintHeatmap(const Image& counts) {
+Image paintHeatmap(const Image& counts, const std::string& countsAs) {
   const double limit = heatmapLimit(counts);
   Image image;
   image.width = counts.width;
   image.height = counts.height;
-  image.channels = {"R", "G", "B", "visits"};
-  image.values.resize(size_t(image.width) * size_t(image.height) * 4);
+  image.channels = {"R", "G", "B"};
+  if (!countsAs.empty()) image.channels.push_back(countsAs);
+  image.values.resize(size_t(image.width) * size_t(image.height) * image.channelCount());
   const int scale = std::max(1, image.height / 180);
   const int barTop = image.height - 4 * scale;
   const int textTop = barTop - 7 * scale;
@@ -73,7 +74,7 @@ Image paintHeatmap(const Image& counts) {
       if (!bar && y >= textTop - scale) color = {0.0f, 0.0f, 0.0f};
       float* pixel = image.pixel(x, y);
       std::copy(color.begin(), color.end(), pixel);
-      pixel[3] = visits;
+      if (!countsAs.empty()) pixel[3] = visits;
     }
   }
   for (int part = 0; part <= 4; ++part) {

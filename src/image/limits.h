@@ -31,6 +31,8 @@ struct InputLimits {
   uint64_t memoryBytes = defaultMemoryLimit();
   int textureSide = kLargestTextureSide;  ///< wider or higher textures are scaled down to this
   bool allowExternalFiles = false;        ///< URIs may lead out of the scene's folder
+
+  bool operator==(const InputLimits&) const = default;
 };
 
 /// Counts what is about to be allocated for one file.

@@ -78,7 +78,26 @@ Camera withOverrides(Camera camera, const CameraOverrides& overrides, const Boun
     camera.fovY = glm::radians(degrees);
     camera.perspective = true;
   }
+  if (overrides.parallelScale) {
+    const double scale = *overrides.parallelScale;
+    if (overrides.viewAngleDegrees)
+      throw UsageError(
+          "a view angle is that of a perspective, a parallel scale that of an orthographic view");
+    if (!(scale > 0.0 && std::isfinite(scale))) throw UsageError("the parallel scale must be above 0");
+    camera.halfHeight = scale;
+    camera.perspective = false;
+  }
   return camera;
+}
+
+Camera chooseCamera(std::span<const Camera> cameras, std::optional<int> index,
+                    const CameraOverrides& overrides, const BoundsDouble& bounds) {
+  if (index && (*index < 0 || size_t(*index) >= cameras.size())) {
+    throw UsageError("--camera-index: " + std::to_string(*index) + ", but the scene has " +
+                     std::to_string(cameras.size()) + " cameras (counted from 0)");
+  }
+  if (index) return withOverrides(cameras[size_t(*index)], overrides, bounds);
+  return withOverrides(cameras.empty() ? frameScene(bounds) : cameras.front(), overrides, bounds);
 }
 
 }  // namespace fragtrace

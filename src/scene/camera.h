@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 
 #include "math/bounds.h"
 #include "scene/scene.h"
@@ -16,6 +17,7 @@ struct CameraOverrides {
   std::optional<glm::dvec3> focalPoint{};
   std::optional<glm::dvec3> viewUp{};
   std::optional<double> viewAngleDegrees{};
+  std::optional<double> parallelScale{};  ///< half of the picture's height: an orthographic view
 
   bool operator==(const CameraOverrides&) const = default;
 };
@@ -35,8 +37,13 @@ glm::dvec3 recentringPoint(const std::optional<glm::dvec3>& camera, const Bounds
 
 /// Replaces what is given: the position alone keeps the focal point, as in VTK; a view-up is made orthogonal
 /// to the view, and one parallel to it gives way to another axis; a view angle makes an orthographic camera
-/// perspective. Throws UsageError if the position is the focal point, or the angle is not between 0 and 180
-/// degrees.
+/// perspective, a parallel scale the other way round. Throws UsageError if the position is the focal point,
+/// the angle is not between 0 and 180 degrees, the scale is not above 0, or both are given.
 Camera withOverrides(Camera camera, const CameraOverrides& overrides, const BoundsDouble& bounds = {});
+
+/// The camera of that index, or without one the first, or one that frames the scene, with its overrides.
+/// Throws UsageError if there is none of that index.
+Camera chooseCamera(std::span<const Camera> cameras, std::optional<int> index,
+                    const CameraOverrides& overrides, const BoundsDouble& bounds);
 
 }  // namespace fragtrace

@@ -25,6 +25,7 @@ struct LocalSpace {
   double unit = 1.0;       ///< metres a unit of local space
 
   glm::dvec3 localOf(const glm::dvec3& world) const { return (world - origin) / unit; }
+  glm::dvec3 worldOf(const glm::dvec3& local) const { return origin + unit * local; }
 };
 
 /// An encoded picture (PNG, JPEG, ...) as it stood in the file, a buffer view or a data URI; decoded when
@@ -117,6 +118,7 @@ struct Sphere {
   float radius = 1.0f;  ///< local space
   glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
   uint32_t material = 0;
+  std::string node{};  ///< as in PrimitiveOrigin
 };
 
 enum class LightType : uint8_t { Point, Spot, Directional };

@@ -14,6 +14,7 @@
 #include "image/limits.h"
 #include "image/tone_map.h"
 #include "scene/camera.h"
+#include "stage/feature.h"
 #include "stage/stage.h"
 
 namespace fragtrace {
@@ -35,10 +36,6 @@ inline constexpr std::array<std::string_view, 3> kDispatchNames{"auto", "fragmen
 enum class PixelFilter : uint8_t { Box, Gaussian, BlackmanHarris };
 inline constexpr std::array<std::string_view, 3> kPixelFilterNames{"box", "gaussian", "blackman-harris"};
 
-/// What a first hit is, beside its radiance: further layers of .exr files (docs/conventions.md).
-enum class Feature : uint8_t { None, Albedo, Normal, Depth };
-inline constexpr std::array<std::string_view, 4> kFeatureNames{"", "albedo", "normal", "depth"};
-
 inline constexpr int kUnlimitedBounces = std::numeric_limits<int>::max() - 1;
 
 struct RenderOptions {
@@ -57,6 +54,8 @@ struct RenderOptions {
   double seconds = 0.0;  ///< time to spend, adaptively; 0: no limit
   std::optional<int> cameraIndex;
   CameraOverrides camera;
+  std::optional<glm::dvec3>
+      sceneOrigin;  ///< place that positions are rounded about; none: the focal point given
   std::filesystem::path hdriFile;
   double hdriRotationDegrees = 0.0;
   double exposure = 0.0;
@@ -72,11 +71,15 @@ struct RenderOptions {
   bool aovSamples = false;  ///< more layers of .exr files
   bool aovVariance = false;
   std::vector<Feature> aovFeatures;
+  DebugView debugView = DebugView::None;
+  std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
   std::filesystem::path statsFile;
   std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
   InputLimits limits;
   bool quiet = false;
   bool verbose = false;
+
+  bool operator==(const RenderOptions&) const = default;
 };
 
 }  // namespace fragtrace

@@ -113,6 +113,11 @@ std::string whyOff(Stage stage, const TraitSet& present) {
   return traitRows()[size_t(needed)].absence;
 }
 
+std::string whyBlank(DebugView view, const TraitSet& present) {
+  const bool coordinates = has(present, Trait::Texcoords) || has(present, Trait::Spheres);
+  return view == DebugView::Texcoords && !coordinates ? traitRows()[size_t(Trait::Texcoords)].absence : "";
+}
+
 ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& present, Surroundings surroundings,
                             uint32_t treeDepth, BufferReads reads) {
   ShaderVariant v;
@@ -220,13 +225,28 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
         Trait::Emission, Trait::EmissionTexture, Trait::Specular, Trait::Transmission, Trait::Unlit}) {
     kept.reset(size_t(t));
   }
-  if (feature == Feature::Depth && !has(present, Trait::Alpha)) {
+  if (feature != Feature::Albedo && !has(present, Trait::Alpha)) {
     for (Trait t : {Trait::BaseColorTexture, Trait::VertexColors}) kept.reset(size_t(t));
   }
   ShaderVariant v = chooseVariant(wanted, kept, surroundings, treeDepth, reads);
   v.traits.reset(size_t(Trait::Environment));
+  const bool roughnessTexture =
+      feature == Feature::Roughness && has(present, Trait::MetallicRoughnessTexture);
+  if (roughnessTexture) v.traits.set(size_t(Trait::MetallicRoughnessTexture));
+  if (roughnessTexture || feature == Feature::Texcoords)
+    v.traits.set(size_t(Trait::Texcoords), has(present, Trait::Texcoords));
   v.feature = feature;
   return v;
+}
+
+ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet& present,
+                                   Surroundings surroundings, uint32_t treeDepth, BufferReads reads) {
+  const Feature feature = rowOf(options.debugView).feature;
+  if (feature != Feature::None)
+    return chooseFeatureVariant(options, present, surroundings, treeDepth, reads, feature);
+  RenderOptions wanted = options;
+  if (options.debugView == DebugView::Visits) wanted.stages.set(size_t(Stage::BvhHeatmap));
+  return chooseVariant(wanted, present, surroundings, treeDepth, reads);
 }
 
 bool keepsWeights(const ShaderVariant& variant) {
@@ -250,7 +270,7 @@ std::string variantName(const ShaderVariant& variant) {
   if (variant.traversal != TraversalMethod::Literals && !variant.literals.empty()) append("large-first");
   if (variant.pixelFilter != PixelFilter::Box)
     append(std::string(kPixelFilterNames[size_t(variant.pixelFilter)]) + "-filter");
-  if (variant.feature != Feature::None) append(std::string(kFeatureNames[size_t(variant.feature)]));
+  if (variant.feature != Feature::None) append(std::string(rowOf(variant.feature).name));
   if (variant.clampIndirect) append("clamp-indirect");
   append(std::string(kBufferReadsNames[size_t(variant.reads)]) + "-reads");
   append(std::string(kDispatchNames[size_t(variant.dispatch)]));

@@ -53,6 +53,10 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
                                    Surroundings surroundings, uint32_t treeDepth, BufferReads reads,
                                    Feature feature);
 
+/// The variant that draws what the picture shows: radiance, or what the options' debug view needs.
+ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet& present,
+                                   Surroundings surroundings, uint32_t treeDepth, BufferReads reads);
+
 /// Whether hits keep their barycentric weights: only vertex attributes need them.
 bool keepsWeights(const ShaderVariant& variant);
 
@@ -61,5 +65,8 @@ std::string variantName(const ShaderVariant& variant);
 
 /// Why a stage or switch that was asked for is off in this variant; empty when it is on.
 std::string whyOff(Stage stage, const TraitSet& present);
+
+/// Why there is nothing to see in a debug view of this scene; empty when there is.
+std::string whyBlank(DebugView view, const TraitSet& present);
 
 }  // namespace fragtrace

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "bench/exact_tracer.h"
+#include "bvh/exact_tracer.h"
 #include "bench/hit_check.h"
 #include "gl_probe.h"
 #include "glsl.h"

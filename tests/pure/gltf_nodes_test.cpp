@@ -212,6 +212,7 @@ TEST(GltfNodes, SphereIsPlacedByItsNode) {
   EXPECT_EQ(scene.spheres[0].radius, 0.5f);
   EXPECT_EQ(scene.spheres[0].material, 0u);
   EXPECT_TRUE(isNear(glm::dvec3(scene.spheres[0].center) + scene.space.origin, {1, 2, 3}));
+  EXPECT_EQ(scene.spheres[0].node, "/nodes/0");
   EXPECT_EQ(scene.bounds.minimum, glm::dvec3(0.5, 1.5, 2.5));
   EXPECT_EQ(scene.materials.size(), 1u);
 }

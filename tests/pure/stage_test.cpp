@@ -97,5 +97,42 @@ TEST(ShaderText, EachFileIsPutInOnce) {
   EXPECT_EQ(text.find("#include"), std::string::npos);
 }
 
+ShaderVariant pictureOf(DebugView view, const TraitSet& present) {
+  RenderOptions options;
+  options.debugView = view;
+  return choosePictureVariant(options, present, Surroundings::Map, 10, BufferReads::Image);
+}
+
+TEST(DebugView, DrawsAFirstHitWithWhatItNeedsOnly) {
+  const ShaderVariant geometric =
+      pictureOf(DebugView::GeometricNormal, allTraits().reset(size_t(Trait::Alpha)));
+  EXPECT_EQ(geometric.feature, Feature::GeometricNormal);
+  for (Trait t : {Trait::Texcoords, Trait::VertexNormals, Trait::BaseColorTexture, Trait::Environment})
+    EXPECT_FALSE(has(geometric.traits, t)) << traitRows()[size_t(t)].name;
+  const ShaderVariant rough = pictureOf(DebugView::Roughness, allTraits().reset(size_t(Trait::Alpha)));
+  EXPECT_TRUE(has(rough.traits, Trait::MetallicRoughnessTexture) && has(rough.traits, Trait::Texcoords));
+  EXPECT_FALSE(has(rough.traits, Trait::BaseColorTexture));
+  // Alpha decides what is hit, whatever is shown.
+  EXPECT_TRUE(has(pictureOf(DebugView::Depth, allTraits()).traits, Trait::BaseColorTexture));
+  const TraitSet plain(1ul << unsigned(Trait::Triangles) | 1ul << unsigned(Trait::Texcoords));
+  EXPECT_TRUE(has(pictureOf(DebugView::Texcoords, plain).traits, Trait::Texcoords));
+  EXPECT_FALSE(has(pictureOf(DebugView::Albedo, plain).traits, Trait::Texcoords));
+}
+
+TEST(DebugView, CountsAreThoseOfTheirPicture) {
+  const RenderOptions options;
+  const ShaderVariant picture =
+      chooseVariant(options, allTraits(), Surroundings::Map, 10, BufferReads::Image);
+  for (const DebugView view : {DebugView::None, DebugView::Samples, DebugView::Variance})
+    EXPECT_EQ(pictureOf(view, allTraits()), picture);
+  EXPECT_TRUE(has(pictureOf(DebugView::Visits, allTraits()).stages, Stage::BvhHeatmap));
+}
+
+TEST(DebugView, SaysWhyItIsBlank) {
+  EXPECT_EQ(whyBlank(DebugView::Texcoords, {}), "no texture coordinates in use");
+  EXPECT_EQ(whyBlank(DebugView::Texcoords, allTraits()), "");
+  EXPECT_EQ(whyBlank(DebugView::Normal, {}), "");
+}
+
 }  // namespace
 }  // namespace fragtrace

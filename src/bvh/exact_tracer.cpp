@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/exact_tracer.h"
+#include "bvh/exact_tracer.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// What lies under a place of the picture.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bvh/bvh.h"
+#include "scene/projection.h"
+
+namespace fragtrace {
+
+struct Pick {
+  std::string node;                 ///< its name, or its JSON pointer
+  std::string mesh;                 ///< the same; empty for a sphere
+  uint32_t primitive = kMissIndex;  ///< of the scene: triangles first, then spheres
+  uint32_t triangle = kMissIndex;   ///< its number in the mesh primitive; kMissIndex for a sphere
+  uint32_t material = 0;
+  double distance = 0.0;   ///< from the camera, orthographic: from its plane; metres
+  glm::dvec3 point{0.0};   ///< world space
+  glm::dvec3 normal{0.0};  ///< geometric, unit, towards the camera
+};
+
+/// The surface nearest to the camera there, by the tree; nothing where there is none. Alpha is not looked at,
+/// and the back of single-sided surfaces is not there.
+std::optional<Pick> pickAt(const Scene& scene, const Bvh& bvh, const Projection& projection,
+                           const glm::dvec2& place);
+
+}  // namespace fragtrace

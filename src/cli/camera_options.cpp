@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "cli/camera_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <regex>
+
+#include "errors.h"
+
+namespace fragtrace {
+
+namespace {
+
+std::optional<glm::dvec3> vectorOf(const char* option, const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  for (const double value : values) {
+    if (!std::isfinite(value)) throw UsageError(std::string(option) + ": not a finite number");
+  }
+  return glm::dvec3(values[0], values[1], values[2]);
+}
+
+std::optional<glm::dvec3> placeOf(const char* option, const std::vector<double>& values) {
+  constexpr double kFarthest = 1e30;  // metres, as for scenes
+  const std::optional<glm::dvec3> place = vectorOf(option, values);
+  if (place && glm::length(*place) > kFarthest)
+    throw UsageError(std::string(option) + ": farther than 1e30 m from the origin");
+  return place;
+}
+
+/// The fewest digits, from 15 on, that the library's reader (strtold, then rounded) turns into the same
+/// number.
+std::string exactText(double value) {
+  char text[32];
+  for (int digits = 15; digits <= 17; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    if (double(std::strtold(text, nullptr)) == value) break;
+  }
+  return text;
+}
+
+void append(std::string& text, const char* option, const std::string& value) {
+  text += (text.empty() ? "" : " ") + std::string(option) + " " + value;
+}
+
+void append(std::string& text, const char* option, const std::optional<glm::dvec3>& v) {
+  if (v) append(text, option, exactText(v->x) + "," + exactText(v->y) + "," + exactText(v->z));
+}
+
+void append(std::string& text, const char* option, const std::optional<double>& value) {
+  if (value) append(text, option, exactText(*value));
+}
+
+}  // namespace
+
+std::string withNumberSettled(std::string argument) {
+  if (argument.starts_with("-.") && argument.size() > 2 &&
+      std::isdigit(static_cast<unsigned char>(argument[2]))) {
+    argument.insert(1, "0");
+  }
+  static const std::regex kSize("(--resolution=)?([0-9]+)x([0-9]+)");
+  if (std::smatch size; std::regex_match(argument, size, kSize))
+    return size.str(1) + size.str(2) + "," + size.str(3);
+  return argument;
+}
+
+void addCameraOptions(CLI::App& app, RawCamera& raw) {
+  const auto addVector = [&](const char* name, std::vector<double>& values, const char* sentence) {
+    app.add_option(name, values, sentence)->delimiter(',')->expected(3);
+  };
+  app.add_option("--resolution", raw.resolution,
+                 "WIDTH,HEIGHT or WIDTHxHEIGHT; default 1280,720, or 720 high at the camera's aspect ratio")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(CLI::Range(1, 65536));
+  app.add_option("--camera-index", raw.index,
+                 "camera of the scene, from 0; default: the first, else one that frames it");
+  addVector("--camera-position", raw.position, "X,Y,Z in world space");
+  addVector("--camera-focal-point", raw.focalPoint, "X,Y,Z");
+  addVector("--camera-view-up", raw.viewUp, "X,Y,Z");
+  CLI::Option* angle =
+      app.add_option("--camera-view-angle", raw.viewAngleDegrees, "vertical, in degrees: a perspective");
+  app.add_option("--camera-parallel-scale", raw.parallelScale,
+                 "half of the picture's height, in metres: an orthographic view")
+      ->excludes(angle);
+  addVector(
+      "--scene-origin", raw.sceneOrigin,
+      "X,Y,Z that positions are rounded about; default: the focal point given, else near the camera");
+}
+
+void finishCamera(const RawCamera& raw, RenderOptions& options) {
+  if (!raw.resolution.empty()) options.resolution = glm::ivec2(raw.resolution[0], raw.resolution[1]);
+  options.cameraIndex = raw.index;
+  options.camera.position = placeOf("--camera-position", raw.position);
+  options.camera.focalPoint = placeOf("--camera-focal-point", raw.focalPoint);
+  options.camera.viewUp = vectorOf("--camera-view-up", raw.viewUp);
+  options.camera.viewAngleDegrees = raw.viewAngleDegrees;
+  options.camera.parallelScale = raw.parallelScale;
+  options.sceneOrigin = placeOf("--scene-origin", raw.sceneOrigin);
+  if (options.camera.viewUp && *options.camera.viewUp == glm::dvec3(0.0))
+    throw UsageError("--camera-view-up: is zero");
+}
+
+std::string cameraText(const RenderOptions& options) {
+  std::string text;
+  if (options.cameraIndex) append(text, "--camera-index", std::to_string(*options.cameraIndex));
+  append(text, "--camera-position", options.camera.position);
+  append(text, "--camera-focal-point", options.camera.focalPoint);
+  append(text, "--camera-view-up", options.camera.viewUp);
+  append(text, "--camera-view-angle", options.camera.viewAngleDegrees);
+  append(text, "--camera-parallel-scale", options.camera.parallelScale);
+  append(text, "--scene-origin", options.sceneOrigin);
+  if (options.resolution) {
+    append(text, "--resolution",
+           std::to_string(options.resolution->x) + "," + std::to_string(options.resolution->y));
+  }
+  return text;
+}
+
+RenderOptions withCameraText(RenderOptions options, const std::string& text) {
+  CLI::App app;
+  app.set_help_flag();
+  RawCamera raw;
+  addCameraOptions(app, raw);
+  std::vector<std::string> arguments = CLI::detail::split_up(text);
+  for (std::string& argument : arguments) argument = withNumberSettled(argument);
+  std::ranges::reverse(arguments);  // last first, as the library wants them
+  try {
+    app.parse(arguments);
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+  finishCamera(raw, options);
+  return options;
+}
+
+}  // namespace fragtrace

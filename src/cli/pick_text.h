@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bvh/pick.h"
+
+namespace fragtrace {
+
+/// What was hit, in words, a line a fact: node, mesh, triangle, place, and the values of the material that
+/// are not the defaults.
+std::vector<std::string> pickLines(const Scene& scene, const Pick& pick);
+
+}  // namespace fragtrace

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// The viewer: the window in this thread, tracing in another.
+#include <chrono>
+#include <cstdio>
+#include <future>
+#include <thread>
+
+#include "cli/camera_options.h"
+#include "cli/commands.h"
+#include "cli/outputs.h"
+#include "cli/view_tracer.h"
+#include "errors.h"
+#include "plugin.h"
+#include "view/window.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr const char* kLibraryName = "libfragtrace_window.so";
+/// How long the end of the program may wait for the driver, which cannot be interrupted while it compiles.
+constexpr std::chrono::seconds kPatience{1};
+
+const WindowLibrary& windowLibrary() {
+  const Plugin plugin = openPlugin(kLibraryName, kWindowLibraryEntry);
+  if (plugin.entry == nullptr)
+    throw ContextError(std::string("no window: ") + kLibraryName + " cannot be opened (" + plugin.error +
+                       ")");
+  return *reinterpret_cast<WindowLibraryEntry>(plugin.entry)();
+}
+
+}  // namespace
+
+int runView(const ViewOptions& options) {
+  const NamedOutput status{"--status-file", options.statusFile};
+  checkOutputs({&status, 1}, inputsOf(options.render));
+  const WindowLibrary& library = windowLibrary();
+  Exchange exchange;
+  ViewTracer tracer(options, exchange);
+  std::promise<void> ended;
+  std::thread tracing;
+  const auto begin = [&] {
+    tracing = std::thread([&] {
+      tracer.run();
+      ended.set_value();
+    });
+  };
+  try {
+    library.run({options.render, options.statusFile, begin, cameraText, withCameraText}, exchange);
+  } catch (...) {
+    exchange.quit();
+    if (tracing.joinable()) tracing.join();
+    throw;
+  }
+  exchange.quit();
+  const bool soon = ended.get_future().wait_for(kPatience) == std::future_status::ready;
+  if (!soon || tracer.loading()) {
+    // Nothing is being written; what is left the system ends sooner than we could.
+    std::fflush(nullptr);
+    std::_Exit(0);
+  }
+  tracing.join();
+  return 0;
+}
+
+}  // namespace fragtrace

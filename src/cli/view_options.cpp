@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "cli/view_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "cli/config_file.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// Relative error that the picture converges to before the program rests.
+constexpr double kNoise = 0.005;
+
+}  // namespace
+
+void addViewOptions(CLI::App& app, RawView& raw) {
+  app.add_option("scene", raw.render.scene, ".gltf or .glb file")->required();
+  addRenderOptions(app, raw.render);
+  const auto describe = [&](const char* name, const char* text) { app.get_option(name)->description(text); };
+  describe("--spp", "camera paths a pixel at which the picture rests, default unlimited");
+  describe("--noise", "it rests when 95 % of the pixels have a relative error below this, default 0.005");
+  describe("--time", "it rests after so many seconds of drawing");
+  describe("--resolution", "WIDTH,HEIGHT of the window, default 1280,720");
+  addConfigOption(app, raw.config);
+  app.add_flag("--watch", raw.watch, "reload when a file of the scene, or of --shader-folder, changes");
+  app.add_option("--status-file", raw.statusFile,
+                 "JSON file that always holds what the viewer is doing, for scripts that drive it");
+}
+
+ViewOptions finishView(RawView& raw, CLI::App& command) {
+  ViewOptions options;
+  // Layers go to the .exr that a key writes.
+  raw.render.output = "any.exr";
+  options.render = finishConfigured(raw.render, raw.config, command);
+  options.render.output.clear();
+  if (!raw.render.spp) options.render.spp = kMostSamples - options.render.sampleOffset;
+  if (options.render.noise <= 0.0) options.render.noise = kNoise;
+  options.watch = raw.watch;
+  options.statusFile = raw.statusFile;
+  return options;
+}
+
+}  // namespace fragtrace

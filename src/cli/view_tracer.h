@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// The viewer's tracing thread: a context and renderers of its own, wishes in, finished pictures out.
+#pragma once
+
+#include <chrono>
+#include <memory>
+
+#include "cli/setup.h"
+#include "cli/view_loader.h"
+#include "cli/view_options.h"
+#include "cli/view_programs.h"
+#include "gl/debug_log.h"
+#include "view/exchange.h"
+#include "view/file_watch.h"
+#include "view/resolution_controller.h"
+
+namespace fragtrace {
+
+class ViewTracer {
+ public:
+  /// The scene of the options is loaded first; when that fails, or there is no context, so does the program.
+  ViewTracer(const ViewOptions& start, Exchange& exchange);
+
+  /// Until the exchange says quit; to be called in the thread that is to draw.
+  void run();
+
+  /// Whether a thread still loads what nobody waits for any more.
+  bool loading() const { return loader_.busy(); }
+
+ private:
+  struct Side {
+    RenderOptions options;
+    std::shared_ptr<ViewProgram> program;
+    std::unique_ptr<Film> film;
+    View view;
+    int samples = 0;
+    RenderTimes times;
+    double error = -1.0;
+    int errorAt = 0;    ///< samples when it was estimated
+    bool stale = true;  ///< what the film holds is another picture
+  };
+
+  void obey(Orders orders);
+  void adoptScene();
+  void watchFiles();
+  void rebuildPrograms();
+  void adopt(const TraceRequest& request);
+  void adoptSide(Side& side, const RenderOptions& options);
+  std::shared_ptr<ViewProgram> programFor(const RenderOptions& options);
+  /// A film of the size that is drawn at now; empty, if it was of another.
+  void fitFilm(Side& side);
+  bool resting(const Side& side) const;
+  /// Some samples for the side that has the fewest; false when all rest.
+  bool work();
+  void estimate(Side& side, const FilmPixels& pixels);
+  void publish(Side& side);
+  void save(const SaveRequest& request);
+  void answer(const PickRequest& request);
+  void tellDriver();
+
+  ViewOptions start_;
+  Exchange& exchange_;
+  SceneLoader loader_;
+  std::unique_ptr<Context> context_;
+  std::unique_ptr<DebugLog> driverLog_;
+  std::unique_ptr<LoadedScene> loaded_;
+  RenderOptions loadedOptions_;  ///< of the scene
+  std::unique_ptr<ViewPrograms> programs_;
+  TraceRequest request_;
+  std::vector<Side> sides_;
+  ResolutionController resolution_;
+  std::vector<SaveRequest> saves_;
+  double publishMs_ = 0.0;  ///< what the latest publication took
+  std::chrono::steady_clock::time_point published_;
+  FileWatch sceneFiles_;
+  FileWatch shaderFiles_;
+  std::chrono::steady_clock::time_point watched_;
+};
+
+}  // namespace fragtrace

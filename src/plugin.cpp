@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "plugin.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+namespace fragtrace {
+
+namespace {
+
+std::vector<std::filesystem::path> libraryFolders() {
+  std::vector<std::filesystem::path> folders;
+  if (const char* folder = std::getenv("FRAGTRACE_LIBRARY_PATH")) folders.emplace_back(folder);
+  std::error_code error;
+  const auto executable = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) folders.push_back(executable.parent_path());
+  return folders;
+}
+
+}  // namespace
+
+Plugin openPlugin(const char* library, const char* function) {
+  std::string reason = "not found";
+  for (const auto& folder : libraryFolders()) {
+    const auto path = folder / library;
+    std::error_code error;
+    if (!std::filesystem::exists(path, error)) {
+      reason = "not in " + folder.string();
+      continue;
+    }
+    void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* entry = handle != nullptr ? dlsym(handle, function) : nullptr;
+    if (entry != nullptr) return {entry, {}};
+    reason = dlerror();
+    break;
+  }
+  return {nullptr, reason};
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// What can be drawn in place of radiance: layers of .exr files, and debug views, which are layers or counts
+// as colours (docs/conventions.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace fragtrace {
+
+/// What a first hit is, beside its radiance.
+enum class Feature : uint8_t { None, Albedo, Normal, Depth, GeometricNormal, Roughness, Texcoords };
+
+struct FeatureRow {
+  std::string_view name;      ///< of the layer
+  std::string_view channels;  ///< a letter each, behind the name and a dot
+};
+
+/// In the order of Feature.
+inline constexpr std::array<FeatureRow, 7> kFeatureRows{{{"", ""},
+                                                         {"albedo", "RGB"},
+                                                         {"normal", "XYZ"},
+                                                         {"depth", "Z"},
+                                                         {"geometric-normal", "XYZ"},
+                                                         {"roughness", "Y"},
+                                                         {"texcoords", "UV"}}};
+
+inline const FeatureRow& rowOf(Feature feature) { return kFeatureRows[size_t(feature)]; }
+
+/// What a picture shows; all but None are colours as they are to be displayed, without exposure and tone
+/// curve.
+enum class DebugView : uint8_t {
+  None,
+  GeometricNormal,
+  Normal,
+  Albedo,
+  Roughness,
+  Texcoords,
+  Depth,
+  Visits,
+  Samples,
+  Variance
+};
+
+struct DebugViewRow {
+  std::string_view name;   ///< on the command line
+  std::string_view label;  ///< in the viewer
+  std::string_view sentence;
+  Feature feature;  ///< drawn for it; None: it shows counts, of samples drawn as ever or of nodes
+};
+
+/// In the order of DebugView.
+inline constexpr std::array<DebugViewRow, 10> kDebugViewRows{{
+    {"none", "Radiance", "the picture itself", Feature::None},
+    {"geometric-normal", "Geometric normal", "0.5 + 0.5 N of the triangle, towards the camera",
+     Feature::GeometricNormal},
+    {"normal", "Shading normal", "0.5 + 0.5 N with vertex normals and maps", Feature::Normal},
+    {"albedo", "Base colour", "base colour: factor, texture, vertex colour", Feature::Albedo},
+    {"roughness", "Roughness", "perceptual roughness, from black to white", Feature::Roughness},
+    {"texcoords", "Texture coordinates", "the fractions of TEXCOORD_0, red and green", Feature::Texcoords},
+    {"depth", "Depth", "along the view's axis, from white (nearest) to dark grey (farthest)", Feature::Depth},
+    {"visits", "Node visits", "nodes of the tree that a camera ray visits, as a heat map", Feature::None},
+    {"samples", "Samples", "samples a pixel, as a heat map", Feature::None},
+    {"variance", "Variance", "estimated relative error of each pixel in per cent, as a heat map",
+     Feature::None},
+}};
+
+inline const DebugViewRow& rowOf(DebugView view) { return kDebugViewRows[size_t(view)]; }
+
+}  // namespace fragtrace

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// The camera in a viewer's hand: movements as functions from pose to pose. Distances follow that to the focal
+// point, so no scene is too small or too large; a movement beyond 1e9 metres, where scenes end, changes
+// nothing.
+#pragma once
+
+#include "scene/camera.h"
+
+namespace fragtrace {
+
+/// A camera by what turns and moves it; world space, metres.
+struct CameraPose {
+  glm::dvec3 position{0.0, 0.0, 1.0};
+  glm::dvec3 focalPoint{0.0};
+  glm::dvec3 viewUp{0.0, 1.0, 0.0};  ///< unit, orthogonal to the view
+  bool perspective = true;
+  double viewAngleDegrees = 45.0;  ///< vertical; kept while orthographic
+  double halfHeight = 1.0;         ///< metres, of an orthographic view
+
+  bool operator==(const CameraPose&) const = default;
+};
+
+/// The pose of a camera; the bounds say where on its axis the focal point lies (focalPointOf).
+CameraPose poseOf(const Camera& camera, const BoundsDouble& bounds);
+
+/// The pose as the options that make a camera of it, whichever it replaces: all but the angle or the height
+/// that its projection has no use for. What is drawn is always withOverrides() of these, which is why
+/// `render` draws the same.
+CameraOverrides overridesOf(const CameraPose& pose);
+
+/// Turns about the focal point, radians: positive `azimuth` turns the picture to the right about the world's
+/// y axis, positive `elevation` lifts the camera. Ends a thousandth of a radian before the poles, so that up
+/// stays up.
+CameraPose orbit(CameraPose pose, double azimuth, double elevation);
+
+/// Turns about the camera's own place, as orbit() does about the focal point: positive `yaw` looks to the
+/// right, positive `pitch` up, radians.
+CameraPose look(CameraPose pose, double yaw, double pitch);
+
+/// Turns about the view's axis, radians; positive: the picture turns clockwise.
+CameraPose roll(CameraPose pose, double angle);
+
+/// Moves camera and focal point in the plane of the picture, so that what lies in the focal point's plane
+/// moves by `shift` with the pointer: parts of the picture's height, to the right and up.
+CameraPose pan(CameraPose pose, const glm::dvec2& shift);
+
+/// Magnifies what lies in the focal point's plane by e^amount: comes nearer, or narrows an orthographic view.
+CameraPose zoom(CameraPose pose, double amount);
+
+/// Moves camera and focal point by `amount` times their distance: to the right, up, forwards.
+CameraPose fly(CameraPose pose, const glm::dvec3& amount);
+
+/// Moves the camera sideways until it looks straight at a point, which becomes the focal point. A point that
+/// is not in front of it changes nothing.
+CameraPose centerOn(CameraPose pose, const glm::dvec3& point);
+
+/// Looks in the same direction at the centre of the bounds, from where their bounding sphere fits a picture
+/// of this width / height.
+CameraPose frameAll(CameraPose pose, const BoundsDouble& bounds, double aspectRatio);
+
+/// Looks along a direction at the same focal point from the same distance; `viewUp` must not be parallel to
+/// it.
+CameraPose lookAlong(CameraPose pose, const glm::dvec3& direction, const glm::dvec3& viewUp);
+
+/// The vertical view angle times e^amount, between 1 and 170 degrees, from the same place.
+CameraPose widen(CameraPose pose, double amount);
+
+/// The other projection; what lies in the focal point's plane keeps its size.
+CameraPose withOtherProjection(CameraPose pose);
+
+}  // namespace fragtrace

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "view/exchange.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace fragtrace {
+
+bool drawsTheSame(const RenderOptions& a, const RenderOptions& b) {
+  const auto traced = [](RenderOptions o) {
+    o.exposure = 0.0;
+    o.toneMap = ToneMap::Neutral;
+    o.treeLevel.reset();
+    o.spp = 0;
+    o.noise = 0.0;
+    o.seconds = 0.0;
+    return o;
+  };
+  return traced(a) == traced(b);
+}
+
+void Exchange::setWake(std::function<void()> wake) {
+  const std::lock_guard lock(mutex_);
+  wake_ = std::move(wake);
+}
+
+void Exchange::wake() {
+  const std::lock_guard lock(mutex_);
+  if (wake_) wake_();
+}
+
+void Exchange::order(const std::function<void(Orders&)>& change) {
+  {
+    const std::lock_guard lock(mutex_);
+    change(orders_);
+  }
+  ordered_.notify_all();
+}
+
+void Exchange::inform(const std::function<void(Delivery&)>& change) {
+  {
+    const std::lock_guard lock(mutex_);
+    change(delivery_);
+  }
+  wake();
+}
+
+uint64_t Exchange::ask(std::vector<RenderOptions> sides, glm::ivec2 size, bool moving) {
+  uint64_t number = 0;
+  order([&](Orders& o) {
+    number = ++requests_;
+    o.request = TraceRequest{number, std::move(sides), size, moving};
+  });
+  return number;
+}
+
+void Exchange::load(const RenderOptions& options) {
+  order([&](Orders& o) { o.load = options; });
+}
+
+void Exchange::cancelLoad() {
+  order([](Orders& o) {
+    o.load.reset();
+    o.cancelLoad = true;
+  });
+}
+
+void Exchange::save(SaveRequest request) {
+  order([&](Orders& o) { o.saves.push_back(std::move(request)); });
+}
+
+void Exchange::pick(PickRequest request) {
+  order([&](Orders& o) { o.pick = request; });
+}
+
+void Exchange::quit() {
+  order([this](Orders& o) { o.quit = ending_ = true; });
+}
+
+Delivery Exchange::take() {
+  const std::lock_guard lock(mutex_);
+  Delivery taken = std::move(delivery_);
+  // What describes a state stays until it changes.
+  delivery_ = {};
+  delivery_.load = taken.load;
+  delivery_.request = taken.request;
+  delivery_.resting = taken.resting;
+  delivery_.note = taken.note;
+  delivery_.error = taken.error;
+  delivery_.failure = taken.failure;
+  return taken;
+}
+
+Orders Exchange::wait(double seconds) {
+  std::unique_lock lock(mutex_);
+  const auto anything = [this] {
+    return orders_.request || orders_.load || orders_.cancelLoad || !orders_.saves.empty() || orders_.pick ||
+           orders_.quit || nudged_;
+  };
+  ordered_.wait_for(lock, std::chrono::duration<double>(seconds), anything);
+  nudged_ = false;
+  return std::exchange(orders_, {});
+}
+
+bool Exchange::interrupted() const {
+  const std::lock_guard lock(mutex_);
+  return orders_.request.has_value() || orders_.load.has_value() || ending_;
+}
+
+bool Exchange::ending() const {
+  const std::lock_guard lock(mutex_);
+  return ending_;
+}
+
+void Exchange::deliver(TracedPicture picture) {
+  inform([&](Delivery& d) {
+    const auto old = std::ranges::find(d.pictures, picture.side, &TracedPicture::side);
+    if (old != d.pictures.end())
+      *old = std::move(picture);
+    else
+      d.pictures.push_back(std::move(picture));
+  });
+}
+
+void Exchange::deliver(ViewedScene scene) {
+  inform([&](Delivery& d) {
+    d.scene = std::move(scene);
+    d.pictures.clear();
+  });
+}
+
+void Exchange::deliver(PickAnswer answer) {
+  inform([&](Delivery& d) { d.pick = std::move(answer); });
+}
+
+void Exchange::tellLoad(LoadStatus status) {
+  inform([&](Delivery& d) { d.load = std::move(status); });
+}
+
+void Exchange::tellState(uint64_t request, bool resting) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (delivery_.request == request && delivery_.resting == resting) return;
+    delivery_.request = request;
+    delivery_.resting = resting;
+  }
+  wake();
+}
+
+void Exchange::tellNote(std::string note) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (delivery_.note == note) return;
+    delivery_.note = std::move(note);
+  }
+  wake();
+}
+
+void Exchange::tellError(std::string error) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (delivery_.error == error) return;
+    delivery_.error = std::move(error);
+  }
+  wake();
+}
+
+void Exchange::tell(std::string message) {
+  inform([&](Delivery& d) { d.messages.push_back(std::move(message)); });
+}
+
+void Exchange::fail(std::exception_ptr failure) {
+  inform([&](Delivery& d) { d.failure = std::move(failure); });
+}
+
+void Exchange::nudge() {
+  {
+    const std::lock_guard lock(mutex_);
+    nudged_ = true;
+  }
+  ordered_.notify_all();
+}
+
+}  // namespace fragtrace

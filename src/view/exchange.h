@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// What passes between the window's thread and the tracing thread: wishes one way, pictures and news the
+// other.
+#pragma once
+
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bvh/tree_boxes.h"
+#include "image/image.h"
+#include "scene/describe.h"
+#include "stage/options.h"
+
+namespace fragtrace {
+
+/// What the window wants to show.
+struct TraceRequest {
+  uint64_t number = 0;               ///< counts requests
+  std::vector<RenderOptions> sides;  ///< one, or both sides of the split view; with their cameras
+  glm::ivec2 size{0};                ///< pixels
+  bool moving = false;               ///< frames at the resolution that can be had now, rather than samples
+};
+
+/// Whether both draw the same samples: not how many of them, nor what the display makes of them.
+bool drawsTheSame(const RenderOptions& a, const RenderOptions& b);
+
+/// Progress and cost of one side.
+struct SideStatistics {
+  int samples = 0;       ///< a pixel
+  double error = -1.0;   ///< the relative error that 95 % of the pixels stay under; negative: not yet known
+  double seconds = 0.0;  ///< spent on these samples
+  double frameMs = 0.0;  ///< one sample in every pixel: median of the latest
+  double frameP95Ms = 0.0;
+  double megaRaysPerSecond = 0.0;
+  double megaPathsPerSecond = 0.0;
+  bool resting = false;  ///< converged, or as many samples as asked for
+  std::string variant;
+  size_t deviceBytes = 0;  ///< scene and film
+};
+
+/// A finished picture of one side.
+struct TracedPicture {
+  size_t side = 0;
+  uint64_t request = 0;  ///< the latest that it answers
+  Image image;          ///< linear R, G, B, and A where camera rays may see nothing; the first row at the top
+  bool asItIs = false;  ///< colours of a debug view: neither exposure nor tone map
+  std::vector<PictureLine> lines;  ///< over it: boxes of the tree
+  SideStatistics statistics;
+};
+
+/// The scene that is drawn, as far as the window knows it.
+struct ViewedScene {
+  RenderOptions options;  ///< that it was loaded with
+  Camera camera;          ///< that these choose
+  std::vector<Camera> cameras;
+  BoundsDouble bounds;
+  TraitSet present;
+  SceneDescription description;
+  bool defaultLight = false;
+};
+
+/// How far loading has come.
+struct LoadStatus {
+  bool busy = false;
+  std::string name;
+  std::string step;
+  double fraction = 0.0;
+};
+
+/// A file to be made of what a side has accumulated: linear, or as a display shows it.
+struct SaveRequest {
+  std::filesystem::path path;
+  size_t side = 0;
+  double exposure = 0.0;
+  ToneMap toneMap = ToneMap::Neutral;
+};
+
+/// What is at a place of the picture?
+struct PickRequest {
+  size_t side = 0;
+  glm::dvec2 place{0.0};  ///< parts of width and height, from the top left
+  bool center = false;    ///< the camera is to be centred on it
+};
+
+struct PickAnswer {
+  PickRequest request;
+  bool hit = false;
+  glm::dvec3 point{0.0};           ///< world space
+  std::vector<std::string> lines;  ///< what was hit, in words
+};
+
+/// What is new for the window since it asked last.
+struct Delivery {
+  std::vector<TracedPicture> pictures;  ///< at most one a side
+  std::optional<ViewedScene> scene;     ///< a new one
+  std::optional<PickAnswer> pick;
+  LoadStatus load;
+  uint64_t request = 0;               ///< the latest that the tracing thread has seen
+  bool resting = false;               ///< it has nothing to do
+  std::string note;                   ///< what keeps the tracing thread from drawing; empty: nothing
+  std::string error;                  ///< why the latest wish could not be met; empty: it was
+  std::vector<std::string> messages;  ///< of the driver, of files written
+  std::exception_ptr failure;         ///< ends the program
+};
+
+/// What is new for the tracing thread.
+struct Orders {
+  std::optional<TraceRequest> request;
+  std::optional<RenderOptions> load;
+  bool cancelLoad = false;
+  std::vector<SaveRequest> saves;
+  std::optional<PickRequest> pick;
+  bool quit = false;
+};
+
+class Exchange {
+ public:
+  /// Called from the tracing thread whenever something waits for the window.
+  void setWake(std::function<void()> wake);
+
+  // The window's thread.
+  uint64_t ask(std::vector<RenderOptions> sides, glm::ivec2 size, bool moving);
+  void load(const RenderOptions& options);
+  void cancelLoad();
+  void save(SaveRequest request);
+  void pick(PickRequest request);
+  void quit();
+  Delivery take();
+
+  // The tracing thread.
+  /// Waits for orders, at most that long.
+  Orders wait(double seconds);
+  /// Whether to stop drawing: a newer request waits, or the end.
+  bool interrupted() const;
+  bool ending() const;
+  void deliver(TracedPicture picture);
+  void deliver(ViewedScene scene);
+  void deliver(PickAnswer answer);
+  void tellLoad(LoadStatus status);
+  void tellState(uint64_t request, bool resting);
+  void tellNote(std::string note);
+  void tellError(std::string error);
+  void tell(std::string message);
+  void fail(std::exception_ptr failure);
+  /// Ends a wait() from a third thread.
+  void nudge();
+
+ private:
+  void wake();
+  void order(const std::function<void(Orders&)>& change);
+  void inform(const std::function<void(Delivery&)>& change);
+
+  mutable std::mutex mutex_;
+  std::condition_variable ordered_;
+  std::function<void()> wake_;
+  uint64_t requests_ = 0;
+  bool nudged_ = false;
+  bool ending_ = false;
+  Orders orders_;
+  Delivery delivery_;
+};
+
+}  // namespace fragtrace

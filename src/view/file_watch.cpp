@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "view/file_watch.h"
+
+#include <string_view>
+
+namespace fragtrace {
+
+std::optional<FileWatch::Look> FileWatch::lookAt(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(file, error);
+  if (error) return std::nullopt;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) return std::nullopt;
+  return Look{time, size};
+}
+
+FileWatch::FileWatch(const std::vector<std::filesystem::path>& files) {
+  for (const auto& file : files) files_[file] = lookAt(file);
+}
+
+bool FileWatch::changed() {
+  bool any = false;
+  for (auto& [file, before] : files_) {
+    const std::optional<Look> now = lookAt(file);
+    if (!now || now == before) continue;
+    any = true;
+    before = now;
+  }
+  return any;
+}
+
+std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder, const char* extension) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const bool wanted = std::string_view(extension).empty() || entry.path().extension() == extension;
+    if (wanted && entry.is_regular_file(error)) files.push_back(entry.path());
+  }
+  return files;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "view/key_table.h"
+
+#include <algorithm>
+
+#include "stage/stage.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr int kShift = kShiftModifier;
+constexpr int kControl = kControlModifier;
+
+void addCamera(std::vector<Control>& rows) {
+  using enum Gesture;
+  const auto add = [&](Gesture gesture, int code, int modifiers, Action action, const char* sentence,
+                       int argument = 0) {
+    rows.push_back({gesture, code, modifiers, action, argument, sentence});
+  };
+  add(Drag, mouse::kLeft, 0, Action::Orbit, "turn about the focal point");
+  add(Drag, mouse::kLeft, kShift, Action::Pan, "move in the plane of the picture");
+  add(Drag, mouse::kMiddle, 0, Action::Pan, "move in the plane of the picture");
+  add(Drag, mouse::kLeft, kControl, Action::Roll, "turn about the axis of the view");
+  add(Drag, mouse::kRight, 0, Action::Zoom, "zoom");
+  add(Wheel, 0, 0, Action::Zoom, "zoom");
+  add(DoubleClick, mouse::kLeft, 0, Action::CenterOn, "centre on the point under the cursor");
+  add(Click, mouse::kMiddle, 0, Action::CenterOn, "centre on the point under the cursor");
+  add(Hold, 'W', 0, Action::FlyForward, "fly forwards", 1);
+  add(Hold, 'S', 0, Action::FlyForward, "fly backwards", -1);
+  add(Hold, 'A', 0, Action::FlyRight, "fly to the left", -1);
+  add(Hold, 'D', 0, Action::FlyRight, "fly to the right", 1);
+  add(Hold, 'E', 0, Action::FlyUp, "fly up", 1);
+  add(Hold, 'Q', 0, Action::FlyUp, "fly down", -1);
+  add(Press, 'F', 0, Action::FrameAll, "frame the whole scene");
+  add(Press, key::kEnter, 0, Action::ResetCamera, "back to the first camera");
+  add(Press, '1', 0, Action::StandardView, "from the front", int(StandardViewOf::Front));
+  add(Press, '3', 0, Action::StandardView, "from the right", int(StandardViewOf::Right));
+  add(Press, '7', 0, Action::StandardView, "from above", int(StandardViewOf::Top));
+  add(Press, '9', 0, Action::StandardView, "isometric", int(StandardViewOf::Isometric));
+  add(Press, '2', 0, Action::Elevate, "a quarter turn up", 1);
+  add(Press, '8', 0, Action::Elevate, "a quarter turn down", -1);
+  add(Press, '4', 0, Action::RollQuarter, "roll a quarter turn to the left", -1);
+  add(Press, '6', 0, Action::RollQuarter, "roll a quarter turn to the right", 1);
+  add(Press, '5', 0, Action::OtherProjection, "perspective or orthographic");
+  add(Press, key::kPageUp, 0, Action::Widen, "wider view angle", 1);
+  add(Press, key::kPageDown, 0, Action::Widen, "narrower view angle", -1);
+  for (int digit = 0; digit <= 9; ++digit)
+    add(Press, '0' + digit, kControl, Action::SceneCamera, "the scene's camera of that number", digit);
+  add(Press, 'N', 0, Action::NextCamera, "the scene's next camera", 1);
+  add(Press, 'N', kShift, Action::NextCamera, "the scene's camera before", -1);
+  add(Press, 'C', kControl, Action::CopyCamera, "copy the camera as command-line options");
+  add(Press, 'V', kControl, Action::PasteCamera, "take the camera from copied options");
+}
+
+void addPicture(std::vector<Control>& rows) {
+  using enum Gesture;
+  const auto add = [&](Gesture gesture, int code, int modifiers, Action action, const std::string& sentence,
+                       int argument = 0) {
+    rows.push_back({gesture, code, modifiers, action, argument, sentence});
+  };
+  // Function keys in the order of the stages: Shift for all up to that one. The first is always on.
+  int code = key::kF1;
+  for (const StageRow& row : stageRows()) {
+    if (row.stage == Stage::BvhHeatmap) continue;
+    if (row.stage != Stage::Flat)
+      add(Press, code, 0, Action::ToggleStage, std::string(row.label) + " on or off", int(row.stage));
+    ++code;
+  }
+  code = key::kF1;
+  for (const StageRow& row : stageRows()) {
+    if (row.cumulative)
+      add(Press, code, kShift, Action::StagesUpTo, "the stages up to that one", int(row.stage));
+    ++code;
+  }
+  add(Press, 'X', 0, Action::ToggleStage, "node heat map on or off", int(Stage::BvhHeatmap));
+  add(Press, 'V', 0, Action::NextDebugView, "the next debug view", 1);
+  add(Press, 'V', kShift, Action::NextDebugView, "the debug view before", -1);
+  add(Press, 'B', 0, Action::ToggleTreeBoxes, "boxes of the tree on or off");
+  add(Press, ']', 0, Action::TreeLevel, "boxes of the next level", 1);
+  add(Press, '[', 0, Action::TreeLevel, "boxes of the level before", -1);
+  add(Press, 'T', 0, Action::NextToneMap, "the next tone map");
+  add(Press, 'L', 0, Action::Exposure, "brighter by half a stop", 1);
+  add(Press, 'L', kShift, Action::Exposure, "darker by half a stop", -1);
+  add(Drag, mouse::kRight, kShift, Action::RotateEnvironment, "rotate the environment");
+  add(Press, 'J', 0, Action::ToggleBackground, "background on or off");
+}
+
+void addWindow(std::vector<Control>& rows) {
+  using enum Gesture;
+  const auto add = [&](Gesture gesture, int code, int modifiers, Action action, const char* sentence) {
+    rows.push_back({gesture, code, modifiers, action, 0, sentence});
+  };
+  add(Click, mouse::kLeft, 0, Action::Inspect, "say what is under the cursor");
+  add(Press, 'C', 0, Action::ToggleSplit, "compare: split view on or off");
+  add(Press, key::kTab, 0, Action::TogglePanel, "panel on or off");
+  add(Press, 'Z', 0, Action::ToggleHud, "figures on or off");
+  add(Press, 'H', 0, Action::ToggleSheet, "this sheet on or off");
+  add(Press, key::kUp, 0, Action::Reload, "read scene and shaders again");
+  add(Press, key::kF12, 0, Action::Screenshot, "write the picture as .png");
+  add(Press, key::kF12, kShift, Action::WriteExr, "write the accumulated radiance as .exr");
+  add(Press, key::kEscape, 0, Action::Quit, "quit");
+  add(Press, 'Q', kControl, Action::Quit, "quit");
+}
+
+std::vector<Control> makeControls() {
+  std::vector<Control> rows;
+  addCamera(rows);
+  addPicture(rows);
+  addWindow(rows);
+  return rows;
+}
+
+std::string codeName(const Control& control) {
+  switch (control.gesture) {
+    case Gesture::Wheel:
+      return "Wheel";
+    case Gesture::Press:
+    case Gesture::Hold:
+      break;
+    default: {
+      const char* button = control.code == mouse::kLeft     ? "Left"
+                           : control.code == mouse::kMiddle ? "Middle"
+                                                            : "Right";
+      const char* gesture = control.gesture == Gesture::Drag          ? " drag"
+                            : control.gesture == Gesture::DoubleClick ? " double click"
+                                                                      : " click";
+      return std::string(button) + gesture;
+    }
+  }
+  switch (control.code) {
+    case key::kEscape:
+      return "Escape";
+    case key::kEnter:
+      return "Enter";
+    case key::kTab:
+      return "Tab";
+    case key::kUp:
+      return "Up";
+    case key::kPageUp:
+      return "Page Up";
+    case key::kPageDown:
+      return "Page Down";
+    default:
+      break;
+  }
+  std::string name;
+  if (control.code >= key::kF1 && control.code <= key::kF12)
+    return name.append("F").append(std::to_string(control.code - key::kF1 + 1));
+  return name.append(1, char(control.code));
+}
+
+}  // namespace
+
+std::span<const Control> controls() {
+  static const std::vector<Control> rows = makeControls();
+  return rows;
+}
+
+const Control* controlFor(Gesture gesture, int code, int modifiers) {
+  const auto found = std::ranges::find_if(controls(), [&](const Control& c) {
+    return c.gesture == gesture && c.code == code && c.modifiers == modifiers;
+  });
+  return found == controls().end() ? nullptr : &*found;
+}
+
+const Control* controlOf(Action action, int argument) {
+  const auto found = std::ranges::find_if(
+      controls(), [&](const Control& c) { return c.action == action && c.argument == argument; });
+  return found == controls().end() ? nullptr : &*found;
+}
+
+std::string controlName(const Control& control) {
+  std::string name;
+  if ((control.modifiers & kControl) != 0) name += "Ctrl+";
+  if ((control.modifiers & kShift) != 0) name += "Shift+";
+  return name + codeName(control);
+}
+
+std::vector<SheetLine> sheetLines() {
+  std::vector<SheetLine> lines;
+  const std::span<const Control> rows = controls();
+  for (size_t first = 0; first < rows.size();) {
+    size_t last = first;
+    while (last + 1 < rows.size() && rows[last + 1].sentence == rows[first].sentence) ++last;
+    std::string name = controlName(rows[first]);
+    if (last > first) name += (last > first + 1 ? " to " : " or ") + controlName(rows[last]);
+    lines.push_back({name, rows[first].sentence});
+    first = last + 1;
+  }
+  return lines;
+}
+
+std::string sheetMarkdown() {
+  std::string text = "| control | what it does |\n| --- | --- |\n";
+  for (const SheetLine& line : sheetLines()) text += "| " + line.name + " | " + line.sentence + " |\n";
+  return text;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// One table of what keys and mouse do: the viewer handles by it, and the sheet of keys and docs/viewer.md are
+// written from it. Where F3D has such a control, its key is F3D's (doc/user/04-INTERACTIONS.md of
+// f3d-app/f3d).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fragtrace {
+
+/// What a control does; `Control::argument` says which where there are several.
+enum class Action : uint8_t {
+  // Camera.
+  Orbit,
+  Pan,
+  Zoom,
+  Roll,
+  CenterOn,
+  FlyRight,  ///< argument: +1 right, -1 left
+  FlyUp,
+  FlyForward,
+  FrameAll,
+  ResetCamera,
+  StandardView,  ///< argument: StandardViewOf
+  Elevate,       ///< argument: quarter turns up
+  RollQuarter,   ///< argument: quarter turns to the right
+  OtherProjection,
+  Widen,        ///< argument: +1 wider, -1 narrower
+  SceneCamera,  ///< argument: its index
+  NextCamera,   ///< argument: +1 or -1
+  CopyCamera,
+  PasteCamera,
+  // Picture.
+  ToggleStage,  ///< argument: a Stage
+  StagesUpTo,   ///< argument: a Stage
+  NextDebugView,
+  ToggleTreeBoxes,
+  TreeLevel,
+  NextToneMap,
+  Exposure,
+  RotateEnvironment,
+  ToggleBackground,
+  // Window.
+  Inspect,
+  ToggleSplit,
+  TogglePanel,
+  ToggleHud,
+  ToggleSheet,
+  Reload,
+  Screenshot,
+  WriteExr,
+  Quit
+};
+
+/// Views along an axis, for Action::StandardView.
+enum class StandardViewOf : uint8_t { Front, Right, Top, Isometric };
+
+/// How a control is used: a key pressed once (repeats count as presses) or held, a mouse button clicked or
+/// dragged, the wheel turned.
+enum class Gesture : uint8_t { Press, Hold, Click, DoubleClick, Drag, Wheel };
+
+/// Bits of Control::modifiers, as GLFW numbers them.
+inline constexpr int kShiftModifier = 1;
+inline constexpr int kControlModifier = 2;
+
+/// Codes of keys that are no printable character, as GLFW numbers them; printable ones are their capital in
+/// ASCII.
+namespace key {
+inline constexpr int kEscape = 256;
+inline constexpr int kEnter = 257;
+inline constexpr int kTab = 258;
+inline constexpr int kUp = 265;
+inline constexpr int kPageUp = 266;
+inline constexpr int kPageDown = 267;
+inline constexpr int kF1 = 290;
+inline constexpr int kF12 = 301;
+}  // namespace key
+
+/// Mouse buttons, as GLFW numbers them.
+namespace mouse {
+inline constexpr int kLeft = 0;
+inline constexpr int kRight = 1;
+inline constexpr int kMiddle = 2;
+}  // namespace mouse
+
+/// One row: with these modifiers, and no others, this gesture of this key or button does that.
+struct Control {
+  Gesture gesture = Gesture::Press;
+  int code = 0;
+  int modifiers = 0;
+  Action action = Action::Quit;
+  int argument = 0;
+  /// What it does, as in the sheet; neighbours with the same one are one line there.
+  std::string sentence{};
+};
+
+/// All controls, in the order of the sheet.
+std::span<const Control> controls();
+
+/// The row of a gesture, or null.
+const Control* controlFor(Gesture gesture, int code, int modifiers);
+
+/// The row that does something, or null.
+const Control* controlOf(Action action, int argument = 0);
+
+/// "Ctrl+C", "Shift+F2", "Left drag".
+std::string controlName(const Control& control);
+
+/// A line of the sheet.
+struct SheetLine {
+  std::string name;  ///< of one control, or of the first and the last of several: "F2 to F7"
+  std::string sentence;
+};
+std::vector<SheetLine> sheetLines();
+
+/// The lines as a table for docs/viewer.md.
+std::string sheetMarkdown();
+
+}  // namespace fragtrace

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Which resolution to draw at: while something moves, one whose frames take no longer than a target, by the
+// times measured; when all is still, finer and finer.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/glm.hpp>
+
+namespace fragtrace {
+
+/// The steps that a resolution may be at: a pixel drawn stands for so many a side.
+inline constexpr std::array<double, 9> kResolutionSteps{1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0};
+
+/// Its state, changed by the functions below alone. Steps are indices into kResolutionSteps.
+struct ResolutionController {
+  double targetMs = 1000.0 / 30.0;  ///< of one frame while moving
+  size_t step = 0;                  ///< of the next frame
+  bool moving = false;
+  std::array<double, 8> msPerPixel{};  ///< of the latest frames, the newest first; 0: none yet
+};
+
+/// The size of a frame at a step: rounded up, at least one pixel.
+glm::ivec2 sizeAtStep(glm::ivec2 full, size_t step);
+
+/// Something begins, or goes on, to move: the next frame is at the finest step that is expected to hold the
+/// target, at the coarsest as long as nothing was measured.
+void keepMoving(ResolutionController& controller, glm::ivec2 full);
+
+/// Nothing moves any more: the next frame is one step finer than the last, or at full resolution if that is
+/// expected to take less than a tenth of a second.
+void refine(ResolutionController& controller, glm::ivec2 full);
+
+/// A frame of so many pixels took so long. While moving, the step becomes coarser after two frames of three
+/// beyond the target, or after one of twice its time, and finer after eight that would all have held it with
+/// a fifth to spare. Times that are not above zero count nothing.
+void frameTaken(ResolutionController& controller, glm::ivec2 full, glm::ivec2 drawn, double ms);
+
+}  // namespace fragtrace

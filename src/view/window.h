@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// The viewer's window behind a shared object of our own, opened by `view` alone: it links GLFW and Dear
+// ImGui, and has OpenGL functions of its own, since its driver may be another than the tracing thread's.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "view/exchange.h"
+
+namespace fragtrace {
+
+struct WindowStart {
+  RenderOptions options;
+  std::filesystem::path statusFile;  ///< see docs/viewer.md; empty: none
+  std::function<void()> opened;      ///< called once the window is there
+  /// The camera as options of the command line, and back; the latter throws UsageError.
+  std::function<std::string(const RenderOptions&)> cameraText;
+  std::function<RenderOptions(const RenderOptions&, const std::string&)> withCameraText;
+};
+
+/// What libfragtrace_window.so offers. Host and library are built together, so C++ types may cross.
+struct WindowLibrary {
+  /// Shows the window until it is closed, then returns. Throws ContextError when there can be none, and what
+  /// the tracing thread failed with.
+  void (*run)(const WindowStart& start, Exchange& exchange);
+};
+
+/// The one function that libfragtrace_window.so exports, by this name.
+inline constexpr const char* kWindowLibraryEntry = "fragtraceWindowLibrary";
+using WindowLibraryEntry = const WindowLibrary* (*)();
+
+}  // namespace fragtrace

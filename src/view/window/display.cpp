@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "view/window/display.h"
+
+#include <cmath>
+
+#include "errors.h"
+#include "gl/program.h"
+
+namespace fragtrace {
+
+namespace {
+
+// As shaders/display.frag and shaders/window.frag have them.
+constexpr GLint kFactor = 0;
+constexpr GLint kToneMap = 1;
+constexpr GLint kWindowSize = 0;
+constexpr GLint kBar = 1;
+
+GLuint makeVertexArray() {
+  GLuint name = 0;
+  glCreateVertexArrays(1, &name);
+  return name;
+}
+
+GLuint makeFramebuffer() {
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  return name;
+}
+
+}  // namespace
+
+Display::Display() : vertexArray_(makeVertexArray()) {
+  const ShaderSource source = shaderSource({});
+  const std::string vertex = assembleShader(source, "fullscreen.vert", {});
+  mapping_ = buildProgram(vertex, assembleShader(source, "display.frag", {}));
+  window_ = buildProgram(vertex, assembleShader(source, "window.frag", {}));
+  checkGl("building the display's programs");
+}
+
+void Display::take(const TracedPicture& picture) {
+  Side& side = sides_.at(picture.side);
+  const Image& image = picture.image;
+  const glm::ivec2 size(image.width, image.height);
+  if (side.size != size) {
+    side.traced = makeTexture(GL_TEXTURE_2D);
+    glTextureStorage2D(side.traced.name(), 1, GL_RGBA32F, size.x, size.y);
+    side.displayed = makeTexture(GL_TEXTURE_2D);
+    glTextureStorage2D(side.displayed.name(), 1, GL_RGBA8, size.x, size.y);
+    glTextureParameteri(side.displayed.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(side.displayed.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    side.framebuffer = GlFramebuffer(makeFramebuffer());
+    glNamedFramebufferTexture(side.framebuffer.name(), GL_COLOR_ATTACHMENT0, side.displayed.name(), 0);
+    side.size = size;
+  }
+  const bool alpha = image.channelCount() == 4;
+  if (!alpha && image.channelCount() != 3) throw RenderError("a traced picture is neither RGB nor RGBA");
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTextureSubImage2D(side.traced.name(), 0, 0, 0, size.x, size.y, alpha ? GL_RGBA : GL_RGB, GL_FLOAT,
+                      image.values.data());
+  side.asItIs = picture.asItIs;
+  side.fresh = false;
+  checkGl("uploading a picture");
+}
+
+void Display::map(Side& side, const DisplaySide& settings) {
+  if (side.fresh && side.settings == settings) return;
+  glBindFramebuffer(GL_FRAMEBUFFER, side.framebuffer.name());
+  glViewport(0, 0, side.size.x, side.size.y);
+  glBindTextureUnit(0, side.traced.name());
+  glUseProgram(mapping_.name());
+  glUniform1f(kFactor, side.asItIs ? 1.0f : float(std::exp2(settings.exposure)));
+  glUniform1i(kToneMap, side.asItIs ? GLint(ToneMap::Linear) : GLint(settings.toneMap));
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  side.settings = settings;
+  side.fresh = true;
+}
+
+void Display::draw(glm::ivec2 framebuffer, const std::array<DisplaySide, 2>& sides, double bar) {
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_DEPTH_TEST);
+  glBindSampler(0, 0);
+  glBindSampler(1, 0);
+  glBindVertexArray(vertexArray_.name());
+  for (size_t i = 0; i < 2; ++i) {
+    if (shows(i)) map(sides_[i], sides[i]);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, framebuffer.x, framebuffer.y);
+  if (shows(0)) {
+    for (size_t i = 0; i < 2; ++i) {
+      const Side& side = shows(i) ? sides_[i] : sides_[0];
+      // Pixels of a picture that fits are shown as they are.
+      const GLint filter = side.size == framebuffer ? GL_NEAREST : GL_LINEAR;
+      glTextureParameteri(side.displayed.name(), GL_TEXTURE_MIN_FILTER, filter);
+      glTextureParameteri(side.displayed.name(), GL_TEXTURE_MAG_FILTER, filter);
+      glBindTextureUnit(GLuint(i), side.displayed.name());
+    }
+    glUseProgram(window_.name());
+    glUniform2f(kWindowSize, float(framebuffer.x), float(framebuffer.y));
+    glUniform1f(kBar, float(std::round(bar * framebuffer.x)));
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  } else {
+    glClearColor(0.08f, 0.08f, 0.09f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+  }
+  glBindVertexArray(0);
+  glUseProgram(0);
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "view/window/interface.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+namespace fragtrace {
+
+namespace {
+
+constexpr float kFontSize = 15.0f;         // pixels at 96 dots an inch
+constexpr float kBuiltInFontSize = 13.0f;  // the only one that its pixels are drawn for
+
+/// What the system has of a legible font; without any, the one that Dear ImGui brings.
+constexpr std::array kFonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                            "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                            "/usr/share/fonts/TTF/DejaVuSans.ttf"};
+
+void loadFont(float scale) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.Fonts->Clear();
+  for (const char* path : kFonts) {
+    std::error_code error;
+    if (!std::filesystem::exists(path, error)) continue;
+    if (io.Fonts->AddFontFromFileTTF(path, std::round(kFontSize * scale))) return;
+  }
+  ImFontConfig config;
+  config.SizePixels = kBuiltInFontSize * std::max(1.0f, std::floor(scale));
+  io.Fonts->AddFontDefault(&config);
+}
+
+}  // namespace
+
+Interface::Interface(GLFWwindow* window) : window_(window) {
+  ImGui::CreateContext();
+  // Nothing is remembered behind the user's back.
+  ImGui::GetIO().IniFilename = nullptr;
+  ImGui_ImplGlfw_InitForOpenGL(window, true);
+  ImGui_ImplOpenGL3_Init("#version 450 core");
+  fit();
+}
+
+Interface::~Interface() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void Interface::fit() {
+  float x = 1.0f;
+  float y = 1.0f;
+  glfwGetWindowContentScale(window_, &x, &y);
+  const float scale = std::clamp(std::max(x, y), 0.5f, 8.0f);
+  if (scale == scale_) return;
+  scale_ = scale;
+  loadFont(scale);
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGuiStyle style;
+  style.WindowRounding = 4.0f;
+  style.FrameRounding = 3.0f;
+  style.ScrollbarSize = 12.0f;
+  style.ItemSpacing = {7.0f, 4.0f};
+  style.FramePadding = {5.0f, 2.0f};
+  ImGui::StyleColorsDark(&style);
+  style.ScaleAllSizes(scale);
+  ImGui::GetStyle() = style;
+}
+
+void Interface::begin() {
+  fit();
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Interface::end() {
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+}  // namespace fragtrace

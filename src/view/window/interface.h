@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Dear ImGui on a GLFW window: its life, its font, its size on displays of many dots an inch.
+#pragma once
+
+struct GLFWwindow;
+
+namespace fragtrace {
+
+class Interface {
+ public:
+  /// Needs the window's context, current, and its callbacks, which it passes events on to.
+  explicit Interface(GLFWwindow* window);
+  Interface(const Interface&) = delete;
+  Interface& operator=(const Interface&) = delete;
+  ~Interface();
+
+  /// Between these two what is to be seen is put together; the latter draws it.
+  void begin();
+  void end();
+
+  /// How many pixels stand for one at 96 dots an inch.
+  float scale() const { return scale_; }
+
+ private:
+  void fit();
+  GLFWwindow* window_;
+  float scale_ = 0.0f;
+};
+
+}  // namespace fragtrace

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#include "view/window/panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <span>
+#include <string>
+
+namespace fragtrace {
+
+namespace {
+
+constexpr float kWidth = 352.0f;
+constexpr float kMargin = 8.0f;
+constexpr float kLabelWidth = 0.42f;  // of the row, before its control
+constexpr int kMostBouncesShown = 64;
+
+/// In a dim colour at the right end of the line, or of a line of its own where that has no room.
+void dimAtEnd(const std::string& text) {
+  const float start = ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x;
+  const float room = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetStyle().ItemSpacing.x;
+  if (room <= start)
+    ImGui::SameLine(start);
+  else
+    ImGui::SetCursorPosX(start);
+  ImGui::TextDisabled("%s", text.c_str());
+}
+
+/// A label, and room for a control up to the end of the row.
+void label(const char* text) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * kLabelWidth);
+  ImGui::SetNextItemWidth(-1.0f);
+}
+
+template <typename Choice>
+void choose(const char* id, std::span<const std::string_view> names, Choice& choice) {
+  const std::string current(names[size_t(choice)]);
+  if (!ImGui::BeginCombo(id, current.c_str())) return;
+  for (size_t i = 0; i < names.size(); ++i) {
+    const std::string name(names[i]);
+    if (ImGui::Selectable(name.c_str(), i == size_t(choice))) choice = Choice(i);
+  }
+  ImGui::EndCombo();
+}
+
+std::string keyOf(Action action, int argument = 0) {
+  const Control* control = controlOf(action, argument);
+  return control ? controlName(*control) : std::string();
+}
+
+Errand button(const char* text, Errand errand) { return ImGui::Button(text) ? errand : Errand::None; }
+
+void drawStages(ViewState& state) {
+  RenderOptions& o = state.options();
+  for (const StageRow& row : stageRows()) {
+    const std::string reason = row.stage == Stage::Flat ? "always on" : whyGrey(state, row.stage);
+    bool on = has(o.stages, row.stage) && (reason.empty() || row.stage == Stage::Flat);
+    ImGui::BeginDisabled(!reason.empty());
+    if (ImGui::Checkbox(row.label, &on)) o.stages.set(size_t(row.stage), on);
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", row.sentence);
+    dimAtEnd(reason.empty() ? keyOf(Action::ToggleStage, int(row.stage)) : reason);
+  }
+}
+
+void drawSampling(ViewState& state) {
+  RenderOptions& o = state.options();
+  label("Bounces");
+  int bounces = std::min(o.bounces, kMostBouncesShown);
+  if (ImGui::SliderInt("##bounces", &bounces, 0, kMostBouncesShown,
+                       o.bounces >= kMostBouncesShown ? "unlimited" : "%d"))
+    o.bounces = bounces >= kMostBouncesShown ? kUnlimitedBounces : bounces;
+  label("Roulette from");
+  ImGui::SliderInt("##roulette", &o.rouletteDepth, 1, 32);
+  label("Noise to reach");
+  float noise = float(100.0 * o.noise);
+  if (ImGui::SliderFloat("##noise", &noise, 0.1f, 20.0f, "%.2f %%", ImGuiSliderFlags_Logarithmic))
+    for (RenderOptions& side : state.sides) side.noise = 0.01 * noise;
+  label("Pixel filter");
+  choose("##filter", kPixelFilterNames, o.pixelFilter);
+  label("Clamp indirect");
+  float clamp = float(o.clampIndirect);
+  if (ImGui::SliderFloat("##clamp", &clamp, 0.0f, 100.0f, clamp > 0.0f ? "%.2f (biased)" : "off",
+                         ImGuiSliderFlags_Logarithmic))
+    o.clampIndirect = clamp;
+  label("Traversal");
+  choose("##traversal", kTraversalNames, o.traversal);
+}
+
+void drawLight(ViewState& state) {
+  RenderOptions& o = state.sides[0];
+  label("Exposure");
+  float exposure = float(o.exposure);
+  if (ImGui::SliderFloat("##exposure", &exposure, -8.0f, 8.0f, "%.1f EV"))
+    for (RenderOptions& side : state.sides) side.exposure = exposure;
+  label("Tone map");
+  ToneMap curve = o.toneMap;
+  choose("##curve", toneMapNames(), curve);
+  for (RenderOptions& side : state.sides) side.toneMap = curve;
+  const bool map = !o.hdriFile.empty();
+  label("Environment");
+  ImGui::BeginDisabled(!map);
+  float degrees = float(o.hdriRotationDegrees);
+  if (ImGui::SliderFloat("##rotation", &degrees, -180.0f, 180.0f, map ? "%.0f degrees" : "no --hdri-file"))
+    for (RenderOptions& side : state.sides) side.hdriRotationDegrees = degrees;
+  ImGui::EndDisabled();
+  label("Background");
+  bool background = o.background;
+  if (ImGui::Checkbox("##background", &background))
+    for (RenderOptions& side : state.sides) side.background = background;
+  if (background && !map) {
+    ImGui::SameLine();
+    glm::vec3 color = o.backgroundColor;
+    if (ImGui::ColorEdit3("##color", glm::value_ptr(color),
+                          ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs))
+      for (RenderOptions& side : state.sides) side.backgroundColor = color;
+  }
+}
+
+Errand drawCamera(ViewState& state) {
+  Errand errand = Errand::None;
+  const auto press = [&](const char* text, Action action) {
+    if (ImGui::Button(text)) apply(state, *controlOf(action), {});
+  };
+  label("Projection");
+  if (ImGui::Button(state.pose.perspective ? "perspective" : "orthographic", ImVec2(-1, 0)))
+    apply(state, *controlOf(Action::OtherProjection), {});
+  if (state.pose.perspective) {
+    label("View angle");
+    float degrees = float(state.pose.viewAngleDegrees);
+    if (ImGui::SliderFloat("##angle", &degrees, 1.0f, 170.0f, "%.1f degrees")) {
+      state.pose.viewAngleDegrees = degrees;
+      state.posed = true;
+    }
+  }
+  if (state.scene && !state.scene->cameras.empty()) {
+    label("Scene camera");
+    const auto& cameras = state.scene->cameras;
+    const auto nameOf = [&](int i) {
+      if (i < 0 || size_t(i) >= cameras.size()) return std::string("none");
+      const std::string& name = cameras[size_t(i)].name;
+      return std::to_string(i) + (name.empty() ? "" : ": " + name);
+    };
+    if (ImGui::BeginCombo("##camera", nameOf(state.sceneCamera).c_str())) {
+      for (int i = 0; i < int(cameras.size()); ++i) {
+        Control control{.action = Action::SceneCamera, .argument = i};
+        if (ImGui::Selectable(nameOf(i).c_str(), i == state.sceneCamera)) apply(state, control, {});
+      }
+      ImGui::EndCombo();
+    }
+  }
+  press("Frame all", Action::FrameAll);
+  ImGui::SameLine();
+  press("Reset", Action::ResetCamera);
+  ImGui::SameLine();
+  errand = std::max(errand, button("Copy", Errand::CopyCamera));
+  ImGui::SameLine();
+  errand = std::max(errand, button("Paste", Errand::PasteCamera));
+  return errand;
+}
+
+void drawCompare(ViewState& state) {
+  bool split = state.split;
+  if (ImGui::Checkbox("Split view", &split)) apply(state, *controlOf(Action::ToggleSplit), {});
+  dimAtEnd(keyOf(Action::ToggleSplit));
+  if (!state.split) return;
+  int active = int(state.active);
+  ImGui::TextUnformatted("Settings of the");
+  ImGui::SameLine();
+  ImGui::RadioButton("left", &active, 0);
+  ImGui::SameLine();
+  ImGui::RadioButton("right side", &active, 1);
+  state.active = size_t(active);
+}
+
+void drawDebug(ViewState& state) {
+  RenderOptions& o = state.options();
+  label("Show");
+  const std::string current(rowOf(o.debugView).label);
+  if (ImGui::BeginCombo("##show", current.c_str(), ImGuiComboFlags_HeightLargest)) {
+    for (size_t i = 0; i < kDebugViewRows.size(); ++i) {
+      const std::string name(kDebugViewRows[i].label);
+      if (ImGui::Selectable(name.c_str(), DebugView(i) == o.debugView)) o.debugView = DebugView(i);
+    }
+    ImGui::EndCombo();
+  }
+  ImGui::Checkbox("Boxes of the tree", &state.treeBoxes);
+  dimAtEnd(keyOf(Action::ToggleTreeBoxes));
+  label("Level");
+  ImGui::SliderInt("##level", &state.treeLevel, 0, 31);
+}
+
+}  // namespace
+
+Errand drawPanel(ViewState& state, float scale) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float margin = kMargin * scale;
+  const float width = std::min(kWidth * scale, display.x - 2 * margin);
+  ImGui::SetNextWindowPos({display.x - width - margin, margin});
+  ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, display.y - 2 * margin});
+  ImGui::SetNextWindowBgAlpha(0.88f);
+  Errand errand = Errand::None;
+  if (ImGui::Begin("Settings", nullptr,
+                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
+                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse |
+                       ImGuiWindowFlags_NoNav)) {
+    drawCompare(state);
+    if (ImGui::CollapsingHeader("Stages and switches", ImGuiTreeNodeFlags_DefaultOpen)) drawStages(state);
+    if (ImGui::CollapsingHeader("Light and display", ImGuiTreeNodeFlags_DefaultOpen)) drawLight(state);
+    if (ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) errand = drawCamera(state);
+    if (ImGui::CollapsingHeader("Sampling")) drawSampling(state);
+    if (ImGui::CollapsingHeader("Debug views")) drawDebug(state);
+    errand = std::max(errand, button("Screenshot", Errand::Screenshot));
+    ImGui::SameLine();
+    errand = std::max(errand, button("Write .exr", Errand::WriteExr));
+    ImGui::SameLine();
+    errand = std::max(errand, button("Reload", Errand::Reload));
+    ImGui::TextDisabled("%s: all keys   %s: this panel", keyOf(Action::ToggleSheet).c_str(),
+                        keyOf(Action::TogglePanel).c_str());
+  }
+  ImGui::End();
+  return errand;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "view/window/status.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "math/summary.h"
+
+namespace fragtrace {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json timesJson(const std::deque<double>& ms) {
+  if (ms.empty()) return nullptr;
+  const Summary s = summarize({ms.begin(), ms.end()});
+  return {{"median", s.median}, {"p95", s.p95}, {"max", *std::ranges::max_element(ms)}, {"count", ms.size()}};
+}
+
+Json sideJson(const ViewState& state, const ViewFacts& facts, size_t side) {
+  const SideStatistics& s = facts.statistics[side];
+  Json stages = Json::array();
+  for (const StageRow& row : stageRows()) {
+    if (has(state.sides[side].stages, row.stage)) stages.push_back(row.name);
+  }
+  Json json;
+  json["samples"] = s.samples;
+  json["error"] = s.error;
+  json["seconds"] = s.seconds;
+  json["frame_ms"] = s.frameMs;
+  json["frame_p95_ms"] = s.frameP95Ms;
+  json["mrays_per_s"] = s.megaRaysPerSecond;
+  json["mpaths_per_s"] = s.megaPathsPerSecond;
+  json["resting"] = s.resting;
+  json["variant"] = s.variant;
+  json["width"] = facts.pictureSize[side].x;
+  json["height"] = facts.pictureSize[side].y;
+  json["stages"] = stages;
+  return json;
+}
+
+const char* stateName(const ViewState& state, const ViewFacts& facts, const WindowReport& report) {
+  if (facts.load.busy || !state.scene) return "loading";
+  if (!facts.note.empty()) return "compiling";
+  const bool resting = facts.resting && report.seen == report.asked;
+  return resting ? "resting" : "drawing";
+}
+
+}  // namespace
+
+std::string statusText(const ViewState& state, const ViewFacts& facts, const WindowReport& report) {
+  Json json;
+  json["schema"] = 1;
+  json["state"] = stateName(state, facts, report);
+  json["scene"] = state.scene ? state.scene->options.scene.string() : "";
+  json["environment"] = state.scene ? state.scene->options.hdriFile.string() : "";
+  json["width"] = state.size.x;
+  json["height"] = state.size.y;
+  json["asked"] = report.asked;
+  json["answered"] = report.answered;
+  json["split"] = state.split;
+  json["bar"] = state.bar;
+  json["panel"] = state.panel;
+  json["sheet"] = state.sheet;
+  json["sides"] = Json::array();
+  for (size_t i = 0; i < (state.split ? 2u : 1u); ++i) json["sides"].push_back(sideJson(state, facts, i));
+  json["camera"] = report.camera;
+  json["exposure"] = state.sides[0].exposure;
+  json["tone_map"] = toneMapNames()[size_t(state.sides[0].toneMap)];
+  json["hdri_rotation"] = state.sides[0].hdriRotationDegrees;
+  json["background"] = state.sides[0].background;
+  json["load_step"] = facts.load.step;
+  json["load_fraction"] = facts.load.fraction;
+  json["error"] = facts.error;
+  json["messages"] = facts.messages;
+  json["pick"] = facts.pick ? Json(facts.pick->lines) : Json();
+  json["gl_errors"] = report.glErrors;
+  json["loop_ms"] = timesJson(report.times.loopMs);
+  json["longest_loop_ms"] = report.times.longestLoopMs;
+  json["answer_ms"] = timesJson(report.times.answerMs);
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace fragtrace

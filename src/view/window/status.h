@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// What the window is doing, as JSON for those who drive it from outside (docs/viewer.md).
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "view/window/overlay.h"
+
+namespace fragtrace {
+
+/// Times of what a person would feel, milliseconds.
+struct Responsiveness {
+  std::deque<double> loopMs;    ///< the event loop's latest turns, without waiting
+  std::deque<double> answerMs;  ///< from a change to the first picture of it, the latest ones
+  double longestLoopMs = 0.0;
+};
+
+struct WindowReport {
+  uint64_t asked = 0;     ///< the latest request
+  uint64_t seen = 0;      ///< that the tracing thread has seen
+  uint64_t answered = 0;  ///< that a picture shown answers
+  std::string camera;     ///< as options of the command line
+  std::vector<std::string> glErrors;
+  Responsiveness times;
+};
+
+std::string statusText(const ViewState& state, const ViewFacts& facts, const WindowReport& report);
+
+}  // namespace fragtrace

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "cli/camera_options.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "errors.h"
+#include "view/camera_controller.h"
+
+namespace fragtrace {
+namespace {
+
+/// Options as the viewer has them after a movement.
+RenderOptions optionsOf(const CameraPose& pose) {
+  RenderOptions options;
+  options.camera = overridesOf(pose);
+  return options;
+}
+
+TEST(CameraText, SaysWhatIsSet) {
+  RenderOptions options;
+  EXPECT_EQ(cameraText(options), "");
+  options.cameraIndex = 2;
+  options.camera.position = glm::dvec3(-0.5, 0.1, 1e-7);
+  options.resolution = glm::ivec2(640, 480);
+  EXPECT_EQ(cameraText(options), "--camera-index 2 --camera-position -0.5,0.1,1e-07 --resolution 640,480");
+}
+
+TEST(CameraText, ReadsBackAsItselfBitForBit) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> mantissa(-2.0, 2.0);
+  std::uniform_int_distribution<int> exponent(-40, 25);
+  const auto number = [&] { return std::ldexp(mantissa(random), exponent(random)); };
+  const auto vector = [&] { return glm::dvec3(number(), number(), number()); };
+  for (int i = 0; i < 2000; ++i) {
+    RenderOptions options = optionsOf(
+        {.position = vector(), .focalPoint = vector(), .viewUp = vector(), .perspective = i % 2 == 0});
+    if (i % 2 == 0)
+      options.camera.viewAngleDegrees = std::abs(number());
+    else
+      options.camera.parallelScale = std::abs(number());
+    options.sceneOrigin = vector();
+    if (i % 3 == 0) options.cameraIndex = i;
+    const RenderOptions read = withCameraText(RenderOptions(), cameraText(options));
+    ASSERT_EQ(read.camera, options.camera) << cameraText(options);
+    ASSERT_EQ(read.sceneOrigin, options.sceneOrigin);
+    ASSERT_EQ(read.cameraIndex, options.cameraIndex);
+  }
+}
+
+TEST(CameraText, LeavesTheOtherOptionsAlone) {
+  RenderOptions options = optionsOf({});
+  options.spp = 5;
+  options.cameraIndex = 1;
+  options.resolution = glm::ivec2(64, 48);
+  const RenderOptions read = withCameraText(options, "--camera-position -.5,0,3");
+  EXPECT_EQ(read.spp, 5);
+  EXPECT_EQ(read.resolution, glm::ivec2(64, 48));
+  EXPECT_FALSE(read.cameraIndex);
+  EXPECT_EQ(read.camera.position, glm::dvec3(-0.5, 0, 3));
+  EXPECT_FALSE(read.camera.focalPoint);
+}
+
+TEST(CameraText, WhatIsNoCameraIsRefused) {
+  for (const char* text :
+       {"hello", "--spp 4", "--camera-position 1,2", "--camera-position 1,2,x", "--camera-position 1,2,nan",
+        "--camera-view-up 0,0,0", "--camera-focal-point 2e9,0,0",
+        "--camera-view-angle 30 --camera-parallel-scale 2"}) {
+    EXPECT_THROW(withCameraText(RenderOptions(), text), UsageError) << text;
+  }
+}
+
+}  // namespace
+}  // namespace fragtrace

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// What passes between the viewer's two threads.
+#include "view/exchange.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+namespace fragtrace {
+namespace {
+
+TEST(Exchange, OnlyTheLatestWishCounts) {
+  Exchange exchange;
+  exchange.ask({RenderOptions{}}, {10, 10}, true);
+  EXPECT_TRUE(exchange.interrupted());
+  const uint64_t last = exchange.ask({RenderOptions{}}, {20, 10}, false);
+  const Orders orders = exchange.wait(0.0);
+  ASSERT_TRUE(orders.request);
+  EXPECT_EQ(orders.request->number, last);
+  EXPECT_EQ(orders.request->size, glm::ivec2(20, 10));
+  EXPECT_FALSE(exchange.interrupted());
+  EXPECT_FALSE(exchange.wait(0.0).request);
+}
+
+TEST(Exchange, FilesToBeWrittenAreAllKept) {
+  Exchange exchange;
+  exchange.save({"a.png"});
+  exchange.save({"b.exr"});
+  EXPECT_FALSE(exchange.interrupted());
+  EXPECT_EQ(exchange.wait(0.0).saves.size(), 2u);
+  EXPECT_TRUE(exchange.wait(0.0).saves.empty());
+}
+
+TEST(Exchange, OfEachSideOnlyTheLatestPictureIsDelivered) {
+  Exchange exchange;
+  for (const uint64_t request : {1u, 2u}) {
+    for (const size_t side : {0u, 1u}) {
+      TracedPicture picture;
+      picture.side = side;
+      picture.request = request;
+      exchange.deliver(std::move(picture));
+    }
+  }
+  const Delivery delivery = exchange.take();
+  ASSERT_EQ(delivery.pictures.size(), 2u);
+  EXPECT_EQ(delivery.pictures[0].request, 2u);
+  EXPECT_EQ(delivery.pictures[1].request, 2u);
+  EXPECT_TRUE(exchange.take().pictures.empty());
+}
+
+TEST(Exchange, PicturesOfTheSceneBeforeAreForgotten) {
+  Exchange exchange;
+  exchange.deliver(TracedPicture{});
+  exchange.deliver(ViewedScene{});
+  const Delivery delivery = exchange.take();
+  EXPECT_TRUE(delivery.scene);
+  EXPECT_TRUE(delivery.pictures.empty());
+}
+
+TEST(Exchange, StatesStayUntilTheyChangeAndMessagesComeOnce) {
+  Exchange exchange;
+  exchange.tellNote("compiling");
+  exchange.tellError("wrong");
+  exchange.tell("once");
+  EXPECT_EQ(exchange.take().messages.size(), 1u);
+  const Delivery again = exchange.take();
+  EXPECT_TRUE(again.messages.empty());
+  EXPECT_EQ(again.note, "compiling");
+  EXPECT_EQ(again.error, "wrong");
+}
+
+TEST(Exchange, WakesTheWindowForNewsAndTheTracerForOrders) {
+  Exchange exchange;
+  std::atomic<int> wakes = 0;
+  exchange.setWake([&] { ++wakes; });
+  exchange.tellState(1, true);
+  exchange.tellState(1, true);
+  EXPECT_EQ(wakes, 1);
+  std::thread window([&] { exchange.quit(); });
+  EXPECT_TRUE(exchange.wait(60.0).quit);
+  window.join();
+  EXPECT_TRUE(exchange.ending());
+  exchange.nudge();
+  EXPECT_FALSE(exchange.wait(60.0).request);
+}
+
+}  // namespace
+}  // namespace fragtrace

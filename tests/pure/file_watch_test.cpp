@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "view/file_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "image_test_folder.h"
+
+namespace fragtrace {
+namespace {
+
+void write(const std::filesystem::path& path, const char* text) { std::ofstream(path) << text; }
+
+using FileWatchTest = ImageTestFolder;
+
+TEST_F(FileWatchTest, SeesWhatIsWrittenOnceAndNotWhatIsGone) {
+  const auto scene = folder / "scene.gltf";
+  const auto missing = folder / "missing.bin";
+  write(scene, "one");
+  FileWatch watch({scene, missing});
+  EXPECT_FALSE(watch.changed());
+  write(scene, "three");
+  EXPECT_TRUE(watch.changed());
+  EXPECT_FALSE(watch.changed());
+  std::filesystem::remove(scene);
+  EXPECT_FALSE(watch.changed());
+  write(scene, "other");
+  EXPECT_TRUE(watch.changed());
+  write(missing, "there");
+  EXPECT_TRUE(watch.changed());
+  // Of the same size, but at another time.
+  std::filesystem::last_write_time(missing,
+                                   std::filesystem::last_write_time(missing) + std::chrono::seconds(2));
+  EXPECT_TRUE(watch.changed());
+  EXPECT_EQ(filesIn(folder, ".gltf").size(), 1u);
+  EXPECT_EQ(filesIn(folder / "none", "").size(), 0u);
+}
+
+}  // namespace
+}  // namespace fragtrace

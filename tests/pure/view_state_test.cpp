@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// What the viewer's controls change.
+#include "view/view_state.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "stage/variant.h"
+
+namespace fragtrace {
+namespace {
+
+ViewedScene someScene() {
+  ViewedScene scene;
+  scene.options.scene = "some.gltf";
+  scene.bounds.include({-1.0, -1.0, -1.0});
+  scene.bounds.include({1.0, 1.0, 1.0});
+  Camera camera;
+  camera.position = {0.0, 0.0, 5.0};
+  scene.cameras = {camera, camera};
+  scene.cameras[1].position = {5.0, 0.0, 5.0};
+  scene.camera = camera;
+  scene.present.set(size_t(Trait::Triangles));
+  return scene;
+}
+
+ViewState someState() {
+  ViewState state;
+  state.sides[0].scene = "some.gltf";
+  showScene(state, someScene());
+  return state;
+}
+
+Errand press(ViewState& state, Action action, int argument = 0) {
+  const Control* control = controlOf(action, argument);
+  EXPECT_NE(control, nullptr);
+  return control ? apply(state, *control) : Errand::None;
+}
+
+TEST(ViewState, EveryControlChangesTheStateOrIsAnErrand) {
+  for (const Control& control : controls()) {
+    ViewState state = someState();
+    const ViewState before = state;
+    const Errand errand = apply(state, control, {{0.1, 0.2}, 1.0, 0.1});
+    const bool changed = state.sides != before.sides || !(state.pose == before.pose) ||
+                         state.panel != before.panel || state.figures != before.figures ||
+                         state.sheet != before.sheet || state.treeBoxes != before.treeBoxes ||
+                         state.treeLevel != before.treeLevel || state.split != before.split;
+    // Cameras that the scene does not have, and what stands as it is asked for.
+    const bool maybeNot = control.action == Action::SceneCamera || control.action == Action::ResetCamera ||
+                          control.action == Action::StagesUpTo || control.action == Action::StandardView ||
+                          control.action == Action::FrameAll;
+    EXPECT_TRUE(changed || errand != Errand::None || maybeNot) << controlName(control);
+    EXPECT_FALSE(changed && errand != Errand::None) << controlName(control);
+  }
+}
+
+TEST(ViewState, UntilSomebodyMovesTheCameraIsThatOfTheOptions) {
+  ViewState state = someState();
+  EXPECT_EQ(tracedSides(state)[0].camera, CameraOverrides{});
+  EXPECT_TRUE(drawsTheSame(tracedSides(state)[0], state.sides[0]));
+  apply(state, *controlOf(Action::Orbit), {.drag = {0.1, 0.0}});
+  EXPECT_EQ(tracedSides(state)[0].camera, overridesOf(state.pose));
+  press(state, Action::ResetCamera);
+  EXPECT_EQ(tracedSides(state)[0].camera, CameraOverrides{});
+}
+
+TEST(ViewState, TheSceneCamerasAreThereByNumber) {
+  ViewState state = someState();
+  press(state, Action::SceneCamera, 1);
+  EXPECT_EQ(tracedSides(state)[0].cameraIndex, 1);
+  press(state, Action::SceneCamera, 7);
+  EXPECT_EQ(tracedSides(state)[0].cameraIndex, 1);
+  press(state, Action::NextCamera, 1);
+  EXPECT_EQ(tracedSides(state)[0].cameraIndex, 0);
+}
+
+TEST(ViewState, OnlyWhatIsTracedIsDrawnAnew) {
+  ViewState state = someState();
+  const RenderOptions before = tracedSides(state)[0];
+  for (const Action action : {Action::NextToneMap, Action::Exposure, Action::TogglePanel, Action::ToggleHud,
+                              Action::ToggleSheet, Action::ToggleTreeBoxes}) {
+    press(state, action, action == Action::Exposure ? 1 : 0);
+  }
+  EXPECT_NE(state.sides[0].exposure, before.exposure);
+  EXPECT_TRUE(drawsTheSame(tracedSides(state)[0], before));
+  press(state, Action::ToggleStage, int(Stage::Shadows));
+  EXPECT_FALSE(drawsTheSame(tracedSides(state)[0], before));
+}
+
+TEST(ViewState, TheSplitViewBeginsWithTwoOfTheSameAndTogglesTheActiveOne) {
+  ViewState state = someState();
+  press(state, Action::ToggleSplit);
+  ASSERT_EQ(tracedSides(state).size(), 2u);
+  EXPECT_TRUE(drawsTheSame(tracedSides(state)[0], tracedSides(state)[1]));
+  state.active = 1;
+  press(state, Action::ToggleStage, int(Stage::Shadows));
+  EXPECT_TRUE(has(state.sides[0].stages, Stage::Shadows));
+  EXPECT_FALSE(has(state.sides[1].stages, Stage::Shadows));
+  apply(state, *controlOf(Action::Orbit), {.drag = {0.1, 0.0}});
+  EXPECT_EQ(tracedSides(state)[0].camera, tracedSides(state)[1].camera);
+  press(state, Action::ToggleSplit);
+  EXPECT_EQ(tracedSides(state).size(), 1u);
+  EXPECT_EQ(state.active, 0u);
+}
+
+TEST(ViewState, WhatTheSceneLacksIsGreyWithTheReason) {
+  const ViewState state = someState();
+  EXPECT_EQ(whyGrey(state, Stage::Refraction), "no transmissive material");
+  EXPECT_EQ(whyGrey(state, Stage::Gi), "");
+}
+
+TEST(ViewState, AReloadedSceneKeepsTheViewAndAnotherOneDoesNot) {
+  ViewState state = someState();
+  apply(state, *controlOf(Action::Orbit), {.drag = {0.1, 0.0}});
+  const CameraPose moved = state.pose;
+  showScene(state, someScene());
+  EXPECT_EQ(state.pose, moved);
+  EXPECT_TRUE(state.posed);
+  ViewedScene other = someScene();
+  other.options.scene = "other.gltf";
+  showScene(state, other);
+  EXPECT_FALSE(state.posed);
+  EXPECT_EQ(state.sides[0].scene, "other.gltf");
+}
+
+TEST(ViewerDocument, HoldsTheTableOfAllControls) {
+  std::ifstream file(FRAGTRACE_DOCS "/viewer.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(text.find(sheetMarkdown()), std::string::npos) << "docs/viewer.md should have\n"
+                                                           << sheetMarkdown();
+}
+
+}  // namespace
+}  // namespace fragtrace

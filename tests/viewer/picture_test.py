@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What the window shows and writes is what `render` draws: every toggle, camera, size and tone map."""
+import shlex
+import time
+
+from support import Case, largest_difference, main, pixels_of, read_png
+
+SIZE = ["--resolution", "160,120"]
+FEW = [*SIZE, "--spp", "4"]
+# Keys, and the options of `render` that do the same. (F2 turns Blinn-Phong off, which gi does without.)
+SWITCHES = {"F3": ["--disable", "shadows"], "F4": ["--disable", "reflections"], "F5": ["--disable", "refraction"],
+            "F6": ["--disable", "normal-maps"], "F7": ["--disable", "gi"], "F8": ["--enable", "schlick"],
+            "F9": ["--energy-compensation", "off"], "F10": ["--sampler", "random"], "F11": ["--light-sampling", "bsdf"],
+            "x": ["--enable", "bvh-heatmap"]}
+
+
+class Toggles(Case):
+    def test_each_toggle_gives_the_picture_that_render_gives(self):
+        self.toggle("water-cube", ("F3", "F4", "F5", "F6", "F7", "F8", "F10", "x"))
+
+    def test_so_do_those_of_light_and_roughness(self):
+        self.toggle("plastics", ("F9", "F11"))
+
+    def toggle(self, scene, keys):
+        viewer = self.view(scene, *FEW)
+        plain = pixels_of(viewer.press_for_file("F12", ".png"))
+        self.same(plain, pixels_of(self.render(scene, *SIZE, "--spp", 4)))
+        for key in keys:
+            options = SWITCHES[key]
+            with self.subTest(key=key, options=options):
+                asked = viewer.status()["asked"]
+                viewer.key(key)
+                status = viewer.rest(lambda s: s["asked"] > asked, f"rest after {key}")
+                self.assertEqual(status["sides"][0]["samples"], 4)
+                shown = pixels_of(viewer.press_for_file("F12", ".png"))
+                self.same(shown, pixels_of(self.render(scene, *SIZE, "--spp", 4, *options)))
+                self.assertTrue(shown != plain)
+                asked = viewer.status()["asked"]
+                viewer.key(key)
+                viewer.rest(lambda s: s["asked"] > asked, f"rest after {key} again")
+        viewer.key("Escape")
+        self.ends_well(viewer, viewer.end())
+
+
+class Display(Case):
+    def test_the_window_shows_what_render_writes_within_one_level(self):
+        viewer = self.view("plastics", *FEW, "--exposure", "0.5", "--tone-map", "linear")
+        viewer.key("z")
+        for curve in ("linear", "reinhard", "aces", "agx", "neutral"):
+            with self.subTest(curve=curve):
+                viewer.until(lambda s: s["tone_map"] == curve, curve)
+                time.sleep(0.3)  # for the messages of screenshots to be gone, and the frame to be shown
+                rendered = pixels_of(self.render("plastics", *SIZE, "--spp", 4, "--exposure", "0.5", "--tone-map", curve))
+                width, height, shown = viewer.grab()
+                self.assertEqual((width, height), (160, 120))
+                self.assertLessEqual(largest_difference(shown, rendered), 1)
+            viewer.key("t")
+        self.ends_well(viewer, viewer.close())
+
+
+class Camera(Case):
+    def test_an_orbited_view_is_rendered_exactly_by_its_options(self):
+        viewer = self.view("plastics", *FEW)
+        before = viewer.status()["camera"]
+        for button, end in ((1, (110, 80)), (2, (90, 50)), (3, (70, 40))):
+            asked = viewer.status()["asked"]
+            viewer.drag((60, 60), end, button)
+            viewer.rest(lambda s: s["asked"] > asked, "rest after a drag")
+        asked = viewer.status()["asked"]
+        viewer.key("w")
+        status = viewer.rest(lambda s: s["asked"] > asked, "rest after flying")
+        shown = viewer.press_for_file("F12", ".png")
+        rendered = self.render("plastics", "--spp", 4, *shlex.split(status["camera"]))
+        self.assertEqual(read_png(shown)[:2], (160, 120))
+        self.same(pixels_of(shown), pixels_of(rendered))
+        self.assertTrue(pixels_of(shown) != pixels_of(self.render("plastics", *SIZE, "--spp", 4)))
+
+        viewer.at(80, 80)
+        viewer.xdotool("click", 1)
+        picked = viewer.until(lambda s: s["pick"], "what is under the cursor")["pick"]
+        self.assertTrue(any("roughness" in line for line in picked), picked)
+        viewer.key("ctrl+c", "f")
+        viewer.rest(lambda s: s["camera"] != status["camera"], "framed")
+        viewer.key("ctrl+v")
+        viewer.rest(lambda s: s["camera"] == status["camera"], "pasted")
+        viewer.key("Return")
+        viewer.rest(lambda s: s["camera"] == before, "reset")
+        viewer.key("Escape")
+        self.ends_well(viewer, viewer.end())
+
+
+if __name__ == "__main__":
+    main()

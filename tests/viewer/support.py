@@ -1,0 +1,262 @@
+# SPDX-License-Identifier: MIT
+"""Real windows on a display of their own: Xvfb, openbox as window manager, keys and mouse by xdotool.
+
+A test file is run as FILE FRAGTRACE SOURCE_FOLDER [unittest arguments].
+"""
+import json
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import zlib
+from pathlib import Path
+
+import Xlib.display
+from Xlib import X
+from Xlib.protocol import event
+
+FRAGTRACE = Path(sys.argv[1]).resolve()
+SCENES = Path(sys.argv[2]).resolve() / "scenes"
+
+
+def read_png(path):
+    """8-bit RGB or RGBA: width, height, rows of bytes, bytes a pixel (www.w3.org/TR/png)."""
+    data = Path(path).read_bytes()
+    at, packed = 8, b""
+    while at < len(data):
+        size, kind = struct.unpack_from(">I4s", data, at)
+        body = data[at + 8:at + 8 + size]
+        if kind == b"IHDR":
+            width, height, depth, color = struct.unpack_from(">IIBB", body)
+            assert depth == 8 and color in (2, 6), path
+        elif kind == b"IDAT":
+            packed += body
+        at += size + 12
+    step = 3 if color == 2 else 4
+    raw, stride, rows = zlib.decompress(packed), step * width, []
+    before = bytearray(stride)
+    for y in range(height):
+        kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for x in range(stride):
+            a, b = (line[x - step] if x >= step else 0), before[x]
+            c = before[x - step] if x >= step else 0
+            if kind == 1:
+                line[x] = (line[x] + a) & 255
+            elif kind == 2:
+                line[x] = (line[x] + b) & 255
+            elif kind == 3:
+                line[x] = (line[x] + (a + b) // 2) & 255
+            elif kind == 4:
+                p, da, db, dc = a + b - c, abs(b - c), abs(a - c), abs(a + b - 2 * c)
+                line[x] = (line[x] + (a if da <= db and da <= dc else b if db <= dc else c)) & 255
+        rows.append(bytes(line))
+        before = line
+    return width, height, rows, step
+
+
+def pixels_of(path):
+    """A list of (r, g, b), row by row."""
+    width, height, rows, step = read_png(path)
+    return [tuple(row[step * x:step * x + 3]) for row in rows for x in range(width)]
+
+
+def largest_difference(a, b):
+    assert len(a) == len(b), (len(a), len(b))
+    return max(abs(u - v) for p, q in zip(a, b) for u, v in zip(p, q))
+
+
+class Screen:
+    """An X server on a number that is free, with a window manager; `dpi` is what the user's desktop says."""
+
+    def __init__(self, size="1400x1000", dpi=None):
+        read, write = os.pipe()
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", size + "x24", "-nolisten", "tcp", "-noreset"],
+                                       pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(write)
+        number = b""
+        while not number.endswith(b"\n"):
+            byte = os.read(read, 1)
+            if not byte:
+                raise RuntimeError("Xvfb did not start")
+            number += byte
+        os.close(read)
+        self.name = ":" + number.decode().strip()
+        self.environment = {**os.environ, "DISPLAY": self.name}
+        self.environment.pop("WAYLAND_DISPLAY", None)
+        if dpi:
+            self.call("xprop", "-root", "-f", "RESOURCE_MANAGER", "8s", "-set", "RESOURCE_MANAGER", f"Xft.dpi:\t{dpi}\n")
+        self.manager = subprocess.Popen(["openbox", "--sm-disable"], env=self.environment, stdout=subprocess.DEVNULL,
+                                        stderr=subprocess.DEVNULL)
+        self.display = Xlib.display.Display(self.name)
+        # A window manager is there once the root window says so.
+        root, check = self.display.screen().root, self.display.intern_atom("_NET_SUPPORTING_WM_CHECK")
+        wait_for(lambda: root.get_full_property(check, X.AnyPropertyType), 20, "no window manager")
+
+    def call(self, *command):
+        return subprocess.run(list(map(str, command)), env=self.environment, check=True, capture_output=True, text=True).stdout
+
+    def close(self):
+        self.display.close()
+        for process in (self.manager, self.server):
+            process.terminate()
+            process.wait()
+
+
+def wait_for(condition, seconds, what):
+    end = time.monotonic() + seconds
+    while True:
+        value = condition()
+        if value:
+            return value
+        if time.monotonic() > end:
+            raise AssertionError(f"after {seconds} s: {what}")
+        time.sleep(0.02)
+
+
+class Viewer:
+    """A running `fragtrace view`; its folder is where it writes."""
+
+    def __init__(self, screen, folder, scene, *options, wait=True):
+        self.screen, self.folder = screen, Path(folder)
+        self.status_file = self.folder / "status.json"
+        scene = scene if isinstance(scene, Path) else SCENES / (scene + ".gltf")
+        self.errors = open(self.folder / "stderr.txt", "w+")
+        self.process = subprocess.Popen([FRAGTRACE, "view", scene, "--status-file", self.status_file, *map(str, options)],
+                                        cwd=folder, env=screen.environment, stdout=subprocess.DEVNULL, stderr=self.errors)
+        if wait:
+            self.window()
+            self.rest()
+
+    def stderr(self):
+        self.errors.seek(0)
+        return self.errors.read()
+
+    def status(self):
+        return json.loads(self.status_file.read_text()) if self.status_file.exists() else {"state": "starting"}
+
+    def until(self, condition, what, seconds=120):
+        """The first status that fulfils it."""
+        def check():
+            assert self.process.poll() is None, f"ended with {self.process.returncode}: {self.stderr()}"
+            status = self.status()
+            return status if condition(status) else None
+        try:
+            return wait_for(check, seconds, what)
+        except AssertionError as error:
+            raise AssertionError(f"{error}\n{json.dumps(self.status(), indent=1)}\n{self.stderr()}") from None
+
+    def rest(self, condition=lambda status: True, what="rest"):
+        return self.until(lambda s: s["state"] == "resting" and condition(s), what)
+
+    def window(self):
+        def find():
+            assert self.process.poll() is None, f"ended with {self.process.returncode}: {self.stderr()}"
+            found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "^fragtrace"], env=self.screen.environment,
+                                   capture_output=True, text=True).stdout.split()
+            return int(found[-1]) if found else None
+        self.id = wait_for(find, 60, "no window")
+        self.screen.call("xdotool", "windowactivate", "--sync", self.id)
+        return self.id
+
+    def xdotool(self, *arguments):
+        self.screen.call("xdotool", *arguments)
+
+    def key(self, *names):
+        for name in names:
+            self.xdotool("key", name)
+
+    def at(self, x, y):
+        self.xdotool("mousemove", "--window", self.id, x, y)
+
+    def drag(self, start, end, button=1, steps=8):
+        self.at(*start)
+        self.xdotool("mousedown", button)
+        for i in range(1, steps + 1):
+            self.at(*(round(a + (b - a) * i / steps) for a, b in zip(start, end)))
+            time.sleep(0.01)
+        self.xdotool("mouseup", button)
+
+    def grab(self):
+        """What the window shows: width, height and a list of (r, g, b)."""
+        window = self.screen.display.create_resource_object("window", self.id)
+        size = window.get_geometry()
+        image = window.get_image(0, 0, size.width, size.height, X.ZPixmap, 0xffffffff)
+        data = image.data if isinstance(image.data, bytes) else image.data.encode("latin1")
+        return size.width, size.height, list(zip(data[2::4], data[1::4], data[0::4]))
+
+    def press_for_file(self, key, extension):
+        """Presses a key that writes a file, and waits for it."""
+        before = set(self.folder.glob("*" + extension))
+        self.key(key)
+        return wait_for(lambda: next(iter(set(self.folder.glob("*" + extension)) - before), None), 60, f"no {extension} by {key}")
+
+    def message(self, kind, data, target=None):
+        display = self.screen.display
+        window = display.create_resource_object("window", self.id)
+        window.send_event(event.ClientMessage(window=window, client_type=display.intern_atom(kind), data=(32, data)))
+        display.flush()
+
+    def close(self):
+        """As the close button does."""
+        display = self.screen.display
+        self.message("WM_PROTOCOLS", [display.intern_atom("WM_DELETE_WINDOW"), X.CurrentTime, 0, 0, 0])
+        return self.end()
+
+    def end(self, seconds=20):
+        return self.process.wait(seconds)
+
+    def cpu_seconds(self):
+        fields = Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+class Case(unittest.TestCase):
+    screen_size = "1400x1000"
+    dpi = None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.screen = Screen(cls.screen_size, cls.dpi)
+        cls.addClassCleanup(cls.screen.close)
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def view(self, scene, *options, **keywords):
+        viewer = Viewer(self.screen, self.folder, scene, *options, **keywords)
+        def stop():
+            if viewer.process.poll() is None:
+                viewer.process.kill()
+                viewer.process.wait()
+            viewer.errors.close()
+        self.addCleanup(stop)
+        return viewer
+
+    def ends_well(self, viewer, status):
+        self.assertEqual(status, 0, viewer.stderr())
+        self.assertNotIn("OpenGL", viewer.stderr())
+        last = viewer.status()
+        self.assertEqual(last["gl_errors"], [])
+        self.assertFalse([m for m in last["messages"] if m.startswith("driver")], last["messages"])
+
+    def same(self, picture, other):
+        """Of two lists of pixels."""
+        self.assertEqual(len(picture), len(other))
+        apart = sum(p != q for p, q in zip(picture, other))
+        self.assertEqual(apart, 0, f"of {len(picture)} pixels, by up to {largest_difference(picture, other)} levels")
+
+    def render(self, scene, *options, name="rendered.png"):
+        path = self.folder / "rendered" / name
+        path.parent.mkdir(exist_ok=True)
+        scene = scene if isinstance(scene, Path) else SCENES / (scene + ".gltf")
+        subprocess.run([FRAGTRACE, "render", scene, "-o", path, "--quiet", *map(str, options)], check=True, timeout=300)
+        return path
+
+
+def main():
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -1,0 +1,117 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The window's life: opening, size, minimising, files dropped and changed, errors, ends."""
+import os
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from support import FRAGTRACE, SCENES, Case, main, pixels_of, read_png
+from xdnd import drop
+
+SIZE = ["--resolution", "320,240"]
+FEW = [*SIZE, "--spp", "2"]
+
+
+class Ends(Case):
+    def test_escape_and_the_close_button_end_with_0(self):
+        viewer = self.view("furnace", *FEW)
+        viewer.key("Escape")
+        self.ends_well(viewer, viewer.end())
+        viewer = self.view("furnace", *FEW)
+        self.ends_well(viewer, viewer.close())
+
+    def test_without_a_display_it_is_4_and_says_so(self):
+        environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        for name in (None, ":987"):
+            if name:
+                environment["DISPLAY"] = name
+            result = subprocess.run([FRAGTRACE, "view", SCENES / "furnace.gltf"], env=environment, capture_output=True, text=True,
+                                    timeout=60)
+            self.assertEqual(result.returncode, 4, result.stderr)
+            self.assertIn("no window", result.stderr)
+            self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+
+    def test_a_scene_that_cannot_be_read_is_3(self):
+        viewer = self.view(self.folder / "none.gltf", *FEW, wait=False)
+        self.assertEqual(viewer.end(60), 3)
+        self.assertIn("none.gltf", viewer.stderr())
+
+    def test_what_cannot_be_is_2(self):
+        for options in (["--spp", "0"], ["--nonsense"], ["-o", "x.png"], ["--camera-index", "7"]):
+            result = subprocess.run([FRAGTRACE, "view", SCENES / "furnace.gltf", *options], capture_output=True, text=True, timeout=60,
+                                    env=self.screen.environment)
+            self.assertEqual(result.returncode, 2, result.stderr)
+
+
+class Sizes(Case):
+    def test_resizing_draws_at_the_new_size_and_minimising_draws_nothing(self):
+        viewer = self.view("furnace", *FEW)
+        viewer.xdotool("windowsize", "--sync", viewer.id, 400, 200)
+        status = viewer.rest(lambda s: (s["width"], s["height"]) == (400, 200), "resized")
+        self.assertEqual((status["sides"][0]["width"], status["sides"][0]["height"]), (400, 200))
+        shown = viewer.press_for_file("F12", ".png")
+        self.same(pixels_of(shown), pixels_of(self.render("furnace", "--resolution", "400,200", "--spp", 2)))
+
+        viewer.xdotool("windowminimize", "--sync", viewer.id)
+        time.sleep(0.3)
+        status = viewer.rest()
+        self.assertEqual((status["width"], status["height"]), (400, 200))
+        viewer.xdotool("windowmap", "--sync", viewer.id)
+        viewer.xdotool("windowactivate", "--sync", viewer.id)
+        time.sleep(0.3)
+        viewer.rest()
+        self.assertGreater(len(set(viewer.grab()[2])), 1)
+        self.ends_well(viewer, viewer.close())
+
+
+class Files(Case):
+    def test_dropped_scenes_and_environments_are_loaded(self):
+        viewer = self.view("furnace", *FEW)
+        drop(self.screen, viewer.id, SCENES / "sphere-plane.gltf")
+        viewer.rest(lambda s: s["scene"].endswith("sphere-plane.gltf"), "dropped scene")
+        shown = viewer.press_for_file("F12", ".png")
+        self.same(pixels_of(shown), pixels_of(self.render("sphere-plane", *SIZE, "--spp", 2)))
+        drop(self.screen, viewer.id, SCENES / "sky.pfm")
+        viewer.rest(lambda s: s["environment"].endswith("sky.pfm"), "dropped environment")
+        shown = viewer.press_for_file("F12", ".png")
+        rendered = self.render("sphere-plane", *SIZE, "--spp", 2, "--hdri-file", SCENES / "sky.pfm")
+        self.same(pixels_of(shown), pixels_of(rendered))
+        drop(self.screen, viewer.id, SCENES / "README.md")
+        viewer.until(lambda s: any("README.md" in m for m in s["messages"]), "refused")
+        self.ends_well(viewer, viewer.close())
+
+    def test_changed_files_are_read_again_and_errors_keep_the_last_good(self):
+        scene = self.folder / "scene.gltf"
+        shutil.copy(SCENES / "furnace.gltf", scene)
+        shaders = self.folder / "shaders"
+        shutil.copytree(SCENES.parent / "shaders", shaders)
+        viewer = self.view(scene, *FEW, "--watch", "--shader-folder", shaders)
+        shown = pixels_of(viewer.press_for_file("F12", ".png"))
+
+        text = (shaders / "trace.frag").read_text()
+        (shaders / "trace.frag").write_text(text + "\nthis is no GLSL\n")
+        status = viewer.until(lambda s: s["error"], "error of the shader")
+        self.assertIn("trace.frag", status["error"])
+        viewer.rest()
+        self.same(pixels_of(viewer.press_for_file("F12", ".png")), shown)
+        (shaders / "trace.frag").write_text(text)
+        viewer.rest(lambda s: not s["error"], "repaired shader")
+
+        scene.write_text("{")
+        status = viewer.until(lambda s: s["error"], "error of the scene")
+        self.assertIn("scene.gltf", status["error"])
+        shutil.copy(SCENES / "sphere-phong.gltf", scene)
+        viewer.rest(lambda s: not s["error"], "repaired scene")
+        # A new scene of the same name keeps its options, and so its picture is that of `render`.
+        self.same(pixels_of(viewer.press_for_file("F12", ".png")), pixels_of(self.render(scene, *SIZE, "--spp", 2)))
+        exr = viewer.press_for_file("shift+F12", ".exr")
+        self.assertGreater(exr.stat().st_size, 1000)
+        viewer.key("Escape")
+        self.ends_well(viewer, viewer.end())
+
+
+if __name__ == "__main__":
+    main()
