@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "cli/pick_text.h"
 
-#include <cstdarg>
 #include <cstdio>
 
 namespace fragtrace {
 
 namespace {
 
-std::string text(const char* format, ...) {
+template <typename... Values>
+std::string text(const char* format, Values... values) {
   char buffer[256];
-  va_list values;
-  va_start(values, format);
-  std::vsnprintf(buffer, sizeof buffer, format, values);
-  va_end(values);
+  std::snprintf(buffer, sizeof buffer, format, values...);
   return buffer;
 }
 

@@ -48,8 +48,11 @@ void drawVariant(const std::string& variant, float width) {
   for (size_t at = 0; at < variant.size();) {
     const size_t end = std::min(variant.find('+', at), variant.size());
     const std::string part = variant.substr(at, end - at);
-    if (!line.empty() && ImGui::CalcTextSize((line + " " + part).c_str()).x > width) flush();
-    line += (line.empty() ? "" : " ") + part;
+    std::string longer = line;
+    longer.append(line.empty() ? "" : " ").append(part);
+    const bool fits = line.empty() || ImGui::CalcTextSize(longer.c_str()).x <= width;
+    if (!fits) flush();
+    line = fits ? longer : part;
     at = end + 1;
   }
   flush();

@@ -79,7 +79,7 @@ WindowHandle openWindow(glm::ivec2 size, const std::string& title) {
 /// The first name that no file has: SCENE-1.png, ...
 std::filesystem::path freeName(const std::filesystem::path& scene, const char* extension) {
   for (int i = 1;; ++i) {
-    const std::filesystem::path path = scene.stem().string() + "-" + std::to_string(i) + extension;
+    std::filesystem::path path = scene.stem().string() + "-" + std::to_string(i) + extension;
     std::error_code error;
     if (!std::filesystem::exists(path, error)) return path;
   }
