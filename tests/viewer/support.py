@@ -206,7 +206,10 @@ class Viewer:
         return self.end()
 
     def end(self, seconds=20):
-        return self.process.wait(seconds)
+        try:
+            return self.process.wait(seconds)
+        except subprocess.TimeoutExpired:
+            raise AssertionError(f"still there after {seconds} s: {self.status_file.read_text()}\n{self.stderr()}") from None
 
     def cpu_seconds(self):
         fields = Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()

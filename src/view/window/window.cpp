@@ -30,6 +30,9 @@ namespace {
 constexpr int kSettleFrames = 3;        // that Dear ImGui takes to come to rest after an event
 constexpr double kMovingSeconds = 0.2;  // after the last change, before full resolution
 constexpr double kFrameSeconds = 1.0 / 60;
+/// GLFW 3.3 on X11 sleeps on what another thread's glfwPostEmptyEvent() has read from the connection
+/// meanwhile; so an event is late by this at most. Ten looks a second are no load.
+constexpr double kLongestSleep = 0.1;
 constexpr double kStatusSeconds = 0.05;   // between two status files
 constexpr float kLeastForPanel = 720.0f;  // pixels of width at 96 dots an inch
 constexpr size_t kMostMessages = 6;
@@ -165,18 +168,14 @@ void Window::run() {
 }
 
 void Window::wait() {
-  double seconds = -1.0;  // until something happens
+  double seconds = kLongestSleep;
   const double now = glfwGetTime();
-  const auto atMost = [&](double limit) {
-    seconds = seconds < 0.0 ? std::max(limit, 0.0) : std::min(seconds, std::max(limit, 0.0));
-  };
+  const auto atMost = [&](double limit) { seconds = std::clamp(limit, 0.0, seconds); };
   if (input_.active()) atMost(kFrameSeconds);
   if (askedMoving_) atMost(changed_ + kMovingSeconds - now);
   if (statusWaits_) atMost(statusTime_ + kStatusSeconds - now);
   if (frames_ > 0 && !iconified()) atMost(0.0);
-  if (seconds < 0.0)
-    glfwWaitEvents();
-  else if (seconds > 0.0)
+  if (seconds > 0.0)
     glfwWaitEventsTimeout(seconds);
   else
     glfwPollEvents();
