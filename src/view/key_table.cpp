@@ -62,7 +62,7 @@ void addPicture(std::vector<Control>& rows) {
   // Function keys in the order of the stages: Shift for all up to that one. The first is always on.
   int code = key::kF1;
   for (const StageRow& row : stageRows()) {
-    if (row.stage == Stage::BvhHeatmap) continue;
+    if (row.stage == Stage::BvhHeatmap || row.stage == Stage::Watertight) continue;
     if (row.stage != Stage::Flat)
       add(Press, code, 0, Action::ToggleStage, std::string(row.label) + " on or off", int(row.stage));
     ++code;
@@ -74,6 +74,7 @@ void addPicture(std::vector<Control>& rows) {
     ++code;
   }
   add(Press, 'X', 0, Action::ToggleStage, "node heat map on or off", int(Stage::BvhHeatmap));
+  add(Press, 'M', 0, Action::ToggleStage, "watertight triangle test on or off", int(Stage::Watertight));
   add(Press, 'V', 0, Action::NextDebugView, "the next debug view", 1);
   add(Press, 'V', kShift, Action::NextDebugView, "the debug view before", -1);
   add(Press, 'B', 0, Action::ToggleTreeBoxes, "boxes of the tree on or off");

@@ -65,7 +65,7 @@ TEST(CameraText, LeavesTheOtherOptionsAlone) {
 TEST(CameraText, WhatIsNoCameraIsRefused) {
   for (const char* text :
        {"hello", "--spp 4", "--camera-position 1,2", "--camera-position 1,2,x", "--camera-position 1,2,nan",
-        "--camera-view-up 0,0,0", "--camera-focal-point 2e9,0,0",
+        "--camera-view-up 0,0,0", "--camera-focal-point 2e30,0,0",
         "--camera-view-angle 30 --camera-parallel-scale 2"}) {
     EXPECT_THROW(withCameraText(RenderOptions(), text), UsageError) << text;
   }
