@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "bvh/exact_tracer.h"
 #include "bench/hit_check.h"
+#include "bvh/exact_tracer.h"
 
 namespace fragtrace {
 

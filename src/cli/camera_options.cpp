@@ -84,9 +84,8 @@ void addCameraOptions(CLI::App& app, RawCamera& raw) {
   app.add_option("--camera-parallel-scale", raw.parallelScale,
                  "half of the picture's height, in metres: an orthographic view")
       ->excludes(angle);
-  addVector(
-      "--scene-origin", raw.sceneOrigin,
-      "X,Y,Z that positions are rounded about; default: the focal point given, else near the camera");
+  addVector("--scene-origin", raw.sceneOrigin,
+            "X,Y,Z that positions are rounded about; default: the focal point given, else near the camera");
 }
 
 void finishCamera(const RawCamera& raw, RenderOptions& options) {

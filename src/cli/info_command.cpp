@@ -48,7 +48,8 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
   std::printf("  tree        %u nodes, %u leaves, depth %u, %.2f primitives a leaf, SAH cost %.2f\n",
               bvh.nodeCount, bvh.leafCount, bvh.depth, bvh.primitivesPerLeaf, bvh.sahCost);
   const double geometry = bytesPerTriangle * double(s.triangles);
-  std::printf("  GPU memory  %.1f MB: geometry %.1f", (geometry + double(s.texelBytes)) / 1e6, geometry / 1e6);
+  std::printf("  GPU memory  %.1f MB: geometry %.1f", (geometry + double(s.texelBytes)) / 1e6,
+              geometry / 1e6);
   if (s.triangles > 0) std::printf(" (%.1f bytes a triangle)", bytesPerTriangle);
   std::printf(", textures %.1f\n", double(s.texelBytes) / 1e6);
   for (const StageRow& row : stageRows()) {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <memory>
 
-#include "bvh/exact_tracer.h"
 #include "bench/hit_check.h"
+#include "bvh/exact_tracer.h"
 #include "gl_probe.h"
 #include "glsl.h"
 #include "pack/pack_tree.h"

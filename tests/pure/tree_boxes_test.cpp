@@ -89,8 +89,7 @@ TEST(BoxEdges, EndAtTheCamera) {
     EXPECT_GE(glm::dot(l.from, l.to), 0.0);  // none runs through the middle
   }
   EXPECT_TRUE(
-      boxEdges(std::vector<Bounds>{{glm::vec3(-1, -1, 4), glm::vec3(1, 1, 5)}}, frontView(), {})
-          .empty());
+      boxEdges(std::vector<Bounds>{{glm::vec3(-1, -1, 4), glm::vec3(1, 1, 5)}}, frontView(), {}).empty());
 }
 
 Image blank(int width, int height, std::vector<std::string> channels = {"R", "G", "B"}) {
