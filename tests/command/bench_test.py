@@ -158,7 +158,7 @@ class BenchRefusals(Bench):
 class BenchInterruption(Bench):
     def interrupt(self, *options):
         self.interrupts("bench", "error", BOX, "--quiet", "--resolution", "64,64", "--spp", 2**20,
-                        "--json", self.folder / "b.json", "--csv", self.folder / "b.csv", *options)
+                        "--json", self.folder / "b.json", "--csv", self.folder / "b.csv", *options, within=2)
 
     def test_ctrl_c_while_the_reference_is_drawn_writes_nothing_and_gives_130(self):
         self.interrupt()
