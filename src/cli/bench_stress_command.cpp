@@ -19,6 +19,7 @@ namespace {
 std::vector<StressRow> chosenRows(const BenchStressOptions& options) {
   std::vector<StressRow> rows = stressRows();
   std::vector<std::string> names;
+  names.reserve(rows.size());
   for (const StressRow& row : rows) names.push_back(row.name);
   for (const std::string& part : options.rows) {
     if (std::ranges::none_of(names,
