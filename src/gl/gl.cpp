@@ -51,4 +51,16 @@ GlTexture makeTexture(GLenum target) {
   return GlTexture(name);
 }
 
+GlVertexArray makeVertexArray() {
+  GLuint name = 0;
+  glCreateVertexArrays(1, &name);
+  return GlVertexArray(name);
+}
+
+GlFramebuffer makeFramebuffer() {
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  return GlFramebuffer(name);
+}
+
 }  // namespace fragtrace

@@ -50,5 +50,7 @@ using GlProgram = GlHandle<releaseProgram>;
 
 GlBuffer makeBuffer();
 GlTexture makeTexture(GLenum target);
+GlVertexArray makeVertexArray();
+GlFramebuffer makeFramebuffer();
 
 }  // namespace fragtrace

@@ -10,29 +10,20 @@
 
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
-#include <vector>
+
+#include "plugin.h"
 
 namespace fragtrace {
 namespace {
 
-std::vector<std::filesystem::path> programFolders() {
-  std::vector<std::filesystem::path> folders;
-  if (const char* folder = std::getenv("FRAGTRACE_LIBRARY_PATH")) folders.emplace_back(folder);
-  std::error_code error;
-  const auto executable = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) folders.push_back(executable.parent_path());
-  return folders;
-}
-
 std::filesystem::path pathOf(const std::string& name) {
   std::string places;
-  for (const auto& folder : programFolders()) {
+  for (const auto& folder : ownFolders()) {
     std::error_code error;
     if (std::filesystem::exists(folder / name, error)) return folder / name;
     places += (places.empty() ? "" : ", ") + folder.string();
