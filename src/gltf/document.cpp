@@ -10,6 +10,7 @@
 
 #include "gltf/accessor.h"
 #include "gltf/animation.h"
+#include "gltf/compression.h"
 #include "gltf/container.h"
 #include "gltf/json.h"
 #include "gltf/schema.h"
@@ -20,16 +21,15 @@ namespace {
 
 using nlohmann::json;
 
-using Buffers = std::vector<std::vector<uint8_t>>;
-
 /// KHR_mesh_quantization only widens the component types that attributes may have.
-constexpr std::array<std::string_view, 11> kKnownExtensions = {
-    "KHR_lights_punctual",   "KHR_materials_emissive_strength",
-    "KHR_materials_ior",     "KHR_materials_transmission",
-    "KHR_materials_volume",  "KHR_materials_specular",
-    "KHR_materials_unlit",   "KHR_implicit_shapes",
-    "KHR_mesh_quantization", "KHR_materials_variants",
-    "KHR_animation_pointer"};
+constexpr std::array<std::string_view, 13> kKnownExtensions = {
+    "KHR_lights_punctual",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",      "KHR_materials_transmission",
+    "KHR_materials_volume",   "KHR_materials_specular",
+    "KHR_materials_unlit",    "KHR_implicit_shapes",
+    "KHR_mesh_quantization",  "KHR_materials_variants",
+    "KHR_animation_pointer",  "KHR_draco_mesh_compression",
+    "EXT_meshopt_compression"};
 
 bool isKnownExtension(std::string_view name) {
   return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) != kKnownExtensions.end();
@@ -70,7 +70,7 @@ void checkExtensions(json& root, Diagnostics& diagnostics) {
 }
 
 /// Brings every buffer into memory, exactly as long as the document says; one without URI stays empty.
-Buffers readBuffers(json& root, Container& container, Document& document) {
+Buffers readBuffers(json& root, Container& container, CodecProcess& codecs, Document& document) {
   Diagnostics& diagnostics = document.diagnostics;
   Buffers buffers;
   const json& described = arrayIn(root, "buffers");
@@ -79,6 +79,10 @@ Buffers readBuffers(json& root, Container& container, Document& document) {
     const auto length = buffer["byteLength"].get<uint64_t>();
     if (length == 0) diagnostics.refuse(pointerTo("buffers", i, "byteLength"), "is 0");
     std::vector<uint8_t> bytes;
+    if (isFallback(buffer) && codecs.available()) {
+      buffers.emplace_back();
+      continue;
+    }
     if (buffer.contains("uri")) {
       const std::string place = pointerTo("buffers", i, "uri");
       const auto& uri = buffer["uri"].get_ref<const std::string&>();
@@ -296,10 +300,13 @@ Document readDocument(const std::filesystem::path& path, const GltfOptions& opti
   checkMotion(root, diagnostics);
   noteNames(root, document);
   applySelection(root, options.selection);
-  Buffers buffers = readBuffers(root, container, document);
+  CodecProcess codecs;
+  Buffers buffers = readBuffers(root, container, codecs, document);
   checkBufferViews(root, diagnostics);
   checkDataValidity(root, diagnostics);
   emptyUnknownAccessors(root, diagnostics);
+  decompressViews(root, buffers, codecs, document);
+  decompressPrimitives(root, buffers, codecs, document);
   addDefaultCones(root);
   document.skins = takeSkins(root);
   const std::vector<Animation> animations = takeAnimations(root);

@@ -144,7 +144,7 @@ class Poses(Case):
         scene = animated(self.folder / "tube.gltf")
         rest = self.render("rest.exr", scene)
         before = rest
-        for seconds in (0, 1, 1.5):
+        for seconds in (0.5, 1.5):
             picture = self.render(f"at-{seconds}.exr", scene, "--animation-time", seconds, "--animation", "bend")
             reference = self.render(f"baked-{seconds}.exr", baked(self.folder / f"baked-{seconds}.gltf", seconds))
             # The same samples; on edges, rounding may decide what a few of them hit.
