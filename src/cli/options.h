@@ -19,6 +19,7 @@ namespace fragtrace {
 
 struct InfoOptions {
   std::filesystem::path scene;
+  SceneSelection selection;
   InputLimits limits;
   bool json = false;
 };

@@ -44,6 +44,34 @@ struct Transform {
   bool mirrors;
 };
 
+/// How an instance places each of its vertices: all by its node's matrix, or each by its joints' matrices,
+/// weighed and added up (glTF 2.0, section 3.7.3.3).
+class Placement {
+ public:
+  explicit Placement(const PrimitiveInstance& instance)
+      : influences_(instance.primitive->influences), joints_(instance.joints), transform_(instance.world) {
+    const size_t vertexCount = instance.primitive->vertices.position.size();
+    if (!joints_.empty() && vertexCount > 0) perVertex_ = influences_.size() / vertexCount;
+  }
+
+  /// Valid until the next call.
+  const Transform& of(size_t vertex) {
+    if (perVertex_ == 0) return transform_;
+    glm::dmat4 sum(0.0);
+    for (const Influence& influence : influences_.subspan(vertex * perVertex_, perVertex_)) {
+      if (influence.weight != 0.0f) sum += double(influence.weight) * joints_[influence.joint];
+    }
+    transform_ = Transform(sum);
+    return transform_;
+  }
+
+ private:
+  std::span<const Influence> influences_;
+  std::span<const glm::dmat4> joints_;
+  size_t perVertex_ = 0;
+  Transform transform_;
+};
+
 /// Appends an attribute as it is, or the same value for each vertex of a primitive that does not have it.
 template <typename Attribute>
 void append(std::vector<Attribute>& to, const std::vector<Attribute>& from, size_t count,
@@ -67,11 +95,11 @@ void reserveIfUsed(std::span<const PrimitiveInstance> instances, size_t total,
   }
 }
 
-void appendVertices(const Vertices& from, const Transform& transform, const LocalSpace& space, Vertices& to) {
+void appendVertices(const Vertices& from, Placement& placement, const LocalSpace& space, Vertices& to) {
   const size_t first = to.position.size();
   const size_t count = from.position.size();
-  for (const glm::vec3& position : from.position) {
-    to.position.emplace_back(space.localOf(transform.positionOf(position)));
+  for (size_t i = 0; i < count; ++i) {
+    to.position.emplace_back(space.localOf(placement.of(i).positionOf(from.position[i])));
   }
   append(to.normal, from.normal, count, glm::vec3(0.0f));
   append(to.tangent, from.tangent, count, glm::vec4(0.0f));
@@ -79,12 +107,16 @@ void appendVertices(const Vertices& from, const Transform& transform, const Loca
   append(to.texcoord1, from.texcoord1, count, glm::vec2(0.0f));
   append(to.color, from.color, count, glm::vec4(1.0f));
   if (!from.normal.empty()) {
-    for (size_t i = first; i < first + count; ++i) to.normal[i] = transform.normalOf(to.normal[i]);
+    for (size_t i = 0; i < count; ++i) {
+      glm::vec3& normal = to.normal[first + i];
+      normal = placement.of(i).normalOf(normal);
+    }
   }
   if (!from.tangent.empty()) {
-    for (size_t i = first; i < first + count; ++i) {
-      const glm::vec3 normal = from.normal.empty() ? glm::vec3(0, 0, 1) : to.normal[i];
-      to.tangent[i] = transform.tangentOf(to.tangent[i], normal);
+    for (size_t i = 0; i < count; ++i) {
+      const glm::vec3 normal = from.normal.empty() ? glm::vec3(0, 0, 1) : to.normal[first + i];
+      glm::vec4& tangent = to.tangent[first + i];
+      tangent = placement.of(i).tangentOf(tangent, normal);
     }
   }
 }
@@ -94,10 +126,11 @@ void appendVertices(const Vertices& from, const Transform& transform, const Loca
 BoundsDouble boundsOf(std::span<const PrimitiveInstance> instances) {
   BoundsDouble bounds;
   for (const PrimitiveInstance& instance : instances) {
-    const Transform transform(instance.world);
+    Placement placement(instance);
     for (const Triangle& triangle : instance.primitive->triangles) {
       for (int corner = 0; corner < 3; ++corner) {
-        bounds.include(transform.positionOf(instance.primitive->vertices.position[triangle.vertex[corner]]));
+        const uint32_t vertex = triangle.vertex[corner];
+        bounds.include(placement.of(vertex).positionOf(instance.primitive->vertices.position[vertex]));
       }
     }
   }
@@ -120,13 +153,14 @@ void flatten(std::span<const PrimitiveInstance> instances, Scene& scene) {
   reserveIfUsed(instances, vertexCount, &Vertices::color, scene.vertices);
 
   for (const PrimitiveInstance& instance : instances) {
-    const Transform transform(instance.world);
+    Placement placement(instance);
     const auto firstVertex = uint32_t(scene.vertices.position.size());
     const auto firstTriangle = uint32_t(scene.triangles.size());
-    appendVertices(instance.primitive->vertices, transform, scene.space, scene.vertices);
+    appendVertices(instance.primitive->vertices, placement, scene.space, scene.vertices);
     for (Triangle triangle : instance.primitive->triangles) {
+      const bool mirrors = placement.of(triangle.vertex.x).mirrors;
       triangle.vertex += glm::uvec3(firstVertex);
-      if (transform.mirrors) std::swap(triangle.vertex.y, triangle.vertex.z);
+      if (mirrors) std::swap(triangle.vertex.y, triangle.vertex.z);
       scene.triangles.push_back(triangle);
     }
     scene.origins.push_back(

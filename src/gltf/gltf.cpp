@@ -3,60 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <new>
 
 #include "errors.h"
 #include "gltf/document.h"
 #include "gltf/flatten.h"
 #include "gltf/materials.h"
+#include "gltf/meshes.h"
 #include "gltf/nodes.h"
 #include "gltf/placed.h"
-#include "gltf/primitives.h"
 #include "scene/camera.h"
 
 namespace fragtrace {
 namespace {
-
-using DecodedMeshes = std::map<int, std::vector<MeshPrimitive>>;
-
-/// Decodes each mesh once, however many nodes show it.
-std::vector<PrimitiveInstance> placeMeshes(Document& document, const std::vector<Material>& materials,
-                                           const std::vector<PlacedNode>& nodes, DecodedMeshes& decoded) {
-  std::vector<PrimitiveInstance> instances;
-  size_t vertexCount = 0;
-  size_t triangleCount = 0;
-  for (const PlacedNode& node : nodes) {
-    const tinygltf::Node& source = document.model.nodes.at(size_t(node.index));
-    if (source.mesh < 0) continue;
-    if (source.skin >= 0) {
-      document.diagnostics.warn(pointerTo("nodes", node.index, "skin"), "skins are not applied");
-    }
-    const tinygltf::Mesh& mesh = document.model.meshes.at(size_t(source.mesh));
-    const auto [entry, isNew] = decoded.try_emplace(source.mesh);
-    for (size_t i = 0; isNew && i < mesh.primitives.size(); ++i) {
-      entry->second.push_back(decodePrimitive(document, materials, source.mesh, int(i)));
-    }
-    for (const MeshPrimitive& primitive : entry->second) {
-      if (primitive.triangles.empty()) continue;
-      instances.push_back({&primitive, node.world, nameOrPlace(source.name, "nodes", node.index),
-                           nameOrPlace(mesh.name, "meshes", source.mesh)});
-      vertexCount += primitive.vertices.position.size();
-      triangleCount += primitive.triangles.size();
-    }
-  }
-  if (std::max(vertexCount, triangleCount) >= kMissIndex) {
-    document.diagnostics.refuse("", std::to_string(triangleCount) + " triangles with " +
-                                        std::to_string(vertexCount) +
-                                        " vertices are too many for 32-bit indices");
-  }
-  // The scene's own copy, the tree over it, and what is packed for the device, which are not all there at
-  // once.
-  constexpr uint64_t kBytesOfAVertex = 100;
-  constexpr uint64_t kBytesOfATriangle = 150;
-  takeMemory(document, "", vertexCount * kBytesOfAVertex + triangleCount * kBytesOfATriangle);
-  return instances;
-}
 
 BoundsDouble boundsOf(const std::vector<PlacedSphere>& spheres) {
   BoundsDouble bounds;
@@ -114,12 +73,14 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   Document document = readDocument(path, options);
   Scene scene;
   scene.extensionsUsed = document.model.extensionsUsed;
+  scene.sceneNames = document.sceneNames;
+  scene.animationNames = document.animationNames;
+  scene.materialVariants = document.materialVariants;
   addMaterials(document, scene);
 
   // What nodes place, in world space.
   const std::vector<PlacedNode> nodes = placeNodes(document);
-  DecodedMeshes decoded;
-  const std::vector<PrimitiveInstance> instances = placeMeshes(document, scene.materials, nodes, decoded);
+  const ShownMeshes shown = showMeshes(document, scene.materials, nodes);
   document.model.buffers.clear();
   std::vector<PlacedSphere> spheres;
   for (const PlacedNode& node : nodes) {
@@ -128,10 +89,10 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   }
 
   // Local space.
-  scene.bounds = boundsOf(instances);
+  scene.bounds = boundsOf(shown.instances);
   scene.bounds.include(boundsOf(spheres));
   recentre(options, document.diagnostics, scene);
-  flatten(instances, scene);
+  flatten(shown.instances, scene);
   for (const PlacedSphere& sphere : spheres) {
     scene.spheres.push_back({glm::vec3(scene.space.localOf(sphere.center)),
                              float(sphere.radius / scene.space.unit), glm::quat(sphere.rotation),
@@ -151,6 +112,8 @@ Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
   try {
     return buildScene(path, options);
   } catch (const InputError&) {
+    throw;
+  } catch (const UsageError&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw InputError(path.string() + ": not enough memory to load it");

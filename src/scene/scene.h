@@ -178,6 +178,9 @@ struct Scene {
   std::vector<Camera> cameras;  ///< in the order of the scene's node traversal; positions in world space
   std::vector<PrimitiveOrigin> origins;
   std::vector<std::string> extensionsUsed;
+  std::vector<std::string> sceneNames;  ///< of all that SceneSelection may name; "" where one has no name
+  std::vector<std::string> animationNames;
+  std::vector<std::string> materialVariants;
   std::vector<std::string> warnings;  ///< one line each, for stderr; names the file and the place
   BoundsDouble bounds;                ///< world space
 };

@@ -14,6 +14,7 @@
 #include "image/limits.h"
 #include "image/tone_map.h"
 #include "scene/camera.h"
+#include "scene/selection.h"
 #include "stage/feature.h"
 #include "stage/stage.h"
 
@@ -75,6 +76,7 @@ struct RenderOptions {
   std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
   std::filesystem::path statsFile;
   std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
+  SceneSelection selection;
   InputLimits limits;
   bool quiet = false;
   bool verbose = false;
