@@ -22,17 +22,17 @@ namespace {
 using nlohmann::json;
 
 /// KHR_mesh_quantization only widens the component types that attributes may have.
-constexpr std::array<std::string_view, 13> kKnownExtensions = {
-    "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",      "KHR_materials_transmission",
-    "KHR_materials_volume",   "KHR_materials_specular",
-    "KHR_materials_unlit",    "KHR_implicit_shapes",
-    "KHR_mesh_quantization",  "KHR_materials_variants",
-    "KHR_animation_pointer",  "KHR_draco_mesh_compression",
-    "EXT_meshopt_compression"};
+constexpr std::string_view kKnownExtensions[] = {
+    "EXT_meshopt_compression",         "EXT_texture_webp",           "KHR_animation_pointer",
+    "KHR_draco_mesh_compression",      "KHR_implicit_shapes",        "KHR_lights_punctual",
+    "KHR_materials_emissive_strength", "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",          "KHR_materials_transmission", "KHR_materials_unlit",
+    "KHR_materials_variants",          "KHR_materials_volume",       "KHR_mesh_quantization",
+    "KHR_texture_transform",
+};
 
 bool isKnownExtension(std::string_view name) {
-  return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) != kKnownExtensions.end();
+  return std::ranges::find(kKnownExtensions, name) != std::end(kKnownExtensions);
 }
 
 /// The array of that name; an empty one is made where there is none.

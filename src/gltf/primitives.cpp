@@ -218,11 +218,7 @@ class PrimitiveReader {
   }
 
   bool needsTexcoord(uint32_t set) const {
-    const std::array<const TextureRef*, 8> textures = {
-        &material_.baseColorTexture, &material_.metallicRoughnessTexture, &material_.normalTexture,
-        &material_.emissiveTexture,  &material_.occlusionTexture,         &material_.transmissionTexture,
-        &material_.specularTexture,  &material_.specularColorTexture};
-    for (const TextureRef* texture : textures) {
+    for (const TextureRef* texture : material_.textures()) {
       if (texture->present() && texture->texcoord == set) return true;
     }
     return set == 0 && hasPerlin();
@@ -285,10 +281,9 @@ class PrimitiveReader {
 
   void readTangents() {
     if (!material_.normalTexture.present() && !hasPerlin()) return;
-    const uint32_t set = material_.normalTexture.present() ? material_.normalTexture.texcoord : 0;
-    if (result_.vertices.normal.empty()) return makeFlatTangents(set);
+    if (result_.vertices.normal.empty()) return makeFlatTangents();
     const int accessor = matchingAccessor("TANGENT");
-    if (accessor < 0) return makeTangents(result_.vertices, result_.triangles, set);
+    if (accessor < 0) return makeTangentsAlongTexture();
 
     auto& tangents = result_.vertices.tangent;
     tangents = readVectors<4>(document_, accessor, placeOf("TANGENT"));
@@ -308,9 +303,14 @@ class PrimitiveReader {
     warnMended("TANGENT", count, "a tangent without a direction is replaced by any that fits");
   }
 
+  void makeTangentsAlongTexture() {
+    const TextureRef& texture = material_.normalTexture;
+    makeTangents(result_.vertices, result_.triangles, texture.texcoord, texture.transform);
+  }
+
   /// Without normals each triangle has its own: corners are parted, and given tangents are ignored, as glTF
   /// demands.
-  void makeFlatTangents(uint32_t set) {
+  void makeFlatTangents() {
     std::vector<uint32_t> corners;
     corners.reserve(result_.triangles.size() * 3);
     std::vector<glm::vec3> normals;
@@ -336,7 +336,7 @@ class PrimitiveReader {
     part(result_.vertices.texcoord1);
     part(result_.vertices.color);
     result_.vertices.normal = std::move(normals);
-    makeTangents(result_.vertices, result_.triangles, set);
+    makeTangentsAlongTexture();
     result_.vertices.normal.clear();
   }
 

@@ -69,6 +69,9 @@ constexpr Rule kRules[] = {
     {"/textures", Kind::Objects},
     {"/textures/*/source", Kind::Index, "/images"},
     {"/textures/*/sampler", Kind::Index, "/samplers"},
+    {"/textures/*/extensions", Kind::Object},
+    {"/textures/*/extensions/EXT_texture_webp", Kind::Object},
+    {"/textures/*/extensions/EXT_texture_webp/source!", Kind::Index, "/images"},
 
     {"/materials", Kind::Objects},
     {"/materials/*/name", Kind::Text},
@@ -97,6 +100,10 @@ constexpr Rule kRules[] = {
     {"/materials/*/extensions/KHR_materials_specular/specularColorFactor", Kind::Numbers, nullptr, 3},
     {"/materials/*/normalTexture/scale", Kind::Number},
     {"/materials/*/occlusionTexture/strength", Kind::Number},
+    {"/materials/*/extensions/KHR_materials_pbrSpecularGlossiness", Kind::Object},
+    {"/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor", Kind::Numbers, nullptr, 4},
+    {"/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/specularFactor", Kind::Numbers, nullptr, 3},
+    {"/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor", Kind::Number},
     {"/materials/*/extras/perlinNormal", Kind::Object},
     {"/materials/*/extras/perlinNormal/frequency", Kind::Number},
     {"/materials/*/extras/perlinNormal/amplitude", Kind::Number},
@@ -210,6 +217,21 @@ constexpr const char* kTextureSlots[] = {
     "/materials/*/extensions/KHR_materials_volume/thicknessTexture",
     "/materials/*/extensions/KHR_materials_specular/specularTexture",
     "/materials/*/extensions/KHR_materials_specular/specularColorTexture",
+    "/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture",
+    "/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture",
+};
+
+/// What such a use may hold.
+constexpr Rule kTextureInfoRules[] = {
+    {"", Kind::Object},
+    {"/index!", Kind::Index, "/textures"},
+    {"/texCoord", Kind::Int},
+    {"/extensions", Kind::Object},
+    {"/extensions/KHR_texture_transform", Kind::Object},
+    {"/extensions/KHR_texture_transform/offset", Kind::Numbers, nullptr, 2},
+    {"/extensions/KHR_texture_transform/scale", Kind::Numbers, nullptr, 2},
+    {"/extensions/KHR_texture_transform/rotation", Kind::Number},
+    {"/extensions/KHR_texture_transform/texCoord", Kind::Int},
 };
 
 /// What such a use may hold.
@@ -239,6 +261,7 @@ void checkSchema(json& root, const Diagnostics& diagnostics) {
       const std::string pattern = slot + rule.pattern;
       rule.pattern = pattern.c_str();
       applyRule(rule, root, diagnostics);
+      checker.apply(rule);
     }
   }
 }
