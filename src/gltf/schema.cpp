@@ -234,13 +234,6 @@ constexpr Rule kTextureInfoRules[] = {
     {"/extensions/KHR_texture_transform/texCoord", Kind::Int},
 };
 
-/// What such a use may hold.
-constexpr Rule kTextureInfoRules[] = {
-    {"", Kind::Object},
-    {"/index!", Kind::Index, "/textures"},
-    {"/texCoord", Kind::Int},
-};
-
 bool matches(std::string_view pattern, std::string_view pointer) {
   if (pattern.ends_with('!')) pattern.remove_suffix(1);
   while (pattern.starts_with('/') && pointer.starts_with('/')) {
@@ -261,7 +254,6 @@ void checkSchema(json& root, const Diagnostics& diagnostics) {
       const std::string pattern = slot + rule.pattern;
       rule.pattern = pattern.c_str();
       applyRule(rule, root, diagnostics);
-      checker.apply(rule);
     }
   }
 }
