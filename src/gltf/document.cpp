@@ -22,12 +22,12 @@ using nlohmann::json;
 using Buffers = std::vector<std::vector<uint8_t>>;
 
 /// KHR_mesh_quantization only widens the component types that attributes may have.
-constexpr std::array<std::string_view, 9> kKnownExtensions = {
-    "KHR_lights_punctual",  "KHR_materials_emissive_strength",
-    "KHR_materials_ior",    "KHR_materials_transmission",
-    "KHR_materials_volume", "KHR_materials_specular",
-    "KHR_materials_unlit",  "KHR_implicit_shapes",
-    "KHR_mesh_quantization"};
+constexpr std::array<std::string_view, 10> kKnownExtensions = {
+    "KHR_lights_punctual",   "KHR_materials_emissive_strength",
+    "KHR_materials_ior",     "KHR_materials_transmission",
+    "KHR_materials_volume",  "KHR_materials_specular",
+    "KHR_materials_unlit",   "KHR_implicit_shapes",
+    "KHR_mesh_quantization", "EXT_mesh_gpu_instancing"};
 
 bool isKnownExtension(std::string_view name) {
   return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) != kKnownExtensions.end();

@@ -9,6 +9,7 @@
 #include "errors.h"
 #include "gltf/document.h"
 #include "gltf/flatten.h"
+#include "gltf/instancing.h"
 #include "gltf/materials.h"
 #include "gltf/nodes.h"
 #include "gltf/placed.h"
@@ -37,12 +38,19 @@ std::vector<PrimitiveInstance> placeMeshes(Document& document, const std::vector
     for (size_t i = 0; isNew && i < mesh.primitives.size(); ++i) {
       entry->second.push_back(decodePrimitive(document, materials, source.mesh, int(i)));
     }
-    for (const MeshPrimitive& primitive : entry->second) {
-      if (primitive.triangles.empty()) continue;
-      instances.push_back({&primitive, node.world, nameOrPlace(source.name, "nodes", node.index),
-                           nameOrPlace(mesh.name, "meshes", source.mesh)});
-      vertexCount += primitive.vertices.position.size();
-      triangleCount += primitive.triangles.size();
+    const std::string nodeName = nameOrPlace(source.name, "nodes", node.index);
+    const std::string meshName = nameOrPlace(mesh.name, "meshes", source.mesh);
+    const std::vector<glm::dmat4> places = placesOfMesh(document, node);
+    takeMemory(document, pointerTo("nodes", node.index),
+               places.size() * entry->second.size() *
+                   (sizeof(PrimitiveInstance) + nodeName.size() + meshName.size()));
+    for (const glm::dmat4& world : places) {
+      for (const MeshPrimitive& primitive : entry->second) {
+        if (primitive.triangles.empty()) continue;
+        instances.push_back({&primitive, world, nodeName, meshName});
+        vertexCount += primitive.vertices.position.size();
+        triangleCount += primitive.triangles.size();
+      }
     }
   }
   if (std::max(vertexCount, triangleCount) >= kMissIndex) {

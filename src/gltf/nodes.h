@@ -20,6 +20,9 @@ struct PlacedNode {
 /// finite.
 std::vector<PlacedNode> placeNodes(const Document& document);
 
+/// Finite, and so are the products of four of its numbers.
+bool isMultiplicable(const glm::dmat4& matrix);
+
 /// A node's or mesh's name, or its JSON pointer if it has none.
 std::string nameOrPlace(const std::string& name, const char* array, int index);
 
