@@ -20,6 +20,7 @@ namespace fragtrace {
 struct InfoOptions {
   std::filesystem::path scene;
   InputLimits limits;
+  Instancing instancing = Instancing::Auto;
   bool json = false;
 };
 

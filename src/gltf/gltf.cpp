@@ -14,6 +14,7 @@
 #include "gltf/nodes.h"
 #include "gltf/placed.h"
 #include "gltf/primitives.h"
+#include "gltf/sharing.h"
 #include "scene/camera.h"
 
 namespace fragtrace {
@@ -25,8 +26,6 @@ using DecodedMeshes = std::map<int, std::vector<MeshPrimitive>>;
 std::vector<PrimitiveInstance> placeMeshes(Document& document, const std::vector<Material>& materials,
                                            const std::vector<PlacedNode>& nodes, DecodedMeshes& decoded) {
   std::vector<PrimitiveInstance> instances;
-  size_t vertexCount = 0;
-  size_t triangleCount = 0;
   for (const PlacedNode& node : nodes) {
     const tinygltf::Node& source = document.model.nodes.at(size_t(node.index));
     if (source.mesh < 0) continue;
@@ -47,23 +46,31 @@ std::vector<PrimitiveInstance> placeMeshes(Document& document, const std::vector
     for (const glm::dmat4& world : places) {
       for (const MeshPrimitive& primitive : entry->second) {
         if (primitive.triangles.empty()) continue;
-        instances.push_back({&primitive, world, nodeName, meshName});
-        vertexCount += primitive.vertices.position.size();
-        triangleCount += primitive.triangles.size();
+        instances.push_back({&primitive, world, nodeName, meshName, &entry->second});
       }
     }
+  }
+  return instances;
+}
+
+/// Refuses what 32-bit indices or the memory limit do not allow.
+void takeMeshes(Document& document, const PlacedMeshes& placed) {
+  size_t vertexCount = 0;
+  size_t triangleCount = 0;
+  const auto count = [&](const MeshPrimitive& primitive) {
+    vertexCount += primitive.vertices.position.size();
+    triangleCount += primitive.triangles.size();
+  };
+  for (const PrimitiveInstance& instance : placed.flat) count(*instance.primitive);
+  for (const MeshToShare& shared : placed.shared) {
+    for (const MeshPrimitive& primitive : *shared.mesh) count(primitive);
   }
   if (std::max(vertexCount, triangleCount) >= kMissIndex) {
     document.diagnostics.refuse("", std::to_string(triangleCount) + " triangles with " +
                                         std::to_string(vertexCount) +
                                         " vertices are too many for 32-bit indices");
   }
-  // The scene's own copy, the tree over it, and what is packed for the device, which are not all there at
-  // once.
-  constexpr uint64_t kBytesOfAVertex = 100;
-  constexpr uint64_t kBytesOfATriangle = 150;
-  takeMemory(document, "", vertexCount * kBytesOfAVertex + triangleCount * kBytesOfATriangle);
-  return instances;
+  takeMemory(document, "", placed.bytes);
 }
 
 BoundsDouble boundsOf(const std::vector<PlacedSphere>& spheres) {
@@ -127,7 +134,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   // What nodes place, in world space.
   const std::vector<PlacedNode> nodes = placeNodes(document);
   DecodedMeshes decoded;
-  const std::vector<PrimitiveInstance> instances = placeMeshes(document, scene.materials, nodes, decoded);
+  std::vector<PrimitiveInstance> instances = placeMeshes(document, scene.materials, nodes, decoded);
   document.model.buffers.clear();
   std::vector<PlacedSphere> spheres;
   for (const PlacedNode& node : nodes) {
@@ -136,10 +143,14 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   }
 
   // Local space.
-  scene.bounds = boundsOf(instances);
+  const PlacedMeshes meshes =
+      chooseSharing(std::move(instances), options.instancing, scene.materials, document.memory.left());
+  takeMeshes(document, meshes);
+  scene.sharing = meshes.reason;
+  scene.bounds = boundsOf(meshes.flat, meshes.shared);
   scene.bounds.include(boundsOf(spheres));
   recentre(options, document.diagnostics, scene);
-  flatten(instances, scene);
+  flatten(meshes.flat, meshes.shared, scene);
   for (const PlacedSphere& sphere : spheres) {
     scene.spheres.push_back({glm::vec3(scene.space.localOf(sphere.center)),
                              float(sphere.radius / scene.space.unit), glm::quat(sphere.rotation),

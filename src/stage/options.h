@@ -14,6 +14,7 @@
 #include "image/limits.h"
 #include "image/tone_map.h"
 #include "scene/camera.h"
+#include "scene/scene.h"
 #include "stage/feature.h"
 #include "stage/stage.h"
 
@@ -65,6 +66,7 @@ struct RenderOptions {
   ToneMap toneMap = ToneMap::Neutral;
   PixelFilter pixelFilter = PixelFilter::Box;
   TraversalMethod traversal = TraversalMethod::Auto;
+  Instancing instancing = Instancing::Auto;
   Backend backend = Backend::Auto;
   BufferReads bufferReads = BufferReads::Auto;
   Dispatch dispatch = Dispatch::Auto;
