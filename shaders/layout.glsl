@@ -2,7 +2,7 @@
 // Bindings, sentinels and packed layouts that C++ and GLSL share (src/shader/layout.h includes this file).
 
 // Scene buffers: each is read through one function of read_*.glsl.
-const uint kNodesBinding = 0u;         // 2 uvec4 a node
+const uint kNodesBinding = 0u;         // kNodeRows uvec4 a node; behind them kInstanceRows an instance
 const uint kLeavesBinding = 1u;        // 5 uvec4 a leaf: two primitives, structure of arrays
 const uint kFacesBinding = 2u;         // kFaceRows uvec4 a leaf slot (leaf * 2 + side): what shading needs of a primitive
 const uint kNormalsBinding = 3u;       // 1 vec4 a vertex
@@ -29,6 +29,7 @@ const uint kFilmCountsBinding = 2u;        // rgba32ui: samples, rays, non-finit
 const uint kPathStatesBinding = 13u;
 const uint kProgressBinding = 14u;
 const uint kPathStateRows = 19u;  // uvec4s a suspended path
+const uint kTwoLevelPathStateRows = 24u;  // where there are instances
 
 // The uniform block of one draw.
 const uint kFrameBinding = 0u;
@@ -49,8 +50,18 @@ const uint kPixelTargetShift = 2u;  // above: the most samples this pixel is to 
 
 // Traversal: an inner node is its index, a leaf the complement of its index, the end this sentinel.
 const int kTraversalDone = -2147483647 - 1;
+const uint kNodeRows = 2u;
 const uint kLeafRows = 5u;
 const uint kLeafBlock = 4u;  // the iterative traversal tests this many leaves in one loop iteration
+
+// An instance is a leaf of the upper tree whose index is from here on: kInstanceLeaf + its number, which is that of its first row / kInstanceRows.
+// Popping kInstanceEnd leads back out of it. Rows: three of the matrix from local space into its mesh's, beside them the mesh's origin in local
+// space; origin of its grid and root of its tree; cell of its grid and scale of offsets; three rows of the matrix back, beside them what
+// is added to offsets and -1 where the matrix mirrors, else 1.
+const int kInstanceLeaf = 0x40000000;
+const int kInstanceEnd = -2147483647;
+const uint kInstanceRows = 8u;
+const float kMeshReach = 1.75f;  // a shared mesh lies within this distance of its origin: coordinates are at most 1
 
 // Primitive words in a leaf: index and flags.
 const uint kPrimitiveNone = 0xffffffffu;

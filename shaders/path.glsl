@@ -57,6 +57,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   p.shadowLimit = 0.0;
   p.contribution = vec3(0.0);
   p.hitSlot = -1;
+  p.hitInstance = -1;
   p.hitT = 0.0;
   p.hitWeights = vec2(0.0);
   p.traversal.steps = steps;

@@ -29,11 +29,12 @@ struct Path {
   vec3 contribution;  // added if the shadow ray meets nothing
   int hitSlot;        // what the ray has hit, or -1
   float hitT;
+  int hitInstance;  // that shows it, or -1
   vec2 hitWeights;  // barycentric (kWeights)
   Traversal traversal;
 };
 
-const int kPathRows = int(kPathStateRows);
+const int kPathRows = int(kInstances ? kTwoLevelPathStateRows : kPathStateRows);
 
 layout(std430, binding = kPathStatesBinding) restrict buffer PathStatesBlock { uvec4 pathStates[]; };
 
@@ -66,6 +67,13 @@ void savePath(Path p, int index) {
     pathStates[r + 17] = uvec4(ivec4(s.s24, s.s25, s.s26, s.s27));
     pathStates[r + 18] = uvec4(ivec4(s.s28, s.s29, s.s30, s.s31));
   }
+  if (kInstances) pathStates[r + 19] = uvec4(ivec4(p.hitInstance, t.instance, t.hitInstance, 0));
+  if (kStackSize > 32) {
+    pathStates[r + 20] = uvec4(ivec4(s.s32, s.s33, s.s34, s.s35));
+    pathStates[r + 21] = uvec4(ivec4(s.s36, s.s37, s.s38, s.s39));
+    pathStates[r + 22] = uvec4(ivec4(s.s40, s.s41, s.s42, s.s43));
+    pathStates[r + 23] = uvec4(ivec4(s.s44, s.s45, s.s46, s.s47));
+  }
 }
 
 Stack loadStack(int r) {
@@ -93,6 +101,16 @@ Stack loadStack(int r) {
     s.s24 = a.x; s.s25 = a.y; s.s26 = a.z; s.s27 = a.w;
     a = ivec4(pathStates[r + 7]);
     s.s28 = a.x; s.s29 = a.y; s.s30 = a.z; s.s31 = a.w;
+  }
+  if (kStackSize > 32) {
+    a = ivec4(pathStates[r + 9]);
+    s.s32 = a.x; s.s33 = a.y; s.s34 = a.z; s.s35 = a.w;
+    a = ivec4(pathStates[r + 10]);
+    s.s36 = a.x; s.s37 = a.y; s.s38 = a.z; s.s39 = a.w;
+    a = ivec4(pathStates[r + 11]);
+    s.s40 = a.x; s.s41 = a.y; s.s42 = a.z; s.s43 = a.w;
+    a = ivec4(pathStates[r + 12]);
+    s.s44 = a.x; s.s45 = a.y; s.s46 = a.z; s.s47 = a.w;
   }
   return s;
 }
@@ -142,6 +160,15 @@ Path loadPath(int index) {
   f = uintBitsToFloat(pathStates[r + 10]);
   p.hitWeights = f.xy;
   p.traversal.weights = f.zw;
+  p.hitInstance = -1;
+  p.traversal.instance = -1;
+  p.traversal.hitInstance = -1;
+  if (kInstances) {
+    ivec4 shown = ivec4(pathStates[r + 19]);
+    p.hitInstance = shown.x;
+    p.traversal.instance = shown.y;
+    p.traversal.hitInstance = shown.z;
+  }
   p.traversal.steps = 0;
   p.traversal.stack = emptyStack();
   if (!kIterative && !kLiterals) p.traversal.stack = loadStack(r + 11);

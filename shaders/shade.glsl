@@ -93,7 +93,7 @@ vec3 featureAt(Surface s, vec3 baseColor, vec3 outgoing) {
 
 /// One step at the point hit. The first visit also settles alpha, absorption and emission.
 Path shade(Path p) {
-  Surface s = surfaceAt(p.hitSlot, p.origin, p.direction, p.hitT, p.hitWeights);
+  Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights);
   uint flags = materialFlags(s.material);
   vec4 base = baseColorAt(s.material, s.texcoords, s.color);
   if (p.lightSlot == 0) {
@@ -144,7 +144,7 @@ Path shade(Path p) {
 Path settleShadow(Path p) {
   int slot = p.traversal.slot;
   if (kAlpha && slot >= 0) {
-    Surface s = surfaceAt(slot, p.shadowOrigin, p.shadowDirection, p.traversal.t, p.traversal.weights);
+    Surface s = surfaceAt(slot, p.traversal.hitInstance, p.shadowOrigin, p.shadowDirection, p.traversal.t, p.traversal.weights);
     uint flags = materialFlags(s.material);
     float alpha = alphaAt(s.material, flags, baseColorAt(s.material, s.texcoords, s.color).a);
     if (passesThrough(flags, alpha, p.numbers, nextCrossing(p))) {

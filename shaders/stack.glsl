@@ -8,6 +8,8 @@ struct Stack {
   int s8, s9, s10, s11, s12, s13, s14, s15;
   int s16, s17, s18, s19, s20, s21, s22, s23;
   int s24, s25, s26, s27, s28, s29, s30, s31;
+  int s32, s33, s34, s35, s36, s37, s38, s39;
+  int s40, s41, s42, s43, s44, s45, s46, s47;
 };
 
 /// An empty stack: popping it gives kTraversalDone.
@@ -21,6 +23,10 @@ Stack emptyStack() {
   s.s20 = kTraversalDone; s.s21 = kTraversalDone; s.s22 = kTraversalDone; s.s23 = kTraversalDone;
   s.s24 = kTraversalDone; s.s25 = kTraversalDone; s.s26 = kTraversalDone; s.s27 = kTraversalDone;
   s.s28 = kTraversalDone; s.s29 = kTraversalDone; s.s30 = kTraversalDone; s.s31 = kTraversalDone;
+  s.s32 = kTraversalDone; s.s33 = kTraversalDone; s.s34 = kTraversalDone; s.s35 = kTraversalDone;
+  s.s36 = kTraversalDone; s.s37 = kTraversalDone; s.s38 = kTraversalDone; s.s39 = kTraversalDone;
+  s.s40 = kTraversalDone; s.s41 = kTraversalDone; s.s42 = kTraversalDone; s.s43 = kTraversalDone;
+  s.s44 = kTraversalDone; s.s45 = kTraversalDone; s.s46 = kTraversalDone; s.s47 = kTraversalDone;
   return s;
 }
 
@@ -67,7 +73,25 @@ Stack stepStack(Stack s, bool push, bool pop, int value) {
     s.s28 = push ? t.s27 : (pop ? t.s29 : t.s28);
     s.s29 = push ? t.s28 : (pop ? t.s30 : t.s29);
     s.s30 = push ? t.s29 : (pop ? t.s31 : t.s30);
-    s.s31 = push ? t.s30 : (pop ? kTraversalDone : t.s31);
+    s.s31 = push ? t.s30 : (pop ? (kStackSize > 32 ? t.s32 : kTraversalDone) : t.s31);
+  }
+  if (kStackSize > 32) {
+    s.s32 = push ? t.s31 : (pop ? t.s33 : t.s32);
+    s.s33 = push ? t.s32 : (pop ? t.s34 : t.s33);
+    s.s34 = push ? t.s33 : (pop ? t.s35 : t.s34);
+    s.s35 = push ? t.s34 : (pop ? t.s36 : t.s35);
+    s.s36 = push ? t.s35 : (pop ? t.s37 : t.s36);
+    s.s37 = push ? t.s36 : (pop ? t.s38 : t.s37);
+    s.s38 = push ? t.s37 : (pop ? t.s39 : t.s38);
+    s.s39 = push ? t.s38 : (pop ? t.s40 : t.s39);
+    s.s40 = push ? t.s39 : (pop ? t.s41 : t.s40);
+    s.s41 = push ? t.s40 : (pop ? t.s42 : t.s41);
+    s.s42 = push ? t.s41 : (pop ? t.s43 : t.s42);
+    s.s43 = push ? t.s42 : (pop ? t.s44 : t.s43);
+    s.s44 = push ? t.s43 : (pop ? t.s45 : t.s44);
+    s.s45 = push ? t.s44 : (pop ? t.s46 : t.s45);
+    s.s46 = push ? t.s45 : (pop ? t.s47 : t.s46);
+    s.s47 = push ? t.s46 : (pop ? kTraversalDone : t.s47);
   }
   return s;
 }

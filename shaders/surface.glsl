@@ -76,15 +76,41 @@ Surface triangleSurface(uvec4 face, uvec4 place, vec3 origin, vec3 direction, fl
   return s;
 }
 
-/// The point that a ray hits on the primitive of a leaf slot, at distance t and with barycentric weights.
-Surface surfaceAt(int slot, vec3 origin, vec3 direction, float t, vec2 weights) {
+vec3 unitOrZero(vec3 v) {
+  float squared = dot(v, v);
+  return squared > 0.0 ? v * inversesqrt(squared) : v;
+}
+
+/// A surface of an instance's mesh, taken into local space.
+Surface inLocalSpace(Surface s, int instance) {
+  InstanceSpace space = loadInstanceSpace(instance);
+  InstanceReturn back = loadInstanceReturn(instance);
+  s.position = timesRows(back.row0, back.row1, back.row2, s.position) + space.place;
+  s.positionError = s.positionError * back.offsetScale + back.offsetBase;
+  s.geometricNormal = unitOrZero(normalOutOfMesh(space, s.geometricNormal));
+  s.shadingNormal = unitOrZero(normalOutOfMesh(space, s.shadingNormal));
+  s.tangent = vec4(unitOrZero(timesRows(back.row0, back.row1, back.row2, s.tangent.xyz)), s.tangent.w * back.handedness);
+  return s;
+}
+
+/// The point that a ray hits on the primitive of a leaf slot (shown by an instance, or -1), at distance t and with barycentric weights.
+Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, vec2 weights) {
   uvec4 face = faceRow(slot, 0);
   uvec4 place = faceRow(slot, 1);
+  bool shown = kInstances && instance >= 0;
+  if (shown) {
+    MeshRay r = rayInMesh(instance, origin, direction);
+    float longer = length(r.direction);
+    origin = r.origin;
+    direction = r.direction / longer;
+    t = (t - r.start) * longer;
+  }
   bool isSphere = kSpheres && (!kTriangles || (face.w & kFaceSphere) != 0u);
   Surface s;
   if (kTriangles) s = triangleSurface(face, place, origin, direction, t, weights);
   if (isSphere) s = sphereSurface(face, place, origin, direction, t);
   s.positionError = uintBitsToFloat((face.w >> kFaceErrorShift) << kFloatErrorShift);
+  if (shown) s = inLocalSpace(s, instance);
   s.emitter = !isSphere;
   s.material = face.w & kFaceMaterialMask;
   if (!s.front) {

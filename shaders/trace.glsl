@@ -87,6 +87,7 @@ void tracePixel(ivec2 pixel) {
       p = meetSurroundings(p);
     } else {
       p.hitSlot = hit.slot;
+      p.hitInstance = hit.hitInstance;
       p.hitT = hit.t;
       p.hitWeights = hit.weights;
       p = shade(p);
@@ -127,6 +128,7 @@ void tracePixel(ivec2 pixel) {
       if (p.traversal.node == kTraversalDone) {
         film.rays += 1u;
         p.hitSlot = p.traversal.slot;
+        p.hitInstance = p.traversal.hitInstance;
         p.hitT = p.traversal.t;
         p.hitWeights = p.traversal.weights;
         p.phase = kPhaseShade;

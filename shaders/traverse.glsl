@@ -7,6 +7,8 @@ struct Traversal {
   float t;    // nearest hit so far, else the ray's limit
   int slot;   // its leaf slot (leaf * 2 + side), or -1
   vec2 weights;  // barycentric, of its second and third vertex (kWeights)
+  int instance;  // whose mesh is being walked, or -1; node and stack are of its tree then
+  int hitInstance;  // that shows slot, or -1
   int steps;  // loop iterations so far in this draw
   int visits; // nodes and leaves visited, counted for the heat map only
   Stack stack;
@@ -25,6 +27,8 @@ Traversal startTraversal(float limit, int leafCount) {
   s.t = limit;
   s.slot = -1;
   s.weights = vec2(0.0f);
+  s.instance = -1;
+  s.hitInstance = -1;
   s.steps = 0;
   s.visits = 0;
   s.stack = emptyStack();
@@ -62,11 +66,16 @@ PrimitiveHit intersectWord(vec3 origin, vec3 direction, RayShear shear, vec3 v0,
   return r;
 }
 
-/// The nearest of what the traversal has and the two primitives of a leaf.
-Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayShear shear) {
+/// The nearest of what the traversal has and the two primitives of a leaf. The origin lies at distance `start` along the ray (kInstances).
+Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayShear shear, float start) {
   LeafPair l = loadLeaf(leaf);
   PrimitiveHit a = intersectWord(origin, direction, shear, l.v0a, l.v1a, l.v2a, l.worda);
   PrimitiveHit b = intersectWord(origin, direction, shear, l.v0b, l.v1b, l.v2b, l.wordb);
+  if (kInstances) {
+    a.t += a.t > 0.0f ? start : 0.0f;
+    b.t += b.t > 0.0f ? start : 0.0f;
+    s.hitInstance = (a.t > 0.0f && a.t < s.t) || (b.t > 0.0f && b.t < s.t) ? s.instance : s.hitInstance;
+  }
   bool hita = a.t > 0.0f && a.t < s.t;
   s.t = hita ? a.t : s.t;
   s.slot = hita ? 2 * leaf : s.slot;
@@ -83,7 +92,7 @@ Traversal traverseIterative(vec3 origin, vec3 direction, Traversal s, TreeFrame 
   RayShear shear = makeShear(direction);
   while (s.node != kTraversalDone && s.steps < stepLimit) {
     for (int i = 0; i < int(kLeafBlock); ++i) {
-      s = intersectLeaf(s, s.node + i, origin, direction, shear);
+      s = intersectLeaf(s, s.node + i, origin, direction, shear, 0.0f);
     }
     s.steps += 1;
     if (kHeatmap) s.visits += int(kLeafBlock);
@@ -93,25 +102,87 @@ Traversal traverseIterative(vec3 origin, vec3 direction, Traversal s, TreeFrame 
   return s;
 }
 
+/// A ray in the space of an instance's mesh, of which no part lies before its origin. direction is as long as makes distances those of local space.
+struct MeshRay {
+  vec3 origin;
+  vec3 direction;
+  float start;  // distance along the ray at which the origin lies
+};
+
+/// The ray begins where it comes near the mesh, so that rounding from there on is of the mesh's size (docs/accuracy.md).
+MeshRay rayInMesh(int instance, vec3 origin, vec3 direction) {
+  InstanceSpace s = loadInstanceSpace(instance);
+  vec3 from = origin - s.place;
+  vec3 o = timesRows(s.row0, s.row1, s.row2, from);
+  MeshRay r;
+  r.direction = timesRows(s.row0, s.row1, s.row2, direction);
+  float squared = dot(r.direction, r.direction);
+  r.start = max(0.0f, -dot(o, r.direction) / squared - kMeshReach / sqrt(squared));
+  r.origin = o + r.start * r.direction;
+  return r;
+}
+
+/// A ray as the tree of one space sees it, with all that its tests share.
+struct TreeRay {
+  vec3 origin;
+  vec3 direction;
+  float start;  // as in MeshRay
+  RayShear shear;
+  vec3 scale;
+  vec3 bias;
+};
+
+TreeRay makeTreeRay(vec3 origin, vec3 direction, float start, vec3 gridOrigin, vec3 gridCell) {
+  TreeRay r;
+  r.origin = origin;
+  r.direction = direction;
+  r.start = start;
+  r.shear = makeShear(direction);
+  vec3 inverse = vec3(1.0f) / vec3(awayFromZero(direction.x), awayFromZero(direction.y), awayFromZero(direction.z));
+  r.scale = gridCell * inverse;
+  r.bias = (gridOrigin - origin) * inverse;
+  return r;
+}
+
+/// In the space of the scene's own tree, or (instance >= 0) of an instance's mesh.
+TreeRay treeRayOf(int instance, vec3 origin, vec3 direction, TreeFrame tree) {
+  if (kInstances && instance >= 0) {
+    MeshRay m = rayInMesh(instance, origin, direction);
+    int row = int(kInstanceRows) * instance;
+    vec3 gridOrigin = vec3(uintBitsToFloat(readNodes(row + 3)));
+    return makeTreeRay(m.origin, m.direction, m.start, gridOrigin, vec3(uintBitsToFloat(readNodes(row + 4))));
+  }
+  return makeTreeRay(origin, direction, 0.0f, tree.origin, tree.cell);
+}
+
+/// From an instance of the upper tree to the root of its mesh's, or at kInstanceEnd back out.
+Traversal changeSpace(Traversal s) {
+  bool ends = s.node == kInstanceEnd;
+  int instance = ~s.node - kInstanceLeaf;
+  s.instance = ends ? -1 : instance;
+  s.node = ends ? s.stack.s0 : int(readNodes(int(kInstanceRows) * (ends ? 0 : instance) + 3).w);
+  s.stack = stepStack(s.stack, !ends, ends, kInstanceEnd);
+  s.steps += 1;
+  return s;
+}
+
 /// While-while traversal of the tree (Aila and Laine, Understanding the Efficiency of Ray Traversal on GPUs, 2009).
 /// kFrontToBack: the nearer child first, boxes behind the hit are discarded; else children in fixed order, and
 /// only the ray's own limit discards. The near limit is 0. Boxes are padded when packed, so that rounding in the
 /// slab test cannot lose one that holds a hit (docs/accuracy.md).
 Traversal traverseTree(vec3 origin, vec3 direction, float rayLimit, Traversal s, TreeFrame tree, int stepLimit,
                        bool anyHit) {
-  RayShear shear = makeShear(direction);
-  vec3 inverse = vec3(1.0f) / vec3(awayFromZero(direction.x), awayFromZero(direction.y), awayFromZero(direction.z));
-  vec3 scale = tree.cell * inverse;
-  vec3 bias = (tree.origin - origin) * inverse;
+  TreeRay ray = treeRayOf(s.instance, origin, direction, tree);
   while (s.node != kTraversalDone && s.steps < stepLimit) {
     // Both conditions in one sign bit: at an inner node, and below the limit.
     while ((s.node | (stepLimit - 1 - s.steps)) >= 0) {
       NodePair n = loadNode(s.node);
       float limit = kFrontToBack ? s.t : rayLimit;
-      vec3 a0 = n.low0 * scale + bias;
-      vec3 b0 = n.high0 * scale + bias;
-      vec3 a1 = n.low1 * scale + bias;
-      vec3 b1 = n.high1 * scale + bias;
+      if (kInstances) limit -= ray.start;
+      vec3 a0 = n.low0 * ray.scale + ray.bias;
+      vec3 b0 = n.high0 * ray.scale + ray.bias;
+      vec3 a1 = n.low1 * ray.scale + ray.bias;
+      vec3 b1 = n.high1 * ray.scale + ray.bias;
       float near0 = slabMax(slabMax(slabMin(a0.x, b0.x), slabMin(a0.y, b0.y)), slabMax(slabMin(a0.z, b0.z), 0.0f));
       float far0 = slabMin(slabMin(slabMax(a0.x, b0.x), slabMax(a0.y, b0.y)), slabMin(slabMax(a0.z, b0.z), limit));
       float near1 = slabMax(slabMax(slabMin(a1.x, b1.x), slabMin(a1.y, b1.y)), slabMax(slabMin(a1.z, b1.z), 0.0f));
@@ -130,8 +201,13 @@ Traversal traverseTree(vec3 origin, vec3 direction, float rayLimit, Traversal s,
       if (kHeatmap) s.visits += 1;
     }
     bool atLeaf = s.node < 0 && s.node != kTraversalDone;
+    if (kInstances && atLeaf && ~s.node >= kInstanceLeaf) {
+      s = changeSpace(s);
+      ray = treeRayOf(s.instance, origin, direction, tree);
+      atLeaf = false;
+    }
     if (atLeaf) {
-      s = intersectLeaf(s, ~s.node, origin, direction, shear);
+      s = intersectLeaf(s, ~s.node, ray.origin, ray.direction, ray.shear, ray.start);
       s.steps += 1;
       if (kHeatmap) s.visits += 1;
       s.node = anyHit && s.slot >= 0 ? kTraversalDone : s.stack.s0;

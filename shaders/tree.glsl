@@ -50,3 +50,53 @@ LeafPair loadLeaf(int index) {
   l.wordb = r4.w;
   return l;
 }
+
+/// Where an instance stands.
+struct InstanceSpace {
+  vec3 place;  // the mesh's origin in local space
+  vec3 row0;   // of the matrix from local space into the mesh's
+  vec3 row1;
+  vec3 row2;
+};
+
+InstanceSpace loadInstanceSpace(int instance) {
+  int row = int(kInstanceRows) * instance;
+  vec4 r0 = uintBitsToFloat(readNodes(row));
+  vec4 r1 = uintBitsToFloat(readNodes(row + 1));
+  vec4 r2 = uintBitsToFloat(readNodes(row + 2));
+  InstanceSpace s;
+  s.place = vec3(r0.w, r1.w, r2.w);
+  s.row0 = vec3(r0);
+  s.row1 = vec3(r1);
+  s.row2 = vec3(r2);
+  return s;
+}
+
+/// The way back out of an instance's mesh.
+struct InstanceReturn {
+  vec3 row0;  // of the matrix into local space
+  vec3 row1;
+  vec3 row2;
+  float handedness;   // -1 where it mirrors, else 1
+  float offsetScale;  // an offset of the mesh's space becomes offsetScale times that, and offsetBase, in local space
+  float offsetBase;
+};
+
+InstanceReturn loadInstanceReturn(int instance) {
+  int row = int(kInstanceRows) * instance;
+  vec4 r0 = uintBitsToFloat(readNodes(row + 5));
+  vec4 r1 = uintBitsToFloat(readNodes(row + 6));
+  InstanceReturn r;
+  r.row0 = vec3(r0);
+  r.row1 = vec3(r1);
+  r.row2 = vec3(uintBitsToFloat(readNodes(row + 7)));
+  r.handedness = r1.w;
+  r.offsetScale = uintBitsToFloat(readNodes(row + 4)).w;
+  r.offsetBase = r0.w;
+  return r;
+}
+
+vec3 timesRows(vec3 row0, vec3 row1, vec3 row2, vec3 v) { return vec3(dot(row0, v), dot(row1, v), dot(row2, v)); }
+
+/// A normal of the mesh's space in local space, by the transpose of the inverse; not of unit length.
+vec3 normalOutOfMesh(InstanceSpace s, vec3 normal) { return normal.x * s.row0 + normal.y * s.row1 + normal.z * s.row2; }

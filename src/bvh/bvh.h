@@ -15,9 +15,15 @@ namespace fragtrace {
 /// Set in BvhNode::child when the child is a leaf (the rest is the index into Bvh::leaves).
 inline constexpr uint32_t kBvhLeafBit = 0x80000000u;
 
+/// Set beside kBvhLeafBit when the child is an instance (the rest is the index into Scene::instances).
+inline constexpr uint32_t kBvhInstanceBit = 0x40000000u;
+
 /// No path from the root passes more inner nodes than this, so a traversal stack of this size cannot
 /// overflow.
 inline constexpr uint32_t kMaxBvhDepth = 32;
+
+/// The same of a path through an instance into the tree of its mesh, the way back counted as one more.
+inline constexpr uint32_t kMaxTwoLevelDepth = 48;
 
 struct BvhNode {
   std::array<Bounds, 2> bounds;
@@ -28,15 +34,29 @@ struct BvhLeaf {
   std::array<uint32_t, 2> primitive{kMissIndex, kMissIndex};  ///< the second may be kMissIndex
 };
 
+/// The tree of a shared mesh, in the mesh's space.
+struct BvhMesh {
+  uint32_t root = 0;  ///< its first node
+  uint32_t nodeCount = 0;
+  Bounds bounds;
+};
+
 /// Node 0 is the root. Nodes are empty only when there are no primitives; with one leaf, both children of the
 /// root are that leaf. Children always stand behind their parent.
 struct Bvh {
   std::vector<BvhNode> nodes;
   std::vector<BvhLeaf> leaves;
   uint32_t besideTree = 0;  ///< leaves at the end that no node holds: see large_first.h
-  uint32_t depth = 0;       ///< inner nodes on the longest path from the root, at most kMaxBvhDepth
+  uint32_t depth = 0;  ///< inner nodes on the longest path from the root, at most kMaxBvhDepth; with meshes
+                       ///< kMaxTwoLevelDepth
   Bounds bounds;
+  std::vector<BvhMesh> meshes;  ///< by Instance::mesh; their nodes and leaves stand behind the scene's own
 };
+
+/// Nodes of the tree in local space.
+inline size_t topNodeCount(const Bvh& bvh) {
+  return bvh.meshes.empty() ? bvh.nodes.size() : bvh.meshes[0].root;
+}
 
 /// The primitive in a leaf slot (leaf * 2 + side), as shaders name hits; kMissIndex for a negative one.
 inline uint32_t primitiveInSlot(const Bvh& bvh, int32_t slot) {
@@ -50,6 +70,8 @@ Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle);
 
 /// Boxes of the scene's primitives: triangles first, then spheres.
 std::vector<Bounds> primitiveBounds(const Scene& scene);
+Bounds triangleBounds(const Scene& scene, uint32_t triangle);
+Bounds sphereBounds(const Sphere& sphere);
 
 struct BvhQuality {
   double sahCost = 0.0;  ///< expected node visits + leaf visits of a random ray through the root's box
@@ -57,6 +79,7 @@ struct BvhQuality {
   uint32_t leafCount = 0;
   uint32_t depth = 0;
   double primitivesPerLeaf = 0.0;
+  uint32_t meshNodeCount = 0;  ///< of the nodes, those of shared meshes
 };
 BvhQuality bvhQuality(const Bvh& bvh);
 

@@ -23,15 +23,15 @@ struct Crossing {
 
 /// By the signs of the edges as the ray sees them, which two triangles with a common edge see alike (Woop,
 /// Benthin and Wald, Watertight Ray/Triangle Intersection, 2013).
-Crossing crossTriangle(const Ray& ray, const std::array<glm::dvec3, 3>& points) {
-  const glm::dvec3 d(ray.direction);
+Crossing crossTriangle(const ExactRay& ray, const std::array<glm::dvec3, 3>& points) {
+  const glm::dvec3& d = ray.direction;
   const glm::dvec3 size = glm::abs(d);
   const int z = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
   const int x = (z + 1) % 3;
   const int y = (z + 2) % 3;
   std::array<glm::dvec3, 3> p;
   for (int i = 0; i < 3; ++i) {
-    const glm::dvec3 q = points[i] - glm::dvec3(ray.origin);
+    const glm::dvec3 q = points[i] - ray.origin;
     p[i] = {q[x] - d[x] / d[z] * q[z], q[y] - d[y] / d[z] * q[z], q[z] / d[z]};
   }
   const double u = p[2].x * p[1].y - p[2].y * p[1].x;
@@ -43,9 +43,9 @@ Crossing crossTriangle(const Ray& ray, const std::array<glm::dvec3, 3>& points) 
   return {(u * p[0].z + v * p[1].z + w * p[2].z) / sum, (d[z] > 0.0) == (sum > 0.0)};
 }
 
-double crossSphere(const Ray& ray, const Sphere& sphere, bool inside) {
-  const glm::dvec3 f = glm::dvec3(ray.origin) - glm::dvec3(sphere.center);
-  const glm::dvec3 d = glm::normalize(glm::dvec3(ray.direction));
+double crossSphere(const ExactRay& ray, const Sphere& sphere, bool inside) {
+  const glm::dvec3 f = ray.origin - glm::dvec3(sphere.center);
+  const glm::dvec3 d = glm::normalize(ray.direction);
   const double b = -glm::dot(f, d);
   const double discriminant = double(sphere.radius) * sphere.radius - glm::dot(f + b * d, f + b * d);
   if (discriminant < 0.0) return kMiss;
@@ -55,7 +55,7 @@ double crossSphere(const Ray& ray, const Sphere& sphere, bool inside) {
 }
 
 /// Where the ray enters the box, widened against rounding, or kMiss.
-double enterBox(const Ray& ray, const glm::dvec3& inverse, const Bounds& box, double farthest) {
+double enterBox(const ExactRay& ray, const glm::dvec3& inverse, const Bounds& box, double farthest) {
   constexpr double kWiden = 1e-9;
   double enter = 0.0;
   double leave = farthest;
@@ -84,7 +84,17 @@ void forAll(size_t count, const Work& work) {
 
 }  // namespace
 
-void ExactTracer::meet(const Ray& ray, uint32_t primitive, ExactHit& hit) const {
+ExactTracer::ExactTracer(const Scene& scene, const Bvh& bvh) : scene_(scene), bvh_(bvh) {
+  toMesh_.reserve(scene.instances.size());
+  for (const Instance& instance : scene.instances) toMesh_.push_back(glm::inverse(instance.toLocal));
+}
+
+ExactRay ExactTracer::inMesh(const ExactRay& ray, uint32_t instance) const {
+  const glm::dmat4& toMesh = toMesh_[instance];
+  return {glm::dvec3(toMesh * glm::dvec4(ray.origin, 1.0)), glm::dmat3(toMesh) * ray.direction};
+}
+
+void ExactTracer::meet(const ExactRay& ray, uint32_t primitive, uint32_t instance, ExactHit& hit) const {
   const uint32_t triangles = uint32_t(scene_.triangles.size());
   double t = kMiss;
   if (primitive < triangles) {
@@ -99,19 +109,10 @@ void ExactTracer::meet(const Ray& ray, uint32_t primitive, ExactHit& hit) const 
     const Material& m = scene_.materials[sphere.material];
     t = crossSphere(ray, sphere, m.doubleSided || m.transmissive());
   }
-  if (t > 0.0 && t < hit.t) hit = {t, primitive};
+  if (t > 0.0 && t < hit.t) hit = {t, primitive, instance};
 }
 
-ExactHit ExactTracer::nearest(const Ray& ray) const {
-  ExactHit hit{double(ray.limit), kMissIndex};
-  if (!(ray.limit > 0.0f)) return hit;
-  const auto meetLeaf = [&](const BvhLeaf& leaf) {
-    for (const uint32_t primitive : leaf.primitive) {
-      if (primitive != kMissIndex) meet(ray, primitive, hit);
-    }
-  };
-  for (size_t i = bvh_.leaves.size() - bvh_.besideTree; i < bvh_.leaves.size(); ++i) meetLeaf(bvh_.leaves[i]);
-  if (bvh_.nodes.empty()) return hit;
+void ExactTracer::descend(const ExactRay& ray, uint32_t root, uint32_t instance, ExactHit& hit) const {
   glm::dvec3 inverse;
   for (int axis = 0; axis < 3; ++axis) {
     // Far below what a direction of 24 bits can hold beside a larger component.
@@ -124,12 +125,19 @@ ExactHit ExactTracer::nearest(const Ray& ray) const {
   };
   std::array<Entry, kMaxBvhDepth + 1> stack;
   size_t depth = 0;
-  stack[depth++] = {0, 0.0};
+  stack[depth++] = {root, 0.0};
   while (depth > 0) {
     const Entry entry = stack[--depth];
     if (entry.enter > hit.t) continue;
+    const uint32_t index = entry.child & ~(kBvhLeafBit | kBvhInstanceBit);
+    if ((entry.child & kBvhLeafBit) != 0 && (entry.child & kBvhInstanceBit) != 0) {
+      descend(inMesh(ray, index), bvh_.meshes[scene_.instances[index].mesh].root, index, hit);
+      continue;
+    }
     if ((entry.child & kBvhLeafBit) != 0) {
-      meetLeaf(bvh_.leaves[entry.child & ~kBvhLeafBit]);
+      for (const uint32_t primitive : bvh_.leaves[index].primitive) {
+        if (primitive != kMissIndex) meet(ray, primitive, instance, hit);
+      }
       continue;
     }
     const BvhNode& node = bvh_.nodes[entry.child];
@@ -141,13 +149,33 @@ ExactHit ExactTracer::nearest(const Ray& ray) const {
       if (child.enter != kMiss) stack[depth++] = child;
     }
   }
+}
+
+ExactHit ExactTracer::nearest(const Ray& ray) const {
+  ExactHit hit{double(ray.limit)};
+  if (!(ray.limit > 0.0f)) return hit;
+  const ExactRay exact{glm::dvec3(ray.origin), glm::dvec3(ray.direction)};
+  for (size_t i = bvh_.leaves.size() - bvh_.besideTree; i < bvh_.leaves.size(); ++i) {
+    for (const uint32_t primitive : bvh_.leaves[i].primitive) {
+      if (primitive != kMissIndex) meet(exact, primitive, kMissIndex, hit);
+    }
+  }
+  if (!bvh_.nodes.empty()) descend(exact, 0, kMissIndex, hit);
   return hit;
 }
 
 ExactHit ExactTracer::nearestOfAll(const Ray& ray) const {
-  ExactHit hit{double(ray.limit), kMissIndex};
-  const auto count = uint32_t(scene_.triangles.size() + scene_.spheres.size());
-  for (uint32_t primitive = 0; primitive < count && ray.limit > 0.0f; ++primitive) meet(ray, primitive, hit);
+  ExactHit hit{double(ray.limit)};
+  if (!(ray.limit > 0.0f)) return hit;
+  const ExactRay exact{glm::dvec3(ray.origin), glm::dvec3(ray.direction)};
+  const auto triangles = uint32_t(scene_.triangles.size());
+  for (uint32_t i = 0; i < flatTriangleCount(scene_); ++i) meet(exact, i, kMissIndex, hit);
+  for (uint32_t i = 0; i < scene_.spheres.size(); ++i) meet(exact, triangles + i, kMissIndex, hit);
+  for (uint32_t i = 0; i < scene_.instances.size(); ++i) {
+    const SharedMesh& mesh = scene_.sharedMeshes[scene_.instances[i].mesh];
+    const ExactRay inside = inMesh(exact, i);
+    for (uint32_t k = 0; k < mesh.triangleCount; ++k) meet(inside, mesh.firstTriangle + k, i, hit);
+  }
   return hit;
 }
 
@@ -167,14 +195,16 @@ std::vector<ExactHit> ExactTracer::nearestOfAll(std::span<const Ray> rays) const
   return hits;
 }
 
-glm::dvec3 ExactTracer::normal(uint32_t primitive, const glm::dvec3& point) const {
+glm::dvec3 ExactTracer::normal(uint32_t primitive, const glm::dvec3& point, uint32_t instance) const {
   const size_t triangles = scene_.triangles.size();
   if (primitive >= triangles)
     return glm::normalize(point - glm::dvec3(scene_.spheres[primitive - triangles].center));
   const glm::uvec3& v = scene_.triangles[primitive].vertex;
   const std::vector<glm::vec3>& positions = scene_.vertices.position;
   const glm::dvec3 a(positions[v.x]);
-  return glm::normalize(glm::cross(glm::dvec3(positions[v.y]) - a, glm::dvec3(positions[v.z]) - a));
+  const glm::dvec3 cross = glm::cross(glm::dvec3(positions[v.y]) - a, glm::dvec3(positions[v.z]) - a);
+  return glm::normalize(instance == kMissIndex ? cross
+                                               : glm::transpose(glm::dmat3(toMesh_[instance])) * cross);
 }
 
 double ExactTracer::pointError(uint32_t primitive) const {

@@ -19,7 +19,7 @@ std::optional<Pick> pickAt(const Scene& scene, const Bvh& bvh, const Projection&
   const glm::dvec3 direction(ray.direction);
   const glm::dvec3 local = glm::dvec3(ray.origin) + hit.t * direction;
   pick.point = scene.space.worldOf(local);
-  pick.normal = tracer.normal(hit.primitive, local);
+  pick.normal = tracer.normal(hit.primitive, local, hit.instance);
   if (glm::dot(pick.normal, direction) > 0.0) pick.normal = -pick.normal;
   const size_t triangles = scene.triangles.size();
   if (hit.primitive >= triangles) {
@@ -33,7 +33,7 @@ std::optional<Pick> pickAt(const Scene& scene, const Bvh& bvh, const Projection&
       std::ranges::upper_bound(scene.origins, hit.primitive, {}, &PrimitiveOrigin::firstTriangle);
   if (after == scene.origins.begin()) return pick;
   const PrimitiveOrigin& origin = *std::prev(after);
-  pick.node = origin.node;
+  pick.node = hit.instance == kMissIndex ? origin.node : scene.instances[hit.instance].node;
   pick.mesh = origin.mesh;
   pick.triangle = hit.primitive - origin.firstTriangle;
   return pick;

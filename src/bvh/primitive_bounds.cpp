@@ -5,10 +5,9 @@
 #include "bvh/bvh.h"
 
 namespace fragtrace {
-namespace {
 
 // Center plus and minus radius, both rounded away from the center, so that the sphere lies inside.
-Bounds boundsOf(const Sphere& sphere) {
+Bounds sphereBounds(const Sphere& sphere) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Bounds bounds;
   for (int axis = 0; axis < 3; ++axis) {
@@ -18,17 +17,18 @@ Bounds boundsOf(const Sphere& sphere) {
   return bounds;
 }
 
-}  // namespace
+Bounds triangleBounds(const Scene& scene, uint32_t triangle) {
+  Bounds box;
+  for (int corner = 0; corner < 3; ++corner)
+    box.include(scene.vertices.position[scene.triangles[triangle].vertex[corner]]);
+  return box;
+}
 
 std::vector<Bounds> primitiveBounds(const Scene& scene) {
   std::vector<Bounds> bounds;
   bounds.reserve(scene.triangles.size() + scene.spheres.size());
-  for (const Triangle& triangle : scene.triangles) {
-    Bounds box;
-    for (int corner = 0; corner < 3; ++corner) box.include(scene.vertices.position[triangle.vertex[corner]]);
-    bounds.push_back(box);
-  }
-  for (const Sphere& sphere : scene.spheres) bounds.push_back(boundsOf(sphere));
+  for (uint32_t i = 0; i < scene.triangles.size(); ++i) bounds.push_back(triangleBounds(scene, i));
+  for (const Sphere& sphere : scene.spheres) bounds.push_back(sphereBounds(sphere));
   return bounds;
 }
 

@@ -8,6 +8,7 @@ BvhQuality bvhQuality(const Bvh& bvh) {
   BvhQuality quality;
   if (bvh.nodes.empty()) return quality;
   quality.nodeCount = uint32_t(bvh.nodes.size());
+  quality.meshNodeCount = uint32_t(bvh.nodes.size() - topNodeCount(bvh));
   quality.leafCount = uint32_t(bvh.leaves.size());
   quality.depth = bvh.depth;
 
@@ -15,14 +16,16 @@ BvhQuality bvhQuality(const Bvh& bvh) {
   // Every child but the root is the child of one node. A root without area counts all as visited.
   const double rootArea = areaOf(bvh.bounds);
   double visits = 1.0;
-  for (const BvhNode& node : bvh.nodes) {
+  // Of two levels, the upper one; an instance counts as one visit.
+  for (size_t i = 0; i < topNodeCount(bvh); ++i) {
+    const BvhNode& node = bvh.nodes[i];
     for (const Bounds& box : node.bounds) visits += rootArea > 0.0 ? areaOf(box) / rootArea : 1.0;
   }
   quality.sahCost = visits;
 
   size_t primitives = 0;
   for (const BvhLeaf& leaf : bvh.leaves) primitives += leaf.primitive[1] == kMissIndex ? 1 : 2;
-  quality.primitivesPerLeaf = double(primitives) / double(bvh.leaves.size());
+  if (!bvh.leaves.empty()) quality.primitivesPerLeaf = double(primitives) / double(bvh.leaves.size());
   return quality;
 }
 

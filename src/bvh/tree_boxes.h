@@ -12,7 +12,7 @@
 namespace fragtrace {
 
 /// The boxes of all nodes and leaves that so many steps down from the root lead to, in local space; the root,
-/// with the triangles beside the tree left out, is level 0.
+/// with the triangles beside the tree left out, is level 0. Instances are leaves.
 std::vector<Bounds> boxesAtLevel(const Bvh& bvh, uint32_t level);
 
 /// A line between two places of the picture (scene/projection.h); it may reach beyond.

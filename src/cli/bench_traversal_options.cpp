@@ -33,6 +33,7 @@ BenchTraversalOptions finishBenchTraversal(const RawBenchTraversal& raw) {
   RawRender render = raw.render;
   render.stage = "flat";
   render.noDefaultLight = true;
+  render.instancing = "flatten";
   options.render = finishRender(render);
   if (options.render.traversal == TraversalMethod::Iterative)
     throw UsageError("--traversal: 'iterative' takes more than one draw; `bench scale` measures it");

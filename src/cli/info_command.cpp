@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "bvh/two_level.h"
 #include "cli/commands.h"
 #include "cli/scene_json.h"
 #include "gltf/gltf.h"
@@ -57,6 +58,13 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
   std::printf("  tree        %u nodes, %u leaves, depth %u, %.2f primitives a leaf, SAH cost %.2f\n",
               bvh.nodeCount, bvh.leafCount, bvh.depth, bvh.primitivesPerLeaf, bvh.sahCost);
   const double geometry = bytesPerTriangle * double(s.triangles);
+  if (s.sharedMeshes > 0)
+    std::printf(
+        "  shared      %zu meshes in %zu instances, %zu triangles drawn; %u nodes are theirs, %u above "
+        "them\n",
+        s.sharedMeshes, s.sharedInstances, s.trianglesDrawn, bvh.meshNodeCount,
+        bvh.nodeCount - bvh.meshNodeCount);
+  std::printf("  instancing  %s\n", s.sharing.c_str());
   std::printf("  GPU memory  %.1f MB: geometry %.1f", (geometry + double(s.texelBytes)) / 1e6,
               geometry / 1e6);
   if (s.triangles > 0) std::printf(" (%.1f bytes a triangle)", bytesPerTriangle);
@@ -72,10 +80,11 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
 int runInfo(const InfoOptions& options) {
   GltfOptions loading;
   loading.selection = options.selection;
+  loading.instancing = options.instancing;
   loading.limits = options.limits;
   const Scene scene = loadGltf(options.scene, loading);
   const SceneDescription description = describe(scene);
-  const Bvh tree = buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
+  const Bvh tree = buildSceneBvh(scene);
   const BvhQuality bvh = bvhQuality(tree);
   for (const std::string& warning : scene.warnings) std::cerr << "fragtrace: warning: " << warning << '\n';
   const Surroundings surroundings = hasOwnLight(scene) ? Surroundings::None : Surroundings::DefaultLight;

@@ -32,6 +32,7 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   CommandLine line;
   RawRender raw;
   std::string infoScene;
+  std::string infoInstancing = "auto";
   std::string picture;
   std::string reference;
   std::string metric = "rmse";
@@ -51,6 +52,8 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   info.add_option("file", infoScene, ".gltf or .glb file")->required();
   info.add_flag("--json", line.info.json, "as JSON");
   addSelectionOptions(info, line.info.selection);
+  info.add_option("--instancing", infoInstancing, joined(kInstancingNames) + ": as render's")
+      ->capture_default_str();
   addInputOptions(info, line.info.limits);
   CLI::App& diff = *app.add_subcommand("diff", "compare a picture with a reference");
   diff.add_option("picture", picture)->required();
@@ -117,6 +120,7 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   } else if (info.parsed()) {
     line.command = Command::Info;
     line.info.scene = infoScene;
+    line.info.instancing = choose<Instancing>("--instancing", infoInstancing, kInstancingNames);
   } else if (benchError.parsed()) {
     line.command = Command::BenchError;
     line.benchError = finishBenchError(rawError, benchError);

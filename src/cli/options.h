@@ -21,6 +21,7 @@ struct InfoOptions {
   std::filesystem::path scene;
   SceneSelection selection;
   InputLimits limits;
+  Instancing instancing = Instancing::Auto;
   bool json = false;
 };
 

@@ -119,6 +119,7 @@ RenderOptions finishRender(const RawRender& raw) {
   o.pixelFilter = choose<PixelFilter>("--pixel-filter", raw.pixelFilter, kPixelFilterNames);
   o.toneMap = choose<ToneMap>("--tone-map", raw.toneMap, toneMapNames());
   o.traversal = choose<TraversalMethod>("--traversal", raw.traversal, kTraversalNames);
+  o.instancing = choose<Instancing>("--instancing", raw.instancing, kInstancingNames);
   o.backend =
       choose<Backend>("--rendering-backend", raw.backend, std::vector<std::string>{"auto", "egl", "osmesa"});
   o.bufferReads = choose<BufferReads>("--buffer-reads", raw.reads, kBufferReadsNames);
@@ -208,6 +209,10 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--tone-map", raw.toneMap, "linear, reinhard, aces, agx, neutral, for .png and .jpg")
       ->capture_default_str();
   app.add_option("--traversal", raw.traversal, joined(kTraversalNames) + ": how rays find triangles")
+      ->capture_default_str();
+  app.add_option(
+         "--instancing", raw.instancing,
+         joined(kInstancingNames) + ": whether meshes that stand in the scene several times are copied")
       ->capture_default_str();
   app.add_option("--rendering-backend", raw.backend, "auto, egl, osmesa")->capture_default_str();
   app.add_option("--buffer-reads", raw.reads, joined(kBufferReadsNames) + ": how the shader reads the scene")

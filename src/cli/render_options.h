@@ -34,6 +34,7 @@ struct RawRender {
   std::string pixelFilter = "box";
   std::string toneMap = "neutral";
   std::string traversal = "auto";
+  std::string instancing = "auto";
   std::string backend = "auto";
   std::string reads = "auto";
   std::string dispatch = "auto";

@@ -15,6 +15,10 @@ nlohmann::ordered_json sceneJson(const SceneDescription& s) {
   json["vertices"] = s.vertices;
   json["spheres"] = s.spheres;
   json["instances"] = s.instances;
+  json["instancing"] = {{"shared_meshes", s.sharedMeshes},
+                        {"instances", s.sharedInstances},
+                        {"triangles_drawn", s.trianglesDrawn},
+                        {"reason", s.sharing}};
   json["materials"] = s.materials;
   json["textures"] = s.textures;
   json["images"] = s.images;
@@ -36,6 +40,7 @@ nlohmann::ordered_json sceneJson(const SceneDescription& s) {
 nlohmann::ordered_json bvhJson(const BvhQuality& bvh) {
   nlohmann::ordered_json json;
   json["nodes"] = bvh.nodeCount;
+  if (bvh.meshNodeCount > 0) json["mesh_nodes"] = bvh.meshNodeCount;
   json["leaves"] = bvh.leafCount;
   json["depth"] = bvh.depth;
   json["primitives_per_leaf"] = bvh.primitivesPerLeaf;

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "bvh/large_first.h"
+#include "bvh/two_level.h"
 #include "cli/outputs.h"
 #include "errors.h"
 #include "gl/driver_choice.h"
@@ -73,6 +74,11 @@ uint64_t hashOf(const GpuScene& scene) {
   return hash;
 }
 
+/// Only trees hold instances.
+bool walksTree(const RenderOptions& options) {
+  return options.traversal != TraversalMethod::Iterative && options.traversal != TraversalMethod::Literals;
+}
+
 bool besideAllowed(const RenderOptions& options) {
   return options.traversal == TraversalMethod::Auto && !has(options.stages, Stage::BvhHeatmap);
 }
@@ -95,6 +101,11 @@ View makeView(const RenderOptions& options, const Scene& scene, const Camera& ca
 }
 
 Bvh buildTree(const Scene& scene, const RenderOptions& options) {
+  if (!scene.instances.empty()) {
+    if (!walksTree(options))
+      throw UsageError("--traversal: only trees hold the meshes that this scene shares");
+    return buildSceneBvh(scene);
+  }
   if (options.traversal == TraversalMethod::Iterative) return listLeaves(scene);
   std::vector<Bounds> bounds = primitiveBounds(scene);
   const uint32_t triangles = uint32_t(scene.triangles.size());
@@ -127,6 +138,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   loading.cameraPosition = options.camera.position;
   loading.cameraIndex = options.cameraIndex.value_or(0);
   loading.selection = options.selection;
+  loading.instancing = walksTree(options) ? options.instancing : Instancing::Flatten;
   loading.limits = options.limits;
   loaded.scene = loadGltf(options.scene, loading);
   if (!loaded.scene.images.empty()) startImageProcess();
@@ -242,6 +254,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
 void releaseGeometry(LoadedScene& loaded) {
   loaded.scene.triangles = std::vector<Triangle>();
   loaded.scene.vertices = Vertices();
+  loaded.scene.instances = std::vector<Instance>();
   loaded.scene.images = std::vector<EncodedImage>();
   loaded.bvh = Bvh();
 }

@@ -23,11 +23,14 @@ using nlohmann::json;
 
 /// KHR_mesh_quantization only widens the component types that attributes may have.
 constexpr std::string_view kKnownExtensions[] = {
-    "EXT_meshopt_compression",         "EXT_texture_webp",           "KHR_animation_pointer",
-    "KHR_draco_mesh_compression",      "KHR_implicit_shapes",        "KHR_lights_punctual",
-    "KHR_materials_emissive_strength", "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_specular",          "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_materials_variants",          "KHR_materials_volume",       "KHR_mesh_quantization",
+    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",
+    "EXT_texture_webp",           "KHR_animation_pointer",
+    "KHR_draco_mesh_compression", "KHR_implicit_shapes",
+    "KHR_lights_punctual",        "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",     "KHR_materials_transmission",
+    "KHR_materials_unlit",        "KHR_materials_variants",
+    "KHR_materials_volume",       "KHR_mesh_quantization",
     "KHR_texture_transform",
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/flatten.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene/tangents.h"
@@ -86,13 +87,29 @@ void append(std::vector<Attribute>& to, const std::vector<Attribute>& from, size
 
 /// Makes room for the attributes that at least one primitive has.
 template <typename Attribute>
-void reserveIfUsed(std::span<const PrimitiveInstance> instances, size_t total,
+void reserveIfUsed(std::span<const MeshPrimitive* const> primitives, size_t total,
                    std::vector<Attribute> Vertices::*member, Vertices& vertices) {
-  for (const PrimitiveInstance& instance : instances) {
-    if ((instance.primitive->vertices.*member).empty()) continue;
+  for (const MeshPrimitive* primitive : primitives) {
+    if ((primitive->vertices.*member).empty()) continue;
     (vertices.*member).reserve(total);
     return;
   }
+}
+
+void reserveAll(std::span<const MeshPrimitive* const> primitives, Scene& scene) {
+  size_t vertexCount = 0;
+  size_t triangleCount = 0;
+  for (const MeshPrimitive* primitive : primitives) {
+    vertexCount += primitive->vertices.position.size();
+    triangleCount += primitive->triangles.size();
+  }
+  scene.triangles.reserve(triangleCount);
+  scene.vertices.position.reserve(vertexCount);
+  reserveIfUsed(primitives, vertexCount, &Vertices::normal, scene.vertices);
+  reserveIfUsed(primitives, vertexCount, &Vertices::tangent, scene.vertices);
+  reserveIfUsed(primitives, vertexCount, &Vertices::texcoord0, scene.vertices);
+  reserveIfUsed(primitives, vertexCount, &Vertices::texcoord1, scene.vertices);
+  reserveIfUsed(primitives, vertexCount, &Vertices::color, scene.vertices);
 }
 
 void appendVertices(const Vertices& from, Placement& placement, const LocalSpace& space, Vertices& to) {
@@ -121,9 +138,86 @@ void appendVertices(const Vertices& from, Placement& placement, const LocalSpace
   }
 }
 
+void appendPrimitive(const PrimitiveInstance& instance, const LocalSpace& space, Scene& scene) {
+  Placement placement(instance);
+  const auto firstVertex = uint32_t(scene.vertices.position.size());
+  const auto firstTriangle = uint32_t(scene.triangles.size());
+  appendVertices(instance.primitive->vertices, placement, space, scene.vertices);
+  for (Triangle triangle : instance.primitive->triangles) {
+    const bool mirrors = placement.of(triangle.vertex.x).mirrors;
+    triangle.vertex += glm::uvec3(firstVertex);
+    if (mirrors) std::swap(triangle.vertex.y, triangle.vertex.z);
+    scene.triangles.push_back(triangle);
+  }
+  scene.origins.push_back(
+      {instance.node, instance.mesh, firstTriangle, uint32_t(instance.primitive->triangles.size())});
+}
+
+/// Appends the positions that triangles use, each once.
+void appendUsed(const MeshPrimitive& primitive, std::vector<glm::vec3>& points) {
+  std::vector<bool> isUsed(primitive.vertices.position.size(), false);
+  for (const Triangle& triangle : primitive.triangles) {
+    for (int corner = 0; corner < 3; ++corner) {
+      const uint32_t vertex = triangle.vertex[corner];
+      if (!isUsed[vertex]) points.push_back(primitive.vertices.position[vertex]);
+      isUsed[vertex] = true;
+    }
+  }
+}
+
+bool contains(const BoundsDouble& box, const BoundsDouble& other) {
+  return glm::all(glm::lessThanEqual(box.minimum, other.minimum)) &&
+         glm::all(glm::greaterThanEqual(box.maximum, other.maximum));
+}
+
+BoundsDouble transformed(const BoundsDouble& box, const Transform& transform) {
+  BoundsDouble result;
+  for (unsigned i = 0; i < 8; ++i) {
+    const glm::vec3 corner((i & 1u) != 0 ? box.maximum.x : box.minimum.x,
+                           (i & 2u) != 0 ? box.maximum.y : box.minimum.y,
+                           (i & 4u) != 0 ? box.maximum.z : box.minimum.z);
+    result.include(transform.positionOf(corner));
+  }
+  return result;
+}
+
+/// The space of a shared mesh: its middle is the origin, and no coordinate is above 1. Sizes are powers of
+/// two, so that only the move rounds.
+LocalSpace spaceOf(const std::vector<MeshPrimitive>& mesh) {
+  std::vector<glm::vec3> points;
+  for (const MeshPrimitive& primitive : mesh) appendUsed(primitive, points);
+  BoundsDouble box;
+  for (const glm::vec3& point : points) box.include(glm::dvec3(point));
+  const glm::dvec3 half = 0.5 * box.extent();
+  int exponent = 0;
+  std::frexp(std::max({half.x, half.y, half.z}), &exponent);
+  return {box.center(), std::ldexp(1.0, exponent)};
+}
+
+void appendShared(const MeshToShare& shared, Scene& scene) {
+  const LocalSpace space = spaceOf(*shared.mesh);
+  const auto mesh = uint32_t(scene.sharedMeshes.size());
+  const auto firstTriangle = uint32_t(scene.triangles.size());
+  for (const MeshPrimitive& primitive : *shared.mesh) {
+    if (primitive.triangles.empty()) continue;
+    PrimitiveInstance own;
+    own.primitive = &primitive;
+    own.mesh = shared.name;
+    appendPrimitive(own, space, scene);
+  }
+  scene.sharedMeshes.push_back({firstTriangle, uint32_t(scene.triangles.size()) - firstTriangle});
+  for (const MeshToShare::Place& place : shared.places) {
+    const glm::dmat3 linear = glm::dmat3(place.world) * (space.unit / scene.space.unit);
+    const glm::dvec3 middle(place.world * glm::dvec4(space.origin, 1.0));
+    glm::dmat4 toLocal(linear);
+    toLocal[3] = glm::dvec4(scene.space.localOf(middle), 1.0);
+    scene.instances.push_back({toLocal, mesh, place.node});
+  }
+}
+
 }  // namespace
 
-BoundsDouble boundsOf(std::span<const PrimitiveInstance> instances) {
+BoundsDouble boundsOf(std::span<const PrimitiveInstance> instances, std::span<const MeshToShare> shared) {
   BoundsDouble bounds;
   for (const PrimitiveInstance& instance : instances) {
     Placement placement(instance);
@@ -134,38 +228,35 @@ BoundsDouble boundsOf(std::span<const PrimitiveInstance> instances) {
       }
     }
   }
+  for (const MeshToShare& mesh : shared) {
+    std::vector<glm::vec3> points;
+    for (const MeshPrimitive& primitive : *mesh.mesh) appendUsed(primitive, points);
+    BoundsDouble box;
+    for (const glm::vec3& point : points) box.include(glm::dvec3(point));
+    for (const MeshToShare::Place& place : mesh.places) {
+      const Transform transform(place.world);
+      // Most instances lie between others; only the outer ones are looked at closely.
+      if (contains(bounds, transformed(box, transform))) continue;
+      for (const glm::vec3& point : points) bounds.include(transform.positionOf(point));
+    }
+  }
   return bounds;
 }
 
-void flatten(std::span<const PrimitiveInstance> instances, Scene& scene) {
-  size_t vertexCount = 0;
-  size_t triangleCount = 0;
-  for (const PrimitiveInstance& instance : instances) {
-    vertexCount += instance.primitive->vertices.position.size();
-    triangleCount += instance.primitive->triangles.size();
+void flatten(std::span<const PrimitiveInstance> instances, std::span<const MeshToShare> shared,
+             Scene& scene) {
+  std::vector<const MeshPrimitive*> primitives;
+  primitives.reserve(instances.size());
+  for (const PrimitiveInstance& instance : instances) primitives.push_back(instance.primitive);
+  size_t places = 0;
+  for (const MeshToShare& mesh : shared) {
+    for (const MeshPrimitive& primitive : *mesh.mesh) primitives.push_back(&primitive);
+    places += mesh.places.size();
   }
-  scene.triangles.reserve(triangleCount);
-  scene.vertices.position.reserve(vertexCount);
-  reserveIfUsed(instances, vertexCount, &Vertices::normal, scene.vertices);
-  reserveIfUsed(instances, vertexCount, &Vertices::tangent, scene.vertices);
-  reserveIfUsed(instances, vertexCount, &Vertices::texcoord0, scene.vertices);
-  reserveIfUsed(instances, vertexCount, &Vertices::texcoord1, scene.vertices);
-  reserveIfUsed(instances, vertexCount, &Vertices::color, scene.vertices);
-
-  for (const PrimitiveInstance& instance : instances) {
-    Placement placement(instance);
-    const auto firstVertex = uint32_t(scene.vertices.position.size());
-    const auto firstTriangle = uint32_t(scene.triangles.size());
-    appendVertices(instance.primitive->vertices, placement, scene.space, scene.vertices);
-    for (Triangle triangle : instance.primitive->triangles) {
-      const bool mirrors = placement.of(triangle.vertex.x).mirrors;
-      triangle.vertex += glm::uvec3(firstVertex);
-      if (mirrors) std::swap(triangle.vertex.y, triangle.vertex.z);
-      scene.triangles.push_back(triangle);
-    }
-    scene.origins.push_back(
-        {instance.node, instance.mesh, firstTriangle, uint32_t(instance.primitive->triangles.size())});
-  }
+  reserveAll(primitives, scene);
+  for (const PrimitiveInstance& instance : instances) appendPrimitive(instance, scene.space, scene);
+  scene.instances.reserve(places);
+  for (const MeshToShare& mesh : shared) appendShared(mesh, scene);
 }
 
 }  // namespace fragtrace

@@ -12,10 +12,31 @@
 #include "gltf/meshes.h"
 #include "gltf/nodes.h"
 #include "gltf/placed.h"
+#include "gltf/sharing.h"
 #include "scene/camera.h"
 
 namespace fragtrace {
 namespace {
+
+/// Refuses what 32-bit indices or the memory limit do not allow.
+void takeMeshes(Document& document, const PlacedMeshes& placed) {
+  size_t vertexCount = 0;
+  size_t triangleCount = 0;
+  const auto count = [&](const MeshPrimitive& primitive) {
+    vertexCount += primitive.vertices.position.size();
+    triangleCount += primitive.triangles.size();
+  };
+  for (const PrimitiveInstance& instance : placed.flat) count(*instance.primitive);
+  for (const MeshToShare& shared : placed.shared) {
+    for (const MeshPrimitive& primitive : *shared.mesh) count(primitive);
+  }
+  if (std::max(vertexCount, triangleCount) >= kMissIndex) {
+    document.diagnostics.refuse("", std::to_string(triangleCount) + " triangles with " +
+                                        std::to_string(vertexCount) +
+                                        " vertices are too many for 32-bit indices");
+  }
+  takeMemory(document, "", placed.bytes);
+}
 
 BoundsDouble boundsOf(const std::vector<PlacedSphere>& spheres) {
   BoundsDouble bounds;
@@ -80,7 +101,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
 
   // What nodes place, in world space.
   const std::vector<PlacedNode> nodes = placeNodes(document);
-  const ShownMeshes shown = showMeshes(document, scene.materials, nodes);
+  ShownMeshes shown = showMeshes(document, scene.materials, nodes);
   document.model.buffers.clear();
   std::vector<PlacedSphere> spheres;
   for (const PlacedNode& node : nodes) {
@@ -89,10 +110,14 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   }
 
   // Local space.
-  scene.bounds = boundsOf(shown.instances);
+  const PlacedMeshes meshes =
+      chooseSharing(std::move(shown.instances), options.instancing, scene.materials, document.memory.left());
+  takeMeshes(document, meshes);
+  scene.sharing = meshes.reason;
+  scene.bounds = boundsOf(meshes.flat, meshes.shared);
   scene.bounds.include(boundsOf(spheres));
   recentre(options, document.diagnostics, scene);
-  flatten(shown.instances, scene);
+  flatten(meshes.flat, meshes.shared, scene);
   for (const PlacedSphere& sphere : spheres) {
     scene.spheres.push_back({glm::vec3(scene.space.localOf(sphere.center)),
                              float(sphere.radius / scene.space.unit), glm::quat(sphere.rotation),

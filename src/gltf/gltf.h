@@ -15,6 +15,7 @@ struct GltfOptions {
   std::optional<glm::dvec3> cameraPosition{};  ///< else the origin is chosen for a camera there,
   int cameraIndex = 0;                         ///< or for this one of the file: see recentringPoint()
   SceneSelection selection{};
+  Instancing instancing = Instancing::Flatten;
   InputLimits limits{};
 };
 

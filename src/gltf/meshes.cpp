@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/meshes.h"
 
-#include <algorithm>
+#include "gltf/instancing.h"
 
 namespace fragtrace {
 namespace {
@@ -29,8 +29,6 @@ ShownMeshes showMeshes(Document& document, const std::vector<Material>& material
   ShownMeshes shown;
   std::vector<const PlacedNode*> placed;
   if (!document.skins.empty()) placed = byIndex(document, nodes);
-  size_t vertexCount = 0;
-  size_t triangleCount = 0;
   for (const PlacedNode& node : nodes) {
     const tinygltf::Node& source = document.model.nodes.at(size_t(node.index));
     if (source.mesh < 0) continue;
@@ -45,25 +43,20 @@ ShownMeshes showMeshes(Document& document, const std::vector<Material>& material
       if (isFirst) matrices->second = jointMatrices(document, node.index, placed);
       joints = matrices->second;
     }
-    for (const MeshPrimitive& primitive : entry->second) {
-      if (primitive.triangles.empty()) continue;
-      shown.instances.push_back({&primitive, node.world, joints,
-                                 nameOrPlace(source.name, "nodes", node.index),
-                                 nameOrPlace(mesh.name, "meshes", source.mesh)});
-      vertexCount += primitive.vertices.position.size();
-      triangleCount += primitive.triangles.size();
+    const std::string nodeName = nameOrPlace(source.name, "nodes", node.index);
+    const std::string meshName = nameOrPlace(mesh.name, "meshes", source.mesh);
+    const std::vector<glm::dmat4> places = placesOfMesh(document, node);
+    takeMemory(document, pointerTo("nodes", node.index),
+               places.size() * entry->second.size() *
+                   (sizeof(PrimitiveInstance) + nodeName.size() + meshName.size()));
+    const std::vector<MeshPrimitive>* whole = joints.empty() ? &entry->second : nullptr;
+    for (const glm::dmat4& world : places) {
+      for (const MeshPrimitive& primitive : entry->second) {
+        if (!primitive.triangles.empty())
+          shown.instances.push_back({&primitive, world, joints, nodeName, meshName, whole});
+      }
     }
   }
-  if (std::max(vertexCount, triangleCount) >= kMissIndex) {
-    document.diagnostics.refuse("", std::to_string(triangleCount) + " triangles with " +
-                                        std::to_string(vertexCount) +
-                                        " vertices are too many for 32-bit indices");
-  }
-  // The scene's own copy, the tree over it, and what is packed for the device, which are not all there at
-  // once.
-  constexpr uint64_t kBytesOfAVertex = 100;
-  constexpr uint64_t kBytesOfATriangle = 150;
-  takeMemory(document, "", vertexCount * kBytesOfAVertex + triangleCount * kBytesOfATriangle);
   return shown;
 }
 

@@ -41,6 +41,7 @@ constexpr Home kHomes[] = {
     {"KHR_texture_transform", {kTextureInfo, kTextureInfo}},
     {"KHR_node_visibility", {"/nodes/*", "/nodes/*"}},
     {"KHR_animation_pointer", {"/animations/*/channels/*/target", "/animations/*/channels/*/target"}},
+    {"EXT_mesh_gpu_instancing", {"/nodes/*", "/nodes/*"}},
     {"EXT_texture_webp", {"/textures/*", "/textures/*"}},
     {"KHR_draco_mesh_compression", {"/meshes/*/primitives/*", "/meshes/*/primitives/*"}},
     {"EXT_meshopt_compression", {"/buffers/*", "/bufferViews/*"}},

@@ -89,6 +89,7 @@ std::string whyNoLiterals(const Scene& scene, const GpuScene& packed) {
   };
   if (!scene.spheres.empty()) return "the scene has spheres";
   if (scene.triangles.empty()) return "the scene has no triangle";
+  if (!scene.instances.empty()) return "the scene shares meshes";
   std::string reason = tooMany(scene.triangles.size(), kMostTriangles, "triangles");
   if (reason.empty()) reason = tooMany(scene.materials.size(), kMostMaterials, "materials");
   if (reason.empty()) reason = tooMany(packed.emitterCount, kMostEmitters, "emitters");

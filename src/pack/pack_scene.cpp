@@ -5,6 +5,7 @@
 #include "pack/ggx_energy.h"
 #include "pack/gpu_scene.h"
 #include "pack/pack_faces.h"
+#include "pack/pack_instances.h"
 #include "pack/pack_lights.h"
 #include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
@@ -148,6 +149,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   packed.leafCount = uint32_t(bvh.leaves.size());
   const double radius = 0.5f * glm::length(bvh.bounds.extent());
   packed.buffers[kNodesBinding] = packNodes(bvh, packed.grid);
+  if (!scene.instances.empty()) appendInstances(scene, bvh, packed.buffers[kNodesBinding]);
   packed.buffers[kLeavesBinding] = packLeaves(scene, bvh);
   packed.buffers[kFacesBinding] = packFaces(scene, bvh);
   packAttributes(scene.vertices, traits, packed);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pack/pack_instances.h"
 #include "pack/words.h"
 
 namespace fragtrace {
@@ -29,8 +30,23 @@ GridBox quantise(const Bounds& box, const BoxGrid& grid) {
   return q;
 }
 
-/// Inner nodes keep their index; leaves become the complement of theirs, which is negative.
-uint32_t childWord(uint32_t child) { return (child & kBvhLeafBit) != 0 ? ~(child & ~kBvhLeafBit) : child; }
+/// Inner nodes keep their index; leaves become the complement of theirs, which is negative; instances are
+/// leaves from kInstanceLeaf on.
+uint32_t childWord(uint32_t child, uint32_t firstInstance) {
+  if ((child & kBvhLeafBit) == 0) return child;
+  if ((child & kBvhInstanceBit) == 0) return ~(child & ~kBvhLeafBit);
+  return ~((child & ~(kBvhLeafBit | kBvhInstanceBit)) + firstInstance + layout::kInstanceLeaf);
+}
+
+void appendNodes(std::span<const BvhNode> nodes, const BoxGrid& grid, uint32_t firstInstance, Words& words) {
+  for (const BvhNode& node : nodes) {
+    for (int side = 0; side < 2; ++side) {
+      const GridBox q = quantise(node.bounds[side], grid);
+      for (int axis = 0; axis < 3; ++axis) words.push_back(q.low[axis] | q.high[axis] << 16);
+      words.push_back(childWord(node.child[side], firstInstance));
+    }
+  }
+}
 
 uint32_t triangleFlags(const Material& m) {
   uint32_t flags = 0;
@@ -90,14 +106,12 @@ BoxGrid makeGrid(const Bounds& bounds) {
 
 Words packNodes(const Bvh& bvh, const BoxGrid& grid) {
   Words words;
-  words.reserve(bvh.nodes.size() * 8);
-  for (const BvhNode& node : bvh.nodes) {
-    for (int side = 0; side < 2; ++side) {
-      const GridBox q = quantise(node.bounds[side], grid);
-      for (int axis = 0; axis < 3; ++axis) words.push_back(q.low[axis] | q.high[axis] << 16);
-      words.push_back(childWord(node.child[side]));
-    }
-  }
+  words.reserve(bvh.nodes.size() * layout::kNodeRows * 4);
+  const std::span<const BvhNode> nodes(bvh.nodes);
+  const uint32_t firstInstance = firstInstanceBlock(bvh);
+  appendNodes(nodes.first(topNodeCount(bvh)), grid, firstInstance, words);
+  for (const BvhMesh& mesh : bvh.meshes)
+    appendNodes(nodes.subspan(mesh.root, mesh.nodeCount), makeGrid(mesh.bounds), firstInstance, words);
   return words;
 }
 

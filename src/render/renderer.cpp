@@ -98,8 +98,9 @@ void Renderer::setFrame(const Film& film, const View& view) {
 void Renderer::bindPathStates() {
   if (pathStates_.name() == 0) {
     pathStates_ = makeBuffer();
-    glNamedBufferStorage(pathStates_.name(), GLsizeiptr(kMaxTilePixels) * layout::kPathStateRows * 16,
-                         nullptr, 0);
+    const bool twoLevels = has(variant_.traits, Trait::Instances);
+    const uint32_t rows = twoLevels ? layout::kTwoLevelPathStateRows : layout::kPathStateRows;
+    glNamedBufferStorage(pathStates_.name(), GLsizeiptr(kMaxTilePixels) * rows * 16, nullptr, 0);
   }
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kPathStatesBinding, pathStates_.name());
   checkGl("making room for suspended paths");

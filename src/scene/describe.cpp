@@ -10,7 +10,24 @@ SceneDescription describe(const Scene& scene) {
   result.triangles = scene.triangles.size();
   result.vertices = scene.vertices.position.size();
   result.spheres = scene.spheres.size();
-  result.instances = scene.origins.size();
+  result.sharedMeshes = scene.sharedMeshes.size();
+  result.sharedInstances = scene.instances.size();
+  result.sharing = scene.sharing;
+  std::vector<size_t> primitives(scene.sharedMeshes.size(), 0);
+  for (const PrimitiveOrigin& origin : scene.origins) {
+    if (origin.firstTriangle < flatTriangleCount(scene)) {
+      ++result.instances;
+      continue;
+    }
+    const auto after =
+        std::ranges::upper_bound(scene.sharedMeshes, origin.firstTriangle, {}, &SharedMesh::firstTriangle);
+    ++primitives[size_t(after - scene.sharedMeshes.begin()) - 1];
+  }
+  result.trianglesDrawn = flatTriangleCount(scene);
+  for (const Instance& instance : scene.instances) {
+    result.instances += primitives[instance.mesh];
+    result.trianglesDrawn += scene.sharedMeshes[instance.mesh].triangleCount;
+  }
   result.materials = scene.materials.size();
   result.textures = scene.textures.size();
   result.images = scene.images.size();

@@ -17,6 +17,10 @@ struct SceneDescription {
   size_t vertices = 0;
   size_t spheres = 0;
   size_t instances = 0;  ///< mesh primitives, counted once for each node that shows them
+  size_t sharedMeshes = 0;
+  size_t sharedInstances = 0;  ///< of shared meshes
+  size_t trianglesDrawn = 0;   ///< those of shared meshes counted for each instance
+  std::string sharing;         ///< why meshes are shared, or are not
   size_t materials = 0;
   size_t textures = 0;
   size_t images = 0;

@@ -9,6 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "math/bounds.h"
@@ -174,7 +175,26 @@ struct Camera {
   double aspectRatio = 0.0;            ///< width / height; 0: not given
 };
 
-/// Where triangles came from: one entry a (node, mesh primitive), in order of firstTriangle.
+/// How the triangles of meshes that stand in the scene several times are kept: Auto shares them where that
+/// saves much memory.
+enum class Instancing : uint8_t { Auto, Flatten, Share };
+inline constexpr std::array<std::string_view, 3> kInstancingNames{"auto", "flatten", "share"};
+
+/// Triangles that instances show, in a space of their own: recentred, with coordinates of at most 1.
+struct SharedMesh {
+  uint32_t firstTriangle = 0;
+  uint32_t triangleCount = 0;
+};
+
+/// A shared mesh as a node places it.
+struct Instance {
+  glm::dmat4 toLocal{1.0};  ///< from the mesh's space into local space: affine, invertible
+  uint32_t mesh = 0;        ///< index into Scene::sharedMeshes
+  std::string node{};       ///< as in PrimitiveOrigin
+};
+
+/// Where triangles came from: one entry a (node, mesh primitive), in order of firstTriangle. Those of shared
+/// meshes have no node.
 struct PrimitiveOrigin {
   std::string node;
   std::string mesh;
@@ -204,6 +224,9 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Camera> cameras;  ///< in the order of the scene's node traversal; positions in world space
   std::vector<PrimitiveOrigin> origins;
+  std::vector<SharedMesh> sharedMeshes;  ///< their triangles and vertices stand behind all others
+  std::vector<Instance> instances;
+  std::string sharing;  ///< why meshes are shared or are not, in a few words
   std::vector<std::string> extensionsUsed;
   std::vector<std::string> sceneNames;  ///< of all that SceneSelection may name; "" where one has no name
   std::vector<std::string> animationNames;
@@ -211,5 +234,10 @@ struct Scene {
   std::vector<std::string> warnings;  ///< one line each, for stderr; names the file and the place
   BoundsDouble bounds;                ///< world space
 };
+
+/// Triangles in local space: all that no instance shows.
+inline uint32_t flatTriangleCount(const Scene& scene) {
+  return scene.sharedMeshes.empty() ? uint32_t(scene.triangles.size()) : scene.sharedMeshes[0].firstTriangle;
+}
 
 }  // namespace fragtrace

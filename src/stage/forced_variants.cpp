@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "stage/forced_variants.h"
 
+#include <algorithm>
+
 namespace fragtrace {
 
 namespace {
@@ -108,7 +110,7 @@ std::vector<ForcedVariant> forcedVariants(const RenderOptions& options, const Tr
   add("all traits", chosenWith(all));
   forced.back().otherSamples = true;
   ShaderVariant deep = own;
-  deep.stackSize = 32;
+  deep.stackSize = std::max(own.stackSize, 32);
   add("stack-32", deep);
   ShaderVariant resumable = own;
   resumable.resumable = true;

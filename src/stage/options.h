@@ -15,6 +15,7 @@
 #include "image/tone_map.h"
 #include "scene/camera.h"
 #include "scene/selection.h"
+#include "scene/scene.h"
 #include "stage/feature.h"
 #include "stage/stage.h"
 
@@ -66,6 +67,7 @@ struct RenderOptions {
   ToneMap toneMap = ToneMap::Neutral;
   PixelFilter pixelFilter = PixelFilter::Box;
   TraversalMethod traversal = TraversalMethod::Auto;
+  Instancing instancing = Instancing::Auto;
   Backend backend = Backend::Auto;
   BufferReads bufferReads = BufferReads::Auto;
   Dispatch dispatch = Dispatch::Auto;

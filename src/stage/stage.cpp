@@ -36,6 +36,7 @@ std::span<const TraitRow> traitRows() {
       {Trait::PunctualLights, "punctual-lights", "kPunctualLights", "no punctual light"},
       {Trait::Environment, "environment", "kEnvironment", "no environment"},
       {Trait::EnvironmentSampling, "environment-sampling", "kEnvironmentSampling", "no environment map"},
+      {Trait::Instances, "instances", "kInstances", "no mesh that is shared"},
   }};
   return rows;
 }

@@ -40,6 +40,7 @@ enum class Trait : uint8_t {
   PunctualLights,
   Environment,
   EnvironmentSampling,
+  Instances,
   Count
 };
 using TraitSet = std::bitset<size_t(Trait::Count)>;

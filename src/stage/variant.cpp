@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "bvh/bvh.h"
+
 namespace fragtrace {
 
 namespace {
@@ -102,6 +104,7 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings) {
   mark(Trait::PunctualLights, !scene.lights.empty());
   mark(Trait::Environment, surroundings != Surroundings::None);
   mark(Trait::EnvironmentSampling, surroundings != Surroundings::None);
+  mark(Trait::Instances, !scene.instances.empty());
   return traits;
 }
 
@@ -205,7 +208,8 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   const bool named =
       options.traversal != TraversalMethod::Auto && options.traversal != TraversalMethod::Literals;
   v.traversal = named ? options.traversal : TraversalMethod::FrontToBack;
-  v.stackSize = 32;
+  if (v.traversal == TraversalMethod::Iterative) without(Trait::Instances);
+  v.stackSize = treeDepth <= kMaxBvhDepth ? int(kMaxBvhDepth) : int(kMaxTwoLevelDepth);
   for (int size : {24, 20, 16, 12, 8}) {
     if (treeDepth <= uint32_t(size)) v.stackSize = size;
   }

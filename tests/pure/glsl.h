@@ -32,6 +32,7 @@ inline bool kWeights = true;
 inline bool kWatertight = true;
 inline bool kSobol = true;
 inline bool kVertexNormals = false;
+inline bool kInstances = false;
 inline int kStackSize = 32;
 
 inline std::span<const uint32_t> nodes;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "bvh/bvh.h"
 #include "errors.h"
 #include "shader/assemble.h"
 #include "shader/embedded.h"
@@ -81,7 +82,7 @@ TEST(Variant, ReducingAVariantTwiceChangesNothing) {
 }
 
 TEST(Variant, TheStackIsAtLeastTheDepthOfTheTree) {
-  for (uint32_t depth = 0; depth <= 32; ++depth) {
+  for (uint32_t depth = 0; depth <= kMaxTwoLevelDepth; ++depth) {
     const ShaderVariant v = chooseVariant({}, allTraits(), Surroundings::None, depth, BufferReads::Image);
     EXPECT_GE(uint32_t(v.stackSize), depth);
   }

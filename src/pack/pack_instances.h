@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "pack/gpu_scene.h"
+
+namespace fragtrace {
+
+/// How an offset that keeps a ray off its triangle in the mesh's space grows to one in local space:
+/// scale * that + base (docs/accuracy.md).
+struct InstanceOffset {
+  double scale = 1.0;
+  double base = 0.0;
+};
+
+/// toMesh: what shaders use as the inverse of toLocal's linear part; both rounded to floats.
+InstanceOffset instanceOffset(const glm::dmat3& toLocal, const glm::dmat3& toMesh, const glm::dvec3& place);
+
+/// The number by which shaders know the first instance: its rows stand behind the nodes, in blocks
+/// (layout.glsl).
+uint32_t firstInstanceBlock(const Bvh& bvh);
+
+/// Appends the instances to the packed nodes.
+void appendInstances(const Scene& scene, const Bvh& bvh, Words& nodes);
+
+}  // namespace fragtrace

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+// Two levels: the double-precision tracer against every triangle of every instance, the shader against it,
+// and rays that leave an instance.
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "bvh/exact_tracer.h"
+#include "bvh/two_level.h"
+#include "pack/pack_faces.h"
+#include "pack/pack_instances.h"
+#include "shader_scenes.h"
+
+namespace fragtrace {
+namespace {
+
+using glm::dmat4;
+
+/// What instances look like: turned at random, scaled within these factors, each axis for itself, or
+/// mirrored.
+struct Look {
+  double scaleFrom = 0.05;
+  double scaleTo = 0.3;
+  bool uneven = false;
+};
+
+dmat4 randomPlace(Draw& draw, const Look& look, double spread) {
+  dmat4 place = glm::translate(dmat4(1.0), spread * draw.inCube(1.0));
+  const dvec3 axis = draw.direction();
+  place = glm::rotate(place, draw.between(0.0, 6.28), axis);
+  const double size = draw.between(look.scaleFrom, look.scaleTo);
+  dvec3 scale(size);
+  if (look.uneven) {
+    scale *= dvec3(draw.between(0.2, 1.0), draw.between(0.2, 1.0), 1.0);
+    if (draw.integer(0, 1) == 1) scale.x = -scale.x;
+  }
+  return glm::scale(place, scale);
+}
+
+void addShared(Scene& scene, const std::vector<Corners>& triangles, uint32_t material) {
+  scene.sharedMeshes.push_back({uint32_t(scene.triangles.size()), uint32_t(triangles.size())});
+  for (const Corners& corners : triangles) {
+    const auto first = uint32_t(scene.vertices.position.size());
+    for (const vec3& corner : corners) scene.vertices.position.push_back(0.5f * corner);  // at most 1
+    scene.triangles.push_back({{first, first + 1, first + 2}, material});
+  }
+}
+
+PackedTree packInstances(Scene scene) {
+  const Bvh bvh = buildSceneBvh(scene);
+  PackedTree packed = packTreeOf(std::move(scene), &bvh);
+  appendInstances(packed.scene, packed.bvh, packed.nodes);
+  return packed;
+}
+
+/// Two shared meshes, one of them closed, in so many instances, among triangles and spheres.
+PackedTree instancedScene(const Look& look, int count, double spread = 1.0) {
+  Draw draw(41);
+  Scene scene = packTree(randomTriangles(60, 0.2f), randomSpheres(10, 0), true).scene;
+  addShared(scene, closedMesh(), 1);
+  addShared(scene, randomTriangles(7, 0.5f), 0);
+  for (int i = 0; i < count; ++i)
+    scene.instances.push_back({randomPlace(draw, look, spread), uint32_t(i % 2), ""});
+  return packInstances(std::move(scene));
+}
+
+const std::array<Look, 3> kLooks{Look{}, Look{.uneven = true}, Look{.scaleFrom = 1e-3, .scaleTo = 2.0}};
+
+/// Towards instances from anywhere, and anywhere.
+std::vector<Ray> raysAtInstances(const PackedTree& p, size_t count) {
+  Draw draw(43);
+  std::vector<Ray> rays(count);
+  for (size_t i = 0; i < count; ++i) {
+    const Instance& target = p.scene.instances[draw.engine() % p.scene.instances.size()];
+    const dvec3 aim(target.toLocal * glm::dvec4(draw.inCube(0.6), 1.0));
+    rays[i].origin = vec3(draw.inCube(i % 5 == 0 ? 30.0 : 1.5));
+    rays[i].direction = vec3(i % 3 == 0 ? draw.direction() : glm::normalize(aim - dvec3(rays[i].origin)));
+    rays[i].limit = 1e30f;
+  }
+  return rays;
+}
+
+TEST(ShaderInstances, TheExactTracerFindsWhatTryingEveryTriangleOfEveryInstanceFinds) {
+  for (const Look& look : kLooks) {
+    const PackedTree p = instancedScene(look, 40);
+    const ExactTracer tracer(p.scene, p.bvh);
+    size_t shown = 0;
+    for (const Ray& ray : raysAtInstances(p, 300)) {
+      const ExactHit expected = tracer.nearestOfAll(ray);
+      const ExactHit found = tracer.nearest(ray);
+      ASSERT_EQ(found.t, expected.t);
+      ASSERT_EQ(found.instance, expected.instance);
+      ASSERT_EQ(found.primitive, expected.primitive);
+      shown += found.instance != kMissIndex ? 1 : 0;
+    }
+    EXPECT_GT(shown, 60u);
+  }
+}
+
+TEST(ShaderInstances, DoubleFindsWhatTheExactTracerFinds) {
+  const With instances(glsl_variant::kInstances, true);
+  const With stack(glsl_variant::kStackSize, int(kMaxTwoLevelDepth));
+  for (const Look& look : kLooks) {
+    const PackedTree p = instancedScene(look, 40);
+    const ExactTracer tracer(p.scene, p.bvh);
+    size_t wrong = 0;
+    for (const Ray& ray : raysAtInstances(p, 4000)) {
+      const ExactHit expected = tracer.nearest(ray);
+      for (const Method method : {Method::Bvh, Method::FrontToBack}) {
+        const Outcome found = traceDouble(p, method, ray);
+        // Matrices are rounded to floats when packed.
+        const bool same = std::abs(found.t - expected.t) <= 1e-5 * (1.0 + expected.t);
+        wrong += same && (found.slot >= 0) == (expected.primitive != kMissIndex) ? 0 : 1;
+      }
+    }
+    EXPECT_LE(wrong, 8u);  // outlines
+  }
+}
+
+TEST(ShaderInstances, FloatFindsWhatTheExactTracerFinds) {
+  const With instances(glsl_variant::kInstances, true);
+  const With stack(glsl_variant::kStackSize, int(kMaxTwoLevelDepth));
+  for (const Look& look : kLooks) {
+    const PackedTree p = instancedScene(look, 40);
+    const ExactTracer tracer(p.scene, p.bvh);
+    size_t wrong = 0;
+    for (const Ray& ray : raysAtInstances(p, 20000)) {
+      const ExactHit expected = tracer.nearest(ray);
+      const Outcome found = traceFloat(p, Method::FrontToBack, ray);
+      wrong += std::abs(found.t - expected.t) <= 3e-4 * (1.0 + expected.t) ? 0 : 1;
+    }
+    EXPECT_LE(wrong, 20u);
+  }
+}
+
+TEST(ShaderInstances, StopsAndGoesOnWithoutATrace) {
+  const With instances(glsl_variant::kInstances, true);
+  const With stack(glsl_variant::kStackSize, int(kMaxTwoLevelDepth));
+  const PackedTree p = instancedScene({.uneven = true}, 40);
+  for (const Ray& ray : raysAtInstances(p, 300)) {
+    for (const bool anyHit : {false, true}) {
+      const Outcome expected = traceFloat(p, Method::FrontToBack, ray, kFar, anyHit);
+      for (const int stepLimit : {1, 2, 3, 5, 17})
+        ASSERT_EQ(traceFloat(p, Method::FrontToBack, ray, kFar, anyHit, stepLimit), expected) << stepLimit;
+    }
+  }
+}
+
+TEST(ShaderInstances, TheStackHoldsTheWholePathThroughBothLevels) {
+  const With instances(glsl_variant::kInstances, true);
+  const PackedTree p = instancedScene({.scaleFrom = 0.5, .scaleTo = 1.0}, 200);
+  ASSERT_LE(p.bvh.depth, kMaxTwoLevelDepth);
+  const With deep(glsl_variant::kStackSize, int(kMaxTwoLevelDepth));
+  for (const Ray& ray : raysAtInstances(p, 1000)) {
+    const Outcome expected = traceFloat(p, Method::Bvh, ray);
+    for (const uint32_t size : kBvhStackSizes) {
+      if (size < p.bvh.depth) continue;
+      const With stack(glsl_variant::kStackSize, int(size));
+      ASSERT_EQ(traceFloat(p, Method::Bvh, ray), expected);
+    }
+  }
+}
+
+/// A point of a triangle's rim in local space.
+dvec3 pointOnRim(const Scene& scene, const Instance& instance, uint32_t triangle, Draw& draw) {
+  const glm::uvec3 v = scene.triangles[triangle].vertex;
+  const int corner = draw.integer(0, 2);
+  const double along = draw.integer(0, 2) == 0 ? 0.0 : draw.between(0.0, 1.0);
+  const dvec3 point = glm::mix(dvec3(scene.vertices.position[v[corner]]),
+                               dvec3(scene.vertices.position[v[(corner + 1) % 3]]), along);
+  return dvec3(instance.toLocal * glm::dvec4(point, 1.0));
+}
+
+TEST(ShaderInstances, NoRayLeavesAClosedMesh) {
+  const With instances(glsl_variant::kInstances, true);
+  const With stack(glsl_variant::kStackSize, int(kMaxTwoLevelDepth));
+  for (const Look& look : kLooks) {
+    for (const double spread : {0.0, 1.0, 1000.0}) {
+      Draw draw(47);
+      Scene scene;
+      scene.materials.resize(1);
+      scene.materials[0].doubleSided = true;
+      addShared(scene, closedMesh(), 0);
+      for (int i = 0; i < 20; ++i) scene.instances.push_back({randomPlace(draw, look, spread), 0, ""});
+      const PackedTree p = packInstances(std::move(scene));
+      for (int i = 0; i < 4000; ++i) {
+        const Instance& instance = p.scene.instances[size_t(draw.integer(0, 19))];
+        const auto triangle = uint32_t(draw.engine() % p.scene.triangles.size());
+        const dvec3 rim = pointOnRim(p.scene, instance, triangle, draw);
+        Ray ray;
+        ray.origin = vec3(dvec3(instance.toLocal[3]));
+        ray.direction = vec3(glm::normalize(rim - dvec3(ray.origin)));
+        ASSERT_GE(traceFloat(p, Method::FrontToBack, ray).slot, 0) << "spread " << spread;
+      }
+    }
+  }
+}
+
+/// As surfaceAt() of shaders/surface.glsl finds it.
+struct Point {
+  vec3 place;
+  vec3 normal;
+  float offset;
+};
+
+Point pointHit(const PackedTree& p, int slot, int instance, const Ray& ray, float t) {
+  const With nodes(glsl_variant::nodes, std::span<const uint32_t>(p.nodes));
+  const Words faces = packFaces(p.scene, p.bvh);
+  const uint32_t* face = faces.data() + size_t(slot) * layout::kFaceRows * 4;
+  const auto number = [&](int i) { return std::bit_cast<float>(face[i]); };
+  const vec3 plane(number(0), number(1), number(2));
+  const auto m = glsl_float::rayInMesh(instance, ray.origin, ray.direction);
+  const float longer = glm::length(m.direction);
+  const vec3 inside =
+      glsl_float::pointOnPlane(m.origin, m.direction / longer, (t - m.start) * longer, plane, number(4));
+  const auto space = glsl_float::loadInstanceSpace(instance);
+  const auto back = glsl_float::loadInstanceReturn(instance);
+  const float error = std::bit_cast<float>((face[3] >> layout::kFaceErrorShift) << layout::kFloatErrorShift);
+  return {glsl_float::timesRows(back.row0, back.row1, back.row2, inside) + space.place,
+          glm::normalize(glsl_float::normalOutOfMesh(space, plane)),
+          error * back.offsetScale + back.offsetBase};
+}
+
+TEST(ShaderInstances, ARayNeverHitsTheTriangleOfTheInstanceItLeaves) {
+  const With instances(glsl_variant::kInstances, true);
+  const With stack(glsl_variant::kStackSize, int(kMaxTwoLevelDepth));
+  for (const Look& look : kLooks) {
+    for (const double spread : {0.0, 3.0, 1000.0}) {
+      Draw draw(53);
+      size_t left = 0;
+      for (int i = 0; i < 40; ++i) {
+        // One triangle in one instance: whatever a ray that leaves it meets is that triangle again.
+        Scene scene;
+        scene.materials.resize(1);
+        scene.materials[0].doubleSided = true;
+        addShared(scene, {randomTriangles(40, 1.0f)[size_t(i)]}, 0);
+        scene.instances.push_back({randomPlace(draw, look, spread), 0, ""});
+        const PackedTree p = packInstances(std::move(scene));
+        const auto number = int(firstInstanceBlock(p.bvh));
+        for (int k = 0; k < 250; ++k) {
+          const Instance& instance = p.scene.instances[0];
+          const dvec3 aim = 0.9 * dvec3(pointOnRim(p.scene, instance, 0, draw)) +
+                            0.1 * dvec3(pointOnRim(p.scene, instance, 0, draw));
+          Ray ray;
+          ray.origin = vec3(dvec3(instance.toLocal[3]) + draw.between(0.2, 5.0) * draw.direction());
+          ray.direction = vec3(glm::normalize(aim - dvec3(ray.origin)));
+          const Outcome hit = traceFloat(p, Method::FrontToBack, ray);
+          if (hit.slot < 0) continue;
+          const Point point = pointHit(p, hit.slot, number, ray, float(hit.t));
+          // Half of them grazing.
+          dvec3 direction = draw.direction();
+          if (k % 2 == 0)
+            direction -= 0.99999 * glm::dot(direction, dvec3(point.normal)) * dvec3(point.normal);
+          Ray next;
+          next.direction = vec3(glm::normalize(direction));
+          next.origin = glsl_float::offsetOrigin(point.place, point.offset, point.normal, next.direction);
+          ++left;
+          ASSERT_LT(traceFloat(p, Method::FrontToBack, next).slot, 0)
+              << "spread " << spread << ", case " << i;
+        }
+      }
+      EXPECT_GT(left, 1000u);
+    }
+  }
+}
+
+TEST(ShaderInstances, TwoLevelsFitTheStackOrAreRefused) {
+  EXPECT_TRUE(fitsTwoLevels(10001, 10000));
+  EXPECT_TRUE(fitsTwoLevels(1000000, 100000));
+  EXPECT_TRUE(fitsTwoLevels(1, 1));
+  EXPECT_FALSE(fitsTwoLevels(uint64_t(1) << 24, uint64_t(1) << 22));
+  EXPECT_FALSE(fitsTwoLevels(uint64_t(1) << 31, 4));
+}
+
+}  // namespace
+}  // namespace fragtrace
