@@ -22,13 +22,24 @@ using nlohmann::json;
 using Buffers = std::vector<std::vector<uint8_t>>;
 
 /// KHR_mesh_quantization only widens the component types that attributes may have.
-constexpr std::array<std::string_view, 12> kKnownExtensions = {
-    "KHR_lights_punctual",        "KHR_materials_emissive_strength",
-    "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_transmission", "KHR_materials_volume",
-    "KHR_materials_specular",     "KHR_materials_unlit",
-    "KHR_implicit_shapes",        "KHR_mesh_quantization",
-    "KHR_texture_transform",      "EXT_texture_webp"};
+constexpr std::array<std::string_view, 18> kKnownExtensions = {"KHR_lights_punctual",
+                                                               "KHR_materials_anisotropy",
+                                                               "KHR_materials_clearcoat",
+                                                               "KHR_materials_diffuse_transmission",
+                                                               "KHR_materials_dispersion",
+                                                               "KHR_materials_emissive_strength",
+                                                               "KHR_materials_ior",
+                                                               "KHR_materials_iridescence",
+                                                               "KHR_materials_pbrSpecularGlossiness",
+                                                               "KHR_materials_sheen",
+                                                               "KHR_materials_transmission",
+                                                               "KHR_materials_volume",
+                                                               "KHR_materials_specular",
+                                                               "KHR_materials_unlit",
+                                                               "KHR_implicit_shapes",
+                                                               "KHR_mesh_quantization",
+                                                               "KHR_texture_transform",
+                                                               "EXT_texture_webp"};
 
 bool isKnownExtension(std::string_view name) {
   return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) != kKnownExtensions.end();

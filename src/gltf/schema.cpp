@@ -113,6 +113,26 @@ constexpr Rule kRules[] = {
     {"/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor", Kind::Numbers, nullptr, 4},
     {"/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/specularFactor", Kind::Numbers, nullptr, 3},
     {"/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor", Kind::Number},
+    {"/materials/*/extensions/KHR_materials_clearcoat", Kind::Object},
+    {"/materials/*/extensions/KHR_materials_clearcoat/clearcoatFactor", Kind::Number},
+    {"/materials/*/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", Kind::Number},
+    {"/materials/*/extensions/KHR_materials_sheen", Kind::Object},
+    {"/materials/*/extensions/KHR_materials_sheen/sheenColorFactor", Kind::Numbers, nullptr, 3},
+    {"/materials/*/extensions/KHR_materials_sheen/sheenRoughnessFactor", Kind::Number},
+    {"/materials/*/extensions/KHR_materials_anisotropy", Kind::Object},
+    {"/materials/*/extensions/KHR_materials_anisotropy/anisotropyStrength", Kind::Number},
+    {"/materials/*/extensions/KHR_materials_anisotropy/anisotropyRotation", Kind::Number},
+    {"/materials/*/extensions/KHR_materials_iridescence", Kind::Object},
+    {"/materials/*/extensions/KHR_materials_iridescence/iridescenceFactor", Kind::Number},
+    {"/materials/*/extensions/KHR_materials_iridescence/iridescenceIor", Kind::Number},
+    {"/materials/*/extensions/KHR_materials_iridescence/iridescenceThicknessMinimum", Kind::Number},
+    {"/materials/*/extensions/KHR_materials_iridescence/iridescenceThicknessMaximum", Kind::Number},
+    {"/materials/*/extensions/KHR_materials_diffuse_transmission", Kind::Object},
+    {"/materials/*/extensions/KHR_materials_diffuse_transmission/diffuseTransmissionFactor", Kind::Number},
+    {"/materials/*/extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorFactor",
+     Kind::Numbers, nullptr, 3},
+    {"/materials/*/extensions/KHR_materials_dispersion", Kind::Object},
+    {"/materials/*/extensions/KHR_materials_dispersion/dispersion", Kind::Number},
     {"/materials/*/extras/perlinNormal", Kind::Object},
     {"/materials/*/extras/perlinNormal/frequency", Kind::Number},
     {"/materials/*/extras/perlinNormal/amplitude", Kind::Number},
@@ -185,6 +205,16 @@ constexpr const char* kTextureSlots[] = {
     "/materials/*/extensions/KHR_materials_volume/thicknessTexture",
     "/materials/*/extensions/KHR_materials_specular/specularTexture",
     "/materials/*/extensions/KHR_materials_specular/specularColorTexture",
+    "/materials/*/extensions/KHR_materials_clearcoat/clearcoatTexture",
+    "/materials/*/extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
+    "/materials/*/extensions/KHR_materials_clearcoat/clearcoatNormalTexture",
+    "/materials/*/extensions/KHR_materials_sheen/sheenColorTexture",
+    "/materials/*/extensions/KHR_materials_sheen/sheenRoughnessTexture",
+    "/materials/*/extensions/KHR_materials_anisotropy/anisotropyTexture",
+    "/materials/*/extensions/KHR_materials_iridescence/iridescenceTexture",
+    "/materials/*/extensions/KHR_materials_iridescence/iridescenceThicknessTexture",
+    "/materials/*/extensions/KHR_materials_diffuse_transmission/diffuseTransmissionTexture",
+    "/materials/*/extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorTexture",
     "/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture",
     "/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture",
 };
@@ -329,6 +359,8 @@ void checkSchema(json& root, const Diagnostics& diagnostics) {
   }
   checker.apply({"/materials/*/normalTexture/scale", Kind::Number});
   checker.apply({"/materials/*/occlusionTexture/strength", Kind::Number});
+  checker.apply(
+      {"/materials/*/extensions/KHR_materials_clearcoat/clearcoatNormalTexture/scale", Kind::Number});
 }
 
 }  // namespace fragtrace

@@ -34,7 +34,7 @@ uint32_t childWord(uint32_t child) { return (child & kBvhLeafBit) != 0 ? ~(child
 
 uint32_t triangleFlags(const Material& m) {
   uint32_t flags = 0;
-  if (!m.doubleSided && !m.transmissive()) flags |= layout::kPrimitiveCull;
+  if (!m.doubleSided && !m.passesLight()) flags |= layout::kPrimitiveCull;
   if (m.alphaMode != AlphaMode::Opaque) flags |= layout::kPrimitiveAlpha;
   return flags;
 }
