@@ -107,8 +107,9 @@ const uint kMaterialMask = 1u;
 const uint kMaterialBlend = 2u;
 const uint kMaterialDoubleSided = 4u;
 const uint kMaterialUnlit = 8u;
+const uint kMaterialSpecularGlossiness = 16u;
 
-// Texture slot row: first texel, width | height << 16, flags.
+// Texture slot row: first texel, width | height << 16, flags, row of its transform among the materials or 0. A transform is two rows of a matrix.
 const uint kTexturePresent = 1u;
 const uint kTextureLinear = 2u;
 const uint kTextureTexcoord1 = 4u;

@@ -58,12 +58,22 @@ SurfaceMaterial materialAt(uint material, vec3 baseColor, vec4 texcoords) {
   }
   m.specular = 0.0;
   m.dielectricF0 = vec3(0.0);
-  if (kSpecular) {
-    vec4 specular = materialFloats(material, kMaterialSpecular);
+  vec4 specular = vec4(0.0);
+  float glossiness = 1.0;
+  if (kSpecular || kSpecularGlossiness) {
+    specular = materialFloats(material, kMaterialSpecular);
     if (kSpecularTexture) {
       specular.a *= sampleTexture(textureSlot(material, kSlotSpecular), texcoords).a;
-      specular.rgb *= sampleTexture(textureSlot(material, kSlotSpecularColor), texcoords).rgb;
+      vec4 texel = sampleTexture(textureSlot(material, kSlotSpecularColor), texcoords);
+      specular.rgb *= texel.rgb;
+      glossiness = texel.a;
     }
+  }
+  if (kSpecularGlossiness && (materialFlags(material) & kMaterialSpecularGlossiness) != 0u) {
+    m.baseColor *= 1.0 - maxComponent(specular.rgb);
+    m.roughness = 1.0 - (1.0 - m.roughness) * glossiness;
+  }
+  if (kSpecular) {
     float root = (m.ior - 1.0) / (m.ior + 1.0);
     m.dielectricF0 = min(root * root * specular.rgb, vec3(1.0)) * specular.a;
     m.specular = specular.a;

@@ -20,6 +20,11 @@ vec4 sampleTexture(uvec4 slot, vec4 texcoords) {
   uint flags = slot.z;
   if ((flags & kTexturePresent) == 0u) return vec4(1.0);
   vec2 uv = (flags & kTextureTexcoord1) != 0u ? texcoords.zw : texcoords.xy;
+  if (kTextureTransforms && slot.w != 0u) {
+    vec3 place = vec3(clamp(uv, -1e30, 1e30), 1.0);
+    int row = int(slot.w);
+    uv = vec2(dot(uintBitsToFloat(readMaterials(row)).xyz, place), dot(uintBitsToFloat(readMaterials(row + 1)).xyz, place));
+  }
   ivec2 size = ivec2(slot.y & 0xffffu, slot.y >> 16);
   bool linear = (flags & kTextureLinear) != 0u;
   bool clampU = (flags & kTextureClampU) != 0u;

@@ -11,6 +11,11 @@ struct RenderError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The driver has lost the OpenGL context with all that was in it: another one may work.
+struct ContextLost : RenderError {
+  using RenderError::RenderError;
+};
+
 /// The command line is wrong: exit status 2.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;

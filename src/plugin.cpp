@@ -4,15 +4,11 @@
 #include <dlfcn.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <system_error>
-#include <vector>
 
 namespace fragtrace {
 
-namespace {
-
-std::vector<std::filesystem::path> libraryFolders() {
+std::vector<std::filesystem::path> ownFolders() {
   std::vector<std::filesystem::path> folders;
   if (const char* folder = std::getenv("FRAGTRACE_LIBRARY_PATH")) folders.emplace_back(folder);
   std::error_code error;
@@ -21,11 +17,9 @@ std::vector<std::filesystem::path> libraryFolders() {
   return folders;
 }
 
-}  // namespace
-
 Plugin openPlugin(const char* library, const char* function) {
   std::string reason = "not found";
-  for (const auto& folder : libraryFolders()) {
+  for (const auto& folder : ownFolders()) {
     const auto path = folder / library;
     std::error_code error;
     if (!std::filesystem::exists(path, error)) {

@@ -3,17 +3,22 @@
 // nothing for the libraries that they bring.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace fragtrace {
+
+/// Where our own libraries and programs are looked for: the folder FRAGTRACE_LIBRARY_PATH, then that of the
+/// executable.
+std::vector<std::filesystem::path> ownFolders();
 
 struct Plugin {
   void* entry = nullptr;
   std::string error;  ///< why there is no entry
 };
 
-/// Opens the library, which is looked for in the folder FRAGTRACE_LIBRARY_PATH, then beside the executable,
-/// and finds the function of that name. It stays open.
+/// Opens the library, which is in one of these folders, and finds the function of that name. It stays open.
 Plugin openPlugin(const char* library, const char* function);
 
 }  // namespace fragtrace

@@ -17,7 +17,7 @@ constexpr const char* kDefaultSamples = "256";
 
 void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
   BenchErrorOptions& o = raw.options;
-  app.add_option("scene", raw.scene, ".gltf or .glb file")->required();
+  app.add_option("file", raw.scene, ".gltf or .glb file")->required();
   app.add_option(
       "--reference", o.reference,
       "picture to measure against; default: one of the first configuration with 64 times the samples");

@@ -10,7 +10,7 @@ namespace fragtrace {
 
 void addBenchTraversalOptions(CLI::App& app, RawBenchTraversal& raw) {
   BenchTraversalOptions& o = raw.options;
-  app.add_option("scene", raw.render.scene, ".gltf or .glb file")->required();
+  app.add_option("file", raw.render.scene, ".gltf or .glb file")->required();
   app.add_option("--resolution", raw.render.camera.resolution,
                  "WIDTH,HEIGHT of the field of rays, one a pixel")
       ->delimiter(',')

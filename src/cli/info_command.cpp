@@ -25,6 +25,15 @@ double gpuBytesPerTriangle(const Scene& scene, const Bvh& bvh, const TraitSet& t
   return double(packScene(scene, bvh, {}, variant).geometryBytes()) / double(scene.triangles.size());
 }
 
+/// The parts that options may name, by index where one has no name; nothing where there is none.
+void printParts(const char* what, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  std::string list;
+  for (size_t i = 0; i < names.size(); ++i)
+    list += (i == 0 ? "" : ", ") + (names[i].empty() ? std::to_string(i) : names[i]);
+  std::printf("  %-11s %s\n", what, list.c_str());
+}
+
 void printText(const std::filesystem::path& path, const SceneDescription& s, const BvhQuality& bvh,
                double bytesPerTriangle, const TraitSet& traits) {
   std::printf("%s\n", path.string().c_str());
@@ -71,6 +80,7 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
 int runInfo(const InfoOptions& options) {
   GltfOptions loading;
   loading.instancing = options.instancing;
+  loading.selection = options.selection;
   loading.limits = options.limits;
   const Scene scene = loadGltf(options.scene, loading);
   const SceneDescription description = describe(scene);
@@ -83,6 +93,9 @@ int runInfo(const InfoOptions& options) {
       scene.triangles.empty() ? 0.0 : gpuBytesPerTriangle(scene, tree, traits, surroundings);
   if (!options.json) {
     printText(options.scene, description, bvh, bytesPerTriangle, traits);
+    printParts("scenes", scene.sceneNames);
+    printParts("animations", scene.animationNames);
+    printParts("variants", scene.materialVariants);
     return 0;
   }
   nlohmann::ordered_json json;
@@ -101,6 +114,9 @@ int runInfo(const InfoOptions& options) {
   nlohmann::ordered_json materials = nlohmann::ordered_json::array();
   for (const Material& m : scene.materials) materials.push_back(m.name);
   json["material_names"] = materials;
+  json["scene_names"] = scene.sceneNames;
+  json["animation_names"] = scene.animationNames;
+  json["material_variants"] = scene.materialVariants;
   json["warnings"] = scene.warnings;
   std::cout << jsonText(json);
   return 0;

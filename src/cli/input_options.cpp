@@ -2,6 +2,7 @@
 #include "cli/input_options.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 namespace fragtrace {
 
@@ -16,6 +17,26 @@ void addInputOptions(CLI::App& app, InputLimits& limits) {
       ->check(CLI::Range(1, kLargestTextureSide));
   app.add_flag("--allow-external-files", limits.allowExternalFiles,
                "the scene may name files that are not in its folder");
+}
+
+void addSelectionOptions(CLI::App& app, SceneSelection& selection) {
+  // The library's ranges let NaN pass.
+  const CLI::Validator isTime(
+      [](const std::string& text) -> std::string {
+        double seconds = 0.0;
+        const bool isNumber = CLI::detail::lexical_cast(text, seconds);
+        return isNumber && std::isfinite(seconds) && seconds >= 0.0 ? "" : "is no finite number from 0 on";
+      },
+      "SECONDS");
+  app.add_option("--scene", selection.scene,
+                 "name or index of the file's scene; default: the file's own choice");
+  app.add_option("--animation-time", selection.animationTime,
+                 "seconds: the scene as it stands then in its animation; default: as the file stands")
+      ->check(isTime);
+  app.add_option("--animation", selection.animation,
+                 "name or index of the animation of --animation-time; default: the first");
+  app.add_option("--material-variant", selection.materialVariant,
+                 "name or index of the materials that are shown, of those that `info` lists");
 }
 
 }  // namespace fragtrace

@@ -39,7 +39,7 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   std::string outfile;
 
   CLI::App& render = *app.add_subcommand("render", "render a scene to a file");
-  render.add_option("scene", raw.scene, ".gltf or .glb file")->required();
+  render.add_option("file", raw.scene, ".gltf or .glb file")->required();
   render.add_option("-o,--output", raw.output,
                     "picture: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); required");
   addRenderOptions(render, raw);
@@ -49,10 +49,11 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   CLI::App& view = *app.add_subcommand("view", "show a scene in a window");
   addViewOptions(view, rawView);
   CLI::App& info = *app.add_subcommand("info", "say what is in a scene");
-  info.add_option("scene", infoScene, ".gltf or .glb file")->required();
+  info.add_option("file", infoScene, ".gltf or .glb file")->required();
   info.add_flag("--json", line.info.json, "as JSON");
   info.add_option("--instancing", infoInstancing, joined(kInstancingNames) + ": as render's")
       ->capture_default_str();
+  addSelectionOptions(info, line.info.selection);
   addInputOptions(info, line.info.limits);
   CLI::App& diff = *app.add_subcommand("diff", "compare a picture with a reference");
   diff.add_option("picture", picture)->required();

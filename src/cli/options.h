@@ -19,6 +19,7 @@ namespace fragtrace {
 
 struct InfoOptions {
   std::filesystem::path scene;
+  SceneSelection selection;
   InputLimits limits;
   Instancing instancing = Instancing::Auto;
   bool json = false;

@@ -219,6 +219,7 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
       ->capture_default_str();
   app.add_option("--dispatch", raw.dispatch, joined(kDispatchNames) + ": which shader stage runs the tracer")
       ->capture_default_str();
+  addSelectionOptions(app, o.selection);
   addInputOptions(app, o.limits);
   app.add_option("--stats", raw.statsFile, "JSON file for the statistics");
   app.add_option("--shader-folder", raw.shaderFolder,

@@ -138,6 +138,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   loading.cameraPosition = options.camera.position;
   loading.cameraIndex = options.cameraIndex.value_or(0);
   loading.instancing = walksTree(options) ? options.instancing : Instancing::Flatten;
+  loading.selection = options.selection;
   loading.limits = options.limits;
   loaded.scene = loadGltf(options.scene, loading);
   if (!loaded.scene.images.empty()) startImageProcess();

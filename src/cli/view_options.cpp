@@ -15,7 +15,7 @@ constexpr double kNoise = 0.005;
 }  // namespace
 
 void addViewOptions(CLI::App& app, RawView& raw) {
-  app.add_option("scene", raw.render.scene, ".gltf or .glb file")->required();
+  app.add_option("file", raw.render.scene, ".gltf or .glb file")->required();
   addRenderOptions(app, raw.render);
   const auto describe = [&](const char* name, const char* text) { app.get_option(name)->description(text); };
   describe("--spp", "camera paths a pixel at which the picture rests, default unlimited");

@@ -76,6 +76,8 @@ std::shared_ptr<ViewProgram> ViewPrograms::make(const RenderOptions& part) {
     Film tiny(glm::ivec2{kTinyFilm});
     program->tracer.renderer->setDrawTime(context_.software ? kSoftwareDrawMs : kHardwareDrawMs);
     program->tracer.renderer->compile(program->tracer.variant, tiny, loaded_.view);
+  } catch (const ContextLost&) {
+    throw;
   } catch (const RenderError& error) {
     fail(error);
   } catch (const UsageError& error) {

@@ -30,6 +30,7 @@ constexpr double kErrorStep = 1.2;    ///< from one estimate of the error to the
 constexpr size_t kFrames = 64;        ///< whose times are summarised
 constexpr double kLongWait = 3600.0;  ///< seconds
 constexpr double kWatchSeconds = 0.25;
+constexpr int kMostLosses = 3;  ///< of the context, without a picture between them
 
 double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -60,24 +61,47 @@ ViewTracer::ViewTracer(const ViewOptions& start, Exchange& exchange)
 void ViewTracer::run() {
   try {
     loader_.start(start_.render);
-    context_ = makeContext(start_.render.backend);
-    driverLog_ = std::make_unique<DebugLog>();
+    enterContext();
     bool working = false;
     for (;;) {
       Orders orders = exchange_.wait(working ? 0.0 : start_.watch ? kWatchSeconds : kLongWait);
       if (orders.quit) break;
-      obey(std::move(orders));
-      adoptScene();
-      watchFiles();
-      working = work();
+      try {
+        obey(std::move(orders));
+        adoptScene();
+        watchFiles();
+        if (loaded_ && sides_.empty() && !request_.sides.empty()) adopt(request_);
+        working = work();
+      } catch (const ContextLost& error) {
+        recover(error);
+        working = true;
+      }
       exchange_.tellState(request_.number, !working && !request_.moving);
       tellDriver();
     }
   } catch (...) {
     exchange_.fail(std::current_exception());
   }
-  // In the thread whose context it is.
   loader_.cancel();
+  leaveContext();
+}
+
+void ViewTracer::enterContext() {
+  context_ = makeContext(start_.render.backend);
+  driverLog_ = std::make_unique<DebugLog>();
+}
+
+/// What was in the context is made anew in another one.
+void ViewTracer::recover(const ContextLost& error) {
+  if (++losses_ > kMostLosses) throw error;
+  exchange_.tell(std::string(error.what()) + "; drawing anew");
+  leaveContext();
+  enterContext();
+  if (loaded_) programs_ = std::make_unique<ViewPrograms>(*context_, *loaded_, loadedOptions_);
+}
+
+/// In the thread whose context it is.
+void ViewTracer::leaveContext() {
   sides_.clear();
   programs_.reset();
   driverLog_.reset();
@@ -284,6 +308,7 @@ void ViewTracer::publish(Side& side) {
   s.variant = side.program->variant;
   s.deviceBytes = side.program->bytes + pixels.pixels.size() * 48;
   exchange_.deliver(std::move(picture));
+  losses_ = 0;
   if (totals.budgetHits > 0)
     exchange_.tellError("the driver ended loops early in " + std::to_string(totals.budgetHits) +
                         " pixels; the picture is wrong");

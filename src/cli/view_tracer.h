@@ -9,6 +9,7 @@
 #include "cli/view_loader.h"
 #include "cli/view_options.h"
 #include "cli/view_programs.h"
+#include "errors.h"
 #include "gl/debug_log.h"
 #include "view/exchange.h"
 #include "view/file_watch.h"
@@ -40,6 +41,9 @@ class ViewTracer {
     bool stale = true;  ///< what the film holds is another picture
   };
 
+  void enterContext();
+  void leaveContext();
+  void recover(const ContextLost& error);
   void obey(Orders orders);
   void adoptScene();
   void watchFiles();
@@ -70,6 +74,7 @@ class ViewTracer {
   std::vector<Side> sides_;
   ResolutionController resolution_;
   std::vector<SaveRequest> saves_;
+  int losses_ = 0;          ///< of the context since the latest publication
   double publishMs_ = 0.0;  ///< what the latest publication took
   std::chrono::steady_clock::time_point published_;
   FileWatch sceneFiles_;

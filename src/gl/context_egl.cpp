@@ -96,6 +96,23 @@ std::vector<Candidate> candidates(const EglFunctions& egl) {
   return hardware;
 }
 
+/// OpenGL 4.5 that says when it is lost, where the driver can tell.
+EGLContext createContext(const EglFunctions& egl, EGLDisplay display, EGLConfig config) {
+  std::vector<EGLint> wishes{EGL_CONTEXT_MAJOR_VERSION,       4,
+                             EGL_CONTEXT_MINOR_VERSION,       5,
+                             EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+#ifndef NDEBUG
+  wishes.insert(wishes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
+#endif
+  std::vector<EGLint> telling = wishes;
+  telling.insert(telling.end(),
+                 {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET, EGL_NONE});
+  wishes.push_back(EGL_NONE);
+  const EGLContext context = egl.createContext(display, config, EGL_NO_CONTEXT, telling.data());
+  return context != EGL_NO_CONTEXT ? context
+                                   : egl.createContext(display, config, EGL_NO_CONTEXT, wishes.data());
+}
+
 std::unique_ptr<Context> tryCandidate(const EglFunctions& egl, const Candidate& candidate,
                                       std::string& reason) {
   const auto fail = [&](const char* step) {
@@ -114,19 +131,8 @@ std::unique_ptr<Context> tryCandidate(const EglFunctions& egl, const Candidate& 
     EGLint found = 0;
     if (!egl.chooseConfig(display, wish, &config, 1, &found) || found == 0) return fail("eglChooseConfig");
   }
-  const EGLint wish[] = {EGL_CONTEXT_MAJOR_VERSION,
-                         4,
-                         EGL_CONTEXT_MINOR_VERSION,
-                         5,
-                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-#ifndef NDEBUG
-                         EGL_CONTEXT_OPENGL_DEBUG,
-                         EGL_TRUE,
-#endif
-                         EGL_NONE};
   EGLContext context = EGL_NO_CONTEXT;
-  if (egl.bindApi(EGL_OPENGL_API)) context = egl.createContext(display, config, EGL_NO_CONTEXT, wish);
+  if (egl.bindApi(EGL_OPENGL_API)) context = createContext(egl, display, config);
   if (context == EGL_NO_CONTEXT) {
     fail("eglCreateContext");
     egl.terminate(display);

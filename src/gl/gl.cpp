@@ -30,13 +30,18 @@ const char* errorName(GLenum error) {
 
 void checkGl(const char* where) {
   std::string errors;
+  bool lost = false;
   // A lost context reports its error for ever.
   for (int i = 0; i < 8; ++i) {
     const GLenum error = glGetError();
-    if (error == GL_NO_ERROR) break;
+    if (error == GL_NO_ERROR || lost) break;
+    lost = error == GL_CONTEXT_LOST;
     errors += (errors.empty() ? "" : ", ") + std::string(errorName(error));
   }
-  if (!errors.empty()) throw RenderError(std::string("OpenGL: ") + errors + " while " + where);
+  if (errors.empty()) return;
+  const std::string message = "OpenGL: " + errors + " while " + where;
+  if (lost) throw ContextLost(message);
+  throw RenderError(message);
 }
 
 GlBuffer makeBuffer() {
@@ -49,6 +54,18 @@ GlTexture makeTexture(GLenum target) {
   GLuint name = 0;
   glCreateTextures(target, 1, &name);
   return GlTexture(name);
+}
+
+GlVertexArray makeVertexArray() {
+  GLuint name = 0;
+  glCreateVertexArrays(1, &name);
+  return GlVertexArray(name);
+}
+
+GlFramebuffer makeFramebuffer() {
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  return GlFramebuffer(name);
 }
 
 }  // namespace fragtrace

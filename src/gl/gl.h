@@ -9,7 +9,7 @@
 
 namespace fragtrace {
 
-/// Throws RenderError naming `where` and every pending OpenGL error.
+/// Throws RenderError naming `where` and every pending OpenGL error; ContextLost if the context is.
 void checkGl(const char* where);
 
 /// An OpenGL object's name, released by its owner; move-only.
@@ -50,5 +50,7 @@ using GlProgram = GlHandle<releaseProgram>;
 
 GlBuffer makeBuffer();
 GlTexture makeTexture(GLenum target);
+GlVertexArray makeVertexArray();
+GlFramebuffer makeFramebuffer();
 
 }  // namespace fragtrace

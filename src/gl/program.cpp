@@ -15,6 +15,7 @@ GlShader compileShader(GLenum kind, const std::string& text) {
   GLint ok = 0;
   glGetShaderiv(shader.name(), GL_COMPILE_STATUS, &ok);
   if (!ok) {
+    checkGl("compiling a shader");
     GLint length = 0;
     glGetShaderiv(shader.name(), GL_INFO_LOG_LENGTH, &length);
     std::string log(size_t(length) + 1, '\0');
@@ -31,6 +32,7 @@ GlProgram link(std::initializer_list<const GlShader*> shaders) {
   GLint ok = 0;
   glGetProgramiv(program.name(), GL_LINK_STATUS, &ok);
   if (!ok) {
+    checkGl("linking a shader program");
     GLint length = 0;
     glGetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &length);
     std::string log(size_t(length) + 1, '\0');

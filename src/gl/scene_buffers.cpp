@@ -47,8 +47,10 @@ std::string whatIsTooLarge(const GpuScene& scene, BufferReads reads, const ReadL
 }  // namespace
 
 ReadLimits readLimits() {
-  return {limit(GL_MAX_TEXTURE_BUFFER_SIZE), limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE),
-          limit(GL_MAX_IMAGE_UNITS)};
+  const ReadLimits limits{limit(GL_MAX_TEXTURE_BUFFER_SIZE), limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE),
+                          limit(GL_MAX_IMAGE_UNITS)};
+  checkGl("asking for the driver's limits");
+  return limits;
 }
 
 int64_t mostTexelBytes(BufferReads wanted, const ReadLimits& limits) {

@@ -2,6 +2,7 @@
 #include "gltf/accessor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -253,6 +254,66 @@ std::vector<glm::vec4> readColors(const Document& document, int accessor, const 
   }
   const float alpha = type == TINYGLTF_TYPE_VEC3 ? 1.0f : 0.0f;
   return decodeAttribute(document, accessor, elements, place, glm::vec4(0.0f, 0.0f, 0.0f, alpha));
+}
+
+std::vector<glm::uvec4> readJoints(const Document& document, int accessor, const std::string& place) {
+  const Elements elements = elementsOf(document, accessor);
+  if (document.model.accessors.at(size_t(accessor)).type != TINYGLTF_TYPE_VEC4 ||
+      !isIndexType(elements.componentType) ||
+      elements.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+    document.diagnostics.refuse(place, "accessor " + std::to_string(accessor) +
+                                           " does not hold unsigned bytes or shorts of type VEC4");
+  }
+  const SparseElements sparse = sparseElementsOf(document, accessor, elements);
+  std::vector<glm::uvec4> result(elements.count, glm::uvec4(0));
+  if (elements.data != nullptr)
+    forEachComponent(elements, [&](size_t i, int c, auto value) { result[i][c] = indexOf(value); });
+  if (!sparse.indices.empty()) {
+    forEachComponent(sparse.values,
+                     [&](size_t i, int c, auto value) { result[sparse.indices[i]][c] = indexOf(value); });
+  }
+  return result;
+}
+
+std::vector<glm::dmat4> readMatrices(const Document& document, int accessor, const std::string& place) {
+  const tinygltf::Accessor& source = document.model.accessors.at(size_t(accessor));
+  if (source.type != TINYGLTF_TYPE_MAT4 || source.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+    document.diagnostics.refuse(
+        place, "accessor " + std::to_string(accessor) + " does not hold floats of type MAT4");
+  }
+  const std::vector<float> numbers = readComponents(document, accessor, 16, place);
+  std::vector<glm::dmat4> result(numbers.size() / 16);
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    if (!std::isfinite(numbers[i]))
+      document.diagnostics.refuse(place, "matrix " + std::to_string(i / 16) + " is not finite");
+    result[i / 16][int(i % 16 / 4)][int(i % 4)] = double(numbers[i]);
+  }
+  return result;
+}
+
+std::vector<float> readComponents(const Document& document, int accessor, int components,
+                                  const std::string& place) {
+  const Elements elements = elementsOf(document, accessor);
+  if (elements.components != components) {
+    document.diagnostics.refuse(place, "accessor " + std::to_string(accessor) + " does not have " +
+                                           std::to_string(components) + " components an element");
+  }
+  if (elements.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !elements.normalized)
+    document.diagnostics.refuse(place, "holds integers that are not normalized");
+  const SparseElements sparse = sparseElementsOf(document, accessor, elements);
+  const auto width = size_t(components);
+  std::vector<float> result(elements.count * width, 0.0f);
+  if (elements.data != nullptr) {
+    forEachComponent(elements, [&](size_t i, int c, auto value) {
+      result[i * width + size_t(c)] = componentToFloat(value, elements.normalized);
+    });
+  }
+  if (!sparse.indices.empty()) {
+    forEachComponent(sparse.values, [&](size_t i, int c, auto value) {
+      result[sparse.indices[i] * width + size_t(c)] = componentToFloat(value, elements.normalized);
+    });
+  }
+  return result;
 }
 
 std::vector<uint32_t> readIndices(const Document& document, int accessor, size_t vertexCount,

@@ -32,4 +32,15 @@ std::vector<glm::vec4> readColors(const Document& document, int accessor, const 
 std::vector<uint32_t> readIndices(const Document& document, int accessor, size_t vertexCount,
                                   const std::string& place);
 
+/// Joints of four vertex influences (JOINTS_n): unsigned bytes or shorts.
+std::vector<glm::uvec4> readJoints(const Document& document, int accessor, const std::string& place);
+
+/// Matrices of type MAT4 and floats, which are finite.
+std::vector<glm::dmat4> readMatrices(const Document& document, int accessor, const std::string& place);
+
+/// All components of all elements one after the other, of any type of `components` of them: floats, or
+/// normalized integers.
+std::vector<float> readComponents(const Document& document, int accessor, int components,
+                                  const std::string& place);
+
 }  // namespace fragtrace

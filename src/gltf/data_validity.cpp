@@ -270,7 +270,10 @@ class DataChecker {
       if (!member.value().is_object() || member.key() == "extras") continue;
       checkTexcoords(attributes, member.value(), place);
       if (!member.key().ends_with("Texture") || !member.value().contains("index")) continue;
-      const json& set = memberOf(member.value(), "texCoord");
+      const json& info = member.value();
+      const json::json_pointer transform("/extensions/KHR_texture_transform");
+      const bool isOverridden = info.contains(transform) && info[transform].contains("texCoord");
+      const json& set = memberOf(isOverridden ? info[transform] : info, "texCoord");
       const std::string name = "TEXCOORD_" + (set.is_number_unsigned() ? set.dump() : "0");
       if (!attributes.contains(name)) warn(place, "asks for " + name + ", which the primitive does not have");
     }

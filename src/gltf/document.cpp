@@ -9,6 +9,8 @@
 #include <string_view>
 
 #include "gltf/accessor.h"
+#include "gltf/animation.h"
+#include "gltf/compression.h"
 #include "gltf/container.h"
 #include "gltf/json.h"
 #include "gltf/schema.h"
@@ -19,18 +21,21 @@ namespace {
 
 using nlohmann::json;
 
-using Buffers = std::vector<std::vector<uint8_t>>;
-
 /// KHR_mesh_quantization only widens the component types that attributes may have.
-constexpr std::array<std::string_view, 10> kKnownExtensions = {
-    "KHR_lights_punctual",   "KHR_materials_emissive_strength",
-    "KHR_materials_ior",     "KHR_materials_transmission",
-    "KHR_materials_volume",  "KHR_materials_specular",
-    "KHR_materials_unlit",   "KHR_implicit_shapes",
-    "KHR_mesh_quantization", "EXT_mesh_gpu_instancing"};
+constexpr std::string_view kKnownExtensions[] = {
+    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",
+    "EXT_texture_webp",           "KHR_animation_pointer",
+    "KHR_draco_mesh_compression", "KHR_implicit_shapes",
+    "KHR_lights_punctual",        "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",     "KHR_materials_transmission",
+    "KHR_materials_unlit",        "KHR_materials_variants",
+    "KHR_materials_volume",       "KHR_mesh_quantization",
+    "KHR_texture_transform",
+};
 
 bool isKnownExtension(std::string_view name) {
-  return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) != kKnownExtensions.end();
+  return std::ranges::find(kKnownExtensions, name) != std::end(kKnownExtensions);
 }
 
 /// The array of that name; an empty one is made where there is none.
@@ -68,7 +73,7 @@ void checkExtensions(json& root, Diagnostics& diagnostics) {
 }
 
 /// Brings every buffer into memory, exactly as long as the document says; one without URI stays empty.
-Buffers readBuffers(json& root, Container& container, Document& document) {
+Buffers readBuffers(json& root, Container& container, CodecProcess& codecs, Document& document) {
   Diagnostics& diagnostics = document.diagnostics;
   Buffers buffers;
   const json& described = arrayIn(root, "buffers");
@@ -77,6 +82,10 @@ Buffers readBuffers(json& root, Container& container, Document& document) {
     const auto length = buffer["byteLength"].get<uint64_t>();
     if (length == 0) diagnostics.refuse(pointerTo("buffers", i, "byteLength"), "is 0");
     std::vector<uint8_t> bytes;
+    if (isFallback(buffer) && codecs.available()) {
+      buffers.emplace_back();
+      continue;
+    }
     if (buffer.contains("uri")) {
       const std::string place = pointerTo("buffers", i, "uri");
       const auto& uri = buffer["uri"].get_ref<const std::string&>();
@@ -151,11 +160,12 @@ void addDefaultCones(json& root) {
   }
 }
 
-/// Leaves what is not applied out of tinygltf's hands, which would refuse more of it than we need to.
-void dropAnimations(json& root, Diagnostics& diagnostics) {
-  if (!arrayIn(root, "animations").empty()) diagnostics.warn("/animations", "animations are not applied");
-  root.erase("animations");
-  root.erase("skins");
+/// What the user may choose from.
+void noteNames(json& root, Document& document) {
+  const json::json_pointer variants("/extensions/KHR_materials_variants/variants");
+  document.sceneNames = namesOf(arrayIn(root, "scenes"));
+  document.animationNames = namesOf(arrayIn(root, "animations"));
+  if (root.contains(variants)) document.materialVariants = namesOf(root[variants]);
 }
 
 /// Notes where the pictures are, and gives tinygltf a name that leads nowhere, which it takes without
@@ -205,12 +215,31 @@ bool leaveImage(tinygltf::Image*, int, std::string*, std::string*, int, int, con
 
 /// tinygltf wants a buffer view for indices, which glTF does not (they are all 0, or sparse): each accessor
 /// without one points past the others until it has been parsed.
-tinygltf::Model parseModel(json& root, Buffers& buffers, const Diagnostics& diagnostics) {
-  json& views = arrayIn(root, "bufferViews");
-  const size_t noView = views.size();
-  views.push_back({{"buffer", 0}, {"byteLength", 1}});
-  for (json& accessor : arrayIn(root, "accessors")) accessor.emplace("bufferView", noView);
+class CoveredAccessors {
+ public:
+  explicit CoveredAccessors(json& root) : root_(root), noView_(arrayIn(root, "bufferViews").size()) {
+    root["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 1}});
+    for (json& accessor : arrayIn(root, "accessors")) accessor.emplace("bufferView", noView_);
+  }
 
+  void uncover(tinygltf::Model& model) {
+    model.bufferViews.pop_back();
+    for (tinygltf::Accessor& accessor : model.accessors) {
+      if (size_t(accessor.bufferView) == noView_) accessor.bufferView = -1;
+    }
+    root_["bufferViews"].erase(noView_);
+    for (json& accessor : root_["accessors"]) {
+      if (accessor["bufferView"] == noView_) accessor.erase("bufferView");
+    }
+  }
+
+ private:
+  json& root_;
+  size_t noView_;
+};
+
+tinygltf::Model parseModel(json& root, Buffers& buffers, const Diagnostics& diagnostics) {
+  CoveredAccessors covered(root);
   const std::string text = root.dump();
   if (text.size() > std::numeric_limits<int32_t>::max()) diagnostics.refuse("", "the JSON is too large");
   tinygltf::TinyGLTF parser;
@@ -224,11 +253,25 @@ tinygltf::Model parseModel(json& root, Buffers& buffers, const Diagnostics& diag
     std::replace(error.begin(), error.end(), '\n', ' ');
     diagnostics.refuse("", error.empty() ? "tinygltf cannot parse it" : error);
   }
-  model.bufferViews.pop_back();
-  for (tinygltf::Accessor& accessor : model.accessors) {
-    if (size_t(accessor.bufferView) == noView) accessor.bufferView = -1;
-  }
+  covered.uncover(model);
   return model;
+}
+
+/// Poses the document as the user asked: what the animation drives is written into the JSON, which is parsed
+/// again, so that all that reads the model is as without animations.
+void pose(const std::vector<Animation>& animations, const SceneSelection& selection, json& root,
+          Document& document) {
+  if (animations.empty() && selection.animation.empty()) {
+    document.diagnostics.warn("", "has no animation that a time could be of");
+    return;
+  }
+  const size_t index = selection.animation.empty()
+                           ? 0
+                           : indexOfPart("--animation", selection.animation, document.animationNames);
+  applyAnimation(document, animations[index], *selection.animationTime, root);
+  Buffers buffers;
+  for (tinygltf::Buffer& buffer : document.model.buffers) buffers.push_back(std::move(buffer.data));
+  document.model = parseModel(root, buffers, document.diagnostics);
 }
 
 }  // namespace
@@ -257,16 +300,28 @@ Document readDocument(const std::filesystem::path& path, const GltfOptions& opti
   checkSchema(root, diagnostics);
   checkValidity(root, diagnostics);
   checkExtensions(root, diagnostics);
-  Buffers buffers = readBuffers(root, container, document);
+  checkMotion(root, diagnostics);
+  noteNames(root, document);
+  applySelection(root, options.selection);
+  CodecProcess codecs;
+  Buffers buffers = readBuffers(root, container, codecs, document);
   checkBufferViews(root, diagnostics);
   checkDataValidity(root, diagnostics);
   emptyUnknownAccessors(root, diagnostics);
+  decompressViews(root, buffers, codecs, document);
+  decompressPrimitives(root, buffers, codecs, document);
   addDefaultCones(root);
-  dropAnimations(root, diagnostics);
+  document.skins = takeSkins(root);
+  const std::vector<Animation> animations = takeAnimations(root);
   document.images = takeImages(root, diagnostics);
   nameBuffers(root, buffers);
   document.model = parseModel(root, buffers, diagnostics);
   checkAccessors(document);
+  if (options.selection.animationTime) {
+    pose(animations, options.selection, root, document);
+  } else if (!options.selection.animation.empty()) {
+    throw UsageError("--animation: needs --animation-time");
+  }
   return document;
 }
 

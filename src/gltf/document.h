@@ -12,6 +12,7 @@
 
 #include "gltf/diagnostics.h"
 #include "gltf/gltf.h"
+#include "gltf/motion.h"
 #include "gltf/uri.h"
 #include "image/limits.h"
 
@@ -28,9 +29,11 @@ struct Document {
   Document(std::string file, const InputLimits& limits)
       : diagnostics(std::move(file)), textureSide(limits.textureSide), memory(limits.memoryBytes) {}
 
-  tinygltf::Model model;  ///< without skins and animations, which are not applied, and without pictures
+  tinygltf::Model model;  ///< without skins, animations and pictures
   FileAccess access;
   std::vector<ImageSource> images;
+  std::vector<Skin> skins;
+  std::vector<std::string> sceneNames, animationNames, materialVariants;
   Diagnostics diagnostics;
   int textureSide;      ///< larger pictures are scaled down
   MemoryBudget memory;  ///< what loading may still take

@@ -45,6 +45,34 @@ struct Transform {
   bool mirrors;
 };
 
+/// How an instance places each of its vertices: all by its node's matrix, or each by its joints' matrices,
+/// weighed and added up (glTF 2.0, section 3.7.3.3).
+class Placement {
+ public:
+  explicit Placement(const PrimitiveInstance& instance)
+      : influences_(instance.primitive->influences), joints_(instance.joints), transform_(instance.world) {
+    const size_t vertexCount = instance.primitive->vertices.position.size();
+    if (!joints_.empty() && vertexCount > 0) perVertex_ = influences_.size() / vertexCount;
+  }
+
+  /// Valid until the next call.
+  const Transform& of(size_t vertex) {
+    if (perVertex_ == 0) return transform_;
+    glm::dmat4 sum(0.0);
+    for (const Influence& influence : influences_.subspan(vertex * perVertex_, perVertex_)) {
+      if (influence.weight != 0.0f) sum += double(influence.weight) * joints_[influence.joint];
+    }
+    transform_ = Transform(sum);
+    return transform_;
+  }
+
+ private:
+  std::span<const Influence> influences_;
+  std::span<const glm::dmat4> joints_;
+  size_t perVertex_ = 0;
+  Transform transform_;
+};
+
 /// Appends an attribute as it is, or the same value for each vertex of a primitive that does not have it.
 template <typename Attribute>
 void append(std::vector<Attribute>& to, const std::vector<Attribute>& from, size_t count,
@@ -84,11 +112,11 @@ void reserveAll(std::span<const MeshPrimitive* const> primitives, Scene& scene) 
   reserveIfUsed(primitives, vertexCount, &Vertices::color, scene.vertices);
 }
 
-void appendVertices(const Vertices& from, const Transform& transform, const LocalSpace& space, Vertices& to) {
+void appendVertices(const Vertices& from, Placement& placement, const LocalSpace& space, Vertices& to) {
   const size_t first = to.position.size();
   const size_t count = from.position.size();
-  for (const glm::vec3& position : from.position) {
-    to.position.emplace_back(space.localOf(transform.positionOf(position)));
+  for (size_t i = 0; i < count; ++i) {
+    to.position.emplace_back(space.localOf(placement.of(i).positionOf(from.position[i])));
   }
   append(to.normal, from.normal, count, glm::vec3(0.0f));
   append(to.tangent, from.tangent, count, glm::vec4(0.0f));
@@ -96,28 +124,33 @@ void appendVertices(const Vertices& from, const Transform& transform, const Loca
   append(to.texcoord1, from.texcoord1, count, glm::vec2(0.0f));
   append(to.color, from.color, count, glm::vec4(1.0f));
   if (!from.normal.empty()) {
-    for (size_t i = first; i < first + count; ++i) to.normal[i] = transform.normalOf(to.normal[i]);
+    for (size_t i = 0; i < count; ++i) {
+      glm::vec3& normal = to.normal[first + i];
+      normal = placement.of(i).normalOf(normal);
+    }
   }
   if (!from.tangent.empty()) {
-    for (size_t i = first; i < first + count; ++i) {
-      const glm::vec3 normal = from.normal.empty() ? glm::vec3(0, 0, 1) : to.normal[i];
-      to.tangent[i] = transform.tangentOf(to.tangent[i], normal);
+    for (size_t i = 0; i < count; ++i) {
+      const glm::vec3 normal = from.normal.empty() ? glm::vec3(0, 0, 1) : to.normal[first + i];
+      glm::vec4& tangent = to.tangent[first + i];
+      tangent = placement.of(i).tangentOf(tangent, normal);
     }
   }
 }
 
-void appendPrimitive(const MeshPrimitive& primitive, const glm::dmat4& matrix, const LocalSpace& space,
-                     const std::string& node, const std::string& mesh, Scene& scene) {
-  const Transform transform(matrix);
+void appendPrimitive(const PrimitiveInstance& instance, const LocalSpace& space, Scene& scene) {
+  Placement placement(instance);
   const auto firstVertex = uint32_t(scene.vertices.position.size());
   const auto firstTriangle = uint32_t(scene.triangles.size());
-  appendVertices(primitive.vertices, transform, space, scene.vertices);
-  for (Triangle triangle : primitive.triangles) {
+  appendVertices(instance.primitive->vertices, placement, space, scene.vertices);
+  for (Triangle triangle : instance.primitive->triangles) {
+    const bool mirrors = placement.of(triangle.vertex.x).mirrors;
     triangle.vertex += glm::uvec3(firstVertex);
-    if (transform.mirrors) std::swap(triangle.vertex.y, triangle.vertex.z);
+    if (mirrors) std::swap(triangle.vertex.y, triangle.vertex.z);
     scene.triangles.push_back(triangle);
   }
-  scene.origins.push_back({node, mesh, firstTriangle, uint32_t(primitive.triangles.size())});
+  scene.origins.push_back(
+      {instance.node, instance.mesh, firstTriangle, uint32_t(instance.primitive->triangles.size())});
 }
 
 /// Appends the positions that triangles use, each once.
@@ -166,8 +199,9 @@ void appendShared(const MeshToShare& shared, Scene& scene) {
   const auto mesh = uint32_t(scene.sharedMeshes.size());
   const auto firstTriangle = uint32_t(scene.triangles.size());
   for (const MeshPrimitive& primitive : *shared.mesh) {
-    if (!primitive.triangles.empty())
-      appendPrimitive(primitive, glm::dmat4(1.0), space, "", shared.name, scene);
+    PrimitiveInstance inItsSpace{.primitive = &primitive};
+    inItsSpace.mesh = shared.name;
+    if (!primitive.triangles.empty()) appendPrimitive(inItsSpace, space, scene);
   }
   scene.sharedMeshes.push_back({firstTriangle, uint32_t(scene.triangles.size()) - firstTriangle});
   for (const MeshToShare::Place& place : shared.places) {
@@ -184,10 +218,12 @@ void appendShared(const MeshToShare& shared, Scene& scene) {
 BoundsDouble boundsOf(std::span<const PrimitiveInstance> instances, std::span<const MeshToShare> shared) {
   BoundsDouble bounds;
   for (const PrimitiveInstance& instance : instances) {
-    const Transform transform(instance.world);
+    Placement placement(instance);
     for (const Triangle& triangle : instance.primitive->triangles) {
-      for (int corner = 0; corner < 3; ++corner)
-        bounds.include(transform.positionOf(instance.primitive->vertices.position[triangle.vertex[corner]]));
+      for (int corner = 0; corner < 3; ++corner) {
+        const uint32_t vertex = triangle.vertex[corner];
+        bounds.include(placement.of(vertex).positionOf(instance.primitive->vertices.position[vertex]));
+      }
     }
   }
   for (const MeshToShare& mesh : shared) {
@@ -216,8 +252,7 @@ void flatten(std::span<const PrimitiveInstance> instances, std::span<const MeshT
     places += mesh.places.size();
   }
   reserveAll(primitives, scene);
-  for (const PrimitiveInstance& i : instances)
-    appendPrimitive(*i.primitive, i.world, scene.space, i.node, i.mesh, scene);
+  for (const PrimitiveInstance& instance : instances) appendPrimitive(instance, scene.space, scene);
   scene.instances.reserve(places);
   for (const MeshToShare& mesh : shared) appendShared(mesh, scene);
 }

@@ -16,6 +16,7 @@ namespace fragtrace {
 struct PrimitiveInstance {
   const MeshPrimitive* primitive = nullptr;
   glm::dmat4 world{1.0};
+  std::span<const glm::dmat4> joints;  ///< in place of `world` for a primitive with influences
   std::string node;
   std::string mesh;
   const std::vector<MeshPrimitive>* whole = nullptr;  ///< the mesh it is of; none: it is not to be shared

@@ -3,55 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <new>
 
 #include "errors.h"
 #include "gltf/document.h"
 #include "gltf/flatten.h"
-#include "gltf/instancing.h"
 #include "gltf/materials.h"
+#include "gltf/meshes.h"
 #include "gltf/nodes.h"
 #include "gltf/placed.h"
-#include "gltf/primitives.h"
 #include "gltf/sharing.h"
 #include "scene/camera.h"
 
 namespace fragtrace {
 namespace {
-
-using DecodedMeshes = std::map<int, std::vector<MeshPrimitive>>;
-
-/// Decodes each mesh once, however many nodes show it.
-std::vector<PrimitiveInstance> placeMeshes(Document& document, const std::vector<Material>& materials,
-                                           const std::vector<PlacedNode>& nodes, DecodedMeshes& decoded) {
-  std::vector<PrimitiveInstance> instances;
-  for (const PlacedNode& node : nodes) {
-    const tinygltf::Node& source = document.model.nodes.at(size_t(node.index));
-    if (source.mesh < 0) continue;
-    if (source.skin >= 0) {
-      document.diagnostics.warn(pointerTo("nodes", node.index, "skin"), "skins are not applied");
-    }
-    const tinygltf::Mesh& mesh = document.model.meshes.at(size_t(source.mesh));
-    const auto [entry, isNew] = decoded.try_emplace(source.mesh);
-    for (size_t i = 0; isNew && i < mesh.primitives.size(); ++i) {
-      entry->second.push_back(decodePrimitive(document, materials, source.mesh, int(i)));
-    }
-    const std::string nodeName = nameOrPlace(source.name, "nodes", node.index);
-    const std::string meshName = nameOrPlace(mesh.name, "meshes", source.mesh);
-    const std::vector<glm::dmat4> places = placesOfMesh(document, node);
-    takeMemory(document, pointerTo("nodes", node.index),
-               places.size() * entry->second.size() *
-                   (sizeof(PrimitiveInstance) + nodeName.size() + meshName.size()));
-    for (const glm::dmat4& world : places) {
-      for (const MeshPrimitive& primitive : entry->second) {
-        if (primitive.triangles.empty()) continue;
-        instances.push_back({&primitive, world, nodeName, meshName, &entry->second});
-      }
-    }
-  }
-  return instances;
-}
 
 /// Refuses what 32-bit indices or the memory limit do not allow.
 void takeMeshes(Document& document, const PlacedMeshes& placed) {
@@ -129,12 +94,14 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   Document document = readDocument(path, options);
   Scene scene;
   scene.extensionsUsed = document.model.extensionsUsed;
+  scene.sceneNames = document.sceneNames;
+  scene.animationNames = document.animationNames;
+  scene.materialVariants = document.materialVariants;
   addMaterials(document, scene);
 
   // What nodes place, in world space.
   const std::vector<PlacedNode> nodes = placeNodes(document);
-  DecodedMeshes decoded;
-  std::vector<PrimitiveInstance> instances = placeMeshes(document, scene.materials, nodes, decoded);
+  ShownMeshes shown = showMeshes(document, scene.materials, nodes);
   document.model.buffers.clear();
   std::vector<PlacedSphere> spheres;
   for (const PlacedNode& node : nodes) {
@@ -144,7 +111,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
 
   // Local space.
   const PlacedMeshes meshes =
-      chooseSharing(std::move(instances), options.instancing, scene.materials, document.memory.left());
+      chooseSharing(std::move(shown.instances), options.instancing, scene.materials, document.memory.left());
   takeMeshes(document, meshes);
   scene.sharing = meshes.reason;
   scene.bounds = boundsOf(meshes.flat, meshes.shared);
@@ -170,6 +137,8 @@ Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
   try {
     return buildScene(path, options);
   } catch (const InputError&) {
+    throw;
+  } catch (const UsageError&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw InputError(path.string() + ": not enough memory to load it");

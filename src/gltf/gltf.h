@@ -6,6 +6,7 @@
 
 #include "image/limits.h"
 #include "scene/scene.h"
+#include "scene/selection.h"
 
 namespace fragtrace {
 
@@ -14,12 +15,13 @@ struct GltfOptions {
   std::optional<glm::dvec3> cameraPosition{};  ///< else the origin is chosen for a camera there,
   int cameraIndex = 0;                         ///< or for this one of the file: see recentringPoint()
   Instancing instancing = Instancing::Flatten;
+  SceneSelection selection{};
   InputLimits limits{};
 };
 
 /// Reads a .gltf (with files beside it or data URIs) or .glb into a Scene whose geometry is recentred.
-/// Throws InputError naming the file, the JSON pointer and the reason; what is skipped lands in
-/// Scene::warnings.
+/// Throws InputError naming the file, the JSON pointer and the reason, and UsageError for a selection that is
+/// not in the file; what is skipped lands in Scene::warnings.
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 }  // namespace fragtrace

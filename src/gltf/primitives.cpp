@@ -37,8 +37,10 @@ bool isUnit(const glm::vec3& v) {
 
 class PrimitiveReader {
  public:
-  PrimitiveReader(Document& document, const std::vector<Material>& materials, int mesh, int primitive)
+  PrimitiveReader(Document& document, const std::vector<Material>& materials, int mesh, int primitive,
+                  const MeshPose& pose)
       : document_(document),
+        pose_(pose),
         diagnostics_(document.diagnostics),
         source_(document.model.meshes.at(size_t(mesh)).primitives.at(size_t(primitive))),
         place_(pointerTo("meshes", mesh, "primitives", primitive)),
@@ -58,12 +60,13 @@ class PrimitiveReader {
       diagnostics_.warn(place_, "a primitive without POSITION is left out");
       return {};
     }
-    if (!source_.targets.empty()) diagnostics_.warn(place_ + "/targets", "morph targets are not applied");
     readPositions();
     readTriangles(*topology);
     readNormals();
     readTexcoords();
     readColors();
+    if (pose_.jointCount > 0)
+      result_.influences = readInfluences(document_, source_, pose_.jointCount, place_);
     readTangents();
     return std::move(result_);
   }
@@ -88,6 +91,32 @@ class PrimitiveReader {
     return accessor;
   }
 
+  /// Adds what the morph targets change of an attribute (glTF 2.0, section 3.7.2.2), in double precision. A
+  /// target's elements may have fewer components: those of tangents leave the handedness alone.
+  template <glm::length_t components, glm::length_t all>
+  void morph(const char* attribute, std::vector<glm::vec<all, float>>& values) {
+    std::vector<glm::vec<components, double>> sums;
+    for (size_t t = 0; t < std::min(pose_.weights.size(), source_.targets.size()); ++t) {
+      const auto found = source_.targets[t].find(attribute);
+      if (pose_.weights[t] == 0.0 || found == source_.targets[t].end()) continue;
+      const std::string place = place_ + pointerTo("targets", t, attribute);
+      const size_t count = accessorCount(document_, found->second);
+      if (count != values.size()) {
+        diagnostics_.refuse(place, "has " + std::to_string(count) + " elements for " +
+                                       std::to_string(values.size()) + " vertices");
+      }
+      takeMemory(document_, place,
+                 count * sizeof(glm::vec<components, float>) + (sums.empty() ? count * sizeof(sums[0]) : 0));
+      sums.resize(count, glm::vec<components, double>(0.0));
+      const auto deltas = readVectors<components>(document_, found->second, place);
+      for (size_t i = 0; i < count; ++i)
+        sums[i] += pose_.weights[t] * glm::vec<components, double>(deltas[i]);
+    }
+    for (size_t i = 0; i < sums.size(); ++i) {
+      for (glm::length_t c = 0; c < components; ++c) values[i][c] = float(double(values[i][c]) + sums[i][c]);
+    }
+  }
+
   void warnMended(const char* attribute, size_t count, const std::string& reason) {
     if (count > 0) diagnostics_.warn(placeOf(attribute), reason, count);
   }
@@ -100,6 +129,7 @@ class PrimitiveReader {
                kBytesOfAVertex * accessorCount(document_, accessorOf("POSITION")));
     auto& positions = result_.vertices.position;
     positions = readVectors<3>(document_, accessorOf("POSITION"), placeOf("POSITION"));
+    morph<3>("POSITION", positions);
     if (positions.size() >= kMissIndex) diagnostics_.refuse(placeOf("POSITION"), "has too many elements");
     for (size_t i = 0; i < positions.size(); ++i) {
       if (!isFinite(positions[i])) {
@@ -169,7 +199,12 @@ class PrimitiveReader {
       ++count;
     }
     warnMended("NORMAL", notUnit, "a normal that is not of unit length is normalized");
-    if (count == 0) return;
+    if (count > 0) mendNormals(broken, count);
+    morph<3>("NORMAL", normals);
+  }
+
+  void mendNormals(const std::vector<bool>& broken, size_t count) {
+    auto& normals = result_.vertices.normal;
     for (const Triangle& triangle : result_.triangles) {
       const glm::vec3 normal = geometricNormal(triangle);
       for (int corner = 0; corner < 3; ++corner) {
@@ -183,11 +218,7 @@ class PrimitiveReader {
   }
 
   bool needsTexcoord(uint32_t set) const {
-    const std::array<const TextureRef*, 8> textures = {
-        &material_.baseColorTexture, &material_.metallicRoughnessTexture, &material_.normalTexture,
-        &material_.emissiveTexture,  &material_.occlusionTexture,         &material_.transmissionTexture,
-        &material_.specularTexture,  &material_.specularColorTexture};
-    for (const TextureRef* texture : textures) {
+    for (const TextureRef* texture : material_.textures()) {
       if (texture->present() && texture->texcoord == set) return true;
     }
     return set == 0 && hasPerlin();
@@ -207,6 +238,7 @@ class PrimitiveReader {
         continue;
       }
       texcoords = readVectors<2>(document_, accessor, placeOf(kNames[set]));
+      morph<2>(kNames[set], texcoords);
       size_t count = 0;
       for (glm::vec2& texcoord : texcoords) {
         if (isFinite(texcoord)) continue;
@@ -233,16 +265,25 @@ class PrimitiveReader {
       color = glm::clamp(given, 0.0f, 1.0f);  // glTF 2.0, section 3.7.2.1
       clamped += color != given;
     }
+    morphColors();
     warnMended("COLOR_0", clamped, "a vertex colour is clamped to 0..1");
     warnMended("COLOR_0", count, "a vertex colour that is not finite is replaced by white");
   }
 
+  /// Deltas have the components of the colours; sums are clamped (section 3.7.2.2).
+  void morphColors() {
+    auto& colors = result_.vertices.color;
+    const bool hasAlpha =
+        document_.model.accessors.at(size_t(accessorOf("COLOR_0"))).type == TINYGLTF_TYPE_VEC4;
+    hasAlpha ? morph<4>("COLOR_0", colors) : morph<3>("COLOR_0", colors);
+    for (glm::vec4& color : colors) color = isFinite(color) ? glm::clamp(color, 0.0f, 1.0f) : glm::vec4(1.0f);
+  }
+
   void readTangents() {
     if (!material_.normalTexture.present() && !hasPerlin()) return;
-    const uint32_t set = material_.normalTexture.present() ? material_.normalTexture.texcoord : 0;
-    if (result_.vertices.normal.empty()) return makeFlatTangents(set);
+    if (result_.vertices.normal.empty()) return makeFlatTangents();
     const int accessor = matchingAccessor("TANGENT");
-    if (accessor < 0) return makeTangents(result_.vertices, result_.triangles, set);
+    if (accessor < 0) return makeTangentsAlongTexture();
 
     auto& tangents = result_.vertices.tangent;
     tangents = readVectors<4>(document_, accessor, placeOf("TANGENT"));
@@ -257,13 +298,19 @@ class PrimitiveReader {
       }
       tangents[i].w = tangents[i].w < 0.0f ? -1.0f : 1.0f;
     }
+    morph<3>("TANGENT", tangents);
     warnMended("TANGENT", notUnit, "a tangent is not of unit length with 1 or -1 behind it, and made so");
     warnMended("TANGENT", count, "a tangent without a direction is replaced by any that fits");
   }
 
+  void makeTangentsAlongTexture() {
+    const TextureRef& texture = material_.normalTexture;
+    makeTangents(result_.vertices, result_.triangles, texture.texcoord, texture.transform);
+  }
+
   /// Without normals each triangle has its own: corners are parted, and given tangents are ignored, as glTF
   /// demands.
-  void makeFlatTangents(uint32_t set) {
+  void makeFlatTangents() {
     std::vector<uint32_t> corners;
     corners.reserve(result_.triangles.size() * 3);
     std::vector<glm::vec3> normals;
@@ -283,16 +330,29 @@ class PrimitiveReader {
       for (size_t i = 0; i < corners.size(); ++i) parted[i] = attribute[corners[i]];
       attribute = std::move(parted);
     };
+    partInfluences(corners);
     part(result_.vertices.position);
     part(result_.vertices.texcoord0);
     part(result_.vertices.texcoord1);
     part(result_.vertices.color);
     result_.vertices.normal = std::move(normals);
-    makeTangents(result_.vertices, result_.triangles, set);
+    makeTangentsAlongTexture();
     result_.vertices.normal.clear();
   }
 
+  void partInfluences(const std::vector<uint32_t>& corners) {
+    const std::vector<Influence> shared = std::move(result_.influences);
+    const size_t perVertex = shared.size() / std::max<size_t>(result_.vertices.position.size(), 1);
+    result_.influences.clear();
+    result_.influences.reserve(corners.size() * perVertex);
+    for (const uint32_t corner : corners) {
+      const auto first = shared.begin() + std::ptrdiff_t(corner * perVertex);
+      result_.influences.insert(result_.influences.end(), first, first + std::ptrdiff_t(perVertex));
+    }
+  }
+
   Document& document_;
+  const MeshPose& pose_;
   Diagnostics& diagnostics_;
   const tinygltf::Primitive& source_;
   std::string place_;
@@ -304,8 +364,8 @@ class PrimitiveReader {
 }  // namespace
 
 MeshPrimitive decodePrimitive(Document& document, const std::vector<Material>& materials, int mesh,
-                              int primitive) {
-  return PrimitiveReader(document, materials, mesh, primitive).read();
+                              int primitive, const MeshPose& pose) {
+  return PrimitiveReader(document, materials, mesh, primitive, pose).read();
 }
 
 }  // namespace fragtrace

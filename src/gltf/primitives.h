@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gltf/document.h"
+#include "gltf/skin.h"
 #include "scene/scene.h"
 
 namespace fragtrace {
@@ -12,12 +13,22 @@ namespace fragtrace {
 /// need, or that is not given, is empty; all others have one entry a vertex.
 struct MeshPrimitive {
   Vertices vertices;
+  std::vector<Influence> influences;  ///< of joints, equally many a vertex; none: the mesh is not skinned
   std::vector<Triangle> triangles;
 };
 
-/// Decodes /meshes/MESH/primitives/PRIMITIVE; points, lines and primitives without positions come out empty,
-/// with a warning. The last of `materials` is the default one. Throws InputError.
+/// How a mesh is shown. The default is as it stands in the file.
+struct MeshPose {
+  std::vector<double> weights;  ///< of its morph targets; those left out are 0
+  size_t jointCount = 0;        ///< of the skin that bends it; 0: none does
+
+  auto operator<=>(const MeshPose&) const = default;
+};
+
+/// Decodes /meshes/MESH/primitives/PRIMITIVE with its morph targets applied; points, lines and primitives
+/// without positions come out empty, with a warning. The last of `materials` is the default one. Throws
+/// InputError.
 MeshPrimitive decodePrimitive(Document& document, const std::vector<Material>& materials, int mesh,
-                              int primitive);
+                              int primitive, const MeshPose& pose);
 
 }  // namespace fragtrace

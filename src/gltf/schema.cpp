@@ -2,38 +2,15 @@
 #include "gltf/schema.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+
+#include "gltf/schema_checker.h"
 
 namespace fragtrace {
 namespace {
 
 using nlohmann::json;
-
-enum class Kind {
-  Object,
-  Array,
-  Objects,  ///< an array of objects
-  Text,
-  Texts,
-  Flag,
-  Number,
-  Numbers,  ///< an array of `size` numbers
-  Int,      ///< 0 to 2^31 - 1, what tinygltf keeps in an int
-  Size,     ///< 0 to 2^53
-  Index,    ///< into the array at `target`
-};
-
-/// A pattern is a JSON pointer in which * stands for any member or element, and a last ! for "required".
-struct Rule {
-  const char* pattern;
-  Kind kind;
-  const char* target = nullptr;
-  size_t size = 0;
-};
 
 /// Everything that the loader reads; the rule of a container stands before those of its members.
 constexpr Rule kRules[] = {
@@ -52,6 +29,18 @@ constexpr Rule kRules[] = {
     {"/bufferViews/*/byteLength!", Kind::Size},
     {"/bufferViews/*/byteOffset", Kind::Size},
     {"/bufferViews/*/byteStride", Kind::Size},
+    {"/buffers/*/extensions", Kind::Object},
+    {"/buffers/*/extensions/EXT_meshopt_compression", Kind::Object},
+    {"/buffers/*/extensions/EXT_meshopt_compression/fallback", Kind::Flag},
+    {"/bufferViews/*/extensions", Kind::Object},
+    {"/bufferViews/*/extensions/EXT_meshopt_compression", Kind::Object},
+    {"/bufferViews/*/extensions/EXT_meshopt_compression/buffer!", Kind::Index, "/buffers"},
+    {"/bufferViews/*/extensions/EXT_meshopt_compression/byteOffset", Kind::Size},
+    {"/bufferViews/*/extensions/EXT_meshopt_compression/byteLength!", Kind::Size},
+    {"/bufferViews/*/extensions/EXT_meshopt_compression/byteStride!", Kind::Size},
+    {"/bufferViews/*/extensions/EXT_meshopt_compression/count!", Kind::Size},
+    {"/bufferViews/*/extensions/EXT_meshopt_compression/mode!", Kind::Text},
+    {"/bufferViews/*/extensions/EXT_meshopt_compression/filter", Kind::Text},
     {"/accessors", Kind::Objects},
     {"/accessors/*/bufferView", Kind::Index, "/bufferViews"},
     {"/accessors/*/byteOffset", Kind::Size},
@@ -80,6 +69,9 @@ constexpr Rule kRules[] = {
     {"/textures", Kind::Objects},
     {"/textures/*/source", Kind::Index, "/images"},
     {"/textures/*/sampler", Kind::Index, "/samplers"},
+    {"/textures/*/extensions", Kind::Object},
+    {"/textures/*/extensions/EXT_texture_webp", Kind::Object},
+    {"/textures/*/extensions/EXT_texture_webp/source!", Kind::Index, "/images"},
 
     {"/materials", Kind::Objects},
     {"/materials/*/name", Kind::Text},
@@ -106,6 +98,12 @@ constexpr Rule kRules[] = {
     {"/materials/*/extensions/KHR_materials_specular", Kind::Object},
     {"/materials/*/extensions/KHR_materials_specular/specularFactor", Kind::Number},
     {"/materials/*/extensions/KHR_materials_specular/specularColorFactor", Kind::Numbers, nullptr, 3},
+    {"/materials/*/normalTexture/scale", Kind::Number},
+    {"/materials/*/occlusionTexture/strength", Kind::Number},
+    {"/materials/*/extensions/KHR_materials_pbrSpecularGlossiness", Kind::Object},
+    {"/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor", Kind::Numbers, nullptr, 4},
+    {"/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/specularFactor", Kind::Numbers, nullptr, 3},
+    {"/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor", Kind::Number},
     {"/materials/*/extras/perlinNormal", Kind::Object},
     {"/materials/*/extras/perlinNormal/frequency", Kind::Number},
     {"/materials/*/extras/perlinNormal/amplitude", Kind::Number},
@@ -113,12 +111,31 @@ constexpr Rule kRules[] = {
 
     {"/meshes", Kind::Objects},
     {"/meshes/*/name", Kind::Text},
+    {"/meshes/*/weights", Kind::Numbers},
     {"/meshes/*/primitives!", Kind::Objects},
     {"/meshes/*/primitives/*/attributes!", Kind::Object},
     {"/meshes/*/primitives/*/attributes/*", Kind::Index, "/accessors"},
     {"/meshes/*/primitives/*/indices", Kind::Index, "/accessors"},
     {"/meshes/*/primitives/*/material", Kind::Index, "/materials"},
     {"/meshes/*/primitives/*/mode", Kind::Int},
+    {"/meshes/*/primitives/*/targets", Kind::Objects},
+    {"/meshes/*/primitives/*/targets/*/*", Kind::Index, "/accessors"},
+    {"/meshes/*/primitives/*/extensions", Kind::Object},
+    {"/meshes/*/primitives/*/extensions/KHR_draco_mesh_compression", Kind::Object},
+    {"/meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/bufferView!", Kind::Index, "/bufferViews"},
+    {"/meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/attributes!", Kind::Object},
+    {"/meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/attributes/*", Kind::Int},
+
+    {"/extensions/KHR_materials_variants", Kind::Object},
+    {"/extensions/KHR_materials_variants/variants!", Kind::Objects},
+    {"/extensions/KHR_materials_variants/variants/*/name!", Kind::Text},
+    {"/meshes/*/primitives/*/extensions/KHR_materials_variants", Kind::Object},
+    {"/meshes/*/primitives/*/extensions/KHR_materials_variants/mappings!", Kind::Objects},
+    {"/meshes/*/primitives/*/extensions/KHR_materials_variants/mappings/*/material!", Kind::Index,
+     "/materials"},
+    {"/meshes/*/primitives/*/extensions/KHR_materials_variants/mappings/*/variants!", Kind::Array},
+    {"/meshes/*/primitives/*/extensions/KHR_materials_variants/mappings/*/variants/*", Kind::Index,
+     "/extensions/KHR_materials_variants/variants"},
 
     {"/cameras", Kind::Objects},
     {"/cameras/*/name", Kind::Text},
@@ -158,13 +175,35 @@ constexpr Rule kRules[] = {
     {"/nodes/*/translation", Kind::Numbers, nullptr, 3},
     {"/nodes/*/rotation", Kind::Numbers, nullptr, 4},
     {"/nodes/*/scale", Kind::Numbers, nullptr, 3},
+    {"/nodes/*/weights", Kind::Numbers},
+    {"/nodes/*/skin", Kind::Index, "/skins"},
     {"/nodes/*/extensions", Kind::Object},
     {"/nodes/*/extensions/KHR_lights_punctual", Kind::Object},
     {"/nodes/*/extensions/KHR_lights_punctual/light!", Kind::Index, "/extensions/KHR_lights_punctual/lights"},
     {"/nodes/*/extensions/EXT_mesh_gpu_instancing", Kind::Object},
     {"/nodes/*/extensions/EXT_mesh_gpu_instancing/attributes", Kind::Object},
     {"/nodes/*/extensions/EXT_mesh_gpu_instancing/attributes/*", Kind::Index, "/accessors"},
+    {"/skins", Kind::Objects},
+    {"/skins/*/joints!", Kind::Array},
+    {"/skins/*/joints/*", Kind::Index, "/nodes"},
+    {"/skins/*/skeleton", Kind::Index, "/nodes"},
+    {"/skins/*/inverseBindMatrices", Kind::Index, "/accessors"},
+    {"/animations", Kind::Objects},
+    {"/animations/*/name", Kind::Text},
+    {"/animations/*/samplers!", Kind::Objects},
+    {"/animations/*/samplers/*/input!", Kind::Index, "/accessors"},
+    {"/animations/*/samplers/*/output!", Kind::Index, "/accessors"},
+    {"/animations/*/samplers/*/interpolation", Kind::Text},
+    {"/animations/*/channels!", Kind::Objects},
+    {"/animations/*/channels/*/sampler!", Kind::Int},
+    {"/animations/*/channels/*/target!", Kind::Object},
+    {"/animations/*/channels/*/target/node", Kind::Index, "/nodes"},
+    {"/animations/*/channels/*/target/path!", Kind::Text},
+    {"/animations/*/channels/*/target/extensions", Kind::Object},
+    {"/animations/*/channels/*/target/extensions/KHR_animation_pointer", Kind::Object},
+    {"/animations/*/channels/*/target/extensions/KHR_animation_pointer/pointer!", Kind::Text},
     {"/scenes", Kind::Objects},
+    {"/scenes/*/name", Kind::Text},
     {"/scenes/*/nodes", Kind::Array},
     {"/scenes/*/nodes/*", Kind::Index, "/nodes"},
     {"/scene", Kind::Index, "/scenes"},
@@ -181,133 +220,59 @@ constexpr const char* kTextureSlots[] = {
     "/materials/*/extensions/KHR_materials_volume/thicknessTexture",
     "/materials/*/extensions/KHR_materials_specular/specularTexture",
     "/materials/*/extensions/KHR_materials_specular/specularColorTexture",
+    "/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture",
+    "/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture",
 };
 
-class Checker {
- public:
-  Checker(json& root, const Diagnostics& diagnostics) : root_(root), diagnostics_(diagnostics) {}
-
-  void apply(const Rule& rule) {
-    rule_ = rule;
-    std::string_view pattern = rule.pattern;
-    required_ = pattern.ends_with('!');
-    if (required_) pattern.remove_suffix(1);
-    targetSize_ = rule.target != nullptr ? arraySize(rule.target) : 0;
-    place_.clear();
-    descend(root_, pattern);
-  }
-
- private:
-  size_t arraySize(const char* target) const {
-    const json::json_pointer pointer(target);
-    return root_.contains(pointer) && root_[pointer].is_array() ? root_[pointer].size() : 0;
-  }
-
-  [[noreturn]] void refuse(const std::string& reason) const { diagnostics_.refuse(place_, reason); }
-
-  void visit(json& value, const std::string& name, std::string_view rest) {
-    const size_t length = place_.size();
-    place_.append("/").append(escapedForPointer(name));
-    rest.empty() ? check(value) : descend(value, rest);
-    place_.resize(length);
-  }
-
-  void descend(json& value, std::string_view pattern) {
-    const size_t end = std::min(pattern.find('/', 1), pattern.size());
-    const std::string name(pattern.substr(1, end - 1));
-    const std::string_view rest = pattern.substr(end);
-    if (name == "*") {
-      if (value.is_array()) {
-        for (size_t i = 0; i < value.size(); ++i) visit(value[i], std::to_string(i), rest);
-      } else if (value.is_object()) {
-        for (auto& member : value.items()) visit(member.value(), member.key(), rest);
-      }
-    } else if (value.is_object()) {
-      const auto member = value.find(name);
-      if (member != value.end()) {
-        visit(*member, name, rest);
-      } else if (rest.empty() && required_) {
-        refuse(inQuotes(name) + " is missing");
-      }
-    }
-  }
-
-  void check(json& value) const {
-    switch (rule_.kind) {
-      case Kind::Object:
-        return expect(value.is_object(), "is not an object");
-      case Kind::Array:
-        return expect(value.is_array(), "is not an array");
-      case Kind::Objects:
-        return expectEach(value, "is not an array of objects", &json::is_object);
-      case Kind::Text:
-        return expect(value.is_string(), "is not a string");
-      case Kind::Texts:
-        return expectEach(value, "is not an array of strings", &json::is_string);
-      case Kind::Flag:
-        return expect(value.is_boolean(), "is not true or false");
-      case Kind::Number:
-        return expect(value.is_number(), "is not a number");
-      case Kind::Numbers:
-        expectEach(value, "is not an array of numbers", &json::is_number);
-        return expect(value.size() == rule_.size, "does not hold " + std::to_string(rule_.size) + " numbers");
-      case Kind::Int:
-        return checkWhole(value, uint64_t(std::numeric_limits<int32_t>::max()));
-      case Kind::Size:
-        return checkWhole(value, uint64_t(1) << 53);
-      case Kind::Index:
-        return checkIndex(value);
-    }
-  }
-
-  void expect(bool condition, const std::string& reason) const {
-    if (!condition) refuse(reason);
-  }
-
-  void expectEach(const json& value, const char* reason, bool (json::*isRight)() const noexcept) const {
-    expect(value.is_array(), reason);
-    for (const json& element : value) expect((element.*isRight)(), reason);
-  }
-
-  void checkWhole(json& value, uint64_t largest) const {
-    if (value.is_number_float()) {
-      const double number = value.get<double>();
-      if (number >= 0.0 && number <= double(largest) && number == std::floor(number))
-        value = uint64_t(number);
-    }
-    expect(value.is_number_unsigned(), "is not a non-negative integer");
-    expect(value.get<uint64_t>() <= largest, "is too large");
-  }
-
-  void checkIndex(json& value) const {
-    checkWhole(value, uint64_t(std::numeric_limits<int32_t>::max()));
-    if (value.get<uint64_t>() >= targetSize_) {
-      refuse("index " + value.dump() + " is past the " + std::to_string(targetSize_) + " elements of " +
-             rule_.target);
-    }
-  }
-
-  json& root_;
-  const Diagnostics& diagnostics_;
-  Rule rule_{};
-  bool required_ = false;
-  size_t targetSize_ = 0;
-  std::string place_;
+/// What such a use may hold.
+constexpr Rule kTextureInfoRules[] = {
+    {"", Kind::Object},
+    {"/index!", Kind::Index, "/textures"},
+    {"/texCoord", Kind::Int},
+    {"/extensions", Kind::Object},
+    {"/extensions/KHR_texture_transform", Kind::Object},
+    {"/extensions/KHR_texture_transform/offset", Kind::Numbers, nullptr, 2},
+    {"/extensions/KHR_texture_transform/scale", Kind::Numbers, nullptr, 2},
+    {"/extensions/KHR_texture_transform/rotation", Kind::Number},
+    {"/extensions/KHR_texture_transform/texCoord", Kind::Int},
 };
+
+bool matches(std::string_view pattern, std::string_view pointer) {
+  if (pattern.ends_with('!')) pattern.remove_suffix(1);
+  while (pattern.starts_with('/') && pointer.starts_with('/')) {
+    const std::string_view wanted = cutPart(pattern);
+    const std::string_view part = cutPart(pointer);
+    if (wanted != "*" && wanted != part) return false;
+  }
+  return pattern.empty() && pointer.empty();
+}
 
 }  // namespace
 
 void checkSchema(json& root, const Diagnostics& diagnostics) {
   if (!root.is_object()) diagnostics.refuse("", "is not glTF: the JSON is not an object");
-  Checker checker(root, diagnostics);
-  for (const Rule& rule : kRules) checker.apply(rule);
+  for (const Rule& rule : kRules) applyRule(rule, root, diagnostics);
   for (const std::string slot : kTextureSlots) {
-    checker.apply({slot.c_str(), Kind::Object});
-    checker.apply({(slot + "/index!").c_str(), Kind::Index, "/textures"});
-    checker.apply({(slot + "/texCoord").c_str(), Kind::Int});
+    for (Rule rule : kTextureInfoRules) {
+      const std::string pattern = slot + rule.pattern;
+      rule.pattern = pattern.c_str();
+      applyRule(rule, root, diagnostics);
+    }
   }
-  checker.apply({"/materials/*/normalTexture/scale", Kind::Number});
-  checker.apply({"/materials/*/occlusionTexture/strength", Kind::Number});
+}
+
+std::optional<NumberRule> numberRuleAt(std::string_view pointer) {
+  std::optional<NumberRule> found;
+  const auto tryRule = [&](const Rule& rule, const std::string& pattern) {
+    const bool isArray = rule.kind == Kind::Numbers;
+    if ((isArray || rule.kind == Kind::Number) && matches(pattern, pointer))
+      found = NumberRule{isArray ? rule.size : 1, isArray};
+  };
+  for (const Rule& rule : kRules) tryRule(rule, rule.pattern);
+  for (const std::string slot : kTextureSlots) {
+    for (const Rule& rule : kTextureInfoRules) tryRule(rule, slot + rule.pattern);
+  }
+  return found;
 }
 
 }  // namespace fragtrace

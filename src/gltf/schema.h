@@ -3,7 +3,10 @@
 // type without a word, and does not check an index before it uses it.
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string_view>
 
 #include "gltf/diagnostics.h"
 
@@ -13,5 +16,14 @@ namespace fragtrace {
 /// missing though required, or refers to something that is not there. Whole numbers written as 1.0 become
 /// integers.
 void checkSchema(nlohmann::json& root, const Diagnostics& diagnostics);
+
+/// Numbers that the loader reads.
+struct NumberRule {
+  size_t width = 1;  ///< how many; 0: any number of them, as of morph weights
+  bool isArray = false;
+};
+
+/// What the loader reads at a JSON pointer, if that is numbers.
+std::optional<NumberRule> numberRuleAt(std::string_view pointer);
 
 }  // namespace fragtrace

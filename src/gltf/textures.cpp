@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gltf/uri.h"
+#include "gltf/value.h"
 #include "image/header.h"
 
 namespace fragtrace {
@@ -78,6 +79,12 @@ EncodedImage readImage(Document& document, int index) {
   return result;
 }
 
+/// The picture of a texture, -1 for none; that of EXT_texture_webp counts more than the fallback beside it.
+int sourceOf(const tinygltf::Texture& texture) {
+  const auto webp = texture.extensions.find("EXT_texture_webp");
+  return webp != texture.extensions.end() ? int(numberOf(webp->second, "source", -1)) : texture.source;
+}
+
 }  // namespace
 
 TextureTable::TextureTable(Document& document, Scene& scene)
@@ -99,12 +106,13 @@ uint32_t TextureTable::use(int texture, const std::string& place) {
   uint32_t& known = textures_.at(size_t(texture));
   if (known != kMissIndex) return known;
   const tinygltf::Texture& source = document_.model.textures[size_t(texture)];
-  if (source.source < 0) {
+  const int image = sourceOf(source);
+  if (image < 0) {
     document_.diagnostics.warn(place, "a texture without a picture is left out");
     return kMissIndex;
   }
   Texture result;
-  result.image = useImage(source.source);
+  result.image = useImage(image);
   if (source.sampler >= 0) {
     const tinygltf::Sampler& sampler = document_.model.samplers.at(size_t(source.sampler));
     const std::string samplerPlace = pointerTo("samplers", source.sampler);

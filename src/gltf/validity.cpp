@@ -43,6 +43,8 @@ constexpr Home kHomes[] = {
     {"KHR_animation_pointer", {"/animations/*/channels/*/target", "/animations/*/channels/*/target"}},
     {"EXT_mesh_gpu_instancing", {"/nodes/*", "/nodes/*"}},
     {"EXT_texture_webp", {"/textures/*", "/textures/*"}},
+    {"KHR_draco_mesh_compression", {"/meshes/*/primitives/*", "/meshes/*/primitives/*"}},
+    {"EXT_meshopt_compression", {"/buffers/*", "/bufferViews/*"}},
 };
 
 bool isAtHome(std::string_view extension, std::string_view place, std::string_view lastName) {

@@ -2,6 +2,7 @@
 #include "image/child.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -10,34 +11,25 @@
 
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
-#include <vector>
+
+#include "plugin.h"
 
 namespace fragtrace {
 namespace {
 
-std::vector<std::filesystem::path> programFolders() {
-  std::vector<std::filesystem::path> folders;
-  if (const char* folder = std::getenv("FRAGTRACE_LIBRARY_PATH")) folders.emplace_back(folder);
-  std::error_code error;
-  const auto executable = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) folders.push_back(executable.parent_path());
-  return folders;
-}
-
 std::filesystem::path pathOf(const std::string& name) {
   std::string places;
-  for (const auto& folder : programFolders()) {
+  for (const auto& folder : ownFolders()) {
     std::error_code error;
     if (std::filesystem::exists(folder / name, error)) return folder / name;
     places += (places.empty() ? "" : ", ") + folder.string();
   }
-  throw std::runtime_error("the image library " + name + " is not in " + places + "; .pfm files need none");
+  throw std::runtime_error(name + " is not in " + places);
 }
 
 /// The error of posix_spawn, or 0. Signals of the terminal do not reach the child, whose output is dropped.
@@ -96,8 +88,8 @@ std::unique_ptr<Child> startChild(const std::string& name, int socketThere) {
   if (error != 0) {
     child->process = -1;
     ::close(child->socket);
-    throw std::runtime_error("the image library " + path.string() + " cannot be started (" +
-                             std::generic_category().message(error) + "); .pfm files need none");
+    throw std::runtime_error(path.string() + " cannot be started (" + std::generic_category().message(error) +
+                             ")");
   }
   return child;
 }
@@ -113,6 +105,15 @@ void limitChild(const Child& child, uint64_t dataBytes, unsigned cpuSeconds) {
   limit(RLIMIT_DATA, dataBytes);
 #endif
   limit(RLIMIT_CPU, cpuSeconds == 0 ? RLIM_INFINITY : secondsTaken(child.process) + cpuSeconds);
+}
+
+bool awaitReply(const Child& child, std::span<uint8_t> reply, int patienceMs) {
+  pollfd waiting{child.socket, POLLIN, 0};
+  int ready = -1;
+  do {
+    ready = ::poll(&waiting, 1, patienceMs);
+  } while (ready < 0 && errno == EINTR);
+  return ready > 0 && ::recv(child.socket, reply.data(), reply.size(), 0) == ssize_t(reply.size());
 }
 
 std::string endChild(Child& child) {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 
 namespace fragtrace {
@@ -29,6 +30,9 @@ std::unique_ptr<Child> startChild(const std::string& name, int socketThere);
 
 /// Sets how much data it may have, and how many more seconds of processor time it may take (0: any number).
 void limitChild(const Child& child, uint64_t dataBytes, unsigned cpuSeconds);
+
+/// Waits for a message of exactly that size; false when none comes in that time, or it has ended.
+bool awaitReply(const Child& child, std::span<uint8_t> reply, int patienceMs);
 
 /// Ends it if it has not ended, and says how: kOutOfTime, "signal 11 (Segmentation fault)", "status 1".
 std::string endChild(Child& child);

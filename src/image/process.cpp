@@ -1,62 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "image/process.h"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <mutex>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 
 #include "image/child.h"
+#include "image/shared_memory.h"
 #include "image/worker/messages.h"
 
 namespace fragtrace {
 namespace {
-
-std::string systemReason(int code) { return std::generic_category().message(code); }
-
-/// Memory that both processes see; its size is fixed.
-class SharedMemory {
- public:
-  explicit SharedMemory(uint64_t size) : size_(size) {
-    file_ = ::memfd_create("fragtrace picture", MFD_CLOEXEC | MFD_ALLOW_SEALING);
-    if (file_ < 0 || ::ftruncate(file_, off_t(size)) != 0) fail();
-    // Else the other side could shorten it under our hands.
-    if (::fcntl(file_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) != 0) fail();
-    void* memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
-    if (memory == MAP_FAILED) fail();
-    bytes_ = static_cast<uint8_t*>(memory);
-  }
-  ~SharedMemory() {
-    if (bytes_ != nullptr) ::munmap(bytes_, size_);
-    if (file_ >= 0) ::close(file_);
-  }
-  SharedMemory(const SharedMemory&) = delete;
-  SharedMemory& operator=(const SharedMemory&) = delete;
-
-  std::span<uint8_t> bytes() const { return {bytes_, size_}; }
-  int file() const { return file_; }
-
- private:
-  [[noreturn]] void fail() {
-    const int code = errno;
-    if (file_ >= 0) ::close(file_);
-    throw std::runtime_error("no memory to share with the image process: " + systemReason(code));
-  }
-
-  uint64_t size_;
-  int file_ = -1;
-  uint8_t* bytes_ = nullptr;
-};
 
 struct Limits {
   uint64_t memoryBytes = RLIM_INFINITY;  ///< data of the process
@@ -82,7 +40,7 @@ class Service {
  public:
   void start() {
     const std::lock_guard lock(mutex_);
-    if (!child_) child_ = startChild(kProcessName, kImageProcessSocket);
+    start(lock);
   }
 
   Answer perform(const ImageRequest& request, std::span<const uint8_t> firstInput,
@@ -93,7 +51,7 @@ class Service {
     std::ranges::copy(secondInput, input);
 
     const std::lock_guard lock(mutex_);
-    if (!child_) child_ = startChild(kProcessName, kImageProcessSocket);
+    start(lock);
     const ImageReply reply = exchange(request, answer.memory->file(), limits);
     if (!reply.done)
       throw std::runtime_error(std::string(reply.reason, ::strnlen(reply.reason, sizeof reply.reason)));
@@ -108,28 +66,27 @@ class Service {
  private:
   static constexpr const char* kProcessName = "fragtrace_imageio";
 
+  void start(const std::lock_guard<std::mutex>&) {
+    if (child_) return;
+    try {
+      child_ = startChild(kProcessName, kImageProcessSocket);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error("the image library " + std::string(error.what()) + "; .pfm files need none");
+    }
+  }
+
   ImageReply exchange(const ImageRequest& request, int memoryFile, const Limits& limits) {
     limitChild(*child_, limits.memoryBytes, limits.cpuSeconds);
     ImageReply reply;
     // The processor time ends it; this is for one that sleeps.
     const int patienceMs = limits.cpuSeconds == 0 ? -1 : int(limits.cpuSeconds * 20 + 60) * 1000;
-    bool heard = sendRequest(child_->socket, request, memoryFile) && waitFor(child_->socket, patienceMs);
-    heard = heard && ::recv(child_->socket, &reply, sizeof reply, 0) == ssize_t(sizeof reply);
-    if (heard) return reply;
+    if (sendRequest(child_->socket, request, memoryFile) && awaitReply(*child_, asMessage(reply), patienceMs))
+      return reply;
     const std::string end = endChild(*child_);
     child_.reset();
     throw std::runtime_error(end == kOutOfTime ? "it takes longer to decode than its size is given: " +
                                                      std::to_string(limits.cpuSeconds) + " s"
                                                : "the image library failed: " + end);
-  }
-
-  static bool waitFor(int socket, int patienceMs) {
-    pollfd waiting{socket, POLLIN, 0};
-    int ready = -1;
-    do {
-      ready = ::poll(&waiting, 1, patienceMs);
-    } while (ready < 0 && errno == EINTR);
-    return ready > 0;
   }
 
   std::mutex mutex_;

@@ -63,6 +63,7 @@ uint32_t materialFlags(const Material& m) {
   if (m.alphaMode == AlphaMode::Blend) flags |= layout::kMaterialBlend;
   if (m.doubleSided) flags |= layout::kMaterialDoubleSided;
   if (m.unlit) flags |= layout::kMaterialUnlit;
+  if (m.specularGlossiness) flags |= layout::kMaterialSpecularGlossiness;
   return flags;
 }
 
@@ -183,6 +184,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
     appendMaterial(materials, scene.materials[i], scene.space.unit, emitters.materialDensity[i], traits,
                    textures);
   }
+  textures.appendTransforms(materials);
   packed.energyTableRow = uint32_t(materials.size() / 4);
   if (has(variant.stages, Stage::EnergyCompensation)) appendEnergyTable(materials);
   packed.buffers[kTexelsBinding] = textures.takeTexels();

@@ -6,6 +6,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "image/tone_map.h"
+#include "pack/words.h"
 
 namespace fragtrace {
 
@@ -129,7 +130,23 @@ glm::uvec4 TexturePacker::slot(const TextureRef& ref, TransferCurve curve) {
   if (ref.texcoord == 1) flags |= layout::kTextureTexcoord1;
   flags |= wrapFlags(texture.wrapU, layout::kTextureClampU, layout::kTextureMirrorU);
   flags |= wrapFlags(texture.wrapV, layout::kTextureClampV, layout::kTextureMirrorV);
-  return {placed.first, uint32_t(placed.width) | uint32_t(placed.height) << 16, flags, 0u};
+  return {placed.first, uint32_t(placed.width) | uint32_t(placed.height) << 16, flags,
+          ref.transformed() ? transformRow(ref.transform) : 0u};
+}
+
+/// Of its first row; the same transform is kept once.
+uint32_t TexturePacker::transformRow(const TextureTransform& transform) {
+  const auto known = std::find(transforms_.begin(), transforms_.end(), transform);
+  const size_t index = size_t(known - transforms_.begin());
+  if (known == transforms_.end()) transforms_.push_back(transform);
+  return uint32_t(scene_.materials.size() * layout::kMaterialRows + 2 * index);
+}
+
+void TexturePacker::appendTransforms(Words& materials) const {
+  for (const TextureTransform& transform : transforms_) {
+    appendRow(materials, transform.u, 0.0f);
+    appendRow(materials, transform.v, 0.0f);
+  }
 }
 
 glm::vec3 TexturePacker::mean(const TextureRef& ref, TransferCurve curve) {

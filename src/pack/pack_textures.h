@@ -26,6 +26,9 @@ class TexturePacker {
   /// Mean of a texture's linear colour, 1 for none.
   glm::vec3 mean(const TextureRef& ref, TransferCurve curve);
 
+  /// The rows of the transforms, which stand behind those of all materials.
+  void appendTransforms(Words& materials) const;
+
   Words takeTexels() { return std::move(texels_); }
 
  private:
@@ -44,6 +47,9 @@ class TexturePacker {
   const Scene& scene_;
   int side_;
   std::map<std::pair<uint32_t, TransferCurve>, Placed> placed_;
+  uint32_t transformRow(const TextureTransform& transform);
+
+  std::vector<TextureTransform> transforms_;
   Words texels_;
 };
 

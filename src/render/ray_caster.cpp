@@ -13,12 +13,6 @@ constexpr int32_t kUnfinished = -2;  // kRayUnfinished of shaders/rays.glsl
 /// llvmpipe ends all loops of an invocation after 65,535 iterations in sum; a step may take three of them.
 constexpr int kStepLimit = 20000;
 
-GLuint makeVertexArray() {
-  GLuint name = 0;
-  glCreateVertexArrays(1, &name);
-  return name;
-}
-
 GLuint makeFramebuffer(glm::ivec2 size) {
   GLuint name = 0;
   glCreateFramebuffers(1, &name);

@@ -37,18 +37,6 @@ glm::dvec2 halfExtents(const Camera& camera, double unit, glm::ivec2 size) {
   return {height * size.x / size.y, height};
 }
 
-GLuint makeVertexArray() {
-  GLuint name = 0;
-  glCreateVertexArrays(1, &name);
-  return name;
-}
-
-GLuint makeFramebuffer() {
-  GLuint name = 0;
-  glCreateFramebuffers(1, &name);
-  return name;
-}
-
 GLuint makeTimer() {
   GLuint name = 0;
   glCreateQueries(GL_TIME_ELAPSED, 1, &name);

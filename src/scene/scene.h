@@ -52,11 +52,26 @@ struct Texture {
   bool linear = true;  ///< magnification filter: linear, else nearest
 };
 
+/// Where a texture is read: the first two rows of a matrix that multiplies (u, v, 1)
+/// (KHR_texture_transform).
+struct TextureTransform {
+  glm::vec3 u{1.0f, 0.0f, 0.0f};
+  glm::vec3 v{0.0f, 1.0f, 0.0f};
+
+  glm::vec2 of(const glm::vec2& texcoord) const {
+    const glm::vec3 place(texcoord, 1.0f);
+    return {glm::dot(u, place), glm::dot(v, place)};
+  }
+  bool operator==(const TextureTransform&) const = default;
+};
+
 /// A material's use of a texture; texture == kMissIndex means the factor alone.
 struct TextureRef {
   uint32_t texture = kMissIndex;
   uint32_t texcoord = 0;  ///< which TEXCOORD_n, 0 or 1
+  TextureTransform transform{};
   bool present() const { return texture != kMissIndex; }
+  bool transformed() const { return present() && transform != TextureTransform{}; }
 };
 
 enum class AlphaMode : uint8_t { Opaque, Mask, Blend };
@@ -68,6 +83,9 @@ struct PerlinNormal {
   float amplitude = 0.0f;  ///< slope of the height field, dimensionless
   int octaves = 1;
 };
+
+/// Stands for an index that reflects all: the reflectance seen from above is within 4e-6 of 1.
+inline constexpr float kInfiniteIor = 1e6f;
 
 /// Material of glTF 2.0 with the extensions named in docs/conventions.md; defaults are the specification's.
 struct Material {
@@ -83,7 +101,10 @@ struct Material {
   float alphaCutoff = 0.5f;
   bool doubleSided = false;
   bool unlit = false;
-  float ior = 1.5f;
+  /// Of KHR_materials_pbrSpecularGlossiness: the diffuse colour gives way to the specular one, and
+  /// specularColorTexture holds the glossiness (1 - roughness) in its alpha.
+  bool specularGlossiness = false;
+  float ior = 1.5f;  ///< kInfiniteIor: a Fresnel factor of 1 (KHR_materials_ior's 0)
   float transmissionFactor = 0.0f;
   float thicknessFactor = 0.0f;  ///< 0: thin-walled, above: the mesh bounds a solid
   glm::vec3 attenuationColor{1.0f};
@@ -100,6 +121,11 @@ struct Material {
   TextureRef specularTexture;           // linear, A
   TextureRef specularColorTexture;      // sRGB
 
+  /// All of the above.
+  std::array<const TextureRef*, 8> textures() const {
+    return {&baseColorTexture, &metallicRoughnessTexture, &normalTexture,   &emissiveTexture,
+            &occlusionTexture, &transmissionTexture,      &specularTexture, &specularColorTexture};
+  }
   bool transmissive() const { return transmissionFactor > 0.0f; }
   bool emissive() const {
     return !unlit && emissiveStrength > 0.0f &&
@@ -202,6 +228,9 @@ struct Scene {
   std::vector<Instance> instances;
   std::string sharing;  ///< why meshes are shared or are not, in a few words
   std::vector<std::string> extensionsUsed;
+  std::vector<std::string> sceneNames;  ///< of all that SceneSelection may name; "" where one has no name
+  std::vector<std::string> animationNames;
+  std::vector<std::string> materialVariants;
   std::vector<std::string> warnings;  ///< one line each, for stderr; names the file and the place
   BoundsDouble bounds;                ///< world space
 };

@@ -26,12 +26,15 @@ glm::dvec3 unitOrZero(const glm::dvec3& v) {
 
 class TangentMaker {
  public:
-  TangentMaker(Vertices& vertices, std::span<Triangle> triangles, uint32_t texcoord)
+  TangentMaker(Vertices& vertices, std::span<Triangle> triangles, uint32_t texcoord,
+               const TextureTransform& transform)
       : vertices_(vertices),
         triangles_(triangles),
         texcoords_(texcoord == 0 ? vertices.texcoord0 : vertices.texcoord1) {
     // A set that is not given is (0, 0) everywhere, so that no triangle has an orientation.
     if (texcoords_.empty()) texcoords_.assign(vertices.position.size(), glm::vec2(0.0f));
+    if (transform == TextureTransform{}) return;
+    for (glm::vec2& place : texcoords_) place = transform.of(place);
   }
 
   void make() {
@@ -202,8 +205,9 @@ glm::vec3 anyPerpendicular(const glm::vec3& normal) {
   return length > 0.0f ? perpendicular / length : glm::vec3(1, 0, 0);
 }
 
-void makeTangents(Vertices& vertices, std::span<Triangle> triangles, uint32_t texcoord) {
-  TangentMaker(vertices, triangles, texcoord).make();
+void makeTangents(Vertices& vertices, std::span<Triangle> triangles, uint32_t texcoord,
+                  const TextureTransform& transform) {
+  TangentMaker(vertices, triangles, texcoord, transform).make();
 }
 
 }  // namespace fragtrace

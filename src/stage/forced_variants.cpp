@@ -26,6 +26,12 @@ TraitSet withNeeded(Trait trait) {
     case Trait::Metals:
       add(Trait::Specular);
       break;
+    case Trait::SpecularGlossiness:
+      add(Trait::Specular);
+      break;
+    case Trait::TextureTransforms:
+      add(Trait::BaseColorTexture, Trait::Texcoords);
+      break;
     case Trait::TransmissionTexture:
       add(Trait::Transmission, Trait::Texcoords);
       break;

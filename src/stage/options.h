@@ -15,6 +15,7 @@
 #include "image/tone_map.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
+#include "scene/selection.h"
 #include "stage/feature.h"
 #include "stage/stage.h"
 
@@ -77,6 +78,7 @@ struct RenderOptions {
   std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
   std::filesystem::path statsFile;
   std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
+  SceneSelection selection;
   InputLimits limits;
   bool quiet = false;
   bool verbose = false;

@@ -27,6 +27,8 @@ enum class Trait : uint8_t {
   EmissionTexture,
   TransmissionTexture,
   SpecularTexture,
+  SpecularGlossiness,
+  TextureTransforms,
   PerlinNormals,
   Specular,
   Metals,

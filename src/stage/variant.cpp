@@ -50,6 +50,8 @@ void addMaterialTraits(const Material& m, const Vertices& vertices, TraitSet& tr
   mark(Trait::Metals, m.metallicFactor > 0.0f);
   mark(Trait::MetallicRoughnessTexture, m.metallicRoughnessTexture.present());
   mark(Trait::SpecularTexture, m.specularTexture.present() || m.specularColorTexture.present());
+  mark(Trait::SpecularGlossiness, m.specularGlossiness);
+  for (const TextureRef* texture : m.textures()) mark(Trait::TextureTransforms, texture->transformed());
   mark(Trait::NormalTexture, m.normalTexture.present() && !vertices.tangent.empty());
   mark(Trait::PerlinNormals, m.perlinNormal.amplitude != 0.0f && !vertices.texcoord0.empty());
   mark(Trait::Transmission, m.transmissive());
@@ -149,8 +151,9 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   const bool shaded = stage(Stage::Phong);
   if (!shaded) {
     for (Trait t : {Trait::VertexNormals, Trait::Specular, Trait::Metals, Trait::MetallicRoughnessTexture,
-                    Trait::SpecularTexture, Trait::Unlit, Trait::Emission, Trait::EmissionTexture,
-                    Trait::EmissiveTriangles, Trait::PunctualLights, Trait::EnvironmentSampling}) {
+                    Trait::SpecularTexture, Trait::SpecularGlossiness, Trait::Unlit, Trait::Emission,
+                    Trait::EmissionTexture, Trait::EmissiveTriangles, Trait::PunctualLights,
+                    Trait::EnvironmentSampling}) {
       without(t);
     }
     if (surroundings != Surroundings::Map) without(Trait::Environment);
@@ -161,7 +164,9 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   }
   if (stage(Stage::Gi) && !stage(Stage::Reflections)) without(Trait::Specular);
   if (!has(v.traits, Trait::Specular)) {
-    for (Trait t : {Trait::Metals, Trait::SpecularTexture, Trait::MetallicRoughnessTexture}) without(t);
+    for (Trait t : {Trait::Metals, Trait::MetallicRoughnessTexture}) without(t);
+    // Of specular-glossiness the diffuse colour gives way to the specular one, reflected or not.
+    if (!has(v.traits, Trait::SpecularGlossiness)) without(Trait::SpecularTexture);
   }
   if (!stage(Stage::Refraction)) {
     for (Trait t : {Trait::Transmission, Trait::TransmissionTexture, Trait::Absorption}) without(t);
@@ -181,7 +186,10 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
                         has(v.traits, Trait::NormalTexture) || has(v.traits, Trait::EmissionTexture) ||
                         has(v.traits, Trait::TransmissionTexture) || has(v.traits, Trait::SpecularTexture) ||
                         has(v.traits, Trait::PerlinNormals);
-  if (!textured) without(Trait::Texcoords);
+  if (!textured) {
+    without(Trait::Texcoords);
+    without(Trait::TextureTransforms);
+  }
 
   // Step: stages that change nothing in this scene.
   if (!stage(Stage::Gi) || !hasAreaLight(v.traits)) drop(Stage::LightSampling);
@@ -234,11 +242,20 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
   }
   ShaderVariant v = chooseVariant(wanted, kept, surroundings, treeDepth, reads);
   v.traits.reset(size_t(Trait::Environment));
+  const auto keep = [&](Trait t) {
+    if (has(present, t)) v.traits.set(size_t(t));
+  };
+  const bool glossiness = has(present, Trait::SpecularGlossiness);
   const bool roughnessTexture =
-      feature == Feature::Roughness && has(present, Trait::MetallicRoughnessTexture);
-  if (roughnessTexture) v.traits.set(size_t(Trait::MetallicRoughnessTexture));
-  if (roughnessTexture || feature == Feature::Texcoords)
-    v.traits.set(size_t(Trait::Texcoords), has(present, Trait::Texcoords));
+      feature == Feature::Roughness &&
+      (has(present, Trait::MetallicRoughnessTexture) || (glossiness && has(present, Trait::SpecularTexture)));
+  if (feature == Feature::Roughness) {
+    keep(Trait::MetallicRoughnessTexture);
+    keep(Trait::SpecularGlossiness);
+    if (glossiness) keep(Trait::SpecularTexture);
+  }
+  if (roughnessTexture) keep(Trait::TextureTransforms);
+  if (roughnessTexture || feature == Feature::Texcoords) keep(Trait::Texcoords);
   v.feature = feature;
   return v;
 }

@@ -53,6 +53,21 @@ void judgeFurnace(const FilmPixels& film, double least, double most, const char*
   }
 }
 
+/// Paths in a white world, off white mirrors, that bring back less than all of its light (one each), or more.
+void judgeMirrorFurnace(const FilmPixels& film, const char* what, StressOutcome& outcome) {
+  size_t lost = 0;
+  for (const FilmPixel& p : film.pixels) {
+    if (p.alpha < double(p.samples)) continue;  // sees the world itself
+    outcome.cases += p.samples;
+    const double missing = double(p.samples) - p.sum.x;
+    const bool wrong = p.nonfinite > 0 || missing < -kRounding * double(p.samples);
+    lost += wrong ? p.samples : size_t(std::lround(std::max(missing, 0.0)));
+  }
+  if (lost == 0) return;
+  outcome.failures += lost;
+  outcome.worst = formatted("%s: %zu paths lost or gained light", what, lost);
+}
+
 Scene whiteBall() {
   Scene scene = makeBallScene(2000);
   for (Material& m : scene.materials) {
@@ -189,9 +204,7 @@ StressOutcome shadeBadTangents(const StressSetting& setting) {
       v.tangent[i] = glm::vec4(tangent, dice.coin() ? 1.0f : -1.0f);
     }
     StressPicture picture(setting, scene, whiteWorld(1.0f), furnaceOptions(setting));
-    // A ray that meets an outline exactly may find the far face first, and get inside.
-    judgeFurnace(picture.draw(furnaceView(dvec3(1.0, 2.0, 3.0), dvec3(0.0)), size, 64), 0.9, 1.0 + kRounding,
-                 kind, outcome);
+    judgeMirrorFurnace(picture.draw(furnaceView(dvec3(1.0, 2.0, 3.0), dvec3(0.0)), size, 64), kind, outcome);
   }
   return outcome;
 }

@@ -21,8 +21,9 @@ std::vector<StressRow> stressRows() {
       {"shell white", "paths inside a white shell in a bright world", 0.0, true, scatterInWhiteShell});
   rows.push_back({"bad normals", "missing, backwards and tilted normals in a white furnace", 0.0, false,
                   shadeBadNormals});
-  rows.push_back({"bad tangents", "a steep map over tangents that do not fit, in a white furnace", 0.0, false,
-                  shadeBadTangents});
+  // Rays that leave a crease narrower than a right angle can start behind its other side (docs/accuracy.md).
+  rows.push_back({"bad tangents", "paths by a steep map over tangents that do not fit, in a white furnace",
+                  1e-4, false, shadeBadTangents});
   rows.push_back({"glass", "nested, touching, of index 1, from inside, in a white furnace", 0.0, false,
                   lookThroughGlass});
   rows.push_back({"contact shadow", "the foot of a wall, from close by", 0.0, false, lookAtContactShadow});

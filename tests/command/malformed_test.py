@@ -29,8 +29,11 @@ NOT_READ = {
     "TEXTURE_INVALID_IMAGE_MIME_TYPE": "as above",
 }
 
-# Codes of what is not applied yet: EXT_texture_webp, KHR_materials_variants, skins, morph targets, animations, new materials.
-NOT_APPLIED = re.compile(r"skins?/|skin_data/|EXT_texture_webp|KHR_materials_(variants|anisotropy|dispersion)|morph|node_weights")
+# Codes of what is not applied yet: EXT_texture_webp, new materials.
+NOT_APPLIED = re.compile(r"EXT_texture_webp|KHR_materials_(anisotropy|dispersion)")
+
+# Animations are read where a time is asked for.
+MOVED = ["--animation-time", "0"]
 
 # Files whose errors are in objects that nothing shows, and which are not opened or decoded.
 UNUSED = {
@@ -44,12 +47,14 @@ UNUSED = {
     "base/data/mesh_data/index_buffer_oob.gltf": "no node shows the mesh, whose indices are therefore not read",
     "base/data/mesh_data/index_buffer_primitive_restart.gltf": "as above",
     "base/data/mesh_data/normals_tangents_non_unit_invalid_sign.gltf": "as above",
+    "base/data/skin_data/invalid_ibm.gltf": "no node has the skin",
 }
 
 # Refused at another place than the report's.
 ELSEWHERE = {
     "base/data/camera/infinite_znear.gltf": "1e309 is no number: the parser names it and not its place",
     "base/data/node/infinite_transform.gltf": "as above",
+    "base/data/animation/sampler_bufferview_bytestride.gltf": "its keys are in a buffer that is nowhere",
 }
 
 # Files that the validator has no error in and that cannot be drawn.
@@ -81,7 +86,7 @@ class ValidatorFiles(Case):
             path = Path(str(report).removesuffix(".report.json"))
             name = str(path.relative_to(FOLDER))
             errors = [m for m in json.loads(report.read_text())["issues"]["messages"] if m["severity"] == 0]
-            result = run("info", path, timeout=20)
+            result = run("info", path, *MOVED, timeout=20)
             lines = result.stderr.strip().splitlines()
             if result.returncode not in (0, 3) or (result.returncode == 3 and len(lines) != 1):
                 faults.append((name, "status", result.returncode, result.stderr))

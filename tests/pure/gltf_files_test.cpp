@@ -140,22 +140,6 @@ TEST(GltfFiles, UnknownExtensionIsRefusedOnlyIfRequired) {
       "test.gltf: /extensionsRequired/1: the extension \"VENDOR_unknown\" is required and not supported");
 }
 
-TEST(GltfFiles, SkinsMorphTargetsAndAnimationsWarnOnceEach) {
-  GltfBuilder builder;
-  builder.addTriangle()["targets"] = {{{"POSITION", 0}}};
-  builder.addTriangle()["targets"] = {{{"POSITION", 0}}};
-  builder.root["skins"] = {{{"joints", {0}}}};
-  builder.node(0)["skin"] = 0;
-  builder.node(1)["skin"] = 0;
-  builder.root["animations"] = {{{"channels", {{}}}, {"samplers", {{}}}}};
-  const Scene scene = load(builder);
-  EXPECT_EQ(scene.triangles.size(), 2u);
-  EXPECT_EQ(scene.warnings.size(), 3u);
-  EXPECT_TRUE(anyWarningHas(scene, "/nodes/0/skin: skins are not applied"));
-  EXPECT_TRUE(anyWarningHas(scene, "/meshes/0/primitives/0/targets: morph targets are not applied"));
-  EXPECT_TRUE(anyWarningHas(scene, "/animations: animations are not applied"));
-}
-
 TEST(GltfFiles, AFileWithoutGeometryIsAnEmptyScene) {
   GltfBuilder builder;
   const Scene scene = load(builder);

@@ -7,6 +7,7 @@
 
 #include "bench/ray_attacks.h"
 #include "bench/ray_judge.h"
+#include "bvh/exact_tracer.h"
 #include "shader_scenes.h"
 
 namespace fragtrace {
@@ -59,6 +60,38 @@ INSTANTIATE_TEST_SUITE_P(Rays, Attack, testing::ValuesIn(rayAttacks().begin(), r
                            std::ranges::replace(name, '-', '_');
                            return name;
                          });
+
+double distanceToSegment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
+  const glm::dvec3 along = b - a;
+  const double place = std::clamp(glm::dot(p - a, along) / glm::dot(along, along), 0.0, 1.0);
+  return glm::length(p - (a + place * along));
+}
+
+/// The directions are those from origins of floats, 300 km away, to the rims; from where the origins were
+/// before they were rounded the rays would pass a rim by a ten thousandth of the mesh.
+TEST(RaysAtRims, AreAimedFromTheRoundedOrigin) {
+  constexpr size_t kRays = 1000;
+  const auto attack = std::ranges::find_if(
+      rayAttacks(), [](const RayAttack& a) { return a.name == std::string("rims-far-away"); });
+  const Scene scene = attack->scene();
+  const Bvh bvh = buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
+  const std::vector<Ray> rays = attack->rays(scene, kRays, 1).rays;
+  const std::vector<ExactHit> hits = ExactTracer(scene, bvh).nearest(rays);
+  const auto corner = [&](size_t hit, int i) {
+    return glm::dvec3(scene.vertices.position[scene.triangles[hits[hit].primitive].vertex[i % 3]]);
+  };
+  size_t close = 0;
+  for (size_t i = 0; i < kRays; ++i) {
+    if (hits[i].primitive == kMissIndex) continue;
+    const glm::dvec3 point = glm::dvec3(rays[i].origin) + hits[i].t * glm::dvec3(rays[i].direction);
+    double nearest = scene.bounds.extent().x;
+    for (int edge = 0; edge < 3; ++edge) {
+      nearest = std::min(nearest, distanceToSegment(point, corner(i, edge), corner(i, edge + 1)));
+    }
+    close += nearest < 1e-6 * scene.bounds.extent().x ? 1 : 0;
+  }
+  EXPECT_GT(close, kRays * 9 / 10);
+}
 
 }  // namespace
 }  // namespace fragtrace

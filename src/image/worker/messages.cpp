@@ -1,30 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "image/worker/messages.h"
 
-#include <sys/socket.h>
-
-#include <cerrno>
 #include <cstring>
 #include <stdexcept>
 
+#include "image/shared_memory.h"
+
 namespace fragtrace {
-namespace {
-
-/// A message of one request that carries one descriptor (man unix, SCM_RIGHTS).
-struct Message {
-  iovec body{};
-  alignas(cmsghdr) char control[CMSG_SPACE(sizeof(int))] = {};
-  msghdr header{};
-
-  explicit Message(ImageRequest& request) : body{&request, sizeof request} {
-    header.msg_iov = &body;
-    header.msg_iovlen = 1;
-    header.msg_control = control;
-    header.msg_controllen = sizeof control;
-  }
-};
-
-}  // namespace
 
 std::vector<uint8_t> packTexts(const std::vector<std::string>& texts) {
   std::vector<uint8_t> bytes;
@@ -53,30 +35,12 @@ std::vector<std::string> unpackTexts(std::span<const uint8_t> bytes) {
 }
 
 bool sendRequest(int socket, const ImageRequest& request, int memoryFile) {
-  ImageRequest copy = request;
-  Message message(copy);
-  cmsghdr* control = CMSG_FIRSTHDR(&message.header);
-  control->cmsg_level = SOL_SOCKET;
-  control->cmsg_type = SCM_RIGHTS;
-  control->cmsg_len = CMSG_LEN(sizeof memoryFile);
-  std::memcpy(CMSG_DATA(control), &memoryFile, sizeof memoryFile);
-  ssize_t sent = -1;
-  do {
-    sent = ::sendmsg(socket, &message.header, MSG_NOSIGNAL);
-  } while (sent < 0 && errno == EINTR);
-  return sent == ssize_t(sizeof request);
+  return sendWithFile(socket, asMessage(request), memoryFile);
 }
 
 std::optional<ImageRequest> receiveRequest(int socket, int& memoryFile) {
   ImageRequest request;
-  Message message(request);
-  ssize_t received = -1;
-  do {
-    received = ::recvmsg(socket, &message.header, MSG_CMSG_CLOEXEC);
-  } while (received < 0 && errno == EINTR);
-  const cmsghdr* control = CMSG_FIRSTHDR(&message.header);
-  if (received != ssize_t(sizeof request) || control == nullptr) return std::nullopt;
-  std::memcpy(&memoryFile, CMSG_DATA(control), sizeof memoryFile);
+  if (!receiveWithFile(socket, asMessage(request), memoryFile)) return std::nullopt;
   return request;
 }
 

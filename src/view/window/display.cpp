@@ -16,18 +16,6 @@ constexpr GLint kToneMap = 1;
 constexpr GLint kWindowSize = 0;
 constexpr GLint kBar = 1;
 
-GLuint makeVertexArray() {
-  GLuint name = 0;
-  glCreateVertexArrays(1, &name);
-  return name;
-}
-
-GLuint makeFramebuffer() {
-  GLuint name = 0;
-  glCreateFramebuffers(1, &name);
-  return name;
-}
-
 }  // namespace
 
 Display::Display() : vertexArray_(makeVertexArray()) {
@@ -49,7 +37,7 @@ void Display::take(const TracedPicture& picture) {
     glTextureStorage2D(side.displayed.name(), 1, GL_RGBA8, size.x, size.y);
     glTextureParameteri(side.displayed.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTextureParameteri(side.displayed.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    side.framebuffer = GlFramebuffer(makeFramebuffer());
+    side.framebuffer = makeFramebuffer();
     glNamedFramebufferTexture(side.framebuffer.name(), GL_COLOR_ATTACHMENT0, side.displayed.name(), 0);
     side.size = size;
   }

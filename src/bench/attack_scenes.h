@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Scenes at which ray tracers in 32-bit floats break; what is aimed at them is in ray_attacks.cpp.
+#pragma once
+
+#include <array>
+
+#include "scene/scene.h"
+
+namespace fragtrace::attack {
+
+/// A closed mesh of 20,000 triangles.
+Scene ball();
+/// The same, a hundred times as large, in coordinates of 300 km.
+Scene farBall();
+/// Steps of quads that lie in planes of the axes.
+Scene grid();
+/// 1,500 triangles without order.
+Scene scattered();
+/// A metre long and a micrometre wide, some along axes.
+Scene slivers();
+/// Of no area, twenty times the same, and overlapping in one plane.
+Scene flatAndDouble();
+/// Ten kilometres beside a micrometre.
+Scene hugeAndTiny();
+/// Round one place, each smaller than the one before, down to a millionth of the first.
+Scene nested();
+/// A hundred, of a millimetre to a metre.
+Scene spheres();
+/// A closed room with two boxes, off the origin, turned so that nothing is along an axis.
+Scene room();
+/// A closed room along the axes, its walls cut into tiles: neighbours' boxes meet in planes.
+Scene tiledRoom();
+/// The room of 500 nanometres.
+Scene tinyRoom();
+/// The room of 500,000 km.
+Scene hugeRoom();
+
+constexpr int kTiles = 24;  ///< along each side of a wall of the tiled room
+
+/// Where the tiled room is cut along an axis; line 0 and kTiles are its walls.
+double tileLine(int axis, int line);
+
+std::array<glm::dvec3, 3> corners(const Scene& scene, size_t triangle);
+
+}  // namespace fragtrace::attack

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// What the loader and its process of codecs say to each other: a request with a piece of shared memory, a
+// reply. The memory holds the encoded bytes and, from the next multiple of kCodecAlignment on, the decoded
+// ones.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace fragtrace {
+
+enum class Codec : uint32_t {
+  MeshoptVertices,   ///< EXT_meshopt_compression, mode ATTRIBUTES
+  MeshoptTriangles,  ///< TRIANGLES
+  MeshoptIndices,    ///< INDICES
+  Draco              ///< KHR_draco_mesh_compression
+};
+enum class MeshoptFilter : uint32_t { None, Octahedral, Quaternion, Exponential };
+
+/// An attribute of a Draco mesh, and as what its values are wanted.
+struct CodecAttribute {
+  uint32_t id = 0;  ///< in the Draco stream
+  uint32_t componentType = 0;
+  uint32_t components = 0;
+};
+inline constexpr size_t kMostCodecAttributes = 32;
+
+/// Draco's output: indices of 32 bits, three a triangle, then one attribute after the other, each from the
+/// next multiple of four bytes on.
+struct CodecRequest {
+  Codec codec = Codec::Draco;
+  MeshoptFilter filter = MeshoptFilter::None;
+  uint64_t inputBytes = 0;
+  uint64_t outputBytes = 0;
+  uint64_t count = 0;       ///< elements, or vertices
+  uint64_t stride = 0;      ///< bytes of an element (meshopt)
+  uint64_t indexCount = 0;  ///< Draco
+  uint32_t attributeCount = 0;
+  std::array<CodecAttribute, kMostCodecAttributes> attributes{};
+};
+
+struct CodecReply {
+  bool done = false;
+  char reason[500] = {};  ///< why it is not done
+};
+
+inline constexpr uint64_t kCodecAlignment = 4096;
+inline constexpr int kCodecProcessSocket = 3;  ///< the process's end
+
+inline uint64_t decodedOffset(const CodecRequest& request) {
+  return (request.inputBytes + kCodecAlignment - 1) / kCodecAlignment * kCodecAlignment;
+}
+
+}  // namespace fragtrace

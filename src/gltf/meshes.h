@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The meshes that nodes show, each decoded once for all nodes that show it alike.
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "gltf/flatten.h"
+#include "gltf/nodes.h"
+#include "gltf/primitives.h"
+
+namespace fragtrace {
+
+/// What instances point into.
+struct ShownMeshes {
+  std::map<std::pair<int, MeshPose>, std::vector<MeshPrimitive>> decoded;  ///< by mesh
+  std::map<int, std::vector<glm::dmat4>> joints;                           ///< by skin
+  std::vector<PrimitiveInstance> instances;
+};
+
+/// Throws InputError.
+ShownMeshes showMeshes(Document& document, const std::vector<Material>& materials,
+                       const std::vector<PlacedNode>& nodes);
+
+}  // namespace fragtrace

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// What may move or swap parts of a file, taken out of the document before tinygltf sees it: skins, animations
+// and material variants. tinygltf would refuse more of them than we need to.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "scene/selection.h"
+
+namespace fragtrace {
+
+class Diagnostics;
+
+/// glTF 2.0, section 3.7.3: indices of nodes, and of an accessor of one matrix a joint.
+struct Skin {
+  std::vector<int> joints;
+  int inverseBindMatrices = -1;  ///< none: all are the identity
+};
+
+/// What a channel of an animation drives, and with which accessors.
+struct Channel {
+  std::string place;    ///< JSON pointer of the channel
+  std::string target;   ///< JSON pointer of the numbers that it drives; empty: none that we know
+  std::string sampler;  ///< JSON pointer
+  std::string interpolation;
+  int input = -1;
+  int output = -1;
+};
+
+struct Animation {
+  std::string name;
+  std::vector<Channel> channels;
+};
+
+/// Of a document that has passed the schema. The document keeps none.
+std::vector<Skin> takeSkins(nlohmann::json& root);
+std::vector<Animation> takeAnimations(nlohmann::json& root);
+
+/// Warns of what breaks glTF's rules for skins, animations, morph weights and variants, and refuses samplers
+/// that are not there.
+void checkMotion(const nlohmann::json& root, Diagnostics& diagnostics);
+
+/// The names of an array's elements, "" where one has none.
+std::vector<std::string> namesOf(const nlohmann::json& array);
+
+/// The index of the part that the user named by its name or index. Throws UsageError, which begins with
+/// `option` and lists the names that there are.
+size_t indexOfPart(const char* option, const std::string& wanted, const std::vector<std::string>& names);
+
+/// Makes the chosen scene the default one and gives primitives the materials of the chosen variant
+/// (KHR_materials_variants). Throws UsageError.
+void applySelection(nlohmann::json& root, const SceneSelection& selection);
+
+}  // namespace fragtrace

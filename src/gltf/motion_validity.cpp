@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gltf/diagnostics.h"
+#include "gltf/motion.h"
+
+namespace fragtrace {
+namespace {
+
+using nlohmann::json;
+
+constexpr unsigned kFloat = 5126;
+
+const json& memberOf(const json& object, const char* name) {
+  static const json kNone;
+  const auto found = object.is_object() ? object.find(name) : object.end();
+  return object.is_object() && found != object.end() ? *found : kNone;
+}
+
+/// The element of that list that `index` names, or an empty object.
+const json& elementOf(const json& root, const char* list, const json& index) {
+  static const json kNone = json::object();
+  const json& elements = memberOf(root, list);
+  if (!index.is_number_unsigned() || !elements.is_array()) return kNone;
+  return index.get<size_t>() < elements.size() ? elements[index.get<size_t>()] : kNone;
+}
+
+/// Parent by node; the last one named counts.
+std::vector<size_t> parentsOf(const json& nodes) {
+  std::vector<size_t> parents(nodes.size(), nodes.size());
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    for (const json& child : memberOf(nodes[i], "children")) parents[child.get<size_t>()] = i;
+  }
+  return parents;
+}
+
+/// A node and those above it, up to its root; loops end.
+std::vector<size_t> lineOf(size_t node, const std::vector<size_t>& parents) {
+  std::vector<size_t> line;
+  for (; node < parents.size() && line.size() <= parents.size(); node = parents[node]) line.push_back(node);
+  return line;
+}
+
+bool holds(const std::vector<size_t>& line, size_t node) {
+  return std::find(line.begin(), line.end(), node) != line.end();
+}
+
+class MotionChecker {
+ public:
+  MotionChecker(const json& root, Diagnostics& diagnostics) : root_(root), diagnostics_(diagnostics) {}
+
+  void check() {
+    forEach("nodes", [this](const json& node, const std::string& place) { checkNode(node, place); });
+    if (root_.contains("skins")) parents_ = parentsOf(memberOf(root_, "nodes"));
+    forEach("skins", [this](const json& skin, const std::string& place) { checkSkin(skin, place); });
+    forEach("animations",
+            [this](const json& animation, const std::string& place) { checkAnimation(animation, place); });
+    forEach("meshes", [this](const json& mesh, const std::string& place) { checkVariants(mesh, place); });
+  }
+
+ private:
+  template <typename Check>
+  void forEach(const char* list, const Check& checkOne) {
+    const json& elements = memberOf(root_, list);
+    for (size_t i = 0; i < elements.size(); ++i) checkOne(elements[i], pointerTo(list, i));
+  }
+
+  void warn(const std::string& place, const std::string& reason) { diagnostics_.warn(place, reason); }
+
+  const json& accessorAt(const json& index) const { return elementOf(root_, "accessors", index); }
+
+  /// Of a mesh's first primitive; the others must have as many.
+  static size_t targetsOf(const json& mesh) {
+    const json& primitives = memberOf(mesh, "primitives");
+    return primitives.empty() ? 0 : memberOf(primitives[0], "targets").size();
+  }
+
+  void warnStride(const json& accessor, const std::string& place) {
+    if (elementOf(root_, "bufferViews", memberOf(accessor, "bufferView")).contains("byteStride"))
+      warn(place, "byteStride is for vertex attributes only");
+  }
+
+  void checkNode(const json& node, const std::string& place) {
+    const json& mesh = elementOf(root_, "meshes", memberOf(node, "mesh"));
+    if (mesh.empty()) return;
+    if (node.contains("weights") && node["weights"].size() != targetsOf(mesh))
+      warn(place + "/weights", "are not as many as the mesh's morph targets");
+    if (!node.contains("skin")) return;
+    for (const json& primitive : mesh["primitives"]) {
+      if (!primitive["attributes"].contains("JOINTS_0"))
+        warn(place + "/skin", "has a mesh without joints, which stands where its node does");
+    }
+  }
+
+  void checkSkin(const json& skin, const std::string& place) {
+    const json& joints = skin["joints"];
+    const json& matrices = accessorAt(memberOf(skin, "inverseBindMatrices"));
+    if (!matrices.empty()) {
+      const std::string there = place + "/inverseBindMatrices";
+      if (matrices["type"] != "MAT4" || matrices["componentType"] != kFloat)
+        warn(there, "are not floats of type MAT4");
+      if (matrices["count"].get<size_t>() < joints.size()) warn(there, "are fewer than the joints");
+      warnStride(matrices, there);
+    }
+    if (joints.empty()) return;
+    std::vector<size_t> common = lineOf(joints[0].get<size_t>(), parents_);
+    std::set<size_t> seen;
+    for (const json& joint : joints) {
+      if (!seen.insert(joint.get<size_t>()).second) warn(place + "/joints", "names a node twice");
+      const std::vector<size_t> line = lineOf(joint.get<size_t>(), parents_);
+      std::erase_if(common, [&](size_t node) { return !holds(line, node); });
+    }
+    if (common.empty()) warn(place + "/joints", "have no common root");
+    const json& skeleton = memberOf(skin, "skeleton");
+    if (skeleton.is_number_unsigned() && !common.empty() && !holds(common, skeleton.get<size_t>()))
+      warn(place + "/skeleton", "is above none or not all of the joints, and not needed");
+  }
+
+  void checkAnimation(const json& animation, const std::string& place) {
+    const json& samplers = animation["samplers"];
+    for (size_t i = 0; i < samplers.size(); ++i)
+      checkSampler(samplers[i], place + "/samplers/" + std::to_string(i));
+    std::map<std::string, size_t> targets;
+    const json& channels = animation["channels"];
+    for (size_t i = 0; i < channels.size(); ++i) {
+      const std::string there = place + "/channels/" + std::to_string(i);
+      const auto sampler = channels[i]["sampler"].get<size_t>();
+      if (sampler >= samplers.size()) {
+        diagnostics_.refuse(there + "/sampler", "index " + std::to_string(sampler) + " is past the " +
+                                                    std::to_string(samplers.size()) + " samplers");
+      }
+      checkTarget(channels[i]["target"], there + "/target");
+      const auto [first, isFirst] = targets.try_emplace(channels[i]["target"].dump(), i);
+      if (!isFirst && channels[i]["target"].contains("node"))
+        warn(place + pointerTo("channels", first->second, "target"), "is overruled by a later channel");
+      checkOutput(channels[i]["target"], samplers[sampler], there + "/sampler");
+    }
+  }
+
+  void checkSampler(const json& sampler, const std::string& place) {
+    const json& input = accessorAt(sampler["input"]);
+    const std::string interpolation = sampler.value("interpolation", "LINEAR");
+    const bool isCubic = interpolation == "CUBICSPLINE";
+    if (!isCubic && interpolation != "LINEAR" && interpolation != "STEP")
+      warn(place + "/interpolation", inQuotes(interpolation) + " is no interpolation");
+    if (input["type"] != "SCALAR" || input["componentType"] != kFloat)
+      warn(place + "/input", "is not of floats of type SCALAR");
+    if (isCubic && input["count"].get<size_t>() < 2)
+      warn(place + "/input", "has too few keys for a spline, which needs two");
+    warnStride(input, place + "/input");
+    warnStride(accessorAt(sampler["output"]), place + "/output");
+  }
+
+  void checkTarget(const json& target, const std::string& place) {
+    const json& node = elementOf(root_, "nodes", memberOf(target, "node"));
+    const auto& path = target["path"].get_ref<const std::string&>();
+    const json& pointer = memberOf(memberOf(target, "extensions"), "KHR_animation_pointer");
+    if (!pointer.is_null()) {
+      if (path != "pointer") warn(place, "has a pointer, for which its path must be \"pointer\"");
+      if (target.contains("node")) warn(place, "has both a pointer and a node");
+      return;
+    }
+    constexpr std::array<std::string_view, 4> kPaths = {"translation", "rotation", "scale", "weights"};
+    if (std::find(kPaths.begin(), kPaths.end(), path) == kPaths.end())
+      warn(place + "/path", inQuotes(path) + " is nothing that can be animated");
+    if (!target.contains("node")) return;
+    if (node.contains("matrix") && path != "weights")
+      warn(place, "has a node with a matrix, which an animation cannot change");
+    if (path == "weights" && targetsOf(elementOf(root_, "meshes", memberOf(node, "mesh"))) == 0)
+      warn(place, "has a node without morph targets, which nothing would weigh");
+  }
+
+  /// Sizes and types that follow from the channel's path (glTF 2.0, section 3.11).
+  void checkOutput(const json& target, const json& sampler, const std::string& place) {
+    if (!target.contains("node")) return;
+    const json& output = accessorAt(sampler["output"]);
+    const auto& path = target["path"].get_ref<const std::string&>();
+    const std::string type = path == "weights" ? "SCALAR" : path == "rotation" ? "VEC4" : "VEC3";
+    const bool mayBeInteger = path == "rotation" || path == "weights";
+    if (output["type"] != type ||
+        (output["componentType"] != kFloat && !(mayBeInteger && output.value("normalized", false))))
+      warn(place, "has an output of a type that glTF does not allow for its target");
+    const json& node = elementOf(root_, "nodes", target["node"]);
+    const size_t width =
+        path == "weights" ? targetsOf(elementOf(root_, "meshes", memberOf(node, "mesh"))) : 1;
+    const size_t keys = accessorAt(sampler["input"])["count"].get<size_t>() *
+                        (sampler.value("interpolation", "") == "CUBICSPLINE" ? 3 : 1);
+    if (width > 0 && output["count"].get<size_t>() != keys * width)
+      warn(place, "has an output of another number of elements than its keys need");
+  }
+
+  void checkVariants(const json& mesh, const std::string& place) {
+    const json& primitives = mesh["primitives"];
+    for (size_t i = 0; i < primitives.size(); ++i) {
+      const json& mappings =
+          memberOf(memberOf(memberOf(primitives[i], "extensions"), "KHR_materials_variants"), "mappings");
+      std::set<size_t> seen;
+      for (size_t m = 0; m < mappings.size(); ++m) {
+        for (const json& variant : mappings[m]["variants"]) {
+          if (seen.insert(variant.get<size_t>()).second) continue;
+          warn(place + pointerTo("primitives", i, "extensions", "KHR_materials_variants", "mappings", m,
+                                 "variants"),
+               "names a variant twice, and the first material counts");
+        }
+      }
+    }
+  }
+
+  const json& root_;
+  Diagnostics& diagnostics_;
+  std::vector<size_t> parents_;
+};
+
+}  // namespace
+
+void checkMotion(const json& root, Diagnostics& diagnostics) { MotionChecker(root, diagnostics).check(); }
+
+}  // namespace fragtrace

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace fragtrace {
+
+/// What of a file makes the scene. A part is named by its name or, where none has that name, by its index.
+struct SceneSelection {
+  std::string scene{};                    ///< empty: the file's default scene
+  std::string animation{};                ///< empty: the first one; only with a time
+  std::optional<double> animationTime{};  ///< seconds; none: the pose that the file stands in
+  std::string materialVariant{};          ///< empty: the materials that the file shows by default
+
+  bool operator==(const SceneSelection&) const = default;
+};
+
+}  // namespace fragtrace

@@ -1,0 +1,186 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Animated files at one moment against files in which that pose stands."""
+import base64
+import json
+import math
+import struct
+
+from support import SCENES, Case, main, run
+
+VIEW = ["--resolution", "96,64", "--spp", "16", "--camera-position", "2,1.5,5", "--camera-focal-point", "0.6,1.3,0",
+        "--background-color", "0.2,0.3,0.4", "--quiet"]
+
+
+class Gltf:
+    """A document whose accessors lie in one buffer."""
+
+    def __init__(self):
+        self.data = b""
+        self.root = {"asset": {"version": "2.0"}, "accessors": [], "bufferViews": []}
+
+    def accessor(self, kind, rows, code="f", component=5126):
+        rows = [row if isinstance(row, (list, tuple)) else [row] for row in rows]
+        data = b"".join(struct.pack(f"<{len(row)}{code}", *row) for row in rows)
+        self.root["bufferViews"].append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)})
+        self.root["accessors"].append({"bufferView": len(self.root["bufferViews"]) - 1, "componentType": component,
+                                       "count": len(rows), "type": kind})
+        self.data += data + bytes(-len(data) % 4)
+        return len(self.root["accessors"]) - 1
+
+    def write(self, path):
+        uri = "data:application/octet-stream;base64," + base64.b64encode(self.data).decode()
+        path.write_text(json.dumps({**self.root, "buffers": [{"byteLength": len(self.data), "uri": uri}]}))
+        return path
+
+
+def cylinder(around=16, along=12):
+    """Positions, normals, triangles of a tube of radius 0.5 from y = 0 to 2."""
+    positions, normals, triangles = [], [], []
+    for j in range(along + 1):
+        for i in range(around + 1):
+            angle = 2 * math.pi * i / around
+            normals.append((math.cos(angle), 0.0, math.sin(angle)))
+            positions.append((0.5 * math.cos(angle), 2.0 * j / along, 0.5 * math.sin(angle)))
+    for j in range(along):
+        for i in range(around):
+            a, b = j * (around + 1) + i, (j + 1) * (around + 1) + i
+            triangles += [(a, b, a + 1), (a + 1, b, b + 1)]
+    return positions, normals, triangles
+
+
+def bulge(position, normal):
+    size = 0.6 * math.sin(math.pi * position[1] / 2)
+    return tuple(size * n for n in normal)
+
+
+def weight(position):
+    """Of the upper joint."""
+    return min(max(position[1] - 0.5, 0.0), 1.0)
+
+
+def turned(v, degrees):
+    """About z."""
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return (c * v[0] - s * v[1], s * v[0] + c * v[1], v[2])
+
+
+def animated(path):
+    """A tube that bends by 80 degrees about (0, 1, 0), bulges and turns from grey to red within two seconds."""
+    gltf = Gltf()
+    positions, normals, triangles = cylinder()
+    weights = [weight(p) for p in positions]
+    attributes = {"POSITION": gltf.accessor("VEC3", positions), "NORMAL": gltf.accessor("VEC3", normals),
+                  "JOINTS_0": gltf.accessor("VEC4", [(0, 1, 0, 0)] * len(positions), "B", 5121),
+                  "WEIGHTS_0": gltf.accessor("VEC4", [(1 - w, w, 0, 0) for w in weights])}
+    target = {"POSITION": gltf.accessor("VEC3", [bulge(p, n) for p, n in zip(positions, normals)])}
+    indices = gltf.accessor("SCALAR", [i for t in triangles for i in t], "H", 5123)
+    identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+    bind = gltf.accessor("MAT4", [identity, identity[:13] + [-1] + identity[14:]])
+    times = gltf.accessor("SCALAR", [0, 2])
+    half = math.radians(-80) / 2
+    turn = gltf.accessor("VEC4", [(0, 0, 0, 1), (0, 0, -math.sin(half), -math.cos(half))])  # the long way, as written
+    zero = [0.0]
+    grow = gltf.accessor("SCALAR", zero + zero + zero + zero + [1.0] + zero)  # a spline with level tangents
+    paint = gltf.accessor("VEC4", [(0.5, 0.5, 0.5, 1), (0.9, 0.1, 0.1, 1)])
+    gltf.root.update({
+        "extensionsUsed": ["KHR_animation_pointer"],
+        "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0, "skin": 0, "translation": [9, 9, 9]}, {"children": [2]}, {"translation": [0, 1, 0]}],
+        "skins": [{"joints": [1, 2], "inverseBindMatrices": bind}],
+        "materials": [{"doubleSided": True, "pbrMetallicRoughness": {"metallicFactor": 0}}],
+        "meshes": [{"primitives": [{"attributes": attributes, "indices": indices, "targets": [target], "material": 0}]}],
+        "animations": [{
+            "name": "bend",
+            "samplers": [{"input": times, "output": turn}, {"input": times, "output": paint},
+                         {"input": times, "output": grow, "interpolation": "CUBICSPLINE"}],
+            "channels": [
+                {"sampler": 0, "target": {"node": 2, "path": "rotation"}},
+                {"sampler": 2, "target": {"node": 0, "path": "weights"}},
+                {"sampler": 1, "target": {"path": "pointer", "extensions": {"KHR_animation_pointer": {
+                    "pointer": "/materials/0/pbrMetallicRoughness/baseColorFactor"}}}}]}]})
+    return gltf.write(path)
+
+
+def baked(path, seconds):
+    """The same at that time, as plain triangles."""
+    gltf = Gltf()
+    positions, normals, triangles = cylinder()
+    part = seconds / 2
+    grown = 3 * part**2 - 2 * part**3
+    placed, shaded = [], []
+    for p, n in zip(positions, normals):
+        p = [a + grown * b for a, b in zip(p, bulge(p, n))]
+        w = weight(p)
+        moved = turned((p[0], p[1] - 1, p[2]), -80 * part)
+        placed.append((p[0] + w * (moved[0] - p[0]), p[1] + w * (moved[1] + 1 - p[1]), p[2]))
+        # The cofactors of (1 - w) I + w R about z; its third row and column are those of the identity.
+        c, s = (f(math.radians(-80 * part)) for f in (math.cos, math.sin))
+        a, b = 1 - w + w * c, w * s
+        m = (a * n[0] - b * n[1], b * n[0] + a * n[1], (a * a + b * b) * n[2])
+        length = math.sqrt(sum(x * x for x in m))
+        shaded.append(tuple(x / length for x in m))
+    mix = [(1 - part) * x + part * y for x, y in zip((0.5, 0.5, 0.5, 1), (0.9, 0.1, 0.1, 1))]
+    attributes = {"POSITION": gltf.accessor("VEC3", placed), "NORMAL": gltf.accessor("VEC3", shaded)}
+    indices = gltf.accessor("SCALAR", [i for t in triangles for i in t], "H", 5123)
+    gltf.root.update({
+        "nodes": [{"mesh": 0}],
+        "materials": [{"doubleSided": True, "pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": mix}}],
+        "meshes": [{"primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}]})
+    return gltf.write(path)
+
+
+class Poses(Case):
+    def render(self, name, scene, *options):
+        path = self.folder / name
+        result = run("render", scene, "-o", path, *VIEW, *options)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return path
+
+    def difference(self, picture, reference):
+        return float(run("diff", picture, reference).stdout.split()[-1])
+
+    def test_a_pose_of_an_animation_is_the_picture_of_the_baked_pose(self):
+        scene = animated(self.folder / "tube.gltf")
+        rest = self.render("rest.exr", scene)
+        before = rest
+        for seconds in (0.5, 1.5):
+            picture = self.render(f"at-{seconds}.exr", scene, "--animation-time", seconds, "--animation", "bend")
+            reference = self.render(f"baked-{seconds}.exr", baked(self.folder / f"baked-{seconds}.gltf", seconds))
+            # The same samples; on edges, rounding may decide what a few of them hit.
+            self.assertLess(self.difference(picture, reference), 0.004, seconds)
+            self.assertGreater(self.difference(picture, before), 0.03, seconds)
+            before = picture
+
+    def test_times_outside_of_the_animation_are_those_of_its_ends(self):
+        scene = animated(self.folder / "tube.gltf")
+        last = self.render("last.exr", scene, "--animation-time", "2")
+        self.assertEqual(self.difference(self.render("after.exr", scene, "--animation-time", "1e9"), last), 0.0)
+
+
+class Selections(Case):
+    def test_parts_that_are_not_in_the_file_are_named_with_those_that_are(self):
+        scene = animated(self.folder / "tube.gltf")
+        for options, text in ((["--animation", "walk", "--animation-time", "0"], 'has 0 "bend"'),
+                              (["--animation", "bend"], "--animation-time"), (["--scene", "1"], "has 0"),
+                              (["--material-variant", "x"], "has none"), (["--animation-time", "-1"], "from 0 on"),
+                              (["--animation-time", "nan"], "from 0 on"), (["--animation-time", "inf"], "from 0 on")):
+            result = run("info", scene, *options)
+            self.assertEqual(result.returncode, 2, options)
+            self.assertIn(text, result.stderr)
+            self.assertEqual(len(result.stderr.strip().splitlines()), 1)
+
+    def test_info_lists_what_can_be_chosen(self):
+        found = json.loads(run("info", animated(self.folder / "tube.gltf"), "--json").stdout)
+        self.assertEqual(found["animation_names"], ["bend"])
+        self.assertEqual(found["scene_names"], [""])
+        self.assertEqual(found["material_variants"], [])
+
+    def test_a_file_without_animations_is_drawn_with_a_warning(self):
+        result = run("info", SCENES / "cornell-box.gltf", "--animation-time", "1")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("no animation", result.stderr)
+
+
+if __name__ == "__main__":
+    main()

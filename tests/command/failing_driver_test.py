@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""A driver that fails: each OpenGL call of a small render in turn (tests/faults/failing_egl.cpp)."""
+import os
+import re
+import subprocess
+from pathlib import Path
+
+from support import FRAGTRACE, SCENES, Case, main, run
+
+STAND_IN = FRAGTRACE.parent / "failing_egl"
+SOURCES = SCENES.parent / "src"
+OLD = b"what was there before"
+
+
+def real_egl():
+    listed = subprocess.run(["/sbin/ldconfig", "-p"], capture_output=True, text=True, check=True).stdout
+    return re.search(r"libEGL\.so\.1 .*=> (\S+)", listed).group(1)
+
+
+class Failing(Case):
+    def drawn(self, **faults):
+        """`render` of a scene with a tree, textures and several lights, over a file that is there."""
+        self.path = self.folder / "picture.pfm"
+        self.path.write_bytes(OLD)
+        settings = {f"FRAGTRACE_{name.upper()}": str(value) for name, value in faults.items()}
+        paths = ":".join(filter(None, [str(STAND_IN), os.environ.get("LD_LIBRARY_PATH")]))
+        return run("render", SCENES / "sphere-textured.gltf", "-o", self.path, "--resolution", "16,16", "--spp", "2", "--quiet",
+                   "--rendering-backend", "egl", timeout=60,
+                   env={**os.environ, **settings, "LD_LIBRARY_PATH": paths, "FRAGTRACE_REAL_EGL": real_egl()})
+
+    def calls(self, kind):
+        """The names of those that can fail in this way."""
+        log = self.folder / "calls"
+        result = self.drawn(fail_kind=kind, fail_log=log)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.right = self.path.read_bytes()
+        return log.read_text().splitlines()
+
+    def fail_each(self, kind, step):
+        calls = self.calls(kind)
+        self.assertGreater(len(calls), 2)
+        for number in range(1, len(calls) + 1, step):
+            name = calls[number - 1]
+            with self.subTest(kind=kind, call=number, name=name):
+                result = self.drawn(fail_kind=kind, fail_call=number)
+                written = self.path.read_bytes()
+                if result.returncode == 0:
+                    # What nothing more is asked of may go unseen.
+                    self.assertTrue(name.startswith("glDelete") or number == len(calls), f"{name} failed unseen")
+                    self.assertEqual(written, self.right)
+                    continue
+                self.assertIn(result.returncode, (1, 4), result.stderr)
+                self.assertTrue(result.stderr.startswith("fragtrace: "), result.stderr)
+                if kind != "build":  # which prints the driver's log
+                    self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+                self.assertEqual(written, OLD)
+                self.assertEqual(set(self.folder.iterdir()), {self.path, self.folder / "calls"})
+        self.path.unlink()
+
+
+class FailingDriver(Failing):
+    def test_calls_that_do_nothing_are_seen(self):
+        self.fail_each("memory", 17)
+
+    def test_a_lost_context_is_seen(self):
+        self.fail_each("lost", 29)
+
+    def test_shaders_that_are_not_built_are_seen(self):
+        self.fail_each("build", 1)
+
+    def test_every_function_that_is_called_can_fail(self):
+        called = set()
+        for folder in ("gl", "render"):
+            for path in (SOURCES / folder).glob("*.*"):
+                called |= set(re.findall(r"\b(gl[A-Z]\w*)\(", path.read_text()))
+        stand_in = Path(__file__).parent.parent / "faults/failing_egl.cpp"
+        wrapped = set(re.findall(r"WRAP(?:_STATUS)?\((gl\w+)\)", stand_in.read_text()))
+        self.assertEqual(called - {"glGetError"}, wrapped)
+
+
+class EveryFailingCall(Failing):
+    def test_calls_that_do_nothing_are_seen(self):
+        self.fail_each("memory", 1)
+
+    def test_a_lost_context_is_seen(self):
+        self.fail_each("lost", 1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+// A libEGL.so.1 in front of the real one, which makes an OpenGL call fail. The environment says how:
+//   FRAGTRACE_REAL_EGL   path of the library that does the work
+//   FRAGTRACE_FAIL_CALL  which call fails, counted from 1 over all that are wrapped; 0: none
+//   FRAGTRACE_FAIL_KIND  memory: it does nothing and gives GL_OUT_OF_MEMORY
+//                        build: it is the glCompileShader or glLinkProgram of that number that fails
+//                        lost: the context is lost from then on, until another one is made
+//   FRAGTRACE_FAIL_WHEN  a file: once it is there it is removed, and the context is lost
+//   FRAGTRACE_FAIL_LOG   a file that gets the name of each call, a line each
+#include <EGL/egl.h>
+#include <dlfcn.h>
+#include <glad/gl.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+
+namespace {
+
+const char* setting(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+struct Faults {
+  long failing = std::atol(setting("FRAGTRACE_FAIL_CALL"));
+  bool lostKind = std::strcmp(setting("FRAGTRACE_FAIL_KIND"), "lost") == 0;
+  bool buildKind = std::strcmp(setting("FRAGTRACE_FAIL_KIND"), "build") == 0;
+  const char* when = setting("FRAGTRACE_FAIL_WHEN");
+  FILE* log = *setting("FRAGTRACE_FAIL_LOG") ? std::fopen(setting("FRAGTRACE_FAIL_LOG"), "w") : nullptr;
+  void* real = dlopen(setting("FRAGTRACE_REAL_EGL"), RTLD_NOW | RTLD_LOCAL);
+  long calls = 0;
+  GLenum error = GL_NO_ERROR;
+  bool lost = false;
+  bool notBuilt = false;
+  std::mutex mutex;
+};
+
+Faults& faults() {
+  static Faults all;
+  return all;
+}
+
+/// Counts a call; false: it must do nothing.
+bool allowed(const char* name) {
+  Faults& f = faults();
+  const std::lock_guard lock(f.mutex);
+  if (*f.when && std::remove(f.when) == 0) f.lost = true;
+  if (f.lost) return false;
+  const bool builds = std::strcmp(name, "glCompileShader") == 0 || std::strcmp(name, "glLinkProgram") == 0;
+  if (f.buildKind && !builds) return true;
+  ++f.calls;
+  if (f.log) {
+    std::fprintf(f.log, "%s\n", name);
+    std::fflush(f.log);
+  }
+  if (f.calls != f.failing) return true;
+  if (f.buildKind) {
+    f.notBuilt = true;
+    return false;
+  }
+  f.lost = f.lostKind;
+  f.error = GL_OUT_OF_MEMORY;
+  return false;
+}
+
+/// Of glad_glFoo.
+const char* openGlName(const char* gladName) { return gladName + std::strlen("glad_"); }
+
+/// One OpenGL function; Name tells those of the same type apart.
+template <const char* Name, typename Function>
+struct Wrapped;
+
+template <const char* Name, typename Result, typename... Arguments>
+struct Wrapped<Name, Result (*)(Arguments...)> {
+  static inline Result (*real)(Arguments...) = nullptr;
+  static Result call(Arguments... arguments) {
+    if (allowed(openGlName(Name))) return real(arguments...);
+    return Result();
+  }
+};
+
+GLenum failingGetError() {
+  using Real = GLenum (*)();
+  static const Real real = [] {
+    const auto find = reinterpret_cast<void* (*)(const char*)>(dlsym(faults().real, "eglGetProcAddress"));
+    return reinterpret_cast<Real>(find("glGetError"));
+  }();
+  Faults& f = faults();
+  const std::lock_guard lock(f.mutex);
+  if (f.lost) return GL_CONTEXT_LOST;
+  const GLenum error = f.error;
+  f.error = GL_NO_ERROR;
+  return error != GL_NO_ERROR ? error : real();
+}
+
+/// What was not built says so.
+template <const char* Name, typename Function>
+void failingStatus(GLuint object, GLenum what, GLint* value) {
+  Wrapped<Name, Function>::call(object, what, value);
+  const Faults& f = faults();
+  if (f.notBuilt && (what == GL_COMPILE_STATUS || what == GL_LINK_STATUS)) *value = GL_FALSE;
+}
+
+template <typename Function>
+Function realEgl(const char* name) {
+  return reinterpret_cast<Function>(dlsym(faults().real, name));
+}
+
+}  // namespace
+
+// glad's names are macros: `function` arrives as glad_glFoo.
+#define WRAP_BY(function, ...)                                                                \
+  if (static constexpr char kName[] = #function; std::strcmp(name, openGlName(kName)) == 0) { \
+    using Function = decltype(function);                                                      \
+    Wrapped<kName, Function>::real = reinterpret_cast<Function>(real);                        \
+    return reinterpret_cast<Pointer>(&__VA_ARGS__);                                           \
+  }
+#define WRAP(function) WRAP_BY(function, Wrapped<kName, Function>::call)
+#define WRAP_STATUS(function) WRAP_BY(function, failingStatus<kName, Function>)
+
+extern "C" {
+
+__eglMustCastToProperFunctionPointerType eglGetProcAddress(const char* name) {
+  using Pointer = __eglMustCastToProperFunctionPointerType;
+  const Pointer real = realEgl<Pointer (*)(const char*)>("eglGetProcAddress")(name);
+  if (std::strcmp(name, "glGetError") == 0) return reinterpret_cast<Pointer>(&failingGetError);
+  WRAP_STATUS(glGetShaderiv)
+  WRAP_STATUS(glGetProgramiv)
+  WRAP(glAttachShader)
+  WRAP(glBeginQuery)
+  WRAP(glBindBufferBase)
+  WRAP(glBindFramebuffer)
+  WRAP(glBindImageTexture)
+  WRAP(glBindTextureUnit)
+  WRAP(glBindVertexArray)
+  WRAP(glClearTexImage)
+  WRAP(glCompileShader)
+  WRAP(glCreateBuffers)
+  WRAP(glCreateFramebuffers)
+  WRAP(glCreateProgram)
+  WRAP(glCreateQueries)
+  WRAP(glCreateShader)
+  WRAP(glCreateTextures)
+  WRAP(glCreateVertexArrays)
+  WRAP(glDebugMessageCallback)
+  WRAP(glDeleteBuffers)
+  WRAP(glDeleteFramebuffers)
+  WRAP(glDeleteProgram)
+  WRAP(glDeleteQueries)
+  WRAP(glDeleteShader)
+  WRAP(glDeleteTextures)
+  WRAP(glDeleteVertexArrays)
+  WRAP(glDispatchCompute)
+  WRAP(glDrawArrays)
+  WRAP(glEnable)
+  WRAP(glEndQuery)
+  WRAP(glFinish)
+  WRAP(glGetInteger64v)
+  WRAP(glGetIntegerv)
+  WRAP(glGetNamedBufferSubData)
+  WRAP(glGetProgramInfoLog)
+  WRAP(glGetQueryObjectui64v)
+  WRAP(glGetShaderInfoLog)
+  WRAP(glGetString)
+  WRAP(glGetTextureSubImage)
+  WRAP(glLinkProgram)
+  WRAP(glMemoryBarrier)
+  WRAP(glNamedBufferStorage)
+  WRAP(glNamedBufferSubData)
+  WRAP(glNamedFramebufferParameteri)
+  WRAP(glShaderSource)
+  WRAP(glTextureBuffer)
+  WRAP(glTextureStorage2D)
+  WRAP(glTextureSubImage2D)
+  WRAP(glUseProgram)
+  WRAP(glViewport)
+  return real;
+}
+
+EGLContext eglCreateContext(EGLDisplay display, EGLConfig config, EGLContext shared, const EGLint* wishes) {
+  Faults& f = faults();
+  {
+    const std::lock_guard lock(f.mutex);
+    f.lost = false;
+  }
+  return realEgl<decltype(&eglCreateContext)>("eglCreateContext")(display, config, shared, wishes);
+}
+
+EGLBoolean eglInitialize(EGLDisplay display, EGLint* major, EGLint* minor) {
+  return realEgl<decltype(&eglInitialize)>("eglInitialize")(display, major, minor);
+}
+EGLBoolean eglTerminate(EGLDisplay display) {
+  return realEgl<decltype(&eglTerminate)>("eglTerminate")(display);
+}
+EGLBoolean eglBindAPI(EGLenum api) { return realEgl<decltype(&eglBindAPI)>("eglBindAPI")(api); }
+EGLBoolean eglChooseConfig(EGLDisplay display, const EGLint* wishes, EGLConfig* configs, EGLint size,
+                           EGLint* count) {
+  return realEgl<decltype(&eglChooseConfig)>("eglChooseConfig")(display, wishes, configs, size, count);
+}
+EGLBoolean eglDestroyContext(EGLDisplay display, EGLContext context) {
+  return realEgl<decltype(&eglDestroyContext)>("eglDestroyContext")(display, context);
+}
+EGLBoolean eglMakeCurrent(EGLDisplay display, EGLSurface draw, EGLSurface read, EGLContext context) {
+  return realEgl<decltype(&eglMakeCurrent)>("eglMakeCurrent")(display, draw, read, context);
+}
+const char* eglQueryString(EGLDisplay display, EGLint name) {
+  return realEgl<decltype(&eglQueryString)>("eglQueryString")(display, name);
+}
+EGLint eglGetError() { return realEgl<decltype(&eglGetError)>("eglGetError")(); }
+
+}  // extern "C"

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: MIT
+// Geometry that the libraries' own encoders have compressed.
+#include <draco/compression/expert_encode.h>
+#include <draco/mesh/mesh.h>
+#include <gtest/gtest.h>
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "gltf_builder.h"
+
+namespace fragtrace::gltf_test {
+namespace {
+
+constexpr size_t kSide = 12;  // vertices along a side of the grid
+
+/// A wavy grid of kSide x kSide vertices.
+struct Grid {
+  std::vector<float> positions;
+  std::vector<uint32_t> indices;
+
+  Grid() {
+    for (size_t y = 0; y < kSide; ++y)
+      for (size_t x = 0; x < kSide; ++x)
+        positions.insert(positions.end(), {float(x), float(y), std::sin(float(x + 2 * y))});
+    for (uint32_t y = 0; y + 1 < kSide; ++y) {
+      for (uint32_t x = 0; x + 1 < kSide; ++x) {
+        const uint32_t a = y * uint32_t(kSide) + x, b = a + uint32_t(kSide);
+        indices.insert(indices.end(), {a, a + 1, b, b, a + 1, b + 1});
+      }
+    }
+  }
+  size_t vertexCount() const { return positions.size() / 3; }
+};
+
+/// World positions of all corners, sorted, so that neither the order of triangles nor where they begin
+/// counts.
+std::vector<std::array<float, 3>> cornersOf(const Scene& scene) {
+  std::vector<std::array<float, 3>> corners;
+  for (size_t t = 0; t < scene.triangles.size(); ++t) {
+    for (int c = 0; c < 3; ++c) {
+      const glm::vec3 p(worldCornerOf(scene, t, c));
+      corners.push_back({p.x, p.y, p.z});
+    }
+  }
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+Scene plainScene(const Grid& grid) {
+  GltfBuilder builder;
+  json& primitive = builder.addMesh({{"POSITION", builder.addAccessor<float>("VEC3", grid.positions)}});
+  primitive["indices"] = builder.addAccessor<uint32_t>("SCALAR", grid.indices);
+  return load(builder);
+}
+
+/// Makes a view of these compressed bytes, which decode to `count` elements; returns its index.
+int addMeshoptView(GltfBuilder& builder, const std::vector<unsigned char>& bytes, size_t count, size_t stride,
+                   const std::string& mode, const std::string& filter = "NONE") {
+  const int view = builder.addView(bytes);
+  json& described = builder.root["bufferViews"][size_t(view)];
+  const size_t offset = described["byteOffset"];
+  described = {{"buffer", 1},
+               {"byteLength", count * stride},
+               {"extensions",
+                {{"EXT_meshopt_compression",
+                  {{"buffer", 0},
+                   {"byteOffset", offset},
+                   {"byteLength", bytes.size()},
+                   {"byteStride", stride},
+                   {"count", count},
+                   {"mode", mode},
+                   {"filter", filter}}}}}};
+  return view;
+}
+
+int addAccessor(GltfBuilder& builder, int view, size_t count, int componentType, const std::string& type) {
+  builder.root["accessors"].push_back(
+      {{"bufferView", view}, {"componentType", componentType}, {"count", count}, {"type", type}});
+  return int(builder.root["accessors"].size()) - 1;
+}
+
+std::vector<unsigned char> encodedVertices(const void* data, size_t count, size_t stride) {
+  std::vector<unsigned char> bytes(meshopt_encodeVertexBufferBound(count, stride));
+  bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), data, count, stride));
+  return bytes;
+}
+
+/// The grid with compressed positions and indices, mode TRIANGLES or INDICES.
+GltfBuilder meshoptGrid(const Grid& grid, const std::string& mode = "TRIANGLES") {
+  GltfBuilder builder;
+  builder.root["extensionsUsed"] = builder.root["extensionsRequired"] = {"EXT_meshopt_compression"};
+  const size_t count = grid.indices.size();
+  std::vector<unsigned char> bytes(mode == "TRIANGLES"
+                                       ? meshopt_encodeIndexBufferBound(count, grid.vertexCount())
+                                       : meshopt_encodeIndexSequenceBound(count, grid.vertexCount()));
+  bytes.resize(mode == "TRIANGLES"
+                   ? meshopt_encodeIndexBuffer(bytes.data(), bytes.size(), grid.indices.data(), count)
+                   : meshopt_encodeIndexSequence(bytes.data(), bytes.size(), grid.indices.data(), count));
+  const int vertices = addMeshoptView(builder, encodedVertices(grid.positions.data(), grid.vertexCount(), 12),
+                                      grid.vertexCount(), 12, "ATTRIBUTES");
+  const int indices = addMeshoptView(builder, bytes, count, 4, mode);
+  json& primitive =
+      builder.addMesh({{"POSITION", addAccessor(builder, vertices, grid.vertexCount(), 5126, "VEC3")}});
+  primitive["indices"] = addAccessor(builder, indices, count, 5125, "SCALAR");
+  builder.embedBuffer();
+  builder.root["buffers"].push_back(
+      {{"byteLength", 100'000}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
+  return builder;
+}
+
+json& meshoptOf(GltfBuilder& builder, size_t view) {
+  return builder.root["bufferViews"][view]["extensions"]["EXT_meshopt_compression"];
+}
+
+/// The grid as Draco's encoder makes it, positions in 16 bits, unless it is quantized otherwise.
+std::string dracoBytes(const Grid& grid, int method = draco::MESH_EDGEBREAKER_ENCODING) {
+  draco::Mesh mesh;
+  mesh.set_num_points(uint32_t(grid.vertexCount()));
+  draco::GeometryAttribute positions;
+  positions.Init(draco::GeometryAttribute::POSITION, nullptr, 3, draco::DT_FLOAT32, false, 12, 0);
+  const int id = mesh.AddAttribute(positions, true, uint32_t(grid.vertexCount()));
+  for (uint32_t i = 0; i < grid.vertexCount(); ++i)
+    mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &grid.positions[3 * i]);
+  for (size_t i = 0; i < grid.indices.size(); i += 3) {
+    mesh.AddFace({draco::PointIndex(grid.indices[i]), draco::PointIndex(grid.indices[i + 1]),
+                  draco::PointIndex(grid.indices[i + 2])});
+  }
+  draco::ExpertEncoder encoder(mesh);
+  encoder.SetEncodingMethod(method);
+  encoder.SetAttributeQuantization(id, 16);
+  draco::EncoderBuffer buffer;
+  EXPECT_TRUE(encoder.EncodeToBuffer(&buffer).ok());
+  return {buffer.data(), buffer.size()};
+}
+
+GltfBuilder dracoGrid(const Grid& grid, const std::string& bytes) {
+  GltfBuilder builder;
+  builder.root["extensionsUsed"] = builder.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+  const int view = builder.addView(std::vector<char>(bytes.begin(), bytes.end()));
+  const auto empty = [&](size_t count, int componentType, const std::string& type) {
+    builder.root["accessors"].push_back({{"componentType", componentType}, {"count", count}, {"type", type}});
+    return builder.root["accessors"].size() - 1;
+  };
+  json& primitive = builder.addMesh({{"POSITION", empty(grid.vertexCount(), 5126, "VEC3")}});
+  primitive["indices"] = empty(grid.indices.size(), 5123, "SCALAR");
+  primitive["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", view},
+                                                           {"attributes", {{"POSITION", 0}}}};
+  return builder;
+}
+
+json& dracoOf(GltfBuilder& builder) {
+  return builder.root["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"];
+}
+
+TEST(GltfMeshopt, GeometryComesBackAsItWas) {
+  const Grid grid;
+  const auto expected = cornersOf(plainScene(grid));
+  for (const std::string mode : {"TRIANGLES", "INDICES"}) {
+    GltfBuilder builder = meshoptGrid(grid, mode);
+    const Scene scene = load(builder);
+    EXPECT_EQ(cornersOf(scene), expected) << mode;
+    EXPECT_TRUE(scene.warnings.empty());
+  }
+}
+
+TEST(GltfMeshopt, FiltersAreUndone) {
+  const Grid grid;
+  const size_t count = grid.vertexCount();
+  std::vector<float> normals;  // four numbers each, as the encoder takes them
+  for (size_t i = 0; i < count; ++i) {
+    const double angle = 0.1 * double(i);
+    normals.insert(normals.end(), {float(0.6 * std::cos(angle)), float(0.6 * std::sin(angle)), 0.8f, 0.0f});
+  }
+  std::vector<int8_t> octahedral(4 * count);
+  meshopt_encodeFilterOct(octahedral.data(), count, 4, 8, normals.data());
+  std::vector<uint32_t> exponential(3 * count);
+  meshopt_encodeFilterExp(exponential.data(), count, 12, 15, grid.positions.data());
+
+  GltfBuilder builder = meshoptGrid(grid);
+  builder.root.erase("buffers");
+  const int normalView = addMeshoptView(builder, encodedVertices(octahedral.data(), count, 4), count, 4,
+                                        "ATTRIBUTES", "OCTAHEDRAL");
+  const int positionView = addMeshoptView(builder, encodedVertices(exponential.data(), count, 12), count, 12,
+                                          "ATTRIBUTES", "EXPONENTIAL");
+  builder.root["bufferViews"][size_t(normalView)]["byteStride"] = 4;
+  json& attributes = builder.root["meshes"][0]["primitives"][0]["attributes"];
+  attributes["NORMAL"] = addAccessor(builder, normalView, count, 5120, "VEC3");
+  builder.root["accessors"].back()["normalized"] = true;
+  attributes["POSITION"] = addAccessor(builder, positionView, count, 5126, "VEC3");
+  builder.root["extensionsUsed"].push_back("KHR_mesh_quantization");
+  builder.root["extensionsRequired"].push_back("KHR_mesh_quantization");
+  builder.embedBuffer();
+  builder.root["buffers"].push_back(
+      {{"byteLength", 100'000}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
+  const Scene scene = load(builder);
+  ASSERT_EQ(scene.vertices.normal.size(), count);
+  for (size_t i = 0; i < count; ++i) {
+    const glm::dvec3 expected(normals[4 * i], normals[4 * i + 1], normals[4 * i + 2]);
+    EXPECT_TRUE(isNear(scene.vertices.normal[i], expected, 0.02)) << i;
+  }
+  for (size_t i = 0; i < count; ++i) {
+    const glm::dvec3 expected(grid.positions[3 * i], grid.positions[3 * i + 1], grid.positions[3 * i + 2]);
+    const glm::dvec3 found = scene.space.worldOf(glm::dvec3(scene.vertices.position[i]));
+    EXPECT_TRUE(isNear(found, expected, 1e-3)) << i;
+  }
+}
+
+TEST(GltfMeshopt, WhatTheLibraryTakesForGrantedIsRefused) {
+  const Grid grid;
+  const auto refusal = [&](const auto& breakIt) {
+    GltfBuilder builder = meshoptGrid(grid);
+    breakIt(builder);
+    return refusalOf(builder);
+  };
+  const std::string vertices = "test.gltf: /bufferViews/0/extensions/EXT_meshopt_compression";
+  const std::string indices = "test.gltf: /bufferViews/1/extensions/EXT_meshopt_compression";
+  EXPECT_EQ(refusal([](GltfBuilder&) {}), "");
+  EXPECT_TRUE(refusal([](GltfBuilder& b) {
+                meshoptOf(b, 0)["byteStride"] = 6;
+              }).starts_with(vertices + "/byteStride"));
+  EXPECT_TRUE(refusal([](GltfBuilder& b) {
+                meshoptOf(b, 0)["byteStride"] = 260;
+              }).starts_with(vertices + "/byteStride"));
+  EXPECT_TRUE(refusal([](GltfBuilder& b) {
+                meshoptOf(b, 0)["byteStride"] = 0;
+              }).starts_with(vertices + "/byteStride"));
+  EXPECT_TRUE(
+      refusal([](GltfBuilder& b) { meshoptOf(b, 0)["count"] = 143; }).starts_with(vertices + "/count"));
+  EXPECT_TRUE(refusal([](GltfBuilder& b) {
+                meshoptOf(b, 0)["count"] = uint64_t(1) << 52;
+                meshoptOf(b, 0)["byteStride"] = 256;
+              }).starts_with(vertices + "/count"));
+  EXPECT_TRUE(
+      refusal([](GltfBuilder& b) { meshoptOf(b, 0)["mode"] = "POINTS"; }).starts_with(vertices + "/mode"));
+  EXPECT_TRUE(refusal([](GltfBuilder& b) {
+                meshoptOf(b, 0)["filter"] = "QUATERNION";
+              }).starts_with(vertices + "/filter"));
+  EXPECT_TRUE(refusal([](GltfBuilder& b) {
+                meshoptOf(b, 1)["filter"] = "EXPONENTIAL";
+              }).starts_with(indices + "/filter"));
+  EXPECT_TRUE(refusal([](GltfBuilder& b) {
+                meshoptOf(b, 1)["byteStride"] = 3;
+              }).starts_with(indices + "/byteStride"));
+  EXPECT_TRUE(refusal([](GltfBuilder& b) {
+                meshoptOf(b, 1)["count"] = 725;
+                b.root["bufferViews"][1]["byteLength"] = 725 * 4;
+              }).starts_with(indices + "/count: 725 is no multiple of 3"));
+  EXPECT_TRUE(
+      refusal([](GltfBuilder& b) { meshoptOf(b, 0)["byteOffset"] = 99'999; }).starts_with(vertices + ": "));
+  EXPECT_EQ(refusal([](GltfBuilder& b) { meshoptOf(b, 0)["byteOffset"] = 1; }),
+            vertices + ": the compressed data are broken");
+  EXPECT_TRUE(
+      refusal([](GltfBuilder& b) { meshoptOf(b, 0)["buffer"] = 2; }).starts_with(vertices + "/buffer"));
+}
+
+TEST(GltfDraco, GeometryComesBackAsItWas) {
+  const Grid grid;
+  const auto expected = cornersOf(plainScene(grid));
+  for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
+    GltfBuilder builder = dracoGrid(grid, dracoBytes(grid, method));
+    const Scene scene = load(builder);
+    const auto found = cornersOf(scene);
+    ASSERT_EQ(found.size(), expected.size());
+    for (size_t i = 0; i < found.size(); ++i) {
+      // Sorted by x, which is a whole number: those of 16 bits are off by a little, and may sort otherwise.
+      EXPECT_NEAR(found[i][0], expected[i][0], 1e-3f);
+    }
+    double area = 0.0, expectedArea = 0.0;
+    const Scene plain = plainScene(grid);
+    for (size_t t = 0; t < plain.triangles.size(); ++t) {
+      area += double(frontOf(scene, t).z);
+      expectedArea += double(frontOf(plain, t).z);
+    }
+    EXPECT_NEAR(area, expectedArea, 0.05);
+    EXPECT_TRUE(scene.warnings.empty());
+  }
+}
+
+TEST(GltfDraco, StreamsThatAreNotWhatTheAccessorsSayAreRefused) {
+  const Grid grid;
+  const std::string bytes = dracoBytes(grid);
+  const std::string place = "test.gltf: /meshes/0/primitives/0/extensions/KHR_draco_mesh_compression";
+  const auto refusal = [&](const auto& breakIt) {
+    GltfBuilder builder = dracoGrid(grid, bytes);
+    breakIt(builder);
+    return refusalOf(builder);
+  };
+  EXPECT_EQ(refusal([](GltfBuilder&) {}), "");
+  EXPECT_EQ(refusal([](GltfBuilder& b) { b.root["accessors"][0]["count"] = 145; }),
+            place + ": has 144 vertices, not 145 as its accessors");
+  EXPECT_EQ(refusal([](GltfBuilder& b) { b.root["accessors"][1]["count"] = 723; }),
+            place + ": has 242 triangles, not those of 723 indices as its accessor");
+  EXPECT_TRUE(refusal([](GltfBuilder& b) {
+                b.root["accessors"][0]["type"] = "VEC2";
+              }).starts_with(place + ": has 3 components in attribute 0, not 2"));
+  EXPECT_EQ(refusal([](GltfBuilder& b) { dracoOf(b)["attributes"]["POSITION"] = 7; }),
+            place + ": has no attribute 7");
+  EXPECT_TRUE(
+      refusal([](GltfBuilder& b) { dracoOf(b)["bufferView"] = 1; }).starts_with(place + "/bufferView"));
+  EXPECT_EQ(refusal([](GltfBuilder& b) { b.root["meshes"][0]["primitives"][0].erase("indices"); }),
+            place + ": has a primitive without indices");
+  EXPECT_TRUE(refusal([](GltfBuilder& b) {
+                b.root["accessors"][0]["count"] = uint64_t(1) << 40;
+              }).starts_with(place + ": has an accessor with no or too many elements"));
+}
+
+TEST(GltfDraco, BrokenStreamsAreRefusedAndEndNothing) {
+  const Grid grid;
+  const std::string bytes = dracoBytes(grid);
+  size_t refused = 0;
+  for (size_t i = 0; i < bytes.size(); i += bytes.size() / 24) {
+    std::string broken = bytes;
+    broken[i] = char(broken[i] ^ 0x5a);
+    GltfBuilder builder = dracoGrid(grid, broken);
+    const std::string reason = refusalOf(builder);
+    refused += !reason.empty();
+    EXPECT_TRUE(reason.empty() || reason.find("KHR_draco_mesh_compression") != std::string::npos) << reason;
+    GltfBuilder cut = dracoGrid(grid, bytes.substr(0, i + 1));
+    EXPECT_NE(refusalOf(cut), "") << i;
+  }
+  EXPECT_GT(refused, 4u);
+}
+
+TEST(GltfDraco, WhatItDecodesToIsCountedBefore) {
+  const Grid grid;
+  GltfBuilder builder = dracoGrid(grid, dracoBytes(grid));
+  builder.root["accessors"][0]["count"] = 4'000'000'000u;
+  GltfOptions options;
+  options.limits.memoryBytes = uint64_t(1) << 30;
+  try {
+    load(builder, options);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("KHR_draco_mesh_compression: "), std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace fragtrace::gltf_test

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// Extensions of materials and textures: factors, textures, defaults, and warnings at their JSON pointers.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "gltf_builder.h"
+
+namespace fragtrace::gltf_test {
+namespace {
+
+/// A file with textures 0..7, each with a picture of its own, and one material.
+GltfBuilder fileWith(const json& material) {
+  GltfBuilder builder;
+  for (int i = 0; i < 8; ++i) {
+    builder.root["images"].push_back({{"uri", kPixelUri}});
+    builder.root["textures"].push_back({{"source", i}});
+  }
+  builder.root["materials"] = {material};
+  return builder;
+}
+
+Material materialWith(const json& material) {
+  GltfBuilder builder = fileWith(material);
+  return load(builder).materials.at(0);
+}
+
+Material extended(const char* name, const json& extension) {
+  return materialWith({{"extensions", {{name, extension}}}});
+}
+
+/// Where a warning is expected, behind /materials/0/.
+void expectWarning(const json& material, const std::string& place) {
+  GltfBuilder builder = fileWith(material);
+  EXPECT_TRUE(anyWarningHas(load(builder), "/materials/0/" + place + ":")) << place;
+}
+
+json transformed(int index, const json& transform) {
+  return {{"index", index}, {"extensions", {{"KHR_texture_transform", transform}}}};
+}
+
+TEST(GltfTextureTransform, IsTranslationTimesRotationTimesScale) {
+  const double angle = 0.3;
+  const Material m =
+      materialWith({{"normalTexture",
+                     transformed(0, {{"offset", {0.25, -0.5}}, {"scale", {2, 3}}, {"rotation", angle}})}});
+  ASSERT_TRUE(m.normalTexture.transformed());
+  const glm::vec2 texcoord(0.7, 0.2);
+  const glm::dvec2 scaled(2 * 0.7, 3 * 0.2);
+  // Counter-clockwise with v pointing down: (1, 0) turns towards (0, -1), which is up on the picture.
+  const glm::dvec2 turned(std::cos(angle) * scaled.x + std::sin(angle) * scaled.y,
+                          -std::sin(angle) * scaled.x + std::cos(angle) * scaled.y);
+  EXPECT_LE(
+      glm::distance(glm::dvec2(m.normalTexture.transform.of(texcoord)), turned + glm::dvec2(0.25, -0.5)),
+      1e-6);
+}
+
+TEST(GltfTextureTransform, TheSpecificationsExampleIsTheLowerLeftQuadrant) {
+  const Material m = materialWith(
+      {{"emissiveTexture",
+        transformed(0, {{"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}})}});
+  const TextureTransform& t = m.emissiveTexture.transform;
+  for (const glm::vec2 corner : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1), glm::vec2(1, 1)}) {
+    EXPECT_GE(t.of(corner).x, -1e-6f);
+    EXPECT_LE(t.of(corner).x, 0.5f + 1e-6f);
+    EXPECT_GE(t.of(corner).y, 0.5f - 1e-6f);
+    EXPECT_LE(t.of(corner).y, 1.0f + 1e-6f);
+  }
+}
+
+TEST(GltfTextureTransform, EachUseHasItsOwnAndNoneIsTheIdentity) {
+  const Material m = materialWith(
+      {{"pbrMetallicRoughness",
+        {{"baseColorTexture", transformed(0, {{"scale", {2, 2}}})},
+         {"metallicRoughnessTexture", transformed(0, {{"texCoord", 1}})}}},
+       {"occlusionTexture", {{"index", 0}}},
+       {"extensions",
+        {{"KHR_materials_specular", {{"specularTexture", transformed(0, {{"offset", {0.5, 0}}})}}}}}});
+  EXPECT_EQ(m.baseColorTexture.transform.of({0.25, 0.5}), glm::vec2(0.5, 1.0));
+  EXPECT_EQ(m.baseColorTexture.texcoord, 0u);
+  EXPECT_FALSE(m.metallicRoughnessTexture.transformed());
+  EXPECT_EQ(m.metallicRoughnessTexture.texcoord, 1u) << "its texCoord overrides the use's";
+  EXPECT_FALSE(m.occlusionTexture.transformed());
+  EXPECT_EQ(m.specularTexture.transform.of({0.25, 0.5}), glm::vec2(0.75, 0.5));
+}
+
+TEST(GltfTextureTransform, WhatLeavesNoDigitsIsBroughtBackAndWrongTypesAreRefused) {
+  expectWarning({{"normalTexture", transformed(0, {{"scale", {1e30, 1}}})}},
+                "normalTexture/extensions/KHR_texture_transform/scale");
+  GltfBuilder builder = fileWith({{"normalTexture", transformed(0, {{"offset", {1, 2, 3}}})}});
+  EXPECT_EQ(refusalOf(builder),
+            "test.gltf: /materials/0/normalTexture/extensions/KHR_texture_transform/offset: does not hold 2 "
+            "numbers");
+}
+
+TEST(GltfTextureTransform, MadeTangentsFollowTheTurnedTexture) {
+  GltfBuilder builder = fileWith({{"normalTexture", transformed(0, {{"rotation", M_PI / 2}})}});
+  json& primitive = builder.addTriangle();
+  // u along x, v along -y: unmirrored.
+  primitive["attributes"]["TEXCOORD_0"] = builder.addAccessor<float>("VEC2", {0, 1, 1, 1, 0, 0});
+  primitive["attributes"]["NORMAL"] = builder.addAccessor<float>("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1});
+  primitive["material"] = 0;
+  const Scene scene = load(builder);
+  // The picture's u grows with v, which grows along -y.
+  EXPECT_LE(glm::distance(scene.vertices.tangent.at(0), glm::vec4(0, -1, 0, 1)), 1e-6f);
+}
+
+TEST(GltfWebp, ThePictureOfTheExtensionCountsMoreThanTheFallback) {
+  GltfBuilder builder;
+  builder.root["images"] = {{{"uri", "nowhere.png"}}, {{"uri", kPixelUri}}};
+  builder.root["textures"] = {{{"source", 0}, {"extensions", {{"EXT_texture_webp", {{"source", 1}}}}}}};
+  builder.root["extensionsUsed"] = {"EXT_texture_webp"};
+  builder.root["extensionsRequired"] = {"EXT_texture_webp"};
+  builder.root["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
+  const Scene scene = load(builder);
+  ASSERT_EQ(scene.images.size(), 1u);
+  EXPECT_NE(scene.images[0].name.find("/images/1"), std::string::npos) << "the fallback is not even read";
+}
+
+TEST(GltfWebp, APictureThatDoesNotExistIsRefused) {
+  GltfBuilder builder;
+  builder.root["textures"] = {{{"extensions", {{"EXT_texture_webp", {{"source", 7}}}}}}};
+  EXPECT_EQ(refusalOf(builder),
+            "test.gltf: /textures/0/extensions/EXT_texture_webp/source: index 7 is past the 0 elements of "
+            "/images");
+}
+
+TEST(GltfSpecularGlossiness, BecomesADielectricOfInfiniteIndexWithASpecularColour) {
+  const Material m = extended("KHR_materials_pbrSpecularGlossiness",
+                              {{"diffuseFactor", {0.1, 0.2, 0.3, 0.4}},
+                               {"specularFactor", {0.5, 0.25, 0.125}},
+                               {"glossinessFactor", 0.75},
+                               {"diffuseTexture", {{"index", 1}}},
+                               {"specularGlossinessTexture", {{"index", 2}, {"texCoord", 1}}}});
+  EXPECT_TRUE(m.specularGlossiness);
+  EXPECT_EQ(m.baseColorFactor, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+  EXPECT_EQ(m.metallicFactor, 0.0f);
+  EXPECT_EQ(m.roughnessFactor, 0.25f);
+  EXPECT_EQ(m.ior, kInfiniteIor);
+  EXPECT_EQ(m.specularColorFactor, glm::vec3(0.5, 0.25, 0.125));
+  EXPECT_TRUE(m.baseColorTexture.present());
+  EXPECT_EQ(m.specularColorTexture.texcoord, 1u);
+}
+
+TEST(GltfSpecularGlossiness, DefaultsAreThoseOfTheSpecification) {
+  const Material m = extended("KHR_materials_pbrSpecularGlossiness", json::object());
+  EXPECT_EQ(m.baseColorFactor, glm::vec4(1.0f));
+  EXPECT_EQ(m.specularColorFactor, glm::vec3(1.0f));
+  EXPECT_EQ(m.roughnessFactor, 0.0f);
+  EXPECT_FALSE(extended("KHR_materials_ior", {{"ior", 1.2}}).specularGlossiness);
+}
+
+TEST(GltfSpecularGlossiness, WinsOverMetallicRoughnessWhosePicturesAreNotRead) {
+  GltfBuilder builder =
+      fileWith({{"pbrMetallicRoughness",
+                 {{"baseColorFactor", {0, 0, 0, 1}},
+                  {"metallicFactor", 0.5},
+                  {"metallicRoughnessTexture", {{"index", 0}}}}},
+                {"extensions",
+                 {{"KHR_materials_pbrSpecularGlossiness", {{"diffuseTexture", {{"index", 1}}}}},
+                  {"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                  {"KHR_materials_emissive_strength", {{"emissiveStrength", 2}}}}}});
+  const Scene scene = load(builder);
+  const Material& m = scene.materials.at(0);
+  EXPECT_EQ(m.baseColorFactor, glm::vec4(1.0f));
+  EXPECT_FALSE(m.metallicRoughnessTexture.present());
+  EXPECT_EQ(scene.images.size(), 1u);
+  EXPECT_EQ(m.transmissionFactor, 0.0f);
+  EXPECT_EQ(m.emissiveStrength, 2.0f);
+  EXPECT_TRUE(anyWarningHas(scene, "/materials/0/extensions/KHR_materials_transmission: does not go with"));
+}
+
+TEST(GltfSpecularGlossiness, ColoursOutOfRangeAreBroughtBack) {
+  expectWarning({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", {{"specularFactor", {2, 0, 0}}}}}}},
+                "extensions/KHR_materials_pbrSpecularGlossiness/specularFactor");
+}
+
+}  // namespace
+}  // namespace fragtrace::gltf_test

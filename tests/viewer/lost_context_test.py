@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The viewer comes back when the driver loses the tracing thread's context (tests/faults/failing_egl.cpp)."""
+import os
+import re
+import subprocess
+import time
+
+from support import FRAGTRACE, Case, main, pixels_of
+
+MOST_SECONDS = 2.0
+
+
+class LostContext(Case):
+    def test_it_draws_anew_within_two_seconds(self):
+        libraries = subprocess.run(["/sbin/ldconfig", "-p"], capture_output=True, text=True, check=True).stdout
+        trigger = self.folder / "lose"
+        paths = [str(FRAGTRACE.parent / "failing_egl"), os.environ.get("LD_LIBRARY_PATH")]
+        faults = {"FRAGTRACE_REAL_EGL": re.search(r"libEGL\.so\.1 .*=> (\S+)", libraries).group(1),
+                  "FRAGTRACE_FAIL_WHEN": str(trigger), "LD_LIBRARY_PATH": ":".join(filter(None, paths))}
+        whole = dict(self.screen.environment)
+        self.addCleanup(self.screen.environment.update, whole)
+        self.screen.environment.update(faults)
+        options = ["--resolution", "320,240", "--spp", "8"]
+        viewer = self.view("cornell-box", "--rendering-backend", "egl", *options)
+        answered = viewer.status()["answered"]
+        trigger.touch()
+        began = time.monotonic()
+        viewer.key("m")  # another program, and with it another picture
+        viewer.until(lambda s: s["answered"] > answered, "a picture of what was asked for")
+        seconds = time.monotonic() - began
+        print(f"from the key to a picture by another context: {seconds:.2f} s")
+        self.assertLess(seconds, MOST_SECONDS)
+        viewer.rest()
+        saved = viewer.press_for_file("F12", ".png")
+        self.assertEqual(len(pixels_of(saved)), 320 * 240)
+        messages = viewer.status()["messages"]
+        self.assertEqual(sum("drawing anew" in m for m in messages), 1, messages)
+        self.assertEqual(viewer.close(), 0, viewer.stderr())
+
+
+if __name__ == "__main__":
+    main()
