@@ -109,6 +109,11 @@ std::vector<glm::dmat4> placesOfMesh(Document& document, const PlacedNode& node)
   if (extension == source.extensions.end()) return {node.world};
   const tinygltf::Value& attributes = memberOf(extension->second, "attributes");
   if (!attributes.IsObject()) return {node.world};
+  if (source.skin >= 0) {
+    document.diagnostics.warn(pointerTo("nodes", node.index, "extensions", "EXT_mesh_gpu_instancing"),
+                              "is ignored: joints place the mesh");
+    return {node.world};
+  }
   return InstanceReader(document, node, attributes).read();
 }
 

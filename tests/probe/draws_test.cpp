@@ -6,7 +6,7 @@
 #include <bit>
 #include <memory>
 
-#include "bvh/bvh.h"
+#include "bvh/two_level.h"
 #include "gl_probe.h"
 #include "gltf/gltf.h"
 #include "pack/pack_tree.h"
@@ -36,10 +36,11 @@ class Draws : public GlProbe {
   }
 
   void open(const std::string& name, const RenderOptions& options) {
-    const Scene scene = loadGltf(std::filesystem::path(FRAGTRACE_SCENES) / name);
+    GltfOptions loading;
+    loading.instancing = options.instancing;
+    const Scene scene = loadGltf(std::filesystem::path(FRAGTRACE_SCENES) / name, loading);
     const bool iterative = options.traversal == TraversalMethod::Iterative;
-    const Bvh bvh =
-        iterative ? listLeaves(scene) : buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
+    const Bvh bvh = iterative ? listLeaves(scene) : buildSceneBvh(scene);
     const Environment surroundings;
     variant_ = chooseVariant(options, traitsOf(scene, surroundings.kind), surroundings.kind, bvh.depth,
                              BufferReads::Image);
@@ -192,6 +193,18 @@ TEST_P(Draws, AreTimed) {
 TEST_P(Draws, AVariantThatSuspendsFromTheStart) {
   constexpr int kMany = 700;
   size_ = {16, 12};
+  const FilmPixels expected = drawn([&](Film& film) { add(film, 0, kMany); });
+  variant_.resumable = true;
+  EXPECT_EQ(bitsOf(drawn([&](Film& film) { add(film, 0, kMany); })), bitsOf(expected));
+}
+
+TEST_P(Draws, PathsThatAreSuspendedInAnInstance) {
+  constexpr int kMany = 700;
+  RenderOptions options;
+  options.instancing = Instancing::Share;
+  size_ = {16, 12};
+  open("transforms.gltf", options);
+  ASSERT_TRUE(has(variant_.traits, Trait::Instances));
   const FilmPixels expected = drawn([&](Film& film) { add(film, 0, kMany); });
   variant_.resumable = true;
   EXPECT_EQ(bitsOf(drawn([&](Film& film) { add(film, 0, kMany); })), bitsOf(expected));

@@ -197,6 +197,35 @@ TEST(ShaderInstances, NoRayLeavesAClosedMesh) {
   }
 }
 
+TEST(ShaderInstances, FromFarAwayEveryRayStopsAtTheFrontOfAClosedMesh) {
+  const With instances(glsl_variant::kInstances, true);
+  const With stack(glsl_variant::kStackSize, int(kMaxTwoLevelDepth));
+  for (const Look& look : kLooks) {
+    Draw draw(59);
+    Scene scene;
+    scene.materials.resize(1);
+    scene.materials[0].doubleSided = true;
+    addShared(scene, closedMesh(), 0);
+    scene.instances.push_back({randomPlace(draw, look, 1.0), 0, ""});
+    const PackedTree p = packInstances(std::move(scene));
+    const dmat4& toLocal = p.scene.instances[0].toLocal;
+    const dvec3 middle(toLocal[3]);
+    const double size = glm::length(glm::dmat3(toLocal) * dvec3(0.5, 0.5, 0.5));
+    for (const double sizes : {10.0, 1000.0, 100000.0}) {
+      for (int i = 0; i < 3000; ++i) {
+        const dvec3 aim(toLocal * glm::dvec4(0.1 * draw.direction(), 1.0));
+        Ray ray;
+        ray.origin = vec3(middle + sizes * size * draw.direction());
+        ray.direction = vec3(glm::normalize(aim - dvec3(ray.origin)));
+        const double distance = glm::length(middle - dvec3(ray.origin));
+        const Outcome found = traceFloat(p, Method::FrontToBack, ray);
+        ASSERT_GE(found.slot, 0) << sizes;
+        ASSERT_LT(found.t, distance) << sizes;
+      }
+    }
+  }
+}
+
 /// As surfaceAt() of shaders/surface.glsl finds it.
 struct Point {
   vec3 place;
