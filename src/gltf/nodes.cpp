@@ -100,6 +100,16 @@ std::vector<int> rootsOf(const Document& document, const std::vector<int>& paren
 
 }  // namespace
 
+bool isMultiplicable(const glm::dmat4& matrix) {
+  constexpr double kLargest = 1e75;
+  for (int c = 0; c < 4; ++c) {
+    for (int r = 0; r < 4; ++r) {
+      if (!(std::abs(matrix[c][r]) <= kLargest)) return false;
+    }
+  }
+  return true;
+}
+
 std::vector<PlacedNode> placeNodes(const Document& document) {
   const std::vector<int> roots = rootsOf(document, parentsOf(document));
   std::vector<PlacedNode> placed;
