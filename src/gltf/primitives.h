@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "gltf/document.h"
@@ -22,7 +23,11 @@ struct MeshPose {
   std::vector<double> weights;  ///< of its morph targets; those left out are 0
   size_t jointCount = 0;        ///< of the skin that bends it; 0: none does
 
-  auto operator<=>(const MeshPose&) const = default;
+  bool operator<(const MeshPose& other) const {
+    if (jointCount != other.jointCount) return jointCount < other.jointCount;
+    return std::lexicographical_compare(weights.begin(), weights.end(), other.weights.begin(),
+                                        other.weights.end());
+  }
 };
 
 /// Decodes /meshes/MESH/primitives/PRIMITIVE with its morph targets applied; points, lines and primitives
