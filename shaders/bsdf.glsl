@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The glTF 2.0 material (appendix B, KHR_materials_specular, _transmission, _volume) as one BSDF: metal, dielectric over a
-// diffuse base, and glass, mixed by metallic and transmission. Frame: z is the shading normal, outgoing.z > 0.
+// diffuse base, and glass, mixed by metallic and transmission; and what extensions change of these: the shape of the facets, a film on them,
+// diffuse light through the surface. Sheen and clearcoat lie above (layers.glsl). Frame: z is the shading normal, outgoing.z > 0.
 
 struct Bsdf {
   vec3 baseColor;
@@ -15,6 +16,17 @@ struct Bsdf {
   float eta;       // index behind the surface over the index before it
   vec3 faceNormal;    // of the flat triangle
   vec3 vertexNormal;  // interpolated, before any map (both kVertexNormals)
+  float stretch;      // of the facets along x (kAnisotropy); see ggx.glsl
+  float film;         // weight, index and thickness (nm) of the thin film (kIridescence)
+  float filmIndex;
+  float filmThickness;
+  float diffuseThrough;  // of the diffuse light, what goes through, and its colour (kDiffuseTransmission)
+  vec3 throughColor;
+  vec3 sheenColor;    // kSheen; see layers.glsl
+  float sheenAlpha;
+  float coat;         // weight, GGX width and normal of the clearcoat (kClearcoat)
+  float coatAlpha;
+  vec3 coatNormal;
   vec3 between;    // colour of light scattered more than once between the facets, over pi (1 - average albedo); see compensate
 };
 
@@ -41,24 +53,55 @@ const float kEqualIndices = float(0.001);
 /// Whether glass is a single direction each way. A thin wall spreads light by its roughness alone.
 bool isSmoothGlass(Bsdf b) { return b.mirrorLike || (b.solid && abs(b.eta - 1.0f) < kEqualIndices); }
 
+/// Reflectance of facets that are seen at `cosine`, under the film if there is one.
+vec3 facetFresnel(Bsdf b, vec3 f0, float f90, float cosine) {
+  vec3 bare = fresnelSchlick(f0, f90, cosine);
+  if (!kIridescence || b.film <= 0.0f) return bare;
+  return mix(bare, filmReflectance(f0, b.filmIndex, b.filmThickness, cosine), b.film);
+}
+
 vec3 opaqueFresnel(Bsdf b, float cosine) {
   if (!kSpecular) return vec3(0.0f);
   vec3 result = vec3(0.0f);
-  if (kMetals) result = b.metal * fresnelSchlick(b.baseColor, 1.0f, cosine);
-  return result + b.opaque * fresnelSchlick(b.dielectricF0, b.dielectricF90, cosine);
+  if (kMetals) result = b.metal * facetFresnel(b, b.baseColor, 1.0f, cosine);
+  return result + b.opaque * facetFresnel(b, b.dielectricF0, b.dielectricF90, cosine);
 }
 
 /// The share of light that the dielectric layer lets through to the diffuse base.
 float throughLayer(Bsdf b, float cosine) {
   if (!kSpecular) return 1.0f;
-  return 1.0f - maxComponent(fresnelSchlick(b.dielectricF0, b.dielectricF90, cosine));
+  return 1.0f - maxComponent(facetFresnel(b, b.dielectricF0, b.dielectricF90, cosine));
 }
 
-/// Reflectance of the glass at a facet seen at `cosine`.
-float glassFresnel(Bsdf b, float cosine) {
+/// Reflectance of one interface of the glass under its film, on whichever side it is.
+vec3 filmedGlass(Bsdf b, float cosine, float eta, float bare) {
+  float squared = refractedSquared(cosine, eta);
+  if (squared <= 0.0f) return vec3(bare);
+  float outside = eta >= 1.0f ? cosine : sqrt(squared) / eta;
+  float root = (eta - 1.0f) / (eta + 1.0f);
+  return mix(vec3(bare), filmReflectance(vec3(root * root), b.filmIndex, b.filmThickness, outside), b.film);
+}
+
+/// Reflectance of the glass at a facet seen at `cosine`; what it transmits is 1 less the largest channel (KHR_materials_iridescence, rgb_mix).
+vec3 glassReflectance(Bsdf b, float cosine) {
   float eta = b.solid ? b.eta : max(b.eta, 1.0f / b.eta);
   float single = kSchlick ? schlickDielectric(cosine, eta) : fresnelDielectric(cosine, eta);
-  return b.solid ? single : thinReflectance(single);
+  if (!kIridescence || b.film <= 0.0f) return vec3(b.solid ? single : thinReflectance(single));
+  vec3 filmed = filmedGlass(b, cosine, eta, single);
+  return b.solid ? filmed : vec3(thinReflectance(filmed.x), thinReflectance(filmed.y), thinReflectance(filmed.z));
+}
+
+/// Its largest channel: the chance of a reflection.
+float glassFresnel(Bsdf b, float cosine) {
+  vec3 r = glassReflectance(b, cosine);
+  return kIridescence ? maxComponent(r) : r.x;
+}
+
+/// The colour of what is reflected, its largest channel 1.
+vec3 glassTint(Bsdf b, float cosine) {
+  if (!kIridescence) return vec3(1.0f);
+  vec3 r = glassReflectance(b, cosine);
+  return r / max(maxComponent(r), float(1e-12));
 }
 
 /// Mean of Schlick's reflectance over cosine-weighted directions.
@@ -80,20 +123,41 @@ Bsdf compensate(Bsdf b) {
   vec3 color = b.opaque * manyScatterings(averageFresnel(b.dielectricF0, b.dielectricF90), averageLoss);
   if (kMetals) color = color + b.metal * manyScatterings(averageFresnel(b.baseColor, 1.0f), averageLoss);
   b.between = color * (kInversePi / averageLoss);
+  // Stretched facets are in no table: of what isotropic ones of the same area would lose, so much is given back that nothing is gained.
+  if (kAnisotropy) b.between = b.between / (b.stretch * b.stretch);
   return b;
 }
 
-/// Chances of drawing from glass (x), the opaque specular lobe (y) and the diffuse lobe (z); they add up to 1.
-vec3 lobeChances(Bsdf b, float cosine) {
+/// Of the drawings from diffuse lobes, the part that goes through the surface.
+float throughChance(Bsdf b, float reflected, float through) {
+  if (!kDiffuseTransmission || b.diffuseThrough <= 0.0f) return 0.0f;
+  return reflected > 0.0f ? through / (reflected + through) : 1.0f;
+}
+
+/// Chances of drawing from glass (x), the opaque specular lobe (y), the diffuse lobe (z) and what goes through diffusely (w); they add up to 1.
+vec4 lobeChances(Bsdf b, float cosine) {
   float glass = kTransmission ? b.glass : 0.0f;
-  if (!kSpecular) return vec3(glass, 0.0f, 1.0f - glass);
+  float reflected = maxComponent(b.baseColor);
+  float through = 0.0f;
+  if (kDiffuseTransmission) {
+    through = b.diffuseThrough * maxComponent(b.throughColor);
+    reflected *= 1.0f - b.diffuseThrough;
+  }
+  if (!kSpecular) {
+    float below = throughChance(b, reflected, through);
+    return vec4(glass, 0.0f, (1.0f - glass) * (1.0f - below), (1.0f - glass) * below);
+  }
   float specular = maxComponent(opaqueFresnel(b, cosine));
-  float diffuse = b.opaque * throughLayer(b, cosine) * maxComponent(b.baseColor);
+  float diffuse = b.opaque * throughLayer(b, cosine) * reflected;
+  if (kDiffuseTransmission) through *= b.opaque * throughLayer(b, cosine);
   if (kCompensation) diffuse = diffuse + maxComponent(b.between) * kPi * ggxLoss(cosine, b.alpha);
+  float below = throughChance(b, diffuse, through);
+  diffuse = kDiffuseTransmission ? diffuse + through : diffuse;
   float sum = specular + diffuse;
   float share = sum > 0.0f ? specular / sum : 1.0f;
   share = diffuse > 0.0f && specular > 0.0f ? clamp(share, 0.125f, 0.875f) : share;
-  return vec3(glass, (1.0f - glass) * share, (1.0f - glass) * (1.0f - share));
+  float rest = (1.0f - glass) * (1.0f - share);
+  return vec4(glass, (1.0f - glass) * share, rest * (1.0f - below), rest * below);
 }
 
 /// Value and density of the rough glass in one direction.
@@ -114,13 +178,13 @@ BsdfValue evaluateGlass(Bsdf b, vec3 outgoing, vec3 incoming) {
   float ih = dot(image, h);
   if (oh <= 0.0f || (bends ? ih >= 0.0f : ih <= 0.0f)) return none;
   float fresnel = glassFresnel(b, oh);
-  float density = visibleGgxDensity(outgoing, h, b.alpha);
+  float density = facetDensity(outgoing, h, b.alpha, b.stretch);
   // The masking ratio turns the density of the visible normals into the value (both have D G1(o) / o.z).
   vec3 mirrored = vec3(image.x, image.y, abs(image.z));
-  float ratio = ggxMaskingShadowing(outgoing, mirrored, b.alpha) / ggxMasking(outgoing, b.alpha);
+  float ratio = facetShadowing(outgoing, mirrored, b.alpha, b.stretch);
   BsdfValue r;
   float jacobian = 1.0f / (4.0f * oh);
-  vec3 tint = vec3(1.0f);
+  vec3 tint = glassTint(b, oh);
   float share = fresnel;
   if (transmitted) {
     tint = b.baseColor;
@@ -139,21 +203,35 @@ BsdfValue evaluateGlass(Bsdf b, vec3 outgoing, vec3 incoming) {
   return r;
 }
 
-BsdfValue evaluateBsdf(Bsdf b, vec3 outgoing, vec3 incoming) {
+/// Diffuse light through the surface, as much as the reflection's mirror image would let into the base.
+BsdfValue evaluateThrough(Bsdf b, vec3 outgoing, vec3 incoming, float chance) {
+  vec3 h = normalize(outgoing + vec3(incoming.x, incoming.y, -incoming.z));
+  BsdfValue r;
+  float lit = b.opaque * b.diffuseThrough * throughLayer(b, max(0.0f, dot(outgoing, h))) * kInversePi * -incoming.z;
+  // Radiance is compressed by the denser side.
+  r.value = (b.solid ? lit / (b.eta * b.eta) : lit) * b.throughColor;
+  r.density = chance * -incoming.z * kInversePi;
+  return r;
+}
+
+/// Of all that lies under sheen and clearcoat.
+BsdfValue evaluateBase(Bsdf b, vec3 outgoing, vec3 incoming) {
   BsdfValue r;
   r.value = vec3(0.0f);
   r.density = 0.0f;
-  vec3 chances = lobeChances(b, outgoing.z);
+  vec4 chances = lobeChances(b, outgoing.z);
+  if (kDiffuseTransmission && incoming.z < 0.0f) r = evaluateThrough(b, outgoing, incoming, chances.w);
   if (incoming.z > 0.0f) {
     vec3 h = normalize(outgoing + incoming);
     float oh = max(0.0f, dot(outgoing, h));
     float lit = b.opaque * throughLayer(b, oh) * kInversePi * incoming.z;
+    if (kDiffuseTransmission) lit *= 1.0f - b.diffuseThrough;
     if (kVertexNormals) lit *= terminatorFade(b.faceNormal, b.vertexNormal, incoming);
     r.value = lit * b.baseColor;
     r.density = chances.z * incoming.z * kInversePi;
     if (kSpecular && !b.mirrorLike) {
-      float density = visibleGgxDensity(outgoing, h, b.alpha) / max(4.0f * oh, float(1e-12));
-      float ratio = ggxMaskingShadowing(outgoing, incoming, b.alpha) / ggxMasking(outgoing, b.alpha);
+      float density = facetDensity(outgoing, h, b.alpha, b.stretch) / max(4.0f * oh, float(1e-12));
+      float ratio = facetShadowing(outgoing, incoming, b.alpha, b.stretch);
       r.value = r.value + (density * ratio) * opaqueFresnel(b, oh);
       if (kCompensation) {
         float lost = ggxLoss(outgoing.z, b.alpha) * ggxLoss(incoming.z, b.alpha);
@@ -176,7 +254,7 @@ BsdfSample sampleSmoothGlass(Bsdf b, vec3 outgoing, float choice) {
   float fresnel = glassFresnel(b, outgoing.z);
   s.transmitted = choice >= fresnel;
   s.density = 0.0f;
-  s.weight = vec3(1.0f);
+  s.weight = glassTint(b, outgoing.z);
   s.incoming = vec3(-outgoing.x, -outgoing.y, outgoing.z);
   if (s.transmitted) {
     s.weight = b.solid ? b.baseColor / (b.eta * b.eta) : b.baseColor;
@@ -185,19 +263,21 @@ BsdfSample sampleSmoothGlass(Bsdf b, vec3 outgoing, float choice) {
   return s;
 }
 
-/// (u, v) picks the lobe and the direction, so that each lobe gets its part of points that are stratified together; choice decides between
-/// reflection and refraction at glass. Each is uniform in [0, 1).
-BsdfSample sampleBsdf(Bsdf b, vec3 outgoing, float choice, float u, float v) {
+/// The density of a sample whose direction is drawn, but not weighed yet.
+const float kUnweighed = float(-1.0);
+
+/// Draws from what lies under sheen and clearcoat: a direction to be weighed, a single one with its weight, or a lost one of weight 0.
+BsdfSample drawBase(Bsdf b, vec3 outgoing, float choice, float u, float v) {
   BsdfSample s;
   s.weight = vec3(0.0f);
   s.density = 0.0f;
   s.transmitted = false;
   s.incoming = vec3(0.0f, 0.0f, 1.0f);
-  vec3 chances = lobeChances(b, outgoing.z);
+  vec4 chances = lobeChances(b, outgoing.z);
   bool glass = kTransmission && u < chances.x;
   bool specular = kSpecular && !glass && u < chances.x + chances.y;
   float first = glass ? 0.0f : specular ? chances.x : chances.x + chances.y;
-  float width = glass ? chances.x : specular ? chances.y : chances.z;
+  float width = glass ? chances.x : specular ? chances.y : chances.z + chances.w;
   if (kSpecular || kTransmission) u = clamp((u - first) / max(width, float(1e-12)), 0.0f, float(0.99999994));
   if (glass && isSmoothGlass(b)) return sampleSmoothGlass(b, outgoing, choice);
   if (specular && b.mirrorLike) {
@@ -206,8 +286,12 @@ BsdfSample sampleBsdf(Bsdf b, vec3 outgoing, float choice, float u, float v) {
     return s;
   }
   s.incoming = sampleCosineHemisphere(u, v);
+  if (kDiffuseTransmission && !specular && !glass && choice * (chances.z + chances.w) < chances.w) {
+    s.incoming.z = -s.incoming.z;
+    s.transmitted = true;
+  }
   if (specular || glass) {
-    vec3 h = sampleVisibleGgx(outgoing, b.alpha, u, v);
+    vec3 h = sampleFacet(outgoing, b.alpha, b.stretch, u, v);
     float oh = dot(outgoing, h);
     s.incoming = mirrorDirection(outgoing, h);
     if (glass && choice >= glassFresnel(b, oh)) {
@@ -217,8 +301,6 @@ BsdfSample sampleBsdf(Bsdf b, vec3 outgoing, float choice, float u, float v) {
     // Facets can send light to the wrong side of the surface; that share is lost (single scattering).
     if (s.transmitted == (s.incoming.z > 0.0f)) return s;
   }
-  BsdfValue value = evaluateBsdf(b, outgoing, s.incoming);
-  s.density = value.density;
-  s.weight = value.density > 0.0f ? value.value / value.density : vec3(0.0f);
+  s.density = kUnweighed;
   return s;
 }

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: MIT
-// The energy that single scattering loses between GGX facets, from the table behind the materials (src/pack/ggx_energy.cpp): one row a cell with
-// the loss at its corners, then one row a cell of the average loss.
+// Tables behind the materials: the energy that single scattering loses between GGX facets (src/pack/ggx_energy.cpp) and the albedo of sheen
+// (src/pack/sheen_albedo.cpp). Each has one row a cell with the values at its corners, over the roots of cosine and alpha; the first goes on with one row a
+// cell of the average loss.
 
-/// 1 - albedo of a surface whose facets reflect all, seen at `cosine`.
-float ggxLoss(float cosine, float alpha) {
-  if (!kCompensation) return 0.0;
+const int kEnergyRows = int(kEnergyCells * kEnergyCells + kEnergyCells);
+
+/// The value of a table that begins behind so many rows.
+float energyTableAt(int first, float cosine, float alpha) {
   const int cells = int(kEnergyCells);
   float x = sqrt(clamp(cosine, 0.0, 1.0)) * float(cells);
   float y = sqrt(clamp(alpha, 0.0, 1.0)) * float(cells);
   int i = min(int(x), cells - 1);
   int j = min(int(y), cells - 1);
-  vec4 corners = uintBitsToFloat(readMaterials(int(frame.lightChoice.z) + j * cells + i));
+  vec4 corners = uintBitsToFloat(readMaterials(int(frame.lightChoice.z) + first + j * cells + i));
   return mix(mix(corners.x, corners.y, x - float(i)), mix(corners.z, corners.w, x - float(i)), y - float(j));
 }
+
+/// 1 - albedo of a surface whose facets reflect all, seen at `cosine`.
+float ggxLoss(float cosine, float alpha) { return kCompensation ? energyTableAt(0, cosine, alpha) : 0.0; }
 
 /// Its cosine-weighted mean over all directions.
 float ggxAverageLoss(float alpha) {
@@ -23,3 +28,6 @@ float ggxAverageLoss(float alpha) {
   vec4 ends = uintBitsToFloat(readMaterials(int(frame.lightChoice.z) + cells * cells + j));
   return mix(ends.x, ends.y, y - float(j));
 }
+
+/// Albedo of white sheen, seen at `cosine`.
+float sheenAlbedo(float cosine, float alpha) { return kSheen ? energyTableAt(kCompensation ? kEnergyRows : 0, cosine, alpha) : 0.0; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The GGX microfacet distribution, isotropic, in a frame whose z is the normal (glTF 2.0, appendix B).
+// The GGX microfacet distribution in a frame whose z is the normal (glTF 2.0, appendix B), isotropic, or stretched along x: facets of width alpha
+// x stretch along x and alpha / stretch along y. In a space that is stretched the other way these are isotropic ones (kAnisotropy).
 
 /// Trowbridge-Reitz density of half vectors, in the form that keeps its digits at small alpha.
 float ggxDensity(vec3 h, float alpha) {
@@ -35,4 +36,28 @@ vec3 sampleVisibleGgx(vec3 outgoing, float alpha, float u, float v) {
 
 float visibleGgxDensity(vec3 outgoing, vec3 h, float alpha) {
   return ggxDensity(h, alpha) * ggxMasking(outgoing, alpha) * max(0.0f, dot(outgoing, h)) / max(outgoing.z, float(1e-12));
+}
+
+/// A direction where its masking is that of isotropic facets of width alpha.
+vec3 alongFacets(vec3 v, float stretch) { return kAnisotropy ? vec3(v.x * stretch, v.y / stretch, v.z) : v; }
+
+/// A half vector where its density is that of isotropic facets.
+vec3 acrossFacets(vec3 h, float stretch) { return kAnisotropy ? vec3(h.x / stretch, h.y * stretch, h.z) : h; }
+
+/// Density of the half vectors visible from `outgoing` (z > 0).
+float facetDensity(vec3 outgoing, vec3 h, float alpha, float stretch) {
+  if (!kAnisotropy) return visibleGgxDensity(outgoing, h, alpha);
+  float masked = ggxDensity(acrossFacets(h, stretch), alpha) * ggxMasking(alongFacets(outgoing, stretch), alpha);
+  return masked * max(0.0f, dot(outgoing, h)) / max(outgoing.z, float(1e-12));
+}
+
+vec3 sampleFacet(vec3 outgoing, float alpha, float stretch, float u, float v) {
+  vec3 h = sampleVisibleGgx(alongFacets(outgoing, stretch), alpha, u, v);
+  return kAnisotropy ? normalize(alongFacets(h, stretch)) : h;
+}
+
+/// What masking and shadowing leave of the light that masking alone leaves.
+float facetShadowing(vec3 outgoing, vec3 incoming, float alpha, float stretch) {
+  vec3 o = alongFacets(outgoing, stretch);
+  return ggxMaskingShadowing(o, alongFacets(incoming, stretch), alpha) / ggxMasking(o, alpha);
 }

@@ -96,10 +96,26 @@ const uint kSlotEmission = 3u;
 const uint kSlotTransmission = 4u;
 const uint kSlotSpecular = 5u;
 const uint kSlotSpecularColor = 6u;
-const uint kSlotCount = 7u;
-const uint kMaterialRows = 14u;
+const uint kSlotClearcoat = 7u;
+const uint kSlotClearcoatRoughness = 8u;
+const uint kSlotClearcoatNormal = 9u;
+const uint kSlotSheenColor = 10u;
+const uint kSlotSheenRoughness = 11u;
+const uint kSlotAnisotropy = 12u;
+const uint kSlotIridescence = 13u;
+const uint kSlotIridescenceThickness = 14u;
+const uint kSlotDiffuseTransmission = 15u;
+const uint kSlotDiffuseTransmissionColor = 16u;
+const uint kSlotCount = 17u;
+// What extensions add; read only where a material of the scene has them.
+const uint kMaterialClearcoat = 24u;            // weight, roughness, normal scale, dispersion
+const uint kMaterialSheen = 25u;                // colour, roughness
+const uint kMaterialAnisotropy = 26u;           // strength, cosine and sine of the rotation
+const uint kMaterialIridescence = 27u;          // weight, index, least and largest thickness (nm)
+const uint kMaterialDiffuseTransmission = 28u;  // colour, weight
+const uint kMaterialRows = 29u;
 
-// Cells along each axis of the energy table, which stands behind the materials.
+// Cells along each axis of the tables of energy and of sheen, which stand behind the materials and the transforms of textures.
 const uint kEnergyCells = 32u;
 
 // Material flags.

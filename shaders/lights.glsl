@@ -75,12 +75,15 @@ LightSample triangleLight(int emitter, float chance, vec3 point, float u, float 
   if ((corner.w & kEmitterDoubleSided) != 0u) cosine = abs(cosine);
   if (cosine <= 0.0f) return noLight();
   vec4 texcoords = vec4(0.0f);
-  if (kEmissionTexture && kTexcoords) {
+  if ((kEmissionTexture || kClearcoatTexture) && kTexcoords) {
     uvec4 place = faceRow(int(edge2.w), 1);
     texcoords = interpolate(readTexcoordsAt(int(place.y)), readTexcoordsAt(int(place.z)), readTexcoordsAt(int(place.w)), w);
   }
   float density = chance * inverseArea * squared / cosine;
-  return makeLight(direction, distance, emissionAt(corner.w & kFaceMaterialMask, texcoords) / density, density);
+  uint material = corner.w & kFaceMaterialMask;
+  vec3 radiance = emissionAt(material, texcoords);
+  if (kClearcoat) radiance = radiance * emissionUnderCoat(material, texcoords, cosine);
+  return makeLight(direction, distance, radiance / density, density);
 }
 
 LightSample environmentLight(float chance, uvec2 bits) {

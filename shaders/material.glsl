@@ -9,6 +9,9 @@ vec4 materialFloats(uint material, uint row) { return uintBitsToFloat(materialRo
 
 uvec4 textureSlot(uint material, uint slot) { return materialRow(material, kMaterialTextures + slot); }
 
+/// Whether light may go through surfaces.
+const bool kPassesLight = kTransmission || kDiffuseTransmission;
+
 uint materialFlags(uint material) { return materialRow(material, kMaterialMaps).w; }
 
 /// Base colour and alpha at a point: factor x texture x vertex colour.
@@ -80,7 +83,7 @@ SurfaceMaterial materialAt(uint material, vec3 baseColor, vec4 texcoords) {
   } else {
     m.metallic = 0.0;
   }
-  vec4 volume = kTransmission ? materialFloats(material, kMaterialVolume) : vec4(0.0);
+  vec4 volume = kPassesLight ? materialFloats(material, kMaterialVolume) : vec4(0.0);
   m.absorption = volume.rgb;
   m.solid = volume.w > 0.0;
   return m;

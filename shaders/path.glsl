@@ -2,6 +2,7 @@
 // One camera path from pixel to light, as a state machine whose every step can wait for the next draw.
 
 const uint kCameraDimensions = 0u;
+const uint kChannelDimension = 2u;  // one number a path
 const uint kAlphaDimensions = 0x40000000u;
 const uint kBounceDimensions = 16u;  // a bounce uses 16 dimensions from 16 (bounce + 1) on
 const uint kLobeDimension = 0u;
@@ -14,6 +15,17 @@ TreeFrame treeFrame() { return TreeFrame(frame.gridOrigin.xyz, frame.gridCell.xy
 
 float pathRandom(Path p, uint offset) {
   return drawFloat(p.numbers, kBounceDimensions * uint(p.bounce + 1) + offset);
+}
+
+/// Red (0), green or blue: the one that is left once dispersion parts them.
+int pathChannel(Path p) { return min(int(3.0 * drawFloat(p.numbers, kChannelDimension)), 2); }
+
+/// The index of refraction of a solid for the channel of the path (KHR_materials_dispersion: they are apart by (n - 1) / 40 x 20 / Abbe number).
+float dispersedIor(Path p, uint material) {
+  float ior = materialFloats(material, kMaterialSurface).z;
+  if (!kDispersion || !p.oneChannel) return ior;
+  float halfSpread = (ior - 1.0) * 0.025 * materialFloats(material, kMaterialClearcoat).w;
+  return max(1.0, ior + float(pathChannel(p) - 1) * halfSpread);
 }
 
 /// Starts a traversal of a ray up to its limit, keeping the step count of this draw.
@@ -45,6 +57,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   p.bounce = 0;
   p.crossings = 0;
   p.cameraRay = true;
+  p.oneChannel = false;
   p.alpha = 0.0;
   p.radiance = vec3(0.0);
   p.throughput = vec3(1.0);
@@ -82,7 +95,7 @@ Path meetSurroundings(Path p) {
   }
   if (!kEnvironment) return p;
   // Surroundings are outside of everything: who has left less than was entered has missed a face that touches another.
-  if (kTransmission) p.throughput *= p.compression;
+  if (kPassesLight) p.throughput *= p.compression;
   float weight = 1.0;
   if (kGi && kEnvironmentSampling && p.density > 0.0) {
     weight = misWeight(p.density, frame.lightChoice.x * environmentDensity(p.direction));
@@ -149,9 +162,10 @@ Path proceed(Path p) {
 /// Emission of the point hit, weighted against light sampling.
 vec3 emittedAt(Path p, Surface s, uint flags) {
   if (!s.front && (flags & kMaterialDoubleSided) == 0u) return vec3(0.0);
-  vec3 radiance = emissionAt(s.material, s.texcoords);
-  if (!kGi || !kEmissiveTriangles || !s.emitter || p.density <= 0.0) return radiance;
   float cosine = abs(dot(s.geometricNormal, p.direction));
+  vec3 radiance = emissionAt(s.material, s.texcoords);
+  if (kClearcoat) radiance *= emissionUnderCoat(s.material, s.texcoords, cosine);
+  if (!kGi || !kEmissiveTriangles || !s.emitter || p.density <= 0.0) return radiance;
   return radiance * misWeight(p.density, emitterDensity(s.material, p.travelled, cosine));
 }
 

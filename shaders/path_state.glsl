@@ -13,6 +13,7 @@ struct Path {
   int bounce;      // scatterings so far
   int crossings;   // meetings with surfaces, where there is alpha; see nextCrossing
   Sampler numbers;
+  bool oneChannel; // dispersion has left one of red, green and blue (kDispersion)
   bool cameraRay;  // nothing but alpha has touched the path yet
   float alpha;
   vec3 radiance;
@@ -40,7 +41,7 @@ layout(std430, binding = kPathStatesBinding) restrict buffer PathStatesBlock { u
 
 void savePath(Path p, int index) {
   int r = index * kPathRows;
-  uint flags = p.cameraRay ? 1u : 0u;
+  uint flags = (p.cameraRay ? 1u : 0u) | (p.oneChannel ? 2u : 0u);
   pathStates[r] = uvec4(uint(p.phase) | uint(p.after) << 4 | flags << 8, uint(p.lightSlot), uint(p.bounce), uint(p.crossings));
   pathStates[r + 1] = uvec4(floatBitsToUint(p.radiance), floatBitsToUint(p.alpha));
   pathStates[r + 2] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.compression));
@@ -123,6 +124,7 @@ Path loadPath(int index) {
   p.phase = int(a.x & 0xfu);
   p.after = int(a.x >> 4 & 0xfu);
   p.cameraRay = (flags & 1u) != 0u;
+  p.oneChannel = (flags & 2u) != 0u;
   p.lightSlot = int(a.y);
   p.bounce = int(a.z);
   p.crossings = int(a.w);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What happens where a ray hits: alpha, absorption, emission, then light samples one by one, then the next ray.
 
-Bsdf makeBsdf(SurfaceMaterial m, bool front) {
+/// The base of the material, without its compensation.
+Bsdf baseBsdf(SurfaceMaterial m, bool front) {
   Bsdf b;
   b.baseColor = m.baseColor;
   b.dielectricF0 = m.dielectricF0;
@@ -13,19 +14,34 @@ Bsdf makeBsdf(SurfaceMaterial m, bool front) {
   b.mirrorLike = b.alpha < kMirrorAlpha;
   b.solid = m.solid;
   b.eta = front ? m.ior : 1.0 / m.ior;
-  return compensate(b);
+  return b;
+}
+
+/// A path that meets dispersive glass goes on for one of red, green and blue, which stands for all three.
+Path disperse(Path p, SurfaceMaterial m, uint material) {
+  if (p.oneChannel || !m.solid || m.transmission * (1.0 - m.metallic) <= 0.0) return p;
+  if (materialFloats(material, kMaterialClearcoat).w <= 0.0) return p;
+  int channel = pathChannel(p);
+  p.throughput *= 3.0 * vec3(channel == 0 ? 1.0 : 0.0, channel == 1 ? 1.0 : 0.0, channel == 2 ? 1.0 : 0.0);
+  p.oneChannel = true;
+  return p;
 }
 
 /// The path-traced material: one light sample, and one direction drawn from the BSDF.
 Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
-  Bsdf b = makeBsdf(m, s.front);
-  Frame3 around = frameAround(normal);
+  if (kDispersion) {
+    p = disperse(p, m, s.material);
+    if (m.solid) m.ior = dispersedIor(p, s.material);
+  }
+  vec3 anisotropy = kAnisotropy ? anisotropyAt(s.material, s.texcoords) : vec3(0.0);
+  Frame3 around = kAnisotropy ? frameAlong(s, normal, anisotropy.xy) : frameAround(normal);
+  Bsdf b = compensate(addLayers(baseBsdf(m, s.front), s, around, -p.direction, anisotropy.z));
   b.faceNormal = toFrame(around, s.geometricNormal);
   b.vertexNormal = toFrame(around, s.shadingNormal);
   vec3 outgoing = toFrame(around, -p.direction);
   uint dimension = kBounceDimensions * uint(p.bounce + 1);
   // The numbers of this bounce are drawn before it is counted.
-  float choice = kTransmission ? pathRandom(p, kLobeDimension) : 0.0;
+  float choice = kPassesLight ? pathRandom(p, kLobeDimension) : 0.0;
   vec2 uv = drawPair(p.numbers, dimension + kDirectionDimension);
   if (lightSlotCount() > 0) {
     LightSample light = lightOfSlot(0, s.position, p.numbers, dimension + kLightDimension);
@@ -44,7 +60,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
 
 /// Smooth glass of the stages before global illumination: one ray, chosen by the reflectance.
 Path scatterGlass(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
-  Bsdf b = makeBsdf(m, s.front);
+  Bsdf b = baseBsdf(m, s.front);
   Frame3 around = frameAround(normal);
   BsdfSample next = sampleSmoothGlass(b, toFrame(around, -p.direction), pathRandom(p, kLobeDimension));
   vec3 direction = ontoSide(normalize(toWorld(around, next.incoming)), s.geometricNormal, next.transmitted);
@@ -110,8 +126,8 @@ Path shade(Path p) {
       return p;
     }
     // A camera that sees the back of a solid first stands inside.
-    if (kTransmission && p.cameraRay && !s.front && materialFloats(s.material, kMaterialVolume).w > 0.0) {
-      float ior = materialFloats(s.material, kMaterialSurface).z;
+    if (kPassesLight && p.cameraRay && !s.front && materialFloats(s.material, kMaterialVolume).w > 0.0) {
+      float ior = dispersedIor(p, s.material);
       p.compression = ior * ior;
     }
     if (kAbsorption) {

@@ -120,19 +120,15 @@ Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, 
   return s;
 }
 
-/// The shading normal after normal texture and Perlin map; the handedness of the frame is that of the front.
-vec3 mappedNormal(Surface s) {
+/// Of a normal texture, in tangent space.
+vec3 texturedNormal(uvec4 slot, float scale, vec4 texcoords) {
+  vec3 texel = sampleTexture(slot, texcoords).rgb * 2.0 - 1.0;
+  return vec3(texel.xy * scale, texel.z);
+}
+
+/// A normal of tangent space in the space of the scene; the handedness of the frame is that of the front.
+vec3 normalFromMap(Surface s, vec3 mapped) {
   vec3 normal = s.shadingNormal;
-  if (!kNormalMaps) return normal;
-  vec3 mapped = vec3(0.0, 0.0, 1.0);
-  uvec4 slot = textureSlot(s.material, kSlotNormal);
-  if (kNormalTexture && (slot.z & kTexturePresent) != 0u) {
-    float scale = materialFloats(s.material, kMaterialMaps).x;
-    vec3 texel = sampleTexture(slot, s.texcoords).rgb * 2.0 - 1.0;
-    mapped = vec3(texel.xy * scale, texel.z);
-  }
-  vec4 perlin = materialFloats(s.material, kMaterialPerlin);
-  if (kPerlinNormals && perlin.y != 0.0) mapped = perlinNormal(s.texcoords.xy, perlin.x, perlin.y, int(perlin.z));
   vec3 tangent = s.tangent.xyz - normal * dot(normal, s.tangent.xyz);
   float squared = dot(tangent, tangent);
   if (squared <= 0.0) return normal;
@@ -142,6 +138,33 @@ vec3 mappedNormal(Surface s) {
   vec3 result = mapped.x * side * tangent + mapped.y * side * bitangent + mapped.z * normal;
   float length2 = dot(result, result);
   return length2 > 0.0 ? result * inversesqrt(length2) : normal;
+}
+
+/// The shading normal after normal texture and Perlin map.
+vec3 mappedNormal(Surface s) {
+  if (!kNormalMaps) return s.shadingNormal;
+  vec3 mapped = vec3(0.0, 0.0, 1.0);
+  uvec4 slot = textureSlot(s.material, kSlotNormal);
+  if (kNormalTexture && (slot.z & kTexturePresent) != 0u) {
+    mapped = texturedNormal(slot, materialFloats(s.material, kMaterialMaps).x, s.texcoords);
+  }
+  vec4 perlin = materialFloats(s.material, kMaterialPerlin);
+  if (kPerlinNormals && perlin.y != 0.0) mapped = perlinNormal(s.texcoords.xy, perlin.x, perlin.y, int(perlin.z));
+  return normalFromMap(s, mapped);
+}
+
+/// A frame round the normal whose first axis lies along a direction of tangent and bitangent; any where there are no tangents.
+Frame3 frameAlong(Surface s, vec3 normal, vec2 direction) {
+  vec3 tangent = s.tangent.xyz - normal * dot(normal, s.tangent.xyz);
+  float squared = dot(tangent, tangent);
+  if (squared <= 0.0) return frameAround(normal);
+  tangent *= inversesqrt(squared);
+  vec3 bitangent = cross(s.front ? normal : -normal, tangent) * s.tangent.w;
+  Frame3 f;
+  f.tangent = direction.x * tangent + direction.y * bitangent;
+  f.bitangent = cross(normal, f.tangent);
+  f.normal = normal;
+  return f;
 }
 
 /// A shading normal from which the direction towards the viewer is above the horizon: one that points away is turned just far enough.

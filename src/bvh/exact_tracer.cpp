@@ -103,11 +103,11 @@ void ExactTracer::meet(const ExactRay& ray, uint32_t primitive, uint32_t instanc
     std::array<glm::dvec3, 3> points;
     for (int i = 0; i < 3; ++i) points[i] = scene_.vertices.position[triangle.vertex[i]];
     const Crossing crossing = crossTriangle(ray, points);
-    if (crossing.front || m.doubleSided || m.transmissive()) t = crossing.t;
+    if (crossing.front || m.doubleSided || m.passesLight()) t = crossing.t;
   } else {
     const Sphere& sphere = scene_.spheres[primitive - triangles];
     const Material& m = scene_.materials[sphere.material];
-    t = crossSphere(ray, sphere, m.doubleSided || m.transmissive());
+    t = crossSphere(ray, sphere, m.doubleSided || m.passesLight());
   }
   if (t > 0.0 && t < hit.t) hit = {t, primitive, instance};
 }

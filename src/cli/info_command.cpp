@@ -79,8 +79,8 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
 
 int runInfo(const InfoOptions& options) {
   GltfOptions loading;
-  loading.instancing = options.instancing;
   loading.selection = options.selection;
+  loading.instancing = options.instancing;
   loading.limits = options.limits;
   const Scene scene = loadGltf(options.scene, loading);
   const SceneDescription description = describe(scene);

@@ -51,9 +51,9 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   CLI::App& info = *app.add_subcommand("info", "say what is in a scene");
   info.add_option("file", infoScene, ".gltf or .glb file")->required();
   info.add_flag("--json", line.info.json, "as JSON");
+  addSelectionOptions(info, line.info.selection);
   info.add_option("--instancing", infoInstancing, joined(kInstancingNames) + ": as render's")
       ->capture_default_str();
-  addSelectionOptions(info, line.info.selection);
   addInputOptions(info, line.info.limits);
   CLI::App& diff = *app.add_subcommand("diff", "compare a picture with a reference");
   diff.add_option("picture", picture)->required();

@@ -137,8 +137,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   loading.recenterOn = options.sceneOrigin ? options.sceneOrigin : options.camera.focalPoint;
   loading.cameraPosition = options.camera.position;
   loading.cameraIndex = options.cameraIndex.value_or(0);
-  loading.instancing = walksTree(options) ? options.instancing : Instancing::Flatten;
   loading.selection = options.selection;
+  loading.instancing = walksTree(options) ? options.instancing : Instancing::Flatten;
   loading.limits = options.limits;
   loaded.scene = loadGltf(options.scene, loading);
   if (!loaded.scene.images.empty()) startImageProcess();

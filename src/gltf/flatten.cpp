@@ -199,9 +199,11 @@ void appendShared(const MeshToShare& shared, Scene& scene) {
   const auto mesh = uint32_t(scene.sharedMeshes.size());
   const auto firstTriangle = uint32_t(scene.triangles.size());
   for (const MeshPrimitive& primitive : *shared.mesh) {
-    PrimitiveInstance inItsSpace{.primitive = &primitive};
-    inItsSpace.mesh = shared.name;
-    if (!primitive.triangles.empty()) appendPrimitive(inItsSpace, space, scene);
+    if (primitive.triangles.empty()) continue;
+    PrimitiveInstance own;
+    own.primitive = &primitive;
+    own.mesh = shared.name;
+    appendPrimitive(own, space, scene);
   }
   scene.sharedMeshes.push_back({firstTriangle, uint32_t(scene.triangles.size()) - firstTriangle});
   for (const MeshToShare::Place& place : shared.places) {

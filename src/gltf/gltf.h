@@ -14,8 +14,8 @@ struct GltfOptions {
   std::optional<glm::dvec3> recenterOn{};      ///< world position that becomes the local origin
   std::optional<glm::dvec3> cameraPosition{};  ///< else the origin is chosen for a camera there,
   int cameraIndex = 0;                         ///< or for this one of the file: see recentringPoint()
-  Instancing instancing = Instancing::Flatten;
   SceneSelection selection{};
+  Instancing instancing = Instancing::Flatten;
   InputLimits limits{};
 };
 

@@ -45,6 +45,56 @@ void readSpecular(const MaterialPart& part, Material& m) {
   m.specularColorTexture = part.texture("specularColorTexture");
 }
 
+void readClearcoat(const MaterialPart& part, Material& m) {
+  m.clearcoatFactor = part.factor("clearcoatFactor", 0.0, 0.0f, 1.0f);
+  m.clearcoatRoughnessFactor = part.factor("clearcoatRoughnessFactor", 0.0, 0.0f, 1.0f);
+  if (!m.clearcoated()) return;
+  m.clearcoatTexture = part.texture("clearcoatTexture");
+  m.clearcoatRoughnessTexture = part.texture("clearcoatRoughnessTexture");
+  m.clearcoatNormalTexture = part.texture("clearcoatNormalTexture");
+  const tinygltf::Value& normal = memberOf(part.object(), "clearcoatNormalTexture");
+  m.clearcoatNormalScale =
+      part.within(numberOf(normal, "scale", 1.0), -kLargest, kLargest, "clearcoatNormalTexture/scale");
+}
+
+void readSheen(const MaterialPart& part, Material& m) {
+  m.sheenColorFactor = part.color("sheenColorFactor", {0.0, 0.0, 0.0}, 1.0f);
+  m.sheenRoughnessFactor = part.factor("sheenRoughnessFactor", 0.0, 0.0f, 1.0f);
+  if (!m.hasSheen()) return;
+  m.sheenColorTexture = part.texture("sheenColorTexture");
+  m.sheenRoughnessTexture = part.texture("sheenRoughnessTexture");
+}
+
+void readAnisotropy(const MaterialPart& part, Material& m) {
+  m.anisotropyStrength = part.factor("anisotropyStrength", 0.0, 0.0f, 1.0f);
+  m.anisotropyRotation = float(std::fmod(numberOf(part.object(), "anisotropyRotation", 0.0), 2.0 * M_PI));
+  if (m.anisotropic()) m.anisotropyTexture = part.texture("anisotropyTexture");
+}
+
+void readIridescence(const MaterialPart& part, Material& m) {
+  constexpr float kThickest = 1e6f;  // a millimetre, far from where colours are seen
+  m.iridescenceFactor = part.factor("iridescenceFactor", 0.0, 0.0f, 1.0f);
+  m.iridescenceIor = part.factor("iridescenceIor", 1.3, 1.0f, kInfiniteIor);
+  m.iridescenceThicknessMinimum = part.factor("iridescenceThicknessMinimum", 100.0, 0.0f, kThickest);
+  m.iridescenceThicknessMaximum = part.factor("iridescenceThicknessMaximum", 400.0, 0.0f, kThickest);
+  if (!m.iridescent()) return;
+  m.iridescenceTexture = part.texture("iridescenceTexture");
+  m.iridescenceThicknessTexture = part.texture("iridescenceThicknessTexture");
+}
+
+void readDiffuseTransmission(const MaterialPart& part, Material& m) {
+  m.diffuseTransmissionFactor = part.factor("diffuseTransmissionFactor", 0.0, 0.0f, 1.0f);
+  m.diffuseTransmissionColorFactor = part.color("diffuseTransmissionColorFactor", kWhite, 1.0f);
+  if (m.diffuseTransmissionFactor <= 0.0f) return;
+  m.diffuseTransmissionTexture = part.texture("diffuseTransmissionTexture");
+  m.diffuseTransmissionColorTexture = part.texture("diffuseTransmissionColorTexture");
+}
+
+void readDispersion(const MaterialPart& part, Material& m) {
+  constexpr float kMost = 40.0f;  // red's index is 1 from there on
+  m.dispersion = part.factor("dispersion", 0.0, 0.0f, kMost);
+}
+
 /// A dielectric of infinite index reflects what its specular colour says, which is all that the extension's
 /// two colours need.
 void readSpecularGlossiness(const MaterialPart& part, Material& m) {
@@ -71,6 +121,12 @@ constexpr ExtensionRow kExtensions[] = {
     {"KHR_materials_transmission", readTransmission},
     {"KHR_materials_volume", readVolume},
     {"KHR_materials_specular", readSpecular},
+    {"KHR_materials_clearcoat", readClearcoat},
+    {"KHR_materials_sheen", readSheen},
+    {"KHR_materials_anisotropy", readAnisotropy},
+    {"KHR_materials_iridescence", readIridescence},
+    {"KHR_materials_diffuse_transmission", readDiffuseTransmission},
+    {"KHR_materials_dispersion", readDispersion},
     {kSpecularGlossiness, readSpecularGlossiness, true},
 };
 

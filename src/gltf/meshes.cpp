@@ -43,13 +43,13 @@ ShownMeshes showMeshes(Document& document, const std::vector<Material>& material
       if (isFirst) matrices->second = jointMatrices(document, node.index, placed);
       joints = matrices->second;
     }
-    const std::vector<glm::dmat4> places = placesOfMesh(document, node);
     const std::string nodeName = nameOrPlace(source.name, "nodes", node.index);
     const std::string meshName = nameOrPlace(mesh.name, "meshes", source.mesh);
+    const std::vector<glm::dmat4> places = placesOfMesh(document, node);
     takeMemory(document, pointerTo("nodes", node.index),
                places.size() * entry->second.size() *
                    (sizeof(PrimitiveInstance) + nodeName.size() + meshName.size()));
-    const std::vector<MeshPrimitive>* whole = source.skin < 0 ? &entry->second : nullptr;
+    const std::vector<MeshPrimitive>* whole = joints.empty() ? &entry->second : nullptr;
     for (const glm::dmat4& world : places) {
       for (const MeshPrimitive& primitive : entry->second) {
         if (!primitive.triangles.empty())

@@ -19,7 +19,7 @@ struct ShownMeshes {
   std::vector<PrimitiveInstance> instances;
 };
 
-/// Throws InputError.
+/// Throws InputError. A node with EXT_mesh_gpu_instancing shows its mesh at each of its places.
 ShownMeshes showMeshes(Document& document, const std::vector<Material>& materials,
                        const std::vector<PlacedNode>& nodes);
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gltf/diagnostics.h"
@@ -31,24 +32,49 @@ const json& elementOf(const json& root, const char* list, const json& index) {
   return index.get<size_t>() < elements.size() ? elements[index.get<size_t>()] : kNone;
 }
 
-/// Parent by node; the last one named counts.
-std::vector<size_t> parentsOf(const json& nodes) {
-  std::vector<size_t> parents(nodes.size(), nodes.size());
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    for (const json& child : memberOf(nodes[i], "children")) parents[child.get<size_t>()] = i;
+/// Where nodes stand in their trees. What is in a loop, which is refused later, stands alone.
+struct Ancestry {
+  std::vector<size_t> root;         ///< by node
+  std::vector<size_t> first, last;  ///< those below a node are numbered from its first to its last
+
+  bool isAbove(size_t node, size_t other) const {
+    return first[node] <= first[other] && first[other] <= last[node];
   }
-  return parents;
-}
+};
 
-/// A node and those above it, up to its root; loops end.
-std::vector<size_t> lineOf(size_t node, const std::vector<size_t>& parents) {
-  std::vector<size_t> line;
-  for (; node < parents.size() && line.size() <= parents.size(); node = parents[node]) line.push_back(node);
-  return line;
-}
-
-bool holds(const std::vector<size_t>& line, size_t node) {
-  return std::find(line.begin(), line.end(), node) != line.end();
+Ancestry ancestryOf(const json& nodes) {
+  const size_t count = nodes.size();
+  std::vector<bool> isChild(count, false);
+  for (const json& node : nodes) {
+    for (const json& child : memberOf(node, "children")) isChild[child.get<size_t>()] = true;
+  }
+  Ancestry ancestry;
+  ancestry.first.assign(count, count);
+  ancestry.last.assign(count, count);
+  for (size_t i = 0; i < count; ++i) ancestry.root.push_back(i);
+  size_t number = 0;
+  std::vector<std::pair<size_t, size_t>> open;  // a node, and how many of its children have been visited
+  const auto enter = [&](size_t node, size_t root) {
+    ancestry.first[node] = number++;
+    ancestry.root[node] = root;
+    open.emplace_back(node, 0);
+  };
+  for (size_t root = 0; root < count; ++root) {
+    if (isChild[root]) continue;
+    enter(root, root);
+    while (!open.empty()) {
+      auto& [node, visited] = open.back();
+      const json& children = memberOf(nodes[node], "children");
+      if (visited == children.size()) {
+        ancestry.last[node] = number - 1;
+        open.pop_back();
+        continue;
+      }
+      const auto child = children[visited++].get<size_t>();
+      if (ancestry.first[child] == count) enter(child, root);
+    }
+  }
+  return ancestry;
 }
 
 class MotionChecker {
@@ -57,7 +83,7 @@ class MotionChecker {
 
   void check() {
     forEach("nodes", [this](const json& node, const std::string& place) { checkNode(node, place); });
-    if (root_.contains("skins")) parents_ = parentsOf(memberOf(root_, "nodes"));
+    if (root_.contains("skins")) ancestry_ = ancestryOf(memberOf(root_, "nodes"));
     forEach("skins", [this](const json& skin, const std::string& place) { checkSkin(skin, place); });
     forEach("animations",
             [this](const json& animation, const std::string& place) { checkAnimation(animation, place); });
@@ -109,17 +135,18 @@ class MotionChecker {
       warnStride(matrices, there);
     }
     if (joints.empty()) return;
-    std::vector<size_t> common = lineOf(joints[0].get<size_t>(), parents_);
     std::set<size_t> seen;
-    for (const json& joint : joints) {
-      if (!seen.insert(joint.get<size_t>()).second) warn(place + "/joints", "names a node twice");
-      const std::vector<size_t> line = lineOf(joint.get<size_t>(), parents_);
-      std::erase_if(common, [&](size_t node) { return !holds(line, node); });
-    }
-    if (common.empty()) warn(place + "/joints", "have no common root");
+    size_t strangers = 0;
+    size_t notBelow = 0;
     const json& skeleton = memberOf(skin, "skeleton");
-    if (skeleton.is_number_unsigned() && !common.empty() && !holds(common, skeleton.get<size_t>()))
-      warn(place + "/skeleton", "is above none or not all of the joints, and not needed");
+    for (const json& joint : joints) {
+      const auto node = joint.get<size_t>();
+      if (!seen.insert(node).second) warn(place + "/joints", "names a node twice");
+      strangers += ancestry_.root[node] != ancestry_.root[joints[0].get<size_t>()];
+      notBelow += skeleton.is_number_unsigned() && !ancestry_.isAbove(skeleton.get<size_t>(), node);
+    }
+    if (strangers > 0) warn(place + "/joints", "have no common root");
+    if (notBelow > 0) warn(place + "/skeleton", "is not above all of the joints, and not needed");
   }
 
   void checkAnimation(const json& animation, const std::string& place) {
@@ -214,7 +241,7 @@ class MotionChecker {
 
   const json& root_;
   Diagnostics& diagnostics_;
-  std::vector<size_t> parents_;
+  Ancestry ancestry_;
 };
 
 }  // namespace

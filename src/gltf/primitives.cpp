@@ -221,7 +221,8 @@ class PrimitiveReader {
     for (const TextureRef* texture : material_.textures()) {
       if (texture->present() && texture->texcoord == set) return true;
     }
-    return set == 0 && hasPerlin();
+    const bool tangentsAreMade = material_.anisotropic() && accessorOf("TANGENT") < 0;
+    return (set == 0 && hasPerlin()) || (set == tangentTexture().texcoord && tangentsAreMade);
   }
 
   bool hasPerlin() const { return material_.perlinNormal.amplitude != 0.0f; }
@@ -280,7 +281,7 @@ class PrimitiveReader {
   }
 
   void readTangents() {
-    if (!material_.normalTexture.present() && !hasPerlin()) return;
+    if (!tangentTexture().present() && !hasPerlin() && !material_.anisotropic()) return;
     if (result_.vertices.normal.empty()) return makeFlatTangents();
     const int accessor = matchingAccessor("TANGENT");
     if (accessor < 0) return makeTangentsAlongTexture();
@@ -303,8 +304,16 @@ class PrimitiveReader {
     warnMended("TANGENT", count, "a tangent without a direction is replaced by any that fits");
   }
 
+  /// The texture that tangents follow, if there is one: the first that is there.
+  const TextureRef& tangentTexture() const {
+    for (const TextureRef* texture : {&material_.normalTexture, &material_.clearcoatNormalTexture}) {
+      if (texture->present()) return *texture;
+    }
+    return material_.anisotropyTexture;
+  }
+
   void makeTangentsAlongTexture() {
-    const TextureRef& texture = material_.normalTexture;
+    const TextureRef& texture = tangentTexture();
     makeTangents(result_.vertices, result_.triangles, texture.texcoord, texture.transform);
   }
 

@@ -82,7 +82,7 @@ LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, 
       LiteralFace face;
       for (int i = 0; i < 3; ++i)
         face.corner[size_t(i)] = pointIndex(mesh.points, scene.vertices.position[t.vertex[i]]);
-      face.culled = !m.doubleSided && !m.transmissive();
+      face.culled = !m.doubleSided && !m.passesLight();
       face.slot = leaf * 2 + side;
       bool taken = false;
       for (size_t i = 0; merge && !taken && i < mesh.faces.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "pack/pack_lights.h"
 #include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
+#include "pack/sheen_albedo.h"
 #include "pack/words.h"
 
 namespace fragtrace {
@@ -67,6 +68,18 @@ uint32_t materialFlags(const Material& m) {
   return flags;
 }
 
+/// The rows of extensions.
+void appendLayers(Words& words, const Material& m) {
+  appendRow(words,
+            glm::vec4(m.clearcoatFactor, m.clearcoatRoughnessFactor, m.clearcoatNormalScale, m.dispersion));
+  appendRow(words, m.sheenColorFactor, m.sheenRoughnessFactor);
+  appendRow(words, glm::vec4(m.anisotropyStrength, std::cos(m.anisotropyRotation),
+                             std::sin(m.anisotropyRotation), 0.0f));
+  appendRow(words, glm::vec4(m.iridescenceFactor, m.iridescenceIor, m.iridescenceThicknessMinimum,
+                             m.iridescenceThicknessMaximum));
+  appendRow(words, m.diffuseTransmissionColorFactor, m.diffuseTransmissionFactor);
+}
+
 void appendMaterial(Words& words, const Material& m, double unit, double emitterDensity,
                     const TraitSet& traits, TexturePacker& textures) {
   const size_t first = words.size();
@@ -90,21 +103,37 @@ void appendMaterial(Words& words, const Material& m, double unit, double emitter
   slot(Trait::TransmissionTexture, m.transmissionTexture, TransferCurve::Linear);
   slot(Trait::SpecularTexture, m.specularTexture, TransferCurve::Linear);
   slot(Trait::SpecularTexture, m.specularColorTexture, TransferCurve::Srgb);
+  slot(Trait::ClearcoatTexture, m.clearcoatTexture, TransferCurve::Linear);
+  slot(Trait::ClearcoatTexture, m.clearcoatRoughnessTexture, TransferCurve::Linear);
+  slot(Trait::ClearcoatNormal, m.clearcoatNormalTexture, TransferCurve::Linear);
+  slot(Trait::SheenTexture, m.sheenColorTexture, TransferCurve::Srgb);
+  slot(Trait::SheenTexture, m.sheenRoughnessTexture, TransferCurve::Linear);
+  slot(Trait::AnisotropyTexture, m.anisotropyTexture, TransferCurve::Linear);
+  slot(Trait::IridescenceTexture, m.iridescenceTexture, TransferCurve::Linear);
+  slot(Trait::IridescenceTexture, m.iridescenceThicknessTexture, TransferCurve::Linear);
+  slot(Trait::DiffuseTransmissionTexture, m.diffuseTransmissionTexture, TransferCurve::Linear);
+  slot(Trait::DiffuseTransmissionTexture, m.diffuseTransmissionColorTexture, TransferCurve::Srgb);
+  appendLayers(words, m);
   if (words.size() - first != layout::kMaterialRows * 4) std::abort();
 }
 
-/// One row a cell with the loss at its four corners, then one row a cell of the average loss
-/// (shaders/energy.glsl).
+/// One row a cell of a table with the values at its four corners (shaders/energy.glsl).
+void appendCells(Words& words, const std::vector<float>& nodes) {
+  constexpr size_t kCells = layout::kEnergyCells;
+  constexpr size_t kNodes = kCells + 1;
+  for (size_t j = 0; j < kCells; ++j) {
+    for (size_t i = 0; i < kCells; ++i) {
+      const float* corner = nodes.data() + j * kNodes + i;
+      appendRow(words, {corner[0], corner[1], corner[kNodes], corner[kNodes + 1]});
+    }
+  }
+}
+
+/// The cells of the loss, then one row a cell of the average loss.
 void appendEnergyTable(Words& words) {
   static_assert(kGgxEnergyCells == layout::kEnergyCells);
   const GgxEnergyTable& table = ggxEnergyTable();
-  for (int j = 0; j < kGgxEnergyCells; ++j) {
-    for (int i = 0; i < kGgxEnergyCells; ++i) {
-      const float* corner = table.loss.data() + size_t(j) * GgxEnergyTable::kNodes + size_t(i);
-      appendRow(words,
-                {corner[0], corner[1], corner[GgxEnergyTable::kNodes], corner[GgxEnergyTable::kNodes + 1]});
-    }
-  }
+  appendCells(words, table.loss);
   for (size_t j = 0; j < kGgxEnergyCells; ++j) {
     appendRow(words, {table.averageLoss[j], table.averageLoss[j + 1], 0.0f, 0.0f});
   }
@@ -187,6 +216,8 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   textures.appendTransforms(materials);
   packed.energyTableRow = uint32_t(materials.size() / 4);
   if (has(variant.stages, Stage::EnergyCompensation)) appendEnergyTable(materials);
+  static_assert(SheenAlbedoTable::kCells == layout::kEnergyCells);
+  if (has(traits, Trait::Sheen)) appendCells(materials, sheenAlbedoTable().albedo);
   packed.buffers[kTexelsBinding] = textures.takeTexels();
   return packed;
 }

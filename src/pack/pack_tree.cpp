@@ -50,7 +50,7 @@ void appendNodes(std::span<const BvhNode> nodes, const BoxGrid& grid, uint32_t f
 
 uint32_t triangleFlags(const Material& m) {
   uint32_t flags = 0;
-  if (!m.doubleSided && !m.transmissive()) flags |= layout::kPrimitiveCull;
+  if (!m.doubleSided && !m.passesLight()) flags |= layout::kPrimitiveCull;
   if (m.alphaMode != AlphaMode::Opaque) flags |= layout::kPrimitiveAlpha;
   return flags;
 }

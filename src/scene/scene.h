@@ -111,22 +111,69 @@ struct Material {
   float attenuationDistance = std::numeric_limits<float>::infinity();
   float specularFactor = 1.0f;
   glm::vec3 specularColorFactor{1.0f};
+  float clearcoatFactor = 0.0f;
+  float clearcoatRoughnessFactor = 0.0f;
+  float clearcoatNormalScale = 1.0f;
+  glm::vec3 sheenColorFactor{0.0f};
+  float sheenRoughnessFactor = 0.0f;
+  float anisotropyStrength = 0.0f;
+  float anisotropyRotation = 0.0f;  ///< radians, from the tangent towards the bitangent
+  float iridescenceFactor = 0.0f;
+  float iridescenceIor = 1.3f;
+  float iridescenceThicknessMinimum = 100.0f;  ///< nm; where the texture is 0
+  float iridescenceThicknessMaximum = 400.0f;  ///< nm; where it is 1, or without one
+  float diffuseTransmissionFactor = 0.0f;
+  glm::vec3 diffuseTransmissionColorFactor{1.0f};
+  float dispersion = 0.0f;  ///< 20 over the Abbe number
   PerlinNormal perlinNormal;
-  TextureRef baseColorTexture;          // sRGB + alpha
-  TextureRef metallicRoughnessTexture;  // linear, G roughness, B metallic
-  TextureRef normalTexture;             // linear, tangent space
-  TextureRef emissiveTexture;           // sRGB
-  TextureRef occlusionTexture;          // linear, R
-  TextureRef transmissionTexture;       // linear, R
-  TextureRef specularTexture;           // linear, A
-  TextureRef specularColorTexture;      // sRGB
+  TextureRef baseColorTexture;                 // sRGB + alpha
+  TextureRef metallicRoughnessTexture;         // linear, G roughness, B metallic
+  TextureRef normalTexture;                    // linear, tangent space
+  TextureRef emissiveTexture;                  // sRGB
+  TextureRef occlusionTexture;                 // linear, R
+  TextureRef transmissionTexture;              // linear, R
+  TextureRef specularTexture;                  // linear, A
+  TextureRef specularColorTexture;             // sRGB
+  TextureRef clearcoatTexture;                 // linear, R
+  TextureRef clearcoatRoughnessTexture;        // linear, G
+  TextureRef clearcoatNormalTexture;           // linear, tangent space
+  TextureRef sheenColorTexture;                // sRGB
+  TextureRef sheenRoughnessTexture;            // linear, A
+  TextureRef anisotropyTexture;                // linear, RG direction, B strength
+  TextureRef iridescenceTexture;               // linear, R
+  TextureRef iridescenceThicknessTexture;      // linear, G
+  TextureRef diffuseTransmissionTexture;       // linear, A
+  TextureRef diffuseTransmissionColorTexture;  // sRGB
 
   /// All of the above.
-  std::array<const TextureRef*, 8> textures() const {
-    return {&baseColorTexture, &metallicRoughnessTexture, &normalTexture,   &emissiveTexture,
-            &occlusionTexture, &transmissionTexture,      &specularTexture, &specularColorTexture};
+  std::array<const TextureRef*, 18> textures() const {
+    return {&baseColorTexture,
+            &metallicRoughnessTexture,
+            &normalTexture,
+            &emissiveTexture,
+            &occlusionTexture,
+            &transmissionTexture,
+            &specularTexture,
+            &specularColorTexture,
+            &clearcoatTexture,
+            &clearcoatRoughnessTexture,
+            &clearcoatNormalTexture,
+            &sheenColorTexture,
+            &sheenRoughnessTexture,
+            &anisotropyTexture,
+            &iridescenceTexture,
+            &iridescenceThicknessTexture,
+            &diffuseTransmissionTexture,
+            &diffuseTransmissionColorTexture};
   }
   bool transmissive() const { return transmissionFactor > 0.0f; }
+  /// Light of any kind goes through, so that the back is there.
+  bool passesLight() const { return transmissive() || diffuseTransmissionFactor > 0.0f; }
+  bool clearcoated() const { return clearcoatFactor > 0.0f; }
+  bool hasSheen() const { return sheenColorFactor != glm::vec3(0.0f); }
+  bool anisotropic() const { return anisotropyStrength > 0.0f; }
+  bool iridescent() const { return iridescenceFactor > 0.0f; }
+  bool disperses() const { return transmissive() && thicknessFactor > 0.0f && dispersion > 0.0f; }
   bool emissive() const {
     return !unlit && emissiveStrength > 0.0f &&
            (emissiveFactor.x > 0 || emissiveFactor.y > 0 || emissiveFactor.z > 0);
@@ -206,7 +253,8 @@ struct PrimitiveOrigin {
 struct Vertices {
   std::vector<glm::vec3> position;  ///< local space
   std::vector<glm::vec3> normal;    ///< unit; (0,0,0) where a primitive has none
-  std::vector<glm::vec4> tangent;   ///< xyz unit, w handedness (+1/-1); only where a normal map is used
+  std::vector<glm::vec4>
+      tangent;  ///< xyz unit, w handedness (+1/-1); only where a normal map or anisotropy needs them
   std::vector<glm::vec2> texcoord0;
   std::vector<glm::vec2> texcoord1;
   std::vector<glm::vec4> color;  ///< linear, multiplies base colour; (1,1,1,1) where a primitive has none

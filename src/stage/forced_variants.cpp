@@ -29,6 +29,33 @@ TraitSet withNeeded(Trait trait) {
     case Trait::SpecularGlossiness:
       add(Trait::Specular);
       break;
+    case Trait::Clearcoat:
+    case Trait::Anisotropy:
+    case Trait::Iridescence:
+      add(Trait::Specular);
+      if (trait == Trait::Anisotropy) add(Trait::Tangents);
+      break;
+    case Trait::ClearcoatTexture:
+      add(Trait::Clearcoat, Trait::Specular, Trait::Texcoords);
+      break;
+    case Trait::ClearcoatNormal:
+      add(Trait::Clearcoat, Trait::Specular, Trait::Tangents, Trait::Texcoords);
+      break;
+    case Trait::SheenTexture:
+      add(Trait::Sheen, Trait::Texcoords);
+      break;
+    case Trait::AnisotropyTexture:
+      add(Trait::Anisotropy, Trait::Specular, Trait::Tangents, Trait::Texcoords);
+      break;
+    case Trait::IridescenceTexture:
+      add(Trait::Iridescence, Trait::Specular, Trait::Texcoords);
+      break;
+    case Trait::DiffuseTransmissionTexture:
+      add(Trait::DiffuseTransmission, Trait::Texcoords);
+      break;
+    case Trait::Dispersion:
+      add(Trait::Transmission);
+      break;
     case Trait::TextureTransforms:
       add(Trait::BaseColorTexture, Trait::Texcoords);
       break;

@@ -14,8 +14,8 @@
 #include "image/limits.h"
 #include "image/tone_map.h"
 #include "scene/camera.h"
-#include "scene/scene.h"
 #include "scene/selection.h"
+#include "scene/scene.h"
 #include "stage/feature.h"
 #include "stage/stage.h"
 

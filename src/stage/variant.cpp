@@ -2,6 +2,7 @@
 #include "stage/variant.h"
 
 #include <algorithm>
+#include <array>
 
 #include "bvh/bvh.h"
 
@@ -26,8 +27,26 @@ Trait neededBy(Stage stage) {
 }
 
 bool hasNormalMaps(const TraitSet& traits) {
-  return has(traits, Trait::NormalTexture) || has(traits, Trait::PerlinNormals);
+  return has(traits, Trait::NormalTexture) || has(traits, Trait::PerlinNormals) ||
+         has(traits, Trait::ClearcoatNormal);
 }
+
+/// What traits need of others: the first is off without the second.
+struct Need {
+  Trait trait, needed;
+};
+constexpr Need kNeeds[] = {
+    {Trait::Clearcoat, Trait::Specular},
+    {Trait::ClearcoatTexture, Trait::Clearcoat},
+    {Trait::ClearcoatNormal, Trait::Clearcoat},
+    {Trait::SheenTexture, Trait::Sheen},
+    {Trait::Anisotropy, Trait::Specular},
+    {Trait::AnisotropyTexture, Trait::Anisotropy},
+    {Trait::Iridescence, Trait::Specular},
+    {Trait::IridescenceTexture, Trait::Iridescence},
+    {Trait::DiffuseTransmissionTexture, Trait::DiffuseTransmission},
+    {Trait::Dispersion, Trait::Transmission},
+};
 
 /// A light that rays can hit, and that can be sampled.
 bool hasAreaLight(const TraitSet& traits) {
@@ -40,13 +59,13 @@ void addMaterialTraits(const Material& m, const Vertices& vertices, TraitSet& tr
   auto mark = [&](Trait trait, bool present) {
     if (present) traits.set(size_t(trait));
   };
-  mark(Trait::SingleSided, !m.doubleSided && !m.transmissive());
+  mark(Trait::SingleSided, !m.doubleSided && !m.passesLight());
   mark(Trait::Alpha, m.alphaMode != AlphaMode::Opaque);
   mark(Trait::BaseColorTexture, m.baseColorTexture.present());
   mark(Trait::Unlit, m.unlit);
   const bool dielectricReflects = m.ior != 1.0f && m.specularFactor > 0.0f &&
                                   glm::any(glm::greaterThan(m.specularColorFactor, glm::vec3(0.0f)));
-  mark(Trait::Specular, m.metallicFactor > 0.0f || dielectricReflects || m.transmissive());
+  mark(Trait::Specular, m.metallicFactor > 0.0f || dielectricReflects || m.transmissive() || m.clearcoated());
   mark(Trait::Metals, m.metallicFactor > 0.0f);
   mark(Trait::MetallicRoughnessTexture, m.metallicRoughnessTexture.present());
   mark(Trait::SpecularTexture, m.specularTexture.present() || m.specularColorTexture.present());
@@ -56,8 +75,21 @@ void addMaterialTraits(const Material& m, const Vertices& vertices, TraitSet& tr
   mark(Trait::PerlinNormals, m.perlinNormal.amplitude != 0.0f && !vertices.texcoord0.empty());
   mark(Trait::Transmission, m.transmissive());
   mark(Trait::TransmissionTexture, m.transmissive() && m.transmissionTexture.present());
-  mark(Trait::Absorption, m.transmissive() && m.thicknessFactor > 0.0f &&
+  mark(Trait::Absorption, m.passesLight() && m.thicknessFactor > 0.0f &&
                               m.attenuationColor != glm::vec3(1.0f) && std::isfinite(m.attenuationDistance));
+  mark(Trait::Clearcoat, m.clearcoated());
+  mark(Trait::ClearcoatTexture, m.clearcoatTexture.present() || m.clearcoatRoughnessTexture.present());
+  mark(Trait::ClearcoatNormal, m.clearcoatNormalTexture.present() && !vertices.tangent.empty());
+  mark(Trait::Sheen, m.hasSheen());
+  mark(Trait::SheenTexture, m.sheenColorTexture.present() || m.sheenRoughnessTexture.present());
+  mark(Trait::Anisotropy, m.anisotropic());
+  mark(Trait::AnisotropyTexture, m.anisotropyTexture.present());
+  mark(Trait::Iridescence, m.iridescent());
+  mark(Trait::IridescenceTexture, m.iridescenceTexture.present() || m.iridescenceThicknessTexture.present());
+  mark(Trait::DiffuseTransmission, m.diffuseTransmissionFactor > 0.0f);
+  mark(Trait::DiffuseTransmissionTexture,
+       m.diffuseTransmissionTexture.present() || m.diffuseTransmissionColorTexture.present());
+  mark(Trait::Dispersion, m.disperses());
   mark(Trait::Emission, m.emissive());
   mark(Trait::EmissionTexture, m.emissive() && m.emissiveTexture.present());
 }
@@ -93,6 +125,7 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings) {
     for (const Sphere& s : scene.spheres) {
       const Material& m = scene.materials[s.material];
       if (m.normalTexture.present()) traits.set(size_t(Trait::NormalTexture));
+      if (m.clearcoatNormalTexture.present()) traits.set(size_t(Trait::ClearcoatNormal));
       if (m.perlinNormal.amplitude != 0.0f) traits.set(size_t(Trait::PerlinNormals));
     }
   }
@@ -169,24 +202,44 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
     if (!has(v.traits, Trait::SpecularGlossiness)) without(Trait::SpecularTexture);
   }
   if (!stage(Stage::Refraction)) {
-    for (Trait t : {Trait::Transmission, Trait::TransmissionTexture, Trait::Absorption}) without(t);
+    for (Trait t :
+         {Trait::Transmission, Trait::TransmissionTexture, Trait::Absorption, Trait::DiffuseTransmission})
+      without(t);
   }
   if (!stage(Stage::NormalMaps)) {
-    for (Trait t : {Trait::NormalTexture, Trait::PerlinNormals}) without(t);
+    for (Trait t : {Trait::NormalTexture, Trait::PerlinNormals, Trait::ClearcoatNormal}) without(t);
   }
-  if (!hasNormalMaps(v.traits)) without(Trait::Tangents);
+  if (!stage(Stage::Gi)) {
+    for (Trait t : {Trait::Clearcoat, Trait::Sheen, Trait::Anisotropy, Trait::Iridescence,
+                    Trait::DiffuseTransmission, Trait::Dispersion})
+      without(t);
+  }
+  for (const Need& need : kNeeds) {
+    if (!has(v.traits, need.needed)) without(need.trait);
+  }
+  if (!has(v.traits, Trait::Transmission) && !has(v.traits, Trait::DiffuseTransmission))
+    without(Trait::Absorption);
+  if (!hasNormalMaps(v.traits) && !has(v.traits, Trait::Anisotropy)) without(Trait::Tangents);
   if (stage(Stage::Gi) && !stage(Stage::LightSampling)) {
     without(Trait::EmissiveTriangles);
     without(Trait::EnvironmentSampling);
   }
   // A constant environment is found by scattered rays; only the stages without them sample it.
   if (stage(Stage::Gi) && surroundings == Surroundings::DefaultLight) without(Trait::EnvironmentSampling);
-  const bool textured = has(v.traits, Trait::BaseColorTexture) ||
-                        has(v.traits, Trait::MetallicRoughnessTexture) ||
-                        has(v.traits, Trait::NormalTexture) || has(v.traits, Trait::EmissionTexture) ||
-                        has(v.traits, Trait::TransmissionTexture) || has(v.traits, Trait::SpecularTexture) ||
-                        has(v.traits, Trait::PerlinNormals);
-  if (!textured) {
+  constexpr std::array kTextured = {Trait::BaseColorTexture,
+                                    Trait::MetallicRoughnessTexture,
+                                    Trait::NormalTexture,
+                                    Trait::EmissionTexture,
+                                    Trait::TransmissionTexture,
+                                    Trait::SpecularTexture,
+                                    Trait::PerlinNormals,
+                                    Trait::ClearcoatTexture,
+                                    Trait::ClearcoatNormal,
+                                    Trait::SheenTexture,
+                                    Trait::AnisotropyTexture,
+                                    Trait::IridescenceTexture,
+                                    Trait::DiffuseTransmissionTexture};
+  if (std::none_of(kTextured.begin(), kTextured.end(), [&](Trait t) { return has(v.traits, t); })) {
     without(Trait::Texcoords);
     without(Trait::TextureTransforms);
   }

@@ -212,6 +212,7 @@ void showScene(ViewState& state, ViewedScene scene) {
   for (RenderOptions& side : state.sides) {
     if (side.scene.empty()) continue;
     side.scene = state.scene->options.scene;
+    side.selection = state.scene->options.selection;
     side.hdriFile = state.scene->options.hdriFile;
     side.defaultLight = state.scene->options.defaultLight;
   }

@@ -101,6 +101,66 @@ class Materials(Case):
         # The texture's alpha is kept as a half float.
         self.assert_same(self.picture_of(quad(glossy, images=[white(51)]), "--spp", "4"), expected, 1e-3)
 
+    def spheres(self, materials):
+        """In a row, each filling a square of the picture, seen from far away."""
+        count = len(materials)
+        nodes = [{"extras": {"shape": 0, "material": i}, "translation": [2 * i - count + 1, 0, 0]} for i in range(count)]
+        nodes.append({"camera": 0, "translation": [0, 0, 5]})
+        return {
+            "asset": {"version": "2.0"}, "materials": materials, "nodes": nodes,
+            "extensions": {"KHR_implicit_shapes": {"shapes": [{"type": "sphere", "sphere": {"radius": 1}}]}},
+            "cameras": [{"type": "orthographic", "orthographic": {"xmag": count, "ymag": 1, "zfar": 10, "znear": 0.1}}],
+            "scenes": [{"nodes": list(range(count + 1))}], "scene": 0,
+        }
+
+    def test_white_surfaces_vanish_in_white_surroundings(self):
+        def white(metallic=0, roughness=0.0, **extensions):
+            return {"pbrMetallicRoughness": {"metallicFactor": metallic, "roughnessFactor": roughness},
+                    "extensions": {"KHR_materials_" + name: e for name, e in extensions.items()}}
+
+        lambertian = {"specular": {"specularFactor": 0}}
+        solid = {"transmission": {"transmissionFactor": 1}, "volume": {"thicknessFactor": 1}}
+        materials = [
+            white(**lambertian, clearcoat={"clearcoatFactor": 1}),
+            white(1, 0.3, clearcoat={"clearcoatFactor": 0.5}),
+            white(**lambertian, diffuse_transmission={"diffuseTransmissionFactor": 0.6}),
+            white(**lambertian, diffuse_transmission={"diffuseTransmissionFactor": 1}, volume={"thicknessFactor": 1}),
+            white(**solid, dispersion={"dispersion": 5}),
+            white(1, 0.3),
+        ]
+        count, size = len(materials), 16
+        gltf = self.spheres(materials)
+        path = self.folder / "furnace.gltf"
+        path.write_text(json.dumps(gltf))
+        picture = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", f"{count * size},{size}", "--spp", "256", "--bounces", "200")
+        for i in range(count):
+            pixels = [picture[y][i * size + x] for y in range(4, 12) for x in range(4, 12)]
+            for c in range(3):
+                self.assertAlmostEqual(sum(p[c] for p in pixels) / len(pixels), 1, delta=0.02, msg=f"material {i}")
+
+    def test_clearcoat_darkens_what_shines_under_it(self):
+        lamp = {"emissiveFactor": [1, 1, 1], "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]},
+                "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 0.5}}}
+        pixel = self.picture_of(quad(lamp), "--spp", "4")[16][16]
+        for channel in pixel:
+            self.assertAlmostEqual(channel, 1 - 0.5 * 0.04, delta=1e-3)
+
+    def test_a_coated_lamp_lights_a_room_alike_found_by_chance_or_chosen(self):
+        lamp = {"emissiveFactor": [1, 1, 1], "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1}}}
+        gltf = quad({"pbrMetallicRoughness": {"metallicFactor": 0}}) | {}
+        gltf["materials"].append(lamp)
+        gltf["meshes"].append({"primitives": [dict(gltf["meshes"][0]["primitives"][0], material=1)]})
+        # Beside the first quad, upright, and facing it at a grazing angle.
+        gltf["nodes"].append({"mesh": 1, "translation": [-1, 0, 1], "rotation": [0, 0.70710678, 0, 0.70710678]})
+        gltf["scenes"][0]["nodes"].append(2)
+        means = []
+        for sampling in ("nee", "bsdf"):
+            picture = self.picture_of(gltf, "--spp", "512", "--light-sampling", sampling, "--stage", "gi")
+            pixels = [p[0] for row in picture[8:24] for p in row[20:28]]
+            means.append(sum(pixels) / len(pixels))
+        self.assertAlmostEqual(means[0] / means[1], 1, delta=0.02)
+
+
 
 if __name__ == "__main__":
     main()

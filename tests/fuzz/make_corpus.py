@@ -64,6 +64,57 @@ def feature_scene():
         "bufferViews": views, "buffers": [{"byteLength": len(binary)}]}, binary
 
 
+def motion_scene():
+    """A triangle with joints, a morph target, variants, and an animation; one more as Draco and meshopt would hold it."""
+    binary, views, accessors = b"", [], []
+
+    def add(kind, component, values, code):
+        nonlocal binary
+        data = struct.pack(f"<{len(values)}{code}", *values)
+        views.append({"buffer": 0, "byteOffset": len(binary), "byteLength": len(data)})
+        width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}[kind]
+        accessors.append({"bufferView": len(views) - 1, "componentType": component, "count": len(values) // width, "type": kind})
+        binary += padded(data, b"\0")
+        return len(accessors) - 1
+
+    identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+    position = add("VEC3", 5126, [0, 0, 0, 1, 0, 0, 0, 1, 0], "f")
+    joints = add("VEC4", 5121, [0, 1, 0, 0] * 3, "B")
+    weights = add("VEC4", 5126, [0.5, 0.5, 0, 0] * 3, "f")
+    delta = add("VEC3", 5126, [0, 0, 1] * 3, "f")
+    binds = add("MAT4", 5126, identity * 2, "f")
+    times = add("SCALAR", 5126, [0, 1], "f")
+    turns = add("VEC4", 5126, [0, 0, 0, 1, 0, 0, 1, 0], "f")
+    spline = add("SCALAR", 5126, [0, 0, 0, 0, 1, 0], "f")
+    colours = add("VEC4", 5126, [1, 1, 1, 1, 0, 0, 0, 1], "f")
+    corners = add("SCALAR", 5123, [0, 1, 2], "H")
+    views.append({"buffer": 0, "byteLength": 36, "extensions": {"EXT_meshopt_compression": {
+        "buffer": 0, "byteOffset": 0, "byteLength": 36, "byteStride": 12, "count": 3, "mode": "ATTRIBUTES", "filter": "NONE"}}})
+    factor = "/materials/0/pbrMetallicRoughness/baseColorFactor"
+    primitive = {"attributes": {"POSITION": position, "JOINTS_0": joints, "WEIGHTS_0": weights}, "material": 0,
+                 "targets": [{"POSITION": delta}],
+                 "extensions": {"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [0]}]}}}
+    packed = {"attributes": {"POSITION": position}, "indices": corners,
+              "extensions": {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}}
+    return {
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"name": "all", "nodes": [0, 1, 3]}],
+        "extensionsUsed": ["KHR_materials_variants", "KHR_animation_pointer", "KHR_draco_mesh_compression",
+                           "EXT_meshopt_compression"],
+        "extensions": {"KHR_materials_variants": {"variants": [{"name": "night"}]}},
+        "nodes": [{"mesh": 0, "skin": 0, "weights": [0.5]}, {"children": [2]}, {"translation": [0, 0, 1]}, {"mesh": 1}],
+        "skins": [{"joints": [1, 2], "skeleton": 1, "inverseBindMatrices": binds}],
+        "meshes": [{"primitives": [primitive], "weights": [0]}, {"primitives": [packed]}],
+        "materials": [{"name": "day"}, {"name": "night"}],
+        "animations": [{"name": "turn",
+                        "samplers": [{"input": times, "output": turns}, {"input": times, "output": colours, "interpolation": "STEP"},
+                                     {"input": times, "output": spline, "interpolation": "CUBICSPLINE"}],
+                        "channels": [{"sampler": 0, "target": {"node": 2, "path": "rotation"}},
+                                     {"sampler": 2, "target": {"node": 0, "path": "weights"}},
+                                     {"sampler": 1, "target": {"path": "pointer", "extensions": {
+                                         "KHR_animation_pointer": {"pointer": factor}}}}]}],
+        "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(binary)}]}, binary
+
+
 def png():
     chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0))
@@ -97,7 +148,7 @@ def main():
         (folder / name).mkdir(parents=True, exist_ok=True)
     found = set()
     sources = [(path.stem, json.loads(path.read_text()), None) for path in sorted(scenes.glob("*.gltf"))]
-    for name, scene, binary in sources + [("features", *feature_scene())]:
+    for name, scene, binary in sources + [("features", *feature_scene()), ("motion", *motion_scene())]:
         words(scene, found)
         if binary is None:
             uri = scene.get("buffers", [{}])[0].get("uri", "")

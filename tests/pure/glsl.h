@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "pack/ggx_energy.h"
+#include "pack/sheen_albedo.h"
 #include "shader/layout.h"
 
 /// What the shader's prelude fixes and its buffers hold: here variables, so that one test can walk the
@@ -26,6 +27,12 @@ inline bool kFrontToBack = true;
 inline bool kSpecular = true;
 inline bool kMetals = true;
 inline bool kTransmission = true;
+inline bool kAnisotropy = false;
+inline bool kIridescence = false;
+inline bool kDiffuseTransmission = false;
+inline bool kSheen = false;
+inline bool kClearcoat = false;
+inline bool kNormalMaps = true;
 inline bool kSchlick = false;
 inline bool kCompensation = false;
 inline bool kWeights = true;

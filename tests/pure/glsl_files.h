@@ -12,6 +12,9 @@
 #include "perlin.glsl"
 #include "fresnel.glsl"
 #include "ggx.glsl"
+#include "iridescence.glsl"
+#include "sheen.glsl"
 #include "bsdf.glsl"
+#include "layers.glsl"
 #include "phong.glsl"
 // clang-format on

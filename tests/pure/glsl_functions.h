@@ -25,6 +25,7 @@ inline float pow(float x, float y) { return std::pow(x, y); }
 inline float min(float a, float b) { return b < a ? b : a; }
 inline float max(float a, float b) { return a < b ? b : a; }
 inline float clamp(float x, float low, float high) { return min(max(x, low), high); }
+inline float mix(float a, float b, float t) { return a * (1 - t) + b * t; }
 inline int min(int a, int b) { return b < a ? b : a; }
 inline int max(int a, int b) { return a < b ? b : a; }
 
@@ -45,3 +46,6 @@ inline float ggxLoss(float cosine, float alpha) {
   return fragtrace::ggxLoss(ggxEnergyTable(), cosine, alpha);
 }
 inline float ggxAverageLoss(float alpha) { return fragtrace::ggxAverageLoss(ggxEnergyTable(), alpha); }
+inline float sheenAlbedo(float cosine, float alpha) {
+  return fragtrace::sheenAlbedo(sheenAlbedoTable(), cosine, alpha);
+}

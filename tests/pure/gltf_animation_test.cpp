@@ -115,6 +115,7 @@ TEST(GltfAnimation, RotationsTurnEvenlyAlongTheShorterWay) {
 }
 
 TEST(GltfAnimation, RotationsThatAreNearlyTheSameStayUnit) {
+  EXPECT_NEAR(valuesAt(rotations(30.0, 30.0, 1.0), 0.3)[2], quaternion(30.0)[2], 1e-7);
   const std::vector<double> found = valuesAt(rotations(30.0, 30.0 + 1e-4, -1.0), 0.3);
   EXPECT_NEAR(found[2] * found[2] + found[3] * found[3], 1.0, 1e-14);
   EXPECT_NEAR(2.0 * std::atan2(std::abs(found[2]), std::abs(found[3])) * 180.0 / kPi, 30.0 + 0.3e-4, 1e-5);

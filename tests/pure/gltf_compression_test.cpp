@@ -324,6 +324,21 @@ TEST(GltfDraco, BrokenStreamsAreRefusedAndEndNothing) {
   EXPECT_GT(refused, 4u);
 }
 
+/// Behind the 11 bytes of the header, some of the next ones are the stream's own counts of triangles and
+/// vertices.
+TEST(GltfDraco, CountsOfTheStreamTakeNoUnboundedMemory) {
+  const Grid grid;
+  for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
+    const std::string bytes = dracoBytes(grid, method);
+    for (size_t i = 11; i < 17; ++i) {
+      std::string broken = bytes;
+      broken.replace(i, 2, "\xff\xff\xff\xff\x07");
+      GltfBuilder builder = dracoGrid(grid, broken);
+      EXPECT_NE(refusalOf(builder).find("KHR_draco_mesh_compression"), std::string::npos) << i;
+    }
+  }
+}
+
 TEST(GltfDraco, WhatItDecodesToIsCountedBefore) {
   const Grid grid;
   GltfBuilder builder = dracoGrid(grid, dracoBytes(grid));

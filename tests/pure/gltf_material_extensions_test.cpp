@@ -175,5 +175,133 @@ TEST(GltfSpecularGlossiness, ColoursOutOfRangeAreBroughtBack) {
                 "extensions/KHR_materials_pbrSpecularGlossiness/specularFactor");
 }
 
+TEST(GltfLayers, DefaultsAreThoseOfTheSpecifications) {
+  const Material m = materialWith({{"name", "plain"}});
+  EXPECT_FALSE(m.clearcoated() || m.hasSheen() || m.anisotropic() || m.iridescent() || m.passesLight() ||
+               m.disperses());
+  const Material film = extended("KHR_materials_iridescence", {{"iridescenceFactor", 1}});
+  EXPECT_EQ(film.iridescenceIor, 1.3f);
+  EXPECT_EQ(film.iridescenceThicknessMinimum, 100.0f);
+  EXPECT_EQ(film.iridescenceThicknessMaximum, 400.0f);
+  EXPECT_EQ(extended("KHR_materials_clearcoat", {{"clearcoatFactor", 1}}).clearcoatRoughnessFactor, 0.0f);
+  EXPECT_EQ(extended("KHR_materials_diffuse_transmission", {{"diffuseTransmissionFactor", 1}})
+                .diffuseTransmissionColorFactor,
+            glm::vec3(1.0f));
+}
+
+TEST(GltfLayers, ClearcoatIsRead) {
+  const Material m =
+      extended("KHR_materials_clearcoat", {{"clearcoatFactor", 0.5},
+                                           {"clearcoatTexture", {{"index", 0}}},
+                                           {"clearcoatRoughnessFactor", 0.25},
+                                           {"clearcoatRoughnessTexture", {{"index", 1}, {"texCoord", 1}}},
+                                           {"clearcoatNormalTexture", {{"index", 2}, {"scale", 0.75}}}});
+  EXPECT_EQ(m.clearcoatFactor, 0.5f);
+  EXPECT_EQ(m.clearcoatRoughnessFactor, 0.25f);
+  EXPECT_EQ(m.clearcoatNormalScale, 0.75f);
+  EXPECT_TRUE(m.clearcoatTexture.present());
+  EXPECT_EQ(m.clearcoatRoughnessTexture.texcoord, 1u);
+  EXPECT_TRUE(m.clearcoatNormalTexture.present());
+}
+
+TEST(GltfLayers, SheenIsRead) {
+  const Material m = extended("KHR_materials_sheen", {{"sheenColorFactor", {0.5, 0.25, 1}},
+                                                      {"sheenColorTexture", {{"index", 0}}},
+                                                      {"sheenRoughnessFactor", 0.75},
+                                                      {"sheenRoughnessTexture", {{"index", 1}}}});
+  EXPECT_EQ(m.sheenColorFactor, glm::vec3(0.5, 0.25, 1));
+  EXPECT_EQ(m.sheenRoughnessFactor, 0.75f);
+  EXPECT_NE(m.sheenColorTexture.texture, m.sheenRoughnessTexture.texture);
+}
+
+TEST(GltfLayers, AnisotropyIridescenceDiffuseTransmissionAndDispersionAreRead) {
+  const Material m = materialWith(
+      {{"extensions",
+        {{"KHR_materials_anisotropy",
+          {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1.5}, {"anisotropyTexture", {{"index", 3}}}}},
+         {"KHR_materials_iridescence",
+          {{"iridescenceFactor", 0.5},
+           {"iridescenceTexture", {{"index", 4}}},
+           {"iridescenceIor", 1.75},
+           {"iridescenceThicknessMinimum", 500},
+           {"iridescenceThicknessMaximum", 200},
+           {"iridescenceThicknessTexture", {{"index", 5}}}}},
+         {"KHR_materials_diffuse_transmission",
+          {{"diffuseTransmissionFactor", 0.25},
+           {"diffuseTransmissionTexture", {{"index", 6}}},
+           {"diffuseTransmissionColorFactor", {0.5, 1, 0}},
+           {"diffuseTransmissionColorTexture", {{"index", 7}}}}},
+         {"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+         {"KHR_materials_volume", {{"thicknessFactor", 1}}},
+         {"KHR_materials_dispersion", {{"dispersion", 0.5}}}}}});
+  EXPECT_EQ(m.anisotropyStrength, 0.5f);
+  EXPECT_EQ(m.anisotropyRotation, 1.5f);
+  EXPECT_TRUE(m.anisotropyTexture.present());
+  EXPECT_EQ(m.iridescenceIor, 1.75f);
+  EXPECT_EQ(m.iridescenceThicknessMinimum, 500.0f) << "may be above the maximum";
+  EXPECT_EQ(m.iridescenceThicknessMaximum, 200.0f);
+  EXPECT_TRUE(m.iridescenceTexture.present() && m.iridescenceThicknessTexture.present());
+  EXPECT_EQ(m.diffuseTransmissionColorFactor, glm::vec3(0.5, 1, 0));
+  EXPECT_TRUE(m.diffuseTransmissionTexture.present() && m.diffuseTransmissionColorTexture.present());
+  EXPECT_TRUE(m.passesLight());
+  EXPECT_TRUE(m.disperses());
+}
+
+TEST(GltfLayers, PicturesOfALayerThatIsOffAreNotRead) {
+  GltfBuilder builder = fileWith(
+      {{"extensions",
+        {{"KHR_materials_clearcoat", {{"clearcoatTexture", {{"index", 0}}}}},
+         {"KHR_materials_sheen", {{"sheenColorTexture", {{"index", 1}}}}},
+         {"KHR_materials_anisotropy", {{"anisotropyTexture", {{"index", 2}}}}},
+         {"KHR_materials_iridescence", {{"iridescenceTexture", {{"index", 3}}}}},
+         {"KHR_materials_diffuse_transmission", {{"diffuseTransmissionTexture", {{"index", 4}}}}}}}});
+  EXPECT_TRUE(load(builder).images.empty());
+}
+
+TEST(GltfLayers, FactorsOutOfRangeAreBroughtBackAtTheirPlace) {
+  const auto at = [](const char* extension, const char* member, const json& value) {
+    const std::string name = std::string("KHR_materials_") + extension;
+    expectWarning({{"extensions", {{name, {{member, value}}}}}}, "extensions/" + name + "/" + member);
+  };
+  at("clearcoat", "clearcoatFactor", 1.5);
+  at("clearcoat", "clearcoatRoughnessFactor", -1);
+  at("sheen", "sheenColorFactor", {0, 0, 2});
+  at("sheen", "sheenRoughnessFactor", 2);
+  at("anisotropy", "anisotropyStrength", -0.5);
+  at("iridescence", "iridescenceIor", 0.5);
+  at("iridescence", "iridescenceThicknessMaximum", -1);
+  at("diffuse_transmission", "diffuseTransmissionFactor", 7);
+  at("diffuse_transmission", "diffuseTransmissionColorFactor", {2, 1, 1});
+  at("dispersion", "dispersion", -1);
+}
+
+TEST(GltfLayers, WrongTypesAreRefusedAtTheirPlace) {
+  GltfBuilder builder = fileWith({{"extensions", {{"KHR_materials_sheen", {{"sheenColorFactor", {1, 1}}}}}}});
+  EXPECT_EQ(
+      refusalOf(builder),
+      "test.gltf: /materials/0/extensions/KHR_materials_sheen/sheenColorFactor: does not hold 3 numbers");
+  builder = fileWith(
+      {{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatNormalTexture", {{"index", 99}}}}}}}});
+  EXPECT_EQ(
+      refusalOf(builder),
+      "test.gltf: /materials/0/extensions/KHR_materials_clearcoat/clearcoatNormalTexture/index: index 99 "
+      "is past the 8 elements of /textures");
+}
+
+TEST(GltfLayers, AnisotropyAndTheClearcoatsNormalsMakeTangents) {
+  for (const json& extensions :
+       {json{{"KHR_materials_anisotropy", {{"anisotropyStrength", 1}}}},
+        json{{"KHR_materials_clearcoat",
+              {{"clearcoatFactor", 1}, {"clearcoatNormalTexture", {{"index", 0}}}}}}}) {
+    GltfBuilder builder = fileWith({{"extensions", extensions}});
+    json& primitive = builder.addTriangle();
+    primitive["attributes"]["TEXCOORD_0"] = builder.addAccessor<float>("VEC2", {0, 1, 1, 1, 0, 0});
+    primitive["material"] = 0;
+    const Scene scene = load(builder);
+    ASSERT_EQ(scene.vertices.tangent.size(), 3u) << extensions;
+    EXPECT_LE(glm::distance(scene.vertices.tangent[0], glm::vec4(1, 0, 0, 1)), 1e-6f) << extensions;
+  }
+}
+
 }  // namespace
 }  // namespace fragtrace::gltf_test

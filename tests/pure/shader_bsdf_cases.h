@@ -34,6 +34,16 @@ inline Bsdf makeBsdf(double metallic, double transmission, double roughness, dou
   b.mirrorLike = b.alpha < glsl_double::kMirrorAlpha;
   b.solid = solid;
   b.eta = front ? ior : 1.0 / ior;
+  b.stretch = 1.0;
+  b.film = b.diffuseThrough = b.coat = 0.0;
+  b.filmIndex = 1.3;
+  b.filmThickness = 0.0;
+  b.throughColor = dvec3(1.0);
+  b.sheenColor = dvec3(0.0);
+  b.sheenAlpha = 0.25;
+  b.coatAlpha = 0.0;
+  b.coatNormal = dvec3(0.0, 0.0, 1.0);
+  b.faceNormal = b.vertexNormal = b.coatNormal;
   return glsl_double::compensate(b);
 }
 
@@ -50,6 +60,17 @@ inline glsl_float::Bsdf toFloat(const Bsdf& b) {
   f.solid = b.solid;
   f.eta = float(b.eta);
   f.between = vec3(b.between);
+  f.stretch = float(b.stretch);
+  f.film = float(b.film);
+  f.filmIndex = float(b.filmIndex);
+  f.filmThickness = float(b.filmThickness);
+  f.diffuseThrough = float(b.diffuseThrough);
+  f.throughColor = vec3(b.throughColor);
+  f.sheenColor = vec3(b.sheenColor);
+  f.sheenAlpha = float(b.sheenAlpha);
+  f.coat = float(b.coat);
+  f.coatAlpha = float(b.coatAlpha);
+  f.coatNormal = vec3(b.coatNormal);
   return f;
 }
 

@@ -317,6 +317,7 @@ void Window::takeDrop(const std::filesystem::path& path) {
     options.camera = {};
     options.cameraIndex.reset();
     options.sceneOrigin.reset();
+    options.selection = {};
   } else if (kind == DroppedFile::Environment) {
     options.hdriFile = path;
   } else {

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// The whole surface: clearcoat (KHR_materials_clearcoat) over sheen (KHR_materials_sheen) over the base of bsdf.glsl. A clearcoat of weight w with the
+// reflectance F, seen at the angle of the viewer, is w F x its lobe + (1 - w F) x all below; sheen s is s x its lobe + (1 - max(s) E) x the base,
+// where E is the lobe's albedo in the direction, of both, in which it is larger.
+
+const float kCoatF0 = float(0.04);  // of the index 1.5
+
+/// Share of the light that the clearcoat reflects towards `outgoing`.
+float coatShare(Bsdf b, vec3 outgoing) {
+  if (!kClearcoat || b.coat <= 0.0f) return 0.0f;
+  return b.coat * fresnelSchlick(vec3(kCoatF0), 1.0f, max(0.0f, dot(outgoing, b.coatNormal))).x;
+}
+
+bool isSmoothCoat(Bsdf b) { return b.coatAlpha < kMirrorAlpha; }
+
+/// What sheen lets pass between two directions to and from the base.
+float underSheen(Bsdf b, vec3 outgoing, vec3 incoming) {
+  if (!kSheen) return 1.0f;
+  float strongest = maxComponent(b.sheenColor);
+  if (strongest <= 0.0f) return 1.0f;
+  return 1.0f - strongest * max(sheenShare(outgoing.z, b.sheenAlpha), sheenShare(incoming.z, b.sheenAlpha));
+}
+
+/// Chances of drawing from clearcoat (x), sheen (y) and the base (z); they add up to 1. No layer that is there is drawn too rarely.
+vec3 layerChances(Bsdf b, vec3 outgoing) {
+  float coat = coatShare(b, outgoing);
+  float sheen = kSheen ? maxComponent(b.sheenColor) * sheenShare(outgoing.z, b.sheenAlpha) : 0.0f;
+  float glass = kTransmission ? b.glass : 0.0f;
+  float diffuse = kDiffuseTransmission ? mix(maxComponent(b.baseColor), maxComponent(b.throughColor), b.diffuseThrough) : maxComponent(b.baseColor);
+  float base = glass + b.opaque * diffuse + maxComponent(opaqueFresnel(b, outgoing.z));
+  float below = sheen + (1.0f - sheen) * min(base, 1.0f);
+  float coatChance = coat > 0.0f ? clamp(coat / (coat + (1.0f - coat) * below), 0.125f, 0.875f) : 0.0f;
+  bool hasSheen = kSheen && maxComponent(b.sheenColor) > 0.0f;
+  float sheenChance = hasSheen ? clamp(sheen / max(below, float(1e-6)), 0.125f, 0.875f) : 0.0f;
+  return vec3(coatChance, (1.0f - coatChance) * sheenChance, (1.0f - coatChance) * (1.0f - sheenChance));
+}
+
+/// Value (without its share) and density of the rough clearcoat, about its own normal.
+BsdfValue evaluateCoat(Bsdf b, vec3 outgoing, vec3 incoming) {
+  BsdfValue r;
+  r.value = vec3(0.0f);
+  r.density = 0.0f;
+  Frame3 around = frameAround(b.coatNormal);
+  vec3 o = kNormalMaps ? toFrame(around, outgoing) : outgoing;
+  vec3 i = kNormalMaps ? toFrame(around, incoming) : incoming;
+  if (o.z <= 0.0f || i.z <= 0.0f) return r;
+  vec3 h = normalize(o + i);
+  float density = visibleGgxDensity(o, h, b.coatAlpha) / max(4.0f * dot(o, h), float(1e-12));
+  r.value = vec3(density * ggxMaskingShadowing(o, i, b.coatAlpha) / ggxMasking(o, b.coatAlpha));
+  r.density = density;
+  return r;
+}
+
+BsdfValue evaluateBsdf(Bsdf b, vec3 outgoing, vec3 incoming) {
+  BsdfValue r = evaluateBase(b, outgoing, incoming);
+  if (!kClearcoat && !kSheen) return r;
+  vec3 chances = layerChances(b, outgoing);
+  r.density *= chances.z;
+  if (kSheen && chances.y > 0.0f) {
+    r.value = r.value * underSheen(b, outgoing, incoming);
+    if (incoming.z > 0.0f) {
+      r.value = r.value + sheenValue(outgoing, incoming, b.sheenAlpha) * b.sheenColor;
+      r.density += chances.y * (0.5f * kInversePi);
+    }
+  }
+  if (kClearcoat && chances.x > 0.0f) {
+    float share = coatShare(b, outgoing);
+    r.value = r.value * (1.0f - share);
+    if (incoming.z > 0.0f && !isSmoothCoat(b)) {
+      BsdfValue lobe = evaluateCoat(b, outgoing, incoming);
+      r.value = r.value + share * lobe.value;
+      r.density += chances.x * lobe.density;
+    }
+  }
+  return r;
+}
+
+/// Draws from the clearcoat, in the sense of drawBase.
+BsdfSample drawCoat(Bsdf b, vec3 outgoing, float chance, float u, float v) {
+  BsdfSample s;
+  s.transmitted = false;
+  s.density = 0.0f;
+  s.weight = vec3(0.0f);
+  Frame3 around = frameAround(b.coatNormal);
+  vec3 o = kNormalMaps ? toFrame(around, outgoing) : outgoing;
+  bool smoothCoat = isSmoothCoat(b);
+  vec3 h = smoothCoat ? vec3(0.0f, 0.0f, 1.0f) : sampleVisibleGgx(o, b.coatAlpha, u, v);
+  vec3 i = mirrorDirection(o, h);
+  s.incoming = kNormalMaps ? toWorld(around, i) : i;
+  if (i.z <= 0.0f) return s;
+  if (smoothCoat) {
+    s.weight = vec3(coatShare(b, outgoing) / chance);
+    return s;
+  }
+  // Below the base's horizon it is lost, too.
+  if (s.incoming.z > 0.0f) s.density = kUnweighed;
+  return s;
+}
+
+BsdfSample drawLayered(Bsdf b, vec3 outgoing, float choice, float u, float v) {
+  vec3 chances = layerChances(b, outgoing);
+  bool coat = u < chances.x;
+  bool sheen = !coat && u < chances.x + chances.y;
+  float first = coat ? 0.0f : sheen ? chances.x : chances.x + chances.y;
+  float width = coat ? chances.x : sheen ? chances.y : chances.z;
+  u = clamp((u - first) / max(width, float(1e-12)), 0.0f, float(0.99999994));
+  if (kClearcoat && coat) return drawCoat(b, outgoing, chances.x, u, v);
+  BsdfSample s;
+  if (kSheen && sheen) {
+    s.incoming = sampleHemisphere(u, v);
+    s.transmitted = false;
+    s.weight = vec3(0.0f);
+    s.density = s.incoming.z > 0.0f ? kUnweighed : 0.0f;
+    return s;
+  }
+  s = drawBase(b, outgoing, choice, u, v);
+  // Of a single direction.
+  s.weight = s.weight * ((1.0f - coatShare(b, outgoing)) * underSheen(b, outgoing, s.incoming) / chances.z);
+  return s;
+}
+
+/// (u, v) picks the lobe and the direction, so that each lobe gets its part of points that are stratified together; choice decides between
+/// reflection and refraction at glass, and between both sides of diffuse light. Each is uniform in [0, 1).
+BsdfSample sampleBsdf(Bsdf b, vec3 outgoing, float choice, float u, float v) {
+  BsdfSample s;
+  if (kClearcoat || kSheen) s = drawLayered(b, outgoing, choice, u, v);
+  if (!kClearcoat && !kSheen) s = drawBase(b, outgoing, choice, u, v);
+  if (s.density >= 0.0f) return s;
+  BsdfValue value = evaluateBsdf(b, outgoing, s.incoming);
+  s.density = value.density;
+  s.weight = value.density > 0.0f ? value.value / value.density : vec3(0.0f);
+  return s;
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// What extensions add to a Bsdf, read from the rows behind the texture slots (layout.glsl).
+
+/// Direction in which facets are stretched, in tangent and bitangent (x, y), and strength of the anisotropy (KHR_materials_anisotropy).
+vec3 anisotropyAt(uint material, vec4 texcoords) {
+  vec3 row = materialFloats(material, kMaterialAnisotropy).xyz;
+  vec2 direction = vec2(1.0, 0.0);
+  if (kAnisotropyTexture) {
+    uvec4 slot = textureSlot(material, kSlotAnisotropy);
+    if ((slot.z & kTexturePresent) != 0u) {
+      vec3 texel = sampleTexture(slot, texcoords).rgb;
+      vec2 d = texel.xy * 2.0 - 1.0;
+      float squared = dot(d, d);
+      direction = squared > 1e-8 ? d * inversesqrt(squared) : direction;
+      row.x *= texel.b;
+    }
+  }
+  return vec3(row.y * direction.x - row.z * direction.y, row.z * direction.x + row.y * direction.y, row.x);
+}
+
+/// alpha is that of the perpendicular direction, alpha along = mix(alpha, 1, strength^2); alpha of the Bsdf is the root of their product.
+Bsdf stretchFacets(Bsdf b, float strength) {
+  b.stretch = 1.0;
+  if (strength <= 0.0) return b;
+  float across = max(b.alpha, kMirrorAlpha);
+  float along = mix(across, 1.0, strength * strength);
+  b.alpha = sqrt(along * across);
+  b.stretch = sqrt(along / across);
+  b.mirrorLike = false;
+  return b;
+}
+
+Bsdf addFilm(Bsdf b, uint material, vec4 texcoords) {
+  vec4 row = materialFloats(material, kMaterialIridescence);
+  b.film = row.x;
+  b.filmIndex = row.y;
+  float place = 1.0;
+  if (kIridescenceTexture) {
+    b.film *= sampleTexture(textureSlot(material, kSlotIridescence), texcoords).r;
+    place = sampleTexture(textureSlot(material, kSlotIridescenceThickness), texcoords).g;
+  }
+  b.filmThickness = mix(row.z, row.w, place);
+  return b;
+}
+
+Bsdf addDiffuseTransmission(Bsdf b, uint material, vec4 texcoords) {
+  vec4 row = materialFloats(material, kMaterialDiffuseTransmission);
+  b.diffuseThrough = row.w;
+  b.throughColor = row.rgb;
+  if (kDiffuseTransmissionTexture) {
+    b.diffuseThrough *= sampleTexture(textureSlot(material, kSlotDiffuseTransmission), texcoords).a;
+    b.throughColor *= sampleTexture(textureSlot(material, kSlotDiffuseTransmissionColor), texcoords).rgb;
+  }
+  return b;
+}
+
+/// Below this roughness sheen's lobe is narrower than its table.
+const float kLeastSheenRoughness = 0.05;
+
+Bsdf addSheen(Bsdf b, uint material, vec4 texcoords) {
+  vec4 row = materialFloats(material, kMaterialSheen);
+  if (kSheenTexture) {
+    row.rgb *= sampleTexture(textureSlot(material, kSlotSheenColor), texcoords).rgb;
+    row.a *= sampleTexture(textureSlot(material, kSlotSheenRoughness), texcoords).a;
+  }
+  float roughness = max(row.a, kLeastSheenRoughness);
+  b.sheenColor = row.rgb;
+  b.sheenAlpha = roughness * roughness;
+  return b;
+}
+
+/// Weight and roughness of the clearcoat.
+vec2 clearcoatAt(uint material, vec4 texcoords) {
+  vec2 coat = materialFloats(material, kMaterialClearcoat).xy;
+  if (kClearcoatTexture) {
+    coat.x *= sampleTexture(textureSlot(material, kSlotClearcoat), texcoords).r;
+    coat.y *= sampleTexture(textureSlot(material, kSlotClearcoatRoughness), texcoords).g;
+  }
+  return coat;
+}
+
+/// What the clearcoat lets out of the light that the surface emits, seen at `cosine` to the triangle.
+float emissionUnderCoat(uint material, vec4 texcoords, float cosine) {
+  if (!kClearcoat) return 1.0;
+  return 1.0 - clearcoatAt(material, texcoords).x * fresnelSchlick(vec3(kCoatF0), 1.0, cosine).x;
+}
+
+/// The clearcoat's normal, in the frame of the base.
+vec3 coatNormalAt(Surface s, Frame3 around, vec3 outgoing) {
+  if (!kNormalMaps) return vec3(0.0, 0.0, 1.0);
+  vec3 normal = s.shadingNormal;
+  if (kClearcoatNormal) {
+    uvec4 slot = textureSlot(s.material, kSlotClearcoatNormal);
+    float scale = materialFloats(s.material, kMaterialClearcoat).z;
+    if ((slot.z & kTexturePresent) != 0u) normal = normalFromMap(s, texturedNormal(slot, scale, s.texcoords));
+  }
+  normal = reflectingNormal(facingNormal(normal, outgoing), s.geometricNormal, outgoing);
+  return normalize(toFrame(around, normal));
+}
+
+/// All of the layers of a point, `around` its shading normal. Inside of a solid there is no layer: clearcoat and sheen lie on the outside.
+Bsdf addLayers(Bsdf b, Surface s, Frame3 around, vec3 outgoing, float strength) {
+  if (kAnisotropy) b = stretchFacets(b, strength);
+  if (kIridescence) b = addFilm(b, s.material, s.texcoords);
+  if (kDiffuseTransmission) b = addDiffuseTransmission(b, s.material, s.texcoords);
+  bool outside = s.front || !b.solid;
+  if (kSheen) {
+    b = addSheen(b, s.material, s.texcoords);
+    if (!outside) b.sheenColor = vec3(0.0);
+  }
+  if (kClearcoat) {
+    vec2 coat = clearcoatAt(s.material, s.texcoords);
+    b.coat = outside ? coat.x : 0.0;
+    b.coatAlpha = coat.y * coat.y;
+    b.coatNormal = coatNormalAt(s, around, outgoing);
+  }
+  return b;
+}

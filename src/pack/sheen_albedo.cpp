@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "pack/sheen_albedo.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <glm/gtc/constants.hpp>
+
+namespace fragtrace {
+
+namespace {
+
+constexpr int kHeights = 32;  // of the quadrature
+constexpr int kTurns = 24;
+
+// The distribution and the fit of shaders/sheen.glsl, in double precision.
+
+double fit(double x, double alpha) {
+  const double t = (1.0 - alpha) * (1.0 - alpha);
+  const double a = glm::mix(21.5473, 25.3245, t);
+  const double b = glm::mix(3.82987, 3.32435, t);
+  const double c = glm::mix(0.19823, 0.16801, t);
+  const double d = glm::mix(-1.97760, -1.27393, t);
+  const double e = glm::mix(-4.32054, -4.85967, t);
+  return a / (1.0 + b * std::pow(x, c)) + d * x + e;
+}
+
+double lambda(double cosine, double alpha) {
+  return cosine < 0.5 ? std::exp(fit(cosine, alpha))
+                      : std::exp(2.0 * fit(0.5, alpha) - fit(1.0 - cosine, alpha));
+}
+
+/// Heights are squares of equal steps, since the lobe lies near the horizon.
+struct Height {
+  double cosine, sine, lambda, weight;
+};
+
+std::array<Height, kHeights> heightsOf(double alpha) {
+  std::array<Height, kHeights> heights{};
+  for (int k = 0; k < kHeights; ++k) {
+    const double root = (k + 0.5) / kHeights;
+    const double z = root * root;
+    heights[size_t(k)] = {z, std::sqrt(1.0 - z * z), lambda(z, alpha), 2.0 * root / kHeights};
+  }
+  return heights;
+}
+
+double albedo(double cosine, double alpha, const std::array<Height, kHeights>& heights) {
+  const double sine = std::sqrt(1.0 - cosine * cosine);
+  const double lambdaOut = lambda(cosine, alpha);
+  double sum = 0.0;
+  for (const Height& in : heights) {
+    double around = 0.0;
+    for (int j = 0; j < kTurns; ++j) {
+      // The integrand is even in phi, so half of the circle does.
+      const double phi = glm::pi<double>() * (j + 0.5) / kTurns;
+      const glm::dvec3 h(sine + in.sine * std::cos(phi), in.sine * std::sin(phi), cosine + in.cosine);
+      const double sine2 = (h.x * h.x + h.y * h.y) / glm::dot(h, h);
+      around += std::pow(sine2, 0.5 / alpha);
+    }
+    sum += in.weight * around / kTurns / (1.0 + lambdaOut + in.lambda);
+  }
+  return (2.0 + 1.0 / alpha) * sum / (4.0 * cosine);
+}
+
+SheenAlbedoTable makeTable() {
+  constexpr int kNodes = SheenAlbedoTable::kNodes;
+  constexpr double kLeastRoughness = 0.03;  // below what shaders use
+  constexpr double kLeastCosine = 1e-4;
+  SheenAlbedoTable table;
+  for (int j = 0; j < kNodes; ++j) {
+    const double roughness = std::max(double(j) / SheenAlbedoTable::kCells, kLeastRoughness);
+    const auto heights = heightsOf(roughness * roughness);
+    for (int i = 0; i < kNodes; ++i) {
+      const double root = double(i) / SheenAlbedoTable::kCells;
+      table.albedo.push_back(
+          float(albedo(std::max(root * root, kLeastCosine), roughness * roughness, heights)));
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+const SheenAlbedoTable& sheenAlbedoTable() {
+  static const SheenAlbedoTable table = makeTable();
+  return table;
+}
+
+float sheenAlbedo(const SheenAlbedoTable& table, float cosine, float alpha) {
+  constexpr int kCells = SheenAlbedoTable::kCells;
+  const float x = std::sqrt(std::clamp(cosine, 0.0f, 1.0f)) * kCells;
+  const float y = std::sqrt(std::clamp(alpha, 0.0f, 1.0f)) * kCells;
+  const int i = std::min(int(x), kCells - 1);
+  const int j = std::min(int(y), kCells - 1);
+  const float* row = table.albedo.data() + size_t(j) * SheenAlbedoTable::kNodes + size_t(i);
+  const float* above = row + SheenAlbedoTable::kNodes;
+  return glm::mix(glm::mix(row[0], row[1], x - float(i)), glm::mix(above[0], above[1], x - float(i)),
+                  y - float(j));
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "pack/sheen_albedo.h"
+
+#include <gtest/gtest.h>
+
+#include "shader_bsdf_cases.h"
+
+namespace fragtrace {
+namespace {
+
+TEST(SheenAlbedo, IsTheIntegralOfTheLobe) {
+  for (double roughness : {0.25, 0.4, 0.7, 1.0}) {
+    const double alpha = roughness * roughness;
+    for (double z : {0.9, 0.5, 0.2}) {
+      const dvec3 o = atElevation(z);
+      // Of the shader's lobe, which is undivided here: no direction gives out more than it gets.
+      const With sheen(glsl_variant::kSheen, true);
+      const double integral = total(integrateBins([&](const dvec3& i) {
+        return i.z > 0.0 ? glsl_double::sheenValue(o, i, alpha) *
+                               std::max({1.0, glsl_double::sheenAlbedo(o.z, alpha),
+                                         glsl_double::sheenAlbedo(i.z, alpha)})
+                         : 0.0;
+      }));
+      EXPECT_NEAR(sheenAlbedo(sheenAlbedoTable(), float(z), float(alpha)), integral, 0.004)
+          << "roughness " << roughness << ", cosine " << z;
+    }
+  }
+}
+
+TEST(SheenAlbedo, IsAboveOneOnlyAtGrazingAnglesOfLowRoughness) {
+  const SheenAlbedoTable& table = sheenAlbedoTable();
+  for (int k = 0; k <= 100; ++k) {
+    const float cosine = float(k) / 100.0f;
+    EXPECT_LE(sheenAlbedo(table, cosine, 0.3f * 0.3f), 1.0f);
+    EXPECT_LE(sheenAlbedo(table, cosine, 1.0f), 1.0f);
+  }
+  EXPECT_GT(sheenAlbedo(table, 0.01f, 0.1f * 0.1f), 1.5f);
+}
+
+}  // namespace
+}  // namespace fragtrace
