@@ -73,33 +73,44 @@ float throughLayer(Bsdf b, float cosine) {
   return 1.0f - maxComponent(facetFresnel(b, b.dielectricF0, b.dielectricF90, cosine));
 }
 
+/// Reflectance of one interface of the glass whose exact reflectance is `bare`, as KHR_materials_specular scales it: f0 and f90 are those of the
+/// dielectric layer, and between them it grows as the exact one does. Light that cannot leave stays.
+vec3 scaledGlass(Bsdf b, float bare) {
+  float root = (b.eta - 1.0f) / (b.eta + 1.0f);
+  float f0 = root * root;
+  if (bare >= 1.0f || f0 >= 1.0f) return vec3(bare);
+  return mix(b.dielectricF0, vec3(b.dielectricF90), max(0.0f, bare - f0) / (1.0f - f0));
+}
+
 /// Reflectance of one interface of the glass under its film, on whichever side it is.
-vec3 filmedGlass(Bsdf b, float cosine, float eta, float bare) {
+vec3 filmedGlass(Bsdf b, float cosine, float eta, vec3 bare) {
   float squared = refractedSquared(cosine, eta);
-  if (squared <= 0.0f) return vec3(bare);
+  if (squared <= 0.0f) return bare;
   float outside = eta >= 1.0f ? cosine : sqrt(squared) / eta;
   float root = (eta - 1.0f) / (eta + 1.0f);
-  return mix(vec3(bare), filmReflectance(vec3(root * root), b.filmIndex, b.filmThickness, outside), b.film);
+  return mix(bare, filmReflectance(vec3(root * root), b.filmIndex, b.filmThickness, outside), b.film);
 }
 
 /// Reflectance of the glass at a facet seen at `cosine`; what it transmits is 1 less the largest channel (KHR_materials_iridescence, rgb_mix).
 vec3 glassReflectance(Bsdf b, float cosine) {
   float eta = b.solid ? b.eta : max(b.eta, 1.0f / b.eta);
   float single = kSchlick ? schlickDielectric(cosine, eta) : fresnelDielectric(cosine, eta);
-  if (!kIridescence || b.film <= 0.0f) return vec3(b.solid ? single : thinReflectance(single));
-  vec3 filmed = filmedGlass(b, cosine, eta, single);
-  return b.solid ? filmed : vec3(thinReflectance(filmed.x), thinReflectance(filmed.y), thinReflectance(filmed.z));
+  if (!kGlassSpecular && !kIridescence) return vec3(b.solid ? single : thinReflectance(single));
+  vec3 r = vec3(single);
+  if (kGlassSpecular) r = scaledGlass(b, single);
+  if (kIridescence && b.film > 0.0f) r = filmedGlass(b, cosine, eta, r);
+  return b.solid ? r : vec3(thinReflectance(r.x), thinReflectance(r.y), thinReflectance(r.z));
 }
 
 /// Its largest channel: the chance of a reflection.
 float glassFresnel(Bsdf b, float cosine) {
   vec3 r = glassReflectance(b, cosine);
-  return kIridescence ? maxComponent(r) : r.x;
+  return kGlassSpecular || kIridescence ? maxComponent(r) : r.x;
 }
 
 /// The colour of what is reflected, its largest channel 1.
 vec3 glassTint(Bsdf b, float cosine) {
-  if (!kIridescence) return vec3(1.0f);
+  if (!kGlassSpecular && !kIridescence) return vec3(1.0f);
   vec3 r = glassReflectance(b, cosine);
   return r / max(maxComponent(r), float(1e-12));
 }

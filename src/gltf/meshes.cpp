@@ -49,7 +49,7 @@ ShownMeshes showMeshes(Document& document, const std::vector<Material>& material
     takeMemory(document, pointerTo("nodes", node.index),
                places.size() * entry->second.size() *
                    (sizeof(PrimitiveInstance) + nodeName.size() + meshName.size()));
-    const std::vector<MeshPrimitive>* whole = joints.empty() ? &entry->second : nullptr;
+    const std::vector<MeshPrimitive>* whole = source.skin < 0 ? &entry->second : nullptr;
     for (const glm::dmat4& world : places) {
       for (const MeshPrimitive& primitive : entry->second) {
         if (!primitive.triangles.empty())

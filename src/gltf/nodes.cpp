@@ -123,16 +123,6 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
   return placed;
 }
 
-bool isMultiplicable(const glm::dmat4& matrix) {
-  constexpr double kLargest = 1e75;
-  for (int c = 0; c < 4; ++c) {
-    for (int r = 0; r < 4; ++r) {
-      if (!(std::abs(matrix[c][r]) <= kLargest)) return false;
-    }
-  }
-  return true;
-}
-
 std::string nameOrPlace(const std::string& name, const char* array, int index) {
   return name.empty() ? pointerTo(array, index) : name;
 }

@@ -120,13 +120,13 @@ std::vector<Influence> readInfluences(Document& document, const tinygltf::Primit
       const size_t elements = accessorCount(document, primitive.attributes.at(name));
       if (elements == count) continue;
       document.diagnostics.refuse(
-          place + "/attributes/" + name,
+          place + pointerTo("attributes", name),
           "has " + std::to_string(elements) + " elements for " + std::to_string(count) + " positions");
     }
-    const std::string jointPlace = place + "/attributes/" + joints;
+    const std::string jointPlace = place + pointerTo("attributes", joints);
     const auto jointsOf = readJoints(document, primitive.attributes.at(joints), jointPlace);
     const auto weightsOf =
-        readVectors<4>(document, primitive.attributes.at(weights), place + "/attributes/" + weights);
+        readVectors<4>(document, primitive.attributes.at(weights), place + pointerTo("attributes", weights));
     for (size_t i = 0; i < count; ++i) {
       for (int k = 0; k < int(kInASet); ++k) {
         Influence influence{jointsOf[i][k], weightsOf[i][k]};

@@ -173,6 +173,10 @@ struct Material {
   bool hasSheen() const { return sheenColorFactor != glm::vec3(0.0f); }
   bool anisotropic() const { return anisotropyStrength > 0.0f; }
   bool iridescent() const { return iridescenceFactor > 0.0f; }
+  bool scalesSpecular() const {
+    return specularFactor != 1.0f || specularColorFactor != glm::vec3(1.0f) || specularTexture.present() ||
+           specularColorTexture.present();
+  }
   bool disperses() const { return transmissive() && thicknessFactor > 0.0f && dispersion > 0.0f; }
   bool emissive() const {
     return !unlit && emissiveStrength > 0.0f &&

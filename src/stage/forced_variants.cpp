@@ -54,7 +54,8 @@ TraitSet withNeeded(Trait trait) {
       add(Trait::DiffuseTransmission, Trait::Texcoords);
       break;
     case Trait::Dispersion:
-      add(Trait::Transmission);
+    case Trait::GlassSpecular:
+      add(Trait::Transmission, Trait::Specular);
       break;
     case Trait::TextureTransforms:
       add(Trait::BaseColorTexture, Trait::Texcoords);

@@ -39,6 +39,7 @@ std::span<const TraitRow> traitRows() {
       {Trait::DiffuseTransmissionTexture, "diffuse-transmission-texture", "kDiffuseTransmissionTexture",
        "no diffuse transmission texture"},
       {Trait::Dispersion, "dispersion", "kDispersion", "no dispersive material"},
+      {Trait::GlassSpecular, "glass-specular", "kGlassSpecular", "no specular factor on glass"},
       {Trait::PerlinNormals, "perlin-normals", "kPerlinNormals", "no Perlin normal map"},
       {Trait::Specular, "specular", "kSpecular", "no surface that reflects"},
       {Trait::Metals, "metals", "kMetals", "no metal"},

@@ -41,6 +41,7 @@ enum class Trait : uint8_t {
   DiffuseTransmission,
   DiffuseTransmissionTexture,
   Dispersion,
+  GlassSpecular,
   PerlinNormals,
   Specular,
   Metals,

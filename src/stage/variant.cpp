@@ -46,6 +46,8 @@ constexpr Need kNeeds[] = {
     {Trait::IridescenceTexture, Trait::Iridescence},
     {Trait::DiffuseTransmissionTexture, Trait::DiffuseTransmission},
     {Trait::Dispersion, Trait::Transmission},
+    {Trait::GlassSpecular, Trait::Transmission},
+    {Trait::GlassSpecular, Trait::Specular},
 };
 
 /// A light that rays can hit, and that can be sampled.
@@ -90,6 +92,7 @@ void addMaterialTraits(const Material& m, const Vertices& vertices, TraitSet& tr
   mark(Trait::DiffuseTransmissionTexture,
        m.diffuseTransmissionTexture.present() || m.diffuseTransmissionColorTexture.present());
   mark(Trait::Dispersion, m.disperses());
+  mark(Trait::GlassSpecular, m.transmissive() && m.scalesSpecular());
   mark(Trait::Emission, m.emissive());
   mark(Trait::EmissionTexture, m.emissive() && m.emissiveTexture.present());
 }
@@ -211,7 +214,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   }
   if (!stage(Stage::Gi)) {
     for (Trait t : {Trait::Clearcoat, Trait::Sheen, Trait::Anisotropy, Trait::Iridescence,
-                    Trait::DiffuseTransmission, Trait::Dispersion})
+                    Trait::DiffuseTransmission, Trait::Dispersion, Trait::GlassSpecular})
       without(t);
   }
   for (const Need& need : kNeeds) {

@@ -75,7 +75,7 @@ class Codecs(Case):
             began = time.monotonic()
             self.fails(3, "info", self.write(draco(False)), says=["/meshes/0/primitives/0/extensions", says],
                        env={**os.environ, "FRAGTRACE_LIBRARY_PATH": str(self.folder)})
-            self.assertLess(time.monotonic() - began, 30)
+            self.assertLess(time.monotonic() - began, 120)
 
     def test_files_that_need_no_codecs_do_not_start_them(self):
         stand_in = self.folder / "fragtrace_codecs"

@@ -50,7 +50,7 @@ class Config(Case):
         self.refused("", "view.json", "line 1")
         self.refused('[{"spp": 2}]', "view.json", "no JSON object")
         self.refused('{"spp": 2, "spp": 3}', "view.json: /spp", "twice")
-        for name in ("warp", "scene", "config", "help", "--spp", "o", "", "a/b"):
+        for name in ("warp", "file", "config", "help", "--spp", "o", "", "a/b"):
             self.refused({name: 1}, "view.json: /" + name.replace("/", "~1"), "no option of render")
         self.refused({"spp": 0}, "view.json: /spp")
         self.refused({"spp": "many"}, "view.json: /spp")

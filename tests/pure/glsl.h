@@ -29,6 +29,7 @@ inline bool kMetals = true;
 inline bool kTransmission = true;
 inline bool kAnisotropy = false;
 inline bool kIridescence = false;
+inline bool kGlassSpecular = false;
 inline bool kDiffuseTransmission = false;
 inline bool kSheen = false;
 inline bool kClearcoat = false;

@@ -248,8 +248,9 @@ TEST(GltfMeshopt, WhatTheLibraryTakesForGrantedIsRefused) {
                 meshoptOf(b, 1)["count"] = 725;
                 b.root["bufferViews"][1]["byteLength"] = 725 * 4;
               }).starts_with(indices + "/count: 725 is no multiple of 3"));
-  EXPECT_TRUE(
-      refusal([](GltfBuilder& b) { meshoptOf(b, 0)["byteOffset"] = 99'999; }).starts_with(vertices + ": "));
+  EXPECT_TRUE(refusal([](GltfBuilder& b) {
+                meshoptOf(b, 0)["byteOffset"] = 99'999;
+              }).find(" bytes from byte 99999 reach past") != std::string::npos);
   EXPECT_EQ(refusal([](GltfBuilder& b) { meshoptOf(b, 0)["byteOffset"] = 1; }),
             vertices + ": the compressed data are broken");
   EXPECT_TRUE(

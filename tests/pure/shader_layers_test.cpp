@@ -5,59 +5,10 @@
 
 #include <numeric>
 
-#include "shader_bsdf_cases.h"
+#include "shader_layers_cases.h"
 
 namespace fragtrace {
 namespace {
-
-/// Turns on what the cases below need, until the end of the scope.
-struct AllExtensions {
-  With<bool> anisotropy{glsl_variant::kAnisotropy, true};
-  With<bool> iridescence{glsl_variant::kIridescence, true};
-  With<bool> diffuseTransmission{glsl_variant::kDiffuseTransmission, true};
-  With<bool> sheen{glsl_variant::kSheen, true};
-  With<bool> clearcoat{glsl_variant::kClearcoat, true};
-};
-
-/// As stretchFacets of shaders/material_layers.glsl.
-Bsdf stretched(Bsdf b, double strength) {
-  const double across = std::max(b.alpha, glsl_double::kMirrorAlpha);
-  const double along = across + (1.0 - across) * strength * strength;
-  b.alpha = std::sqrt(along * across);
-  b.stretch = std::sqrt(along / across);
-  b.mirrorLike = false;
-  return glsl_double::compensate(b);
-}
-
-Bsdf filmed(Bsdf b, double index, double thickness, double weight = 1.0) {
-  b.film = weight;
-  b.filmIndex = index;
-  b.filmThickness = thickness;
-  return glsl_double::compensate(b);
-}
-
-Bsdf coated(Bsdf b, double weight, double roughness, const dvec3& normal = dvec3(0.0, 0.0, 1.0)) {
-  b.coat = weight;
-  b.coatAlpha = roughness * roughness;
-  b.coatNormal = glm::normalize(normal);
-  return b;
-}
-
-Bsdf sheened(Bsdf b, const dvec3& color, double roughness) {
-  b.sheenColor = color;
-  b.sheenAlpha = roughness * roughness;
-  return b;
-}
-
-Bsdf letsThrough(Bsdf b, double share, const dvec3& color) {
-  b.diffuseThrough = share;
-  b.throughColor = color;
-  return b;
-}
-
-Bsdf plastic(double roughness) { return makeBsdf(0, 0, roughness, 1.5, false, true); }
-Bsdf metal(double roughness) { return makeBsdf(1, 0, roughness, 1.5, false, true); }
-Bsdf glass(bool solid, bool front = true) { return makeBsdf(0, 1, 0.5, 1.5, solid, front); }
 
 std::vector<Case> anisotropicCases() {
   return {{"brushed metal", stretched(metal(0.4), 0.7)},
@@ -334,102 +285,6 @@ TEST(ShaderLayers, ADiffuseWallLetsItsShareThrough) {
     EXPECT_LE(glm::distance(glsl_double::evaluateBsdf(b, o, i).value, above), 1e-9);
     const dvec3 below = 0.3 * through * dvec3(0.2, 0.4, 0.6) * (i.z / M_PI);
     EXPECT_LE(glm::distance(glsl_double::evaluateBsdf(b, o, dvec3(i.x, i.y, -i.z)).value, below), 1e-9);
-  }
-}
-
-// ---- thin films ----
-
-/// The interference of the first orders, integrated over wave numbers against the sensors' Gaussians.
-dvec3 filmByIntegration(const dvec3& baseF0, double index, double thickness, double cosine) {
-  const double inside = std::sqrt(1.0 - (1.0 - cosine * cosine) / (index * index));
-  const double r12 = schlick(dvec3(std::pow((index - 1.0) / (index + 1.0), 2.0)), 1.0, cosine).x;
-  const double path = 2.0 * index * thickness * 1e-9 * inside;
-  constexpr double kHeight[] = {5.4856e-13, 4.4201e-13, 5.2481e-13, 9.7470e-14};
-  constexpr double kPlace[] = {1.6810e6, 1.7953e6, 2.2084e6, 2.2399e6};
-  constexpr double kWidth[] = {4.3278e9, 9.3046e9, 6.6121e9, 4.5282e9};
-  dvec3 result(0.0);
-  dvec3 shifts(0.0);
-  dvec3 strength(0.0);
-  dvec3 order(0.0);
-  for (int c = 0; c < 3; ++c) {
-    const double root = std::sqrt(baseF0[c] + 1e-4);
-    const double base = (1.0 + root) / (1.0 - root);
-    const double r23 = schlick(dvec3(std::pow((base - index) / (base + index), 2.0)), 1.0, inside).x;
-    shifts[c] = M_PI + (base < index ? M_PI : 0.0);
-    const double both = std::clamp(r12 * r23, 1e-5, 0.9999);  // as the extension has it
-    order[c] = std::sqrt(both);
-    const double sum = (1.0 - r12) * (1.0 - r12) * r23 / (1.0 - both);
-    result[c] = r12 + sum;
-    strength[c] = sum - (1.0 - r12);
-  }
-  for (int m = 1; m <= 2; ++m) {
-    dvec3 xyz(0.0);
-    for (int sensor = 0; sensor < 4; ++sensor) {
-      const int c = sensor % 3;
-      // A Gaussian of variance 2 x width, of which the cosine's mean is what the film shows.
-      const double deviation = std::sqrt(2.0 * kWidth[sensor]);
-      double mean = 0.0;
-      constexpr int kSteps = 400;
-      for (int k = 0; k < kSteps; ++k) {
-        const double t = -6.0 + 12.0 * (k + 0.5) / kSteps;
-        mean += std::exp(-0.5 * t * t) / std::sqrt(2.0 * M_PI) * 12.0 / kSteps *
-                std::cos((kPlace[sensor] + deviation * t) * 2.0 * M_PI * m * path + m * shifts[c]);
-      }
-      xyz[c] += kHeight[sensor] * std::sqrt(2.0 * M_PI * kWidth[sensor]) * mean / 1.0685e-7;
-    }
-    const dvec3 seen(3.2404542 * xyz.x - 1.5371385 * xyz.y - 0.4985314 * xyz.z,
-                     -0.9692660 * xyz.x + 1.8760108 * xyz.y + 0.0415560 * xyz.z,
-                     0.0556434 * xyz.x - 0.2040259 * xyz.y + 1.0572252 * xyz.z);
-    for (int c = 0; c < 3; ++c) result[c] += strength[c] * std::pow(order[c], m) * 2.0 * seen[c];
-  }
-  return glm::clamp(result, 0.0, 1.0);
-}
-
-TEST(ShaderIridescence, IsTheInterferenceOfTheFirstOrders) {
-  Draw draw(353);
-  for (int k = 0; k < 300; ++k) {
-    const dvec3 baseF0 = 0.45 + draw.inCube(0.4);
-    const double index = draw.between(1.05, 2.2);
-    const double thickness = draw.between(1.0, 1200.0);
-    const double cosine = draw.between(0.0, 1.0);
-    EXPECT_LE(glm::distance(glsl_double::filmReflectance(baseF0, index, thickness, cosine),
-                            filmByIntegration(baseF0, index, thickness, cosine)),
-              2e-4)
-        << "index " << index << ", " << thickness << " nm, cosine " << cosine;
-  }
-}
-
-TEST(ShaderIridescence, NoFilmIsTheBareSurfaceAndAllStaysBetweenZeroAndOne) {
-  Draw draw(359);
-  for (int k = 0; k < 2000; ++k) {
-    const dvec3 baseF0 = 0.5 + draw.inCube(0.5);
-    const double index = draw.between(1.0, 2.5);
-    const double cosine = draw.between(0.0, 1.0);
-    EXPECT_LE(
-        glm::distance(glsl_double::filmReflectance(baseF0, index, 0.0, cosine), schlick(baseF0, 1.0, cosine)),
-        1e-12);
-    const vec3 film = glsl_float::filmReflectance(vec3(baseF0), float(index),
-                                                  float(draw.between(0.0, 1500.0)), float(cosine));
-    for (int c = 0; c < 3; ++c) {
-      ASSERT_GE(film[c], 0.0f);
-      ASSERT_LE(film[c], 1.0f);
-    }
-  }
-}
-
-TEST(ShaderIridescence, SmoothGlassUnderAFilmGivesBackAllButItsColour) {
-  const AllExtensions on;
-  for (bool solid : {false, true}) {
-    Bsdf b = filmed(makeBsdf(0, 1, 0.0, 1.5, solid, true), 1.33, 300);
-    b.baseColor = dvec3(1.0);
-    for (double z : {1.0, 0.5, 0.1}) {
-      const dvec3 albedo = albedoByDrawing(b, atElevation(z));
-      // One channel is whole; what the others lack is what their reflection lacks.
-      EXPECT_NEAR(std::max({albedo.x, albedo.y, albedo.z}), 1.0, 1e-6);
-      const dvec3 r = glsl_double::glassReflectance(b, z);
-      const dvec3 expected = dvec3(1.0) + r - dvec3(std::max({r.x, r.y, r.z}));
-      EXPECT_LE(glm::distance(albedo, expected), 2e-3) << "solid " << solid << ", z " << z;
-    }
   }
 }
 

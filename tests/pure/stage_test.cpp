@@ -58,6 +58,29 @@ TEST(Variant, FlatNeedsNoLightAndNoNormals) {
   EXPECT_TRUE(has(v.traits, Trait::BaseColorTexture));
 }
 
+TEST(Variant, LayersBelongToGiAndToWhatTheyLieOn) {
+  constexpr Trait kLayers[] = {Trait::Clearcoat,  Trait::ClearcoatTexture, Trait::ClearcoatNormal,
+                               Trait::Sheen,      Trait::Anisotropy,       Trait::Iridescence,
+                               Trait::Dispersion, Trait::GlassSpecular,    Trait::DiffuseTransmission};
+  for (const Trait t : kLayers) {
+    EXPECT_TRUE(has(variantOf(Stage::Gi, allTraits()).traits, t)) << traitRows()[size_t(t)].name;
+    EXPECT_FALSE(has(variantOf(Stage::NormalMaps, allTraits()).traits, t)) << traitRows()[size_t(t)].name;
+  }
+  TraitSet matte = allTraits();
+  matte.reset(size_t(Trait::Specular));
+  const ShaderVariant v = variantOf(Stage::Gi, matte);
+  EXPECT_FALSE(has(v.traits, Trait::Clearcoat) || has(v.traits, Trait::ClearcoatTexture) ||
+               has(v.traits, Trait::Iridescence));
+  EXPECT_TRUE(has(v.traits, Trait::Sheen));
+  // Anisotropy alone keeps tangents.
+  TraitSet brushed = allTraits();
+  for (Trait t : {Trait::NormalTexture, Trait::PerlinNormals, Trait::ClearcoatNormal})
+    brushed.reset(size_t(t));
+  EXPECT_TRUE(has(variantOf(Stage::Gi, brushed).traits, Trait::Tangents));
+  brushed.reset(size_t(Trait::Anisotropy));
+  EXPECT_FALSE(has(variantOf(Stage::Gi, brushed).traits, Trait::Tangents));
+}
+
 TEST(Variant, WhatTheSceneLacksIsOffWithItsReason) {
   TraitSet present;
   present.set(size_t(Trait::Triangles));
