@@ -122,7 +122,7 @@ class BenchRefusals(Bench):
                               (["--configs", "default", "--config", "wide=--resolution 9,8"], "wide")):
             with self.subTest(options):
                 self.refused(2, BOX, *SIZE, "--quiet", *options, says=[says])
-        self.refused(2, says=["scene"])
+        self.refused(2, says=["file"])
         self.fails(2, "bench", says=["subcommand"])
 
     def test_inputs_that_cannot_be_used(self):

@@ -20,7 +20,8 @@ inline std::string shaderText(const std::string& name) {
 /// The files without buffers that programs of tests call.
 inline std::string probePrelude() {
   std::string text =
-      "#version 450 core\nconst bool kSobol = true;\nconst bool kWatertight = true;\nconst bool kIterative = "
+      "#version 450 core\nconst bool kAnisotropy = false;\nconst bool kSobol = true;\nconst bool kWatertight "
+      "= true;\nconst bool kIterative = "
       "true;\n";
   for (const char* file : {"random.glsl", "sampling.glsl", "intersect.glsl", "perlin.glsl", "fresnel.glsl",
                            "ggx.glsl", "film_pixel.glsl"}) {
