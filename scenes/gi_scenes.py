@@ -210,3 +210,23 @@ def many_lights(gltf):
         positions, indices = geometry.join_quads(placed)
         gltf.place_mesh("lamps", gltf.primitive(positions, indices, lamp))
     gltf.add_camera("camera", (0, 1.1, 2.9), (0, 0.7, -1), 60)
+
+
+@scene("layered")
+def layered(gltf):
+    """One sphere a material extension: clear coat, sheen, anisotropy, iridescence, diffuse transmission, dispersion."""
+    place_quad(gltf, "ground", ground(4, 2.5), gltf.add_lambert("ground", (0.5, 0.48, 0.42)))
+    place_backed_lamp(gltf, 0.9, (9, 8.5, 7.6), [-0.8, 3.4, 1.6])
+    materials = (
+        ("clearcoat", (0.6, 0.03, 0.02), 0, 0.6, {"KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.03}}),
+        ("sheen", (0.05, 0.06, 0.25), 0, 0.9, {"KHR_materials_sheen": {"sheenColorFactor": [0.7, 0.75, 1], "sheenRoughnessFactor": 0.4}}),
+        ("anisotropy", (0.9, 0.85, 0.8), 1, 0.25, {"KHR_materials_anisotropy": {"anisotropyStrength": 0.9}}),
+        ("iridescence", (0.9, 0.9, 0.9), 1, 0.2, {"KHR_materials_iridescence": {
+            "iridescenceFactor": 1, "iridescenceIor": 1.4, "iridescenceThicknessMaximum": 450}}),
+        ("leaf", (0.3, 0.5, 0.1), 0, 0.8, {"KHR_materials_diffuse_transmission": {
+            "diffuseTransmissionFactor": 0.6, "diffuseTransmissionColorFactor": [0.6, 0.9, 0.2]}}),
+        ("prism", (1, 1, 1), 0, 0, {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.6},
+                                    "KHR_materials_volume": {"thicknessFactor": 1}, "KHR_materials_dispersion": {"dispersion": 5}}))
+    place_row(gltf, [gltf.add_material(name, color, metallic, roughness, extensions=extensions)
+                     for name, color, metallic, roughness, extensions in materials], 0.5, 1.12)
+    gltf.add_camera("camera", (0, 1.7, 7.2), (0, 0.45, 0), 22)
