@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <regex>
+#include <string_view>
 
 #include "errors.h"
 
@@ -59,9 +59,14 @@ std::string withNumberSettled(std::string argument) {
       std::isdigit(static_cast<unsigned char>(argument[2]))) {
     argument.insert(1, "0");
   }
-  static const std::regex kSize("(--resolution=)?([0-9]+)x([0-9]+)");
-  if (std::smatch size; std::regex_match(argument, size, kSize))
-    return size.str(1) + size.str(2) + "," + size.str(3);
+  constexpr std::string_view kResolution = "--resolution=";
+  constexpr const char* kDigits = "0123456789";
+  const size_t start = argument.starts_with(kResolution) ? kResolution.size() : 0;
+  const size_t middle = argument.find_first_not_of(kDigits, start);
+  const bool isSize = middle != std::string::npos && middle > start && argument[middle] == 'x' &&
+                      middle + 1 < argument.size() &&
+                      argument.find_first_not_of(kDigits, middle + 1) == std::string::npos;
+  if (isSize) argument[middle] = ',';
   return argument;
 }
 

@@ -27,6 +27,16 @@ TEST(CameraText, SaysWhatIsSet) {
   EXPECT_EQ(cameraText(options), "--camera-index 2 --camera-position -0.5,0.1,1e-07 --resolution 640,480");
 }
 
+TEST(CameraArguments, SizesMayBeWrittenWithAnX) {
+  EXPECT_EQ(withNumberSettled("640x480"), "640,480");
+  EXPECT_EQ(withNumberSettled("--resolution=640x480"), "--resolution=640,480");
+  EXPECT_EQ(withNumberSettled("-.5"), "-0.5");
+  for (const char* other :
+       {"x480", "640x", "640x480x2", "640 x 480", "0x1f", "room.gltf", "--resolution=", ""}) {
+    EXPECT_EQ(withNumberSettled(other), other);
+  }
+}
+
 TEST(CameraText, ReadsBackAsItselfBitForBit) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> mantissa(-2.0, 2.0);
