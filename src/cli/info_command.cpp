@@ -5,6 +5,7 @@
 #include "bvh/two_level.h"
 #include "cli/commands.h"
 #include "cli/scene_json.h"
+#include "gltf/diagnostics.h"
 #include "gltf/gltf.h"
 #include "pack/gpu_scene.h"
 #include "stage/variant.h"
@@ -28,10 +29,7 @@ double gpuBytesPerTriangle(const Scene& scene, const Bvh& bvh, const TraitSet& t
 /// The parts that options may name, by index where one has no name; nothing where there is none.
 void printParts(const char* what, const std::vector<std::string>& names) {
   if (names.empty()) return;
-  std::string list;
-  for (size_t i = 0; i < names.size(); ++i)
-    list += (i == 0 ? "" : ", ") + (names[i].empty() ? std::to_string(i) : names[i]);
-  std::printf("  %-11s %s\n", what, list.c_str());
+  std::printf("  %-11s %s\n", what, listOfParts(names).c_str());
 }
 
 void printText(const std::filesystem::path& path, const SceneDescription& s, const BvhQuality& bvh,

@@ -85,11 +85,7 @@ size_t indexOfPart(const char* option, const std::string& wanted, const std::vec
   const char* end = wanted.data() + wanted.size();
   const auto parsed = std::from_chars(wanted.data(), end, index);
   if (parsed.ec == std::errc{} && parsed.ptr == end && index < names.size()) return index;
-  std::string known;
-  for (size_t i = 0; i < names.size(); ++i) {
-    known += (i == 0 ? "" : ", ") + std::to_string(i);
-    if (!names[i].empty()) known += " " + inQuotes(names[i]);
-  }
+  const std::string known = listOfParts(names);
   throw UsageError(std::string(option) + ": " + inQuotes(wanted) + " is not in the file, which has " +
                    (known.empty() ? "none" : known));
 }

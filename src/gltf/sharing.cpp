@@ -107,7 +107,7 @@ PlacedMeshes chooseSharing(std::vector<PrimitiveInstance> instances, Instancing 
   if (wanted == Instancing::Flatten) {
     placed.reason = "--instancing flatten";
   } else if (instanceCount == 0) {
-    placed.reason = "no mesh stands in the scene often enough";
+    placed.reason = "no mesh that may be shared stands in the scene often enough";
   } else if (!fitsTwoLevels(flatTriangles + instanceCount, largest)) {
     placed.reason = "two trees would be deeper than the stack";
   } else if (wanted == Instancing::Share) {
@@ -115,7 +115,7 @@ PlacedMeshes chooseSharing(std::vector<PrimitiveInstance> instances, Instancing 
     placed.reason = "--instancing share: " + amounts;
   } else {
     isShared = paysToShare(cost, limit);
-    placed.reason = (isShared ? "saves memory: " : "would not save enough: ") + amounts;
+    placed.reason = (isShared ? "saves memory: " : "too little to save: ") + amounts;
   }
   placed.bytes = isShared ? cost.shared : cost.flat;
   if (!isShared) {

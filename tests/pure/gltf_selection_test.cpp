@@ -2,6 +2,8 @@
 // Scenes and material variants that the user chooses.
 #include <gtest/gtest.h>
 
+#include "gltf/diagnostics.h"
+
 #include "gltf_builder.h"
 
 namespace fragtrace::gltf_test {
@@ -45,6 +47,10 @@ GltfBuilder variants() {
 }
 
 std::string materialOf(const Scene& scene) { return scene.materials[scene.triangles.at(0).material].name; }
+
+TEST(GltfSelection, PartsAreListedByIndexAndNameWithoutTerminalCommands) {
+  EXPECT_EQ(listOfParts({"walk", "", "a\nb\x1b[31m"}), "0 \"walk\", 1, 2 \"a?b?[31m\"");
+}
 
 TEST(GltfSelection, ScenesAreChosenByNameOrIndex) {
   GltfBuilder builder = twoScenes();
