@@ -46,7 +46,10 @@ GltfBuilder manyGrids(uint32_t side, int count) {
   json& primitive = builder.addMesh({{"POSITION", builder.addAccessor<float>("VEC3", positions)}});
   primitive["indices"] = builder.addAccessor<uint32_t>("SCALAR", indices);
   std::vector<float> places;
-  for (int i = 0; i < count; ++i) places.insert(places.end(), {float(i % 30), float(i / 30), float(i % 7)});
+  for (int i = 0; i < count; ++i) {
+    const int row = i / 30;
+    places.insert(places.end(), {float(i % 30), float(row), float(i % 7)});
+  }
   const int accessor = builder.addAccessor<float>("VEC3", places);
   builder.node(0)["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = accessor;
   return builder;
