@@ -128,7 +128,7 @@ Bvh buildTop(const Scene& scene, const std::vector<Bvh>& trees, uint32_t maxDept
   return bvh;
 }
 
-void appendMesh(Bvh tree, const SharedMesh& mesh, Bvh& bvh) {
+void appendMesh(const Bvh& tree, const SharedMesh& mesh, Bvh& bvh) {
   const auto nodes = uint32_t(bvh.nodes.size());
   const auto leaves = uint32_t(bvh.leaves.size());
   bvh.meshes.push_back({nodes, uint32_t(tree.nodes.size()), tree.bounds});
@@ -160,7 +160,10 @@ Bvh buildSceneBvh(const Scene& scene) {
   uint32_t below = 0;
   for (const Bvh& tree : trees) below = std::max(below, tree.depth);
   Bvh bvh = buildTop(scene, trees, std::min(kMaxBvhDepth, kMaxTwoLevelDepth - 1 - below));
-  for (size_t i = 0; i < trees.size(); ++i) appendMesh(std::move(trees[i]), scene.sharedMeshes[i], bvh);
+  for (size_t i = 0; i < trees.size(); ++i) {
+    appendMesh(trees[i], scene.sharedMeshes[i], bvh);
+    trees[i] = Bvh();
+  }
   bvh.depth += 1 + below;
   return bvh;
 }
