@@ -81,6 +81,7 @@ void chooseLayers(const std::vector<std::string>& names, RenderOptions& o) {
 
 std::vector<std::string_view> debugViewNames() {
   std::vector<std::string_view> names;
+  names.reserve(std::size(kDebugViewRows));
   for (const DebugViewRow& row : kDebugViewRows) names.push_back(row.name);
   return names;
 }

@@ -121,7 +121,7 @@ class Walk {
 
 struct Version {
   unsigned major = 0, minor = 0;
-  auto operator<=>(const Version&) const = default;
+  auto operator<=>(const Version&) const = default;  // NOLINT(modernize-use-nullptr): it is none
 };
 
 Version versionOf(const std::string& text, const std::string& place, const Diagnostics& diagnostics) {

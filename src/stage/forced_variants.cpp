@@ -24,11 +24,7 @@ TraitSet withNeeded(Trait trait) {
       add(Trait::Specular, Trait::Texcoords);
       break;
     case Trait::Metals:
-      add(Trait::Specular);
-      break;
     case Trait::SpecularGlossiness:
-      add(Trait::Specular);
-      break;
     case Trait::Clearcoat:
     case Trait::Anisotropy:
     case Trait::Iridescence:

@@ -167,8 +167,7 @@ StressOutcome shadeBadNormals(const StressSetting& setting) {
   for (const char* kind : {"of zero length", "backwards", "tilted", "all three"}) {
     Scene scene = whiteBall();
     for (Material& m : scene.materials) m.metallicFactor = 0.0f, m.specularFactor = 0.0f;
-    for (size_t i = 0; i < scene.vertices.normal.size(); ++i) {
-      vec3& n = scene.vertices.normal[i];
+    for (vec3& n : scene.vertices.normal) {
       const size_t which = kind[0] == 'o' ? 0 : kind[0] == 'b' ? 1 : kind[0] == 't' ? 2 : dice.below(3);
       if (which == 0) n = vec3(0.0f);
       if (which == 1) n = -n;

@@ -69,6 +69,7 @@ TEST(ShaderLayers, DirectionsFollowTheDensityAndTheMeanWeightIsTheIntegralOfTheV
       return glm::dvec4(value.value * (i.z < 0.0 && b.solid ? b.eta * b.eta : 1.0), value.density);
     });
     std::vector<double> expected;
+    expected.reserve(bins.size());
     for (const glm::dvec4& bin : bins) expected.push_back(bin.w * kDraws);
     std::vector<double> counted(expected.size(), 0.0);
     double lost = 0.0;
