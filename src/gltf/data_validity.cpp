@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "gltf/json_parts.h"
 #include "gltf/validity.h"
 
 namespace fragtrace {
@@ -16,19 +16,6 @@ using nlohmann::json;
 
 constexpr unsigned kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123,
                    kUnsignedInt = 5125, kFloat = 5126;
-
-const json& elementOf(const json& root, const char* list, const json& index) {
-  static const json kNone = json::object();
-  const auto found = root.find(list);
-  if (!index.is_number_unsigned() || found == root.end() || !found->is_array()) return kNone;
-  return index.get<size_t>() < found->size() ? (*found)[index.get<size_t>()] : kNone;
-}
-
-const json& memberOf(const json& object, const char* name) {
-  static const json kNone;
-  const auto found = object.find(name);
-  return found != object.end() ? *found : kNone;
-}
 
 unsigned componentTypeOf(const json& accessor) { return accessor.value("componentType", 0u); }
 
@@ -101,20 +88,17 @@ class DataChecker {
   }
 
   void check() {
-    forEach("bufferViews", [this](const json& view, const std::string& place) { checkView(view, place); });
-    forEach("accessors",
-            [this](const json& accessor, const std::string& place) { checkAccessor(accessor, place); });
-    forEach("images", [this](const json& image, const std::string& place) { checkImage(image, place); });
-    forEach("meshes", [this](const json& mesh, const std::string& place) { checkMesh(mesh, place); });
+    forEachIn(root_, "bufferViews",
+              [this](const json& view, const std::string& place) { checkView(view, place); });
+    forEachIn(root_, "accessors",
+              [this](const json& accessor, const std::string& place) { checkAccessor(accessor, place); });
+    forEachIn(root_, "images",
+              [this](const json& image, const std::string& place) { checkImage(image, place); });
+    forEachIn(root_, "meshes",
+              [this](const json& mesh, const std::string& place) { checkMesh(mesh, place); });
   }
 
  private:
-  template <typename Check>
-  void forEach(const char* list, const Check& checkOne) {
-    const json& elements = memberOf(root_, list);
-    for (size_t i = 0; i < elements.size(); ++i) checkOne(elements[i], pointerTo(list, i));
-  }
-
   void warn(const std::string& place, const std::string& reason) { diagnostics_.warn(place, reason); }
 
   const json& viewOf(const json& owner) const {

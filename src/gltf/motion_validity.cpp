@@ -2,13 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "gltf/diagnostics.h"
+#include "gltf/json_parts.h"
 #include "gltf/motion.h"
 
 namespace fragtrace {
@@ -17,20 +16,6 @@ namespace {
 using nlohmann::json;
 
 constexpr unsigned kFloat = 5126;
-
-const json& memberOf(const json& object, const char* name) {
-  static const json kNone;
-  const auto found = object.is_object() ? object.find(name) : object.end();
-  return object.is_object() && found != object.end() ? *found : kNone;
-}
-
-/// The element of that list that `index` names, or an empty object.
-const json& elementOf(const json& root, const char* list, const json& index) {
-  static const json kNone = json::object();
-  const json& elements = memberOf(root, list);
-  if (!index.is_number_unsigned() || !elements.is_array()) return kNone;
-  return index.get<size_t>() < elements.size() ? elements[index.get<size_t>()] : kNone;
-}
 
 /// Where nodes stand in their trees. What is in a loop, which is refused later, stands alone.
 struct Ancestry {
@@ -82,21 +67,16 @@ class MotionChecker {
   MotionChecker(const json& root, Diagnostics& diagnostics) : root_(root), diagnostics_(diagnostics) {}
 
   void check() {
-    forEach("nodes", [this](const json& node, const std::string& place) { checkNode(node, place); });
+    forEachIn(root_, "nodes", [this](const json& node, const std::string& place) { checkNode(node, place); });
     if (root_.contains("skins")) ancestry_ = ancestryOf(memberOf(root_, "nodes"));
-    forEach("skins", [this](const json& skin, const std::string& place) { checkSkin(skin, place); });
-    forEach("animations",
-            [this](const json& animation, const std::string& place) { checkAnimation(animation, place); });
-    forEach("meshes", [this](const json& mesh, const std::string& place) { checkVariants(mesh, place); });
+    forEachIn(root_, "skins", [this](const json& skin, const std::string& place) { checkSkin(skin, place); });
+    forEachIn(root_, "animations",
+              [this](const json& animation, const std::string& place) { checkAnimation(animation, place); });
+    forEachIn(root_, "meshes",
+              [this](const json& mesh, const std::string& place) { checkVariants(mesh, place); });
   }
 
  private:
-  template <typename Check>
-  void forEach(const char* list, const Check& checkOne) {
-    const json& elements = memberOf(root_, list);
-    for (size_t i = 0; i < elements.size(); ++i) checkOne(elements[i], pointerTo(list, i));
-  }
-
   void warn(const std::string& place, const std::string& reason) { diagnostics_.warn(place, reason); }
 
   const json& accessorAt(const json& index) const { return elementOf(root_, "accessors", index); }

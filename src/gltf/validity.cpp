@@ -6,21 +6,16 @@
 #include <charconv>
 #include <cmath>
 #include <glm/glm.hpp>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "gltf/json_parts.h"
 
 namespace fragtrace {
 namespace {
 
 using nlohmann::json;
-
-const json& memberOf(const json& object, const char* name) {
-  static const json kNone;
-  const auto found = object.is_object() ? object.find(name) : object.end();
-  return object.is_object() && found != object.end() ? *found : kNone;
-}
 
 bool names(const json& list, const std::string& name) {
   return list.is_array() && std::find(list.begin(), list.end(), name) != list.end();
@@ -236,24 +231,19 @@ void checkNode(const json& node, const std::string& place, Diagnostics& diagnost
   }
 }
 
-template <typename Check>
-void forEachOf(const json& list, const std::string& place, const Check& check) {
-  for (size_t i = 0; i < list.size(); ++i) check(list[i], place + "/" + std::to_string(i));
-}
-
 }  // namespace
 
 void checkValidity(const json& root, Diagnostics& diagnostics) {
   checkVersion(root["asset"], diagnostics);
   checkExtensionLists(root, diagnostics);
   Walk(root, diagnostics).visit(root, "");
-  forEachOf(memberOf(root, "cameras"), "/cameras",
+  forEachIn(root, "cameras",
             [&](const json& camera, const std::string& place) { checkCamera(camera, place, diagnostics); });
-  forEachOf(memberOf(root, "nodes"), "/nodes",
+  forEachIn(root, "nodes",
             [&](const json& node, const std::string& place) { checkNode(node, place, diagnostics); });
   const json& lights = memberOf(memberOf(memberOf(root, "extensions"), "KHR_lights_punctual"), "lights");
-  forEachOf(lights, "/extensions/KHR_lights_punctual/lights",
-            [&](const json& light, const std::string& place) { checkSpotLight(light, place, diagnostics); });
+  for (size_t i = 0; i < lights.size(); ++i)
+    checkSpotLight(lights[i], pointerTo("extensions", "KHR_lights_punctual", "lights", i), diagnostics);
 }
 
 }  // namespace fragtrace
