@@ -71,7 +71,7 @@ constexpr Rule kRules[] = {
     {"/textures/*/sampler", Kind::Index, "/samplers"},
     {"/textures/*/extensions", Kind::Object},
     {"/textures/*/extensions/EXT_texture_webp", Kind::Object},
-    {"/textures/*/extensions/EXT_texture_webp/source!", Kind::Index, "/images"},
+    {"/textures/*/extensions/EXT_texture_webp/source", Kind::Index, "/images"},
 
     {"/materials", Kind::Objects},
     {"/materials/*/name", Kind::Text},

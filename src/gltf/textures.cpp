@@ -82,7 +82,8 @@ EncodedImage readImage(Document& document, int index) {
 /// The picture of a texture, -1 for none; that of EXT_texture_webp counts more than the fallback beside it.
 int sourceOf(const tinygltf::Texture& texture) {
   const auto webp = texture.extensions.find("EXT_texture_webp");
-  return webp != texture.extensions.end() ? int(numberOf(webp->second, "source", -1)) : texture.source;
+  return webp != texture.extensions.end() ? int(numberOf(webp->second, "source", texture.source))
+                                          : texture.source;
 }
 
 }  // namespace

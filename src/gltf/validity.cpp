@@ -198,7 +198,7 @@ void checkSpotLight(const json& light, const std::string& place, Diagnostics& di
 bool isDecomposable(const json& matrix) {
   glm::dmat3 axes(1.0);
   for (int c = 0; c < 3; ++c)
-    for (int r = 0; r < 3; ++r) axes[c][r] = matrix[size_t(4 * c + r)].get<double>();
+    for (int r = 0; r < 3; ++r) axes[c][r] = matrix[4 * size_t(c) + size_t(r)].get<double>();
   constexpr double kLargestCosine = 1e-3;  // of single precision, with scales of some hundreds
   for (int c = 0; c < 3; ++c) {
     const glm::dvec3& a = axes[c];

@@ -117,6 +117,15 @@ TEST(GltfWebp, ThePictureOfTheExtensionCountsMoreThanTheFallback) {
   EXPECT_NE(scene.images[0].name.find("/images/1"), std::string::npos) << "the fallback is not even read";
 }
 
+TEST(GltfWebp, AnExtensionWithoutASourceLeavesTheFallback) {
+  GltfBuilder builder;
+  builder.root["images"] = {{{"uri", kPixelUri}}};
+  builder.root["textures"] = {{{"source", 0}, {"extensions", {{"EXT_texture_webp", json::object()}}}}};
+  builder.root["extensionsUsed"] = {"EXT_texture_webp"};
+  builder.root["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
+  EXPECT_EQ(load(builder).images.size(), 1u);
+}
+
 TEST(GltfWebp, APictureThatDoesNotExistIsRefused) {
   GltfBuilder builder;
   builder.root["textures"] = {{{"extensions", {{"EXT_texture_webp", {{"source", 7}}}}}}};
