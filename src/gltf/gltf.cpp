@@ -14,6 +14,7 @@
 #include "gltf/placed.h"
 #include "gltf/sharing.h"
 #include "scene/camera.h"
+#include "scene/creases.h"
 
 namespace fragtrace {
 namespace {
@@ -118,6 +119,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   scene.bounds.include(boundsOf(spheres));
   recentre(options, document.diagnostics, scene);
   flatten(meshes.flat, meshes.shared, scene);
+  scene.insets = creaseInsets(scene);
   for (const PlacedSphere& sphere : spheres) {
     scene.spheres.push_back({glm::vec3(scene.space.localOf(sphere.center)),
                              float(sphere.radius / scene.space.unit), glm::quat(sphere.rotation),
