@@ -14,6 +14,7 @@
 #include "image/image.h"
 #include "image/process.h"
 #include "pack/literals.h"
+#include "pack/own_light.h"
 #include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
 
@@ -50,14 +51,14 @@ void checkFinite(const Image& image, const std::filesystem::path& path) {
   }
 }
 
-Environment loadEnvironment(const RenderOptions& options, const Scene& scene) {
+Environment loadEnvironment(const RenderOptions& options, OwnLight light) {
   Environment environment;
   if (!options.hdriFile.empty()) {
     environment.kind = Surroundings::Map;
     environment.image = readImage(options.hdriFile, options.limits.memoryBytes);
     if (environment.image.channelCount() < 3) throw InputError(options.hdriFile.string() + ": has no colour");
     checkFinite(environment.image, options.hdriFile);
-  } else if (options.defaultLight && !hasOwnLight(scene)) {
+  } else if (options.defaultLight && light != OwnLight::Enough) {
     environment.kind = Surroundings::DefaultLight;
     environment.image = {1, 1, {"R", "G", "B"}, {1.0f, 1.0f, 1.0f}, {}};
   }
@@ -148,7 +149,9 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
     say(options, "warning: " + options.scene.string() + ": no triangle and no sphere, nothing to draw");
   }
   step("reading the environment", 0.5);
-  loaded.environment = loadEnvironment(options, scene);
+  const bool isAsked = options.hdriFile.empty() && options.defaultLight;
+  const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
+  loaded.environment = loadEnvironment(options, light);
   loaded.camera = chooseCamera(scene.cameras, options.cameraIndex, options.camera, scene.bounds);
   checkDistance(loaded.camera, scene.space);
   loaded.size = chooseSize(loaded.camera, options);
@@ -160,9 +163,10 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
   stats.defaultLight = loaded.environment.kind == Surroundings::DefaultLight;
   if (stats.defaultLight) {
-    say(options,
-        "no light in the scene: a white environment that the camera does not see lights it "
-        "(--no-default-light)");
+    const std::string reason = light == OwnLight::None
+                                   ? "no light in the scene: "
+                                   : "the scene's emissive textures are too dim to light it: ";
+    say(options, reason + "a white environment that the camera does not see lights it (--no-default-light)");
   }
   step("building the tree", 0.6);
   loaded.bvh = buildTree(scene, options);
