@@ -25,13 +25,17 @@ namespace {
 /// Smaller scenes are literals as a whole, or not at all.
 constexpr size_t kLeastBesideLarge = 256;
 
-/// Refuses what would not leave shaders room to multiply lengths (src/gltf/gltf.cpp).
-void checkDistance(const Camera& camera, const LocalSpace& space) {
+/// Refuses what would not leave shaders room to multiply lengths (src/gltf/gltf.cpp): in the options, if the
+/// camera's place is theirs, or in the file.
+void checkDistance(const Camera& camera, const LocalSpace& space, const RenderOptions& options) {
   constexpr double kFarthest = 1e12;  // local space
   const double size = camera.perspective ? 0.0 : camera.halfHeight * std::max(1.0, camera.aspectRatio);
   if (!(std::max(glm::length(camera.position - space.origin), size) <= kFarthest * space.unit)) {
-    throw UsageError(
-        "the camera is too far away for a scene of this size, or sees too much of its surroundings");
+    const std::string reason =
+        "the camera is too far away for a scene of this size, or sees too much of its surroundings";
+    if (options.camera.position || options.camera.parallelScale || options.sceneOrigin)
+      throw UsageError(reason);
+    throw InputError(options.scene.string() + ": " + reason);
   }
 }
 
@@ -145,6 +149,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   if (!loaded.scene.images.empty()) startImageProcess();
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));
+  for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
   if (scene.triangles.empty() && scene.spheres.empty()) {
     say(options, "warning: " + options.scene.string() + ": no triangle and no sphere, nothing to draw");
   }
@@ -153,14 +158,13 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
   loaded.environment = loadEnvironment(options, light);
   loaded.camera = chooseCamera(scene.cameras, options.cameraIndex, options.camera, scene.bounds);
-  checkDistance(loaded.camera, scene.space);
+  checkDistance(loaded.camera, scene.space, options);
   loaded.size = chooseSize(loaded.camera, options);
   loaded.view = makeView(options, scene, loaded.camera);
   stats.scene = describe(scene);
   stats.warnings = scene.warnings;
   stats.size = loaded.size;
   stats.loadMs = watch.lap();
-  for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
   stats.defaultLight = loaded.environment.kind == Surroundings::DefaultLight;
   if (stats.defaultLight) {
     const std::string reason = light == OwnLight::None

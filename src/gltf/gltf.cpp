@@ -61,11 +61,10 @@ void recentre(const GltfOptions& options, const Diagnostics& diagnostics, Scene&
   space.origin =
       options.recenterOn ? *options.recenterOn : recentringPoint(cameraFor(options, scene), bounds);
   if (bounds.empty()) return;
-  constexpr double kLargest = 1e30;  // metres; depths are floats
   const glm::dvec3 farthest =
       glm::max(glm::abs(bounds.minimum - space.origin), glm::abs(bounds.maximum - space.origin));
   const double reach = std::max({farthest.x, farthest.y, farthest.z});
-  if (!(reach <= kLargest)) {
+  if (!(reach <= kFarthest)) {
     diagnostics.refuse("",
                        "the scene is more than 1e30 m in size, or as far from the point it is recentred on");
   }

@@ -12,14 +12,23 @@
 
 namespace fragtrace {
 
+/// Scenes reach no farther from the origin of their world, metres (1e30): depths are floats.
+inline constexpr double kFarthest = 0x1p100;
+
+struct DecodedMesh {
+  std::vector<MeshPrimitive> primitives;
+  BoundsDouble bounds;  ///< in the mesh's own space
+};
+
 /// What instances point into.
 struct ShownMeshes {
-  std::map<std::pair<int, MeshPose>, std::vector<MeshPrimitive>> decoded;  ///< by mesh
-  std::map<int, std::vector<glm::dmat4>> joints;                           ///< by skin
+  std::map<std::pair<int, MeshPose>, DecodedMesh> decoded;  ///< by mesh
+  std::map<int, std::vector<glm::dmat4>> joints;            ///< by skin
   std::vector<PrimitiveInstance> instances;
 };
 
-/// Throws InputError. A node with EXT_mesh_gpu_instancing shows its mesh at each of its places.
+/// A node with EXT_mesh_gpu_instancing shows its mesh at each of its places. Left out with a warning is what
+/// is too small for double precision. Throws InputError, also for what is farther away than kFarthest.
 ShownMeshes showMeshes(Document& document, const std::vector<Material>& materials,
                        const std::vector<PlacedNode>& nodes);
 

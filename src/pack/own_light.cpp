@@ -26,10 +26,6 @@ std::vector<double> emissiveAreas(const Scene& scene) {
   return areas;
 }
 
-double boxArea(const glm::dvec3& extent) {
-  return 2.0 * (extent.x * extent.y + extent.y * extent.z + extent.z * extent.x);
-}
-
 }  // namespace
 
 OwnLight ownLight(const Scene& scene) {
@@ -41,7 +37,7 @@ OwnLight ownLight(const Scene& scene) {
   }
   constexpr int kSide = 64;  // pixels: enough for a mean, and little memory
   TexturePacker textures(scene, kSide);
-  const double enough = kDimRadiance * boxArea(scene.bounds.extent() / scene.space.unit);
+  const double enough = kDimRadiance * scene.bounds.area() / (scene.space.unit * scene.space.unit);
   double light = 0.0;
   for (size_t i = 0; i < areas.size(); ++i) {
     if (areas[i] == 0.0) continue;

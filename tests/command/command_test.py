@@ -46,6 +46,15 @@ class ExitStatuses(Case):
         path.write_bytes(b"PF\n2 1\n-1.0\n" + struct.pack("<6f", 1, 1, 1, 1, math.inf, 1))
         self.fails(3, *self.render(SCENES / "furnace.gltf"), "--hdri-file", path, says=["bad-map", "pixel (1, 0)"])
 
+    def test_a_camera_too_far_away_is_3_in_the_file_and_2_on_the_command_line(self):
+        scene = json.loads((SCENES / "furnace.gltf").read_text())
+        path = self.folder / "far.gltf"
+        scene["nodes"][1]["translation"] = [1e40, 0, 0]
+        path.write_text(json.dumps(scene))
+        self.fails(3, *self.render(path), says=["far.gltf: the camera is too far away"])
+        self.fails(2, *self.render(SCENES / "furnace.gltf"), "--camera-position", "1e20,0,0",
+                   says=["the camera is too far away"])
+
     def test_an_unwritable_output_is_1(self):
         self.fails(1, *self.render(SCENES / "furnace.gltf", "no/such/folder/x.pfm"), says=["no/such/folder"])
 

@@ -113,6 +113,33 @@ TEST(GltfNodes, LocalSpaceIsOfAnOrdinarySize) {
   }
 }
 
+TEST(GltfNodes, WhatIsTooSmallToCalculateWithIsLeftOutWithAWarning) {
+  GltfBuilder builder;
+  builder.addTriangle();
+  builder.root["nodes"].push_back({{"mesh", 0}, {"scale", {1e-300, 1e-300, 1e-300}}});
+  builder.root["nodes"].push_back({{"mesh", 0}, {"scale", {0, 0, 0}}});
+  const Scene scene = load(builder);
+  EXPECT_EQ(scene.triangles.size(), 2u);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_TRUE(scene.warnings[0].ends_with(
+      "test.gltf: /nodes/1/scale: its mesh is less than 1e-75 m in size, and left out"));
+  builder.root["nodes"].push_back({{"children", {1}}, {"scale", {1e-200, 1e-200, 1e-200}}});
+  EXPECT_EQ(refusalOf(builder), "test.gltf: /nodes/1: its world transform underflows");
+}
+
+/// Wherever its other parts are.
+TEST(GltfNodes, WhatIsTooFarAwayIsRefused) {
+  GltfBuilder builder;
+  builder.addMesh(
+      {{"POSITION", builder.addAccessor<float>("VEC3", {1.5e38f, 0, 0, 1.5e38f, 1, 0, 1.5e38f, 0, 1})}});
+  const std::string reason = "its mesh reaches farther than 1e30 m from the origin";
+  EXPECT_EQ(refusalOf(builder), "test.gltf: /nodes/0: " + reason);
+  builder.node(0)["scale"] = {1e-38, 1, 1};
+  EXPECT_EQ(load(builder).triangles.size(), 1u);
+  builder.root["nodes"].push_back({{"mesh", 0}, {"scale", {1e-38, 1, 1}}, {"translation", {0, -1e31, 0}}});
+  EXPECT_EQ(refusalOf(builder), "test.gltf: /nodes/1: " + reason);
+}
+
 /// The nearest point of the scene to the camera, unless it stands far outside.
 TEST(GltfNodes, TheOriginIsNearTheCamera) {
   GltfBuilder builder;
