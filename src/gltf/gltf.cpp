@@ -112,7 +112,11 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   const PlacedMeshes meshes =
       chooseSharing(std::move(shown.instances), options.instancing, scene.materials, document.memory.left());
   takeMeshes(document, meshes);
-  scene.sharing = meshes.reason;
+  scene.sharing = meshes.reason + (meshes.copies.empty() ? "" : "; always copied: " + meshes.copies);
+  const bool isAsked = options.instancing == Instancing::Share;
+  if (isAsked && (meshes.shared.empty() || !meshes.copies.empty()))
+    document.diagnostics.warn(
+        "", (meshes.shared.empty() ? "nothing is shared: " : "not all is shared: ") + scene.sharing);
   scene.bounds = boundsOf(meshes.flat, meshes.shared);
   scene.bounds.include(boundsOf(spheres));
   recentre(options, document.diagnostics, scene);

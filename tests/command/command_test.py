@@ -248,6 +248,18 @@ class Statistics(Case):
         self.assertLessEqual(data["bvh"]["depth"], 32)
         self.assertGreater(data["bvh"]["sah_cost"], 1)
 
+    def test_info_is_json_where_the_file_is_refused_or_a_part_is_not_there(self):
+        path = self.folder / "bad\udcff.gltf"
+        path.write_text("{")
+        for status, arguments in ((3, [path]), (3, [self.folder / "none.gltf"]), (2, [SCENES / "furnace.gltf", "--scene", "none"])):
+            result = run("info", "--json", *arguments, errors="surrogateescape")
+            self.assertEqual(result.returncode, status)
+            data = json.loads(result.stdout)
+            self.assertEqual(set(data), {"schema", "file", "error"})
+            if status == 3 and arguments[0] != path:
+                self.assertEqual(result.stderr, f"fragtrace: {data['error']}\n")
+        self.assertEqual(run("info", self.folder / "none.gltf").stdout, "")
+
 
 class DriverLimits(Case):
     """Work that would need more than llvmpipe's 65,535 loop iterations in one invocation goes on in the next draw."""
