@@ -2,7 +2,6 @@
 #include "gltf/validity.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -10,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "gltf/extensions.h"
 #include "gltf/json_parts.h"
 
 namespace fragtrace {
@@ -21,34 +21,12 @@ bool names(const json& list, const std::string& name) {
   return list.is_array() && std::find(list.begin(), list.end(), name) != list.end();
 }
 
-/// Where an extension may stand; * stands for an index or a name. One that is not listed may stand anywhere.
-struct Home {
-  std::string_view extension;
-  std::array<std::string_view, 2> places;
-};
-constexpr std::string_view kTextureInfo = "a texture info";
-constexpr Home kHomes[] = {
-    {"KHR_lights_punctual", {"", "/nodes/*"}},
-    {"KHR_implicit_shapes", {""}},
-    {"KHR_materials_variants", {"", "/meshes/*/primitives/*"}},
-    {"KHR_materials_", {"/materials/*", "/materials/*"}},
-    {"KHR_mesh_quantization", {"nowhere", "nowhere"}},
-    {"KHR_texture_transform", {kTextureInfo, kTextureInfo}},
-    {"KHR_node_visibility", {"/nodes/*", "/nodes/*"}},
-    {"KHR_animation_pointer", {"/animations/*/channels/*/target", "/animations/*/channels/*/target"}},
-    {"EXT_mesh_gpu_instancing", {"/nodes/*", "/nodes/*"}},
-    {"EXT_texture_webp", {"/textures/*", "/textures/*"}},
-    {"KHR_draco_mesh_compression", {"/meshes/*/primitives/*", "/meshes/*/primitives/*"}},
-    {"EXT_meshopt_compression", {"/buffers/*", "/bufferViews/*"}},
-};
-
-bool isAtHome(std::string_view extension, std::string_view place, std::string_view lastName) {
-  for (const Home& home : kHomes) {
-    if (!extension.starts_with(home.extension)) continue;
-    if (home.places[0] == kTextureInfo) return lastName.ends_with("Texture");
-    return std::find(home.places.begin(), home.places.end(), place) != home.places.end();
-  }
-  return true;
+/// One that is not in the table may stand anywhere, unless its name says that it is of materials.
+bool isAtHome(std::string_view name, std::string_view place, std::string_view owner) {
+  const Extension* extension = extensionNamed(name);
+  if (extension == nullptr) return !name.starts_with("KHR_materials_") || place == "/materials/*";
+  if (extension->places[0] == kTextureInfo) return owner.ends_with("Texture");
+  return std::ranges::find(extension->places, place) != extension->places.end();
 }
 
 /// Goes over everything but extras, which are the author's own.
