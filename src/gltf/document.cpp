@@ -35,7 +35,8 @@ void warnMediaType(std::string_view uri, const std::string& place,
   if (!isDataUri(uri)) return;
   const std::string_view type = mediaTypeOf(uri);
   if (std::find(expected.begin(), expected.end(), type) == expected.end())
-    diagnostics.warn(place, "has the media type " + inQuotes(type) + ", which is none of a buffer");
+    diagnostics.warn(place, "has the media type " + inQuotes(type) +
+                                ", which is none of a buffer; it is read all the same");
 }
 
 void checkExtensions(json& root, Diagnostics& diagnostics) {
@@ -81,7 +82,7 @@ Buffers readBuffers(json& root, Container& container, CodecProcess& codecs, Docu
       bytes = std::move(container.binary);
     } else {
       if (i == 0 && container.isGlb)
-        diagnostics.warn(pointerTo("buffers", i), "has neither URI nor BIN chunk");
+        diagnostics.warn(pointerTo("buffers", i), "has neither URI nor BIN chunk, and no data");
       buffers.emplace_back();  // an extension may bring it; bytesOf refuses its use
       continue;
     }
@@ -286,7 +287,7 @@ Document readDocument(const std::filesystem::path& path, const GltfOptions& opti
   checkExtensions(root, diagnostics);
   checkMotion(root, diagnostics);
   noteNames(root, document);
-  applySelection(root, options.selection);
+  applySelection(root, options.selection, diagnostics);
   CodecProcess codecs;
   Buffers buffers = readBuffers(root, container, codecs, document);
   checkBufferViews(root, diagnostics);

@@ -37,11 +37,11 @@ class Walk {
 
   void visit(const json& value, std::string_view name) {
     if (value.is_array()) {
-      if (value.empty()) diagnostics_.warn(place_, "is empty, which glTF forbids");
+      if (value.empty()) diagnostics_.warn(place_, "is empty, which glTF forbids, and taken as absent");
       for (size_t i = 0; i < value.size(); ++i) descend(value[i], std::to_string(i), true, name);
     } else if (value.is_object()) {
       if (value.empty() && (name == "attributes" || name == "targets"))
-        diagnostics_.warn(place_, "is empty, which glTF forbids");
+        diagnostics_.warn(place_, "is empty, which glTF forbids, and taken as absent");
       for (const auto& member : value.items()) {
         if (member.key() == "extensions") {
           visitExtensions(member.value(), name);
@@ -57,8 +57,11 @@ class Walk {
     if (!extensions.is_object()) return;
     for (const auto& extension : extensions.items()) {
       const std::string place = place_ + "/extensions/" + escapedForPointer(extension.key());
-      if (!extension.value().is_object()) diagnostics_.warn(place, "is not an object");
-      if (!names(used_, extension.key())) diagnostics_.warn(place, "is not named in extensionsUsed");
+      if (!extension.value().is_object()) diagnostics_.warn(place, "is not an object, and ignored");
+      if (!names(used_, extension.key()))
+        diagnostics_.warn(place, isApplied(extension.key())
+                                     ? "is not named in extensionsUsed; it is applied all the same"
+                                     : "is not named in extensionsUsed, and ignored");
       if (!isAtHome(extension.key(), pattern_, owner))
         diagnostics_.warn(place, "is not expected here, and ignored");
       const Rewind rewind(*this);
@@ -130,17 +133,18 @@ void checkExtensionLists(const json& root, Diagnostics& diagnostics) {
     for (size_t i = 0; i < entries.size(); ++i) {
       if (std::find(entries.begin(), entries.begin() + std::ptrdiff_t(i), entries[i]) !=
           entries.begin() + std::ptrdiff_t(i))
-        diagnostics.warn(pointerTo(list, i), "is named twice");
+        diagnostics.warn(pointerTo(list, i), "is named twice, which changes nothing");
     }
   }
   for (size_t i = 0; i < required.size(); ++i) {
     if (!names(used, required[i]))
-      diagnostics.warn(pointerTo("extensionsRequired", i), "is not named in extensionsUsed");
+      diagnostics.warn(pointerTo("extensionsRequired", i),
+                       "is not named in extensionsUsed; it is required all the same");
   }
   if (!names(used, "KHR_mesh_quantization") || names(required, "KHR_mesh_quantization")) return;
   const auto entry = std::find(used.begin(), used.end(), "KHR_mesh_quantization");
   diagnostics.warn(pointerTo("extensionsUsed", entry - used.begin()),
-                   "KHR_mesh_quantization must be required, too");
+                   "KHR_mesh_quantization must be required, too; it is applied all the same");
 }
 
 void checkCamera(const json& camera, const std::string& place, Diagnostics& diagnostics) {
@@ -158,7 +162,8 @@ void checkCamera(const json& camera, const std::string& place, Diagnostics& diag
   for (const char* extent : {"xmag", "ymag"}) {
     const json& value = memberOf(memberOf(camera, "orthographic"), extent);
     if (value.is_number() && value.get<double>() == 0.0)
-      diagnostics.warn(place + "/orthographic/" + extent, "is 0");
+      diagnostics.warn(place + "/orthographic/" + extent,
+                       "is 0, which is refused where a node has the camera");
   }
 }
 
@@ -170,7 +175,8 @@ void checkSpotLight(const json& light, const std::string& place, Diagnostics& di
   const double inner = spot.value("innerConeAngle", 0.0);
   const double outer = spot.value("outerConeAngle", kDefaultOuter);
   if (!(inner >= 0.0 && inner < outer))
-    diagnostics.warn(place + "/spot/outerConeAngle", "is not above the inner cone's angle");
+    diagnostics.warn(place + "/spot/outerConeAngle",
+                     "is not above the inner cone's angle, which is refused where a node has the light");
 }
 
 bool isDecomposable(const json& matrix) {
@@ -205,8 +211,14 @@ void checkNode(const json& node, const std::string& place, Diagnostics& diagnost
   }
   for (const char* member : {"skin", "weights"}) {
     if (node.contains(member) && !node.contains("mesh"))
-      diagnostics.warn(place + "/" + member, "has no mesh to act on");
+      diagnostics.warn(place + "/" + member, "has no mesh to act on, and is ignored");
   }
+  const char* const instancing = "EXT_mesh_gpu_instancing";
+  const json& instances = memberOf(memberOf(node, "extensions"), instancing);
+  const std::string there = place + pointerTo("extensions", instancing);
+  if (!instances.is_object()) return;
+  if (!node.contains("mesh")) diagnostics.warn(there, "has no mesh to act on, and is ignored");
+  if (!instances.contains("attributes")) diagnostics.warn(there, "has no attributes; the mesh is drawn once");
 }
 
 }  // namespace

@@ -64,6 +64,11 @@ TEST(GltfInstancing, WithoutAttributesTheMeshIsThereOnce) {
   EXPECT_EQ(load(builder).triangles.size(), 1u);
   builder.node(0)["extensions"][kExtension].erase("attributes");
   EXPECT_EQ(load(builder).triangles.size(), 1u);
+  const std::string place = "/nodes/0/extensions/EXT_mesh_gpu_instancing: ";
+  EXPECT_EQ(load(builder).warnings.size(), 1u);
+  EXPECT_TRUE(anyWarningHas(load(builder), place + "has no attributes; the mesh is drawn once"));
+  builder.node(0).erase("mesh");
+  EXPECT_TRUE(anyWarningHas(load(builder), place + "has no mesh to act on, and is ignored"));
 }
 
 TEST(GltfInstancing, AttributesOfUnlikeCountsAreRefused) {
