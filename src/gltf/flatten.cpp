@@ -116,7 +116,10 @@ void appendVertices(const Vertices& from, Placement& placement, const LocalSpace
   const size_t first = to.position.size();
   const size_t count = from.position.size();
   for (size_t i = 0; i < count; ++i) {
-    to.position.emplace_back(space.localOf(placement.of(i).positionOf(from.position[i])));
+    const glm::vec3 position(space.localOf(placement.of(i).positionOf(from.position[i])));
+    // The scene's size is that of its triangles; what none of them uses may be anywhere.
+    const bool isFinite = std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z);
+    to.position.push_back(isFinite ? position : glm::vec3(0.0f));
   }
   append(to.normal, from.normal, count, glm::vec3(0.0f));
   append(to.tangent, from.tangent, count, glm::vec4(0.0f));

@@ -113,6 +113,15 @@ TEST(GltfNodes, LocalSpaceIsOfAnOrdinarySize) {
   }
 }
 
+/// Found by fuzzing.
+TEST(GltfNodes, VerticesThatNoTriangleUsesAreFiniteHoweverFarAway) {
+  GltfBuilder builder;
+  const std::vector<float> positions = {0, 0, 0, 1e-40f, 0, 0, 0, 1e-40f, 0, 0, 0, 3e38f};
+  builder.addMesh({{"POSITION", builder.addAccessor<float>("VEC3", positions)}})["indices"] =
+      builder.addAccessor<uint32_t>("SCALAR", {0, 1, 2});
+  for (const glm::vec3& position : load(builder).vertices.position) EXPECT_TRUE(std::isfinite(position.z));
+}
+
 TEST(GltfNodes, WhatIsTooSmallToCalculateWithIsLeftOutWithAWarning) {
   GltfBuilder builder;
   builder.addTriangle();
