@@ -40,7 +40,8 @@ class Walk {
       if (value.empty()) diagnostics_.warn(place_, "is empty, which glTF forbids, and taken as absent");
       for (size_t i = 0; i < value.size(); ++i) descend(value[i], std::to_string(i), true, name);
     } else if (value.is_object()) {
-      if (value.empty() && (name == "attributes" || name == "targets"))
+      const bool isCompressed = pattern_.ends_with("/KHR_draco_mesh_compression/attributes");
+      if (value.empty() && (name == "attributes" || name == "targets") && !isCompressed)
         diagnostics_.warn(place_, "is empty, which glTF forbids, and taken as absent");
       for (const auto& member : value.items()) {
         if (member.key() == "extensions") {
