@@ -167,10 +167,11 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   stats.loadMs = watch.lap();
   stats.defaultLight = loaded.environment.kind == Surroundings::DefaultLight;
   if (stats.defaultLight) {
-    const std::string reason = light == OwnLight::None
-                                   ? "no light in the scene: "
-                                   : "the scene's emissive textures are too dim to light it: ";
-    say(options, reason + "a white environment that the camera does not see lights it (--no-default-light)");
+    stats.defaultLightReason = light == OwnLight::None
+                                   ? "no light in the scene"
+                                   : "the scene's emissive textures are too dim to light it";
+    say(options, stats.defaultLightReason +
+                     ": a white environment that the camera does not see lights it (--no-default-light)");
   }
   step("building the tree", 0.6);
   loaded.bvh = buildTree(scene, options);

@@ -32,7 +32,6 @@ DecodedMesh decodeMesh(Document& document, const std::vector<Material>& material
 /// files hide meshes that way.
 void checkSizes(Document& document, const PlacedNode& node, const BoundsDouble& bounds,
                 std::vector<glm::dmat4>& places) {
-  constexpr double kSmallest = 1e-75;  // metres
   if (bounds.empty()) return;
   const std::string place = pointerTo("nodes", node.index);
   const size_t dropped = std::erase_if(places, [&](const glm::dmat4& world) {

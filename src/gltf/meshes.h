@@ -12,9 +12,6 @@
 
 namespace fragtrace {
 
-/// Scenes reach no farther from the origin of their world, metres (1e30): depths are floats.
-inline constexpr double kFarthest = 0x1p100;
-
 struct DecodedMesh {
   std::vector<MeshPrimitive> primitives;
   BoundsDouble bounds;  ///< in the mesh's own space

@@ -214,7 +214,9 @@ class Pictures(Case):
         options = ["--resolution", "16,16", "--spp", "1", "--stats", self.folder / "s.json"]
         result = self.renders(SCENES / "furnace.gltf", "-o", self.folder / "x.pfm", *options)
         self.assertIn("--no-default-light", result.stderr)
-        self.assertTrue(json.loads((self.folder / "s.json").read_text())["default_light"])
+        stats = json.loads((self.folder / "s.json").read_text())
+        self.assertTrue(stats["default_light"])
+        self.assertEqual(stats["default_light_reason"], "no light in the scene")
         self.renders(SCENES / "furnace.gltf", "-o", self.folder / "x.pfm", *options, "--no-default-light")
         self.assertFalse(json.loads((self.folder / "s.json").read_text())["default_light"])
         self.assertTrue(all(v == (0, 0, 0) for row in read_pfm(self.folder / "x.pfm") for v in row))

@@ -46,6 +46,17 @@ void checkScene(const fragtrace::Scene& scene) {
   }
   for (const glm::vec3& p : scene.vertices.position)
     expect(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "a position that is not finite");
+  const auto isFinite = [](const auto& v) { return std::isfinite(double(glm::dot(v, v))); };
+  for (const fragtrace::Light& light : scene.lights)
+    expect(isFinite(light.direction) &&
+               (light.type == fragtrace::LightType::Directional || isFinite(light.position)),
+           "a light that is nowhere");
+  for (const fragtrace::Sphere& sphere : scene.spheres)
+    expect(isFinite(sphere.center) && sphere.radius >= 0.0f && std::isfinite(sphere.radius),
+           "a sphere that is nowhere");
+  for (const fragtrace::Camera& camera : scene.cameras)
+    expect(isFinite(camera.position) && isFinite(camera.forward) && isFinite(camera.up),
+           "a camera that is nowhere");
   for (const fragtrace::Texture& texture : scene.textures)
     expect(texture.image < scene.images.size(), "an image past the end");
   const size_t vertices = scene.vertices.position.size();

@@ -253,6 +253,28 @@ TEST(GltfNodes, SphereIsPlacedByItsNode) {
   EXPECT_EQ(scene.materials.size(), 1u);
 }
 
+TEST(GltfNodes, SpheresAndLightsOfNoSizeOrTooFarAwayAreRefusedOrLeftOut) {
+  GltfBuilder builder;
+  builder.addTriangle();
+  builder.root["extensions"] = {
+      {"KHR_implicit_shapes", {{"shapes", {{{"type", "sphere"}, {"sphere", {{"radius", 1}}}}}}}},
+      {"KHR_lights_punctual", {{"lights", {{{"type", "point"}}}}}}};
+  builder.root["extensionsUsed"] = {"KHR_implicit_shapes", "KHR_lights_punctual"};
+  builder.root["nodes"].push_back(
+      {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"translation", {0, 1e30, 0}}});
+  const Scene scene = load(builder);
+  EXPECT_TRUE(scene.lights.empty());
+  EXPECT_EQ(scene.warnings.size(), 1u);
+  EXPECT_TRUE(anyWarningHas(scene, "/nodes/1: its light is too far away for a scene of this size"));
+  builder.node(1) = {{"extras", {{"shape", 0}}}, {"translation", {0, 0, 1e31}}};
+  EXPECT_EQ(refusalOf(builder),
+            "test.gltf: /nodes/1: its sphere reaches farther than 1e30 m from the origin");
+  for (const double scale : {0.0, 1e-300, 1e-150}) {
+    builder.node(1) = {{"extras", {{"shape", 0}}}, {"scale", {scale, scale, scale}}};
+    EXPECT_EQ(refusalOf(builder), "test.gltf: /nodes/1: its sphere has no radius above 0");
+  }
+}
+
 TEST(GltfNodes, SphereWithoutMaterialGetsTheDefaultOne) {
   GltfBuilder builder = sphereScene();
   builder.node(0)["extras"].erase("material");
