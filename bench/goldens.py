@@ -8,17 +8,55 @@ Needs numpy and Pillow. Writes OUTPUT/NAME.png: ours, then Cycles', then the dif
 import argparse
 import json
 import math
+import struct
 import subprocess
+import zlib
 from pathlib import Path
 
 import numpy as np
 from PIL import Image
 
 
-def read_pfm(path):
-    _, size, _, body = Path(path).read_bytes().split(b"\n", 3)
-    width, height = map(int, size.split())
-    return np.frombuffer(body, "<f4").reshape(height, width, 3)[::-1].astype(float)
+def unzipped(data, size):
+    """The bytes of a block, which are stored as differences, the even ones before the odd ones."""
+    if len(data) == size:
+        return data
+    deltas = np.frombuffer(zlib.decompress(data), np.uint8).astype(np.int64)
+    deltas[1:] -= 128
+    bytes_ = np.cumsum(deltas).astype(np.uint8)
+    half = (size + 1) // 2
+    result = np.empty(size, np.uint8)
+    result[0::2], result[1::2] = bytes_[:half], bytes_[half:]
+    return result.tobytes()
+
+
+def read_exr(path):
+    """Rows from the top, red, green, blue and alpha (1 where the file has none), of 32-bit floats in ZIP blocks (openexr.com, "OpenEXR File Layout")."""
+    data, at, header = Path(path).read_bytes(), 8, {}
+    while data[at]:
+        name, kind, rest = data[at:].split(b"\0", 2)
+        at += len(name) + len(kind) + 2
+        size = struct.unpack_from("<I", data, at)[0]
+        header[name.decode()] = data[at + 4:at + 4 + size]
+        at += 4 + size
+    names = header["channels"]
+    channels = []
+    while names != b"\0":
+        name, names = names.split(b"\0", 1)
+        channels.append(name.decode())
+        names = names[16:]
+    left, top, right, bottom = struct.unpack("<4i", header["dataWindow"])
+    width, height = right - left + 1, bottom - top + 1
+    picture = np.ones((height, width, 4))
+    for block in range(-(-height // 16)):
+        place = struct.unpack_from("<Q", data, at + 1 + 8 * block)[0]
+        y, size = struct.unpack_from("<iI", data, place)
+        rows = min(16, height - (y - top))
+        floats = np.frombuffer(unzipped(data[place + 8:place + 8 + size], 4 * width * len(channels) * rows), "<f4")
+        for i, name in enumerate(channels):
+            if name in "RGBA":
+                picture[y - top:y - top + rows, :, "RGBA".index(name)] = floats.reshape(rows, len(channels), width)[:, i]
+    return picture
 
 
 def tone_map(color, gamma):
@@ -45,13 +83,13 @@ def camera_options(shot):
 
 def render(program, assets, shot, folder, width, spp):
     height = round(width * shot["h"] / shot["w"])
-    path = folder / (shot["name"] + ".pfm")
+    path = folder / (shot["name"] + ".exr")
     command = [program, "render", assets / shot["model"], "-o", path, "--hdri-file", assets / shot["env"],
                "--resolution", f"{width},{height}", "--spp", str(spp), "--quiet", *camera_options(shot)]
     if not shot["skybox"]:
         command.append("--no-background")
     subprocess.run(list(map(str, command)), check=True)
-    return read_pfm(path)
+    return read_exr(path)
 
 
 def golden(path, size):
@@ -65,8 +103,11 @@ def psnr(a, b):
 
 
 def display(linear, gamma, size):
-    """Tone-mapped at the engines' size and reduced to that of their thumbnails, as theirs were."""
-    picture = Image.fromarray((tone_map(linear, gamma) * 255 + 0.5).astype(np.uint8))
+    """Tone-mapped at the engines' size and reduced to that of their thumbnails, as theirs were: the curve is applied to the colour of what covers a
+    pixel, not to what is left of it over black."""
+    alpha = linear[..., 3:]
+    color = linear[..., :3] / np.maximum(alpha, 1e-6)
+    picture = Image.fromarray((tone_map(color, gamma) * alpha * 255 + 0.5).astype(np.uint8))
     return np.asarray(picture.resize(size, Image.LANCZOS)).astype(float) / 255
 
 

@@ -212,6 +212,24 @@ def many_lights(gltf):
     gltf.add_camera("camera", (0, 1.1, 2.9), (0, 0.7, -1), 60)
 
 
+@scene("lobes")
+def lobes(gltf):
+    """Rough lobes of material extensions, alone and one over the other, none so narrow that it is a single direction; lit by sky.pfm, too."""
+    place_quad(gltf, "ground", ground(3, 2), gltf.add_lambert("ground", (0.5, 0.48, 0.42)))
+    place_backed_lamp(gltf, 0.8, (5, 4.7, 4.2), [-0.8, 2.6, 1.4])
+    gltf.add_camera("camera", (0, 1.3, 4.6), (0, 0.4, 0), 19)
+    coat = {"KHR_materials_clearcoat": {"clearcoatFactor": 0.8, "clearcoatRoughnessFactor": 0.3}}
+    sheen = {"KHR_materials_sheen": {"sheenColorFactor": [0.9, 0.6, 0.4], "sheenRoughnessFactor": 0.4}}
+    brushed = {"KHR_materials_anisotropy": {"anisotropyStrength": 0.8, "anisotropyRotation": 0.6}}
+    film = {"KHR_materials_iridescence": {"iridescenceFactor": 0.8, "iridescenceIor": 1.4, "iridescenceThicknessMaximum": 450}}
+    leaf = {"KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.7, "diffuseTransmissionColorFactor": [0.3, 0.8, 0.2]}}
+    materials = (("coat", (0.6, 0.1, 0.05), 0, 0.6, coat), ("sheen", (0.1, 0.08, 0.3), 0, 0.9, sheen),
+                 ("brushed", (0.9, 0.8, 0.6), 1, 0.3, brushed), ("film", (0.6, 0.6, 0.6), 0.7, 0.35, film),
+                 ("leaf", (0.5, 0.3, 0.1), 0, 0.5, leaf), ("all", (0.4, 0.5, 0.6), 0.4, 0.4, {**coat, **sheen, **brushed, **film, **leaf}))
+    place_row(gltf, [gltf.add_material(name, color, metallic, roughness, extensions=extensions)
+                     for name, color, metallic, roughness, extensions in materials], 0.36, 0.8)
+
+
 @scene("layered")
 def layered(gltf):
     """One sphere a material extension: clear coat, sheen, anisotropy, iridescence, diffuse transmission, dispersion."""

@@ -31,15 +31,18 @@ def bumpy_ball(triangles):
     return positions, [normalize(p) for p in positions], indices
 
 
-def write_field(folder, name, instances, triangles, uneven=False):
-    """Balls on a jittered grid over a floor, under a sun; `uneven`: scaled differently along each axis, every third one mirrored."""
+def write_field(folder, name, instances, triangles, uneven=False, normal_map=None):
+    """Balls on a jittered grid over a floor, under a sun; `uneven`: scaled differently along each axis, every third one mirrored; normal_map: a
+    picture beside the scene."""
     dice = random.Random(1)
     writer = GltfWriter(Path(folder), name)
     side = math.ceil(math.sqrt(instances))
-    clay = writer.add_lambert("clay", (0.8, 0.45, 0.3))
+    mapped = {"normalTexture": {"index": writer.add_texture(normal_map)}} if normal_map else {}
+    clay = writer.add_lambert("clay", (0.8, 0.45, 0.3), **mapped)
     floor = writer.add_lambert("floor", (0.5, 0.5, 0.5))
     positions, normals, indices = bumpy_ball(triangles)
-    ball = writer.add_mesh("ball", writer.primitive(positions, indices, clay, normals, index_component="I"))
+    uvs = [(x, y) for x, y, _ in positions] if normal_map else None
+    ball = writer.add_mesh("ball", writer.primitive(positions, indices, clay, normals, uvs, index_component="I"))
     places, turns, sizes = [], [], []
     for i in range(instances):
         x, z = i % side - side / 2 + 0.5, i // side - side / 2 + 0.5

@@ -53,10 +53,13 @@ const float kEqualIndices = float(0.001);
 /// Whether glass is a single direction each way. A thin wall spreads light by its roughness alone.
 bool isSmoothGlass(Bsdf b) { return b.mirrorLike || (b.solid && abs(b.eta - 1.0f) < kEqualIndices); }
 
+/// A film of no thickness is none.
+bool hasFilm(Bsdf b) { return kIridescence && b.film > 0.0f && b.filmThickness > 0.0f; }
+
 /// Reflectance of facets that are seen at `cosine`, under the film if there is one.
 vec3 facetFresnel(Bsdf b, vec3 f0, float f90, float cosine) {
   vec3 bare = fresnelSchlick(f0, f90, cosine);
-  if (!kIridescence || b.film <= 0.0f) return bare;
+  if (!hasFilm(b)) return bare;
   return mix(bare, filmReflectance(f0, b.filmIndex, b.filmThickness, cosine), b.film);
 }
 
@@ -82,13 +85,15 @@ vec3 scaledGlass(Bsdf b, float bare) {
   return mix(b.dielectricF0, vec3(b.dielectricF90), max(0.0f, bare - f0) / (1.0f - f0));
 }
 
-/// Reflectance of one interface of the glass under its film, on whichever side it is.
+/// Reflectance of one interface of the glass under its film, on whichever side it is. What the film lies on is that of the dielectric layer where
+/// KHR_materials_specular scales it.
 vec3 filmedGlass(Bsdf b, float cosine, float eta, vec3 bare) {
   float squared = refractedSquared(cosine, eta);
   if (squared <= 0.0f) return bare;
   float outside = eta >= 1.0f ? cosine : sqrt(squared) / eta;
   float root = (eta - 1.0f) / (eta + 1.0f);
-  return mix(bare, filmReflectance(vec3(root * root), b.filmIndex, b.filmThickness, outside), b.film);
+  vec3 f0 = kGlassSpecular ? b.dielectricF0 : vec3(root * root);
+  return mix(bare, filmReflectance(f0, b.filmIndex, b.filmThickness, outside), b.film);
 }
 
 /// Reflectance of the glass at a facet seen at `cosine`; what it transmits is 1 less the largest channel (KHR_materials_iridescence, rgb_mix).
@@ -98,7 +103,7 @@ vec3 glassReflectance(Bsdf b, float cosine) {
   if (!kGlassSpecular && !kIridescence) return vec3(b.solid ? single : thinReflectance(single));
   vec3 r = vec3(single);
   if (kGlassSpecular) r = scaledGlass(b, single);
-  if (kIridescence && b.film > 0.0f) r = filmedGlass(b, cosine, eta, r);
+  if (hasFilm(b)) r = filmedGlass(b, cosine, eta, r);
   return b.solid ? r : vec3(thinReflectance(r.x), thinReflectance(r.y), thinReflectance(r.z));
 }
 

@@ -21,9 +21,8 @@ vec3 filmInterference(float pathDifference, vec3 shift) {
 }
 
 /// Reflectance seen at `cosine` from air, between 0 and 1. baseF0: what the surface would reflect without the film, seen from above; index and
-/// thickness (nm) are the film's. A film of no thickness is none.
+/// thickness (nm) are the film's.
 vec3 filmReflectance(vec3 baseF0, float index, float thickness, float cosine) {
-  if (thickness <= 0.0f) return fresnelSchlick(baseF0, 1.0f, cosine);
   float inside = sqrt(max(0.0f, 1.0f - (1.0f - cosine * cosine) / (index * index)));
   float root = (index - 1.0f) / (index + 1.0f);
   float top = fresnelSchlick(vec3(root * root), 1.0f, cosine).x;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The lobe of velvet (Estevez and Kulla, Production Friendly Microfacet Sheen BRDF, 2017; KHR_materials_sheen), in a frame whose z is the normal.
+// alpha is the square of the extension's sheenRoughness.
 
 /// The fit of the logarithm of Smith's Lambda for cosines up to a half.
 float sheenFit(float x, float alpha) {

@@ -89,7 +89,7 @@ Surface inLocalSpace(Surface s, int instance) {
   InstanceSpace space = loadInstanceSpace(instance);
   InstanceReturn back = loadInstanceReturn(instance);
   s.position = timesRows(back.row0, back.row1, back.row2, s.position) + space.place;
-  s.positionError = s.positionError * back.offsetScale + back.offsetBase;
+  s.positionError = offsetOutOfMesh(back, s.positionError);
   s.geometricNormal = unitOrZero(normalOutOfMesh(space, s.geometricNormal));
   s.shadingNormal = unitOrZero(normalOutOfMesh(space, s.shadingNormal));
   s.tangent = vec4(unitOrZero(timesRows(back.row0, back.row1, back.row2, s.tangent.xyz)), s.tangent.w * back.handedness);

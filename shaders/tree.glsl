@@ -98,5 +98,8 @@ InstanceReturn loadInstanceReturn(int instance) {
 
 vec3 timesRows(vec3 row0, vec3 row1, vec3 row2, vec3 v) { return vec3(dot(row0, v), dot(row1, v), dot(row2, v)); }
 
+/// The offset of a ray's origin from a triangle of the mesh, in local space.
+float offsetOutOfMesh(InstanceReturn r, float offset) { return offset * r.offsetScale + r.offsetBase; }
+
 /// A normal of the mesh's space in local space, by the transpose of the inverse; not of unit length.
 vec3 normalOutOfMesh(InstanceSpace s, vec3 normal) { return normal.x * s.row0 + normal.y * s.row1 + normal.z * s.row2; }

@@ -76,7 +76,10 @@ SketchMesh inWorld(const SketchMesh& mesh, const glm::dmat4& world) {
   for (glm::vec3& p : baked.positions) p = glm::vec3(linear * glm::dvec3(p) + glm::dvec3(world[3]));
   const glm::dmat3 normals = glm::inverseTranspose(linear);
   for (glm::vec3& n : baked.normals) n = glm::vec3(glm::normalize(normals * glm::dvec3(n)));
-  if (glm::determinant(linear) < 0.0) {
+  const bool mirrored = glm::determinant(linear) < 0.0;
+  for (glm::vec4& t : baked.tangents)
+    t = glm::vec4(glm::normalize(linear * glm::dvec3(t)), mirrored ? -t.w : t.w);
+  if (mirrored) {
     for (glm::uvec3& t : baked.triangles) std::swap(t.y, t.z);
   }
   return baked;
@@ -89,6 +92,7 @@ SceneSketch flattened(const SceneSketch& sketch) {
   std::vector<glm::dmat4> world;
   for (const SketchNode& node : sketch.nodes) {
     world.push_back(node.parent >= 0 ? world[size_t(node.parent)] * node.local : node.local);
+    if (node.radius > 0.0) flat.nodes.push_back({world.back(), -1, -1, node.radius, node.sphereMaterial});
     if (node.mesh < 0) continue;
     flat.nodes.push_back({glm::dmat4(1.0), -1, int(flat.meshes.size())});
     flat.meshes.push_back(inWorld(sketch.meshes[size_t(node.mesh)], world.back()));
@@ -143,7 +147,9 @@ SceneSketch inForm(const SceneSketch& sketch, Form form, uint32_t seed) {
     case Form::Turned: {
       SceneSketch turned = sketch;
       const double angle = dice.between(0.0, glm::two_pi<double>());
-      turned.root = glm::rotate(glm::dmat4(1.0), angle, dice.direction()) * sketch.root;
+      const glm::dvec3 axis = sketch.sky.width > 0 ? glm::dvec3(0, 1, 0) : dice.direction();
+      turned.root = glm::rotate(glm::dmat4(1.0), angle, axis) * sketch.root;
+      turned.skyTurn += angle;
       return turned;
     }
     case Form::Reordered:

@@ -58,8 +58,9 @@ struct Pair {
   Pair(const Context& context, uint32_t seed, Form form, RenderOptions options)
       : sketch(randomSketch(seed)),
         other(inForm(sketch, form, seed)),
-        a(context, sceneOf(sketch), options),
-        b(context, sceneOf(other), withSeed(options, sameNumbers(form) ? options.seed : options.seed + 1)) {}
+        a(drawingOf(context, sketch, options)),
+        b(drawingOf(context, other, withSeed(options, sameNumbers(form) ? options.seed : options.seed + 1))) {
+  }
 
   void compareHits(Likeness& l, const SceneDrawing::GoOn& goOn) {
     const FilmPixels before = a.depth(goOn);
@@ -68,6 +69,11 @@ struct Pair {
   }
 
  private:
+  static SceneDrawing drawingOf(const Context& context, const SceneSketch& drawn,
+                                const RenderOptions& options) {
+    return {context, sceneOf(drawn), options, environmentOf(drawn), drawn.skyTurn};
+  }
+
   static RenderOptions withSeed(RenderOptions options, uint32_t seed) {
     options.seed = seed;
     return options;

@@ -8,7 +8,7 @@ namespace fragtrace {
 
 namespace {
 
-enum class Kind : uint32_t { Diffuse, Shiny, Glass, Blended };
+enum class Kind : uint32_t { Diffuse, Shiny, Glass, Blended, Mapped, Sky };
 
 void addQuad(SketchMesh& mesh, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
              const glm::vec3& d) {
@@ -119,7 +119,68 @@ std::vector<SketchMaterial> randomMaterials(Dice& dice, Kind kind) {
     materials[3].attenuationDistance = dice.between(0.2, 2.0);
   }
   if (kind == Kind::Blended) materials[3].alpha = dice.between(0.2, 0.8);
+  if (kind == Kind::Sky) materials[4].metallic = 1.0;
+  if (kind == Kind::Mapped) {
+    for (const size_t i : {0, 2, 3}) {
+      materials[i].color = glm::dvec3(1.0);
+      materials[i].colorTexture = 0;
+      materials[i].textureScale = {dice.between(0.3, 3.0), dice.between(-3.0, -0.3)};
+      materials[i].textureTurn = dice.between(0.0, glm::two_pi<double>());
+    }
+    for (const size_t i : {2, 3, 4}) materials[i].normalTexture = 1;
+  }
   return materials;
+}
+
+/// A picture of light and dark colours, and one of normals that lean by up to 40 degrees; of few texels, so
+/// that no pattern averages out.
+std::vector<SketchTexture> randomTextures(Dice& dice) {
+  constexpr std::array kWraps{10497, 33071, 33648};
+  std::vector<SketchTexture> textures(2);
+  for (SketchTexture& texture : textures) texture.wrap = kWraps[dice.below(kWraps.size())];
+  for (int i = 0; i < textures[0].side * textures[0].side; ++i) {
+    const double light = dice.coin() ? 0.05 : 1.0;
+    textures[0].texels.emplace_back(255.0 * light * randomColor(dice));
+    const double x = dice.between(-0.6, 0.6);
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(x, dice.between(-0.6, 0.6), 1.0));
+    textures[1].texels.emplace_back(255.0 * (0.5 + 0.5 * normal));
+  }
+  return textures;
+}
+
+/// Seen from one side, so that neighbours in a plane have the same tangent. Tangents are given with normals;
+/// where those are made, they depend on how triangles hang together, which forms change.
+void addTexcoords(Dice& dice, SketchMesh& mesh) {
+  const glm::dmat3 turn(randomTurn(dice));
+  for (const glm::vec3& p : mesh.positions)
+    mesh.texcoords.emplace_back(glm::dot(turn[0], glm::dvec3(p)), glm::dot(turn[1], glm::dvec3(p)));
+  const double handedness = dice.coin() ? 1.0 : -1.0;
+  for (const glm::vec3& n : mesh.normals) {
+    const glm::dvec3 tangent = glm::cross(turn[1], glm::dvec3(n));
+    const double length = glm::length(tangent);
+    mesh.tangents.emplace_back(length > 1e-3 ? tangent / length : turn[0], handedness);
+  }
+}
+
+/// Spheres of materials 2 and 4.
+void addSpheres(Dice& dice, SceneSketch& sketch) {
+  for (const size_t material : {2, 4}) {
+    SketchNode node;
+    node.local = glm::translate(glm::dmat4(1.0), dice.inCube(1.3)) * randomTurn(dice);
+    node.local = glm::scale(node.local, glm::dvec3(dice.between(0.5, 1.5)));
+    node.radius = dice.between(0.3, 0.6);
+    node.sphereMaterial = material;
+    sketch.nodes.push_back(node);
+  }
+}
+
+/// Dim, but for one bright texel.
+Image randomSky(Dice& dice) {
+  Image sky{16, 8, {"R", "G", "B"}, {}, {}};
+  for (int i = 0; i < 3 * sky.width * sky.height; ++i) sky.values.push_back(float(dice.between(0.05, 0.4)));
+  const size_t bright = 3 * dice.below(size_t(sky.width * sky.height));
+  for (size_t c = 0; c < 3; ++c) sky.values[bright + c] = 8.0f;
+  return sky;
 }
 
 glm::dmat4 randomCamera(Dice& dice) {
@@ -169,6 +230,12 @@ SceneSketch randomSketch(uint32_t seed) {
   }
   if (kind == Kind::Blended) sketch.lights.push_back({{dice.between(-1.5, 1.5), 2.0, 1.5}, 4.0});
   sketch.camera = randomCamera(dice);
+  if (kind == Kind::Mapped) {
+    sketch.textures = randomTextures(dice);
+    for (SketchMesh& mesh : sketch.meshes) addTexcoords(dice, mesh);
+  }
+  if (kind == Kind::Sky) sketch.sky = randomSky(dice);
+  if (kind == Kind::Mapped || kind == Kind::Sky) addSpheres(dice, sketch);
   return sketch;
 }
 

@@ -40,25 +40,31 @@ class TemporaryFile {
 
 Scene sceneOf(const SceneSketch& sketch) { return loadGltf(TemporaryFile(gltfText(sketch)).path()); }
 
-SceneDrawing::SceneDrawing(const Context& context, const Scene& scene, const RenderOptions& options)
+Environment environmentOf(const SceneSketch& sketch) {
+  return sketch.sky.width > 0 ? Environment{Surroundings::Map, sketch.sky} : Environment{};
+}
+
+SceneDrawing::SceneDrawing(const Context& context, const Scene& scene, const RenderOptions& options,
+                           const Environment& environment, double environmentTurn)
     : options_(options) {
-  const Environment none;
-  const TraitSet present = traitsOf(scene, none.kind);
+  const TraitSet present = traitsOf(scene, environment.kind);
   const bool iterative = options.traversal == TraversalMethod::Iterative;
   const Bvh bvh =
       iterative ? listLeaves(scene) : buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
-  picture_ = chooseVariant(options, present, none.kind, bvh.depth, options.bufferReads);
-  depth_ = chooseFeatureVariant(options, present, none.kind, bvh.depth, options.bufferReads, Feature::Depth);
+  picture_ = chooseVariant(options, present, environment.kind, bvh.depth, options.bufferReads);
+  depth_ = chooseFeatureVariant(options, present, environment.kind, bvh.depth, options.bufferReads,
+                                Feature::Depth);
   ShaderVariant everything = picture_;
   everything.traits |= depth_.traits;
-  GpuScene packed = packScene(scene, bvh, none, everything);
+  GpuScene packed = packScene(scene, bvh, environment, everything);
   picture_.reads = chooseReads(options.bufferReads, context.software, packed, readLimits()).reads;
   depth_.reads = picture_.reads;
   renderer_ = std::make_unique<Renderer>(context, std::move(packed), picture_.reads, options.shaderFolder);
   view_.camera = scene.cameras.empty() ? frameScene(scene.bounds) : scene.cameras.front();
   view_.space = scene.space;
   view_.background = options.backgroundColor;
-  view_.showEnvironment = false;
+  view_.showEnvironment = environment.kind == Surroundings::Map;
+  view_.hdriRotation = environmentTurn;
   view_.bounces = options.bounces;
 }
 

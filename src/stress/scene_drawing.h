@@ -5,20 +5,22 @@
 #include <functional>
 
 #include "bvh/bvh.h"
+#include "pack/gpu_scene.h"
 #include "render/film_pixels.h"
 #include "render/renderer.h"
 #include "stress/sketch.h"
 
 namespace fragtrace {
 
-/// A scene on the device, lit by its own lights alone.
+/// A scene on the device, lit by its own lights and, if there is one, by an environment.
 class SceneDrawing {
  public:
   /// Called between draws; may throw to end the work.
   using GoOn = std::function<void()>;
 
   /// Throws RenderError.
-  SceneDrawing(const Context& context, const Scene& scene, const RenderOptions& options);
+  SceneDrawing(const Context& context, const Scene& scene, const RenderOptions& options,
+               const Environment& environment = {}, double environmentTurn = 0.0);
 
   /// options.spp samples of options.seed.
   FilmPixels picture(const GoOn& goOn);
@@ -37,5 +39,8 @@ class SceneDrawing {
 
 /// Through a file that goes again. Throws InputError, RenderError.
 Scene sceneOf(const SceneSketch& sketch);
+
+/// The sketch's sky.
+Environment environmentOf(const SceneSketch& sketch);
 
 }  // namespace fragtrace

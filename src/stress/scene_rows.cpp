@@ -27,13 +27,13 @@ RenderOptions flatOptions(const StressSetting& setting, glm::ivec2 size, int spp
   return options;
 }
 
-/// The first of the seeds of a row; every kind of scene is among four that follow on one another.
+/// The first of the seeds of a row; every kind of scene is among kSketchKinds that follow on one another.
 uint32_t firstSeed(Form form) { return 1000 * (uint32_t(form) + 1); }
 
 }  // namespace
 
 StressOutcome drawForms(const StressSetting& setting, Form form) {
-  const uint32_t scenes = setting.quick ? 4 : 84;
+  const uint32_t scenes = setting.quick ? kSketchKinds : 84;
   StressOutcome outcome;
   for (uint32_t seed = firstSeed(form); seed < firstSeed(form) + scenes; ++seed) {
     const Likeness likeness = likenessOf(setting.context, seed, form, setting.goOn);
@@ -46,7 +46,7 @@ StressOutcome drawForms(const StressSetting& setting, Form form) {
 }
 
 StressOutcome hitForms(const StressSetting& setting, Form form) {
-  const uint32_t scenes = setting.quick ? 4 : 84;
+  const uint32_t scenes = setting.quick ? kSketchKinds : 84;
   StressOutcome outcome;
   size_t most = 0;
   for (uint32_t seed = firstSeed(form); seed < firstSeed(form) + scenes; ++seed) {

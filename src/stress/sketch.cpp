@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "stress/stored_png.h"
+
 namespace fragtrace {
 
 namespace {
@@ -41,6 +43,12 @@ json materialJson(const SketchMaterial& m) {
                      {"roughnessFactor", m.roughness}}},
                    {"doubleSided", m.doubleSided}};
   if (m.alpha < 1.0) material["alphaMode"] = "BLEND";
+  if (m.colorTexture >= 0) {
+    const json transform = {{"scale", {m.textureScale.x, m.textureScale.y}}, {"rotation", m.textureTurn}};
+    material["pbrMetallicRoughness"]["baseColorTexture"] = {
+        {"index", m.colorTexture}, {"extensions", {{"KHR_texture_transform", transform}}}};
+  }
+  if (m.normalTexture >= 0) material["normalTexture"]["index"] = m.normalTexture;
   if (m.emission != glm::dvec3(0.0)) material["emissiveFactor"] = numbers(m.emission);
   json& extensions = material["extensions"] = json::object();
   if (m.transmission > 0.0)
@@ -59,7 +67,9 @@ class Writer {
  public:
   std::string text(const SceneSketch& sketch) {
     root_["asset"]["version"] = "2.0";
-    root_["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_transmission", "KHR_materials_volume"};
+    root_["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_transmission", "KHR_materials_volume",
+                               "KHR_texture_transform", "KHR_implicit_shapes"};
+    for (const SketchTexture& texture : sketch.textures) addTexture(texture);
     for (const SketchMaterial& m : sketch.materials) root_["materials"].push_back(materialJson(m));
     for (const SketchMesh& mesh : sketch.meshes) addMesh(mesh);
     addNodes(sketch);
@@ -82,6 +92,14 @@ class Writer {
     return root_["accessors"].size() - 1;
   }
 
+  void addTexture(const SketchTexture& texture) {
+    const size_t index = root_["images"].size();
+    root_["images"].push_back(
+        {{"uri", "data:image/png;base64," + base64(storedPng(texture.side, texture.texels))}});
+    root_["samplers"].push_back({{"wrapS", texture.wrap}, {"wrapT", texture.wrap}});
+    root_["textures"].push_back({{"source", index}, {"sampler", index}});
+  }
+
   void addMesh(const SketchMesh& mesh) {
     constexpr int kFloat = 5126;
     constexpr int kUnsigned = 5125;
@@ -89,8 +107,19 @@ class Writer {
     primitive["attributes"]["POSITION"] = addAccessor(mesh.positions, "VEC3", kFloat, mesh.positions.size());
     if (!mesh.normals.empty())
       primitive["attributes"]["NORMAL"] = addAccessor(mesh.normals, "VEC3", kFloat, mesh.normals.size());
+    if (!mesh.tangents.empty())
+      primitive["attributes"]["TANGENT"] = addAccessor(mesh.tangents, "VEC4", kFloat, mesh.tangents.size());
+    if (!mesh.texcoords.empty())
+      primitive["attributes"]["TEXCOORD_0"] =
+          addAccessor(mesh.texcoords, "VEC2", kFloat, mesh.texcoords.size());
     primitive["indices"] = addAccessor(mesh.triangles, "SCALAR", kUnsigned, mesh.triangles.size() * 3);
     root_["meshes"].push_back({{"primitives", {primitive}}});
+  }
+
+  size_t addSphere(double radius) {
+    json& shapes = root_["extensions"]["KHR_implicit_shapes"]["shapes"];
+    shapes.push_back({{"type", "sphere"}, {"sphere", {{"radius", radius}}}});
+    return shapes.size() - 1;
   }
 
   void addNodes(const SceneSketch& sketch) {
@@ -103,6 +132,8 @@ class Writer {
     for (const SketchNode& from : sketch.nodes) {
       json node = {{"matrix", numbers(from.local)}};
       if (from.mesh >= 0) node["mesh"] = from.mesh;
+      if (from.radius > 0.0)
+        node["extras"] = {{"shape", addSphere(from.radius)}, {"material", from.sphereMaterial}};
       add(std::move(node), size_t(from.parent + 1));
     }
     for (const SketchLight& light : sketch.lights) {

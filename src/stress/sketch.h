@@ -8,7 +8,16 @@
 #include <string>
 #include <vector>
 
+#include "image/image.h"
+
 namespace fragtrace {
+
+/// A square picture, rows from the top.
+struct SketchTexture {
+  int side = 4;
+  std::vector<glm::u8vec3> texels;
+  int wrap = 10497;  ///< glTF's number, in both directions
+};
 
 struct SketchMaterial {
   glm::dvec3 color{0.8};
@@ -20,11 +29,17 @@ struct SketchMaterial {
   double transmission = 0.0;
   double thickness = 0.0;            ///< metres
   double attenuationDistance = 0.0;  ///< metres; 0: none
+  int colorTexture = -1;
+  int normalTexture = -1;
+  glm::dvec2 textureScale{1.0};  ///< of KHR_texture_transform, for the colour
+  double textureTurn = 0.0;      ///< the same, radians
 };
 
 struct SketchMesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;  ///< none: flat
+  std::vector<glm::vec4> tangents;
+  std::vector<glm::vec2> texcoords;
   std::vector<glm::uvec3> triangles;
   size_t material = 0;
 };
@@ -34,6 +49,8 @@ struct SketchNode {
   glm::dmat4 local{1.0};
   int parent = -1;
   int mesh = -1;
+  double radius = 0.0;  ///< above 0: shows a sphere, in place of a mesh; scaled evenly
+  size_t sphereMaterial = 0;
 };
 
 struct SketchLight {
@@ -42,6 +59,7 @@ struct SketchLight {
 };
 
 struct SceneSketch {
+  std::vector<SketchTexture> textures;
   std::vector<SketchMaterial> materials;
   std::vector<SketchMesh> meshes;
   std::vector<SketchNode> nodes;
@@ -49,12 +67,14 @@ struct SceneSketch {
   glm::dmat4 camera{1.0};
   double fovY = 0.7;     ///< radians
   glm::dmat4 root{1.0};  ///< of nodes, lights and the camera
+  Image sky;             ///< the environment map; 0 x 0: none
+  double skyTurn = 0.0;  ///< radians about +y
 };
 
 /// The matrix of a camera at a point that looks at another, +y up.
 glm::dmat4 lookingFrom(const glm::dvec3& from, const glm::dvec3& at);
 
-/// The whole file, with its buffer inside.
+/// The whole file, with its buffer and textures inside; the sky has no place in it.
 std::string gltfText(const SceneSketch& sketch);
 
 }  // namespace fragtrace

@@ -3,6 +3,7 @@
 """Meshes that stand in the scene many times: shared ones draw the picture of their copies, in memory of what is unique."""
 import json
 import os
+import shutil
 import subprocess
 import sys
 
@@ -52,6 +53,14 @@ class Instancing(Case):
         for layer in ("normal.X", "normal.Y", "normal.Z"):
             self.same(shared, flat, layer, 3e-2, 10)
         self.same(shared, flat, "R", 3e-2, 60)
+
+    def test_mirrored_ones_with_normal_maps(self):
+        shutil.copy(SCENES / "bricks-normal.png", self.folder)
+        write_field(self.folder, "field", 64, 500, uneven=True, normal_map="bricks-normal.png")
+        shared, flat = self.both("--spp", 1, "--stage", "normal-maps", layers="normal")
+        for layer in ("normal.X", "normal.Y", "normal.Z"):
+            self.same(shared, flat, layer, 3e-2, 10)
+        self.same(shared, flat, "R", 3e-2, 20)
 
     def test_the_heat_map_and_the_other_way_through_the_tree(self):
         write_field(self.folder, "field", 64, 500)

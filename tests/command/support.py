@@ -58,7 +58,7 @@ def unzipped(data, size):
 
 
 class Exr:
-    """Scan lines of 32-bit floats, uncompressed or ZIP: `layers` by name, rows from the top; `texts`: the string attributes."""
+    """Scan lines of floats of 32 or 16 bits, uncompressed or ZIP: `layers` by name, rows from the top; `texts`: the string attributes."""
 
     def __init__(self, path):
         data = Path(path).read_bytes()
@@ -72,11 +72,13 @@ class Exr:
             if kind == b"string":
                 self.texts[name.decode()] = data[at + 4:at + 4 + size].decode()
             at += 4 + size
-        names, channels = [], header["channels"]
+        names, sizes, channels = [], [], header["channels"]
         while channels != b"\0":
             name, channels = channels.split(b"\0", 1)
-            assert struct.unpack_from("<I", channels)[0] == 2, f"{path}: {name} is not of 32-bit floats"
+            kind = struct.unpack_from("<I", channels)[0]
+            assert kind in (1, 2), f"{path}: {name} is not of floats"
             names.append(name.decode())
+            sizes.append(2 * kind)
             channels = channels[16:]
         left, top, right, bottom = struct.unpack("<4i", header["dataWindow"])
         self.width, self.height = right - left + 1, bottom - top + 1
@@ -86,12 +88,12 @@ class Exr:
             place = struct.unpack_from("<Q", data, at + 1 + 8 * block)[0]
             y, size = struct.unpack_from("<iI", data, place)
             rows = range(y - top, min(y - top + lines, self.height))
-            line = 4 * self.width * len(names)
+            line = self.width * sum(sizes)
             body = unzipped(data[place + 8:place + 8 + size], line * len(rows))
             for i, row in enumerate(rows):
-                for c, name in enumerate(names):
-                    first = i * line + 4 * self.width * c
-                    self.layers[name][row] = floats(body[first:first + 4 * self.width])
+                for c, (name, size) in enumerate(zip(names, sizes)):
+                    first = i * line + self.width * sum(sizes[:c])
+                    self.layers[name][row] = struct.unpack_from(f"<{self.width}{' ef'[size // 2]}", body, first)
 
     def pixel(self, x, y, *names):
         return tuple(self.layers[name][y][x] for name in names)

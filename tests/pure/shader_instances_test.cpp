@@ -248,7 +248,7 @@ Point pointHit(const PackedTree& p, int slot, int instance, const Ray& ray, floa
   const float error = std::bit_cast<float>((face[3] >> layout::kFaceErrorShift) << layout::kFloatErrorShift);
   return {glsl_float::timesRows(back.row0, back.row1, back.row2, inside) + space.place,
           glm::normalize(glsl_float::normalOutOfMesh(space, plane)),
-          error * back.offsetScale + back.offsetBase};
+          glsl_float::offsetOutOfMesh(back, error)};
 }
 
 TEST(ShaderInstances, ARayNeverHitsTheTriangleOfTheInstanceItLeaves) {
@@ -292,6 +292,78 @@ TEST(ShaderInstances, ARayNeverHitsTheTriangleOfTheInstanceItLeaves) {
       EXPECT_GT(left, 1000u);
     }
   }
+}
+
+TEST(ShaderInstances, TheOffsetIsThatOfACopyOrSomeTimesIt) {
+  // docs/accuracy.md: twice for an instance that is not turned, up to nine times for one that is.
+  Draw draw(61);
+  for (int i = 0; i < 200; ++i) {
+    const bool isTurned = i % 2 == 1;
+    const double size = draw.between(0.01, 3.0);
+    const dmat4 toLocal = isTurned ? randomPlace(draw, {.scaleFrom = size, .scaleTo = size}, 0.0)
+                                   : glm::scale(dmat4(1.0), dvec3(size));
+    const Corners corners = randomTriangles(200, 1.0f)[size_t(i)];
+    Scene scene;
+    scene.materials.resize(1);
+    addShared(scene, {corners}, 0);
+    scene.instances.push_back({toLocal, 0, ""});
+    const PackedTree p = packInstances(std::move(scene));
+    const With nodes(glsl_variant::nodes, std::span<const uint32_t>(p.nodes));
+    const auto back = glsl_float::loadInstanceReturn(int(firstInstanceBlock(p.bvh)));
+    std::array<vec3, 3> copy;
+    for (size_t k = 0; k < 3; ++k) copy[k] = vec3(glm::dmat3(toLocal) * dvec3(p.scene.vertices.position[k]));
+    const auto& own = p.scene.vertices.position;
+    const double shown = glsl_float::offsetOutOfMesh(back, float(hitPointError(own[0], own[1], own[2])));
+    const double times = shown / hitPointError(copy[0], copy[1], copy[2]);
+    EXPECT_GE(times, isTurned ? 1.5 : 1.9);
+    EXPECT_LE(times, isTurned ? 10.0 : 2.1);
+  }
+}
+
+/// The box that the scene's tree has for its only instance.
+Bounds instanceBox(const PackedTree& p) {
+  for (const BvhNode& node : std::span(p.bvh.nodes).first(topNodeCount(p.bvh))) {
+    for (size_t side = 0; side < 2; ++side) {
+      if ((node.child[side] & kBvhInstanceBit) != 0) return node.bounds[side];
+    }
+  }
+  return {};
+}
+
+TEST(ShaderInstances, BoxesHoldWhatRoundingLetsRaysHit) {
+  const With instances(glsl_variant::kInstances, true);
+  const With stack(glsl_variant::kStackSize, int(kMaxTwoLevelDepth));
+  Draw draw(67);
+  size_t hits = 0;
+  for (int i = 0; i < 200; ++i) {
+    // A square whose corners are those of its box, in a scene a hundred times as large.
+    Scene scene = packTree({{vec3(30), vec3(31, 30, 30), vec3(30, 31, 30)}}, {}, true).scene;
+    addShared(
+        scene,
+        {{vec3(-1, -1, 0), vec3(1, -1, 0), vec3(1, 1, 0)}, {vec3(-1, -1, 0), vec3(1, 1, 0), vec3(-1, 1, 0)}},
+        0);
+    scene.instances.push_back(
+        {randomPlace(draw, {.scaleFrom = 0.3, .scaleTo = 0.3, .uneven = true}, 0.5), 0, ""});
+    const dmat4 toLocal = scene.instances[0].toLocal;
+    const PackedTree p = packInstances(std::move(scene));
+    const Bounds box = instanceBox(p);
+    for (int k = 0; k < 200; ++k) {
+      const dvec3 corner(draw.integer(0, 1) - 0.5, draw.integer(0, 1) - 0.5, 0.0);
+      Ray ray;
+      ray.origin = vec3(draw.inCube(30.0));
+      const dvec3 aim = dvec3(toLocal * glm::dvec4(corner, 1.0)) + draw.inCube(3e-6);
+      ray.direction = vec3(glm::normalize(aim - dvec3(ray.origin)));
+      const Outcome found = traceFloat(p, Method::FrontToBack, ray);
+      if (found.slot < 0 || found.t > 1e3) continue;
+      ++hits;
+      const dvec3 place = dvec3(ray.origin) + found.t * dvec3(ray.direction);
+      for (int axis = 0; axis < 3; ++axis) {
+        ASSERT_GE(place[axis], double(box.minimum[axis])) << "case " << i;
+        ASSERT_LE(place[axis], double(box.maximum[axis])) << "case " << i;
+      }
+    }
+  }
+  EXPECT_GT(hits, 10000u);
 }
 
 TEST(ShaderInstances, TwoLevelsFitTheStackOrAreRefused) {

@@ -68,14 +68,15 @@ TEST(ShaderIridescence, IsTheInterferenceOfTheFirstOrders) {
 }
 
 TEST(ShaderIridescence, NoFilmIsTheBareSurfaceAndAllStaysBetweenZeroAndOne) {
+  const AllExtensions on;
   Draw draw(359);
   for (int k = 0; k < 2000; ++k) {
     const dvec3 baseF0 = 0.5 + draw.inCube(0.5);
     const double index = draw.between(1.0, 2.5);
     const double cosine = draw.between(0.0, 1.0);
-    EXPECT_LE(
-        glm::distance(glsl_double::filmReflectance(baseF0, index, 0.0, cosine), schlick(baseF0, 1.0, cosine)),
-        1e-12);
+    const double f90 = draw.between(0.0, 1.0);
+    EXPECT_EQ(glsl_double::facetFresnel(filmed(metal(0.4), index, 0.0), baseF0, f90, cosine),
+              glsl_double::fresnelSchlick(baseF0, f90, cosine));
     const vec3 film = glsl_float::filmReflectance(vec3(baseF0), float(index),
                                                   float(draw.between(0.0, 1500.0)), float(cosine));
     for (int c = 0; c < 3; ++c) {
@@ -97,6 +98,23 @@ TEST(ShaderIridescence, SmoothGlassUnderAFilmGivesBackAllButItsColour) {
       const dvec3 r = glsl_double::glassReflectance(b, z);
       const dvec3 expected = dvec3(1.0) + r - dvec3(std::max({r.x, r.y, r.z}));
       EXPECT_LE(glm::distance(albedo, expected), 2e-3) << "solid " << solid << ", z " << z;
+    }
+  }
+}
+
+TEST(ShaderIridescence, OnGlassWhoseReflectionIsScaledTheFilmLiesOnWhatIsScaled) {
+  const AllExtensions on;
+  const With specular(glsl_variant::kGlassSpecular, true);
+  for (const bool front : {true, false}) {
+    Bsdf b = filmed(makeBsdf(0, 1, 0.0, 1.5, true, front), 1.33, 300);
+    b.dielectricF0 = 0.04 * 0.5 * dvec3(2.0, 1.0, 0.5);
+    b.dielectricF90 = 0.5;
+    for (const double z : {1.0, 0.9, 0.8}) {
+      const double outside = front ? z : std::sqrt(1.0 - 2.25 * (1.0 - z * z));
+      EXPECT_LE(glm::distance(glsl_double::glassReflectance(b, z),
+                              filmByIntegration(b.dielectricF0, 1.33, 300, outside)),
+                2e-4)
+          << "front " << front << ", z " << z;
     }
   }
 }

@@ -11,6 +11,7 @@ import numpy as np
 
 COMPONENTS = {5120: "i1", 5121: "u1", 5122: "i2", 5123: "u2", 5125: "u4", 5126: "f4"}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+LAYERS = ("clearcoat", "sheen", "anisotropy", "iridescence", "diffuse_transmission")
 WRAPS = {10497: "repeat", 33071: "clamp", 33648: "mirror"}
 
 
@@ -55,9 +56,10 @@ class Material:
     attenuation_color: np.ndarray = None
     attenuation_distance: float = np.inf
     perlin: dict = None
+    layers: dict = None  # the extensions of gltf_layers.py, by name without KHR_materials_
 
     def two_sided(self):
-        return self.double_sided or self.transmission > 0
+        return self.double_sided or self.transmission > 0 or "diffuse_transmission" in self.layers
 
 
 @dataclass
@@ -191,7 +193,8 @@ class Reader:
             thickness=volume.get("thicknessFactor", 0),
             attenuation_color=np.array(volume.get("attenuationColor", [1, 1, 1]), float),
             attenuation_distance=volume.get("attenuationDistance", np.inf),
-            perlin=m.get("extras", {}).get("perlinNormal"))
+            perlin=m.get("extras", {}).get("perlinNormal"),
+            layers={name: ext["KHR_materials_" + name] for name in LAYERS if "KHR_materials_" + name in ext})
 
     def visit(self, index, parent):
         node = self.root["nodes"][index]

@@ -17,6 +17,7 @@ import numpy as np
 mi.set_variant("llvm_ad_rgb")
 
 import gltf_bsdf  # noqa: F401, registers its materials
+import gltf_layers  # noqa: F401, too
 from gltf_scene import read_scene, unit
 from reference_files import FOLDER, write_reference
 
@@ -119,6 +120,23 @@ def opaque(material, compensated, vertex_colors):
     return result
 
 
+def layered(material):
+    """Mitsuba's dp_du on a sphere is against ours and its bitangent the same, so that a turn changes its sign; no mesh has these materials."""
+    assert (material.specular, material.transmission, material.color_texture, material.normal_texture) == (1, 0, None, None)
+    coat, sheen, film = (material.layers.get(name, {}) for name in ("clearcoat", "sheen", "iridescence"))
+    anisotropy, through = material.layers.get("anisotropy", {}), material.layers.get("diffuse_transmission", {})
+    numbers = {
+        "metallic": material.metallic, "roughness": material.roughness, "ior": material.ior,
+        "coat": coat.get("clearcoatFactor", 0), "coat_roughness": coat.get("clearcoatRoughnessFactor", 0),
+        "sheen_roughness": sheen.get("sheenRoughnessFactor", 0),
+        "anisotropy": anisotropy.get("anisotropyStrength", 0), "turn": -anisotropy.get("anisotropyRotation", 0),
+        "film": film.get("iridescenceFactor", 0), "film_index": film.get("iridescenceIor", 1.3),
+        "film_thickness": film.get("iridescenceThicknessMaximum", 400), "through": through.get("diffuseTransmissionFactor", 0)}
+    return {"type": "layered", **{name: float(value) for name, value in numbers.items()},
+            "base_color": material.color[:3].tolist(), "sheen_color": sheen.get("sheenColorFactor", [0.0] * 3),
+            "through_color": through.get("diffuseTransmissionColorFactor", [1.0] * 3)}
+
+
 def normal_mapped(material, bsdf):
     texture, scale = material.normal_texture, np.array([material.normal_scale, material.normal_scale, 1])
     scaled = ((2 * texture.texels[..., :3] - 1) * scale + 1) / 2
@@ -138,7 +156,10 @@ def covered(material, bsdf):
 
 def surface(material, compensated, vertex_colors=False):
     """The BSDF, the light, and the medium behind it if it is solid and absorbs."""
-    if material.transmission == 1 and not material.transmission_texture:
+    if material.layers:
+        assert not compensated and not vertex_colors
+        bsdf = layered(material)
+    elif material.transmission == 1 and not material.transmission_texture:
         bsdf = glass(material)
     elif material.transmission:
         # A blend is the glTF mix, and its opaque part, too, has two sides.
@@ -254,8 +275,9 @@ def build(scene, entry, scratch):
         result["mesh%d" % i] = {"type": "ply", "filename": str(path), "face_normals": True, 
                                 **surface(mesh.material, compensated, (mesh.colors != 1).any())}
     for i, sphere in enumerate(scene.spheres):
-        result["sphere%d" % i] = {"type": "sphere", "center": sphere.center.tolist(), "radius": sphere.radius,
-                                  **surface(sphere.material, compensated)}
+        # Mitsuba's pole is z, glTF's y.
+        place = mi.ScalarTransform4f().translate(sphere.center.tolist()).rotate([1, 0, 0], -90).scale([sphere.radius] * 3)
+        result["sphere%d" % i] = {"type": "sphere", "to_world": place, **surface(sphere.material, compensated)}
     for i, light in enumerate(scene.lights):
         result["light%d" % i] = punctual(light)
     if "--hdri-file" in options:
