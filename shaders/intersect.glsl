@@ -62,8 +62,8 @@ TriangleHit intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2
   float inverse = 1.0f / sum;
   h.t = (u * a.z + v * b.z + w * c.z) * s.z * inverse;
   h.hit = (positive || negative) && sum != 0.0f && h.t > 0.0f;
-  // Edges that are shorter than 2^-23 of the distance to the ray round to zero from anywhere; a tree does not come here from far away.
-  if (kIterative) h.hit = h.hit && !zeroBeyond(ax, bx, cx) && !zeroBeyond(ay, by, cy);
+  // Edge functions of a triangle that is small beside its distance from the ray are rounding (docs/accuracy.md, "Zero from far away").
+  h.hit = h.hit && !zeroBeyond(ax, bx, cx) && !zeroBeyond(ay, by, cy);
   h.front = (s.z > 0.0f) == (sum > 0.0f);
   h.weight1 = v * inverse;
   h.weight2 = w * inverse;

@@ -149,19 +149,22 @@ class TraversalText {
     return {variable(xi + " * " + yj + " - " + yi + " * " + xj), i > j};
   }
 
-  /// Whether some corner's sides are so close beside the mesh that rays which pass far away see the edge
-  /// functions of both as zero.
+  /// Whether the face is so small beside the mesh, or some corner's sides so close, that the edge functions
+  /// are rounding for rays that pass far away (docs/accuracy.md, "Zero from far away").
   bool isTiny(const LiteralFace& f) const {
     constexpr double kShare = 0x1p-18;
+    constexpr double kSmall = 0x1p-10;
     const size_t corners = f.quad ? 4 : 3;
     double least = HUGE_VAL;
+    double longest = 0.0;
     for (size_t i = 0; i < corners; ++i) {
       const glm::dvec3 corner(mesh_.points[f.corner[i]]);
       const glm::dvec3 a = glm::dvec3(mesh_.points[f.corner[(i + 1) % corners]]) - corner;
       const glm::dvec3 b = glm::dvec3(mesh_.points[f.corner[(i + corners - 1) % corners]]) - corner;
       least = std::min(least, glm::length(glm::cross(a, b)) / std::max(glm::length(a), glm::length(b)));
+      longest = std::max(longest, glm::length(a));
     }
-    return !(least >= kShare * size_);
+    return !(least >= kShare * size_) || longest < kSmall * size_;
   }
 
   /// True where a row of all corners has one sign: the ray passes outside of their box (zeroBeyond of

@@ -271,6 +271,30 @@ float aspectOf(const std::array<vec3, 3>& v) {
 }
 constexpr float kAspect = 100.0f;
 
+/// Small beside their distance from the ray, all edge functions are rounding: the worst case of `bench stress
+/// --rows huge-and-tiny`, and rays in the planes of small triangles.
+TEST(ShaderTriangle, SmallTrianglesAreNotHitFromFarBeside) {
+  EXPECT_FALSE(testInFloat(vec3(1.48330891f, -0.767524838f, -2.81794262f),
+                           vec3(-0.586030364f, 0.138488322f, 0.798366725f),
+                           vec3(-0.728496492f, -0.533028781f, 0.803178906f),
+                           vec3(-0.728497446f, -0.533028364f, 0.803179622f),
+                           vec3(-0.728496671f, -0.533028245f, 0.803178012f))
+                   .hit);
+  Draw draw(53);
+  for (int k = 0; k < 200000; ++k) {
+    const vec3 middle(draw.inCube(1.0));
+    const dvec3 a = 1e-6 * draw.direction();
+    const dvec3 b = 1e-6 * draw.direction();
+    // Beside it by half its distance, towards it along its plane.
+    const vec3 direction(glm::normalize(a + 0.3 * b));
+    const vec3 origin = middle + vec3(1e6 * (0.5 * a + double(draw.unit()) * b)) - 2.0f * direction;
+    const vec3 v1 = middle + vec3(a);
+    const vec3 v2 = middle + vec3(b);
+    if (glm::length(glm::cross(dvec3(origin - middle), dvec3(direction))) < 0.1) continue;
+    ASSERT_FALSE(testInFloat(origin, direction, middle, v1, v2).hit) << "case " << k;
+  }
+}
+
 TEST(ShaderOffset, BoundsHowFarAHitPointLiesOffItsPlane) {
   Draw draw(11);
   int hits = 0;
