@@ -183,7 +183,7 @@ class MotionChecker {
       if (path != "pointer")
         warn(place, "has a pointer, for which its path must be \"pointer\"; the pointer is ignored");
       if (target.contains("node")) warn(place, "has both a pointer and a node; the channel is ignored");
-      if (memberOf(pointer, "pointer") == "")
+      if (pointer["pointer"].get_ref<const std::string&>().empty())
         warn(place, "is nothing that can be animated; the channel is ignored");
       return;
     }
