@@ -146,6 +146,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   loading.instancing = walksTree(options) ? options.instancing : Instancing::Flatten;
   loading.limits = options.limits;
   loaded.scene = loadGltf(options.scene, loading);
+  if (options.instancing == Instancing::Share && !walksTree(options))
+    loaded.scene.warnings.emplace_back("--instancing share: only trees hold shared meshes; all are copied");
   if (!loaded.scene.images.empty()) startImageProcess();
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));

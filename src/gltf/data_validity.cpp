@@ -17,6 +17,11 @@ using nlohmann::json;
 constexpr unsigned kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123,
                    kUnsignedInt = 5125, kFloat = 5126;
 
+/// Accessors of others are warned about when they are emptied.
+bool isComponentType(unsigned type) {
+  return (type >= kByte && type <= kUnsignedShort) || type == kUnsignedInt || type == kFloat;
+}
+
 unsigned componentTypeOf(const json& accessor) { return accessor.value("componentType", 0u); }
 
 uint64_t componentSizeOf(const json& accessor) {
@@ -137,7 +142,7 @@ class DataChecker {
         warn(place + "/byteOffset", "has no buffer view to begin in, and is ignored");
       return;
     }
-    checkRange(accessor, place);
+    if (isComponentType(component)) checkRange(accessor, place);
     constexpr uint64_t kColumnAlignment = 4;
     const uint64_t offset = accessor.value("byteOffset", uint64_t(0));
     const uint64_t size = componentSizeOf(accessor);
@@ -186,7 +191,7 @@ class DataChecker {
       if (!targets) targets = count;
     }
     const json& weights = memberOf(mesh, "weights");
-    if (weights.is_array() && targets && weights.size() != *targets)
+    if (weights.is_array() && !weights.empty() && targets && weights.size() != *targets)
       warn(place + "/weights",
            "are not as many as the morph targets; what is missing is 0, the rest is ignored");
   }

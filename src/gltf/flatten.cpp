@@ -207,11 +207,14 @@ void appendShared(const MeshToShare& shared, Scene& scene) {
 }  // namespace
 
 BoundsDouble boundsOf(const std::vector<MeshPrimitive>& mesh) {
-  std::vector<glm::vec3> points;
-  for (const MeshPrimitive& primitive : mesh) appendUsed(primitive, points);
-  BoundsDouble box;
-  for (const glm::vec3& point : points) box.include(glm::dvec3(point));
-  return box;
+  Bounds box;
+  for (const MeshPrimitive& primitive : mesh) {
+    for (const Triangle& triangle : primitive.triangles) {
+      for (int corner = 0; corner < 3; ++corner)
+        box.include(primitive.vertices.position[triangle.vertex[corner]]);
+    }
+  }
+  return {glm::dvec3(box.minimum), glm::dvec3(box.maximum)};
 }
 
 BoundsDouble transformed(const BoundsDouble& box, const glm::dmat4& matrix) {

@@ -99,7 +99,7 @@ class MotionChecker {
   void checkNode(const json& node, const std::string& place) {
     const json& mesh = elementOf(root_, "meshes", memberOf(node, "mesh"));
     if (mesh.empty()) return;
-    if (node.contains("weights") && node["weights"].size() != targetsOf(mesh))
+    if (node.contains("weights") && !node["weights"].empty() && node["weights"].size() != targetsOf(mesh))
       warn(place + "/weights",
            "are not as many as the mesh's morph targets; what is missing is 0, the rest is ignored");
     if (!node.contains("skin")) return;
@@ -183,7 +183,7 @@ class MotionChecker {
       if (path != "pointer")
         warn(place, "has a pointer, for which its path must be \"pointer\"; the pointer is ignored");
       if (target.contains("node")) warn(place, "has both a pointer and a node; the channel is ignored");
-      if (memberOf(pointer, "pointer") == "")
+      if (pointer["pointer"].get_ref<const std::string&>().empty())
         warn(place, "is nothing that can be animated; the channel is ignored");
       return;
     }

@@ -57,7 +57,8 @@ class PrimitiveReader {
       return {};
     }
     if (accessorOf("POSITION") < 0) {
-      diagnostics_.warn(place_, "a primitive without POSITION is left out");
+      // Where there is no attribute at all, the check of the document has said so.
+      if (!source_.attributes.empty()) diagnostics_.warn(place_, "a primitive without POSITION is left out");
       return {};
     }
     readPositions();

@@ -40,9 +40,7 @@ class Walk {
       if (value.empty()) diagnostics_.warn(place_, "is empty, which glTF forbids, and taken as absent");
       for (size_t i = 0; i < value.size(); ++i) descend(value[i], std::to_string(i), true, name);
     } else if (value.is_object()) {
-      const bool isCompressed = pattern_.ends_with("/KHR_draco_mesh_compression/attributes");
-      if (value.empty() && (name == "attributes" || name == "targets") && !isCompressed)
-        diagnostics_.warn(place_, "is empty, which glTF forbids, and taken as absent");
+      if (value.empty()) visitEmpty(name);
       for (const auto& member : value.items()) {
         if (member.key() == "extensions") {
           visitExtensions(member.value(), name);
@@ -54,6 +52,16 @@ class Walk {
   }
 
  private:
+  /// Other objects may be empty; what is compressed without attributes is warned about when it is read.
+  void visitEmpty(std::string_view name) {
+    if (pattern_ == "/meshes/*/primitives/*/attributes") {
+      diagnostics_.warn(place_, "is empty, which glTF forbids; the primitive is left out");
+    } else if ((name == "attributes" || name == "targets") &&
+               !pattern_.ends_with("/KHR_draco_mesh_compression/attributes")) {
+      diagnostics_.warn(place_, "is empty, which glTF forbids, and taken as absent");
+    }
+  }
+
   void visitExtensions(const json& extensions, std::string_view owner) {
     if (!extensions.is_object()) return;
     for (const auto& extension : extensions.items()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pack/own_light.h"
 
+#include <algorithm>
 #include <glm/gtc/constants.hpp>
 
 #include "pack/pack_lights.h"
@@ -30,11 +31,14 @@ std::vector<double> emissiveAreas(const Scene& scene) {
 
 OwnLight ownLight(const Scene& scene) {
   if (!hasOwnLight(scene)) return OwnLight::None;
-  if (!scene.lights.empty()) return OwnLight::Enough;
+  const auto shinesEvenly = [&scene](const auto& primitive) {
+    const Material& m = scene.materials[primitive.material];
+    return m.emissive() && !m.emissiveTexture.present();
+  };
+  if (!scene.lights.empty() || std::ranges::any_of(scene.triangles, shinesEvenly) ||
+      std::ranges::any_of(scene.spheres, shinesEvenly))
+    return OwnLight::Enough;
   const std::vector<double> areas = emissiveAreas(scene);
-  for (size_t i = 0; i < areas.size(); ++i) {
-    if (areas[i] > 0.0 && !scene.materials[i].emissiveTexture.present()) return OwnLight::Enough;
-  }
   constexpr int kSide = 64;  // pixels: enough for a mean, and little memory
   TexturePacker textures(scene, kSide);
   const double enough = kDimRadiance * scene.bounds.area() / (scene.space.unit * scene.space.unit);

@@ -221,6 +221,16 @@ class Pictures(Case):
         self.assertFalse(json.loads((self.folder / "s.json").read_text())["default_light"])
         self.assertTrue(all(v == (0, 0, 0) for row in read_pfm(self.folder / "x.pfm") for v in row))
 
+    def test_an_emissive_texture_too_dim_to_light_the_scene_gets_the_default_light(self):
+        scene = json.loads((SCENES / "furnace.gltf").read_text())
+        (self.folder / "checker.png").write_bytes((SCENES / "checker.png").read_bytes())
+        scene.update(images=[{"uri": "checker.png"}], textures=[{"source": 0}])
+        for factor, is_dim in ((1e-4, True), (1.0, False)):
+            scene["materials"][0].update(emissiveFactor=[factor] * 3, emissiveTexture={"index": 0})
+            (self.folder / "dim.gltf").write_text(json.dumps(scene))
+            result = self.renders(self.folder / "dim.gltf", "-o", self.folder / "x.pfm", "--resolution", "16,16", "--spp", "1")
+            self.assertEqual("too dim to light it" in result.stderr, is_dim)
+
 
 class Statistics(Case):
     def test_they_hold_what_is_promised(self):

@@ -25,6 +25,16 @@ TEST(GltfWarnings, MissingTextureCoordinates) {
       "taken");
 }
 
+TEST(GltfWarnings, PrimitivesWithoutPositions) {
+  GltfBuilder builder;
+  json& attributes = builder.addTriangle()["attributes"];
+  attributes = {{"NORMAL", attributes["POSITION"]}};
+  expectOne(builder, "/meshes/0/primitives/0: a primitive without POSITION is left out");
+  builder.root["meshes"][0]["primitives"][0]["attributes"] = json::object();
+  expectOne(builder,
+            "/meshes/0/primitives/0/attributes: is empty, which glTF forbids; the primitive is left out");
+}
+
 TEST(GltfWarnings, MissingTextureCoordinatesOfAPerlinMap) {
   GltfBuilder builder;
   builder.root["materials"] = {{{"extras", {{"perlinNormal", {{"amplitude", 0.5}}}}}}};
