@@ -4,7 +4,7 @@
 // Scene buffers: each is read through one function of read_*.glsl.
 const uint kNodesBinding = 0u;         // kNodeRows uvec4 a node; behind them kInstanceRows an instance
 const uint kLeavesBinding = 1u;        // 5 uvec4 a leaf: two primitives, structure of arrays
-const uint kFacesBinding = 2u;         // kFaceRows uvec4 a leaf slot (leaf * 2 + side): what shading needs of a primitive
+const uint kFacesBinding = 2u;         // kFaceRows uvec4 a leaf slot (leaf * 2 + side): what shading needs of a primitive; behind them 1 a slot: kCreases
 const uint kNormalsBinding = 3u;       // 1 vec4 a vertex
 const uint kTexcoordsBinding = 4u;     // 1 vec4 a vertex: TEXCOORD_0, TEXCOORD_1
 const uint kTangentsBinding = 5u;      // 1 vec4 a vertex
@@ -72,7 +72,7 @@ const uint kPrimitiveSphere = 0x20000000u;  // v0 is the centre, v1.x the radius
 
 // Face rows. Triangle: unit normal and face word; distance of its plane from the origin, vertex indices. Sphere: rotation quaternion
 // x, y, z with w >= 0 and face word; centre, radius. Face word: material, flag, and the bound on a hit point's error (local space) as
-// the upper bits of a float.
+// the upper bits of a float. Of creases: the middle of the triangle and its inset (creaseInsets of src/scene/creases.h).
 const uint kFaceRows = 2u;
 const uint kFaceMaterialMask = 0xfffffu;
 const uint kFaceSphere = 0x100000u;

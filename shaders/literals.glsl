@@ -9,5 +9,6 @@ const bool kLargeFirst = false;  // its largest triangles, which the tree does n
 Traversal traverseLiterals(vec3 origin, vec3 direction, Traversal s, bool anyHit) { return s; }
 
 uvec4 literalFace(int slot, int row) { return uvec4(0u); }
+uvec4 literalInset(int slot, int row) { return uvec4(0u); }
 uvec4 literalMaterial(uint material, uint row) { return uvec4(0u); }
 uvec4 literalEmitter(int emitter, int row) { return uvec4(0u); }

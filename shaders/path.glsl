@@ -40,7 +40,9 @@ Path traceAnew(Path p, float limit) {
 Path extend(Path p) {
   p.phase = kPhaseExtend;
   p.lightSlot = 0;
-  return traceAnew(p, kFarAway);
+  p = traceAnew(p, kFarAway);
+  if (kCreases) p.traversal.tie = p.tie;
+  return p;
 }
 
 Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
@@ -54,6 +56,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   p.after = kPhaseEnd;
   p.origin = ray.origin;
   p.direction = ray.direction;
+  p.tie = 0.0;
   p.bounce = 0;
   p.crossings = 0;
   p.cameraRay = true;
@@ -148,6 +151,8 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
   p.travelled = 0.0;
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, direction);
   p.direction = direction;
+  // Where two faces meet sharply, which of them a ray hits first is a matter of rounding: one that has left a front is to meet a front.
+  if (kCreases) p.tie = (dot(direction, s.geometricNormal) > 0.0) == s.front ? kTie : -kTie;
   p.after = kPhaseExtend;
   return p;
 }

@@ -6,6 +6,8 @@ const int kPhaseShade = 1;   // it has hit something; light slot `lightSlot` is 
 const int kPhaseShadow = 2;  // the shadow ray of that slot is being traced
 const int kPhaseEnd = 3;     // the sample is complete
 
+const float kTie = 9.5367431640625e-7;  // 2^-20: 16 roundings of a distance
+
 struct Path {
   int phase;
   int after;       // the phase that follows once the shadow ray is settled
@@ -24,6 +26,7 @@ struct Path {
   uint medium;          // material of the solid the ray is inside of, or kPrimitiveNone
   vec3 origin;
   vec3 direction;
+  float tie;          // of the traversal that the ray begins (kCreases)
   vec3 shadowOrigin;
   vec3 shadowDirection;
   float shadowLimit;
@@ -50,7 +53,7 @@ void savePath(Path p, int index) {
   pathStates[r + 5] = uvec4(floatBitsToUint(p.shadowOrigin), floatBitsToUint(p.shadowLimit));
   pathStates[r + 6] = uvec4(floatBitsToUint(p.shadowDirection), p.medium);
   pathStates[r + 7] = uvec4(floatBitsToUint(p.contribution), uint(p.hitSlot));
-  pathStates[r + 8] = uvec4(floatBitsToUint(p.hitT), p.numbers.key, p.numbers.index, 0u);
+  pathStates[r + 8] = uvec4(floatBitsToUint(p.hitT), p.numbers.key, p.numbers.index, floatBitsToUint(p.tie));
   Traversal t = p.traversal;
   pathStates[r + 9] = uvec4(uint(t.node), floatBitsToUint(t.t), uint(t.slot), uint(t.visits));
   pathStates[r + 10] = uvec4(floatBitsToUint(p.hitWeights), floatBitsToUint(t.weights));
@@ -154,6 +157,8 @@ Path loadPath(int index) {
   p.numbers.key = a.y;
   p.numbers.index = a.z;
   p.numbers.reversed = reverseBits(a.z);
+  p.tie = uintBitsToFloat(a.w);
+  p.traversal.tie = p.tie;
   a = pathStates[r + 9];
   p.traversal.node = int(a.x);
   p.traversal.t = uintBitsToFloat(a.y);

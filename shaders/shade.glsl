@@ -116,6 +116,7 @@ Path shade(Path p) {
     if (kAlpha && passesThrough(flags, alphaAt(s.material, flags, base.a), p.numbers, nextCrossing(p))) {
       p.travelled += p.hitT;
       p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
+      p.tie = 0.0;
       return extend(p);
     }
     p.travelled += p.hitT;

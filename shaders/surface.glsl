@@ -29,6 +29,9 @@ vec3 rotateBy(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + 
 /// Row of the face in a leaf slot.
 uvec4 faceRow(int slot, int row) { return kLiterals ? literalFace(slot, row) : readFaces(slot * int(kFaceRows) + row); }
 
+/// Row of the creases of a leaf slot; the frame knows how many leaves there are.
+uvec4 insetRow(int slot) { return kLiterals ? literalInset(slot, 0) : readFaces(frame.limits.w * 2 * int(kFaceRows) + slot); }
+
 Surface sphereSurface(uvec4 face, uvec4 place, vec3 origin, vec3 direction, float t) {
   Surface s;
   vec3 center = uintBitsToFloat(place.xyz);
@@ -108,6 +111,10 @@ Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, 
   bool isSphere = kSpheres && (!kTriangles || (face.w & kFaceSphere) != 0u);
   Surface s;
   if (kTriangles) s = triangleSurface(face, place, origin, direction, t, weights);
+  if (kCreases && !isSphere) {
+    uvec4 inset = insetRow(slot);
+    s.position = insetFromCreases(s.position, weights, uintBitsToFloat(inset.xyz), inset.w);
+  }
   if (isSphere) s = sphereSurface(face, place, origin, direction, t);
   s.positionError = uintBitsToFloat((face.w >> kFaceErrorShift) << kFloatErrorShift);
   if (shown) s = inLocalSpace(s, instance);

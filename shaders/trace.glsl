@@ -81,6 +81,7 @@ void tracePixel(ivec2 pixel) {
     // Step: find what the ray hits. A traversal that does not come to its end here begins its sample anew in the next draw.
     tracing = true;
     Traversal hit = beginTraversal(kFarAway, true, p.traversal.steps + 1);
+    if (kCreases) hit.tie = p.tie;
     hit = traverse(p.origin, p.direction, kFarAway, hit, tree, budget, false);
     p.traversal.steps = hit.steps;
     if (hit.node != kTraversalDone) break;

@@ -10,6 +10,7 @@ struct Traversal {
   int instance;  // whose mesh is being walked, or -1; node and stack are of its tree then
   int hitInstance;  // that shows slot, or -1
   int steps;  // loop iterations so far in this draw
+  float tie;  // kCreases: part of t by which hits on front faces count as nearer, those on back faces as farther; negative: the other way
   int visits; // nodes and leaves visited, counted for the heat map only
   Stack stack;
 };
@@ -30,6 +31,7 @@ Traversal startTraversal(float limit, int leafCount) {
   s.instance = -1;
   s.hitInstance = -1;
   s.steps = 0;
+  s.tie = 0.0f;
   s.visits = 0;
   s.stack = emptyStack();
   return s;
@@ -46,7 +48,7 @@ struct PrimitiveHit {
   vec2 weights;
 };
 
-PrimitiveHit intersectWord(vec3 origin, vec3 direction, RayShear shear, vec3 v0, vec3 v1, vec3 v2, uint word) {
+PrimitiveHit intersectWord(vec3 origin, vec3 direction, RayShear shear, float tie, vec3 v0, vec3 v1, vec3 v2, uint word) {
   PrimitiveHit r;
   r.t = -1.0f;
   r.weights = vec2(0.0f);
@@ -56,6 +58,7 @@ PrimitiveHit intersectWord(vec3 origin, vec3 direction, RayShear shear, vec3 v0,
     if (!kWatertight) h = intersectTriangleFast(origin, direction, v0, v1, v2);
     bool there = !kCulling || h.front || (word & kPrimitiveCull) == 0u;
     r.t = h.hit && there ? h.t : -1.0f;
+    if (kCreases) r.t -= r.t * (h.front ? tie : -tie);
     if (kWeights) r.weights = vec2(h.weight1, h.weight2);
   }
   if (kSpheres) {
@@ -69,8 +72,8 @@ PrimitiveHit intersectWord(vec3 origin, vec3 direction, RayShear shear, vec3 v0,
 /// The nearest of what the traversal has and the two primitives of a leaf. The origin lies at distance `start` along the ray (kInstances).
 Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayShear shear, float start) {
   LeafPair l = loadLeaf(leaf);
-  PrimitiveHit a = intersectWord(origin, direction, shear, l.v0a, l.v1a, l.v2a, l.worda);
-  PrimitiveHit b = intersectWord(origin, direction, shear, l.v0b, l.v1b, l.v2b, l.wordb);
+  PrimitiveHit a = intersectWord(origin, direction, shear, s.tie, l.v0a, l.v1a, l.v2a, l.worda);
+  PrimitiveHit b = intersectWord(origin, direction, shear, s.tie, l.v0b, l.v1b, l.v2b, l.wordb);
   if (kInstances) {
     a.t += a.t > 0.0f ? start : 0.0f;
     b.t += b.t > 0.0f ? start : 0.0f;

@@ -73,9 +73,7 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
   }
 }
 
-}  // namespace
-
-int runInfo(const InfoOptions& options) {
+int inform(const InfoOptions& options) {
   GltfOptions loading;
   loading.selection = options.selection;
   loading.instancing = options.instancing;
@@ -118,6 +116,21 @@ int runInfo(const InfoOptions& options) {
   json["warnings"] = scene.warnings;
   std::cout << jsonText(json);
   return 0;
+}
+
+}  // namespace
+
+int runInfo(const InfoOptions& options) {
+  try {
+    return inform(options);
+  } catch (const std::exception& error) {
+    if (options.json) {
+      const nlohmann::ordered_json json = {
+          {"schema", 1}, {"file", options.scene.string()}, {"error", error.what()}};
+      std::cout << jsonText(json);
+    }
+    throw;
+  }
 }
 
 }  // namespace fragtrace

@@ -14,6 +14,7 @@
 #include "image/image.h"
 #include "image/process.h"
 #include "pack/literals.h"
+#include "pack/own_light.h"
 #include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
 
@@ -24,13 +25,17 @@ namespace {
 /// Smaller scenes are literals as a whole, or not at all.
 constexpr size_t kLeastBesideLarge = 256;
 
-/// Refuses what would not leave shaders room to multiply lengths (src/gltf/gltf.cpp).
-void checkDistance(const Camera& camera, const LocalSpace& space) {
+/// Refuses what would not leave shaders room to multiply lengths (src/gltf/gltf.cpp): in the options, if the
+/// camera's place is theirs, or in the file.
+void checkDistance(const Camera& camera, const LocalSpace& space, const RenderOptions& options) {
   constexpr double kFarthest = 1e12;  // local space
   const double size = camera.perspective ? 0.0 : camera.halfHeight * std::max(1.0, camera.aspectRatio);
   if (!(std::max(glm::length(camera.position - space.origin), size) <= kFarthest * space.unit)) {
-    throw UsageError(
-        "the camera is too far away for a scene of this size, or sees too much of its surroundings");
+    const std::string reason =
+        "the camera is too far away for a scene of this size, or sees too much of its surroundings";
+    if (options.camera.position || options.camera.parallelScale || options.sceneOrigin)
+      throw UsageError(reason);
+    throw InputError(options.scene.string() + ": " + reason);
   }
 }
 
@@ -50,14 +55,14 @@ void checkFinite(const Image& image, const std::filesystem::path& path) {
   }
 }
 
-Environment loadEnvironment(const RenderOptions& options, const Scene& scene) {
+Environment loadEnvironment(const RenderOptions& options, OwnLight light) {
   Environment environment;
   if (!options.hdriFile.empty()) {
     environment.kind = Surroundings::Map;
     environment.image = readImage(options.hdriFile, options.limits.memoryBytes);
     if (environment.image.channelCount() < 3) throw InputError(options.hdriFile.string() + ": has no colour");
     checkFinite(environment.image, options.hdriFile);
-  } else if (options.defaultLight && !hasOwnLight(scene)) {
+  } else if (options.defaultLight && light != OwnLight::Enough) {
     environment.kind = Surroundings::DefaultLight;
     environment.image = {1, 1, {"R", "G", "B"}, {1.0f, 1.0f, 1.0f}, {}};
   }
@@ -144,25 +149,29 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   if (!loaded.scene.images.empty()) startImageProcess();
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));
+  for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
   if (scene.triangles.empty() && scene.spheres.empty()) {
     say(options, "warning: " + options.scene.string() + ": no triangle and no sphere, nothing to draw");
   }
   step("reading the environment", 0.5);
-  loaded.environment = loadEnvironment(options, scene);
+  const bool isAsked = options.hdriFile.empty() && options.defaultLight;
+  const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
+  loaded.environment = loadEnvironment(options, light);
   loaded.camera = chooseCamera(scene.cameras, options.cameraIndex, options.camera, scene.bounds);
-  checkDistance(loaded.camera, scene.space);
+  checkDistance(loaded.camera, scene.space, options);
   loaded.size = chooseSize(loaded.camera, options);
   loaded.view = makeView(options, scene, loaded.camera);
   stats.scene = describe(scene);
   stats.warnings = scene.warnings;
   stats.size = loaded.size;
   stats.loadMs = watch.lap();
-  for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
   stats.defaultLight = loaded.environment.kind == Surroundings::DefaultLight;
   if (stats.defaultLight) {
-    say(options,
-        "no light in the scene: a white environment that the camera does not see lights it "
-        "(--no-default-light)");
+    stats.defaultLightReason = light == OwnLight::None
+                                   ? "no light in the scene"
+                                   : "the scene's emissive textures are too dim to light it";
+    say(options, stats.defaultLightReason +
+                     ": a white environment that the camera does not see lights it (--no-default-light)");
   }
   step("building the tree", 0.6);
   loaded.bvh = buildTree(scene, options);

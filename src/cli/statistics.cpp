@@ -67,6 +67,7 @@ void writeStatistics(const std::filesystem::path& path, const Statistics& s) {
   if (s.scene.triangles > 0)
     json["gpu_bytes_per_triangle"] = double(s.geometryBytes) / double(s.scene.triangles);
   json["default_light"] = s.defaultLight;
+  if (s.defaultLight) json["default_light_reason"] = s.defaultLightReason;
   json["variant"] = s.variant;
   if (!s.readFallback.empty()) json["buffer_reads_fallback"] = s.readFallback;
   json["skipped"] = s.skipped;

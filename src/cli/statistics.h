@@ -40,6 +40,7 @@ struct Statistics {
   size_t sceneBytes = 0;     ///< on the device
   size_t geometryBytes = 0;  ///< of these, tree, leaves, records and vertex attributes
   bool defaultLight = false;
+  std::string defaultLightReason;
   double clampIndirect = 0.0;  ///< 0: not clamped
   bool complete = true;
   std::string variant;

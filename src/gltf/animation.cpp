@@ -128,7 +128,8 @@ std::vector<float> readTimes(Document& document, const Channel& channel) {
     equal += i > 0 && times[i] == times[i - 1];
   }
   if (equal > 0) diagnostics.warn(place, "a key at the time of the one before replaces it", equal);
-  if (times.front() < 0.0f) diagnostics.warn(place, "begins before 0 seconds");
+  if (times.front() < 0.0f)
+    diagnostics.warn(place, "begins before 0 seconds; its times are taken as they are");
   return times;
 }
 
@@ -173,10 +174,11 @@ void checkRotations(const Keyframes& keys, const Channel& channel, Diagnostics& 
 }
 
 void applyChannel(Document& document, const Channel& channel, double seconds, json& root) {
+  if (channel.target.empty()) return;  // checkMotion() has said so
   const std::optional<NumberRule> rule = numberRuleAt(channel.target);
   if (!rule || !isOfSomething(root, channel.target)) {
     document.diagnostics.warn(channel.place + "/target",
-                              "is nothing that can be animated here; the channel is ignored");
+                              "is nothing that can be animated; the channel is ignored");
     return;
   }
   Keyframes keys = readKeyframes(document, channel, rule->width, rule->width == 0);

@@ -13,7 +13,7 @@ namespace fragtrace {
 bool CodecProcess::available() {
   if (child_) return true;
   try {
-    child_ = startChild("fragtrace_codecs", kCodecProcessSocket);
+    child_ = startChild("fragtrace_codecs", kServiceSocket);
   } catch (const std::runtime_error& error) {
     whyNot_ = error.what();
   }
@@ -29,7 +29,7 @@ std::vector<uint8_t> CodecProcess::decode(CodecRequest request, std::span<const 
   request.inputBytes = encoded.size();
   const uint64_t bytes = request.inputBytes + request.outputBytes;
   const auto seconds = unsigned(2 + bytes / kBytesASecond);
-  SharedMemory memory(decodedOffset(request) + request.outputBytes);
+  SharedMemory memory(outputOffset(request) + request.outputBytes);
   std::ranges::copy(encoded, memory.bytes().begin());
   limitChild(*child_, kLibraries + kOfAByte * bytes, seconds);
   CodecReply reply;
@@ -43,7 +43,7 @@ std::vector<uint8_t> CodecProcess::decode(CodecRequest request, std::span<const 
   }
   if (!reply.done)
     throw std::runtime_error(std::string(reply.reason, ::strnlen(reply.reason, sizeof reply.reason)));
-  const std::span<const uint8_t> decoded = memory.bytes().subspan(decodedOffset(request));
+  const std::span<const uint8_t> decoded = memory.bytes().subspan(outputOffset(request));
   return {decoded.begin(), decoded.end()};
 }
 

@@ -49,8 +49,8 @@ Container splitGlb(const std::vector<uint8_t>& bytes, Diagnostics& diagnostics) 
     }
     const uint8_t* data = bytes.data() + offset;
     if (size % kChunkAlignment != 0)
-      diagnostics.warn("",
-                       "chunk " + std::to_string(chunk) + " of the .glb is not a multiple of 4 bytes long");
+      diagnostics.warn("", "chunk " + std::to_string(chunk) +
+                               " of the .glb is not a multiple of 4 bytes long; it is read all the same");
     if (chunk == 0) {
       if (type != kJsonChunk) diagnostics.refuse("", "broken .glb: its first chunk is not JSON");
       container.json.assign(reinterpret_cast<const char*>(data), size);

@@ -105,16 +105,18 @@ class DataChecker {
     return elementOf(root_, "bufferViews", memberOf(owner, "bufferView"));
   }
 
-  void warnStride(const json& view, const std::string& place) {
-    if (view.contains("byteStride")) warn(place, "byteStride is for vertex attributes only");
+  void warnStride(const json& view, const std::string& place, const std::string& consequence) {
+    if (view.contains("byteStride")) warn(place, "byteStride is for vertex attributes only; " + consequence);
   }
 
   void checkView(const json& view, const std::string& place) {
     constexpr unsigned kIndexTarget = 34963;
     if (!view.contains("byteStride")) return;
     if (view["byteStride"].get<uint64_t>() > view["byteLength"].get<uint64_t>())
-      warn(place + "/byteStride", "is larger than the whole buffer view");
-    if (memberOf(view, "target") == kIndexTarget) warnStride(view, place + "/byteStride");
+      warn(place + "/byteStride",
+           "is larger than the whole buffer view, which has room for one element at most");
+    if (memberOf(view, "target") == kIndexTarget)
+      warnStride(view, place + "/byteStride", "it is applied all the same");
   }
 
   void checkAccessor(const json& accessor, const std::string& place) {
@@ -123,14 +125,19 @@ class DataChecker {
       warn(place + "/normalized", "is not for floats and 32-bit integers, and ignored");
     const json& sparse = memberOf(accessor, "sparse");
     if (sparse.is_object()) {
+      const auto count = sparse["count"].get<int64_t>();
+      if (count > 0 && uint64_t(count) > accessor["count"].get<uint64_t>())
+        warn(place + "/sparse/count",
+             "is more than there are elements, which is refused where they are read");
       for (const char* part : {"indices", "values"})
-        warnStride(viewOf(sparse[part]), place + "/sparse/" + part + "/bufferView");
+        warnStride(viewOf(sparse[part]), place + "/sparse/" + part + "/bufferView", "it is ignored");
     }
     if (!accessor.contains("bufferView")) {
-      if (accessor.contains("byteOffset")) warn(place + "/byteOffset", "has no buffer view to begin in");
+      if (accessor.contains("byteOffset"))
+        warn(place + "/byteOffset", "has no buffer view to begin in, and is ignored");
       return;
     }
-    checkStride(accessor, place);
+    checkRange(accessor, place);
     constexpr uint64_t kColumnAlignment = 4;
     const uint64_t offset = accessor.value("byteOffset", uint64_t(0));
     const uint64_t size = componentSizeOf(accessor);
@@ -141,19 +148,27 @@ class DataChecker {
       warn(place, "does not begin at a multiple of its component's size; it is read all the same");
   }
 
-  /// Used ones are refused when they are read.
-  void checkStride(const json& accessor, const std::string& place) {
+  /// The bytes themselves are checked later, and refused; not all buffers have any.
+  void checkRange(const json& accessor, const std::string& place) {
     const std::string type = accessor.value("type", "");
     const uint64_t components = type.starts_with("VEC") ? uint64_t(type.back() - '0')
                                 : type == "SCALAR"      ? 1
                                                         : 0;
-    const uint64_t stride = viewOf(accessor).value("byteStride", UINT64_MAX);
-    if (stride < components * componentSizeOf(accessor)) warn(place, "has elements that overlap");
+    const json& view = viewOf(accessor);
+    const uint64_t size = components * componentSizeOf(accessor);
+    const uint64_t stride = view.value("byteStride", size);
+    if (stride < size) warn(place, "has elements that overlap, which is refused where they are read");
+    const auto count = accessor["count"].get<uint64_t>();
+    if (size == 0 || stride == 0 || count == 0) return;
+    const auto length = view["byteLength"].get<uint64_t>();
+    const uint64_t offset = accessor.value("byteOffset", uint64_t(0));
+    if (offset > length || size > length - offset || count - 1 > (length - offset - size) / stride)
+      warn(place, "reaches past its buffer view, which is refused where it is read");
   }
 
   void checkImage(const json& image, const std::string& place) {
     if (!image.contains("bufferView")) return;
-    warnStride(viewOf(image), place + "/bufferView");
+    warnStride(viewOf(image), place + "/bufferView", "it is ignored");
     if (!image.contains("mimeType")) warn(place + "/bufferView", "needs a mimeType; the bytes tell it");
   }
 
@@ -165,12 +180,15 @@ class DataChecker {
       checkPrimitive(primitives[i], there);
       const size_t count = memberOf(primitives[i], "targets").size();
       if (targets && *targets != count)
-        warn(there, "has another number of morph targets than the mesh's first primitive");
+        warn(there,
+             "has another number of morph targets than the mesh's first primitive; those that it has are "
+             "applied");
       if (!targets) targets = count;
     }
     const json& weights = memberOf(mesh, "weights");
     if (weights.is_array() && targets && weights.size() != *targets)
-      warn(place + "/weights", "are not as many as the morph targets");
+      warn(place + "/weights",
+           "are not as many as the morph targets; what is missing is 0, the rest is ignored");
   }
 
   void checkPrimitive(const json& primitive, const std::string& place) {
@@ -184,10 +202,11 @@ class DataChecker {
     const json& indices = elementOf(root_, "accessors", memberOf(primitive, "indices"));
     if (!indices.empty()) {
       const unsigned component = componentTypeOf(indices);
-      warnStride(viewOf(indices), place + "/indices");
+      warnStride(viewOf(indices), place + "/indices", "it is applied all the same");
       if (indices.value("type", "") != "SCALAR" ||
           (component != kUnsignedByte && component != kUnsignedShort && component != kUnsignedInt))
-        warn(place + "/indices", "are not unsigned integers of type SCALAR");
+        warn(place + "/indices",
+             "are not unsigned integers of type SCALAR, which is refused where they are read");
     }
     checkTexcoords(attributes, elementOf(root_, "materials", memberOf(primitive, "material")),
                    place + "/material");
@@ -210,7 +229,7 @@ class DataChecker {
       const auto semantic = semanticOf(name);
       if (!semantic && !name.starts_with('_')) warn(there, "is no attribute of glTF, and ignored");
       if (base != nullptr && !base->contains(name))
-        warn(there, "is not among the attributes that it would change");
+        warn(there, "is not among the attributes that it would change, and ignored");
       const json& accessor = elementOf(root_, "accessors", attribute.value());
       if (!semantic || accessor.empty()) continue;
       if (semantic->set) sets[semantic->name].push_back(*semantic->set);
@@ -220,21 +239,24 @@ class DataChecker {
       std::sort(numbers.begin(), numbers.end());
       for (size_t i = 0; i < numbers.size(); ++i) {
         if (numbers[i] == i) continue;
-        warn(place, "the sets of " + name + " do not count from 0");
+        warn(place, "the sets of " + name + " do not count from 0; each is taken by its number");
         break;
       }
     }
     if (sets["JOINTS"].size() != sets["WEIGHTS"].size())
-      warn(place, "JOINTS and WEIGHTS are not equally many");
+      warn(place, "JOINTS and WEIGHTS are not equally many; those without the other are ignored");
   }
 
   void checkAttribute(const Semantic& semantic, const json& accessor, const json& position, bool isMorph,
                       std::map<size_t, size_t>& usesOfView, const std::string& place) {
     // Morph targets of positions, normals and tangents are three floats each (3.7.2.2).
     const std::string wanted = isMorph && semantic.name == "TANGENT" ? "NORMAL" : semantic.name;
-    if (!hasFormatOf(wanted, accessor, quantized_)) warn(place, "has a type that glTF does not allow for it");
+    if (!hasFormatOf(wanted, accessor, quantized_))
+      warn(place,
+           "has a type that glTF does not allow for it; where it is read, it is refused unless its numbers "
+           "are clear");
     if (!position.empty() && accessor["count"] != position["count"])
-      warn(place, "has another number of elements than POSITION");
+      warn(place, "has another number of elements than POSITION, which is refused where it is read");
     if (!accessor.contains("bufferView")) return;
     const json& view = viewOf(accessor);
     constexpr uint64_t kVertexAlignment = 4;
@@ -259,7 +281,10 @@ class DataChecker {
       const bool isOverridden = info.contains(transform) && info[transform].contains("texCoord");
       const json& set = memberOf(isOverridden ? info[transform] : info, "texCoord");
       const std::string name = "TEXCOORD_" + (set.is_number_unsigned() ? set.dump() : "0");
-      if (!attributes.contains(name)) warn(place, "asks for " + name + ", which the primitive does not have");
+      const bool isRead = name == "TEXCOORD_0" || name == "TEXCOORD_1";
+      if (!attributes.contains(name))
+        warn(place, "asks for " + name + ", which the primitive does not have; " +
+                        (isRead ? "(0, 0)" : "TEXCOORD_0") + " is taken");
     }
   }
 

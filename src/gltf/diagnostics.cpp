@@ -23,6 +23,8 @@ std::string escapedForPointer(std::string_view name) {
 
 namespace {
 
+constexpr size_t kNamedPlaces = 4;
+
 /// Names and URIs from a file may hold line ends or terminal commands.
 std::string withoutControls(std::string text) {
   std::replace_if(
@@ -61,24 +63,27 @@ void Diagnostics::refuse(std::string_view place, std::string_view reason) const 
 }
 
 void Diagnostics::warn(std::string_view place, std::string_view reason, size_t count) {
-  const auto known = std::find_if(warnings_.begin(), warnings_.end(),
-                                  [&](const Warning& warning) { return warning.reason == reason; });
-  if (known == warnings_.end()) {
-    warnings_.push_back({std::string(place), std::string(reason), 1, count});
-  } else {
-    ++known->places;
-    known->count += count;
-  }
+  const auto [known, isNew] = warningOf_.try_emplace(std::string(reason), warnings_.size());
+  if (isNew) warnings_.push_back({std::string(reason), {}, 0, 0});
+  Warning& warning = warnings_[known->second];
+  warning.count += count;
+  if (!warning.places.empty() && warning.places.back() == place) return;
+  ++warning.placeCount;
+  if (warning.places.size() < kNamedPlaces) warning.places.emplace_back(place);
 }
 
 std::vector<std::string> Diagnostics::warnings() const {
   std::vector<std::string> lines;
   for (const Warning& warning : warnings_) {
-    std::string text = line(warning.place, warning.reason);
+    std::string others;
+    for (size_t i = 1; i < warning.places.size(); ++i) others += (i == 1 ? "" : ", ") + warning.places[i];
+    const size_t unnamed = warning.placeCount - warning.places.size();
+    if (unnamed > 0) others += " and " + std::to_string(unnamed) + " more places";
+    std::string text = warning.reason;
     if (warning.count > 1) text += " (" + std::to_string(warning.count) + " times";
-    if (warning.places > 1) text += ", at " + std::to_string(warning.places) + " places";
+    if (!others.empty()) text += "; also at " + others;
     if (warning.count > 1) text += ")";
-    lines.push_back(std::move(text));
+    lines.push_back(line(warning.places[0], text));
   }
   return lines;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <unordered_map>
 #include <vector>
 
 #include "errors.h"
@@ -59,7 +60,7 @@ class Diagnostics {
   }
 
   /// Notes something that is skipped or mended; the same reason at several places makes one line with a
-  /// count.
+  /// count and the first of them.
   void warn(std::string_view place, std::string_view reason, size_t count = 1);
 
   /// One line a reason, in the order in which they came.
@@ -69,15 +70,16 @@ class Diagnostics {
 
  private:
   struct Warning {
-    std::string place;
     std::string reason;
-    size_t places = 0;
+    std::vector<std::string> places;  ///< the first few
+    size_t placeCount = 0;
     size_t count = 0;
   };
   std::string line(std::string_view place, std::string_view reason) const;
 
   std::string file_;
   std::vector<Warning> warnings_;
+  std::unordered_map<std::string, size_t> warningOf_;  ///< by reason
 };
 
 }  // namespace fragtrace

@@ -12,6 +12,7 @@
 #include "gltf/animation.h"
 #include "gltf/compression.h"
 #include "gltf/container.h"
+#include "gltf/extensions.h"
 #include "gltf/json.h"
 #include "gltf/schema.h"
 #include "gltf/validity.h"
@@ -20,37 +21,6 @@ namespace fragtrace {
 namespace {
 
 using nlohmann::json;
-
-/// KHR_mesh_quantization only widens the component types that attributes may have.
-constexpr std::string_view kKnownExtensions[] = {
-    "EXT_mesh_gpu_instancing",
-    "EXT_meshopt_compression",
-    "EXT_texture_webp",
-    "KHR_animation_pointer",
-    "KHR_draco_mesh_compression",
-    "KHR_implicit_shapes",
-    "KHR_lights_punctual",
-    "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",
-    "KHR_materials_diffuse_transmission",
-    "KHR_materials_dispersion",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_iridescence",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_sheen",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_materials_unlit",
-    "KHR_materials_variants",
-    "KHR_materials_volume",
-    "KHR_mesh_quantization",
-    "KHR_texture_transform",
-};
-
-bool isKnownExtension(std::string_view name) {
-  return std::ranges::find(kKnownExtensions, name) != std::end(kKnownExtensions);
-}
 
 /// The array of that name; an empty one is made where there is none.
 json& arrayIn(json& root, const char* name) {
@@ -65,14 +35,15 @@ void warnMediaType(std::string_view uri, const std::string& place,
   if (!isDataUri(uri)) return;
   const std::string_view type = mediaTypeOf(uri);
   if (std::find(expected.begin(), expected.end(), type) == expected.end())
-    diagnostics.warn(place, "has the media type " + inQuotes(type) + ", which is none of a buffer");
+    diagnostics.warn(place, "has the media type " + inQuotes(type) +
+                                ", which is none of a buffer; it is read all the same");
 }
 
 void checkExtensions(json& root, Diagnostics& diagnostics) {
   const json& required = arrayIn(root, "extensionsRequired");
   for (size_t i = 0; i < required.size(); ++i) {
     const auto& name = required[i].get_ref<const std::string&>();
-    if (!isKnownExtension(name)) {
+    if (!isApplied(name)) {
       diagnostics.refuse(pointerTo("extensionsRequired", i),
                          "the extension " + inQuotes(name) + " is required and not supported");
     }
@@ -80,7 +51,7 @@ void checkExtensions(json& root, Diagnostics& diagnostics) {
   const json& used = arrayIn(root, "extensionsUsed");
   for (size_t i = 0; i < used.size(); ++i) {
     const auto& name = used[i].get_ref<const std::string&>();
-    if (!isKnownExtension(name)) {
+    if (!isApplied(name)) {
       diagnostics.warn(pointerTo("extensionsUsed", i), "the extension " + inQuotes(name) + " is ignored");
     }
   }
@@ -111,7 +82,7 @@ Buffers readBuffers(json& root, Container& container, CodecProcess& codecs, Docu
       bytes = std::move(container.binary);
     } else {
       if (i == 0 && container.isGlb)
-        diagnostics.warn(pointerTo("buffers", i), "has neither URI nor BIN chunk");
+        diagnostics.warn(pointerTo("buffers", i), "has neither URI nor BIN chunk, and no data");
       buffers.emplace_back();  // an extension may bring it; bytesOf refuses its use
       continue;
     }
@@ -316,7 +287,7 @@ Document readDocument(const std::filesystem::path& path, const GltfOptions& opti
   checkExtensions(root, diagnostics);
   checkMotion(root, diagnostics);
   noteNames(root, document);
-  applySelection(root, options.selection);
+  applySelection(root, options.selection, diagnostics);
   CodecProcess codecs;
   Buffers buffers = readBuffers(root, container, codecs, document);
   checkBufferViews(root, diagnostics);

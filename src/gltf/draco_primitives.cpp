@@ -33,14 +33,22 @@ class PrimitiveDecoder {
 
   /// Whether the file holds all of it uncompressed, too.
   bool hasFallback() const {
-    const auto hasView = [this](const json& index) {
-      return root_["accessors"][index.get<size_t>()].contains("bufferView");
-    };
     for (const auto& attribute : extension_["attributes"].items()) {
       const auto accessor = primitive_["attributes"].find(attribute.key());
       if (accessor == primitive_["attributes"].end() || !hasView(*accessor)) return false;
     }
     return primitive_.contains("indices") && hasView(primitive_["indices"]);
+  }
+
+  /// The extension's schema wants at least one attribute; some files have none, beside accessors with data.
+  bool isEmpty() const { return extension_["attributes"].empty(); }
+
+  void takeOwnData() {
+    bool hasData = !primitive_.contains("indices") || hasView(primitive_["indices"]);
+    for (const auto& attribute : primitive_["attributes"].items())
+      hasData = hasData && hasView(attribute.value());
+    if (!hasData) refuse("/attributes", "is empty, and not all of the primitive's own accessors have data");
+    document_.diagnostics.warn(place_ + "/attributes", "is empty; the primitive's own data are taken");
   }
 
   void decode(Buffers& buffers, CodecProcess& codecs) {
@@ -58,6 +66,8 @@ class PrimitiveDecoder {
   [[noreturn]] void refuse(const std::string& part, const std::string& reason) const {
     document_.diagnostics.refuse(place_ + part, reason);
   }
+
+  bool hasView(const json& index) const { return accessorOf(index).contains("bufferView"); }
 
   const json& accessorOf(const json& index) const { return root_["accessors"][index.get<size_t>()]; }
 
@@ -77,7 +87,7 @@ class PrimitiveDecoder {
     request_.outputBytes = request_.indexCount * sizeof(uint32_t);
     for (const auto& attribute : extension_["attributes"].items())
       addAttribute(attribute.key(), attribute.value().get<uint32_t>());
-    if (names_.empty()) refuse("/attributes", "is empty");
+    if (names_.empty()) refuse("/attributes", "has no attribute of the primitive");
   }
 
   void addAttribute(const std::string& name, uint32_t id) {
@@ -156,7 +166,9 @@ void decompressPrimitives(json& root, Buffers& buffers, CodecProcess& codecs, Do
       if (!primitives[i].contains(extension)) continue;
       const std::string place = pointerTo("meshes", m, "primitives", i, "extensions", kExtension);
       PrimitiveDecoder decoder(root, primitives[i], place, document);
-      if (codecs.available()) {
+      if (decoder.isEmpty()) {
+        decoder.takeOwnData();
+      } else if (codecs.available()) {
         decoder.decode(buffers, codecs);
       } else if (decoder.hasFallback()) {
         document.diagnostics.warn(place,

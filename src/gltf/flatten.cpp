@@ -116,7 +116,10 @@ void appendVertices(const Vertices& from, Placement& placement, const LocalSpace
   const size_t first = to.position.size();
   const size_t count = from.position.size();
   for (size_t i = 0; i < count; ++i) {
-    to.position.emplace_back(space.localOf(placement.of(i).positionOf(from.position[i])));
+    const glm::vec3 position(space.localOf(placement.of(i).positionOf(from.position[i])));
+    // The scene's size is that of its triangles; what none of them uses may be anywhere.
+    const bool isFinite = std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z);
+    to.position.push_back(isFinite ? position : glm::vec3(0.0f));
   }
   append(to.normal, from.normal, count, glm::vec3(0.0f));
   append(to.tangent, from.tangent, count, glm::vec4(0.0f));
@@ -170,24 +173,10 @@ bool contains(const BoundsDouble& box, const BoundsDouble& other) {
          glm::all(glm::greaterThanEqual(box.maximum, other.maximum));
 }
 
-BoundsDouble transformed(const BoundsDouble& box, const Transform& transform) {
-  BoundsDouble result;
-  for (unsigned i = 0; i < 8; ++i) {
-    const glm::vec3 corner((i & 1u) != 0 ? box.maximum.x : box.minimum.x,
-                           (i & 2u) != 0 ? box.maximum.y : box.minimum.y,
-                           (i & 4u) != 0 ? box.maximum.z : box.minimum.z);
-    result.include(transform.positionOf(corner));
-  }
-  return result;
-}
-
 /// The space of a shared mesh: its middle is the origin, and no coordinate is above 1. Sizes are powers of
 /// two, so that only the move rounds.
 LocalSpace spaceOf(const std::vector<MeshPrimitive>& mesh) {
-  std::vector<glm::vec3> points;
-  for (const MeshPrimitive& primitive : mesh) appendUsed(primitive, points);
-  BoundsDouble box;
-  for (const glm::vec3& point : points) box.include(glm::dvec3(point));
+  const BoundsDouble box = boundsOf(mesh);
   const glm::dvec3 half = 0.5 * box.extent();
   int exponent = 0;
   std::frexp(std::max({half.x, half.y, half.z}), &exponent);
@@ -217,6 +206,25 @@ void appendShared(const MeshToShare& shared, Scene& scene) {
 
 }  // namespace
 
+BoundsDouble boundsOf(const std::vector<MeshPrimitive>& mesh) {
+  std::vector<glm::vec3> points;
+  for (const MeshPrimitive& primitive : mesh) appendUsed(primitive, points);
+  BoundsDouble box;
+  for (const glm::vec3& point : points) box.include(glm::dvec3(point));
+  return box;
+}
+
+BoundsDouble transformed(const BoundsDouble& box, const glm::dmat4& matrix) {
+  BoundsDouble result;
+  for (unsigned i = 0; i < 8; ++i) {
+    const glm::dvec3 corner((i & 1u) != 0 ? box.maximum.x : box.minimum.x,
+                            (i & 2u) != 0 ? box.maximum.y : box.minimum.y,
+                            (i & 4u) != 0 ? box.maximum.z : box.minimum.z);
+    result.include(glm::dvec3(matrix * glm::dvec4(corner, 1.0)));
+  }
+  return result;
+}
+
 BoundsDouble boundsOf(std::span<const PrimitiveInstance> instances, std::span<const MeshToShare> shared) {
   BoundsDouble bounds;
   for (const PrimitiveInstance& instance : instances) {
@@ -236,7 +244,7 @@ BoundsDouble boundsOf(std::span<const PrimitiveInstance> instances, std::span<co
     for (const MeshToShare::Place& place : mesh.places) {
       const Transform transform(place.world);
       // Most instances lie between others; only the outer ones are looked at closely.
-      if (contains(bounds, transformed(box, transform))) continue;
+      if (contains(bounds, transformed(box, place.world))) continue;
       for (const glm::vec3& point : points) bounds.include(transform.positionOf(point));
     }
   }

@@ -33,6 +33,12 @@ struct MeshToShare {
   std::vector<Place> places;
 };
 
+/// Bounds of all triangles of a mesh in its own space; vertices that no triangle uses do not count.
+BoundsDouble boundsOf(const std::vector<MeshPrimitive>& mesh);
+
+/// A box round what is in that box.
+BoundsDouble transformed(const BoundsDouble& box, const glm::dmat4& matrix);
+
 /// World bounds of all triangles; vertices that no triangle uses do not count.
 BoundsDouble boundsOf(std::span<const PrimitiveInstance> instances, std::span<const MeshToShare> shared);
 

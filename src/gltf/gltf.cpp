@@ -14,6 +14,7 @@
 #include "gltf/placed.h"
 #include "gltf/sharing.h"
 #include "scene/camera.h"
+#include "scene/creases.h"
 
 namespace fragtrace {
 namespace {
@@ -61,11 +62,10 @@ void recentre(const GltfOptions& options, const Diagnostics& diagnostics, Scene&
   space.origin =
       options.recenterOn ? *options.recenterOn : recentringPoint(cameraFor(options, scene), bounds);
   if (bounds.empty()) return;
-  constexpr double kLargest = 1e30;  // metres; depths are floats
   const glm::dvec3 farthest =
       glm::max(glm::abs(bounds.minimum - space.origin), glm::abs(bounds.maximum - space.origin));
   const double reach = std::max({farthest.x, farthest.y, farthest.z});
-  if (!(reach <= kLargest)) {
+  if (!(reach <= kFarthest)) {
     diagnostics.refuse("",
                        "the scene is more than 1e30 m in size, or as far from the point it is recentred on");
   }
@@ -113,11 +113,16 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   const PlacedMeshes meshes =
       chooseSharing(std::move(shown.instances), options.instancing, scene.materials, document.memory.left());
   takeMeshes(document, meshes);
-  scene.sharing = meshes.reason;
+  scene.sharing = meshes.reason + (meshes.copies.empty() ? "" : "; always copied: " + meshes.copies);
+  const bool isAsked = options.instancing == Instancing::Share;
+  if (isAsked && (meshes.shared.empty() || !meshes.copies.empty()))
+    document.diagnostics.warn(
+        "", (meshes.shared.empty() ? "nothing is shared: " : "not all is shared: ") + scene.sharing);
   scene.bounds = boundsOf(meshes.flat, meshes.shared);
   scene.bounds.include(boundsOf(spheres));
   recentre(options, document.diagnostics, scene);
   flatten(meshes.flat, meshes.shared, scene);
+  scene.insets = creaseInsets(scene);
   for (const PlacedSphere& sphere : spheres) {
     scene.spheres.push_back({glm::vec3(scene.space.localOf(sphere.center)),
                              float(sphere.radius / scene.space.unit), glm::quat(sphere.rotation),

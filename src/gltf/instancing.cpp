@@ -2,9 +2,11 @@
 // EXT_mesh_gpu_instancing: a node shows its mesh at translation * rotation * scale, all of them attributes.
 #include "gltf/instancing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <numeric>
 #include <optional>
 
 #include "gltf/accessor.h"
@@ -12,6 +14,37 @@
 
 namespace fragtrace {
 namespace {
+
+/// By position first, in which most differ.
+bool standsBefore(const glm::dmat4& a, const glm::dmat4& b) {
+  for (const int c : {3, 0, 1, 2}) {
+    for (int r = 0; r < 3; ++r) {
+      if (a[c][r] != b[c][r]) return a[c][r] < b[c][r];
+    }
+  }
+  return false;
+}
+
+/// Leaves each place once, in the order in which they came, and returns how many there were besides. Rays
+/// would have to pass all that coincide, one by one.
+size_t dropRepeated(std::vector<glm::dmat4>& places) {
+  const size_t count = places.size();
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  std::vector<size_t> order(places.size());
+  std::iota(order.begin(), order.end(), size_t(0));
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    if (standsBefore(places[a], places[b])) return true;
+    return !standsBefore(places[b], places[a]) && a < b;
+  });
+  std::vector<bool> isRepeated(places.size(), false);
+  for (size_t i = 1; i < order.size(); ++i) isRepeated[order[i]] = places[order[i]] == places[order[i - 1]];
+  size_t kept = 0;
+  for (size_t i = 0; i < places.size(); ++i) {
+    if (!isRepeated[i]) places[kept++] = places[i];
+  }
+  places.resize(kept);
+  return count - kept;
+}
 
 class InstanceReader {
  public:
@@ -40,6 +73,9 @@ class InstanceReader {
         document_.diagnostics.refuse(
             place_, "the world transform of instance " + std::to_string(i) + " is not finite, or overflows");
     }
+    if (const size_t count = dropRepeated(places); count > 0)
+      document_.diagnostics.warn(place_, "an instance that stands exactly where another one does is left out",
+                                 count);
     return places;
   }
 

@@ -47,7 +47,7 @@ nlohmann::json parseJson(std::string_view text, MemoryBudget& memory, Diagnostic
   diagnostics.attempt("",
                       [&] { memory.take(extent.values * kBytesOfAValue + text.size() * kCopiesOfTheText); });
   if (text.starts_with("\xef\xbb\xbf")) {
-    diagnostics.warn("", "begins with a byte order mark, which glTF forbids");
+    diagnostics.warn("", "begins with a byte order mark, which glTF forbids; it is skipped");
     text.remove_prefix(3);
   }
   try {

@@ -53,6 +53,12 @@ std::optional<Light> lightAt(Document& document, const PlacedNode& node, const L
   if (described.range < 0.0) document.diagnostics.refuse(place + "/range", "is negative");
   if (described.range > 0.0) light.range = float(described.range / space.unit);
   light.position = glm::vec3(space.localOf(glm::dvec3(node.world[3])));
+  const glm::vec3& p = light.position;
+  if (light.type != LightType::Directional && !std::isfinite(glm::dot(p, p))) {
+    document.diagnostics.warn(pointerTo("nodes", node.index),
+                              "its light is too far away for a scene of this size, and left out");
+    return std::nullopt;
+  }
   const glm::dvec3 backward(node.world[2]);
   if (glm::length(backward) > 0.0) light.direction = glm::vec3(-glm::normalize(backward));
   return light;

@@ -12,14 +12,20 @@
 
 namespace fragtrace {
 
+struct DecodedMesh {
+  std::vector<MeshPrimitive> primitives;
+  BoundsDouble bounds;  ///< in the mesh's own space
+};
+
 /// What instances point into.
 struct ShownMeshes {
-  std::map<std::pair<int, MeshPose>, std::vector<MeshPrimitive>> decoded;  ///< by mesh
-  std::map<int, std::vector<glm::dmat4>> joints;                           ///< by skin
+  std::map<std::pair<int, MeshPose>, DecodedMesh> decoded;  ///< by mesh
+  std::map<int, std::vector<glm::dmat4>> joints;            ///< by skin
   std::vector<PrimitiveInstance> instances;
 };
 
-/// Throws InputError. A node with EXT_mesh_gpu_instancing shows its mesh at each of its places.
+/// A node with EXT_mesh_gpu_instancing shows its mesh at each of its places. Left out with a warning is what
+/// is too small for double precision. Throws InputError, also for what is farther away than kFarthest.
 ShownMeshes showMeshes(Document& document, const std::vector<Material>& materials,
                        const std::vector<PlacedNode>& nodes);
 

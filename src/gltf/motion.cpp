@@ -90,7 +90,7 @@ size_t indexOfPart(const char* option, const std::string& wanted, const std::vec
                    (known.empty() ? "none" : known));
 }
 
-void applySelection(json& root, const SceneSelection& selection) {
+void applySelection(json& root, const SceneSelection& selection, Diagnostics& diagnostics) {
   const auto namesIn = [&root](const json::json_pointer& place) {
     return root.contains(place) ? namesOf(root[place]) : std::vector<std::string>();
   };
@@ -100,6 +100,7 @@ void applySelection(json& root, const SceneSelection& selection) {
   const size_t variant = indexOfPart("--material-variant", selection.materialVariant, namesIn(kVariants));
   if (!root.contains("meshes")) return;
   const json::json_pointer mappings("/extensions/KHR_materials_variants/mappings");
+  bool isMapped = false;
   for (json& mesh : root["meshes"]) {
     for (json& primitive : mesh["primitives"]) {
       if (!primitive.contains(mappings)) continue;
@@ -107,10 +108,14 @@ void applySelection(json& root, const SceneSelection& selection) {
         const json& variants = mapping["variants"];
         if (std::find(variants.begin(), variants.end(), variant) == variants.end()) continue;
         primitive["material"] = mapping["material"];
+        isMapped = true;
         break;
       }
     }
   }
+  if (!isMapped)
+    diagnostics.warn("/extensions/KHR_materials_variants/variants/" + std::to_string(variant),
+                     "no primitive has a material for this variant; all keep their own");
 }
 
 }  // namespace fragtrace

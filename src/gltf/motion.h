@@ -51,6 +51,6 @@ size_t indexOfPart(const char* option, const std::string& wanted, const std::vec
 
 /// Makes the chosen scene the default one and gives primitives the materials of the chosen variant
 /// (KHR_materials_variants). Throws UsageError.
-void applySelection(nlohmann::json& root, const SceneSelection& selection);
+void applySelection(nlohmann::json& root, const SceneSelection& selection, Diagnostics& diagnostics);
 
 }  // namespace fragtrace

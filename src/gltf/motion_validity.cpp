@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 #include <string>
@@ -62,6 +61,11 @@ Ancestry ancestryOf(const json& nodes) {
   return ancestry;
 }
 
+/// Whether it is of a node (glTF 2.0, section 3.11).
+bool isPath(std::string_view path) {
+  return path == "translation" || path == "rotation" || path == "scale" || path == "weights";
+}
+
 class MotionChecker {
  public:
   MotionChecker(const json& root, Diagnostics& diagnostics) : root_(root), diagnostics_(diagnostics) {}
@@ -89,14 +93,15 @@ class MotionChecker {
 
   void warnStride(const json& accessor, const std::string& place) {
     if (elementOf(root_, "bufferViews", memberOf(accessor, "bufferView")).contains("byteStride"))
-      warn(place, "byteStride is for vertex attributes only");
+      warn(place, "byteStride is for vertex attributes only; it is applied all the same");
   }
 
   void checkNode(const json& node, const std::string& place) {
     const json& mesh = elementOf(root_, "meshes", memberOf(node, "mesh"));
     if (mesh.empty()) return;
     if (node.contains("weights") && node["weights"].size() != targetsOf(mesh))
-      warn(place + "/weights", "are not as many as the mesh's morph targets");
+      warn(place + "/weights",
+           "are not as many as the mesh's morph targets; what is missing is 0, the rest is ignored");
     if (!node.contains("skin")) return;
     for (const json& primitive : mesh["primitives"]) {
       if (!primitive["attributes"].contains("JOINTS_0"))
@@ -110,8 +115,9 @@ class MotionChecker {
     if (!matrices.empty()) {
       const std::string there = place + "/inverseBindMatrices";
       if (matrices["type"] != "MAT4" || matrices["componentType"] != kFloat)
-        warn(there, "are not floats of type MAT4");
-      if (matrices["count"].get<size_t>() < joints.size()) warn(there, "are fewer than the joints");
+        warn(there, "are not floats of type MAT4, which is refused where a node has the skin");
+      if (matrices["count"].get<size_t>() < joints.size())
+        warn(there, "are fewer than the joints, which is refused where a node has the skin");
       warnStride(matrices, there);
     }
     if (joints.empty()) return;
@@ -121,11 +127,12 @@ class MotionChecker {
     const json& skeleton = memberOf(skin, "skeleton");
     for (const json& joint : joints) {
       const auto node = joint.get<size_t>();
-      if (!seen.insert(node).second) warn(place + "/joints", "names a node twice");
+      if (!seen.insert(node).second)
+        warn(place + "/joints", "names a node twice; each is a joint of its own");
       strangers += ancestry_.root[node] != ancestry_.root[joints[0].get<size_t>()];
       notBelow += skeleton.is_number_unsigned() && !ancestry_.isAbove(skeleton.get<size_t>(), node);
     }
-    if (strangers > 0) warn(place + "/joints", "have no common root");
+    if (strangers > 0) warn(place + "/joints", "have no common root; each is placed where it stands");
     if (notBelow > 0) warn(place + "/skeleton", "is not above all of the joints, and not needed");
   }
 
@@ -155,11 +162,15 @@ class MotionChecker {
     const std::string interpolation = sampler.value("interpolation", "LINEAR");
     const bool isCubic = interpolation == "CUBICSPLINE";
     if (!isCubic && interpolation != "LINEAR" && interpolation != "STEP")
-      warn(place + "/interpolation", inQuotes(interpolation) + " is no interpolation");
+      warn(place + "/interpolation",
+           inQuotes(interpolation) +
+               " is no interpolation, which is refused where the animation is asked for");
     if (input["type"] != "SCALAR" || input["componentType"] != kFloat)
-      warn(place + "/input", "is not of floats of type SCALAR");
+      warn(place + "/input",
+           "is not of floats of type SCALAR, which is refused where the animation is asked for");
     if (isCubic && input["count"].get<size_t>() < 2)
-      warn(place + "/input", "has too few keys for a spline, which needs two");
+      warn(place + "/input",
+           "has too few keys for a spline, which needs two; it is refused where the animation is asked for");
     warnStride(input, place + "/input");
     warnStride(accessorAt(sampler["output"]), place + "/output");
   }
@@ -169,37 +180,47 @@ class MotionChecker {
     const auto& path = target["path"].get_ref<const std::string&>();
     const json& pointer = memberOf(memberOf(target, "extensions"), "KHR_animation_pointer");
     if (!pointer.is_null()) {
-      if (path != "pointer") warn(place, "has a pointer, for which its path must be \"pointer\"");
-      if (target.contains("node")) warn(place, "has both a pointer and a node");
+      if (path != "pointer")
+        warn(place, "has a pointer, for which its path must be \"pointer\"; the pointer is ignored");
+      if (target.contains("node")) warn(place, "has both a pointer and a node; the channel is ignored");
+      if (memberOf(pointer, "pointer") == "")
+        warn(place, "is nothing that can be animated; the channel is ignored");
       return;
     }
-    constexpr std::array<std::string_view, 4> kPaths = {"translation", "rotation", "scale", "weights"};
-    if (std::find(kPaths.begin(), kPaths.end(), path) == kPaths.end())
-      warn(place + "/path", inQuotes(path) + " is nothing that can be animated");
-    if (!target.contains("node")) return;
+    const bool isKnown = isPath(path);
+    if (!isKnown)
+      warn(place + "/path", inQuotes(path) + " is nothing that can be animated; the channel is ignored");
+    if (!target.contains("node")) {
+      if (isKnown) warn(place, "has no node; the channel is ignored");
+      return;
+    }
     if (node.contains("matrix") && path != "weights")
-      warn(place, "has a node with a matrix, which an animation cannot change");
+      warn(place, "has a node with a matrix, which an animation cannot change; the matrix counts");
     if (path == "weights" && targetsOf(elementOf(root_, "meshes", memberOf(node, "mesh"))) == 0)
-      warn(place, "has a node without morph targets, which nothing would weigh");
+      warn(place, "has a node without morph targets, which nothing would weigh; it changes nothing");
   }
 
   /// Sizes and types that follow from the channel's path (glTF 2.0, section 3.11).
   void checkOutput(const json& target, const json& sampler, const std::string& place) {
-    if (!target.contains("node")) return;
+    if (!target.contains("node") || !isPath(target["path"].get_ref<const std::string&>())) return;
     const json& output = accessorAt(sampler["output"]);
     const auto& path = target["path"].get_ref<const std::string&>();
     const std::string type = path == "weights" ? "SCALAR" : path == "rotation" ? "VEC4" : "VEC3";
     const bool mayBeInteger = path == "rotation" || path == "weights";
     if (output["type"] != type ||
         (output["componentType"] != kFloat && !(mayBeInteger && output.value("normalized", false))))
-      warn(place, "has an output of a type that glTF does not allow for its target");
+      warn(place,
+           "has an output of a type that glTF does not allow for its target; it is refused where the "
+           "animation is asked for");
     const json& node = elementOf(root_, "nodes", target["node"]);
     const size_t width =
         path == "weights" ? targetsOf(elementOf(root_, "meshes", memberOf(node, "mesh"))) : 1;
     const size_t keys = accessorAt(sampler["input"])["count"].get<size_t>() *
                         (sampler.value("interpolation", "") == "CUBICSPLINE" ? 3 : 1);
     if (width > 0 && output["count"].get<size_t>() != keys * width)
-      warn(place, "has an output of another number of elements than its keys need");
+      warn(place,
+           "has an output of another number of elements than its keys need, which is refused where the "
+           "animation is asked for");
   }
 
   void checkVariants(const json& mesh, const std::string& place) {

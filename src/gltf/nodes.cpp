@@ -98,6 +98,9 @@ std::vector<int> rootsOf(const Document& document, const std::vector<int>& paren
   return roots;
 }
 
+/// A scale of 0, which may well be meant.
+bool flattensAll(const glm::dmat4& matrix) { return glm::dmat3(matrix) == glm::dmat3(0.0); }
+
 }  // namespace
 
 bool isMultiplicable(const glm::dmat4& matrix) {
@@ -125,8 +128,12 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
     waiting.pop_back();
     const tinygltf::Node& source = document.model.nodes.at(size_t(node.index));
     const std::string place = pointerTo("nodes", node.index);
-    node.world = node.world * localTransform(source, place, document.diagnostics);
+    const glm::dmat4 parent = node.world;
+    const glm::dmat4 local = localTransform(source, place, document.diagnostics);
+    node.world = parent * local;
     if (!isMultiplicable(node.world)) document.diagnostics.refuse(place, "its world transform overflows");
+    if (flattensAll(node.world) && !flattensAll(parent) && !flattensAll(local))
+      document.diagnostics.refuse(place, "its world transform underflows");
     placed.push_back(node);
     await(source.children, node.world);
   }

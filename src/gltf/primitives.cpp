@@ -217,10 +217,15 @@ class PrimitiveReader {
     warnMended("NORMAL", count, "a normal without a direction is replaced by that of its triangles");
   }
 
+  bool isAskedForByTexture(uint32_t set) const {
+    const auto textures = material_.textures();
+    return std::any_of(textures.begin(), textures.end(), [set](const TextureRef* texture) {
+      return texture->present() && texture->texcoord == set;
+    });
+  }
+
   bool needsTexcoord(uint32_t set) const {
-    for (const TextureRef* texture : material_.textures()) {
-      if (texture->present() && texture->texcoord == set) return true;
-    }
+    if (isAskedForByTexture(set)) return true;
     const bool tangentsAreMade = material_.anisotropic() && accessorOf("TANGENT") < 0;
     return (set == 0 && hasPerlin()) || (set == tangentTexture().texcoord && tangentsAreMade);
   }
@@ -234,7 +239,9 @@ class PrimitiveReader {
       const int accessor = matchingAccessor(kNames[set]);
       auto& texcoords = set == 0 ? result_.vertices.texcoord0 : result_.vertices.texcoord1;
       if (accessor < 0) {
-        diagnostics_.warn(place_, std::string(kNames[set]) + " is needed and missing, (0, 0) is taken");
+        // Where a texture asks for it, the check of the document has said so.
+        if (!isAskedForByTexture(set))
+          diagnostics_.warn(place_, std::string(kNames[set]) + " is needed and missing, (0, 0) is taken");
         texcoords.assign(result_.vertices.position.size(), glm::vec2(0.0f));
         continue;
       }

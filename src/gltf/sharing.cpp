@@ -24,6 +24,7 @@ struct MeshUse {
   uint64_t triangles = 0;
   uint64_t bytes = 0;
   uint64_t places = 0;  ///< where it may be shared
+  uint64_t allPlaces = 0;
   bool shines = false;
   bool isShared = false;
   size_t index = 0;  ///< among the shared ones
@@ -58,6 +59,21 @@ bool isWellConditioned(const glm::dmat3& matrix) {
   return std::sqrt(squared) * std::sqrt(inverseSquared) <= kMostUneven;
 }
 
+/// What is copied though it stands in the scene more than once; empty if nothing is.
+std::string copiesAmong(const std::map<const Mesh*, MeshUse>& uses) {
+  uint64_t shining = 0;
+  uint64_t uneven = 0;
+  for (const auto& [mesh, use] : uses) {
+    if (mesh == nullptr || use.allPlaces < 2) continue;
+    shining += use.shines ? 1 : 0;
+    uneven += use.shines ? 0 : use.allPlaces - use.places;
+  }
+  std::string text = shining > 0 ? "emissive meshes (" + std::to_string(shining) + ")" : "";
+  if (shining > 0 && uneven > 0) text += ", ";
+  if (uneven > 0) text += "unevenly scaled instances (" + std::to_string(uneven) + ")";
+  return text;
+}
+
 std::string megabytes(uint64_t bytes) { return std::to_string((bytes + 500000) / 1000000) + " MB"; }
 
 }  // namespace
@@ -79,7 +95,10 @@ PlacedMeshes chooseSharing(std::vector<PrimitiveInstance> instances, Instancing 
   for (const PrimitiveInstance& i : instances) {
     const auto [use, isNew] = uses.try_emplace(i.whole);
     if (isNew && i.whole != nullptr) use->second = useOf(*i.whole, materials);
-    if (i.primitive == use->second.first && mayShare(i)) ++use->second.places;
+    if (i.primitive == use->second.first) {
+      ++use->second.allPlaces;
+      if (mayShare(i)) ++use->second.places;
+    }
     cost.flat += i.primitive->vertices.position.size() * kBytesOfAVertex +
                  i.primitive->triangles.size() * kBytesOfATriangle;
     flatTriangles += i.primitive->triangles.size();
@@ -117,6 +136,7 @@ PlacedMeshes chooseSharing(std::vector<PrimitiveInstance> instances, Instancing 
     isShared = paysToShare(cost, limit);
     placed.reason = (isShared ? "saves memory: " : "too little to save: ") + amounts;
   }
+  placed.copies = wanted == Instancing::Flatten ? "" : copiesAmong(uses);
   placed.bytes = isShared ? cost.shared : cost.flat;
   if (!isShared) {
     placed.flat = std::move(instances);

@@ -23,6 +23,7 @@ struct PlacedMeshes {
   std::vector<MeshToShare> shared;
   uint64_t bytes = 0;  ///< what they take
   std::string reason;  ///< for it, in a few words
+  std::string copies;  ///< what cannot be shared though it stands in the scene more than once; may be empty
 };
 
 /// Parts what is to be copied from what is to be shared. Never shared are meshes that shine, whose triangles

@@ -59,14 +59,14 @@ std::optional<PlacedSphere> sphereAt(Document& document, const PlacedNode& node)
   if (!isUniform(axes, scale)) document.diagnostics.refuse(place, "scales a sphere unevenly");
   const double radius = numberOf(memberOf(shape, "sphere"), "radius", 0.5);  // the extension's default
   sphere.radius = radius * scale;
-  if (!(sphere.radius > 0.0) || !std::isfinite(sphere.radius)) {
-    document.diagnostics.refuse(place, "its sphere has no radius above 0");
-  }
+  if (!(sphere.radius >= kSmallest)) document.diagnostics.refuse(place, "its sphere has no radius above 0");
+  sphere.center = glm::dvec3(node.world[3]);
+  if (!(glm::length(sphere.center) + sphere.radius <= kFarthest))
+    document.diagnostics.refuse(place, "its sphere reaches farther than 1e30 m from the origin");
   if (glm::determinant(axes) < 0.0) {
     document.diagnostics.warn(place, "a mirrored sphere shows its textures unmirrored");
     axes = -axes;
   }
-  sphere.center = glm::dvec3(node.world[3]);
   sphere.rotation = glm::normalize(glm::quat_cast(axes * (1.0 / scale)));
   return sphere;
 }

@@ -44,9 +44,10 @@ void warnMediaType(std::string_view declared, ImageFormat format, const std::str
                                  : format == ImageFormat::WebP ? "image/webp"
                                                                : "";
   if (found.empty()) {
-    diagnostics.warn(place, "is neither PNG nor JPEG nor WebP, as glTF wants it");
+    diagnostics.warn(place, "is neither PNG nor JPEG nor WebP, as glTF wants it; it is read if it can be");
   } else if (!declared.empty() && declared != found) {
-    diagnostics.warn(place, "is declared " + inQuotes(declared) + " and is " + std::string(found));
+    diagnostics.warn(place, "is declared " + inQuotes(declared) + " and is " + std::string(found) +
+                                ", as which it is read");
   }
 }
 

@@ -2,7 +2,6 @@
 #include "gltf/validity.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -10,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "gltf/extensions.h"
 #include "gltf/json_parts.h"
 
 namespace fragtrace {
@@ -21,34 +21,12 @@ bool names(const json& list, const std::string& name) {
   return list.is_array() && std::find(list.begin(), list.end(), name) != list.end();
 }
 
-/// Where an extension may stand; * stands for an index or a name. One that is not listed may stand anywhere.
-struct Home {
-  std::string_view extension;
-  std::array<std::string_view, 2> places;
-};
-constexpr std::string_view kTextureInfo = "a texture info";
-constexpr Home kHomes[] = {
-    {"KHR_lights_punctual", {"", "/nodes/*"}},
-    {"KHR_implicit_shapes", {""}},
-    {"KHR_materials_variants", {"", "/meshes/*/primitives/*"}},
-    {"KHR_materials_", {"/materials/*", "/materials/*"}},
-    {"KHR_mesh_quantization", {"nowhere", "nowhere"}},
-    {"KHR_texture_transform", {kTextureInfo, kTextureInfo}},
-    {"KHR_node_visibility", {"/nodes/*", "/nodes/*"}},
-    {"KHR_animation_pointer", {"/animations/*/channels/*/target", "/animations/*/channels/*/target"}},
-    {"EXT_mesh_gpu_instancing", {"/nodes/*", "/nodes/*"}},
-    {"EXT_texture_webp", {"/textures/*", "/textures/*"}},
-    {"KHR_draco_mesh_compression", {"/meshes/*/primitives/*", "/meshes/*/primitives/*"}},
-    {"EXT_meshopt_compression", {"/buffers/*", "/bufferViews/*"}},
-};
-
-bool isAtHome(std::string_view extension, std::string_view place, std::string_view lastName) {
-  for (const Home& home : kHomes) {
-    if (!extension.starts_with(home.extension)) continue;
-    if (home.places[0] == kTextureInfo) return lastName.ends_with("Texture");
-    return std::find(home.places.begin(), home.places.end(), place) != home.places.end();
-  }
-  return true;
+/// One that is not in the table may stand anywhere, unless its name says that it is of materials.
+bool isAtHome(std::string_view name, std::string_view place, std::string_view owner) {
+  const Extension* extension = extensionNamed(name);
+  if (extension == nullptr) return !name.starts_with("KHR_materials_") || place == "/materials/*";
+  if (extension->places[0] == kTextureInfo) return owner.ends_with("Texture");
+  return std::ranges::find(extension->places, place) != extension->places.end();
 }
 
 /// Goes over everything but extras, which are the author's own.
@@ -59,11 +37,12 @@ class Walk {
 
   void visit(const json& value, std::string_view name) {
     if (value.is_array()) {
-      if (value.empty()) diagnostics_.warn(place_, "is empty, which glTF forbids");
+      if (value.empty()) diagnostics_.warn(place_, "is empty, which glTF forbids, and taken as absent");
       for (size_t i = 0; i < value.size(); ++i) descend(value[i], std::to_string(i), true, name);
     } else if (value.is_object()) {
-      if (value.empty() && (name == "attributes" || name == "targets"))
-        diagnostics_.warn(place_, "is empty, which glTF forbids");
+      const bool isCompressed = pattern_.ends_with("/KHR_draco_mesh_compression/attributes");
+      if (value.empty() && (name == "attributes" || name == "targets") && !isCompressed)
+        diagnostics_.warn(place_, "is empty, which glTF forbids, and taken as absent");
       for (const auto& member : value.items()) {
         if (member.key() == "extensions") {
           visitExtensions(member.value(), name);
@@ -79,8 +58,11 @@ class Walk {
     if (!extensions.is_object()) return;
     for (const auto& extension : extensions.items()) {
       const std::string place = place_ + "/extensions/" + escapedForPointer(extension.key());
-      if (!extension.value().is_object()) diagnostics_.warn(place, "is not an object");
-      if (!names(used_, extension.key())) diagnostics_.warn(place, "is not named in extensionsUsed");
+      if (!extension.value().is_object()) diagnostics_.warn(place, "is not an object, and ignored");
+      if (!names(used_, extension.key()))
+        diagnostics_.warn(place, isApplied(extension.key())
+                                     ? "is not named in extensionsUsed; it is applied all the same"
+                                     : "is not named in extensionsUsed, and ignored");
       if (!isAtHome(extension.key(), pattern_, owner))
         diagnostics_.warn(place, "is not expected here, and ignored");
       const Rewind rewind(*this);
@@ -152,17 +134,18 @@ void checkExtensionLists(const json& root, Diagnostics& diagnostics) {
     for (size_t i = 0; i < entries.size(); ++i) {
       if (std::find(entries.begin(), entries.begin() + std::ptrdiff_t(i), entries[i]) !=
           entries.begin() + std::ptrdiff_t(i))
-        diagnostics.warn(pointerTo(list, i), "is named twice");
+        diagnostics.warn(pointerTo(list, i), "is named twice, which changes nothing");
     }
   }
   for (size_t i = 0; i < required.size(); ++i) {
     if (!names(used, required[i]))
-      diagnostics.warn(pointerTo("extensionsRequired", i), "is not named in extensionsUsed");
+      diagnostics.warn(pointerTo("extensionsRequired", i),
+                       "is not named in extensionsUsed; it is required all the same");
   }
   if (!names(used, "KHR_mesh_quantization") || names(required, "KHR_mesh_quantization")) return;
   const auto entry = std::find(used.begin(), used.end(), "KHR_mesh_quantization");
   diagnostics.warn(pointerTo("extensionsUsed", entry - used.begin()),
-                   "KHR_mesh_quantization must be required, too");
+                   "KHR_mesh_quantization must be required, too; it is applied all the same");
 }
 
 void checkCamera(const json& camera, const std::string& place, Diagnostics& diagnostics) {
@@ -180,7 +163,8 @@ void checkCamera(const json& camera, const std::string& place, Diagnostics& diag
   for (const char* extent : {"xmag", "ymag"}) {
     const json& value = memberOf(memberOf(camera, "orthographic"), extent);
     if (value.is_number() && value.get<double>() == 0.0)
-      diagnostics.warn(place + "/orthographic/" + extent, "is 0");
+      diagnostics.warn(place + "/orthographic/" + extent,
+                       "is 0, which is refused where a node has the camera");
   }
 }
 
@@ -192,7 +176,8 @@ void checkSpotLight(const json& light, const std::string& place, Diagnostics& di
   const double inner = spot.value("innerConeAngle", 0.0);
   const double outer = spot.value("outerConeAngle", kDefaultOuter);
   if (!(inner >= 0.0 && inner < outer))
-    diagnostics.warn(place + "/spot/outerConeAngle", "is not above the inner cone's angle");
+    diagnostics.warn(place + "/spot/outerConeAngle",
+                     "is not above the inner cone's angle, which is refused where a node has the light");
 }
 
 bool isDecomposable(const json& matrix) {
@@ -227,8 +212,14 @@ void checkNode(const json& node, const std::string& place, Diagnostics& diagnost
   }
   for (const char* member : {"skin", "weights"}) {
     if (node.contains(member) && !node.contains("mesh"))
-      diagnostics.warn(place + "/" + member, "has no mesh to act on");
+      diagnostics.warn(place + "/" + member, "has no mesh to act on, and is ignored");
   }
+  const char* const instancing = "EXT_mesh_gpu_instancing";
+  const json& instances = memberOf(memberOf(node, "extensions"), instancing);
+  const std::string there = place + pointerTo("extensions", instancing);
+  if (!instances.is_object()) return;
+  if (!node.contains("mesh")) diagnostics.warn(there, "has no mesh to act on, and is ignored");
+  if (!instances.contains("attributes")) diagnostics.warn(there, "has no attributes; the mesh is drawn once");
 }
 
 }  // namespace

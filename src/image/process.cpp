@@ -69,7 +69,7 @@ class Service {
   void start(const std::lock_guard<std::mutex>&) {
     if (child_) return;
     try {
-      child_ = startChild(kProcessName, kImageProcessSocket);
+      child_ = startChild(kProcessName, kServiceSocket);
     } catch (const std::runtime_error& error) {
       throw std::runtime_error("the image library " + std::string(error.what()) + "; .pfm files need none");
     }
@@ -80,7 +80,8 @@ class Service {
     ImageReply reply;
     // The processor time ends it; this is for one that sleeps.
     const int patienceMs = limits.cpuSeconds == 0 ? -1 : int(limits.cpuSeconds * 20 + 60) * 1000;
-    if (sendRequest(child_->socket, request, memoryFile) && awaitReply(*child_, asMessage(reply), patienceMs))
+    if (sendWithFile(child_->socket, asMessage(request), memoryFile) &&
+        awaitReply(*child_, asMessage(reply), patienceMs))
       return reply;
     const std::string end = endChild(*child_);
     child_.reset();

@@ -27,6 +27,16 @@ class SharedMemory {
   uint8_t* bytes_ = nullptr;
 };
 
+/// The descriptor of the process's end of the socket.
+inline constexpr int kServiceSocket = 3;
+
+/// A request's memory holds its input and, from here on, the output.
+template <typename Request>
+uint64_t outputOffset(const Request& request) {
+  constexpr uint64_t kAlignment = 4096;
+  return (request.inputBytes + kAlignment - 1) / kAlignment * kAlignment;
+}
+
 /// Sends a message and a file descriptor; false when nobody listens.
 bool sendWithFile(int socket, std::span<const uint8_t> message, int file);
 /// Waits for a message of exactly that size; the descriptor becomes the caller's. False when the other side

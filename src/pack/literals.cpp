@@ -61,6 +61,7 @@ std::string rowFunction(const std::string& head, const std::string& index, const
 
 constexpr const char* kNoRows = R"(
 uvec4 literalFace(int slot, int row) { return uvec4(0u); }
+uvec4 literalInset(int slot, int row) { return uvec4(0u); }
 uvec4 literalMaterial(uint material, uint row) { return uvec4(0u); }
 uvec4 literalEmitter(int emitter, int row) { return uvec4(0u); }
 )";
@@ -130,6 +131,12 @@ std::string literalScene(const Scene& scene, const Bvh& bvh, const GpuScene& pac
   std::string text = "const bool kLiterals = true;\nconst bool kLargeFirst = false;\n";
   text += literalTraversal(mesh, weights, true);
   text += rowFunction("uvec4 literalFace(int slot, int row)", "slot", faces, slots, layout::kFaceRows, used);
+  if (has(variant.traits, Trait::Creases)) {
+    const Words insets(faces.begin() + ptrdiff_t(slots * layout::kFaceRows * 4), faces.end());
+    text += rowFunction("uvec4 literalInset(int slot, int row)", "slot", insets, slots, 1, used);
+  } else {
+    text += "uvec4 literalInset(int slot, int row) { return uvec4(0u); }\n";
+  }
   text +=
       rowFunction("uvec4 literalMaterial(uint material, uint row)", "material",
                   packed.buffers[layout::kMaterialsBinding], scene.materials.size(), layout::kMaterialRows);

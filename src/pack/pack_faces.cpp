@@ -35,12 +35,19 @@ void appendSphere(Words& words, const Sphere& s) {
   appendRow(words, s.center, s.radius);
 }
 
-}  // namespace
-
-double hitPointError(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2) {
-  const glm::vec3 largest = glm::max(glm::abs(v0), glm::max(glm::abs(v1), glm::abs(v2)));
-  return 0x1p-19 * std::max(largest.x, std::max(largest.y, largest.z));
+void appendInset(Words& words, const Scene& scene, uint32_t primitive) {
+  if (primitive >= scene.triangles.size()) {  // a sphere, or nothing
+    words.insert(words.end(), 4, 0u);
+    return;
+  }
+  const glm::uvec3& v = scene.triangles[primitive].vertex;
+  const std::vector<glm::vec3>& p = scene.vertices.position;
+  const glm::dvec3 middle = (glm::dvec3(p[v.x]) + glm::dvec3(p[v.y]) + glm::dvec3(p[v.z])) / 3.0;
+  appendRow(words, glm::vec3(middle), 0.0f);
+  words.back() = scene.insets.empty() ? 0u : scene.insets[primitive];
 }
+
+}  // namespace
 
 glm::vec4 planeOf(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2) {
   const glm::dvec3 cross = glm::cross(glm::dvec3(v1) - glm::dvec3(v0), glm::dvec3(v2) - glm::dvec3(v0));
@@ -51,12 +58,13 @@ glm::vec4 planeOf(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2)
   return {normal, float(glm::dot(glm::dvec3(normal), middle))};
 }
 
-Words packFaces(const Scene& scene, const Bvh& bvh) {
+Words packFaces(const Scene& scene, const Bvh& bvh, bool creases) {
   if (scene.materials.size() > layout::kFaceMaterialMask)
     throw InputError("the scene has " + std::to_string(scene.materials.size()) + " materials, at most " +
                      std::to_string(layout::kFaceMaterialMask) + " can be drawn");
   Words words;
-  words.reserve(bvh.leaves.size() * 2 * layout::kFaceRows * 4);
+  const size_t slots = bvh.leaves.size() * 2;
+  words.reserve(slots * (layout::kFaceRows + (creases ? 1u : 0u)) * 4);
   for (const BvhLeaf& leaf : bvh.leaves) {
     for (const uint32_t primitive : leaf.primitive) {
       if (primitive == kMissIndex) {
@@ -68,6 +76,8 @@ Words packFaces(const Scene& scene, const Bvh& bvh) {
       }
     }
   }
+  for (size_t slot = 0; creases && slot < slots; ++slot)
+    appendInset(words, scene, bvh.leaves[slot / 2].primitive[slot % 2]);
   return words;
 }
 

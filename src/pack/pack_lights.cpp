@@ -14,13 +14,6 @@ namespace {
 
 constexpr double kPi = glm::pi<double>();
 
-double triangleArea(const Scene& scene, const Triangle& t) {
-  const glm::dvec3 a(scene.vertices.position[t.vertex[0]]);
-  const glm::dvec3 b(scene.vertices.position[t.vertex[1]]);
-  const glm::dvec3 c(scene.vertices.position[t.vertex[2]]);
-  return 0.5 * glm::length(glm::cross(b - a, c - a));
-}
-
 /// Rows 1 to 3 of an emissive triangle.
 void appendEdges(Words& words, const Scene& scene, const Triangle& t, uint32_t slot) {
   const glm::vec3 v0 = scene.vertices.position[t.vertex[0]];
@@ -49,6 +42,13 @@ double lightPower(const Light& light, double radius) {
 }
 
 }  // namespace
+
+double triangleArea(const Scene& scene, const Triangle& t) {
+  const glm::dvec3 a(scene.vertices.position[t.vertex[0]]);
+  const glm::dvec3 b(scene.vertices.position[t.vertex[1]]);
+  const glm::dvec3 c(scene.vertices.position[t.vertex[2]]);
+  return 0.5 * glm::length(glm::cross(b - a, c - a));
+}
 
 double luminance(const glm::dvec3& color) { return glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722)); }
 

@@ -31,6 +31,9 @@ struct PackedEnvironment {
 
 PackedEnvironment packEnvironment(const Image& image);
 
+/// In local space.
+double triangleArea(const Scene& scene, const Triangle& t);
+
 double luminance(const glm::dvec3& color);
 
 }  // namespace fragtrace

@@ -180,7 +180,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   packed.buffers[kNodesBinding] = packNodes(bvh, packed.grid);
   if (!scene.instances.empty()) appendInstances(scene, bvh, packed.buffers[kNodesBinding]);
   packed.buffers[kLeavesBinding] = packLeaves(scene, bvh);
-  packed.buffers[kFacesBinding] = packFaces(scene, bvh);
+  packed.buffers[kFacesBinding] = packFaces(scene, bvh, has(traits, Trait::Creases));
   packAttributes(scene.vertices, traits, packed);
 
   // Step: lights; the environment shares light samples with the rest by power.

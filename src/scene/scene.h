@@ -269,6 +269,7 @@ struct Scene {
   LocalSpace space;
   Vertices vertices;
   std::vector<Triangle> triangles;
+  std::vector<uint32_t> insets;  ///< one a triangle, or none (creaseInsets of creases.h)
   std::vector<Sphere> spheres;
   std::vector<Material> materials;  ///< never empty: the default material is appended when something needs it
   std::vector<Texture> textures;

@@ -54,6 +54,7 @@ enum class Trait : uint8_t {
   Environment,
   EnvironmentSampling,
   Instances,
+  Creases,
   Count
 };
 using TraitSet = std::bitset<size_t(Trait::Count)>;

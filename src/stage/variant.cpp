@@ -141,6 +141,7 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings) {
   mark(Trait::Environment, surroundings != Surroundings::None);
   mark(Trait::EnvironmentSampling, surroundings != Surroundings::None);
   mark(Trait::Instances, !scene.instances.empty());
+  mark(Trait::Creases, !scene.insets.empty());
   return traits;
 }
 
@@ -258,6 +259,9 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   }
   if (!hasNormalMaps(v.traits)) drop(Stage::NormalMaps);
   if (!has(v.traits, Trait::Triangles)) drop(Stage::Watertight);
+  const bool leavesSurfaces = stage(Stage::Gi) || stage(Stage::Shadows) || stage(Stage::Reflections) ||
+                              stage(Stage::Refraction) || has(v.traits, Trait::Alpha);
+  if (!leavesSurfaces || !stage(Stage::Watertight)) without(Trait::Creases);
 
   // Step: how rays find triangles.
   // Literals need the packed scene; who has it puts them in (useLiterals of src/cli/setup.cpp).
@@ -329,7 +333,7 @@ ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet&
 bool keepsWeights(const ShaderVariant& variant) {
   const TraitSet& traits = variant.traits;
   return has(traits, Trait::VertexNormals) || has(traits, Trait::Texcoords) || has(traits, Trait::Tangents) ||
-         has(traits, Trait::VertexColors);
+         has(traits, Trait::VertexColors) || has(traits, Trait::Creases);
 }
 
 std::string variantName(const ShaderVariant& variant) {

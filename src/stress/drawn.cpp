@@ -5,6 +5,7 @@
 
 #include "errors.h"
 #include "pack/pack_tree.h"
+#include "scene/creases.h"
 
 namespace fragtrace {
 
@@ -22,9 +23,10 @@ RenderOptions optionsOf(const StressSetting& setting, Stage stage) {
   return options;
 }
 
-StressPicture::StressPicture(const StressSetting& setting, const Scene& scene, const Environment& environment,
+StressPicture::StressPicture(const StressSetting& setting, Scene scene, const Environment& environment,
                              const RenderOptions& options)
     : setting_(setting) {
+  scene.insets = creaseInsets(scene);
   const bool iterative = options.traversal == TraversalMethod::Iterative;
   const Bvh bvh =
       iterative ? listLeaves(scene) : buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));

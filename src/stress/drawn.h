@@ -19,7 +19,7 @@ RenderOptions optionsOf(const StressSetting& setting, Stage stage);
 /// uploaded once.
 class StressPicture {
  public:
-  StressPicture(const StressSetting& setting, const Scene& scene, const Environment& environment,
+  StressPicture(const StressSetting& setting, Scene scene, const Environment& environment,
                 const RenderOptions& options);
   FilmPixels draw(const View& view, glm::ivec2 size, int samples);
 

@@ -46,6 +46,15 @@ class ExitStatuses(Case):
         path.write_bytes(b"PF\n2 1\n-1.0\n" + struct.pack("<6f", 1, 1, 1, 1, math.inf, 1))
         self.fails(3, *self.render(SCENES / "furnace.gltf"), "--hdri-file", path, says=["bad-map", "pixel (1, 0)"])
 
+    def test_a_camera_too_far_away_is_3_in_the_file_and_2_on_the_command_line(self):
+        scene = json.loads((SCENES / "furnace.gltf").read_text())
+        path = self.folder / "far.gltf"
+        scene["nodes"][1]["translation"] = [1e40, 0, 0]
+        path.write_text(json.dumps(scene))
+        self.fails(3, *self.render(path), says=["far.gltf: the camera is too far away"])
+        self.fails(2, *self.render(SCENES / "furnace.gltf"), "--camera-position", "1e20,0,0",
+                   says=["the camera is too far away"])
+
     def test_an_unwritable_output_is_1(self):
         self.fails(1, *self.render(SCENES / "furnace.gltf", "no/such/folder/x.pfm"), says=["no/such/folder"])
 
@@ -205,7 +214,9 @@ class Pictures(Case):
         options = ["--resolution", "16,16", "--spp", "1", "--stats", self.folder / "s.json"]
         result = self.renders(SCENES / "furnace.gltf", "-o", self.folder / "x.pfm", *options)
         self.assertIn("--no-default-light", result.stderr)
-        self.assertTrue(json.loads((self.folder / "s.json").read_text())["default_light"])
+        stats = json.loads((self.folder / "s.json").read_text())
+        self.assertTrue(stats["default_light"])
+        self.assertEqual(stats["default_light_reason"], "no light in the scene")
         self.renders(SCENES / "furnace.gltf", "-o", self.folder / "x.pfm", *options, "--no-default-light")
         self.assertFalse(json.loads((self.folder / "s.json").read_text())["default_light"])
         self.assertTrue(all(v == (0, 0, 0) for row in read_pfm(self.folder / "x.pfm") for v in row))
@@ -238,6 +249,18 @@ class Statistics(Case):
         self.assertEqual(json.loads(run("info", "--json", SCENES / "mesh-15743.gltf").stdout)["scene"]["triangles"], 15743)
         self.assertLessEqual(data["bvh"]["depth"], 32)
         self.assertGreater(data["bvh"]["sah_cost"], 1)
+
+    def test_info_is_json_where_the_file_is_refused_or_a_part_is_not_there(self):
+        path = self.folder / "bad\udcff.gltf"
+        path.write_text("{")
+        for status, arguments in ((3, [path]), (3, [self.folder / "none.gltf"]), (2, [SCENES / "furnace.gltf", "--scene", "none"])):
+            result = run("info", "--json", *arguments, errors="surrogateescape")
+            self.assertEqual(result.returncode, status)
+            data = json.loads(result.stdout)
+            self.assertEqual(set(data), {"schema", "file", "error"})
+            if status == 3 and arguments[0] != path:
+                self.assertEqual(result.stderr, f"fragtrace: {data['error']}\n")
+        self.assertEqual(run("info", self.folder / "none.gltf").stdout, "")
 
 
 class DriverLimits(Case):

@@ -64,19 +64,30 @@ def feature_scene():
         "bufferViews": views, "buffers": [{"byteLength": len(binary)}]}, binary
 
 
+class Buffer:
+    """The binary of a scene with its views and accessors."""
+
+    def __init__(self):
+        self.binary, self.views, self.accessors = b"", [], []
+
+    def add(self, kind, component, values, code, **members):
+        data = struct.pack(f"<{len(values)}{code}", *values)
+        self.views.append({"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data)})
+        width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}[kind]
+        self.accessors.append({"bufferView": len(self.views) - 1, "componentType": component, "count": len(values) // width,
+                               "type": kind, **members})
+        self.binary += padded(data, b"\0")
+        return len(self.accessors) - 1
+
+    def scene(self, members):
+        return {"asset": {"version": "2.0"}, **members, "accessors": self.accessors, "bufferViews": self.views,
+                "buffers": [{"byteLength": len(self.binary)}]}, self.binary
+
+
 def motion_scene():
     """A triangle with joints, a morph target, variants, and an animation; one more as Draco and meshopt would hold it."""
-    binary, views, accessors = b"", [], []
-
-    def add(kind, component, values, code):
-        nonlocal binary
-        data = struct.pack(f"<{len(values)}{code}", *values)
-        views.append({"buffer": 0, "byteOffset": len(binary), "byteLength": len(data)})
-        width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}[kind]
-        accessors.append({"bufferView": len(views) - 1, "componentType": component, "count": len(values) // width, "type": kind})
-        binary += padded(data, b"\0")
-        return len(accessors) - 1
-
+    buffer = Buffer()
+    add = buffer.add
     identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
     position = add("VEC3", 5126, [0, 0, 0, 1, 0, 0, 0, 1, 0], "f")
     joints = add("VEC4", 5121, [0, 1, 0, 0] * 3, "B")
@@ -88,7 +99,7 @@ def motion_scene():
     spline = add("SCALAR", 5126, [0, 0, 0, 0, 1, 0], "f")
     colours = add("VEC4", 5126, [1, 1, 1, 1, 0, 0, 0, 1], "f")
     corners = add("SCALAR", 5123, [0, 1, 2], "H")
-    views.append({"buffer": 0, "byteLength": 36, "extensions": {"EXT_meshopt_compression": {
+    buffer.views.append({"buffer": 0, "byteLength": 36, "extensions": {"EXT_meshopt_compression": {
         "buffer": 0, "byteOffset": 0, "byteLength": 36, "byteStride": 12, "count": 3, "mode": "ATTRIBUTES", "filter": "NONE"}}})
     factor = "/materials/0/pbrMetallicRoughness/baseColorFactor"
     primitive = {"attributes": {"POSITION": position, "JOINTS_0": joints, "WEIGHTS_0": weights}, "material": 0,
@@ -96,8 +107,8 @@ def motion_scene():
                  "extensions": {"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [0]}]}}}
     packed = {"attributes": {"POSITION": position}, "indices": corners,
               "extensions": {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}}
-    return {
-        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"name": "all", "nodes": [0, 1, 3]}],
+    return buffer.scene({
+        "scene": 0, "scenes": [{"name": "all", "nodes": [0, 1, 3]}],
         "extensionsUsed": ["KHR_materials_variants", "KHR_animation_pointer", "KHR_draco_mesh_compression",
                            "EXT_meshopt_compression"],
         "extensions": {"KHR_materials_variants": {"variants": [{"name": "night"}]}},
@@ -111,8 +122,28 @@ def motion_scene():
                         "channels": [{"sampler": 0, "target": {"node": 2, "path": "rotation"}},
                                      {"sampler": 2, "target": {"node": 0, "path": "weights"}},
                                      {"sampler": 1, "target": {"path": "pointer", "extensions": {
-                                         "KHR_animation_pointer": {"pointer": factor}}}}]}],
-        "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(binary)}]}, binary
+                                         "KHR_animation_pointer": {"pointer": factor}}}}]}]})
+
+
+def instancing_scene():
+    """A mesh of two primitives that stands in three nodes, in one of them several times; one node mirrors, one is uneven."""
+    buffer = Buffer()
+    add = buffer.add
+    quad = add("VEC3", 5126, [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0], "f")
+    corners = add("SCALAR", 5123, [0, 1, 2, 0, 2, 3], "H")
+    triangle = add("VEC3", 5126, [0, 0, 1, 1, 0, 1, 0, 1, 1], "f")
+    places = add("VEC3", 5126, [1, 0, 0, 2, 0, 0, 3, 0, 0], "f")
+    turns = add("VEC4", 5120, [0, 0, 0, 127, 127, 0, 0, 0, 0, 90, 0, 90], "b", normalized=True)
+    sizes = add("VEC3", 5126, [1, 1, 1, 2, 2, 2, 1, 2, 40], "f")
+    return buffer.scene({
+        "scenes": [{"nodes": [0, 1, 2]}], "extensionsUsed": ["EXT_mesh_gpu_instancing"],
+        "nodes": [{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {
+                      "TRANSLATION": places, "ROTATION": turns, "SCALE": sizes}}}, "children": [3]},
+                  {"mesh": 0, "scale": [-1, 1, 1]}, {"mesh": 0, "translation": [0, 5, 0]}, {"mesh": 1}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": quad}, "indices": corners},
+                                   {"attributes": {"POSITION": triangle}, "material": 0}]},
+                   {"primitives": [{"attributes": {"POSITION": triangle}, "material": 1}]}],
+        "materials": [{"doubleSided": True}, {"emissiveFactor": [1, 1, 1]}]})
 
 
 def png():
@@ -148,7 +179,8 @@ def main():
         (folder / name).mkdir(parents=True, exist_ok=True)
     found = set()
     sources = [(path.stem, json.loads(path.read_text()), None) for path in sorted(scenes.glob("*.gltf"))]
-    for name, scene, binary in sources + [("features", *feature_scene()), ("motion", *motion_scene())]:
+    for name, scene, binary in sources + [("features", *feature_scene()), ("motion", *motion_scene()),
+                                          ("instancing", *instancing_scene())]:
         words(scene, found)
         if binary is None:
             uri = scene.get("buffers", [{}])[0].get("uri", "")

@@ -41,6 +41,7 @@ inline bool kWatertight = true;
 inline bool kSobol = true;
 inline bool kVertexNormals = false;
 inline bool kInstances = false;
+inline bool kCreases = false;
 inline int kStackSize = 32;
 
 inline std::span<const uint32_t> nodes;

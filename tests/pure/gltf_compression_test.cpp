@@ -308,6 +308,24 @@ TEST(GltfDraco, StreamsThatAreNotWhatTheAccessorsSayAreRefused) {
               }).starts_with(place + ": has an accessor with no or too many elements"));
 }
 
+/// The schema forbids it; files have it.
+TEST(GltfDraco, WithoutAttributesThePrimitivesOwnDataAreTaken) {
+  GltfBuilder builder;
+  json& primitive = builder.addTriangle();
+  primitive["indices"] = builder.addAccessor<uint16_t>("SCALAR", {0, 1, 2});
+  primitive["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}, {"attributes", json::object()}};
+  builder.root["extensionsUsed"] = builder.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+  const Scene scene = load(builder);
+  EXPECT_EQ(scene.triangles.size(), 1u);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  const std::string place =
+      "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression/attributes: is empty";
+  EXPECT_TRUE(anyWarningHas(scene, place + "; the primitive's own data are taken"));
+  builder.root["accessors"][1].erase("bufferView");
+  EXPECT_EQ(refusalOf(builder),
+            "test.gltf: " + place + ", and not all of the primitive's own accessors have data");
+}
+
 TEST(GltfDraco, BrokenStreamsAreRefusedAndEndNothing) {
   const Grid grid;
   const std::string bytes = dracoBytes(grid);

@@ -64,6 +64,11 @@ TEST(GltfInstancing, WithoutAttributesTheMeshIsThereOnce) {
   EXPECT_EQ(load(builder).triangles.size(), 1u);
   builder.node(0)["extensions"][kExtension].erase("attributes");
   EXPECT_EQ(load(builder).triangles.size(), 1u);
+  const std::string place = "/nodes/0/extensions/EXT_mesh_gpu_instancing: ";
+  EXPECT_EQ(load(builder).warnings.size(), 1u);
+  EXPECT_TRUE(anyWarningHas(load(builder), place + "has no attributes; the mesh is drawn once"));
+  builder.node(0).erase("mesh");
+  EXPECT_TRUE(anyWarningHas(load(builder), place + "has no mesh to act on, and is ignored"));
 }
 
 TEST(GltfInstancing, AttributesOfUnlikeCountsAreRefused) {
@@ -108,6 +113,24 @@ TEST(GltfInstancing, OtherAttributesAreWarnedAboutUnlessTheyAreTheAuthorsOwn) {
   EXPECT_TRUE(load(builder).warnings.empty());
   instance(builder, {{"SCALE", three}, {"COLOR_0", three}});
   EXPECT_TRUE(anyWarningHas(load(builder), placeOf("COLOR_0")));
+}
+
+TEST(GltfInstancing, InstancesThatCoincideAreDrawnOnceWithAWarning) {
+  GltfBuilder builder;
+  instance(builder, {{"TRANSLATION", builder.addAccessor<float>(
+                                         "VEC3", {1, 0, 0, 2, 0, 0, 2, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0})}});
+  const Scene scene = load(builder);
+  ASSERT_EQ(scene.triangles.size(), 3u);
+  EXPECT_EQ(worldCornerOf(scene, 0, 0).x, 1.0);
+  EXPECT_EQ(worldCornerOf(scene, 1, 0).x, 2.0);
+  EXPECT_EQ(worldCornerOf(scene, 2, 0).x, 0.0);
+  EXPECT_TRUE(anyWarningHas(scene,
+                            "/attributes: an instance that stands exactly where another one does is left "
+                            "out (3 times)"));
+  instance(builder, {{"TRANSLATION", builder.addAccessor<float>("VEC3", {1, 0, 0, 1, 0, 0})},
+                     {"SCALE", builder.addAccessor<float>("VEC3", {1, 1, 1, 1, 2, 1})}});
+  EXPECT_EQ(load(builder).triangles.size(), 2u);
+  EXPECT_TRUE(load(builder).warnings.empty());
 }
 
 /// Elements without a buffer view take no room in the file.

@@ -113,6 +113,42 @@ TEST(GltfNodes, LocalSpaceIsOfAnOrdinarySize) {
   }
 }
 
+/// Found by fuzzing.
+TEST(GltfNodes, VerticesThatNoTriangleUsesAreFiniteHoweverFarAway) {
+  GltfBuilder builder;
+  const std::vector<float> positions = {0, 0, 0, 1e-40f, 0, 0, 0, 1e-40f, 0, 0, 0, 3e38f};
+  builder.addMesh({{"POSITION", builder.addAccessor<float>("VEC3", positions)}})["indices"] =
+      builder.addAccessor<uint32_t>("SCALAR", {0, 1, 2});
+  for (const glm::vec3& position : load(builder).vertices.position) EXPECT_TRUE(std::isfinite(position.z));
+}
+
+TEST(GltfNodes, WhatIsTooSmallToCalculateWithIsLeftOutWithAWarning) {
+  GltfBuilder builder;
+  builder.addTriangle();
+  builder.root["nodes"].push_back({{"mesh", 0}, {"scale", {1e-300, 1e-300, 1e-300}}});
+  builder.root["nodes"].push_back({{"mesh", 0}, {"scale", {0, 0, 0}}});
+  const Scene scene = load(builder);
+  EXPECT_EQ(scene.triangles.size(), 2u);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_TRUE(scene.warnings[0].ends_with(
+      "test.gltf: /nodes/1/scale: its mesh is less than 1e-75 m in size, and left out"));
+  builder.root["nodes"].push_back({{"children", {1}}, {"scale", {1e-200, 1e-200, 1e-200}}});
+  EXPECT_EQ(refusalOf(builder), "test.gltf: /nodes/1: its world transform underflows");
+}
+
+/// Wherever its other parts are.
+TEST(GltfNodes, WhatIsTooFarAwayIsRefused) {
+  GltfBuilder builder;
+  builder.addMesh(
+      {{"POSITION", builder.addAccessor<float>("VEC3", {1.5e38f, 0, 0, 1.5e38f, 1, 0, 1.5e38f, 0, 1})}});
+  const std::string reason = "its mesh reaches farther than 1e30 m from the origin";
+  EXPECT_EQ(refusalOf(builder), "test.gltf: /nodes/0: " + reason);
+  builder.node(0)["scale"] = {1e-38, 1, 1};
+  EXPECT_EQ(load(builder).triangles.size(), 1u);
+  builder.root["nodes"].push_back({{"mesh", 0}, {"scale", {1e-38, 1, 1}}, {"translation", {0, -1e31, 0}}});
+  EXPECT_EQ(refusalOf(builder), "test.gltf: /nodes/1: " + reason);
+}
+
 /// The nearest point of the scene to the camera, unless it stands far outside.
 TEST(GltfNodes, TheOriginIsNearTheCamera) {
   GltfBuilder builder;
@@ -215,6 +251,28 @@ TEST(GltfNodes, SphereIsPlacedByItsNode) {
   EXPECT_EQ(scene.spheres[0].node, "/nodes/0");
   EXPECT_EQ(scene.bounds.minimum, glm::dvec3(0.5, 1.5, 2.5));
   EXPECT_EQ(scene.materials.size(), 1u);
+}
+
+TEST(GltfNodes, SpheresAndLightsOfNoSizeOrTooFarAwayAreRefusedOrLeftOut) {
+  GltfBuilder builder;
+  builder.addTriangle();
+  builder.root["extensions"] = {
+      {"KHR_implicit_shapes", {{"shapes", {{{"type", "sphere"}, {"sphere", {{"radius", 1}}}}}}}},
+      {"KHR_lights_punctual", {{"lights", {{{"type", "point"}}}}}}};
+  builder.root["extensionsUsed"] = {"KHR_implicit_shapes", "KHR_lights_punctual"};
+  builder.root["nodes"].push_back(
+      {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"translation", {0, 1e30, 0}}});
+  const Scene scene = load(builder);
+  EXPECT_TRUE(scene.lights.empty());
+  EXPECT_EQ(scene.warnings.size(), 1u);
+  EXPECT_TRUE(anyWarningHas(scene, "/nodes/1: its light is too far away for a scene of this size"));
+  builder.node(1) = {{"extras", {{"shape", 0}}}, {"translation", {0, 0, 1e31}}};
+  EXPECT_EQ(refusalOf(builder),
+            "test.gltf: /nodes/1: its sphere reaches farther than 1e30 m from the origin");
+  for (const double scale : {0.0, 1e-300, 1e-150}) {
+    builder.node(1) = {{"extras", {{"shape", 0}}}, {"scale", {scale, scale, scale}}};
+    EXPECT_EQ(refusalOf(builder), "test.gltf: /nodes/1: its sphere has no radius above 0");
+  }
 }
 
 TEST(GltfNodes, SphereWithoutMaterialGetsTheDefaultOne) {

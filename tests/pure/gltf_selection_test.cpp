@@ -86,6 +86,17 @@ TEST(GltfSelection, VariantsGiveTheirMaterials) {
   EXPECT_TRUE(load(builder).warnings.empty());
 }
 
+TEST(GltfSelection, AVariantThatChangesNothingIsWarnedAbout) {
+  GltfBuilder builder = variants();
+  builder.root["extensions"]["KHR_materials_variants"]["variants"].push_back({{"name", "fog"}});
+  EXPECT_TRUE(loadSelected(builder, {.materialVariant = "night"}).warnings.empty());
+  const Scene scene = loadSelected(builder, {.materialVariant = "fog"});
+  EXPECT_EQ(materialOf(scene), "a");
+  EXPECT_EQ(scene.warnings.size(), 1u);
+  EXPECT_TRUE(
+      anyWarningHas(scene, "/extensions/KHR_materials_variants/variants/3: no primitive has a material"));
+}
+
 TEST(GltfSelection, VariantsThatAreNotThereAreRefused) {
   GltfBuilder builder = variants();
   builder.root["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"][0]

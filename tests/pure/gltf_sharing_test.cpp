@@ -120,7 +120,11 @@ TEST(GltfSharing, WhatShinesOrIsScaledTooUnevenlyOrStandsThereOnceIsCopied) {
   GltfBuilder shining = threeTriangles();
   shining.root["materials"] = {{{"emissiveFactor", {1, 1, 1}}}};
   shining.root["meshes"][0]["primitives"][0]["material"] = 0;
-  EXPECT_EQ(load(shining, sharing()).triangles.size(), 3u);
+  const Scene copied = load(shining, sharing());
+  EXPECT_EQ(copied.triangles.size(), 3u);
+  EXPECT_TRUE(anyWarningHas(copied,
+                            "nothing is shared: no mesh that may be shared stands in the scene often enough; "
+                            "always copied: emissive meshes (1)"));
 
   GltfBuilder uneven = threeTriangles();
   uneven.node(2)["scale"] = {1, 1, 1000};
@@ -129,6 +133,10 @@ TEST(GltfSharing, WhatShinesOrIsScaledTooUnevenlyOrStandsThereOnceIsCopied) {
   EXPECT_EQ(scene.instances.size(), 2u);
   EXPECT_EQ(flatTriangleCount(scene), 2u);
   EXPECT_EQ(scene.triangles.size(), 3u);
+  EXPECT_TRUE(anyWarningHas(scene,
+                            "not all is shared: --instancing share: 0 MB in place of 0 MB; always copied: "
+                            "unevenly scaled instances (2)"));
+  EXPECT_TRUE(load(uneven).warnings.empty());
 
   GltfBuilder once;
   once.addTriangle();

@@ -235,7 +235,7 @@ struct Point {
 
 Point pointHit(const PackedTree& p, int slot, int instance, const Ray& ray, float t) {
   const With nodes(glsl_variant::nodes, std::span<const uint32_t>(p.nodes));
-  const Words faces = packFaces(p.scene, p.bvh);
+  const Words faces = packFaces(p.scene, p.bvh, false);
   const uint32_t* face = faces.data() + size_t(slot) * layout::kFaceRows * 4;
   const auto number = [&](int i) { return std::bit_cast<float>(face[i]); };
   const vec3 plane(number(0), number(1), number(2));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the loader and its process of codecs say to each other: a request with a piece of shared memory, a
-// reply. The memory holds the encoded bytes and, from the next multiple of kCodecAlignment on, the decoded
-// ones.
+// reply. The memory holds the encoded bytes and, at outputOffset(), the decoded ones.
 #pragma once
 
 #include <array>
@@ -43,12 +42,5 @@ struct CodecReply {
   bool done = false;
   char reason[500] = {};  ///< why it is not done
 };
-
-inline constexpr uint64_t kCodecAlignment = 4096;
-inline constexpr int kCodecProcessSocket = 3;  ///< the process's end
-
-inline uint64_t decodedOffset(const CodecRequest& request) {
-  return (request.inputBytes + kCodecAlignment - 1) / kCodecAlignment * kCodecAlignment;
-}
 
 }  // namespace fragtrace

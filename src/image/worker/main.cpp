@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
-// fragtrace_imageio: the image library in a process of its own, with limits that the program sets. It ends
-// when the program does.
-#include <sys/mman.h>
-#include <sys/socket.h>
-#include <sys/stat.h>
+// fragtrace_imageio: the image library in a process of its own, with limits that the program sets.
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstring>
-#include <new>
 #include <stdexcept>
 
+#include "image/serve.h"
 #include "image/worker/messages.h"
 #include "image/worker/openimageio.h"
 
@@ -58,8 +53,8 @@ std::vector<uint8_t> encodeFloatsOf(const ImageRequest& request, std::span<const
   return encodeFloats(image, {reinterpret_cast<const float*>(input.data()), count}, request.format);
 }
 
-ImageReply perform(const ImageRequest& request, std::span<const uint8_t> input, std::span<uint8_t> room) {
-  ImageReply reply;
+void perform(const ImageRequest& request, std::span<const uint8_t> input, std::span<uint8_t> room,
+             ImageReply& reply) {
   Output output{room, 0};
   reply.channelCount = request.channelCount;
   switch (request.task) {
@@ -79,33 +74,6 @@ ImageReply perform(const ImageRequest& request, std::span<const uint8_t> input, 
       break;
   }
   reply.outputBytes = output.used;
-  reply.done = true;
-  return reply;
-}
-
-ImageReply refusal(const char* reason) {
-  ImageReply reply;
-  std::strncpy(reply.reason, reason, sizeof reply.reason - 1);
-  return reply;
-}
-
-ImageReply answer(const ImageRequest& request, int memoryFile) {
-  const uint64_t size = outputOffset(request) + request.outputBytes;
-  void* memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, memoryFile, 0);
-  ::close(memoryFile);
-  if (memory == MAP_FAILED) return refusal("it does not fit into memory");
-  auto* bytes = static_cast<uint8_t*>(memory);
-  ImageReply reply;
-  try {
-    reply =
-        perform(request, {bytes, request.inputBytes}, {bytes + outputOffset(request), request.outputBytes});
-  } catch (const std::bad_alloc&) {
-    reply = refusal("it does not fit into memory");
-  } catch (const std::exception& error) {
-    reply = refusal(error.what());
-  }
-  ::munmap(memory, size);
-  return reply;
 }
 
 }  // namespace
@@ -113,18 +81,9 @@ ImageReply answer(const ImageRequest& request, int memoryFile) {
 
 int main() {
   using namespace fragtrace;
-  struct stat status {};
-  if (::fstat(kImageProcessSocket, &status) != 0 || !S_ISSOCK(status.st_mode)) {
-    static constexpr char kHint[] = "fragtrace_imageio: started by fragtrace, not by hand\n";
-    (void)!::write(STDERR_FILENO, kHint, sizeof kHint - 1);
-    return 2;
-  }
+  if (!isStartedByProgram("fragtrace_imageio")) return 2;
   openImageLibrary();
-  int memoryFile = -1;
-  while (const auto request = receiveRequest(kImageProcessSocket, memoryFile)) {
-    const ImageReply reply = answer(*request, memoryFile);
-    if (::send(kImageProcessSocket, &reply, sizeof reply, MSG_NOSIGNAL) != ssize_t(sizeof reply)) break;
-  }
+  answerRequests<ImageRequest, ImageReply>(perform);
   // What the libraries would tidy up on a normal end goes with the process.
   ::_exit(0);
 }

@@ -4,8 +4,6 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "image/shared_memory.h"
-
 namespace fragtrace {
 
 std::vector<uint8_t> packTexts(const std::vector<std::string>& texts) {
@@ -32,16 +30,6 @@ std::vector<std::string> unpackTexts(std::span<const uint8_t> bytes) {
     bytes = bytes.subspan(length);
   }
   return texts;
-}
-
-bool sendRequest(int socket, const ImageRequest& request, int memoryFile) {
-  return sendWithFile(socket, asMessage(request), memoryFile);
-}
-
-std::optional<ImageRequest> receiveRequest(int socket, int& memoryFile) {
-  ImageRequest request;
-  if (!receiveWithFile(socket, asMessage(request), memoryFile)) return std::nullopt;
-  return request;
 }
 
 }  // namespace fragtrace

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What the program and its image process say to each other: a request with a piece of shared memory, a
-// reply. The memory holds the input and, from the next multiple of kSharedAlignment on, the output.
+// reply. The memory holds the input and, at outputOffset(), the output.
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,21 +32,9 @@ struct ImageReply {
   char reason[1000] = {};  ///< why it is not done
 };
 
-inline constexpr uint64_t kSharedAlignment = 4096;
-inline constexpr int kImageProcessSocket = 3;  ///< the image process's end
-
-inline uint64_t outputOffset(const ImageRequest& request) {
-  return (request.inputBytes + kSharedAlignment - 1) / kSharedAlignment * kSharedAlignment;
-}
-
 /// Texts with their lengths before them.
 std::vector<uint8_t> packTexts(const std::vector<std::string>& texts);
 /// Throws std::runtime_error when a length does not fit.
 std::vector<std::string> unpackTexts(std::span<const uint8_t> bytes);
-
-/// Sends a request and the file descriptor of its memory; false when nobody listens.
-bool sendRequest(int socket, const ImageRequest& request, int memoryFile);
-/// Waits for a request; the descriptor becomes the caller's. Nothing when the other side has gone.
-std::optional<ImageRequest> receiveRequest(int socket, int& memoryFile);
 
 }  // namespace fragtrace

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/extensions.h"
+
+#include <algorithm>
+
+namespace fragtrace {
+namespace {
+
+using enum Support;
+
+constexpr std::array<std::string_view, 2> kInMaterials = {"/materials/*", kNowhere};
+constexpr std::array<std::string_view, 2> kInNodes = {"/nodes/*", kNowhere};
+
+constexpr Extension kExtensions[] = {
+    {"KHR_lights_punctual", Supported, "light.cpp", {"", "/nodes/*"}},
+    {"KHR_materials_emissive_strength", Supported, "material_extensions.cpp", kInMaterials},
+    {"KHR_materials_ior", Supported, "material_extensions.cpp", kInMaterials},
+    {"KHR_materials_specular", Supported, "material_extensions.cpp", kInMaterials},
+    {"KHR_materials_transmission", Supported, "material_extensions.cpp", kInMaterials},
+    {"KHR_materials_volume", Partly, "material_extensions.cpp", kInMaterials},
+    {"KHR_materials_unlit", Supported, "material_extensions.cpp", kInMaterials},
+    {"KHR_mesh_quantization", Supported, "accessor.cpp", {kNowhere, kNowhere}},
+    {"KHR_implicit_shapes", Partly, "sphere.cpp", {"", kNowhere}},
+    {"KHR_materials_variants", Supported, "motion.cpp", {"", "/meshes/*/primitives/*"}},
+    {"KHR_animation_pointer", Partly, "motion.cpp", {"/animations/*/channels/*/target", kNowhere}},
+    {"KHR_draco_mesh_compression", Supported, "draco_primitives.cpp", {"/meshes/*/primitives/*", kNowhere}},
+    {"EXT_meshopt_compression", Supported, "meshopt_views.cpp", {"/buffers/*", "/bufferViews/*"}},
+    {"KHR_texture_transform", Supported, "material_part.cpp", {kTextureInfo, kNowhere}},
+    {"EXT_texture_webp", Supported, "textures.cpp", {"/textures/*", kNowhere}},
+    {"KHR_texture_basisu", Ignored, "", {"/textures/*", kNowhere}},
+    {"EXT_mesh_gpu_instancing", Supported, "instancing.cpp", kInNodes},
+    {"KHR_node_visibility", Ignored, "", kInNodes},
+    {"KHR_materials_clearcoat", Supported, "material_extensions.cpp", kInMaterials},
+    {"KHR_materials_sheen", Supported, "material_extensions.cpp", kInMaterials},
+    {"KHR_materials_anisotropy", Supported, "material_extensions.cpp", kInMaterials},
+    {"KHR_materials_iridescence", Supported, "material_extensions.cpp", kInMaterials},
+    {"KHR_materials_dispersion", Supported, "material_extensions.cpp", kInMaterials},
+    {"KHR_materials_diffuse_transmission", Supported, "material_extensions.cpp", kInMaterials},
+    {"KHR_materials_pbrSpecularGlossiness", Supported, "material_extensions.cpp", kInMaterials},
+};
+
+}  // namespace
+
+std::span<const Extension> extensions() { return kExtensions; }
+
+const Extension* extensionNamed(std::string_view name) {
+  const auto found = std::ranges::find(kExtensions, name, &Extension::name);
+  return found == std::end(kExtensions) ? nullptr : found;
+}
+
+bool isApplied(std::string_view name) {
+  const Extension* extension = extensionNamed(name);
+  return extension != nullptr && extension->support != Support::Ignored;
+}
+
+}  // namespace fragtrace

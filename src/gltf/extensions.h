@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The extensions of glTF that the loader knows, in one table. docs/gltf.md has a row for each.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace fragtrace {
+
+enum class Support : uint8_t { Supported, Partly, Ignored };
+
+/// A place that is any use of a texture, of whatever name.
+inline constexpr std::string_view kTextureInfo = "a texture info";
+
+struct Extension {
+  std::string_view name;
+  Support support = Support::Supported;
+  std::string_view reader;                 ///< the file of src/gltf that reads it; empty where it is ignored
+  std::array<std::string_view, 2> places;  ///< where it may stand: pointers with * for an index, "" the root,
+                                           ///< kTextureInfo; kNowhere
+};
+
+/// For what has no object of its own, and for a second place that there is not.
+inline constexpr std::string_view kNowhere = "nowhere";
+
+std::span<const Extension> extensions();
+
+/// Null for one that is not in the table.
+const Extension* extensionNamed(std::string_view name);
+
+/// Whether the loader reads it.
+bool isApplied(std::string_view name);
+
+}  // namespace fragtrace

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "pack/own_light.h"
+
+#include <glm/gtc/constants.hpp>
+
+#include "pack/pack_lights.h"
+#include "pack/pack_textures.h"
+#include "stage/variant.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr double kDimRadiance = 0.01;
+
+/// Of emissive surfaces by material, m^2 of local space.
+std::vector<double> emissiveAreas(const Scene& scene) {
+  std::vector<double> areas(scene.materials.size(), 0.0);
+  for (const Triangle& t : scene.triangles) {
+    if (scene.materials[t.material].emissive()) areas[t.material] += triangleArea(scene, t);
+  }
+  for (const Sphere& s : scene.spheres) {
+    if (scene.materials[s.material].emissive())
+      areas[s.material] += 4.0 * glm::pi<double>() * double(s.radius) * double(s.radius);
+  }
+  return areas;
+}
+
+}  // namespace
+
+OwnLight ownLight(const Scene& scene) {
+  if (!hasOwnLight(scene)) return OwnLight::None;
+  if (!scene.lights.empty()) return OwnLight::Enough;
+  const std::vector<double> areas = emissiveAreas(scene);
+  for (size_t i = 0; i < areas.size(); ++i) {
+    if (areas[i] > 0.0 && !scene.materials[i].emissiveTexture.present()) return OwnLight::Enough;
+  }
+  constexpr int kSide = 64;  // pixels: enough for a mean, and little memory
+  TexturePacker textures(scene, kSide);
+  const double enough = kDimRadiance * scene.bounds.area() / (scene.space.unit * scene.space.unit);
+  double light = 0.0;
+  for (size_t i = 0; i < areas.size(); ++i) {
+    if (areas[i] == 0.0) continue;
+    const Material& m = scene.materials[i];
+    const glm::vec3 radiance =
+        m.emissiveFactor * m.emissiveStrength * textures.mean(m.emissiveTexture, TransferCurve::Srgb);
+    light += areas[i] * luminance(glm::dvec3(radiance));
+    if (light >= enough) return OwnLight::Enough;
+  }
+  return OwnLight::Dim;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+#include "scene/creases.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <thread>
+
+#include "bvh/parallel.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// What the next ray's own rounding needs of a height over a plane, in offsets: 22 of 32 (docs/accuracy.md).
+constexpr double kClearance = 22.0 / 32.0;
+/// What a grazing ray leaves unknown of where in the plane its point is, in offsets: 16 of 32, for the floats
+/// of the ray's point and a sine of 1/16 (pointOnPlane of shaders/intersect.glsl).
+constexpr double kGrazing = 0.5;
+/// Offsets are packed with a few bits, rounded up by at most this.
+constexpr double kPackedOffset = 1.25;
+/// Neighbours whose unit normals have at least this dot product need nothing: the offset lifts off both.
+constexpr float kGentle = float(kClearance);
+/// All within half of that angle of one normal: cos(acos(kGentle) / 2).
+constexpr float kGentleCone = 0.9186f;
+/// From here on a crease is sharp: just under a right angle.
+constexpr double kSharp = 0.02;
+/// Wedges below half a degree hold nothing that could be seen, and cards with two faces have one of 0.
+constexpr double kLeastSine = 0x1p-7;
+/// The farthest that a point is moved, in offsets.
+constexpr double kMostInset = 64.0;
+constexpr size_t kMostFaces = 512;
+constexpr uint32_t kNone = 0xffffffffu;
+
+/// The triangles round each place: vertices at the same place count as one.
+struct Fans {
+  std::vector<uint32_t> place;   ///< of each corner, three a triangle
+  std::vector<uint32_t> first;   ///< of each place, in `corner`; one more at the end
+  std::vector<uint32_t> corner;  ///< triangle * 3 + corner
+};
+
+size_t hashOf(const glm::vec3& p) {
+  // Of -0 + 0 comes 0: both are one place.
+  uint64_t h = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    h = (h ^ std::bit_cast<uint32_t>(p[axis] + 0.0f)) * 0x9e3779b97f4a7c15u;
+  return size_t(h ^ (h >> 29));
+}
+
+std::vector<uint32_t> placesOf(const std::vector<glm::vec3>& positions) {
+  std::vector<uint32_t> places(positions.size());
+  const size_t mask = std::bit_ceil(positions.size() * 2) - 1;
+  std::vector<uint32_t> table(mask + 1, kNone);
+  for (uint32_t i = 0; i < positions.size(); ++i) {
+    size_t slot = hashOf(positions[i]) & mask;
+    while (table[slot] != kNone && positions[table[slot]] != positions[i]) slot = (slot + 1) & mask;
+    if (table[slot] == kNone) table[slot] = i;
+    places[i] = table[slot];
+  }
+  return places;
+}
+
+Fans fansOf(const Scene& scene, uint32_t triangles) {
+  Fans fans;
+  const std::vector<uint32_t> places = placesOf(scene.vertices.position);
+  fans.first.assign(places.size() + 1, 0);
+  fans.place.resize(size_t(triangles) * 3);
+  for (size_t c = 0; c < fans.place.size(); ++c) {
+    fans.place[c] = places[scene.triangles[c / 3].vertex[int(c % 3)]];
+    ++fans.first[fans.place[c] + 1];
+  }
+  for (size_t p = 1; p < fans.first.size(); ++p) fans.first[p] += fans.first[p - 1];
+  fans.corner.resize(fans.place.size());
+  std::vector<uint32_t> next = fans.first;
+  for (uint32_t c = 0; c < fans.corner.size(); ++c) fans.corner[next[fans.place[c]]++] = c;
+  return fans;
+}
+
+/// A triangle seen from one of its corners.
+struct Sector {
+  glm::dvec3 normal, toSecond, toThird;  // unit; (0, 0, 0) for the normal of a triangle without area
+  std::array<double, 3> altitude;        // over the edge opposite to the corner, the second, the third vertex
+  double offset;
+  uint32_t second, third;  // places
+  uint32_t triangle, corner;
+};
+
+Sector sectorAt(const Scene& scene, const Fans& fans, uint32_t corner) {
+  Sector s{};
+  s.triangle = corner / 3;
+  s.corner = corner % 3;
+  const uint32_t second = (s.corner + 1) % 3;
+  const uint32_t third = (s.corner + 2) % 3;
+  s.second = fans.place[s.triangle * 3 + second];
+  s.third = fans.place[s.triangle * 3 + third];
+  const Triangle& t = scene.triangles[s.triangle];
+  const auto at = [&](uint32_t i) { return scene.vertices.position[t.vertex[int(i)]]; };
+  const glm::dvec3 a = glm::dvec3(at(second)) - glm::dvec3(at(s.corner));
+  const glm::dvec3 b = glm::dvec3(at(third)) - glm::dvec3(at(s.corner));
+  const glm::dvec3 n = glm::cross(a, b);
+  const double area = glm::length(n);
+  if (area <= 0.0) return s;
+  s.normal = n / area;
+  s.toSecond = glm::normalize(a);
+  s.toThird = glm::normalize(b);
+  s.altitude = {area / glm::length(b - a), area / glm::length(b), area / glm::length(a)};
+  s.offset = kPackedOffset * hitPointError(at(s.corner), at(second), at(third));
+  return s;
+}
+
+/// The largest cosine between a unit direction and the directions of a sector.
+double nearest(const glm::dvec3& direction, const Sector& s) {
+  const glm::dvec3 flat = direction - s.normal * glm::dot(s.normal, direction);
+  const bool between = glm::dot(glm::cross(s.toSecond, flat), s.normal) > 0.0 &&
+                       glm::dot(glm::cross(flat, s.toThird), s.normal) > 0.0;
+  if (between) return glm::length(flat);
+  return std::max(glm::dot(direction, s.toSecond), glm::dot(direction, s.toThird));
+}
+
+/// What is asked of a triangle's points, and whether the crease that asks is sharp.
+struct Asked {
+  double distance = 0.0;  // from the edge or vertex
+  bool sharp = false;
+};
+
+/// From the edge at which the face and its neighbour meet, given the directions along the edge and to the
+/// third vertices: the height over the neighbour's plane, distance * sine - offset * cosine, is to be the
+/// clearance.
+Asked besideEdge(const Sector& face, const Sector& other, const glm::dvec3& edge, const glm::dvec3& inFace,
+                 const glm::dvec3& inOther) {
+  const glm::dvec3 a = glm::normalize(inFace - edge * glm::dot(edge, inFace));
+  const glm::dvec3 b = glm::normalize(inOther - edge * glm::dot(edge, inOther));
+  const double cosine = glm::dot(a, b);
+  const double sine = glm::length(glm::cross(a, b));
+  const double height = kClearance * std::max(face.offset, other.offset) + face.offset * cosine;
+  if (sine < kLeastSine || height <= 0.0) return {};
+  return {std::min(height / sine + kGrazing * face.offset, kMostInset * face.offset), cosine > kSharp};
+}
+
+/// From a vertex at which two triangles without a common edge meet: a point at distance r is r times the sine
+/// of the angle between them away from the other.
+Asked besideVertex(const Sector& face, const Sector& other) {
+  const double cosine = std::max({nearest(face.toSecond, other), nearest(face.toThird, other),
+                                  nearest(other.toSecond, face), nearest(other.toThird, face)});
+  const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  if (cosine <= 0.0 || sine < kLeastSine) return {};
+  const double height = kClearance * std::max(face.offset, other.offset) + face.offset;
+  return {std::min(height / sine + kGrazing * face.offset, kMostInset * face.offset),
+          glm::dot(face.normal, other.normal) < -kSharp && cosine > kSharp};
+}
+
+/// The code of the next power of two; at most a quarter.
+uint8_t codeOf(double part) {
+  if (part <= 0.0) return 0;
+  return uint8_t(std::clamp(std::floor(-std::log2(part)), 2.0, 31.0));
+}
+
+/// The codes of all triangles; each is written by the place that its vertex or the lower end of its edge is.
+struct Codes {
+  std::vector<std::array<uint8_t, 6>> of;
+  std::atomic<bool> sharp{false};
+
+  void ask(const Sector& face, uint32_t code, double altitude, const Asked& asked) {
+    const uint8_t wanted = codeOf(asked.distance / altitude);
+    uint8_t& kept = of[face.triangle][code];
+    if (wanted != 0 && (kept == 0 || wanted < kept)) kept = wanted;
+    if (asked.sharp) sharp.store(true, std::memory_order_relaxed);
+  }
+};
+
+void askBeside(const Sector& face, const Sector& other, uint32_t place, Codes& codes) {
+  // The edges to the second and to the third vertex, opposite to the third and to the second.
+  bool adjacent = false;
+  for (const bool toSecond : {true, false}) {
+    const uint32_t end = toSecond ? face.second : face.third;
+    if (end != other.second && end != other.third) continue;
+    adjacent = true;
+    if (end < place) continue;  // asked there
+    const uint32_t code = (face.corner + (toSecond ? 2 : 1)) % 3;
+    codes.ask(face, code, face.altitude[toSecond ? 2 : 1],
+              besideEdge(face, other, toSecond ? face.toSecond : face.toThird,
+                         toSecond ? face.toThird : face.toSecond,
+                         end == other.second ? other.toThird : other.toSecond));
+  }
+  if (!adjacent) codes.ask(face, 3 + face.corner, face.altitude[0], besideVertex(face, other));
+}
+
+bool isGentle(const Fans& fans, uint32_t place, const std::vector<glm::vec3>& normals) {
+  const glm::vec3 first = normals[fans.corner[fans.first[place]] / 3];
+  for (uint32_t i = fans.first[place]; i < fans.first[place + 1]; ++i) {
+    if (glm::dot(normals[fans.corner[i] / 3], first) < kGentleCone) return false;
+  }
+  return true;
+}
+
+void askAround(const Scene& scene, const Fans& fans, uint32_t place, std::vector<Sector>& sectors,
+               Codes& codes) {
+  sectors.clear();
+  for (uint32_t i = fans.first[place]; i < fans.first[place + 1]; ++i) {
+    sectors.push_back(sectorAt(scene, fans, fans.corner[i]));
+    if (sectors.back().altitude[0] <= 0.0) sectors.pop_back();
+  }
+  for (const Sector& face : sectors) {
+    for (const Sector& other : sectors) {
+      if (glm::dot(face.normal, other.normal) < double(kGentle)) askBeside(face, other, place, codes);
+    }
+  }
+}
+
+std::vector<glm::vec3> normalsOf(const Scene& scene, uint32_t triangles) {
+  std::vector<glm::vec3> normals(triangles);
+  for (uint32_t i = 0; i < triangles; ++i) {
+    const glm::uvec3& v = scene.triangles[i].vertex;
+    const auto at = [&](int c) { return glm::dvec3(scene.vertices.position[v[c]]); };
+    const glm::dvec3 n = glm::cross(at(1) - at(0), at(2) - at(0));
+    const double length = glm::length(n);
+    normals[i] = length > 0.0 ? glm::vec3(n / length) : glm::vec3(0.0f);
+  }
+  return normals;
+}
+
+}  // namespace
+
+double hitPointError(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2) {
+  const glm::vec3 largest = glm::max(glm::abs(v0), glm::max(glm::abs(v1), glm::abs(v2)));
+  return 0x1p-19 * std::max(largest.x, std::max(largest.y, largest.z));
+}
+
+std::vector<uint32_t> creaseInsets(const Scene& scene) {
+  const uint32_t triangles = flatTriangleCount(scene);
+  if (triangles == 0) return {};
+  const Fans fans = fansOf(scene, triangles);
+  const std::vector<glm::vec3> normals = normalsOf(scene, triangles);
+  Codes codes;
+  codes.of.resize(triangles);
+  const uint32_t threads = std::max(std::thread::hardware_concurrency(), 1u);
+  const auto places = uint32_t(fans.first.size() - 1);
+  runOnThreads(threads, [&](uint32_t thread) {
+    std::vector<Sector> sectors;
+    for (uint32_t place = thread; place < places; place += threads) {
+      const size_t faces = fans.first[place + 1] - fans.first[place];
+      if (faces < 2 || faces > kMostFaces || isGentle(fans, place, normals)) continue;
+      askAround(scene, fans, place, sectors, codes);
+    }
+  });
+  if (!codes.sharp) return {};
+  std::vector<uint32_t> insets(scene.triangles.size(), 0u);
+  for (uint32_t i = 0; i < triangles; ++i) {
+    for (uint32_t c = 0; c < 6; ++c) insets[i] |= uint32_t(codes.of[i][c]) << (5 * c);
+  }
+  return insets;
+}
+
+}  // namespace fragtrace
