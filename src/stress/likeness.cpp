@@ -55,7 +55,7 @@ struct Pair {
   SceneDrawing a;
   SceneDrawing b;
 
-  Pair(const Context& context, uint32_t seed, Form form, RenderOptions options)
+  Pair(const Context& context, uint32_t seed, Form form, const RenderOptions& options)
       : sketch(randomSketch(seed)),
         other(inForm(sketch, form, seed)),
         a(drawingOf(context, sketch, options)),

@@ -178,7 +178,7 @@ void addSpheres(Dice& dice, SceneSketch& sketch) {
 Image randomSky(Dice& dice) {
   Image sky{16, 8, {"R", "G", "B"}, {}, {}};
   for (int i = 0; i < 3 * sky.width * sky.height; ++i) sky.values.push_back(float(dice.between(0.05, 0.4)));
-  const size_t bright = 3 * dice.below(size_t(sky.width * sky.height));
+  const size_t bright = 3 * dice.below(sky.values.size() / 3);
   for (size_t c = 0; c < 3; ++c) sky.values[bright + c] = 8.0f;
   return sky;
 }

@@ -65,6 +65,8 @@ json materialJson(const SketchMaterial& m) {
 
 class Writer {
  public:
+  Writer() : root_(json::object()) {}
+
   std::string text(const SceneSketch& sketch) {
     root_["asset"]["version"] = "2.0";
     root_["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_transmission", "KHR_materials_volume",
@@ -134,7 +136,7 @@ class Writer {
       if (from.mesh >= 0) node["mesh"] = from.mesh;
       if (from.radius > 0.0)
         node["extras"] = {{"shape", addSphere(from.radius)}, {"material", from.sphereMaterial}};
-      add(std::move(node), size_t(from.parent + 1));
+      add(std::move(node), size_t(from.parent) + 1);
     }
     for (const SketchLight& light : sketch.lights) {
       json& lights = root_["extensions"]["KHR_lights_punctual"]["lights"];
