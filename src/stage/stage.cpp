@@ -83,9 +83,9 @@ std::span<const StageRow> stageRows() {
        "default)",
        false, true, nullptr},
       {Stage::Watertight, "watertight", "Watertight triangles",
-       "triangle test of the trees that lets no ray through between neighbours, in place of a faster one (on "
-       "by "
-       "default)",
+       "triangle test of the trees that lets no ray through between neighbours, and points moved out of "
+       "sharp creases, in place of a faster test "
+       "(on by default)",
        false, true, "kWatertight"},
       {Stage::BvhHeatmap, "bvh-heatmap", "Node heat map", "paints how many nodes each camera ray visits",
        false, false, "kHeatmap"},
