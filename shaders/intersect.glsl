@@ -28,7 +28,7 @@ RayShear makeShear(vec3 direction) {
   return s;
 }
 
-/// front: the triangle is seen from its counter-clockwise side. Meaningless where hit is false.
+/// hit: the line of the ray meets the triangle, in front of the origin where t > 0. front: it is seen from its counter-clockwise side. Meaningless where hit is false.
 struct TriangleHit {
   bool hit;
   bool front;
@@ -41,7 +41,7 @@ struct TriangleHit {
 bool zeroBeyond(float a, float b, float c) { return a * b > 0.0f && b * c > 0.0f; }
 
 /// Watertight: two triangles that share an edge see the same edge function with opposite sign, and zero counts as
-/// inside for both. Zero-area triangles are never hit. t > 0.
+/// inside for both. Zero-area triangles are never hit.
 TriangleHit intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2) {
   vec3 a = rotateToAxis(v0 - origin, s.axis);
   vec3 b = rotateToAxis(v1 - origin, s.axis);
@@ -61,13 +61,23 @@ TriangleHit intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2
   TriangleHit h;
   float inverse = 1.0f / sum;
   h.t = (u * a.z + v * b.z + w * c.z) * s.z * inverse;
-  h.hit = (positive || negative) && sum != 0.0f && h.t > 0.0f;
+  h.hit = (positive || negative) && sum != 0.0f;
   // Edge functions of a triangle that is small beside its distance from the ray are rounding (docs/accuracy.md, "Zero from far away").
   h.hit = h.hit && !zeroBeyond(ax, bx, cx) && !zeroBeyond(ay, by, cy);
   h.front = (s.z > 0.0f) == (sum > 0.0f);
   h.weight1 = v * inverse;
   h.weight2 = w * inverse;
   return h;
+}
+
+/// Distance along the ray to the plane dot(normal, x) = distance of a triangle, within the depths of its vertices. The weighted depths of a sliver are
+/// rounding times its aspect ratio: a ray that starts beside it could find it behind (docs/accuracy.md, "Distance along the ray").
+float distanceToPlane(vec3 origin, vec3 direction, RayShear s, vec3 v0, vec3 v1, vec3 v2, vec3 normal, float distance) {
+  float a = rotateToAxis(v0 - origin, s.axis).z * s.z;
+  float b = rotateToAxis(v1 - origin, s.axis).z * s.z;
+  float c = rotateToAxis(v2 - origin, s.axis).z * s.z;
+  float t = (distance - dot(normal, origin)) / dot(normal, direction);
+  return max(min(min(a, b), c), min(t, max(max(a, b), c)));
 }
 
 /// The test of Moller and Trumbore (Fast, Minimum Storage Ray/Triangle Intersection, 1997): each triangle rounds its edges by itself, so rays
@@ -84,7 +94,7 @@ TriangleHit intersectTriangleFast(vec3 origin, vec3 direction, vec3 v0, vec3 v1,
   h.weight1 = dot(s, p) * inverse;
   h.weight2 = dot(direction, q) * inverse;
   h.t = dot(e2, q) * inverse;
-  h.hit = determinant != 0.0f && h.weight1 >= 0.0f && h.weight2 >= 0.0f && h.weight1 + h.weight2 <= 1.0f && h.t > 0.0f;
+  h.hit = determinant != 0.0f && h.weight1 >= 0.0f && h.weight2 >= 0.0f && h.weight1 + h.weight2 <= 1.0f;
   h.front = determinant > 0.0f;
   return h;
 }

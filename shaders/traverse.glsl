@@ -42,13 +42,13 @@ float awayFromZero(float d) {
   return abs(d) < 8.6736173798840355e-19f ? (d < 0.0f ? -8.6736173798840355e-19f : 8.6736173798840355e-19f) : d;
 }
 
-/// A hit on one primitive of a leaf; t is -1 for a miss.
+/// A hit on one primitive of a leaf; t is not above 0 for a miss.
 struct PrimitiveHit {
   float t;
   vec2 weights;
 };
 
-PrimitiveHit intersectWord(vec3 origin, vec3 direction, RayShear shear, float tie, vec3 v0, vec3 v1, vec3 v2, uint word) {
+PrimitiveHit intersectWord(vec3 origin, vec3 direction, RayShear shear, float tie, vec3 v0, vec3 v1, vec3 v2, uint word, int slot) {
   PrimitiveHit r;
   r.t = -1.0f;
   r.weights = vec2(0.0f);
@@ -56,6 +56,10 @@ PrimitiveHit intersectWord(vec3 origin, vec3 direction, RayShear shear, float ti
     TriangleHit h;
     if (kWatertight) h = intersectTriangle(origin, shear, v0, v1, v2);
     if (!kWatertight) h = intersectTriangleFast(origin, direction, v0, v1, v2);
+    if (kSlivers && h.hit && (word & kPrimitiveSliver) != 0u) {
+      int row = slot * int(kFaceRows);
+      h.t = distanceToPlane(origin, direction, shear, v0, v1, v2, vec3(uintBitsToFloat(readFaces(row))), uintBitsToFloat(readFaces(row + 1).x));
+    }
     bool there = !kCulling || h.front || (word & kPrimitiveCull) == 0u;
     r.t = h.hit && there ? h.t : -1.0f;
     if (kCreases) r.t -= r.t * (h.front ? tie : -tie);
@@ -72,8 +76,8 @@ PrimitiveHit intersectWord(vec3 origin, vec3 direction, RayShear shear, float ti
 /// The nearest of what the traversal has and the two primitives of a leaf. The origin lies at distance `start` along the ray (kInstances).
 Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayShear shear, float start) {
   LeafPair l = loadLeaf(leaf);
-  PrimitiveHit a = intersectWord(origin, direction, shear, s.tie, l.v0a, l.v1a, l.v2a, l.worda);
-  PrimitiveHit b = intersectWord(origin, direction, shear, s.tie, l.v0b, l.v1b, l.v2b, l.wordb);
+  PrimitiveHit a = intersectWord(origin, direction, shear, s.tie, l.v0a, l.v1a, l.v2a, l.worda, 2 * leaf);
+  PrimitiveHit b = intersectWord(origin, direction, shear, s.tie, l.v0b, l.v1b, l.v2b, l.wordb, 2 * leaf + 1);
   if (kInstances) {
     a.t += a.t > 0.0f ? start : 0.0f;
     b.t += b.t > 0.0f ? start : 0.0f;

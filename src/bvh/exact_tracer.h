@@ -42,7 +42,7 @@ class ExactTracer {
 
   /// Unit, on the front, in local space, as is the point.
   glm::dvec3 normal(uint32_t primitive, const glm::dvec3& point, uint32_t instance = kMissIndex) const;
-  /// A bound on the error of a 32-bit point on the primitive (hitPointError of shaders/intersect.glsl).
+  /// A bound on the error of a 32-bit point on the primitive (hitPointError of src/scene/hit_error.h).
   double pointError(uint32_t primitive) const;
 
  private:

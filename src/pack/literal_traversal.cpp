@@ -7,6 +7,9 @@
 #include <map>
 #include <set>
 
+#include "pack/pack_faces.h"
+#include "scene/hit_error.h"
+
 namespace fragtrace {
 
 namespace {
@@ -54,6 +57,7 @@ Traversal traverseLiterals(vec3 origin, vec3 direction, Traversal s, bool anyHit
   float bestSum = 1.0;
   vec2 weights = s.weights;
   float sum;
+  float area;
   float t;
   bool hit;
 )";
@@ -177,6 +181,40 @@ class TraversalText {
     return text;
   }
 
+  /// Whether distances are to be those to the face's plane (shaders/intersect.glsl, distanceToPlane).
+  bool isSliverFace(const LiteralFace& f) const {
+    const auto at = [&](size_t i) { return mesh_.points[f.corner[i]]; };
+    return isSliver(at(0), at(1), at(2)) || (f.quad && isSliver(at(0), at(2), at(3)));
+  }
+
+  /// A sum of products with the components of a vector.
+  static std::string dotWith(const glm::dvec3& v, const std::string& vector) {
+    std::string text;
+    for (int axis = 0; axis < 3; ++axis) text = added(text, product(v[axis], vector, axis));
+    return text;
+  }
+
+  /// Distance over 1 as t over sum, both with the sign that fronts have; `area`: the sum of the edges.
+  void planeDistance(const LiteralFace& f, const std::string& area) {
+    const auto at = [&](size_t i) { return mesh_.points[f.corner[i]]; };
+    const glm::dvec4 plane(planeOf(at(0), at(1), at(2)));
+    const std::string z0 = place("rz", f.corner[0]);
+    const std::string z1 = place("rz", f.corner[1]);
+    const std::string z2 = place("rz", f.corner[2]);
+    std::string nearest = "min(min(" + z0 + ", " + z1 + "), " + z2 + ")";
+    std::string farthest = "max(max(" + z0 + ", " + z1 + "), " + z2 + ")";
+    if (f.quad) {
+      const std::string z3 = place("rz", f.corner[3]);
+      nearest = "min(" + nearest + ", " + z3 + ")";
+      farthest = "max(" + farthest + ", " + z3 + ")";
+    }
+    body_ += "  area = " + area + ";\n";
+    body_ += "  sum = " + dotWith(-glm::dvec3(plane), "direction") + ";\n";
+    body_ += "  t = " + added(dotWith(glm::dvec3(plane), "origin"), number(-plane.w)) + ";\n";
+    body_ += "  t = sum < 0.0 ? -t : t;\n  sum = abs(sum);\n";
+    body_ += "  t = max(sum * " + nearest + ", min(t, sum * " + farthest + "));\n";
+  }
+
   static Term times(const Term& a, bool negated) { return {a.name, a.negated != negated}; }
 
   void test(const LiteralFace& f) {
@@ -190,6 +228,13 @@ class TraversalText {
       all.push_back({e[i], ""});
       positive += e[i].name + (e[i].negated ? " <= 0.0 && " : " >= 0.0 && ");
       negative += e[i].name + (e[i].negated ? " >= 0.0 && " : " <= 0.0 && ");
+    }
+    if (isSliverFace(f)) {
+      planeDistance(f, sumOf(all));
+      body_ += "  hit = ((" + positive + "area > 0.0)" +
+               (f.culled ? "" : " || (" + negative + "area < 0.0)") + ") && t > 0.0;\n";
+      keepNearest(f, "abs(vec2(" + e[2].name + ", " + e[0].name + ") / area) * sum");
+      return;
     }
     const std::string z0 = place("rz", f.corner[0]);
     std::string t;
@@ -214,14 +259,20 @@ class TraversalText {
       body_ += "  hit = (" + positive + "sum > 0.0) || (" + negative + "sum < 0.0);\n";
       body_ += "  t = sum < 0.0 ? -t : t;\n  sum = abs(sum);\n  hit = hit && t > 0.0;\n";
     }
+    keepNearest(f, "abs(vec2(" + e[2].name + ", " + e[0].name + "))");
+  }
+
+  /// What is hit, at t over sum, replaces the best if it is nearer; `weights` over sum are the barycentric
+  /// ones.
+  void keepNearest(const LiteralFace& f, const std::string& weights) {
     if (isTiny(f)) {
       for (const std::string row : {"rx", "ry"})
-        body_ += "  hit = hit && !(" + sameSigns(row, f, corners) + ");\n";
+        body_ += "  hit = hit && !(" + sameSigns(row, f, f.quad ? 4 : 3) + ");\n";
     }
     body_ += "  hit = hit && t * bestSum < best * sum;\n";
     body_ += "  s.slot = hit ? " + std::to_string(f.slot) + " : s.slot;\n";
     body_ += "  if (!anyHit) {\n    best = hit ? t : best;\n    bestSum = hit ? sum : bestSum;\n  }\n";
-    if (weights_) body_ += "  weights = hit ? abs(vec2(" + e[2].name + ", " + e[0].name + ")) : weights;\n";
+    if (weights_) body_ += "  weights = hit ? " + weights + " : weights;\n";
   }
 
   const LiteralMesh& mesh_;

@@ -3,6 +3,7 @@
 
 #include "errors.h"
 #include "pack/words.h"
+#include "scene/hit_error.h"
 
 namespace fragtrace {
 

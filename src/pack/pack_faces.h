@@ -2,7 +2,6 @@
 #pragma once
 
 #include "pack/gpu_scene.h"
-#include "scene/creases.h"
 
 namespace fragtrace {
 

@@ -6,6 +6,7 @@
 
 #include "pack/pack_instances.h"
 #include "pack/words.h"
+#include "scene/hit_error.h"
 
 namespace fragtrace {
 
@@ -68,6 +69,7 @@ LeafSide leafSide(const Scene& scene, uint32_t primitive) {
     const Triangle& t = scene.triangles[primitive];
     for (int i = 0; i < 3; ++i) side.points[i] = scene.vertices.position[t.vertex[i]];
     side.word = primitive | triangleFlags(scene.materials[t.material]);
+    if (isSliver(side.points[0], side.points[1], side.points[2])) side.word |= layout::kPrimitiveSliver;
   } else {
     const Sphere& s = scene.spheres[primitive - triangles];
     side.points = {s.center, glm::vec3(s.radius), glm::vec3(0.0f)};

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "bvh/parallel.h"
+#include "scene/hit_error.h"
 
 namespace fragtrace {
 
@@ -222,11 +223,6 @@ std::vector<glm::vec3> normalsOf(const Scene& scene, uint32_t triangles) {
 }
 
 }  // namespace
-
-double hitPointError(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2) {
-  const glm::vec3 largest = glm::max(glm::abs(v0), glm::max(glm::abs(v1), glm::abs(v2)));
-  return 0x1p-19 * std::max(largest.x, std::max(largest.y, largest.z));
-}
 
 std::vector<uint32_t> creaseInsets(const Scene& scene) {
   const uint32_t triangles = flatTriangleCount(scene);

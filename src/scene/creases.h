@@ -8,13 +8,6 @@
 
 namespace fragtrace {
 
-/// A bound on how far a hit point on a triangle of these vertices, rounded to 32-bit floats, lies
-/// off its plane, and on how far in front of its own plane a ray that starts there can still be told to hit
-/// it: 32 units of 2^-24 of the largest coordinate (docs/accuracy.md). It is one number, not one an axis: a
-/// wall through the origin has no rounding across it, but a grazing ray's distance to it carries the rounding
-/// of all axes.
-double hitPointError(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2);
-
 /// One word a triangle: by how much points on it are moved inwards, so that a ray's offset along the normal
 /// does not lead through a neighbour. Six codes of five bits, from bit 0 on: the least weight of vertex 0, 1,
 /// 2 (the distance from the edge opposite), and the least 1 - weight (the distance from the vertex); code k >

@@ -55,6 +55,7 @@ enum class Trait : uint8_t {
   EnvironmentSampling,
   Instances,
   Creases,
+  Slivers,
   Count
 };
 using TraitSet = std::bitset<size_t(Trait::Count)>;

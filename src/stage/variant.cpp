@@ -5,6 +5,7 @@
 #include <array>
 
 #include "bvh/bvh.h"
+#include "scene/hit_error.h"
 
 namespace fragtrace {
 
@@ -56,6 +57,13 @@ bool hasAreaLight(const TraitSet& traits) {
 }
 
 bool hasLight(const TraitSet& traits) { return has(traits, Trait::PunctualLights) || hasAreaLight(traits); }
+
+bool hasSlivers(const Scene& scene) {
+  const std::vector<glm::vec3>& p = scene.vertices.position;
+  return std::ranges::any_of(scene.triangles, [&](const Triangle& t) {
+    return isSliver(p[t.vertex.x], p[t.vertex.y], p[t.vertex.z]);
+  });
+}
 
 void addMaterialTraits(const Material& m, const Vertices& vertices, TraitSet& traits) {
   auto mark = [&](Trait trait, bool present) {
@@ -142,6 +150,7 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings) {
   mark(Trait::EnvironmentSampling, surroundings != Surroundings::None);
   mark(Trait::Instances, !scene.instances.empty());
   mark(Trait::Creases, !scene.insets.empty());
+  mark(Trait::Slivers, hasSlivers(scene));
   return traits;
 }
 
@@ -262,6 +271,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   const bool leavesSurfaces = stage(Stage::Gi) || stage(Stage::Shadows) || stage(Stage::Reflections) ||
                               stage(Stage::Refraction) || has(v.traits, Trait::Alpha);
   if (!leavesSurfaces || !stage(Stage::Watertight)) without(Trait::Creases);
+  if (!stage(Stage::Watertight)) without(Trait::Slivers);
 
   // Step: how rays find triangles.
   // Literals need the packed scene; who has it puts them in (useLiterals of src/cli/setup.cpp).

@@ -4,6 +4,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "errors.h"
+#include "pack/literals.h"
 #include "pack/pack_tree.h"
 #include "scene/creases.h"
 
@@ -33,6 +34,10 @@ StressPicture::StressPicture(const StressSetting& setting, Scene scene, const En
   variant_ = chooseVariant(options, traitsOf(scene, environment.kind), environment.kind, bvh.depth,
                            BufferReads::Auto);
   GpuScene packed = packScene(scene, bvh, environment, variant_);
+  if (options.traversal == TraversalMethod::Literals) {
+    variant_.traversal = options.traversal;
+    variant_.literals = literalScene(scene, bvh, packed, variant_);
+  }
   variant_.reads = chooseReads(BufferReads::Auto, setting.context.software, packed, readLimits()).reads;
   renderer_ =
       std::make_unique<Renderer>(setting.context, std::move(packed), variant_.reads, setting.shaderFolder);

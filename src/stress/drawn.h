@@ -15,8 +15,8 @@ Environment whiteWorld(float radiance);
 /// The options of a stage with the setting's triangle test.
 RenderOptions optionsOf(const StressSetting& setting, Stage stage);
 
-/// Draws a scene from one place after the other, by a tree unless the options say otherwise; it is built and
-/// uploaded once.
+/// Draws a scene from one place after the other, by a tree unless the options ask for another traversal; it
+/// is built and uploaded once.
 class StressPicture {
  public:
   StressPicture(const StressSetting& setting, Scene scene, const Environment& environment,

@@ -5,6 +5,7 @@
 #include "stress/scene_rows.h"
 #include "stress/shading.h"
 #include "stress/shell.h"
+#include "stress/strips.h"
 
 namespace fragtrace {
 
@@ -19,6 +20,7 @@ std::vector<StressRow> stressRows() {
       {"shell far", "the same at (148376, 1234, -223423), not recentred", 0.0, true, lookOutOfFarShell});
   rows.push_back(
       {"shell white", "paths inside a white shell in a bright world", 0.0, true, scatterInWhiteShell});
+  rows.push_back({"strips", "paths inside white wedges cut into slivers", 0.0, true, scatterInStrips});
   rows.push_back({"bad normals", "missing, backwards and tilted normals in a white furnace", 0.0, false,
                   shadeBadNormals});
   // Rays that leave a crease narrower than a right angle can start behind its other side (docs/accuracy.md).

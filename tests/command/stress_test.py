@@ -53,6 +53,10 @@ class StressMutations(Stress):
         self.mutated("intersect.glsl", "? -error : error", "? -0.0f * error : 0.0f * error", "shell white")
 
 
+    def test_slivers_at_the_depths_of_their_vertices(self):
+        self.mutated("traverse.glsl", "(word & kPrimitiveSliver) != 0u", "false", "strips")
+
+
 class StressRefusals(Stress):
     def test_a_row_that_is_none(self):
         self.fails(2, "bench", "stress", "--rows", "nonsense", says=["--rows", "nonsense"])

@@ -42,10 +42,12 @@ inline bool kSobol = true;
 inline bool kVertexNormals = false;
 inline bool kInstances = false;
 inline bool kCreases = false;
+inline bool kSlivers = false;
 inline int kStackSize = 32;
 
 inline std::span<const uint32_t> nodes;
 inline std::span<const uint32_t> leaves;
+inline std::span<const uint32_t> faces;
 
 /// One row of four words. Throws where the shader would read outside of its buffer.
 inline glm::uvec4 rowOf(std::span<const uint32_t> words, int index) {

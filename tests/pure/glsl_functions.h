@@ -40,6 +40,7 @@ inline void umulExtended(uint a, uint b, uint& high, uint& low) {
 
 inline uvec4 readNodes(int index) { return glsl_variant::rowOf(glsl_variant::nodes, index); }
 inline uvec4 readLeaves(int index) { return glsl_variant::rowOf(glsl_variant::leaves, index); }
+inline uvec4 readFaces(int index) { return glsl_variant::rowOf(glsl_variant::faces, index); }
 
 // shaders/energy.glsl reads the same table from a buffer.
 inline float ggxLoss(float cosine, float alpha) {

@@ -17,7 +17,6 @@ inline bool kClearcoatTexture = false;
 inline bool kTexcoords = false;
 
 inline layout::Frame frame{};
-inline std::span<const uint32_t> faces;
 inline std::span<const uint32_t> texcoords;
 inline std::span<const uint32_t> materials;
 inline std::span<const uint32_t> emitters;

@@ -2,7 +2,6 @@
 // The shader files that choose lights, and the reads they need. No include guard: glsl_lights.h includes this
 // once a precision.
 
-inline uvec4 readFaces(int index) { return rowOf(glsl_variant::faces, index); }
 inline uvec4 readTexcoords(int index) { return rowOf(glsl_variant::texcoords, index); }
 inline uvec4 readMaterials(int index) { return rowOf(glsl_variant::materials, index); }
 inline uvec4 readEmitters(int index) { return rowOf(glsl_variant::emitters, index); }

@@ -8,6 +8,7 @@
 #include "glsl.h"
 #include "pack/pack_faces.h"
 #include "scene/creases.h"
+#include "scene/hit_error.h"
 #include "shader_statistics.h"
 
 namespace fragtrace {
@@ -196,7 +197,8 @@ TEST(ShaderCreases, ARayThatLeftAFrontMeetsTheFrontOfAFold) {
       bool front = false;
       for (size_t face = 0; face < 2; ++face) {
         const std::array<vec3, 3> v = cornersOf(scene, face);
-        const auto hit = glsl_float::intersectWord(origin, vec3(direction), shear, tie, v[0], v[1], v[2], 0u);
+        const auto hit =
+            glsl_float::intersectWord(origin, vec3(direction), shear, tie, v[0], v[1], v[2], 0u, 0);
         if (hit.t <= 0.0f || hit.t >= nearest) continue;
         nearest = hit.t;
         front = glm::dot(normalOf(v), direction) < 0.0;

@@ -10,6 +10,7 @@
 #include "bvh/two_level.h"
 #include "pack/pack_faces.h"
 #include "pack/pack_instances.h"
+#include "scene/hit_error.h"
 #include "shader_scenes.h"
 
 namespace fragtrace {

@@ -94,7 +94,7 @@ double densityAlong(const Lit& lit, const dvec3& point, const dvec3& direction) 
     if (!lit.shines(i)) continue;
     const auto [a, b, c] = lit.cornersOf(i);
     const auto hit = glsl_double::intersectTriangle(point, shear, a, b, c);
-    if (!hit.hit || hit.t >= nearest) continue;
+    if (!hit.hit || hit.t <= 0.0 || hit.t >= nearest) continue;
     nearest = hit.t;
     density = glsl_double::emitterDensity(lit.scene.triangles[i].material, hit.t,
                                           std::abs(glm::dot(lit.normalOf(i), direction)));

@@ -18,9 +18,9 @@ using glm::vec3;
 
 bool hits(const ClosedMesh& mesh, int triangle, const vec3& origin, const glsl_float::RayShear& shear) {
   const auto& [a, b, c] = mesh.triangles[size_t(triangle)];
-  return glsl_float::intersectTriangle(origin, shear, mesh.points[size_t(a)], mesh.points[size_t(b)],
-                                       mesh.points[size_t(c)])
-      .hit;
+  const auto h = glsl_float::intersectTriangle(origin, shear, mesh.points[size_t(a)], mesh.points[size_t(b)],
+                                               mesh.points[size_t(c)]);
+  return h.hit && h.t > 0.0f;
 }
 
 /// Of `count` rays from near the centre, aimed at edges and vertices, how many leave the mesh.

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// What rounding does to hit points on a triangle of 32-bit floats (docs/accuracy.md).
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace fragtrace {
+
+/// A bound on how far a hit point on a triangle of these vertices, rounded to 32-bit floats, lies
+/// off its plane, and on how far in front of its own plane a ray that starts there can still be told to hit
+/// it: 32 units of 2^-24 of the largest coordinate (docs/accuracy.md, "Leaving a surface"). It is one number,
+/// not one an axis: a wall through the origin has no rounding across it, but a grazing ray's distance to it
+/// carries the rounding of all axes.
+double hitPointError(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2);
+
+/// Whether the weighted depths of the vertices are too rough a distance for a ray that starts beside the
+/// triangle: they are off its plane by up to half of 2^-24 L^3 / 2A, L its longest side and A its area, which
+/// is asked to be at most 4 units of 2^-24 of the largest coordinate.
+bool isSliver(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2);
+
+}  // namespace fragtrace

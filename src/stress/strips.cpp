@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "stress/strips.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <span>
+
+#include "bench/dice.h"
+#include "bench/formatted.h"
+#include "stress/drawn.h"
+
+namespace fragtrace {
+
+namespace {
+
+using glm::dvec3;
+
+/// Random places in [0, 1], sorted, both ends among them.
+std::vector<double> cuts(uint32_t count, Dice& dice) {
+  std::vector<double> places{0.0, 1.0};
+  for (uint32_t i = 0; i < count; ++i) places.push_back(dice.unit());
+  std::ranges::sort(places);
+  return places;
+}
+
+struct Wedge {
+  Scene scene;
+  dvec3 inside{0.0};
+  glm::dquat turn{1.0, 0.0, 0.0, 0.0};
+  dvec3 place{0.0};
+
+  uint32_t add(const dvec3& p) {
+    scene.vertices.position.emplace_back(turn * p + place);
+    scene.bounds.include(dvec3(scene.vertices.position.back()));
+    return uint32_t(scene.vertices.position.size() - 1);
+  }
+  void face(uint32_t a, uint32_t b, uint32_t c) {
+    if (a != b && b != c && c != a) scene.triangles.push_back({{a, b, c}, 0, true});
+  }
+  void quad(uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
+    face(a, b, c);
+    face(a, c, d);
+  }
+};
+
+/// The three sides are cut at places along the crease.
+void cutAcross(Wedge& w, double height, uint32_t count, Dice& dice) {
+  std::vector<std::array<uint32_t, 3>> rows;
+  for (const double t : cuts(count, dice)) {
+    const double z = 2.0 * t - 1.0;
+    rows.push_back({w.add({0.0, 0.0, z}), w.add({1.0, -height, z}), w.add({1.0, height, z})});
+  }
+  for (size_t i = 0; i + 1 < rows.size(); ++i) {
+    for (size_t p = 0; p < 3; ++p)
+      w.quad(rows[i][p], rows[i][(p + 1) % 3], rows[i + 1][(p + 1) % 3], rows[i + 1][p]);
+  }
+  w.face(rows[0][0], rows[0][2], rows[0][1]);
+  w.face(rows.back()[0], rows.back()[1], rows.back()[2]);
+}
+
+/// The two sides at the crease, and the ends, are cut at distances from it.
+void cutAlong(Wedge& w, double height, uint32_t count, Dice& dice) {
+  struct Row {
+    std::array<uint32_t, 2> low;  // at both ends
+    std::array<uint32_t, 2> high;
+  };
+  std::vector<Row> rows;
+  for (const double x : cuts(count, dice)) {
+    Row r;
+    for (size_t end = 0; end < 2; ++end) {
+      const double z = end == 0 ? -1.0 : 1.0;
+      r.low[end] = w.add({x, -height * x, z});
+      r.high[end] = x == 0.0 ? r.low[end] : w.add({x, height * x, z});
+    }
+    rows.push_back(r);
+  }
+  for (size_t i = 0; i + 1 < rows.size(); ++i) {
+    const Row& a = rows[i];
+    const Row& b = rows[i + 1];
+    w.quad(a.low[0], b.low[0], b.low[1], a.low[1]);
+    w.quad(a.high[1], b.high[1], b.high[0], a.high[0]);
+    w.quad(b.low[0], a.low[0], a.high[0], b.high[0]);
+    w.quad(a.low[1], b.low[1], b.high[1], a.high[1]);
+  }
+  const Row& last = rows.back();
+  w.quad(last.low[1], last.low[0], last.high[0], last.high[1]);
+}
+
+/// A prism from z = -1 to 1 with its crease along z and its back at x = 1, turned and moved.
+Wedge makeWedge(double degrees, bool across, uint32_t count, Dice& dice) {
+  Wedge w;
+  w.scene.materials.resize(1);
+  w.scene.materials[0].doubleSided = true;
+  w.turn = glm::angleAxis(dice.between(0.0, glm::two_pi<double>()), dice.direction());
+  w.place = dice.inCube(0.5);
+  const double height = std::tan(glm::radians(degrees) / 2.0);
+  w.inside = w.turn * dvec3(dice.between(0.1, 0.9), 0.0, dice.between(-0.9, 0.9)) + w.place;
+  if (across) cutAcross(w, height, count, dice);
+  if (!across) cutAlong(w, height, count, dice);
+  return w;
+}
+
+/// Pixels that are not black.
+size_t litPixels(const StressSetting& setting, const Wedge& wedge, bool literals, StressOutcome& outcome) {
+  RenderOptions options = optionsOf(setting, Stage::Gi);
+  if (literals) options.traversal = TraversalMethod::Literals;
+  StressPicture picture(setting, wedge.scene, whiteWorld(1e4f), options);
+  View view;
+  view.camera.position = wedge.inside;
+  view.camera.forward = wedge.turn * dvec3(-1.0, 0.0, 0.0);
+  view.camera.up = wedge.turn * dvec3(0.0, 0.0, 1.0);
+  view.camera.fovY = glm::radians(100.0);
+  view.bounces = 4;
+  size_t lit = 0;
+  for (const FilmPixel& p :
+       picture.draw(view, glm::ivec2(setting.quick ? 64 : 128), setting.quick ? 4 : 16).pixels) {
+    outcome.cases += p.samples;
+    lit += p.sum != dvec3(0.0) || p.nonfinite > 0 ? 1 : 0;
+  }
+  return lit;
+}
+
+}  // namespace
+
+StressOutcome scatterInStrips(const StressSetting& setting) {
+  constexpr std::array kDegrees{5.0, 20.0, 1.0, 2.0, 60.0};
+  const size_t angles = setting.quick ? 2 : kDegrees.size();
+  Dice dice(60);
+  StressOutcome outcome;
+  for (int round = 0; round < (setting.quick ? 1 : 2); ++round) {
+    for (const double degrees : std::span(kDegrees).first(angles)) {
+      for (const bool across : {true, false}) {
+        for (const bool literals : {false, true}) {
+          const Wedge wedge = makeWedge(degrees, across, literals ? 6 : 60, dice);
+          outcome.failures += litPixels(setting, wedge, literals, outcome);
+        }
+      }
+    }
+  }
+  outcome.worst = formatted("light in %zu pixels", outcome.failures);
+  return outcome;
+}
+
+}  // namespace fragtrace
