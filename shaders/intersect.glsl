@@ -124,23 +124,23 @@ vec3 offsetOrigin(vec3 point, float error, vec3 normal, vec3 direction) {
   return point + (dot(direction, normal) < 0.0f ? -error : error) * normal;
 }
 
-/// The part of the way to a triangle's middle, where a weight is `middle`, that takes it up to 2^-code; code 0 asks for nothing.
-float insetPart(float weight, float middle, uint code) {
-  float least = code == 0u ? 0.0f : uintBitsToFloat((127u - code) << 23);
+/// The part of the way to a triangle's middle, where a weight is `middle`, that takes it up to times * 2^-code, at most a quarter; code 0 asks for nothing.
+float insetPart(float weight, float middle, uint code, float times) {
+  float least = code == 0u ? 0.0f : min(times * uintBitsToFloat((127u - code) << 23), 0.25f);
   return weight < least ? (least - weight) / (middle - weight) : 0.0f;
 }
 
 /// A point of a triangle, of these weights, moved towards its middle until it is as far from edges and vertices as its sharp creases ask
-/// (creaseInsets of src/scene/creases.h): else the offset along the normal could lead through the neighbour.
-vec3 insetFromCreases(vec3 point, vec2 weights, vec3 middle, uint inset) {
+/// (creaseInsets of src/scene/creases.h): else the offset along the normal could lead through the neighbour. `times`: of the triangle's own offset that the ray is moved by.
+vec3 insetFromCreases(vec3 point, vec2 weights, vec3 middle, uint inset, float times) {
   const float third = 1.0f / 3.0f;
   float w0 = 1.0f - weights.x - weights.y;
-  float part = insetPart(w0, third, inset & 31u);
-  part = max(part, insetPart(weights.x, third, inset >> 5 & 31u));
-  part = max(part, insetPart(weights.y, third, inset >> 10 & 31u));
-  part = max(part, insetPart(weights.x + weights.y, 2.0f * third, inset >> 15 & 31u));
-  part = max(part, insetPart(w0 + weights.y, 2.0f * third, inset >> 20 & 31u));
-  part = max(part, insetPart(w0 + weights.x, 2.0f * third, inset >> 25 & 31u));
+  float part = insetPart(w0, third, inset & 31u, times);
+  part = max(part, insetPart(weights.x, third, inset >> 5 & 31u, times));
+  part = max(part, insetPart(weights.y, third, inset >> 10 & 31u, times));
+  part = max(part, insetPart(weights.x + weights.y, 2.0f * third, inset >> 15 & 31u, times));
+  part = max(part, insetPart(w0 + weights.y, 2.0f * third, inset >> 20 & 31u, times));
+  part = max(part, insetPart(w0 + weights.x, 2.0f * third, inset >> 25 & 31u, times));
   return point + part * (middle - point);
 }
 

@@ -57,7 +57,7 @@ const uint kLeafBlock = 4u;  // the iterative traversal tests this many leaves i
 // An instance is a leaf of the upper tree whose index is from here on: kInstanceLeaf + its number, which is that of its first row / kInstanceRows.
 // Popping kInstanceEnd leads back out of it. Rows: three of the matrix from local space into its mesh's, beside them the mesh's origin in local
 // space; origin of its grid and root of its tree; cell of its grid and scale of offsets; three rows of the matrix back, beside them what
-// is added to offsets and -1 where the matrix mirrors, else 1.
+// is added to offsets, -1 where the matrix mirrors, else 1, and how much lengths can grow on the way into the mesh's space.
 const int kInstanceLeaf = 0x40000000;
 const int kInstanceEnd = -2147483647;
 const uint kInstanceRows = 8u;

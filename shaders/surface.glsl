@@ -109,14 +109,20 @@ Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, 
     t = (t - r.start) * longer;
   }
   bool isSphere = kSpheres && (!kTriangles || (face.w & kFaceSphere) != 0u);
+  float error = uintBitsToFloat((face.w >> kFaceErrorShift) << kFloatErrorShift);
   Surface s;
   if (kTriangles) s = triangleSurface(face, place, origin, direction, t, weights);
   if (kCreases && !isSphere) {
     uvec4 inset = insetRow(slot);
-    s.position = insetFromCreases(s.position, weights, uintBitsToFloat(inset.xyz), inset.w);
+    float times = 1.0;
+    if (shown) {
+      InstanceReturn back = loadInstanceReturn(instance);
+      times = offsetOutOfMesh(back, error) * back.stretchBack / error;
+    }
+    s.position = insetFromCreases(s.position, weights, uintBitsToFloat(inset.xyz), inset.w, times);
   }
   if (isSphere) s = sphereSurface(face, place, origin, direction, t);
-  s.positionError = uintBitsToFloat((face.w >> kFaceErrorShift) << kFloatErrorShift);
+  s.positionError = error;
   if (shown) s = inLocalSpace(s, instance);
   s.emitter = !isSphere;
   s.material = face.w & kFaceMaterialMask;

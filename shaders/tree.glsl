@@ -80,6 +80,7 @@ struct InstanceReturn {
   float handedness;   // -1 where it mirrors, else 1
   float offsetScale;  // an offset of the mesh's space becomes offsetScale times that, and offsetBase, in local space
   float offsetBase;
+  float stretchBack;  // the most that a length grows on the way into the mesh's space
 };
 
 InstanceReturn loadInstanceReturn(int instance) {
@@ -89,7 +90,9 @@ InstanceReturn loadInstanceReturn(int instance) {
   InstanceReturn r;
   r.row0 = vec3(r0);
   r.row1 = vec3(r1);
-  r.row2 = vec3(uintBitsToFloat(readNodes(row + 7)));
+  vec4 r2 = uintBitsToFloat(readNodes(row + 7));
+  r.row2 = vec3(r2);
+  r.stretchBack = r2.w;
   r.handedness = r1.w;
   r.offsetScale = uintBitsToFloat(readNodes(row + 4)).w;
   r.offsetBase = r0.w;

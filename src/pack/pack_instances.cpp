@@ -26,7 +26,8 @@ void appendInstance(const Instance& instance, const BvhMesh& tree, Words& words)
   appendRow(words, grid.origin, wordFloat(tree.root));
   appendRow(words, grid.cell, roundedUp(offset.scale));
   const float handedness = glm::determinant(glm::dmat3(toLocal)) < 0.0 ? -1.0f : 1.0f;
-  const std::array<float, 3> beside{roundedUp(offset.base), handedness, 0.0f};
+  const std::array<float, 3> beside{roundedUp(offset.base), handedness,
+                                    roundedUp(stretchBound(glm::dmat3(toMesh)))};
   for (int row = 0; row < 3; ++row) appendRow(words, rowOf(toLocal, row), beside[size_t(row)]);
 }
 

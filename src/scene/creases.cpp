@@ -50,24 +50,47 @@ size_t hashOf(const glm::vec3& p) {
   return size_t(h ^ (h >> 29));
 }
 
-std::vector<uint32_t> placesOf(const std::vector<glm::vec3>& positions) {
+/// Of vertices, which space they are in: 0 is local space, a shared mesh's is its index + 1. Empty without
+/// those.
+std::vector<uint32_t> spacesOf(const Scene& scene) {
+  std::vector<uint32_t> spaces;
+  if (scene.sharedMeshes.empty()) return spaces;
+  spaces.resize(scene.vertices.position.size(), 0);
+  for (uint32_t mesh = 0; mesh < scene.sharedMeshes.size(); ++mesh) {
+    const SharedMesh& shared = scene.sharedMeshes[mesh];
+    for (uint32_t i = 0; i < shared.triangleCount; ++i) {
+      const glm::uvec3& v = scene.triangles[shared.firstTriangle + i].vertex;
+      for (int c = 0; c < 3; ++c) spaces[v[c]] = mesh + 1;
+    }
+  }
+  return spaces;
+}
+
+/// Of each vertex the first one at the same place of the same space.
+std::vector<uint32_t> placesOf(const Scene& scene) {
+  const std::vector<glm::vec3>& positions = scene.vertices.position;
+  const std::vector<uint32_t> spaces = spacesOf(scene);
+  const auto same = [&](uint32_t a, uint32_t b) {
+    return positions[a] == positions[b] && (spaces.empty() || spaces[a] == spaces[b]);
+  };
   std::vector<uint32_t> places(positions.size());
   const size_t mask = std::bit_ceil(positions.size() * 2) - 1;
   std::vector<uint32_t> table(mask + 1, kNone);
   for (uint32_t i = 0; i < positions.size(); ++i) {
-    size_t slot = hashOf(positions[i]) & mask;
-    while (table[slot] != kNone && positions[table[slot]] != positions[i]) slot = (slot + 1) & mask;
+    size_t slot =
+        (hashOf(positions[i]) + (spaces.empty() ? 0 : spaces[i] * size_t{0x9e3779b97f4a7c15u})) & mask;
+    while (table[slot] != kNone && !same(table[slot], i)) slot = (slot + 1) & mask;
     if (table[slot] == kNone) table[slot] = i;
     places[i] = table[slot];
   }
   return places;
 }
 
-Fans fansOf(const Scene& scene, uint32_t triangles) {
+Fans fansOf(const Scene& scene) {
   Fans fans;
-  const std::vector<uint32_t> places = placesOf(scene.vertices.position);
+  const std::vector<uint32_t> places = placesOf(scene);
   fans.first.assign(places.size() + 1, 0);
-  fans.place.resize(size_t(triangles) * 3);
+  fans.place.resize(scene.triangles.size() * 3);
   for (size_t c = 0; c < fans.place.size(); ++c) {
     fans.place[c] = places[scene.triangles[c / 3].vertex[int(c % 3)]];
     ++fans.first[fans.place[c] + 1];
@@ -210,9 +233,9 @@ void askAround(const Scene& scene, const Fans& fans, uint32_t place, std::vector
   }
 }
 
-std::vector<glm::vec3> normalsOf(const Scene& scene, uint32_t triangles) {
-  std::vector<glm::vec3> normals(triangles);
-  for (uint32_t i = 0; i < triangles; ++i) {
+std::vector<glm::vec3> normalsOf(const Scene& scene) {
+  std::vector<glm::vec3> normals(scene.triangles.size());
+  for (size_t i = 0; i < normals.size(); ++i) {
     const glm::uvec3& v = scene.triangles[i].vertex;
     const auto at = [&](int c) { return glm::dvec3(scene.vertices.position[v[c]]); };
     const glm::dvec3 n = glm::cross(at(1) - at(0), at(2) - at(0));
@@ -225,12 +248,11 @@ std::vector<glm::vec3> normalsOf(const Scene& scene, uint32_t triangles) {
 }  // namespace
 
 std::vector<uint32_t> creaseInsets(const Scene& scene) {
-  const uint32_t triangles = flatTriangleCount(scene);
-  if (triangles == 0) return {};
-  const Fans fans = fansOf(scene, triangles);
-  const std::vector<glm::vec3> normals = normalsOf(scene, triangles);
+  if (scene.triangles.empty()) return {};
+  const Fans fans = fansOf(scene);
+  const std::vector<glm::vec3> normals = normalsOf(scene);
   Codes codes;
-  codes.of.resize(triangles);
+  codes.of.resize(scene.triangles.size());
   const uint32_t threads = std::max(std::thread::hardware_concurrency(), 1u);
   const auto places = uint32_t(fans.first.size() - 1);
   runOnThreads(threads, [&](uint32_t thread) {
@@ -243,7 +265,7 @@ std::vector<uint32_t> creaseInsets(const Scene& scene) {
   });
   if (!codes.sharp) return {};
   std::vector<uint32_t> insets(scene.triangles.size(), 0u);
-  for (uint32_t i = 0; i < triangles; ++i) {
+  for (size_t i = 0; i < insets.size(); ++i) {
     for (uint32_t c = 0; c < 6; ++c) insets[i] |= uint32_t(codes.of[i][c]) << (5 * c);
   }
   return insets;

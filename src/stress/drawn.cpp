@@ -3,6 +3,7 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "bvh/two_level.h"
 #include "errors.h"
 #include "pack/literals.h"
 #include "pack/pack_tree.h"
@@ -29,8 +30,7 @@ StressPicture::StressPicture(const StressSetting& setting, Scene scene, const En
     : setting_(setting) {
   scene.insets = creaseInsets(scene);
   const bool iterative = options.traversal == TraversalMethod::Iterative;
-  const Bvh bvh =
-      iterative ? listLeaves(scene) : buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
+  const Bvh bvh = iterative ? listLeaves(scene) : buildSceneBvh(scene);
   variant_ = chooseVariant(options, traitsOf(scene, environment.kind), environment.kind, bvh.depth,
                            BufferReads::Auto);
   GpuScene packed = packScene(scene, bvh, environment, variant_);

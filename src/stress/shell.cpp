@@ -2,8 +2,10 @@
 #include "stress/shell.h"
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "bench/ball_scene.h"
+#include "bench/dice.h"
 #include "bench/formatted.h"
 #include "stress/drawn.h"
 
@@ -46,6 +48,40 @@ StressOutcome lookOut(const StressSetting& setting, const glm::dvec3& place, dou
   return outcome;
 }
 
+/// A spike on every triangle of a ball of 320, as one shared mesh; it holds the unit ball scaled by a
+/// quarter.
+Scene spikyMesh(Dice& dice) {
+  const Scene ball = makeBallScene(320);
+  Scene scene;
+  scene.materials.resize(1);
+  scene.materials[0].doubleSided = true;
+  for (const glm::vec3& p : ball.vertices.position) scene.vertices.position.push_back(0.25f * p);
+  for (const Triangle& t : ball.triangles) {
+    const auto top = uint32_t(scene.vertices.position.size());
+    glm::dvec3 middle(0.0);
+    for (int i = 0; i < 3; ++i) middle += glm::dvec3(scene.vertices.position[t.vertex[i]]) / 3.0;
+    scene.vertices.position.emplace_back(middle * dice.between(1.2, 3.0));
+    for (int i = 0; i < 3; ++i)
+      scene.triangles.push_back({{t.vertex[i], t.vertex[(i + 1) % 3], top}, 0, true});
+  }
+  scene.sharedMeshes.push_back({0, uint32_t(scene.triangles.size())});
+  return scene;
+}
+
+/// Paths by which light gets in, of those from the six views around a place.
+void scatterInside(StressPicture& picture, const glm::dvec3& place, glm::ivec2 pixels, int samples,
+                   StressOutcome& outcome) {
+  for (View view : viewsAround(place)) {
+    view.bounces = 4;
+    const FilmPixels film = picture.draw(view, pixels, samples);
+    for (const FilmPixel& p : film.pixels) {
+      outcome.cases += p.samples;
+      outcome.failures += p.sum != glm::dvec3(0.0) || p.nonfinite > 0 ? 1 : 0;
+    }
+  }
+  outcome.worst = formatted("light in %zu pixels", outcome.failures);
+}
+
 }  // namespace
 
 StressOutcome lookOutOfBlackShell(const StressSetting& setting) {
@@ -65,15 +101,27 @@ StressOutcome scatterInWhiteShell(const StressSetting& setting) {
   const Scene scene = shellAt(place, 1.0, 1.0f);
   StressPicture picture(setting, scene, whiteWorld(1e4f), optionsOf(setting, Stage::Gi));
   StressOutcome outcome;
-  for (View view : viewsAround(place)) {
-    view.bounces = 4;
-    const FilmPixels film = picture.draw(view, pixels, samples);
-    for (const FilmPixel& p : film.pixels) {
-      outcome.cases += p.samples;
-      outcome.failures += p.sum != glm::dvec3(0.0) || p.nonfinite > 0 ? 1 : 0;
-    }
+  scatterInside(picture, place, pixels, samples, outcome);
+  return outcome;
+}
+
+StressOutcome scatterInSharedShells(const StressSetting& setting) {
+  constexpr size_t kShells = 8;
+  const glm::ivec2 pixels = setting.quick ? glm::ivec2(32) : glm::ivec2(128);
+  Dice dice(71);
+  Scene scene = spikyMesh(dice);
+  for (size_t i = 0; i < kShells; ++i) {
+    // Half of them near the origin, half far from it, and none within another.
+    const glm::dvec3 place =
+        glm::dvec3(20.0 * double(i), 0.0, 0.0) + (i % 2 == 0 ? glm::dvec3(0.0) : 1000.0 * dice.direction());
+    const glm::dmat4 turned =
+        glm::rotate(glm::translate(glm::dmat4(1.0), place), dice.between(0.0, 6.0), dice.direction());
+    scene.instances.push_back({glm::scale(turned, glm::dvec3(dice.between(2.0, 8.0))), 0, ""});
   }
-  outcome.worst = formatted("light in %zu pixels", outcome.failures);
+  StressPicture picture(setting, scene, whiteWorld(1e4f), optionsOf(setting, Stage::Gi));
+  StressOutcome outcome;
+  for (const Instance& instance : scene.instances)
+    scatterInside(picture, glm::dvec3(instance.toLocal[3]), pixels, setting.quick ? 4 : 16, outcome);
   return outcome;
 }
 

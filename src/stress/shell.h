@@ -13,5 +13,8 @@ StressOutcome lookOutOfFarShell(const StressSetting& setting);
 /// A white one with one point of its surface at the origin, path traced; cases are paths, failures pixels
 /// that are not black.
 StressOutcome scatterInWhiteShell(const StressSetting& setting);
+/// Inside white shells of spikes, instances of one mesh, turned, evenly scaled and up to a kilometre away;
+/// the same cases and failures.
+StressOutcome scatterInSharedShells(const StressSetting& setting);
 
 }  // namespace fragtrace

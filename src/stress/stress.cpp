@@ -20,6 +20,8 @@ std::vector<StressRow> stressRows() {
       {"shell far", "the same at (148376, 1234, -223423), not recentred", 0.0, true, lookOutOfFarShell});
   rows.push_back(
       {"shell white", "paths inside a white shell in a bright world", 0.0, true, scatterInWhiteShell});
+  rows.push_back({"shell shared", "paths inside spiky white shells that share their mesh", 0.0, true,
+                  scatterInSharedShells});
   rows.push_back({"strips", "paths inside white wedges cut into slivers", 0.0, true, scatterInStrips});
   rows.push_back({"bad normals", "missing, backwards and tilted normals in a white furnace", 0.0, false,
                   shadeBadNormals});

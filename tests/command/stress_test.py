@@ -53,6 +53,9 @@ class StressMutations(Stress):
         self.mutated("intersect.glsl", "? -error : error", "? -0.0f * error : 0.0f * error", "shell white")
 
 
+    def test_insets_of_shared_meshes_that_know_nothing_of_their_instance(self):
+        self.mutated("surface.glsl", "times = offsetOutOfMesh(back, error) * back.stretchBack / error", "times = 1.0", "shell shared")
+
     def test_slivers_at_the_depths_of_their_vertices(self):
         self.mutated("traverse.glsl", "(word & kPrimitiveSliver) != 0u", "false", "strips")
 

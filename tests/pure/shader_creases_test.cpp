@@ -88,7 +88,7 @@ dvec3 startOf(const Scene& scene, const std::vector<uint32_t>& insets, size_t tr
   const std::array<vec3, 3> v = cornersOf(scene, triangle);
   const vec3 middle((dvec3(v[0]) + dvec3(v[1]) + dvec3(v[2])) / 3.0);
   const vec3 point = v[0] + w.x * (v[1] - v[0]) + w.y * (v[2] - v[0]);
-  const vec3 inset = glsl_float::insetFromCreases(point, w, middle, insets[triangle]);
+  const vec3 inset = glsl_float::insetFromCreases(point, w, middle, insets[triangle], 1.0f);
   const vec3 normal(normalOf(v));
   const auto error = float(1.25 * hitPointError(v[0], v[1], v[2]));
   return dvec3(glsl_float::offsetOrigin(inset, error, normal, float(side) * normal));
@@ -171,8 +171,8 @@ TEST(ShaderCreases, APointInTheMiddleStaysWhereItIs) {
   const Scene scene = wedge(drawPlace(draw), glm::radians(20.0), false);
   const std::vector<uint32_t> insets = creaseInsets(scene);
   const vec3 point(1.0f, 2.0f, 3.0f);
-  EXPECT_EQ(glsl_float::insetFromCreases(point, {0.3f, 0.3f}, vec3(0.0f), insets[0]), point);
-  EXPECT_NE(glsl_float::insetFromCreases(point, {0.5f, 0.0f}, vec3(0.0f), insets[0]), point);
+  EXPECT_EQ(glsl_float::insetFromCreases(point, {0.3f, 0.3f}, vec3(0.0f), insets[0], 1.0f), point);
+  EXPECT_NE(glsl_float::insetFromCreases(point, {0.5f, 0.0f}, vec3(0.0f), insets[0], 1.0f), point);
 }
 
 /// Of the two faces of a fold that a ray passes within rounding of, from outside of the wedge, the first
