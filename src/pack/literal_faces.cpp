@@ -31,6 +31,9 @@ double largestCoordinate(const LiteralFace& f, const std::vector<glm::vec3>& poi
 
 /// What corners may be off by, in parts of the largest coordinate, for their rounding.
 constexpr double kTolerance = 0x1p-22;
+/// What the last corner may be off the others' plane by, in parts of the least height of a corner over the
+/// diagonal beside it: seen so nearly edge-on that this shows, the quadrilateral is no longer convex.
+constexpr double kBend = 0x1p-20;
 
 bool isFlatAndConvex(const LiteralFace& f, const std::vector<glm::vec3>& points) {
   const auto at = [&](size_t i) { return pointAt(f, i, points); };
@@ -39,7 +42,9 @@ bool isFlatAndConvex(const LiteralFace& f, const std::vector<glm::vec3>& points)
   const double off = glm::dot(glm::normalize(normal), at(3) - at(0) + at(1) - at(2));
   if (std::abs(off) > kTolerance * largestCoordinate(f, points)) return false;
   for (size_t i = 0; i < 4; ++i) {
-    if (glm::dot(normal, glm::cross(at(i + 1) - at(i), at(i + 2) - at(i + 1))) <= 0.0) return false;
+    const glm::dvec3 turn = glm::cross(at(i + 1) - at(i), at(i + 2) - at(i + 1));
+    if (glm::dot(normal, turn) <= 0.0) return false;
+    if (std::abs(off) > kBend * glm::length(turn) / glm::length(at(i + 2) - at(i))) return false;
   }
   return true;
 }
@@ -50,7 +55,7 @@ bool isParallelogram(const LiteralFace& f, const std::vector<glm::vec3>& points)
 }
 
 /// Two triangles that share an edge, as a flat and convex quadrilateral.
-std::optional<LiteralFace> joined(const LiteralFace& a, const LiteralFace& b,
+std::optional<LiteralFace> joined(const LiteralFace& a, const LiteralFace& b, Joining joining,
                                   const std::vector<glm::vec3>& points) {
   for (uint32_t i = 0; i < 3; ++i) {
     for (uint32_t j = 0; j < 3; ++j) {
@@ -62,6 +67,10 @@ std::optional<LiteralFace> joined(const LiteralFace& a, const LiteralFace& b,
       quad.corner = {a.corner[i], a.corner[(i + 1) % 3], a.corner[(i + 2) % 3], b.corner[j]};
       if (!isFlatAndConvex(quad, points)) continue;
       quad.parallelogram = isParallelogram(quad, points);
+      if (joining == Joining::Parallelograms && !quad.parallelogram) continue;
+      quad.otherSlot = b.slot;
+      quad.first = i;
+      quad.otherFirst = (j + 2) % 3;
       return quad;
     }
   }
@@ -70,7 +79,7 @@ std::optional<LiteralFace> joined(const LiteralFace& a, const LiteralFace& b,
 
 }  // namespace
 
-LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, bool merge) {
+LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, Joining joining) {
   LiteralMesh mesh;
   std::vector<uint32_t> materials;
   for (uint32_t leaf = firstLeaf; leaf < bvh.leaves.size(); ++leaf) {
@@ -85,9 +94,9 @@ LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, 
       face.culled = !m.doubleSided && !m.passesLight();
       face.slot = leaf * 2 + side;
       bool taken = false;
-      for (size_t i = 0; merge && !taken && i < mesh.faces.size(); ++i) {
+      for (size_t i = 0; joining != Joining::None && !taken && i < mesh.faces.size(); ++i) {
         if (mesh.faces[i].quad || materials[i] != t.material) continue;
-        const std::optional<LiteralFace> quad = joined(mesh.faces[i], face, mesh.points);
+        const std::optional<LiteralFace> quad = joined(mesh.faces[i], face, joining, mesh.points);
         if (quad) mesh.faces[i] = *quad;
         taken = quad.has_value();
       }

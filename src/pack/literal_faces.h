@@ -18,7 +18,10 @@ struct LiteralFace {
   bool quad = false;                 ///< else the fourth corner is not there
   bool parallelogram = false;        ///< a quadrilateral that is one
   bool culled = false;               ///< its back is not there
-  uint32_t slot = 0;                 ///< leaf slot of the triangle (of a quadrilateral, one of both)
+  uint32_t slot = 0;        ///< leaf slot of the triangle; of a quadrilateral, of its first three corners
+  uint32_t otherSlot = 0;   ///< of a quadrilateral's third, fourth and first corner
+  uint32_t first = 0;       ///< which vertex of the triangle in `slot` the first corner is
+  uint32_t otherFirst = 0;  ///< which vertex of the other triangle the third corner is
 };
 
 struct LiteralMesh {
@@ -26,8 +29,10 @@ struct LiteralMesh {
   std::vector<LiteralFace> faces;
 };
 
-/// The triangles in the leaves from firstLeaf on; `merge` joins two of the same plane, material and sides
-/// where they make a convex quadrilateral.
-LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, bool merge);
+/// What two triangles of the same plane, material and sides may be joined to.
+enum class Joining : uint8_t { None, Parallelograms, ConvexQuadrilaterals };
+
+/// The triangles in the leaves from firstLeaf on.
+LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, Joining joining);
 
 }  // namespace fragtrace

@@ -2,6 +2,7 @@
 #include "pack/literal_traversal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -58,6 +59,7 @@ Traversal traverseLiterals(vec3 origin, vec3 direction, Traversal s, bool anyHit
   vec2 weights = s.weights;
   float sum;
   float area;
+  bool inFirst;
   float t;
   bool hit;
 )";
@@ -231,9 +233,10 @@ class TraversalText {
     }
     if (isSliverFace(f)) {
       planeDistance(f, sumOf(all));
+      tellTriangle(f, "area");
       body_ += "  hit = ((" + positive + "area > 0.0)" +
                (f.culled ? "" : " || (" + negative + "area < 0.0)") + ") && t > 0.0;\n";
-      keepNearest(f, "abs(vec2(" + e[2].name + ", " + e[0].name + ") / area) * sum");
+      keepNearest(f, "abs(" + weightsOf(f, e) + " / area) * sum");
       return;
     }
     const std::string z0 = place("rz", f.corner[0]);
@@ -252,6 +255,7 @@ class TraversalText {
       t = sumOf({{e[1], z0}, {last, place("rz", f.corner[1])}, {e[0], place("rz", f.corner[2])}});
     }
     body_ += "  sum = " + sumOf(all) + ";\n  t = " + t + ";\n";
+    tellTriangle(f, "sum");
     if (f.culled) {
       // All edges zero make t zero, too.
       body_ += "  hit = " + positive + "t > 0.0;\n";
@@ -259,7 +263,34 @@ class TraversalText {
       body_ += "  hit = (" + positive + "sum > 0.0) || (" + negative + "sum < 0.0);\n";
       body_ += "  t = sum < 0.0 ? -t : t;\n  sum = abs(sum);\n  hit = hit && t > 0.0;\n";
     }
-    keepNearest(f, "abs(vec2(" + e[2].name + ", " + e[0].name + "))");
+    keepNearest(f, "abs(" + weightsOf(f, e) + ")");
+  }
+
+  /// The edge functions opposite to the second and third vertex of the triangle that is hit, as parts of the
+  /// sum of all edges; signs are left open. Of a parallelogram's two triangles `inFirst` tells which.
+  std::string weightsOf(const LiteralFace& f, const std::vector<Term>& e) {
+    if (!f.quad) return "vec2(" + e[2].name + ", " + e[0].name + ")";
+    if (!weights_) return {};
+    const std::string diagonal = edge(f.corner[0], f.corner[2]).name;
+    const std::array<std::string, 3> ofFirst{e[1].name, diagonal, e[0].name};
+    const std::array<std::string, 3> ofOther{e[3].name, diagonal, e[2].name};
+    const auto vertex = [](const std::array<std::string, 3>& corners, uint32_t first, uint32_t i) {
+      return corners[(i + 3 - first) % 3];
+    };
+    std::string text;
+    for (const uint32_t i : {1u, 2u}) {
+      text += (i == 1 ? "" : ", ");
+      text += "inFirst ? " + vertex(ofFirst, f.first, i) + " : " + vertex(ofOther, f.otherFirst, i);
+    }
+    return "(2.0 * vec2(" + text + "))";
+  }
+
+  /// Which of both triangles a line that meets the parallelogram meets; `all`: the sum of its edges.
+  void tellTriangle(const LiteralFace& f, const std::string& all) {
+    if (!f.quad || !weights_) return;
+    const Term diagonal = edge(f.corner[0], f.corner[2]);
+    body_ += "  inFirst = (" + diagonal.name + (diagonal.negated ? " <= 0.0" : " >= 0.0") + ") == (" + all +
+             " >= 0.0);\n";
   }
 
   /// What is hit, at t over sum, replaces the best if it is nearer; `weights` over sum are the barycentric
@@ -270,7 +301,9 @@ class TraversalText {
         body_ += "  hit = hit && !(" + sameSigns(row, f, f.quad ? 4 : 3) + ");\n";
     }
     body_ += "  hit = hit && t * bestSum < best * sum;\n";
-    body_ += "  s.slot = hit ? " + std::to_string(f.slot) + " : s.slot;\n";
+    std::string slot = std::to_string(f.slot);
+    if (f.quad && weights_) slot = "(inFirst ? " + slot + " : " + std::to_string(f.otherSlot) + ")";
+    body_ += "  s.slot = hit ? " + slot + " : s.slot;\n";
     body_ += "  if (!anyHit) {\n    best = hit ? t : best;\n    bestSum = hit ? sum : bestSum;\n  }\n";
     if (weights_) body_ += "  weights = hit ? " + weights + " : weights;\n";
   }

@@ -77,6 +77,9 @@ constexpr double kNanosecondsAnInstruction = 0.25;
 constexpr double kCompilationOfAFace = 4e6;  // nanoseconds
 constexpr double kRaysAPath = 7.0;
 
+/// Barycentric weights are told of both triangles of a parallelogram alike.
+Joining joiningFor(bool weights) { return weights ? Joining::Parallelograms : Joining::ConvexQuadrilaterals; }
+
 }  // namespace
 
 std::string whyNoLiterals(const Scene& scene, const GpuScene& packed) {
@@ -99,7 +102,7 @@ std::string whyNoLiterals(const Scene& scene, const GpuScene& packed) {
 
 bool paysAsLiterals(const Scene& scene, const Bvh& bvh, const GpuScene& packed, double paths) {
   if (!whyNoLiterals(scene, packed).empty()) return false;
-  const double faces = double(literalMesh(scene, bvh, 0, false).faces.size());
+  const double faces = double(literalMesh(scene, bvh, 0, Joining::None).faces.size());
   const double saved = bvhQuality(bvh).sahCost * kLockstep * kVisit - faces * kFace;
   return paths * kRaysAPath * saved / 8.0 * kNanosecondsAnInstruction > faces * kCompilationOfAFace;
 }
@@ -111,7 +114,8 @@ bool paysBeside(const Bvh& tree, const Bvh& beside) {
 
 std::string largeFirst(const Scene& scene, const Bvh& bvh, const ShaderVariant& variant) {
   const bool weights = keepsWeights(variant);
-  const LiteralMesh mesh = literalMesh(scene, bvh, uint32_t(bvh.leaves.size()) - bvh.besideTree, !weights);
+  const LiteralMesh mesh =
+      literalMesh(scene, bvh, uint32_t(bvh.leaves.size()) - bvh.besideTree, joiningFor(weights));
   return "const bool kLiterals = false;\nconst bool kLargeFirst = true;\n" +
          literalTraversal(mesh, weights, false) + kNoRows;
 }
@@ -119,10 +123,13 @@ std::string largeFirst(const Scene& scene, const Bvh& bvh, const ShaderVariant& 
 std::string literalScene(const Scene& scene, const Bvh& bvh, const GpuScene& packed,
                          const ShaderVariant& variant) {
   const bool weights = keepsWeights(variant);
-  const LiteralMesh mesh = literalMesh(scene, bvh, 0, !weights);
+  const LiteralMesh mesh = literalMesh(scene, bvh, 0, joiningFor(weights));
   const size_t slots = bvh.leaves.size() * 2;
   std::vector<bool> used(slots, false);
-  for (const LiteralFace& face : mesh.faces) used[face.slot] = true;
+  for (const LiteralFace& face : mesh.faces) {
+    used[face.slot] = true;
+    if (weights && face.quad) used[face.otherSlot] = true;
+  }
   Words faces = packed.buffers[layout::kFacesBinding];
   for (size_t slot = 0; slot < slots && !weights; ++slot) {
     // Vertices are read by their index only where they have attributes.

@@ -26,8 +26,9 @@ constexpr double kPackedOffset = 1.25;
 constexpr float kGentle = float(kClearance);
 /// All within half of that angle of one normal: cos(acos(kGentle) / 2).
 constexpr float kGentleCone = 0.9186f;
-/// From here on a crease is sharp: just under a right angle.
-constexpr double kSharp = 0.02;
+/// The least cosine of a sharp crease, of 101 degrees: wider ones leave a fifth of the offset as a height
+/// over the other face, more than distances were ever found to be off.
+constexpr double kSharp = -0.2;
 /// Wedges below half a degree hold nothing that could be seen, and cards with two faces have one of 0.
 constexpr double kLeastSine = 0x1p-7;
 /// The farthest that a point is moved, in offsets.
@@ -172,7 +173,7 @@ Asked besideVertex(const Sector& face, const Sector& other) {
   if (cosine <= 0.0 || sine < kLeastSine) return {};
   const double height = kClearance * std::max(face.offset, other.offset) + face.offset;
   return {std::min(height / sine + kGrazing * face.offset, kMostInset * face.offset),
-          glm::dot(face.normal, other.normal) < -kSharp && cosine > kSharp};
+          glm::dot(face.normal, other.normal) < 0.0 && cosine > 0.0};
 }
 
 /// The code of the next power of two; at most a quarter.

@@ -52,7 +52,7 @@ std::span<const TraitRow> traitRows() {
       {Trait::Environment, "environment", "kEnvironment", "no environment"},
       {Trait::EnvironmentSampling, "environment-sampling", "kEnvironmentSampling", "no environment map"},
       {Trait::Instances, "instances", "kInstances", "no mesh that is shared"},
-      {Trait::Creases, "creases", "kCreases", "no crease below a right angle, or no ray that leaves one"},
+      {Trait::Creases, "creases", "kCreases", "no crease below 101 degrees, or no ray that leaves one"},
       {Trait::Slivers, "slivers", "kSlivers", "no triangle long and thin enough to need its plane"},
   }};
   return rows;

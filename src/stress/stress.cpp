@@ -23,6 +23,7 @@ std::vector<StressRow> stressRows() {
   rows.push_back({"shell shared", "paths inside spiky white shells that share their mesh", 0.0, true,
                   scatterInSharedShells});
   rows.push_back({"strips", "paths inside white wedges cut into slivers", 0.0, true, scatterInStrips});
+  rows.push_back({"boxes", "paths inside white boxes, right-angled or nearly so", 0.0, true, scatterInBoxes});
   rows.push_back({"bad normals", "missing, backwards and tilted normals in a white furnace", 0.0, false,
                   shadeBadNormals});
   // Rays that leave a crease narrower than a right angle can start behind its other side (docs/accuracy.md).

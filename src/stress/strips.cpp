@@ -103,6 +103,29 @@ Wedge makeWedge(double degrees, bool across, uint32_t count, Dice& dice) {
   return w;
 }
 
+/// A skew box of 1 x 1 x length, its sides at an angle, of 12 triangles.
+Wedge makeBox(double degrees, double length, bool turned, Dice& dice) {
+  Wedge w;
+  w.scene.materials.resize(1);
+  w.scene.materials[0].doubleSided = true;
+  if (turned) w.turn = glm::angleAxis(dice.between(0.0, glm::two_pi<double>()), dice.direction());
+  const dvec3 x(1.0, 0.0, 0.0);
+  const dvec3 y(std::cos(glm::radians(degrees)), std::sin(glm::radians(degrees)), 0.0);
+  const dvec3 z(0.0, 0.0, length);
+  const dvec3 low = dice.inCube(0.5) - 0.5 * (x + y + z);
+  w.inside = w.turn * (low + dice.between(0.1, 0.9) * x + dice.between(0.1, 0.9) * y + 0.5 * z);
+  std::array<uint32_t, 8> p{};
+  for (uint32_t i = 0; i < 8; ++i)
+    p[i] = w.add(low + double(i & 1u) * x + double(i >> 1 & 1u) * y + double(i >> 2) * z);
+  w.quad(p[0], p[2], p[3], p[1]);
+  w.quad(p[4], p[5], p[7], p[6]);
+  w.quad(p[0], p[1], p[5], p[4]);
+  w.quad(p[2], p[6], p[7], p[3]);
+  w.quad(p[0], p[4], p[6], p[2]);
+  w.quad(p[1], p[3], p[7], p[5]);
+  return w;
+}
+
 /// Pixels that are not black.
 size_t litPixels(const StressSetting& setting, const Wedge& wedge, bool literals, StressOutcome& outcome) {
   RenderOptions options = optionsOf(setting, Stage::Gi);
@@ -136,6 +159,24 @@ StressOutcome scatterInStrips(const StressSetting& setting) {
         for (const bool literals : {false, true}) {
           const Wedge wedge = makeWedge(degrees, across, literals ? 6 : 60, dice);
           outcome.failures += litPixels(setting, wedge, literals, outcome);
+        }
+      }
+    }
+  }
+  outcome.worst = formatted("light in %zu pixels", outcome.failures);
+  return outcome;
+}
+
+StressOutcome scatterInBoxes(const StressSetting& setting) {
+  Dice dice(90);
+  StressOutcome outcome;
+  for (const double degrees : {90.0, 89.0, 91.0}) {
+    for (const double length : {1.0, 30.0, 1000.0}) {
+      if (setting.quick && length != 1000.0) continue;
+      for (const bool turned : {false, true}) {
+        for (const bool literals : {false, true}) {
+          const Wedge box = makeBox(degrees, length, turned, dice);
+          outcome.failures += litPixels(setting, box, literals, outcome);
         }
       }
     }

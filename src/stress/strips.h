@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The row of wedges that are cut into slivers: whoever is inside sees none of the bright world.
+// Rows of closed prisms in a bright world: wedges that are cut into slivers, and boxes.
 #pragma once
 
 #include "stress/stress.h"
@@ -10,5 +10,9 @@ namespace fragtrace {
 /// across or along the crease; path traced, by a tree and (wedges of fewer strips) as literals. Cases are
 /// paths, failures pixels that are not black.
 StressOutcome scatterInStrips(const StressSetting& setting);
+
+/// The same in boxes of 12 triangles, up to a thousand times as long as wide, with angles of 89 to 91
+/// degrees.
+StressOutcome scatterInBoxes(const StressSetting& setting);
 
 }  // namespace fragtrace

@@ -31,9 +31,9 @@ std::vector<Corners> quad(const std::array<glm::vec3, 4>& c) {
   return {{c[0], c[1], c[2]}, {c[2], c[3], c[0]}};
 }
 
-LiteralMesh meshOf(const Scene& scene, bool merge = true) {
+LiteralMesh meshOf(const Scene& scene, Joining joining = Joining::ConvexQuadrilaterals) {
   const Bvh bvh = buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
-  return literalMesh(scene, bvh, 0, merge);
+  return literalMesh(scene, bvh, 0, joining);
 }
 
 constexpr glm::vec3 kA(0, 0, 0), kB(2, 0, 0), kC(3, 1, 0), kD(1, 1, 0);
@@ -63,7 +63,36 @@ TEST(LiteralMesh, WhatIsBentOrNotConvexOrOfTwoMaterialsStaysApart) {
   Scene two = sceneOf(quad({kA, kB, kC, kD}));
   two.triangles[1].material = 1;
   EXPECT_EQ(meshOf(two).faces.size(), 2u);
-  EXPECT_EQ(meshOf(sceneOf(quad({kA, kB, kC, kD})), false).faces.size(), 2u);
+  EXPECT_EQ(meshOf(sceneOf(quad({kA, kB, kC, kD})), Joining::None).faces.size(), 2u);
+}
+
+/// Seen so nearly edge-on that its bend shows, a quadrilateral with a corner of nearly 180 degrees is not
+/// convex: rays pass it.
+TEST(LiteralMesh, WhatIsBentByRoundingStaysApartWhereACornerIsNearlyStraight) {
+  const auto faces = [](float corner, float bend) {
+    return meshOf(sceneOf(quad({kA, kB, glm::vec3(1.5f, 2, bend), glm::vec3(0.75f - corner, 1, 0)})))
+        .faces.size();
+  };
+  EXPECT_EQ(faces(0.3f, 0.0f), 1u);
+  EXPECT_EQ(faces(0.3f, 1e-7f), 1u);
+  EXPECT_EQ(faces(0.001f, 0.0f), 1u);
+  EXPECT_EQ(faces(0.001f, 1e-7f), 2u);
+}
+
+TEST(LiteralMesh, WithWeightsOnlyParallelogramsAreJoinedAndKnowBothTriangles) {
+  const auto joinedBy = [](const std::array<glm::vec3, 4>& corners) {
+    return meshOf(sceneOf(quad(corners)), Joining::Parallelograms);
+  };
+  EXPECT_EQ(joinedBy({kA, kB, glm::vec3(3, 2, 0), kD}).faces.size(), 2u);
+  const LiteralMesh mesh = joinedBy({kA, kB, kC, kD});
+  ASSERT_EQ(mesh.faces.size(), 1u);
+  const LiteralFace& f = mesh.faces[0];
+  EXPECT_NE(f.slot, f.otherSlot);
+  // The first corner is vertex `first` of its triangle, the third vertex `otherFirst` of the other.
+  const std::array<std::array<glm::vec3, 3>, 2> triangles{{{kA, kB, kC}, {kC, kD, kA}}};
+  const bool swapped = mesh.points[f.corner[1]] != kB;
+  EXPECT_EQ(triangles[swapped ? 1 : 0][f.first], mesh.points[f.corner[0]]);
+  EXPECT_EQ(triangles[swapped ? 0 : 1][f.otherFirst], mesh.points[f.corner[2]]);
 }
 
 TEST(LiteralMesh, EveryPlaceIsOnePoint) {
@@ -71,7 +100,7 @@ TEST(LiteralMesh, EveryPlaceIsOnePoint) {
   fan.reserve(6);
   for (int i = 0; i < 6; ++i)
     fan.push_back({glm::vec3(0), glm::vec3(i, 7 - i, i * i), glm::vec3(i + 1, 6 - i, (i + 1) * (i + 1))});
-  EXPECT_EQ(meshOf(sceneOf(fan), false).points.size(), 8u);
+  EXPECT_EQ(meshOf(sceneOf(fan), Joining::None).points.size(), 8u);
 }
 
 TEST(Literals, PayForAFewTrianglesAndNotForMany) {

@@ -56,7 +56,7 @@ TEST(ShaderCreases, NoRayThatLeavesAnInstanceStartsBehindTheOtherFaceOfItsWedge)
   for (int k = 0; k < 6000; ++k) {
     Scene scene;
     scene.materials.resize(1);
-    const double degrees = draw.between(3.0, 87.0);
+    const double degrees = draw.between(3.0, 100.0);
     addShared(scene, wedge(draw, degrees), 0);
     const Look look{.scaleFrom = 0.05, .scaleTo = 2.0};
     scene.instances.push_back({randomPlace(draw, look, k % 2 == 0 ? 1.0 : 300.0), 0, ""});
