@@ -71,13 +71,15 @@ TriangleHit intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2
 }
 
 /// Distance along the ray to the plane dot(normal, x) = distance of a triangle, within the depths of its vertices. The weighted depths of a sliver are
-/// rounding times its aspect ratio: a ray that starts beside it could find it behind (docs/accuracy.md, "Distance along the ray").
-float distanceToPlane(vec3 origin, vec3 direction, RayShear s, vec3 v0, vec3 v1, vec3 v2, vec3 normal, float distance) {
+/// rounding times its aspect ratio: a ray that starts beside it could find it behind (docs/accuracy.md, "Distance along the ray"). Farther away than a 64th of those depths, `weighted` is kept.
+float distanceToPlane(vec3 origin, vec3 direction, RayShear s, vec3 v0, vec3 v1, vec3 v2, vec3 normal, float distance, float weighted) {
   float a = rotateToAxis(v0 - origin, s.axis).z * s.z;
   float b = rotateToAxis(v1 - origin, s.axis).z * s.z;
   float c = rotateToAxis(v2 - origin, s.axis).z * s.z;
   float t = (distance - dot(normal, origin)) / dot(normal, direction);
-  return max(min(min(a, b), c), min(t, max(max(a, b), c)));
+  float nearest = min(min(a, b), c);
+  float farthest = max(max(a, b), c);
+  return weighted > 0.015625f * (farthest - nearest) ? weighted : max(nearest, min(t, farthest));
 }
 
 /// The test of Moller and Trumbore (Fast, Minimum Storage Ray/Triangle Intersection, 1997): each triangle rounds its edges by itself, so rays

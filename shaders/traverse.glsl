@@ -58,7 +58,7 @@ PrimitiveHit intersectWord(vec3 origin, vec3 direction, RayShear shear, float ti
     if (!kWatertight) h = intersectTriangleFast(origin, direction, v0, v1, v2);
     if (kSlivers && h.hit && (word & kPrimitiveSliver) != 0u) {
       int row = slot * int(kFaceRows);
-      h.t = distanceToPlane(origin, direction, shear, v0, v1, v2, vec3(uintBitsToFloat(readFaces(row))), uintBitsToFloat(readFaces(row + 1).x));
+      h.t = distanceToPlane(origin, direction, shear, v0, v1, v2, vec3(uintBitsToFloat(readFaces(row))), uintBitsToFloat(readFaces(row + 1).x), h.t);
     }
     bool there = !kCulling || h.front || (word & kPrimitiveCull) == 0u;
     r.t = h.hit && there ? h.t : -1.0f;
