@@ -196,25 +196,25 @@ class TraversalText {
     return text;
   }
 
-  /// Distance over 1 as t over sum, both with the sign that fronts have; `area`: the sum of the edges.
-  void planeDistance(const LiteralFace& f, const std::string& area) {
+  /// From close by (shaders/intersect.glsl, distanceToPlane) the distance to the face's plane replaces t over
+  /// sum; `area` keeps the sum of the edges.
+  void planeDistance(const LiteralFace& f) {
     const auto at = [&](size_t i) { return mesh_.points[f.corner[i]]; };
     const glm::dvec4 plane(planeOf(at(0), at(1), at(2)));
-    const std::string z0 = place("rz", f.corner[0]);
-    const std::string z1 = place("rz", f.corner[1]);
-    const std::string z2 = place("rz", f.corner[2]);
-    std::string nearest = "min(min(" + z0 + ", " + z1 + "), " + z2 + ")";
-    std::string farthest = "max(max(" + z0 + ", " + z1 + "), " + z2 + ")";
-    if (f.quad) {
-      const std::string z3 = place("rz", f.corner[3]);
-      nearest = "min(" + nearest + ", " + z3 + ")";
-      farthest = "max(" + farthest + ", " + z3 + ")";
+    std::string nearest = place("rz", f.corner[0]);
+    std::string farthest = nearest;
+    for (size_t i = 1; i < (f.quad ? 4 : 3); ++i) {
+      const std::string z = place("rz", f.corner[i]);
+      nearest = "min(" + nearest + ", " + z + ")";
+      farthest = "max(" + farthest + ", " + z + ")";
     }
-    body_ += "  area = " + area + ";\n";
-    body_ += "  sum = " + dotWith(-glm::dvec3(plane), "direction") + ";\n";
-    body_ += "  t = " + added(dotWith(glm::dvec3(plane), "origin"), number(-plane.w)) + ";\n";
-    body_ += "  t = sum < 0.0 ? -t : t;\n  sum = abs(sum);\n";
-    body_ += "  t = max(sum * " + nearest + ", min(t, sum * " + farthest + "));\n";
+    nearest = variable(nearest);
+    farthest = variable(farthest);
+    body_ += "  area = sum;\n  if (t <= 0.015625 * sum * (" + farthest + " - " + nearest + ")) {\n";
+    body_ += "    sum = " + dotWith(-glm::dvec3(plane), "direction") + ";\n";
+    body_ += "    t = " + added(dotWith(glm::dvec3(plane), "origin"), number(-plane.w)) + ";\n";
+    body_ += "    t = sum < 0.0 ? -t : t;\n    sum = abs(sum);\n";
+    body_ += "    t = max(sum * " + nearest + ", min(t, sum * " + farthest + "));\n  }\n";
   }
 
   static Term times(const Term& a, bool negated) { return {a.name, a.negated != negated}; }
@@ -230,14 +230,6 @@ class TraversalText {
       all.push_back({e[i], ""});
       positive += e[i].name + (e[i].negated ? " <= 0.0 && " : " >= 0.0 && ");
       negative += e[i].name + (e[i].negated ? " >= 0.0 && " : " <= 0.0 && ");
-    }
-    if (isSliverFace(f)) {
-      planeDistance(f, sumOf(all));
-      tellTriangle(f, "area");
-      body_ += "  hit = ((" + positive + "area > 0.0)" +
-               (f.culled ? "" : " || (" + negative + "area < 0.0)") + ") && t > 0.0;\n";
-      keepNearest(f, "abs(" + weightsOf(f, e) + " / area) * sum");
-      return;
     }
     const std::string z0 = place("rz", f.corner[0]);
     std::string t;
@@ -256,14 +248,18 @@ class TraversalText {
     }
     body_ += "  sum = " + sumOf(all) + ";\n  t = " + t + ";\n";
     tellTriangle(f, "sum");
+    const bool sliver = isSliverFace(f);
     if (f.culled) {
-      // All edges zero make t zero, too.
-      body_ += "  hit = " + positive + "t > 0.0;\n";
+      // All edges zero make t zero, too, but for the plane's.
+      body_ += "  hit = " + positive + (sliver ? "sum > 0.0" : "t > 0.0") + ";\n";
     } else {
       body_ += "  hit = (" + positive + "sum > 0.0) || (" + negative + "sum < 0.0);\n";
-      body_ += "  t = sum < 0.0 ? -t : t;\n  sum = abs(sum);\n  hit = hit && t > 0.0;\n";
+      body_ += "  t = sum < 0.0 ? -t : t;\n  sum = abs(sum);\n";
     }
-    keepNearest(f, "abs(" + weightsOf(f, e) + ")");
+    if (sliver) planeDistance(f);
+    if (sliver || !f.culled) body_ += "  hit = hit && t > 0.0;\n";
+    const std::string weights = "abs(" + weightsOf(f, e) + (sliver ? " / area) * sum" : ")");
+    keepNearest(f, weights);
   }
 
   /// The edge functions opposite to the second and third vertex of the triangle that is hit, as parts of the

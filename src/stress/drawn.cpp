@@ -3,6 +3,7 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "bench/formatted.h"
 #include "bvh/two_level.h"
 #include "errors.h"
 #include "pack/literals.h"
@@ -54,6 +55,14 @@ FilmPixels StressPicture::draw(const View& view, glm::ivec2 size, int samples) {
   FilmPixels pixels = film.read();
   if (totalsOf(pixels).budgetHits > 0) throw RenderError("the driver ended loops early (budget_hits)");
   return pixels;
+}
+
+void countLight(const FilmPixels& film, StressOutcome& outcome) {
+  for (const FilmPixel& p : film.pixels) {
+    outcome.cases += p.samples;
+    outcome.failures += p.sum != glm::dvec3(0.0) || p.nonfinite > 0 ? 1 : 0;
+  }
+  outcome.worst = formatted("light in %zu pixels", outcome.failures);
 }
 
 std::vector<View> viewsAround(const glm::dvec3& position) {

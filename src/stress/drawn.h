@@ -29,6 +29,9 @@ class StressPicture {
   std::unique_ptr<Renderer> renderer_;
 };
 
+/// Counts the paths of a picture that should be black as cases, and its pixels that are not as failures.
+void countLight(const FilmPixels& film, StressOutcome& outcome);
+
 /// Looks out of a point along the six axes, 90 degrees each: every direction is in one of the pictures.
 std::vector<View> viewsAround(const glm::dvec3& position);
 

@@ -68,18 +68,13 @@ Scene spikyMesh(Dice& dice) {
   return scene;
 }
 
-/// Paths by which light gets in, of those from the six views around a place.
+/// Counts light in the six views around a place.
 void scatterInside(StressPicture& picture, const glm::dvec3& place, glm::ivec2 pixels, int samples,
                    StressOutcome& outcome) {
   for (View view : viewsAround(place)) {
     view.bounces = 4;
-    const FilmPixels film = picture.draw(view, pixels, samples);
-    for (const FilmPixel& p : film.pixels) {
-      outcome.cases += p.samples;
-      outcome.failures += p.sum != glm::dvec3(0.0) || p.nonfinite > 0 ? 1 : 0;
-    }
+    countLight(picture.draw(view, pixels, samples), outcome);
   }
-  outcome.worst = formatted("light in %zu pixels", outcome.failures);
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ std::vector<StressRow> stressRows() {
   rows.push_back({"boxes", "paths inside white boxes, right-angled or nearly so", 0.0, true, scatterInBoxes});
   rows.push_back({"bad normals", "missing, backwards and tilted normals in a white furnace", 0.0, false,
                   shadeBadNormals});
-  // Rays that leave a crease narrower than a right angle can start behind its other side (docs/accuracy.md).
+  // Mirror directions along the surface: a few paths do not come back with all of their light
+  // (docs/accuracy.md).
   rows.push_back({"bad tangents", "paths by a steep map over tangents that do not fit, in a white furnace",
                   1e-4, false, shadeBadTangents});
   rows.push_back({"glass", "nested, touching, of index 1, from inside, in a white furnace", 0.0, false,

@@ -9,7 +9,6 @@
 #include <span>
 
 #include "bench/dice.h"
-#include "bench/formatted.h"
 #include "stress/drawn.h"
 
 namespace fragtrace {
@@ -26,8 +25,16 @@ std::vector<double> cuts(uint32_t count, Dice& dice) {
   return places;
 }
 
-struct Wedge {
+Scene emptyScene() {
   Scene scene;
+  scene.materials.resize(1);
+  scene.materials[0].doubleSided = true;
+  return scene;
+}
+
+/// A closed prism, turned and moved, and a point inside.
+struct Prism {
+  Scene scene = emptyScene();
   dvec3 inside{0.0};
   glm::dquat turn{1.0, 0.0, 0.0, 0.0};
   dvec3 place{0.0};
@@ -47,7 +54,7 @@ struct Wedge {
 };
 
 /// The three sides are cut at places along the crease.
-void cutAcross(Wedge& w, double height, uint32_t count, Dice& dice) {
+void cutAcross(Prism& w, double height, uint32_t count, Dice& dice) {
   std::vector<std::array<uint32_t, 3>> rows;
   for (const double t : cuts(count, dice)) {
     const double z = 2.0 * t - 1.0;
@@ -62,7 +69,7 @@ void cutAcross(Wedge& w, double height, uint32_t count, Dice& dice) {
 }
 
 /// The two sides at the crease, and the ends, are cut at distances from it.
-void cutAlong(Wedge& w, double height, uint32_t count, Dice& dice) {
+void cutAlong(Prism& w, double height, uint32_t count, Dice& dice) {
   struct Row {
     std::array<uint32_t, 2> low;  // at both ends
     std::array<uint32_t, 2> high;
@@ -90,10 +97,8 @@ void cutAlong(Wedge& w, double height, uint32_t count, Dice& dice) {
 }
 
 /// A prism from z = -1 to 1 with its crease along z and its back at x = 1, turned and moved.
-Wedge makeWedge(double degrees, bool across, uint32_t count, Dice& dice) {
-  Wedge w;
-  w.scene.materials.resize(1);
-  w.scene.materials[0].doubleSided = true;
+Prism makeWedge(double degrees, bool across, uint32_t count, Dice& dice) {
+  Prism w;
   w.turn = glm::angleAxis(dice.between(0.0, glm::two_pi<double>()), dice.direction());
   w.place = dice.inCube(0.5);
   const double height = std::tan(glm::radians(degrees) / 2.0);
@@ -104,10 +109,8 @@ Wedge makeWedge(double degrees, bool across, uint32_t count, Dice& dice) {
 }
 
 /// A skew box of 1 x 1 x length, its sides at an angle, of 12 triangles.
-Wedge makeBox(double degrees, double length, bool turned, Dice& dice) {
-  Wedge w;
-  w.scene.materials.resize(1);
-  w.scene.materials[0].doubleSided = true;
+Prism makeBox(double degrees, double length, bool turned, Dice& dice) {
+  Prism w;
   if (turned) w.turn = glm::angleAxis(dice.between(0.0, glm::two_pi<double>()), dice.direction());
   const dvec3 x(1.0, 0.0, 0.0);
   const dvec3 y(std::cos(glm::radians(degrees)), std::sin(glm::radians(degrees)), 0.0);
@@ -126,24 +129,19 @@ Wedge makeBox(double degrees, double length, bool turned, Dice& dice) {
   return w;
 }
 
-/// Pixels that are not black.
-size_t litPixels(const StressSetting& setting, const Wedge& wedge, bool literals, StressOutcome& outcome) {
+/// Counts light inside.
+void scatterIn(const StressSetting& setting, const Prism& prism, bool literals, StressOutcome& outcome) {
   RenderOptions options = optionsOf(setting, Stage::Gi);
   if (literals) options.traversal = TraversalMethod::Literals;
-  StressPicture picture(setting, wedge.scene, whiteWorld(1e4f), options);
+  StressPicture picture(setting, prism.scene, whiteWorld(1e4f), options);
   View view;
-  view.camera.position = wedge.inside;
-  view.camera.forward = wedge.turn * dvec3(-1.0, 0.0, 0.0);
-  view.camera.up = wedge.turn * dvec3(0.0, 0.0, 1.0);
+  view.camera.position = prism.inside;
+  view.camera.forward = prism.turn * dvec3(-1.0, 0.0, 0.0);
+  view.camera.up = prism.turn * dvec3(0.0, 0.0, 1.0);
   view.camera.fovY = glm::radians(100.0);
   view.bounces = 4;
-  size_t lit = 0;
-  for (const FilmPixel& p :
-       picture.draw(view, glm::ivec2(setting.quick ? 64 : 128), setting.quick ? 4 : 16).pixels) {
-    outcome.cases += p.samples;
-    lit += p.sum != dvec3(0.0) || p.nonfinite > 0 ? 1 : 0;
-  }
-  return lit;
+  const int side = setting.quick ? 64 : 128;
+  countLight(picture.draw(view, glm::ivec2(side), setting.quick ? 4 : 16), outcome);
 }
 
 }  // namespace
@@ -157,13 +155,12 @@ StressOutcome scatterInStrips(const StressSetting& setting) {
     for (const double degrees : std::span(kDegrees).first(angles)) {
       for (const bool across : {true, false}) {
         for (const bool literals : {false, true}) {
-          const Wedge wedge = makeWedge(degrees, across, literals ? 6 : 60, dice);
-          outcome.failures += litPixels(setting, wedge, literals, outcome);
+          const Prism prism = makeWedge(degrees, across, literals ? 6 : 60, dice);
+          scatterIn(setting, prism, literals, outcome);
         }
       }
     }
   }
-  outcome.worst = formatted("light in %zu pixels", outcome.failures);
   return outcome;
 }
 
@@ -175,13 +172,12 @@ StressOutcome scatterInBoxes(const StressSetting& setting) {
       if (setting.quick && length != 1000.0) continue;
       for (const bool turned : {false, true}) {
         for (const bool literals : {false, true}) {
-          const Wedge box = makeBox(degrees, length, turned, dice);
-          outcome.failures += litPixels(setting, box, literals, outcome);
+          const Prism box = makeBox(degrees, length, turned, dice);
+          scatterIn(setting, box, literals, outcome);
         }
       }
     }
   }
-  outcome.worst = formatted("light in %zu pixels", outcome.failures);
   return outcome;
 }
 
