@@ -26,8 +26,7 @@ class Shape {
       sphere_ = &scene.spheres[primitive - scene.triangles.size()];
       return;
     }
-    for (int i = 0; i < 3; ++i)
-      corner_[size_t(i)] = dvec3(scene.vertices.position[scene.triangles[primitive].vertex[i]]);
+    corner_ = cornersOf<dvec3>(scene, scene.triangles[primitive]);
     const dvec3 cross = glm::cross(corner_[1] - corner_[0], corner_[2] - corner_[0]);
     const double length = glm::length(cross);
     normal_ = length > 0.0 ? cross / length : dvec3(0.0);

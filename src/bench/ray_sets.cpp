@@ -50,7 +50,7 @@ class Targets {
     double sum = 0.0;
     for (uint32_t i = 0; i < scene.triangles.size(); ++i) {
       if (!scene.materials[scene.triangles[i].material].emissive()) continue;
-      const auto [a, b, c] = cornersOf(i);
+      const auto [a, b, c] = cornersOf<glm::dvec3>(scene, scene.triangles[i]);
       sum += glm::length(glm::cross(b - a, c - a));
       lamps_.push_back(i);
       sums_.push_back(sum);
@@ -71,19 +71,13 @@ class Targets {
     }
     const auto found = std::upper_bound(sums_.begin(), sums_.end(), uniform(random) * sums_.back());
     const size_t index = std::min(size_t(found - sums_.begin()), lamps_.size() - 1);
-    const auto [a, b, c] = cornersOf(lamps_[index]);
+    const auto [a, b, c] = cornersOf<glm::dvec3>(scene_, scene_.triangles[lamps_[index]]);
     const double root = std::sqrt(uniform(random));
     const double v = root * uniform(random);
     return (1.0 - root) * a + (root - v) * b + v * c;
   }
 
  private:
-  std::array<glm::dvec3, 3> cornersOf(uint32_t triangle) const {
-    const glm::uvec3& v = scene_.triangles[triangle].vertex;
-    const std::vector<glm::vec3>& p = scene_.vertices.position;
-    return {glm::dvec3(p[v.x]), glm::dvec3(p[v.y]), glm::dvec3(p[v.z])};
-  }
-
   const Scene& scene_;
   std::vector<uint32_t> lamps_;
   std::vector<double> sums_;

@@ -100,9 +100,7 @@ void ExactTracer::meet(const ExactRay& ray, uint32_t primitive, uint32_t instanc
   if (primitive < triangles) {
     const Triangle& triangle = scene_.triangles[primitive];
     const Material& m = scene_.materials[triangle.material];
-    std::array<glm::dvec3, 3> points;
-    for (int i = 0; i < 3; ++i) points[i] = scene_.vertices.position[triangle.vertex[i]];
-    const Crossing crossing = crossTriangle(ray, points);
+    const Crossing crossing = crossTriangle(ray, cornersOf<glm::dvec3>(scene_, triangle));
     if (crossing.front || m.doubleSided || m.passesLight()) t = crossing.t;
   } else {
     const Sphere& sphere = scene_.spheres[primitive - triangles];
@@ -215,8 +213,8 @@ double ExactTracer::pointError(uint32_t primitive) const {
     const Sphere& sphere = scene_.spheres[primitive - triangles];
     largest = glm::abs(sphere.center) + glm::vec3(sphere.radius);
   } else {
-    const glm::uvec3& v = scene_.triangles[primitive].vertex;
-    for (int i = 0; i < 3; ++i) largest = glm::max(largest, glm::abs(scene_.vertices.position[v[i]]));
+    for (const glm::vec3& p : cornersOf(scene_, scene_.triangles[primitive]))
+      largest = glm::max(largest, glm::abs(p));
   }
   return kUnits * std::max({largest.x, largest.y, largest.z});
 }

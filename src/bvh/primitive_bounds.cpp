@@ -19,8 +19,7 @@ Bounds sphereBounds(const Sphere& sphere) {
 
 Bounds triangleBounds(const Scene& scene, uint32_t triangle) {
   Bounds box;
-  for (int corner = 0; corner < 3; ++corner)
-    box.include(scene.vertices.position[scene.triangles[triangle].vertex[corner]]);
+  for (const glm::vec3& p : cornersOf(scene, scene.triangles[triangle])) box.include(p);
   return box;
 }
 

@@ -76,9 +76,7 @@ void writeRays(const std::filesystem::path& path, const Scene& scene, const std:
   };
   append(uint32_t(scene.triangles.size()));
   append(uint32_t(sets.front().rays.size()));
-  for (const Triangle& t : scene.triangles) {
-    for (int i = 0; i < 3; ++i) append(scene.vertices.position[t.vertex[i]]);
-  }
+  for (const Triangle& t : scene.triangles) append(cornersOf(scene, t));
   for (const MeasuredSet& set : sets) {
     for (size_t i = 0; i < set.rays.size(); ++i) {
       const bool hit = set.found[i].primitive != kMissIndex;

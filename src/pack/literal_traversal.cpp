@@ -186,7 +186,7 @@ class TraversalText {
   /// Whether distances are to be those to the face's plane (shaders/intersect.glsl, distanceToPlane).
   bool isSliverFace(const LiteralFace& f) const {
     const auto at = [&](size_t i) { return mesh_.points[f.corner[i]]; };
-    return isSliver(at(0), at(1), at(2)) || (f.quad && isSliver(at(0), at(2), at(3)));
+    return isSliver({at(0), at(1), at(2)}) || (f.quad && isSliver({at(0), at(2), at(3)}));
   }
 
   /// A sum of products with the components of a vector.

@@ -17,12 +17,10 @@ uint32_t errorBits(double error) {
 }
 
 void appendTriangle(Words& words, const Scene& scene, const Triangle& t) {
-  const glm::vec3 v0 = scene.vertices.position[t.vertex[0]];
-  const glm::vec3 v1 = scene.vertices.position[t.vertex[1]];
-  const glm::vec3 v2 = scene.vertices.position[t.vertex[2]];
+  const auto [v0, v1, v2] = cornersOf(scene, t);
   const glm::vec4 plane = planeOf(v0, v1, v2);
   const uint32_t flat = t.flat ? layout::kFaceFlat : 0u;
-  const uint32_t word = t.material | flat | errorBits(hitPointError(v0, v1, v2));
+  const uint32_t word = t.material | flat | errorBits(hitPointError({v0, v1, v2}));
   words.insert(words.end(), {floatWord(plane.x), floatWord(plane.y), floatWord(plane.z), word,
                              floatWord(plane.w), t.vertex.x, t.vertex.y, t.vertex.z});
 }
@@ -31,7 +29,7 @@ void appendSphere(Words& words, const Sphere& s) {
   // q and -q are the same rotation; the shader derives w >= 0 from the rest.
   const glm::quat q = s.rotation.w < 0.0f ? -s.rotation : s.rotation;
   const glm::vec3 reach = glm::abs(s.center) + glm::vec3(s.radius);
-  const uint32_t word = s.material | layout::kFaceSphere | errorBits(hitPointError(reach, reach, reach));
+  const uint32_t word = s.material | layout::kFaceSphere | errorBits(hitPointError({reach, reach, reach}));
   words.insert(words.end(), {floatWord(q.x), floatWord(q.y), floatWord(q.z), word});
   appendRow(words, s.center, s.radius);
 }

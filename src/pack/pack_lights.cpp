@@ -16,14 +16,12 @@ constexpr double kPi = glm::pi<double>();
 
 /// Rows 1 to 3 of an emissive triangle.
 void appendEdges(Words& words, const Scene& scene, const Triangle& t, uint32_t slot) {
-  const glm::vec3 v0 = scene.vertices.position[t.vertex[0]];
-  const glm::vec3 e1 = scene.vertices.position[t.vertex[1]] - v0;
-  const glm::vec3 e2 = scene.vertices.position[t.vertex[2]] - v0;
+  const auto [v0, v1, v2] = cornersOf(scene, t);
   const uint32_t doubleSided = scene.materials[t.material].doubleSided ? layout::kEmitterDoubleSided : 0u;
   appendRow(words, v0, 0.0f);
   words.back() = t.material | doubleSided;
-  appendRow(words, e1, float(1.0 / triangleArea(scene, t)));
-  appendRow(words, e2, 0.0f);
+  appendRow(words, v1 - v0, float(1.0 / triangleArea(scene, t)));
+  appendRow(words, v2 - v0, 0.0f);
   words.back() = slot;
 }
 
@@ -44,9 +42,7 @@ double lightPower(const Light& light, double radius) {
 }  // namespace
 
 double triangleArea(const Scene& scene, const Triangle& t) {
-  const glm::dvec3 a(scene.vertices.position[t.vertex[0]]);
-  const glm::dvec3 b(scene.vertices.position[t.vertex[1]]);
-  const glm::dvec3 c(scene.vertices.position[t.vertex[2]]);
+  const auto [a, b, c] = cornersOf<glm::dvec3>(scene, t);
   return 0.5 * glm::length(glm::cross(b - a, c - a));
 }
 

@@ -67,9 +67,9 @@ LeafSide leafSide(const Scene& scene, uint32_t primitive) {
   const uint32_t triangles = uint32_t(scene.triangles.size());
   if (primitive < triangles) {
     const Triangle& t = scene.triangles[primitive];
-    for (int i = 0; i < 3; ++i) side.points[i] = scene.vertices.position[t.vertex[i]];
+    side.points = cornersOf(scene, t);
     side.word = primitive | triangleFlags(scene.materials[t.material]);
-    if (isSliver(side.points[0], side.points[1], side.points[2])) side.word |= layout::kPrimitiveSliver;
+    if (isSliver(side.points)) side.word |= layout::kPrimitiveSliver;
   } else {
     const Sphere& s = scene.spheres[primitive - triangles];
     side.points = {s.center, glm::vec3(s.radius), glm::vec3(0.0f)};

@@ -120,10 +120,9 @@ Sector sectorAt(const Scene& scene, const Fans& fans, uint32_t corner) {
   const uint32_t third = (s.corner + 2) % 3;
   s.second = fans.place[s.triangle * 3 + second];
   s.third = fans.place[s.triangle * 3 + third];
-  const Triangle& t = scene.triangles[s.triangle];
-  const auto at = [&](uint32_t i) { return scene.vertices.position[t.vertex[int(i)]]; };
-  const glm::dvec3 a = glm::dvec3(at(second)) - glm::dvec3(at(s.corner));
-  const glm::dvec3 b = glm::dvec3(at(third)) - glm::dvec3(at(s.corner));
+  const auto v = cornersOf(scene, scene.triangles[s.triangle]);
+  const glm::dvec3 a = glm::dvec3(v[second]) - glm::dvec3(v[s.corner]);
+  const glm::dvec3 b = glm::dvec3(v[third]) - glm::dvec3(v[s.corner]);
   const glm::dvec3 n = glm::cross(a, b);
   const double area = glm::length(n);
   if (area <= 0.0) return s;
@@ -131,7 +130,7 @@ Sector sectorAt(const Scene& scene, const Fans& fans, uint32_t corner) {
   s.toSecond = glm::normalize(a);
   s.toThird = glm::normalize(b);
   s.altitude = {area / glm::length(b - a), area / glm::length(b), area / glm::length(a)};
-  s.offset = kPackedOffset * hitPointError(at(s.corner), at(second), at(third));
+  s.offset = kPackedOffset * hitPointError(v);
   return s;
 }
 
@@ -237,9 +236,8 @@ void askAround(const Scene& scene, const Fans& fans, uint32_t place, std::vector
 std::vector<glm::vec3> normalsOf(const Scene& scene) {
   std::vector<glm::vec3> normals(scene.triangles.size());
   for (size_t i = 0; i < normals.size(); ++i) {
-    const glm::uvec3& v = scene.triangles[i].vertex;
-    const auto at = [&](int c) { return glm::dvec3(scene.vertices.position[v[c]]); };
-    const glm::dvec3 n = glm::cross(at(1) - at(0), at(2) - at(0));
+    const auto [a, b, c] = cornersOf<glm::dvec3>(scene, scene.triangles[i]);
+    const glm::dvec3 n = glm::cross(b - a, c - a);
     const double length = glm::length(n);
     normals[i] = length > 0.0 ? glm::vec3(n / length) : glm::vec3(0.0f);
   }

@@ -2,6 +2,7 @@
 // What rounding does to hit points on a triangle of 32-bit floats (docs/accuracy.md).
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 
 namespace fragtrace {
@@ -11,11 +12,11 @@ namespace fragtrace {
 /// it: 32 units of 2^-24 of the largest coordinate (docs/accuracy.md, "Leaving a surface"). It is one number,
 /// not one an axis: a wall through the origin has no rounding across it, but a grazing ray's distance to it
 /// carries the rounding of all axes.
-double hitPointError(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2);
+double hitPointError(const std::array<glm::vec3, 3>& v);
 
 /// Whether the weighted depths of the vertices are too rough a distance for a ray that starts beside the
 /// triangle: they are off its plane by up to half of 2^-24 L^3 / 2A, L its longest side and A its area, which
 /// is asked to be at most 4 units of 2^-24 of the largest coordinate.
-bool isSliver(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2);
+bool isSliver(const std::array<glm::vec3, 3>& v);
 
 }  // namespace fragtrace

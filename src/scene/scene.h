@@ -288,6 +288,13 @@ struct Scene {
   BoundsDouble bounds;                ///< world space
 };
 
+/// A triangle's vertices, in local space or that of its shared mesh.
+template <typename Vector = glm::vec3>
+std::array<Vector, 3> cornersOf(const Scene& scene, const Triangle& t) {
+  const std::vector<glm::vec3>& p = scene.vertices.position;
+  return {Vector(p[t.vertex.x]), Vector(p[t.vertex.y]), Vector(p[t.vertex.z])};
+}
+
 /// Triangles in local space: all that no instance shows.
 inline uint32_t flatTriangleCount(const Scene& scene) {
   return scene.sharedMeshes.empty() ? uint32_t(scene.triangles.size()) : scene.sharedMeshes[0].firstTriangle;

@@ -59,10 +59,8 @@ bool hasAreaLight(const TraitSet& traits) {
 bool hasLight(const TraitSet& traits) { return has(traits, Trait::PunctualLights) || hasAreaLight(traits); }
 
 bool hasSlivers(const Scene& scene) {
-  const std::vector<glm::vec3>& p = scene.vertices.position;
-  return std::ranges::any_of(scene.triangles, [&](const Triangle& t) {
-    return isSliver(p[t.vertex.x], p[t.vertex.y], p[t.vertex.z]);
-  });
+  return std::ranges::any_of(scene.triangles,
+                             [&](const Triangle& t) { return isSliver(cornersOf(scene, t)); });
 }
 
 void addMaterialTraits(const Material& m, const Vertices& vertices, TraitSet& traits) {

@@ -72,15 +72,10 @@ std::vector<uint32_t> matesOf(const Scene& scene, uint32_t primitive) {
   constexpr double kSamePlane = 1.0 - 1e-9;
   const Bvh none;
   const ExactTracer tracer(scene, none);
-  const auto cornersOf = [&](uint32_t i) {
-    const glm::uvec3& v = scene.triangles[i].vertex;
-    return std::array{scene.vertices.position[v.x], scene.vertices.position[v.y],
-                      scene.vertices.position[v.z]};
-  };
-  const auto own = cornersOf(primitive);
+  const auto own = cornersOf(scene, scene.triangles[primitive]);
   std::vector<uint32_t> mates;
   for (uint32_t i = 0; i < scene.triangles.size(); ++i) {
-    const auto others = cornersOf(i);
+    const auto others = cornersOf(scene, scene.triangles[i]);
     const auto shared = std::ranges::count_if(
         own, [&](const glm::vec3& p) { return std::ranges::find(others, p) != others.end(); });
     if (i != primitive && shared == 2 &&

@@ -28,6 +28,11 @@ inline glm::vec3 uniformPoint(Random& random, float half) {
   return {x, y, z};
 }
 
+/// The unit normal that looks to where the corners are counter-clockwise.
+inline glm::dvec3 normalOf(const Corners& v) {
+  return glm::normalize(glm::cross(glm::dvec3(v[1]) - glm::dvec3(v[0]), glm::dvec3(v[2]) - glm::dvec3(v[0])));
+}
+
 inline std::vector<Bounds> boxesOf(const std::vector<Corners>& triangles) {
   std::vector<Bounds> boxes(triangles.size());
   for (size_t i = 0; i < triangles.size(); ++i) {

@@ -31,7 +31,8 @@ std::map<std::string, std::string> documentedStates() {
     std::istringstream cells(line);
     std::string bar, name, state;
     if (!isBelow || !(cells >> bar >> name >> bar >> state) || line[0] != '|') continue;
-    if (name != "extension" && name != "---") EXPECT_TRUE(states.emplace(name, state).second) << name;
+    if (name == "extension" || name == "---") continue;
+    EXPECT_TRUE(states.emplace(name, state).second) << name;
   }
   return states;
 }

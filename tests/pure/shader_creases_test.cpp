@@ -5,6 +5,7 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "bvh_triangles.h"
 #include "glsl.h"
 #include "pack/pack_faces.h"
 #include "scene/creases.h"
@@ -71,26 +72,16 @@ Scene spike(const Place& p, int faces, double radius) {
   return scene;
 }
 
-std::array<vec3, 3> cornersOf(const Scene& scene, size_t triangle) {
-  const glm::uvec3& v = scene.triangles[triangle].vertex;
-  const auto& p = scene.vertices.position;
-  return {p[v.x], p[v.y], p[v.z]};
-}
-
-dvec3 normalOf(const std::array<vec3, 3>& v) {
-  return glm::normalize(glm::cross(dvec3(v[1]) - dvec3(v[0]), dvec3(v[2]) - dvec3(v[0])));
-}
-
 /// Where a ray that leaves a point of these weights starts: as surface.glsl has it, offset by the most that
 /// packing makes of it.
 dvec3 startOf(const Scene& scene, const std::vector<uint32_t>& insets, size_t triangle, const glm::vec2& w,
               double side) {
-  const std::array<vec3, 3> v = cornersOf(scene, triangle);
+  const std::array<vec3, 3> v = cornersOf(scene, scene.triangles[triangle]);
   const vec3 middle((dvec3(v[0]) + dvec3(v[1]) + dvec3(v[2])) / 3.0);
   const vec3 point = v[0] + w.x * (v[1] - v[0]) + w.y * (v[2] - v[0]);
   const vec3 inset = glsl_float::insetFromCreases(point, w, middle, insets[triangle], 1.0f);
   const vec3 normal(normalOf(v));
-  const auto error = float(1.25 * hitPointError(v[0], v[1], v[2]));
+  const auto error = float(1.25 * hitPointError(v));
   return dvec3(glsl_float::offsetOrigin(inset, error, normal, float(side) * normal));
 }
 
@@ -119,10 +110,9 @@ TEST(ShaderCreases, NoRayStartsBehindTheOtherFaceOfAWedge) {
     const double into = outwards ? -1.0 : 1.0;
     const dvec3 start = startOf(scene, insets, 0, w, into);
     for (size_t face = 0; face < 2; ++face) {
-      const std::array<vec3, 3> v = cornersOf(scene, face);
+      const std::array<vec3, 3> v = cornersOf(scene, scene.triangles[face]);
       // Half of what the next ray's rounding needs is left when the point's own rounding is taken off.
-      ASSERT_GT(into * glm::dot(normalOf(v), start - dvec3(v[0])),
-                11.0 / 32.0 * hitPointError(v[0], v[1], v[2]))
+      ASSERT_GT(into * glm::dot(normalOf(v), start - dvec3(v[0])), 11.0 / 32.0 * hitPointError(v))
           << "case " << k << " face " << face << " angle " << glm::degrees(angle);
     }
   }
@@ -138,16 +128,15 @@ TEST(ShaderCreases, NoRayStartsOutsideOfASpike) {
     ASSERT_EQ(insets.size(), size_t(faces));
     const dvec3 inside = p.at(0.0, 0.0, 0.5);
     const auto into = [&](size_t face) {
-      const std::array<vec3, 3> v = cornersOf(scene, face);
+      const std::array<vec3, 3> v = cornersOf(scene, scene.triangles[face]);
       return glm::dot(normalOf(v), inside - dvec3(v[0])) > 0.0 ? 1.0 : -1.0;
     };
     for (int i = 0; i < 20; ++i) {
       const glm::vec2 w = drawWeights(draw, i % 2 == 0, 1, 64.0 * 0x1p-19 / p.size);
       const dvec3 start = startOf(scene, insets, 0, w, into(0));
       for (size_t face = 0; face < scene.triangles.size(); ++face) {
-        const std::array<vec3, 3> v = cornersOf(scene, face);
-        ASSERT_GT(into(face) * glm::dot(normalOf(v), start - dvec3(v[0])),
-                  11.0 / 32.0 * hitPointError(v[0], v[1], v[2]))
+        const std::array<vec3, 3> v = cornersOf(scene, scene.triangles[face]);
+        ASSERT_GT(into(face) * glm::dot(normalOf(v), start - dvec3(v[0])), 11.0 / 32.0 * hitPointError(v))
             << "case " << k << " face " << face << " of " << faces;
       }
     }
@@ -199,7 +188,7 @@ TEST(ShaderCreases, ARayThatLeftAFrontMeetsTheFrontOfAFold) {
       float nearest = 1e30f;
       bool front = false;
       for (size_t face = 0; face < 2; ++face) {
-        const std::array<vec3, 3> v = cornersOf(scene, face);
+        const std::array<vec3, 3> v = cornersOf(scene, scene.triangles[face]);
         const auto hit =
             glsl_float::intersectWord(origin, vec3(direction), shear, tie, v[0], v[1], v[2], 0u, 0);
         if (hit.t <= 0.0f || hit.t >= nearest) continue;

@@ -300,8 +300,7 @@ TEST(ShaderOffset, BoundsHowFarAHitPointLiesOffItsPlane) {
     if (!point) continue;
     ++hits;
     const dvec3 normal = glm::normalize(glm::cross(dvec3(v[1]) - dvec3(v[0]), dvec3(v[2]) - dvec3(v[0])));
-    ASSERT_LE(std::abs(glm::dot(normal, dvec3(*point) - dvec3(v[0]))), hitPointError(v[0], v[1], v[2]))
-        << "case " << k;
+    ASSERT_LE(std::abs(glm::dot(normal, dvec3(*point) - dvec3(v[0]))), hitPointError(v)) << "case " << k;
   }
   EXPECT_GT(hits, 50000);
 }
@@ -314,7 +313,7 @@ TEST(ShaderOffset, ARayNeverHitsTheTriangleItLeaves) {
     const vec3 normal(plane);
     const auto point = hitPoint(draw, v, plane);
     if (!point) continue;
-    const float error = float(hitPointError(v[0], v[1], v[2]));
+    const float error = float(hitPointError(v));
     vec3 direction(draw.direction());
     // Half of them graze.
     const float graze = 1.0f - std::pow(10.0f, -float(k % 8));

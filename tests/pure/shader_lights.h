@@ -108,7 +108,7 @@ class Lit {
         surrounded_(glsl_variant::kEnvironmentSampling, environment) {}
 
   double areaOf(size_t triangle) const {
-    const auto [a, b, c] = cornersOf(triangle);
+    const auto [a, b, c] = cornersOf<dvec3>(scene, scene.triangles[triangle]);
     return 0.5 * glm::length(glm::cross(b - a, c - a));
   }
   dvec3 radianceOf(size_t triangle) const {
@@ -116,14 +116,8 @@ class Lit {
     return dvec3(m.emissiveFactor) * double(m.emissiveStrength);
   }
   dvec3 normalOf(size_t triangle) const {
-    const auto [a, b, c] = cornersOf(triangle);
+    const auto [a, b, c] = cornersOf<dvec3>(scene, scene.triangles[triangle]);
     return glm::normalize(glm::cross(b - a, c - a));
-  }
-  std::array<dvec3, 3> cornersOf(size_t triangle) const {
-    std::array<dvec3, 3> corners;
-    for (int i = 0; i < 3; ++i)
-      corners[size_t(i)] = dvec3(scene.vertices.position[scene.triangles[triangle].vertex[i]]);
-    return corners;
   }
   bool shines(size_t triangle) const {
     return luminanceOf(radianceOf(triangle)) > 0.0 && areaOf(triangle) > 0.0;
@@ -137,7 +131,7 @@ class Lit {
   std::optional<Place> placeOf(const dvec3& p) const {
     for (size_t i = 0; i < scene.triangles.size(); ++i) {
       if (!shines(i)) continue;
-      const auto [a, b, c] = cornersOf(i);
+      const auto [a, b, c] = cornersOf<dvec3>(scene, scene.triangles[i]);
       const dvec3 n = glm::cross(b - a, c - a);
       const double squared = glm::dot(n, n);
       const double w1 = glm::dot(glm::cross(p - a, c - a), n) / squared;

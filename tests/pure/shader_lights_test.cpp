@@ -92,7 +92,7 @@ double densityAlong(const Lit& lit, const dvec3& point, const dvec3& direction) 
   double density = 0.0;
   for (size_t i = 0; i < lit.scene.triangles.size(); ++i) {
     if (!lit.shines(i)) continue;
-    const auto [a, b, c] = lit.cornersOf(i);
+    const auto [a, b, c] = cornersOf<dvec3>(lit.scene, lit.scene.triangles[i]);
     const auto hit = glsl_double::intersectTriangle(point, shear, a, b, c);
     if (!hit.hit || hit.t <= 0.0 || hit.t >= nearest) continue;
     nearest = hit.t;
@@ -128,7 +128,7 @@ TEST(ShaderLights, OnlyDoubleSidedTrianglesShineBackwards) {
   int emitter = 0;
   for (size_t i = 0; i < lit.scene.triangles.size(); ++i) {
     if (!lit.shines(i)) continue;
-    const auto [a, b, c] = lit.cornersOf(i);
+    const auto [a, b, c] = cornersOf<dvec3>(lit.scene, lit.scene.triangles[i]);
     const dvec3 behind = (a + b + c) / 3.0 - 2.0 * lit.normalOf(i);
     for (int k = 0; k < 100; ++k) {
       const double u = draw.unit();
@@ -149,7 +149,7 @@ TEST(ShaderLights, APointOnTheTriangleItselfGetsNothingThatIsNotFinite) {
   for (size_t triangle = 0; triangle < lit.scene.triangles.size(); ++triangle) {
     if (!lit.shines(triangle)) continue;
     ++emitter;
-    const auto corners = lit.cornersOf(triangle);
+    const auto corners = cornersOf<dvec3>(lit.scene, lit.scene.triangles[triangle]);
     for (const vec3& point : {vec3(corners[0]), vec3((corners[0] + corners[1]) * 0.5)}) {
       for (float u : {0.0f, 0.5f, 0x1.fffffep-1f}) {
         for (float v : {0.0f, 0.5f, 0x1.fffffep-1f}) {
@@ -168,7 +168,7 @@ double trianglesAtOrigin(const Lit& lit) {
   double sum = 0.0;
   for (size_t i = 0; i < lit.scene.triangles.size(); ++i) {
     if (!lit.shines(i)) continue;
-    const auto [a, b, c] = lit.cornersOf(i);
+    const auto [a, b, c] = cornersOf<dvec3>(lit.scene, lit.scene.triangles[i]);
     sum += luminanceOf(lit.radianceOf(i)) * solidAngle(a, b, c);
   }
   return sum;

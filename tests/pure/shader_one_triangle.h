@@ -21,7 +21,7 @@ inline float distanceTo(const std::array<glm::vec3, 3>& v, const glm::vec3& orig
   const glsl_variant::With faces(glsl_variant::faces, std::span<const uint32_t>(rows));
   const glsl_variant::With slivers(glsl_variant::kSlivers, planes);
   const glsl_variant::With spheres(glsl_variant::kSpheres, false);
-  const uint32_t word = isSliver(v[0], v[1], v[2]) ? layout::kPrimitiveSliver : 0u;
+  const uint32_t word = isSliver(v) ? layout::kPrimitiveSliver : 0u;
   return glsl_float::intersectWord(origin, direction, glsl_float::makeShear(direction), 0.0f, v[0], v[1],
                                    v[2], word, 0)
       .t;

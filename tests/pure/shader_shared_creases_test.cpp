@@ -23,15 +23,6 @@ std::vector<Corners> wedge(Draw& draw, double degrees) {
   return {{a, b, at(1.0, 0.0, 0.1)}, {b, a, at(std::cos(angle), std::sin(angle), -0.1)}};
 }
 
-dvec3 normalOf(const Corners& v) {
-  return glm::normalize(glm::cross(dvec3(v[1]) - dvec3(v[0]), dvec3(v[2]) - dvec3(v[0])));
-}
-
-Corners cornersOf(const Scene& scene, size_t triangle) {
-  const glm::uvec3& v = scene.triangles[triangle].vertex;
-  return {scene.vertices.position[v.x], scene.vertices.position[v.y], scene.vertices.position[v.z]};
-}
-
 /// Where, in the mesh's space, a ray starts that leaves the front of the first face of the only instance: as
 /// surfaceAt() of shaders/surface.glsl has it, offset by the most that packing makes of it.
 vec3 startOf(const PackedTree& p, uint32_t inset, const glm::vec2& w) {
@@ -39,8 +30,8 @@ vec3 startOf(const PackedTree& p, uint32_t inset, const glm::vec2& w) {
   const auto instance = int(firstInstanceBlock(p.bvh));
   const auto space = glsl_float::loadInstanceSpace(instance);
   const auto back = glsl_float::loadInstanceReturn(instance);
-  const Corners v = cornersOf(p.scene, 0);
-  const auto error = float(1.25 * hitPointError(v[0], v[1], v[2]));
+  const Corners v = cornersOf(p.scene, p.scene.triangles[0]);
+  const auto error = float(1.25 * hitPointError(v));
   const float offset = glsl_float::offsetOutOfMesh(back, error);
   const vec3 middle((dvec3(v[0]) + dvec3(v[1]) + dvec3(v[2])) / 3.0);
   const vec3 point = v[0] + w.x * (v[1] - v[0]) + w.y * (v[2] - v[0]);
@@ -66,9 +57,8 @@ TEST(ShaderCreases, NoRayThatLeavesAnInstanceStartsBehindTheOtherFaceOfItsWedge)
     const float along = 0.02f + 0.9f * draw.unit();
     const vec3 start = startOf(p, insets[0], {along, 1e-6f * draw.unit()});
     for (size_t face = 0; face < 2; ++face) {
-      const Corners v = cornersOf(p.scene, face);
-      ASSERT_GT(glm::dot(normalOf(v), dvec3(start) - dvec3(v[0])),
-                11.0 / 32.0 * hitPointError(v[0], v[1], v[2]))
+      const Corners v = cornersOf(p.scene, p.scene.triangles[face]);
+      ASSERT_GT(glm::dot(normalOf(v), dvec3(start) - dvec3(v[0])), 11.0 / 32.0 * hitPointError(v))
           << "case " << k << ", face " << face << ", " << degrees << " degrees";
     }
   }

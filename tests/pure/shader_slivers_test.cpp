@@ -29,8 +29,8 @@ std::array<vec3, 3> drawSliver(Draw& draw, double away) {
 
 TEST(Slivers, AreToldByTheirShapeAndPlaceNotByTheirSize) {
   const auto of = [](double height, const vec3& place, float scale) {
-    return isSliver(scale * place, scale * (place + vec3(1, 0, 0)),
-                    scale * (place + vec3(0.5f, float(height), 0)));
+    return isSliver(
+        {scale * place, scale * (place + vec3(1, 0, 0)), scale * (place + vec3(0.5f, float(height), 0))});
   };
   for (const float scale : {1e-3f, 1.0f, 512.0f}) {
     // Of length 1 and height h L^3 / 2A is 1 / h, asked to be at most 8 of the largest coordinate.
@@ -72,7 +72,7 @@ TEST(ShaderSlivers, AreMetByRaysThatStartRightBesideThem) {
     const dvec3 aim =
         dvec3(v[0]) + double(w.x) * (dvec3(v[1]) - dvec3(v[0])) + double(w.y) * (dvec3(v[2]) - dvec3(v[0]));
     // As high as what is told apart at all: 12 of the offset's 32 units.
-    const double height = 12.0 / 32.0 * hitPointError(v[0], v[1], v[2]);
+    const double height = 12.0 / 32.0 * hitPointError(v);
     dvec3 direction = draw.direction();
     if (glm::dot(direction, normal) > 0.0) direction = -direction;
     const double facing = -glm::dot(direction, normal);
@@ -99,7 +99,7 @@ TEST(ShaderSlivers, SeenEdgeOnAreMetWithinTheDepthsOfTheirVertices) {
     const dvec3 aim = (dvec3(v[0]) + dvec3(v[1]) + dvec3(v[2])) / 3.0;
     const vec3 origin(aim - 3.0 * direction);
     const float t = distanceTo(v, origin, vec3(direction));
-    if (t <= 0.0f || !isSliver(v[0], v[1], v[2])) continue;
+    if (t <= 0.0f || !isSliver(v)) continue;
     ++met;
     std::array<double, 3> depths;
     const int largest = glsl_double::makeShear(direction).axis;

@@ -59,9 +59,7 @@ Nearness nearness(const Scene& scene, uint32_t primitive, const Ray& ray, double
         glm::length(toCenter - glm::dot(toCenter, dvec3(ray.direction)) * dvec3(ray.direction));
     return {std::abs(glm::distance(point, dvec3(s.center)) - s.radius), std::abs(beside - s.radius)};
   }
-  std::array<dvec3, 3> v;
-  for (int k = 0; k < 3; ++k)
-    v[size_t(k)] = dvec3(scene.vertices.position[scene.triangles[primitive].vertex[k]]);
+  const auto v = cornersOf<dvec3>(scene, scene.triangles[primitive]);
   const double rim = std::min({distanceToSegment(point, v[0], v[1]), distanceToSegment(point, v[1], v[2]),
                                distanceToSegment(point, v[2], v[0])});
   const dvec3 normal = glm::cross(v[1] - v[0], v[2] - v[0]);
