@@ -76,9 +76,9 @@ size_t proveTree(const ExactTracer& tracer, size_t primitives, std::span<const R
   return count;
 }
 
-PictureCheck checkFlatPicture(const Image& picture, const Scene& scene, std::span<const ExactHit> hits) {
+FlatPictureCheck checkFlatPicture(const Image& picture, const Scene& scene, std::span<const ExactHit> hits) {
   constexpr float kNearColor = 1e-3f;
-  PictureCheck check;
+  FlatPictureCheck check;
   const auto materialAt = [&](int x, int y) {
     return materialOf(scene, hits[size_t(y) * size_t(picture.width) + size_t(x)]);
   };

@@ -7,7 +7,7 @@ namespace fragtrace {
 
 namespace {
 
-struct Child {
+struct BoxedChild {
   Bounds bounds;
   uint32_t child;
 };
@@ -23,11 +23,11 @@ std::vector<Bounds> boxesAtLevel(const Bvh& bvh, uint32_t level) {
   if (bvh.nodes.empty()) return {};
   Bounds root = bvh.nodes[0].bounds[0];
   root.include(bvh.nodes[0].bounds[1]);
-  std::vector<Child> current{{root, 0}};
+  std::vector<BoxedChild> current{{root, 0}};
   for (uint32_t l = 0; l < level && !current.empty(); ++l) {
-    std::vector<Child> next;
+    std::vector<BoxedChild> next;
     next.reserve(2 * current.size());
-    for (const Child& c : current) {
+    for (const BoxedChild& c : current) {
       if ((c.child & kBvhLeafBit) != 0) continue;
       const BvhNode& node = bvh.nodes[c.child];
       // A root of one leaf has it twice.
@@ -38,7 +38,7 @@ std::vector<Bounds> boxesAtLevel(const Bvh& bvh, uint32_t level) {
   }
   std::vector<Bounds> boxes;
   boxes.reserve(current.size());
-  for (const Child& c : current) boxes.push_back(c.bounds);
+  for (const BoxedChild& c : current) boxes.push_back(c.bounds);
   return boxes;
 }
 

@@ -61,7 +61,7 @@ void check(Runner& runner, const Scene& scene, std::span<const ExactHit> hits, c
   if (totalsOf(pixels).budgetHits > 0)
     throw RenderError(name + ": the driver ended loops early (budget_hits)");
   const Image picture = imageOf(pixels, {});
-  const PictureCheck seen = checkFlatPicture(picture, scene, hits);
+  const FlatPictureCheck seen = checkFlatPicture(picture, scene, hits);
   runner.report.compared = seen.compared;
   runner.report.wrong = seen.wrong;
   for (size_t i = 0; first && i < picture.values.size(); i += 3) {

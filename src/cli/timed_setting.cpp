@@ -13,7 +13,7 @@ namespace fragtrace {
 namespace {
 
 /// Far from a GPU's watchdog, and so long that what is done between draws does not count.
-constexpr double kHardwareDrawMs = 250.0;
+constexpr double kTimedDrawMs = 250.0;
 /// How many times a round's time its least frames may take.
 constexpr double kMostOverTime = 5.0;
 
@@ -67,7 +67,7 @@ TimedSetting makeSetting(const Context& context, const BenchConfiguration& confi
   s.loaded = std::move(loaded);
   s.tracer = std::move(tracer);
   s.film = std::make_unique<Film>(s.loaded->size);
-  if (!context.software) s.tracer.renderer->setDrawTime(kHardwareDrawMs);
+  if (!context.software) s.tracer.renderer->setDrawTime(kTimedDrawMs);
   FrameSetting& r = s.report;
   r.scene = configuration.render.scene.filename().string();
   r.configuration = configuration.name;

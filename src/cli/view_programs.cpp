@@ -10,8 +10,8 @@ namespace fragtrace {
 namespace {
 
 /// A draw's time: a wish waits for one draw at most.
-constexpr double kSoftwareDrawMs = 30.0;
-constexpr double kHardwareDrawMs = 10.0;
+constexpr double kSoftwareWishMs = 30.0;
+constexpr double kHardwareWishMs = 10.0;
 /// Programs are kept as long as they are few and small, but always those of two sides.
 constexpr size_t kLeastKept = 2;
 constexpr size_t kMostKept = 6;
@@ -74,7 +74,7 @@ std::shared_ptr<ViewProgram> ViewPrograms::make(const RenderOptions& part) {
     program->variant = stats.variant;
     program->bytes = stats.sceneBytes;
     Film tiny(glm::ivec2{kTinyFilm});
-    program->tracer.renderer->setDrawTime(context_.software ? kSoftwareDrawMs : kHardwareDrawMs);
+    program->tracer.renderer->setDrawTime(context_.software ? kSoftwareWishMs : kHardwareWishMs);
     program->tracer.renderer->compile(program->tracer.variant, tiny, loaded_.view);
   } catch (const ContextLost&) {
     throw;

@@ -56,6 +56,12 @@ GlTexture makeTexture(GLenum target) {
   return GlTexture(name);
 }
 
+GlQuery makeTimer() {
+  GLuint name = 0;
+  glCreateQueries(GL_TIME_ELAPSED, 1, &name);
+  return GlQuery(name);
+}
+
 GlVertexArray makeVertexArray() {
   GLuint name = 0;
   glCreateVertexArrays(1, &name);

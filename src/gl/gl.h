@@ -52,5 +52,7 @@ GlBuffer makeBuffer();
 GlTexture makeTexture(GLenum target);
 GlVertexArray makeVertexArray();
 GlFramebuffer makeFramebuffer();
+/// A query of the time that draws take.
+GlQuery makeTimer();
 
 }  // namespace fragtrace

@@ -115,7 +115,7 @@ struct ExtensionRow {
   void (*read)(const MaterialPart&, Material&);
   bool withSpecularGlossiness = false;  ///< may stand beside it
 };
-constexpr ExtensionRow kExtensions[] = {
+constexpr ExtensionRow kMaterialExtensions[] = {
     {"KHR_materials_emissive_strength", readEmissiveStrength, true},
     {"KHR_materials_ior", readIor},
     {"KHR_materials_transmission", readTransmission},
@@ -140,7 +140,7 @@ const tinygltf::Value* extensionOf(const tinygltf::Material& source, const char*
 void readMaterialExtensions(const tinygltf::Material& source, const MaterialPart& core, Material& result) {
   result.unlit = extensionOf(source, "KHR_materials_unlit") != nullptr;
   const bool specularGlossiness = extensionOf(source, kSpecularGlossiness) != nullptr;
-  for (const ExtensionRow& row : kExtensions) {
+  for (const ExtensionRow& row : kMaterialExtensions) {
     const tinygltf::Value* object = extensionOf(source, row.name);
     if (object == nullptr) continue;
     const std::string name = std::string("extensions/") + row.name;

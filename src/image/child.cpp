@@ -94,7 +94,7 @@ std::unique_ptr<Child> startChild(const std::string& name, int socketThere) {
   return child;
 }
 
-void limitChild(const Child& child, uint64_t dataBytes, unsigned cpuSeconds) {
+void limitChild(const Child& child, [[maybe_unused]] uint64_t dataBytes, unsigned cpuSeconds) {
   const auto limit = [&](auto resource, rlim_t value) {
     rlimit both{};
     if (::prlimit(child.process, resource, nullptr, &both) != 0) return;

@@ -26,13 +26,13 @@ double varianceOfDifference(const FilmPixel& a, const FilmPixel& b, CheckAgainst
   return std::max(pooled, a.variance() + b.variance());
 }
 
-struct Sums {
+struct ApartSums {
   double difference = 0.0;
   double variance = 0.0;
   double shown = 0.0;
   double pixels = 0.0;
 
-  void add(const Sums& s) {
+  void add(const ApartSums& s) {
     difference += s.difference;
     variance += s.variance;
     shown += s.shown;
@@ -76,14 +76,14 @@ PictureCheck checkPicture(const FilmPixels& picture, const FilmPixels& other, Ch
   shown /= double(other.pixels.size());
 
   // Step: blocks, and what they sum up to.
-  Sums all;
-  std::vector<Sums> blocks;
+  ApartSums all;
+  std::vector<ApartSums> blocks;
   double differing = 0.0;
   double squares = 0.0;
   const glm::ivec2 size = picture.size;
   for (int top = 0; top < size.y; top += kBlock) {
     for (int left = 0; left < size.x; left += kBlock) {
-      Sums block;
+      ApartSums block;
       for (int y = top; y < std::min(top + kBlock, size.y); ++y) {
         for (int x = left; x < std::min(left + kBlock, size.x); ++x) {
           const size_t i = size_t(y) * size_t(size.x) + size_t(x);
@@ -100,7 +100,7 @@ PictureCheck checkPicture(const FilmPixels& picture, const FilmPixels& other, Ch
       all.add(block);
     }
   }
-  for (Sums& block : blocks) {
+  for (ApartSums& block : blocks) {
     // Few samples often miss what is rare, and then tell of no noise: the picture's is the least.
     block.variance = std::max(block.variance, all.variance / all.pixels * block.pixels);
     const double least = kRounding * (std::abs(block.shown) / block.pixels + 0.01 * shown);

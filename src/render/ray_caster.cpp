@@ -30,12 +30,6 @@ layout::Frame frameOf(const GpuScene& scene, glm::ivec2 size) {
   return frame;
 }
 
-GLuint makeTimer() {
-  GLuint name = 0;
-  glCreateQueries(GL_TIME_ELAPSED, 1, &name);
-  return name;
-}
-
 GlBuffer makeFrameBuffer(const layout::Frame& frame) {
   GlBuffer buffer = makeBuffer();
   glNamedBufferStorage(buffer.name(), sizeof frame, &frame, 0);

@@ -37,12 +37,6 @@ glm::dvec2 halfExtents(const Camera& camera, double unit, glm::ivec2 size) {
   return {height * size.x / size.y, height};
 }
 
-GLuint makeTimer() {
-  GLuint name = 0;
-  glCreateQueries(GL_TIME_ELAPSED, 1, &name);
-  return name;
-}
-
 }  // namespace
 
 Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads,
@@ -53,7 +47,7 @@ Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads,
       progressBuffer_(makeBuffer()),
       vertexArray_(makeVertexArray()),
       framebuffer_(makeFramebuffer()),
-      timer_(context.software ? 0 : makeTimer()),
+      timer_(context.software ? GlQuery() : makeTimer()),
       targetMs_(context.software ? kSoftwareDrawMs : kHardwareDrawMs) {
   glNamedBufferStorage(frameBuffer_.name(), sizeof(layout::Frame), nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferStorage(progressBuffer_.name(), sizeof(layout::Progress), nullptr, GL_DYNAMIC_STORAGE_BIT);

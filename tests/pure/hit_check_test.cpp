@@ -123,7 +123,7 @@ TEST(CheckFlatPicture, SeesEveryWrongPixelAwayFromBorders) {
   const std::vector<ExactHit> hits =
       ExactTracer(scene, bvh).nearest(primaryRays(frameScene(scene.bounds), LocalSpace{}, size));
   const Image right = pictureOf(scene, hits, size);
-  const PictureCheck check = checkFlatPicture(right, scene, hits);
+  const FlatPictureCheck check = checkFlatPicture(right, scene, hits);
   EXPECT_GT(check.compared, 60u * 40u * 8u / 10u);
   EXPECT_LT(check.compared, 58u * 38u);
   EXPECT_EQ(check.wrong, 0u);

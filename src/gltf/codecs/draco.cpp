@@ -69,7 +69,7 @@ void decodeDraco(const CodecRequest& request, std::span<const uint8_t> input, st
              std::to_string(request.indexCount) + " indices as its accessor");
   size_t used = 0;
   for (uint32_t i = 0; i < mesh.num_faces(); ++i) {
-    for (const draco::PointIndex corner : mesh.face(draco::FaceIndex(i))) {
+    for (const draco::PointIndex& corner : mesh.face(draco::FaceIndex(i))) {
       const uint32_t index = corner.value();
       std::memcpy(output.data() + used, &index, sizeof index);
       used += sizeof index;

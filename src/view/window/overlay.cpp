@@ -11,7 +11,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr float kMargin = 8.0f;
+constexpr float kBorder = 8.0f;
 constexpr float kBarWidth = 2.0f;
 constexpr float kHandleRadius = 7.0f;
 constexpr ImGuiWindowFlags kLabelFlags =
@@ -128,7 +128,7 @@ void drawNews(const ViewState& state, const ViewFacts& facts, float scale) {
     lines.push_back(facts.note + (state.scene ? " (the last picture stays meanwhile)" : ""));
   if (lines.empty() && !facts.pick) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({kMargin * scale, display.y - kMargin * scale}, ImGuiCond_Always, {0.0f, 1.0f});
+  ImGui::SetNextWindowPos({kBorder * scale, display.y - kBorder * scale}, ImGuiCond_Always, {0.0f, 1.0f});
   ImGui::SetNextWindowBgAlpha(0.78f);
   if (ImGui::Begin("news", nullptr, kLabelFlags | ImGuiWindowFlags_NoInputs)) {
     ImGui::PushTextWrapPos(0.5f * display.x);
@@ -144,7 +144,7 @@ void drawNews(const ViewState& state, const ViewFacts& facts, float scale) {
 void drawError(ViewFacts& facts, float scale) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.5f * display.x, 0.25f * display.y}, ImGuiCond_Always, {0.5f, 0.0f});
-  ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x - 2 * kMargin * scale, 0.6f * display.y});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x - 2 * kBorder * scale, 0.6f * display.y});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, kRed);
   if (ImGui::Begin("error", nullptr, kLabelFlags)) {
     ImGui::PushTextWrapPos(0.7f * display.x);
@@ -171,9 +171,9 @@ bool drawLoading(const LoadStatus& load, float scale) {
 
 void drawSheet(float scale) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float height = display.y - 4 * kMargin * scale;
+  const float height = display.y - 4 * kBorder * scale;
   ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({std::min(600.0f * scale, display.x - 2 * kMargin * scale), height});
+  ImGui::SetNextWindowSize({std::min(600.0f * scale, display.x - 2 * kBorder * scale), height});
   ImGui::SetNextWindowFocus();
   ImGui::SetNextWindowBgAlpha(1.0f);
   if (ImGui::Begin("Keys and mouse", nullptr,
@@ -197,7 +197,7 @@ void drawSheet(float scale) {
 bool drawOverlay(ViewState& state, ViewFacts& facts, float scale) {
   drawLines(state, facts);
   if (state.split) drawBar(state, scale);
-  const float margin = kMargin * scale;
+  const float margin = kBorder * scale;
   if (state.figures && state.scene) {
     const float end = drawFigures(state, facts, 0, {margin, margin}, scale);
     if (state.split) drawFigures(state, facts, 1, {margin, end + margin}, scale);
