@@ -101,11 +101,14 @@ TriangleHit intersectTriangleFast(vec3 origin, vec3 direction, vec3 v0, vec3 v1,
   return h;
 }
 
-/// Distance to the sphere's nearest surface in front of the origin that may be hit: `outside` and `inside` say which
-/// sides count. A miss is -1. The discriminant is taken from the distance of the centre to the ray, so that a
+/// Whether t lies behind a distance, or at it where that counts, too.
+bool liesBehind(float t, float distance, bool at) { return t > distance || (at && t == distance); }
+
+/// Distance to the sphere's nearest surface that may be hit and lies behind `past` (or at it); `inside`: its inner side counts.
+/// A miss is -1. The discriminant is taken from the distance of the centre to the ray, so that a
 /// far sphere keeps its digits (Hearn and Baker's form; Haines et al., Precision Improvements for Ray/Sphere
 /// Intersection, 2019). direction is unit length.
-float intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, bool inside) {
+float intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, bool inside, float past, bool at) {
   vec3 f = origin - center;
   float b = -dot(f, direction);
   vec3 l = f + b * direction;
@@ -116,8 +119,8 @@ float intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, bo
   float t0 = q == 0.0f ? 0.0f : c / q;
   float nearT = min(t0, q);
   float farT = max(t0, q);
-  if (nearT > 0.0f) return nearT;
-  return inside && farT > 0.0f ? farT : -1.0f;
+  if (liesBehind(nearT, past, at)) return nearT;
+  return inside && liesBehind(farT, past, at) ? farT : -1.0f;
 }
 
 /// Moves a point off its surface along the unit geometric normal, to the side of `direction`, by `error`

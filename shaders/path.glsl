@@ -36,6 +36,15 @@ Path traceAnew(Path p, float limit) {
   return p;
 }
 
+/// Traces the same ray once more, for what lies behind the surface that it met at distance t and passes through.
+Path tracePast(Path p, float limit, float t, int slot) {
+  p = traceAnew(p, limit);
+  if (kCreases && p.phase == kPhaseExtend) p.traversal.tie = p.tie;
+  p.traversal.past = t;
+  p.traversal.pastSlot = slot;
+  return p;
+}
+
 /// Goes on with the path's ray.
 Path extend(Path p) {
   p.phase = kPhaseExtend;
@@ -66,7 +75,6 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   p.throughput = vec3(1.0);
   p.compression = 1.0;
   p.density = 0.0;
-  p.travelled = 0.0;
   p.medium = kPrimitiveNone;
   p.shadowOrigin = vec3(0.0);
   p.shadowDirection = vec3(0.0, 0.0, 1.0);
@@ -148,7 +156,6 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
   }
   p.cameraRay = false;
   p.density = density;
-  p.travelled = 0.0;
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, direction);
   p.direction = direction;
   // Where two faces meet sharply, which of them a ray hits first is a matter of rounding: one that has left a front is to meet a front.
@@ -171,7 +178,7 @@ vec3 emittedAt(Path p, Surface s, uint flags) {
   vec3 radiance = emissionAt(s.material, s.texcoords);
   if (kClearcoat) radiance *= emissionUnderCoat(s.material, s.texcoords, cosine);
   if (!kGi || !kEmissiveTriangles || !s.emitter || p.density <= 0.0) return radiance;
-  return radiance * misWeight(p.density, emitterDensity(s.material, p.travelled, cosine));
+  return radiance * misWeight(p.density, emitterDensity(s.material, p.hitT, cosine));
 }
 
 /// Sets up the shadow ray of a light sample that would add `value`; without shadows it is added at once.

@@ -22,7 +22,6 @@ struct Path {
   vec3 throughput;
   float compression;  // undoes the radiance compression inside glass
   float density;        // of the last scattering over solid angle; 0: a single direction or the camera
-  float travelled;      // since that scattering, past surfaces crossed
   uint medium;          // material of the solid the ray is inside of, or kPrimitiveNone
   vec3 origin;
   vec3 direction;
@@ -32,7 +31,7 @@ struct Path {
   float shadowLimit;
   vec3 contribution;  // added if the shadow ray meets nothing
   int hitSlot;        // what the ray has hit, or -1
-  float hitT;
+  float hitT;         // since the last scattering
   int hitInstance;  // that shows it, or -1
   vec2 hitWeights;  // barycentric (kWeights)
   Traversal traversal;
@@ -49,13 +48,13 @@ void savePath(Path p, int index) {
   pathStates[r + 1] = uvec4(floatBitsToUint(p.radiance), floatBitsToUint(p.alpha));
   pathStates[r + 2] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.compression));
   pathStates[r + 3] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.density));
-  pathStates[r + 4] = uvec4(floatBitsToUint(p.direction), floatBitsToUint(p.travelled));
+  pathStates[r + 4] = uvec4(floatBitsToUint(p.direction), floatBitsToUint(p.traversal.past));
   pathStates[r + 5] = uvec4(floatBitsToUint(p.shadowOrigin), floatBitsToUint(p.shadowLimit));
   pathStates[r + 6] = uvec4(floatBitsToUint(p.shadowDirection), p.medium);
   pathStates[r + 7] = uvec4(floatBitsToUint(p.contribution), uint(p.hitSlot));
   pathStates[r + 8] = uvec4(floatBitsToUint(p.hitT), p.numbers.key, p.numbers.index, floatBitsToUint(p.tie));
   Traversal t = p.traversal;
-  pathStates[r + 9] = uvec4(uint(t.node), floatBitsToUint(t.t), uint(t.slot), uint(t.visits));
+  pathStates[r + 9] = uvec4(uint(t.node), floatBitsToUint(t.t), uint(t.slot), uint(kHeatmap ? t.visits : t.pastSlot));
   pathStates[r + 10] = uvec4(floatBitsToUint(p.hitWeights), floatBitsToUint(t.weights));
   if (kIterative || kLiterals) return;
   Stack s = t.stack;
@@ -142,7 +141,7 @@ Path loadPath(int index) {
   p.density = f.w;
   f = uintBitsToFloat(pathStates[r + 4]);
   p.direction = f.xyz;
-  p.travelled = f.w;
+  p.traversal.past = f.w;
   f = uintBitsToFloat(pathStates[r + 5]);
   p.shadowOrigin = f.xyz;
   p.shadowLimit = f.w;
@@ -158,12 +157,13 @@ Path loadPath(int index) {
   p.numbers.index = a.z;
   p.numbers.reversed = reverseBits(a.z);
   p.tie = uintBitsToFloat(a.w);
-  p.traversal.tie = p.tie;
+  p.traversal.tie = p.phase == kPhaseExtend ? p.tie : 0.0;
   a = pathStates[r + 9];
   p.traversal.node = int(a.x);
   p.traversal.t = uintBitsToFloat(a.y);
   p.traversal.slot = int(a.z);
   p.traversal.visits = int(a.w);
+  p.traversal.pastSlot = int(a.w);
   f = uintBitsToFloat(pathStates[r + 10]);
   p.hitWeights = f.xy;
   p.traversal.weights = f.zw;

@@ -114,12 +114,9 @@ Path shade(Path p) {
   vec4 base = baseColorAt(s.material, s.texcoords, s.color);
   if (p.lightSlot == 0) {
     if (kAlpha && passesThrough(flags, alphaAt(s.material, flags, base.a), p.numbers, nextCrossing(p))) {
-      p.travelled += p.hitT;
-      p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
-      p.tie = 0.0;
-      return extend(p);
+      p.phase = kPhaseExtend;
+      return tracePast(p, kFarAway, p.hitT, p.hitSlot);
     }
-    p.travelled += p.hitT;
     if (p.cameraRay) p.alpha = 1.0;
     if (kFeature != kFeatureNone) {
       p.radiance = featureAt(s, base.rgb, -p.direction);
@@ -135,7 +132,7 @@ Path shade(Path p) {
       // A back face of a solid says what the segment went through even if the camera stands inside.
       bool leaving = !s.front && materialFloats(s.material, kMaterialVolume).w > 0.0;
       uint medium = leaving ? s.material : p.medium;
-      if (medium != kPrimitiveNone) p.throughput *= exp(-p.travelled * materialFloats(medium, kMaterialVolume).rgb);
+      if (medium != kPrimitiveNone) p.throughput *= exp(-p.hitT * materialFloats(medium, kMaterialVolume).rgb);
     }
     if (!kPhong || (kUnlit && (flags & kMaterialUnlit) != 0u)) {
       p.radiance += p.throughput * base.rgb;
@@ -165,9 +162,7 @@ Path settleShadow(Path p) {
     uint flags = materialFlags(s.material);
     float alpha = alphaAt(s.material, flags, baseColorAt(s.material, s.texcoords, s.color).a);
     if (passesThrough(flags, alpha, p.numbers, nextCrossing(p))) {
-      p.shadowLimit = p.shadowLimit < kFarAway ? p.shadowLimit - p.traversal.t : kFarAway;
-      p.shadowOrigin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.shadowDirection);
-      return traceAnew(p, p.shadowLimit);
+      return tracePast(p, p.shadowLimit, p.traversal.t, slot);
     }
   }
   if (slot < 0) p.radiance += p.contribution;

@@ -12,6 +12,8 @@ struct Traversal {
   int steps;  // loop iterations so far in this draw
   float tie;  // kCreases: part of t by which hits on front faces count as nearer, those on back faces as farther; negative: the other way
   int visits; // nodes and leaves visited, counted for the heat map only
+  float past;     // kAlpha: only hits behind this distance count,
+  int pastSlot;   // and those at it in later slots: what the ray has passed through lies there
   Stack stack;
 };
 
@@ -33,8 +35,17 @@ Traversal startTraversal(float limit, int leafCount) {
   s.steps = 0;
   s.tie = 0.0f;
   s.visits = 0;
+  s.past = 0.0f;
+  s.pastSlot = 0x7fffffff;
   s.stack = emptyStack();
   return s;
+}
+
+/// Whether a hit at distance t is nearer than what the traversal has. Where a ray passes through surfaces, all hits along it have one order, by distance
+/// and slot, so that it meets each once, however close they lie.
+bool isNearer(Traversal s, float t, int slot) {
+  if (!kAlpha) return t > 0.0f && t < s.t;
+  return liesBehind(t, s.past, slot > s.pastSlot) && (t < s.t || (t == s.t && slot < s.slot));
 }
 
 /// A direction component that is safe to divide by: |d| is at least 2^-60, far below what 24 bits of it can show.
@@ -48,7 +59,7 @@ struct PrimitiveHit {
   vec2 weights;
 };
 
-PrimitiveHit intersectWord(vec3 origin, vec3 direction, RayShear shear, float tie, vec3 v0, vec3 v1, vec3 v2, uint word, int slot) {
+PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear shear, vec3 v0, vec3 v1, vec3 v2, uint word, int slot) {
   PrimitiveHit r;
   r.t = -1.0f;
   r.weights = vec2(0.0f);
@@ -62,13 +73,14 @@ PrimitiveHit intersectWord(vec3 origin, vec3 direction, RayShear shear, float ti
     }
     bool there = !kCulling || h.front || (word & kPrimitiveCull) == 0u;
     r.t = h.hit && there ? h.t : -1.0f;
-    if (kCreases) r.t -= r.t * (h.front ? tie : -tie);
+    if (kCreases) r.t -= r.t * (h.front ? s.tie : -s.tie);
     if (kWeights) r.weights = vec2(h.weight1, h.weight2);
   }
   if (kSpheres) {
-    float s = intersectSphere(origin, direction, v0, v1.x, !kCulling || (word & kPrimitiveCull) == 0u);
+    bool inside = !kCulling || (word & kPrimitiveCull) == 0u;
+    float t = intersectSphere(origin, direction, v0, v1.x, inside, kAlpha ? s.past : 0.0f, kAlpha && slot > s.pastSlot);
     bool isSphere = (word & kPrimitiveSphere) != 0u && word != kPrimitiveNone;
-    r.t = isSphere ? s : (kTriangles ? r.t : -1.0f);
+    r.t = isSphere ? t : (kTriangles ? r.t : -1.0f);
   }
   return r;
 }
@@ -76,21 +88,21 @@ PrimitiveHit intersectWord(vec3 origin, vec3 direction, RayShear shear, float ti
 /// The nearest of what the traversal has and the two primitives of a leaf. The origin lies at distance `start` along the ray (kInstances).
 Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayShear shear, float start) {
   LeafPair l = loadLeaf(leaf);
-  PrimitiveHit a = intersectWord(origin, direction, shear, s.tie, l.v0a, l.v1a, l.v2a, l.worda, 2 * leaf);
-  PrimitiveHit b = intersectWord(origin, direction, shear, s.tie, l.v0b, l.v1b, l.v2b, l.wordb, 2 * leaf + 1);
+  PrimitiveHit a = intersectWord(s, origin, direction, shear, l.v0a, l.v1a, l.v2a, l.worda, 2 * leaf);
+  PrimitiveHit b = intersectWord(s, origin, direction, shear, l.v0b, l.v1b, l.v2b, l.wordb, 2 * leaf + 1);
   if (kInstances) {
     a.t += a.t > 0.0f ? start : 0.0f;
     b.t += b.t > 0.0f ? start : 0.0f;
-    s.hitInstance = (a.t > 0.0f && a.t < s.t) || (b.t > 0.0f && b.t < s.t) ? s.instance : s.hitInstance;
   }
-  bool hita = a.t > 0.0f && a.t < s.t;
+  bool hita = isNearer(s, a.t, 2 * leaf);
   s.t = hita ? a.t : s.t;
   s.slot = hita ? 2 * leaf : s.slot;
   if (kWeights) s.weights = hita ? a.weights : s.weights;
-  bool hitb = b.t > 0.0f && b.t < s.t;
+  bool hitb = isNearer(s, b.t, 2 * leaf + 1);
   s.t = hitb ? b.t : s.t;
   s.slot = hitb ? 2 * leaf + 1 : s.slot;
   if (kWeights) s.weights = hitb ? b.weights : s.weights;
+  if (kInstances) s.hitInstance = hita || hitb ? s.instance : s.hitInstance;
   return s;
 }
 
@@ -134,6 +146,7 @@ struct TreeRay {
   vec3 origin;
   vec3 direction;
   float start;  // as in MeshRay
+  float from;   // boxes that end before this distance hold nothing
   RayShear shear;
   vec3 scale;
   vec3 bias;
@@ -144,6 +157,7 @@ TreeRay makeTreeRay(vec3 origin, vec3 direction, float start, vec3 gridOrigin, v
   r.origin = origin;
   r.direction = direction;
   r.start = start;
+  r.from = 0.0f;
   r.shear = makeShear(direction);
   vec3 inverse = vec3(1.0f) / vec3(awayFromZero(direction.x), awayFromZero(direction.y), awayFromZero(direction.z));
   r.scale = gridCell * inverse;
@@ -151,15 +165,25 @@ TreeRay makeTreeRay(vec3 origin, vec3 direction, float start, vec3 gridOrigin, v
   return r;
 }
 
-/// In the space of the scene's own tree, or (instance >= 0) of an instance's mesh.
-TreeRay treeRayOf(int instance, vec3 origin, vec3 direction, TreeFrame tree) {
-  if (kInstances && instance >= 0) {
-    MeshRay m = rayInMesh(instance, origin, direction);
-    int row = int(kInstanceRows) * instance;
+/// What distances along a ray round by at most, but for triangles seen edge-on: a hit may lie that far outside of its box. A 16,384th of the way and of
+/// the scene, which is 65,536 cells wide; large triangles need a 2^21st.
+float roundingOf(float t, TreeFrame tree) {
+  return 6.103515625e-5f * t + 4.0f * max(max(tree.cell.x, tree.cell.y), tree.cell.z);
+}
+
+/// In the space of the scene's own tree, or (s.instance >= 0) of an instance's mesh.
+TreeRay treeRayOf(Traversal s, vec3 origin, vec3 direction, TreeFrame tree) {
+  TreeRay r;
+  if (kInstances && s.instance >= 0) {
+    MeshRay m = rayInMesh(s.instance, origin, direction);
+    int row = int(kInstanceRows) * s.instance;
     vec3 gridOrigin = vec3(uintBitsToFloat(readNodes(row + 3)));
-    return makeTreeRay(m.origin, m.direction, m.start, gridOrigin, vec3(uintBitsToFloat(readNodes(row + 4))));
+    r = makeTreeRay(m.origin, m.direction, m.start, gridOrigin, vec3(uintBitsToFloat(readNodes(row + 4))));
+  } else {
+    r = makeTreeRay(origin, direction, 0.0f, tree.origin, tree.cell);
   }
-  return makeTreeRay(origin, direction, 0.0f, tree.origin, tree.cell);
+  if (kAlpha) r.from = max(0.0f, s.past - roundingOf(s.past, tree) - r.start);
+  return r;
 }
 
 /// From an instance of the upper tree to the root of its mesh's, or at kInstanceEnd back out.
@@ -175,24 +199,26 @@ Traversal changeSpace(Traversal s) {
 
 /// While-while traversal of the tree (Aila and Laine, Understanding the Efficiency of Ray Traversal on GPUs, 2009).
 /// kFrontToBack: the nearer child first, boxes behind the hit are discarded; else children in fixed order, and
-/// only the ray's own limit discards. The near limit is 0. Boxes are padded when packed, so that rounding in the
+/// only the ray's own limit discards. Boxes are padded when packed, so that rounding in the
 /// slab test cannot lose one that holds a hit (docs/accuracy.md).
 Traversal traverseTree(vec3 origin, vec3 direction, float rayLimit, Traversal s, TreeFrame tree, int stepLimit,
                        bool anyHit) {
-  TreeRay ray = treeRayOf(s.instance, origin, direction, tree);
+  TreeRay ray = treeRayOf(s, origin, direction, tree);
   while (s.node != kTraversalDone && s.steps < stepLimit) {
     // Both conditions in one sign bit: at an inner node, and below the limit.
     while ((s.node | (stepLimit - 1 - s.steps)) >= 0) {
       NodePair n = loadNode(s.node);
       float limit = kFrontToBack ? s.t : rayLimit;
+      // What was passed through must not come before what lies at it.
+      if (kAlpha) limit += roundingOf(limit, tree);
       if (kInstances) limit -= ray.start;
       vec3 a0 = n.low0 * ray.scale + ray.bias;
       vec3 b0 = n.high0 * ray.scale + ray.bias;
       vec3 a1 = n.low1 * ray.scale + ray.bias;
       vec3 b1 = n.high1 * ray.scale + ray.bias;
-      float near0 = slabMax(slabMax(slabMin(a0.x, b0.x), slabMin(a0.y, b0.y)), slabMax(slabMin(a0.z, b0.z), 0.0f));
+      float near0 = slabMax(slabMax(slabMin(a0.x, b0.x), slabMin(a0.y, b0.y)), slabMax(slabMin(a0.z, b0.z), ray.from));
       float far0 = slabMin(slabMin(slabMax(a0.x, b0.x), slabMax(a0.y, b0.y)), slabMin(slabMax(a0.z, b0.z), limit));
-      float near1 = slabMax(slabMax(slabMin(a1.x, b1.x), slabMin(a1.y, b1.y)), slabMax(slabMin(a1.z, b1.z), 0.0f));
+      float near1 = slabMax(slabMax(slabMin(a1.x, b1.x), slabMin(a1.y, b1.y)), slabMax(slabMin(a1.z, b1.z), ray.from));
       float far1 = slabMin(slabMin(slabMax(a1.x, b1.x), slabMax(a1.y, b1.y)), slabMin(slabMax(a1.z, b1.z), limit));
       bool hit0 = near0 <= far0;
       bool hit1 = near1 <= far1;
@@ -210,7 +236,7 @@ Traversal traverseTree(vec3 origin, vec3 direction, float rayLimit, Traversal s,
     bool atLeaf = s.node < 0 && s.node != kTraversalDone;
     if (kInstances && atLeaf && ~s.node >= kInstanceLeaf) {
       s = changeSpace(s);
-      ray = treeRayOf(s.instance, origin, direction, tree);
+      ray = treeRayOf(s, origin, direction, tree);
       atLeaf = false;
     }
     if (atLeaf) {

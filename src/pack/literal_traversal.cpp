@@ -72,8 +72,12 @@ constexpr const char* kTail = R"(  if (!anyHit) s.t = best / bestSum;
 
 class TraversalText {
  public:
-  TraversalText(const LiteralMesh& mesh, bool weights)
-      : mesh_(mesh), weights_(weights), single_(singleAxis()), size_(size()) {}
+  TraversalText(const LiteralMesh& mesh, const LiteralOptions& options)
+      : mesh_(mesh),
+        weights_(options.weights),
+        passing_(options.passing),
+        single_(singleAxis()),
+        size_(size()) {}
 
   std::string text(bool whole) {
     for (const LiteralFace& face : mesh_.faces) test(face);
@@ -296,16 +300,23 @@ class TraversalText {
       for (const std::string row : {"rx", "ry"})
         body_ += "  hit = hit && !(" + sameSigns(row, f, f.quad ? 4 : 3) + ");\n";
     }
-    body_ += "  hit = hit && t * bestSum < best * sum;\n";
     std::string slot = std::to_string(f.slot);
     if (f.quad && weights_) slot = "(inFirst ? " + slot + " : " + std::to_string(f.otherSlot) + ")";
+    if (passing_) {
+      body_ += "  s.t = best;\n  hit = hit && isNearer(s, t / sum, " + slot + ");\n";
+      body_ += "  best = hit ? t / sum : best;\n";
+      if (weights_) body_ += "  weights = hit ? " + weights + " / sum : weights;\n";
+    } else {
+      body_ += "  hit = hit && t * bestSum < best * sum;\n";
+      body_ += "  if (!anyHit) {\n    best = hit ? t : best;\n    bestSum = hit ? sum : bestSum;\n  }\n";
+      if (weights_) body_ += "  weights = hit ? " + weights + " : weights;\n";
+    }
     body_ += "  s.slot = hit ? " + slot + " : s.slot;\n";
-    body_ += "  if (!anyHit) {\n    best = hit ? t : best;\n    bestSum = hit ? sum : bestSum;\n  }\n";
-    if (weights_) body_ += "  weights = hit ? " + weights + " : weights;\n";
   }
 
   const LiteralMesh& mesh_;
   bool weights_;
+  bool passing_;
   int single_;
   double size_;  // of the mesh, metres
   std::map<std::string, std::string> variables_;
@@ -314,8 +325,8 @@ class TraversalText {
 
 }  // namespace
 
-std::string literalTraversal(const LiteralMesh& mesh, bool weights, bool whole) {
-  return TraversalText(mesh, weights).text(whole);
+std::string literalTraversal(const LiteralMesh& mesh, const LiteralOptions& options) {
+  return TraversalText(mesh, options).text(options.whole);
 }
 
 }  // namespace fragtrace

@@ -80,6 +80,10 @@ constexpr double kRaysAPath = 7.0;
 /// Barycentric weights are told of both triangles of a parallelogram alike.
 Joining joiningFor(bool weights) { return weights ? Joining::Parallelograms : Joining::ConvexQuadrilaterals; }
 
+LiteralOptions optionsOf(const ShaderVariant& variant, bool whole) {
+  return {.weights = keepsWeights(variant), .whole = whole, .passing = has(variant.traits, Trait::Alpha)};
+}
+
 }  // namespace
 
 std::string whyNoLiterals(const Scene& scene, const GpuScene& packed) {
@@ -117,7 +121,7 @@ std::string largeFirst(const Scene& scene, const Bvh& bvh, const ShaderVariant& 
   const LiteralMesh mesh =
       literalMesh(scene, bvh, uint32_t(bvh.leaves.size()) - bvh.besideTree, joiningFor(weights));
   return "const bool kLiterals = false;\nconst bool kLargeFirst = true;\n" +
-         literalTraversal(mesh, weights, false) + kNoRows;
+         literalTraversal(mesh, optionsOf(variant, false)) + kNoRows;
 }
 
 std::string literalScene(const Scene& scene, const Bvh& bvh, const GpuScene& packed,
@@ -136,7 +140,7 @@ std::string literalScene(const Scene& scene, const Bvh& bvh, const GpuScene& pac
     for (size_t c = 1; c < 4; ++c) faces[(slot * layout::kFaceRows + 1) * 4 + c] = 0u;
   }
   std::string text = "const bool kLiterals = true;\nconst bool kLargeFirst = false;\n";
-  text += literalTraversal(mesh, weights, true);
+  text += literalTraversal(mesh, optionsOf(variant, true));
   text += rowFunction("uvec4 literalFace(int slot, int row)", "slot", faces, slots, layout::kFaceRows, used);
   if (has(variant.traits, Trait::Creases)) {
     const Words insets(faces.begin() + ptrdiff_t(slots * layout::kFaceRows * 4), faces.end());

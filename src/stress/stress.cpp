@@ -24,6 +24,8 @@ std::vector<StressRow> stressRows() {
                   scatterInSharedShells});
   rows.push_back({"strips", "paths inside white wedges cut into slivers", 0.0, true, scatterInStrips});
   rows.push_back({"boxes", "paths inside white boxes, right-angled or nearly so", 0.0, true, scatterInBoxes});
+  rows.push_back({"skins", "paths inside white boxes with see-through skins on their walls", 0.0, true,
+                  scatterInSkinnedBoxes});
   rows.push_back({"bad normals", "missing, backwards and tilted normals in a white furnace", 0.0, false,
                   shadeBadNormals});
   // Mirror directions along the surface: a few paths do not come back with all of their light

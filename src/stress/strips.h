@@ -15,4 +15,8 @@ StressOutcome scatterInStrips(const StressSetting& setting);
 /// degrees.
 StressOutcome scatterInBoxes(const StressSetting& setting);
 
+/// In cubes on whose walls, or less than an offset away from them, lie see-through skins: BLEND, or MASK that
+/// is cut out everywhere.
+StressOutcome scatterInSkinnedBoxes(const StressSetting& setting);
+
 }  // namespace fragtrace

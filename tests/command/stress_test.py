@@ -52,12 +52,14 @@ class StressMutations(Stress):
     def test_rays_that_start_on_the_surface_itself(self):
         self.mutated("intersect.glsl", "? -error : error", "? -0.0f * error : 0.0f * error", "shell white")
 
-
     def test_insets_of_shared_meshes_that_know_nothing_of_their_instance(self):
         self.mutated("surface.glsl", "times = offsetOutOfMesh(back, error) * back.stretchBack / error", "times = 1.0", "shell shared")
 
     def test_slivers_at_the_depths_of_their_vertices(self):
         self.mutated("traverse.glsl", "(word & kPrimitiveSliver) != 0u", "false", "strips")
+
+    def test_surfaces_at_the_distance_of_one_that_is_passed_through(self):
+        self.mutated("traverse.glsl", "liesBehind(t, s.past, slot > s.pastSlot)", "t > s.past", "skins")
 
 
 class StressRefusals(Stress):

@@ -187,10 +187,12 @@ TEST(ShaderCreases, ARayThatLeftAFrontMeetsTheFrontOfAFold) {
     const auto meets = [&](float tie) {
       float nearest = 1e30f;
       bool front = false;
+      auto s = glsl_float::startTraversal(nearest, 1);
+      s.tie = tie;
       for (size_t face = 0; face < 2; ++face) {
         const std::array<vec3, 3> v = cornersOf(scene, scene.triangles[face]);
         const auto hit =
-            glsl_float::intersectWord(origin, vec3(direction), shear, tie, v[0], v[1], v[2], 0u, 0);
+            glsl_float::intersectWord(s, origin, vec3(direction), shear, v[0], v[1], v[2], 0u, 0);
         if (hit.t <= 0.0f || hit.t >= nearest) continue;
         nearest = hit.t;
         front = glm::dot(normalOf(v), direction) < 0.0;

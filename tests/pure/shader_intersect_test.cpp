@@ -197,7 +197,7 @@ TEST(ShaderSphere, IsHitFromAFarWithinTheRoundingOfTheDistance) {
       const vec3 origin(dvec3(center) + distance * draw.direction());
       const dvec3 target = dvec3(center) + draw.inCube(1.5);
       const vec3 direction(glm::normalize(target - dvec3(origin)));
-      const float t = glsl_float::intersectSphere(origin, direction, center, 1.0f, true);
+      const float t = glsl_float::intersectSphere(origin, direction, center, 1.0f, true, 0.0f, false);
       const long double expected = sphereDistance(origin, direction, center, 1.0f, false);
       if ((t > 0.0f) != (expected > 0.0L)) {
         ++disagree;
@@ -221,20 +221,23 @@ TEST(ShaderSphere, FromInsideItsFarSideIsHit) {
     const float radius = float(draw.between(0.1, 10.0));
     const vec3 origin(dvec3(center) + 0.99 * radius * std::cbrt(draw.between(0.0, 1.0)) * draw.direction());
     const vec3 direction(draw.direction());
-    const float t = glsl_float::intersectSphere(origin, direction, center, radius, true);
+    const float t = glsl_float::intersectSphere(origin, direction, center, radius, true, 0.0f, false);
     const double expected = double(sphereDistance(origin, direction, center, radius, true));
     EXPECT_NEAR(double(t), expected, 2e-5 * radius + 2e-6 * glm::length(dvec3(center)));
-    EXPECT_EQ(glsl_float::intersectSphere(origin, direction, center, radius, false), -1.0f);
+    EXPECT_EQ(glsl_float::intersectSphere(origin, direction, center, radius, false, 0.0f, false), -1.0f);
   }
 }
 
 TEST(ShaderSphere, BehindTheOriginIsNotHit) {
   for (double z : {1.5, 3.0, 100.0}) {
-    EXPECT_EQ(glsl_double::intersectSphere(dvec3(0, 0, z), dvec3(0, 0, 1), dvec3(0), 1.0, true), -1.0);
-    EXPECT_DOUBLE_EQ(glsl_double::intersectSphere(dvec3(0, 0, z), dvec3(0, 0, -1), dvec3(0), 1.0, true),
-                     z - 1.0);
-    EXPECT_DOUBLE_EQ(glsl_double::intersectSphere(dvec3(0, 0, z), dvec3(0, 0, -1), dvec3(0), 1.0, false),
-                     z - 1.0);
+    EXPECT_EQ(glsl_double::intersectSphere(dvec3(0, 0, z), dvec3(0, 0, 1), dvec3(0), 1.0, true, 0.0, false),
+              -1.0);
+    EXPECT_DOUBLE_EQ(
+        glsl_double::intersectSphere(dvec3(0, 0, z), dvec3(0, 0, -1), dvec3(0), 1.0, true, 0.0, false),
+        z - 1.0);
+    EXPECT_DOUBLE_EQ(
+        glsl_double::intersectSphere(dvec3(0, 0, z), dvec3(0, 0, -1), dvec3(0), 1.0, false, 0.0, false),
+        z - 1.0);
   }
 }
 

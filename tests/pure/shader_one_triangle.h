@@ -22,8 +22,8 @@ inline float distanceTo(const std::array<glm::vec3, 3>& v, const glm::vec3& orig
   const glsl_variant::With slivers(glsl_variant::kSlivers, planes);
   const glsl_variant::With spheres(glsl_variant::kSpheres, false);
   const uint32_t word = isSliver(v) ? layout::kPrimitiveSliver : 0u;
-  return glsl_float::intersectWord(origin, direction, glsl_float::makeShear(direction), 0.0f, v[0], v[1],
-                                   v[2], word, 0)
+  return glsl_float::intersectWord(glsl_float::startTraversal(1e30f, 1), origin, direction,
+                                   glsl_float::makeShear(direction), v[0], v[1], v[2], word, 0)
       .t;
 }
 

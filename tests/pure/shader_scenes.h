@@ -167,13 +167,15 @@ enum class Method { Iterative, Bvh, FrontToBack };
 /// Runs the shader's traversal, in draws of at most stepLimit steps each.
 #define DEFINE_TRACE(name, shader, Real, Vector)                                                        \
   inline Outcome name(const PackedTree& p, Method method, const Ray& ray, double limit = kFar,          \
-                      bool anyHit = false, int stepLimit = kUnlimited) {                                \
+                      bool anyHit = false, int stepLimit = kUnlimited, const Outcome& passed = {}) {    \
     const With nodes(glsl_variant::nodes, std::span<const uint32_t>(p.nodes));                          \
     const With leaves(glsl_variant::leaves, std::span<const uint32_t>(p.leaves));                       \
     const With iterative(glsl_variant::kIterative, method == Method::Iterative);                        \
     const With frontToBack(glsl_variant::kFrontToBack, method == Method::FrontToBack);                  \
     const shader::TreeFrame tree{Vector(p.grid.origin), Vector(p.grid.cell), int(p.bvh.leaves.size())}; \
     auto s = shader::startTraversal(Real(limit), tree.leafCount);                                       \
+    if (passed.slot >= 0) s.past = Real(passed.t);                                                      \
+    if (passed.slot >= 0) s.pastSlot = passed.slot;                                                     \
     while (s.node != layout::kTraversalDone) {                                                          \
       s.steps = 0;                                                                                      \
       s = shader::traverse(Vector(ray.origin), Vector(ray.direction), Real(limit), s, tree, stepLimit,  \
@@ -202,7 +204,7 @@ inline double bruteForce(const Scene& scene, const Ray& ray) {
   }
   for (const Sphere& s : scene.spheres) {
     meet(glsl_double::intersectSphere(dvec3(ray.origin), dvec3(ray.direction), dvec3(s.center),
-                                      double(s.radius), scene.materials[s.material].doubleSided));
+                                      double(s.radius), scene.materials[s.material].doubleSided, 0.0, false));
   }
   return nearest;
 }

@@ -36,6 +36,61 @@ TEST(ShaderTraverse, FloatTreesFindWhatTheFloatLoopFinds) {
   }
 }
 
+/// All that a ray meets on its way through, in the order of distance and slot; of a sphere both sides.
+std::vector<Outcome> allHits(const PackedTree& p, const Ray& ray) {
+  const With leaves(glsl_variant::leaves, std::span<const uint32_t>(p.leaves));
+  const auto shear = glsl_float::makeShear(ray.direction);
+  std::vector<Outcome> hits;
+  for (int slot = 0; slot < 2 * int(p.bvh.leaves.size()); ++slot) {
+    const auto l = glsl_float::loadLeaf(slot / 2);
+    const bool a = slot % 2 == 0;
+    auto s = glsl_float::startTraversal(float(kFar), 1);
+    for (int side = 0; side < 2; ++side) {
+      const float t =
+          glsl_float::intersectWord(s, ray.origin, ray.direction, shear, a ? l.v0a : l.v0b, a ? l.v1a : l.v1b,
+                                    a ? l.v2a : l.v2b, a ? l.worda : l.wordb, slot)
+              .t;
+      if (!(t > s.past)) break;
+      hits.push_back({double(t), slot});
+      s.past = t;
+    }
+  }
+  std::ranges::sort(hits, {}, [](const Outcome& o) { return std::pair(o.t, o.slot); });
+  return hits;
+}
+
+TEST(ShaderTraverse, ARayThatPassesThroughMeetsEveryHitOnce) {
+  const With alpha(glsl_variant::kAlpha, true);
+  size_t ties = 0;
+  size_t pairs = 0;
+  // Their distances round by more than their boxes are padded.
+  std::vector<Corners> floors = randomTriangles(40, 2000.0f);
+  for (Corners& corners : floors) {
+    for (vec3& corner : corners) corner.y = 0.01f;
+  }
+  std::vector<NamedTree> trees = namedTrees();
+  trees.push_back({"coplanar floors", packTree(floors)});
+  for (const NamedTree& named : trees) {
+    for (const Ray& ray : raysAt(named.tree.scene, 200)) {
+      const std::vector<Outcome> expected = allHits(named.tree, ray);
+      for (Method method : kMethods) {
+        Outcome passed;
+        for (const Outcome& next : expected) {
+          ties += next.t == passed.t ? 1 : 0;
+          pairs += next.slot == passed.slot ? 1 : 0;
+          passed = traceFloat(named.tree, method, ray, kFar, false, kUnlimited, passed);
+          ASSERT_EQ(std::pair(passed.t, passed.slot), std::pair(next.t, next.slot))
+              << named.name << ", method " << int(method);
+        }
+        ASSERT_EQ(traceFloat(named.tree, method, ray, kFar, false, kUnlimited, passed).slot, -1)
+            << named.name;
+      }
+    }
+  }
+  EXPECT_GT(ties, 1000u);
+  EXPECT_GT(pairs, 100u);
+}
+
 double distanceToSegment(const dvec3& p, const dvec3& a, const dvec3& b) {
   const dvec3 along = b - a;
   const double squared = glm::dot(along, along);
