@@ -193,6 +193,15 @@ class TraversalText {
     return isSliver({at(0), at(1), at(2)}) || (f.quad && isSliver({at(0), at(2), at(3)}));
   }
 
+  /// The cosine between ray and normal from which on the plane's distance is the better one (distanceToPlane).
+  static double roughFacing(const std::array<glm::vec3, 3>& v) {
+    const glm::dvec3 a = glm::dvec3(v[1]) - glm::dvec3(v[0]);
+    const glm::dvec3 b = glm::dvec3(v[2]) - glm::dvec3(v[0]);
+    const double longest = std::max({glm::length(a), glm::length(b), glm::length(b - a)});
+    const double largest = hitPointError(v) * 0x1p19;
+    return 3.0 * largest * glm::length(glm::cross(a, b)) / (longest * longest * longest);
+  }
+
   /// A sum of products with the components of a vector.
   static std::string dotWith(const glm::dvec3& v, const std::string& vector) {
     std::string text;
@@ -214,8 +223,12 @@ class TraversalText {
     }
     nearest = variable(nearest);
     farthest = variable(farthest);
-    body_ += "  area = sum;\n  if (t <= 0.015625 * sum * (" + farthest + " - " + nearest + ")) {\n";
-    body_ += "    sum = " + dotWith(-glm::dvec3(plane), "direction") + ";\n";
+    double rough = roughFacing({at(0), at(1), at(2)});
+    if (f.quad) rough = std::min(rough, roughFacing({at(0), at(2), at(3)}));
+    const std::string facing = variable(dotWith(-glm::dvec3(plane), "direction"));
+    body_ += "  area = sum;\n  if (t <= 0.015625 * sum * (" + farthest + " - " + nearest + ") || abs(" +
+             facing + ") > " + number(rough) + ") {\n";
+    body_ += "    sum = " + facing + ";\n";
     body_ += "    t = " + added(dotWith(glm::dvec3(plane), "origin"), number(-plane.w)) + ";\n";
     body_ += "    t = sum < 0.0 ? -t : t;\n    sum = abs(sum);\n";
     body_ += "    t = max(sum * " + nearest + ", min(t, sum * " + farthest + "));\n  }\n";

@@ -18,7 +18,8 @@ namespace {
 /// What the next ray's own rounding needs of a height over a plane, in offsets: 22 of 32 (docs/accuracy.md).
 constexpr double kClearance = 22.0 / 32.0;
 /// What a grazing ray leaves unknown of where in the plane its point is, in offsets: 16 of 32, for the floats
-/// of the ray's point and a sine of 1/16 (pointOnPlane of shaders/intersect.glsl).
+/// of the ray's point and a sine of 1/16 (pointOnPlane of shaders/intersect.glsl). Of slivers also what the
+/// weighted distance is off by (isSliver).
 constexpr double kGrazing = 0.5;
 /// Offsets are packed with a few bits, rounded up by at most this.
 constexpr double kPackedOffset = 1.25;
@@ -32,7 +33,7 @@ constexpr double kSharp = -0.2;
 /// Wedges below half a degree hold nothing that could be seen, and cards with two faces have one of 0.
 constexpr double kLeastSine = 0x1p-7;
 /// The farthest that a point is moved, in offsets.
-constexpr double kMostInset = 64.0;
+constexpr double kMostInset = 256.0;
 constexpr size_t kMostFaces = 512;
 constexpr uint32_t kNone = 0xffffffffu;
 
@@ -107,7 +108,9 @@ Fans fansOf(const Scene& scene) {
 struct Sector {
   glm::dvec3 normal, toSecond, toThird;  // unit; (0, 0, 0) for the normal of a triangle without area
   std::array<double, 3> altitude;        // over the edge opposite to the corner, the second, the third vertex
+  std::array<double, 2> length;          // of the edges to the second and to the third vertex
   double offset;
+  double grazing;          // what a grazing ray leaves unknown of where in the plane its point is
   uint32_t second, third;  // places
   uint32_t triangle, corner;
 };
@@ -129,8 +132,14 @@ Sector sectorAt(const Scene& scene, const Fans& fans, uint32_t corner) {
   s.normal = n / area;
   s.toSecond = glm::normalize(a);
   s.toThird = glm::normalize(b);
-  s.altitude = {area / glm::length(b - a), area / glm::length(b), area / glm::length(a)};
+  s.length = {glm::length(a), glm::length(b)};
+  s.altitude = {area / glm::length(b - a), area / s.length[1], area / s.length[0]};
   s.offset = kPackedOffset * hitPointError(v);
+  s.grazing = kGrazing * s.offset;
+  if (isSliver(v)) {
+    const double longest = std::max({s.length[0], s.length[1], glm::length(b - a)});
+    s.grazing += 0x1p-25 * longest * longest * longest / area;
+  }
   return s;
 }
 
@@ -160,19 +169,37 @@ Asked besideEdge(const Sector& face, const Sector& other, const glm::dvec3& edge
   const double sine = glm::length(glm::cross(a, b));
   const double height = kClearance * std::max(face.offset, other.offset) + face.offset * cosine;
   if (sine < kLeastSine || height <= 0.0) return {};
-  return {std::min(height / sine + kGrazing * face.offset, kMostInset * face.offset), cosine > kSharp};
+  return {std::min(height / sine + face.grazing, kMostInset * face.offset), cosine > kSharp};
 }
 
 /// From a vertex at which two triangles without a common edge meet: a point at distance r is r times the sine
 /// of the angle between them away from the other.
-Asked besideVertex(const Sector& face, const Sector& other) {
+Asked besideVertex(const Sector& face, const Sector& other, bool woundAlike) {
   const double cosine = std::max({nearest(face.toSecond, other), nearest(face.toThird, other),
                                   nearest(other.toSecond, face), nearest(other.toThird, face)});
   const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
   if (cosine <= 0.0 || sine < kLeastSine) return {};
   const double height = kClearance * std::max(face.offset, other.offset) + face.offset;
-  return {std::min(height / sine + kGrazing * face.offset, kMostInset * face.offset),
-          glm::dot(face.normal, other.normal) < 0.0 && cosine > 0.0};
+  return {std::min(height / sine + face.grazing, kMostInset * face.offset),
+          !woundAlike || glm::dot(face.normal, other.normal) < 0.0};
+}
+
+/// The same where the triangles run along each other, so that no distance from the vertex would do: the
+/// distance from the line in which their planes meet. It is at least `altitude` times the part of the way
+/// from the vertex to the edge opposite; 0 where the line leads through the face.
+Asked besideLine(const Sector& face, const Sector& other, double& altitude) {
+  const glm::dvec3 across = glm::cross(face.normal, other.normal);
+  const double sine = glm::length(across);
+  if (sine < kLeastSine) return {};
+  const glm::dvec3 line = across / sine;
+  const auto beside = [&](const glm::dvec3& direction, const Sector& s) {
+    return glm::dot(glm::cross(line, direction), s.normal);
+  };
+  const std::array<double, 2> away{beside(face.toSecond, face) * face.length[0],
+                                   beside(face.toThird, face) * face.length[1]};
+  if (!(away[0] * away[1] > 0.0)) return {};
+  altitude = std::min(std::abs(away[0]), std::abs(away[1]));
+  return besideEdge(face, other, line, face.toSecond + face.toThird, other.toSecond + other.toThird);
 }
 
 /// The code of the next power of two; at most a quarter.
@@ -194,7 +221,7 @@ struct Codes {
   }
 };
 
-void askBeside(const Sector& face, const Sector& other, uint32_t place, Codes& codes) {
+void askBeside(const Sector& face, const Sector& other, uint32_t place, bool woundAlike, Codes& codes) {
   // The edges to the second and to the third vertex, opposite to the third and to the second.
   bool adjacent = false;
   for (const bool toSecond : {true, false}) {
@@ -208,7 +235,27 @@ void askBeside(const Sector& face, const Sector& other, uint32_t place, Codes& c
                          toSecond ? face.toThird : face.toSecond,
                          end == other.second ? other.toThird : other.toSecond));
   }
-  if (!adjacent) codes.ask(face, 3 + face.corner, face.altitude[0], besideVertex(face, other));
+  if (adjacent) return;
+  Asked asked = besideVertex(face, other, woundAlike);
+  double altitude = face.altitude[0];
+  if (asked.distance <= 0.0 || asked.distance >= kMostInset * face.offset)
+    asked = besideLine(face, other, altitude);
+  codes.ask(face, 3 + face.corner, altitude, asked);
+}
+
+/// Whether no two triangles round a place run along an edge in the same direction: else normals do not tell
+/// how they bend.
+bool areWoundAlike(const Fans& fans, uint32_t place) {
+  const auto nextOf = [&](uint32_t i, uint32_t steps) {
+    const uint32_t corner = fans.corner[i];
+    return fans.place[corner - corner % 3 + (corner + steps) % 3];
+  };
+  for (uint32_t i = fans.first[place]; i < fans.first[place + 1]; ++i) {
+    for (uint32_t j = fans.first[place]; j < i; ++j) {
+      if (nextOf(i, 1) == nextOf(j, 1) || nextOf(i, 2) == nextOf(j, 2)) return false;
+    }
+  }
+  return true;
 }
 
 bool isGentle(const Fans& fans, uint32_t place, const std::vector<glm::vec3>& normals) {
@@ -219,8 +266,8 @@ bool isGentle(const Fans& fans, uint32_t place, const std::vector<glm::vec3>& no
   return true;
 }
 
-void askAround(const Scene& scene, const Fans& fans, uint32_t place, std::vector<Sector>& sectors,
-               Codes& codes) {
+void askAround(const Scene& scene, const Fans& fans, uint32_t place, bool woundAlike,
+               std::vector<Sector>& sectors, Codes& codes) {
   sectors.clear();
   for (uint32_t i = fans.first[place]; i < fans.first[place + 1]; ++i) {
     sectors.push_back(sectorAt(scene, fans, fans.corner[i]));
@@ -228,7 +275,9 @@ void askAround(const Scene& scene, const Fans& fans, uint32_t place, std::vector
   }
   for (const Sector& face : sectors) {
     for (const Sector& other : sectors) {
-      if (glm::dot(face.normal, other.normal) < double(kGentle)) askBeside(face, other, place, codes);
+      if (&face == &other) continue;
+      if (!woundAlike || glm::dot(face.normal, other.normal) < double(kGentle))
+        askBeside(face, other, place, woundAlike, codes);
     }
   }
 }
@@ -258,8 +307,10 @@ std::vector<uint32_t> creaseInsets(const Scene& scene) {
     std::vector<Sector> sectors;
     for (uint32_t place = thread; place < places; place += threads) {
       const size_t faces = fans.first[place + 1] - fans.first[place];
-      if (faces < 2 || faces > kMostFaces || isGentle(fans, place, normals)) continue;
-      askAround(scene, fans, place, sectors, codes);
+      if (faces < 2 || faces > kMostFaces) continue;
+      const bool woundAlike = areWoundAlike(fans, place);
+      if (woundAlike && isGentle(fans, place, normals)) continue;
+      askAround(scene, fans, place, woundAlike, sectors, codes);
     }
   });
   if (!codes.sharp) return {};

@@ -108,6 +108,13 @@ Prism makeWedge(double degrees, bool across, uint32_t count, Dice& dice) {
   return w;
 }
 
+/// Winds every other triangle or so the other way.
+void flipSome(Prism& prism, Dice& dice) {
+  for (Triangle& t : prism.scene.triangles) {
+    if (dice.between(0.0, 1.0) < 0.5) std::swap(t.vertex.y, t.vertex.z);
+  }
+}
+
 /// A skew box of 1 x 1 x length, its sides at an angle, of 12 triangles.
 Prism makeBox(double degrees, double length, bool turned, Dice& dice) {
   Prism w;
@@ -181,11 +188,12 @@ StressOutcome scatterInStrips(const StressSetting& setting) {
   const size_t angles = setting.quick ? 2 : kDegrees.size();
   Dice dice(60);
   StressOutcome outcome;
-  for (int round = 0; round < (setting.quick ? 1 : 2); ++round) {
+  for (const bool flipping : {false, true}) {
     for (const double degrees : std::span(kDegrees).first(angles)) {
       for (const bool across : {true, false}) {
         for (const bool literals : {false, true}) {
-          const Prism prism = makeWedge(degrees, across, literals ? 6 : 60, dice);
+          Prism prism = makeWedge(degrees, across, literals ? 6 : 60, dice);
+          if (flipping) flipSome(prism, dice);
           scatterIn(setting, prism, literals, outcome);
         }
       }

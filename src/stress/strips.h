@@ -7,8 +7,8 @@
 namespace fragtrace {
 
 /// Closed white wedges of 1 to 60 degrees, turned at random, each face cut into strips of random widths,
-/// across or along the crease; path traced, by a tree and (wedges of fewer strips) as literals. Cases are
-/// paths, failures pixels that are not black.
+/// across or along the crease, once wound alike and once at random; path traced, by a tree and (wedges of
+/// fewer strips) as literals. Cases are paths, failures pixels that are not black.
 StressOutcome scatterInStrips(const StressSetting& setting);
 
 /// The same in boxes of 12 triangles, up to a thousand times as long as wide, with angles of 89 to 91
