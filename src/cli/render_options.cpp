@@ -225,7 +225,7 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--stats", raw.statsFile, "JSON file for the statistics");
   app.add_option("--shader-folder", raw.shaderFolder,
                  "read the shaders from here in place of the built-in ones");
-  app.add_flag("--quiet", o.quiet, "print nothing but errors");
+  app.add_flag("--quiet", o.quiet, "print nothing but errors; benchmarks also their tables");
   app.add_flag("--verbose", o.verbose, "print what is chosen and what it takes");
 }
 

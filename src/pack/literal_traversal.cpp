@@ -193,7 +193,8 @@ class TraversalText {
     return isSliver({at(0), at(1), at(2)}) || (f.quad && isSliver({at(0), at(2), at(3)}));
   }
 
-  /// The cosine between ray and normal from which on the plane's distance is the better one (distanceToPlane).
+  /// The cosine between ray and normal from which on the plane's distance is the better one
+  /// (distanceToPlane).
   static double roughFacing(const std::array<glm::vec3, 3>& v) {
     const glm::dvec3 a = glm::dvec3(v[1]) - glm::dvec3(v[0]);
     const glm::dvec3 b = glm::dvec3(v[2]) - glm::dvec3(v[0]);
