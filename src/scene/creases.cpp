@@ -163,10 +163,12 @@ struct Asked {
 /// clearance.
 Asked besideEdge(const Sector& face, const Sector& other, const glm::dvec3& edge, const glm::dvec3& inFace,
                  const glm::dvec3& inOther) {
-  const glm::dvec3 a = glm::normalize(inFace - edge * glm::dot(edge, inFace));
-  const glm::dvec3 b = glm::normalize(inOther - edge * glm::dot(edge, inOther));
-  const double cosine = glm::dot(a, b);
-  const double sine = glm::length(glm::cross(a, b));
+  const glm::dvec3 a = inFace - edge * glm::dot(edge, inFace);
+  const glm::dvec3 b = inOther - edge * glm::dot(edge, inOther);
+  const double lengths = glm::length(a) * glm::length(b);
+  if (lengths <= 0.0) return {};
+  const double cosine = glm::dot(a, b) / lengths;
+  const double sine = glm::length(glm::cross(a, b)) / lengths;
   const double height = kClearance * std::max(face.offset, other.offset) + face.offset * cosine;
   if (sine < kLeastSine || height <= 0.0) return {};
   return {std::min(height / sine + face.grazing, kMostInset * face.offset), cosine > kSharp};
@@ -204,7 +206,7 @@ Asked besideLine(const Sector& face, const Sector& other, double& altitude) {
 
 /// The code of the next power of two; at most a quarter.
 uint8_t codeOf(double part) {
-  if (part <= 0.0) return 0;
+  if (!(part > 0.0)) return 0;
   return uint8_t(std::clamp(std::floor(-std::log2(part)), 2.0, 31.0));
 }
 
