@@ -219,8 +219,8 @@ class TraversalText {
     std::string farthest = nearest;
     for (size_t i = 1; i < (f.quad ? 4 : 3); ++i) {
       const std::string z = place("rz", f.corner[i]);
-      nearest = "min(" + nearest + ", " + z + ")";
-      farthest = "max(" + farthest + ", " + z + ")";
+      nearest.insert(0, "min(").append(", ").append(z).append(")");
+      farthest.insert(0, "max(").append(", ").append(z).append(")");
     }
     nearest = variable(nearest);
     farthest = variable(farthest);
