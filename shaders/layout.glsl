@@ -69,7 +69,7 @@ const uint kPrimitiveIndexMask = 0x0fffffffu;
 const uint kPrimitiveCull = 0x80000000u;    // the back is not there
 const uint kPrimitiveAlpha = 0x40000000u;   // alpha MASK or BLEND decides whether it is there
 const uint kPrimitiveSphere = 0x20000000u;  // v0 is the centre, v1.x the radius
-const uint kPrimitiveSliver = 0x10000000u;  // distances to it from close by are those to its plane
+const uint kPrimitiveSliver = 0x10000000u;  // distances to it may be those to its plane
 
 // Face rows. Triangle: unit normal and face word; distance of its plane from the origin, vertex indices. Sphere: rotation quaternion
 // x, y, z with w >= 0 and face word; centre, radius. Face word: material, flag, and the bound on a hit point's error (local space) as

@@ -210,8 +210,8 @@ class TraversalText {
     return text;
   }
 
-  /// From close by (shaders/intersect.glsl, distanceToPlane) the distance to the face's plane replaces t over
-  /// sum; `area` keeps the sum of the edges.
+  /// Where it is the better one (shaders/intersect.glsl, distanceToPlane) the distance to the face's plane
+  /// replaces t over sum; `area` keeps the sum of the edges.
   void planeDistance(const LiteralFace& f) {
     const auto at = [&](size_t i) { return mesh_.points[f.corner[i]]; };
     const glm::dvec4 plane(planeOf(at(0), at(1), at(2)));
@@ -265,7 +265,7 @@ class TraversalText {
       t = sumOf({{e[1], z0}, {last, place("rz", f.corner[1])}, {e[0], place("rz", f.corner[2])}});
     }
     body_ += "  sum = " + sumOf(all) + ";\n  t = " + t + ";\n";
-    tellTriangle(f, "sum");
+    tellTriangle(f);
     const bool sliver = isSliverFace(f);
     if (f.culled) {
       // All edges zero make t zero, too, but for the plane's.
@@ -299,12 +299,12 @@ class TraversalText {
     return "(2.0 * vec2(" + text + "))";
   }
 
-  /// Which of both triangles a line that meets the parallelogram meets; `all`: the sum of its edges.
-  void tellTriangle(const LiteralFace& f, const std::string& all) {
+  /// Which of both triangles a line that meets the parallelogram meets.
+  void tellTriangle(const LiteralFace& f) {
     if (!f.quad || !weights_) return;
     const Term diagonal = edge(f.corner[0], f.corner[2]);
-    body_ += "  inFirst = (" + diagonal.name + (diagonal.negated ? " <= 0.0" : " >= 0.0") + ") == (" + all +
-             " >= 0.0);\n";
+    body_ +=
+        "  inFirst = (" + diagonal.name + (diagonal.negated ? " <= 0.0" : " >= 0.0") + ") == (sum >= 0.0);\n";
   }
 
   /// What is hit, at t over sum, replaces the best if it is nearer; `weights` over sum are the barycentric

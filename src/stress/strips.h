@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rows of closed prisms in a bright world: wedges that are cut into slivers, and boxes.
+// Rows of closed prisms in a bright world: wedges that are cut into slivers, boxes, and boxes with
+// see-through skins.
 #pragma once
 
 #include "stress/stress.h"
