@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The environment: an equirectangular map, bilinear; drawn from by the luminance of its texels.
+// The environment: an equirectangular map, bilinear; drawn from by inversion of its luminance, so that what is stratified stays so.
 
 /// Texture coordinates of a direction (docs/conventions.md); the rotation is undone first.
 vec2 environmentCoordinates(vec3 d) {
@@ -9,8 +9,9 @@ vec2 environmentCoordinates(vec3 d) {
   return vec2(atan(r.z, r.x) * (0.5f * kInversePi) + 0.5f, acos(clamp(r.y, -1.0f, 1.0f)) * kInversePi);
 }
 
+/// u may lie beyond 0..1 by whole turns.
 vec3 environmentDirection(vec2 uv) {
-  vec2 around = unitCircle(uv.x);  // half a turn from the direction
+  vec2 around = unitCircle(uv.x - floor(uv.x));  // half a turn from the direction
   vec2 down = unitCircle(0.5f * uv.y);
   vec3 r = vec3(-down.y * around.x, down.x, -down.y * around.y);
   float c = frame.environment.z;
@@ -20,33 +21,36 @@ vec3 environmentDirection(vec2 uv) {
 
 vec4 environmentTexel(ivec2 p, ivec2 size) { return uintBitsToFloat(readEnvironment(p.y * size.x + p.x)); }
 
-vec3 environmentRadiance(vec3 direction) {
-  if (!kEnvironment) return vec3(0.0f);
+/// Radiance and, relative to an even density over the map's area, the density at a place of the map: in texels, the middle of the first at 0.5,
+/// from -0.5 to half a texel beyond the width.
+vec4 environmentAt(vec2 place) {
   ivec2 size = ivec2(frame.environment);
-  vec2 position = environmentCoordinates(direction) * vec2(size) - vec2(0.5f);
+  vec2 position = place - vec2(0.5f);
   vec2 base = floor(position);
   vec2 f = position - base;
-  // Round the seam without a division of integers, which llvmpipe does lane by lane; the position is in -0.5..width.
+  // Round the seam without a division of integers, which llvmpipe does lane by lane.
   int x0 = int(base.x) < 0 ? size.x - 1 : min(int(base.x), size.x - 1);
   int x1 = x0 + 1 == size.x ? 0 : x0 + 1;
   int y0 = clamp(int(base.y), 0, size.y - 1);
   int y1 = clamp(int(base.y) + 1, 0, size.y - 1);
   vec4 top = mix(environmentTexel(ivec2(x0, y0), size), environmentTexel(ivec2(x1, y0), size), f.x);
   vec4 bottom = mix(environmentTexel(ivec2(x0, y1), size), environmentTexel(ivec2(x1, y1), size), f.x);
-  return vec3(mix(top, bottom, f.y));
+  return mix(top, bottom, f.y);
 }
 
-/// Density over solid angle with which sampleEnvironment draws a direction.
-float environmentDensity(vec3 direction) {
-  ivec2 size = ivec2(frame.environment);
-  vec2 uv = environmentCoordinates(direction);
-  ivec2 p = clamp(ivec2(uv * vec2(size)), ivec2(0), size - 1);
+/// The same of a direction.
+vec4 environmentAlong(vec3 direction) {
+  if (!kEnvironment) return vec4(0.0f);
+  return environmentAt(environmentCoordinates(direction) * vec2(ivec2(frame.environment)));
+}
+
+/// Density over solid angle with which sampleEnvironment draws a direction, of what environmentAlong gives of it.
+float environmentDensity(vec4 along, vec3 direction) {
   float sine = sqrt(max(0.0f, 1.0f - direction.y * direction.y));
-  return environmentTexel(p, size).w / max(2.0f * kPi * kPi * sine, float(1e-12));
+  return along.w / max(2.0f * kPi * kPi * sine, float(1e-12));
 }
 
-/// An entry of an alias table (Walker, 1977) drawn with 32 random bits: its index, and where in the entry the bits fall, in [0, 1). One number
-/// for both, so that what is stratified over the whole table stays so within its entries.
+/// One of `count` equal parts of the numbers of 32 bits, and where in it the bits fall, in [0, 1).
 struct TablePlace {
   int index;
   float within;
@@ -62,19 +66,37 @@ TablePlace placeInTable(uint bits, uint count) {
   return place;
 }
 
-/// `within` as a number of its own in the part below or above the threshold, in [0, 1).
-float withinPart(float within, float threshold) {
-  float u = within < threshold ? within / threshold : (within - threshold) / (1.0f - threshold);
-  return min(u, float(0.99999994));
+/// The place that bits draw by the `count` steps of a table from row `firstRow` on (src/pack/inversion_table.h).
+float invertTable(int firstRow, uint count, uint bits) {
+  TablePlace place = placeInTable(bits, count);
+  uvec4 row = readEnvironmentInversion(firstRow + place.index);
+  float first = float(row.z & 0xffffu) * float(1.0 / 65536.0);
+  float second = float(row.z >> 16) * float(1.0 / 65536.0);
+  float firstPlace = float(row.w & 0xffffu);
+  float secondPlace = float(row.w >> 16);
+  bool afterFirst = place.within >= first;
+  bool afterSecond = place.within >= second;
+  // A change at 0 is none: the step's own place is where it begins.
+  float begin = afterSecond ? second : afterFirst ? first : 0.0f;
+  float end = afterSecond ? 1.0f : afterFirst ? second : first;
+  float low = begin == 0.0f ? uintBitsToFloat(row.x) : afterSecond ? secondPlace : firstPlace;
+  float high = afterSecond ? uintBitsToFloat(row.y) : afterFirst ? secondPlace : firstPlace;
+  return mix(low, high, (place.within - begin) / (end - begin));
 }
 
-/// A direction drawn by the alias table of the texels, uniform within one.
-vec3 sampleEnvironment(uvec2 bits) {
+/// Drawn by the density 1 - |x|.
+float sampleTent(float u) { return u < 0.5f ? sqrt(2.0f * u) - 1.0f : 1.0f - sqrt(2.0f - 2.0f * u); }
+
+/// A place of the map in texels. Bilinear filtering makes of each texel a tent about its middle, so drawing a texel and a place in its tent has the
+/// density that environmentAt gives. What a row's tent has beyond a pole, clamping spreads over half a texel.
+vec2 sampleEnvironment(uvec2 bits) {
   ivec2 size = ivec2(frame.environment);
-  TablePlace place = placeInTable(bits.x, uint(size.x * size.y));
-  uvec2 entry = readEnvironmentAlias(place.index);
-  float threshold = uintBitsToFloat(entry.x);
-  int index = place.within < threshold ? place.index : int(entry.y);
-  vec2 texel = vec2(index % size.x, index / size.x);
-  return environmentDirection((texel + vec2(withinPart(place.within, threshold), unitFloat(bits.y))) / vec2(size));
+  float row = invertTable(0, uint(size.y), bits.y);
+  int y = min(int(row), size.y - 1);
+  float inRow = row - float(y);
+  bool atPole = inRow < 0.5f ? y == 0 : y + 1 == size.y;
+  int steps = max(size.x / 2, 1);
+  float column = invertTable(size.y + y * steps, uint(steps), bits.x);
+  float x = min(floor(column), float(size.x - 1));
+  return vec2(x + 0.5f + sampleTent(column - x), float(y) + (atPole ? inRow : 0.5f + sampleTent(inRow)));
 }

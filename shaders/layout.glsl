@@ -11,10 +11,10 @@ const uint kTangentsBinding = 5u;      // 1 vec4 a vertex
 const uint kColorsBinding = 6u;        // 1 vec4 a vertex
 const uint kMaterialsBinding = 7u;     // kMaterialRows uvec4 a material
 const uint kTexelsBinding = 8u;        // 1 uvec2 a texel: RGBA as linear half floats
-const uint kEmittersBinding = 9u;      // kEmitterRows uvec4 an emitter: alias table by power, emissive triangles
+const uint kEmittersBinding = 9u;      // kEmitterRows uvec4 an emitter
 const uint kLightsBinding = 10u;       // kLightRows vec4 a punctual light
-const uint kEnvironmentBinding = 11u;  // 1 vec4 a texel: radiance, density
-const uint kEnvironmentAliasBinding = 12u;  // 1 uvec2 a texel: threshold, alias
+const uint kEnvironmentBinding = 11u;  // 1 vec4 a texel: radiance, density over the area of the map (mean 1)
+const uint kEnvironmentInversionBinding = 12u;  // 1 uvec4 a step: of the rows, then of each row (src/pack/inversion_table.h)
 const uint kSceneBufferCount = 13u;
 
 // Where scene buffers read as images begin among the image units, behind the film.
@@ -135,8 +135,8 @@ const uint kTextureMirrorU = 16u;
 const uint kTextureClampV = 32u;
 const uint kTextureMirrorV = 64u;
 
-// Emitter rows: threshold (float), alias, what it is, probability (float); of an emissive triangle its first vertex and material,
-// its edges from there with 1 / area (float) and leaf slot.
+// Emitter rows: the first and the last emitter that its equal share of the numbers draws, the last number that draws itself, probability (float); of an
+// emissive triangle its first vertex and material, its edges from there with 1 / area (float) and, of every emitter, what it is.
 const uint kEmitterRows = 4u;
 const uint kEmitterPunctual = 0x80000000u;     // else the leaf slot of an emissive triangle; below it the light's index
 const uint kEmitterDoubleSided = 0x80000000u;  // beside the material

@@ -87,28 +87,45 @@ LightSample triangleLight(int emitter, float chance, vec3 point, float u, float 
 }
 
 LightSample environmentLight(float chance, uvec2 bits) {
-  vec3 direction = sampleEnvironment(bits);
-  float density = chance * environmentDensity(direction);
+  vec2 place = sampleEnvironment(bits);
+  vec4 there = environmentAt(place);
+  vec3 direction = environmentDirection(place / vec2(ivec2(frame.environment)));
+  float density = chance * environmentDensity(there, direction);
   if (density <= 0.0f) return noLight();
-  return makeLight(direction, kFarAway, environmentRadiance(direction) / density, density);
+  return makeLight(direction, kFarAway, vec3(there) / density, density);
 }
 
-/// An emitter of the alias table by power; onlyTriangles drops punctual lights, which the caller visits one by one.
+/// The emitter that bits draw by power: they are in the order of the numbers that draw them, and each tells which its equal share of these can draw.
+int emitterAt(uint bits) {
+  uvec4 entry = emitterRow(placeInTable(bits, uint(frame.lightChoice.y)).index, 0);
+  int low = int(entry.x);
+  int high = int(entry.y);
+  while (low < high) {
+    int middle = (low + high) / 2;
+    bool beyond = bits > emitterRow(middle, 0).z;
+    low = beyond ? middle + 1 : low;
+    high = beyond ? high : middle;
+  }
+  return low;
+}
+
+/// An emitter drawn by power; onlyTriangles drops punctual lights, which the caller visits one by one.
 LightSample emitterLight(float chance, vec3 point, uvec2 bits, bool onlyTriangles) {
-  TablePlace place = placeInTable(bits.x, uint(frame.lightChoice.y));
-  uvec4 entry = emitterRow(place.index, 0);
-  float threshold = uintBitsToFloat(entry.x);
-  int emitter = place.within >= threshold ? int(entry.y) : place.index;
-  entry = emitterRow(emitter, 0);
-  chance *= uintBitsToFloat(entry.w);
-  bool punctual = kPunctualLights && (entry.z & kEmitterPunctual) != 0u;
+  int emitter = emitterAt(bits.x);
+  uvec4 entry = emitterRow(emitter, 0);
+  uint kind = emitterRow(emitter, 3).w;
+  float share = uintBitsToFloat(entry.w);
+  bool punctual = kPunctualLights && (kind & kEmitterPunctual) != 0u;
   LightSample s = noLight();
+  if (share <= 0.0f) return s;
   if (punctual && !onlyTriangles) {
-    s = punctualLight(int(entry.z & ~kEmitterPunctual), point);
-    s.irradiance /= chance;
+    s = punctualLight(int(kind & ~kEmitterPunctual), point);
+    s.irradiance /= chance * share;
   }
   if (kEmissiveTriangles && !punctual) {
-    s = triangleLight(emitter, chance, point, withinPart(place.within, threshold), unitFloat(bits.y));
+    // Where among its own numbers the bits lie.
+    float u = min(float(entry.z - bits.x) / (share * 4294967296.0f), float(0.99999994));
+    s = triangleLight(emitter, chance * share, point, u, unitFloat(bits.y));
   }
   return s;
 }
@@ -121,15 +138,30 @@ int lightSlotCount() {
   return count + (kEmissiveTriangles ? 1 : 0) + (kEnvironmentSampling ? 1 : 0);
 }
 
+/// Bits of the part of all numbers that begins at `first` and is 1 / `stretch` of them, as bits of their own.
+uint stretchBits(uint bits, uint first, float stretch) {
+  uint high;
+  uint low;
+  umulExtended(bits - first, uint(fract(stretch) * 4294967040.0f), high, low);
+  return (bits - first) * uint(stretch) + high;
+}
+
 /// The light sample of one slot; uses four dimensions from `dimension` on.
 LightSample lightOfSlot(int slot, vec3 point, Sampler numbers, uint dimension) {
   bool emitters = kPunctualLights || kEmissiveTriangles;
   if (kGi) {
-    bool environment = kEnvironmentSampling && (!emitters || drawFloat(numbers, dimension) < frame.lightChoice.x);
-    LightSample s = noLight();
     uvec2 bits = drawPairBits(numbers, dimension + 1u);
-    if (kEnvironmentSampling && environment) s = environmentLight(frame.lightChoice.x, bits);
-    if (emitters && !environment) s = emitterLight(1.0f - frame.lightChoice.x, point, bits, false);
+    float chance = frame.lightChoice.x;
+    LightSample s = noLight();
+    bool environment = kEnvironmentSampling;
+    if (kEnvironmentSampling && emitters) {
+      // The choice takes its part of the number, so that each side gets points that are stratified together.
+      uint border = uint(chance * 4294967040.0f);
+      environment = bits.x < border;
+      bits.x = environment ? stretchBits(bits.x, 0u, 1.0f / chance) : stretchBits(bits.x, border, 1.0f / (1.0f - chance));
+    }
+    if (kEnvironmentSampling && environment) s = environmentLight(chance, bits);
+    if (emitters && !environment) s = emitterLight(1.0f - chance, point, bits, false);
     return s;
   }
   int punctual = kPunctualLights ? int(frame.lightChoice.w) : 0;

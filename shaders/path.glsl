@@ -100,18 +100,19 @@ Path meetSurroundings(Path p) {
   if (kFeature != kFeatureNone) return p;
   if (p.cameraRay) {
     vec3 seen = frame.background.rgb;
-    if (kEnvironment && frame.background.w != 0.0) seen = environmentRadiance(p.direction);
+    if (kEnvironment && frame.background.w != 0.0) seen = environmentAlong(p.direction).rgb;
     p.radiance += p.throughput * seen;
     return p;
   }
   if (!kEnvironment) return p;
   // Surroundings are outside of everything: who has left less than was entered has missed a face that touches another.
   if (kPassesLight) p.throughput *= p.compression;
+  vec4 seen = environmentAlong(p.direction);
   float weight = 1.0;
   if (kGi && kEnvironmentSampling && p.density > 0.0) {
-    weight = misWeight(p.density, frame.lightChoice.x * environmentDensity(p.direction));
+    weight = misWeight(p.density, frame.lightChoice.x * environmentDensity(seen, p.direction));
   }
-  p.radiance += clampIndirect(p.throughput * (weight * environmentRadiance(p.direction)), p.bounce);
+  p.radiance += clampIndirect(p.throughput * (weight * seen.rgb), p.bounce);
   return p;
 }
 

@@ -25,5 +25,5 @@ layout(rgba32ui, binding = kSceneImageBase + kLightsBinding) uniform readonly re
 uvec4 readLights(int index) { return imageLoad(lightsBuffer, index); }
 layout(rgba32ui, binding = kSceneImageBase + kEnvironmentBinding) uniform readonly restrict uimageBuffer environmentBuffer;
 uvec4 readEnvironment(int index) { return imageLoad(environmentBuffer, index); }
-layout(rg32ui, binding = kSceneImageBase + kEnvironmentAliasBinding) uniform readonly restrict uimageBuffer environmentAliasBuffer;
-uvec2 readEnvironmentAlias(int index) { return imageLoad(environmentAliasBuffer, index).xy; }
+layout(rgba32ui, binding = kSceneImageBase + kEnvironmentInversionBinding) uniform readonly restrict uimageBuffer environmentInversionBuffer;
+uvec4 readEnvironmentInversion(int index) { return imageLoad(environmentInversionBuffer, index); }

@@ -25,5 +25,5 @@ layout(binding = kLightsBinding) uniform usamplerBuffer lightsBuffer;
 uvec4 readLights(int index) { return texelFetch(lightsBuffer, index); }
 layout(binding = kEnvironmentBinding) uniform usamplerBuffer environmentBuffer;
 uvec4 readEnvironment(int index) { return texelFetch(environmentBuffer, index); }
-layout(binding = kEnvironmentAliasBinding) uniform usamplerBuffer environmentAliasBuffer;
-uvec2 readEnvironmentAlias(int index) { return texelFetch(environmentAliasBuffer, index).xy; }
+layout(binding = kEnvironmentInversionBinding) uniform usamplerBuffer environmentInversionBuffer;
+uvec4 readEnvironmentInversion(int index) { return texelFetch(environmentInversionBuffer, index); }

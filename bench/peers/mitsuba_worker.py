@@ -74,10 +74,11 @@ def principled(material):
 
 
 def environment(path):
-    """Rows of the same directions: u = 0.5 is glTF's +x, Mitsuba's nodes along v go from pole to pole."""
+    """The same function of directions: u = 0.5 is glTF's +x; Mitsuba's nodes along v go from pole to pole, so twice as many rows hold our
+    texels' middles."""
     texels = np.array(mi.Bitmap(path).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32)).astype(float)
     height = len(texels)
-    rows = np.clip(np.arange(height + 1) - 0.5, 0, height - 1)
+    rows = np.clip(np.arange(2 * height + 1) / 2 - 0.5, 0, height - 1)
     low = np.minimum(rows.astype(int), height - 2)
     part = (rows - low)[:, None, None]
     nodes = (1 - part) * texels[low] + part * texels[low + 1]

@@ -2,10 +2,13 @@
 #include "pack/pack_lights.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtx/component_wise.hpp>
+#include <numeric>
 
-#include "pack/alias_table.h"
+#include "pack/inversion_table.h"
 #include "pack/words.h"
 
 namespace fragtrace {
@@ -14,15 +17,14 @@ namespace {
 
 constexpr double kPi = glm::pi<double>();
 
-/// Rows 1 to 3 of an emissive triangle.
-void appendEdges(Words& words, const Scene& scene, const Triangle& t, uint32_t slot) {
+/// Rows 1 to 3 of an emissive triangle, but what it is.
+void appendEdges(Words& words, const Scene& scene, const Triangle& t) {
   const auto [v0, v1, v2] = cornersOf(scene, t);
   const uint32_t doubleSided = scene.materials[t.material].doubleSided ? layout::kEmitterDoubleSided : 0u;
   appendRow(words, v0, 0.0f);
   words.back() = t.material | doubleSided;
   appendRow(words, v1 - v0, float(1.0 / triangleArea(scene, t)));
   appendRow(words, v2 - v0, 0.0f);
-  words.back() = slot;
 }
 
 /// Luminous power of a punctual light; a directional one shines through the scene's cross-section.
@@ -39,6 +41,61 @@ double lightPower(const Light& light, double radius) {
   return intensity * 4.0 * kPi;
 }
 
+struct Emitter {
+  double power = 0.0;  // luminous
+  glm::dvec3 position{0.0};
+  uint32_t kind = 0;
+  uint32_t triangle = kMissIndex;
+  uint32_t order = 0;
+};
+
+void appendEmissive(std::vector<Emitter>& emitters, const Scene& scene, std::span<const glm::vec3> materialRadiance,
+                    std::span<const uint32_t> slots) {
+  // Far below what a ray can be aimed at; the shader divides by the area.
+  constexpr double kLeastArea = 1e-30;
+  for (size_t i = 0; i < scene.triangles.size(); ++i) {
+    const Triangle& t = scene.triangles[i];
+    const double radiance = luminance(glm::dvec3(materialRadiance[t.material]));
+    const double area = radiance > 0.0 ? triangleArea(scene, t) : 0.0;
+    if (area <= kLeastArea || slots[i] == kMissIndex) continue;
+    const auto [a, b, c] = cornersOf<glm::dvec3>(scene, t);
+    emitters.push_back({radiance * kPi * area, (a + b + c) / 3.0, slots[i], uint32_t(i)});
+  }
+}
+
+void appendPunctual(std::vector<Emitter>& emitters, std::span<const Light> lights, double radius) {
+  for (size_t i = 0; i < lights.size(); ++i) {
+    emitters.push_back({lightPower(lights[i], radius), glm::dvec3(lights[i].position),
+                        layout::kEmitterPunctual | uint32_t(i)});
+  }
+}
+
+/// Every third bit is one of the lowest ten.
+uint32_t spreadBits(uint32_t x) {
+  x = (x | x << 16) & 0x030000ffu;
+  x = (x | x << 8) & 0x0300f00fu;
+  x = (x | x << 4) & 0x030c30c3u;
+  return (x | x << 2) & 0x09249249u;
+}
+
+/// Along a Morton curve through their box, so that numbers that are close draw emitters that are.
+void orderInSpace(std::vector<Emitter>& emitters) {
+  if (emitters.empty()) return;
+  glm::dvec3 low(INFINITY);
+  glm::dvec3 high(-INFINITY);
+  for (const Emitter& e : emitters) {
+    low = glm::min(low, e.position);
+    high = glm::max(high, e.position);
+  }
+  const double size = std::max(glm::compMax(high - low), DBL_MIN);
+  for (Emitter& e : emitters) {
+    const glm::uvec3 cell((e.position - low) / size * 1023.0);
+    e.order = spreadBits(cell.x) | spreadBits(cell.y) << 1 | spreadBits(cell.z) << 2;
+  }
+  std::stable_sort(emitters.begin(), emitters.end(),
+                   [](const Emitter& a, const Emitter& b) { return a.order < b.order; });
+}
+
 }  // namespace
 
 double triangleArea(const Scene& scene, const Triangle& t) {
@@ -52,41 +109,27 @@ PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> mater
                             std::span<const uint32_t> slots, double radius, const TraitSet& traits) {
   PackedEmitters packed;
   packed.materialDensity.assign(scene.materials.size(), 0.0);
+  std::vector<Emitter> emitters;
+  if (has(traits, Trait::EmissiveTriangles)) appendEmissive(emitters, scene, materialRadiance, slots);
+  if (has(traits, Trait::PunctualLights)) appendPunctual(emitters, scene.lights, radius);
+  orderInSpace(emitters);
   std::vector<double> powers;
-  std::vector<uint32_t> kinds;
-  std::vector<uint32_t> triangles;  // by emitter, those of the triangles come first
-  if (has(traits, Trait::EmissiveTriangles)) {
-    for (size_t i = 0; i < scene.triangles.size(); ++i) {
-      const Triangle& t = scene.triangles[i];
-      const double radiance = luminance(glm::dvec3(materialRadiance[t.material]));
-      const double area = radiance > 0.0 ? triangleArea(scene, t) : 0.0;
-      // Far below what a ray can be aimed at; the shader divides by the area.
-      constexpr double kLeastArea = 1e-30;
-      if (area <= kLeastArea || slots[i] == kMissIndex) continue;
-      powers.push_back(radiance * kPi * area);
-      kinds.push_back(slots[i]);
-      triangles.push_back(uint32_t(i));
-    }
-  }
-  if (has(traits, Trait::PunctualLights)) {
-    for (size_t i = 0; i < scene.lights.size(); ++i) {
-      powers.push_back(lightPower(scene.lights[i], radius));
-      kinds.push_back(layout::kEmitterPunctual | uint32_t(i));
-    }
-  }
-  for (double power : powers) packed.power += power;
-  const std::vector<AliasEntry> table = makeAliasTable(powers);
-  for (size_t i = 0; i < powers.size(); ++i) {
-    const double probability = packed.power > 0.0 ? powers[i] / packed.power : 1.0 / double(powers.size());
-    packed.entries.insert(packed.entries.end(), {floatWord(table[i].threshold), table[i].alias, kinds[i],
-                                                 floatWord(float(probability))});
-    if (i < triangles.size()) {
-      appendEdges(packed.entries, scene, scene.triangles[triangles[i]], kinds[i]);
+  for (const Emitter& e : emitters) powers.push_back(e.power);
+  packed.power = std::accumulate(powers.begin(), powers.end(), 0.0);
+  const std::vector<InversionEntry> table = makeInversionEntries(powers);
+  for (size_t i = 0; i < emitters.size(); ++i) {
+    const double probability =
+        packed.power > 0.0 ? powers[i] / packed.power : 1.0 / double(emitters.size());
+    packed.entries.insert(packed.entries.end(),
+                          {table[i].first, table[i].last, table[i].end, floatWord(float(probability))});
+    if (emitters[i].triangle != kMissIndex) {
+      appendEdges(packed.entries, scene, scene.triangles[emitters[i].triangle]);
     } else {
       packed.entries.insert(packed.entries.end(), (layout::kEmitterRows - 1) * 4, 0u);
     }
+    packed.entries.back() = emitters[i].kind;
   }
-  packed.count = uint32_t(powers.size());
+  packed.count = uint32_t(emitters.size());
   for (size_t m = 0; m < scene.materials.size() && packed.power > 0.0; ++m) {
     packed.materialDensity[m] = luminance(glm::dvec3(materialRadiance[m])) * kPi / packed.power;
   }
@@ -108,44 +151,6 @@ Words packLights(const Scene& scene) {
     appendRow(words, glm::vec4(-cosOuter * scale, 0.0f, 0.0f, 0.0f));
   }
   return words;
-}
-
-PackedEnvironment packEnvironment(const Image& image) {
-  PackedEnvironment packed;
-  packed.size = {image.width, image.height};
-  const size_t count = size_t(image.width) * size_t(image.height);
-  std::vector<double> weights(count);
-  auto texelLuminance = [&](int x, int y) {
-    const float* p = image.pixel((x + image.width) % image.width, std::clamp(y, 0, image.height - 1));
-    return std::max(0.0, luminance(glm::dvec3(p[0], p[1], p[2])));
-  };
-  // The mean of the bilinear interpolation over one texel has weights 1/8, 6/8, 1/8 along each axis.
-  constexpr double kTent[3] = {0.125, 0.75, 0.125};
-  double sum = 0.0;
-  for (int y = 0; y < image.height; ++y) {
-    const double sine = std::sin(kPi * (y + 0.5) / image.height);
-    for (int x = 0; x < image.width; ++x) {
-      double mean = 0.0;
-      for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx)
-          mean += kTent[dx + 1] * kTent[dy + 1] * texelLuminance(x + dx, y + dy);
-      }
-      const double weight = mean * sine;
-      weights[size_t(y) * size_t(image.width) + size_t(x)] = weight;
-      sum += weight;
-    }
-  }
-  packed.power = kPi * sum * 2.0 * kPi * kPi / double(count);
-  const std::vector<AliasEntry> table = makeAliasTable(weights);
-  packed.texels.reserve(count * 4);
-  packed.alias.reserve(count * 2);
-  for (size_t i = 0; i < count; ++i) {
-    const float* p = image.values.data() + i * image.channelCount();
-    const double density = sum > 0.0 ? weights[i] * double(count) / sum : 1.0;
-    appendRow(packed.texels, glm::vec4(p[0], p[1], p[2], float(density)));
-    packed.alias.insert(packed.alias.end(), {floatWord(table[i].threshold), table[i].alias});
-  }
-  return packed;
 }
 
 }  // namespace fragtrace

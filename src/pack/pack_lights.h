@@ -5,7 +5,7 @@
 
 namespace fragtrace {
 
-/// Emissive triangles and punctual lights in one alias table by power.
+/// Emissive triangles and punctual lights, drawn by power.
 struct PackedEmitters {
   Words entries;  ///< layout.glsl: emitters
   uint32_t count = 0;
@@ -20,16 +20,6 @@ PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> mater
 
 /// Punctual lights, kLightRows vec4 each.
 Words packLights(const Scene& scene);
-
-struct PackedEnvironment {
-  Words texels;  ///< radiance and density (probability * texel count)
-  Words alias;
-  glm::ivec2 size{0};
-  double power =
-      0.0;  ///< luminance that falls on a disk of unit radius from all around: pi * integral over directions
-};
-
-PackedEnvironment packEnvironment(const Image& image);
 
 /// In local space.
 double triangleArea(const Scene& scene, const Triangle& t);

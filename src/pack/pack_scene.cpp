@@ -4,6 +4,7 @@
 
 #include "pack/ggx_energy.h"
 #include "pack/gpu_scene.h"
+#include "pack/pack_environment.h"
 #include "pack/pack_faces.h"
 #include "pack/pack_instances.h"
 #include "pack/pack_lights.h"
@@ -139,6 +140,11 @@ void appendEnergyTable(Words& words) {
   }
 }
 
+EnvironmentDraws drawsOf(const ShaderVariant& variant) {
+  if (!has(variant.traits, Trait::EnvironmentSampling)) return EnvironmentDraws::Nothing;
+  return has(variant.stages, Stage::Gi) ? EnvironmentDraws::LightAndPaths : EnvironmentDraws::Light;
+}
+
 std::vector<glm::vec3> meanRadiance(const Scene& scene, const TraitSet& traits, TexturePacker& textures) {
   std::vector<glm::vec3> radiance(scene.materials.size(), glm::vec3(0.0f));
   if (!has(traits, Trait::Emission)) return radiance;
@@ -196,10 +202,10 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
     packed.punctualLights = uint32_t(scene.lights.size());
   }
   if (has(traits, Trait::Environment)) {
-    PackedEnvironment surroundings = packEnvironment(environment.image);
+    PackedEnvironment surroundings = packEnvironment(environment.image, drawsOf(variant));
     packed.environmentSize = surroundings.size;
     packed.buffers[kEnvironmentBinding] = std::move(surroundings.texels);
-    packed.buffers[kEnvironmentAliasBinding] = std::move(surroundings.alias);
+    packed.buffers[kEnvironmentInversionBinding] = std::move(surroundings.inversion);
     const double power = surroundings.power * radius * radius;
     if (has(traits, Trait::EnvironmentSampling)) {
       // Neither side is left out altogether: a dim one can still be the only light of a corner.

@@ -108,7 +108,7 @@ TEST_P(Layout, SceneBuffersHaveTheirBindingsAndRows) {
       {"EmittersBlock", "emittersBuffer", layout::kEmittersBinding, 16},
       {"LightsBlock", "lightsBuffer", layout::kLightsBinding, 16},
       {"EnvironmentBlock", "environmentBuffer", layout::kEnvironmentBinding, 16},
-      {"EnvironmentAliasBlock", "environmentAliasBuffer", layout::kEnvironmentAliasBinding, 8}};
+      {"EnvironmentInversionBlock", "environmentInversionBuffer", layout::kEnvironmentInversionBinding, 16}};
   ASSERT_EQ(rows.size(), layout::kSceneBufferCount);
   for (const Row& row : rows) {
     EXPECT_EQ(askProgram(program_, GL_SHADER_STORAGE_BLOCK, row.block, GL_BUFFER_BINDING), GLint(row.binding))

@@ -15,6 +15,7 @@ using glm::uvec4;
 inline float abs(float x) { return std::fabs(x); }
 inline float sqrt(float x) { return std::sqrt(x); }
 inline float floor(float x) { return std::floor(x); }
+inline float fract(float x) { return x - std::floor(x); }
 inline float exp(float x) { return std::exp(x); }
 inline float log(float x) { return std::log(x); }
 inline float acos(float x) { return std::acos(x); }

@@ -22,7 +22,7 @@ inline std::span<const uint32_t> materials;
 inline std::span<const uint32_t> emitters;
 inline std::span<const uint32_t> lights;
 inline std::span<const uint32_t> environment;
-inline std::span<const uint32_t> environmentAlias;
+inline std::span<const uint32_t> environmentInversion;
 
 }  // namespace fragtrace::glsl_variant
 

@@ -7,11 +7,7 @@ inline uvec4 readMaterials(int index) { return rowOf(glsl_variant::materials, in
 inline uvec4 readEmitters(int index) { return rowOf(glsl_variant::emitters, index); }
 inline uvec4 readLights(int index) { return rowOf(glsl_variant::lights, index); }
 inline uvec4 readEnvironment(int index) { return rowOf(glsl_variant::environment, index); }
-inline uvec2 readEnvironmentAlias(int index) {
-  // Two entries of the table fill a row.
-  const uvec4 row = rowOf(glsl_variant::environmentAlias, index / 2);
-  return index % 2 == 0 ? uvec2(row.x, row.y) : uvec2(row.z, row.w);
-}
+inline uvec4 readEnvironmentInversion(int index) { return rowOf(glsl_variant::environmentInversion, index); }
 
 // As material.glsl and surface.glsl have them; the tests' emission has no textures.
 inline vec4 readTexcoordsAt(int i) { return uintBitsToFloat(readTexcoords(i)); }

@@ -102,7 +102,7 @@ class Lit {
         emitters_(glsl_variant::emitters, packed.buffers[layout::kEmittersBinding]),
         lights_(glsl_variant::lights, packed.buffers[layout::kLightsBinding]),
         texels_(glsl_variant::environment, packed.buffers[layout::kEnvironmentBinding]),
-        alias_(glsl_variant::environmentAlias, packed.buffers[layout::kEnvironmentAliasBinding]),
+        inversion_(glsl_variant::environmentInversion, packed.buffers[layout::kEnvironmentInversionBinding]),
         frame_(glsl_variant::frame, frameOf(packed)),
         punctual_(glsl_variant::kPunctualLights, !scene.lights.empty()),
         surrounded_(glsl_variant::kEnvironmentSampling, environment) {}
@@ -171,7 +171,7 @@ class Lit {
   With<Span> emitters_;
   With<Span> lights_;
   With<Span> texels_;
-  With<Span> alias_;
+  With<Span> inversion_;
   With<layout::Frame> frame_;
   With<bool> punctual_;
   With<bool> surrounded_;

@@ -204,7 +204,7 @@ double environmentAllAround() {
     const double v = (j + 0.5) / kSteps;
     for (int i = 0; i < 2 * kSteps; ++i) {
       const dvec3 d = glsl_double::environmentDirection(dvec2((i + 0.5) / (2 * kSteps), v));
-      sum += luminanceOf(glsl_double::environmentRadiance(d)) * std::sin(M_PI * v);
+      sum += luminanceOf(dvec3(glsl_double::environmentAlong(d))) * std::sin(M_PI * v);
     }
   }
   return sum * 2.0 * M_PI * M_PI / (2.0 * kSteps * kSteps);

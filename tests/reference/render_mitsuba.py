@@ -248,7 +248,8 @@ def check_environment(scene, texels, rotation_degrees):
     assert np.abs(seen - expected).max() < 1e-4 * expected.max(), np.abs(seen - expected).max()
 
 
-def build(scene, entry, scratch):
+def described(scene, entry, scratch):
+    """The scene as a dictionary, without its environment."""
     width, height = entry["resolution"]
     options = dict(zip(entry["options"][::2], entry["options"][1::2]))
     compensated = options.get("--energy-compensation", "on") == "on"
@@ -272,7 +273,7 @@ def build(scene, entry, scratch):
     for i, mesh in enumerate(scene.meshes):
         path = scratch / ("mesh%d.ply" % i)
         write_ply(path, mesh)
-        result["mesh%d" % i] = {"type": "ply", "filename": str(path), "face_normals": True, 
+        result["mesh%d" % i] = {"type": "ply", "filename": str(path), "face_normals": True,
                                 **surface(mesh.material, compensated, (mesh.colors != 1).any())}
     for i, sphere in enumerate(scene.spheres):
         # Mitsuba's pole is z, glTF's y.
@@ -280,6 +281,12 @@ def build(scene, entry, scratch):
         result["sphere%d" % i] = {"type": "sphere", "to_world": place, **surface(sphere.material, compensated)}
     for i, light in enumerate(scene.lights):
         result["light%d" % i] = punctual(light)
+    return result
+
+
+def build(scene, entry, scratch):
+    options = dict(zip(entry["options"][::2], entry["options"][1::2]))
+    result = described(scene, entry, scratch)
     if "--hdri-file" in options:
         texels = read_pfm(REPOSITORY / options["--hdri-file"])
         result["environment"] = environment(texels, float(options.get("--hdri-rotation", 0)))

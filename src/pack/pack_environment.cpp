@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "pack/pack_environment.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/constants.hpp>
+#include <numeric>
+#include <thread>
+
+#include "bvh/parallel.h"
+#include "pack/inversion_table.h"
+#include "pack/pack_lights.h"
+#include "pack/words.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr double kPi = glm::pi<double>();
+
+/// Calls work(y) for each row, on all processors.
+template <typename Work>
+void forEachRow(int rows, const Work& work) {
+  constexpr int kAtOnce = 16;
+  std::atomic<int> next = 0;
+  const uint32_t threads = std::clamp(std::thread::hardware_concurrency(), 1u, uint32_t(std::max(1, rows / 64)));
+  runOnThreads(threads, [&](uint32_t) {
+    for (int y = next.fetch_add(kAtOnce); y < rows; y = next.fetch_add(kAtOnce)) {
+      for (int k = y; k < std::min(rows, y + kAtOnce); ++k) work(k);
+    }
+  });
+}
+
+double sineOfRow(const Image& image, int y) { return std::sin(kPi * (y + 0.5) / image.height); }
+
+/// Radiance and luminance of a row's texels; gives the sum of the luminance.
+double copyRow(const Image& image, int y, std::span<uint32_t> texels) {
+  const float* p = image.pixel(0, y);
+  double sum = 0.0;
+  for (size_t i = 0; i < texels.size(); i += 4, p += image.channelCount()) {
+    const double bright = std::max(0.0, luminance(glm::dvec3(p[0], p[1], p[2])));
+    std::memcpy(&texels[i], p, 3 * sizeof(float));
+    texels[i + 3] = floatWord(float(bright));
+    sum += bright;
+  }
+  return sum;
+}
+
+/// Luminance above a level.
+std::vector<float> weightsOf(std::span<const uint32_t> texels, float level) {
+  std::vector<float> weights(texels.size() / 4);
+  for (size_t i = 0; i < weights.size(); ++i)
+    weights[i] = std::max(0.0f, std::bit_cast<float>(texels[4 * i + 3]) - level);
+  return weights;
+}
+
+/// The mean, unless the map is so even that hardly a texel is brighter.
+float levelOf(const PackedEnvironment& packed, double mean) {
+  constexpr double kEven = 1.01;
+  for (size_t i = 3; i < packed.texels.size(); i += 4) {
+    if (double(std::bit_cast<float>(packed.texels[i])) > kEven * mean) return float(mean);
+  }
+  return 0.0f;
+}
+
+void storeSteps(std::span<uint32_t> words, std::span<const InversionStep> steps) {
+  std::memcpy(words.data(), steps.data(), steps.size_bytes());
+}
+
+void scaleDensities(std::span<uint32_t> texels, float factor) {
+  for (size_t i = 3; i < texels.size(); i += 4) texels[i] = floatWord(std::bit_cast<float>(texels[i]) * factor);
+}
+
+}  // namespace
+
+PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws) {
+  PackedEnvironment packed;
+  packed.size = {image.width, image.height};
+  const auto rows = size_t(image.height);
+  const size_t rowWords = size_t(image.width) * 4;
+  const size_t stepCount = std::max<size_t>(1, size_t(image.width) / 2);
+  const size_t stepWords = stepCount * 4;
+  const bool drawn = draws != EnvironmentDraws::Nothing;
+  // Step: two large arrays, whose pages are made at once.
+  runOnThreads(2, [&](uint32_t part) {
+    if (part == 0) packed.texels.resize(rows * rowWords);
+    if (part == 1 && drawn) packed.inversion.resize(rows * 4 + rows * stepWords);
+  });
+  const auto texelsOf = [&](int y) { return std::span(packed.texels).subspan(size_t(y) * rowWords, rowWords); };
+
+  // Step: what is seen.
+  std::vector<double> sums(rows);
+  forEachRow(image.height, [&](int y) { sums[size_t(y)] = copyRow(image, y, texelsOf(y)) / image.width * sineOfRow(image, y); });
+  const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
+  packed.power = kPi * 2.0 * kPi * kPi * sum / double(rows);
+  if (!drawn) return packed;
+
+  // Step: each row's table, and the table of the rows.
+  double sines = 0.0;
+  for (int y = 0; y < image.height; ++y) sines += sineOfRow(image, y);
+  const std::span<uint32_t> inversion(packed.inversion);
+  std::vector<float> densities(rows);
+  const float level = draws == EnvironmentDraws::LightAndPaths ? levelOf(packed, sum / sines) : 0.0f;
+  forEachRow(image.height, [&](int y) {
+    const std::span<uint32_t> texels = texelsOf(y);
+    std::vector<float> row = weightsOf(texels, level);
+    std::vector<InversionStep> steps(stepCount);
+    densities[size_t(y)] = float(makeInversionTable(row, steps) / image.width * sineOfRow(image, y));
+    for (size_t x = 0; x < row.size(); ++x) texels[4 * x + 3] = floatWord(row[x]);
+    storeSteps(inversion.subspan(rows * 4 + size_t(y) * stepWords, stepWords), steps);
+  });
+  std::vector<InversionStep> steps(rows);
+  makeInversionTable(densities, steps);
+  storeSteps(inversion.first(rows * 4), steps);
+  forEachRow(image.height, [&](int y) { scaleDensities(texelsOf(y), densities[size_t(y)]); });
+  return packed;
+}
+
+}  // namespace fragtrace
