@@ -8,7 +8,7 @@ namespace fragtrace {
 namespace {
 
 /// The options with all that changes neither picture nor samples as by default.
-RenderOptions sampled(RenderOptions o) {
+RenderOptions sampledPart(RenderOptions o) {
   const RenderOptions standard;
   o.stages.set(size_t(Stage::Watertight), has(standard.stages, Stage::Watertight));
   o.output = standard.output;
@@ -38,9 +38,9 @@ RenderOptions sampled(RenderOptions o) {
 }
 
 /// The same, with what changes the samples alone.
-RenderOptions shown(const RenderOptions& options) {
+RenderOptions shownPart(const RenderOptions& options) {
   const RenderOptions standard;
-  RenderOptions o = sampled(options);
+  RenderOptions o = sampledPart(options);
   o.stages.set(size_t(Stage::Sobol), has(standard.stages, Stage::Sobol));
   o.stages.set(size_t(Stage::LightSampling), has(standard.stages, Stage::LightSampling));
   o.seed = standard.seed;
@@ -51,8 +51,10 @@ RenderOptions shown(const RenderOptions& options) {
 
 }  // namespace
 
-bool showSame(const RenderOptions& a, const RenderOptions& b) { return shown(a) == shown(b); }
+bool showSame(const RenderOptions& a, const RenderOptions& b) { return shownPart(a) == shownPart(b); }
 
-bool drawSameSamples(const RenderOptions& a, const RenderOptions& b) { return sampled(a) == sampled(b); }
+bool drawSameSamples(const RenderOptions& a, const RenderOptions& b) {
+  return sampledPart(a) == sampledPart(b);
+}
 
 }  // namespace fragtrace
