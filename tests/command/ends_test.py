@@ -47,11 +47,11 @@ class BeforeTheFirstSample(Case):
 
 class AtTheEnd(Case):
     def lost(self, name, *options):
-        """A render of two seconds whose image library is gone when it ends."""
+        """A render of three seconds whose image library is gone when it ends."""
         for program in ("fragtrace", WORKER):
             shutil.copy(FRAGTRACE.parent / program, self.folder / program)
         with subprocess.Popen([self.folder / "fragtrace", "render", BOX, "-o", self.folder / name, "--resolution", "16,12",
-                               "--time", "2", *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               "--time", "3", *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                               env={**os.environ, "FRAGTRACE_LIBRARY_PATH": str(self.folder)}) as process:
             self.assertIn("rendering", process.stderr.readline())
             (self.folder / WORKER).unlink()
