@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/numbers.h"
 #include "errors.h"
 
 namespace fragtrace {
@@ -22,7 +23,7 @@ void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
       "--reference", o.reference,
       "picture to measure against; default: one of the first configuration with 64 times the samples");
   app.add_option("--repetitions", o.repetitions, "with different seeds")
-      ->check(CLI::Range(1, 1000))
+      ->check(wholeNumber(1, 1000))
       ->capture_default_str();
   app.add_option("--goal", o.goal, "relative MSE whose time is compared")
       ->check(CLI::Range(1e-12, 1e3))

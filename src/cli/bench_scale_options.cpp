@@ -7,6 +7,7 @@
 
 #include "cli/choose.h"
 #include "cli/device_options.h"
+#include "cli/numbers.h"
 
 namespace fragtrace {
 
@@ -25,23 +26,23 @@ const std::vector<std::string>& traversalNames() {
 void addBenchScaleOptions(CLI::App& app, RawBenchScale& raw) {
   BenchScaleOptions& o = raw.options;
   app.add_option("--from", o.from, "triangles of the smallest scene")
-      ->check(CLI::Range(kFewest, kMost))
+      ->check(wholeNumber(kFewest, kMost))
       ->capture_default_str();
   app.add_option("--to", o.to, "triangles of the largest scene")
-      ->check(CLI::Range(kFewest, kMost))
+      ->check(wholeNumber(kFewest, kMost))
       ->capture_default_str();
   app.add_option("--per-decade", o.perDecade, "sizes in each factor of ten")
-      ->check(CLI::Range(1, 10))
+      ->check(wholeNumber(1, 10))
       ->capture_default_str();
   app.add_option("--resolution", raw.render.camera.resolution, "WIDTH,HEIGHT of the picture")
       ->delimiter(',')
       ->expected(2)
-      ->check(CLI::Range(8, 4096));
+      ->check(wholeNumber(8, 4096));
   raw.render.camera.resolution = {500, 500};
   app.add_option("--traversals", raw.traversals, joined(traversalNames()) + "; the first is compared with")
       ->delimiter(',');
   app.add_option("--rounds", o.rounds, "how often frames are timed, in turn")
-      ->check(CLI::Range(1, 1000))
+      ->check(wholeNumber(1, 1000))
       ->capture_default_str();
   app.add_option("--longest", o.longest, "seconds that a frame of the iterative traversal may take")
       ->check(CLI::Range(0.001, 1e6))

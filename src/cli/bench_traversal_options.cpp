@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/device_options.h"
+#include "cli/numbers.h"
 #include "errors.h"
 
 namespace fragtrace {
@@ -15,13 +16,15 @@ void addBenchTraversalOptions(CLI::App& app, RawBenchTraversal& raw) {
                  "WIDTH,HEIGHT of the field of rays, one a pixel")
       ->delimiter(',')
       ->expected(2)
-      ->check(CLI::Range(1, 4096));
+      ->check(wholeNumber(1, 4096));
   raw.render.camera.resolution = {1024, 1024};
   app.add_option("--rounds", o.rounds, "how often each set is traced, in turn")
-      ->check(CLI::Range(1, 10000))
+      ->check(wholeNumber(1, 10000))
       ->capture_default_str();
   app.add_option("--traversal", raw.render.traversal, "auto, bvh, front-to-back")->capture_default_str();
-  app.add_option("--camera-index", raw.render.camera.index, "camera of the primary rays, from 0");
+  CLI::Option* index =
+      app.add_option("--camera-index", raw.render.camera.index, "camera of the primary rays, from 0");
+  app.add_option("--camera", raw.render.camera.name, "name or index of it")->excludes(index);
   app.add_option("--seed", raw.render.options.seed, "of diffuse and shadow rays")->capture_default_str();
   app.add_option("--json", o.json, "file for everything measured, a line a kind of rays");
   app.add_option("--rays", o.rays, "file for triangles and rays, to be traced by another (bench/peers)");

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "cli/numbers.h"
 #include "errors.h"
 
 namespace fragtrace {
@@ -78,9 +79,13 @@ void addCameraOptions(CLI::App& app, RawCamera& raw) {
                  "WIDTH,HEIGHT or WIDTHxHEIGHT; default 1280,720, or 720 high at the camera's aspect ratio")
       ->delimiter(',')
       ->expected(2)
-      ->check(CLI::Range(1, 65536));
-  app.add_option("--camera-index", raw.index,
-                 "camera of the scene, from 0; default: the first, else one that frames it");
+      ->check(wholeNumber(1, 65536));
+  CLI::Option* index =
+      app.add_option("--camera-index", raw.index,
+                     "camera of the scene, from 0; default: the first, else one that frames it")
+          ->check(wholeNumber(0, std::numeric_limits<int>::max()));
+  app.add_option("--camera", raw.name, "name or index of the camera, of those that `info` lists")
+      ->excludes(index);
   addVector("--camera-position", raw.position, "X,Y,Z in world space");
   addVector("--camera-focal-point", raw.focalPoint, "X,Y,Z");
   addVector("--camera-view-up", raw.viewUp, "X,Y,Z");
@@ -96,6 +101,7 @@ void addCameraOptions(CLI::App& app, RawCamera& raw) {
 void finishCamera(const RawCamera& raw, RenderOptions& options) {
   if (!raw.resolution.empty()) options.resolution = glm::ivec2(raw.resolution[0], raw.resolution[1]);
   options.cameraIndex = raw.index;
+  options.selection.camera = raw.name;
   options.camera.position = placeOf("--camera-position", raw.position);
   options.camera.focalPoint = placeOf("--camera-focal-point", raw.focalPoint);
   options.camera.viewUp = vectorOf("--camera-view-up", raw.viewUp);
@@ -108,6 +114,7 @@ void finishCamera(const RawCamera& raw, RenderOptions& options) {
 
 std::string cameraText(const RenderOptions& options) {
   std::string text;
+  if (!options.selection.camera.empty()) append(text, "--camera", "\"" + options.selection.camera + "\"");
   if (options.cameraIndex) append(text, "--camera-index", std::to_string(*options.cameraIndex));
   append(text, "--camera-position", options.camera.position);
   append(text, "--camera-focal-point", options.camera.focalPoint);

@@ -18,6 +18,7 @@ namespace fragtrace {
 struct RawCamera {
   std::vector<int> resolution;
   std::optional<int> index;
+  std::string name;
   std::vector<double> position;
   std::vector<double> focalPoint;
   std::vector<double> viewUp;

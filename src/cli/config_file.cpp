@@ -2,6 +2,7 @@
 #include "cli/config_file.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -86,8 +87,8 @@ std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& com
     const bool isFlag = option->get_expected_max() == 0;
     if (isFlag && !value.is_boolean()) throw InputError(place + ": is neither true nor false");
     if (!isFlag && value.is_array() && value.empty()) throw InputError(place + ": is empty");
-    const std::vector<std::string> values =
-        isFlag ? std::vector<std::string>{"true"} : spelledValues(value, place);
+    std::vector<std::string> values = isFlag ? std::vector<std::string>{"true"} : spelledValues(value, place);
+    if (name == "resolution") std::ranges::transform(values, values.begin(), withNumberSettled);
     if (overruled || (isFlag && !value.get<bool>())) continue;
     try {
       option->add_result(values);

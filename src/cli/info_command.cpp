@@ -5,9 +5,9 @@
 #include "bvh/two_level.h"
 #include "cli/commands.h"
 #include "cli/scene_json.h"
-#include "gltf/diagnostics.h"
 #include "gltf/gltf.h"
 #include "pack/gpu_scene.h"
+#include "scene/parts.h"
 #include "stage/variant.h"
 
 namespace fragtrace {
@@ -26,10 +26,56 @@ double gpuBytesPerTriangle(const Scene& scene, const Bvh& bvh, const TraitSet& t
   return double(packScene(scene, bvh, {}, variant).geometryBytes()) / double(scene.triangles.size());
 }
 
-/// The parts that options may name, by index where one has no name; nothing where there is none.
-void printParts(const char* what, const std::vector<std::string>& names) {
+/// The parts that options may name: how many, and of each its index, its name and a note; nothing where there
+/// is none.
+void printParts(const char* what, const std::vector<std::string>& names,
+                const std::vector<std::string>& notes = {}) {
   if (names.empty()) return;
-  std::printf("  %-11s %s\n", what, listOfParts(names).c_str());
+  std::string list;
+  for (size_t i = 0; i < names.size(); ++i) {
+    const std::string note = i < notes.size() ? notes[i] : "";
+    list +=
+        (i == 0 ? "" : ", ") + std::to_string(i) + " " + (names[i].empty() ? "unnamed" : inQuotes(names[i]));
+    if (!note.empty()) list += " (" + note + ")";
+  }
+  std::printf("  %-11s %zu: %s\n", what, names.size(), list.c_str());
+}
+
+const char* kindOf(const Camera& camera) { return camera.perspective ? "perspective" : "orthographic"; }
+
+void printAllParts(const Scene& scene) {
+  std::vector<std::string> cameras;
+  std::vector<std::string> kinds;
+  for (const Camera& camera : scene.cameras) {
+    cameras.push_back(camera.name);
+    kinds.emplace_back(kindOf(camera));
+  }
+  std::vector<std::string> durations;
+  for (const std::optional<double>& seconds : scene.animationSeconds) {
+    char text[32] = "of unknown duration";
+    if (seconds) std::snprintf(text, sizeof text, "%.4g s", *seconds);
+    durations.emplace_back(text);
+  }
+  printParts("cameras", cameras, kinds);
+  printParts("scenes", scene.sceneNames);
+  printParts("animations", scene.animationNames, durations);
+  printParts("variants", scene.materialVariants);
+}
+
+/// The same as JSON.
+void addParts(nlohmann::ordered_json& json, const Scene& scene) {
+  json["scene_names"] = scene.sceneNames;
+  json["animation_names"] = scene.animationNames;
+  json["animations"] = nlohmann::ordered_json::array();
+  for (size_t i = 0; i < scene.animationNames.size(); ++i) {
+    nlohmann::ordered_json animation = {{"name", scene.animationNames[i]}, {"duration_s", nullptr}};
+    if (scene.animationSeconds[i]) animation["duration_s"] = *scene.animationSeconds[i];
+    json["animations"].push_back(std::move(animation));
+  }
+  json["cameras"] = nlohmann::ordered_json::array();
+  for (const Camera& camera : scene.cameras)
+    json["cameras"].push_back({{"name", camera.name}, {"type", kindOf(camera)}});
+  json["material_variants"] = scene.materialVariants;
 }
 
 void printText(const std::filesystem::path& path, const SceneDescription& s, const BvhQuality& bvh,
@@ -41,8 +87,7 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
               s.images, double(s.imageBytes) / 1e6);
   std::printf("  lights      %zu point, %zu spot, %zu directional\n", s.pointLights, s.spotLights,
               s.directionalLights);
-  std::printf("  cameras     %zu perspective, %zu orthographic\n", s.perspectiveCameras,
-              s.orthographicCameras);
+  if (s.cameras() == 0) std::printf("  cameras     none\n");
   std::string extensions;
   for (const std::string& name : s.extensionsUsed) extensions += (extensions.empty() ? "" : ", ") + name;
   std::printf("  extensions  %s\n", extensions.empty() ? "none" : extensions.c_str());
@@ -89,9 +134,7 @@ int inform(const InfoOptions& options) {
       scene.triangles.empty() ? 0.0 : gpuBytesPerTriangle(scene, tree, traits, surroundings);
   if (!options.json) {
     printText(options.scene, description, bvh, bytesPerTriangle, traits);
-    printParts("scenes", scene.sceneNames);
-    printParts("animations", scene.animationNames);
-    printParts("variants", scene.materialVariants);
+    printAllParts(scene);
     return 0;
   }
   nlohmann::ordered_json json;
@@ -110,9 +153,7 @@ int inform(const InfoOptions& options) {
   nlohmann::ordered_json materials = nlohmann::ordered_json::array();
   for (const Material& m : scene.materials) materials.push_back(m.name);
   json["material_names"] = materials;
-  json["scene_names"] = scene.sceneNames;
-  json["animation_names"] = scene.animationNames;
-  json["material_variants"] = scene.materialVariants;
+  addParts(json, scene);
   json["warnings"] = scene.warnings;
   std::cout << jsonText(json);
   return 0;

@@ -4,17 +4,18 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
+#include "cli/numbers.h"
+
 namespace fragtrace {
 
 void addInputOptions(CLI::App& app, InputLimits& limits) {
   app.add_option(
          "--memory-limit", limits.memoryBytes,
-         "memory that files may ask for, such as 500MB or 2GiB; default: 8 GiB, half of the machine's "
-         "or ulimit -v, whichever is least")
-      ->transform(CLI::AsSizeValue(true))
-      ->check(CLI::PositiveNumber);
+         "memory that files and the picture may each ask for, such as 500MB or 2GiB, at least 1MB; default: "
+         "8 GiB, half of the machine's or ulimit -v, whichever is least")
+      ->transform(memorySize(kLeastMemoryBytes));
   app.add_option("--texture-limit", limits.textureSide, "pixels; wider or higher textures are scaled down")
-      ->check(CLI::Range(1, kLargestTextureSide));
+      ->check(wholeNumber(1, kLargestTextureSide));
   app.add_flag("--allow-external-files", limits.allowExternalFiles,
                "the scene may name files that are not in its folder");
 }

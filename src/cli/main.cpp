@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
 #include <iostream>
@@ -17,8 +20,17 @@ int fail(ExitStatus status, const char* message) {
   return status;
 }
 
+/// A stream that was closed would else be the first file that is opened, and get what is printed.
+void openClosedStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    // The lowest free descriptor is the one just found closed.
+    if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY);
+  }
+}
+
 int run(int argc, char** argv) {
   using namespace fragtrace;
+  openClosedStreams();
   // A full pipe or file gives an error where it is written to, which reaches the user.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);

@@ -3,12 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <iostream>
 
 #include "cli/choose.h"
 #include "cli/config_file.h"
 #include "cli/input_options.h"
 #include "cli/render_options.h"
+#include "cli/suggestion.h"
 #include "image/format.h"
 #include "image/image.h"
 
@@ -17,9 +19,45 @@ namespace fragtrace {
 namespace {
 
 std::vector<std::string> argumentsOf(int argc, const char* const* argv) {
+  // A name may look like a size.
+  constexpr std::array<std::string_view, 4> kNamed = {"--scene", "--animation", "--camera",
+                                                      "--material-variant"};
   std::vector<std::string> arguments;
-  for (int i = argc - 1; i > 0; --i) arguments.push_back(withNumberSettled(argv[i]));
+  for (int i = argc - 1; i > 0; --i) {
+    const bool isName = std::ranges::find(kNamed, std::string_view(argv[i - 1])) != kNamed.end();
+    arguments.push_back(isName ? argv[i] : withNumberSettled(argv[i]));
+  }
   return arguments;  // last first, as the library wants them
+}
+
+std::vector<std::string> commandNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+/// The library would call an unknown command an argument too many.
+void checkCommand(const CLI::App& app, std::optional<std::string> word) {
+  const std::vector<std::string> names = commandNames(app);
+  if (!word || word->starts_with('-') || std::ranges::find(names, *word) != names.end()) return;
+  throw UsageError("'" + *word + "' is no command of " + app.get_name() + ": " + joined(names));
+}
+
+/// What the library calls arguments that were not expected.
+std::string whatIsUnknown(const CLI::App& app) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  const std::vector<std::string> left = app.remaining(true);
+  const auto option =
+      std::ranges::find_if(left, [](const std::string& word) { return word.starts_with('-'); });
+  if (option == left.end()) return "'" + left.front() + "' is an argument too many; --help says more";
+  std::vector<std::string> known;
+  for (const CLI::Option* one : command->get_options()) known.push_back(one->get_name());
+  const std::string unknown = option->substr(0, option->find('='));
+  const std::string meant = suggestedOption(unknown, known);
+  return unknown + " is no option of " + command->get_name() +
+         (meant.empty() ? "; --help lists them" : "; did you mean " + meant + "?");
 }
 
 }  // namespace
@@ -94,18 +132,16 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   CLI::App& benchStress = *bench.add_subcommand("stress", "what breaks ray tracers, as rates of failure");
   addBenchStressOptions(benchStress, rawStress);
 
-  std::vector<std::string> commands;
-  for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
-    commands.push_back(command->get_name());
-  if (argc > 1 && argv[1][0] != '-' &&
-      std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
-    throw UsageError("'" + std::string(argv[1]) + "' is no command: " + joined(commands));
-  }
+  const auto word = [&](int i) { return i < argc ? std::optional<std::string>(argv[i]) : std::nullopt; };
+  checkCommand(app, word(1));
+  if (word(1) == "bench") checkCommand(bench, word(2));
   try {
     app.parse(argumentsOf(argc, argv));
   } catch (const CLI::Success& success) {
     app.exit(success, std::cout, std::cerr);
     return std::nullopt;
+  } catch (const CLI::ExtrasError&) {
+    throw UsageError(whatIsUnknown(app));
   } catch (const CLI::ParseError& error) {
     throw UsageError(std::string(error.what()) + "; --help says more");
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/outputs.h"
 
+#include <cstdio>
+
 #include "errors.h"
 #include "image/whole_file.h"
 
@@ -18,8 +20,14 @@ bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
 
 }  // namespace
 
+bool isStandardOutput(const std::filesystem::path& path) { return path == "-"; }
+
 void checkOutputs(std::span<const NamedOutput> outputs, std::span<const std::filesystem::path> inputs) {
   for (const NamedOutput& output : outputs) {
+    if (isStandardOutput(output.path)) {
+      if (output.orStandardOutput) continue;
+      throw UsageError(std::string(output.option) + ": '-' is no file, and standard output does not take it");
+    }
     if (!output.path.empty()) checkReplaceable(output.path);
     const std::string name = std::string(output.option) + ": " + output.path.string();
     for (const std::filesystem::path& input : inputs) {
@@ -33,7 +41,11 @@ void checkOutputs(std::span<const NamedOutput> outputs, std::span<const std::fil
 }
 
 void replaceText(const std::filesystem::path& path, const std::string& text) {
-  if (!path.empty()) replaceFile(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+  if (isStandardOutput(path)) {
+    std::fputs(text.c_str(), stdout);  // main() sees whether it could be written
+  } else if (!path.empty()) {
+    replaceFile(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+  }
 }
 
 std::vector<std::filesystem::path> inputsOf(const RenderOptions& options) {
@@ -47,7 +59,7 @@ std::vector<std::filesystem::path> inputsOf(const Scene& scene) {
 }
 
 std::vector<NamedOutput> outputsOf(const RenderOptions& options) {
-  return {{"--output", options.output}, {"--stats", options.statsFile}};
+  return {{"--output", options.output}, {"--stats", options.statsFile, true}};
 }
 
 }  // namespace fragtrace

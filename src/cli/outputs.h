@@ -15,13 +15,18 @@ namespace fragtrace {
 struct NamedOutput {
   const char* option;
   std::filesystem::path path;
+  bool orStandardOutput = false;  ///< which is what "-" means there
 };
 
+/// Whether a path means standard output where an option has it so.
+bool isStandardOutput(const std::filesystem::path& path);
+
 /// Before long work: throws RenderError when an output cannot be written, UsageError when one is a file that
-/// is read, or two are one file.
+/// is read, two are one file, or one is "-" and not for standard output.
 void checkOutputs(std::span<const NamedOutput> outputs, std::span<const std::filesystem::path> inputs);
 
-/// Makes a file hold this text, whole or not at all; nothing when there is no path. Throws RenderError.
+/// Makes a file hold this text, whole or not at all, or prints it where the path is that of standard output;
+/// nothing when there is no path. Throws RenderError.
 void replaceText(const std::filesystem::path& path, const std::string& text);
 
 /// The files that a render reads, but for the pictures that the scene refers to.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/picture_file.h"
 
+#include <set>
+
 #include "image/channels.h"
 #include "image/format.h"
 #include "image/heatmap.h"
@@ -20,6 +22,31 @@ void drawLines(Image& display, std::span<const PictureLine> lines) {
   const glm::dvec2 middle(0.5 * display.width, 0.5 * display.height);
   for (const PictureLine& line : lines)
     drawLine(display, middle + line.from * half, middle + line.to * half, orange);
+}
+
+/// Beside the output, where nothing is overwritten.
+std::filesystem::path rescuePath(std::filesystem::path output) {
+  const std::string stem = output.stem().string();
+  output.replace_extension(".pfm");
+  std::error_code error;
+  for (int i = 2; std::filesystem::exists(std::filesystem::symlink_status(output, error)); ++i)
+    output.replace_filename(stem + "-" + std::to_string(i) + ".pfm");
+  return output;
+}
+
+/// What a picture has that a .pfm has not: "the layers albedo, A and what merge needs".
+std::string lostInPfm(const RenderOptions& options, const Image& linear) {
+  std::set<std::string> layers;
+  for (const std::string& channel : linear.channels) {
+    if (channel != "R" && channel != "G" && channel != "B")
+      layers.insert(channel == "A" ? "alpha" : channel.substr(0, channel.find('.')));
+  }
+  std::string lost;
+  for (const std::string& layer : layers) lost += (lost.empty() ? "" : ", ") + layer;
+  const auto add = [&](const char* more) { lost += (lost.empty() ? "" : " and ") + std::string(more); };
+  if (isDisplayFormat(options.output)) add("what only a display has (exposure, tone curve, boxes)");
+  if (!linear.attributes.empty()) add("what merge needs");
+  return lost;
 }
 
 }  // namespace
@@ -43,6 +70,26 @@ std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedSce
   const std::vector<Bounds> boxes = boxesAtLevel(loaded.bvh, uint32_t(*options.treeLevel));
   if (boxes.empty()) say(options, "warning: the tree has no level " + std::to_string(*options.treeLevel));
   return boxEdges(boxes, projectionOf(camera, double(size.x) / size.y), loaded.scene.space);
+}
+
+void checkPictureWritable(const RenderOptions& options, glm::ivec2 size) {
+  size_t channels =
+      3 + size_t(!options.background) + size_t(options.aovSamples) + size_t(options.aovVariance);
+  for (const Feature feature : options.aovFeatures) channels += rowOf(feature).channels.size();
+  checkImageWritable(options.output, size.x, size.y, channels);
+}
+
+std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason) {
+  if (formatOfName(options.output) == ImageFormat::Pfm) return reason;
+  const std::filesystem::path path = rescuePath(options.output);
+  try {
+    writeImage(path, linear);
+  } catch (const std::exception& error) {
+    return reason + "; nor as .pfm: " + error.what();
+  }
+  const std::string lost = lostInPfm(options, linear);
+  return reason + "; the " + (showsColors(options) ? "colours" : "radiance") + " alone is in " +
+         path.string() + (lost.empty() ? "" : ", lost: " + lost);
 }
 
 void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> lines) {

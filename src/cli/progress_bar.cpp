@@ -22,11 +22,12 @@ std::string timeText(double seconds) {
 ProgressBar::ProgressBar(std::string label, bool quiet)
     : label_(std::move(label)), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
 
-void ProgressBar::show(double fraction) {
+void ProgressBar::show(double fraction, double secondsAfter) {
   if (quiet_) return;
   const auto now = Clock::now();
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const std::string left = fraction > 0.0 ? timeText(elapsed * (1.0 - fraction) / fraction) : "?";
+  const std::string left =
+      fraction > 0.0 ? timeText(elapsed * (1.0 - fraction) / fraction + secondsAfter) : "?";
   if (terminal_) {
     if (drawn_ && now - last_ < std::chrono::milliseconds(100)) return;
     constexpr int kCells = 30;

@@ -11,7 +11,8 @@ namespace fragtrace {
 class ProgressBar {
  public:
   ProgressBar(std::string label, bool quiet);
-  void show(double fraction);
+  /// The time left is that of this work, by the fraction done, and of what follows it.
+  void show(double fraction, double secondsAfter = 0.0);
   /// Removes the bar, so that messages can follow.
   void clear();
 

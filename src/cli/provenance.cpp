@@ -57,7 +57,9 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   json["hdri"] = options.hdriFile.filename().string();
   json["hdri_rotation"] = options.hdriRotationDegrees;
   json["background"] = options.background;
-  json["background_color"] = numbers(glm::dvec3(options.backgroundColor));
+  json["background_color"] = nullptr;
+  if (!seesEnvironment(options))
+    json["background_color"] = numbers(glm::dvec3(options.backgroundColor.value_or(glm::vec3(0.0f))));
   json["camera_position"] = numbers(camera.position);
   json["camera_forward"] = numbers(camera.forward);
   json["camera_up"] = numbers(camera.up);

@@ -2,6 +2,8 @@
 // The command line as a pipeline: scene, tree, context, packed scene, renderer, film, picture.
 #include <cmath>
 #include <cstdio>
+#include <numeric>
+#include <span>
 
 #include "cli/commands.h"
 #include "cli/interrupt.h"
@@ -29,12 +31,13 @@ struct Drawing {
   std::vector<double> variance;  ///< a better estimate than the pixels' own; may be empty
 };
 
+/// `secondsAfter` is what the layers will take.
 Drawing draw(Renderer& renderer, Film& film, const RenderOptions& options, const View& view,
-             Statistics& stats) {
+             double secondsAfter, Statistics& stats) {
   const bool adaptive = options.noise > 0.0 || options.seconds > 0.0;
   ProgressBar bar("rendering", options.quiet);
   const Renderer::Progress progress = [&](double fraction) {
-    bar.show(fraction);
+    bar.show(fraction, secondsAfter);
     return interrupts() == 0;
   };
   Drawing drawing;
@@ -68,23 +71,53 @@ void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film) {
   }
 }
 
+/// Seconds that a sample of each layer takes in all pixels, measured in the middle of the picture; all are
+/// compiled, so that none fails when the picture is drawn. The film ends up cleared.
+std::vector<double> measureFeatures(const Tracer& tracer, Film& film, const LoadedScene& loaded,
+                                    Statistics& stats) {
+  constexpr int kSide = 256;
+  Work work{{}, glm::min(film.size(), glm::ivec2(kSide)), 0, 1};
+  work.corner = (film.size() - work.size) / 2;
+  const double parts = double(film.size().x) * film.size().y / (double(work.size.x) * work.size.y);
+  std::vector<double> seconds;
+  for (const ShaderVariant& variant : tracer.features) {
+    stats.compileMs += tracer.renderer->compile(variant, film, loaded.view);
+    RenderTimes times;
+    tracer.renderer->addSamples(film, loaded.view, {&work, 1}, times);
+    seconds.push_back(0.001 * times.renderMs * parts);
+    film.clear();
+  }
+  return seconds;
+}
+
+/// What layers will take: those of an adaptive picture have the fewest samples of any pixel, which is not yet
+/// known, but these at least.
+double secondsOfFeatures(std::span<const double> secondsPerSample, const RenderOptions& options) {
+  constexpr int kLeastAdaptive = 64;
+  const bool adaptive = options.noise > 0.0 || options.seconds > 0.0;
+  const int samples = adaptive ? std::min(options.spp, kLeastAdaptive) : options.spp;
+  return samples * std::accumulate(secondsPerSample.begin(), secondsPerSample.end(), 0.0);
+}
+
 /// Adds the layers of first hits, drawn with the picture's samples: of an adaptive one those that all pixels
 /// have, of an interrupted one a few, since somebody waits.
 void addFeatures(Image& picture, const Tracer& tracer, const RenderOptions& options,
-                 const LoadedScene& loaded, Statistics& stats) {
+                 const LoadedScene& loaded, std::span<const double> secondsPerSample, Statistics& stats) {
   constexpr unsigned kFewSamples = 16;
   const unsigned drawn = std::max(1u, stats.adaptive ? stats.film.fewestSamples : stats.film.mostSamples);
   const int samples = int(stats.complete ? drawn : std::min(drawn, kFewSamples));
   const int before = interrupts();
   for (const ShaderVariant& variant : tracer.features) {
     const FeatureRow& row = rowOf(variant.feature);
+    secondsPerSample = secondsPerSample.subspan(1);
+    const double after = samples * std::accumulate(secondsPerSample.begin(), secondsPerSample.end(), 0.0);
     Film film(loaded.size);
     RenderTimes times;
     stats.compileMs += tracer.renderer->compile(variant, film, loaded.view);
     ProgressBar bar("layer " + std::string(row.name), options.quiet);
     const bool complete =
         tracer.renderer->addSamples(film, loaded.view, 0, samples, times, [&](double fraction) {
-          bar.show(fraction);
+          bar.show(fraction, after);
           return interrupts() == before;
         });
     bar.clear();
@@ -97,6 +130,16 @@ void addFeatures(Image& picture, const Tracer& tracer, const RenderOptions& opti
     for (const char channel : row.channels) names.push_back(std::string(row.name) + "." + channel);
     appendChannels(picture, layer, names);
   }
+}
+
+/// An .exr says how it was made, as merge needs it.
+void setProvenanceOf(Image& picture, const RenderOptions& options, const LoadedScene& loaded,
+                     const Tracer& tracer, const Statistics& stats) {
+  if (formatOfName(options.output) != ImageFormat::OpenExr || options.debugView != DebugView::None) return;
+  const bool uniform =
+      stats.complete && stats.film.fewestSamples == stats.film.mostSamples && !stats.adaptive;
+  setProvenance(picture, {settingsText(options, loaded, tracer), options.seed, options.sampleOffset,
+                          std::llround(samplesPerPixel(stats)), uniform});
 }
 
 void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
@@ -114,9 +157,21 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
     say(options, "warning: --spp or --time ended the render before the noise asked for");
   }
   if (options.quiet) return;
-  std::printf("%s: %d x %d, %.4g samples a pixel in %.2f s (%.2f million paths/s)%s\n",
-              options.output.string().c_str(), stats.size.x, stats.size.y, samplesPerPixel(stats),
-              stats.times.renderMs / 1000.0, megaPathsPerSecond(stats), noise.c_str());
+  // Standard output is the statistics' alone.
+  std::fprintf(isStandardOutput(options.statsFile) ? stderr : stdout,
+               "%s: %d x %d, %.4g samples a pixel in %.2f s (%.2f million paths/s)%s\n",
+               options.output.string().c_str(), stats.size.x, stats.size.y, samplesPerPixel(stats),
+               stats.times.renderMs / 1000.0, megaPathsPerSecond(stats), noise.c_str());
+}
+
+void sayWhatIsChosen(const RenderOptions& options, const Context& context, const Tracer& tracer,
+                     const Statistics& stats) {
+  if (options.verbose) {
+    say(options, "OpenGL " + context.version + " on " + context.renderer + " (" + context.backend + ")");
+    say(options, "variant " + stats.variant);
+    for (const std::string& line : stats.skipped) say(options, "skipped " + line);
+  }
+  if (tracer.variant.clampIndirect) say(options, "indirect light is clamped (--clamp-indirect): biased");
 }
 
 }  // namespace
@@ -136,17 +191,15 @@ int runRender(const RenderOptions& options) {
   const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
   releaseGeometry(loaded);
   Film film(loaded.size);
-  stats.compileMs = tracer.renderer->compile(tracer.variant, film, loaded.view);
-  if (options.verbose) {
-    say(options, "OpenGL " + context->version + " on " + context->renderer + " (" + context->backend + ")");
-    say(options, "variant " + stats.variant);
-    for (const std::string& line : stats.skipped) say(options, "skipped " + line);
-  }
-  if (tracer.variant.clampIndirect) say(options, "indirect light is clamped (--clamp-indirect): biased");
+  const std::vector<double> layerSeconds = measureFeatures(tracer, film, loaded, stats);
+  stats.compileMs += tracer.renderer->compile(tracer.variant, film, loaded.view);
+  sayWhatIsChosen(options, *context, tracer, stats);
 
   // Step: draw.
+  checkPictureWritable(options, loaded.size);
   countInterrupts();
-  const Drawing drawing = draw(*tracer.renderer, film, options, loaded.view, stats);
+  const Drawing drawing =
+      draw(*tracer.renderer, film, options, loaded.view, secondsOfFeatures(layerSeconds, options), stats);
   stats.spp = options.spp;
   stats.film = totalsOf(drawing.pixels);
   const auto sayDriverLog = [&] {
@@ -162,19 +215,18 @@ int runRender(const RenderOptions& options) {
   Image picture =
       shownPicture(options, tracer.variant, drawing.pixels,
                    {!options.background, options.aovSamples, options.aovVariance}, drawing.variance);
-  addFeatures(picture, tracer, options, loaded, stats);
-  sayDriverLog();
-  if (interrupts() > 1) return kInterruptedStatus;
 
-  // Step: write.
-  if (formatOfName(options.output) == ImageFormat::OpenExr && options.debugView == DebugView::None) {
-    const bool uniform =
-        stats.complete && stats.film.fewestSamples == stats.film.mostSamples && !stats.adaptive;
-    setProvenance(picture, {settingsText(options, loaded, tracer), options.seed, options.sampleOffset,
-                            std::llround(samplesPerPixel(stats)), uniform});
+  // Step: write. What has been drawn is not lost from here on.
+  try {
+    addFeatures(picture, tracer, options, loaded, layerSeconds, stats);
+    sayDriverLog();
+    if (interrupts() > 1) return kInterruptedStatus;
+    setProvenanceOf(picture, options, loaded, tracer, stats);
+    writePicture(options, picture, boxes);
+  } catch (const std::exception& error) {
+    throw RenderError(rescuePicture(options, picture, error.what()));
   }
-  writePicture(options, picture, boxes);
-  if (!options.statsFile.empty()) writeStatistics(options.statsFile, stats);
+  if (!options.statsFile.empty()) replaceText(options.statsFile, statisticsText(stats));
   sayWhatWasDone(options, stats);
   return stats.complete ? 0 : kInterruptedStatus;
 }

@@ -8,6 +8,7 @@
 #include "bvh/bvh.h"
 #include "cli/choose.h"
 #include "cli/input_options.h"
+#include "cli/numbers.h"
 #include "image/format.h"
 #include "image/image.h"
 
@@ -49,9 +50,9 @@ void checkFinite(const RenderOptions& o) {
   check("--time", o.seconds);
   check("--clamp-indirect", o.clampIndirect);
   check("--hdri-rotation", o.hdriRotationDegrees);
-  for (int i = 0; i < 3; ++i) check("--background-color", o.backgroundColor[i]);
-  if (glm::any(glm::lessThan(o.backgroundColor, glm::vec3(0.0f))))
-    throw UsageError("--background-color: below 0");
+  const glm::vec3 background = o.backgroundColor.value_or(glm::vec3(0.0f));
+  for (int i = 0; i < 3; ++i) check("--background-color", background[i]);
+  if (glm::any(glm::lessThan(background, glm::vec3(0.0f)))) throw UsageError("--background-color: below 0");
 }
 
 /// Of first hits, then those of the film.
@@ -162,7 +163,7 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
       ->allow_extra_args(false);
   app.add_option("--spp", raw.spp,
                  "camera paths a pixel, default 64; with --noise or --time the most, default unlimited")
-      ->check(CLI::Range(1, kMostSamples));
+      ->check(wholeNumber(1, kMostSamples));
   app.add_option("--noise", o.noise,
                  "sample until 95 % of the pixels have a relative error below this, such as 0.01")
       ->check(CLI::Range(1e-5, 1.0));
@@ -170,14 +171,16 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
       ->check(CLI::Range(0.01, 1e7));
   app.add_option("--sample-offset", o.sampleOffset,
                  "index of the first sample: continues a seed's sequence (see merge)")
-      ->check(CLI::Range(0, kMostSamples))
+      ->check(wholeNumber(0, kMostSamples))
       ->capture_default_str();
   app.add_option("--sampler", raw.sampler, "sobol, random: where sample points come from")
       ->capture_default_str();
-  app.add_option("--seed", o.seed, "of the sample points, 0 to 4294967295")->capture_default_str();
+  app.add_option("--seed", o.seed, "of the sample points, 0 to 4294967295")
+      ->check(wholeNumber(0, std::numeric_limits<uint32_t>::max()))
+      ->capture_default_str();
   app.add_option("--bounces", raw.bounces, "scatterings of a path, or 'unlimited'")->capture_default_str();
   app.add_option("--rr-depth", o.rouletteDepth, "Russian roulette from this scattering on")
-      ->check(CLI::Range(1, kMost))
+      ->check(wholeNumber(1, kMost))
       ->capture_default_str();
   app.add_option("--fresnel", raw.fresnel, "exact, schlick: of glass")->capture_default_str();
   app.add_option("--energy-compensation", raw.compensation, "on, off: of rough surfaces in gi")
@@ -193,7 +196,9 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--hdri-file", raw.hdriFile, "equirectangular environment: .hdr, .exr, .pfm");
   app.add_option("--hdri-rotation", o.hdriRotationDegrees, "degrees about +Y")->capture_default_str();
   app.add_flag("--no-background", raw.noBackground, "camera rays that miss see nothing; alpha is written");
-  app.add_option("--background-color", raw.backgroundColor, "R,G,B, linear; seen by camera rays only")
+  app.add_option(
+         "--background-color", raw.backgroundColor,
+         "R,G,B, linear: what camera rays that miss see, also in place of --hdri-file; lights nothing")
       ->delimiter(',')
       ->expected(3);
   app.add_flag("--no-default-light", raw.noDefaultLight, "a scene without any light stays dark");
@@ -205,7 +210,7 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
       ->capture_default_str();
   app.add_option("--tree-level", o.treeLevel,
                  "draws the boxes of this level of the tree over a .png or .jpg; 0: the root")
-      ->check(CLI::Range(0, int(kMaxBvhDepth)));
+      ->check(wholeNumber(0, int(kMaxBvhDepth)));
   app.add_option("--exposure", o.exposure, "EV, for .png and .jpg")->capture_default_str();
   app.add_option("--tone-map", raw.toneMap, "linear, reinhard, aces, agx, neutral, for .png and .jpg")
       ->capture_default_str();
@@ -222,7 +227,8 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
       ->capture_default_str();
   addSelectionOptions(app, o.selection);
   addInputOptions(app, o.limits);
-  app.add_option("--stats", raw.statsFile, "JSON file for the statistics");
+  app.add_option("--stats", raw.statsFile,
+                 "JSON file for the statistics; '-': standard output, which then holds nothing else");
   app.add_option("--shader-folder", raw.shaderFolder,
                  "read the shaders from here in place of the built-in ones");
   app.add_flag("--quiet", o.quiet, "print nothing but errors; benchmarks also their tables");

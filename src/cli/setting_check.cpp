@@ -7,6 +7,7 @@
 #include "errors.h"
 #include "image/channels.h"
 #include "render/picture_check.h"
+#include "stage/same_picture.h"
 
 namespace fragtrace {
 
@@ -71,30 +72,6 @@ void checkGroup(const Context& context, std::vector<TimedSetting*> group, Progre
 }
 
 }  // namespace
-
-bool showSame(const RenderOptions& a, const RenderOptions& b) {
-  const auto shown = [](const RenderOptions& o) {
-    StageSet stages = o.stages;
-    stages.reset(size_t(Stage::Sobol));
-    stages.reset(size_t(Stage::LightSampling));
-    stages.reset(size_t(Stage::Watertight));
-    return stages;
-  };
-  const bool walked = has(a.stages, Stage::BvhHeatmap) && a.traversal != b.traversal;
-  return a.scene == b.scene && a.resolution == b.resolution && shown(a) == shown(b) && !walked &&
-         a.bounces == b.bounces && a.clampIndirect == b.clampIndirect && a.cameraIndex == b.cameraIndex &&
-         a.camera == b.camera && a.hdriFile == b.hdriFile && a.hdriRotationDegrees == b.hdriRotationDegrees &&
-         a.backgroundColor == b.backgroundColor && a.background == b.background &&
-         a.defaultLight == b.defaultLight && a.pixelFilter == b.pixelFilter && a.debugView == b.debugView;
-}
-
-bool drawSameSamples(const RenderOptions& a, const RenderOptions& b) {
-  const auto sampled = [](const RenderOptions& o) {
-    return StageSet(o.stages).reset(size_t(Stage::Watertight));
-  };
-  return showSame(a, b) && sampled(a) == sampled(b) && a.seed == b.seed && a.sampleOffset == b.sampleOffset &&
-         a.rouletteDepth == b.rouletteDepth;
-}
 
 ReferencePicture readReference(const std::filesystem::path& path) {
   const Image image = readImage(path);

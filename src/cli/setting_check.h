@@ -30,11 +30,6 @@ void checkSize(const ReferencePicture& reference, const TimedSetting& setting);
 void checkSettings(const Context& context, std::span<TimedSetting> settings,
                    const std::optional<ReferencePicture>& reference, bool quiet);
 
-/// Both are to converge to one picture.
-bool showSame(const RenderOptions& a, const RenderOptions& b);
-/// And their samples are the same.
-bool drawSameSamples(const RenderOptions& a, const RenderOptions& b);
-
 /// The failure that wrong pictures are: "a.gltf, bvh: ...". Empty: none.
 std::string wrongPictures(std::span<const FrameSetting> settings);
 

@@ -45,6 +45,23 @@ glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options) {
   return {std::clamp(int(std::lround(720.0 * camera.aspectRatio)), 1, 16384), 720};
 }
 
+/// Refuses a picture whose film would take more than --memory-limit.
+void checkFilmMemory(glm::ivec2 size, const RenderOptions& options) {
+  // Three images of the device, a copy of these, and the pixels made of it: what 16384 x 2000 were seen to
+  // take. Layers are drawn on one more film, adaptive pictures on two, which are joined.
+  constexpr uint64_t kOne = 48 + 48 + sizeof(FilmPixel);
+  constexpr uint64_t kWithLayers = kOne + 48 + sizeof(FilmPixel);
+  constexpr uint64_t kAdaptive = kOne + 96 + 2 * sizeof(FilmPixel) + 2 * sizeof(double);
+  const bool adaptive = options.noise > 0.0 || options.seconds > 0.0;
+  const uint64_t bytes = adaptive ? kAdaptive : options.aovFeatures.empty() ? kOne : kWithLayers;
+  try {
+    MemoryBudget(options.limits.memoryBytes).take(uint64_t(size.x) * uint64_t(size.y) * bytes);
+  } catch (const std::runtime_error& error) {
+    throw UsageError("a picture of " + std::to_string(size.x) + " x " + std::to_string(size.y) + " pixels " +
+                     error.what());
+  }
+}
+
 /// Throws InputError for the first pixel that is NaN or infinite.
 void checkFinite(const Image& image, const std::filesystem::path& path) {
   for (size_t i = 0; i < image.values.size(); ++i) {
@@ -67,6 +84,14 @@ Environment loadEnvironment(const RenderOptions& options, OwnLight light) {
     environment.image = {1, 1, {"R", "G", "B"}, {1.0f, 1.0f, 1.0f}, {}};
   }
   return environment;
+}
+
+/// Mirror balls and faces of cubes are square; there is one reading of an environment here.
+void warnOfSquare(const Image& map, const RenderOptions& options, std::vector<std::string>& warnings) {
+  if (map.width != map.height || map.width <= 1) return;
+  warnings.push_back(options.hdriFile.string() +
+                     ": is square, and drawn as latitude and longitude: 360 degrees wide, 180 high");
+  say(options, "warning: " + warnings.back());
 }
 
 /// FNV-1a over the words of all buffers.
@@ -95,8 +120,8 @@ View makeView(const RenderOptions& options, const Scene& scene, const Camera& ca
   view.camera = camera;
   view.space = scene.space;
   view.hdriRotation = glm::radians(options.hdriRotationDegrees);
-  view.background = options.background ? options.backgroundColor : glm::vec3(0.0f);
-  view.showEnvironment = options.background && !options.hdriFile.empty();
+  if (options.background) view.background = options.backgroundColor.value_or(glm::vec3(0.0f));
+  view.showEnvironment = seesEnvironment(options);
   view.bounces = options.bounces;
   view.rouletteDepth = options.rouletteDepth;
   view.seed = options.seed;
@@ -159,9 +184,14 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   const bool isAsked = options.hdriFile.empty() && options.defaultLight;
   const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
   loaded.environment = loadEnvironment(options, light);
-  loaded.camera = chooseCamera(scene.cameras, options.cameraIndex, options.camera, scene.bounds);
+  warnOfSquare(loaded.environment.image, options, loaded.scene.warnings);
+  loaded.cameraIndex = options.cameraIndex;
+  if (const auto named = cameraNamed(options.selection.camera, scene.cameras))
+    loaded.cameraIndex = int(*named);
+  loaded.camera = chooseCamera(scene.cameras, loaded.cameraIndex, options.camera, scene.bounds);
   checkDistance(loaded.camera, scene.space, options);
   loaded.size = chooseSize(loaded.camera, options);
+  checkFilmMemory(loaded.size, options);
   loaded.view = makeView(options, scene, loaded.camera);
   stats.scene = describe(scene);
   stats.warnings = scene.warnings;

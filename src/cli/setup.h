@@ -18,6 +18,7 @@ struct LoadedScene {
   Scene scene;
   Environment environment;
   Camera camera;
+  std::optional<int> cameraIndex;  ///< which of the scene's that is, if one was asked for
   glm::ivec2 size{0};
   Bvh bvh;
   View view;

@@ -2,7 +2,6 @@
 #include "cli/statistics.h"
 
 #include "cli/scene_json.h"
-#include "image/whole_file.h"
 #include "math/summary.h"
 
 namespace fragtrace {
@@ -29,7 +28,7 @@ double megaPathsPerSecond(const Statistics& s) {
 
 double samplesPerPixel(const Statistics& s) { return double(s.film.samples) / (double(s.size.x) * s.size.y); }
 
-void writeStatistics(const std::filesystem::path& path, const Statistics& s) {
+std::string statisticsText(const Statistics& s) {
   nlohmann::ordered_json json;
   json["schema"] = 1;
   json["scene"] = sceneJson(s.scene);
@@ -75,8 +74,7 @@ void writeStatistics(const std::filesystem::path& path, const Statistics& s) {
   json["gl_renderer"] = s.glRenderer;
   json["gl_version"] = s.glVersion;
   json["warnings"] = s.warnings;
-  const std::string text = jsonText(json);
-  replaceFile(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+  return jsonText(json);
 }
 
 }  // namespace fragtrace

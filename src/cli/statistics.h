@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <filesystem>
 #include <optional>
+#include <string>
 
 #include "bvh/bvh.h"
 #include "gl/context.h"
@@ -52,8 +52,8 @@ struct Statistics {
   std::vector<std::string> warnings;
 };
 
-/// Throws RenderError when the file cannot be written.
-void writeStatistics(const std::filesystem::path& path, const Statistics& statistics);
+/// As JSON.
+std::string statisticsText(const Statistics& statistics);
 
 double megaPathsPerSecond(const Statistics& statistics);
 double samplesPerPixel(const Statistics& statistics);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/numbers.h"
 #include "cli/progress_bar.h"
 #include "errors.h"
 
@@ -31,14 +32,14 @@ void drawSamples(TimedSetting& s, int from, int to, RenderTimes& times) {
 
 void addTimingOptions(CLI::App& app, FrameTiming& timing) {
   app.add_option("--rounds,--repetitions", timing.rounds, "how often each setting is timed, in turn")
-      ->check(CLI::Range(1, 100000))
+      ->check(wholeNumber(1, 100000))
       ->capture_default_str();
   app.add_option("--round-time", timing.roundSeconds, "seconds that a round of frames is to take")
       ->check(CLI::Range(0.001, 3600.0))
       ->capture_default_str();
   app.add_option("--samples-per-draw", timing.samplesPerDraw,
                  "at most; 1: each frame is a draw of its own, as in a viewer; default: as many as are short")
-      ->check(CLI::Range(1, 1 << 20));
+      ->check(wholeNumber(1, 1 << 20));
 }
 
 void checkTimed(const BenchConfiguration& configuration) {

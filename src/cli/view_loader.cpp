@@ -32,6 +32,9 @@ void SceneLoader::start(const RenderOptions& options) {
     };
     try {
       result.scene = std::make_unique<LoadedScene>(loadScene(options, result.stats, progress));
+      // From now on it is told by its index, as others are that are chosen in the window.
+      result.options.cameraIndex = result.scene->cameraIndex;
+      result.options.selection.camera.clear();
       progress("packing", 0.9);
     } catch (const Cancelled&) {
       result.scene.reset();

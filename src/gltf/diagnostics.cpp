@@ -25,31 +25,7 @@ namespace {
 
 constexpr size_t kNamedPlaces = 4;
 
-/// Names and URIs from a file may hold line ends or terminal commands.
-std::string withoutControls(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return text;
-}
-
 }  // namespace
-
-std::string inQuotes(std::string_view text) {
-  constexpr size_t kLongestQuote = 80;
-  std::string result = "\"";
-  result += text.substr(0, kLongestQuote);
-  if (text.size() > kLongestQuote) result += "...";
-  return withoutControls(result + "\"");
-}
-
-std::string listOfParts(const std::vector<std::string>& names) {
-  std::string list;
-  for (size_t i = 0; i < names.size(); ++i) {
-    list += (i == 0 ? "" : ", ") + std::to_string(i);
-    if (!names[i].empty()) list += " " + inQuotes(names[i]);
-  }
-  return list;
-}
 
 std::string Diagnostics::line(std::string_view place, std::string_view reason) const {
   std::string text = file_ + ": ";

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "errors.h"
+#include "scene/parts.h"
 
 namespace fragtrace {
 
@@ -32,12 +33,6 @@ std::string pointerTo(const Parts&... parts) {
   (append(parts), ...);
   return pointer;
 }
-
-/// Text from a file in quotes, shortened; control characters become question marks.
-std::string inQuotes(std::string_view text);
-
-/// Parts of a file by index and, where they have one, name: 0 "walk", 1, 2 "run".
-std::string listOfParts(const std::vector<std::string>& names);
 
 /// Names the file in every message, and collects the warnings. Control characters become question marks.
 class Diagnostics {

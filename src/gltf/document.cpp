@@ -150,6 +150,8 @@ void noteNames(json& root, Document& document) {
   const json::json_pointer variants("/extensions/KHR_materials_variants/variants");
   document.sceneNames = namesOf(arrayIn(root, "scenes"));
   document.animationNames = namesOf(arrayIn(root, "animations"));
+  for (const json& animation : arrayIn(root, "animations"))
+    document.animationSeconds.push_back(durationOf(animation, arrayIn(root, "accessors")));
   if (root.contains(variants)) document.materialVariants = namesOf(root[variants]);
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@ struct Document {
   std::vector<ImageSource> images;
   std::vector<Skin> skins;
   std::vector<std::string> sceneNames, animationNames, materialVariants;
+  std::vector<std::optional<double>> animationSeconds;  ///< as in Scene
   Diagnostics diagnostics;
   int textureSide;      ///< larger pictures are scaled down
   MemoryBudget memory;  ///< what loading may still take

@@ -51,7 +51,8 @@ BoundsDouble boundsOf(const std::vector<PlacedSphere>& spheres) {
 /// Where the picture will be taken from, as far as it is known; none: the camera that frames the scene.
 std::optional<glm::dvec3> cameraFor(const GltfOptions& options, const Scene& scene) {
   if (options.cameraPosition) return options.cameraPosition;
-  const size_t index = size_t(std::max(options.cameraIndex, 0));
+  const std::optional<size_t> named = cameraNamed(options.selection.camera, scene.cameras);
+  const size_t index = named.value_or(size_t(std::max(options.cameraIndex, 0)));
   return index < scene.cameras.size() ? std::optional(scene.cameras[index].position) : std::nullopt;
 }
 
@@ -96,6 +97,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   scene.extensionsUsed = document.model.extensionsUsed;
   scene.sceneNames = document.sceneNames;
   scene.animationNames = document.animationNames;
+  scene.animationSeconds = document.animationSeconds;
   scene.materialVariants = document.materialVariants;
   addMaterials(document, scene);
 

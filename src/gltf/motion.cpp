@@ -2,7 +2,6 @@
 #include "gltf/motion.h"
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "gltf/diagnostics.h"
@@ -78,16 +77,14 @@ std::vector<std::string> namesOf(const json& array) {
   return names;
 }
 
-size_t indexOfPart(const char* option, const std::string& wanted, const std::vector<std::string>& names) {
-  const auto named = std::find(names.begin(), names.end(), wanted);
-  if (named != names.end()) return size_t(named - names.begin());
-  size_t index = 0;
-  const char* end = wanted.data() + wanted.size();
-  const auto parsed = std::from_chars(wanted.data(), end, index);
-  if (parsed.ec == std::errc{} && parsed.ptr == end && index < names.size()) return index;
-  const std::string known = listOfParts(names);
-  throw UsageError(std::string(option) + ": " + inQuotes(wanted) + " is not in the file, which has " +
-                   (known.empty() ? "none" : known));
+std::optional<double> durationOf(const json& animation, const json& accessors) {
+  std::optional<double> duration;
+  for (const json& sampler : animation["samplers"]) {
+    const json& times = accessors[sampler["input"].get<size_t>()];
+    if (!times.contains("max") || times["max"].empty() || !times["max"][0].is_number()) return std::nullopt;
+    duration = std::max(duration.value_or(0.0), times["max"][0].get<double>());
+  }
+  return duration;
 }
 
 void applySelection(json& root, const SceneSelection& selection, Diagnostics& diagnostics) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,9 +46,9 @@ void checkMotion(const nlohmann::json& root, Diagnostics& diagnostics);
 /// The names of an array's elements, "" where one has none.
 std::vector<std::string> namesOf(const nlohmann::json& array);
 
-/// The index of the part that the user named by its name or index. Throws UsageError, which begins with
-/// `option` and lists the names that there are.
-size_t indexOfPart(const char* option, const std::string& wanted, const std::vector<std::string>& names);
+/// Seconds at which an animation's last key stands, as the accessors of its times say; none where one does
+/// not.
+std::optional<double> durationOf(const nlohmann::json& animation, const nlohmann::json& accessors);
 
 /// Makes the chosen scene the default one and gives primitives the materials of the chosen variant
 /// (KHR_materials_variants). Throws UsageError.

@@ -62,6 +62,18 @@ rlim_t secondsTaken(pid_t process) {
   return rlim_t(time.tv_sec) + 1;
 }
 
+bool addressesAreLimited() {
+  rlimit addresses{};
+  return ::getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY;
+}
+
+/// How a process ends that got no memory: the loader of its libraries gives 127, they themselves abort.
+bool isWantOfMemory(int status) {
+  constexpr int kNotLoaded = 127;
+  if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGABRT;
+  return WEXITSTATUS(status) == kNotLoaded;
+}
+
 }  // namespace
 
 Child::~Child() {
@@ -131,6 +143,7 @@ std::string endChild(Child& child) {
   }
   child.process = -1;
   if (ended < 0) return "it is gone";
+  if (addressesAreLimited() && isWantOfMemory(status)) return "memory ran out (ulimit -v)";
   if (!WIFSIGNALED(status)) return "status " + std::to_string(WEXITSTATUS(status));
   const int signal = WTERMSIG(status);
   if (signal == SIGXCPU || (signal == SIGKILL && waited > kPatienceMs)) return kOutOfTime;

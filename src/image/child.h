@@ -34,7 +34,8 @@ void limitChild(const Child& child, uint64_t dataBytes, unsigned cpuSeconds);
 /// Waits for a message of exactly that size; false when none comes in that time, or it has ended.
 bool awaitReply(const Child& child, std::span<uint8_t> reply, int patienceMs);
 
-/// Ends it if it has not ended, and says how: kOutOfTime, "signal 11 (Segmentation fault)", "status 1".
+/// Ends it if it has not ended, and says how: kOutOfTime, "signal 11 (Segmentation fault)", "status 1",
+/// or that memory ran out, where the system lets processes have little of it.
 std::string endChild(Child& child);
 
 }  // namespace fragtrace

@@ -61,4 +61,9 @@ bool isDisplayFormat(const std::filesystem::path& path);
 /// RenderError naming the path and the reason.
 void writeImage(const std::filesystem::path& path, const Image& image);
 
+/// To be asked before long work: throws what writeImage() would where the library of the format does not
+/// answer, or where there is no room for a picture of that size and so many channels that cannot be
+/// compressed.
+void checkImageWritable(const std::filesystem::path& path, int width, int height, size_t channelCount);
+
 }  // namespace fragtrace

@@ -24,7 +24,8 @@ inline void checkImageSize(int64_t width, int64_t height, int64_t channelCount) 
 /// memory, and what the process may address (RLIMIT_AS).
 uint64_t defaultMemoryLimit();
 
-inline constexpr int kLargestTextureSide = 65535;  // what the shader's slots hold
+inline constexpr uint64_t kLeastMemoryBytes = 1'000'000;  // that --memory-limit takes
+inline constexpr int kLargestTextureSide = 65535;         // what the shader's slots hold
 
 /// What the user allows files from anywhere.
 struct InputLimits {

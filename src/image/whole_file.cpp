@@ -2,7 +2,9 @@
 #include "image/whole_file.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -50,6 +52,10 @@ std::filesystem::path behindLinks(std::filesystem::path path) {
     path = path.parent_path() / target;  // which an absolute target replaces
   }
   return path;
+}
+
+std::filesystem::path folderOf(const std::filesystem::path& target) {
+  return target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
 }
 
 std::filesystem::path partOf(const std::filesystem::path& path) {
@@ -111,13 +117,27 @@ void checkReplaceable(const std::filesystem::path& path) {
   };
   if (takesWrites(path)) return check(::access(path.c_str(), W_OK) != 0 ? errno : 0);
   const std::filesystem::path target = behindLinks(path);
-  const std::filesystem::path folder =
-      target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
+  const std::filesystem::path folder = folderOf(target);
   std::error_code error;
   check(!target.has_filename() || std::filesystem::is_directory(target, error) ? EISDIR : 0);
   const auto status = std::filesystem::status(folder, error);
   check(!std::filesystem::exists(status) ? ENOENT : !std::filesystem::is_directory(status) ? ENOTDIR : 0);
   check(::access(folder.c_str(), W_OK | X_OK) != 0 ? errno : 0);
+}
+
+void checkRoom(const std::filesystem::path& path, uint64_t bytes) {
+  if (takesWrites(path)) return;
+  const auto fail = [&](int code) {
+    throw RenderError("cannot write " + path.string() + ", which may take " +
+                      std::to_string((bytes + 999'999) / 1'000'000) + " MB: " + systemReason(code));
+  };
+  rlimit size{};
+  if (::getrlimit(RLIMIT_FSIZE, &size) == 0 && size.rlim_cur != RLIM_INFINITY && bytes > size.rlim_cur)
+    fail(EFBIG);
+  struct statvfs disk {};
+  if (::statvfs(folderOf(behindLinks(path)).c_str(), &disk) != 0 || disk.f_blocks == 0) return;
+  const uint64_t blocks = ::geteuid() == 0 ? disk.f_bfree : disk.f_bavail;
+  if (bytes / disk.f_frsize >= blocks) fail(ENOSPC);
 }
 
 void replaceFile(const std::filesystem::path& path, std::span<const uint8_t> bytes) {

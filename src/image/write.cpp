@@ -77,16 +77,30 @@ std::vector<uint8_t> encode(const Image& image, const std::filesystem::path& pat
   return encodeBytes(image, *format);
 }
 
-}  // namespace
-
-void writeImage(const std::filesystem::path& path, const Image& image) {
-  std::vector<uint8_t> bytes;
+std::vector<uint8_t> encodeNamed(const Image& image, const std::filesystem::path& path) {
   try {
-    bytes = encode(image, path);
+    return encode(image, path);
   } catch (const std::exception& error) {
     throw RenderError("cannot write " + path.string() + ": " + error.what());
   }
-  replaceFile(path, bytes);
+}
+
+/// What a pixel takes that cannot be compressed.
+uint64_t bytesOfPixel(std::optional<ImageFormat> format, size_t channelCount) {
+  if (format == ImageFormat::OpenExr) return 4 * channelCount;
+  if (format == ImageFormat::Pfm) return 12;
+  return 4;  // .png with alpha, .hdr; .jpg has 3
+}
+
+}  // namespace
+
+void writeImage(const std::filesystem::path& path, const Image& image) {
+  replaceFile(path, encodeNamed(image, path));
+}
+
+void checkImageWritable(const std::filesystem::path& path, int width, int height, size_t channelCount) {
+  encodeNamed({1, 1, {"R", "G", "B"}, {0.0f, 0.0f, 0.0f}, {}}, path);
+  checkRoom(path, uint64_t(width) * uint64_t(height) * bytesOfPixel(formatOfName(path), channelCount));
 }
 
 }  // namespace fragtrace

@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "errors.h"
+#include "scene/parts.h"
 
 namespace fragtrace {
 namespace {
@@ -88,6 +89,13 @@ Camera withOverrides(Camera camera, const CameraOverrides& overrides, const Boun
     camera.perspective = false;
   }
   return camera;
+}
+
+std::optional<size_t> cameraNamed(const std::string& wanted, std::span<const Camera> cameras) {
+  if (wanted.empty()) return std::nullopt;
+  std::vector<std::string> names;
+  for (const Camera& camera : cameras) names.push_back(camera.name);
+  return indexOfPart("--camera", wanted, names);
 }
 
 Camera chooseCamera(std::span<const Camera> cameras, std::optional<int> index,

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "math/bounds.h"
 #include "scene/scene.h"
@@ -40,6 +41,9 @@ glm::dvec3 recentringPoint(const std::optional<glm::dvec3>& camera, const Bounds
 /// perspective, a parallel scale the other way round. Throws UsageError if the position is the focal point,
 /// the angle is not between 0 and 180 degrees, the scale is not above 0, or both are given.
 Camera withOverrides(Camera camera, const CameraOverrides& overrides, const BoundsDouble& bounds = {});
+
+/// The index of the camera that the user named (indexOfPart()); none where that is empty. Throws UsageError.
+std::optional<size_t> cameraNamed(const std::string& wanted, std::span<const Camera> cameras);
 
 /// The camera of that index, or without one the first, or one that frames the scene, with its overrides.
 /// Throws UsageError if there is none of that index.

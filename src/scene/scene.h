@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -283,6 +284,8 @@ struct Scene {
   std::vector<std::string> extensionsUsed;
   std::vector<std::string> sceneNames;  ///< of all that SceneSelection may name; "" where one has no name
   std::vector<std::string> animationNames;
+  std::vector<std::optional<double>>
+      animationSeconds;  ///< when the last key stands; none: the file does not say
   std::vector<std::string> materialVariants;
   std::vector<std::string> warnings;  ///< one line each, for stderr; names the file and the place
   BoundsDouble bounds;                ///< world space

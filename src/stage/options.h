@@ -61,7 +61,7 @@ struct RenderOptions {
   std::filesystem::path hdriFile;
   double hdriRotationDegrees = 0.0;
   double exposure = 0.0;
-  glm::vec3 backgroundColor{0.0f};
+  std::optional<glm::vec3> backgroundColor;  ///< none: the environment map, black without one
   bool background = true;
   bool defaultLight = true;
   ToneMap toneMap = ToneMap::Neutral;
@@ -85,5 +85,10 @@ struct RenderOptions {
 
   bool operator==(const RenderOptions&) const = default;
 };
+
+/// Whether camera rays that miss see the environment map.
+inline bool seesEnvironment(const RenderOptions& o) {
+  return o.background && !o.hdriFile.empty() && !o.backgroundColor;
+}
 
 }  // namespace fragtrace

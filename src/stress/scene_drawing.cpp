@@ -62,7 +62,7 @@ SceneDrawing::SceneDrawing(const Context& context, const Scene& scene, const Ren
   renderer_ = std::make_unique<Renderer>(context, std::move(packed), picture_.reads, options.shaderFolder);
   view_.camera = scene.cameras.empty() ? frameScene(scene.bounds) : scene.cameras.front();
   view_.space = scene.space;
-  view_.background = options.backgroundColor;
+  view_.background = options.backgroundColor.value_or(glm::vec3(0.0f));
   view_.showEnvironment = environment.kind == Surroundings::Map;
   view_.hdriRotation = environmentTurn;
   view_.bounces = options.bounces;

@@ -240,12 +240,13 @@ std::vector<RenderOptions> tracedSides(const ViewState& state) {
 
 void takeCamera(ViewState& state, const RenderOptions& options) {
   if (!state.scene) return;
+  std::optional<int> index = options.cameraIndex;
+  if (const auto named = cameraNamed(options.selection.camera, state.scene->cameras)) index = int(*named);
   for (RenderOptions& side : state.sides) {
-    side.cameraIndex = options.cameraIndex;
+    side.cameraIndex = index;
     side.camera = options.camera;
   }
-  const Camera camera =
-      chooseCamera(state.scene->cameras, options.cameraIndex, options.camera, state.scene->bounds);
+  const Camera camera = chooseCamera(state.scene->cameras, index, options.camera, state.scene->bounds);
   state.pose = poseOf(camera, state.scene->bounds);
   state.posed = false;
 }

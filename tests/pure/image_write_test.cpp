@@ -240,6 +240,20 @@ TEST_F(ImageWrite, LibraryMayBeStartedWhileItIsFirstUsed) {
   preload.join();
 }
 
+TEST_F(ImageWrite, RoomForTheFileIsAskedBefore) {
+  const std::filesystem::path path = folder / "x.exr";
+  EXPECT_NO_THROW(checkRoom(path, 1000));
+  EXPECT_NO_THROW(checkRoom("/dev/null", UINT64_MAX));
+  try {
+    checkRoom(path, uint64_t(1) << 62);
+    FAIL();
+  } catch (const RenderError& error) {
+    EXPECT_NE(std::string(error.what()).find("x.exr"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("No space left"), std::string::npos) << error.what();
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
 TEST(ImageNames, OnlyWrittenFormatsAreWritableAndOnlyEightBitOnesAreForDisplay) {
   for (const char* name : {"a.png", "a.JPG", "a.jpeg", "b/a.b.PnG"})
     EXPECT_TRUE(isWritableImageName(name) && isDisplayFormat(name)) << name;

@@ -115,7 +115,7 @@ void drawLight(ViewState& state) {
     for (RenderOptions& side : state.sides) side.background = background;
   if (background && !map) {
     ImGui::SameLine();
-    glm::vec3 color = o.backgroundColor;
+    glm::vec3 color = o.backgroundColor.value_or(glm::vec3(0.0f));
     if (ImGui::ColorEdit3("##color", glm::value_ptr(color),
                           ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs))
       for (RenderOptions& side : state.sides) side.backgroundColor = color;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "scene/parts.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "errors.h"
+
+namespace fragtrace {
+
+std::string withoutControls(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  return text;
+}
+
+std::string inQuotes(std::string_view text) {
+  constexpr size_t kLongestQuote = 80;
+  std::string result = "\"";
+  result += text.substr(0, kLongestQuote);
+  if (text.size() > kLongestQuote) result += "...";
+  return withoutControls(result + "\"");
+}
+
+std::string listOfParts(const std::vector<std::string>& names) {
+  std::string list;
+  for (size_t i = 0; i < names.size(); ++i) {
+    list += (i == 0 ? "" : ", ") + std::to_string(i);
+    if (!names[i].empty()) list.append(" ").append(inQuotes(names[i]));
+  }
+  return list;
+}
+
+size_t indexOfPart(const char* option, const std::string& wanted, const std::vector<std::string>& names) {
+  const auto named = std::find(names.begin(), names.end(), wanted);
+  if (named != names.end()) return size_t(named - names.begin());
+  size_t index = 0;
+  const char* end = wanted.data() + wanted.size();
+  const auto parsed = std::from_chars(wanted.data(), end, index);
+  if (parsed.ec == std::errc{} && parsed.ptr == end && index < names.size()) return index;
+  const std::string known = listOfParts(names);
+  throw UsageError(std::string(option) + ": " + inQuotes(wanted) + " is not in the file, which has " +
+                   (known.empty() ? "none" : known));
+}
+
+}  // namespace fragtrace

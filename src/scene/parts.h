@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Parts of a file that the user names: scenes, animations, material variants, cameras.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fragtrace {
+
+/// Text from a file may hold line ends or terminal commands: control characters become question marks.
+std::string withoutControls(std::string text);
+
+/// Text from a file in quotes, shortened; control characters become question marks.
+std::string inQuotes(std::string_view text);
+
+/// Parts of a file by index and, where they have one, name: 0 "walk", 1, 2 "run".
+std::string listOfParts(const std::vector<std::string>& names);
+
+/// The index of the part that the user named by its name or, where none has that name, by its index. Throws
+/// UsageError, which begins with `option` and lists the names that there are.
+size_t indexOfPart(const char* option, const std::string& wanted, const std::vector<std::string>& names);
+
+}  // namespace fragtrace

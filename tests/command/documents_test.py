@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""scripts/check_files, which scripts/lint runs: broken documents and files that do not belong into the root are found."""
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
+
+from support import SCENES, Case, main
+
+SCRIPT = SCENES.parent / "scripts/check_files"
+TABLE = "| a | b |\n| --- | --- |\n| `x \\| y` | 2 |\n"
+
+
+def script():
+    loader = SourceFileLoader("check_files", str(SCRIPT))
+    module = module_from_spec(spec_from_loader("check_files", loader))
+    loader.exec_module(module)
+    return module
+
+
+class Documents(Case):
+    def faults(self, text, *more):
+        (self.folder / "README.md").write_text(text)
+        return list(script().faults(self.folder, ["README.md", *more]))
+
+    def test_good_ones_pass(self):
+        self.assertEqual(self.faults(f"# One `two`\n\n{TABLE}\nsee [it](README.md#one-two), [x](#one-two), [w](https://x.org/#y) |x\n"), [])
+
+    def test_a_table_in_the_middle_of_a_sentence_is_found(self):
+        text = "off by 7 eps m | `rays` | 2 |\n| `rays` | 3 |\n| `film` | 4 | over the cosine\n"
+        self.assertEqual([fault.split(":")[1] for fault in self.faults(text)], ["1", "2", "2", "3", "3"])
+        for broken in ("text\n" + TABLE, TABLE + "text\n", TABLE.replace("2 |", "2 | 3 |"), TABLE.replace("| --- | --- |\n", ""),
+                       TABLE.replace("| 2 |", "| 2")):
+            self.assertTrue(self.faults(broken), broken)
+
+    def test_dead_links_and_anchors_are_found(self):
+        for target in ("none.md", "README.md#none", "#none", "../none/"):
+            self.assertEqual(self.faults(f"# One\n\na\nsee [it]({target})\n"), [f"README.md:4: {target}: no such " +
+                             ("heading" if "#" in target else "file")])
+
+    def test_a_file_that_does_not_belong_into_the_root_is_found(self):
+        found = self.faults("# One\n", "-", "src/main.cpp", "docs/x.png")
+        self.assertEqual(len(found), 1)
+        self.assertTrue(found[0].startswith("-: "))
+
+
+if __name__ == "__main__":
+    main()
