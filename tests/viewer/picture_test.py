@@ -89,6 +89,16 @@ class Camera(Case):
         viewer.key("Escape")
         self.ends_well(viewer, viewer.end())
 
+    def test_a_picture_asked_for_while_the_camera_moves_is_of_all_samples(self):
+        # So large that moving frames are coarse.
+        viewer = self.view("plastics", "--resolution", "640,480", "--spp", "1")
+        asked = viewer.status()["asked"]
+        viewer.drag((300, 200), (340, 220))
+        shown = viewer.press_for_file("F12", ".png")
+        camera = viewer.rest(lambda s: s["asked"] > asked, "rest after a drag")["camera"]
+        self.same(pixels_of(shown), pixels_of(self.render("plastics", "--spp", 1, *shlex.split(camera))))
+        self.ends_well(viewer, viewer.close())
+
 
 if __name__ == "__main__":
     main()
