@@ -101,7 +101,7 @@ std::string cameraText(const RenderOptions& options) {
   append(text, "--scene-origin", options.sceneOrigin);
   if (options.resolution) {
     appendOption(text, "--resolution",
-           std::to_string(options.resolution->x) + "," + std::to_string(options.resolution->y));
+                 std::to_string(options.resolution->x) + "," + std::to_string(options.resolution->y));
   }
   return text;
 }

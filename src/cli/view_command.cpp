@@ -47,8 +47,8 @@ int runView(const ViewOptions& options) {
     });
   };
   try {
-    library.run({options.render, options.statusFile, begin, cameraText, commandText,
-                 withCommandText}, exchange);
+    library.run({options.render, options.statusFile, begin, cameraText, commandText, withCommandText},
+                exchange);
   } catch (...) {
     exchange.quit();
     if (tracing.joinable()) tracing.join();

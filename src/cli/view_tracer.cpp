@@ -241,8 +241,7 @@ bool ViewTracer::work() {
   }
   const bool settled = !request_.moving && resolution_.step == 0;
   // A film that has just become this large holds nothing yet.
-  const bool whole =
-      std::ranges::all_of(sides_, [](const Side& s) { return !s.program || s.samples > 0; });
+  const bool whole = std::ranges::all_of(sides_, [](const Side& s) { return !s.program || s.samples > 0; });
   if (settled && whole) {
     for (const SaveRequest& request : saves_) save(request);
     saves_.clear();

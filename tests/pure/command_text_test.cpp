@@ -39,17 +39,23 @@ std::vector<std::function<void(RenderOptions&)>> changes() {
       [](RenderOptions& o) { o.rouletteDepth = 3; },
       [](RenderOptions& o) { o.clampIndirect = 0.1; },
       [](RenderOptions& o) { o.pixelFilter = PixelFilter::BlackmanHarris; },
-      [](RenderOptions& o) { o.selection = {"-a b's", "run", 1.25, "red"}; },
+      [](RenderOptions& o) {
+        o.selection = {"-a b's", "run", 1.25, "red"};
+      },
       [](RenderOptions& o) { o.hdriFile = "the sky/noon.hdr"; },
       [](RenderOptions& o) { o.hdriRotationDegrees = double(-0.3f); },
       [](RenderOptions& o) { o.backgroundColor = glm::vec3(0.1f, 0.2f, 1.0f / 3.0f); },
       [](RenderOptions& o) { o.background = false; },
       [](RenderOptions& o) { o.defaultLight = false; },
       [](RenderOptions& o) { o.instancing = Instancing::Share; },
-      [](RenderOptions& o) { o.limits = {12345678, 512, true}; },
+      [](RenderOptions& o) {
+        o.limits = {12345678, 512, true};
+      },
       [](RenderOptions& o) { o.exposure = -1.5; },
       [](RenderOptions& o) { o.toneMap = ToneMap::Agx; },
-      [](RenderOptions& o) { o.aovFeatures = {Feature::Normal, Feature::Albedo}; },
+      [](RenderOptions& o) {
+        o.aovFeatures = {Feature::Normal, Feature::Albedo};
+      },
       [](RenderOptions& o) { o.aovSamples = o.aovVariance = true; },
       [](RenderOptions& o) { o.debugView = DebugView::Depth; },
       [](RenderOptions& o) { o.treeLevel = 3; },
@@ -65,8 +71,9 @@ TEST(CommandText, IsAWholeCommandOfRender) {
   o.output = "it's-1.png";
   o.spp = 17;
   o.resolution = glm::ivec2(640, 480);
-  EXPECT_EQ(commandText(o), "fragtrace render 'my scenes/it'\\''s.gltf' --output 'it'\\''s-1.png' "
-                            "--resolution 640,480 --spp 17");
+  EXPECT_EQ(commandText(o),
+            "fragtrace render 'my scenes/it'\\''s.gltf' --output 'it'\\''s-1.png' "
+            "--resolution 640,480 --spp 17");
 }
 
 TEST(CommandText, EveryOptionReadsBackAsItself) {
@@ -105,7 +112,8 @@ TEST(CommandText, WhatTheViewerHasOfItsOwnStays) {
   EXPECT_EQ(read.backend, Backend::OsMesa);
   EXPECT_EQ(read.resolution, current.resolution);
   EXPECT_EQ(read.stages, stagesUpTo(Stage::Phong));
-  EXPECT_EQ(withCommandText(current, "fragtrace view a.gltf --watch --aov albedo --tree-level 2").treeLevel, 2);
+  EXPECT_EQ(withCommandText(current, "fragtrace view a.gltf --watch --aov albedo --tree-level 2").treeLevel,
+            2);
 }
 
 TEST(CommandText, CameraOptionsAloneChangeTheCameraAlone) {

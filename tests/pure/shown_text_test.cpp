@@ -7,11 +7,13 @@ namespace fragtrace {
 namespace {
 
 TEST(ShownText, ShortTextIsShownAsItIs) {
-  for (const char* text : {"", "a", "two\nlines", "Größe", "12345678"}) EXPECT_EQ(shownText(text, 8 + 1), text);
+  for (const char* text : {"", "a", "two\nlines", "Größe", "12345678"})
+    EXPECT_EQ(shownText(text, 8 + 1), text);
 }
 
 TEST(ShownText, OfLongTextBothEndsAreShown) {
-  EXPECT_EQ(shownText("abcdefgh" + std::string(1000, '-') + "the end", 8), "abcdef ... (1007 characters) ... nd");
+  EXPECT_EQ(shownText("abcdefgh" + std::string(1000, '-') + "the end", 8),
+            "abcdef ... (1007 characters) ... nd");
   EXPECT_LT(shownText(std::string(30000, 'x'), kMostLineCharacters).size(), kMostLineCharacters + 40);
 }
 

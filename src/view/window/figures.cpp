@@ -89,7 +89,8 @@ float drawSide(const ViewState& state, ViewFacts& facts, size_t side, ImVec2 pla
     else
       row("error", "%.2f %% (goal %.2f %%)", 100.0 * s.error, 100.0 * state.sides[side].noise);
     if (layout.figures >= FigureDetail::Rows) drawCosts(state, facts, side);
-    if (layout.figures == FigureDetail::All && !state.split) drawVariant(s.variant, kVariantWidth * layout.scale);
+    if (layout.figures == FigureDetail::All && !state.split)
+      drawVariant(s.variant, kVariantWidth * layout.scale);
     ImGui::EndTable();
     addWindowPlace(facts.places, name);
     end = ImGui::GetWindowPos().y + ImGui::GetWindowSize().y;

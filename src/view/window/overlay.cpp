@@ -46,10 +46,26 @@ void drawLines(const ViewState& state, const ViewFacts& facts) {
   }
 }
 
+/// Left of what is said next.
 bool closeButton(Places& places, const std::string& name) {
-  const bool pressed = ImGui::SmallButton("Close");
+  const bool pressed = ImGui::SmallButton("x");
   addItemPlace(places, "close " + name);
+  ImGui::SameLine();
   return pressed;
+}
+
+void drawNewsLines(const ViewState& state, const ViewFacts& facts, double now) {
+  if (!facts.note.empty())
+    drawText(facts.note + (state.scene ? " (the last picture stays meanwhile)" : ""), kMostLineCharacters);
+  for (auto m = facts.messages.rbegin(); m != facts.messages.rend(); ++m) {
+    const float opacity = float(opacityOf(*m, now));
+    if (opacity <= 0.0f) continue;
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, opacity);
+    drawText(lineOf(*m), kMostLineCharacters);
+    ImGui::PopStyleVar();
+  }
+  if (!facts.pick) return;
+  for (const std::string& line : facts.pick->lines) drawText(line, kMostLineCharacters);
 }
 
 /// The latest news at the bottom left, the newest above.
@@ -62,25 +78,17 @@ void drawNews(const ViewState& state, ViewFacts& facts, const OverlayLayout& lay
   ImGui::SetNextWindowBgAlpha(0.78f);
   if (ImGui::Begin("news", nullptr, kPageFlags)) {
     const ImGuiStyle& style = ImGui::GetStyle();
+    const bool close = (seen || facts.pick) && closeButton(facts.places, "news");
+    ImGui::BeginGroup();
     ImGui::PushTextWrapPos(layout.newsMost.x - style.WindowPadding.x - style.ScrollbarSize);
-    if (!facts.note.empty())
-      drawText(facts.note + (state.scene ? " (the last picture stays meanwhile)" : ""), kMostLineCharacters);
-    for (auto m = facts.messages.rbegin(); m != facts.messages.rend(); ++m) {
-      const float opacity = float(opacityOf(*m, now));
-      if (opacity <= 0.0f) continue;
-      ImGui::PushStyleVar(ImGuiStyleVar_Alpha, opacity);
-      drawText(lineOf(*m), kMostLineCharacters);
-      ImGui::PopStyleVar();
-    }
-    if (facts.pick) {
-      for (const std::string& line : facts.pick->lines) drawText(line, kMostLineCharacters);
-    }
+    drawNewsLines(state, facts, now);
     ImGui::PopTextWrapPos();
-    if ((seen || facts.pick) && closeButton(facts.places, "news")) {
+    ImGui::EndGroup();
+    addWindowPlace(facts.places, "news");
+    if (close) {
       closeMessages(facts.messages);
       facts.pick.reset();
     }
-    addWindowPlace(facts.places, "news");
   }
   ImGui::End();
 }
@@ -91,10 +99,10 @@ void drawError(ViewFacts& facts, const OverlayLayout& layout) {
   ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x - 2 * layout.margin, 0.6f * display.y});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, kRed);
   if (ImGui::Begin("error", nullptr, kPageFlags)) {
+    if (closeButton(facts.places, "error")) facts.errorClosed = true;
     ImGui::PushTextWrapPos(0.7f * display.x);
     drawText(facts.error, kMostPageCharacters);
     ImGui::PopTextWrapPos();
-    if (closeButton(facts.places, "error")) facts.errorClosed = true;
     addWindowPlace(facts.places, "error");
   }
   ImGui::End();

@@ -8,8 +8,8 @@
 
 namespace fragtrace {
 
-/// Draws the panel into the frame that Dear ImGui is making; what is changed there changes the state. Adds the
-/// places of the panel and its controls. Returns what is left to be done.
+/// Draws the panel into the frame that Dear ImGui is making; what is changed there changes the state. Adds
+/// the places of the panel and its controls. Returns what is left to be done.
 Errand drawPanel(ViewState& state, const OverlayLayout& layout, Places& places);
 
 }  // namespace fragtrace

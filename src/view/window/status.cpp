@@ -49,7 +49,9 @@ const char* stateName(const ViewState& state, const ViewFacts& facts, const Wind
   return resting ? "resting" : "drawing";
 }
 
-std::string textOf(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string textOf(const Json& json) {
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 }  // namespace
 

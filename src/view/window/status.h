@@ -19,10 +19,10 @@ struct Responsiveness {
 };
 
 struct WindowReport {
-  uint64_t asked = 0;     ///< the latest request
-  uint64_t seen = 0;      ///< that the tracing thread has seen
-  uint64_t answered = 0;  ///< that a picture shown answers
-  std::string camera;     ///< as options of the command line
+  uint64_t asked = 0;         ///< the latest request
+  uint64_t seen = 0;          ///< that the tracing thread has seen
+  uint64_t answered = 0;      ///< that a picture shown answers
+  std::string camera;         ///< as options of the command line
   const char* end = nullptr;  ///< "closed" or "failed"; null: the window is open
   std::vector<std::string> glErrors;
   Responsiveness times;

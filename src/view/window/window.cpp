@@ -35,7 +35,7 @@ constexpr double kFrameSeconds = 1.0 / 60;
 /// GLFW 3.3 on X11 sleeps on what another thread's glfwPostEmptyEvent() has read from the connection
 /// meanwhile; so an event is late by this at most. Ten looks a second are no load.
 constexpr double kLongestSleep = 0.1;
-constexpr double kStatusSeconds = 0.05;   // between two status files
+constexpr double kStatusSeconds = 0.05;  // between two status files
 constexpr size_t kMostTimes = 512;
 
 class Window {
