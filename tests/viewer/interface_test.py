@@ -149,13 +149,14 @@ class Messages(Case):
 
 
 class Overlaps(Case):
-    line = 15  # pixels of text, or a little more
+    scale = 1
 
     def test_nothing_covers_anything(self):
         viewer = self.view("furnace", "--resolution", "1280,720", "--spp", "1")
         viewer.at(500, 300)
         viewer.xdotool("click", 1)  # what is said of it does not fade
         self.everything(viewer, (1280, 720), ("figures0", "figures1"))
+        self.assertEqual(self.panel_width, 352 * self.scale)
         viewer.xdotool("windowsize", "--sync", viewer.id, 480, 320)
         viewer.until(lambda s: s["width"] == 480, "a small window")
         self.everything(viewer, (480, 320), ())
@@ -164,7 +165,7 @@ class Overlaps(Case):
     def everything(self, viewer, size, sides):
         if not viewer.status()["panel"]:
             viewer.key("Tab")
-        self.check(viewer, size, ("panel", "news"))
+        self.panel_width = self.check(viewer, size, ("panel", "news"))["panel"][2]
         viewer.key("Tab")
         self.check(viewer, size, ("figures0", "news"))
         viewer.key("c")
@@ -178,15 +179,16 @@ class Overlaps(Case):
         places = {n: p for n, p in status["places"].items() if n in ("panel", "figures0", "figures1", "news")}
         for name, (x, y, width, height) in places.items():
             self.assertTrue(x >= 0 and y >= 0 and x + width <= size[0] and y + height <= size[1], (name, places, size))
-            self.assertGreater(height, self.line, places)
+            self.assertGreater(height, 15 * self.scale, places)  # a line
             for other, (u, v, w, h) in places.items():
                 apart = x + width <= u or u + w <= x or y + height <= v or v + h <= y
                 self.assertTrue(name == other or apart, (name, other, places, size))
+        return places
 
 
 class OverlapsAt192Dpi(Overlaps):
     dpi = 192
-    line = 30
+    scale = 2
 
 
 if __name__ == "__main__":
