@@ -137,7 +137,7 @@ class Viewer:
     def status(self):
         return json.loads(self.status_file.read_text()) if self.status_file.exists() else {"state": "starting"}
 
-    def until(self, condition, what, seconds=15):
+    def until(self, condition, what, seconds=120):
         """The first status that fulfils it."""
         def check():
             assert self.process.poll() is None, f"ended with {self.process.returncode}: {self.stderr()}"
