@@ -11,7 +11,7 @@ from support import FRAGTRACE, SCENES, Case, main, pixels_of
 from xdnd import drop
 
 SMALL = ["--resolution", "160,120", "--spp", "2"]
-WITH_PANEL = ["--resolution", "760,620", "--spp", "1"]
+WITH_PANEL = ["--resolution", "760,620", "--spp", "1", "--stage", "flat"]
 LONG = 30000
 
 
@@ -19,13 +19,10 @@ class Escape(Case):
     def test_it_closes_what_is_open_and_then_the_viewer(self):
         viewer = self.view("furnace", *WITH_PANEL)
         for name in ("Tone map", "Background colour"):
-            before = viewer.grab()[2]
             viewer.click(name)
-            time.sleep(0.3)
-            self.assertTrue(viewer.grab()[2] != before, name)
+            viewer.until(lambda s: s["focus"] == "popup", name)
             viewer.key("Escape")
-            time.sleep(0.3)
-            viewer.rest()
+            viewer.until(lambda s: s["focus"] == "picture", f"no {name}")
         viewer.key("h")
         viewer.until(lambda s: s["sheet"], "the sheet")
         viewer.key("Escape")
@@ -41,8 +38,8 @@ class Typing(Case):
         for typed, taken in (("999", 8), ("-1e9", -8)):
             viewer.xdotool("keydown", "ctrl")
             viewer.click("Exposure")
+            viewer.until(lambda s: s["focus"] == "text", "a field to type in")
             viewer.xdotool("keyup", "ctrl")
-            time.sleep(0.2)
             viewer.xdotool("type", "--", typed)
             viewer.key("KP_Enter")
             viewer.until(lambda s: s["exposure"] == taken, f"{typed} is {taken}")
@@ -99,11 +96,13 @@ class Pasting(Case):
 
     def paste(self, viewer, text):
         clipboard = Clipboard(self.screen, text)
-        said = viewer.status()["messages"]
-        state = viewer.status()["camera"]
-        viewer.key("ctrl+v")
-        viewer.until(lambda s: s["messages"] != said or s["camera"] != state or s["state"] == "loading", "pasted")
-        clipboard.close()
+        try:
+            before = viewer.status()
+            viewer.key("ctrl+v")
+            viewer.until(lambda s: s["messages"] != before["messages"] or s["camera"] != before["camera"] or s["state"] == "loading",
+                         "pasted")
+        finally:
+            clipboard.close()
 
 
 class LongNames(Case):
@@ -119,7 +118,7 @@ class LongNames(Case):
         viewer.xdotool("click", 1)
         viewer.until(lambda s: any(len(line) > LONG for line in s["pick"] or []), "the node's name")
         viewer.click("Scene camera")
-        time.sleep(0.3)
+        viewer.until(lambda s: s["focus"] == "popup", "the list of cameras")
         viewer.key("Escape")
         viewer.press_for_file("F12", ".png")
         self.ends_well(viewer, viewer.close())
@@ -152,7 +151,7 @@ class Overlaps(Case):
     scale = 1
 
     def test_nothing_covers_anything(self):
-        viewer = self.view("furnace", "--resolution", "1280,720", "--spp", "1")
+        viewer = self.view("furnace", "--resolution", "1280,720", "--spp", "1", "--stage", "flat")
         viewer.at(500, 300)
         viewer.xdotool("click", 1)  # what is said of it does not fade
         self.everything(viewer, (1280, 720), ("figures0", "figures1"))
@@ -174,9 +173,8 @@ class Overlaps(Case):
 
     def check(self, viewer, size, names):
         viewer.until(lambda s: all(n in s["places"] for n in names), names)
-        time.sleep(0.2)
-        status = viewer.rest()
-        places = {n: p for n, p in status["places"].items() if n in ("panel", "figures0", "figures1", "news")}
+        time.sleep(0.2)  # windows take a few frames to find their size
+        places = {n: p for n, p in viewer.status()["places"].items() if n in ("panel", "figures0", "figures1", "news")}
         for name, (x, y, width, height) in places.items():
             self.assertTrue(x >= 0 and y >= 0 and x + width <= size[0] and y + height <= size[1], (name, places, size))
             self.assertGreater(height, 15 * self.scale, places)  # a line

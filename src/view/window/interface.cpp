@@ -87,6 +87,11 @@ void Interface::end() {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
+const char* Interface::focus() {
+  if (ImGui::GetIO().WantTextInput) return "text";
+  return ImGui::GetCurrentContext()->OpenPopupStack.Size > 0 ? "popup" : "picture";
+}
+
 bool Interface::closePopup() {
   // Dear ImGui does so itself only where it takes the keys that we have.
   const int open = ImGui::GetCurrentContext()->OpenPopupStack.Size;

@@ -21,6 +21,9 @@ class Interface {
   /// Closes the list, or picker of colours, that was opened last; false: none is open.
   static bool closePopup();
 
+  /// What keys go to: "text" that is edited, a "popup", or the "picture".
+  static const char* focus();
+
   /// How many pixels stand for one at 96 dots an inch.
   float scale() const { return scale_; }
 

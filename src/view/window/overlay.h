@@ -24,7 +24,8 @@ struct ViewFacts {
   MessageList messages;
   std::optional<PickAnswer> pick;
   bool resting = false;
-  Places places;  ///< of the latest frame
+  const char* focus = "picture";  ///< what keys go to (Interface::focus)
+  Places places;                  ///< of the latest frame
 };
 
 /// Draws all of that into Dear ImGui's frame, `now` being seconds of the messages' clock; true: loading is to

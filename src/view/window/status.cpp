@@ -13,6 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr size_t kMostTimes = 512;
+
 Json timesJson(const std::deque<double>& ms) {
   if (ms.empty()) return nullptr;
   const Summary s = summarize({ms.begin(), ms.end()});
@@ -55,6 +57,11 @@ std::string textOf(const Json& json) {
 
 }  // namespace
 
+void keepTime(std::deque<double>& times, double ms) {
+  times.push_back(ms);
+  if (times.size() > kMostTimes) times.pop_front();
+}
+
 std::string failureText(const std::string& error) {
   return textOf({{"schema", 1}, {"state", "failed"}, {"error", error}});
 }
@@ -85,6 +92,7 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["error"] = facts.error;
   json["messages"] = Json::array();
   for (const Message& message : facts.messages) json["messages"].push_back(message.text);
+  json["focus"] = facts.focus;
   json["places"] = facts.places;
   json["pick"] = facts.pick ? Json(facts.pick->lines) : Json();
   json["gl_errors"] = report.glErrors;

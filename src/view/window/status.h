@@ -18,6 +18,9 @@ struct Responsiveness {
   double longestLoopMs = 0.0;
 };
 
+/// Adds one; of 512 the oldest is forgotten.
+void keepTime(std::deque<double>& times, double ms);
+
 struct WindowReport {
   uint64_t asked = 0;         ///< the latest request
   uint64_t seen = 0;          ///< that the tracing thread has seen

@@ -36,7 +36,6 @@ constexpr double kFrameSeconds = 1.0 / 60;
 /// meanwhile; so an event is late by this at most. Ten looks a second are no load.
 constexpr double kLongestSleep = 0.1;
 constexpr double kStatusSeconds = 0.05;  // between two status files
-constexpr size_t kMostTimes = 512;
 
 class Window {
  public:
@@ -83,6 +82,7 @@ class Window {
   bool statusWaits_ = false;
   int frames_ = kSettleFrames;  ///< still to be drawn
   double changed_ = -1.0;       ///< when the traced picture was last changed
+  double fades_ = 1e30;         ///< when a message is to be drawn paler
   std::vector<RenderOptions> askedSides_;
   glm::ivec2 askedSize_{0};
   bool askedMoving_ = false;
@@ -116,9 +116,7 @@ void Window::run() {
     ask();
     writeStatus();
     const double ms = 1000.0 * (glfwGetTime() - begin);
-    std::deque<double>& loops = report_.times.loopMs;
-    loops.push_back(ms);
-    if (loops.size() > kMostTimes) loops.pop_front();
+    keepTime(report_.times.loopMs, ms);
     report_.times.longestLoopMs = std::max(report_.times.longestLoopMs, ms);
   }
 }
@@ -129,9 +127,8 @@ void Window::wait() {
   const auto atMost = [&](double limit) { seconds = std::clamp(limit, 0.0, seconds); };
   if (input_.active()) atMost(kFrameSeconds);
   if (askedMoving_) atMost(changed_ + kMovingSeconds - now);
-  const double fading = secondsToFade(facts_.messages, now);
-  if (fading <= 0.0) frames_ = std::max(frames_, 1);
-  atMost(fading);
+  if (now >= fades_) frames_ = std::max(frames_, 1);
+  atMost(fades_ - now);
   if (statusWaits_) atMost(statusTime_ + kStatusSeconds - now);
   if (frames_ > 0 && !iconified()) atMost(0.0);
   if (seconds > 0.0)
@@ -166,8 +163,7 @@ void Window::take() {
     facts_.lines[picture.side] = picture.lines;
     report_.answered = std::max(report_.answered, picture.request);
     while (!unanswered_.empty() && unanswered_.front().first <= picture.request) {
-      report_.times.answerMs.push_back(1000.0 * (now - unanswered_.front().second));
-      if (report_.times.answerMs.size() > kMostTimes) report_.times.answerMs.pop_front();
+      keepTime(report_.times.answerMs, 1000.0 * (now - unanswered_.front().second));
       unanswered_.pop_front();
     }
     frames_ = std::max(frames_, 1);
@@ -231,11 +227,14 @@ void Window::draw() {
   const bool panel = state_.panel && state_.scene;
   const OverlayLayout layout = layoutOf(glm::vec2(size), interface_.scale(), panel, state_.split);
   facts_.places.clear();
-  if (drawOverlay(state_, facts_, layout, glfwGetTime())) cancelLoad();
+  const double now = glfwGetTime();
+  if (drawOverlay(state_, facts_, layout, now)) cancelLoad();
+  fades_ = now + secondsToFade(facts_.messages, now);
   if (panel) execute({drawPanel(state_, layout, facts_.places), {}});
   std::array<DisplaySide, 2> sides;
   for (size_t i = 0; i < 2; ++i) sides[i] = {state_.sides[i].exposure, state_.sides[i].toneMap};
   display_.draw(size, sides, state_.split ? state_.bar : 1.0);
+  facts_.focus = Interface::focus();
   interface_.end();
   checkGl("drawing the window");
   glfwSwapBuffers(window_.get());
