@@ -42,7 +42,7 @@ class Typing(Case):
             viewer.xdotool("keyup", "ctrl")
             viewer.xdotool("type", "--", typed)
             viewer.key("KP_Enter")
-            viewer.until(lambda s: s["exposure"] == taken, f"{typed} is {taken}")
+            viewer.until(lambda s: s["exposure"] == taken and s["focus"] == "picture", f"{typed} is {taken}")
         camera = viewer.status()["camera"]
         viewer.key("KP_7")
         viewer.until(lambda s: s["camera"] != camera, "from above")
