@@ -41,7 +41,10 @@ class Typing(Case):
             viewer.until(lambda s: s["focus"] == "text", "a field to type in")
             viewer.xdotool("keyup", "ctrl")
             viewer.xdotool("type", "--", typed)
-            viewer.key("KP_Enter")
+            # Dear ImGui 1.86 does not see a key that goes down and up within one frame.
+            viewer.xdotool("keydown", "KP_Enter")
+            time.sleep(0.1)
+            viewer.xdotool("keyup", "KP_Enter")
             viewer.until(lambda s: s["exposure"] == taken and s["focus"] == "picture", f"{typed} is {taken}")
         camera = viewer.status()["camera"]
         viewer.key("KP_7")
