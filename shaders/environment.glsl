@@ -95,7 +95,7 @@ vec2 sampleEnvironment(uvec2 bits) {
   int y = min(int(row), size.y - 1);
   float inRow = row - float(y);
   bool atPole = inRow < 0.5f ? y == 0 : y + 1 == size.y;
-  int steps = max(size.x / 2, 1);
+  int steps = clamp(size.x / 2, 1, kMostEnvironmentSteps);
   float column = invertTable(size.y + y * steps, uint(steps), bits.x);
   float x = min(floor(column), float(size.x - 1));
   return vec2(x + 0.5f + sampleTent(column - x), float(y) + (atPole ? inRow : 0.5f + sampleTent(inRow)));

@@ -135,6 +135,9 @@ const uint kTextureMirrorU = 16u;
 const uint kTextureClampV = 32u;
 const uint kTextureMirrorV = 64u;
 
+// The table of a row of the environment has half as many steps as the row has texels, but at least one and at most these.
+const int kMostEnvironmentSteps = 1024;
+
 // Emitter rows: the first and the last emitter that its equal share of the numbers draws, the last number that draws itself, probability (float); of an
 // emissive triangle its first vertex and material, its edges from there with 1 / area (float) and, of every emitter, what it is.
 const uint kEmitterRows = 4u;

@@ -2,12 +2,11 @@
 #include "cli/camera_options.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 
 #include "cli/numbers.h"
+#include "cli/option_text.h"
 #include "errors.h"
 
 namespace fragtrace {
@@ -30,27 +29,12 @@ std::optional<glm::dvec3> placeOf(const char* option, const std::vector<double>&
   return place;
 }
 
-/// The fewest digits, from 15 on, that the library's reader (strtold, then rounded) turns into the same
-/// number.
-std::string exactText(double value) {
-  char text[32];
-  for (int digits = 15; digits <= 17; ++digits) {
-    std::snprintf(text, sizeof text, "%.*g", digits, value);
-    if (double(std::strtold(text, nullptr)) == value) break;
-  }
-  return text;
-}
-
-void append(std::string& text, const char* option, const std::string& value) {
-  text += (text.empty() ? "" : " ") + std::string(option) + " " + value;
-}
-
 void append(std::string& text, const char* option, const std::optional<glm::dvec3>& v) {
-  if (v) append(text, option, exactText(v->x) + "," + exactText(v->y) + "," + exactText(v->z));
+  if (v) appendOption(text, option, exactText(v->x) + "," + exactText(v->y) + "," + exactText(v->z));
 }
 
 void append(std::string& text, const char* option, const std::optional<double>& value) {
-  if (value) append(text, option, exactText(*value));
+  if (value) appendOption(text, option, exactText(*value));
 }
 
 }  // namespace
@@ -114,8 +98,9 @@ void finishCamera(const RawCamera& raw, RenderOptions& options) {
 
 std::string cameraText(const RenderOptions& options) {
   std::string text;
-  if (!options.selection.camera.empty()) append(text, "--camera", "\"" + options.selection.camera + "\"");
-  if (options.cameraIndex) append(text, "--camera-index", std::to_string(*options.cameraIndex));
+  if (!options.cameraIndex && !options.selection.camera.empty())
+    appendOption(text, "--camera", options.selection.camera);
+  if (options.cameraIndex) appendOption(text, "--camera-index", std::to_string(*options.cameraIndex));
   append(text, "--camera-position", options.camera.position);
   append(text, "--camera-focal-point", options.camera.focalPoint);
   append(text, "--camera-view-up", options.camera.viewUp);
@@ -123,8 +108,8 @@ std::string cameraText(const RenderOptions& options) {
   append(text, "--camera-parallel-scale", options.camera.parallelScale);
   append(text, "--scene-origin", options.sceneOrigin);
   if (options.resolution) {
-    append(text, "--resolution",
-           std::to_string(options.resolution->x) + "," + std::to_string(options.resolution->y));
+    appendOption(text, "--resolution",
+                 std::to_string(options.resolution->x) + "," + std::to_string(options.resolution->y));
   }
   return text;
 }
@@ -134,14 +119,7 @@ RenderOptions withCameraText(RenderOptions options, const std::string& text) {
   app.set_help_flag();
   RawCamera raw;
   addCameraOptions(app, raw);
-  std::vector<std::string> arguments = CLI::detail::split_up(text);
-  for (std::string& argument : arguments) argument = withNumberSettled(argument);
-  std::ranges::reverse(arguments);  // last first, as the library wants them
-  try {
-    app.parse(arguments);
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
-  }
+  parseWords(app, splitWords(text));
   finishCamera(raw, options);
   return options;
 }

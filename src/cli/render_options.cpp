@@ -129,7 +129,7 @@ RenderOptions finishRender(const RawRender& raw) {
   o.statsFile = raw.statsFile;
   o.shaderFolder = raw.shaderFolder;
   chooseLayers(raw.aov, o);
-  if (!raw.aov.empty() && formatOfName(o.output) != ImageFormat::OpenExr) {
+  if (!raw.aov.empty() && !raw.anyOutput && formatOfName(o.output) != ImageFormat::OpenExr) {
     throw UsageError("--aov: only .exr files hold more layers");
   }
   if (o.treeLevel && !raw.output.empty() && !isDisplayFormat(o.output))

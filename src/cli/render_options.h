@@ -48,6 +48,7 @@ struct RawRender {
   std::string lightSampling = "nee";
   bool noBackground = false;
   bool noDefaultLight = false;
+  bool anyOutput = false;  ///< pictures get their names later, so what any format holds may be asked for
 };
 
 /// Adds all options but scene and output.

@@ -2,7 +2,6 @@
 #include "cli/setup.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "bvh/large_first.h"
 #include "bvh/two_level.h"
@@ -150,10 +149,6 @@ Bvh buildTree(const Scene& scene, const RenderOptions& options) {
 bool sameTree(const RenderOptions& a, const RenderOptions& b) {
   const auto iterative = [](const RenderOptions& o) { return o.traversal == TraversalMethod::Iterative; };
   return iterative(a) == iterative(b) && besideAllowed(a) == besideAllowed(b);
-}
-
-void say(const RenderOptions& options, const std::string& text) {
-  if (!options.quiet) std::fprintf(stderr, "fragtrace: %s\n", text.c_str());
 }
 
 LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress) {

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "bvh/bvh.h"
+#include "cli/say.h"
 #include "cli/statistics.h"
 #include "render/renderer.h"
 #include "stage/options.h"
@@ -64,9 +65,6 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
 
 /// Frees what only packing needs: triangles, vertices, pictures, the tree. For front ends that pack once.
 void releaseGeometry(LoadedScene& loaded);
-
-/// Says a line on stderr unless quiet.
-void say(const RenderOptions& options, const std::string& text);
 
 /// Milliseconds since the last call.
 class Stopwatch {

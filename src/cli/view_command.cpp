@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "cli/camera_options.h"
+#include "cli/command_text.h"
 #include "cli/commands.h"
 #include "cli/outputs.h"
 #include "cli/view_tracer.h"
@@ -46,7 +47,8 @@ int runView(const ViewOptions& options) {
     });
   };
   try {
-    library.run({options.render, options.statusFile, begin, cameraText, withCameraText}, exchange);
+    library.run({options.render, options.statusFile, begin, cameraText, commandText, withCommandText},
+                exchange);
   } catch (...) {
     exchange.quit();
     if (tracing.joinable()) tracing.join();

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/config_file.h"
+#include "errors.h"
 
 namespace fragtrace {
 
@@ -11,6 +12,8 @@ namespace {
 
 /// Relative error that the picture converges to before the program rests.
 constexpr double kNoise = 0.005;
+/// A side; what drivers draw, and less than what X servers take.
+constexpr int kMostWindowPixels = 16384;
 
 }  // namespace
 
@@ -21,7 +24,7 @@ void addViewOptions(CLI::App& app, RawView& raw) {
   describe("--spp", "camera paths a pixel at which the picture rests, default unlimited");
   describe("--noise", "it rests when 95 % of the pixels have a relative error below this, default 0.005");
   describe("--time", "it rests after so many seconds of drawing");
-  describe("--resolution", "WIDTH,HEIGHT of the window, default 1280,720");
+  describe("--resolution", "WIDTH,HEIGHT of the window, default 1280,720, at most 16384 a side");
   addConfigOption(app, raw.config);
   app.add_flag("--watch", raw.watch, "reload when a file of the scene, or of --shader-folder, changes");
   app.add_option("--status-file", raw.statusFile,
@@ -30,10 +33,12 @@ void addViewOptions(CLI::App& app, RawView& raw) {
 
 ViewOptions finishView(RawView& raw, CLI::App& command) {
   ViewOptions options;
-  // Layers go to the .exr that a key writes.
-  raw.render.output = "any.exr";
+  raw.render.anyOutput = true;
   options.render = finishConfigured(raw.render, raw.config, command);
-  options.render.output.clear();
+  const glm::ivec2 size = options.render.resolution.value_or(glm::ivec2(1));
+  if (size.x > kMostWindowPixels || size.y > kMostWindowPixels)
+    throw UsageError("--resolution: a window has at most " + std::to_string(kMostWindowPixels) +
+                     " pixels a side");
   if (!raw.render.spp) options.render.spp = kMostSamples - options.render.sampleOffset;
   if (options.render.noise <= 0.0) options.render.noise = kNoise;
   options.watch = raw.watch;

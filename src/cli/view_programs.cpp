@@ -34,6 +34,7 @@ RenderOptions programPart(const RenderOptions& o) {
   part.bufferReads = o.bufferReads;
   part.dispatch = o.dispatch;
   part.shaderFolder = o.shaderFolder;
+  part.quiet = o.quiet;
   return part;
 }
 

@@ -56,7 +56,9 @@ std::string whatFailed(const std::exception_ptr& error) {
 }  // namespace
 
 ViewTracer::ViewTracer(const ViewOptions& start, Exchange& exchange)
-    : start_(start), exchange_(exchange), loader_(exchange) {}
+    : start_(start), exchange_(exchange), loader_(exchange) {
+  passOnWhatIsSaid([&exchange](const std::string& text) { exchange.tell(text); });
+}
 
 void ViewTracer::run() {
   try {
@@ -138,7 +140,6 @@ void ViewTracer::adoptScene() {
   loadedOptions_ = result->options;
   programs_ = std::make_unique<ViewPrograms>(*context_, *loaded_, loadedOptions_);
   exchange_.tellError({});
-  for (const std::string& warning : result->stats.warnings) exchange_.tell("warning: " + warning);
   ViewedScene viewed;
   viewed.options = loadedOptions_;
   viewed.camera = loaded_->camera;
@@ -239,7 +240,9 @@ bool ViewTracer::work() {
     if (side.program) fitFilm(side);
   }
   const bool settled = !request_.moving && resolution_.step == 0;
-  if (settled && drawn) {
+  // A film that has just become this large holds nothing yet.
+  const bool whole = std::ranges::all_of(sides_, [](const Side& s) { return !s.program || s.samples > 0; });
+  if (settled && whole) {
     for (const SaveRequest& request : saves_) save(request);
     saves_.clear();
   }
@@ -318,7 +321,7 @@ void ViewTracer::publish(Side& side) {
 
 void ViewTracer::save(const SaveRequest& request) {
   Side& side = sides_[std::min(request.side, sides_.size() - 1)];
-  if (!side.program) return;
+  if (!side.program) return exchange_.tell("not written: no picture is drawn");
   try {
     RenderOptions options = side.options;
     options.output = request.path;

@@ -21,6 +21,9 @@ class ViewTracer {
  public:
   /// The scene of the options is loaded first; when that fails, or there is no context, so does the program.
   ViewTracer(const ViewOptions& start, Exchange& exchange);
+  ViewTracer(const ViewTracer&) = delete;
+  ViewTracer& operator=(const ViewTracer&) = delete;
+  ~ViewTracer() { passOnWhatIsSaid({}); }
 
   /// Until the exchange says quit; to be called in the thread that is to draw.
   void run();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace fragtrace {
 
@@ -23,78 +24,48 @@ struct Runs {
   }
 };
 
-/// Sums of the weights before each place, and of their squares.
-struct Sums {
-  std::vector<double> weights;
-  std::vector<double> squares;
-
-  /// The second moment of weight over density, of places that are drawn evenly.
-  double cost(size_t from, size_t to) const {
-    const double sum = weights[to] - weights[from];
-    return sum > 0.0 ? double(to - from) * (squares[to] - squares[from]) / sum : 0.0;
-  }
-  double gain(size_t from, size_t at, size_t to) const {
-    return from < at && at < to ? cost(from, to) - cost(from, at) - cost(at, to) : -INFINITY;
-  }
-  /// Where two even parts cost least; `to` when there is but one place.
-  size_t split(size_t from, size_t to) const {
-    size_t best = to;
-    double least = INFINITY;
-    for (size_t at = from + 1; at < to; ++at) {
-      const double both = cost(from, at) + cost(at, to);
-      if (both < least) {
-        least = both;
-        best = at;
-      }
-    }
-    return best;
-  }
-};
-
-Sums sumsOf(std::span<const float> weights) {
-  Sums sums;
-  sums.weights.resize(weights.size() + 1);
-  sums.squares.resize(weights.size() + 1);
-  for (size_t i = 0; i < weights.size(); ++i) {
-    const auto w = double(weights[i]);
-    sums.weights[i + 1] = sums.weights[i] + w;
-    sums.squares[i + 1] = sums.squares[i] + w * w;
-  }
-  return sums;
-}
-
-/// The number that draws the beginning of each place, and the count of numbers: by the weights, and one number more
-/// for each that is not zero, so that none is left out.
-std::vector<uint64_t> numbersOf(std::span<const float> weights, const Sums& sums, uint64_t count) {
-  const auto positive = uint64_t(std::count_if(weights.begin(), weights.end(), [](float w) { return w > 0.0f; }));
-  const double scale = double(count - positive) / sums.weights.back();
+/// The number that draws the beginning of each place, and the count of numbers: by the weights, whose sum is given, and one number
+/// more for each that is not zero, so that none is left out.
+std::vector<uint64_t> numbersOf(std::span<const float> weights, double sum, uint64_t count) {
+  uint64_t positive = 0;
+  for (float w : weights) positive += w > 0.0f ? 1 : 0;
+  const double scale = double(count - positive) / sum;
   std::vector<uint64_t> numbers(weights.size() + 1);
+  double before = 0.0;
   uint64_t more = 0;
   for (size_t i = 0; i < weights.size(); ++i) {
+    before += double(weights[i]);
     more += weights[i] > 0.0f ? 1 : 0;
-    numbers[i + 1] = uint64_t(sums.weights[i + 1] * scale) + more;
+    numbers[i + 1] = uint64_t(int64_t(before * scale)) + more;
   }
   numbers.back() = count;
   return numbers;
 }
 
-/// Appends those of the places [first, last], at which the density changes within one step, that matter most.
-void appendChanges(Runs& runs, const Sums& sums, const std::vector<uint64_t>& numbers, size_t first, size_t last) {
-  if (last + 1 - first <= kMostChanges) {
-    for (size_t i = first; i <= last; ++i) runs.append(i, numbers[i]);
-    return;
+/// Appends those of the places [first, last], at which the density changes within one step, where it changes most.
+void appendChanges(Runs& runs, std::span<const float> weights, const std::vector<uint64_t>& numbers, size_t first,
+                   size_t last) {
+  static_assert(kMostChanges == 2);
+  size_t one = first;
+  size_t other = last;
+  if (last - first >= kMostChanges) {
+    const auto jump = [&](size_t i) { return std::abs(weights[i] - weights[i - 1]); };
+    other = first + 1;
+    if (jump(one) < jump(other)) std::swap(one, other);
+    for (size_t i = first + 2; i <= last; ++i) {
+      if (jump(i) > jump(one)) {
+        other = std::exchange(one, i);
+      } else if (jump(i) > jump(other)) {
+        other = i;
+      }
+    }
+    if (other < one) std::swap(one, other);
   }
-  const size_t from = first - 1;
-  const size_t to = last + 1;
-  const size_t middle = sums.split(from, to);
-  const size_t before = sums.split(from, middle);
-  const size_t after = sums.split(middle, to);
-  const bool left = sums.gain(from, before, middle) > sums.gain(middle, after, to);
-  const size_t other = left ? before : after;
-  for (size_t i : {std::min(middle, other), std::max(middle, other)}) runs.append(i, numbers[i]);
+  runs.append(one, numbers[one]);
+  if (other != one) runs.append(other, numbers[other]);
 }
 
-Runs runsOf(std::span<const float> weights, const Sums& sums, const std::vector<uint64_t>& numbers) {
+Runs runsOf(std::span<const float> weights, const std::vector<uint64_t>& numbers) {
   Runs runs;
   runs.places.reserve(weights.size() + 1);
   runs.numbers.reserve(weights.size() + 1);
@@ -110,7 +81,7 @@ Runs runsOf(std::span<const float> weights, const Sums& sums, const std::vector<
     const uint64_t step = numbers[i] / kUnits;
     const size_t first = i;
     while (i < count && numbers[i] % kUnits != 0 && numbers[i] / kUnits == step) ++i;
-    appendChanges(runs, sums, numbers, first, i - 1);
+    appendChanges(runs, weights, numbers, first, i - 1);
   }
   runs.append(count, numbers[count]);
   return runs;
@@ -143,15 +114,11 @@ void fillSteps(std::span<InversionStep> steps, const Runs& runs) {
 }  // namespace
 
 double makeInversionTable(std::span<float> weights, std::span<InversionStep> steps) {
-  Sums sums = sumsOf(weights);
-  const double sum = sums.weights.back();
-  if (sum <= 0.0) {
-    std::fill(weights.begin(), weights.end(), 1.0f);
-    sums = sumsOf(weights);
-  }
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  if (sum <= 0.0) std::fill(weights.begin(), weights.end(), 1.0f);
   const uint64_t count = steps.size() * kUnits;
-  const std::vector<uint64_t> numbers = numbersOf(weights, sums, count);
-  const Runs runs = runsOf(weights, sums, numbers);
+  const std::vector<uint64_t> numbers = numbersOf(weights, sum > 0.0 ? sum : double(weights.size()), count);
+  const Runs runs = runsOf(weights, numbers);
   fillSteps(steps, runs);
   const double scale = double(weights.size()) / double(count);
   for (size_t run = 0; run + 1 < runs.places.size(); ++run) {

@@ -21,7 +21,7 @@ static_assert(sizeof(InversionStep) == 16);
 
 /// Fills `steps` so that they draw a place in [0, weights.size()) by a density that is constant between whole
 /// numbers, and replaces the weights by that density (its mean is 1). It is proportional to the weights, but
-/// where more than three of them fall into one step: those of them that differ least are then drawn evenly.
+/// where the density changes more than twice within one step: it then does so where the weights differ most.
 /// Weights are finite and not negative, at most 65,535; all zero: drawn evenly. Returns their sum.
 double makeInversionTable(std::span<float> weights, std::span<InversionStep> steps);
 

@@ -40,10 +40,10 @@ double copyRow(const Image& image, int y, std::span<uint32_t> texels) {
   const float* p = image.pixel(0, y);
   double sum = 0.0;
   for (size_t i = 0; i < texels.size(); i += 4, p += image.channelCount()) {
-    const double bright = std::max(0.0, luminance(glm::dvec3(p[0], p[1], p[2])));
+    const float bright = std::max(0.0f, 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2]);
     std::memcpy(&texels[i], p, 3 * sizeof(float));
-    texels[i + 3] = floatWord(float(bright));
-    sum += bright;
+    texels[i + 3] = floatWord(bright);
+    sum += double(bright);
   }
   return sum;
 }
@@ -80,7 +80,7 @@ PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws) {
   packed.size = {image.width, image.height};
   const auto rows = size_t(image.height);
   const size_t rowWords = size_t(image.width) * 4;
-  const size_t stepCount = std::max<size_t>(1, size_t(image.width) / 2);
+  const size_t stepCount = size_t(std::clamp(image.width / 2, 1, layout::kMostEnvironmentSteps));
   const size_t stepWords = stepCount * 4;
   const bool drawn = draws != EnvironmentDraws::Nothing;
   // Step: two large arrays, whose pages are made at once.

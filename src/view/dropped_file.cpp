@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <string>
 
 namespace fragtrace {
 
@@ -13,6 +12,34 @@ DroppedFile kindOfDropped(const std::filesystem::path& path) {
   if (extension == ".gltf" || extension == ".glb") return DroppedFile::Scene;
   if (extension == ".hdr" || extension == ".exr" || extension == ".pfm") return DroppedFile::Environment;
   return DroppedFile::Unknown;
+}
+
+Drop takeDrop(const RenderOptions& shown, std::span<const std::filesystem::path> files) {
+  Drop drop;
+  RenderOptions options = shown;
+  std::optional<std::filesystem::path> scene;
+  std::optional<std::filesystem::path> environment;
+  for (const std::filesystem::path& file : files) {
+    const DroppedFile kind = kindOfDropped(file);
+    if (kind == DroppedFile::Unknown) {
+      drop.refused.push_back(file.filename().string() +
+                             " is neither a scene (.gltf, .glb) nor an environment (.hdr, .exr, .pfm)");
+      continue;
+    }
+    std::optional<std::filesystem::path>& taken = kind == DroppedFile::Scene ? scene : environment;
+    if (taken) drop.refused.push_back(taken->filename().string() + ": only the last of its kind is taken");
+    taken = file;
+  }
+  if (scene) {
+    options.scene = *scene;
+    options.camera = {};
+    options.cameraIndex.reset();
+    options.sceneOrigin.reset();
+    options.selection = {};
+  }
+  if (environment) options.hdriFile = *environment;
+  if (scene || environment) drop.load = options;
+  return drop;
 }
 
 }  // namespace fragtrace

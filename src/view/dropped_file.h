@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What a file that is dropped on the window stands for.
+// What files that are dropped on the window stand for.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "stage/options.h"
 
 namespace fragtrace {
 
@@ -11,5 +17,15 @@ enum class DroppedFile : uint8_t { Scene, Environment, Unknown };
 
 /// By its extension, in any case: .gltf and .glb are scenes, .hdr, .exr and .pfm environments.
 DroppedFile kindOfDropped(const std::filesystem::path& path);
+
+/// What files dropped together ask for.
+struct Drop {
+  std::optional<RenderOptions> load;  ///< none: nothing of it can be loaded
+  std::vector<std::string> refused;   ///< a sentence for each file that is not taken
+};
+
+/// Puts them into the options of the scene that is shown, or being loaded: a scene with a camera of its own,
+/// an environment, or both. Of several of a kind the last is taken.
+Drop takeDrop(const RenderOptions& shown, std::span<const std::filesystem::path> files);
 
 }  // namespace fragtrace

@@ -49,8 +49,8 @@ void addCamera(std::vector<Control>& rows) {
     add(Press, '0' + digit, kControl, Action::SceneCamera, "the scene's camera of that number", digit);
   add(Press, 'N', 0, Action::NextCamera, "the scene's next camera", 1);
   add(Press, 'N', kShift, Action::NextCamera, "the scene's camera before", -1);
-  add(Press, 'C', kControl, Action::CopyCamera, "copy the camera as command-line options");
-  add(Press, 'V', kControl, Action::PasteCamera, "take the camera from copied options");
+  add(Press, 'C', kControl, Action::CopyCommand, "copy the command that renders this picture");
+  add(Press, 'V', kControl, Action::PasteCommand, "take a copied command, or its camera options");
 }
 
 void addPicture(std::vector<Control>& rows) {
@@ -100,7 +100,7 @@ void addWindow(std::vector<Control>& rows) {
   add(Press, key::kUp, 0, Action::Reload, "read scene and shaders again");
   add(Press, key::kF12, 0, Action::Screenshot, "write the picture as .png");
   add(Press, key::kF12, kShift, Action::WriteExr, "write the accumulated radiance as .exr");
-  add(Press, key::kEscape, 0, Action::Quit, "quit");
+  add(Press, key::kEscape, 0, Action::Close, "close what is open: a list, the sheet, a load; else quit");
   add(Press, 'Q', kControl, Action::Quit, "quit");
 }
 
@@ -156,6 +156,11 @@ std::string codeName(const Control& control) {
 std::span<const Control> controls() {
   static const std::vector<Control> rows = makeControls();
   return rows;
+}
+
+int mainKey(int code) {
+  if (code >= key::kKeypad0 && code <= key::kKeypad9) return '0' + code - key::kKeypad0;
+  return code == key::kKeypadEnter ? key::kEnter : code;
 }
 
 const Control* controlFor(Gesture gesture, int code, int modifiers) {

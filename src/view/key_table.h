@@ -31,8 +31,8 @@ enum class Action : uint8_t {
   Widen,        ///< argument: +1 wider, -1 narrower
   SceneCamera,  ///< argument: its index
   NextCamera,   ///< argument: +1 or -1
-  CopyCamera,
-  PasteCamera,
+  CopyCommand,
+  PasteCommand,
   // Picture.
   ToggleStage,  ///< argument: a Stage
   StagesUpTo,   ///< argument: a Stage
@@ -52,6 +52,7 @@ enum class Action : uint8_t {
   Reload,
   Screenshot,
   WriteExr,
+  Close,  ///< what is open; where nothing is, the viewer
   Quit
 };
 
@@ -77,6 +78,9 @@ inline constexpr int kPageUp = 266;
 inline constexpr int kPageDown = 267;
 inline constexpr int kF1 = 290;
 inline constexpr int kF12 = 301;
+inline constexpr int kKeypad0 = 320;
+inline constexpr int kKeypad9 = 329;
+inline constexpr int kKeypadEnter = 335;
 }  // namespace key
 
 /// Mouse buttons, as GLFW numbers them.
@@ -99,6 +103,9 @@ struct Control {
 
 /// All controls, in the order of the sheet.
 std::span<const Control> controls();
+
+/// The key that one of the keypad stands for, whether or not Num Lock is on; any other is itself.
+int mainKey(int code);
 
 /// The row of a gesture, or null.
 const Control* controlFor(Gesture gesture, int code, int modifiers);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <utility>
 
 namespace fragtrace {
 
@@ -19,6 +20,7 @@ constexpr double kWiden = 0.1;     // natural logarithm of one press
 constexpr double kExposureStep = 0.5;
 constexpr double kDegreesPerHeight = 180.0;
 constexpr int kDeepestLevel = 31;
+constexpr double kMostExposure = 32.0;  // either way; far beyond, pictures are not finite
 
 void setPose(ViewState& state, const CameraPose& pose) {
   state.posed = state.posed || !(pose == state.pose);
@@ -150,7 +152,9 @@ bool changePicture(ViewState& state, const Control& control, const Movement& m) 
         side.toneMap = ToneMap((int(side.toneMap) + 1) % int(toneMapNames().size()));
       return true;
     case Action::Exposure:
-      for (RenderOptions& side : state.sides) side.exposure += kExposureStep * control.argument;
+      for (RenderOptions& side : state.sides)
+        side.exposure =
+            std::clamp(side.exposure + kExposureStep * control.argument, -kMostExposure, kMostExposure);
       return true;
     case Action::RotateEnvironment:
       for (RenderOptions& side : state.sides)
@@ -189,16 +193,18 @@ Errand apply(ViewState& state, const Control& control, const Movement& movement)
       return Errand::CenterOn;
     case Action::Inspect:
       return Errand::Inspect;
-    case Action::CopyCamera:
-      return Errand::CopyCamera;
-    case Action::PasteCamera:
-      return Errand::PasteCamera;
+    case Action::CopyCommand:
+      return Errand::CopyCommand;
+    case Action::PasteCommand:
+      return Errand::PasteCommand;
     case Action::Reload:
       return Errand::Reload;
     case Action::Screenshot:
       return Errand::Screenshot;
     case Action::WriteExr:
       return Errand::WriteExr;
+    case Action::Close:
+      return std::exchange(state.sheet, false) ? Errand::None : Errand::Close;
     case Action::Quit:
       return Errand::Quit;
     default:
@@ -238,17 +244,32 @@ std::vector<RenderOptions> tracedSides(const ViewState& state) {
   return sides;
 }
 
-void takeCamera(ViewState& state, const RenderOptions& options) {
+void takeOptions(ViewState& state, const RenderOptions& options) {
   if (!state.scene) return;
   std::optional<int> index = options.cameraIndex;
   if (const auto named = cameraNamed(options.selection.camera, state.scene->cameras)) index = int(*named);
+  const Camera camera = chooseCamera(state.scene->cameras, index, options.camera, state.scene->bounds);
+  state.options() = options;
   for (RenderOptions& side : state.sides) {
     side.cameraIndex = index;
+    side.selection.camera.clear();
     side.camera = options.camera;
+    side.exposure = options.exposure;
+    side.toneMap = options.toneMap;
+    side.hdriRotationDegrees = options.hdriRotationDegrees;
+    side.background = options.background;
+    side.backgroundColor = options.backgroundColor;
   }
-  const Camera camera = chooseCamera(state.scene->cameras, index, options.camera, state.scene->bounds);
+  state.sceneCamera = index.value_or(state.sceneCamera);
+  state.treeBoxes = options.treeLevel.has_value();
+  state.treeLevel = options.treeLevel.value_or(state.treeLevel);
   state.pose = poseOf(camera, state.scene->bounds);
   state.posed = false;
+}
+
+bool sameScene(const RenderOptions& a, const RenderOptions& b) {
+  return a.scene == b.scene && a.selection == b.selection && a.hdriFile == b.hdriFile &&
+         a.defaultLight == b.defaultLight && a.instancing == b.instancing && a.limits == b.limits;
 }
 
 std::string whyGrey(const ViewState& state, Stage stage) {

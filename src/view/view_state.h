@@ -38,11 +38,12 @@ enum class Errand : uint8_t {
   None,
   CenterOn,
   Inspect,
-  CopyCamera,
-  PasteCamera,
+  CopyCommand,
+  PasteCommand,
   Reload,
   Screenshot,
   WriteExr,
+  Close,  ///< what is open beside the sheet; where nothing is, the viewer
   Quit
 };
 
@@ -66,8 +67,12 @@ std::vector<RenderOptions> tracedSides(const ViewState& state);
 /// Options that give the side's picture on the command line.
 RenderOptions renderOptionsOf(const ViewState& state, size_t side);
 
-/// Replaces the camera by that of options, as pasted.
-void takeCamera(ViewState& state, const RenderOptions& options);
+/// The active side draws what the options say, as pasted, of the scene that is shown; both sides with their
+/// camera and light. Throws UsageError, and changes nothing, when the scene has no such camera.
+void takeOptions(ViewState& state, const RenderOptions& options);
+
+/// Whether both load the same scene and environment.
+bool sameScene(const RenderOptions& a, const RenderOptions& b);
 
 /// Why a stage of the active side changes nothing; empty: it does.
 std::string whyGrey(const ViewState& state, Stage stage);

@@ -15,9 +15,10 @@ struct WindowStart {
   RenderOptions options;
   std::filesystem::path statusFile;  ///< see docs/viewer.md; empty: none
   std::function<void()> opened;      ///< called once the window is there
-  /// The camera as options of the command line, and back; the latter throws UsageError.
+  // Options as text of the command line, and back (cli/camera_options.h, cli/command_text.h).
   std::function<std::string(const RenderOptions&)> cameraText;
-  std::function<RenderOptions(const RenderOptions&, const std::string&)> withCameraText;
+  std::function<std::string(const RenderOptions&)> commandText;
+  std::function<RenderOptions(const RenderOptions&, const std::string&)> withCommandText;
 };
 
 /// What libfragtrace_window.so offers. Host and library are built together, so C++ types may cross.

@@ -15,5 +15,32 @@ TEST(DroppedFile, IsToldByItsExtension) {
     EXPECT_EQ(kindOfDropped(name), DroppedFile::Unknown) << name;
 }
 
+TEST(Drop, ASceneAndAnEnvironmentAreBothTaken) {
+  RenderOptions shown;
+  shown.scene = "old.gltf";
+  shown.cameraIndex = 3;
+  shown.exposure = 1.0;
+  for (const std::vector<std::filesystem::path>& files :
+       {std::vector<std::filesystem::path>{"a.glb", "b.hdr"}, {"b.hdr", "a.glb"}}) {
+    const Drop drop = takeDrop(shown, files);
+    ASSERT_TRUE(drop.load);
+    EXPECT_EQ(drop.load->scene, "a.glb");
+    EXPECT_EQ(drop.load->hdriFile, "b.hdr");
+    EXPECT_FALSE(drop.load->cameraIndex);
+    EXPECT_EQ(drop.load->exposure, 1.0);
+    EXPECT_TRUE(drop.refused.empty());
+  }
+}
+
+TEST(Drop, WhatIsNotTakenIsSaid) {
+  const std::vector<std::filesystem::path> files{"a.glb", "x.png", "b.glb"};
+  const Drop drop = takeDrop({}, files);
+  EXPECT_EQ(drop.load->scene, "b.glb");
+  ASSERT_EQ(drop.refused.size(), 2u);
+  EXPECT_TRUE(drop.refused[0].starts_with("x.png is neither")) << drop.refused[0];
+  EXPECT_TRUE(drop.refused[1].starts_with("a.glb: only the last")) << drop.refused[1];
+  EXPECT_FALSE(takeDrop({}, std::span(files).subspan(1, 1)).load);
+}
+
 }  // namespace
 }  // namespace fragtrace

@@ -29,6 +29,7 @@ inline float clamp(float x, float low, float high) { return min(max(x, low), hig
 inline float mix(float a, float b, float t) { return a * (1 - t) + b * t; }
 inline int min(int a, int b) { return b < a ? b : a; }
 inline int max(int a, int b) { return a < b ? b : a; }
+inline int clamp(int x, int low, int high) { return min(max(x, low), high); }
 
 inline float uintBitsToFloat(uint x) { return glm::uintBitsToFloat(x); }
 inline vec3 uintBitsToFloat(uvec3 v) { return vec3(glm::uintBitsToFloat(v)); }

@@ -56,6 +56,13 @@ TEST(KeyTable, IsFoundByGesture) {
   EXPECT_EQ(controlFor(Gesture::Press, 'Q', kControlModifier | kShiftModifier), nullptr);
 }
 
+TEST(KeyTable, TheKeypadDoesWhatItsKeysSay) {
+  for (int digit = 0; digit <= 9; ++digit) EXPECT_EQ(mainKey(key::kKeypad0 + digit), '0' + digit);
+  EXPECT_EQ(mainKey(key::kKeypadEnter), key::kEnter);
+  for (const int code : {int('A'), int('7'), key::kEscape, key::kF12, key::kKeypad9 + 1})
+    EXPECT_EQ(mainKey(code), code);
+}
+
 /// The keys of doc/user/04-INTERACTIONS.md of F3D, for what both have.
 TEST(KeyTable, KeysAreThoseOfF3d) {
   const auto does = [](Gesture gesture, int code, int modifiers) {

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "errors.h"
 #include "stage/variant.h"
 
 namespace fragtrace {
@@ -124,6 +125,50 @@ TEST(ViewState, AReloadedSceneKeepsTheViewAndAnotherOneDoesNot) {
   showScene(state, other);
   EXPECT_FALSE(state.posed);
   EXPECT_EQ(state.sides[0].scene, "other.gltf");
+}
+
+TEST(ViewState, EscapeClosesTheSheetBeforeItQuits) {
+  ViewState state = someState();
+  press(state, Action::ToggleSheet);
+  EXPECT_EQ(press(state, Action::Close), Errand::None);
+  EXPECT_FALSE(state.sheet);
+  EXPECT_EQ(press(state, Action::Close), Errand::Close);
+}
+
+TEST(ViewState, ExposureHasLimits) {
+  ViewState state = someState();
+  for (int i = 0; i < 1000; ++i) press(state, Action::Exposure, 1);
+  EXPECT_EQ(state.sides[0].exposure, 32.0);
+  for (int i = 0; i < 1000; ++i) press(state, Action::Exposure, -1);
+  EXPECT_EQ(state.sides[0].exposure, -32.0);
+}
+
+TEST(ViewState, PastedOptionsAreThoseOfTheActiveSideAndTheCameraOfBoth) {
+  ViewState state = someState();
+  press(state, Action::ToggleSplit);
+  state.active = 1;
+  RenderOptions pasted = renderOptionsOf(state, 1);
+  pasted.bounces = 2;
+  pasted.exposure = 1.5;
+  pasted.cameraIndex = 1;
+  pasted.treeLevel = 7;
+  takeOptions(state, pasted);
+  EXPECT_EQ(state.sides[1].bounces, 2);
+  EXPECT_EQ(state.sides[0].bounces, RenderOptions().bounces);
+  EXPECT_EQ(state.sides[0].exposure, 1.5);
+  EXPECT_EQ(tracedSides(state)[0].cameraIndex, 1);
+  EXPECT_EQ(state.pose.position, glm::dvec3(5.0, 0.0, 5.0));
+  EXPECT_EQ(tracedSides(state)[0].treeLevel, 7);
+}
+
+TEST(ViewState, ACameraThatIsNotThereChangesNothing) {
+  ViewState state = someState();
+  RenderOptions pasted = renderOptionsOf(state, 0);
+  pasted.cameraIndex = 7;
+  pasted.bounces = 2;
+  EXPECT_THROW(takeOptions(state, pasted), UsageError);
+  EXPECT_FALSE(tracedSides(state)[0].cameraIndex);
+  EXPECT_EQ(state.sides[0].bounces, RenderOptions().bounces);
 }
 
 TEST(ViewerDocument, HoldsTheTableOfAllControls) {

@@ -76,6 +76,8 @@ class Camera(Case):
         self.same(pixels_of(shown), pixels_of(rendered))
         self.assertTrue(pixels_of(shown) != pixels_of(self.render("plastics", *SIZE, "--spp", 4)))
 
+        viewer.click("close news")  # which covers half of so small a picture
+        viewer.until(lambda s: "news" not in s["places"], "closed")
         viewer.at(80, 80)
         viewer.xdotool("click", 1)
         picked = viewer.until(lambda s: s["pick"], "what is under the cursor")["pick"]
@@ -88,6 +90,16 @@ class Camera(Case):
         viewer.rest(lambda s: s["camera"] == before, "reset")
         viewer.key("Escape")
         self.ends_well(viewer, viewer.end())
+
+    def test_a_picture_asked_for_while_the_camera_moves_is_of_all_samples(self):
+        # So large that moving frames are coarse.
+        viewer = self.view("plastics", "--resolution", "640,480", "--spp", "1")
+        asked = viewer.status()["asked"]
+        viewer.drag((300, 200), (340, 220))
+        shown = viewer.press_for_file("F12", ".png")
+        camera = viewer.rest(lambda s: s["asked"] > asked, "rest after a drag")["camera"]
+        self.same(pixels_of(shown), pixels_of(self.render("plastics", "--spp", 1, *shlex.split(camera))))
+        self.ends_well(viewer, viewer.close())
 
 
 if __name__ == "__main__":

@@ -171,6 +171,14 @@ class Viewer:
     def at(self, x, y):
         self.xdotool("mousemove", "--window", self.id, x, y)
 
+    def click(self, name):
+        """On what the status file gives a place by that name, once that stands still."""
+        place = self.until(lambda s: s.get("places", {}).get(name), f"a place of {name}")["places"][name]
+        time.sleep(0.1)
+        self.at(round(place[0] + place[2] / 2), round(place[1] + place[3] / 2))
+        time.sleep(0.1)  # Dear ImGui takes the cursor for there one frame later
+        self.xdotool("click", 1)
+
     def drag(self, start, end, button=1, steps=8):
         self.at(*start)
         self.xdotool("mousedown", button)

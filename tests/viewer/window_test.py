@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """The window's life: opening, size, minimising, files dropped and changed, errors, ends."""
+import json
 import os
 import shutil
 import subprocess
@@ -28,8 +29,10 @@ class Ends(Case):
         for name in (None, ":987"):
             if name:
                 environment["DISPLAY"] = name
-            result = subprocess.run([FRAGTRACE, "view", SCENES / "furnace.gltf"], env=environment, capture_output=True, text=True,
-                                    timeout=60)
+            status = self.folder / "status.json"
+            result = subprocess.run([FRAGTRACE, "view", SCENES / "furnace.gltf", "--status-file", status], env=environment,
+                                    capture_output=True, text=True, timeout=60)
+            self.assertIn("no window", json.loads(status.read_text())["error"])
             self.assertEqual(result.returncode, 4, result.stderr)
             self.assertIn("no window", result.stderr)
             self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
@@ -38,12 +41,16 @@ class Ends(Case):
         viewer = self.view(self.folder / "none.gltf", *FEW, wait=False)
         self.assertEqual(viewer.end(60), 3)
         self.assertIn("none.gltf", viewer.stderr())
+        self.assertEqual(viewer.status()["state"], "failed")
+        self.assertIn("none.gltf", viewer.status()["error"])
 
     def test_what_cannot_be_is_2(self):
-        for options in (["--spp", "0"], ["--nonsense"], ["-o", "x.png"], ["--camera-index", "7"]):
+        for options in (["--spp", "0"], ["--nonsense"], ["-o", "x.png"], ["--camera-index", "7"],
+                        ["--resolution", "60000,60000"]):
             result = subprocess.run([FRAGTRACE, "view", SCENES / "furnace.gltf", *options], capture_output=True, text=True, timeout=60,
                                     env=self.screen.environment)
             self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertTrue(result.stderr.startswith("fragtrace: "), result.stderr)
 
 
 class Sizes(Case):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A source for drops of one file: the messages of XDND 5 (freedesktop.org, "Drag-and-Drop Protocol for the X Window System")."""
+"""A source for drops of files: the messages of XDND 5 (freedesktop.org, "Drag-and-Drop Protocol for the X Window System")."""
 import time
 
 import Xlib.display
@@ -7,7 +7,7 @@ from Xlib import X, Xatom
 from Xlib.protocol import event
 
 
-def drop(screen, window_id, path, seconds=20):
+def drop(screen, window_id, *paths, seconds=20):
     display = Xlib.display.Display(screen.name)
     root = display.screen().root
     source = root.create_window(0, 0, 1, 1, 0, X.CopyFromParent)
@@ -37,7 +37,7 @@ def drop(screen, window_id, path, seconds=20):
             dropped = True
             send("XdndDrop", 0, X.CurrentTime)
         elif e.type == X.SelectionRequest:
-            e.requestor.change_property(e.property, e.target, 8, ("file://" + str(path) + "\r\n").encode())
+            e.requestor.change_property(e.property, e.target, 8, "".join(f"file://{path}\r\n" for path in paths).encode())
             e.requestor.send_event(event.SelectionNotify(time=e.time, requestor=e.requestor, selection=e.selection, target=e.target,
                                                          property=e.property))
             display.flush()

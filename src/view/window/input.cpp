@@ -9,6 +9,8 @@
 #include <cmath>
 #include <utility>
 
+#include "view/window/interface.h"
+
 namespace fragtrace {
 
 namespace {
@@ -31,7 +33,7 @@ bool repeats(Action action) {
 Input::Input(GLFWwindow* window) : window_(window) {
   glfwSetWindowUserPointer(window, this);
   glfwSetKeyCallback(window, [](GLFWwindow* w, int code, int, int action, int modifiers) {
-    inputOf(w).events_.push_back({Kind::Key, code, action, modifiers, {}});
+    inputOf(w).events_.push_back({Kind::Key, mainKey(code), action, modifiers, {}});
   });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int code, int action, int modifiers) {
     inputOf(w).events_.push_back({Kind::Button, code, action, modifiers, {}});
@@ -112,6 +114,7 @@ void Input::key(const Event& event, ViewState& state, std::vector<PlacedErrand>&
   }
   const Control* control = controlFor(Gesture::Press, event.code, modifiers);
   if (!control || (event.action == GLFW_REPEAT && !repeats(control->action))) return;
+  if (control->action == Action::Close && Interface::closePopup()) return;
   const Errand errand = apply(state, *control, {});
   if (errand != Errand::None) errands.push_back({errand, place()});
 }

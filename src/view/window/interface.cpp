@@ -6,6 +6,7 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -84,6 +85,18 @@ void Interface::begin() {
 void Interface::end() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+const char* Interface::focus() {
+  if (ImGui::GetIO().WantTextInput) return "text";
+  return ImGui::GetCurrentContext()->OpenPopupStack.Size > 0 ? "popup" : "picture";
+}
+
+bool Interface::closePopup() {
+  // Dear ImGui does so itself only where it takes the keys that we have.
+  const int open = ImGui::GetCurrentContext()->OpenPopupStack.Size;
+  if (open > 0) ImGui::ClosePopupToLevel(open - 1, true);
+  return open > 0;
 }
 
 }  // namespace fragtrace

@@ -18,6 +18,12 @@ class Interface {
   void begin();
   void end();
 
+  /// Closes the list, or picker of colours, that was opened last; false: none is open.
+  static bool closePopup();
+
+  /// What keys go to: "text" that is edited, a "popup", or the "picture".
+  static const char* focus();
+
   /// How many pixels stand for one at 96 dots an inch.
   float scale() const { return scale_; }
 

@@ -5,96 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "view/window/figures.h"
+#include "view/window/text.h"
 
 namespace fragtrace {
 
 namespace {
 
-constexpr float kBorder = 8.0f;
 constexpr float kBarWidth = 2.0f;
 constexpr float kHandleRadius = 7.0f;
-constexpr ImGuiWindowFlags kLabelFlags =
-    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
-    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+constexpr float kProgressWidth = 320.0f;
+constexpr float kSheetWidth = 600.0f;
+/// A label that may be longer than its place.
+constexpr ImGuiWindowFlags kPageFlags = kLabelFlags & ~ImGuiWindowFlags_NoScrollbar;
 const ImVec4 kRed{0.55f, 0.08f, 0.06f, 0.94f};
-
-std::string megabytes(size_t bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f MB", double(bytes) / 1e6);
-  return text;
-}
-
-template <typename... Values>
-void row(const char* name, const char* format, Values... values) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TextDisabled("%s", name);
-  ImGui::TableNextColumn();
-  ImGui::Text(format, values...);
-}
-
-/// The variant's parts, as many a line as fit.
-void drawVariant(const std::string& variant, float width) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TextDisabled("variant");
-  ImGui::TableNextColumn();
-  std::string line;
-  const auto flush = [&] {
-    if (!line.empty()) ImGui::TextUnformatted(line.c_str());
-    line.clear();
-  };
-  for (size_t at = 0; at < variant.size();) {
-    const size_t end = std::min(variant.find('+', at), variant.size());
-    const std::string part = variant.substr(at, end - at);
-    std::string longer = line;
-    longer.append(line.empty() ? "" : " ").append(part);
-    const bool fits = line.empty() || ImGui::CalcTextSize(longer.c_str()).x <= width;
-    if (!fits) flush();
-    line = fits ? longer : part;
-    at = end + 1;
-  }
-  flush();
-}
-
-/// Of the split view only what is compared. Returns where it ends.
-float drawFigures(const ViewState& state, const ViewFacts& facts, size_t side, ImVec2 place, float scale) {
-  float end = place.y;
-  const SideStatistics& s = facts.statistics[side];
-  ImGui::SetNextWindowPos(place);
-  ImGui::SetNextWindowBgAlpha(0.62f);
-  const std::string name = "figures" + std::to_string(side);
-  if (ImGui::Begin(name.c_str(), nullptr, kLabelFlags | ImGuiWindowFlags_NoInputs) &&
-      ImGui::BeginTable("rows", 2, ImGuiTableFlags_SizingFixedFit)) {
-    if (state.split) row("side", "%s", side == 0 ? "left" : "right");
-    row("samples", "%d, %.1f s%s", s.samples, s.seconds, s.resting ? ", done" : "");
-    if (s.error >= 0.0)
-      row("error", "%.2f %% (goal %.2f %%)", 100.0 * s.error, 100.0 * state.sides[side].noise);
-    else
-      row("error", "not yet known");
-    row("frame", "%.1f ms, 95th %.1f ms", s.frameMs, s.frameP95Ms);
-    row("rays", "%.2f million/s", s.megaRaysPerSecond);
-    if (!state.split) row("paths", "%.2f million/s", s.megaPathsPerSecond);
-    const glm::ivec2 size = facts.pictureSize[side];
-    row("picture", "%d x %d", size.x, size.y);
-    if (!state.split && state.scene) {
-      const SceneDescription& d = state.scene->description;
-      if (d.spheres > 0)
-        row("scene", "%zu triangles, %zu spheres", d.triangles, d.spheres);
-      else
-        row("scene", "%zu triangles", d.triangles);
-    }
-    if (!state.split) {
-      row("memory", "%s", megabytes(s.deviceBytes).c_str());
-      drawVariant(s.variant, 190.0f * scale);
-    }
-    ImGui::EndTable();
-    end = ImGui::GetWindowPos().y + ImGui::GetWindowSize().y;
-  }
-  ImGui::End();
-  return end;
-}
 
 void drawBar(const ViewState& state, float scale) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -121,91 +46,120 @@ void drawLines(const ViewState& state, const ViewFacts& facts) {
   }
 }
 
-/// The latest news at the bottom left, the newest below.
-void drawNews(const ViewState& state, const ViewFacts& facts, float scale) {
-  std::deque<std::string> lines = facts.messages;
+/// Left of what is said next.
+bool closeButton(Places& places, const std::string& name) {
+  const bool pressed = ImGui::SmallButton("x");
+  addItemPlace(places, "close " + name);
+  ImGui::SameLine();
+  return pressed;
+}
+
+void drawNewsLines(const ViewState& state, const ViewFacts& facts, double now) {
   if (!facts.note.empty())
-    lines.push_back(facts.note + (state.scene ? " (the last picture stays meanwhile)" : ""));
-  if (lines.empty() && !facts.pick) return;
+    drawText(facts.note + (state.scene ? " (the last picture stays meanwhile)" : ""), kMostLineCharacters);
+  for (auto m = facts.messages.rbegin(); m != facts.messages.rend(); ++m) {
+    const float opacity = float(opacityOf(*m, now));
+    if (opacity <= 0.0f) continue;
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, opacity);
+    drawText(lineOf(*m), kMostLineCharacters);
+    ImGui::PopStyleVar();
+  }
+  if (!facts.pick) return;
+  for (const std::string& line : facts.pick->lines) drawText(line, kMostLineCharacters);
+}
+
+/// The latest news at the bottom left, the newest above.
+void drawNews(const ViewState& state, ViewFacts& facts, const OverlayLayout& layout, double now) {
+  const bool seen = !std::isinf(secondsToFade(facts.messages, now));
+  if (facts.note.empty() && !seen && !facts.pick) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({kBorder * scale, display.y - kBorder * scale}, ImGuiCond_Always, {0.0f, 1.0f});
+  ImGui::SetNextWindowPos({layout.margin, display.y - layout.margin}, ImGuiCond_Always, {0.0f, 1.0f});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {layout.newsMost.x, layout.newsMost.y});
   ImGui::SetNextWindowBgAlpha(0.78f);
-  if (ImGui::Begin("news", nullptr, kLabelFlags | ImGuiWindowFlags_NoInputs)) {
-    ImGui::PushTextWrapPos(0.5f * display.x);
-    if (facts.pick) {
-      for (const std::string& line : facts.pick->lines) ImGui::TextUnformatted(line.c_str());
-    }
-    for (const std::string& line : lines) ImGui::TextUnformatted(line.c_str());
+  if (ImGui::Begin("news", nullptr, kPageFlags)) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const bool close = (seen || facts.pick) && closeButton(facts.places, "news");
+    ImGui::BeginGroup();
+    ImGui::PushTextWrapPos(layout.newsMost.x - style.WindowPadding.x - style.ScrollbarSize);
+    drawNewsLines(state, facts, now);
     ImGui::PopTextWrapPos();
+    ImGui::EndGroup();
+    addWindowPlace(facts.places, "news");
+    if (close) {
+      closeMessages(facts.messages);
+      facts.pick.reset();
+    }
   }
   ImGui::End();
 }
 
-void drawError(ViewFacts& facts, float scale) {
+void drawError(ViewFacts& facts, const OverlayLayout& layout) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.5f * display.x, 0.25f * display.y}, ImGuiCond_Always, {0.5f, 0.0f});
-  ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x - 2 * kBorder * scale, 0.6f * display.y});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x - 2 * layout.margin, 0.6f * display.y});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, kRed);
-  if (ImGui::Begin("error", nullptr, kLabelFlags)) {
+  if (ImGui::Begin("error", nullptr, kPageFlags)) {
+    if (closeButton(facts.places, "error")) facts.errorClosed = true;
     ImGui::PushTextWrapPos(0.7f * display.x);
-    ImGui::TextUnformatted(facts.error.c_str());
+    drawText(facts.error, kMostPageCharacters);
     ImGui::PopTextWrapPos();
+    addWindowPlace(facts.places, "error");
   }
   ImGui::End();
   ImGui::PopStyleColor();
 }
 
-bool drawLoading(const LoadStatus& load, float scale) {
+bool drawLoading(const LoadStatus& load, const OverlayLayout& layout) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   bool cancel = false;
   ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowBgAlpha(0.88f);
   if (ImGui::Begin("loading", nullptr, kLabelFlags)) {
-    ImGui::Text("Loading %s", load.name.c_str());
-    ImGui::ProgressBar(float(load.fraction), {320.0f * scale, 0.0f}, load.step.c_str());
+    drawText("Loading " + shownText(load.name, kMostNameCharacters), kMostLineCharacters);
+    const float width = std::min(kProgressWidth * layout.scale, display.x - 6 * layout.margin);
+    ImGui::ProgressBar(float(load.fraction), {width, 0.0f}, load.step.c_str());
     cancel = ImGui::Button("Cancel");
   }
   ImGui::End();
   return cancel;
 }
 
-void drawSheet(float scale) {
+void drawSheet(ViewFacts& facts, const OverlayLayout& layout) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float height = display.y - 4 * kBorder * scale;
+  const float height = display.y - 4 * layout.margin;
   ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({std::min(600.0f * scale, display.x - 2 * kBorder * scale), height});
+  ImGui::SetNextWindowSize({std::min(kSheetWidth * layout.scale, display.x - 2 * layout.margin), height});
   ImGui::SetNextWindowFocus();
   ImGui::SetNextWindowBgAlpha(1.0f);
   if (ImGui::Begin("Keys and mouse", nullptr,
                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                        ImGuiWindowFlags_NoSavedSettings) &&
-      ImGui::BeginTable("sheet", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) {
+      ImGui::BeginTable("sheet", 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg)) {
     for (const SheetLine& line : sheetLines()) {
       ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(line.name.c_str());
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(line.sentence.c_str());
+      for (const std::string& text : {line.name, line.sentence}) {
+        ImGui::TableNextColumn();
+        ImGui::PushTextWrapPos(0.0f);
+        drawText(text, kMostLineCharacters);
+        ImGui::PopTextWrapPos();
+      }
     }
     ImGui::EndTable();
+    addWindowPlace(facts.places, "sheet");
   }
   ImGui::End();
 }
 
 }  // namespace
 
-bool drawOverlay(ViewState& state, ViewFacts& facts, float scale) {
+bool drawOverlay(ViewState& state, ViewFacts& facts, const OverlayLayout& layout, double now) {
   drawLines(state, facts);
-  if (state.split) drawBar(state, scale);
-  const float margin = kBorder * scale;
-  if (state.figures && state.scene) {
-    const float end = drawFigures(state, facts, 0, {margin, margin}, scale);
-    if (state.split) drawFigures(state, facts, 1, {margin, end + margin}, scale);
-  }
-  drawNews(state, facts, scale);
-  if (!facts.error.empty()) drawError(facts, scale);
-  if (state.sheet) drawSheet(scale);
-  return facts.load.busy && drawLoading(facts.load, scale);
+  if (state.split) drawBar(state, layout.scale);
+  if (state.figures && state.scene) drawFigures(state, facts, layout);
+  drawNews(state, facts, layout, now);
+  if (!facts.error.empty() && !facts.errorClosed) drawError(facts, layout);
+  if (state.sheet) drawSheet(facts, layout);
+  return facts.load.busy && drawLoading(facts.load, layout);
 }
 
 }  // namespace fragtrace

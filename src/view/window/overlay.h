@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
-#include <deque>
 #include <string>
 
+#include "view/message_list.h"
+#include "view/overlay_layout.h"
 #include "view/view_state.h"
+#include "view/window/places.h"
 
 namespace fragtrace {
 
@@ -18,12 +20,16 @@ struct ViewFacts {
   LoadStatus load;
   std::string note;
   std::string error;
-  std::deque<std::string> messages;  ///< the latest last
+  bool errorClosed = false;  ///< it has been read
+  MessageList messages;
   std::optional<PickAnswer> pick;
   bool resting = false;
+  const char* focus = "picture";  ///< what keys go to (Interface::focus)
+  Places places;                  ///< of the latest frame
 };
 
-/// Draws all of that into Dear ImGui's frame; true: loading is to be cancelled.
-bool drawOverlay(ViewState& state, ViewFacts& facts, float scale);
+/// Draws all of that into Dear ImGui's frame, `now` being seconds of the messages' clock; true: loading is to
+/// be cancelled.
+bool drawOverlay(ViewState& state, ViewFacts& facts, const OverlayLayout& layout, double now);
 
 }  // namespace fragtrace

@@ -9,14 +9,18 @@
 #include <span>
 #include <string>
 
+#include "view/window/text.h"
+
 namespace fragtrace {
 
 namespace {
 
-constexpr float kWidth = 352.0f;
-constexpr float kMargin = 8.0f;
 constexpr float kLabelWidth = 0.42f;  // of the row, before its control
 constexpr int kMostBouncesShown = 64;
+constexpr float kMostColor = 1e4f;
+/// Typed values keep to the ends of their slider, too.
+constexpr ImGuiSliderFlags kBounded = ImGuiSliderFlags_AlwaysClamp;
+constexpr ImGuiSliderFlags kBoundedLogarithmic = kBounded | ImGuiSliderFlags_Logarithmic;
 
 /// In a dim colour at the right end of the line, or of a line of its own where that has no room.
 void dimAtEnd(const std::string& text) {
@@ -30,11 +34,21 @@ void dimAtEnd(const std::string& text) {
 }
 
 /// A label, and room for a control up to the end of the row.
-void label(const char* text) {
+void label(Places& places, const char* text) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text);
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * kLabelWidth);
   ImGui::SetNextItemWidth(-1.0f);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  places[text] = {at.x, at.y, ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight()};
+}
+
+/// The next button on the same line, if that has room for it.
+void stayOnLineFor(const char* text) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float width = ImGui::CalcTextSize(text).x + 2 * style.FramePadding.x;
+  const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  if (ImGui::GetItemRectMax().x + style.ItemSpacing.x + width <= end) ImGui::SameLine();
 }
 
 template <typename Choice>
@@ -68,48 +82,49 @@ void drawStages(ViewState& state) {
   }
 }
 
-void drawSampling(ViewState& state) {
+void drawSampling(ViewState& state, Places& places) {
   RenderOptions& o = state.options();
-  label("Bounces");
+  label(places, "Bounces");
   int bounces = std::min(o.bounces, kMostBouncesShown);
   if (ImGui::SliderInt("##bounces", &bounces, 0, kMostBouncesShown,
-                       o.bounces >= kMostBouncesShown ? "unlimited" : "%d"))
+                       o.bounces >= kMostBouncesShown ? "unlimited" : "%d", kBounded))
     o.bounces = bounces >= kMostBouncesShown ? kUnlimitedBounces : bounces;
-  label("Roulette from");
-  ImGui::SliderInt("##roulette", &o.rouletteDepth, 1, 32);
-  label("Noise to reach");
+  label(places, "Roulette from");
+  ImGui::SliderInt("##roulette", &o.rouletteDepth, 1, 32, "%d", kBounded);
+  label(places, "Noise to reach");
   float noise = float(100.0 * o.noise);
-  if (ImGui::SliderFloat("##noise", &noise, 0.1f, 20.0f, "%.2f %%", ImGuiSliderFlags_Logarithmic))
+  if (ImGui::SliderFloat("##noise", &noise, 0.1f, 20.0f, "%.2f %%", kBoundedLogarithmic))
     for (RenderOptions& side : state.sides) side.noise = 0.01 * noise;
-  label("Pixel filter");
+  label(places, "Pixel filter");
   choose("##filter", kPixelFilterNames, o.pixelFilter);
-  label("Clamp indirect");
+  label(places, "Clamp indirect");
   float clamp = float(o.clampIndirect);
   if (ImGui::SliderFloat("##clamp", &clamp, 0.0f, 100.0f, clamp > 0.0f ? "%.2f (biased)" : "off",
-                         ImGuiSliderFlags_Logarithmic))
+                         kBoundedLogarithmic))
     o.clampIndirect = clamp;
-  label("Traversal");
+  label(places, "Traversal");
   choose("##traversal", kTraversalNames, o.traversal);
 }
 
-void drawLight(ViewState& state) {
+void drawLight(ViewState& state, Places& places) {
   RenderOptions& o = state.sides[0];
-  label("Exposure");
+  label(places, "Exposure");
   float exposure = float(o.exposure);
-  if (ImGui::SliderFloat("##exposure", &exposure, -8.0f, 8.0f, "%.1f EV"))
+  if (ImGui::SliderFloat("##exposure", &exposure, -8.0f, 8.0f, "%.1f EV", kBounded))
     for (RenderOptions& side : state.sides) side.exposure = exposure;
-  label("Tone map");
+  label(places, "Tone map");
   ToneMap curve = o.toneMap;
   choose("##curve", toneMapNames(), curve);
   for (RenderOptions& side : state.sides) side.toneMap = curve;
   const bool map = !o.hdriFile.empty();
-  label("Environment");
+  label(places, "Environment");
   ImGui::BeginDisabled(!map);
   float degrees = float(o.hdriRotationDegrees);
-  if (ImGui::SliderFloat("##rotation", &degrees, -180.0f, 180.0f, map ? "%.0f degrees" : "no --hdri-file"))
+  if (ImGui::SliderFloat("##rotation", &degrees, -180.0f, 180.0f, map ? "%.0f degrees" : "no --hdri-file",
+                         kBounded))
     for (RenderOptions& side : state.sides) side.hdriRotationDegrees = degrees;
   ImGui::EndDisabled();
-  label("Background");
+  label(places, "Background");
   bool background = o.background;
   if (ImGui::Checkbox("##background", &background))
     for (RenderOptions& side : state.sides) side.background = background;
@@ -117,34 +132,36 @@ void drawLight(ViewState& state) {
     ImGui::SameLine();
     glm::vec3 color = o.backgroundColor.value_or(glm::vec3(0.0f));
     if (ImGui::ColorEdit3("##color", glm::value_ptr(color),
-                          ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs))
-      for (RenderOptions& side : state.sides) side.backgroundColor = color;
+                          ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoInputs))
+      for (RenderOptions& side : state.sides)
+        side.backgroundColor = glm::clamp(color, glm::vec3(0.0f), glm::vec3(kMostColor));
+    addItemPlace(places, "Background colour");
   }
 }
 
-Errand drawCamera(ViewState& state) {
+Errand drawCamera(ViewState& state, Places& places) {
   Errand errand = Errand::None;
   const auto press = [&](const char* text, Action action) {
     if (ImGui::Button(text)) apply(state, *controlOf(action), {});
   };
-  label("Projection");
+  label(places, "Projection");
   if (ImGui::Button(state.pose.perspective ? "perspective" : "orthographic", ImVec2(-1, 0)))
     apply(state, *controlOf(Action::OtherProjection), {});
   if (state.pose.perspective) {
-    label("View angle");
+    label(places, "View angle");
     float degrees = float(state.pose.viewAngleDegrees);
-    if (ImGui::SliderFloat("##angle", &degrees, 1.0f, 170.0f, "%.1f degrees")) {
+    if (ImGui::SliderFloat("##angle", &degrees, 1.0f, 170.0f, "%.1f degrees", kBounded)) {
       state.pose.viewAngleDegrees = degrees;
       state.posed = true;
     }
   }
   if (state.scene && !state.scene->cameras.empty()) {
-    label("Scene camera");
+    label(places, "Scene camera");
     const auto& cameras = state.scene->cameras;
     const auto nameOf = [&](int i) {
       if (i < 0 || size_t(i) >= cameras.size()) return std::string("none");
       const std::string& name = cameras[size_t(i)].name;
-      return std::to_string(i) + (name.empty() ? "" : ": " + name);
+      return std::to_string(i) + (name.empty() ? "" : ": " + shownText(name, kMostNameCharacters));
     };
     if (ImGui::BeginCombo("##camera", nameOf(state.sceneCamera).c_str())) {
       for (int i = 0; i < int(cameras.size()); ++i) {
@@ -155,12 +172,12 @@ Errand drawCamera(ViewState& state) {
     }
   }
   press("Frame all", Action::FrameAll);
-  ImGui::SameLine();
+  stayOnLineFor("Reset");
   press("Reset", Action::ResetCamera);
-  ImGui::SameLine();
-  errand = std::max(errand, button("Copy", Errand::CopyCamera));
-  ImGui::SameLine();
-  errand = std::max(errand, button("Paste", Errand::PasteCamera));
+  stayOnLineFor("Copy");
+  errand = std::max(errand, button("Copy", Errand::CopyCommand));
+  stayOnLineFor("Paste");
+  errand = std::max(errand, button("Paste", Errand::PasteCommand));
   return errand;
 }
 
@@ -178,9 +195,9 @@ void drawCompare(ViewState& state) {
   state.active = size_t(active);
 }
 
-void drawDebug(ViewState& state) {
+void drawDebug(ViewState& state, Places& places) {
   RenderOptions& o = state.options();
-  label("Show");
+  label(places, "Show");
   const std::string current(rowOf(o.debugView).label);
   if (ImGui::BeginCombo("##show", current.c_str(), ImGuiComboFlags_HeightLargest)) {
     for (size_t i = 0; i < kDebugViewRows.size(); ++i) {
@@ -191,34 +208,34 @@ void drawDebug(ViewState& state) {
   }
   ImGui::Checkbox("Boxes of the tree", &state.treeBoxes);
   dimAtEnd(keyOf(Action::ToggleTreeBoxes));
-  label("Level");
-  ImGui::SliderInt("##level", &state.treeLevel, 0, 31);
+  label(places, "Level");
+  ImGui::SliderInt("##level", &state.treeLevel, 0, 31, "%d", kBounded);
 }
 
 }  // namespace
 
-Errand drawPanel(ViewState& state, float scale) {
+Errand drawPanel(ViewState& state, const OverlayLayout& layout, Places& places) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float margin = kMargin * scale;
-  const float width = std::min(kWidth * scale, display.x - 2 * margin);
-  ImGui::SetNextWindowPos({display.x - width - margin, margin});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, display.y - 2 * margin});
+  ImGui::SetNextWindowPos({display.x - layout.panel.x - layout.margin, layout.margin});
+  ImGui::SetNextWindowSizeConstraints({layout.panel.x, 0.0f}, {layout.panel.x, layout.panel.y});
   ImGui::SetNextWindowBgAlpha(0.88f);
   Errand errand = Errand::None;
   if (ImGui::Begin("Settings", nullptr,
                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse |
                        ImGuiWindowFlags_NoNav)) {
+    addWindowPlace(places, "panel");
     drawCompare(state);
     if (ImGui::CollapsingHeader("Stages and switches", ImGuiTreeNodeFlags_DefaultOpen)) drawStages(state);
-    if (ImGui::CollapsingHeader("Light and display", ImGuiTreeNodeFlags_DefaultOpen)) drawLight(state);
-    if (ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) errand = drawCamera(state);
-    if (ImGui::CollapsingHeader("Sampling")) drawSampling(state);
-    if (ImGui::CollapsingHeader("Debug views")) drawDebug(state);
+    if (ImGui::CollapsingHeader("Light and display", ImGuiTreeNodeFlags_DefaultOpen))
+      drawLight(state, places);
+    if (ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) errand = drawCamera(state, places);
+    if (ImGui::CollapsingHeader("Sampling")) drawSampling(state, places);
+    if (ImGui::CollapsingHeader("Debug views")) drawDebug(state, places);
     errand = std::max(errand, button("Screenshot", Errand::Screenshot));
-    ImGui::SameLine();
+    stayOnLineFor("Write .exr");
     errand = std::max(errand, button("Write .exr", Errand::WriteExr));
-    ImGui::SameLine();
+    stayOnLineFor("Reload");
     errand = std::max(errand, button("Reload", Errand::Reload));
     ImGui::TextDisabled("%s: all keys   %s: this panel", keyOf(Action::ToggleSheet).c_str(),
                         keyOf(Action::TogglePanel).c_str());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "image/whole_file.h"
 #include "math/summary.h"
 
 namespace fragtrace {
@@ -11,6 +12,8 @@ namespace fragtrace {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr size_t kMostTimes = 512;
 
 Json timesJson(const std::deque<double>& ms) {
   if (ms.empty()) return nullptr;
@@ -41,13 +44,27 @@ Json sideJson(const ViewState& state, const ViewFacts& facts, size_t side) {
 }
 
 const char* stateName(const ViewState& state, const ViewFacts& facts, const WindowReport& report) {
+  if (report.end) return report.end;
   if (facts.load.busy || !state.scene) return "loading";
   if (!facts.note.empty()) return "compiling";
   const bool resting = facts.resting && report.seen == report.asked;
   return resting ? "resting" : "drawing";
 }
 
+std::string textOf(const Json& json) {
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
+
+void keepTime(std::deque<double>& times, double ms) {
+  times.push_back(ms);
+  if (times.size() > kMostTimes) times.pop_front();
+}
+
+std::string failureText(const std::string& error) {
+  return textOf({{"schema", 1}, {"state", "failed"}, {"error", error}});
+}
 
 std::string statusText(const ViewState& state, const ViewFacts& facts, const WindowReport& report) {
   Json json;
@@ -73,13 +90,20 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["load_step"] = facts.load.step;
   json["load_fraction"] = facts.load.fraction;
   json["error"] = facts.error;
-  json["messages"] = facts.messages;
+  json["messages"] = Json::array();
+  for (const Message& message : facts.messages) json["messages"].push_back(message.text);
+  json["focus"] = facts.focus;
+  json["places"] = facts.places;
   json["pick"] = facts.pick ? Json(facts.pick->lines) : Json();
   json["gl_errors"] = report.glErrors;
   json["loop_ms"] = timesJson(report.times.loopMs);
   json["longest_loop_ms"] = report.times.longestLoopMs;
   json["answer_ms"] = timesJson(report.times.answerMs);
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return textOf(json);
+}
+
+void writeStatusFile(const std::filesystem::path& file, const std::string& text) {
+  if (!file.empty()) replaceFile(file, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 
 }  // namespace fragtrace

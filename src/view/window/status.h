@@ -18,15 +18,25 @@ struct Responsiveness {
   double longestLoopMs = 0.0;
 };
 
+/// Adds one; of 512 the oldest is forgotten.
+void keepTime(std::deque<double>& times, double ms);
+
 struct WindowReport {
-  uint64_t asked = 0;     ///< the latest request
-  uint64_t seen = 0;      ///< that the tracing thread has seen
-  uint64_t answered = 0;  ///< that a picture shown answers
-  std::string camera;     ///< as options of the command line
+  uint64_t asked = 0;         ///< the latest request
+  uint64_t seen = 0;          ///< that the tracing thread has seen
+  uint64_t answered = 0;      ///< that a picture shown answers
+  std::string camera;         ///< as options of the command line
+  const char* end = nullptr;  ///< "closed" or "failed"; null: the window is open
   std::vector<std::string> glErrors;
   Responsiveness times;
 };
 
+/// What is left to be said where no window could be opened.
+std::string failureText(const std::string& error);
+
 std::string statusText(const ViewState& state, const ViewFacts& facts, const WindowReport& report);
+
+/// Replaces the file as a whole; nothing where its name is empty. Throws RenderError.
+void writeStatusFile(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace fragtrace

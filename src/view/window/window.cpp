@@ -9,15 +9,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <memory>
-#include <stdexcept>
+#include <utility>
 
 #include "errors.h"
 #include "gl/debug_log.h"
 #include "gl/gl.h"
-#include "image/whole_file.h"
 #include "view/dropped_file.h"
+#include "view/shown_names.h"
 #include "view/window/display.h"
+#include "view/window/glfw_window.h"
 #include "view/window/input.h"
 #include "view/window/interface.h"
 #include "view/window/panel.h"
@@ -33,60 +35,7 @@ constexpr double kFrameSeconds = 1.0 / 60;
 /// GLFW 3.3 on X11 sleeps on what another thread's glfwPostEmptyEvent() has read from the connection
 /// meanwhile; so an event is late by this at most. Ten looks a second are no load.
 constexpr double kLongestSleep = 0.1;
-constexpr double kStatusSeconds = 0.05;   // between two status files
-constexpr float kLeastForPanel = 720.0f;  // pixels of width at 96 dots an inch
-constexpr size_t kMostMessages = 6;
-constexpr size_t kMostTimes = 512;
-
-std::string& glfwErrors() {
-  static std::string text;
-  return text;
-}
-
-/// GLFW for as long as it lives.
-struct Glfw {
-  Glfw() {
-    glfwSetErrorCallback([](int, const char* text) {
-      glfwErrors() += (glfwErrors().empty() ? "" : "; ") + std::string(text);
-    });
-    if (!glfwInit()) throw std::runtime_error(glfwErrors());
-  }
-  Glfw(const Glfw&) = delete;
-  Glfw& operator=(const Glfw&) = delete;
-  ~Glfw() { glfwTerminate(); }
-};
-
-struct CloseWindow {
-  void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
-};
-using WindowHandle = std::unique_ptr<GLFWwindow, CloseWindow>;
-
-WindowHandle openWindow(glm::ivec2 size, const std::string& title) {
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
-  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-#ifndef NDEBUG
-  glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
-#endif
-  glfwWindowHint(GLFW_DEPTH_BITS, 0);
-  glfwWindowHint(GLFW_STENCIL_BITS, 0);
-  WindowHandle window(glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr));
-  if (!window) throw std::runtime_error(glfwErrors());
-  glfwMakeContextCurrent(window.get());
-  if (gladLoadGL(glfwGetProcAddress) < GLAD_MAKE_VERSION(4, 5))
-    throw std::runtime_error("the display's OpenGL is older than 4.5");
-  glfwSwapInterval(1);
-  return window;
-}
-
-/// The first name that no file has: SCENE-1.png, ...
-std::filesystem::path freeName(const std::filesystem::path& scene, const char* extension) {
-  for (int i = 1;; ++i) {
-    std::filesystem::path path = scene.stem().string() + "-" + std::to_string(i) + extension;
-    std::error_code error;
-    if (!std::filesystem::exists(path, error)) return path;
-  }
-}
+constexpr double kStatusSeconds = 0.05;  // between two status files
 
 class Window {
  public:
@@ -95,6 +44,8 @@ class Window {
   Window& operator=(const Window&) = delete;
   ~Window() { exchange_.setWake({}); }
   void run();
+  /// The last of the status file: why the window is closed; empty: it was wanted.
+  void end(const std::string& failure);
 
  private:
   void wait();
@@ -102,11 +53,13 @@ class Window {
   void ask();
   void draw();
   void execute(const PlacedErrand& errand);
-  void takeDrop(const std::filesystem::path& path);
+  void load(const RenderOptions& options);
+  void cancelLoad();
+  void takeDrops();
   void save(const char* extension);
-  void copyCamera();
-  void pasteCamera();
-  std::string cameraText() const;
+  void copyCommand();
+  void pasteCommand();
+  RenderOptions shownOptions() const;
   void say(const std::string& message);
   void writeStatus();
   bool iconified() const { return glfwGetWindowAttrib(window_.get(), GLFW_ICONIFIED) != 0; }
@@ -122,11 +75,14 @@ class Window {
   ViewState state_;
   ViewFacts facts_;
   WindowReport report_;
+  RenderOptions wanted_;                 ///< of the scene that is shown, or being loaded
+  std::optional<RenderOptions> pasted_;  ///< to be taken once their scene is loaded
   std::string status_;
   double statusTime_ = -1.0;
   bool statusWaits_ = false;
   int frames_ = kSettleFrames;  ///< still to be drawn
   double changed_ = -1.0;       ///< when the traced picture was last changed
+  double fades_ = 1e30;         ///< when a message is to be drawn paler
   std::vector<RenderOptions> askedSides_;
   glm::ivec2 askedSize_{0};
   bool askedMoving_ = false;
@@ -137,16 +93,16 @@ Window::Window(const WindowStart& start, Exchange& exchange)
     : start_(start),
       exchange_(exchange),
       window_(openWindow(start.options.resolution.value_or(glm::ivec2(1280, 720)),
-                         "fragtrace: " + start.options.scene.filename().string())),
+                         windowTitle(start.options.scene))),
       input_(window_.get()),
       interface_(window_.get()) {
-  state_.sides[0] = start.options;
+  state_.sides[0] = wanted_ = start.options;
   state_.treeBoxes = start.options.treeLevel.has_value();
   state_.treeLevel = start.options.treeLevel.value_or(state_.treeLevel);
   // In a small window the picture would be hidden.
   glm::ivec2 size(0);
   glfwGetFramebufferSize(window_.get(), &size.x, &size.y);
-  state_.panel = float(size.x) >= kLeastForPanel * interface_.scale();
+  state_.panel = fitsPanel(glm::vec2(size), interface_.scale());
   facts_.load = {true, start.options.scene.filename().string(), "starting", 0.0};
   exchange_.setWake([] { glfwPostEmptyEvent(); });
 }
@@ -160,9 +116,7 @@ void Window::run() {
     ask();
     writeStatus();
     const double ms = 1000.0 * (glfwGetTime() - begin);
-    std::deque<double>& loops = report_.times.loopMs;
-    loops.push_back(ms);
-    if (loops.size() > kMostTimes) loops.pop_front();
+    keepTime(report_.times.loopMs, ms);
     report_.times.longestLoopMs = std::max(report_.times.longestLoopMs, ms);
   }
 }
@@ -173,6 +127,8 @@ void Window::wait() {
   const auto atMost = [&](double limit) { seconds = std::clamp(limit, 0.0, seconds); };
   if (input_.active()) atMost(kFrameSeconds);
   if (askedMoving_) atMost(changed_ + kMovingSeconds - now);
+  if (now >= fades_) frames_ = std::max(frames_, 1);
+  atMost(fades_ - now);
   if (statusWaits_) atMost(statusTime_ + kStatusSeconds - now);
   if (frames_ > 0 && !iconified()) atMost(0.0);
   if (seconds > 0.0)
@@ -183,8 +139,7 @@ void Window::wait() {
 }
 
 void Window::say(const std::string& message) {
-  facts_.messages.push_back(message);
-  if (facts_.messages.size() > kMostMessages) facts_.messages.pop_front();
+  addMessage(facts_.messages, message, glfwGetTime());
   frames_ = std::max(frames_, 1);
 }
 
@@ -193,8 +148,9 @@ void Window::take() {
   if (news.failure) std::rethrow_exception(news.failure);
   if (news.scene) {
     showScene(state_, std::move(*news.scene));
-    glfwSetWindowTitle(window_.get(),
-                       ("fragtrace: " + state_.scene->options.scene.filename().string()).c_str());
+    glfwSetWindowTitle(window_.get(), windowTitle(state_.scene->options.scene).c_str());
+    wanted_ = state_.scene->options;
+    if (pasted_ && sameScene(*pasted_, wanted_)) takeOptions(state_, *std::exchange(pasted_, {}));
     askedSides_.clear();
     facts_.pick.reset();
     frames_ = kSettleFrames;
@@ -207,8 +163,7 @@ void Window::take() {
     facts_.lines[picture.side] = picture.lines;
     report_.answered = std::max(report_.answered, picture.request);
     while (!unanswered_.empty() && unanswered_.front().first <= picture.request) {
-      report_.times.answerMs.push_back(1000.0 * (now - unanswered_.front().second));
-      if (report_.times.answerMs.size() > kMostTimes) report_.times.answerMs.pop_front();
+      keepTime(report_.times.answerMs, 1000.0 * (now - unanswered_.front().second));
       unanswered_.pop_front();
     }
     frames_ = std::max(frames_, 1);
@@ -222,13 +177,19 @@ void Window::take() {
     frames_ = kSettleFrames;
   }
   for (const std::string& message : news.messages) say(message);
+  if (const std::string errors = takeGlfwErrors(); !errors.empty()) say("window: " + errors);
   const bool changed = news.load.busy != facts_.load.busy || news.load.step != facts_.load.step ||
                        news.load.fraction != facts_.load.fraction || news.note != facts_.note ||
                        news.error != facts_.error || news.resting != facts_.resting;
   if (changed && (state_.scene || news.load.busy || !news.error.empty())) {
     facts_.load = news.load;
     facts_.note = news.note;
+    if (news.error != facts_.error) facts_.errorClosed = false;
     facts_.error = news.error;
+    if (!facts_.error.empty() && !facts_.load.busy && state_.scene) {
+      wanted_ = state_.scene->options;
+      pasted_.reset();
+    }
     facts_.resting = news.resting;
     frames_ = std::max(frames_, 2);
   }
@@ -261,17 +222,19 @@ void Window::draw() {
   if (size.x <= 0 || size.y <= 0) return;
   state_.size = size;
   interface_.begin();
-  const float scale = interface_.scale();
-  for (const PlacedErrand& errand : input_.update(state_, scale)) execute(errand);
-  for (const std::filesystem::path& path : input_.takeDrops()) takeDrop(path);
-  if (drawOverlay(state_, facts_, scale)) {
-    exchange_.cancelLoad();
-    if (!state_.scene) glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
-  }
-  if (state_.panel && state_.scene) execute({drawPanel(state_, scale), {}});
+  for (const PlacedErrand& errand : input_.update(state_, interface_.scale())) execute(errand);
+  takeDrops();
+  const bool panel = state_.panel && state_.scene;
+  const OverlayLayout layout = layoutOf(glm::vec2(size), interface_.scale(), panel, state_.split);
+  facts_.places.clear();
+  const double now = glfwGetTime();
+  if (drawOverlay(state_, facts_, layout, now)) cancelLoad();
+  fades_ = now + secondsToFade(facts_.messages, now);
+  if (panel) execute({drawPanel(state_, layout, facts_.places), {}});
   std::array<DisplaySide, 2> sides;
   for (size_t i = 0; i < 2; ++i) sides[i] = {state_.sides[i].exposure, state_.sides[i].toneMap};
   display_.draw(size, sides, state_.split ? state_.bar : 1.0);
+  facts_.focus = Interface::focus();
   interface_.end();
   checkGl("drawing the window");
   glfwSwapBuffers(window_.get());
@@ -292,81 +255,115 @@ void Window::execute(const PlacedErrand& errand) {
       exchange_.pick({side, errand.place, errand.errand == Errand::CenterOn});
       return;
     }
-    case Errand::CopyCamera:
-      return copyCamera();
-    case Errand::PasteCamera:
-      return pasteCamera();
+    case Errand::CopyCommand:
+      return copyCommand();
+    case Errand::PasteCommand:
+      return pasteCommand();
     case Errand::Reload:
-      if (state_.scene) exchange_.load(state_.scene->options);
+      if (state_.scene) load(state_.scene->options);
       return;
     case Errand::Screenshot:
       return save(".png");
     case Errand::WriteExr:
       return save(".exr");
+    case Errand::Close:
+      if (facts_.load.busy && state_.scene) return cancelLoad();
+      [[fallthrough]];
     case Errand::Quit:
       glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
       return;
   }
 }
 
-void Window::takeDrop(const std::filesystem::path& path) {
-  RenderOptions options = state_.scene ? state_.scene->options : start_.options;
-  const DroppedFile kind = kindOfDropped(path);
-  if (kind == DroppedFile::Scene) {
-    options.scene = path;
-    options.camera = {};
-    options.cameraIndex.reset();
-    options.sceneOrigin.reset();
-    options.selection = {};
-  } else if (kind == DroppedFile::Environment) {
-    options.hdriFile = path;
-  } else {
-    return say(path.filename().string() +
-               " is neither a scene (.gltf, .glb) nor an environment (.hdr, .exr, .pfm)");
-  }
+void Window::load(const RenderOptions& options) {
+  wanted_ = options;
+  pasted_.reset();
   exchange_.load(options);
+}
+
+void Window::cancelLoad() {
+  exchange_.cancelLoad();
+  if (!state_.scene) return glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
+  wanted_ = state_.scene->options;
+  pasted_.reset();
+}
+
+void Window::takeDrops() {
+  const std::vector<std::filesystem::path> files = input_.takeDrops();
+  if (files.empty()) return;
+  const Drop drop = takeDrop(wanted_, files);
+  for (const std::string& sentence : drop.refused) say(sentence);
+  if (drop.load) load(*drop.load);
 }
 
 void Window::save(const char* extension) {
   if (!state_.scene) return;
   const RenderOptions& o = state_.options();
-  exchange_.save({freeName(o.scene, extension), state_.active, o.exposure, o.toneMap});
+  exchange_.save({freePictureName(o.scene, extension), state_.active, o.exposure, o.toneMap});
 }
 
-std::string Window::cameraText() const {
+/// Of the active side, with all that its picture on the screen depends on.
+RenderOptions Window::shownOptions() const {
   RenderOptions o = renderOptionsOf(state_, state_.active);
   o.resolution = state_.size;
   o.sceneOrigin = state_.scene->description.origin;
-  return start_.cameraText(o);
+  o.spp = std::max(facts_.statistics[state_.active].samples, 1);
+  return o;
 }
 
-void Window::copyCamera() {
+void Window::copyCommand() {
   if (!state_.scene) return;
-  glfwSetClipboardString(window_.get(), cameraText().c_str());
-  say("copied the camera");
+  RenderOptions o = shownOptions();
+  const bool layers = !o.aovFeatures.empty() || o.aovSamples || o.aovVariance;
+  o.output = freePictureName(o.scene, layers ? ".exr" : ".png");
+  glfwSetClipboardString(window_.get(), start_.commandText(o).c_str());
+  say("copied the command that renders this picture");
 }
 
-void Window::pasteCamera() {
+void Window::pasteCommand() {
+  if (!state_.scene) return;
   const char* text = glfwGetClipboardString(window_.get());
-  if (!state_.scene || !text) return;
+  // That the clipboard holds no text is no failure of the window.
+  if (!text) takeGlfwErrors();
   try {
-    takeCamera(state_, start_.withCameraText(state_.options(), text));
+    const RenderOptions options =
+        start_.withCommandText(renderOptionsOf(state_, state_.active), text ? text : "");
+    if (sameScene(options, state_.scene->options)) return takeOptions(state_, options);
+    load(options);
+    pasted_ = options;
   } catch (const std::exception& error) {
     say(std::string("cannot paste: ") + error.what());
   }
 }
 
+void Window::end(const std::string& failure) {
+  facts_.error = failure.empty() ? facts_.error : failure;
+  report_.end = failure.empty() ? "closed" : "failed";
+  statusTime_ = -1.0;
+  writeStatus();
+}
+
 void Window::writeStatus() {
   if (start_.statusFile.empty()) return;
   const double now = glfwGetTime();
-  statusWaits_ = now - statusTime_ < kStatusSeconds;
+  statusWaits_ = statusTime_ >= 0.0 && now - statusTime_ < kStatusSeconds;
   if (statusWaits_) return;
-  report_.camera = state_.scene ? cameraText() : "";
+  report_.camera = state_.scene ? start_.cameraText(shownOptions()) : "";
   std::string text = statusText(state_, facts_, report_);
   if (text == status_) return;
   status_ = std::move(text);
   statusTime_ = now;
-  replaceFile(start_.statusFile, {reinterpret_cast<const uint8_t*>(status_.data()), status_.size()});
+  writeStatusFile(start_.statusFile, status_);
+}
+
+/// What ends the program stands in the status file, too, if that can be written.
+template <typename Write>
+void writeFailure(const Write& write) {
+  try {
+    write();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "fragtrace: %s\n", error.what());
+  }
 }
 
 /// Says that there is no window, and why, when it cannot be opened.
@@ -374,14 +371,22 @@ std::unique_ptr<Window> makeWindow(const WindowStart& start, Exchange& exchange)
   try {
     return std::make_unique<Window>(start, exchange);
   } catch (const std::exception& error) {
-    throw ContextError(std::string("no window: ") + error.what());
+    const std::string text = std::string("no window: ") + error.what();
+    writeFailure([&] { writeStatusFile(start.statusFile, failureText(text)); });
+    throw ContextError(text);
   }
 }
 
 void runWindow(const WindowStart& start, Exchange& exchange) {
   const std::unique_ptr<Window> window = makeWindow(start, exchange);
   start.opened();
-  window->run();
+  try {
+    window->run();
+  } catch (const std::exception& error) {
+    writeFailure([&] { window->end(error.what()); });
+    throw;
+  }
+  window->end({});
 }
 
 }  // namespace

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What the viewer has said: each text once, for some seconds.
+#pragma once
+
+#include <deque>
+#include <string>
+
+namespace fragtrace {
+
+struct Message {
+  std::string text;
+  int times = 1;        ///< that it was said
+  double latest = 0.0;  ///< when it was said last, seconds
+  bool closed = false;
+};
+
+/// The latest last; at most 16, older ones are forgotten.
+using MessageList = std::deque<Message>;
+
+/// A text that is there already moves to the end, and counts once more.
+void addMessage(MessageList& messages, const std::string& text, double now);
+
+void closeMessages(MessageList& messages);
+
+/// How much of a message is still seen, 0..1: it fades in steps, which cost one frame each.
+double opacityOf(const Message& message, double now);
+
+/// Seconds until one of them is seen less; infinite when none is seen.
+double secondsToFade(const MessageList& messages, double now);
+
+/// The text, and how often it was said when that was more than once.
+std::string lineOf(const Message& message);
+
+}  // namespace fragtrace

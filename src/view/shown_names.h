@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Names that the viewer makes of a scene's.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace fragtrace {
+
+/// The window's, bounded.
+std::string windowTitle(const std::filesystem::path& scene);
+
+/// The first of SCENE-1.png, SCENE-2.png, ... that no file in the current folder has.
+std::filesystem::path freePictureName(const std::filesystem::path& scene, const char* extension);
+
+}  // namespace fragtrace

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Text from anywhere, as it may be drawn: Dear ImGui ends the program over a line of 16,384 characters.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace fragtrace {
+
+inline constexpr size_t kMostNameCharacters = 60;  ///< of one name among others
+inline constexpr size_t kMostLineCharacters = 400;
+inline constexpr size_t kMostPageCharacters = 4000;
+
+/// The text, if it has at most so many characters (UTF-8); else its beginning and its end, with what is left
+/// out counted between them. Other control characters than line feeds become spaces.
+std::string shownText(std::string_view text, size_t most);
+
+}  // namespace fragtrace

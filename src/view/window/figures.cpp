@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "view/window/figures.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "view/window/text.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr float kVariantWidth = 190.0f;  // pixels at 96 dots an inch
+
+std::string megabytes(size_t bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f MB", double(bytes) / 1e6);
+  return text;
+}
+
+template <typename... Values>
+void row(const char* name, const char* format, Values... values) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextDisabled("%s", name);
+  ImGui::TableNextColumn();
+  ImGui::Text(format, values...);
+}
+
+/// The variant's parts, as many a line as fit.
+void drawVariant(const std::string& variant, float width) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextDisabled("variant");
+  ImGui::TableNextColumn();
+  std::string line;
+  const auto flush = [&] {
+    if (!line.empty()) drawText(line, kMostLineCharacters);
+    line.clear();
+  };
+  for (size_t at = 0; at < variant.size();) {
+    const size_t end = std::min(variant.find('+', at), variant.size());
+    const std::string part = variant.substr(at, end - at);
+    std::string longer = line;
+    longer.append(line.empty() ? "" : " ").append(part);
+    const bool fits = line.empty() || ImGui::CalcTextSize(longer.c_str()).x <= width;
+    if (!fits) flush();
+    line = fits ? longer : part;
+    at = end + 1;
+  }
+  flush();
+}
+
+void drawCosts(const ViewState& state, const ViewFacts& facts, size_t side) {
+  const SideStatistics& s = facts.statistics[side];
+  row("frame", "%.1f ms, 95th %.1f ms", s.frameMs, s.frameP95Ms);
+  row("rays", "%.2f million/s", s.megaRaysPerSecond);
+  if (!state.split) row("paths", "%.2f million/s", s.megaPathsPerSecond);
+  const glm::ivec2 size = facts.pictureSize[side];
+  row("picture", "%d x %d", size.x, size.y);
+  if (state.split || !state.scene) return;
+  const SceneDescription& d = state.scene->description;
+  if (d.spheres > 0)
+    row("scene", "%zu triangles, %zu spheres", d.triangles, d.spheres);
+  else
+    row("scene", "%zu triangles", d.triangles);
+  row("memory", "%s", megabytes(s.deviceBytes).c_str());
+}
+
+/// Of the split view only what is compared. Returns where it ends.
+float drawSide(const ViewState& state, ViewFacts& facts, size_t side, ImVec2 place,
+               const OverlayLayout& layout) {
+  float end = place.y;
+  const SideStatistics& s = facts.statistics[side];
+  const std::string name = "figures" + std::to_string(side);
+  ImGui::SetNextWindowPos(place);
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {layout.figuresMost.x, layout.figuresMost.y});
+  ImGui::SetNextWindowBgAlpha(0.62f);
+  if (ImGui::Begin(name.c_str(), nullptr, kLabelFlags | ImGuiWindowFlags_NoInputs) &&
+      ImGui::BeginTable("rows", 2, ImGuiTableFlags_SizingFixedFit)) {
+    if (state.split) row("side", "%s", side == 0 ? "left" : "right");
+    row("samples", "%d, %.1f s%s", s.samples, s.seconds, s.resting ? ", done" : "");
+    if (s.error < 0.0)
+      row("error", "not yet known");
+    else if (layout.figures == FigureDetail::Brief)
+      row("error", "%.2f %%", 100.0 * s.error);
+    else
+      row("error", "%.2f %% (goal %.2f %%)", 100.0 * s.error, 100.0 * state.sides[side].noise);
+    if (layout.figures >= FigureDetail::Rows) drawCosts(state, facts, side);
+    if (layout.figures == FigureDetail::All && !state.split)
+      drawVariant(s.variant, kVariantWidth * layout.scale);
+    ImGui::EndTable();
+    addWindowPlace(facts.places, name);
+    end = ImGui::GetWindowPos().y + ImGui::GetWindowSize().y;
+  }
+  ImGui::End();
+  return end;
+}
+
+}  // namespace
+
+void drawFigures(const ViewState& state, ViewFacts& facts, const OverlayLayout& layout) {
+  if (layout.figures == FigureDetail::None) return;
+  float top = layout.margin;
+  for (size_t side = 0; side < (state.split ? 2u : 1u); ++side)
+    top = drawSide(state, facts, side, {layout.margin, top}, layout) + layout.margin;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "view/window/glfw_window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+#include "gl/gl.h"
+
+namespace fragtrace {
+
+namespace {
+
+struct GlfwErrors {
+  std::mutex mutex;
+  std::string text;
+};
+
+GlfwErrors& glfwErrors() {
+  static GlfwErrors errors;
+  return errors;
+}
+
+}  // namespace
+
+Glfw::Glfw() {
+  glfwSetErrorCallback([](int, const char* text) {
+    GlfwErrors& errors = glfwErrors();
+    const std::lock_guard lock(errors.mutex);
+    errors.text += (errors.text.empty() ? "" : "; ") + std::string(text);
+  });
+  if (!glfwInit()) throw std::runtime_error(takeGlfwErrors());
+}
+
+Glfw::~Glfw() { glfwTerminate(); }
+
+void CloseWindow::operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
+
+WindowHandle openWindow(glm::ivec2 size, const std::string& title) {
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+#ifndef NDEBUG
+  glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
+#endif
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);
+  glfwWindowHint(GLFW_STENCIL_BITS, 0);
+  WindowHandle window(glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr));
+  if (!window) throw std::runtime_error(takeGlfwErrors());
+  glfwMakeContextCurrent(window.get());
+  if (gladLoadGL(glfwGetProcAddress) < GLAD_MAKE_VERSION(4, 5))
+    throw std::runtime_error("the display's OpenGL is older than 4.5");
+  glfwSwapInterval(1);
+  return window;
+}
+
+std::string takeGlfwErrors() {
+  GlfwErrors& errors = glfwErrors();
+  const std::lock_guard lock(errors.mutex);
+  return std::exchange(errors.text, {});
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// GLFW: the library's life, a window with a current context of OpenGL 4.5, and what went wrong.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <memory>
+#include <string>
+
+struct GLFWwindow;
+
+namespace fragtrace {
+
+/// GLFW for as long as it lives. Throws std::runtime_error without a display.
+struct Glfw {
+  Glfw();
+  Glfw(const Glfw&) = delete;
+  Glfw& operator=(const Glfw&) = delete;
+  ~Glfw();
+};
+
+struct CloseWindow {
+  void operator()(GLFWwindow* window) const;
+};
+using WindowHandle = std::unique_ptr<GLFWwindow, CloseWindow>;
+
+/// Throws std::runtime_error.
+WindowHandle openWindow(glm::ivec2 size, const std::string& title);
+
+/// What GLFW has reported since the last call, from any thread; empty: nothing.
+std::string takeGlfwErrors();
+
+}  // namespace fragtrace

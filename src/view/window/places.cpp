@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include "view/window/places.h"
+
+#include <imgui.h>
+
+namespace fragtrace {
+
+namespace {
+
+void add(Places& places, const std::string& name, ImVec2 place, ImVec2 size) {
+  places[name] = {place.x, place.y, size.x, size.y};
+}
+
+}  // namespace
+
+void addWindowPlace(Places& places, const std::string& name) {
+  add(places, name, ImGui::GetWindowPos(), ImGui::GetWindowSize());
+}
+
+void addItemPlace(Places& places, const std::string& name) {
+  add(places, name, ImGui::GetItemRectMin(), ImGui::GetItemRectSize());
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Where things stand in the window, for scripts that click on them (docs/viewer.md).
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+
+namespace fragtrace {
+
+/// By name: left, top, width and height in pixels of the window.
+using Places = std::map<std::string, std::array<float, 4>>;
+
+/// Adds the window of Dear ImGui that is being made, or the item that was made last.
+void addWindowPlace(Places& places, const std::string& name);
+void addItemPlace(Places& places, const std::string& name);
+
+}  // namespace fragtrace

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "view/shown_text.h"
+
+#include <gtest/gtest.h>
+
+namespace fragtrace {
+namespace {
+
+TEST(ShownText, ShortTextIsShownAsItIs) {
+  for (const char* text : {"", "a", "two\nlines", "Größe", "12345678"})
+    EXPECT_EQ(shownText(text, 8 + 1), text);
+}
+
+TEST(ShownText, OfLongTextBothEndsAreShown) {
+  EXPECT_EQ(shownText("abcdefgh" + std::string(1000, '-') + "the end", 8),
+            "abcdef ... (1007 characters) ... nd");
+  EXPECT_LT(shownText(std::string(30000, 'x'), kMostLineCharacters).size(), kMostLineCharacters + 40);
+}
+
+TEST(ShownText, CharactersStayWhole) {
+  std::string umlauts;
+  for (int i = 0; i < 20; ++i) umlauts += "ü";
+  EXPECT_EQ(shownText(umlauts, 4), "üüü ... (16 characters) ... ü");
+  // No text at all: bounded as well.
+  EXPECT_LT(shownText(std::string(30000, '\x80'), 100).size(), 500u);
+}
+
+TEST(ShownText, ControlCharactersAreSpaces) { EXPECT_EQ(shownText("a\tb\r\x1b[0m\nc", 99), "a b  [0m\nc"); }
+
+}  // namespace
+}  // namespace fragtrace
