@@ -68,6 +68,16 @@ void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film) {
   }
 }
 
+/// What --bounces cut is missing from the picture.
+void sayWhatWasCut(const RenderOptions& options, const Statistics& stats) {
+  constexpr double kNoticed = 0.01;
+  if (cutShare(stats) <= kNoticed) return;
+  char share[32];
+  std::snprintf(share, sizeof share, "%.2g", cutShare(stats));
+  say(options, "warning: --bounces " + std::to_string(options.bounces) + " cut paths that could still carry " +
+                   share + " of the light (cut_share); more make the picture brighter");
+}
+
 /// Adds the layers of first hits, drawn with the picture's samples: of an adaptive one those that all pixels
 /// have, of an interrupted one a few, since somebody waits.
 void addFeatures(Image& picture, const Tracer& tracer, const RenderOptions& options,
@@ -107,6 +117,7 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
                   100.0 * stats.adaptive->error);
     noise = text;
   }
+  sayWhatWasCut(options, stats);
   if (!stats.complete) say(options, "interrupted: what was finished is written");
   if (stats.adaptive && stats.adaptive->black) {
     say(options, "warning: the picture is black, so nothing is known of its noise");

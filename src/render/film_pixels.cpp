@@ -9,6 +9,7 @@ namespace fragtrace {
 
 FilmTotals totalsOf(const FilmPixels& film) {
   FilmTotals totals;
+  totals.cut = film.cut;
   if (!film.pixels.empty()) totals.fewestSamples = film.pixels.front().samples;
   for (const FilmPixel& p : film.pixels) {
     totals.samples += p.samples;
@@ -24,6 +25,7 @@ FilmTotals totalsOf(const FilmPixels& film) {
 
 FilmPixels pooled(const FilmPixels& a, const FilmPixels& b) {
   FilmPixels result = a;
+  result.cut += b.cut;
   for (size_t i = 0; i < result.pixels.size(); ++i) {
     FilmPixel& p = result.pixels[i];
     const FilmPixel& q = b.pixels[i];
