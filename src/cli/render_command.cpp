@@ -74,8 +74,9 @@ void sayWhatWasCut(const RenderOptions& options, const Statistics& stats) {
   if (cutShare(stats) <= kNoticed) return;
   char share[32];
   std::snprintf(share, sizeof share, "%.2g", cutShare(stats));
-  say(options, "warning: --bounces " + std::to_string(options.bounces) + " cut paths that could still carry " +
-                   share + " of the light (cut_share); more make the picture brighter");
+  say(options, "warning: --bounces " + std::to_string(options.bounces) +
+                   " cut paths that could still carry " + share +
+                   " of the light (cut_share); more make the picture brighter");
 }
 
 /// Adds the layers of first hits, drawn with the picture's samples: of an adaptive one those that all pixels
