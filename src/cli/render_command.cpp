@@ -68,6 +68,20 @@ void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film) {
   }
 }
 
+/// A view that nobody has chosen and that shows nothing is likely to be a mistake: of ours, or a surface's
+/// back.
+void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, const ShaderVariant& variant,
+                      const Statistics& stats) {
+  const bool chosen = !loaded.scene.cameras.empty() || options.camera != CameraOverrides();
+  const bool nothing = stats.scene.triangles == 0 && stats.scene.spheres == 0;
+  const bool seen = stats.film.hitPixels > 0 || stats.film.samples == 0;
+  if (chosen || nothing || seen || has(variant.stages, Stage::BvhHeatmap)) return;
+  say(options,
+      "warning: the default view shows nothing of the scene; --camera-position and --camera-focal-point "
+      "choose "
+      "another");
+}
+
 /// What --bounces cut is missing from the picture.
 void sayWhatWasCut(const RenderOptions& options, const Statistics& stats) {
   constexpr double kNoticed = 0.01;
@@ -166,6 +180,7 @@ int runRender(const RenderOptions& options) {
   };
   sayDriverLog();
   sayWhatWentWrong(options, stats.film);
+  sayWhatIsNotSeen(options, loaded, tracer.variant, stats);
   if (stats.complete && !stats.adaptive && stats.film.fewestSamples < unsigned(options.spp)) {
     throw RenderError("the driver drew " + std::to_string(stats.film.fewestSamples) + " of " +
                       std::to_string(options.spp) + " samples and reported no error; no picture is written");

@@ -159,7 +159,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   const bool isAsked = options.hdriFile.empty() && options.defaultLight;
   const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
   loaded.environment = loadEnvironment(options, light);
-  loaded.camera = chooseCamera(scene.cameras, options.cameraIndex, options.camera, scene.bounds);
+  loaded.camera =
+      chooseCamera(scene.cameras, options.cameraIndex, options.camera, scene.bounds, framedAspect(options));
   checkDistance(loaded.camera, scene.space, options);
   loaded.size = chooseSize(loaded.camera, options);
   loaded.view = makeView(options, scene, loaded.camera);

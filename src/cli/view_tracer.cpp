@@ -190,8 +190,8 @@ void ViewTracer::adoptSide(Side& side, const RenderOptions& options) {
   const std::shared_ptr<ViewProgram> wanted = programFor(options);
   // The last good one keeps drawing.
   if (wanted->error.empty()) side.program = wanted;
-  const Camera camera =
-      chooseCamera(loaded_->scene.cameras, options.cameraIndex, options.camera, loaded_->scene.bounds);
+  const Camera camera = chooseCamera(loaded_->scene.cameras, options.cameraIndex, options.camera,
+                                     loaded_->scene.bounds, framedAspect(loadedOptions_));
   side.view = makeView(options, loaded_->scene, camera);
   side.stale = true;
 }

@@ -14,6 +14,7 @@ FilmTotals totalsOf(const FilmPixels& film) {
   for (const FilmPixel& p : film.pixels) {
     totals.samples += p.samples;
     totals.rays += p.rays;
+    totals.hitPixels += p.alpha > 0.0;
     totals.emptyPixels += p.samples == 0;
     totals.nonfinitePixels += p.nonfinite != 0;
     totals.budgetHits += (p.flags & layout::kPixelBudgetHit) != 0;

@@ -244,8 +244,8 @@ void takeCamera(ViewState& state, const RenderOptions& options) {
     side.cameraIndex = options.cameraIndex;
     side.camera = options.camera;
   }
-  const Camera camera =
-      chooseCamera(state.scene->cameras, options.cameraIndex, options.camera, state.scene->bounds);
+  const Camera camera = chooseCamera(state.scene->cameras, options.cameraIndex, options.camera,
+                                     state.scene->bounds, framedAspect(state.scene->options));
   state.pose = poseOf(camera, state.scene->bounds);
   state.posed = false;
 }
