@@ -78,8 +78,7 @@ void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, c
   if (chosen || nothing || seen || has(variant.stages, Stage::BvhHeatmap)) return;
   say(options,
       "warning: the default view shows nothing of the scene; --camera-position and --camera-focal-point "
-      "choose "
-      "another");
+      "choose another");
 }
 
 /// What --bounces cut is missing from the picture.
