@@ -168,9 +168,10 @@ struct Frame {
 };
 
 // What one draw reports.
+const float kCutUnits = 65536.0f;  // of throughput 1
 struct Progress {
   uint unfinished;  // pixels that have samples left
   uint stuck;       // of these, pixels that completed none, so that their path has to be suspended to come to an end
-  uint reserved0;
-  uint reserved1;
+  uint cutLow;      // luminance of the throughput that --bounces cut, over all paths, in kCutUnits
+  uint cutHigh;     // the upper 32 bits of it
 };

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // One camera path from pixel to light, as a state machine whose every step can wait for the next draw.
 
+/// Paths scatter, so that --bounces can end them.
+const bool kScatters = kGi || kReflections || kRefraction;
+
 const uint kCameraDimensions = 0u;
 const uint kChannelDimension = 2u;  // one number a path
 const uint kAlphaDimensions = 0x40000000u;
@@ -10,6 +13,11 @@ const uint kDirectionDimension = 1u;
 const uint kRouletteDimension = 3u;
 const uint kLightDimension = 4u;  // to 7
 const uint kGlassDimension = 12u;
+
+/// The most that roulette lets a path at smooth glass survive by, and the scattering from which on it always decides. Paths through glass that absorbs
+/// nothing get fewer by a factor from each scattering to the next; were that factor above the survival, their variance would be infinite.
+const float kClearSurvival = 0.99;
+const int kLatestRoulette = 1000;
 
 TreeFrame treeFrame() { return TreeFrame(frame.gridOrigin.xyz, frame.gridCell.xyz, frame.limits.w); }
 
@@ -67,6 +75,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   p.direction = ray.direction;
   p.tie = 0.0;
   p.bounce = 0;
+  p.clear = 0;
   p.crossings = 0;
   p.cameraRay = true;
   p.oneChannel = false;
@@ -92,6 +101,23 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
 vec3 clampIndirect(vec3 light, int scatterings) {
   if (!kClampIndirect || scatterings < 2) return light;
   return light * min(1.0, intBitsToFloat(frame.sampling.y) / max(maxComponent(light), 1e-30));
+}
+
+/// Scatterings that --bounces limits. Those at smooth glass end by roulette alone: a thick rim or nested glasses take dozens.
+int limitedScatterings(Path p) { return kTransmission ? p.bounce - p.clear : p.bounce; }
+
+/// What a path that --bounces has ended could still have carried: luminance of its throughput, as seen from outside all glass.
+float cutThroughput(Path p) {
+  if (!kScatters || p.phase != kPhaseCut) return 0.0;
+  return kPassesLight ? luminance(p.throughput) * p.compression : luminance(p.throughput);
+}
+
+/// Adds it to what the draw reports.
+void reportCut(float cut) {
+  if (!(cut > 0.0) || isNonfinite(cut)) return;
+  uint units = uint(min(cut * kCutUnits, float(4.0e9)));
+  uint before = atomicAdd(progress.cutLow, units);
+  if (before + units < before) atomicAdd(progress.cutHigh, 1u);
 }
 
 /// The path's ray has met nothing.
@@ -140,7 +166,8 @@ float alphaAt(uint material, uint flags, float alpha) {
 Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool transmitted, SurfaceMaterial m) {
   p.throughput *= weight;
   p.after = kPhaseEnd;
-  if (maxComponent(p.throughput) <= 0.0 || p.bounce > frame.limits.x) return p;
+  if (maxComponent(p.throughput) <= 0.0) return p;
+  bool clear = kTransmission && density == 0.0 && m.transmission * (1.0 - m.metallic) > 0.0;
   if (transmitted && m.solid) {
     p.medium = s.front ? s.material : kPrimitiveNone;
     float squared = m.ior * m.ior;
@@ -150,8 +177,10 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
     if (!s.front) p.throughput *= before / (squared * p.compression);
   }
   p.bounce += 1;
-  if (kGi && p.bounce >= frame.limits.y) {
-    float survival = min(maxComponent(p.throughput) * p.compression, 0.95);
+  p.clear += clear ? 1 : 0;
+  // Roulette begins in time even where it is not wanted: nothing else ends a ray that glass keeps inside.
+  if ((kGi || clear) && p.bounce >= (clear ? min(frame.limits.y, kLatestRoulette) : frame.limits.y)) {
+    float survival = min(maxComponent(p.throughput) * p.compression, clear ? kClearSurvival : 0.95);
     if (drawFloat(p.numbers, kBounceDimensions * uint(p.bounce) + kRouletteDimension) >= survival) return p;
     p.throughput /= survival;
   }

@@ -5,6 +5,7 @@ const int kPhaseExtend = 0;  // the path's ray is being traced
 const int kPhaseShade = 1;   // it has hit something; light slot `lightSlot` is next
 const int kPhaseShadow = 2;  // the shadow ray of that slot is being traced
 const int kPhaseEnd = 3;     // the sample is complete
+const int kPhaseCut = 4;     // so it is, because the path has scattered as often as it may
 
 const float kTie = 9.5367431640625e-7;  // 2^-20: 16 roundings of a distance
 
@@ -13,11 +14,12 @@ struct Path {
   int after;       // the phase that follows once the shadow ray is settled
   int lightSlot;
   int bounce;      // scatterings so far
+  int clear;       // of these, at smooth glass (kTransmission)
   int crossings;   // meetings with surfaces, where there is alpha; see nextCrossing
   Sampler numbers;
   bool oneChannel; // dispersion has left one of red, green and blue (kDispersion)
   bool cameraRay;  // nothing but alpha has touched the path yet
-  float alpha;
+  float alpha;     // 1 once a camera ray has hit a surface, else 0
   vec3 radiance;
   vec3 throughput;
   float compression;  // undoes the radiance compression inside glass
@@ -43,9 +45,9 @@ layout(std430, binding = kPathStatesBinding) restrict buffer PathStatesBlock { u
 
 void savePath(Path p, int index) {
   int r = index * kPathRows;
-  uint flags = (p.cameraRay ? 1u : 0u) | (p.oneChannel ? 2u : 0u);
+  uint flags = (p.cameraRay ? 1u : 0u) | (p.oneChannel ? 2u : 0u) | (p.alpha > 0.0 ? 4u : 0u);
   pathStates[r] = uvec4(uint(p.phase) | uint(p.after) << 4 | flags << 8, uint(p.lightSlot), uint(p.bounce), uint(p.crossings));
-  pathStates[r + 1] = uvec4(floatBitsToUint(p.radiance), floatBitsToUint(p.alpha));
+  pathStates[r + 1] = uvec4(floatBitsToUint(p.radiance), uint(p.clear));
   pathStates[r + 2] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.compression));
   pathStates[r + 3] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.density));
   pathStates[r + 4] = uvec4(floatBitsToUint(p.direction), floatBitsToUint(p.traversal.past));
@@ -127,13 +129,14 @@ Path loadPath(int index) {
   p.after = int(a.x >> 4 & 0xfu);
   p.cameraRay = (flags & 1u) != 0u;
   p.oneChannel = (flags & 2u) != 0u;
+  p.alpha = (flags & 4u) != 0u ? 1.0 : 0.0;
   p.lightSlot = int(a.y);
   p.bounce = int(a.z);
   p.crossings = int(a.w);
-  vec4 f = uintBitsToFloat(pathStates[r + 1]);
-  p.radiance = f.xyz;
-  p.alpha = f.w;
-  f = uintBitsToFloat(pathStates[r + 2]);
+  a = pathStates[r + 1];
+  p.radiance = uintBitsToFloat(a.xyz);
+  p.clear = int(a.w);
+  vec4 f = uintBitsToFloat(pathStates[r + 2]);
   p.throughput = f.xyz;
   p.compression = f.w;
   f = uintBitsToFloat(pathStates[r + 3]);

@@ -140,8 +140,8 @@ Path shade(Path p) {
       return p;
     }
     if (kEmission) p.radiance += clampIndirect(p.throughput * emittedAt(p, s, flags), p.bounce);
-    if (p.bounce > frame.limits.x) {
-      p.phase = kPhaseEnd;
+    if (kScatters && limitedScatterings(p) > frame.limits.x) {
+      p.phase = kPhaseCut;
       return p;
     }
   }

@@ -15,7 +15,8 @@ float sheenFit(float x, float alpha) {
 
 float sheenLambda(float cosine, float alpha) {
   if (cosine < 0.5f) return exp(sheenFit(cosine, alpha));
-  return exp(2.0f * sheenFit(0.5f, alpha) - sheenFit(1.0f - cosine, alpha));
+  // Rounding makes cosines of 1 and a little more, whose power would be no number.
+  return exp(2.0f * sheenFit(0.5f, alpha) - sheenFit(max(0.0f, 1.0f - cosine), alpha));
 }
 
 /// Value times the cosine of `incoming`, for white sheen; both directions above the surface. Its albedo is sheenAlbedo, unless that is above 1:

@@ -68,6 +68,7 @@ void tracePixel(ivec2 pixel) {
   film.flags &= ~kPixelSuspended;
   bool tracing = p.phase != kPhaseEnd;
   bool finished = false;
+  float cut = 0.0;
 
   while (kDirect && !finished && p.traversal.steps < budget) {
     if (!tracing) {
@@ -111,7 +112,10 @@ void tracePixel(ivec2 pixel) {
       p.phase = waiting ? p.after : p.phase;
     }
     tracing = p.phase == kPhaseExtend;
-    if (!tracing) film = addSample(film, p.radiance, p.alpha);
+    if (!tracing) {
+      cut += cutThroughput(p);
+      film = addSample(film, p.radiance, p.alpha);
+    }
   }
 
   while (!kDirect && !finished && p.traversal.steps < budget) {
@@ -161,7 +165,8 @@ void tracePixel(ivec2 pixel) {
     }
 
     // Step: the sample is complete.
-    if (p.phase == kPhaseEnd) {
+    if (p.phase >= kPhaseEnd) {
+      cut += cutThroughput(p);
       if (kHeatmap) p.radiance = vec3(float(p.traversal.visits));
       film = addSample(film, p.radiance, p.alpha);
       tracing = false;
@@ -183,5 +188,6 @@ void tracePixel(ivec2 pixel) {
       if (film.samples == samplesBefore) atomicAdd(progress.stuck, 1u);
     }
   }
+  if (kScatters) reportCut(cut);
   storeFilm(pixel, film);
 }

@@ -99,6 +99,30 @@ double secondsOfFeatures(std::span<const double> secondsPerSample, const RenderO
   return samples * std::accumulate(secondsPerSample.begin(), secondsPerSample.end(), 0.0);
 }
 
+/// A view that nobody has chosen and that shows nothing is likely to be a mistake: of ours, or a surface's
+/// back.
+void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, const ShaderVariant& variant,
+                      const Statistics& stats) {
+  const bool chosen = !loaded.scene.cameras.empty() || options.camera != CameraOverrides();
+  const bool nothing = stats.scene.triangles == 0 && stats.scene.spheres == 0;
+  const bool seen = stats.film.hitPixels > 0 || stats.film.samples == 0;
+  if (chosen || nothing || seen || has(variant.stages, Stage::BvhHeatmap)) return;
+  say(options,
+      "warning: the default view shows nothing of the scene; --camera-position and --camera-focal-point "
+      "choose another");
+}
+
+/// What --bounces cut is missing from the picture.
+void sayWhatWasCut(const RenderOptions& options, const Statistics& stats) {
+  constexpr double kNoticed = 0.01;
+  if (cutShare(stats) <= kNoticed) return;
+  char share[32];
+  std::snprintf(share, sizeof share, "%.2g", cutShare(stats));
+  say(options, "warning: --bounces " + std::to_string(options.bounces) +
+                   " cut paths that could still carry " + share +
+                   " of the light (cut_share); more make the picture brighter");
+}
+
 /// Adds the layers of first hits, drawn with the picture's samples: of an adaptive one those that all pixels
 /// have, of an interrupted one a few, since somebody waits.
 void addFeatures(Image& picture, const Tracer& tracer, const RenderOptions& options,
@@ -150,6 +174,7 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
                   100.0 * stats.adaptive->error);
     noise = text;
   }
+  sayWhatWasCut(options, stats);
   if (!stats.complete) say(options, "interrupted: what was finished is written");
   if (stats.adaptive && stats.adaptive->black) {
     say(options, "warning: the picture is black, so nothing is known of its noise");
@@ -207,6 +232,7 @@ int runRender(const RenderOptions& options) {
   };
   sayDriverLog();
   sayWhatWentWrong(options, stats.film);
+  sayWhatIsNotSeen(options, loaded, tracer.variant, stats);
   if (stats.complete && !stats.adaptive && stats.film.fewestSamples < unsigned(options.spp)) {
     throw RenderError("the driver drew " + std::to_string(stats.film.fewestSamples) + " of " +
                       std::to_string(options.spp) + " samples and reported no error; no picture is written");

@@ -164,8 +164,9 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--spp", raw.spp,
                  "camera paths a pixel, default 64; with --noise or --time the most, default unlimited")
       ->check(wholeNumber(1, kMostSamples));
-  app.add_option("--noise", o.noise,
-                 "sample until 95 % of the pixels have a relative error below this, such as 0.01")
+  app.add_option(
+         "--noise", o.noise,
+         "sample until 95 % of the pixels that can be noisy have a relative error below this, such as 0.01")
       ->check(CLI::Range(1e-5, 1.0));
   app.add_option("--time", o.seconds, "seconds to draw, sampling where it helps most")
       ->check(CLI::Range(0.01, 1e7));

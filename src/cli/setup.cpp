@@ -183,7 +183,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   loaded.cameraIndex = options.cameraIndex;
   if (const auto named = cameraNamed(options.selection.camera, scene.cameras))
     loaded.cameraIndex = int(*named);
-  loaded.camera = chooseCamera(scene.cameras, loaded.cameraIndex, options.camera, scene.bounds);
+  loaded.camera =
+      chooseCamera(scene.cameras, loaded.cameraIndex, options.camera, scene.bounds, framedAspect(options));
   checkDistance(loaded.camera, scene.space, options);
   loaded.size = chooseSize(loaded.camera, options);
   checkFilmMemory(loaded.size, options);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/statistics.h"
 
+#include <algorithm>
+
 #include "cli/scene_json.h"
 #include "math/summary.h"
 
@@ -27,6 +29,8 @@ double megaPathsPerSecond(const Statistics& s) {
 }
 
 double samplesPerPixel(const Statistics& s) { return double(s.film.samples) / (double(s.size.x) * s.size.y); }
+
+double cutShare(const Statistics& s) { return s.film.cut / double(std::max<uint64_t>(1, s.film.samples)); }
 
 std::string statisticsText(const Statistics& s) {
   nlohmann::ordered_json json;
@@ -62,6 +66,7 @@ std::string statisticsText(const Statistics& s) {
   json["mrays_per_s"] = s.times.renderMs > 0.0 ? double(s.film.rays) / s.times.renderMs / 1000.0 : 0.0;
   json["nonfinite_pixels"] = s.film.nonfinitePixels;
   json["budget_hits"] = s.film.budgetHits;
+  json["cut_share"] = cutShare(s);
   json["scene_bytes"] = s.sceneBytes;
   if (s.scene.triangles > 0)
     json["gpu_bytes_per_triangle"] = double(s.geometryBytes) / double(s.scene.triangles);

@@ -25,7 +25,7 @@ constexpr double kRoundMs = 100.0;
 constexpr double kPublishMs = 100.0;
 constexpr double kPublishShare = 4.0;
 /// Below this many samples the variance of a pixel tells little of its error.
-constexpr int kLeastForError = 16;
+constexpr int kLeastForError = 32;
 constexpr double kErrorStep = 1.2;    ///< from one estimate of the error to the next, in samples
 constexpr size_t kFrames = 64;        ///< whose times are summarised
 constexpr double kLongWait = 3600.0;  ///< seconds
@@ -191,8 +191,8 @@ void ViewTracer::adoptSide(Side& side, const RenderOptions& options) {
   const std::shared_ptr<ViewProgram> wanted = programFor(options);
   // The last good one keeps drawing.
   if (wanted->error.empty()) side.program = wanted;
-  const Camera camera =
-      chooseCamera(loaded_->scene.cameras, options.cameraIndex, options.camera, loaded_->scene.bounds);
+  const Camera camera = chooseCamera(loaded_->scene.cameras, options.cameraIndex, options.camera,
+                                     loaded_->scene.bounds, framedAspect(loadedOptions_));
   side.view = makeView(options, loaded_->scene, camera);
   side.stale = true;
 }
@@ -277,9 +277,8 @@ bool ViewTracer::work() {
 
 void ViewTracer::estimate(Side& side, const FilmPixels& pixels) {
   if (side.samples < kLeastForError || side.samples < kErrorStep * side.errorAt) return;
-  std::vector<double> variance(pixels.pixels.size());
-  std::ranges::transform(pixels.pixels, variance.begin(), &FilmPixel::variance);
-  side.error = quantileOf(relativeErrors(pixels, variance), 0.95);
+  const std::vector<double> errors = relativeErrors(pixels, independentVariance(pixels));
+  side.error = distanceTo(side.options.noise, pixels, errors).error;
   side.errorAt = side.samples;
 }
 

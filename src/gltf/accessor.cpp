@@ -292,13 +292,13 @@ std::vector<glm::dmat4> readMatrices(const Document& document, int accessor, con
 }
 
 std::vector<float> readComponents(const Document& document, int accessor, int components,
-                                  const std::string& place) {
+                                  const std::string& place, bool wholeNumbers) {
   const Elements elements = elementsOf(document, accessor);
   if (elements.components != components) {
     document.diagnostics.refuse(place, "accessor " + std::to_string(accessor) + " does not have " +
                                            std::to_string(components) + " components an element");
   }
-  if (elements.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !elements.normalized)
+  if (elements.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !elements.normalized && !wholeNumbers)
     document.diagnostics.refuse(place, "holds integers that are not normalized");
   const SparseElements sparse = sparseElementsOf(document, accessor, elements);
   const auto width = size_t(components);

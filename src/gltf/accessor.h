@@ -39,8 +39,8 @@ std::vector<glm::uvec4> readJoints(const Document& document, int accessor, const
 std::vector<glm::dmat4> readMatrices(const Document& document, int accessor, const std::string& place);
 
 /// All components of all elements one after the other, of any type of `components` of them: floats, or
-/// normalized integers.
+/// normalized integers, or any where `wholeNumbers` are asked for.
 std::vector<float> readComponents(const Document& document, int accessor, int components,
-                                  const std::string& place);
+                                  const std::string& place, bool wholeNumbers = false);
 
 }  // namespace fragtrace

@@ -134,7 +134,7 @@ std::vector<float> readTimes(Document& document, const Channel& channel) {
 }
 
 /// Values of a channel that drives `width` numbers; a width of 0 is any.
-Keyframes readKeyframes(Document& document, const Channel& channel, size_t width, bool isArray) {
+Keyframes readKeyframes(Document& document, const Channel& channel, size_t width, bool isArray, bool isFlag) {
   Diagnostics& diagnostics = document.diagnostics;
   const std::string place = channel.place + "/sampler";
   const auto interpolation = interpolationNamed(channel.interpolation);
@@ -143,7 +143,7 @@ Keyframes readKeyframes(Document& document, const Channel& channel, size_t width
                        inQuotes(channel.interpolation) + " is no interpolation");
   }
   Keyframes keys;
-  keys.interpolation = *interpolation;
+  keys.interpolation = isFlag ? Interpolation::Step : *interpolation;
   keys.times = readTimes(document, channel);
   const bool isCubic = keys.interpolation == Interpolation::CubicSpline;
   if (isCubic && keys.times.size() < 2)
@@ -156,7 +156,7 @@ Keyframes readKeyframes(Document& document, const Channel& channel, size_t width
                                   std::to_string(keys.times.size()) + " keys");
   }
   takeMemory(document, place, count * (isArray ? 1 : width) * sizeof(float));
-  keys.values = readComponents(document, channel.output, isArray ? 1 : int(width), place);
+  keys.values = readComponents(document, channel.output, isArray ? 1 : int(width), place, isFlag);
   if (!std::all_of(keys.values.begin(), keys.values.end(), [](float v) { return std::isfinite(v); }))
     diagnostics.refuse(place, "holds a number that is not finite");
   return keys;
@@ -181,14 +181,16 @@ void applyChannel(Document& document, const Channel& channel, double seconds, js
                               "is nothing that can be animated; the channel is ignored");
     return;
   }
-  Keyframes keys = readKeyframes(document, channel, rule->width, rule->width == 0);
+  Keyframes keys = readKeyframes(document, channel, rule->width, rule->width == 0, rule->isFlag);
   keys.isRotation = channel.target.starts_with("/nodes/") && channel.target.ends_with("/rotation");
   if (keys.isRotation) checkRotations(keys, channel, document.diagnostics);
   const std::vector<double> values = valuesAt(keys, seconds);
   if (keys.isRotation && lengthOf(values) == 0.0)
     document.diagnostics.refuse(channel.place + "/sampler", "gives no rotation at that time");
   json& place = root[json::json_pointer(channel.target)];
-  if (rule->isArray) {
+  if (rule->isFlag) {
+    place = values[0] != 0.0;
+  } else if (rule->isArray) {
     place = values;
   } else {
     place = values[0];

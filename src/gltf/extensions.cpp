@@ -29,7 +29,7 @@ constexpr Extension kExtensions[] = {
     {"EXT_texture_webp", Supported, "textures.cpp", {"/textures/*", kNowhere}},
     {"KHR_texture_basisu", Ignored, "", {"/textures/*", kNowhere}},
     {"EXT_mesh_gpu_instancing", Supported, "instancing.cpp", kInNodes},
-    {"KHR_node_visibility", Ignored, "", kInNodes},
+    {"KHR_node_visibility", Supported, "nodes.cpp", kInNodes},
     {"KHR_materials_clearcoat", Supported, "material_extensions.cpp", kInMaterials},
     {"KHR_materials_sheen", Supported, "material_extensions.cpp", kInMaterials},
     {"KHR_materials_anisotropy", Supported, "material_extensions.cpp", kInMaterials},

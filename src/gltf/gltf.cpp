@@ -108,6 +108,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   std::vector<PlacedSphere> spheres;
   for (const PlacedNode& node : nodes) {
     if (const auto camera = cameraAt(document, node)) scene.cameras.push_back(*camera);
+    if (node.hidden) continue;
     if (const auto sphere = sphereAt(document, node)) spheres.push_back(*sphere);
   }
 
@@ -131,6 +132,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
                              sphere.material, sphere.node});
   }
   for (const PlacedNode& node : nodes) {
+    if (node.hidden) continue;
     if (const auto light = lightAt(document, node, scene.space)) scene.lights.push_back(*light);
   }
   dropUnusedDefaultMaterial(scene);

@@ -64,7 +64,7 @@ ShownMeshes showMeshes(Document& document, const std::vector<Material>& material
   if (!document.skins.empty()) placed = byIndex(document, nodes);
   for (const PlacedNode& node : nodes) {
     const tinygltf::Node& source = document.model.nodes.at(size_t(node.index));
-    if (source.mesh < 0) continue;
+    if (source.mesh < 0 || node.hidden) continue;
     const tinygltf::Mesh& mesh = document.model.meshes.at(size_t(source.mesh));
     const MeshPose pose = poseOf(document, source);
     const auto [entry, isNew] = shown.decoded.try_emplace({source.mesh, pose});

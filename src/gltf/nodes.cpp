@@ -98,6 +98,12 @@ std::vector<int> rootsOf(const Document& document, const std::vector<int>& paren
   return roots;
 }
 
+bool hidesItself(const tinygltf::Node& node) {
+  const auto extension = node.extensions.find("KHR_node_visibility");
+  if (extension == node.extensions.end() || !extension->second.Has("visible")) return false;
+  return !extension->second.Get("visible").Get<bool>();
+}
+
 /// A scale of 0, which may well be meant.
 bool flattensAll(const glm::dmat4& matrix) { return glm::dmat3(matrix) == glm::dmat3(0.0); }
 
@@ -116,13 +122,13 @@ bool isMultiplicable(const glm::dmat4& matrix) {
 std::vector<PlacedNode> placeNodes(const Document& document) {
   const std::vector<int> roots = rootsOf(document, parentsOf(document));
   std::vector<PlacedNode> placed;
-  std::vector<PlacedNode> waiting;  // the last one is next; world is the parent's until then
-  const auto await = [&waiting](const std::vector<int>& nodes, const glm::dmat4& parent) {
+  std::vector<PlacedNode> waiting;  // the last one is next; world and hidden are the parent's until then
+  const auto await = [&waiting](const std::vector<int>& nodes, const glm::dmat4& parent, bool hidden) {
     const auto first = std::ptrdiff_t(waiting.size());
-    for (const int node : nodes) waiting.push_back({node, parent});
+    for (const int node : nodes) waiting.push_back({node, parent, hidden});
     std::reverse(waiting.begin() + first, waiting.end());
   };
-  await(roots, glm::dmat4(1.0));
+  await(roots, glm::dmat4(1.0), false);
   while (!waiting.empty()) {
     PlacedNode node = waiting.back();
     waiting.pop_back();
@@ -134,8 +140,9 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
     if (!isMultiplicable(node.world)) document.diagnostics.refuse(place, "its world transform overflows");
     if (flattensAll(node.world) && !flattensAll(parent) && !flattensAll(local))
       document.diagnostics.refuse(place, "its world transform underflows");
+    node.hidden = node.hidden || hidesItself(source);
     placed.push_back(node);
-    await(source.children, node.world);
+    await(source.children, node.world, node.hidden);
   }
   return placed;
 }

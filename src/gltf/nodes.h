@@ -18,6 +18,7 @@ inline constexpr double kSmallest = 1e-75;
 struct PlacedNode {
   int index = 0;
   glm::dmat4 world{1.0};  ///< affine: the last row is 0, 0, 0, 1
+  bool hidden = false;  ///< it or an ancestor (KHR_node_visibility): its mesh, sphere and light are not there
 };
 
 /// The nodes of the default scene (else of scene 0, else of the whole file), parents before children, in file

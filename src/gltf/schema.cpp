@@ -199,6 +199,8 @@ constexpr Rule kRules[] = {
     {"/nodes/*/weights", Kind::Numbers},
     {"/nodes/*/skin", Kind::Index, "/skins"},
     {"/nodes/*/extensions", Kind::Object},
+    {"/nodes/*/extensions/KHR_node_visibility", Kind::Object},
+    {"/nodes/*/extensions/KHR_node_visibility/visible", Kind::Flag},
     {"/nodes/*/extensions/KHR_lights_punctual", Kind::Object},
     {"/nodes/*/extensions/KHR_lights_punctual/light!", Kind::Index, "/extensions/KHR_lights_punctual/lights"},
     {"/skins", Kind::Objects},
@@ -297,9 +299,11 @@ std::optional<NumberRule> numberRuleAt(std::string_view pointer) {
   const auto tryRule = [&](const Rule& rule, const std::string& pattern) {
     const bool isArray = rule.kind == Kind::Numbers;
     if ((isArray || rule.kind == Kind::Number) && matches(pattern, pointer))
-      found = NumberRule{isArray ? rule.size : 1, isArray};
+      found = NumberRule{isArray ? rule.size : 1, isArray, false};
   };
   for (const Rule& rule : kRules) tryRule(rule, rule.pattern);
+  // The one flag that glTF's object model lets animations change.
+  if (matches("/nodes/*/extensions/KHR_node_visibility/visible", pointer)) found = NumberRule{1, false, true};
   for (const std::string slot : kTextureSlots) {
     for (const Rule& rule : kTextureInfoRules) tryRule(rule, slot + rule.pattern);
   }

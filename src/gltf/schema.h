@@ -21,9 +21,10 @@ void checkSchema(nlohmann::json& root, const Diagnostics& diagnostics);
 struct NumberRule {
   size_t width = 1;  ///< how many; 0: any number of them, as of morph weights
   bool isArray = false;
+  bool isFlag = false;  ///< 0: false
 };
 
-/// What the loader reads at a JSON pointer, if that is numbers.
+/// What the loader reads at a JSON pointer, if that is numbers, or a flag that can be animated.
 std::optional<NumberRule> numberRuleAt(std::string_view pointer);
 
 }  // namespace fragtrace

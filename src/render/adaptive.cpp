@@ -16,7 +16,6 @@ using Clock = std::chrono::steady_clock;
 constexpr int kBlock = 8;          // pixels a side that share one number of samples
 constexpr int kTile = 256;         // pixels a side of one draw
 constexpr int kFirstSamples = 32;  // of each half
-constexpr double kPart = 0.95;     // of the pixels that have to be under the noise
 
 /// The seed of the second half; no involution, so that two seeds never give the same picture.
 uint32_t seedOfOtherHalf(uint32_t seed) { return seed * 0x9e3779b1u + 0x7f4a7c15u; }
@@ -26,7 +25,10 @@ struct Block {
   int samples = kFirstSamples;
   int target = kFirstSamples;  ///< samples after this round
   int pixels = 0;
-  int above = 0;       ///< pixels above the noise asked for
+  int noisy = 0;  ///< pixels that can be
+  int lit = 0;    ///< of these, such as light has met
+  int above = 0;  ///< pixels above the noise asked for
+  int litAbove = 0;
   double error = 0.0;  ///< sum of the squared relative errors
 
   /// Samples after a round that has time enough: twice as many, so that Sobol sequences stay whole, or what
@@ -35,6 +37,11 @@ struct Block {
 
   /// Samples in both halves that it takes to get there.
   double cost(int to) const { return 2.0 * (to - samples) * pixels; }
+
+  bool tooNoisy() const {
+    constexpr double kOver = 1.0 - kPartUnderGoal;
+    return above > kOver * noisy || litAbove > kOver * lit;
+  }
 
   /// What a sample takes from the picture's squared error; it falls with the square of the samples.
   double worth() const { return error / (double(samples) * pixels); }
@@ -52,14 +59,20 @@ struct Blocks {
   Block& ofPixel(int x, int y) { return blocks[size_t(y / kBlock) * size_t(size.x) + size_t(x / kBlock)]; }
 };
 
-void weigh(Blocks& blocks, const std::vector<double>& errors, double noise) {
-  for (Block& b : blocks.blocks) b = {b.samples, b.samples, 0, 0, 0.0};
+void weigh(Blocks& blocks, const FilmPixels& pixels, const std::vector<double>& errors, double noise) {
+  for (Block& b : blocks.blocks) b = {b.samples, b.samples};
   for (int y = 0; y < blocks.picture.y; ++y) {
     for (int x = 0; x < blocks.picture.x; ++x) {
-      const double e = errors[size_t(y) * size_t(blocks.picture.x) + size_t(x)];
+      const size_t i = size_t(y) * size_t(blocks.picture.x) + size_t(x);
+      const double e = errors[i];
       Block& b = blocks.ofPixel(x, y);
       b.pixels += 1;
+      const bool noisy = canBeNoisy(pixels.pixels[i]);
+      const bool lit = noisy && pixels.pixels[i].luminance() != 0.0;
+      b.noisy += noisy;
+      b.lit += lit;
       b.above += e > noise;
+      b.litAbove += lit && e > noise;
       b.error += e * e;
     }
   }
@@ -73,7 +86,7 @@ double chooseTargets(Blocks& blocks, const AdaptiveGoal& goal, double affordable
   double all = 0.0;
   for (Block& b : blocks.blocks) {
     spent += b.cost(2 * b.samples);
-    const bool wanted = goal.noise > 0.0 ? b.above > (1.0 - kPart) * b.pixels : b.error > 0.0;
+    const bool wanted = goal.noise > 0.0 ? b.tooNoisy() : b.error > 0.0;
     if ((!wanted && !blind) || b.next(goal.mostSamples) <= b.samples) continue;
     candidates.push_back(&b);
     all += b.cost(b.next(goal.mostSamples));
@@ -151,11 +164,10 @@ AdaptivePicture renderAdaptively(Renderer& renderer, glm::ivec2 size, const View
     picture.variance = varianceOfMean(halves);
     const std::vector<double> errors = relativeErrors(picture.pixels, picture.variance);
     picture.rounds += 1;
-    weigh(blocks, errors, goal.noise);
-    double under = double(errors.size());
-    for (const Block& b : blocks.blocks) under -= b.above;
-    picture.share = goal.noise > 0.0 ? under / double(errors.size()) : 0.0;
-    picture.error = quantileOf(errors, kPart);
+    weigh(blocks, picture.pixels, errors, goal.noise);
+    const GoalDistance distance = distanceTo(goal.noise, picture.pixels, errors);
+    picture.share = goal.noise > 0.0 ? distance.share : 0.0;
+    picture.error = distance.error;
     // Two samples a half are the fewest that tell an error.
     if (totalsOf(picture.pixels).fewestSamples < 4) {
       picture.share = 0.0;
@@ -166,7 +178,8 @@ AdaptivePicture renderAdaptively(Renderer& renderer, glm::ivec2 size, const View
     const bool blind = goal.seconds > 0.0 && std::ranges::all_of(errors, [](double e) { return e == 0.0; });
     // Errors fall with the root of the samples.
     roundsDone = goal.noise > 0.0 ? std::pow(goal.noise / std::max(picture.error, goal.noise), 2.0) : 0.0;
-    if (!more || (goal.noise > 0.0 && picture.share >= kPart && !(picture.black && blind))) return picture;
+    if (!more || (goal.noise > 0.0 && picture.share >= kPartUnderGoal && !(picture.black && blind)))
+      return picture;
 
     const double msLeft = (goal.seconds - elapsed()) * 1000.0;
     const double affordable = goal.seconds > 0.0 ? msLeft / std::max(renderer.msPerSample(), 1e-9)

@@ -8,8 +8,8 @@
 namespace fragtrace {
 
 struct AdaptiveGoal {
-  double noise =
-      0.0;  ///< relative error that 95 % of the pixels are to stay under; 0: as good as time allows
+  double noise = 0.0;  ///< relative error that 95 % of the pixels that can be noisy are to stay under; 0: as
+                       ///< good as time allows
   double seconds = 0.0;  ///< for drawing; 0: no limit
   int mostSamples = 0;   ///< of any pixel
 };
@@ -17,8 +17,8 @@ struct AdaptiveGoal {
 struct AdaptivePicture {
   FilmPixels pixels;
   std::vector<double> variance;  ///< of each pixel's mean, as estimated
-  double error = 0.0;            ///< the relative error that 95 % of the pixels are estimated to stay under
-  double share = 0.0;            ///< of the pixels that are under the noise asked for
+  double error = 0.0;  ///< the relative error that 95 % of those that can be noisy are estimated to be below
+  double share = 0.0;  ///< of these, what is under the noise asked for
   int rounds = 0;
   bool black = false;    ///< no sample has brought any light, so that nothing is known of the noise
   bool stopped = false;  ///< by progress
@@ -26,8 +26,8 @@ struct AdaptivePicture {
 
 /// Draws two halves of the samples in rounds. The number of samples doubles in blocks of 8 x 8 pixels, so
 /// that Sobol sequences stay whole (the last time to what mostSamples leaves): where more than 5 % of a
-/// block's pixels are above the noise asked for, or without such a goal where a sample brings most. The
-/// renderer's current variant is used.
+/// block's pixels that can be noisy are above the noise asked for, or without such a goal where a sample
+/// brings most. The renderer's current variant is used.
 AdaptivePicture renderAdaptively(Renderer& renderer, glm::ivec2 size, const View& view,
                                  const AdaptiveGoal& goal, RenderTimes& times,
                                  const Renderer::Progress& progress = Renderer::toTheEnd);

@@ -47,6 +47,7 @@ Film::Film(glm::ivec2 size) : size_(size) {
 void Film::clear() {
   const float zero[4] = {};
   const GLuint none[4] = {};
+  cut_ = 0.0;
   glClearTexImage(sum_.name(), 0, GL_RGBA, GL_FLOAT, zero);
   glClearTexImage(compensation_.name(), 0, GL_RGBA, GL_FLOAT, zero);
   glClearTexImage(counts_.name(), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, none);
@@ -66,6 +67,7 @@ FilmPixels Film::read() const {
   const auto counts = readLayer<uint32_t>(counts_, GL_RGBA_INTEGER, GL_UNSIGNED_INT, size_);
   FilmPixels film;
   film.size = size_;
+  film.cut = cut_;
   film.pixels.resize(size_t(size_.x) * size_t(size_.y));
   for (size_t p = 0; p < film.pixels.size(); ++p) {
     const size_t i = p * 4;

@@ -16,6 +16,9 @@ class Film {
 
   FilmPixels read() const;
 
+  /// Adds to FilmPixels::cut, which is kept on the host.
+  void addCut(double cut) { cut_ += cut; }
+
   /// Limits the samples of each pixel from now on, in the order of `pixels`, which is what read() gave and
   /// nothing has changed since; 0: no limit.
   void setTargets(const FilmPixels& pixels, std::span<const uint32_t> targets);
@@ -25,6 +28,7 @@ class Film {
   GlTexture sum_;
   GlTexture compensation_;
   GlTexture counts_;
+  double cut_ = 0.0;
 };
 
 }  // namespace fragtrace

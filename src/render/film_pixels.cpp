@@ -9,10 +9,12 @@ namespace fragtrace {
 
 FilmTotals totalsOf(const FilmPixels& film) {
   FilmTotals totals;
+  totals.cut = film.cut;
   if (!film.pixels.empty()) totals.fewestSamples = film.pixels.front().samples;
   for (const FilmPixel& p : film.pixels) {
     totals.samples += p.samples;
     totals.rays += p.rays;
+    totals.hitPixels += p.alpha > 0.0;
     totals.emptyPixels += p.samples == 0;
     totals.nonfinitePixels += p.nonfinite != 0;
     totals.budgetHits += (p.flags & layout::kPixelBudgetHit) != 0;
@@ -24,6 +26,7 @@ FilmTotals totalsOf(const FilmPixels& film) {
 
 FilmPixels pooled(const FilmPixels& a, const FilmPixels& b) {
   FilmPixels result = a;
+  result.cut += b.cut;
   for (size_t i = 0; i < result.pixels.size(); ++i) {
     FilmPixel& p = result.pixels[i];
     const FilmPixel& q = b.pixels[i];

@@ -31,15 +31,18 @@ struct FilmPixel {
 struct FilmPixels {
   glm::ivec2 size{0};
   std::vector<FilmPixel> pixels;
+  double cut = 0.0;  ///< luminance of the throughput that --bounces cut, over all paths
 };
 
 /// What the film counted, over all pixels.
 struct FilmTotals {
   uint64_t samples = 0;
   uint64_t rays = 0;
+  uint64_t hitPixels = 0;    ///< in which a camera ray has met a surface
   uint64_t emptyPixels = 0;  ///< without any sample
   uint64_t nonfinitePixels = 0;
   uint64_t budgetHits = 0;  ///< pixels in which a loop was ended by the driver: the picture is wrong
+  double cut = 0.0;         ///< as in FilmPixels
   uint32_t fewestSamples = 0;
   uint32_t mostSamples = 0;
 };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/noise_neighbours.h"
+
 namespace fragtrace {
 
 namespace {
@@ -44,14 +46,19 @@ double sharesOf(const Sums& window, double overall) {
   return (window.differences + prior * overall) / (window.independent + prior);
 }
 
-/// 0.01 x the mean luminance: keeps errors of dark pixels from counting for more than can be seen.
+}  // namespace
+
 double floorOf(const FilmPixels& film) {
   double sum = 0.0;
   for (const FilmPixel& p : film.pixels) sum += p.luminance();
   return 0.01 * sum / double(std::max<size_t>(1, film.pixels.size()));
 }
 
-}  // namespace
+std::vector<double> independentVariance(const FilmPixels& film) {
+  std::vector<double> variance(film.pixels.size());
+  std::ranges::transform(film.pixels, variance.begin(), &FilmPixel::variance);
+  return drawnTowardsNeighbours(film, variance, floorOf(film));
+}
 
 std::vector<double> varianceOfMean(const Halves& halves) {
   const glm::ivec2 size = halves.a.size;
@@ -89,16 +96,20 @@ std::vector<double> varianceOfMean(const Halves& halves) {
     }
   }
 
+  const FilmPixels both = pooled(halves.a, halves.b);
   std::vector<double> variance(halves.a.pixels.size());
+  for (size_t i = 0; i < variance.size(); ++i) {
+    const FilmPixel& a = halves.a.pixels[i];
+    const FilmPixel& b = halves.b.pixels[i];
+    const double samples = std::max(1.0, double(a.samples) + b.samples);
+    variance[i] =
+        (a.variance() * a.samples * a.samples + b.variance() * b.samples * b.samples) / (samples * samples);
+  }
+  variance = drawnTowardsNeighbours(both, variance, floorOf(both));
   for (int y = 0; y < size.y; ++y) {
     for (int x = 0; x < size.x; ++x) {
       const size_t i = size_t(y) * size_t(size.x) + size_t(x);
-      const FilmPixel& a = halves.a.pixels[i];
-      const FilmPixel& b = halves.b.pixels[i];
-      const double samples = std::max(1.0, double(a.samples) + b.samples);
-      const double independent =
-          (a.variance() * a.samples * a.samples + b.variance() * b.samples * b.samples) / (samples * samples);
-      variance[i] = independent * shares[size_t(y / kWindow) * size_t(grid.size.x) + size_t(x / kWindow)];
+      variance[i] *= shares[size_t(y / kWindow) * size_t(grid.size.x) + size_t(x / kWindow)];
     }
   }
   return variance;
@@ -112,6 +123,24 @@ std::vector<double> relativeErrors(const FilmPixels& pooled, const std::vector<d
     errors[i] = scale > 0.0 ? std::sqrt(std::max(0.0, variance[i])) / scale : 0.0;
   }
   return errors;
+}
+
+GoalDistance distanceTo(double goal, const FilmPixels& film, const std::vector<double>& errors) {
+  std::vector<double> noisy;
+  std::vector<double> lit;
+  for (size_t i = 0; i < errors.size(); ++i) {
+    if (!canBeNoisy(film.pixels[i])) continue;
+    noisy.push_back(errors[i]);
+    if (film.pixels[i].luminance() != 0.0) lit.push_back(errors[i]);
+  }
+  GoalDistance distance;
+  for (const std::vector<double>* some : {&noisy, &lit}) {
+    if (some->empty()) continue;
+    const auto under = std::ranges::count_if(*some, [&](double e) { return e <= goal; });
+    distance.error = std::max(distance.error, quantileOf(*some, kPartUnderGoal));
+    distance.share = std::min(distance.share, double(under) / double(some->size()));
+  }
+  return distance;
 }
 
 double quantileOf(std::vector<double> values, double part) {

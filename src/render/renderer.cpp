@@ -133,7 +133,8 @@ layout::Progress Renderer::draw() {
   return progress;
 }
 
-bool Renderer::drawTile(glm::ivec2 corner, glm::ivec2 tile, int target, const std::function<bool()>& goOn) {
+bool Renderer::drawTile(Film& film, glm::ivec2 corner, glm::ivec2 tile, int target,
+                        const std::function<bool()>& goOn) {
   frame_.tile = {corner, tile};
   frame_.picture.z = target;
   glNamedBufferSubData(frameBuffer_.name(), 0, sizeof frame_, &frame_);
@@ -141,6 +142,7 @@ bool Renderer::drawTile(glm::ivec2 corner, glm::ivec2 tile, int target, const st
   overBudget_ = false;
   for (;;) {
     const layout::Progress progress = draw();
+    film.addCut((progress.cutHigh * 0x1p32 + progress.cutLow) / layout::kCutUnits);
     if (!goOn()) return false;
     if (progress.unfinished == 0) return true;
     if (progress.stuck > 0 && !variant_.resumable) makeResumable();
@@ -152,7 +154,7 @@ double Renderer::compile(const ShaderVariant& variant, Film& film, const View& v
   const auto start = Clock::now();
   variant_ = variant;
   setFrame(film, view);
-  drawTile({0, 0}, glm::min(film.size(), glm::ivec2(kTinyTile)), 1, [] { return true; });
+  drawTile(film, {0, 0}, glm::min(film.size(), glm::ivec2(kTinyTile)), 1, [] { return true; });
   film.clear();
   mostSamplesPerDraw_ = 1;
   msPerSample_ = 0.0;
@@ -179,7 +181,7 @@ bool Renderer::addSamples(Film& film, const View& view, int from, int to, Render
         const glm::ivec2 tile = glm::min(plan.tile, film.size() - corner);
         const auto start = Clock::now();
         const double fraction = pixelSamplesDone / total;
-        if (!drawTile(corner, tile, done + plan.samples, [&] { return progress(fraction); })) {
+        if (!drawTile(film, corner, tile, done + plan.samples, [&] { return progress(fraction); })) {
           times.renderMs += milliseconds(roundStart, Clock::now());
           times.drawMs += drawnMs_ - drawnBefore;
           return false;
@@ -219,7 +221,7 @@ bool Renderer::addSamples(Film& film, const View& view, std::span<const Work> pa
       const int samples = int(std::clamp(affordable, 1.0, double(most)));
       const auto drawStart = Clock::now();
       const double fraction = pixelSamplesDone / total;
-      complete = drawTile(w.corner, w.size, done + samples, [&] { return progress(fraction); });
+      complete = drawTile(film, w.corner, w.size, done + samples, [&] { return progress(fraction); });
       drawMs += milliseconds(drawStart, Clock::now());
       pixelSamplesDone += pixels * samples;
       msPerSample_ = drawMs / pixelSamplesDone;

@@ -85,7 +85,8 @@ class Renderer {
   void bindPathStates();
   layout::Progress draw();
   /// Advances a tile to `target` samples in as many draws as its step budget takes; false when stopped.
-  bool drawTile(glm::ivec2 corner, glm::ivec2 tile, int target, const std::function<bool()>& goOn);
+  bool drawTile(Film& film, glm::ivec2 corner, glm::ivec2 tile, int target,
+                const std::function<bool()>& goOn);
   /// More samples a draw as long as the step budget takes them.
   void adaptPace(int samples);
 

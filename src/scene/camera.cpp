@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/camera.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -34,12 +35,26 @@ glm::dvec3 orthogonalUp(const glm::dvec3& up, const glm::dvec3& forward) {
 
 }  // namespace
 
-Camera frameScene(const BoundsDouble& bounds) {
+Camera frameScene(const BoundsDouble& bounds, double aspectRatio) {
   Camera camera;
   camera.name = "framing camera";
   camera.fovY = glm::quarter_pi<double>();
   const glm::dvec3 center = bounds.empty() ? glm::dvec3(0.0) : bounds.center();
-  camera.position = center + glm::dvec3(0, 0, radiusOf(bounds) / std::sin(0.5 * camera.fovY));
+  const glm::dvec3 extent = bounds.empty() ? glm::dvec3(1.0) : bounds.extent();
+  constexpr double kFlat = 1e-3;  // of the largest extent
+  const double thin = kFlat * std::max({extent.x, extent.y, extent.z});
+  if (extent.z > thin && extent.y <= thin) {
+    camera.forward = {0, -1, 0};
+    camera.up = {0, 0, -1};
+  } else if (extent.z > thin && extent.x <= thin) {
+    camera.forward = {-1, 0, 0};
+  }
+  // The narrower side of the picture decides. A narrow view of a sphere shows it up to its middle, so that
+  // what is wide would touch the picture's edge: a tenth stays free.
+  const double narrow = std::min(1.0, aspectRatio);
+  const double filled = 1.0 - 0.1 * std::min(1.0, 2.0 * (1.0 - narrow));
+  const double halfAngle = std::atan(std::tan(0.5 * camera.fovY) * narrow * filled);
+  camera.position = center - camera.forward * (radiusOf(bounds) / std::sin(halfAngle));
   return camera;
 }
 
@@ -99,13 +114,14 @@ std::optional<size_t> cameraNamed(const std::string& wanted, std::span<const Cam
 }
 
 Camera chooseCamera(std::span<const Camera> cameras, std::optional<int> index,
-                    const CameraOverrides& overrides, const BoundsDouble& bounds) {
+                    const CameraOverrides& overrides, const BoundsDouble& bounds, double aspectRatio) {
   if (index && (*index < 0 || size_t(*index) >= cameras.size())) {
     throw UsageError("--camera-index: " + std::to_string(*index) + ", but the scene has " +
                      std::to_string(cameras.size()) + " cameras (counted from 0)");
   }
   if (index) return withOverrides(cameras[size_t(*index)], overrides, bounds);
-  return withOverrides(cameras.empty() ? frameScene(bounds) : cameras.front(), overrides, bounds);
+  return withOverrides(cameras.empty() ? frameScene(bounds, aspectRatio) : cameras.front(), overrides,
+                       bounds);
 }
 
 }  // namespace fragtrace

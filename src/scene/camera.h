@@ -23,8 +23,10 @@ struct CameraOverrides {
   bool operator==(const CameraOverrides&) const = default;
 };
 
-/// Looks along -z at the centre of the bounds, 45 degrees high, far enough for the bounding sphere to fit.
-Camera frameScene(const BoundsDouble& bounds);
+/// Looks at the centre of the bounds, 45 degrees high, far enough for the bounding sphere to fit a picture of
+/// that width / height: along -z, or along the axis in which the bounds are flat, where it would else see
+/// their edge.
+Camera frameScene(const BoundsDouble& bounds, double aspectRatio = 1.0);
 
 /// What the camera looks at: the point on its axis that is as deep as the centre of the bounds, or, if that
 /// is not in front of it, as far away as the bounds are large.
@@ -45,9 +47,10 @@ Camera withOverrides(Camera camera, const CameraOverrides& overrides, const Boun
 /// The index of the camera that the user named (indexOfPart()); none where that is empty. Throws UsageError.
 std::optional<size_t> cameraNamed(const std::string& wanted, std::span<const Camera> cameras);
 
-/// The camera of that index, or without one the first, or one that frames the scene, with its overrides.
+/// The camera of that index, or without one the first, or one that frames the scene in a picture of that
+/// width / height, with its overrides.
 /// Throws UsageError if there is none of that index.
 Camera chooseCamera(std::span<const Camera> cameras, std::optional<int> index,
-                    const CameraOverrides& overrides, const BoundsDouble& bounds);
+                    const CameraOverrides& overrides, const BoundsDouble& bounds, double aspectRatio = 1.0);
 
 }  // namespace fragtrace

@@ -91,4 +91,10 @@ inline bool seesEnvironment(const RenderOptions& o) {
   return o.background && !o.hdriFile.empty() && !o.backgroundColor;
 }
 
+/// Width / height of the picture that a scene without a camera is framed for; without --resolution it is
+/// wide, as good as square.
+inline double framedAspect(const RenderOptions& options) {
+  return options.resolution ? double(options.resolution->x) / options.resolution->y : 1.0;
+}
+
 }  // namespace fragtrace

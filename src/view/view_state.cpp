@@ -248,11 +248,12 @@ void takeOptions(ViewState& state, const RenderOptions& options) {
   if (!state.scene) return;
   std::optional<int> index = options.cameraIndex;
   if (const auto named = cameraNamed(options.selection.camera, state.scene->cameras)) index = int(*named);
-  const Camera camera = chooseCamera(state.scene->cameras, index, options.camera, state.scene->bounds);
+  const Camera camera = chooseCamera(state.scene->cameras, index, options.camera, state.scene->bounds,
+                                     framedAspect(state.scene->options));
   state.options() = options;
   for (RenderOptions& side : state.sides) {
     side.cameraIndex = index;
-    side.selection.camera.clear();
+    side.selection.camera = options.selection.camera;
     side.camera = options.camera;
     side.exposure = options.exposure;
     side.toneMap = options.toneMap;

@@ -198,6 +198,21 @@ TEST_P(Draws, AVariantThatSuspendsFromTheStart) {
   EXPECT_EQ(bitsOf(drawn([&](Film& film) { add(film, 0, kMany); })), bitsOf(expected));
 }
 
+/// Scatterings at smooth glass are kept apart from the others, and what --bounces cuts is counted once.
+TEST_P(Draws, PathsThatAreSuspendedInGlass) {
+  constexpr int kMany = 300;
+  size_ = {16, 12};
+  open("glass-sphere.gltf", {});
+  view_.bounces = 1;
+  ASSERT_TRUE(has(variant_.traits, Trait::Transmission));
+  const FilmPixels expected = drawn([&](Film& film) { add(film, 0, kMany); });
+  EXPECT_GT(expected.cut, 0.01 * kMany * double(expected.pixels.size()));
+  variant_.resumable = true;
+  const FilmPixels suspended = drawn([&](Film& film) { add(film, 0, kMany); });
+  EXPECT_EQ(bitsOf(suspended), bitsOf(expected));
+  EXPECT_NEAR(suspended.cut / expected.cut, 1.0, 1e-3);
+}
+
 TEST_P(Draws, PathsThatAreSuspendedInAnInstance) {
   constexpr int kMany = 700;
   RenderOptions options;

@@ -33,7 +33,7 @@ const std::vector<Member> kFrameMembers = {
     MEMBER(Frame, "frameBlock", sampling)};
 const std::vector<Member> kProgressMembers = {
     MEMBER(Progress, "progress", unfinished), MEMBER(Progress, "progress", stuck),
-    MEMBER(Progress, "progress", reserved0), MEMBER(Progress, "progress", reserved1)};
+    MEMBER(Progress, "progress", cutLow), MEMBER(Progress, "progress", cutHigh)};
 #undef MEMBER
 
 /// One property of one named resource, -1 where the program has no such resource.

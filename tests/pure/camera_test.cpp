@@ -27,6 +27,31 @@ TEST(FrameScene, BoundingSphereTouchesTheViewCone) {
   EXPECT_NEAR(distance * std::sin(camera.fovY / 2), std::sqrt(12.0), kTolerance);
 }
 
+/// In pictures of any shape the sphere about the box is within the narrower side of the view, and fills 9
+/// tenths of it.
+TEST(FrameScene, FitsTheWidthOfNarrowPictures) {
+  for (const double aspect : {0.25, 0.5, 0.9, 1.0, 2.0}) {
+    const Camera camera = frameScene(kBox, aspect);
+    const double half = std::atan(std::tan(camera.fovY / 2) * std::min(aspect, 1.0));
+    const double filled = std::sqrt(12.0) / ((camera.position.z + 1.0) * std::sin(half));
+    EXPECT_LT(filled, 1.0 + 1e-9) << aspect;
+    EXPECT_GT(filled, 0.899) << aspect;
+  }
+}
+
+TEST(FrameScene, FlatBoundsAreSeenFromWhereTheyShowMost) {
+  const Camera above = frameScene({{-1, 3, -2}, {1, 3, 2}});
+  expectNear(above.forward, {0, -1, 0});
+  expectNear(above.up, {0, 0, -1});
+  EXPECT_GT(above.position.y, 3.0);
+  const Camera side = frameScene({{5, -1, -2}, {5, 1, 2}});
+  expectNear(side.forward, {-1, 0, 0});
+  EXPECT_GT(side.position.x, 5.0);
+  expectNear(frameScene({{-1, -1, 0}, {1, 1, 0}}).forward, {0, 0, -1});
+  expectNear(frameScene({{0, -1, 0}, {0, 1, 0}}).forward, {0, 0, -1});
+  expectNear(frameScene({{-1, -0.01, -1}, {1, 0.01, 1}}).forward, {0, 0, -1});
+}
+
 TEST(FrameScene, EmptyBoundsStillGiveACamera) {
   const Camera camera = frameScene({});
   EXPECT_GT(camera.position.z, 1.0);

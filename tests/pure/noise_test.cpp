@@ -119,6 +119,46 @@ TEST(Noise, TheShareThatASamplerLeavesIsFoundWhereItIs) {
   EXPECT_LT(there, 2.3);
 }
 
+/// Light that one sample in a thousand meets: most pixels have none of it, and do not know that they are
+/// noisy.
+TEST(Noise, PixelsWhoseSamplesAllMissTheLightAreAsNoisyAsTheirNeighbours) {
+  constexpr int kSamples = 32;
+  constexpr double kChance = 1e-3;
+  Draw draw(241);
+  const auto film = [&] {
+    return filmOf(kSize, [&](int, int) {
+      std::vector<double> samples(size_t(kSamples), 0.0);
+      for (double& s : samples) s = draw.between(0.0, 1.0) < kChance ? 1.0 : 0.0;
+      return samples;
+    });
+  };
+  FilmPixels both = pooled(film(), film());
+  for (FilmPixel& p : both.pixels) p.alpha = p.samples;
+  const std::vector<double> errors = relativeErrors(both, independentVariance(both));
+  const double truth = 1.0 / std::sqrt(2 * kSamples * kChance);
+  EXPECT_NEAR(quantileOf(errors, 0.5) / truth, 1.0, 0.3);
+  EXPECT_GT(distanceTo(0.5 * truth, both, errors).error, 0.7 * truth);
+  EXPECT_LT(distanceTo(0.5 * truth, both, errors).share, 0.1);
+}
+
+/// 9 of 6,144 pixels are lit and noisy; all others miss, or are black.
+TEST(Noise, AGoalLooksAtTheFewPixelsThatAreLit) {
+  constexpr int kSamples = 32;
+  for (const double alpha : {0.0, 1.0}) {
+    Draw draw(251);
+    FilmPixels film = filmOf(kSize, [&](int x, int y) {
+      const bool lit = x / 3 == 10 && y / 3 == 10;
+      return lit ? independentSamples(draw, 1.0, kSamples) : std::vector<double>(size_t(kSamples), 0.0);
+    });
+    for (FilmPixel& p : film.pixels) p.alpha = alpha * p.samples;
+    const GoalDistance distance = distanceTo(0.02, film, relativeErrors(film, independentVariance(film)));
+    EXPECT_NEAR(distance.error, 1.0 / std::sqrt(double(kSamples)), 0.1) << alpha;
+    EXPECT_LT(distance.share, 0.2) << alpha;
+  }
+  const FilmPixels missed = filmOf(kSize, [](int, int) { return std::vector<double>(4, 1.0); });
+  EXPECT_EQ(distanceTo(0.02, missed, relativeErrors(missed, independentVariance(missed))).share, 1.0);
+}
+
 TEST(Noise, VarianceOfAConstantPictureIsNothing) {
   for (double level : {0.0, 1.0, 1e6}) {
     const FilmPixels film = filmOf({20, 10}, [&](int, int) { return std::vector<double>(4, level); });

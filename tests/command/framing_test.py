@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Scenes without a camera: all of the object is in the picture, and something of it is seen, or that is said."""
+import json
+import os
+import unittest
+from pathlib import Path
+
+from materials_test import quad
+from support import Case, Exr, main
+
+ASSETS = Path(os.environ.get("FRAGTRACE_ASSETS", "/work/shared/assets")) / "scenes"
+
+
+class FramingCase(Case):
+    def alphas(self, scene, *options):
+        """Rows of alpha, and what was said."""
+        path = self.folder / "x.exr"
+        result = self.renders(scene, "-o", path, "--stage", "flat", "--spp", 4, "--no-background", *options)
+        return Exr(path).layers["A"], result.stderr
+
+    def write(self, scale, rotation=(0, 0, 0, 1), double_sided=True):
+        """A quad of 2 x 2 m, scaled and then turned, without a camera."""
+        gltf = quad({"doubleSided": double_sided})
+        gltf["nodes"] = [{"mesh": 0, "scale": scale, "rotation": rotation}]
+        gltf["scenes"] = [{"nodes": [0]}]
+        for name in ("images", "textures", "cameras"):
+            gltf.pop(name)
+        path = self.folder / "scene.gltf"
+        path.write_text(json.dumps(gltf))
+        return path
+
+    def assert_inside(self, alphas):
+        edge = [*alphas[0], *alphas[-1], *(row[0] for row in alphas), *(row[-1] for row in alphas)]
+        self.assertEqual(max(edge), 0)
+        self.assertGreater(max(map(max, alphas)), 0)
+
+
+class Framing(FramingCase):
+    def test_no_pixel_of_the_edge_shows_the_object(self):
+        for scale in ((3, 1, 1), (1, 3, 1), (1, 1, 1)):
+            for size in ("20,40", "40,20", "24,96"):
+                for backend in ("egl", "osmesa") if size == "20,40" else ("egl",):
+                    alphas, said = self.alphas(self.write(scale), "--resolution", size, "--rendering-backend", backend)
+                    self.assert_inside(alphas)
+                    self.assertNotIn("shows nothing", said)
+
+    def test_a_flat_object_is_seen_from_where_it_shows_most(self):
+        half = 0.70710678
+        for rotation in ((-half, 0, 0, half), (0, half, 0, half)):
+            alphas, said = self.alphas(self.write((1, 1, 1), rotation), "--resolution", "24,24")
+            self.assert_inside(alphas)
+            self.assertGreater(sum(map(sum, alphas)), 0.2 * 24 * 24)
+            self.assertNotIn("shows nothing", said)
+
+    def test_a_default_view_that_shows_nothing_is_said(self):
+        scene = self.write((1, 1, 1), (0, 1, 0, 0), double_sided=False)
+        alphas, said = self.alphas(scene, "--resolution", "24,24")
+        self.assertEqual(max(map(max, alphas)), 0)
+        self.assertIn("default view shows nothing", said)
+        _, said = self.alphas(scene, "--resolution", "24,24", "--camera-position", "0,0,9", "--camera-focal-point", "0,0,20")
+        self.assertNotIn("shows nothing", said)
+
+
+@unittest.skipUnless(ASSETS.is_dir(), f"{ASSETS} is absent")
+class AssetFraming(FramingCase):
+    def test_assets(self):
+        for name, size in (("CornellBox/CornellBox.glb", "120,240"), ("TwoSidedPlane/TwoSidedPlane.gltf", "64,64")):
+            alphas, said = self.alphas(ASSETS / name, "--resolution", size)
+            self.assert_inside(alphas)
+            self.assertNotIn("shows nothing", said)
+
+
+if __name__ == "__main__":
+    main()
