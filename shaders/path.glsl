@@ -136,7 +136,7 @@ Path meetSurroundings(Path p) {
   vec4 seen = environmentAlong(p.direction);
   float weight = 1.0;
   if (kGi && kEnvironmentSampling && p.density > 0.0) {
-    weight = misWeight(p.density, frame.lightChoice.x * environmentDensity(seen, p.direction));
+    weight = balanceWeight(p.density, frame.lightChoice.x * environmentDensity(seen, p.direction));
   }
   p.radiance += clampIndirect(p.throughput * (weight * seen.rgb), p.bounce);
   return p;

@@ -77,6 +77,9 @@ float misWeight(float own, float other) {
   return 1.0f / (1.0f + ratio * ratio);
 }
 
+/// The same by the balance heuristic, for which MIS compensation of the environment is made; it is smooth, which stratified points reward.
+float balanceWeight(float own, float other) { return own > 0.0f ? own / (own + other) : 0.0f; }
+
 /// How much of a diffuse reflection is left towards `incoming`: where an interpolated normal sees light that is near the horizon of its flat triangle,
 /// light fades, which would else end at once, triangle by triangle (Chiang, Li and Burley, Taming the Shadow Terminator, 2019). At most 1.
 float terminatorFade(vec3 faceNormal, vec3 vertexNormal, vec3 incoming) {

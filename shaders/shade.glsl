@@ -48,7 +48,11 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
     vec3 incoming = toFrame(around, light.direction);
     bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (incoming.z > 0.0);
     BsdfValue value = evaluateBsdf(b, outgoing, incoming);
-    float weight = light.density > 0.0 ? misWeight(light.density, value.density) : 1.0;
+    float weight = 1.0;
+    if (light.density > 0.0) {
+      bool environment = kEnvironmentSampling && light.distance == kFarAway;
+      weight = environment ? balanceWeight(light.density, value.density) : misWeight(light.density, value.density);
+    }
     p = connect(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
   }
   BsdfSample next = sampleBsdf(b, outgoing, choice, uv.x, uv.y);
