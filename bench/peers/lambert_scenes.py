@@ -72,9 +72,39 @@ def as_lambert(folder, source, keep_emission):
     return path
 
 
+def with_backs(folder, source):
+    """A copy whose lamps have black backs: ours are not there from behind, Mitsuba's are."""
+    root = json.loads(source.read_text(encoding="utf-8"))
+    for buffer in root["buffers"]:
+        if not buffer["uri"].startswith("data:"):
+            shutil.copy(source.parent / buffer["uri"], folder)
+    black = {"name": "back", "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0, "roughnessFactor": 1},
+             "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}
+    root["materials"].append(black)
+    backs = []
+    for mesh in root["meshes"]:
+        for primitive in list(mesh["primitives"]):
+            if "emissiveFactor" in root["materials"][primitive["material"]]:
+                positions = primitive["attributes"]["POSITION"]
+                backs.append({**primitive, "attributes": {"POSITION": positions}, "material": len(root["materials"]) - 1})
+    # A node that mirrors along the one axis in which a lamp is flat turns its triangles round; the back stands 2 mm behind, towards the wall.
+    for k, primitive in enumerate(backs):
+        box = root["accessors"][primitive["attributes"]["POSITION"]]
+        flat = [high - low < 1e-6 for low, high in zip(box["min"], box["max"])]
+        axis = flat.index(True)
+        root["meshes"].append({"primitives": [primitive]})
+        scale, move = [1, 1, 1], [0, 0, 0]
+        scale[axis], move[axis] = -1, 2 * box["min"][axis] + math.copysign(0.002, box["min"][axis])
+        root["nodes"].append({"name": f"back-{k}", "mesh": len(root["meshes"]) - 1, "scale": scale, "translation": move})
+        root["scenes"][root.get("scene", 0)]["nodes"].append(len(root["nodes"]) - 1)
+    path = folder / source.name
+    path.write_text(json.dumps(root), encoding="utf-8")
+    return path
+
+
 def pictures(folder, assets):
     """{name: (scene, environment or None)}; those that need `assets` are left out without it."""
-    scenes = {"cornell-box": (REPOSITORY / "scenes/cornell-box.gltf", None), "many-lights": (REPOSITORY / "scenes/many-lights.gltf", None)}
+    scenes = {name: (with_backs(folder, REPOSITORY / f"scenes/{name}.gltf"), None) for name in ("cornell-box", "many-lights")}
     if not assets:
         return scenes
     environments = {"lightroom": assets / "env/lightroom_14b.hdr", "sun": assets / "env/qwantani_afternoon_puresky_1k.hdr"}

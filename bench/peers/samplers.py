@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Error per sample beside Mitsuba 3's samplers, from the spread of independent seeds on both sides, so that no reference is needed.
 
-usage: samplers.py FRAGTRACE [--assets DIR] [--only NAME,...] [--spp 16,64,256] [--seeds N] [--json FILE] [--chart FILE.svg]
+usage: samplers.py FRAGTRACE [--assets DIR] [--only "NAME;..."] [--spp 16,64,256] [--seeds N] [--json FILE] [--chart FILE.svg]
 Run it with a Python that has mitsuba 3.9.1 and numpy. Prints a table: the relative MSE of each picture (docs/conventions.md), of the best of Mitsuba's
 samplers, and their ratio, which is to be at most 1.1. Neither side uses Russian roulette; both have a box filter.
 """
@@ -26,6 +26,7 @@ from gltf_scene import read_scene  # noqa: E402
 from mitsuba_worker import environment  # noqa: E402
 
 import lambert_scenes  # noqa: E402
+import sampler_chart  # noqa: E402
 
 mi = render_mitsuba.mi
 SAMPLERS = ("independent", "stratified", "multijitter", "orthogonal", "ldsampler")
@@ -125,6 +126,10 @@ def error_at(rows, sampler, counts, spp):
     return error * (spp / count) ** (log(error / second) / log(count / other))
 
 
+def errors_of(rows, counts, spp):
+    return {sampler: error_at(rows, sampler, counts, spp) for sampler in rows[str(spp)]["mitsuba"]}
+
+
 def print_table(figures, counts):
     print("| picture | " + " | ".join(f"{n}: ours, best of Mitsuba's, ratio" for n in counts) + " | slope | means |")
     print("| --- |" + " --- |" * (len(counts) + 2))
@@ -132,7 +137,7 @@ def print_table(figures, counts):
     for name, rows in figures.items():
         cells = []
         for n in counts:
-            errors = {sampler: error_at(rows, sampler, counts, n) for sampler in rows[str(n)]["mitsuba"]}
+            errors = errors_of(rows, counts, n)
             best = min(errors, key=errors.get)
             error, other = rows[str(n)]["ours"], errors[best]
             cells.append(f"{error:.2e}, {other:.2e} ({best}), {error / other:.2f}")
@@ -165,8 +170,10 @@ def main():
                     contents = {"seeds": options.seeds, "resolution": options.resolution, "pictures": figures}
                     options.json.write_text(json.dumps(contents, indent=1) + "\n", encoding="utf-8")
     complete = print_table(figures, options.counts)
-    if False:
-        options.chart.write_text(sampler_chart.draw(figures, options.counts), encoding="utf-8")
+    if options.chart:
+        lines = {name: {"ours": [rows[str(n)]["ours"] for n in options.counts],
+                        "Mitsuba": [min(errors_of(rows, options.counts, n).values()) for n in options.counts]} for name, rows in figures.items()}
+        options.chart.write_text(sampler_chart.draw(lines, options.counts), encoding="utf-8")
     sys.exit(0 if complete else 1)
 
 
