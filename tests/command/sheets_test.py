@@ -54,6 +54,15 @@ class Sheets(Case):
         masked = lambda cutoff, *color: (sheet(color, 0.5, alphaMode="MASK", alphaCutoff=cutoff), 0.1 * cutoff, 3)
         self.assertEqual(self.stack([masked(0.505, 1, 0, 0), masked(0.495, 0, 1, 0)], "--stage", "flat", size=8, spp=1), [0, 1, 0])
 
+    def test_glass_that_is_half_there_lets_half_through_before_gi(self):
+        """Of index 1, over black, before white."""
+        glass = {"KHR_materials_transmission": {"transmissionFactor": 0.5}, "KHR_materials_ior": {"ior": 1}}
+        sheets = [({"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 0, "roughnessFactor": 0}, "extensions": SPECULAR | glass}, 0, 3),
+                  (sheet((1, 1, 1)) | {"extensions": {"KHR_materials_unlit": {}}}, -1, 9)]
+        # What is not glass is lit: white under a light of pi, and the ambient light.
+        for seen in self.stack(sheets, "--stage", "refraction"):
+            self.assert_share(seen - (0.03 + 1 / math.pi), 0.5, 128 * 128 * 64, 1 - 0.03 - 1 / math.pi)
+
     def test_a_screen_close_before_a_lamp_lets_nothing_through(self):
         """Nor does a roof let the other light through."""
         lamp = sheet(emissiveFactor=[1, 1, 1])

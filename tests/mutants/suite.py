@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fault import callers_of
 
-COMMANDS = ("Means", "Sheets", "KnownLight", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging")
+COMMANDS = ("Means", "Sheets", "KnownLight", "KnownSurfaces", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging")
 # Where to look first, before there is any experience: scenes of picture tests, test files and groups by the beginning of a fault's name.
 LIKELY = {
     "path.": ("closed-furnace.gi", "command.KnownLight", "cornell-box.gi", "coverage.gi"),
@@ -18,36 +18,37 @@ LIKELY = {
     "path.emittedAt coat": ("command.Materials",),
     "path.tracePast": ("command.Sheets",),
     "path.connect limit": ("command.Sheets",),
-    "shade.": ("cornell-box.gi", "lobes.gi", "plastics.gi", "sphere-phong.phong", "command.KnownLight"),
+    "shade.": ("cornell-box.gi", "command.KnownSurfaces", "plastics.gi", "sphere-phong.phong", "command.KnownLight"),
     "shade.shade flat": ("sphere-textured.flat",),
-    "shade.shade absorption": ("water-cube-plain.gi", "water-cube-plain.refraction"),
+    "shade.shade absorption": ("command.KnownSurfaces", "water-cube-plain.gi", "water-cube-plain.refraction"),
     "shade.shade camera": ("command.KnownLight",),
     "shade.settleShadow": ("command.Sheets", "coverage.gi"),
     "shade.disperse": ("command.Materials",),
-    "shade.baseBsdf": ("rough-metals.gi", "rough-glass.gi", "thin-glass.gi", "lobes.gi", "plastics.gi"),
+    "shade.baseBsdf": ("command.KnownSurfaces", "rough-metals.gi", "rough-glass.gi", "thin-glass.gi", "lobes.gi", "plastics.gi"),
+    "shade.shadeLocal glass": ("command.Sheets",),
     "shade.shadeLocal": ("sphere-phong.phong", "sphere-plane-mirror.reflections", "water-cube-plain.refraction"),
     "shade.scatterGlass": ("water-cube-plain.refraction",),
     "shade.featureAt": ("command.FirstHits",),
     "lights.": ("command.KnownLight", "lights.gi", "cornell-box-direct.gi", "lights.shadows"),
     "environment.": ("command.KnownLight", "environment-rotated.gi", "sun-sky.gi", "pure.shader_environment_test"),
-    "material.": ("sphere-textured.flat", "plastics.gi", "rough-metals.gi", "command.TextureFactors"),
-    "material_layers.": ("command.TextureFactors", "mapped-layers.gi", "lobes.gi", "command.Materials"),
+    "material.": ("command.KnownSurfaces", "sphere-textured.flat", "plastics.gi", "rough-metals.gi", "command.TextureFactors"),
+    "material_layers.": ("command.KnownSurfaces", "command.TextureFactors", "mapped-layers.gi", "lobes.gi", "command.Materials"),
     "texture.": ("sphere-textured.flat", "mapped-plane.normal-maps", "mapped-metal.gi", "command.Materials"),
     "surface.": ("sphere-mapped.normal-maps", "mapped-plane-tangents.normal-maps", "water-cube.normal-maps", "transforms.flat", "lobes.gi"),
     "surface.inLocal": ("command.Instancing",),
     "surface.unitOr": ("command.Instancing",),
-    "layers.": ("lobes.gi", "mapped-layers.gi", "pure.shader_layers_test", "command.Materials"),
+    "layers.": ("command.KnownSurfaces", "lobes.gi", "mapped-layers.gi", "pure.shader_layers_test", "command.Materials"),
     "film.": ("sphere-black.flat", "command.Pictures"),
     "film_pixel.": ("sphere-black.flat", "pure.shader_film_test"),
     "camera.": ("transforms.flat", "sphere-textured.flat"),
     "pixel_filter.": ("command.Filters",),
     "sampling.": ("command.KnownLight", "lobes.gi", "pure.shader_sampling_test"),
     "energy.": ("rough-metals-compensated.gi", "command.Materials", "mapped-layers.gi"),
-    "bsdf.": ("lobes.gi", "plastics.gi", "rough-glass.gi", "thin-glass.gi", "pure.shader_bsdf_test", "pure.shader_layers_test"),
-    "ggx.": ("rough-metals.gi", "rough-glass.gi", "lobes.gi", "plastics.gi"),
-    "sheen.": ("mapped-layers.gi", "lobes.gi", "pure.shader_layers_test"),
+    "bsdf.": ("command.KnownSurfaces", "lobes.gi", "plastics.gi", "rough-glass.gi", "thin-glass.gi", "pure.shader_bsdf_test", "pure.shader_layers_test"),
+    "ggx.": ("command.KnownSurfaces", "rough-metals.gi", "rough-glass.gi", "lobes.gi", "plastics.gi"),
+    "sheen.": ("command.KnownSurfaces", "mapped-layers.gi", "lobes.gi", "pure.shader_layers_test"),
     "iridescence.": ("lobes.gi", "pure.shader_iridescence_test"),
-    "fresnel.": ("plastics.gi", "thin-glass.gi", "rough-glass.gi", "pure.shader_fresnel_test"),
+    "fresnel.": ("command.KnownSurfaces", "plastics.gi", "thin-glass.gi", "rough-glass.gi", "pure.shader_fresnel_test"),
     "phong.": ("sphere-phong.phong", "sphere-plane.phong"),
 }
 
