@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fault import callers_of
 
-COMMANDS = ("Means", "Sheets", "KnownLight", "KnownSurfaces", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging")
+COMMANDS = ("Means", "Sheets", "KnownLight", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging")
 # Where to look first, before there is any experience: scenes of picture tests, test files and groups by the beginning of a fault's name.
 LIKELY = {
     "path.": ("closed-furnace.gi", "command.KnownLight", "cornell-box.gi", "coverage.gi"),
@@ -33,8 +33,10 @@ LIKELY = {
     "environment.": ("command.KnownLight", "environment-rotated.gi", "sun-sky.gi", "pure.shader_environment_test"),
     "material.": ("command.KnownSurfaces", "sphere-textured.flat", "plastics.gi", "rough-metals.gi", "command.TextureFactors"),
     "material_layers.": ("command.KnownSurfaces", "command.TextureFactors", "mapped-layers.gi", "lobes.gi", "command.Materials"),
-    "texture.": ("sphere-textured.flat", "mapped-plane.normal-maps", "mapped-metal.gi", "command.Materials"),
+    "texture.": ("command.KnownTextures", "mapped-plane.normal-maps", "mapped-metal.gi", "command.Materials"),
     "surface.": ("sphere-mapped.normal-maps", "mapped-plane-tangents.normal-maps", "water-cube.normal-maps", "transforms.flat", "lobes.gi"),
+    "surface.readColor": ("command.KnownSurfaces",),
+    "surface.interpolate": ("command.KnownSurfaces",),
     "surface.inLocal": ("command.Instancing",),
     "surface.unitOr": ("command.Instancing",),
     "layers.": ("command.KnownSurfaces", "lobes.gi", "mapped-layers.gi", "pure.shader_layers_test", "command.Materials"),
