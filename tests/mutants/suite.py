@@ -34,7 +34,7 @@ LIKELY = {
     "material.": ("command.KnownSurfaces", "sphere-textured.flat", "plastics.gi", "rough-metals.gi", "command.TextureFactors"),
     "material_layers.": ("command.KnownSurfaces", "command.TextureFactors", "mapped-layers.gi", "lobes.gi", "command.Materials"),
     "texture.": ("command.KnownTextures", "mapped-plane.normal-maps", "mapped-metal.gi", "command.Materials"),
-    "surface.": ("sphere-mapped.normal-maps", "mapped-plane-tangents.normal-maps", "water-cube.normal-maps", "transforms.flat", "lobes.gi"),
+    "surface.": ("command.KnownSurfaces", "sphere-mapped.normal-maps", "mapped-plane-tangents.normal-maps", "water-cube.normal-maps", "transforms.flat", "lobes.gi"),
     "surface.readColor": ("command.KnownSurfaces",),
     "surface.interpolate": ("command.KnownSurfaces",),
     "surface.inLocal": ("command.Instancing",),
