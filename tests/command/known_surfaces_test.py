@@ -187,10 +187,11 @@ class KnownSurfaces(Case):
         self.shown(squares())
 
     def test_light_from_behind(self):
-        through = {"diffuseTransmissionFactor": 0.3, "diffuseTransmissionColorFactor": COLOR}
+        through = {"diffuseTransmissionFactor": 0.3, "diffuseTransmissionColorFactor": COLOR, "diffuseTransmissionColorTexture": {"index": 0}}
+        kept = [struct.unpack("<e", struct.pack("<e", ((t / 255 + 0.055) / 1.055)**2.4))[0] for t in TEXEL]  # sRGB
         material = base(0, 1, specular={"specularFactor": 0}, diffuse_transmission=through)
         # The others are there for what scene() gives to the last four.
-        self.shown([(material, [IRRADIANCE * 0.3 * c / math.pi for c in COLOR])] + 4 * [(material, [])], math.pi - ANGLE)
+        self.shown([(material, [IRRADIANCE * 0.3 * c * k / math.pi for c, k in zip(COLOR, kept)])] + 4 * [(material, [])], math.pi - ANGLE)
 
 
 if __name__ == "__main__":
