@@ -82,7 +82,7 @@ def main():
                               compiler=Compiler(source, build), lock_of_sound=Lock(), first=chosen.first)
     memory = Memory(folder / "state.json", HINTS, tree_of(source))
     began = time.monotonic()
-    left = [row for row in rows if not memory.verdict(row) and not (chosen.first and row.name in memory.hints)]
+    left = [row for row in rows if not memory.verdict(row) and not (chosen.first and (row.reason or row.name in memory.hints))]
     left.sort(key=lambda row: row.name in memory.hints)  # what takes long first
     with ThreadPoolExecutor(chosen.jobs) as pool:
         list(pool.map(lambda row: settle(setting, memory, row), left))

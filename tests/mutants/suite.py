@@ -31,7 +31,7 @@ LIKELY = {
     "shade.featureAt": ("command.FirstHits",),
     "lights.": ("command.KnownLight", "lights.gi", "cornell-box-direct.gi", "lights.shadows"),
     "environment.": ("command.KnownLight", "environment-rotated.gi", "sun-sky.gi", "pure.shader_environment_test"),
-    "material.": ("command.KnownSurfaces", "sphere-textured.flat", "plastics.gi", "rough-metals.gi", "command.TextureFactors"),
+    "material.": ("command.KnownSurfaces", "command.TextureFactors", "plastics.gi", "lights.gi", "command.Materials"),
     "material_layers.": ("command.KnownSurfaces", "command.TextureFactors", "mapped-layers.gi", "lobes.gi", "command.Materials"),
     "texture.": ("command.KnownTextures", "mapped-plane.normal-maps", "mapped-metal.gi", "command.Materials"),
     "surface.": ("command.KnownSurfaces", "sphere-mapped.normal-maps", "mapped-plane-tangents.normal-maps", "water-cube.normal-maps", "transforms.flat", "lobes.gi"),
