@@ -140,11 +140,16 @@ class KnownLight(Case):
         gltf["meshes"].append({"primitives": [dict(gltf["meshes"][0]["primitives"][0], material=1)]})
         gltf["nodes"] = [{"mesh": 0, "scale": [3, 3, 1]}, gltf["nodes"][1], {"mesh": 1, "scale": [9, 9, 1], "translation": [0, 0, -1]}]
         gltf["scenes"] = [{"nodes": [0, 1, 2]}]
-        picture = self.glass(gltf, "--resolution", "128,128", "--spp", 256)
+        picture = self.in_white(gltf, "--resolution", "128,128", "--spp", 256)
         share = over_ground(reflectance)
         # Each sample is of one colour and counts for three.
         error = math.sqrt(3 / share / (128 * 128 * 256))
         self.near(sum(pixel[2] for row in picture for pixel in row) / 128**2 / math.pi, share, 4 * error)
+
+    def test_rough_white_metal_in_white_surroundings(self):
+        """Single scattering loses half of the light; tables give it back within 0.5 % (docs/accuracy.md, Energy)."""
+        picture = self.in_white(quad({"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 1}}), "--resolution", "16,16", "--spp", 1024)
+        self.near(sum(pixel[0] for row in picture[4:12] for pixel in row[4:12]) / 8**2 / math.pi, 1, 5e-3)
 
     def test_a_camera_inside_of_glass(self):
         """In white surroundings radiance is compressed by the square of the index."""
@@ -154,10 +159,10 @@ class KnownLight(Case):
                 "cameras": [{"type": "perspective", "perspective": {"yfov": 0.9, "znear": 0.1}}],
                 "materials": [{"pbrMetallicRoughness": MATT | {"roughnessFactor": 0}, "extensions": {
                     "KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 1}}}]}
-        picture = self.glass(gltf, "--resolution", "16,16", "--spp", 64)
+        picture = self.in_white(gltf, "--resolution", "16,16", "--spp", 64)
         self.near(sum(pixel[0] for row in picture for pixel in row) / 16**2 / math.pi, 2.25, 1e-3)
 
-    def glass(self, gltf, *options):
+    def in_white(self, gltf, *options):
         path = self.folder / "glass.gltf"
         path.write_text(json.dumps({key: value for key, value in gltf.items() if value}))
         return self.picture(str(path.with_suffix("")), "x.pfm", "--bounces", 200, *self.white_sky(), *options)
