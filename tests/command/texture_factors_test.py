@@ -9,7 +9,7 @@ import struct
 from materials_test import data_uri, png, quad
 from support import Case, main
 
-COLOURS = {"baseColorTexture", "specularColorTexture", "sheenColorTexture"}  # sRGB
+COLOURS = {"baseColorTexture", "emissiveTexture", "specularColorTexture", "sheenColorTexture"}  # sRGB
 SIDE = 8  # pixels of a square
 ANGLE = 1.0  # of the light to the normal
 
@@ -84,6 +84,16 @@ class TextureFactors(Case):
         path.write_text(json.dumps({key: value for key, value in gltf.items() if value}))
         picture = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", f"{count * SIDE},{SIDE}", "--spp", 4, "--bounces", 0)
         return [sum(row[SIDE * i + x][c] for row in picture for x in range(SIDE)) for i in range(count) for c in range(3)]
+
+    def test_emission(self):
+        image = png(1, 1, [200] * 3 + [255])
+        gltf = quad({"emissiveFactor": WHITE, "emissiveTexture": {"index": 0}, "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}}, images=[image])
+        gltf = {key: value for key, value in gltf.items() if value}
+        path = self.folder / "emission.gltf"
+        path.write_text(json.dumps(gltf))
+        pixel = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", "8,8", "--spp", 1)[4][4]
+        for seen, factor in zip(pixel, WHITE):
+            self.assertAlmostEqual(seen / factor, linear("emissiveTexture", 200), delta=3e-4)
 
     def test_each_slot(self):
         """Within 3e-4, where a texel that counts 2 % too much makes more."""
