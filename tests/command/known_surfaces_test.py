@@ -5,7 +5,7 @@ import json
 import math
 import struct
 
-from materials_test import data_uri, png
+from materials_test import data_uri, png, quad
 from support import Case, main
 
 ANGLE = 0.3  # of the light to the normal
@@ -192,6 +192,24 @@ class KnownSurfaces(Case):
         material = base(0, 1, specular={"specularFactor": 0}, diffuse_transmission=through)
         # The others are there for what scene() gives to the last four.
         self.shown([(material, [IRRADIANCE * 0.3 * c * k / math.pi for c, k in zip(COLOR, kept)])] + 4 * [(material, [])], math.pi - ANGLE)
+
+    def test_gloss_at_a_grazing_angle(self):
+        """Where the mirror image of the light is seen, so that the reflectance is half of f90."""
+        angle, alpha, specular = 1.2, 0.25, 0.8
+        gltf = quad(base(0, 0.5, specular={"specularFactor": specular}))
+        turned = lambda sign: [0, sign * math.sin(angle / 2), 0, math.cos(angle / 2)]
+        gltf["nodes"] = [gltf["nodes"][0], {"camera": 0, "translation": [-5 * math.sin(angle), 0, 5 * math.cos(angle)], "rotation": turned(-1)},
+                         {"rotation": turned(1), "extensions": {"KHR_lights_punctual": {"light": 0}}}]
+        gltf["scenes"] = [{"nodes": [0, 1, 2]}]
+        gltf["cameras"] = [{"type": "orthographic", "orthographic": {"xmag": 0.2, "ymag": 0.2, "zfar": 10, "znear": 0.1}}]
+        gltf["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 2}]}}
+        path = self.folder / "grazing.gltf"
+        path.write_text(json.dumps({key: value for key, value in gltf.items() if value}))
+        pixel = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", "8,8", "--spp", 1, "--bounces", 0, "--energy-compensation", "off")[4][4]
+        cosine, f0 = math.cos(angle), 0.04 * specular
+        smith = (math.sqrt(1 + alpha**2 * math.tan(angle)**2) - 1) / 2
+        lobe = 1 / (math.pi * alpha**2) / ((1 + 2 * smith) * 4 * cosine)
+        self.assertAlmostEqual(pixel[0] / (2 * lobe * (f0 + (specular - f0) * (1 - cosine)**5)), 1, delta=3e-4)
 
 
 if __name__ == "__main__":
