@@ -39,7 +39,6 @@ struct SurfaceMaterial {
   float ior;
   float specular;      // f90 of the dielectric layer
   vec3 dielectricF0;   // of the dielectric layer, specular factors counted in
-  vec3 absorption;     // 1 / local space, inside
   bool solid;          // bounds a volume, else thin-walled
 };
 
@@ -83,8 +82,6 @@ SurfaceMaterial materialAt(uint material, vec3 baseColor, vec4 texcoords) {
   } else {
     m.metallic = 0.0;
   }
-  vec4 volume = kPassesLight ? materialFloats(material, kMaterialVolume) : vec4(0.0);
-  m.absorption = volume.rgb;
-  m.solid = volume.w > 0.0;
+  m.solid = kPassesLight && materialFloats(material, kMaterialVolume).w > 0.0;
   return m;
 }

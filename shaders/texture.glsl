@@ -9,8 +9,7 @@ vec4 readTexel(int index) {
 /// A texel coordinate brought into 0..size-1 by repeating, clamping or mirroring.
 int wrapTexel(int x, int size, bool clamped, bool mirrored) {
   int period = mirrored ? 2 * size : size;
-  int m = x % period;
-  m = m < 0 ? m + period : m;
+  int m = (x + period) % period;  // x is at least -1; GLSL leaves % of negative numbers to the driver
   m = m >= size ? period - 1 - m : m;
   return clamped ? clamp(x, 0, size - 1) : m;
 }

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: MIT
+"""The tests of plain scripts/test that can see a fault of the shaders. The others compare the program with itself, or draw the same pictures once more
+(OSMesa, the viewer): leaving them out can only let more faults survive."""
+import json
+import re
+import subprocess
+from pathlib import Path
+
+from fault import callers_of
+
+COMMANDS = ("Means", "Sheets", "KnownLight", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging")
+# Where to look first, before there is any experience: scenes of picture tests, test files and groups by the beginning of a fault's name.
+LIKELY = {
+    "path.": ("closed-furnace.gi", "command.KnownLight", "cornell-box.gi", "coverage.gi"),
+    "path.scatter": ("closed-furnace-roulette.gi", "closed-furnace.gi", "command.KnownLight", "glass-sphere.gi"),
+    "path.alphaAt": ("command.Sheets", "coverage.gi"),
+    "path.passesThrough": ("command.Sheets",),
+    "path.emittedAt coat": ("command.Materials",),
+    "path.tracePast": ("command.Sheets",),
+    "path.connect limit": ("command.Sheets",),
+    "shade.": ("cornell-box.gi", "command.KnownSurfaces", "plastics.gi", "sphere-phong.phong", "command.KnownLight"),
+    "shade.shade flat": ("sphere-textured.flat",),
+    "shade.shade absorption": ("command.KnownSurfaces", "water-cube-plain.gi", "water-cube-plain.refraction"),
+    "shade.shade camera": ("command.KnownLight",),
+    "shade.settleShadow": ("command.Sheets", "coverage.gi"),
+    "shade.disperse": ("command.Materials",),
+    "shade.baseBsdf": ("command.KnownSurfaces", "rough-metals.gi", "rough-glass.gi", "thin-glass.gi", "lobes.gi", "plastics.gi"),
+    "shade.shadeLocal glass": ("command.Sheets",),
+    "shade.shadeLocal": ("sphere-phong.phong", "sphere-plane-mirror.reflections", "water-cube-plain.refraction"),
+    "shade.scatterGlass": ("water-cube-plain.refraction",),
+    "shade.featureAt": ("command.FirstHits",),
+    "lights.": ("command.KnownLight", "lights.gi", "cornell-box-direct.gi", "lights.shadows"),
+    "environment.": ("command.KnownLight", "environment-rotated.gi", "sun-sky.gi", "pure.shader_environment_test"),
+    "material.": ("command.KnownSurfaces", "command.TextureFactors", "plastics.gi", "lights.gi", "command.Materials"),
+    "material_layers.": ("command.KnownSurfaces", "command.TextureFactors", "mapped-layers.gi", "lobes.gi", "command.Materials"),
+    "texture.": ("command.KnownTextures", "mapped-plane.normal-maps", "mapped-metal.gi", "command.Materials"),
+    "surface.": ("command.KnownSurfaces", "sphere-mapped.normal-maps", "mapped-plane-tangents.normal-maps", "water-cube.normal-maps", "transforms.flat", "lobes.gi"),
+    "surface.readColor": ("command.KnownSurfaces",),
+    "surface.interpolate": ("command.KnownSurfaces",),
+    "surface.inLocal": ("command.Instancing",),
+    "surface.unitOr": ("command.Instancing",),
+    "layers.": ("command.KnownSurfaces", "pure.shader_layers_test", "lobes.gi", "mapped-layers.gi", "command.Materials"),
+    "film.": ("sphere-black.flat", "command.Pictures"),
+    "film_pixel.": ("sphere-black.flat", "pure.shader_film_test"),
+    "camera.": ("transforms.flat", "sphere-textured.flat"),
+    "pixel_filter.": ("command.Filters",),
+    "sampling.": ("command.KnownLight", "lobes.gi", "pure.shader_sampling_test"),
+    "energy.": ("command.KnownLight", "rough-metals-compensated.gi", "command.Materials", "mapped-layers.gi"),
+    "bsdf.": ("command.KnownSurfaces", "rough-glass.gi", "thin-glass.gi", "command.KnownLight", "pure.shader_bsdf_test", "lobes.gi", "pure.shader_layers_test"),
+    "ggx.": ("command.KnownSurfaces", "rough-metals.gi", "rough-glass.gi", "lobes.gi", "plastics.gi"),
+    "sheen.": ("command.KnownSurfaces", "mapped-layers.gi", "lobes.gi", "pure.shader_layers_test"),
+    "iridescence.": ("lobes.gi", "pure.shader_iridescence_test"),
+    "fresnel.": ("command.KnownSurfaces", "plastics.gi", "thin-glass.gi", "rough-glass.gi", "pure.shader_fresnel_test"),
+    "phong.": ("sphere-phong.phong", "sphere-plane.phong"),
+}
+
+
+def likely(name):
+    """The tests to try first for a fault of this name, by the longest beginning that is listed."""
+    begin = max((begin for begin in LIKELY if name.startswith(begin)), key=len)
+    return [test if "command." in test or "pure." in test else f"picture.{test}.egl" for test in LIKELY[begin]]
+
+
+# Headers that compile shaders; what they name is not what a test looks at.
+COMPILING = {"glsl.h", "glsl_files.h", "glsl_functions.h", "glsl_lights.h", "glsl_lights_files.h", "glsl_material.h", "glsl_material_files.h"}
+INCLUDE = re.compile(r'^#include "(\w+\.(?:h|glsl))"', re.M)
+
+
+def drawing_tests(build):
+    """Name and command of each test that draws with the program."""
+    shown = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True, text=True, check=True).stdout
+    tests = {test["name"]: test.get("command", []) for test in json.loads(shown)["tests"]}
+    wanted = lambda name: name.startswith("picture.") and name.endswith(".egl") or name in {"command." + group for group in COMMANDS}
+    return {name: command for name, command in tests.items() if wanted(name)}
+
+
+def texts_of(path, folders, skip=()):
+    """Texts of a file and of all that it includes from these folders, by name."""
+    found, queue = {}, [path]
+    while queue:
+        path = queue.pop()
+        found[path.name] = path.read_text()
+        for name in INCLUDE.findall(found[path.name]):
+            places = [folder / name for folder in folders if (folder / name).exists()]
+            if places and name not in found and name not in skip:
+                queue.append(places[0])
+    return found
+
+
+def pure_tests(source, fault):
+    """Names of the test files in C++ that call the function at fault, directly or not."""
+    pure, shaders = source / "tests/pure", source / "shaders"
+    names = []
+    for path in sorted(pure.glob("*_test.cpp")):
+        compiled = {name: text for name, text in texts_of(path, [pure, shaders]).items() if name.endswith(".glsl")}
+        if fault.file not in compiled:
+            continue
+        calls = callers_of(fault.function, compiled.values())
+        own = "\n".join(texts_of(path, [pure], COMPILING).values())
+        if re.search(r"\b(?:%s)\s*\(" % "|".join(calls), own):
+            names.append("pure." + path.stem)
+    return names
+
+
+class Compiler:
+    """Compiles one test file with shaders of a folder, as the build does, but faster."""
+
+    def __init__(self, source, build):
+        self.source, self.build = source, build
+        entries = json.loads((build / "compile_commands.json").read_text())
+        self.compile = {Path(entry["file"]).stem: entry["command"] for entry in entries if "/tests/pure/" in entry["file"]}
+        commands = subprocess.run(["ninja", "-C", build, "-t", "commands", "pure_tests"], capture_output=True, text=True, check=True).stdout
+        self.link = next(line for line in reversed(commands.splitlines()) if "-o pure_tests " in line)
+
+    def make(self, stem, folder):
+        """The program of the test file `stem`, with the shaders in folder/shaders."""
+        object_file, program = folder / f"{stem}.o", folder / stem
+        compile = re.sub(r"-o \S+\.o ", f"-o {object_file} ", self.compile[stem]).replace(" -O3 ", " -O1 ")
+        # The folder of the faulty shaders comes before the sound ones.
+        compile = compile.replace(f"-I{self.source}/shaders", f"-I{folder}/shaders -I{self.source}/shaders")
+        link = re.sub(r"(?:\S*pure_tests\.dir/\S+\.o ?)+", f"{object_file} ", self.link, count=1).replace("-o pure_tests ", f"-o {program} ")
+        link = link.split("&& cd ")[0].removesuffix("&& :").removeprefix(": && ")
+        for command in (compile, link):
+            result = subprocess.run(command, shell=True, cwd=self.build, capture_output=True, text=True)
+            if result.returncode:
+                raise RuntimeError(f"{stem} does not build:\n{command}\n{result.stderr[-3000:]}")
+        return program
