@@ -9,9 +9,7 @@ namespace fragtrace {
 
 namespace {
 
-bool hasTwoWords(uint32_t binding) {
-  return binding == layout::kTexelsBinding;
-}
+bool hasTwoWords(uint32_t binding) { return binding == layout::kTexelsBinding; }
 
 int64_t texelBytes(uint32_t binding) { return hasTwoWords(binding) ? 8 : 16; }
 

@@ -13,7 +13,8 @@ namespace {
 constexpr uint64_t kUnits = 65536;  // numbers of a step
 constexpr size_t kMostChanges = 2;  // of the density within a step
 
-/// Parts of constant density: where each begins, and the number that draws its beginning; the end stands behind.
+/// Parts of constant density: where each begins, and the number that draws its beginning; the end stands
+/// behind.
 struct Runs {
   std::vector<uint32_t> places;
   std::vector<uint64_t> numbers;
@@ -24,8 +25,8 @@ struct Runs {
   }
 };
 
-/// The number that draws the beginning of each place, and the count of numbers: by the weights, whose sum is given, and one number
-/// more for each that is not zero, so that none is left out.
+/// The number that draws the beginning of each place, and the count of numbers: by the weights, whose sum is
+/// given, and one number more for each that is not zero, so that none is left out.
 std::vector<uint64_t> numbersOf(std::span<const float> weights, double sum, uint64_t count) {
   uint64_t positive = 0;
   for (float w : weights) positive += w > 0.0f ? 1 : 0;
@@ -42,9 +43,10 @@ std::vector<uint64_t> numbersOf(std::span<const float> weights, double sum, uint
   return numbers;
 }
 
-/// Appends those of the places [first, last], at which the density changes within one step, where it changes most.
-void appendChanges(Runs& runs, std::span<const float> weights, const std::vector<uint64_t>& numbers, size_t first,
-                   size_t last) {
+/// Appends those of the places [first, last], at which the density changes within one step, where it changes
+/// most.
+void appendChanges(Runs& runs, std::span<const float> weights, const std::vector<uint64_t>& numbers,
+                   size_t first, size_t last) {
   static_assert(kMostChanges == 2);
   size_t one = first;
   size_t other = last;
@@ -137,7 +139,8 @@ std::vector<InversionEntry> makeInversionEntries(std::span<const double> weights
   double before = 0.0;
   for (size_t i = 0; i < count; ++i) {
     before += sum > 0.0 ? weights[i] / sum : 1.0 / double(count);
-    entries[i].end = i + 1 == count ? UINT32_MAX : uint32_t(std::clamp(before * kNumbers - 1.0, 0.0, kNumbers - 1.0));
+    entries[i].end =
+        i + 1 == count ? UINT32_MAX : uint32_t(std::clamp(before * kNumbers - 1.0, 0.0, kNumbers - 1.0));
   }
   const auto drawnBy = [&](uint64_t number, size_t from) {
     while (entries[from].end < number) ++from;

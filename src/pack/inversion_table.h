@@ -12,10 +12,11 @@ namespace fragtrace {
 /// One of the equal steps of a table over [0, 1): the place drawn is linear in the number between the step's
 /// ends and up to two places where the density changes (shaders/environment.glsl: invertStep).
 struct InversionStep {
-  float first = 0.0f;    ///< place at the beginning of the step
-  float last = 0.0f;     ///< at its end
-  uint32_t numbers = 0;  ///< where the density changes, of the step, in 65,536ths: first | second << 16, 0: nowhere
-  uint32_t places = 0;   ///< the places there: first | second << 16
+  float first = 0.0f;  ///< place at the beginning of the step
+  float last = 0.0f;   ///< at its end
+  uint32_t numbers =
+      0;  ///< where the density changes, of the step, in 65,536ths: first | second << 16, 0: nowhere
+  uint32_t places = 0;  ///< the places there: first | second << 16
 };
 static_assert(sizeof(InversionStep) == 16);
 

@@ -25,7 +25,8 @@ template <typename Work>
 void forEachRow(int rows, const Work& work) {
   constexpr int kAtOnce = 16;
   std::atomic<int> next = 0;
-  const uint32_t threads = std::clamp(std::thread::hardware_concurrency(), 1u, uint32_t(std::max(1, rows / 64)));
+  const uint32_t threads =
+      std::clamp(std::thread::hardware_concurrency(), 1u, uint32_t(std::max(1, rows / 64)));
   runOnThreads(threads, [&](uint32_t) {
     for (int y = next.fetch_add(kAtOnce); y < rows; y = next.fetch_add(kAtOnce)) {
       for (int k = y; k < std::min(rows, y + kAtOnce); ++k) work(k);
@@ -70,7 +71,8 @@ void storeSteps(std::span<uint32_t> words, std::span<const InversionStep> steps)
 }
 
 void scaleDensities(std::span<uint32_t> texels, float factor) {
-  for (size_t i = 3; i < texels.size(); i += 4) texels[i] = floatWord(std::bit_cast<float>(texels[i]) * factor);
+  for (size_t i = 3; i < texels.size(); i += 4)
+    texels[i] = floatWord(std::bit_cast<float>(texels[i]) * factor);
 }
 
 }  // namespace
@@ -88,11 +90,15 @@ PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws) {
     if (part == 0) packed.texels.resize(rows * rowWords);
     if (part == 1 && drawn) packed.inversion.resize(rows * 4 + rows * stepWords);
   });
-  const auto texelsOf = [&](int y) { return std::span(packed.texels).subspan(size_t(y) * rowWords, rowWords); };
+  const auto texelsOf = [&](int y) {
+    return std::span(packed.texels).subspan(size_t(y) * rowWords, rowWords);
+  };
 
   // Step: what is seen.
   std::vector<double> sums(rows);
-  forEachRow(image.height, [&](int y) { sums[size_t(y)] = copyRow(image, y, texelsOf(y)) / image.width * sineOfRow(image, y); });
+  forEachRow(image.height, [&](int y) {
+    sums[size_t(y)] = copyRow(image, y, texelsOf(y)) / image.width * sineOfRow(image, y);
+  });
   const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
   packed.power = kPi * 2.0 * kPi * kPi * sum / double(rows);
   if (!drawn) return packed;

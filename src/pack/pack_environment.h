@@ -9,15 +9,17 @@ namespace fragtrace {
 enum class EnvironmentDraws {
   Nothing,
   Light,          ///< light samples alone: each direction by its luminance
-  LightAndPaths,  ///< beside scattered rays, which find what is darker than the mean: by the luminance above that (MIS compensation:
-                  ///< Karlik, Sik, Vivoda, Skrivan and Krivanek, 2019)
+  LightAndPaths,  ///< beside scattered rays, which find what is darker than the mean: by the luminance above
+                  ///< that (MIS compensation: Karlik, Sik, Vivoda, Skrivan and Krivanek, 2019)
 };
 
 struct PackedEnvironment {
   Words texels;     ///< radiance, and the density that shaders/environment.glsl draws by (mean 1)
-  Words inversion;  ///< empty for Nothing, else a row a step: as many steps as the map has rows, then kMostEnvironmentSteps or half as many as it has columns for each row
+  Words inversion;  ///< empty for Nothing, else a row a step: as many steps as the map has rows, then
+                    ///< kMostEnvironmentSteps or half as many as it has columns for each row
   glm::ivec2 size{0};
-  double power = 0.0;  ///< luminance that falls on a disk of unit radius from all around: pi * integral over directions
+  double power =
+      0.0;  ///< luminance that falls on a disk of unit radius from all around: pi * integral over directions
 };
 
 /// An equirectangular map with R, G, B of at most 65,535 x 65,535 texels. Uses all processors.

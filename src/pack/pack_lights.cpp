@@ -49,8 +49,8 @@ struct Emitter {
   uint32_t order = 0;
 };
 
-void appendEmissive(std::vector<Emitter>& emitters, const Scene& scene, std::span<const glm::vec3> materialRadiance,
-                    std::span<const uint32_t> slots) {
+void appendEmissive(std::vector<Emitter>& emitters, const Scene& scene,
+                    std::span<const glm::vec3> materialRadiance, std::span<const uint32_t> slots) {
   // Far below what a ray can be aimed at; the shader divides by the area.
   constexpr double kLeastArea = 1e-30;
   for (size_t i = 0; i < scene.triangles.size(); ++i) {
@@ -118,8 +118,7 @@ PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> mater
   packed.power = std::accumulate(powers.begin(), powers.end(), 0.0);
   const std::vector<InversionEntry> table = makeInversionEntries(powers);
   for (size_t i = 0; i < emitters.size(); ++i) {
-    const double probability =
-        packed.power > 0.0 ? powers[i] / packed.power : 1.0 / double(emitters.size());
+    const double probability = packed.power > 0.0 ? powers[i] / packed.power : 1.0 / double(emitters.size());
     packed.entries.insert(packed.entries.end(),
                           {table[i].first, table[i].last, table[i].end, floatWord(float(probability))});
     if (emitters[i].triangle != kMissIndex) {

@@ -40,7 +40,8 @@ std::vector<std::function<void(RenderOptions&)>> changes() {
       [](RenderOptions& o) { o.clampIndirect = 0.1; },
       [](RenderOptions& o) { o.pixelFilter = PixelFilter::BlackmanHarris; },
       [](RenderOptions& o) {
-        o.selection = {.scene = "-a b's", .animation = "run", .animationTime = 1.25, .materialVariant = "red"};
+        o.selection = {
+            .scene = "-a b's", .animation = "run", .animationTime = 1.25, .materialVariant = "red"};
       },
       [](RenderOptions& o) { o.selection.camera = "the side"; },
       [](RenderOptions& o) { o.hdriFile = "the sky/noon.hdr"; },

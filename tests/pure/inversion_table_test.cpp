@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tables that invert distributions, and how the shader (shaders/environment.glsl, lights.glsl) draws from them.
+// Tables that invert distributions, and how the shader (shaders/environment.glsl, lights.glsl) draws from
+// them.
 #include "pack/inversion_table.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +39,8 @@ struct Table {
 /// Numbers that hit every step many times, in order.
 std::vector<uint32_t> evenNumbers(size_t count) {
   std::vector<uint32_t> numbers(count);
-  for (size_t i = 0; i < count; ++i) numbers[i] = uint32_t((uint64_t(i) << 32) / count + (1ull << 31) / count);
+  for (size_t i = 0; i < count; ++i)
+    numbers[i] = uint32_t((uint64_t(i) << 32) / count + (1ull << 31) / count);
   return numbers;
 }
 
@@ -99,11 +101,13 @@ TEST(InversionTable, DensityFollowsTheWeights) {
       moment += share * share * double(count) / double(table.densities[i]);
       // What carries a tenth of the weight is drawn as often as it asks for.
       if (share > 0.1) {
-        EXPECT_NEAR(table.densities[i] / double(count), share, 1e-3 * share) << "of " << count << ", place " << i;
+        EXPECT_NEAR(table.densities[i] / double(count), share, 1e-3 * share)
+            << "of " << count << ", place " << i;
       }
     }
     EXPECT_NEAR(whole, 1.0, 1e-6);
-    // The second moment of weight over density: 1 where they are proportional. Merging costs most where dark and bright places alternate.
+    // The second moment of weight over density: 1 where they are proportional. Merging costs most where dark
+    // and bright places alternate.
     EXPECT_LE(moment, 1.25) << "of " << count << " weights";
   }
 }

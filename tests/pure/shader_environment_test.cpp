@@ -117,8 +117,7 @@ TEST(ShaderEnvironment, MiddleOfATexelShowsTheTexelAndTheMiddleOfTheMapIsAlongX)
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const float* p = image.pixel(x, y);
-      const dvec3 seen =
-          radianceAlong(directionAt((x + 0.5) / kWidth, (y + 0.5) / kHeight));
+      const dvec3 seen = radianceAlong(directionAt((x + 0.5) / kWidth, (y + 0.5) / kHeight));
       EXPECT_LE(glm::distance(seen, dvec3(p[0], p[1], p[2])), 1e-10 * p[1] + 1e-12) << x << ", " << y;
     }
   }
@@ -185,8 +184,7 @@ TEST(ShaderEnvironment, FloatRadianceIsNearDouble) {
 TEST(ShaderEnvironment, DensityIntegratesToOneAndMissesNoLight) {
   for (double rotation : kRotations) {
     const Surrounded here(sunnyMap(), rotation);
-    const double whole =
-        total(integrateBins([](const dvec3& d) { return densityAlong(d); }));
+    const double whole = total(integrateBins([](const dvec3& d) { return densityAlong(d); }));
     EXPECT_NEAR(whole, 1.0, 1e-5);
     size_t dark = 0;
     integrateBins([&](const dvec3& d) {
@@ -196,7 +194,8 @@ TEST(ShaderEnvironment, DensityIntegratesToOneAndMissesNoLight) {
       dark += drawn ? 0 : 1;
       return 0.0;
     });
-    // Of the black half, all but the halves of two columns that filtering lights; half a column is no whole number of steps.
+    // Of the black half, all but the halves of two columns that filtering lights; half a column is no whole
+    // number of steps.
     EXPECT_NEAR(double(dark) / (kBands * kTurns * kInner * kInner), 15.0 / 32.0, 4e-3);
   }
 }
@@ -205,8 +204,7 @@ TEST(ShaderEnvironment, SampledDirectionsFollowTheDensity) {
   constexpr int kSamples = 1 << 20;
   for (double rotation : kRotations) {
     const Surrounded here(sunnyMap(), rotation);
-    std::vector<double> expected =
-        integrateBins([](const dvec3& d) { return densityAlong(d); });
+    std::vector<double> expected = integrateBins([](const dvec3& d) { return densityAlong(d); });
     for (double& e : expected) e *= kSamples;
     std::vector<double> counts(expected.size());
     Draw draw(113);
@@ -232,9 +230,8 @@ TEST(ShaderEnvironment, SampledIrradianceIsThatOfQuadrature) {
     dvec3 normal = normals.direction();
     while (glm::dot(normal, turned(directionAt(25.5 / kWidth, 4.5 / kHeight), kTurn)) < 0.2)
       normal = normals.direction();
-    const double exact = total(integrateBins([&](const dvec3& d) {
-      return luminanceOf(radianceAlong(d)) * std::max(0.0, glm::dot(d, normal));
-    }));
+    const double exact = total(integrateBins(
+        [&](const dvec3& d) { return luminanceOf(radianceAlong(d)) * std::max(0.0, glm::dot(d, normal)); }));
     double sum = 0.0;
     double squares = 0.0;
     Draw draw(131);
@@ -263,8 +260,10 @@ double relativeVariance(const dvec3& normal, bool stratified) {
     for (uint32_t k = 0; k < kSamples; ++k) {
       const auto numbers = glsl_float::makeSampler(glsl_float::mixBits(r), k);
       const uvec2 independent(uint32_t(draw.engine()), uint32_t(draw.engine()));
-      const auto s = glsl_float::environmentLight(1.0f, stratified ? glsl_float::drawPairBits(numbers, 0u) : independent);
-      estimate += luminanceOf(dvec3(s.irradiance)) * std::max(0.0, glm::dot(dvec3(s.direction), normal)) / kSamples;
+      const auto s = glsl_float::environmentLight(
+          1.0f, stratified ? glsl_float::drawPairBits(numbers, 0u) : independent);
+      estimate +=
+          luminanceOf(dvec3(s.irradiance)) * std::max(0.0, glm::dot(dvec3(s.direction), normal)) / kSamples;
     }
     sum += estimate / kRepeats;
     squares += estimate * estimate / kRepeats;
@@ -274,8 +273,10 @@ double relativeVariance(const dvec3& normal, bool stratified) {
 
 TEST(ShaderEnvironment, StratifiedNumbersDrawStratifiedDirections) {
   const Surrounded here(sunnyMap(), 0.0);
-  // An alias table leaves 0.4 to 0.9 of the variance of independent numbers; the sample variance of 400 is good to 7 %.
-  for (const dvec3& normal : {dvec3(0.0, 1.0, 0.0), glm::normalize(dvec3(0.8, 0.5, 0.4)), dvec3(0.0, 0.0, 1.0)}) {
+  // An alias table leaves 0.4 to 0.9 of the variance of independent numbers; the sample variance of 400 is
+  // good to 7 %.
+  for (const dvec3& normal :
+       {dvec3(0.0, 1.0, 0.0), glm::normalize(dvec3(0.8, 0.5, 0.4)), dvec3(0.0, 0.0, 1.0)}) {
     EXPECT_LE(relativeVariance(normal, true), 0.25 * relativeVariance(normal, false));
   }
 }
@@ -285,7 +286,8 @@ TEST(ShaderEnvironment, BesideScatteredRaysOnlyWhatIsBrighterThanTheMeanIsDrawn)
   const Surrounded here(image, 0.0, EnvironmentDraws::LightAndPaths);
   EXPECT_NEAR(total(integrateBins([](const dvec3& d) { return densityAlong(d); })), 1.0, 1e-3);
   const double area = 4.0 * M_PI;
-  const double mean = total(integrateBins([](const dvec3& d) { return luminanceOf(radianceAlong(d)); })) / area;
+  const double mean =
+      total(integrateBins([](const dvec3& d) { return luminanceOf(radianceAlong(d)); })) / area;
   integrateBins([&](const dvec3& d) {
     if (luminanceOf(radianceAlong(d)) > 1.1 * mean) EXPECT_GT(densityAlong(d), 0.0);
     return 0.0;
