@@ -289,7 +289,9 @@ TEST(ShaderEnvironment, BesideScatteredRaysOnlyWhatIsBrighterThanTheMeanIsDrawn)
   const double mean =
       total(integrateBins([](const dvec3& d) { return luminanceOf(radianceAlong(d)); })) / area;
   integrateBins([&](const dvec3& d) {
-    if (luminanceOf(radianceAlong(d)) > 1.1 * mean) EXPECT_GT(densityAlong(d), 0.0);
+    if (luminanceOf(radianceAlong(d)) > 1.1 * mean) {
+      EXPECT_GT(densityAlong(d), 0.0);
+    }
     return 0.0;
   });
   EXPECT_EQ(densityAlong(directionAt(0.1, 0.5)), 0.0);  // the black half
