@@ -46,11 +46,11 @@ LIKELY = {
     "pixel_filter.": ("command.Filters",),
     "sampling.": ("command.KnownLight", "lobes.gi", "pure.shader_sampling_test"),
     "energy.": ("command.KnownLight", "rough-metals-compensated.gi", "command.Materials", "mapped-layers.gi"),
-    "bsdf.": ("command.KnownSurfaces", "rough-glass.gi", "thin-glass.gi", "command.KnownLight", "pure.shader_bsdf_test", "lobes.gi", "pure.shader_layers_test"),
-    "ggx.": ("command.KnownSurfaces", "rough-metals.gi", "rough-glass.gi", "lobes.gi", "plastics.gi"),
-    "sheen.": ("command.KnownSurfaces", "mapped-layers.gi", "lobes.gi", "pure.shader_layers_test"),
+    "bsdf.": ("command.KnownLight", "pure.shader_bsdf_test", "command.KnownSurfaces", "rough-glass.gi", "thin-glass.gi", "lobes.gi", "pure.shader_layers_test"),
+    "ggx.": ("command.KnownSurfaces", "pure.shader_bsdf_test", "rough-metals.gi", "rough-glass.gi", "lobes.gi", "plastics.gi"),
+    "sheen.": ("command.KnownSurfaces", "pure.shader_layers_test", "mapped-layers.gi"),
     "iridescence.": ("lobes.gi", "pure.shader_iridescence_test"),
-    "fresnel.": ("command.KnownSurfaces", "plastics.gi", "thin-glass.gi", "rough-glass.gi", "pure.shader_fresnel_test"),
+    "fresnel.": ("pure.shader_fresnel_test", "command.KnownSurfaces", "plastics.gi", "thin-glass.gi", "rough-glass.gi", "pure.shader_fresnel_test"),
     "phong.": ("sphere-phong.phong", "sphere-plane.phong"),
 }
 
