@@ -18,8 +18,6 @@ namespace fragtrace {
 
 namespace {
 
-constexpr double kPi = glm::pi<double>();
-
 /// Calls work(y) for each row, on all processors.
 template <typename Work>
 void forEachRow(int rows, const Work& work) {
@@ -34,7 +32,7 @@ void forEachRow(int rows, const Work& work) {
   });
 }
 
-double sineOfRow(const Image& image, int y) { return std::sin(kPi * (y + 0.5) / image.height); }
+double sineOfRow(const Image& image, int y) { return std::sin(glm::pi<double>() * (y + 0.5) / image.height); }
 
 /// Radiance and luminance of a row's texels; gives the sum of the luminance.
 double copyRow(const Image& image, int y, std::span<uint32_t> texels) {
@@ -100,7 +98,7 @@ PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws) {
     sums[size_t(y)] = copyRow(image, y, texelsOf(y)) / image.width * sineOfRow(image, y);
   });
   const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
-  packed.power = kPi * 2.0 * kPi * kPi * sum / double(rows);
+  packed.power = 2.0 * glm::pi<double>() * glm::pi<double>() * glm::pi<double>() * sum / double(rows);
   if (!drawn) return packed;
 
   // Step: each row's table, and the table of the rows.
