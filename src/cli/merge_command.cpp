@@ -56,7 +56,7 @@ double luminanceOf(const float* pixel) { return 0.2126 * pixel[0] + 0.7152 * pix
 
 /// Means weighed by samples; counts added; variances of the means joined as if all samples had been seen
 /// (Chan, Golub and LeVeque, 1979). The colour channels are the first three.
-Image joined(const std::vector<Part>& parts) {
+Image joinedPicture(const std::vector<Part>& parts) {
   Image result = parts.front().image;
   const size_t channels = result.channelCount();
   const auto counts = findChannel(result, "samples.Y");
@@ -93,7 +93,7 @@ int runMerge(const MergeOptions& options) {
   std::sort(parts.begin(), parts.end(),
             [](const Part& a, const Part& b) { return a.made.sampleOffset < b.made.sampleOffset; });
   for (size_t i = 1; i < parts.size(); ++i) checkNext(parts[i - 1], parts[i]);
-  Image result = joined(parts);
+  Image result = joinedPicture(parts);
   Provenance made = parts.front().made;
   for (size_t i = 1; i < parts.size(); ++i) made.samples += parts[i].made.samples;
   setProvenance(result, made);
