@@ -10,7 +10,7 @@
 namespace fragtrace {
 
 /// One of the equal steps of a table over [0, 1): the place drawn is linear in the number between the step's
-/// ends and up to two places where the density changes (shaders/environment.glsl: invertStep).
+/// ends and up to two places where the density changes (shaders/environment.glsl: invertTable).
 struct InversionStep {
   float first = 0.0f;  ///< place at the beginning of the step
   float last = 0.0f;   ///< at its end
@@ -23,7 +23,8 @@ static_assert(sizeof(InversionStep) == 16);
 /// Fills `steps` so that they draw a place in [0, weights.size()) by a density that is constant between whole
 /// numbers, and replaces the weights by that density (its mean is 1). It is proportional to the weights, but
 /// where the density changes more than twice within one step: it then does so where the weights differ most.
-/// Weights are finite and not negative, at most 65,535; all zero: drawn evenly. Returns their sum.
+/// Weights are finite and not negative, and there are at most 65,535; all zero: drawn evenly. Returns their
+/// sum.
 double makeInversionTable(std::span<float> weights, std::span<InversionStep> steps);
 
 /// Where an index drawn by its weight begins and ends among 2^32 equally likely numbers, with a guide table
