@@ -180,9 +180,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
   loaded.environment = loadEnvironment(options, light);
   warnOfSquare(loaded.environment.image, options, loaded.scene.warnings);
-  loaded.cameraIndex = options.cameraIndex;
-  if (const auto named = cameraNamed(options.selection.camera, scene.cameras))
-    loaded.cameraIndex = int(*named);
+  loaded.cameraIndex = cameraIndexOf(options.cameraIndex, options.selection.camera, scene.cameras);
   loaded.camera =
       chooseCamera(scene.cameras, loaded.cameraIndex, options.camera, scene.bounds, framedAspect(options));
   checkDistance(loaded.camera, scene.space, options);

@@ -51,8 +51,8 @@ BoundsDouble boundsOf(const std::vector<PlacedSphere>& spheres) {
 /// Where the picture will be taken from, as far as it is known; none: the camera that frames the scene.
 std::optional<glm::dvec3> cameraFor(const GltfOptions& options, const Scene& scene) {
   if (options.cameraPosition) return options.cameraPosition;
-  const std::optional<size_t> named = cameraNamed(options.selection.camera, scene.cameras);
-  const size_t index = named.value_or(size_t(std::max(options.cameraIndex, 0)));
+  const std::optional<int> named = cameraIndexOf({}, options.selection.camera, scene.cameras);
+  const auto index = size_t(named.value_or(std::max(options.cameraIndex, 0)));
   return index < scene.cameras.size() ? std::optional(scene.cameras[index].position) : std::nullopt;
 }
 

@@ -106,11 +106,12 @@ Camera withOverrides(Camera camera, const CameraOverrides& overrides, const Boun
   return camera;
 }
 
-std::optional<size_t> cameraNamed(const std::string& wanted, std::span<const Camera> cameras) {
-  if (wanted.empty()) return std::nullopt;
+std::optional<int> cameraIndexOf(std::optional<int> index, const std::string& name,
+                                 std::span<const Camera> cameras) {
+  if (index || name.empty()) return index;
   std::vector<std::string> names;
   for (const Camera& camera : cameras) names.push_back(camera.name);
-  return indexOfPart("--camera", wanted, names);
+  return int(indexOfPart("--camera", name, names));
 }
 
 Camera chooseCamera(std::span<const Camera> cameras, std::optional<int> index,

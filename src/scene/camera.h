@@ -44,8 +44,10 @@ glm::dvec3 recentringPoint(const std::optional<glm::dvec3>& camera, const Bounds
 /// the angle is not between 0 and 180 degrees, the scale is not above 0, or both are given.
 Camera withOverrides(Camera camera, const CameraOverrides& overrides, const BoundsDouble& bounds = {});
 
-/// The index of the camera that the user named (indexOfPart()); none where that is empty. Throws UsageError.
-std::optional<size_t> cameraNamed(const std::string& wanted, std::span<const Camera> cameras);
+/// The index asked for, or that of the camera asked for by name (indexOfPart()); none where neither is.
+/// Throws UsageError.
+std::optional<int> cameraIndexOf(std::optional<int> index, const std::string& name,
+                                 std::span<const Camera> cameras);
 
 /// The camera of that index, or without one the first, or one that frames the scene in a picture of that
 /// width / height, with its overrides.

@@ -246,8 +246,8 @@ std::vector<RenderOptions> tracedSides(const ViewState& state) {
 
 void takeOptions(ViewState& state, const RenderOptions& options) {
   if (!state.scene) return;
-  std::optional<int> index = options.cameraIndex;
-  if (const auto named = cameraNamed(options.selection.camera, state.scene->cameras)) index = int(*named);
+  const std::optional<int> index =
+      cameraIndexOf(options.cameraIndex, options.selection.camera, state.scene->cameras);
   const Camera camera = chooseCamera(state.scene->cameras, index, options.camera, state.scene->bounds,
                                      framedAspect(state.scene->options));
   state.options() = options;
