@@ -65,16 +65,29 @@ def film(base, index, thickness):
     return [min(max(r, 0), 1) for r in result]
 
 
-def velvet(alpha):
-    """Value of white sheen (Estevez and Kulla, 2017)."""
+def velvet(alpha, outgoing=(0, 0, 1), light=LIGHT):
+    """Value of white sheen, divided by the cosine of `outgoing` (Estevez and Kulla, 2017)."""
     def fit(x):
         t = (1 - alpha)**2
         a, b, c, d, e = (t * p + (1 - t) * q for p, q in ((25.3245, 21.5473), (3.32435, 3.82987), (0.16801, 0.19823), (-1.27393, -1.97760), (-4.85967, -4.32054)))
         return a / (1 + b * x**c) + d * x + e
 
     smith = lambda cosine: math.exp(fit(cosine)) if cosine < 0.5 else math.exp(2 * fit(0.5) - fit(1 - cosine))
-    distribution = (2 + 1 / alpha) * HALF[0]**(1 / alpha) / (2 * math.pi)
-    return distribution / ((1 + smith(1) + smith(LIGHT[2])) * 4 * LIGHT[2])
+    half = [o + i for o, i in zip(outgoing, light)]
+    sine = math.hypot(*half[:2]) / math.hypot(*half)
+    distribution = (2 + 1 / alpha) * sine**(1 / alpha) / (2 * math.pi)
+    return distribution / ((1 + smith(outgoing[2]) + smith(light[2])) * 4 * light[2] * outgoing[2])
+
+
+def velvet_albedo(alpha, direction, steps=64):
+    """The part of the light from `direction` that white sheen sends out, by midpoints; close together at the horizon, where the lobe lies."""
+    def part(j, k):
+        root, turn = (j + 0.5) / steps, math.pi * (k + 0.5) / steps  # over half a circle: the other is its mirror image
+        cosine = root**2
+        sine = math.sqrt(1 - cosine**2)
+        return 2 * root * cosine * velvet(alpha, (sine * math.cos(turn), sine * math.sin(turn), cosine), direction)
+
+    return 2 * math.pi / steps**2 * sum(part(j, k) for j in range(steps) for k in range(steps))
 
 
 def bent():
@@ -122,6 +135,7 @@ def squares():
     texture = {"index": 0}
     share, lobe = coated(0.25, 0.4)
     lit = sum(a * b for a, b in zip(mapped(0.7), LIGHT))
+    under = 1 - max(COLOR) * max(velvet_albedo(0.5625, d) for d in (LIGHT, (0, 0, 1)))  # what sheen lets pass
     coat = 0.9 * 0.04  # seen straight on
     absorbed = [math.exp(math.log(c) * 0.5 / 0.7) for c in COLOR]  # half a metre, of 0.7 in which COLOR is left
     return [
@@ -131,6 +145,8 @@ def squares():
         (base(0, 1, specular=none, clearcoat={"clearcoatFactor": 0.9, "clearcoatRoughnessFactor": 0.3}), 3 * [IRRADIANCE * coat * facets(0.09, 0.09)]),
         (base(0, 1, COLOR, specular=none, clearcoat={"clearcoatFactor": 0.9}), [IRRADIANCE * (1 - coat) * c / math.pi for c in COLOR]),
         (base(0, 1, specular=none, sheen={"sheenColorFactor": COLOR, "sheenRoughnessFactor": 0.8}), [IRRADIANCE * c * velvet(0.64) for c in COLOR]),
+        (base(0, 1, COLOR, specular=none, sheen={"sheenColorFactor": COLOR, "sheenRoughnessFactor": 0.75}),
+         [IRRADIANCE * c * (velvet(0.5625) + under / math.pi) for c in COLOR]),
         (base(1, 0.3, COLOR, anisotropy={"anisotropyStrength": 0.6, "anisotropyRotation": 0.5, "anisotropyTexture": texture}),
          [IRRADIANCE * schlick(c, HALF[2]) * facets(*stretched) for c in COLOR]),
         (base(1, 0.3, COLOR, iridescence={"iridescenceFactor": 0.7, "iridescenceIor": 1.4, "iridescenceThicknessMaximum": 420}),

@@ -138,6 +138,23 @@ TEST(ShaderGlass, SpecularFactorsScaleItsReflectance) {
       EXPECT_EQ(glsl_double::glassReflectance(b, 0.3), dvec3(1.0));
     }
   }
+}
+
+TEST(ShaderGlass, WhatRoughGlassReflectsHasTheColourOfItsReflectance) {
+  const With specular(glsl_variant::kGlassSpecular, true);
+  Bsdf b = makeBsdf(0, 1, 0.5, 1.5, true, true);
+  b.dielectricF0 = 0.04 * dvec3(2.0, 1.0, 0.5);
+  Draw draw(79);
+  for (int k = 0; k < 1000; ++k) {
+    const dvec3 o = draw.directionAbove();
+    const dvec3 i = draw.directionAbove();
+    const dvec3 expected = glsl_double::glassReflectance(b, glm::dot(o, glm::normalize(o + i))) *
+                           (specularBrdf(o, i, b.alpha) * i.z);
+    EXPECT_LE(glm::distance(glsl_double::evaluateBsdf(b, o, i).value, expected), 1e-9 * glm::length(expected));
+  }
+}
+
+TEST(ShaderGlass, WithoutSpecularFactorsItIsThatOfItsIndex) {
   Bsdf plain = makeBsdf(0, 1, 0.4, 1.5, true, true);
   for (double z : {1.0, 0.5, 0.1})
     EXPECT_NEAR(glsl_double::glassReflectance(plain, z).x, fresnelExact(z, 1.5), 1e-12);
