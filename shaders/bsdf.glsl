@@ -171,7 +171,9 @@ vec4 lobeChances(Bsdf b, float cosine) {
   diffuse = kDiffuseTransmission ? diffuse + through : diffuse;
   float sum = specular + diffuse;
   float share = sum > 0.0f ? specular / sum : 1.0f;
-  share = diffuse > 0.0f && specular > 0.0f ? clamp(share, 0.125f, 0.875f) : share;
+  // A black surface seen straight on reflects nothing there, but beside it.
+  bool glossy = specular > 0.0f || (kMetals && b.metal > 0.0f) || b.opaque * b.dielectricF90 > 0.0f;
+  share = diffuse > 0.0f && glossy ? clamp(share, 0.125f, 0.875f) : share;
   float rest = (1.0f - glass) * (1.0f - share);
   return vec4(glass, (1.0f - glass) * share, rest * (1.0f - below), rest * below);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// shaders/ggx.glsl and layers.glsl: drawn half vectors, without chance. The density is one over the area that a unit of
-// the square of random numbers gets on the sphere.
+// shaders/ggx.glsl and layers.glsl: drawn half vectors, without chance. The density is one over the area that
+// a unit of the square of random numbers gets on the sphere.
 #include <gtest/gtest.h>
 
 #include "shader_layers_cases.h"
@@ -27,7 +27,9 @@ TEST(ShaderFacets, TheDensityIsOneOverTheAreaOfAUnitOfRandomNumbers) {
       const double stretch = draw.between(1.0, 3.0);
       const double u = draw.between(0.01, 0.99);
       const double v = draw.between(0.05, 0.95);
-      const auto facet = [&](double a, double b) { return glsl_double::sampleFacet(o, alpha, stretch, a, b); };
+      const auto facet = [&](double a, double b) {
+        return glsl_double::sampleFacet(o, alpha, stretch, a, b);
+      };
       const double density = glsl_double::facetDensity(o, facet(u, v), alpha, stretch);
       EXPECT_NEAR(density * areaPerUnit(facet, u, v), 1.0, 1e-5)
           << "alpha " << alpha << ", stretch " << stretch << ", o.z " << o.z;
@@ -36,7 +38,8 @@ TEST(ShaderFacets, TheDensityIsOneOverTheAreaOfAUnitOfRandomNumbers) {
 }
 
 TEST(ShaderFacets, OfStretchedFacetsTheDensityIsThatOfTheirTwoWidths) {
-  // Facets of width alpha x stretch along x have the slopes of isotropic ones, stretched; Heitz 2014, section 5.3.
+  // Facets of width alpha x stretch along x have the slopes of isotropic ones, stretched; Heitz 2014,
+  // section 5.3.
   const With anisotropy(glsl_variant::kAnisotropy, true);
   for (const double alpha : {0.1, 0.5}) {
     for (const double stretch : {1.5, 2.5}) {

@@ -150,7 +150,8 @@ TEST(ShaderGlass, WhatRoughGlassReflectsHasTheColourOfItsReflectance) {
     const dvec3 i = draw.directionAbove();
     const dvec3 expected = glsl_double::glassReflectance(b, glm::dot(o, glm::normalize(o + i))) *
                            (specularBrdf(o, i, b.alpha) * i.z);
-    EXPECT_LE(glm::distance(glsl_double::evaluateBsdf(b, o, i).value, expected), 1e-9 * glm::length(expected));
+    EXPECT_LE(glm::distance(glsl_double::evaluateBsdf(b, o, i).value, expected),
+              1e-9 * glm::length(expected));
   }
 }
 

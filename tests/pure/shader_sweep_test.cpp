@@ -106,6 +106,9 @@ std::string faultOf(const glsl_float::Bsdf& b, Draw& draw) {
   if (!isSound(value.value)) return "value " + text(value.value) + where;
   if (!std::isfinite(value.density) || value.density < 0.0f)
     return "density " + std::to_string(value.density) + where;
+  // What no drawing reaches would be missing from the picture; densities underflow where values are as small.
+  if (value.density == 0.0f && std::max({value.value.x, value.value.y, value.value.z}) > 1e-6f)
+    return "value " + text(value.value) + " without density" + where;
   const float choice = draw.unit();
   const float u = draw.unit();
   const glsl_float::BsdfSample s = glsl_float::sampleBsdf(b, out, choice, u, draw.unit());
