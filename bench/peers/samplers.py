@@ -30,6 +30,8 @@ import sampler_chart  # noqa: E402
 
 mi = render_mitsuba.mi
 SAMPLERS = ("independent", "stratified", "multijitter", "orthogonal", "ldsampler")
+# Its dimensions are correlated: its pictures of many-lights are 0.85 % too dark (8 seeds of 256 samples, the other four within 0.07 %), so it does not tell the mean.
+BIASED = "ldsampler"
 BOUNCES = 6
 RATIO_AIM, MEAN_LEVEL, SLOPE_AIM = 1.1, 0.005, -1.2
 
@@ -99,11 +101,13 @@ def measure(options, name, scene, sky, folder, known):
         if known:
             row["mitsuba"], row["their_mean"] = known[name][str(spp)]["mitsuba"], known[name][str(spp)]["their_mean"]
         else:
-            row["mitsuba"] = {}
+            row["mitsuba"], means = {}, []
             for sampler in options.samplers.split(","):
                 pictures, count = theirs(options, described, sampler, spp)
                 row["mitsuba"][sampler] = {"samples": count, "error": relative_mse(pictures)}
-                row["their_mean"] = float(np.mean(pictures))
+                if sampler != BIASED:
+                    means.append(np.mean(pictures))
+            row["their_mean"] = float(np.mean(means))
         result[str(spp)] = row
         print(f"{name}, {spp}: ours {row['ours']:.3g}, " + ", ".join(f"{k} {v['error']:.3g}" for k, v in row["mitsuba"].items()) +
               f", means {row['our_mean'] / row['their_mean'] - 1:+.2%}", file=sys.stderr, flush=True)
