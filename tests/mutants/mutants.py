@@ -83,7 +83,7 @@ def main():
     memory = Memory(folder / "state.json", HINTS, tree_of(source))
     began = time.monotonic()
     left = [row for row in rows if not memory.verdict(row) and not (chosen.first and (row.reason or row.name in memory.hints))]
-    left.sort(key=lambda row: row.name in memory.hints)  # what takes long first
+    left.sort(key=lambda row: (bool(row.reason), row.name in memory.hints))  # what takes long first, but what is expected to survive last: it is put to every test
     with ThreadPoolExecutor(chosen.jobs) as pool:
         list(pool.map(lambda row: settle(setting, memory, row), left))
     if chosen.first:

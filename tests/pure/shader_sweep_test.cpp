@@ -106,8 +106,10 @@ std::string faultOf(const glsl_float::Bsdf& b, Draw& draw) {
   if (!isSound(value.value)) return "value " + text(value.value) + where;
   if (!std::isfinite(value.density) || value.density < 0.0f)
     return "density " + std::to_string(value.density) + where;
-  // What no drawing reaches would be missing from the picture; densities underflow where values are as small.
-  if (value.density == 0.0f && std::max({value.value.x, value.value.y, value.value.z}) > 1e-6f)
+  // What no drawing reaches would be missing from the picture. Weights below 1e-6 are lost in rounding,
+  // however high and narrow the lobe that they weigh.
+  const float highest = std::max(1.0f, 1.0f / (4.0f * float(M_PI) * b.alpha * b.alpha * out.z));
+  if (value.density == 0.0f && std::max({value.value.x, value.value.y, value.value.z}) > 1e-6f * highest)
     return "value " + text(value.value) + " without density" + where;
   const float choice = draw.unit();
   const float u = draw.unit();
