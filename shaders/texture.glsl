@@ -6,10 +6,13 @@ vec4 readTexel(int index) {
   return vec4(unpackHalf2x16(t.x), unpackHalf2x16(t.y));
 }
 
-/// A texel coordinate brought into 0..size-1 by repeating, clamping or mirroring.
+/// A texel coordinate from -1 to twice the size brought into 0..size-1 by repeating, clamping or mirroring. No division: llvmpipe divides integers lane by
+/// lane.
 int wrapTexel(int x, int size, bool clamped, bool mirrored) {
   int period = mirrored ? 2 * size : size;
-  int m = (x + period) % period;  // x is at least -1; GLSL leaves % of negative numbers to the driver
+  int m = x < 0 ? x + period : x;
+  m = m >= period ? m - period : m;
+  m = m >= period ? m - period : m;
   m = m >= size ? period - 1 - m : m;
   return clamped ? clamp(x, 0, size - 1) : m;
 }
