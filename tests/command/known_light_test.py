@@ -94,6 +94,8 @@ class KnownLight(Case):
         corners = lambda place, half: [(place[0] + half * x, place[1] + half * y, place[2]) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
         expected = over_ground(lambda x, y: sum(radiance * from_lamp(x, y, corners(place, half)) for place, half, radiance in lamps))
         self.near(self.mean(lamps, [], spp=256), expected, 1e-3)
+        # Before gi there is ambient light of 0.03 / pi, as below.
+        self.near(self.mean(lamps, [], "--stage", "shadows", spp=256), expected + 0.03 * math.pi, 1e-3)
 
     def test_a_sky(self):
         self.near(self.mean([], [], "--hdri-file", SCENES / "sky.pfm", spp=64), self.sky(), 5e-4)
