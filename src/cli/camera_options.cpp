@@ -39,14 +39,16 @@ void append(std::string& text, const char* option, const std::optional<double>& 
 
 }  // namespace
 
-std::string withNumberSettled(std::string argument) {
+std::string withNumberSettled(std::string argument, std::string_view before) {
   if (argument.starts_with("-.") && argument.size() > 2 &&
       std::isdigit(static_cast<unsigned char>(argument[2]))) {
     argument.insert(1, "0");
   }
   constexpr std::string_view kResolution = "--resolution=";
   constexpr const char* kDigits = "0123456789";
-  const size_t start = argument.starts_with(kResolution) ? kResolution.size() : 0;
+  const bool joined = argument.starts_with(kResolution);
+  if (!joined && before != kResolution.substr(0, kResolution.size() - 1)) return argument;
+  const size_t start = joined ? kResolution.size() : 0;
   const size_t middle = argument.find_first_not_of(kDigits, start);
   const bool isSize = middle != std::string::npos && middle > start && argument[middle] == 'x' &&
                       middle + 1 < argument.size() &&

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "stage/options.h"
@@ -28,8 +29,8 @@ struct RawCamera {
 };
 
 /// Numbers such as "-.5,0,1" look like short options to the library; a zero before the point settles it. And
-/// a size may be written as 640x480.
-std::string withNumberSettled(std::string argument);
+/// --resolution, the word `before` it, may be written as 640x480.
+std::string withNumberSettled(std::string argument, std::string_view before);
 
 void addCameraOptions(CLI::App& app, RawCamera& raw);
 

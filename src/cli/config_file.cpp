@@ -88,7 +88,9 @@ std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& com
     if (isFlag && !value.is_boolean()) throw InputError(place + ": is neither true nor false");
     if (!isFlag && value.is_array() && value.empty()) throw InputError(place + ": is empty");
     std::vector<std::string> values = isFlag ? std::vector<std::string>{"true"} : spelledValues(value, place);
-    if (name == "resolution") std::ranges::transform(values, values.begin(), withNumberSettled);
+    if (name == "resolution") {
+      for (std::string& size : values) size = withNumberSettled(size, "--resolution");
+    }
     if (overruled || (isFlag && !value.get<bool>())) continue;
     try {
       option->add_result(values);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iostream>
 
 #include "cli/choose.h"
@@ -19,14 +20,8 @@ namespace fragtrace {
 namespace {
 
 std::vector<std::string> argumentsOf(int argc, const char* const* argv) {
-  // A name may look like a size.
-  constexpr std::array<std::string_view, 4> kNamed = {"--scene", "--animation", "--camera",
-                                                      "--material-variant"};
   std::vector<std::string> arguments;
-  for (int i = argc - 1; i > 0; --i) {
-    const bool isName = std::ranges::find(kNamed, std::string_view(argv[i - 1])) != kNamed.end();
-    arguments.push_back(isName ? argv[i] : withNumberSettled(argv[i]));
-  }
+  for (int i = argc - 1; i > 0; --i) arguments.push_back(withNumberSettled(argv[i], argv[i - 1]));
   return arguments;  // last first, as the library wants them
 }
 
@@ -190,6 +185,8 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
     line.diff.reference = reference;
     line.diff.metric = choose<Metric>("--metric", metric, metricNames());
     line.diff.outfile = outfile;
+    if (line.diff.threshold && !std::isfinite(*line.diff.threshold))
+      throw UsageError("--threshold: not a finite number");
     if (!outfile.empty() && !isWritableImageName(outfile)) {
       throw UsageError("--outfile: '" + outfile + "' ends in none of .png, .jpg, .exr, .hdr, .pfm");
     }

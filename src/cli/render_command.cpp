@@ -46,7 +46,8 @@ Drawing draw(Renderer& renderer, Film& film, const RenderOptions& options, const
     AdaptivePicture picture = renderAdaptively(renderer, film.size(), view, goal, stats.times, progress);
     stats.complete = !picture.stopped;
     stats.adaptive = {options.noise, options.seconds, picture.error,
-                      picture.share, picture.rounds,  picture.black};
+                      picture.share, picture.rounds,  picture.known && !picture.black,
+                      picture.black};
     drawing = {std::move(picture.pixels), std::move(picture.variance)};
   } else {
     stats.complete = renderer.addSamples(film, view, 0, options.spp, stats.times, progress);
@@ -172,7 +173,7 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
     char text[96];
     std::snprintf(text, sizeof text, ", 95 %% of the pixels within %.3g %% (estimated)",
                   100.0 * stats.adaptive->error);
-    noise = text;
+    noise = stats.adaptive->known ? text : ", error unknown";
   }
   sayWhatWasCut(options, stats);
   if (!stats.complete) say(options, "interrupted: what was finished is written");

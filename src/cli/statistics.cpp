@@ -50,11 +50,12 @@ std::string statisticsText(const Statistics& s) {
   json["fewest_samples"] = s.film.fewestSamples;
   json["most_samples"] = s.film.mostSamples;
   if (s.adaptive) {
-    json["adaptive"] = {{"noise", s.adaptive->noise},
-                        {"seconds", s.adaptive->seconds},
-                        {"error_p95", s.adaptive->error},
-                        {"share_under_noise", s.adaptive->share},
-                        {"rounds", s.adaptive->rounds}};
+    json["adaptive"] = {
+        {"noise", s.adaptive->noise},
+        {"seconds", s.adaptive->seconds},
+        {"error_p95", s.adaptive->known ? nlohmann::json(s.adaptive->error) : nlohmann::json()},
+        {"share_under_noise", s.adaptive->known ? s.adaptive->share : 0.0},
+        {"rounds", s.adaptive->rounds}};
   }
   if (s.clampIndirect > 0.0) json["clamp_indirect"] = s.clampIndirect;
   if (s.featureMs > 0.0) json["feature_ms"] = s.featureMs;

@@ -19,6 +19,7 @@ struct AdaptiveStatistics {
   double error = 0.0;    ///< the relative error that 95 % of the pixels are estimated to stay under
   double share = 0.0;    ///< of the pixels under the noise asked for
   int rounds = 0;
+  bool known = true;   ///< else error and share say nothing
   bool black = false;  ///< no light was found
 };
 

@@ -169,7 +169,8 @@ AdaptivePicture renderAdaptively(Renderer& renderer, glm::ivec2 size, const View
     picture.share = goal.noise > 0.0 ? distance.share : 0.0;
     picture.error = distance.error;
     // Two samples a half are the fewest that tell an error.
-    if (totalsOf(picture.pixels).fewestSamples < 4) {
+    picture.known = totalsOf(picture.pixels).fewestSamples >= 4;
+    if (!picture.known) {
       picture.share = 0.0;
       picture.error = 1.0;
     }

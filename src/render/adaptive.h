@@ -20,6 +20,8 @@ struct AdaptivePicture {
   double error = 0.0;  ///< the relative error that 95 % of those that can be noisy are estimated to be below
   double share = 0.0;  ///< of these, what is under the noise asked for
   int rounds = 0;
+  bool known =
+      true;  ///< whether there are samples enough, and light, to tell an error; else it is 1, and share 0
   bool black = false;    ///< no sample has brought any light, so that nothing is known of the noise
   bool stopped = false;  ///< by progress
 };

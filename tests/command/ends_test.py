@@ -113,6 +113,11 @@ class Words(Case):
         for option in ("--spp", "--seed", "--rr-depth", "--camera-index", "--texture-limit"):
             self.refused(option, "1e3", says=[option, "'1e3'", "whole number"])
 
+    def test_only_a_resolution_may_be_written_with_an_x(self):
+        for option, word in (("--seed", "0x10"), ("--spp", "1x2")):
+            self.refused(option, word, says=[f"{option}: '{word}' is no whole number"])
+        self.fails(2, "diff", BOX, BOX, "--threshold", "nan", says=["--threshold", "not a finite number"])
+
     def test_a_memory_limit_says_the_least_that_is_possible(self):
         for size in ("0", "-5MB", "1", "nonsense", "999999"):
             self.refused("--memory-limit", size, says=["--memory-limit", f"'{size}'", "from 1MB on"])

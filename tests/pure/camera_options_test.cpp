@@ -28,12 +28,13 @@ TEST(CameraText, SaysWhatIsSet) {
 }
 
 TEST(CameraArguments, SizesMayBeWrittenWithAnX) {
-  EXPECT_EQ(withNumberSettled("640x480"), "640,480");
-  EXPECT_EQ(withNumberSettled("--resolution=640x480"), "--resolution=640,480");
-  EXPECT_EQ(withNumberSettled("-.5"), "-0.5");
+  EXPECT_EQ(withNumberSettled("640x480", "--resolution"), "640,480");
+  EXPECT_EQ(withNumberSettled("--resolution=640x480", ""), "--resolution=640,480");
+  EXPECT_EQ(withNumberSettled("0x10", "--seed"), "0x10");
+  EXPECT_EQ(withNumberSettled("-.5", "--exposure"), "-0.5");
   for (const char* other :
        {"x480", "640x", "640x480x2", "640 x 480", "0x1f", "room.gltf", "--resolution=", ""}) {
-    EXPECT_EQ(withNumberSettled(other), other);
+    EXPECT_EQ(withNumberSettled(other, "--resolution"), other);
   }
 }
 
