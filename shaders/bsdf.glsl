@@ -164,8 +164,10 @@ vec4 lobeChances(Bsdf b, float cosine) {
     return vec4(glass, 0.0f, (1.0f - glass) * (1.0f - below), (1.0f - glass) * below);
   }
   float specular = maxComponent(opaqueFresnel(b, cosine));
-  float diffuse = b.opaque * throughLayer(b, cosine) * reflected;
-  if (kDiffuseTransmission) through *= b.opaque * throughLayer(b, cosine);
+  // Where the layer reflects all at this angle it lets light through at those of other facets.
+  float layer = b.opaque * max(throughLayer(b, cosine), float(0.001));
+  float diffuse = layer * reflected;
+  if (kDiffuseTransmission) through *= layer;
   if (kCompensation) diffuse = diffuse + maxComponent(b.between) * kPi * ggxLoss(cosine, b.alpha);
   float below = throughChance(b, diffuse, through);
   diffuse = kDiffuseTransmission ? diffuse + through : diffuse;
