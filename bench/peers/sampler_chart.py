@@ -30,8 +30,8 @@ def draw(figures, counts):
     """figures: {picture: {"ours": [errors], "Mitsuba": [errors]}}, an error for each of `counts`."""
     rows = -(-len(figures) // COLUMNS)
     panels = [panel(name, lines, counts, WIDTH * (k % COLUMNS), 22 + HEIGHT * (k // COLUMNS)) for k, (name, lines) in enumerate(figures.items())]
-    legend = " ".join(f'<tspan fill="{color}">{label}</tspan>' for label, color in (("ours", COLORS["ours"]),
-                                                                               ("best of Mitsuba's samplers", COLORS["Mitsuba"])))
+    legend = (("relative MSE against samples per pixel:", "black", 8), ("ours", COLORS["ours"], 250), ("best of Mitsuba's samplers", COLORS["Mitsuba"], 284))
+    title = "".join(f'<text x="{x}" y="14" font-size="12" fill="{color}">{label}</text>' for label, color, x in legend)
     return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH * COLUMNS} {22 + HEIGHT * rows}" font-family="sans-serif" font-size="10">\n'
-            f'<rect width="100%" height="100%" fill="white"/>\n<text x="8" y="14" font-size="12">relative MSE against samples per pixel: {legend}</text>\n'
+            f'<rect width="100%" height="100%" fill="white"/>\n{title}\n'
             + "\n".join(panels) + "\n</svg>\n")
