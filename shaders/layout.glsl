@@ -30,6 +30,10 @@ const uint kPathStatesBinding = 13u;
 const uint kProgressBinding = 14u;
 const uint kPathStateRows = 19u;  // uvec4s a suspended path
 const uint kTwoLevelPathStateRows = 24u;  // where there are instances
+// Of the wavefront: a lane has this many pixels of a column of its tile, each with the state of its path, and a row of its own before them.
+const uint kWaveSlots = 32u;
+const uint kWaveRows = 9u;
+const uint kWaveLaneRows = kWaveSlots * kWaveRows + 1u;
 
 // The uniform block of one draw.
 const uint kFrameBinding = 0u;
@@ -164,7 +168,7 @@ struct Frame {
   ivec4 picture;        // width, height, samples wanted, seed
   ivec4 tile;           // x, y (from the bottom), width, height
   ivec4 limits;         // bounces, roulette depth, step budget, leaf count
-  ivec4 sampling;       // index of the first sample in the seed's sequence; bits of the largest indirect radiance
+  ivec4 sampling;       // index of the first sample in the seed's sequence; bits of the largest indirect radiance; whether the tile goes on (wavefront)
 };
 
 // What one draw reports.

@@ -197,39 +197,53 @@ Traversal changeSpace(Traversal s) {
   return s;
 }
 
+/// One step from an inner node: to the nearer child that is hit, or to what the stack holds. `there` false: nothing changes.
+/// kFrontToBack: the nearer child first, boxes behind the hit are discarded; else children in fixed order, and only the ray's own limit discards. Boxes are
+/// padded when packed, so that rounding in the slab test cannot lose one that holds a hit (docs/accuracy.md).
+Traversal stepNode(Traversal s, TreeRay ray, float rayLimit, TreeFrame tree, bool there) {
+  NodePair n = loadNode(there ? s.node : 0);
+  float limit = kFrontToBack ? s.t : rayLimit;
+  // What was passed through must not come before what lies at it.
+  if (kAlpha) limit += roundingOf(limit, tree);
+  if (kInstances) limit -= ray.start;
+  vec3 a0 = n.low0 * ray.scale + ray.bias;
+  vec3 b0 = n.high0 * ray.scale + ray.bias;
+  vec3 a1 = n.low1 * ray.scale + ray.bias;
+  vec3 b1 = n.high1 * ray.scale + ray.bias;
+  float near0 = slabMax(slabMax(slabMin(a0.x, b0.x), slabMin(a0.y, b0.y)), slabMax(slabMin(a0.z, b0.z), ray.from));
+  float far0 = slabMin(slabMin(slabMax(a0.x, b0.x), slabMax(a0.y, b0.y)), slabMin(slabMax(a0.z, b0.z), limit));
+  float near1 = slabMax(slabMax(slabMin(a1.x, b1.x), slabMin(a1.y, b1.y)), slabMax(slabMin(a1.z, b1.z), ray.from));
+  float far1 = slabMin(slabMin(slabMax(a1.x, b1.x), slabMax(a1.y, b1.y)), slabMin(slabMax(a1.z, b1.z), limit));
+  bool hit0 = near0 <= far0;
+  bool hit1 = near1 <= far1;
+  bool swap = kFrontToBack && near1 < near0;
+  bool both = hit0 && hit1;
+  bool first1 = both ? swap : hit1;
+  int pushed = first1 ? n.child0 : n.child1;
+  int popped = s.stack.s0;
+  bool none = !hit0 && !hit1;
+  int next = none ? popped : (first1 ? n.child1 : n.child0);
+  s.node = there ? next : s.node;
+  s.stack = stepStack(s.stack, there && both, there && none, pushed);
+  return s;
+}
+
+/// The primitives of the leaf at which the traversal is; then what the stack holds.
+Traversal meetLeaf(Traversal s, TreeRay ray, bool anyHit) {
+  s = intersectLeaf(s, ~s.node, ray.origin, ray.direction, ray.shear, ray.start);
+  s.node = anyHit && s.slot >= 0 ? kTraversalDone : s.stack.s0;
+  s.stack = stepStack(s.stack, false, true, 0);
+  return s;
+}
+
 /// While-while traversal of the tree (Aila and Laine, Understanding the Efficiency of Ray Traversal on GPUs, 2009).
-/// kFrontToBack: the nearer child first, boxes behind the hit are discarded; else children in fixed order, and
-/// only the ray's own limit discards. Boxes are padded when packed, so that rounding in the
-/// slab test cannot lose one that holds a hit (docs/accuracy.md).
 Traversal traverseTree(vec3 origin, vec3 direction, float rayLimit, Traversal s, TreeFrame tree, int stepLimit,
                        bool anyHit) {
   TreeRay ray = treeRayOf(s, origin, direction, tree);
   while (s.node != kTraversalDone && s.steps < stepLimit) {
     // Both conditions in one sign bit: at an inner node, and below the limit.
     while ((s.node | (stepLimit - 1 - s.steps)) >= 0) {
-      NodePair n = loadNode(s.node);
-      float limit = kFrontToBack ? s.t : rayLimit;
-      // What was passed through must not come before what lies at it.
-      if (kAlpha) limit += roundingOf(limit, tree);
-      if (kInstances) limit -= ray.start;
-      vec3 a0 = n.low0 * ray.scale + ray.bias;
-      vec3 b0 = n.high0 * ray.scale + ray.bias;
-      vec3 a1 = n.low1 * ray.scale + ray.bias;
-      vec3 b1 = n.high1 * ray.scale + ray.bias;
-      float near0 = slabMax(slabMax(slabMin(a0.x, b0.x), slabMin(a0.y, b0.y)), slabMax(slabMin(a0.z, b0.z), ray.from));
-      float far0 = slabMin(slabMin(slabMax(a0.x, b0.x), slabMax(a0.y, b0.y)), slabMin(slabMax(a0.z, b0.z), limit));
-      float near1 = slabMax(slabMax(slabMin(a1.x, b1.x), slabMin(a1.y, b1.y)), slabMax(slabMin(a1.z, b1.z), ray.from));
-      float far1 = slabMin(slabMin(slabMax(a1.x, b1.x), slabMax(a1.y, b1.y)), slabMin(slabMax(a1.z, b1.z), limit));
-      bool hit0 = near0 <= far0;
-      bool hit1 = near1 <= far1;
-      bool swap = kFrontToBack && near1 < near0;
-      bool both = hit0 && hit1;
-      bool first1 = both ? swap : hit1;
-      int pushed = first1 ? n.child0 : n.child1;
-      int popped = s.stack.s0;
-      bool none = !hit0 && !hit1;
-      s.node = none ? popped : (first1 ? n.child1 : n.child0);
-      s.stack = stepStack(s.stack, both, none, pushed);
+      s = stepNode(s, ray, rayLimit, tree, true);
       s.steps += 1;
       if (kHeatmap) s.visits += 1;
     }
@@ -240,11 +254,9 @@ Traversal traverseTree(vec3 origin, vec3 direction, float rayLimit, Traversal s,
       atLeaf = false;
     }
     if (atLeaf) {
-      s = intersectLeaf(s, ~s.node, ray.origin, ray.direction, ray.shear, ray.start);
+      s = meetLeaf(s, ray, anyHit);
       s.steps += 1;
       if (kHeatmap) s.visits += 1;
-      s.node = anyHit && s.slot >= 0 ? kTraversalDone : s.stack.s0;
-      s.stack = stepStack(s.stack, false, true, 0);
     }
   }
   return s;

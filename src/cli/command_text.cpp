@@ -102,6 +102,7 @@ void appendPicture(std::string& text, const RenderOptions& o) {
   appendChoice(text, "--rendering-backend", std::array{"auto", "egl", "osmesa"}, o.backend, standard.backend);
   appendChoice(text, "--buffer-reads", kBufferReadsNames, o.bufferReads, standard.bufferReads);
   appendChoice(text, "--dispatch", kDispatchNames, o.dispatch, standard.dispatch);
+  appendChoice(text, "--schedule", kScheduleNames, o.schedule, standard.schedule);
   append(text, "--shader-folder", o.shaderFolder.string(), o.shaderFolder.empty());
 }
 

@@ -50,6 +50,7 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   ShaderVariant variant = tracer.variant;
   variant.reads = BufferReads::Ssbo;
   variant.dispatch = Dispatch::Fragment;
+  variant.wavefront = false;
   json["variant"] = variantName(variant);
   json["bounces"] = options.bounces;
   json["rr_depth"] = options.rouletteDepth;

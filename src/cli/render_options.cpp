@@ -126,6 +126,7 @@ RenderOptions finishRender(const RawRender& raw) {
       choose<Backend>("--rendering-backend", raw.backend, std::vector<std::string>{"auto", "egl", "osmesa"});
   o.bufferReads = choose<BufferReads>("--buffer-reads", raw.reads, kBufferReadsNames);
   o.dispatch = choose<Dispatch>("--dispatch", raw.dispatch, kDispatchNames);
+  o.schedule = choose<Schedule>("--schedule", raw.schedule, kScheduleNames);
   o.statsFile = raw.statsFile;
   o.shaderFolder = raw.shaderFolder;
   chooseLayers(raw.aov, o);
@@ -225,6 +226,9 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--buffer-reads", raw.reads, joined(kBufferReadsNames) + ": how the shader reads the scene")
       ->capture_default_str();
   app.add_option("--dispatch", raw.dispatch, joined(kDispatchNames) + ": which shader stage runs the tracer")
+      ->capture_default_str();
+  app.add_option("--schedule", raw.schedule,
+                 joined(kScheduleNames) + ": whether a lane traces one pixel at a time, or many together")
       ->capture_default_str();
   addSelectionOptions(app, o.selection);
   addInputOptions(app, o.limits);

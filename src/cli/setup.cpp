@@ -274,6 +274,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   const bool literals = tracer.variant.traversal == TraversalMethod::Literals;
   tracer.variant.reads = choice.reads;
   tracer.variant.dispatch = chooseDispatch(options.dispatch, context, literals);
+  stats.scheduleReason = chooseSchedule(tracer.variant, options);
   for (ShaderVariant& feature : tracer.features) {
     feature.reads = choice.reads;
     feature.dispatch = chooseDispatch(options.dispatch, context, false);

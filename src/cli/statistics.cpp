@@ -74,6 +74,8 @@ std::string statisticsText(const Statistics& s) {
   json["default_light"] = s.defaultLight;
   if (s.defaultLight) json["default_light_reason"] = s.defaultLightReason;
   json["variant"] = s.variant;
+  json["schedule"] = s.scheduleReason.empty() ? "wavefront" : "megakernel";
+  if (!s.scheduleReason.empty()) json["schedule_reason"] = s.scheduleReason;
   if (!s.readFallback.empty()) json["buffer_reads_fallback"] = s.readFallback;
   json["skipped"] = s.skipped;
   json["backend"] = s.backend;

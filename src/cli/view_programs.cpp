@@ -33,6 +33,7 @@ RenderOptions programPart(const RenderOptions& o) {
   part.backend = o.backend;
   part.bufferReads = o.bufferReads;
   part.dispatch = o.dispatch;
+  part.schedule = o.schedule;
   part.shaderFolder = o.shaderFolder;
   part.quiet = o.quiet;
   return part;

@@ -10,6 +10,8 @@ namespace fragtrace {
 
 /// Largest tile, in pixels: the states of its suspended paths stand in one storage buffer of 72 MiB.
 inline constexpr int kMaxTilePixels = 1 << 18;
+/// The most lanes of a draw of the wavefront.
+inline constexpr int kMaxWaveLanes = 1 << 12;
 
 /// One round over the picture: every tile of this size is advanced by so many samples.
 struct DrawPlan {
@@ -40,6 +42,12 @@ inline DrawPlan planDraws(glm::ivec2 picture, int remaining, int most, double ms
   }
   plan.samples = int(std::clamp(affordable / (double(plan.tile.x) * plan.tile.y), 1.0, mostSamples));
   return plan;
+}
+
+/// The same for the wavefront, whose draws are cut by steps: paths go on from draw to draw, so a tile gets
+/// all its samples before the next one, and only its last paths leave lanes idle.
+inline DrawPlan planWaves(glm::ivec2 picture, int remaining) {
+  return {glm::min(picture, glm::ivec2(128, 256)), remaining};
 }
 
 }  // namespace fragtrace

@@ -23,6 +23,8 @@ double milliseconds(Clock::time_point from, Clock::time_point to) {
 constexpr int kSoftwareStepBudget = 2700;
 /// GPUs have no such limit; time alone bounds a draw.
 constexpr int kHardwareStepBudget = 1 << 16;
+/// The wavefront counts all iterations, so 8 lanes that never iterate together stay below the limit.
+constexpr int kSoftwareWaveBudget = 8000;
 
 /// A draw's time: short enough to stop within a second and to stay far from a GPU's watchdog.
 constexpr double kSoftwareDrawMs = 200.0;
@@ -48,6 +50,7 @@ Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads,
       vertexArray_(makeVertexArray()),
       framebuffer_(makeFramebuffer()),
       timer_(context.software ? GlQuery() : makeTimer()),
+      software_(context.software),
       targetMs_(context.software ? kSoftwareDrawMs : kHardwareDrawMs) {
   glNamedBufferStorage(frameBuffer_.name(), sizeof(layout::Frame), nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferStorage(progressBuffer_.name(), sizeof(layout::Progress), nullptr, GL_DYNAMIC_STORAGE_BIT);
@@ -57,7 +60,7 @@ Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads,
   frame_.environment = glm::vec4(scene.environmentSize, 1.0f, 0.0f);
   frame_.lightChoice = glm::vec4(scene.environmentChance, float(scene.emitterCount),
                                  float(scene.energyTableRow), float(scene.punctualLights));
-  frame_.limits = {0, 0, context.software ? kSoftwareStepBudget : kHardwareStepBudget, int(scene.leafCount)};
+  frame_.limits = {0, 0, 0, int(scene.leafCount)};
 }
 
 void Renderer::setFrame(const Film& film, const View& view) {
@@ -76,6 +79,9 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.picture = {film.size(), 0, int(view.seed)};
   frame_.limits.x = view.bounces;
   frame_.limits.y = view.rouletteDepth;
+  frame_.limits.z = !software_           ? kHardwareStepBudget
+                    : variant_.wavefront ? kSoftwareWaveBudget
+                                         : kSoftwareStepBudget;
   frame_.sampling = {view.sampleOffset, std::bit_cast<int>(view.clampIndirect), 0, 0};
   film.bind();
   buffers_.bind();
@@ -83,25 +89,40 @@ void Renderer::setFrame(const Film& film, const View& view) {
   glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, film.size().y);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glBindVertexArray(vertexArray_.name());
-  if (variant_.resumable) bindPathStates();
+  if (variant_.resumable || variant_.wavefront) bindPathStates();
   glUseProgram(programs_.tracer(variant_).name());
   glBindBufferBase(GL_UNIFORM_BUFFER, layout::kFrameBinding, frameBuffer_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kProgressBinding, progressBuffer_.name());
 }
 
 void Renderer::bindPathStates() {
-  if (pathStates_.name() == 0) {
+  const bool twoLevels = has(variant_.traits, Trait::Instances);
+  const uint32_t rows = twoLevels ? layout::kTwoLevelPathStateRows : layout::kPathStateRows;
+  const int64_t count =
+      variant_.wavefront ? int64_t(kMaxWaveLanes) * layout::kWaveLaneRows : int64_t(kMaxTilePixels) * rows;
+  if (count > pathStateRows_) {
     pathStates_ = makeBuffer();
-    const bool twoLevels = has(variant_.traits, Trait::Instances);
-    const uint32_t rows = twoLevels ? layout::kTwoLevelPathStateRows : layout::kPathStateRows;
-    glNamedBufferStorage(pathStates_.name(), GLsizeiptr(kMaxTilePixels) * rows * 16, nullptr, 0);
+    glNamedBufferStorage(pathStates_.name(), GLsizeiptr(count) * 16, nullptr, 0);
+    pathStateRows_ = count;
+    pathStateView_ = GlTexture();
   }
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kPathStatesBinding, pathStates_.name());
-  checkGl("making room for suspended paths");
+  if (variant_.waveUnit >= 0) {
+    if (pathStateView_.name() == 0) {
+      pathStateView_ = makeTexture(GL_TEXTURE_BUFFER);
+      glTextureBuffer(pathStateView_.name(), GL_RGBA32UI, pathStates_.name());
+    }
+    glBindImageTexture(GLuint(variant_.waveUnit), pathStateView_.name(), 0, GL_FALSE, 0, GL_READ_ONLY,
+                       GL_RGBA32UI);
+  }
+  checkGl("making room for the states of paths");
 }
 
 void Renderer::makeResumable() {
   variant_.resumable = true;
+  variant_.wavefront = false;
+  variant_.waveUnit = -1;
+  if (software_) frame_.limits.z = kSoftwareStepBudget;
   bindPathStates();
   glUseProgram(programs_.tracer(variant_).name());
 }
@@ -109,12 +130,16 @@ void Renderer::makeResumable() {
 layout::Progress Renderer::draw() {
   layout::Progress progress{};
   glNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
+  constexpr int kSlots = layout::kWaveSlots;
+  const int rows = variant_.wavefront ? (frame_.tile.w + kSlots - 1) / kSlots : frame_.tile.w;
+  const glm::ivec2 lanes(frame_.tile.z, rows);
   const auto start = Clock::now();
   if (timer_.name() != 0) glBeginQuery(GL_TIME_ELAPSED, timer_.name());
   if (variant_.dispatch == Dispatch::Compute) {
-    const glm::uvec2 groups = (glm::uvec2(frame_.tile.z, frame_.tile.w) + kGroupSide - 1u) / kGroupSide;
+    const glm::uvec2 groups = (glm::uvec2(lanes) + kGroupSide - 1u) / kGroupSide;
     glDispatchCompute(groups.x, groups.y, 1);
   } else {
+    glViewport(frame_.tile.x, frame_.tile.y, lanes.x, lanes.y);
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
   if (timer_.name() != 0) glEndQuery(GL_TIME_ELAPSED);
@@ -137,16 +162,17 @@ bool Renderer::drawTile(Film& film, glm::ivec2 corner, glm::ivec2 tile, int targ
                         const std::function<bool()>& goOn) {
   frame_.tile = {corner, tile};
   frame_.picture.z = target;
-  glNamedBufferSubData(frameBuffer_.name(), 0, sizeof frame_, &frame_);
-  glViewport(corner.x, corner.y, tile.x, tile.y);
+  frame_.sampling.z = 0;
   overBudget_ = false;
   for (;;) {
+    glNamedBufferSubData(frameBuffer_.name(), 0, sizeof frame_, &frame_);
     const layout::Progress progress = draw();
     film.addCut((progress.cutHigh * 0x1p32 + progress.cutLow) / layout::kCutUnits);
     if (!goOn()) return false;
     if (progress.unfinished == 0) return true;
     if (progress.stuck > 0 && !variant_.resumable) makeResumable();
     overBudget_ = true;
+    frame_.sampling.z = 1;
   }
 }
 
@@ -172,7 +198,9 @@ bool Renderer::addSamples(Film& film, const View& view, int from, int to, Render
   const double total = double(film.size().x) * film.size().y * (to - from);
   double pixelSamplesDone = 0.0;
   for (int done = from; done < to;) {
-    const DrawPlan plan = planDraws(film.size(), to - done, mostSamplesPerDraw_, msPerSample_, targetMs_);
+    const DrawPlan plan =
+        variant_.wavefront ? planWaves(film.size(), to - done)
+                           : planDraws(film.size(), to - done, mostSamplesPerDraw_, msPerSample_, targetMs_);
     const auto roundStart = Clock::now();
     double tileMs = 0.0;
     for (int y = 0; y < film.size().y; y += plan.tile.y) {

@@ -97,9 +97,12 @@ class Renderer {
   GlBuffer frameBuffer_;
   GlBuffer progressBuffer_;
   GlBuffer pathStates_;
+  GlTexture pathStateView_;  ///< of the same, as image
+  int64_t pathStateRows_ = 0;
   GlVertexArray vertexArray_;
   GlFramebuffer framebuffer_;
-  GlQuery timer_;         ///< none: the wall's clock
+  GlQuery timer_;  ///< none: the wall's clock
+  bool software_;
   double drawnMs_ = 0.0;  ///< by all draws
   double targetMs_;
   double msPerSample_ = 0.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shader/assemble.h"
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -69,6 +70,10 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
   constant("kIterative", variant.traversal == TraversalMethod::Iterative);
   constant("kFrontToBack", variant.traversal == TraversalMethod::FrontToBack);
   constant("kResumable", variant.resumable);
+  if (variant.wavefront) {
+    constant("kWaveImage", variant.waveUnit >= 0);
+    text << "const uint kWaveUnit = " << std::max(variant.waveUnit, 0) << "u;\n";
+  }
   constant("kClampIndirect", variant.clampIndirect);
   text << "const int kPixelFilter = " << int(variant.pixelFilter) << ";\n";
   text << "const int kFeature = " << int(variant.feature) << ";\n";

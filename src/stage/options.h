@@ -34,6 +34,10 @@ inline constexpr std::array<std::string_view, 4> kBufferReadsNames{"auto", "ssbo
 /// Which stage of the pipeline runs the tracer: one fragment or one compute invocation a pixel.
 enum class Dispatch : uint8_t { Auto, Fragment, Compute };
 inline constexpr std::array<std::string_view, 3> kDispatchNames{"auto", "fragment", "compute"};
+/// How paths share the lanes of a draw: one pixel a lane, or many, whose rays are traced together
+/// (shaders/wavefront.glsl).
+enum class Schedule : uint8_t { Auto, Megakernel, Wavefront };
+inline constexpr std::array<std::string_view, 3> kScheduleNames{"auto", "megakernel", "wavefront"};
 /// How camera samples spread about the middle of their pixel (shaders/pixel_filter.glsl).
 enum class PixelFilter : uint8_t { Box, Gaussian, BlackmanHarris };
 inline constexpr std::array<std::string_view, 3> kPixelFilterNames{"box", "gaussian", "blackman-harris"};
@@ -71,6 +75,7 @@ struct RenderOptions {
   Backend backend = Backend::Auto;
   BufferReads bufferReads = BufferReads::Auto;
   Dispatch dispatch = Dispatch::Auto;
+  Schedule schedule = Schedule::Auto;
   bool aovSamples = false;  ///< more layers of .exr files
   bool aovVariance = false;
   std::vector<Feature> aovFeatures;

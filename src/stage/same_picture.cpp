@@ -24,6 +24,7 @@ RenderOptions sampledPart(RenderOptions o) {
   o.backend = standard.backend;
   o.bufferReads = standard.bufferReads;
   o.dispatch = standard.dispatch;
+  o.schedule = standard.schedule;
   o.aovSamples = standard.aovSamples;
   o.aovVariance = standard.aovVariance;
   o.aovFeatures = standard.aovFeatures;

@@ -21,6 +21,8 @@ struct ShaderVariant {
   PixelFilter pixelFilter = PixelFilter::Box;
   Feature feature = Feature::None;  ///< what is drawn in place of radiance
   bool clampIndirect = false;
+  bool wavefront = false;  ///< else the megakernel
+  int waveUnit = -1;       ///< image unit through which it reads its states; -1: a storage buffer
   bool resumable =
       false;  ///< paths can be suspended from draw to draw; only needed by those longer than a draw
 
@@ -28,7 +30,7 @@ struct ShaderVariant {
 
   auto key() const {
     return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, dispatch,
-                      pixelFilter, feature, clampIndirect, resumable, literals);
+                      pixelFilter, feature, clampIndirect, wavefront, waveUnit, resumable, literals);
   }
   bool operator<(const ShaderVariant& other) const { return key() < other.key(); }
   bool operator==(const ShaderVariant& other) const { return key() == other.key(); }
@@ -59,6 +61,10 @@ ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet&
 
 /// Whether hits keep their barycentric weights: only vertex attributes need them.
 bool keepsWeights(const ShaderVariant& variant);
+
+/// Settles between the megakernel and the wavefront, once reads and dispatch are known. Returns why it is the
+/// megakernel, or nothing.
+std::string chooseSchedule(ShaderVariant& variant, const RenderOptions& options);
 
 /// The variant by name: what is on, separated by "+", for the statistics.
 std::string variantName(const ShaderVariant& variant);

@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Both schedules draw the same picture, bit for bit (on llvmpipe), with the same rays; why the wavefront does not draw is said."""
+import json
+import sys
+
+from support import SCENES, Case, main
+
+sys.path.insert(0, str(SCENES))
+from instanced_scene import write_field  # noqa: E402
+
+SKY = ["--hdri-file", SCENES / "sky.pfm"]
+# Large triangles first, spheres and lamps, glass with absorption, all lobes, textures.
+PICTURES = {
+    "room-ball": [],
+    "many-lights": ["--traversal", "front-to-back"],
+    "rough-glass": [*SKY, "--bounces", "6"],
+    "lobes": [*SKY, "--traversal", "front-to-back"],
+    "mapped-layers": [*SKY, "--traversal", "front-to-back"],
+    "glass-sphere": [*SKY, "--traversal", "front-to-back", "--light-sampling", "bsdf"],
+    "thin-glass": [*SKY, "--traversal", "front-to-back", "--rr-depth", "1"],
+}
+
+
+class Schedules(Case):
+    def drawn(self, scene, schedule, *options):
+        """What the file holds, and the statistics."""
+        path, stats = self.folder / "x.pfm", self.folder / "s.json"
+        self.renders(SCENES / (scene + ".gltf"), "-o", path, "--quiet", "--schedule", schedule, "--stats", stats, *options)
+        return path.read_bytes(), json.loads(stats.read_text())
+
+    def same(self, scene, *options):
+        picture, stats = self.drawn(scene, "megakernel", *options)
+        waves, other = self.drawn(scene, "wavefront", *options)
+        self.assertEqual(other["schedule"], "wavefront", scene)
+        self.assertEqual(stats["schedule_reason"], "--schedule")
+        for name in ("rays", "samples_per_pixel", "budget_hits", "nonfinite_pixels"):
+            self.assertEqual(stats[name], other[name], f"{scene}: {name}")
+        self.assertAlmostEqual(stats["cut_share"], other["cut_share"], delta=1e-6, msg=scene)
+        self.assertEqual(picture, waves, scene)
+
+    def test_the_same_bits(self):
+        for scene, options in PICTURES.items():
+            self.same(scene, *options, "--resolution", "37,70", "--spp", 3)
+
+    def test_instances(self):
+        write_field(self.folder, "field", 64, 500)
+        # Without light sampling, too: no shadow rays then.
+        for light in ("nee", "bsdf"):
+            self.same(str(self.folder / "field"), *SKY, "--instancing", "share", "--resolution", "37,40", "--spp", 2, "--light-sampling", light)
+
+    def test_what_is_cut_into_many_draws(self):
+        """Columns that end before a lane does, tiles beside each other, and more samples than the steps of a draw take."""
+        self.same("room-ball", "--resolution", "150,261", "--spp", 1)
+        self.same("room-ball", "--resolution", "8,40", "--spp", 200, "--sample-offset", 1000)
+
+    def test_adaptive_targets(self):
+        self.same("room-ball", "--resolution", "40,40", "--noise", 0.2, "--spp", 512)
+
+    def test_why_it_is_the_megakernel(self):
+        small = ["--resolution", "8,8", "--spp", 1]
+        for why, scene, options in (("the scene has alpha", "coverage", ["--traversal", "front-to-back"]),
+                                    ("the tree is not walked front to back", "cornell-box", ["--traversal", "literals"]),
+                                    ("a stage before global illumination", "room-ball", ["--stage", "shadows"]),
+                                    ("--dispatch fragment", "room-ball", ["--dispatch", "fragment"])):
+            stats = self.drawn(scene, "wavefront", *small, *options)[1]
+            self.assertEqual((stats["schedule"], stats.get("schedule_reason")), ("megakernel", why), scene)
+
+
+if __name__ == "__main__":
+    main()
