@@ -8,6 +8,7 @@
 #include "cli/outputs.h"
 #include "errors.h"
 #include "gl/driver_choice.h"
+#include "gl/schedule.h"
 #include "gltf/gltf.h"
 #include "image/format.h"
 #include "image/image.h"

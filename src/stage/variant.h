@@ -62,10 +62,6 @@ ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet&
 /// Whether hits keep their barycentric weights: only vertex attributes need them.
 bool keepsWeights(const ShaderVariant& variant);
 
-/// Settles between the megakernel and the wavefront, once reads and dispatch are known. Returns why it is the
-/// megakernel, or nothing.
-std::string chooseSchedule(ShaderVariant& variant, const RenderOptions& options);
-
 /// The variant by name: what is on, separated by "+", for the statistics.
 std::string variantName(const ShaderVariant& variant);
 

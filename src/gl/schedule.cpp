@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "gl/schedule.h"
+
+#include "shader/layout.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// An image unit of a scene buffer that the variant does not read; -1: there is none.
+int freeImageUnit(const ShaderVariant& variant) {
+  if (variant.reads != BufferReads::Image) return -1;
+  const auto unit = [](uint32_t binding) { return int(layout::kSceneImageBase + binding); };
+  if (!has(variant.traits, Trait::VertexColors)) return unit(layout::kColorsBinding);
+  if (!has(variant.traits, Trait::Tangents)) return unit(layout::kTangentsBinding);
+  if (!has(variant.traits, Trait::PunctualLights)) return unit(layout::kLightsBinding);
+  return -1;
+}
+
+/// Why the megakernel draws; empty when the wavefront does.
+std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& options) {
+  if (options.schedule == Schedule::Megakernel) return "--schedule";
+  if (variant.traversal != TraversalMethod::FrontToBack) return "the tree is not walked front to back";
+  if (!has(variant.stages, Stage::Gi)) return "a stage before global illumination";
+  if (has(variant.traits, Trait::Alpha)) return "the scene has alpha";
+  if (variant.feature != Feature::None) return "a layer of first hits";
+  if (options.dispatch == Dispatch::Fragment) return "--dispatch fragment";
+  if (options.schedule == Schedule::Auto) return "the default";
+  return "";
+}
+
+}  // namespace
+
+std::string chooseSchedule(ShaderVariant& variant, const RenderOptions& options) {
+  const std::string why = whyMegakernel(variant, options);
+  variant.wavefront = why.empty();
+  if (variant.wavefront) {
+    variant.dispatch = Dispatch::Compute;
+    variant.waveUnit = freeImageUnit(variant);
+  }
+  return why;
+}
+
+}  // namespace fragtrace
