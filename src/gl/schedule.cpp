@@ -32,7 +32,7 @@ std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& opt
 }  // namespace
 
 std::string chooseSchedule(ShaderVariant& variant, const RenderOptions& options) {
-  const std::string why = whyMegakernel(variant, options);
+  std::string why = whyMegakernel(variant, options);
   variant.wavefront = why.empty();
   if (variant.wavefront) {
     variant.dispatch = Dispatch::Compute;
