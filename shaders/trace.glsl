@@ -46,6 +46,12 @@ Traversal beginTraversal(float limit, bool wanted, int steps) {
   return t;
 }
 
+/// A pixel may want fewer samples than the draw brings (Film::setTargets).
+uint samplesWanted(FilmPixel film) {
+  uint own = film.flags >> kPixelTargetShift;
+  return own > 0u ? min(own, uint(frame.picture.z)) : uint(frame.picture.z);
+}
+
 /// Advances one pixel (y from the bottom) until it has the samples wanted or has used the step budget of this draw.
 void tracePixel(ivec2 pixel) {
   FilmPixel film = loadFilm(pixel);
@@ -53,9 +59,7 @@ void tracePixel(ivec2 pixel) {
   if (film.flags != 0xffffffffu) frame = frameBlock;
   ivec2 place = pixel - frame.tile.xy;
   int state = place.y * frame.tile.z + place.x;
-  // A pixel may want fewer samples than the draw brings (Film::setTargets).
-  uint own = film.flags >> kPixelTargetShift;
-  uint wanted = own > 0u ? min(own, uint(frame.picture.z)) : uint(frame.picture.z);
+  uint wanted = samplesWanted(film);
   int budget = frame.limits.z;
   uint key = pixelKey(uint(pixel.x), uint(frame.picture.y - 1 - pixel.y), uint(frame.picture.w));
   TreeFrame tree = treeFrame();

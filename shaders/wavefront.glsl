@@ -129,77 +129,68 @@ void traceWave(ivec2 lane) {
       int k = findLSB(left);
       uint bit = 1u << k;
       steps += 1;
-      {
-        ivec2 pixel = corner + ivec2(0, k);
-        uint key = pixelKey(uint(pixel.x), uint(frame.picture.y - 1 - pixel.y), uint(frame.picture.w));
-        int row = first + k * int(kWaveRows);
-        WavePath w = loadWave(row, key);
-        Path p = w.path;
-        if (w.waiting) {
-          p.radiance += (blocked & bit) == 0u ? p.contribution : vec3(0.0);
-          w.rays += 1;
-        }
-        FilmPixel film = loadFilm(pixel);
-        if (w.ended) {
-          film = addSample(film, p.radiance, p.alpha);
-          film.rays += uint(w.rays);
-          storeFilm(pixel, film);
-          p.radiance = vec3(0.0);
-          p.alpha = 0.0;
-          w.rays = 0;
-        }
-        bool shadow = false;
-        if (p.phase == kPhaseExtend) {
-          w.rays += 1;
-          if (p.hitSlot < 0) {
-            p = meetSurroundings(p);
-          } else {
-            p = shade(p);
-          }
-          shadow = p.phase == kPhaseShadow;
-          p.phase = shadow ? p.after : p.phase;
-        }
-        w.ended = p.phase == kPhaseEnd || p.phase == kPhaseCut;
-        if (p.phase != kPhaseExtend) {
-          if (w.ended) cut += cutThroughput(p);
-          // The next path begins while the last shadow ray of this one is traced.
-          uint next = film.samples + (w.ended ? 1u : 0u);
-          // A pixel may want fewer samples than the draw brings (Film::setTargets).
-          uint own = film.flags >> kPixelTargetShift;
-          uint wanted = own > 0u ? min(own, uint(frame.picture.z)) : uint(frame.picture.z);
-          vec3 radiance = p.radiance;
-          float alpha = p.alpha;
-          vec3 contribution = p.contribution;
-          vec3 shadowOrigin = p.shadowOrigin;
-          vec3 shadowDirection = p.shadowDirection;
-          float shadowLimit = p.shadowLimit;
-          if (next < wanted) p = startPath(pixel, key, next + uint(frame.sampling.x), 0);
-          p.phase = next < wanted ? kPhaseExtend : kPhaseNone;
-          p.radiance = radiance;
-          p.alpha = alpha;
-          p.contribution = contribution;
-          p.shadowOrigin = shadowOrigin;
-          p.shadowDirection = shadowDirection;
-          p.shadowLimit = shadowLimit;
-          open = p.phase == kPhaseNone && !w.ended ? open & ~bit : open;
-        }
-        if (p.phase == kPhaseExtend) {
-          Traversal t = beginRay(p.origin, p.direction, kFarAway, p.tie, false, tree);
-          p.hitT = t.t;
-          p.hitSlot = t.slot;
-          p.hitInstance = -1;
-          p.hitWeights = t.weights;
-          rays |= t.node != kTraversalDone ? bit : 0u;
-        }
-        if (kShadows && shadow) {
-          Traversal t = beginRay(p.shadowOrigin, p.shadowDirection, p.shadowLimit, 0.0, true, tree);
-          shadows |= t.node != kTraversalDone ? bit : 0u;
-          blockedNext |= t.slot < 0 ? 0u : bit;
-        }
-        w.waiting = shadow;
-        w.path = p;
-        saveWave(w, row);
+      ivec2 pixel = corner + ivec2(0, k);
+      uint key = pixelKey(uint(pixel.x), uint(frame.picture.y - 1 - pixel.y), uint(frame.picture.w));
+      int row = first + k * int(kWaveRows);
+      WavePath w = loadWave(row, key);
+      Path p = w.path;
+      if (w.waiting) {
+        p.radiance += (blocked & bit) == 0u ? p.contribution : vec3(0.0);
+        w.rays += 1;
       }
+      FilmPixel film = loadFilm(pixel);
+      if (w.ended) {
+        film = addSample(film, p.radiance, p.alpha);
+        film.rays += uint(w.rays);
+        storeFilm(pixel, film);
+        p.radiance = vec3(0.0);
+        p.alpha = 0.0;
+        w.rays = 0;
+      }
+      bool shadow = false;
+      if (p.phase == kPhaseExtend) {
+        w.rays += 1;
+        if (p.hitSlot < 0) {
+          p = meetSurroundings(p);
+        } else {
+          p = shade(p);
+        }
+        shadow = p.phase == kPhaseShadow;
+        p.phase = shadow ? p.after : p.phase;
+      }
+      w.ended = p.phase == kPhaseEnd || p.phase == kPhaseCut;
+      if (p.phase != kPhaseExtend) {
+        if (w.ended) cut += cutThroughput(p);
+        // The next path begins while the last shadow ray of this one is traced.
+        uint next = film.samples + (w.ended ? 1u : 0u);
+        bool wanted = next < samplesWanted(film);
+        Path last = p;
+        if (wanted) p = startPath(pixel, key, next + uint(frame.sampling.x), 0);
+        p.phase = wanted ? kPhaseExtend : kPhaseNone;
+        p.radiance = last.radiance;
+        p.alpha = last.alpha;
+        p.contribution = last.contribution;
+        p.shadowOrigin = last.shadowOrigin;
+        p.shadowDirection = last.shadowDirection;
+        p.shadowLimit = last.shadowLimit;
+        open = p.phase == kPhaseNone && !w.ended ? open & ~bit : open;
+      }
+      if (p.phase == kPhaseExtend) {
+        Traversal t = beginRay(p.origin, p.direction, kFarAway, p.tie, false, tree);
+        p.hitT = t.t;
+        p.hitSlot = t.slot;
+        p.hitInstance = -1;
+        p.hitWeights = t.weights;
+        rays |= t.node != kTraversalDone ? bit : 0u;
+      }
+      if (kShadows && shadow) {
+        Traversal t = beginRay(p.shadowOrigin, p.shadowDirection, p.shadowLimit, 0.0, true, tree);
+        shadows |= t.node != kTraversalDone ? bit : 0u;
+        blockedNext |= t.slot < 0 ? 0u : bit;
+      }
+      w.waiting = shadow;
+      w.path = p;
+      saveWave(w, row);
     }
     blocked = blockedNext;
     steps += 2;

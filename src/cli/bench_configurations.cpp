@@ -71,12 +71,7 @@ void parseRender(const GivenOptions& shared, BenchConfiguration& c, const std::s
     }
     return use(app, raw);
   };
-  std::vector<std::string> arguments;
-  std::string before;
-  for (const std::string& argument : CLI::detail::split_up(c.text)) {
-    arguments.push_back(withNumberSettled(argument, before));
-    before = argument;
-  }
+  std::vector<std::string> arguments = withNumbersSettled(CLI::detail::split_up(c.text));
   GivenOptions given =
       parsed(arguments, [](const CLI::App& app, const RawRender&) { return givenOptions(app); });
   for (const auto& [name, option] : shared) given.try_emplace(name, option);

@@ -57,6 +57,13 @@ std::string withNumberSettled(std::string argument, std::string_view before) {
   return argument;
 }
 
+std::vector<std::string> withNumbersSettled(std::vector<std::string> words) {
+  // From the last one on, so that the word before is still as it was given.
+  for (size_t i = words.size(); i-- > 0;)
+    words[i] = withNumberSettled(words[i], i > 0 ? std::string_view(words[i - 1]) : std::string_view());
+  return words;
+}
+
 void addCameraOptions(CLI::App& app, RawCamera& raw) {
   const auto addVector = [&](const char* name, std::vector<double>& values, const char* sentence) {
     app.add_option(name, values, sentence)->delimiter(',')->expected(3);

@@ -32,6 +32,9 @@ struct RawCamera {
 /// --resolution, the word `before` it, may be written as 640x480.
 std::string withNumberSettled(std::string argument, std::string_view before);
 
+/// The same of all words of a command.
+std::vector<std::string> withNumbersSettled(std::vector<std::string> words);
+
 void addCameraOptions(CLI::App& app, RawCamera& raw);
 
 /// Checks what the library cannot, and puts the values into the options. Throws UsageError.

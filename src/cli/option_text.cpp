@@ -74,7 +74,7 @@ std::vector<std::string> splitWords(const std::string& text) {
 }
 
 void parseWords(CLI::App& app, std::vector<std::string> words) {
-  for (size_t i = words.size(); i-- > 0;) words[i] = withNumberSettled(words[i], i > 0 ? words[i - 1] : "");
+  words = withNumbersSettled(std::move(words));
   std::ranges::reverse(words);  // last first, as the library wants them
   try {
     app.parse(words);

@@ -20,9 +20,9 @@ namespace fragtrace {
 namespace {
 
 std::vector<std::string> argumentsOf(int argc, const char* const* argv) {
-  std::vector<std::string> arguments;
-  for (int i = argc - 1; i > 0; --i) arguments.push_back(withNumberSettled(argv[i], argv[i - 1]));
-  return arguments;  // last first, as the library wants them
+  std::vector<std::string> arguments = withNumbersSettled({argv + std::min(argc, 1), argv + argc});
+  std::ranges::reverse(arguments);  // last first, as the library wants them
+  return arguments;
 }
 
 std::vector<std::string> commandNames(const CLI::App& app) {

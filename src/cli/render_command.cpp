@@ -45,9 +45,8 @@ Drawing draw(Renderer& renderer, Film& film, const RenderOptions& options, const
     const AdaptiveGoal goal{options.noise, options.seconds, options.spp};
     AdaptivePicture picture = renderAdaptively(renderer, film.size(), view, goal, stats.times, progress);
     stats.complete = !picture.stopped;
-    stats.adaptive = {options.noise, options.seconds, picture.error,
-                      picture.share, picture.rounds,  picture.known && !picture.black,
-                      picture.black};
+    stats.adaptive = {options.noise,  options.seconds, picture.error, picture.share,
+                      picture.rounds, picture.known,   picture.black};
     drawing = {std::move(picture.pixels), std::move(picture.variance)};
   } else {
     stats.complete = renderer.addSamples(film, view, 0, options.spp, stats.times, progress);

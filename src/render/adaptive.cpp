@@ -169,13 +169,14 @@ AdaptivePicture renderAdaptively(Renderer& renderer, glm::ivec2 size, const View
     picture.share = goal.noise > 0.0 ? distance.share : 0.0;
     picture.error = distance.error;
     // Two samples a half are the fewest that tell an error.
-    picture.known = totalsOf(picture.pixels).fewestSamples >= 4;
-    if (!picture.known) {
+    const bool enough = totalsOf(picture.pixels).fewestSamples >= 4;
+    if (!enough) {
       picture.share = 0.0;
       picture.error = 1.0;
     }
     picture.black =
         std::ranges::all_of(picture.pixels.pixels, [](const FilmPixel& p) { return p.luminance() == 0.0; });
+    picture.known = enough && !picture.black;
     const bool blind = goal.seconds > 0.0 && std::ranges::all_of(errors, [](double e) { return e == 0.0; });
     // Errors fall with the root of the samples.
     roundsDone = goal.noise > 0.0 ? std::pow(goal.noise / std::max(picture.error, goal.noise), 2.0) : 0.0;

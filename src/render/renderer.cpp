@@ -79,9 +79,6 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.picture = {film.size(), 0, int(view.seed)};
   frame_.limits.x = view.bounces;
   frame_.limits.y = view.rouletteDepth;
-  frame_.limits.z = !software_           ? kHardwareStepBudget
-                    : variant_.wavefront ? kSoftwareWaveBudget
-                                         : kSoftwareStepBudget;
   frame_.sampling = {view.sampleOffset, std::bit_cast<int>(view.clampIndirect), 0, 0};
   film.bind();
   buffers_.bind();
@@ -122,24 +119,26 @@ void Renderer::makeResumable() {
   variant_.resumable = true;
   variant_.wavefront = false;
   variant_.waveUnit = -1;
-  if (software_) frame_.limits.z = kSoftwareStepBudget;
   bindPathStates();
   glUseProgram(programs_.tracer(variant_).name());
+}
+
+int Renderer::stepBudget() const {
+  if (!software_) return kHardwareStepBudget;
+  return variant_.wavefront ? kSoftwareWaveBudget : kSoftwareStepBudget;
 }
 
 layout::Progress Renderer::draw() {
   layout::Progress progress{};
   glNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
-  constexpr int kSlots = layout::kWaveSlots;
-  const int rows = variant_.wavefront ? (frame_.tile.w + kSlots - 1) / kSlots : frame_.tile.w;
-  const glm::ivec2 lanes(frame_.tile.z, rows);
   const auto start = Clock::now();
   if (timer_.name() != 0) glBeginQuery(GL_TIME_ELAPSED, timer_.name());
   if (variant_.dispatch == Dispatch::Compute) {
-    const glm::uvec2 groups = (glm::uvec2(lanes) + kGroupSide - 1u) / kGroupSide;
+    const uint32_t slots = variant_.wavefront ? layout::kWaveSlots : 1;
+    const glm::uvec2 lanes(frame_.tile.z, (uint32_t(frame_.tile.w) + slots - 1u) / slots);
+    const glm::uvec2 groups = (lanes + kGroupSide - 1u) / kGroupSide;
     glDispatchCompute(groups.x, groups.y, 1);
   } else {
-    glViewport(frame_.tile.x, frame_.tile.y, lanes.x, lanes.y);
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
   if (timer_.name() != 0) glEndQuery(GL_TIME_ELAPSED);
@@ -163,8 +162,10 @@ bool Renderer::drawTile(Film& film, glm::ivec2 corner, glm::ivec2 tile, int targ
   frame_.tile = {corner, tile};
   frame_.picture.z = target;
   frame_.sampling.z = 0;
+  glViewport(corner.x, corner.y, tile.x, tile.y);
   overBudget_ = false;
   for (;;) {
+    frame_.limits.z = stepBudget();
     glNamedBufferSubData(frameBuffer_.name(), 0, sizeof frame_, &frame_);
     const layout::Progress progress = draw();
     film.addCut((progress.cutHigh * 0x1p32 + progress.cutLow) / layout::kCutUnits);

@@ -83,6 +83,8 @@ class Renderer {
   /// From now on paths are suspended between draws: for scenes with paths that take more than one draw.
   void makeResumable();
   void bindPathStates();
+  /// Loop iterations that a lane may take in one draw.
+  int stepBudget() const;
   layout::Progress draw();
   /// Advances a tile to `target` samples in as many draws as its step budget takes; false when stopped.
   bool drawTile(Film& film, glm::ivec2 corner, glm::ivec2 tile, int target,
