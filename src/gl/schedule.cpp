@@ -22,7 +22,6 @@ std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& opt
   if (options.schedule == Schedule::Megakernel) return "--schedule";
   if (variant.traversal != TraversalMethod::FrontToBack) return "the tree is not walked front to back";
   if (!has(variant.stages, Stage::Gi)) return "a stage before global illumination";
-  if (has(variant.traits, Trait::Alpha)) return "the scene has alpha";
   if (variant.feature != Feature::None) return "a layer of first hits";
   if (options.dispatch == Dispatch::Fragment) return "--dispatch fragment";
   if (options.schedule == Schedule::Auto) return "the default";
