@@ -207,6 +207,13 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   return loaded;
 }
 
+/// Paths that the picture will take, as far as that is known.
+double pathsOf(const LoadedScene& loaded, const RenderOptions& options) {
+  const bool adaptive = options.noise > 0.0 || options.seconds > 0.0;
+  return double(loaded.size.x) * loaded.size.y *
+         (adaptive ? std::numeric_limits<double>::infinity() : options.spp);
+}
+
 void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
                  ShaderVariant& variant) {
   if (loaded.bvh.besideTree > 0) {
@@ -222,10 +229,7 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
   if (!asked && options.traversal != TraversalMethod::Auto) return;
   const std::string reason = asked ? whyNoLiterals(loaded.scene, packed) : "";
   if (!reason.empty()) throw UsageError("--traversal literals: " + reason);
-  const bool adaptive = options.noise > 0.0 || options.seconds > 0.0;
-  const double paths = double(loaded.size.x) * loaded.size.y *
-                       (adaptive ? std::numeric_limits<double>::infinity() : options.spp);
-  if (!asked && !paysAsLiterals(loaded.scene, loaded.bvh, packed, paths)) return;
+  if (!asked && !paysAsLiterals(loaded.scene, loaded.bvh, packed, pathsOf(loaded, options))) return;
   variant.traversal = TraversalMethod::Literals;
   variant.literals = literalScene(loaded.scene, loaded.bvh, packed, variant);
 }
@@ -275,7 +279,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   const bool literals = tracer.variant.traversal == TraversalMethod::Literals;
   tracer.variant.reads = choice.reads;
   tracer.variant.dispatch = chooseDispatch(options.dispatch, context, literals);
-  stats.scheduleReason = chooseSchedule(tracer.variant, options);
+  stats.scheduleReason = chooseSchedule(tracer.variant, options, context.software, pathsOf(loaded, options));
   for (ShaderVariant& feature : tracer.features) {
     feature.reads = choice.reads;
     feature.dispatch = chooseDispatch(options.dispatch, context, false);

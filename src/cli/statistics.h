@@ -45,7 +45,7 @@ struct Statistics {
   double clampIndirect = 0.0;  ///< 0: not clamped
   bool complete = true;
   std::string variant;
-  std::string scheduleReason = "the default";  ///< why the megakernel draws; empty: the wavefront does
+  std::string scheduleReason = "not chosen yet";  ///< why the megakernel draws; empty: the wavefront does
   std::string readFallback;  ///< why buffers are not read the fastest way; empty when they are
   std::string backend;
   std::string glRenderer;

@@ -8,8 +8,8 @@
 
 namespace fragtrace {
 
-/// Settles between the megakernel and the wavefront, once reads and dispatch are known. Returns why it is the
-/// megakernel, or nothing.
-std::string chooseSchedule(ShaderVariant& variant, const RenderOptions& options);
+/// Settles between the megakernel and the wavefront for so many paths, once reads and dispatch are known.
+/// Returns why it is the megakernel, or nothing.
+std::string chooseSchedule(ShaderVariant& variant, const RenderOptions& options, bool software, double paths);
 
 }  // namespace fragtrace

@@ -45,9 +45,9 @@ inline DrawPlan planDraws(glm::ivec2 picture, int remaining, int most, double ms
 }
 
 /// The same for the wavefront, whose draws are cut by steps: paths go on from draw to draw, so a tile gets
-/// all its samples before the next one, and only its last paths leave lanes idle.
+/// many samples before the next one, and only its last paths leave lanes idle.
 inline DrawPlan planWaves(glm::ivec2 picture, int remaining) {
-  return {glm::min(picture, glm::ivec2(128, 256)), remaining};
+  return {glm::min(picture, glm::ivec2(128, 256)), std::min(remaining, 64)};
 }
 
 }  // namespace fragtrace

@@ -124,8 +124,13 @@ void Renderer::makeResumable() {
 }
 
 int Renderer::stepBudget() const {
-  if (!software_) return kHardwareStepBudget;
-  return variant_.wavefront ? kSoftwareWaveBudget : kSoftwareStepBudget;
+  if (variant_.wavefront) return waveBudget_;
+  return software_ ? kSoftwareStepBudget : kHardwareStepBudget;
+}
+
+void Renderer::adaptBudget(double ms) {
+  const int most = software_ ? kSoftwareWaveBudget : kHardwareStepBudget;
+  waveBudget_ = std::clamp(int(waveBudget_ * std::clamp(targetMs_ / ms, 0.5, 2.0)), kLeastWaveBudget, most);
 }
 
 layout::Progress Renderer::draw() {
@@ -165,12 +170,14 @@ bool Renderer::drawTile(Film& film, glm::ivec2 corner, glm::ivec2 tile, int targ
   glViewport(corner.x, corner.y, tile.x, tile.y);
   overBudget_ = false;
   for (;;) {
+    const auto start = Clock::now();
     frame_.limits.z = stepBudget();
     glNamedBufferSubData(frameBuffer_.name(), 0, sizeof frame_, &frame_);
     const layout::Progress progress = draw();
     film.addCut((progress.cutHigh * 0x1p32 + progress.cutLow) / layout::kCutUnits);
     if (!goOn()) return false;
     if (progress.unfinished == 0) return true;
+    if (variant_.wavefront) adaptBudget(milliseconds(start, Clock::now()));
     if (progress.stuck > 0 && !variant_.resumable) makeResumable();
     overBudget_ = true;
     frame_.sampling.z = 1;
@@ -247,7 +254,7 @@ bool Renderer::addSamples(Film& film, const View& view, std::span<const Work> pa
     for (int done = w.from; complete && done < w.to;) {
       const double affordable = msPerSample_ > 0.0 ? targetMs_ / (msPerSample_ * pixels) : 1.0;
       const int most = std::min(mostSamplesPerDraw_, w.to - done);
-      const int samples = int(std::clamp(affordable, 1.0, double(most)));
+      const int samples = variant_.wavefront ? w.to - done : int(std::clamp(affordable, 1.0, double(most)));
       const auto drawStart = Clock::now();
       const double fraction = pixelSamplesDone / total;
       complete = drawTile(film, w.corner, w.size, done + samples, [&] { return progress(fraction); });

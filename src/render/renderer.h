@@ -46,6 +46,8 @@ struct Work {
 };
 
 class Renderer {
+  static constexpr int kLeastWaveBudget = 2000;  // a round of 32 pixels takes a few hundred steps
+
  public:
   /// Uploads the scene, which must hold all that the variants to come read; its arrays are freed one by one.
   Renderer(const Context& context, GpuScene scene, BufferReads reads,
@@ -85,6 +87,8 @@ class Renderer {
   void bindPathStates();
   /// Loop iterations that a lane may take in one draw.
   int stepBudget() const;
+  /// The wavefront's from the time of a draw that used it up.
+  void adaptBudget(double ms);
   layout::Progress draw();
   /// Advances a tile to `target` samples in as many draws as its step budget takes; false when stopped.
   bool drawTile(Film& film, glm::ivec2 corner, glm::ivec2 tile, int target,
@@ -110,6 +114,7 @@ class Renderer {
   double msPerSample_ = 0.0;
   int mostSamplesPerDraw_ = 1;
   bool overBudget_ = false;  ///< the last tile needed more than one draw
+  int waveBudget_ = kLeastWaveBudget;
 };
 
 }  // namespace fragtrace

@@ -58,6 +58,13 @@ class Schedules(Case):
     def test_adaptive_targets(self):
         self.same("room-ball", "--resolution", "40,40", "--noise", 0.2, "--spp", 512)
 
+    def test_auto_takes_the_wavefront_for_many_paths(self):
+        """On a software rasteriser, which is what the tests have."""
+        few = self.drawn("sun-sky", "auto", "--traversal", "front-to-back", "--resolution", "8,8", "--spp", 1)[1]
+        self.assertEqual((few["schedule"], few.get("schedule_reason")), ("megakernel", "few paths"))
+        many = self.drawn("sun-sky", "auto", "--traversal", "front-to-back", "--resolution", "8,8", "--spp", 16384, "--noise", 0.5)[1]
+        self.assertEqual((many["schedule"], many.get("schedule_reason")), ("wavefront", None))
+
     def test_why_it_is_the_megakernel(self):
         small = ["--resolution", "8,8", "--spp", 1]
         for why, scene, options in (("the tree is not walked front to back", "cornell-box", ["--traversal", "literals"]),
