@@ -50,7 +50,8 @@ StressReport measure(const BenchStressOptions& options, const std::vector<Stress
   ProgressBar bar("trying", options.render.quiet);
   const auto goOn = [&] { bar.show(double(report.rows.size()) / double(rows.size())); };
   for (const StressRow& row : rows) {
-    StressSetting setting{context, options.render.shaderFolder, options.quick, true, goOn};
+    StressSetting setting{context, options.render.shaderFolder, options.quick,
+                          true,    options.render.schedule,     goOn};
     StressResult result{row.name, row.sentence, row.limit, timed(row, setting), {}};
     setting.watertight = false;
     if (row.fastToo) result.fast = timed(row, setting);

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/choose.h"
 #include "cli/device_options.h"
 
 namespace fragtrace {
@@ -13,6 +14,9 @@ void addBenchStressOptions(CLI::App& app, RawBenchStress& raw) {
   app.add_option("--rows", o.rows, "only rows whose name holds one of these")->delimiter(',');
   app.add_option("--json", o.json, "file for everything found, a line a row");
   addDeviceOptions(app, raw.render);
+  app.add_option("--schedule", raw.render.schedule,
+                 joined(kScheduleNames) + ": what traces paths; auto: the megakernel, as pictures are small")
+      ->capture_default_str();
 }
 
 BenchStressOptions finishBenchStress(const RawBenchStress& raw) {

@@ -6,6 +6,7 @@
 #include "bench/formatted.h"
 #include "bvh/two_level.h"
 #include "errors.h"
+#include "gl/schedule.h"
 #include "pack/literals.h"
 #include "pack/pack_tree.h"
 #include "scene/creases.h"
@@ -23,6 +24,7 @@ RenderOptions optionsOf(const StressSetting& setting, Stage stage) {
   RenderOptions options;
   options.stages = stagesUpTo(stage);
   options.stages.set(size_t(Stage::Watertight), setting.watertight);
+  options.schedule = setting.schedule;
   return options;
 }
 
@@ -40,6 +42,7 @@ StressPicture::StressPicture(const StressSetting& setting, Scene scene, const En
     variant_.literals = literalScene(scene, bvh, packed, variant_);
   }
   variant_.reads = chooseReads(BufferReads::Auto, setting.context.software, packed, readLimits()).reads;
+  chooseSchedule(variant_, options, setting.context.software, 0.0);
   renderer_ =
       std::make_unique<Renderer>(setting.context, std::move(packed), variant_.reads, setting.shaderFolder);
 }

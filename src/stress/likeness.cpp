@@ -102,11 +102,14 @@ Likeness hitsOf(const Context& context, uint32_t seed, Form form, const SceneDra
   return l;
 }
 
-Likeness likenessOf(const Context& context, uint32_t seed, Form form, const SceneDrawing::GoOn& goOn) {
+Likeness likenessOf(const Context& context, uint32_t seed, Form form, Schedule schedule,
+                    const SceneDrawing::GoOn& goOn) {
   Likeness l;
   l.seed = seed;
   l.form = form;
-  Pair pair(context, seed, form, optionsOf(24));
+  RenderOptions options = optionsOf(24);
+  options.schedule = schedule;
+  Pair pair(context, seed, form, options);
   const FilmPixels a = pair.a.picture(goOn);
   const FilmPixels b = pair.b.picture(goOn);
   const PictureCheck check = checkPicture(b, a, CheckAgainst::OtherSamples);

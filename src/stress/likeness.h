@@ -23,7 +23,8 @@ struct Likeness {
 /// Draws randomSketch(seed) and its form, of 24 x 24 pixels. The limits: for the same random numbers, 0.1 %
 /// of the mean and 3 standard errors in each block; else 5 standard errors in the mean and in each of the 9
 /// blocks, which one scene of 170,000 exceeds by chance.
-Likeness likenessOf(const Context& context, uint32_t seed, Form form, const SceneDrawing::GoOn& goOn);
+Likeness likenessOf(const Context& context, uint32_t seed, Form form, Schedule schedule,
+                    const SceneDrawing::GoOn& goOn);
 
 /// Its hits alone: of 64 x 64 pixels.
 Likeness hitsOf(const Context& context, uint32_t seed, Form form, const SceneDrawing::GoOn& goOn);

@@ -36,7 +36,7 @@ StressOutcome drawForms(const StressSetting& setting, Form form) {
   const uint32_t scenes = setting.quick ? kSketchKinds : 84;
   StressOutcome outcome;
   for (uint32_t seed = firstSeed(form); seed < firstSeed(form) + scenes; ++seed) {
-    const Likeness likeness = likenessOf(setting.context, seed, form, setting.goOn);
+    const Likeness likeness = likenessOf(setting.context, seed, form, setting.schedule, setting.goOn);
     ++outcome.cases;
     if (likeness.wrong.empty()) continue;
     ++outcome.failures;

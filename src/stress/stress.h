@@ -10,6 +10,7 @@
 
 #include "bench/stress_report.h"
 #include "gl/context.h"
+#include "stage/options.h"
 
 namespace fragtrace {
 
@@ -19,6 +20,7 @@ struct StressSetting {
   std::filesystem::path shaderFolder;  ///< shaders from disk in place of the built-in ones
   bool quick = false;                  ///< about a hundredth of the cases
   bool watertight = true;              ///< else with the fast triangle test
+  Schedule schedule = Schedule::Auto;  ///< of what is path traced
   std::function<void()> goOn;          ///< to be called now and then, so that progress shows
 };
 

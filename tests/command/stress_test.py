@@ -33,8 +33,11 @@ class Stress(Case):
 
 class StressRows(Stress):
     def test_no_row_is_over_its_limit(self):
-        for backend in ("egl", "osmesa"):
-            rows = self.rows("--rendering-backend", backend)
+        self.within_limits(("egl", "megakernel"), ("osmesa", "wavefront"))
+
+    def within_limits(self, *settings):
+        for backend, schedule in settings:
+            rows = self.rows("--rendering-backend", backend, "--schedule", schedule)
             self.assertGreater(len(rows), 15)
             for row in rows.values():
                 # Cases are rays or pixels, where they are not whole scenes, files or trees.
@@ -43,6 +46,11 @@ class StressRows(Stress):
                 self.assertEqual(row["backend"], backend)
             # What the fast test is there to show.
             self.assertGreater(rows["rays rims-from-inside"]["fast_failures"], 0)
+
+
+class StressSchedules(StressRows):
+    def test_no_row_is_over_its_limit(self):
+        self.within_limits(("egl", "wavefront"), ("osmesa", "megakernel"))
 
 
 class StressMutations(Stress):
