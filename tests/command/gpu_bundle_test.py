@@ -11,18 +11,21 @@ import time
 from support import FRAGTRACE, SCENES, Case, main
 
 GPU = SCENES.parent / "bench/gpu"
-# Draws everything by fragments, never ends its rays, and makes no 10 million triangles.
+# Draws everything by fragments, tells nothing of the ball, never ends its rays, and makes no 10 million triangles.
 PLAYED = """#!/usr/bin/env python3
-import json, sys, time
+import json, os, sys, time
 words = sys.argv[1:]
 after = lambda name: words[words.index(name) + 1]
 write = lambda name, value: open(after(name), "w").write(json.dumps(value) + "\\n")
 if words[0] == "render":
     write("--stats", {"gl_renderer": "played renderer", "gl_version": "4.5 played"})
+elif words[1] == "frame" and "room-ball" in words[2]:
+    write("--json", {"frame_ms": None})
 elif words[1] == "frame":
     write("--json", {"frame_ms": {"median": 0.25}, "compile_ms": 100, "mpaths_per_s": 2, "mrays_per_s": 3, "picture": {"right": True},
                      "variant": "flat+front-to-back+fragment"})
 elif words[1] == "traversal":
+    open("process", "w").write(str(os.getpid()))
     time.sleep(60)
 else:
     sys.exit("fragtrace: too many triangles")
@@ -50,7 +53,7 @@ class GpuTable(Case):
         return {cells[1]: cells[2:] for cells in lines[2:]}
 
     def test_what_fails_or_takes_too_long_has_its_row_and_the_rest_goes_on(self):
-        process = self.begin("--seconds", "20", "--only", "mesh,scale,rays,helmet")
+        process = self.begin("--seconds", "20", "--only", "mesh,ball,scale,rays,helmet")
         output, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 1, errors)
         text = (self.out / "table.md").read_text()
@@ -64,14 +67,17 @@ class GpuTable(Case):
         self.assertIn("FAILED: status 1: fragtrace: too many triangles", rows["10 million triangles"][2])
         self.assertIn("FAILED: stopped at its limit of 2 s", rows["rays a second"][2])
         self.assertIn("FlightHelmet.gltf is not in the bundle", rows["FlightHelmet under lightroom_14b, compute"][2])
-        self.assertIn("6 rows failed or are wrong", text.splitlines()[-1])
-        self.assertEqual(len((self.out / "figures.jsonl").read_text().splitlines()), 2)
+        self.assertIn("FAILED: its figures cannot be read: TypeError", rows["room with the ball, compute"][2])
+        self.assertIn("9 rows failed or are wrong", text.splitlines()[-1])
+        self.assertEqual(len((self.out / "figures.jsonl").read_text().splitlines()), 5)
 
     def test_an_interrupted_run_keeps_its_table(self):
         process = self.begin("--only", "mesh,rays")
         for line in process.stderr:
             if line.startswith("run: rays"):
                 break
+        while not (self.bundle / "process").exists() or not (self.bundle / "process").read_text():
+            time.sleep(0.02)
         began = time.monotonic()
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=60)
@@ -79,6 +85,8 @@ class GpuTable(Case):
         self.assertLess(time.monotonic() - began, 10)
         self.assertEqual(len(self.rows()), 2)
         self.assertIn("INTERRUPTED", (self.out / "table.md").read_text())
+        with self.assertRaises(ProcessLookupError):
+            os.kill(int((self.bundle / "process").read_text()), 0)
 
     def test_what_cannot_be_done_is_refused(self):
         for options, says in ((["--only", "boxes"], "'boxes' is none of correctness, report"), (["--seconds", "0"], "above 0"),
