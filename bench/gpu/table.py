@@ -52,8 +52,9 @@ def frame_cells(frame, line):
     ms = line["frame_ms"]["median"] * frame.samples
     each = f"ms a picture of {frame.samples} samples" if frame.samples > 1 else "ms a frame"
     notes = [verdict(line["picture"]), f"compiled in {line['compile_ms'] / 1000:.1f} s"]
-    if not frame.wants <= set(line["variant"].split("+")):
-        notes.append(f"NOT drawn as asked, but by {line['variant'].split('+', 1)[1]}")
+    lacking = frame.wants - set(line["variant"].split("+"))
+    if lacking:
+        notes.append(f"NOT drawn as asked: without {', '.join(sorted(lacking))}")
     measured = f"{milliseconds(ms)} {each}; {line['mpaths_per_s']:.2f} Mpaths/s, {line['mrays_per_s']:.1f} Mrays/s"
     return frame.title, measured, aim_text(frame.aim), ", ".join(notes)
 
