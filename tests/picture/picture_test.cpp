@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // One picture test: renders through the real command line and compares with a reference EXR, noise taken into
-// account. usage: picture_test NAME BACKEND FRAGTRACE SOURCE_FOLDER OUTPUT_FOLDER
+// account. usage: picture_test NAME BACKEND FRAGTRACE SOURCE_FOLDER OUTPUT_FOLDER [OPTION...]
+// The options go to `render`. References may be .pfm, too (bench/gpu/pack).
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "image/difference.h"
 #include "image/image.h"
@@ -22,6 +24,7 @@ constexpr double kMeanBias = 0.005;
 /// of the picture's mean: texels are half floats (2^-12 = 2.4e-4).
 constexpr double kRounding = 3e-4;
 constexpr int kBlocks[] = {1, 4};  // pixels a side: each pixel, and averages that show what is small and wide
+constexpr int kOptions = 6;        // the first argument that is one
 
 /// The z above which a normal variable lies with probability p on either side (bisection on erfc).
 double normalQuantile(double p) {
@@ -87,7 +90,12 @@ double meanOf(const Image& image, size_t channel) {
 
 std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
-int run(char** argv) {
+Image readReference(const std::filesystem::path& folder, const std::string& name) {
+  const std::filesystem::path exr = folder / (name + ".exr");
+  return fragtrace::readImage(std::filesystem::exists(exr) ? exr : folder / (name + ".pfm"));
+}
+
+int run(std::span<char*> argv) {
   const std::string name = argv[1];
   const std::string backend = argv[2];
   const std::filesystem::path source = argv[4];
@@ -112,14 +120,16 @@ int run(char** argv) {
                         backend + " --schedule " + schedule + " --aov variance --spp " + std::to_string(spp) +
                         " --resolution " + std::to_string((*entry)["resolution"][0].get<int>()) + "," +
                         std::to_string((*entry)["resolution"][1].get<int>());
-  for (const auto& option : (*entry)["options"]) command += " " + quoted(option.get<std::string>());
+  const auto add = [&](const std::string& option) { command.append(" ").append(quoted(option)); };
+  for (const auto& option : (*entry)["options"]) add(option.get<std::string>());
+  for (const char* option : argv.subspan(kOptions)) add(option);
   std::printf("rerun: %s\n", command.c_str());
   if (std::system(command.c_str()) != 0) return 1;
 
   const std::string reference = entry->value("same_as", name);
   const Image a = fragtrace::readImage(base + ".exr");
-  const Image b = fragtrace::readImage(references / (reference + ".exr"));
-  const Image variance = fragtrace::readImage(references / (reference + ".variance.exr"));
+  const Image b = readReference(references, reference);
+  const Image variance = readReference(references, reference + ".variance");
   const fragtrace::Difference difference = fragtrace::compare(a, b);
   const double mean = std::max(1e-6, (meanOf(b, 0) + meanOf(b, 1) + meanOf(b, 2)) / 3.0);
 
@@ -168,9 +178,9 @@ int run(char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 6) return 2;
+  if (argc < kOptions) return 2;
   try {
-    return run(argv);
+    return run({argv, size_t(argc)});
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

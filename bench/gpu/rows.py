@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: MIT
+"""What bench/gpu/run measures: one entry a call of the program. Seconds are for a GPU, where the whole takes at most 480."""
+from dataclasses import dataclass, field
+
+WHOLE_SECONDS = 480
+CORRECTNESS_SECONDS = 150  # of all reference pictures together
+PICTURE_SECONDS = 30  # of one picture
+
+# How reference pictures are drawn: the name, options of `render`, and the stage that it draws alone.
+ENTRIES = (
+    ("fragment entry", ["--dispatch", "fragment"], None),
+    ("compute entry", ["--dispatch", "compute"], None),
+    ("wavefront", ["--schedule", "wavefront", "--traversal", "front-to-back"], "gi"),
+)
+
+SIZE = ["--resolution", "500,500"]
+ROUND_TIME = ["--round-time", "0.2"]
+EGL = ["--rendering-backend", "egl"]
+BOX_SAMPLES = 128
+BOX_AIM = "< 12.5 ms"
+
+# Parts of `bench report`: the name, and its seconds.
+REPORT_PARTS = (("traversal", 60), ("gi", 40), ("primitives", 120))
+# Milliseconds of the report's GPU by the end of a row's name, as docs/benchmarks.md has them; None: it has no figure.
+REPORT = {
+    "15,743 triangles, iterative": "55", "62,975 triangles, iterative": "226", "15,743 triangles, bvh": "0.66",
+    "62,975 triangles, bvh": "0.91", "15,743 triangles, front-to-back": "0.38", "62,975 triangles, front-to-back": "0.43",
+    "Cornell box, 128 samples": "125", "nothing hit": None, "flat": "0.29 to 0.30", "Blinn-Phong": "0.29 to 0.30",
+    "shadow rays": "0.29 to 0.30", "reflections": "0.29 to 0.30",
+}
+MESH_AIM = "< 0.1 ms"
+REPORT_AIMS = {"62,975 triangles, front-to-back": MESH_AIM, "Cornell box, 128 samples": BOX_AIM}
+
+
+@dataclass
+class Frame:
+    """A call of `bench frame`."""
+    part: str
+    title: str
+    scene: str
+    options: list
+    wants: set  # words of the variant that is to draw
+    aim: str = ""
+    samples: int = 1  # of a picture whose time is told
+    seconds: float = 40
+    needs: list = field(default_factory=list)  # files that the bundle may lack
+
+
+FRAGMENT = ["--dispatch", "fragment"]
+COMPUTE = ["--dispatch", "compute"]
+LITERALS = ["--traversal", "literals"]
+TREE = ["--traversal", "front-to-back"]
+WAVEFRONT = ["--schedule", "wavefront", *TREE]
+
+
+def box(part, title, options, wants):
+    return Frame(part, title, "scenes/cornell-box.gltf", ["--spp", str(BOX_SAMPLES), *options], wants, BOX_AIM, BOX_SAMPLES)
+
+
+def mesh(title, options, wants):
+    return Frame("mesh", f"62,975 triangles, flat, front to back, {title}", "scenes/mesh-62975.gltf", ["--stage", "flat", *TREE, *options],
+                 wants, MESH_AIM)
+
+
+def ball(title, options, wants):
+    return Frame("ball", f"room with the ball, {title}", "scenes/room-ball.gltf", options, wants)
+
+
+def helmet(title, options, wants):  # has alpha, which the wavefront does not draw
+    files = ["assets/FlightHelmet/FlightHelmet.gltf", "assets/lightroom_14b.hdr"]
+    return Frame("helmet", f"FlightHelmet under lightroom_14b, {title}", files[0], ["--hdri-file", files[1], *options], wants, needs=files)
+
+
+FRAMES = (
+    box("box", "fragment, literals", [*FRAGMENT, *LITERALS], {"fragment", "literals"}),
+    box("box", "compute, literals", [*COMPUTE, *LITERALS], {"compute", "literals"}),
+    box("box", "fragment, tree", [*FRAGMENT, *TREE], {"fragment", "front-to-back"}),
+    box("box", "compute, tree", [*COMPUTE, *TREE], {"compute", "front-to-back"}),
+    box("box", "wavefront", WAVEFRONT, {"wavefront"}),
+    *(box("reads", f"compute, tree, {reads} reads", [*COMPUTE, *TREE, "--buffer-reads", reads], {"compute", f"{reads}-reads"})
+      for reads in ("ssbo", "texel", "image")),
+    *(box("draws", f"compute, literals, at most {count} samples a draw", [*COMPUTE, *LITERALS, "--samples-per-draw", str(count)],
+          {"compute", "literals"}) for count in (1, 8, 32)),
+    mesh("fragment", FRAGMENT, {"fragment"}),
+    mesh("compute", COMPUTE, {"compute"}),
+    ball("fragment", FRAGMENT, {"fragment"}),
+    ball("compute", COMPUTE, {"compute"}),
+    ball("wavefront", WAVEFRONT, {"wavefront"}),
+    helmet("fragment", FRAGMENT, {"fragment"}),
+    helmet("compute", COMPUTE, {"compute"}),
+)
+
+SCALE = ["--from", "10000000", "--to", "10000000", "--traversals", "front-to-back,bvh"]
+SCALE_SECONDS = 80
+RAYS = ["scenes/room-ball.gltf"]
+RAYS_SECONDS = 40
+RAY_AIMS = {"diffuse": "2000 Mrays/s"}
+
+# To be looked at: the file, and arguments of `render`.
+PICTURES = (
+    ("cornell-box.png", ["scenes/cornell-box.gltf", *SIZE, "--spp", "128"], []),
+    ("room-ball.png", ["scenes/room-ball.gltf", *SIZE, "--spp", "64"], []),
+    ("helmet.png", ["assets/FlightHelmet/FlightHelmet.gltf", *SIZE, "--spp", "64", "--hdri-file", "assets/lightroom_14b.hdr"],
+     ["assets/FlightHelmet/FlightHelmet.gltf", "assets/lightroom_14b.hdr"]),
+)
+PARTS = ("correctness", "report", *dict.fromkeys(frame.part for frame in FRAMES), "scale", "rays", "pictures")

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: MIT
+"""The table of bench/gpu/run, and what its cells say of the lines that the program's benchmarks write."""
+import os
+from pathlib import Path
+
+from rows import BOX_SAMPLES, RAY_AIMS, REPORT, REPORT_AIMS
+
+COLUMNS = ("part", "what", "measured", "beside it", "picture, notes")
+
+
+class Table:
+    """Is printed line by line, and stands whole in the file after each row."""
+
+    def __init__(self, path, head):
+        self.path = path
+        self.text = head + "\n\n"
+        print(head, end="\n\n", flush=True)
+        self.line(COLUMNS)
+        self.line(["---"] * len(COLUMNS))
+
+    def line(self, cells):
+        line = "| " + " | ".join(str(cell).replace("|", "/").replace("\n", " ") for cell in cells) + " |"
+        self.text += line + "\n"
+        print(line, flush=True)
+        self.save()
+
+    def save(self):
+        part = Path(str(self.path) + ".part")
+        part.write_text(self.text)
+        os.replace(part, self.path)
+
+    def close(self, note):
+        self.text += f"\n{note}\n"
+        print(f"\n{note}", flush=True)
+        self.save()
+
+
+def milliseconds(ms):
+    return f"{ms:.0f}" if ms >= 100 else f"{ms:.1f}" if ms >= 10 else f"{ms:.3f}"
+
+
+def verdict(picture):
+    return "right" if picture["right"] else "WRONG PICTURE: " + picture.get("wrong", "see figures.jsonl")
+
+
+def aim_text(aim):
+    return f"aim {aim}" if aim else ""
+
+
+def frame_cells(frame, line):
+    """Of a row of rows.FRAMES."""
+    ms = line["frame_ms"]["median"] * frame.samples
+    each = f"ms a picture of {frame.samples} samples" if frame.samples > 1 else "ms a frame"
+    notes = [verdict(line["picture"]), f"compiled in {line['compile_ms'] / 1000:.1f} s"]
+    lacking = frame.wants - set(line["variant"].split("+"))
+    if lacking:
+        notes.append(f"NOT drawn as asked: without {', '.join(sorted(lacking))}")
+    measured = f"{milliseconds(ms)} {each}; {line['mpaths_per_s']:.2f} Mpaths/s, {line['mrays_per_s']:.1f} Mrays/s"
+    return frame.title, measured, aim_text(frame.aim), ", ".join(notes)
+
+
+def report_rows(lines):
+    """A row of cells for each row of the report's table, from the lines of its settings."""
+    by_name = {}
+    for line in lines:
+        by_name.setdefault(line["configuration"], {})["single" if line["samples_per_draw"] == 1 else "many"] = line
+    for name, found in by_name.items():
+        samples = BOX_SAMPLES if name.startswith("Cornell") else 1
+        times = {key: milliseconds(line["frame_ms"]["mean"] * samples) for key, line in found.items()}
+        measured = f"{times.get('many', '-')} ms"
+        if "single" in times:
+            measured += f"; a draw a sample: {times['single']} ms"
+        report = REPORT.get(name, REPORT.get(name.split(", ")[-1]))
+        beside = [f"report {report} ms"] if report else []
+        if name in REPORT_AIMS:
+            beside.append(aim_text(REPORT_AIMS[name]))
+        wrong = [verdict(line["picture"]) for line in found.values() if not line["picture"]["right"]]
+        yield name, measured, ", ".join(beside), wrong[0] if wrong else "right"
+
+
+def scale_rows(lines):
+    for line in lines:
+        if "traversals" not in line:
+            continue
+        size = f"{line['triangles']:,} triangles"
+        yield (f"{size}, tree", f"built in {line['build_ms']:.0f} ms, packed in {line['pack_ms']:.0f}, uploaded in {line['upload_ms']:.0f}", "",
+               f"{line['gpu_bytes_per_triangle']:.1f} bytes a triangle on the device, peak {line['peak_bytes'] / 1e6:.0f} MB here")
+        for t in line["traversals"]:
+            wrong = f"{t['wrong_pixels']} of {t['compared_pixels']} pixels wrong"
+            yield f"{size}, flat, {t['traversal']}", f"{milliseconds(t['median_ms'])} ms a frame", "", wrong
+
+
+def ray_rows(lines):
+    for line in lines:
+        wrong = f"{line['wrong']} of {line['rays']} rays wrong ({line['wrong_allowed']} may be)"
+        yield f"{line['kind']} rays", f"{line['mrays_per_s']:.1f} Mrays/s", aim_text(RAY_AIMS.get(line["kind"])), wrong
