@@ -58,6 +58,7 @@ double millisecondsOf(const timeval& time) { return 1e3 * double(time.tv_sec) + 
 EndedProcess startAndAwait(std::vector<std::string> words) {
   words.insert(words.begin(), "fragtrace");
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
@@ -77,7 +78,7 @@ EndedProcess startAndAwait(std::vector<std::string> words) {
   }
   ended.end = steadyMilliseconds();
   ended.cpuMs = millisecondsOf(used.ru_utime) + millisecondsOf(used.ru_stime);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw RenderError("a start failed: " + words[1]);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw RenderError("a start failed, as said above");
   return ended;
 }
 
