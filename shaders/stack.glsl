@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The traversal stack as named scalars, shifted by selects: a private array is what costs most on llvmpipe. Only the
-// first kStackSize entries live; the rest are never read, and the compiler drops them. The tree is no deeper than
+// first kStackSize entries live; the rest are never named, and taken out of the text (src/shader/live_text.h). The tree is no deeper than
 // kStackSize, so nothing is ever lost at the bottom.
 
 struct Stack {
@@ -17,16 +17,28 @@ Stack emptyStack() {
   Stack s;
   s.s0 = kTraversalDone; s.s1 = kTraversalDone; s.s2 = kTraversalDone; s.s3 = kTraversalDone;
   s.s4 = kTraversalDone; s.s5 = kTraversalDone; s.s6 = kTraversalDone; s.s7 = kTraversalDone;
-  s.s8 = kTraversalDone; s.s9 = kTraversalDone; s.s10 = kTraversalDone; s.s11 = kTraversalDone;
-  s.s12 = kTraversalDone; s.s13 = kTraversalDone; s.s14 = kTraversalDone; s.s15 = kTraversalDone;
-  s.s16 = kTraversalDone; s.s17 = kTraversalDone; s.s18 = kTraversalDone; s.s19 = kTraversalDone;
-  s.s20 = kTraversalDone; s.s21 = kTraversalDone; s.s22 = kTraversalDone; s.s23 = kTraversalDone;
-  s.s24 = kTraversalDone; s.s25 = kTraversalDone; s.s26 = kTraversalDone; s.s27 = kTraversalDone;
-  s.s28 = kTraversalDone; s.s29 = kTraversalDone; s.s30 = kTraversalDone; s.s31 = kTraversalDone;
-  s.s32 = kTraversalDone; s.s33 = kTraversalDone; s.s34 = kTraversalDone; s.s35 = kTraversalDone;
-  s.s36 = kTraversalDone; s.s37 = kTraversalDone; s.s38 = kTraversalDone; s.s39 = kTraversalDone;
-  s.s40 = kTraversalDone; s.s41 = kTraversalDone; s.s42 = kTraversalDone; s.s43 = kTraversalDone;
-  s.s44 = kTraversalDone; s.s45 = kTraversalDone; s.s46 = kTraversalDone; s.s47 = kTraversalDone;
+  if (kStackSize > 8) {
+    s.s8 = kTraversalDone; s.s9 = kTraversalDone; s.s10 = kTraversalDone; s.s11 = kTraversalDone;
+  }
+  if (kStackSize > 12) {
+    s.s12 = kTraversalDone; s.s13 = kTraversalDone; s.s14 = kTraversalDone; s.s15 = kTraversalDone;
+  }
+  if (kStackSize > 16) {
+    s.s16 = kTraversalDone; s.s17 = kTraversalDone; s.s18 = kTraversalDone; s.s19 = kTraversalDone;
+  }
+  if (kStackSize > 20) {
+    s.s20 = kTraversalDone; s.s21 = kTraversalDone; s.s22 = kTraversalDone; s.s23 = kTraversalDone;
+  }
+  if (kStackSize > 24) {
+    s.s24 = kTraversalDone; s.s25 = kTraversalDone; s.s26 = kTraversalDone; s.s27 = kTraversalDone;
+    s.s28 = kTraversalDone; s.s29 = kTraversalDone; s.s30 = kTraversalDone; s.s31 = kTraversalDone;
+  }
+  if (kStackSize > 32) {
+    s.s32 = kTraversalDone; s.s33 = kTraversalDone; s.s34 = kTraversalDone; s.s35 = kTraversalDone;
+    s.s36 = kTraversalDone; s.s37 = kTraversalDone; s.s38 = kTraversalDone; s.s39 = kTraversalDone;
+    s.s40 = kTraversalDone; s.s41 = kTraversalDone; s.s42 = kTraversalDone; s.s43 = kTraversalDone;
+    s.s44 = kTraversalDone; s.s45 = kTraversalDone; s.s46 = kTraversalDone; s.s47 = kTraversalDone;
+  }
   return s;
 }
 

@@ -159,7 +159,7 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
       view.seed += uint32_t(r);
       Film film(c.loaded.size);
       const double compileMs = c.tracer.renderer->compile(c.tracer.variant, film, view);
-      if (r == 0) c.curve.compileMs = compileMs;  // later ones are in the program cache
+      if (r == 0) c.curve.compileMs = c.tracer.programMs + compileMs;  // later ones are in the program cache
       RenderTimes warmUp;
       c.tracer.renderer->addSamples(film, view, 0, 1, warmUp);
       c.curve.repetitions.push_back(c.configuration.adaptive() ? measureAdaptive(c, view, judge)

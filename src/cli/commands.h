@@ -17,6 +17,7 @@ int runBenchReport(const BenchReportOptions& options);
 int runBenchVariants(const BenchVariantsOptions& options);
 int runBenchScale(const BenchScaleOptions& options);
 int runBenchTraversal(const BenchTraversalOptions& options);
+int runBenchStart(const BenchStartOptions& options);
 int runBenchStress(const BenchStressOptions& options);
 
 }  // namespace fragtrace

@@ -4,11 +4,11 @@
 
 #include <csignal>
 #include <cstdio>
-#include <iostream>
 #include <new>
 
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/leave.h"
 #include "errors.h"
 
 namespace {
@@ -61,6 +61,8 @@ int run(int argc, char** argv) {
       return runBenchScale(line->benchScale);
     case Command::BenchTraversal:
       return runBenchTraversal(line->benchTraversal);
+    case Command::BenchStart:
+      return runBenchStart(line->benchStart);
     case Command::BenchStress:
       return runBenchStress(line->benchStress);
   }
@@ -72,9 +74,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     const int status = run(argc, argv);
-    std::cout.flush();
-    if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout))
-      return fail(kFailed, "cannot write to standard output");
+    fragtrace::checkPrinted();
     return status;
   } catch (const fragtrace::UsageError& error) {
     return fail(kUsage, error.what());

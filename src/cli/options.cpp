@@ -123,6 +123,9 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   RawBenchTraversal rawTraversal;
   CLI::App& benchTraversal = *bench.add_subcommand("traversal", "rays a second, nothing shaded");
   addBenchTraversalOptions(benchTraversal, rawTraversal);
+  RawBenchStart rawStart;
+  CLI::App& benchStart = *bench.add_subcommand("start", "what waits for what from a cold start to a picture");
+  addBenchStartOptions(benchStart, rawStart);
   RawBenchStress rawStress;
   CLI::App& benchStress = *bench.add_subcommand("stress", "what breaks ray tracers, as rates of failure");
   addBenchStressOptions(benchStress, rawStress);
@@ -170,6 +173,9 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   } else if (benchTraversal.parsed()) {
     line.command = Command::BenchTraversal;
     line.benchTraversal = finishBenchTraversal(rawTraversal);
+  } else if (benchStart.parsed()) {
+    line.command = Command::BenchStart;
+    line.benchStart = finishBenchStart(rawStart);
   } else if (benchStress.parsed()) {
     line.command = Command::BenchStress;
     line.benchStress = finishBenchStress(rawStress);

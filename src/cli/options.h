@@ -8,6 +8,7 @@
 #include "cli/bench_options.h"
 #include "cli/bench_report_options.h"
 #include "cli/bench_scale_options.h"
+#include "cli/bench_start_options.h"
 #include "cli/bench_stress_options.h"
 #include "cli/bench_traversal_options.h"
 #include "cli/bench_variants_options.h"
@@ -50,6 +51,7 @@ enum class Command : uint8_t {
   BenchVariants,
   BenchScale,
   BenchTraversal,
+  BenchStart,
   BenchStress
 };
 
@@ -67,6 +69,7 @@ struct CommandLine {
   BenchVariantsOptions benchVariants;
   BenchScaleOptions benchScale;
   BenchTraversalOptions benchTraversal;
+  BenchStartOptions benchStart;
   BenchStressOptions benchStress;
 };
 

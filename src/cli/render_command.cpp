@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/leave.h"
 #include "cli/outputs.h"
 #include "cli/picture_file.h"
 #include "cli/progress_bar.h"
@@ -14,6 +15,7 @@
 #include "cli/setup.h"
 #include "errors.h"
 #include "gl/debug_log.h"
+#include "gl/driver_choice.h"
 #include "image/channels.h"
 #include "image/format.h"
 #include "image/process.h"
@@ -210,21 +212,29 @@ int runRender(const RenderOptions& options) {
   LoadedScene loaded = loadScene(options, stats);
 
   // Step: the shader variant, and the arrays that it reads.
+  const bool quick = preferQuickCompilation(pathsOf(options, loaded.size));
+  PhaseTimer contextTimer("context");
   const auto context = makeContext(options.backend);
+  stats.phases.push_back(contextTimer.end());
+  stats.quickCompilation = quick && context->software;
   DebugLog driverLog;
   const Tracer tracer = makeTracer(*context, loaded, options, stats);
   const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
   releaseGeometry(loaded);
   Film film(loaded.size);
   const std::vector<double> layerSeconds = measureFeatures(tracer, film, loaded, stats);
+  PhaseTimer firstDraw("first draw");
   stats.compileMs += tracer.renderer->compile(tracer.variant, film, loaded.view);
+  stats.phases.push_back(firstDraw.end());
   sayWhatIsChosen(options, *context, tracer, stats);
 
   // Step: draw.
   checkPictureWritable(options, loaded.size);
   countInterrupts();
+  PhaseTimer drawTimer("draw");
   const Drawing drawing =
       draw(*tracer.renderer, film, options, loaded.view, secondsOfFeatures(layerSeconds, options), stats);
+  stats.phases.push_back(drawTimer.end());
   stats.spp = options.spp;
   stats.film = totalsOf(drawing.pixels);
   const auto sayDriverLog = [&] {
@@ -248,13 +258,15 @@ int runRender(const RenderOptions& options) {
     sayDriverLog();
     if (interrupts() > 1) return kInterruptedStatus;
     setProvenanceOf(picture, options, loaded, tracer, stats);
+    PhaseTimer writing("write");
     writePicture(options, picture, boxes);
+    stats.phases.push_back(writing.end());
   } catch (const std::exception& error) {
     throw RenderError(rescuePicture(options, picture, error.what()));
   }
   if (!options.statsFile.empty()) replaceText(options.statsFile, statisticsText(stats));
   sayWhatWasDone(options, stats);
-  return stats.complete ? 0 : kInterruptedStatus;
+  return leave(stats.complete ? 0 : kInterruptedStatus);
 }
 
 }  // namespace fragtrace

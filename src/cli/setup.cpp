@@ -2,6 +2,7 @@
 #include "cli/setup.h"
 
 #include <cmath>
+#include <future>
 
 #include "bvh/large_first.h"
 #include "bvh/two_level.h"
@@ -72,11 +73,11 @@ void checkFinite(const Image& image, const std::filesystem::path& path) {
   }
 }
 
-Environment loadEnvironment(const RenderOptions& options, OwnLight light) {
+Environment makeEnvironment(const RenderOptions& options, std::future<Image>& map, OwnLight light) {
   Environment environment;
-  if (!options.hdriFile.empty()) {
+  if (map.valid()) {
     environment.kind = Surroundings::Map;
-    environment.image = readImage(options.hdriFile, options.limits.memoryBytes);
+    environment.image = map.get();
     if (environment.image.channelCount() < 3) throw InputError(options.hdriFile.string() + ": has no colour");
     checkFinite(environment.image, options.hdriFile);
   } else if (options.defaultLight && light != OwnLight::Enough) {
@@ -114,6 +115,11 @@ bool besideAllowed(const RenderOptions& options) {
 }
 
 }  // namespace
+
+double pathsOf(const RenderOptions& options, glm::ivec2 size) {
+  const bool adaptive = options.noise > 0.0 || options.seconds > 0.0;
+  return double(size.x) * size.y * (adaptive ? std::numeric_limits<double>::infinity() : options.spp);
+}
 
 View makeView(const RenderOptions& options, const Scene& scene, const Camera& camera) {
   View view;
@@ -166,7 +172,20 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   loading.selection = options.selection;
   loading.instancing = walksTree(options) ? options.instancing : Instancing::Flatten;
   loading.limits = options.limits;
+  // The environment is decoded in another process, so it is read meanwhile.
+  Phase reading;  // outlives the thread that sets it
+  std::future<Image> map;
+  if (!options.hdriFile.empty()) {
+    map = std::async(std::launch::async, [&] {
+      PhaseTimer timer("environment", "second");
+      Image image = readImage(options.hdriFile, options.limits.memoryBytes);
+      reading = timer.end();
+      return image;
+    });
+  }
+  PhaseTimer sceneTimer("scene");
   loaded.scene = loadGltf(options.scene, loading);
+  stats.phases.push_back(sceneTimer.end());
   if (options.instancing == Instancing::Share && !walksTree(options))
     loaded.scene.warnings.emplace_back("--instancing share: only trees hold shared meshes; all are copied");
   if (!loaded.scene.images.empty()) startImageProcess();
@@ -176,11 +195,6 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   if (scene.triangles.empty() && scene.spheres.empty()) {
     say(options, "warning: " + options.scene.string() + ": no triangle and no sphere, nothing to draw");
   }
-  step("reading the environment", 0.5);
-  const bool isAsked = options.hdriFile.empty() && options.defaultLight;
-  const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
-  loaded.environment = loadEnvironment(options, light);
-  warnOfSquare(loaded.environment.image, options, loaded.scene.warnings);
   loaded.cameraIndex = cameraIndexOf(options.cameraIndex, options.selection.camera, scene.cameras);
   loaded.camera =
       chooseCamera(scene.cameras, loaded.cameraIndex, options.camera, scene.bounds, framedAspect(options));
@@ -188,10 +202,23 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   loaded.size = chooseSize(loaded.camera, options);
   checkFilmMemory(loaded.size, options);
   loaded.view = makeView(options, scene, loaded.camera);
+  stats.loadMs = watch.lap();
+  step("building the tree", 0.5);
+  PhaseTimer treeTimer("tree");
+  loaded.bvh = buildTree(scene, options);
+  stats.phases.push_back(treeTimer.end());
+  stats.bvh = bvhQuality(loaded.bvh);
+  stats.bvhBuildMs = watch.lap();
+  step("reading the environment", 0.9);
+  const bool isAsked = options.hdriFile.empty() && options.defaultLight;
+  const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
+  loaded.environment = makeEnvironment(options, map, light);
+  if (!options.hdriFile.empty()) stats.phases.push_back(reading);
+  warnOfSquare(loaded.environment.image, options, loaded.scene.warnings);
   stats.scene = describe(scene);
   stats.warnings = scene.warnings;
   stats.size = loaded.size;
-  stats.loadMs = watch.lap();
+  stats.loadMs += watch.lap();
   stats.defaultLight = loaded.environment.kind == Surroundings::DefaultLight;
   if (stats.defaultLight) {
     stats.defaultLightReason = light == OwnLight::None
@@ -200,18 +227,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
     say(options, stats.defaultLightReason +
                      ": a white environment that the camera does not see lights it (--no-default-light)");
   }
-  step("building the tree", 0.6);
-  loaded.bvh = buildTree(scene, options);
-  stats.bvh = bvhQuality(loaded.bvh);
-  stats.bvhBuildMs = watch.lap();
   return loaded;
-}
-
-/// Paths that the picture will take, as far as that is known.
-double pathsOf(const LoadedScene& loaded, const RenderOptions& options) {
-  const bool adaptive = options.noise > 0.0 || options.seconds > 0.0;
-  return double(loaded.size.x) * loaded.size.y *
-         (adaptive ? std::numeric_limits<double>::infinity() : options.spp);
 }
 
 void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
@@ -229,10 +245,43 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
   if (!asked && options.traversal != TraversalMethod::Auto) return;
   const std::string reason = asked ? whyNoLiterals(loaded.scene, packed) : "";
   if (!reason.empty()) throw UsageError("--traversal literals: " + reason);
-  if (!asked && !paysAsLiterals(loaded.scene, loaded.bvh, packed, pathsOf(loaded, options))) return;
+  if (!asked && !paysAsLiterals(loaded.scene, loaded.bvh, packed, pathsOf(options, loaded.size))) return;
   variant.traversal = TraversalMethod::Literals;
   variant.literals = literalScene(loaded.scene, loaded.bvh, packed, variant);
 }
+
+namespace {
+
+/// What the packed scene and the driver decide of a picture's variant. Returns why the megakernel draws.
+std::string settleVariant(ShaderVariant& variant, const LoadedScene& loaded, const GpuScene& packed,
+                          const RenderOptions& options, const Context& context, BufferReads reads) {
+  useLiterals(loaded, packed, options, variant);
+  variant.reads = reads;
+  variant.dispatch =
+      chooseDispatch(options.dispatch, context, variant.traversal == TraversalMethod::Literals);
+  return chooseSchedule(variant, options, context.software, pathsOf(options, loaded.size));
+}
+
+Phase buildProgram(ProgramCache& programs, const ShaderVariant& variant) {
+  PhaseTimer timer("program");
+  programs.tracer(variant);
+  return timer.end();
+}
+
+/// Builds the picture's program while its scene is being packed, unless the scene may become part of its
+/// text. Where buffers turn out too large for the fastest reads, another one is built later.
+std::optional<Phase> buildAhead(ProgramCache& programs, ShaderVariant variant, const LoadedScene& loaded,
+                                const RenderOptions& options, const Context& context) {
+  const bool asked = options.traversal == TraversalMethod::Literals;
+  const bool large = loaded.scene.triangles.size() > kLeastBesideLarge;
+  if (asked || !large) return std::nullopt;
+  const GpuScene unknown;
+  const BufferReads reads = chooseReads(options.bufferReads, context.software, unknown, readLimits()).reads;
+  settleVariant(variant, loaded, unknown, options, context, reads);
+  return buildProgram(programs, variant);
+}
+
+}  // namespace
 
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
                   Statistics& stats) {
@@ -260,35 +309,43 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
     const std::string reason = has(options.stages, row.stage) ? whyOff(row.stage, present) : "";
     if (!reason.empty()) stats.skipped.push_back(std::string(row.name) + ": " + reason);
   }
-  Stopwatch watch;
   const int textureSide = textureSideWithin(loaded.scene, mostTexelBytes(options.bufferReads, readLimits()));
   if (textureSide < kLargestTextureSide) {
     say(options, "warning: the textures are larger than what this driver reads; those wider or higher than " +
                      std::to_string(textureSide) + " pixels are scaled down");
   }
-  GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, textureSide);
-  useLiterals(loaded, packed, options, tracer.variant);
-  for (ShaderVariant& feature : tracer.features) {
-    useLiterals(loaded, packed, options, feature);
-  }
+  ProgramCache programs(shaderSource(options.shaderFolder));
+  Phase packing;  // outlives the thread that sets it
+  std::future<GpuScene> packedLater = std::async(std::launch::async, [&] {
+    PhaseTimer timer("pack", "second");
+    GpuScene scene = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, textureSide);
+    packing = timer.end();
+    return scene;
+  });
+  const std::optional<Phase> ahead = buildAhead(programs, tracer.variant, loaded, options, context);
+  GpuScene packed = packedLater.get();
+  stats.phases.push_back(packing);
+  stats.packMs = packing.end - packing.begin;
   stats.sceneBytes = packed.bytes();
   stats.geometryBytes = packed.geometryBytes();
   if (withHash) tracer.sceneHash = hashOf(packed);
-  stats.packMs = watch.lap();
   const ReadChoice choice = chooseReads(options.bufferReads, context.software, packed, readLimits());
-  const bool literals = tracer.variant.traversal == TraversalMethod::Literals;
-  tracer.variant.reads = choice.reads;
-  tracer.variant.dispatch = chooseDispatch(options.dispatch, context, literals);
-  stats.scheduleReason = chooseSchedule(tracer.variant, options, context.software, pathsOf(loaded, options));
+  stats.scheduleReason = settleVariant(tracer.variant, loaded, packed, options, context, choice.reads);
+  const Phase building = ahead ? *ahead : buildProgram(programs, tracer.variant);
+  stats.phases.push_back(building);
+  tracer.programMs = building.end - building.begin;
+  stats.compileMs += tracer.programMs;
   for (ShaderVariant& feature : tracer.features) {
+    useLiterals(loaded, packed, options, feature);
     feature.reads = choice.reads;
     feature.dispatch = chooseDispatch(options.dispatch, context, false);
   }
   stats.variant = variantName(tracer.variant);
   stats.readFallback = choice.fallback;
-  tracer.renderer =
-      std::make_unique<Renderer>(context, std::move(packed), choice.reads, options.shaderFolder);
-  stats.uploadMs = watch.lap();
+  PhaseTimer uploading("upload");
+  tracer.renderer = std::make_unique<Renderer>(context, std::move(packed), choice.reads, std::move(programs));
+  stats.phases.push_back(uploading.end());
+  stats.uploadMs = stats.phases.back().end - stats.phases.back().begin;
   return tracer;
 }
 

@@ -32,6 +32,9 @@ using LoadProgress = std::function<void(const char* step, double fraction)>;
 /// Says warnings on stderr unless quiet. Throws InputError, UsageError.
 LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress = {});
 
+/// Camera paths that the picture takes; infinite where time or noise ends it.
+double pathsOf(const RenderOptions& options, glm::ivec2 size);
+
 /// What of the options needs neither another program nor other buffers.
 View makeView(const RenderOptions& options, const Scene& scene, const Camera& camera);
 
@@ -47,6 +50,7 @@ struct Tracer {
   ShaderVariant variant;
   std::vector<ShaderVariant> features;  ///< in the order of options.aovFeatures
   std::unique_ptr<Renderer> renderer;
+  double programMs = 0.0;  ///< that building the variant's program took
   uint64_t sceneHash = 0;  ///< of all that was uploaded; only for .exr, which keeps it
 };
 

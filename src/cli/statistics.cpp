@@ -22,6 +22,20 @@ nlohmann::ordered_json timesJson(const std::vector<double>& ms) {
   return json;
 }
 
+nlohmann::ordered_json phasesJson(const Statistics& s) {
+  std::vector<Phase> phases = s.phases;
+  std::ranges::stable_sort(phases, {}, &Phase::begin);
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const Phase& phase : phases) {
+    json.push_back({{"name", phase.name},
+                    {"thread", phase.thread},
+                    {"begin_ms", phase.begin - s.clockMs},
+                    {"end_ms", phase.end - s.clockMs},
+                    {"cpu_ms", phase.cpu}});
+  }
+  return json;
+}
+
 }  // namespace
 
 double megaPathsPerSecond(const Statistics& s) {
@@ -74,6 +88,7 @@ std::string statisticsText(const Statistics& s) {
   json["default_light"] = s.defaultLight;
   if (s.defaultLight) json["default_light_reason"] = s.defaultLightReason;
   json["variant"] = s.variant;
+  json["quick_compilation"] = s.quickCompilation;
   json["schedule"] = s.scheduleReason.empty() ? "wavefront" : "megakernel";
   if (!s.scheduleReason.empty()) json["schedule_reason"] = s.scheduleReason;
   if (!s.readFallback.empty()) json["buffer_reads_fallback"] = s.readFallback;
@@ -82,6 +97,9 @@ std::string statisticsText(const Statistics& s) {
   json["gl_renderer"] = s.glRenderer;
   json["gl_version"] = s.glVersion;
   json["warnings"] = s.warnings;
+  json["clock_ms"] = s.clockMs;
+  json["clock_cpu_ms"] = s.clockCpuMs;
+  json["phases"] = phasesJson(s);
   return jsonText(json);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bvh/bvh.h"
+#include "cli/phase_timer.h"
 #include "gl/context.h"
 #include "render/film_pixels.h"
 #include "render/renderer.h"
@@ -44,6 +45,7 @@ struct Statistics {
   std::string defaultLightReason;
   double clampIndirect = 0.0;  ///< 0: not clamped
   bool complete = true;
+  bool quickCompilation = false;  ///< the driver was told not to optimise
   std::string variant;
   std::string scheduleReason = "not chosen yet";  ///< why the megakernel draws; empty: the wavefront does
   std::string readFallback;  ///< why buffers are not read the fastest way; empty when they are
@@ -52,6 +54,9 @@ struct Statistics {
   std::string glVersion;
   std::vector<std::string> skipped;  ///< "refraction: no transmissive material", ...
   std::vector<std::string> warnings;
+  double clockMs = steadyMilliseconds();     ///< when the command began
+  double clockCpuMs = threadMilliseconds();  ///< that its thread had taken by then
+  std::vector<Phase> phases;                 ///< up to the written picture
 };
 
 /// As JSON.

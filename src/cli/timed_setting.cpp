@@ -83,7 +83,8 @@ TimedSetting makeSetting(const Context& context, const BenchConfiguration& confi
 }
 
 void warmUp(TimedSetting& s) {
-  s.report.compileMs = s.tracer.renderer->compile(s.tracer.variant, *s.film, s.loaded->view);
+  s.report.compileMs =
+      s.tracer.programMs + s.tracer.renderer->compile(s.tracer.variant, *s.film, s.loaded->view);
   RenderTimes first;
   drawSamples(s, 0, 1, first);
   s.report.firstFrameMs = first.drawMs;

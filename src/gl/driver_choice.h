@@ -11,4 +11,10 @@ namespace fragtrace {
 /// software for scenes that are literals.
 Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals);
 
+/// Tells llvmpipe not to optimise what it compiles, if that saves more time than drawing so many paths then
+/// takes longer (docs/benchmarks.md); pictures are the same bits. For processes that draw once: it holds for
+/// all of their contexts, and has to come before the first. What GALLIVM_PERF says already stays. Returns
+/// whether it was told so.
+bool preferQuickCompilation(double paths);
+
 }  // namespace fragtrace

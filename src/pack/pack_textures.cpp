@@ -44,20 +44,22 @@ glm::ivec2 within(glm::ivec2 size, int side) {
   return glm::max(glm::ivec2(glm::round(glm::dvec2(size) * scale)), glm::ivec2(1));
 }
 
+/// Of all of the scene's pictures, scaled down to `side`.
+int64_t bytesWithin(const Scene& scene, int side) {
+  constexpr int64_t kTexelBytes = 8;
+  int64_t sum = 0;
+  for (const EncodedImage& image : scene.images) {
+    const glm::ivec2 size = within({image.width, image.height}, side);
+    sum += int64_t(size.x) * size.y * kTexelBytes;
+  }
+  return sum;
+}
+
 }  // namespace
 
 int textureSideWithin(const Scene& scene, int64_t mostBytes) {
-  constexpr int64_t kTexelBytes = 8;
   int side = kLargestTextureSide;
-  const auto bytes = [&] {
-    int64_t sum = 0;
-    for (const EncodedImage& image : scene.images) {
-      const glm::ivec2 size = within({image.width, image.height}, side);
-      sum += int64_t(size.x) * size.y * kTexelBytes;
-    }
-    return sum;
-  };
-  while (side > 1 && bytes() > mostBytes) side = side * 3 / 4;
+  while (side > 1 && bytesWithin(scene, side) > mostBytes) side = side * 3 / 4;
   return side;
 }
 
@@ -74,7 +76,7 @@ const TexturePacker::Placed& TexturePacker::place(uint32_t image, TransferCurve 
   placed.width = size.x;
   placed.height = size.y;
   const size_t count = size_t(placed.width) * size_t(placed.height);
-  texels_.reserve(texels_.size() + count * 2);
+  if (texels_.empty()) texels_.reserve(size_t(bytesWithin(scene_, side_)) / sizeof(uint32_t));
   const glm::dvec3 sum = size == stored ? append(texels, curve) : appendScaled(texels, curve, size);
   placed.mean = glm::vec3(sum / double(std::max<size_t>(count, 1)));
   return placed;
@@ -84,10 +86,13 @@ glm::dvec3 TexturePacker::append(const TexelImage& texels, TransferCurve curve) 
   const CurveTable& color = curveTable(curve);
   const CurveTable& alpha = curveTable(TransferCurve::Linear);
   glm::dvec3 sum(0.0);
+  const size_t first = texels_.size();
+  texels_.resize(first + texels.rgba.size() / 2);
+  uint32_t* word = texels_.data() + first;
   for (size_t i = 0; i < texels.rgba.size(); i += 4) {
     const uint16_t* t = &texels.rgba[i];
-    texels_.push_back(uint32_t(color.half[t[0]]) | uint32_t(color.half[t[1]]) << 16);
-    texels_.push_back(uint32_t(color.half[t[2]]) | uint32_t(alpha.half[t[3]]) << 16);
+    *word++ = uint32_t(color.half[t[0]]) | uint32_t(color.half[t[1]]) << 16;
+    *word++ = uint32_t(color.half[t[2]]) | uint32_t(alpha.half[t[3]]) << 16;
     sum += glm::dvec3(color.linear[t[0]], color.linear[t[1]], color.linear[t[2]]);
   }
   return sum;

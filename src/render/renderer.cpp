@@ -43,7 +43,10 @@ glm::dvec2 halfExtents(const Camera& camera, double unit, glm::ivec2 size) {
 
 Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads,
                    const std::filesystem::path& shaderFolder)
-    : programs_(shaderSource(shaderFolder)),
+    : Renderer(context, std::move(scene), reads, ProgramCache(shaderSource(shaderFolder))) {}
+
+Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads, ProgramCache programs)
+    : programs_(std::move(programs)),
       buffers_(scene, reads),
       frameBuffer_(makeBuffer()),
       progressBuffer_(makeBuffer()),

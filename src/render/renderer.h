@@ -52,6 +52,8 @@ class Renderer {
   /// Uploads the scene, which must hold all that the variants to come read; its arrays are freed one by one.
   Renderer(const Context& context, GpuScene scene, BufferReads reads,
            const std::filesystem::path& shaderFolder = {});
+  /// The same with programs that may have been built already.
+  Renderer(const Context& context, GpuScene scene, BufferReads reads, ProgramCache programs);
 
   /// Builds the variant's program and draws one tiny tile, which is where llvmpipe compiles; draws that
   /// follow use it. The film ends up cleared. Returns milliseconds.

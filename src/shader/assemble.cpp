@@ -8,6 +8,7 @@
 
 #include "errors.h"
 #include "shader/embedded.h"
+#include "shader/live_text.h"
 
 namespace fragtrace {
 
@@ -89,7 +90,7 @@ std::string assembleShader(const ShaderSource& source, const std::string& entry,
   if (source.namedLines) assembly.text << "#extension GL_ARB_shading_language_include : enable\n";
   appendConstants(assembly.text, variant);
   assembly.append(entry, "");
-  return assembly.text.str();
+  return liveText(assembly.text.str());
 }
 
 }  // namespace fragtrace

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "cli/leave.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+
+#include "errors.h"
+
+namespace fragtrace {
+
+void checkPrinted() {
+  std::cout.flush();
+  if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout))
+    throw RenderError("cannot write to standard output");
+}
+
+int leave(int status) {
+  checkPrinted();
+#ifndef __SANITIZE_ADDRESS__
+  std::_Exit(status);
+#endif
+  return status;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace fragtrace {
+
+/// Throws RenderError where standard output could not take all that was printed.
+void checkPrinted();
+
+/// Ends the process, once all is written, with this status. The system takes back at once what the driver and
+/// its compiler would give back piece by piece, which takes 20 ms. Sanitizers look for leaks when the caller
+/// returns, so there it comes back with the status.
+int leave(int status);
+
+}  // namespace fragtrace

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "shader/assemble.h"
+#include "shader/live_text.h"
+#include "stage/variant.h"
+
+namespace fragtrace {
+namespace {
+
+/// Without the blanks that do not matter here.
+std::string live(const std::string& text) {
+  std::string left;
+  for (const char c : liveText(text)) {
+    const bool blank = c == ' ' || c == '\n';
+    const bool ends = c == ';' || c == ',' || c == ')';
+    if (ends && left.ends_with(' ') && !left.ends_with("{ ") && !left.ends_with("; ")) left.pop_back();
+    if (!blank) left += c;
+    if (blank && !left.empty() && left.back() != ' ') left += ' ';
+  }
+  while (left.ends_with(' ')) left.pop_back();
+  return left;
+}
+
+/// The body of main under two constants.
+std::string mainOf(const std::string& body) {
+  const std::string head = "const bool kOn = true; const bool kOff = false; const int kSize = 8; ";
+  const std::string text = live(head + "void main() { " + body + " }");
+  const std::string begin = head + "void main() { ";
+  EXPECT_TRUE(text.starts_with(begin)) << text;
+  return text.substr(begin.size(), text.size() - begin.size() - 2);
+}
+
+TEST(LiveText, BranchesThatConstantsSettle) {
+  EXPECT_EQ(mainOf("if (kOn) a(); b();"), "a(); b();");
+  EXPECT_EQ(mainOf("if (kOff) a(); b();"), "; b();");
+  EXPECT_EQ(mainOf("if (kOff) { a(); } else { b(); }"), "{ b(); }");
+  EXPECT_EQ(mainOf("if (kOn) { a(); } else if (x) b(); else c();"), "{ a(); }");
+  EXPECT_EQ(mainOf("if (x) if (kOff) a(); else b();"), "if (x) b();");
+  EXPECT_EQ(mainOf("if (x) if (kOff) { a(); } c();"), "if (x) { } c();");
+  EXPECT_EQ(mainOf("if (kOff) for (;;) { a(); } c();"), "{ } c();");
+  EXPECT_EQ(mainOf("while (kOff && x) { a(); }"), "{ }");
+  EXPECT_EQ(mainOf("while (kOn) { a(); }"), "while (kOn) { a(); }");
+}
+
+TEST(LiveText, ConditionsOfSeveralParts) {
+  EXPECT_EQ(mainOf("if (x && !kOn) a();"), ";");
+  EXPECT_EQ(mainOf("if (x || kOn) a();"), "a();");
+  EXPECT_EQ(mainOf("if (kOff || (kSize > 8 && kOn)) a();"), ";");
+  EXPECT_EQ(mainOf("if (kSize == 8 && !(kOff || false)) a();"), "a();");
+  EXPECT_EQ(mainOf("if (x && kOn) a();"), "if (x && kOn) a();");
+}
+
+TEST(LiveText, WhatMayActInAConditionStays) {
+  for (const char* body :
+       {"if (f(x) && kOff) a();", "if (x++ > 1 || kOn) a();", "if ((x = y) > 1 && kOff) a();"})
+    EXPECT_EQ(mainOf(body), body);
+  EXPECT_EQ(mainOf("if (kOff && f(x)) a();"), ";");
+}
+
+TEST(LiveText, Choices) {
+  EXPECT_EQ(mainOf("x = kOn ? a : b;"), "x = a;");
+  EXPECT_EQ(mainOf("x = kOff ? a : b;"), "x = b;");
+  EXPECT_EQ(mainOf("f(kOff ? a : b, kOn ? p ? q : r : s);"), "f( b, p ? q : r);");
+  EXPECT_EQ(mainOf("x = c ? kOff ? a : b : d;"), "x = c ? b : d;");
+  EXPECT_EQ(mainOf("x = c ? d : kSize > 8 ? a : b;"), "x = c ? d : b;");
+  EXPECT_EQ(mainOf("x = y + kOn ? a : b;"), "x = y + kOn ? a : b;");
+  EXPECT_EQ(mainOf("x = f(y) && kOff ? a : b;"), "x = f(y) && kOff ? a : b;");
+}
+
+TEST(LiveText, FunctionsThatNothingCalls) {
+  EXPECT_EQ(live("int f() { return 1; } int g() { return f(); } int x = 2; void main() { }"),
+            "int x = 2; void main() { }");
+  EXPECT_EQ(live("int f() { return 1; } int x = f(); void main() { }"),
+            "int f() { return 1; } int x = f(); void main() { }");
+  EXPECT_EQ(live("const bool k = false; void f() { } void main() { if (k) f(); }"),
+            "const bool k = false; void main() { ; }");
+}
+
+TEST(LiveText, MembersThatNothingNames) {
+  EXPECT_EQ(live("struct S { int a, b, c; int d; vec2 e[2]; }; void main() { S s; s.b = 1; }"),
+            "struct S { int b; vec2 e[2]; }; void main() { S s; s.b = 1; }");
+  EXPECT_EQ(live("struct S { int a, b, c; }; void main() { S s; s.a = s.c; }"),
+            "struct S { int a, c; }; void main() { S s; s.a = s.c; }");
+}
+
+TEST(LiveText, NoStructIsLeftWithoutMembers) {
+  EXPECT_EQ(live("struct S { int a; }; struct T { S s; int b; }; void f(T t) { t.b = 1; } void main() { }"),
+            "void main() { }");
+  const std::string held = "struct S { int a; }; void main() { S s; S t = s; }";
+  EXPECT_EQ(live(held), held);
+}
+
+TEST(LiveText, StructsThatAreMadeAtOnceOrLieInBuffersKeepTheirMembers) {
+  for (const char* text :
+       {"struct S { int a, b; }; void main() { S s = S(1, 2); x = s.a; }",
+        "struct S { int a, b; }; uniform Block { S s; }; void main() { x = s.a; }",
+        "struct S { int a, b; }; struct T { S s; }; uniform Block { T t; }; void main() { x = t.s.a; }",
+        "struct S { int a, b; }; void main() { S s = { 1, 2 }; x = s.a; }"})
+    EXPECT_EQ(live(text), text);
+}
+
+TEST(LiveText, LinesKeepTheirNumbers) {
+  const std::string text =
+      "const bool kOff = false;  // one\n/* two\n */ void f() {\n}\n#line 9\nvoid main() {\n  if (kOff) {\n  "
+      "  f();\n  }\n  wrong;\n}\n";
+  const std::string left = liveText(text);
+  const auto lineOf = [](const std::string& all, const char* word) {
+    return std::count(all.begin(), all.begin() + long(all.find(word)), '\n');
+  };
+  for (const char* word : {"#line 9\n", "main", "wrong"}) EXPECT_EQ(lineOf(left, word), lineOf(text, word));
+  EXPECT_EQ(left.find("f()"), std::string::npos);
+}
+
+TEST(LiveText, TextThatIsNotUnderstoodStaysAsItIs) {
+  for (const char* text : {"void main() { if (a }", "", "const bool k = false; void main() { if (k) a(); ))"})
+    EXPECT_EQ(liveText(text), text);
+}
+
+TEST(LiveText, AVariantHasNothingOfWhatItIsWithout) {
+  const std::string text = assembleShader({}, "trace.frag", ShaderVariant{});
+  for (const char* name : {"sheen", "savePath", "s47", "perlin("})
+    EXPECT_EQ(text.find(name), std::string::npos) << name;
+  EXPECT_NE(text.find("void main()"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace fragtrace
