@@ -3,7 +3,7 @@
 """The table of aims beside Mitsuba 3, Cycles and Embree: each row both sides in turn, with pictures that are checked.
 
 usage: aims.py FRAGTRACE --assets DIR --json FILE [--parts NAME,...] [--python PYTHON] [--clock cpu] [--rounds N] [--before PROGRAM]
-FILE keeps what each part found: what stands there is not measured again, so the same command goes on after an interruption, and ends with the
+FILE keeps what each part found: what stands there is not measured again unless a peer was missing, so the same command goes on after an interruption, and ends with the
 table of all that is there. DIR holds scenes/FlightHelmet and env/lightroom_14b.hdr. PYTHON has mitsuba 3.9.1 and numpy; blender and libembree-dev are
 installed. Status 1: a picture is not right, or a part could not be measured; what falls short of an aim is no failure. docs/benchmarks.md says more.
 """
@@ -99,7 +99,9 @@ def beside(measure, name, resolution, spp, peers, rows):
             figures = measure(name, compare.make_scene(name, Path(folder), settings), Path(folder), settings)
         found = []
         for label, peer, ours in rows:
-            if peer in figures and ours in figures:
+            if peer not in figures:
+                found.append(row(f"{NAMES[name]}, {label}", []))
+            else:
                 told = figures[peer]
                 note = f"{told['mean']:+.2%}, {told['blocks']:.2%} (noise {told['noise']:.2%})"
                 if "samples" in told:
@@ -178,7 +180,7 @@ def print_table(results):
     for name, aim in AIMS.items():
         limit = f"at most {aim['most']}" if "most" in aim else aim["least"]
         each, verdict, found = measured.get(name), "", "not measured"
-        if each:
+        if each and each["values"]:
             sign = -1 if "most" in aim else 1
             median, levels = sign * statistics.median(each["values"]), (aim.get("least", aim.get("most")), aim["moonshot"])
             reached = [level is not None and median >= sign * level for level in levels]
@@ -199,7 +201,7 @@ def main():
             sys.exit(f"aims.py: {options.json} was written with another {', another '.join(differing)}; name another file with --json")
     failed = False
     for part in options.parts:
-        if part in results["parts"]:
+        if part in results["parts"] and all(each["values"] for each in results["parts"][part]["rows"]):
             continue
         when = f"{time.strftime('%H:%M')} ({os.getloadavg()[0]:.1f})"
         begin = time.perf_counter()
@@ -213,6 +215,7 @@ def main():
         results["parts"][part] = {"when": when, "seconds": time.perf_counter() - begin, "rows": rows, "figures": figures}
         options.json.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
     print_table(results)
+    failed = failed or any(not each["values"] for result in results["parts"].values() for each in result["rows"])
     wrong = [each["row"] for result in results["parts"].values() for each in result["rows"] if not each["right"]]
     if wrong:
         print("\nPICTURES DIFFER: " + "; ".join(wrong))
