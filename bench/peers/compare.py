@@ -149,9 +149,9 @@ def speed(name, scene, folder, options):
 
 def samples_to_goal(engine, folder, goal):
     """Samples a pixel to a relative MSE of the goal, seconds a sample by both clocks, and (samples, error) of each step: four times as many samples from
-    step to step until the error is below three times the goal; then the straight line through the last two in logarithms."""
+    step to step until about one more would reach the goal, or it is reached; then the straight line through the last two in logarithms."""
     steps, spp = [], 16
-    while len(steps) < 2 or steps[-1][1] > 3 * goal:
+    while len(steps) < 2 or steps[-1][1] > 4 * goal:
         paths = [str(folder / f"seed{k}.pfm") for k in range(ERROR_SEEDS)]
         answers = [engine.draw(spp, 100 + k, path) for k, path in enumerate(paths)]
         count = answers[0].get("samples", spp)

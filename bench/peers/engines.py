@@ -8,6 +8,7 @@ import os
 import resource
 import shutil
 import subprocess
+import time
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -21,6 +22,14 @@ BIASED = "ldsampler"
 
 class Absent(Exception):
     """The engine is not installed; says what is missing."""
+
+
+def run_cold(command):
+    """Seconds of a whole process of ours by both clocks, the shader cache off."""
+    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+    subprocess.run(list(map(str, command)), check=True, env={**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"})
+    wall, after = time.perf_counter() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
+    return {"wall": wall, "cpu": sum(getattr(after, key) - getattr(before, key) for key in ("ru_utime", "ru_stime"))}
 
 
 class Fragtrace:
@@ -44,11 +53,7 @@ class Fragtrace:
 
     def draw(self, spp, seed, picture):
         """CPU seconds are counted from those of a picture of one sample, which are start-up and compiling above all."""
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        subprocess.run([*self.command, "--spp", str(spp), "--seed", str(seed), "-o", picture], check=True,
-                       env={**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"})
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        cpu = sum(getattr(after, key) - getattr(before, key) for key in ("ru_utime", "ru_stime"))
+        cpu = run_cold([*self.command, "--spp", spp, "--seed", seed, "-o", picture])["cpu"]
         return {"wall": json.loads(self.stats.read_text())["render_ms"] / 1000, "cpu": cpu - self.start_cpu}
 
     def close(self):
