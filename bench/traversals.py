@@ -25,8 +25,39 @@ def frame_ms(program, scene, traversal, spp, folder):
     return json.loads(stats.read_text())["frame_ms"]["median"], picture
 
 
-def ratio_line(name, values):
-    print(f"{name:58s} {statistics.median(values):8.2f}  ({min(values):.2f} to {max(values):.2f})")
+def compare_pictures(program, picture, reference):
+    subprocess.run([program, "diff", picture, reference, "--metric", "rmse", "--threshold", "1e-4"], check=True, stdout=subprocess.DEVNULL)
+
+
+def measure(program, scenes, rounds, spp, iterative=True):
+    """{(traversal, mesh): milliseconds a frame, round by round}; the iterative one has one round. Raises where pictures differ."""
+    times = {}
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+
+        def draw(mesh, traversal, samples):
+            return frame_ms(program, scenes / f"{mesh}.gltf", traversal, samples, folder)
+
+        for _ in range(rounds):
+            for traversal in ("front-to-back", "bvh"):
+                for mesh in MESHES:
+                    times.setdefault((traversal, mesh), []).append(draw(mesh, traversal, spp)[0])
+        for traversal, samples in (("iterative", 1), ("bvh", 4)) if iterative else (("bvh", 4),):
+            for mesh in MESHES:
+                ms, picture = draw(mesh, traversal, samples)
+                times.setdefault((traversal, mesh), [ms])
+                compare_pictures(program, picture, draw(mesh, "front-to-back", samples)[1])
+    return times
+
+
+def ratios(times):
+    """{name: values}, round by round."""
+    front = times[("front-to-back", MESHES[1])]
+    found = {"bvh / front-to-back, 62,975 triangles": [b / f for b, f in zip(times[("bvh", MESHES[1])], front)],
+             "front-to-back, 62,975 / 15,743 triangles": [b / a for a, b in zip(times[("front-to-back", MESHES[0])], front)]}
+    if ("iterative", MESHES[1]) in times:
+        found["iterative / front-to-back, 62,975 triangles"] = [times[("iterative", MESHES[1])][0] / f for f in front]
+    return found
 
 
 def main():
@@ -37,39 +68,16 @@ def main():
     parser.add_argument("--spp", type=int, default=64)
     parser.add_argument("--no-iterative", action="store_true")
     options = parser.parse_args()
-    program = options.program.resolve()
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        times = {}
-        for _ in range(options.rounds):
-            for traversal in ("front-to-back", "bvh"):
-                for mesh in MESHES:
-                    ms, _ = frame_ms(program, options.scenes / f"{mesh}.gltf", traversal, options.spp, folder)
-                    times.setdefault((traversal, mesh), []).append(ms)
-        if not options.no_iterative:
-            for mesh in MESHES:
-                ms, _ = frame_ms(program, options.scenes / f"{mesh}.gltf", "iterative", 1, folder)
-                times[("iterative", mesh)] = [ms]
-                _, one = frame_ms(program, options.scenes / f"{mesh}.gltf", "front-to-back", 1, folder)
-                subprocess.run([program, "diff", folder / f"{mesh}.iterative.pfm", one, "--metric", "rmse", "--threshold", "1e-4"],
-                               check=True, stdout=subprocess.DEVNULL)
-        for mesh in MESHES:
-            frame_ms(program, options.scenes / f"{mesh}.gltf", "bvh", 4, folder)
-            _, tree = frame_ms(program, options.scenes / f"{mesh}.gltf", "front-to-back", 4, folder)
-            subprocess.run([program, "diff", folder / f"{mesh}.bvh.pfm", tree, "--metric", "rmse", "--threshold", "1e-4"], check=True,
-                           stdout=subprocess.DEVNULL)
+    times = measure(options.program.resolve(), options.scenes, options.rounds, options.spp, not options.no_iterative)
     print("median frame time, ms (500 x 500, one sample; pictures of all traversals agree)")
     for (traversal, mesh), values in times.items():
         print(f"  {traversal:14s} {mesh:11s} {statistics.median(values):12.2f}  ({min(values):.2f} to {max(values):.2f})")
-    front = times[("front-to-back", MESHES[1])]
     print("ratios (median, least to largest)")
-    ratio_line("bvh / front-to-back, 62,975 triangles", [b / f for b, f in zip(times[("bvh", MESHES[1])], front)])
-    ratio_line("front-to-back, 62,975 / 15,743 triangles", [b / a for a, b in zip(times[("front-to-back", MESHES[0])], front)])
-    if ("iterative", MESHES[1]) in times:
-        slow = times[("iterative", MESHES[1])][0]
-        ratio_line("iterative / front-to-back, 62,975 triangles", [slow / f for f in front])
-        print(f"iterative: {62975 * 500 * 500 / slow / 1000:.0f} million triangle tests a second at 62,975 triangles, "
-              f"{15743 * 500 * 500 / times[('iterative', MESHES[0])][0] / 1000:.0f} at 15,743")
+    for name, values in ratios(times).items():
+        print(f"{name:58s} {statistics.median(values):8.2f}  ({min(values):.2f} to {max(values):.2f})")
+    if not options.no_iterative:
+        tests = [count * 500 * 500 / times[("iterative", mesh)][0] / 1000 for mesh, count in zip(MESHES, (15743, 62975))]
+        print(f"iterative: {tests[1]:.0f} million triangle tests a second at 62,975 triangles, {tests[0]:.0f} at 15,743")
 
 
 if __name__ == "__main__":

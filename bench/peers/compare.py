@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Beside other path tracers: the same scenes in fragtrace, Mitsuba 3 and Cycles, in turn, with pictures that are checked.
 
-usage: compare.py FRAGTRACE [--scenes cornell-box,room-ball,asset] [--only PEERS] [--spp N] [--rounds N] [--measure both] ...
+usage: compare.py FRAGTRACE [--scenes NAME,...] [--only PEERS] [--spp N] [--rounds N] [--measure both] ...
 A peer that is not installed is said and left out. Times are those of drawing alone: without start-up, loading, building trees and
 compiling. Status 1: a picture is not that of the others. docs/benchmarks.md says more. Run it on a quiet machine.
 """
@@ -21,25 +21,30 @@ import engines
 import peer_scenes
 import pictures
 
+SCENES = ("cornell-box", "room-ball", "matt-ball", "many-lights", "asset")
 PEERS = ("mitsuba-llvm", "mitsuba-scalar", "cycles", "cycles-roulette")
+WAVEFRONT = "fragtrace-wavefront"  # ours by the other schedule, beside ours
 MEAN_LEVEL, BLOCK_LEVEL = 0.005, 0.01  # relative; of the blocks' root mean square beyond the noise
+# Where Cycles' adaptive sampling, which its defaults turn on, gets to a relative MSE of 1e-3: its threshold of 0.01 ends it at 0.0024 in the box, at 0.0031
+# in the room with the ball and at 0.0020 under many lights.
+ADAPTIVE_REACHES = ("matt-ball",)
+ERROR_SEEDS, ERROR_RESOLUTION = 4, 64  # of the pictures that tell how many samples an error takes
 
 
 def arguments():
     parser = argparse.ArgumentParser(description="fragtrace beside Mitsuba 3 and Cycles: speed, pictures, time to an error")
     parser.add_argument("program", type=Path, help="build/fragtrace")
-    parser.add_argument("--scenes", default="cornell-box,room-ball", help="of cornell-box, room-ball, asset (default: the first two)")
-    parser.add_argument("--only", default=",".join(PEERS), help="peers, of " + ", ".join(PEERS))
+    parser.add_argument("--scenes", default="cornell-box,room-ball", help=f"of {', '.join(SCENES)} (default: the first two)")
+    parser.add_argument("--only", default=",".join(PEERS), help=f"peers, of {', '.join(PEERS)} (default: these), {WAVEFRONT}")
     parser.add_argument("--spp", type=int, default=64, help="samples of a picture, a power of two")
     parser.add_argument("--rounds", type=int, default=5, help="pictures of each engine, drawn in turn (at least 2)")
     parser.add_argument("--resolution", type=int, default=500)
     parser.add_argument("--clock", choices=("wall", "cpu"), default="wall", help="cpu: CPU seconds, for a machine that is not quiet")
     parser.add_argument("--measure", choices=("speed", "error", "both"), default="speed",
-                        help="error: time to a relative MSE, each with its own defaults")
+                        help="error: time to a relative MSE, each with its own roulette and sampler, Mitsuba llvm with the best of its samplers")
     parser.add_argument("--goal", type=float, default=1e-3, help="that relative MSE")
-    parser.add_argument("--error-resolution", type=int, default=250)
     parser.add_argument("--asset", type=Path, help="a .gltf, for the scene asset")
-    parser.add_argument("--environment", type=Path, help="an .hdr round it")
+    parser.add_argument("--environment", type=Path, help="an .hdr, round it and the matt ball")
     parser.add_argument("--python", default=sys.executable, help="of an environment with mitsuba and numpy, or bpy")
     parser.add_argument("--blender", default="blender")
     parser.add_argument("--ours", default="", help="more options of ours, as one word")
@@ -49,38 +54,50 @@ def arguments():
     options.scenes, options.only = options.scenes.split(","), options.only.split(",")
     if not options.program.is_file():
         parser.error(f"no program {options.program}; scripts/build makes it")
-    for name in set(options.only) - set(PEERS):
-        parser.error(f"--only: no peer {name}")
+    for what, names, known in (("--only: no peer", options.only, [*PEERS, WAVEFRONT]), ("--scenes: no scene", options.scenes, SCENES)):
+        for name in set(names) - set(known):
+            parser.error(f"{what} {name}")
     if options.rounds < 2 or options.spp < 1 or options.spp & (options.spp - 1):
         parser.error("--rounds: at least 2; --spp: a power of two")
-    if "asset" in options.scenes and not (options.asset and options.environment):
-        parser.error("the scene asset needs --asset and --environment")
+    if "asset" in options.scenes and not options.asset:
+        parser.error("the scene asset needs --asset")
+    if set(options.scenes) & {"asset", "matt-ball"} and not options.environment:
+        parser.error("the scenes asset and matt-ball need --environment")
     return options
 
 
 def make_scene(name, folder, options):
     if name == "asset":
         return peer_scenes.asset_scene(folder, options.program, options.asset, options.environment)
-    if name in ("cornell-box", "room-ball"):
-        return peer_scenes.room_scene(folder, name)
-    sys.exit(f"compare.py: no scene {name}")
+    return peer_scenes.matt_scene(folder, name, options.environment if name == "matt-ball" else None)
 
 
-def start(options, scene, resolution, plain):
+def start(options, name, scene, resolution, plain):
     """Ours and the peers that are there."""
+    settings = "plain" if plain else "adaptive" if name in ADAPTIVE_REACHES else "roulette"
     makers = {"mitsuba-llvm": lambda: engines.mitsuba("llvm_ad_rgb", options.python, scene, resolution, plain),
               "mitsuba-scalar": lambda: engines.mitsuba("scalar_rgb", options.python, scene, resolution, plain),
-              "cycles": lambda: engines.cycles(options.python, options.blender, scene, resolution, "plain" if plain else "roulette"),
-              "cycles-roulette": lambda: engines.cycles(options.python, options.blender, scene, resolution, "roulette")}
-    running = [engines.Fragtrace(options.program, scene, resolution, plain, options.ours.split())]
-    for name in options.only:
-        if name == "cycles-roulette" and not plain:
-            continue
+              "cycles": lambda: engines.cycles(options.python, options.blender, scene, resolution, settings),
+              "cycles-roulette": lambda: engines.cycles(options.python, options.blender, scene, resolution, "roulette"),
+              WAVEFRONT: lambda: ours("--schedule", "wavefront")}
+
+    def ours(*more):
+        return engines.Fragtrace(options.program, scene, resolution, plain, [*options.ours.split(), *more])
+
+    running = {"fragtrace": ours()}
+    for peer in options.only:
+        if peer == "cycles-roulette" and not plain:
+            continue  # that is what cycles is there
         try:
-            running.append(makers[name]())
+            running[peer] = makers[peer]()
         except engines.Absent as error:
-            print(f"{name} is left out: {error}", file=sys.stderr)
+            print(f"{peer} is left out: {error}", file=sys.stderr)
     return running
+
+
+def close(running):
+    for engine in running.values():
+        engine.close()
 
 
 def machine():
@@ -99,100 +116,130 @@ def median_and_range(values, form="{:.2f}"):
     return "{} ({} to {})".format(*(form.format(f(values)) for f in (statistics.median, min, max)))
 
 
-def speed(name, running, folder, options):
-    """Draws in turn; the table's rows, and whether all pictures agree."""
-    seconds, seen = [{e: [] for e in running} for _ in range(2)]
+def draw_in_turn(title, running, folder, spp, options):
+    """By engine: the seconds of each round's picture, as if a pixel had exactly `spp` samples; and the pictures' blocks."""
+    seconds, seen = [{key: [] for key in running} for _ in range(2)]
     for k in range(options.rounds):
-        for engine in running:
+        for key, engine in running.items():
             picture = str(folder / "picture.pfm")
-            taken = engine.draw(options.spp, k + 1, picture)[options.clock]
-            seconds[engine].append(taken)
-            seen[engine].append(pictures.blocks(picture))
-            progress(f"{name}, round {k + 1} of {options.rounds}: {engine.name} {taken:.2f} s")
+            answer = engine.draw(spp, k + 1, picture)
+            seconds[key].append(answer[options.clock] * spp / answer.get("samples", spp))
+            seen[key].append(pictures.blocks(picture))
+            progress(f"{title}, round {k + 1} of {options.rounds}: {engine.name} {seconds[key][-1]:.2f} s")
     progress("")
-    paths, ours = options.resolution ** 2 * options.spp / 1e6, running[0]
-    unit = "Mpaths/s" if options.clock == "wall" else "Mpaths/CPU s"
-    print(f"\n{name}, {options.resolution} x {options.resolution}, {options.spp} samples, {options.rounds} rounds")
-    print(f"| engine | {unit} | ours / it | mean | 8 x 8 blocks beyond noise (noise) |\n| --- | --- | --- | --- | --- |")
-    agree, figures = True, {}
-    for engine in running:
-        rates = [paths / s for s in seconds[engine]]
-        row, figures[engine.version] = [median_and_range(rates)], {"mpaths_per_s": rates}
-        if engine is ours:
-            row += ["", "", ""]
-        else:
-            mean, block, noise = pictures.apart(seen[ours], seen[engine])
-            figures[engine.version].update(mean=mean, blocks=block, noise=noise)
-            row += [median_and_range([b / a for a, b in zip(seconds[ours], seconds[engine])]), f"{100 * mean:+.2f} %",
-                    f"{100 * block:.2f} % ({100 * noise:.2f} %)"]
-            agree = agree and (name == "asset" or (abs(mean) < MEAN_LEVEL and block < BLOCK_LEVEL))
-        print("| " + " | ".join([engine.version, *row]) + " |", flush=True)
+    return seconds, seen
+
+
+def difference(seen, peer):
+    mean, block, noise = pictures.apart(seen["fragtrace"], seen[peer])
+    return {"mean": mean, "blocks": block, "noise": noise, "agrees": abs(mean) < MEAN_LEVEL and block < BLOCK_LEVEL}
+
+
+def speed(name, scene, folder, options):
+    """Million paths a second of each engine, round by round, and how far its pictures are from ours."""
+    running = start(options, name, scene, options.resolution, True)
+    try:
+        seconds, seen = draw_in_turn(name, running, folder, options.spp, options)
+    finally:
+        close(running)
+    paths = options.resolution ** 2 * options.spp / 1e6
+    return {key: {"engine": engine.version, "mpaths_per_s": [paths / s for s in seconds[key]],
+                  **({} if key == "fragtrace" else difference(seen, key))} for key, engine in running.items()}
+
+
+def samples_to_goal(engine, folder, goal):
+    """Samples a pixel to a relative MSE of the goal, seconds a sample by both clocks, and (samples, error) of each step: four times as many samples from
+    step to step until about one more would reach the goal, or it is reached; then the straight line through the last two in logarithms."""
+    steps, spp = [], 16
+    while len(steps) < 2 or steps[-1][1] > 4 * goal:
+        paths = [str(folder / f"seed{k}.pfm") for k in range(ERROR_SEEDS)]
+        answers = [engine.draw(spp, 100 + k, path) for k, path in enumerate(paths)]
+        count = answers[0].get("samples", spp)
+        steps.append((count, pictures.relative_mse(paths)))
+        seconds = {clock: statistics.median(answer[clock] for answer in answers) / count for clock in ("wall", "cpu")}
+        progress(f"{engine.name}: {count} samples, relative MSE {steps[-1][1]:.2e}")
+        spp *= 4
+    progress("")
+    (n0, e0), (n1, e1) = steps[-2:]
+    return exp(log(n1) + log(e1 / goal) * log(n1 / n0) / log(e0 / e1)), seconds, steps
+
+
+def time_to_error(name, scene, folder, options):
+    """Of each engine: samples to the goal, told by small pictures, and the seconds that as many take in a picture of the size asked for, drawn in turn."""
+    running, figures, samplers = start(options, name, scene, ERROR_RESOLUTION, False), {}, {}
+    try:
+        for key, engine in running.items():
+            tried = [engine.using(sampler) for sampler in engines.SAMPLERS] if key == "mitsuba-llvm" else [engine]
+            found = [(samples_to_goal(e, folder, options.goal), e) for e in tried]
+            (samples, _, steps), best = min(found, key=lambda f: f[0][0] * f[0][1][options.clock])
+            figures[key] = {"samples": samples, "steps": steps}
+            if key == "mitsuba-llvm":
+                figures[key]["samplers"] = {e.more["sampler"]: each[0] for each, e in found}
+                samplers[key] = best.more["sampler"]
+    finally:
+        close(running)
+    running = start(options, name, scene, options.resolution, False)
+    running.update({key: running[key].using(sampler) for key, sampler in samplers.items()})
+    fewest = min(figure["samples"] for figure in figures.values())
+    spp = min(options.spp, 1 << max(0, int(log(fewest, 2))))
+    try:
+        seconds, seen = draw_in_turn(f"{name}, time", running, folder, spp, options)
+    finally:
+        close(running)
+    for key, engine in running.items():
+        figures[key].update(engine=engine.version, seconds=[figures[key]["samples"] / spp * s for s in seconds[key]],
+                            **({} if key == "fragtrace" else difference(seen, key)))
+    return figures
+
+
+def ratios(figures, peer, ours="fragtrace"):
+    """Ours over theirs in speed, round by round."""
+    if "seconds" in figures[peer]:
+        return [b / a for a, b in zip(figures[ours]["seconds"], figures[peer]["seconds"])]
+    return [a / b for a, b in zip(figures[ours]["mpaths_per_s"], figures[peer]["mpaths_per_s"])]
+
+
+def agree(name, figures):
+    return name == "asset" or all(figure.get("agrees", True) for figure in figures.values())
+
+
+def print_table(name, figures, options):
+    """Of speed() or time_to_error()."""
+    error = "seconds" in figures["fragtrace"]
+    unit = "samples | seconds" if error else "Mpaths/s" if options.clock == "wall" else "Mpaths/CPU s"
+    print(f"\n{name}, {options.resolution} x {options.resolution}, {options.rounds} rounds" +
+          (f", to a relative MSE of {options.goal:g}, box filter" if error else f", {options.spp} samples"))
+    print(f"| engine | {unit} | ours / it | mean | 8 x 8 blocks beyond noise (noise) |\n| --- |{' --- |' * (5 if error else 4)}")
+    for key, figure in figures.items():
+        row = [figure["engine"]] + ([f"{figure['samples']:.0f}", median_and_range(figure["seconds"])] if error else
+                                    [median_and_range(figure["mpaths_per_s"])])
+        row += ["", "", ""] if key == "fragtrace" else [median_and_range(ratios(figures, key)), f"{100 * figure['mean']:+.2f} %",
+                                                        f"{100 * figure['blocks']:.2f} % ({100 * figure['noise']:.2f} %)"]
+        print("| " + " | ".join(row) + " |")
     if name == "asset":
         print("The materials are not the same formulas (Mitsuba: principled): the pictures need not agree.")
-    elif len(running) > 1:
+    elif len(figures) > 1:
         levels = f"means within {100 * MEAN_LEVEL} %, blocks within {100 * BLOCK_LEVEL} % beyond noise"
-        print(f"The pictures agree: {levels}." if agree else f"THE PICTURES DO NOT AGREE: not {levels}.")
-    return agree, figures
-
-
-def time_to_error(engine, folder, options, seeds=4):
-    """(samples, error, seconds) of each step: the samples are doubled until the error is below the goal."""
-    steps, spp = [], 32
-    while len(steps) < 2 or steps[-1][1] > options.goal:
-        paths = [str(folder / f"seed{k}.pfm") for k in range(seeds)]
-        taken = statistics.median(engine.draw(spp, 100 + k, path)[options.clock] for k, path in enumerate(paths))
-        steps.append((spp, pictures.relative_mse(paths), taken))
-        progress(f"{engine.name}: {spp} samples, relative MSE {steps[-1][1]:.2e}, {taken:.2f} s")
-        spp *= 2
-    progress("")
-    return steps
-
-
-def at_goal(steps, goal):
-    """Samples and seconds at the goal, on the straight line through the last two steps in logarithms."""
-    (n0, e0, t0), (n1, e1, t1) = steps[-2:]
-    part = log(e0 / goal) / log(e0 / e1)
-    return tuple(exp(log(a) + part * log(b / a)) for a, b in ((n0, n1), (t0, t1)))
-
-
-def error_table(name, running, folder, options):
-    size = options.error_resolution
-    print(f"\n{name}, {size} x {size}: to a relative MSE of {options.goal:g}, each with its own sampler and roulette, box filter")
-    print("| engine | samples | seconds | theirs / ours |\n| --- | --- | --- | --- |")
-    ours, figures = None, {}
-    for engine in running:
-        steps = time_to_error(engine, folder, options)
-        samples, seconds = at_goal(steps, options.goal)
-        ours = ours or seconds
-        figures[engine.version] = {"steps": steps, "samples": samples, "seconds": seconds}
-        print(f"| {engine.version} | {samples:.0f} | {seconds:.2f} | {'' if engine is running[0] else f'{seconds / ours:.2f}'} |", flush=True)
-    return figures
+        print(f"The pictures agree: {levels}." if agree(name, figures) else f"THE PICTURES DO NOT AGREE: not {levels}.", flush=True)
 
 
 def main():
     options = arguments()
-    agree, figures = True, {"machine": machine(), "clock": options.clock, "spp": options.spp}
+    right, figures = True, {"machine": machine(), "clock": options.clock, "spp": options.spp}
     print(figures["machine"])
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
         for name in options.scenes:
             scene = make_scene(name, folder, options)
-            for kind, plain, size, table in (("speed", True, options.resolution, speed),
-                                             ("error", False, options.error_resolution, error_table)):
-                if options.measure not in (kind, "both"):
-                    continue
-                running = start(options, scene, size, plain)
-                try:
-                    result = table(name, running, folder, options)
-                finally:
-                    for engine in running:
-                        engine.close()
-                if kind == "speed":
-                    agree, result = agree and result[0], result[1]
-                figures.setdefault(name, {})[kind] = result
+            for kind, measure in (("speed", speed), ("error", time_to_error)):
+                if options.measure in (kind, "both"):
+                    result = measure(name, scene, folder, options)
+                    print_table(name, result, options)
+                    right = right and agree(name, result)
+                    figures.setdefault(name, {})[kind] = result
     if options.json:
         options.json.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
-    sys.exit(0 if agree else 1)
+    sys.exit(0 if right else 1)
 
 
 if __name__ == "__main__":

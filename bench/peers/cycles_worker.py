@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Renders one scene of peer_scenes.py in Cycles, again and again on request. Started by compare.py.
 
-usage: blender -b --factory-startup --python cycles_worker.py -- SCENE.json RESOLUTION (plain | roulette)
+usage: blender -b --factory-startup --python cycles_worker.py -- SCENE.json RESOLUTION (plain | roulette | adaptive)
 (or python cycles_worker.py -- ... where the module bpy is installed). Each line of stdin is {"spp", "seed", "output"}; each answer
 {"wall", "cpu"} in seconds: Cycles' own time of drawing, without building the scene; and CPU time, with it. plain: no Russian roulette;
-roulette: with Cycles' own, from the first bounce on. Never clamping, denoising or adaptive sampling; the box filter; equal bounces.
+roulette: with Cycles' own, from the first bounce on; adaptive: its adaptive sampling, too, "spp" being the most. Never clamping or denoising; the
+box filter; equal bounces.
 """
 
 import json
@@ -129,7 +130,7 @@ def set_renderer(resolution, settings, bounces=6):
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
     cycles.blur_glossy = 0
     cycles.pixel_filter_type = "BOX"
-    cycles.use_adaptive_sampling = False
+    cycles.use_adaptive_sampling = settings == "adaptive"  # the threshold stays as it is, 0.01
     cycles.min_light_bounces = bounces if settings == "plain" else 0  # Russian roulette begins after these
 
 
@@ -197,7 +198,8 @@ def main():
     set_world(description["environment"])
     set_camera(description["camera"])
     set_renderer(int(resolution), settings)
-    print("peer", json.dumps({"version": "Cycles %s%s" % (bpy.app.version_string, "" if settings == "plain" else ", its roulette")}), flush=True)
+    kind = {"plain": "", "roulette": ", its roulette", "adaptive": ", its defaults"}[settings]
+    print("peer", json.dumps({"version": f"Cycles {bpy.app.version_string}{kind}"}), flush=True)
     for line in sys.stdin:
         request = json.loads(line)
         print("peer", json.dumps(draw(request["spp"], request["seed"], request["output"])), flush=True)

@@ -7,10 +7,10 @@ import shutil
 from pathlib import Path
 
 import peer_scenes
+from peer_scenes import GREY
 from gltf_writer import GltfWriter, rotation_towards, subtract
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-GREY = (0.6, 0.6, 0.6)
 FOV_DEGREES = 40
 
 
@@ -22,18 +22,6 @@ def flat_quad(folder):
     gltf.add_camera("camera", (0, 2, 2), (0, 0, 0), FOV_DEGREES)
     gltf.write()
     return folder / "quad.gltf"
-
-
-def ball_on_ground(folder):
-    gltf = GltfWriter(folder, "ball")
-    (ball,) = peer_scenes.ball(middle=(0, 0.6, 0), bump=0)
-    grey = gltf.add_lambert("grey", GREY)
-    gltf.place_mesh("ball", gltf.primitive(ball["positions"], ball["indices"], grey, index_component="I"))
-    corners = [(-4, 0, 4), (4, 0, 4), (4, 0, -4), (-4, 0, -4)]
-    gltf.place_mesh("ground", gltf.primitive(corners, [0, 1, 2, 0, 2, 3], grey))
-    gltf.add_camera("camera", (0, 1.6, 3.2), (0, 0.5, 0), FOV_DEGREES)
-    gltf.write()
-    return folder / "ball.gltf"
 
 
 def bounds(root):
@@ -109,7 +97,8 @@ def pictures(folder, assets):
         return scenes
     environments = {"lightroom": assets / "env/lightroom_14b.hdr", "sun": assets / "env/qwantani_afternoon_puresky_1k.hdr"}
     helmet = as_lambert(folder, assets / "scenes/FlightHelmet/FlightHelmet.gltf", False)
-    under_sky = {"quad": flat_quad(folder), "ball": ball_on_ground(folder), "helmet": helmet}
+    ball = peer_scenes.write_gltf(folder, "ball", peer_scenes.ball_on_ground(), peer_scenes.OPEN_CAMERA)
+    under_sky = {"quad": flat_quad(folder), "ball": ball, "helmet": helmet}
     for name, scene in under_sky.items():
         for sky, file in environments.items():
             scenes[f"{name}, {sky}"] = (scene, file)

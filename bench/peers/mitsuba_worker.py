@@ -3,8 +3,9 @@
 """Renders one scene of peer_scenes.py in Mitsuba 3, again and again on request. Started by compare.py.
 
 usage: mitsuba_worker.py SCENE.json VARIANT RESOLUTION (plain | defaults)
-Each line of stdin is {"spp", "seed", "output"}; each answer {"wall", "cpu"}, seconds for drawing alone: the first request of a number of
-samples is drawn twice, so that its kernels are compiled. plain: no Russian roulette; defaults: Mitsuba's.
+Each line of stdin is {"spp", "seed", "output"}, and "sampler" if it is to be another than independent; each answer {"wall", "cpu", "samples"}: seconds
+for drawing alone, and the samples a pixel has, since some samplers round them up. The first request of a number of samples is drawn twice,
+so that its kernels are compiled. plain: no Russian roulette; defaults: Mitsuba's.
 """
 
 import json
@@ -47,6 +48,17 @@ def room(description):
         ball = next(m for m in description["meshes"] if m["name"] == "ball")
         scene["ball"] = make_mesh("ball", ball["positions"], ball["indices"],
                                   bsdf={"type": "diffuse", "reflectance": rgb(ball["color"])})
+    return scene
+
+
+def matt(description):
+    """The meshes of the description, as they are."""
+    scene = {"type": "scene"}
+    for i, mesh in enumerate(description["meshes"]):
+        light = {"emitter": {"type": "area", "radiance": rgb(mesh["radiance"])}} if "radiance" in mesh else {}
+        scene["mesh%d" % i] = make_mesh(mesh["name"], mesh["positions"], mesh["indices"], bsdf={"type": "diffuse", "reflectance": rgb(mesh["color"])}, **light)
+    if description["environment"]:
+        scene["environment"] = environment(description["environment"])
     return scene
 
 
@@ -102,46 +114,53 @@ def asset(description):
 
 
 def build(description, resolution, plain):
-    scene = asset(description) if description["kind"] == "asset" else room(description)
-    camera = description["camera"]
+    scene = {"asset": asset, "cornell-box": room, "room-ball": room}.get(description["kind"], matt)(description)
     roulette = {"rr_depth": 1000} if plain else {}
     scene["integrator"] = {"type": "path", "max_depth": 8, **roulette}
-    scene["sensor"] = {
-        "type": "perspective", "fov_axis": "y", "fov": camera["fov_degrees"], "near_clip": 1e-3, "far_clip": 1000.0,
-        "to_world": mi.ScalarTransform4f().look_at(origin=camera["eye"], target=camera["target"], up=[0, 1, 0]),
-        "film": {"type": "hdrfilm", "width": resolution, "height": resolution, "rfilter": {"type": "box"}, "pixel_format": "rgb",
-                 "component_format": "float32"}, "sampler": {"type": "independent"}}
+    scene["sensor"] = camera_with("independent", description["camera"], resolution)
     return mi.load_dict(scene)
 
 
-def draw(scene, resolution, spp, seed):
+def camera_with(sampler, camera, resolution):
+    return {"type": "perspective", "fov_axis": "y", "fov": camera["fov_degrees"], "near_clip": 1e-3, "far_clip": 1000.0,
+            "to_world": mi.ScalarTransform4f().look_at(origin=camera["eye"], target=camera["target"], up=[0, 1, 0]),
+            "film": {"type": "hdrfilm", "width": resolution, "height": resolution, "rfilter": {"type": "box"}, "pixel_format": "rgb",
+                     "component_format": "float32"}, "sampler": {"type": sampler}}
+
+
+def draw(scene, sensor, resolution, spp, seed):
     """The picture, and the seconds it took by both clocks."""
     step = min(spp, 1 << max(0, (PASS_SAMPLES // resolution ** 2).bit_length() - 1))  # both are powers of two
     dr.sync_thread()
     wall, cpu, total = time.perf_counter(), time.process_time(), 0
     for k in range(spp // step):
-        picture = mi.render(scene, spp=step, seed=seed * 4096 + k)
+        picture = mi.render(scene, sensor=sensor, spp=step, seed=seed * 4096 + k)
         dr.eval(picture)
         dr.sync_thread()
         total = total + np.array(picture) * (step / spp)
-    return total, {"wall": time.perf_counter() - wall, "cpu": time.process_time() - cpu}
+    seconds = {"wall": time.perf_counter() - wall, "cpu": time.process_time() - cpu}
+    return total, {**seconds, "samples": sensor.sampler().sample_count() * (spp // step)}
 
 
 def main():
     path, variant, resolution, settings = sys.argv[1:5]
     mi.set_variant(variant)
-    resolution = int(resolution)
-    scene = build(json.loads(Path(path).read_text(encoding="utf-8")), resolution, settings == "plain")
-    warm = set()
+    mi.set_log_level(mi.LogLevel.Error)  # its warnings, such as of rounded numbers of samples, end in colour codes within the next line
+    resolution, description = int(resolution), json.loads(Path(path).read_text(encoding="utf-8"))
+    scene = build(description, resolution, settings == "plain")
+    warm, sensors = set(), {}
     print("peer", json.dumps({"version": "Mitsuba " + mi.__version__ + " " + variant}), flush=True)
     for line in sys.stdin:
         request = json.loads(line)
-        if request["spp"] not in warm and variant.startswith("llvm"):
-            draw(scene, resolution, request["spp"], 1000)
-            warm.add(request["spp"])
-        picture, seconds = draw(scene, resolution, request["spp"], request["seed"])
+        sampler, spp = request.get("sampler", "independent"), request["spp"]
+        if sampler not in sensors:
+            sensors[sampler] = mi.load_dict(camera_with(sampler, description["camera"], resolution))
+        if (sampler, spp) not in warm and variant.startswith("llvm"):
+            draw(scene, sensors[sampler], resolution, spp, 1000)
+            warm.add((sampler, spp))
+        picture, answer = draw(scene, sensors[sampler], resolution, spp, request["seed"])
         mi.Bitmap(picture.astype(np.float32)).write(request["output"])
-        print("peer", json.dumps(seconds), flush=True)
+        print("peer", json.dumps(answer), flush=True)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The scenes of compare.py: for us as glTF, for the peers as a JSON file with the same numbers.
 
-{"kind": "cornell-box" | "room-ball" | "asset", "gltf": path, "environment": path or null,
+{"kind": "cornell-box" | "room-ball" | "matt-ball" | "many-lights" | "asset", "gltf": path, "environment": path or null,
  "camera": {"eye", "target", "fov_degrees" (vertical)},
  "meshes": [{"name", "positions": [[x y z]], "indices", "color", "radiance" (lamps only)}]}  (none for an asset)
 """
@@ -15,6 +15,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scenes"))
 
 import geometry  # noqa: E402
+import gi_scenes  # noqa: E402
 from gltf_writer import GltfWriter, normalize  # noqa: E402
 
 # The numbers of mi.cornell_box(): a cube of 2 m about the origin, open towards +z.
@@ -22,6 +23,8 @@ WHITE, GREEN, RED = (0.885809, 0.698859, 0.666422), (0.105421, 0.37798, 0.076425
 RADIANCE = (18.387, 13.9873, 6.75357)
 CAMERA = {"eye": (0, 0, 3.9), "target": (0, 0, 0), "fov_degrees": 39.3077}
 BALL_CELLS = 76  # a face of the cube it is made of: 12 * 76^2 = 69,312 triangles
+GREY = (0.6, 0.6, 0.6)
+OPEN_CAMERA = {"eye": (0, 1.6, 3.2), "target": (0, 0.5, 0), "fov_degrees": 40}
 
 
 def quad_mesh(name, faces, color, **more):
@@ -73,7 +76,44 @@ def ball(middle=(0, -0.35, 0), radius=0.6, bump=0.05, cells=BALL_CELLS):
     return [{"name": "ball", "positions": positions, "indices": indices, "color": WHITE}]
 
 
-def write_gltf(folder, name, meshes):
+def ball_on_ground():
+    """Smooth and matt, for an environment."""
+    return [{**ball(middle=(0, 0.6, 0), bump=0)[0], "color": GREY}, quad_mesh("ground", [geometry.ground(4, 4)], GREY)]
+
+
+class MattMeshes:
+    """Stands in for a GltfWriter: keeps what a scene of scenes/ adds as meshes without any gloss. Spheres become triangles, and lamps get black
+    backs: ours are not there from behind, the peers' are."""
+
+    def __init__(self):
+        self.meshes, self.camera = [], None
+
+    def add_lambert(self, name, color):
+        return {"color": color}
+
+    def add_material(self, name, color, *_):
+        return {"color": color}
+
+    def add_lamp(self, name, radiance):
+        return {"color": (0, 0, 0), "radiance": radiance}
+
+    def primitive(self, positions, indices, material, *_):
+        return {"positions": positions, "indices": indices, **material}
+
+    def place_mesh(self, name, mesh, **_):
+        self.meshes.append({"name": name, **mesh})
+        if "radiance" in mesh:
+            behind = [(x, y + 0.002, z) for x, y, z in mesh["positions"]]
+            self.meshes.append({"name": name + "-back", "positions": behind, "indices": mesh["indices"][::-1], "color": (0, 0, 0)})
+
+    def add_sphere(self, name, radius, material, translation):
+        self.meshes.append({**ball(translation, radius, bump=0, cells=16)[0], "name": name, **material})
+
+    def add_camera(self, name, eye, target, fov_degrees):
+        self.camera = {"eye": eye, "target": target, "fov_degrees": fov_degrees}
+
+
+def write_gltf(folder, name, meshes, camera=CAMERA):
     gltf = GltfWriter(folder, name)
     for mesh in meshes:
         make = gltf.add_lamp if "radiance" in mesh else gltf.add_lambert
@@ -81,7 +121,7 @@ def write_gltf(folder, name, meshes):
         if "radiance" in mesh:
             gltf.root["materials"][material]["pbrMetallicRoughness"]["baseColorFactor"] = [*mesh["color"], 1]
         gltf.place_mesh(mesh["name"], gltf.primitive(mesh["positions"], mesh["indices"], material, index_component="I"))
-    gltf.add_camera("camera", CAMERA["eye"], CAMERA["target"], CAMERA["fov_degrees"])
+    gltf.add_camera("camera", camera["eye"], camera["target"], camera["fov_degrees"])
     gltf.write()
     return folder / (name + ".gltf")
 
@@ -92,10 +132,20 @@ def write_scene(folder, description):
     return path
 
 
-def room_scene(folder, kind):
-    meshes = room() + (boxes() if kind == "cornell-box" else ball())
-    gltf = write_gltf(Path(folder), kind, meshes)
-    return write_scene(folder, {"kind": kind, "gltf": str(gltf), "environment": None, "camera": CAMERA, "meshes": meshes})
+def matt_scene(folder, kind, environment=None):
+    """Any of the kinds but an asset."""
+    camera = CAMERA
+    if kind == "many-lights":
+        kept = MattMeshes()
+        gi_scenes.many_lights(kept)
+        meshes, camera = kept.meshes, kept.camera
+    elif kind == "matt-ball":
+        meshes, camera = ball_on_ground(), OPEN_CAMERA
+    else:
+        meshes = room() + (boxes() if kind == "cornell-box" else ball())
+    gltf = write_gltf(Path(folder), kind, meshes, camera)
+    return write_scene(folder, {"kind": kind, "gltf": str(gltf), "camera": camera, "meshes": meshes,
+                                "environment": environment and str(Path(environment).resolve())})
 
 
 def asset_scene(folder, program, asset, environment):
