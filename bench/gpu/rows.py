@@ -47,7 +47,7 @@ class Frame:
 
 
 FRAGMENT = ["--dispatch", "fragment"]
-COMPUTE = ["--dispatch", "compute"]
+COMPUTE = ["--dispatch", "compute", "--schedule", "megakernel"]
 LITERALS = ["--traversal", "literals"]
 TREE = ["--traversal", "front-to-back"]
 WAVEFRONT = ["--schedule", "wavefront", *TREE]
@@ -66,7 +66,7 @@ def ball(title, options, wants):
     return Frame("ball", f"room with the ball, {title}", "scenes/room-ball.gltf", options, wants)
 
 
-def helmet(title, options, wants):  # has alpha, which the wavefront does not draw
+def helmet(title, options, wants):
     files = ["assets/FlightHelmet/FlightHelmet.gltf", "assets/lightroom_14b.hdr"]
     return Frame("helmet", f"FlightHelmet under lightroom_14b, {title}", files[0], ["--hdri-file", files[1], *options], wants, needs=files)
 
@@ -88,6 +88,7 @@ FRAMES = (
     ball("wavefront", WAVEFRONT, {"wavefront"}),
     helmet("fragment", FRAGMENT, {"fragment"}),
     helmet("compute", COMPUTE, {"compute"}),
+    helmet("wavefront", WAVEFRONT, {"wavefront"}),
 )
 
 SCALE = ["--from", "10000000", "--to", "10000000", "--traversals", "front-to-back,bvh"]

@@ -31,7 +31,7 @@ import traversals  # noqa: E402
 GOAL = "1e-3"
 NAMES = {"cornell-box": "Cornell box", "room-ball": "room with the ball", "asset": "FlightHelmet under lightroom_14b",
          "matt-ball": "matt ball under lightroom_14b", "many-lights": "many lights"}
-PATHS, WAVEFRONT, ERROR = "paths a second / Mitsuba llvm", "the same, --schedule wavefront", f"time to relative MSE {GOAL} of"
+PATHS, ERROR = "paths a second / Mitsuba llvm", f"time to relative MSE {GOAL} of"
 BEST, CYCLES = "Mitsuba's best sampler / ours", "Cycles / ours"
 RAYS, COLD, KEPT = "traversal alone / Embree's one ray at a time", "first picture from cold, s", "rays a second / before"
 
@@ -47,14 +47,13 @@ def less(most, moonshot=None):
 AIMS = {
     f"{NAMES['cornell-box']}, {PATHS}": more(1.8, 2.5),
     f"{NAMES['room-ball']}, {PATHS}": more(0.75, 1.0),
-    f"{NAMES['room-ball']}, {WAVEFRONT}": more(0.75, 1.0),
     f"{NAMES['asset']}, {PATHS}": more(0.5, 1.0),
     **{f"{NAMES[name]}, {ERROR} {peer}": aim for peer, aim in ((BEST, more(1, 2)), (CYCLES, more(2, 5)))
        for name in ("cornell-box", "room-ball", "matt-ball", "many-lights")},
     f"{RAYS}: primary": more(0.9, 1.2), f"{RAYS}: diffuse": more(0.8, 1.2), f"{RAYS}: shadow": more(0.8, 1.2),
     "bvh / front-to-back, 62,975 triangles": more(2.1), "iterative / front-to-back, 62,975 triangles": more(526),
     "front-to-back, 62,975 / 15,743 triangles": less(1.15),
-    **{f"{COLD}: {NAMES[name]}": less(0.35, 0.25) for name in ("cornell-box", "room-ball", "asset")},
+    **{f"{COLD}: {NAMES[name]}": less(0.35, 0.25) for name in ("cornell-box", "room-ball")}, f"{COLD}: {NAMES['asset']}": less(0.6),
     f"bvh, {KEPT}": more(0.95), f"iterative, {KEPT}": more(0.95),
 }
 
@@ -112,9 +111,8 @@ def beside(measure, name, resolution, spp, peers, rows):
     return run
 
 
-def speed_part(name, spp, wavefront=False):
-    rows = [(PATHS, "mitsuba-llvm", "fragtrace")] + [(WAVEFRONT, "mitsuba-llvm", compare.WAVEFRONT)] * wavefront
-    return beside(compare.speed, name, 500, spp, ["mitsuba-llvm"] + [compare.WAVEFRONT] * wavefront, rows)
+def speed_part(name, spp):
+    return beside(compare.speed, name, 500, spp, ["mitsuba-llvm"], [(PATHS, "mitsuba-llvm", "fragtrace")])
 
 
 def error_part(name):
@@ -165,7 +163,7 @@ def cold(options):
 
 PARTS = {
     "cold": cold, "meshes": meshes, "traversal": rays,
-    "speed-box": speed_part("cornell-box", 64), "speed-ball": speed_part("room-ball", 16, wavefront=True), "speed-helmet": speed_part("asset", 32),
+    "speed-box": speed_part("cornell-box", 64), "speed-ball": speed_part("room-ball", 16), "speed-helmet": speed_part("asset", 32),
     "error-matt-ball": error_part("matt-ball"), "error-box": error_part("cornell-box"), "error-ball": error_part("room-ball"),
     "error-many-lights": error_part("many-lights"), "kept": kept,
 }

@@ -23,7 +23,6 @@ import pictures
 
 SCENES = ("cornell-box", "room-ball", "matt-ball", "many-lights", "asset")
 PEERS = ("mitsuba-llvm", "mitsuba-scalar", "cycles", "cycles-roulette")
-WAVEFRONT = "fragtrace-wavefront"  # ours by the other schedule, beside ours
 MEAN_LEVEL, BLOCK_LEVEL = 0.005, 0.01  # relative; of the blocks' root mean square beyond the noise
 # Where Cycles' adaptive sampling, which its defaults turn on, gets to a relative MSE of 1e-3: its threshold of 0.01 ends it at 0.0024 in the box, at 0.0031
 # in the room with the ball and at 0.0020 under many lights.
@@ -35,7 +34,7 @@ def arguments():
     parser = argparse.ArgumentParser(description="fragtrace beside Mitsuba 3 and Cycles: speed, pictures, time to an error")
     parser.add_argument("program", type=Path, help="build/fragtrace")
     parser.add_argument("--scenes", default="cornell-box,room-ball", help=f"of {', '.join(SCENES)} (default: the first two)")
-    parser.add_argument("--only", default=",".join(PEERS), help=f"peers, of {', '.join(PEERS)} (default: these), {WAVEFRONT}")
+    parser.add_argument("--only", default=",".join(PEERS), help=f"peers, of {', '.join(PEERS)} (default: these)")
     parser.add_argument("--spp", type=int, default=64, help="samples of a picture, a power of two")
     parser.add_argument("--rounds", type=int, default=5, help="pictures of each engine, drawn in turn (at least 2)")
     parser.add_argument("--resolution", type=int, default=500)
@@ -54,7 +53,7 @@ def arguments():
     options.scenes, options.only = options.scenes.split(","), options.only.split(",")
     if not options.program.is_file():
         parser.error(f"no program {options.program}; scripts/build makes it")
-    for what, names, known in (("--only: no peer", options.only, [*PEERS, WAVEFRONT]), ("--scenes: no scene", options.scenes, SCENES)):
+    for what, names, known in (("--only: no peer", options.only, PEERS), ("--scenes: no scene", options.scenes, SCENES)):
         for name in set(names) - set(known):
             parser.error(f"{what} {name}")
     if options.rounds < 2 or options.spp < 1 or options.spp & (options.spp - 1):
@@ -78,13 +77,8 @@ def start(options, name, scene, resolution, plain):
     makers = {"mitsuba-llvm": lambda: engines.mitsuba("llvm_ad_rgb", options.python, scene, resolution, plain),
               "mitsuba-scalar": lambda: engines.mitsuba("scalar_rgb", options.python, scene, resolution, plain),
               "cycles": lambda: engines.cycles(options.python, options.blender, scene, resolution, settings),
-              "cycles-roulette": lambda: engines.cycles(options.python, options.blender, scene, resolution, "roulette"),
-              WAVEFRONT: lambda: ours("--schedule", "wavefront")}
-
-    def ours(*more):
-        return engines.Fragtrace(options.program, scene, resolution, plain, [*options.ours.split(), *more])
-
-    running = {"fragtrace": ours()}
+              "cycles-roulette": lambda: engines.cycles(options.python, options.blender, scene, resolution, "roulette")}
+    running = {"fragtrace": engines.Fragtrace(options.program, scene, resolution, plain, options.ours.split())}
     for peer in options.only:
         if peer == "cycles-roulette" and not plain:
             continue  # that is what cycles is there

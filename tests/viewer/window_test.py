@@ -98,13 +98,13 @@ class Files(Case):
         viewer = self.view(scene, *FEW, "--watch", "--shader-folder", shaders)
         shown = pixels_of(viewer.press_for_file("F12", ".png"))
 
-        text = (shaders / "trace.frag").read_text()
-        (shaders / "trace.frag").write_text(text + "\nthis is no GLSL\n")
+        text = (shaders / "trace.glsl").read_text()
+        (shaders / "trace.glsl").write_text(text + "\nthis is no GLSL\n")
         status = viewer.until(lambda s: s["error"], "error of the shader")
-        self.assertIn("trace.frag", status["error"])
+        self.assertIn("trace.glsl", status["error"])
         viewer.rest()
         self.same(pixels_of(viewer.press_for_file("F12", ".png")), shown)
-        (shaders / "trace.frag").write_text(text)
+        (shaders / "trace.glsl").write_text(text)
         viewer.rest(lambda s: not s["error"], "repaired shader")
 
         scene.write_text("{")
