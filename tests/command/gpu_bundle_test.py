@@ -68,7 +68,7 @@ class GpuTable(Case):
         self.assertIn("FAILED: stopped at its limit of 2 s", rows["rays a second"][2])
         self.assertIn("FlightHelmet.gltf is not in the bundle", rows["FlightHelmet under lightroom_14b, compute"][2])
         self.assertIn("FAILED: its figures cannot be read: TypeError", rows["room with the ball, compute"][2])
-        self.assertIn("8 rows failed or are wrong", text.splitlines()[-1])
+        self.assertIn("9 rows failed or are wrong", text.splitlines()[-1])
         self.assertEqual(len((self.out / "figures.jsonl").read_text().splitlines()), 5)
 
     def test_an_interrupted_run_keeps_its_table(self):
