@@ -35,7 +35,7 @@ def arguments():
     parser.add_argument("--spp", default="16")
     parser.add_argument("--jobs", type=int, default=1, help="scenes at a time")
     parser.add_argument("--json", type=Path, help="CPU seconds of each render")
-    parser.add_argument("--options", default="", help="more options of render, as one word")
+    parser.add_argument("--options", default="", help="more options of render, in quotes")
     options = parser.parse_args()
     for path in (options.before, options.now, *options.scenes, *filter(None, [options.hdri_file])):
         if not path.is_file():

@@ -34,7 +34,7 @@ def arguments():
     parser = argparse.ArgumentParser(description="ten settings against a file of before")
     parser.add_argument("program", type=Path, help="build/fragtrace")
     parser.add_argument("baseline", type=Path, help="file of before; made where there is none")
-    parser.add_argument("--rounds", type=int, default=7)
+    parser.add_argument("--rounds", type=int, default=7, help="of bench frame (default: 7)")
     parser.add_argument("--tolerance", type=float, default=0.25, help="part by which a setting may be slower (default: 0.25)")
     parser.add_argument("--only", default=",".join(SETTINGS), help="of " + ", ".join(SETTINGS))
     parser.add_argument("--renew", action="store_true", help="make the file anew")
@@ -68,7 +68,7 @@ def main():
         for name in options.only:
             status = timed(options, name, json, against)
             if status not in (0, 1):
-                sys.exit(f"settings.py: {name}: bench frame ended with status {status}")
+                sys.exit(f"settings.py: {name}: bench frame ended with status {status}; where {options.baseline} lacks it, --renew makes it anew")
             failed += [name] if status else []
             lines += json.read_text(encoding="utf-8")
     if failed:

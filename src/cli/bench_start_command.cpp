@@ -78,7 +78,10 @@ EndedProcess startAndAwait(std::vector<std::string> words) {
   }
   ended.end = steadyMilliseconds();
   ended.cpuMs = millisecondsOf(used.ru_utime) + millisecondsOf(used.ru_stime);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw RenderError("a start failed, as said above");
+  const int exited = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+  constexpr int kInputStatus = 3;
+  if (exited == kInputStatus) throw InputError("a start failed, as said above");
+  if (exited != 0) throw RenderError("a start failed, as said above");
   return ended;
 }
 

@@ -198,6 +198,8 @@ void sayWhatIsChosen(const RenderOptions& options, const Context& context, const
     say(options, "variant " + stats.variant);
     for (const std::string& line : stats.skipped) say(options, "skipped " + line);
   }
+  if (options.schedule == Schedule::Wavefront && !stats.scheduleReason.empty())
+    say(options, "warning: --schedule wavefront: the megakernel draws: " + stats.scheduleReason);
   if (tracer.variant.clampIndirect) say(options, "indirect light is clamped (--clamp-indirect): biased");
 }
 

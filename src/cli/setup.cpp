@@ -243,6 +243,8 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
     return;
   }
   if (!asked && options.traversal != TraversalMethod::Auto) return;
+  // Who asks for the wavefront gets it, which needs a tree.
+  if (!asked && options.schedule == Schedule::Wavefront && has(variant.stages, Stage::Gi)) return;
   const std::string reason = asked ? whyNoLiterals(loaded.scene, packed) : "";
   if (!reason.empty()) throw UsageError("--traversal literals: " + reason);
   if (!asked && !paysAsLiterals(loaded.scene, loaded.bvh, packed, pathsOf(options, loaded.size))) return;
@@ -259,7 +261,8 @@ std::string settleVariant(ShaderVariant& variant, const LoadedScene& loaded, con
   variant.reads = reads;
   variant.dispatch =
       chooseDispatch(options.dispatch, context, variant.traversal == TraversalMethod::Literals);
-  return chooseSchedule(variant, options, context.software, pathsOf(options, loaded.size));
+  return chooseSchedule(variant, options,
+                        {context.software, pathsOf(options, loaded.size), loaded.bvh.nodes.size()});
 }
 
 Phase buildProgram(ProgramCache& programs, const ShaderVariant& variant) {

@@ -17,28 +17,32 @@ int freeImageUnit(const ShaderVariant& variant) {
   return -1;
 }
 
-/// On llvmpipe the wavefront takes 0.2 to 0.35 s longer to compile and saves 0.1 to 1.4 us of a processor a
+/// On llvmpipe the wavefront takes 0.15 to 0.35 s longer to compile and saves 0.1 to 1.4 us of a processor a
 /// path: that is even at a quarter of a million paths in the room with the ball, at two million in Suzanne.
-constexpr double kFewPaths = 1e6;
+constexpr double kFewPaths = 2e6;
+/// Rays of so few steps hardly wait for each other: many-lights, of 274 nodes, takes as long by both.
+constexpr size_t kSmallTree = 512;
 
 /// Why the megakernel draws; empty when the wavefront does.
-std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& options, bool software,
-                          double paths) {
+std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& options,
+                          const ScheduleWork& work) {
   if (options.schedule == Schedule::Megakernel) return "--schedule";
-  if (variant.traversal != TraversalMethod::FrontToBack) return "the tree is not walked front to back";
-  if (!has(variant.stages, Stage::Gi)) return "a stage before global illumination";
   if (variant.feature != Feature::None) return "a layer of first hits";
+  if (has(variant.stages, Stage::BvhHeatmap)) return "the heat map";
+  if (!has(variant.stages, Stage::Gi)) return "a stage before global illumination";
+  if (variant.traversal == TraversalMethod::Literals) return "the scene is shader text";
+  if (variant.traversal != TraversalMethod::FrontToBack) return "the tree is not walked front to back";
   if (options.dispatch == Dispatch::Fragment) return "--dispatch fragment";
   if (options.schedule == Schedule::Wavefront) return "";
-  if (!software) return "a GPU: not measured";
-  return paths < kFewPaths ? "few paths" : "";
+  if (!work.software) return "a GPU: not measured";
+  if (work.nodes < kSmallTree) return "a small tree";
+  return work.paths < kFewPaths ? "few paths" : "";
 }
 
 }  // namespace
 
-std::string chooseSchedule(ShaderVariant& variant, const RenderOptions& options, bool software,
-                           double paths) {
-  std::string why = whyMegakernel(variant, options, software, paths);
+std::string chooseSchedule(ShaderVariant& variant, const RenderOptions& options, const ScheduleWork& work) {
+  std::string why = whyMegakernel(variant, options, work);
   variant.wavefront = why.empty();
   if (variant.wavefront) {
     variant.dispatch = Dispatch::Compute;

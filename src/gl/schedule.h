@@ -8,8 +8,15 @@
 
 namespace fragtrace {
 
-/// Settles between the megakernel and the wavefront for so many paths, once reads and dispatch are known.
-/// Returns why it is the megakernel, or nothing.
-std::string chooseSchedule(ShaderVariant& variant, const RenderOptions& options, bool software, double paths);
+/// What tells which schedule pays.
+struct ScheduleWork {
+  bool software = false;  ///< a rasteriser on the processor
+  double paths = 0.0;     ///< that the picture will take
+  size_t nodes = 0;       ///< of the tree
+};
+
+/// Settles between the megakernel and the wavefront, once reads and dispatch are known. Returns why it is the
+/// megakernel, or nothing.
+std::string chooseSchedule(ShaderVariant& variant, const RenderOptions& options, const ScheduleWork& work);
 
 }  // namespace fragtrace

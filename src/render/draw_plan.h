@@ -45,9 +45,10 @@ inline DrawPlan planDraws(glm::ivec2 picture, int remaining, int most, double ms
 }
 
 /// The same for the wavefront, whose draws are cut by steps: paths go on from draw to draw, so a tile gets
-/// many samples before the next one, and only its last paths leave lanes idle.
-inline DrawPlan planWaves(glm::ivec2 picture, int remaining) {
-  return {glm::min(picture, glm::ivec2(128, 256)), std::min(remaining, 64)};
+/// many samples before the next one, and only its last paths leave lanes idle. Rounds double, up to 64
+/// samples, so that a picture that is stopped early has about as many everywhere.
+inline DrawPlan planWaves(glm::ivec2 picture, int done, int remaining) {
+  return {glm::min(picture, glm::ivec2(128, 256)), std::min(remaining, std::clamp(done, 1, 64))};
 }
 
 }  // namespace fragtrace

@@ -210,7 +210,7 @@ bool Renderer::addSamples(Film& film, const View& view, int from, int to, Render
   double pixelSamplesDone = 0.0;
   for (int done = from; done < to;) {
     const DrawPlan plan =
-        variant_.wavefront ? planWaves(film.size(), to - done)
+        variant_.wavefront ? planWaves(film.size(), done, to - done)
                            : planDraws(film.size(), to - done, mostSamplesPerDraw_, msPerSample_, targetMs_);
     const auto roundStart = Clock::now();
     double tileMs = 0.0;

@@ -42,7 +42,7 @@ StressPicture::StressPicture(const StressSetting& setting, Scene scene, const En
     variant_.literals = literalScene(scene, bvh, packed, variant_);
   }
   variant_.reads = chooseReads(BufferReads::Auto, setting.context.software, packed, readLimits()).reads;
-  chooseSchedule(variant_, options, setting.context.software, 0.0);
+  chooseSchedule(variant_, options, {});
   renderer_ =
       std::make_unique<Renderer>(setting.context, std::move(packed), variant_.reads, setting.shaderFolder);
 }

@@ -60,7 +60,7 @@ SceneDrawing::SceneDrawing(const Context& context, const Scene& scene, const Ren
   GpuScene packed = packScene(scene, bvh, environment, everything);
   picture_.reads = chooseReads(options.bufferReads, context.software, packed, readLimits()).reads;
   depth_.reads = picture_.reads;
-  chooseSchedule(picture_, options, context.software, 0.0);
+  chooseSchedule(picture_, options, {});
   renderer_ = std::make_unique<Renderer>(context, std::move(packed), picture_.reads, options.shaderFolder);
   view_.camera = scene.cameras.empty() ? frameScene(scene.bounds) : scene.cameras.front();
   view_.space = scene.space;

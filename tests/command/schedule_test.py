@@ -60,14 +60,29 @@ class Schedules(Case):
 
     def test_auto_takes_the_wavefront_for_many_paths(self):
         """On a software rasteriser, which is what the tests have."""
-        few = self.drawn("sun-sky", "auto", "--traversal", "front-to-back", "--resolution", "8,8", "--spp", 1)[1]
-        self.assertEqual((few["schedule"], few.get("schedule_reason")), ("megakernel", "few paths"))
-        many = self.drawn("sun-sky", "auto", "--traversal", "front-to-back", "--resolution", "8,8", "--spp", 16384, "--noise", 0.5)[1]
-        self.assertEqual((many["schedule"], many.get("schedule_reason")), ("wavefront", None))
+        for scene, options, chosen in (("room-ball", ["--spp", 1], ("megakernel", "few paths")),
+                                       ("room-ball", ["--spp", 16384, "--noise", 0.5], ("wavefront", None)),
+                                       ("many-lights", ["--spp", 16384, "--noise", 0.5], ("megakernel", "a small tree"))):
+            stats = self.drawn(scene, "auto", "--resolution", "8,8", *options)[1]
+            self.assertEqual((stats["schedule"], stats.get("schedule_reason")), chosen, scene)
+
+    def test_a_picture_that_is_stopped_is_even(self):
+        stats = self.drawn("room-ball", "wavefront", "--resolution", "300,300", "--time", 3)[1]
+        self.assertGreater(stats["fewest_samples"], 0)
+
+    def test_who_asks_for_the_wavefront_is_told_why_not(self):
+        result = self.renders(SCENES / "room-ball.gltf", "-o", self.folder / "x.pfm", "--schedule", "wavefront", "--stage", "flat", "--resolution", "8,8",
+                              "--spp", 1)
+        self.assertIn("--schedule wavefront: the megakernel draws: a stage before global illumination", result.stderr)
+        stats = self.drawn("cornell-box", "wavefront", "--resolution", "256,256", "--spp", 16)[1]
+        self.assertEqual(stats["schedule"], "wavefront")
 
     def test_why_it_is_the_megakernel(self):
         small = ["--resolution", "8,8", "--spp", 1]
-        for why, scene, options in (("the tree is not walked front to back", "cornell-box", ["--traversal", "literals"]),
+        for why, scene, options in (("the scene is shader text", "cornell-box", ["--traversal", "literals"]),
+                                    ("the tree is not walked front to back", "room-ball", ["--traversal", "bvh"]),
+                                    ("a layer of first hits", "room-ball", ["--debug-view", "normal"]),
+                                    ("the heat map", "room-ball", ["--enable", "bvh-heatmap"]),
                                     ("a stage before global illumination", "room-ball", ["--stage", "shadows"]),
                                     ("--dispatch fragment", "room-ball", ["--dispatch", "fragment"])):
             stats = self.drawn(scene, "wavefront", *small, *options)[1]
