@@ -29,7 +29,7 @@ uint keyOf(Wave v, int k) {
   return pixelKey(uint(pixel.x), uint(frame.picture.y - 1 - pixel.y), uint(frame.picture.w));
 }
 
-/// Rays wait for the barriers, as what one loop stores the next one reads.
+/// Between loops: the next one reads what the last one has stored.
 void settleStates() {
   memoryBarrierBuffer();
   memoryBarrierImage();
@@ -256,7 +256,7 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
   return v;
 }
 
-/// The pixels' samples begin anew.
+/// The samples of these pixels begin anew.
 Wave beginAnew(Wave v, uint left) {
   v.hits &= ~left;
   v.misses |= left;
@@ -308,7 +308,7 @@ void traceWave(ivec2 lane) {
     v = beginSamples(v, misses, tree);
     settleStates();
     v = traceRays(v, budget, tree);
-    v.steps += 5;
+    v.steps += 5;  // the first iterations of the five loops, which all lanes take
     uint lost = v.rays;
     advanced = advanced || lost == 0u;
     v.rays = 0u;

@@ -111,14 +111,12 @@ int run(std::span<char*> argv) {
 
   std::filesystem::create_directories(folder);
   const std::string base = (folder / (name + "." + backend)).string();
-  // Each backend tries another schedule; stages that only one can draw get that one.
-  const std::string schedule = backend == "egl" ? "megakernel" : "wavefront";
   const int spp = entry->value("test_spp", (*entry)["stage"] == "gi" ? 256 : 64);
   std::string command = "cd " + quoted(source.string()) + " && " + quoted(argv[3]) + " render scenes/" +
                         (*entry)["scene"].get<std::string>() + ".gltf -o " + quoted(base + ".exr") +
                         " --quiet --stage " + (*entry)["stage"].get<std::string>() + " --rendering-backend " +
-                        backend + " --schedule " + schedule + " --aov variance --spp " + std::to_string(spp) +
-                        " --resolution " + std::to_string((*entry)["resolution"][0].get<int>()) + "," +
+                        backend + " --aov variance --spp " + std::to_string(spp) + " --resolution " +
+                        std::to_string((*entry)["resolution"][0].get<int>()) + "," +
                         std::to_string((*entry)["resolution"][1].get<int>());
   const auto add = [&](const std::string& option) { command.append(" ").append(quoted(option)); };
   for (const auto& option : (*entry)["options"]) add(option.get<std::string>());
