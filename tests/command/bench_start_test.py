@@ -53,7 +53,7 @@ class BenchStart(Case):
         self.fails(2, "bench", "start", BOX, "--format", "gif", says=["--format"])
         self.fails(2, "bench", "start", BOX, "--json", BOX, says=["cornell-box"])
         result = run("bench", "start", self.folder / "none.gltf", *TINY, "--quiet")
-        self.assertEqual(result.returncode, 1)
+        self.assertEqual(result.returncode, 3)
         for words in ("none.gltf", "a start failed"):
             self.assertIn(words, result.stderr)
 
