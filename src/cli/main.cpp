@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 #include <new>
+#include <system_error>
 
 #include "cli/commands.h"
 #include "cli/interrupt.h"
@@ -84,6 +85,10 @@ int main(int argc, char** argv) {
     return fail(kNoContext, error.what());
   } catch (const std::bad_alloc&) {
     return fail(kInput, "out of memory");
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::resource_unavailable_try_again) return fail(kFailed, error.what());
+    return fail(kFailed,
+                "the system grants no further thread, perhaps for want of memory (ulimit -u, ulimit -v)");
   } catch (const std::exception& error) {
     return fail(kFailed, error.what());
   }

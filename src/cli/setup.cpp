@@ -5,6 +5,7 @@
 #include <future>
 
 #include "bvh/large_first.h"
+#include "bvh/parallel.h"
 #include "bvh/two_level.h"
 #include "cli/outputs.h"
 #include "errors.h"
@@ -176,7 +177,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   Phase reading;  // outlives the thread that sets it
   std::future<Image> map;
   if (!options.hdriFile.empty()) {
-    map = std::async(std::launch::async, [&] {
+    map = std::async(kThreadIfGranted, [&] {
       PhaseTimer timer("environment", "second");
       Image image = readImage(options.hdriFile, options.limits.memoryBytes);
       reading = timer.end();
@@ -319,7 +320,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   }
   ProgramCache programs(shaderSource(options.shaderFolder));
   Phase packing;  // outlives the thread that sets it
-  std::future<GpuScene> packedLater = std::async(std::launch::async, [&] {
+  std::future<GpuScene> packedLater = std::async(kThreadIfGranted, [&] {
     PhaseTimer timer("pack", "second");
     GpuScene scene = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, textureSide);
     packing = timer.end();
