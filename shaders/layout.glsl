@@ -36,6 +36,9 @@ const uint kWaveRows = 12u;  // at most: scenes without alpha leave the last one
 const uint kWaveAlphaRows = 3u;
 const uint kWaveLaneRows = kWaveSlots * kWaveRows + 1u;
 
+// A draw of the compute entries has a multiple of so many work groups (work_group.glsl).
+const uint kWorkGroupHands = 8u;
+
 // The uniform block of one draw.
 const uint kFrameBinding = 0u;
 

@@ -29,6 +29,18 @@ uint keyOf(Wave v, int k) {
   return pixelKey(uint(pixel.x), uint(frame.picture.y - 1 - pixel.y), uint(frame.picture.w));
 }
 
+/// The path of pixel k, with what its shadow ray has let through.
+WavePath takeUp(inout Wave v, int k) {
+  WavePath w = loadWave(rowOf(v, k), keyOf(v, k));
+  uint bit = 1u << k;
+  bool waited = (v.waiting & bit) != 0u;
+  w.path.radiance += waited && (v.blocked & bit) == 0u ? w.path.contribution : vec3(0.0);
+  w.rays += waited ? 1 : 0;
+  v.waiting &= ~bit;
+  v.blocked &= ~bit;
+  return w;
+}
+
 /// Between loops: the next one reads what the last one has stored.
 void settleStates() {
   memoryBarrierBuffer();
@@ -109,15 +121,9 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
     uint bit = 1u << k;
     int row = rowOf(v, k);
     v.steps += 1;
-    WavePath w = loadWave(row, keyOf(v, k));
-    bool waited = (v.waiting & bit) != 0u;
-    bool lit = waited && (v.blocked & bit) == 0u;
-    w.rays += waited ? 2 : 1;
-    v.waiting &= ~bit;
-    v.blocked &= ~bit;
-    Path p = w.path;
-    p.radiance += lit ? p.contribution : vec3(0.0);
-    p = shade(p);
+    WavePath w = takeUp(v, k);
+    w.rays += 1;
+    Path p = shade(w.path);
     v.cut += cutThroughput(p);
     bool shadow = kShadows && p.phase == kPhaseShadow;
     Traversal s = p.traversal;
@@ -151,15 +157,9 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
     if (!more) {
       k = findLSB(left);
       left &= left - 1u;
-      uint bit = 1u << k;
       pixel = v.corner + ivec2(0, k);
       film = loadFilm(pixel);
-      w = loadWave(rowOf(v, k), keyOf(v, k));
-      bool waited = (v.waiting & bit) != 0u;
-      if (waited && (v.blocked & bit) == 0u) w.path.radiance += w.path.contribution;
-      w.rays += waited ? 1 : 0;
-      v.waiting &= ~bit;
-      v.blocked &= ~bit;
+      w = takeUp(v, k);
     }
     if (w.path.phase == kPhaseExtend) {
       w.path = meetSurroundings(w.path);
@@ -189,7 +189,7 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
   return v;
 }
 
-/// Traces all rays up to the step budget. A lane whose ray is done takes its next one.
+/// Traces all rays, but for those that the step budget leaves over. A lane whose ray is done takes its next one.
 Wave traceRays(Wave v, int budget, TreeFrame tree) {
   Traversal t = beginTraversal(0.0, false, 0);
   TreeRay ray = makeTreeRay(vec3(0.0), vec3(1.0), 0.0, tree.origin, tree.cell);
@@ -249,10 +249,7 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
       }
     }
   }
-  uint lost = v.rays | v.shadows;
-  if (t.node != kTraversalDone) lost |= 1u << current;
-  v.rays = lost;
-  v.shadows = 0u;
+  if (t.node != kTraversalDone) v.rays |= 1u << current;
   return v;
 }
 
@@ -260,6 +257,8 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
 Wave beginAnew(Wave v, uint left) {
   v.hits &= ~left;
   v.misses |= left;
+  v.rays &= ~left;
+  v.shadows &= ~left;
   v.waiting &= ~left;
   v.blocked &= ~left;
   for (; left != 0u; left &= left - 1u) {
@@ -309,9 +308,8 @@ void traceWave(ivec2 lane) {
     settleStates();
     v = traceRays(v, budget, tree);
     v.steps += 5;  // the first iterations of the five loops, which all lanes take
-    uint lost = v.rays;
+    uint lost = v.rays | v.shadows;
     advanced = advanced || lost == 0u;
-    v.rays = 0u;
     v = beginAnew(v, lost);
   }
   pathStates[own] = uvec4(v.hits, v.misses, v.waiting, v.blocked);

@@ -2,15 +2,13 @@
 // Which lanes of a tile a work group has. llvmpipe gives each of its threads a run of successive groups, so these are dealt out over the tile: what takes
 // long often stands together in the picture, and all threads should get of it.
 
-const uint kHands = 8u;  // the number of groups is a multiple of it
-
 /// The lane of a tile of so many lanes; beyond it for lanes that have nothing to do.
 ivec2 laneOfTile(ivec2 lanes) {
   uint columns = uint(lanes.x + 7) / 8u;
-  uint each = gl_NumWorkGroups.x / kHands;
+  uint each = gl_NumWorkGroups.x / kWorkGroupHands;
   uint hand = gl_WorkGroupID.x / each;
   uint first = (hand & 1u) << 2 | (hand & 2u) | hand >> 2;  // 0, 4, 2, 6, 1, 5, 3, 7: even for halves and quarters, too
-  uint group = (gl_WorkGroupID.x - hand * each) * kHands + first;
+  uint group = (gl_WorkGroupID.x - hand * each) * kWorkGroupHands + first;
   uint row = group / columns;
   return ivec2(group - row * columns, row) * 8 + ivec2(gl_LocalInvocationID.xy);
 }

@@ -6,11 +6,17 @@ WHOLE_SECONDS = 480
 CORRECTNESS_SECONDS = 150  # of all reference pictures together
 PICTURE_SECONDS = 30  # of one picture
 
+FRAGMENT = ["--dispatch", "fragment"]
+COMPUTE = ["--dispatch", "compute", "--schedule", "megakernel"]
+LITERALS = ["--traversal", "literals"]
+TREE = ["--traversal", "front-to-back"]
+WAVEFRONT = ["--schedule", "wavefront"]  # by a tree
+
 # How reference pictures are drawn: the name, options of `render`, and the stage that it draws alone.
 ENTRIES = (
-    ("fragment entry", ["--dispatch", "fragment"], None),
-    ("compute entry", ["--dispatch", "compute"], None),
-    ("wavefront", ["--schedule", "wavefront", "--traversal", "front-to-back"], "gi"),
+    ("fragment entry", FRAGMENT, None),
+    ("compute entry", COMPUTE, None),
+    ("wavefront", WAVEFRONT, "gi"),
 )
 
 SIZE = ["--resolution", "500,500"]
@@ -45,12 +51,6 @@ class Frame:
     seconds: float = 40
     needs: list = field(default_factory=list)  # files that the bundle may lack
 
-
-FRAGMENT = ["--dispatch", "fragment"]
-COMPUTE = ["--dispatch", "compute", "--schedule", "megakernel"]
-LITERALS = ["--traversal", "literals"]
-TREE = ["--traversal", "front-to-back"]
-WAVEFRONT = ["--schedule", "wavefront", *TREE]
 
 
 def box(part, title, options, wants):

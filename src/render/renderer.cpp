@@ -32,7 +32,6 @@ constexpr double kHardwareDrawMs = 20.0;
 
 constexpr int kTinyTile = 8;        // pixels
 constexpr uint32_t kGroupSide = 8;  // lanes a side of a work group, as in trace.comp
-constexpr uint32_t kHands = 8;      // as in work_group.glsl
 
 /// Half extents of the view at distance 1 (perspective) or in local space (orthographic).
 glm::dvec2 halfExtents(const Camera& camera, double unit, glm::ivec2 size) {
@@ -146,6 +145,7 @@ layout::Progress Renderer::draw() {
     const uint32_t slots = variant_.wavefront ? layout::kWaveSlots : 1;
     const glm::uvec2 lanes(frame_.tile.z, (uint32_t(frame_.tile.w) + slots - 1u) / slots);
     const glm::uvec2 groups = (lanes + kGroupSide - 1u) / kGroupSide;
+    constexpr uint32_t kHands = layout::kWorkGroupHands;
     glDispatchCompute((groups.x * groups.y + kHands - 1u) / kHands * kHands, 1, 1);
   } else {
     glDrawArrays(GL_TRIANGLES, 0, 3);
