@@ -23,8 +23,9 @@ double milliseconds(Clock::time_point from, Clock::time_point to) {
 constexpr int kSoftwareStepBudget = 2700;
 /// GPUs have no such limit; time alone bounds a draw.
 constexpr int kHardwareStepBudget = 1 << 16;
-/// The wavefront counts all iterations, so 8 lanes that never iterate together stay below the limit.
-constexpr int kSoftwareWaveBudget = 8000;
+/// The wavefront counts all iterations but those of searches while shading, so 8 lanes that never iterate
+/// together stay below the limit.
+constexpr int kSoftwareWaveBudget = 7500;
 
 /// A draw's time: short enough to stop within a second and to stay far from a GPU's watchdog.
 constexpr double kSoftwareDrawMs = 200.0;
