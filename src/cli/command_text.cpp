@@ -96,6 +96,7 @@ void appendPicture(std::string& text, const RenderOptions& o) {
   append(text, "--exposure", exactText(o.exposure), o.exposure == 0.0);
   appendChoice(text, "--tone-map", toneMapNames(), o.toneMap, standard.toneMap);
   append(text, "--aov", layersText(o), layersText(o).empty());
+  appendChoice(text, "--denoise", kDenoiseNames, o.denoise, standard.denoise);
   append(text, "--debug-view", std::string(rowOf(o.debugView).name), o.debugView == DebugView::None);
   if (o.treeLevel) appendOption(text, "--tree-level", std::to_string(*o.treeLevel));
   appendChoice(text, "--traversal", kTraversalNames, o.traversal, standard.traversal);
@@ -113,6 +114,7 @@ RenderOptions parseCommand(const std::string& name, std::vector<std::string> wor
   RawView raw;
   raw.render.anyOutput = true;
   addViewOptions(app, raw);
+  addDenoiseOption(app, raw.render);  // of a render's command; the window shows what was drawn
   app.add_option("-o,--output", raw.render.output);
   parseWords(app, std::move(words));
   return finishConfigured(raw.render, raw.config, app);

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "cli/commands.h"
+#include "cli/denoising.h"
 #include "cli/outputs.h"
 #include "cli/provenance.h"
 #include "errors.h"
@@ -21,7 +22,7 @@ struct Part {
 };
 
 Part readPart(const std::filesystem::path& path) {
-  Part part{path, readImage(path), {}};
+  Part part{path, asDrawn(readImage(path)), {}};
   part.made = provenanceOf(part.image, path);
   if (!part.made.uniform) {
     throw InputError(

@@ -76,6 +76,7 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   render.add_option("-o,--output", raw.output,
                     "picture: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); required");
   addRenderOptions(render, raw);
+  addDenoiseOption(render, raw);
   std::string config;
   addConfigOption(render, config);
   RawView rawView;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The command line as a pipeline: scene, tree, context, packed scene, renderer, film, picture.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
 #include <span>
 
 #include "cli/commands.h"
+#include "cli/denoising.h"
 #include "cli/interrupt.h"
 #include "cli/leave.h"
 #include "cli/outputs.h"
@@ -131,12 +133,15 @@ void addFeatures(Image& picture, const Tracer& tracer, const RenderOptions& opti
                  const LoadedScene& loaded, std::span<const double> secondsPerSample, Statistics& stats) {
   constexpr unsigned kFewSamples = 16;
   const unsigned drawn = std::max(1u, stats.adaptive ? stats.film.fewestSamples : stats.film.mostSamples);
-  const int samples = int(stats.complete ? drawn : std::min(drawn, kFewSamples));
+  const int all = int(stats.complete ? drawn : std::min(drawn, kFewSamples));
   const int before = interrupts();
   for (const ShaderVariant& variant : tracer.features) {
     const FeatureRow& row = rowOf(variant.feature);
     secondsPerSample = secondsPerSample.subspan(1);
-    const double after = samples * std::accumulate(secondsPerSample.begin(), secondsPerSample.end(), 0.0);
+    // A filter needs no more.
+    const bool asked = std::ranges::find(options.aovFeatures, variant.feature) != options.aovFeatures.end();
+    const int samples = asked ? all : std::min(all, int(kFewSamples));
+    const double after = all * std::accumulate(secondsPerSample.begin(), secondsPerSample.end(), 0.0);
     Film film(loaded.size);
     RenderTimes times;
     stats.compileMs += tracer.renderer->compile(variant, film, loaded.view);
@@ -211,7 +216,8 @@ int runRender(const RenderOptions& options) {
 
   // Step: load. The image library opens meanwhile, in its own process, when the output needs it.
   if (options.output.extension() != ".pfm") startImageProcess();
-  LoadedScene loaded = loadScene(options, stats);
+  const RenderOptions drawn = withGuides(options);
+  LoadedScene loaded = loadScene(drawn, stats);
 
   // Step: the shader variant, and the arrays that it reads.
   const bool quick = preferQuickCompilation(pathsOf(options, loaded.size));
@@ -220,7 +226,7 @@ int runRender(const RenderOptions& options) {
   stats.phases.push_back(contextTimer.end());
   stats.quickCompilation = quick && context->software;
   DebugLog driverLog;
-  const Tracer tracer = makeTracer(*context, loaded, options, stats);
+  const Tracer tracer = makeTracer(*context, loaded, drawn, stats);
   const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
   releaseGeometry(loaded);
   Film film(loaded.size);
@@ -250,13 +256,15 @@ int runRender(const RenderOptions& options) {
                       std::to_string(options.spp) + " samples and reported no error; no picture is written");
   }
   if (interrupts() > 1) return kInterruptedStatus;
-  Image picture =
-      shownPicture(options, tracer.variant, drawing.pixels,
-                   {!options.background, options.aovSamples, options.aovVariance}, drawing.variance);
+  Image picture = shownPicture(
+      options, tracer.variant, drawing.pixels,
+      {!options.background || whyNotDenoised(options).empty(), drawn.aovSamples, drawn.aovVariance},
+      drawing.variance);
 
   // Step: write. What has been drawn is not lost from here on.
   try {
     addFeatures(picture, tracer, options, loaded, layerSeconds, stats);
+    denoise(picture, options, stats);
     sayDriverLog();
     if (interrupts() > 1) return kInterruptedStatus;
     setProvenanceOf(picture, options, loaded, tracer, stats);

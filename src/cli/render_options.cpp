@@ -135,6 +135,7 @@ RenderOptions finishRender(const RawRender& raw) {
   }
   if (o.treeLevel && !raw.output.empty() && !isDisplayFormat(o.output))
     throw UsageError("--tree-level: boxes are drawn over a .png or .jpg only");
+  o.denoise = choose<Denoise>("--denoise", raw.denoise, kDenoiseNames);
   o.debugView = choose<DebugView>("--debug-view", raw.debugView, debugViewNames());
   if (o.debugView == DebugView::Visits) o.stages.set(size_t(Stage::BvhHeatmap));
   const bool adaptive = o.noise > 0.0 || o.seconds > 0.0;
@@ -238,6 +239,14 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
                  "read the shaders from here in place of the built-in ones");
   app.add_flag("--quiet", o.quiet, "print nothing but errors; benchmarks also their tables");
   app.add_flag("--verbose", o.verbose, "print what is chosen and what it takes");
+}
+
+void addDenoiseOption(CLI::App& app, RawRender& raw) {
+  app.add_option("--denoise", raw.denoise,
+                 joined(kDenoiseNames) +
+                     ": filter the noise out of the finished picture; an .exr keeps the "
+                     "noisy one too, as noisy.R, noisy.G and noisy.B")
+      ->capture_default_str();
 }
 
 }  // namespace fragtrace

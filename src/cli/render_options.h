@@ -42,6 +42,7 @@ struct RawRender {
   std::string statsFile;
   std::string shaderFolder;
   std::vector<std::string> aov;
+  std::string denoise = "none";
   std::string debugView = "none";
   std::string fresnel = "exact";
   std::string compensation = "on";
@@ -54,6 +55,9 @@ struct RawRender {
 
 /// Adds all options but scene and output.
 void addRenderOptions(CLI::App& app, RawRender& raw);
+
+/// --denoise, of commands that finish a picture.
+void addDenoiseOption(CLI::App& app, RawRender& raw);
 
 /// Checks what the library cannot. Throws UsageError.
 RenderOptions finishRender(const RawRender& raw);

@@ -54,8 +54,13 @@ void checkFilmMemory(glm::ivec2 size, const RenderOptions& options) {
   constexpr uint64_t kOne = 48 + 48 + sizeof(FilmPixel);
   constexpr uint64_t kWithLayers = kOne + 48 + sizeof(FilmPixel);
   constexpr uint64_t kAdaptive = kOne + 96 + 2 * sizeof(FilmPixel) + 2 * sizeof(double);
+  // Textures, what one of them is made of, the picture with its layers twice, and the colours.
+  constexpr uint64_t kDenoised = 8 * 16 + 8 + 16 + 2 * 13 * 4 + 12;
   const bool adaptive = options.noise > 0.0 || options.seconds > 0.0;
-  const uint64_t bytes = adaptive ? kAdaptive : options.aovFeatures.empty() ? kOne : kWithLayers;
+  const uint64_t bytes = (adaptive                      ? kAdaptive
+                          : options.aovFeatures.empty() ? kOne
+                                                        : kWithLayers) +
+                         (options.denoise == Denoise::None ? 0 : kDenoised);
   try {
     MemoryBudget(options.limits.memoryBytes).take(uint64_t(size.x) * uint64_t(size.y) * bytes);
   } catch (const std::runtime_error& error) {

@@ -73,6 +73,14 @@ std::string statisticsText(const Statistics& s) {
   }
   if (s.clampIndirect > 0.0) json["clamp_indirect"] = s.clampIndirect;
   if (s.featureMs > 0.0) json["feature_ms"] = s.featureMs;
+  if (s.denoise) {
+    if (s.denoise->filter.empty())
+      json["denoise"] = {{"skipped", s.denoise->skipped}};
+    else
+      json["denoise"] = {{"filter", s.denoise->filter},
+                         {"ms", s.denoise->times.filterMs},
+                         {"compile_ms", s.denoise->times.compileMs}};
+  }
   json["width"] = s.size.x;
   json["height"] = s.size.y;
   json["complete"] = s.complete;

@@ -7,6 +7,7 @@
 #include "bvh/bvh.h"
 #include "cli/phase_timer.h"
 #include "gl/context.h"
+#include "render/denoise.h"
 #include "render/film_pixels.h"
 #include "render/renderer.h"
 #include "scene/describe.h"
@@ -24,6 +25,13 @@ struct AdaptiveStatistics {
   bool black = false;  ///< no light was found
 };
 
+/// Of a render with --denoise.
+struct DenoiseStatistics {
+  std::string filter;   ///< and its version; empty: none ran
+  std::string skipped;  ///< why none ran
+  DenoiseTimes times;
+};
+
 /// What `--stats` writes about one render; the JSON's keys are the names here.
 struct Statistics {
   SceneDescription scene;
@@ -38,7 +46,8 @@ struct Statistics {
   glm::ivec2 size{0};
   FilmTotals film;
   std::optional<AdaptiveStatistics> adaptive;
-  double featureMs = 0.0;    ///< drawing the layers of first hits
+  double featureMs = 0.0;  ///< drawing the layers of first hits
+  std::optional<DenoiseStatistics> denoise;
   size_t sceneBytes = 0;     ///< on the device
   size_t geometryBytes = 0;  ///< of these, tree, leaves, records and vertex attributes
   bool defaultLight = false;

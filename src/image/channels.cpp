@@ -2,6 +2,7 @@
 #include "image/channels.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace fragtrace {
 
@@ -40,6 +41,21 @@ void appendChannels(Image& image, const Image& from, const std::vector<std::stri
   image.values = std::move(values);
 }
 
+Image onlyChannels(const Image& image, const std::vector<std::string>& names) {
+  std::vector<size_t> indices;
+  for (const std::string& name : names) {
+    const auto index = findChannel(image, name);
+    if (!index) throw std::out_of_range("no channel " + name);
+    indices.push_back(*index);
+  }
+  Image result{image.width, image.height, names, {}, image.attributes};
+  result.values.reserve(image.values.size() / image.channelCount() * names.size());
+  for (size_t first = 0; first < image.values.size(); first += image.channelCount()) {
+    for (const size_t index : indices) result.values.push_back(image.values[first + index]);
+  }
+  return result;
+}
+
 void replaceColor(Image& image, const Image& color) {
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) std::copy_n(color.pixel(x, y), 3, image.pixel(x, y));
@@ -47,14 +63,10 @@ void replaceColor(Image& image, const Image& color) {
 }
 
 Image withoutAlpha(const Image& image) {
-  const auto alpha = findChannel(image, "A");
-  if (!alpha) return image;
-  Image result{image.width, image.height, image.channels, {}, image.attributes};
-  result.channels.erase(result.channels.begin() + std::ptrdiff_t(*alpha));
-  result.values.reserve(image.values.size());
-  for (size_t i = 0; i < image.values.size(); ++i)
-    if (i % image.channelCount() != *alpha) result.values.push_back(image.values[i]);
-  return result;
+  if (!findChannel(image, "A")) return image;
+  std::vector<std::string> names = image.channels;
+  std::erase(names, "A");
+  return onlyChannels(image, names);
 }
 
 }  // namespace fragtrace

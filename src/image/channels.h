@@ -20,6 +20,9 @@ std::optional<std::array<size_t, 3>> findColorChannels(const Image& image);
 /// Adds as many channels of `from`, which has the same size, as there are names; they get these names.
 void appendChannels(Image& image, const Image& from, const std::vector<std::string>& names);
 
+/// The channels of these names, in their order. Throws std::out_of_range where one is missing.
+Image onlyChannels(const Image& image, const std::vector<std::string>& names);
+
 /// Puts the first three channels of a picture of the same size in the place of the first three.
 void replaceColor(Image& image, const Image& color);
 

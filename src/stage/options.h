@@ -38,6 +38,9 @@ inline constexpr std::array<std::string_view, 3> kDispatchNames{"auto", "fragmen
 /// (shaders/wavefront.glsl).
 enum class Schedule : uint8_t { Auto, Megakernel, Wavefront };
 inline constexpr std::array<std::string_view, 3> kScheduleNames{"auto", "megakernel", "wavefront"};
+/// What takes the noise out of a finished picture (render/denoise.h).
+enum class Denoise : uint8_t { None, Variance };
+inline constexpr std::array<std::string_view, 2> kDenoiseNames{"none", "variance"};
 /// How camera samples spread about the middle of their pixel (shaders/pixel_filter.glsl).
 enum class PixelFilter : uint8_t { Box, Gaussian, BlackmanHarris };
 inline constexpr std::array<std::string_view, 3> kPixelFilterNames{"box", "gaussian", "blackman-harris"};
@@ -79,6 +82,7 @@ struct RenderOptions {
   bool aovSamples = false;  ///< more layers of .exr files
   bool aovVariance = false;
   std::vector<Feature> aovFeatures;
+  Denoise denoise = Denoise::None;
   DebugView debugView = DebugView::None;
   std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
   std::filesystem::path statsFile;

@@ -28,6 +28,7 @@ RenderOptions sampledPart(RenderOptions o) {
   o.aovSamples = standard.aovSamples;
   o.aovVariance = standard.aovVariance;
   o.aovFeatures = standard.aovFeatures;
+  o.denoise = standard.denoise;  // after all samples
   o.treeLevel = standard.treeLevel;
   o.statsFile = standard.statsFile;
   o.shaderFolder = standard.shaderFolder;

@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""`render --denoise variance`: how much error it takes away, what it leaves alone, and what becomes of the noisy picture."""
+import json
+
+from support import SCENES, Case, Exr, main, read_pfm, run
+
+BOX = SCENES / "cornell-box.gltf"
+SIZE = ["--resolution", "128,128"]
+FILTER = ["--denoise", "variance"]
+COLORS = ("R", "G", "B")
+
+
+class Denoising(Case):
+    def draw(self, name, *options, scene=BOX):
+        path = self.folder / name
+        self.renders(scene, "-o", path, "--quiet", *options)
+        return path
+
+    def relmse(self, picture, reference):
+        result = run("diff", picture, reference, "--metric", "relmse")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return float(result.stdout)
+
+    def test_less_error_and_the_same_light(self):
+        """The aims are 0.5 of the noisy picture's error at 4 samples and 0.3 at 16 (0.7 and 0.5 of glass), and 0.3 % of the light at 16."""
+        for name, parts in (("cornell-box", {4: 0.5, 16: 0.3}), ("corner-diffuse", {4: 0.5, 16: 0.3}), ("rough-glass", {4: 0.7, 16: 0.5})):
+            scene = SCENES / (name + ".gltf")
+            reference = self.draw("r.pfm", *SIZE, "--spp", 512, "--seed", 9, scene=scene)
+            for spp, part in parts.items():
+                with self.subTest(scene=name, spp=spp):
+                    picture = self.draw("d.exr", *SIZE, "--spp", spp, *FILTER, scene=scene)
+                    noisy = self.draw("n.exr", *SIZE, "--spp", spp, scene=scene)
+                    self.assertLess(self.relmse(picture, reference), part * self.relmse(noisy, reference))
+                    light, before = (sum(Exr(p).luminances()) for p in (picture, noisy))
+                    self.assertAlmostEqual(light / before, 1, delta=0.003 if spp == 16 else 0.01)
+
+    def test_both_backends_filter_alike(self):
+        pictures = [Exr(self.draw("x.exr", *SIZE, "--spp", 4, *FILTER, "--rendering-backend", backend)) for backend in ("egl", "osmesa")]
+        for a, b in zip(*(p.luminances() for p in pictures)):
+            self.assertAlmostEqual(a, b, delta=1e-4 * max(a, 0.01))
+
+    def test_the_noisy_picture_and_the_layers_asked_for_stay(self):
+        options = [*SIZE, "--spp", 4, "--aov", "albedo,samples"]
+        raw, filtered = Exr(self.draw("n.exr", *options)), Exr(self.draw("d.exr", *options, *FILTER))
+        self.assertEqual(set(filtered.layers) - set(raw.layers), {"noisy.R", "noisy.G", "noisy.B"})
+        for color in COLORS:
+            self.assertEqual(raw.values(color), filtered.values("noisy." + color))
+            self.assertNotEqual(raw.values(color), filtered.values(color))
+        for layer in ("albedo.R", "albedo.G", "albedo.B", "samples.Y"):
+            self.assertEqual(raw.values(layer), filtered.values(layer))
+        self.assertEqual(filtered.texts["fragtrace:denoise"], "variance 1")
+
+    def test_merge_joins_what_was_drawn(self):
+        def joined(*options):
+            parts = [self.draw(f"{first}.exr", *SIZE, "--spp", 2, "--sample-offset", first, *options) for first in (0, 2)]
+            self.assertEqual(run("merge", *parts, "-o", self.folder / "m.exr").returncode, 0)
+            return (self.folder / "m.exr").read_bytes()
+        self.assertEqual(joined(), joined(*FILTER))
+
+    def test_what_has_no_noise_is_left_alone_and_says_so(self):
+        for options, reason in ((["--stage", "shadows"], "stages before gi"), (["--debug-view", "normal"], "debug view")):
+            raw = self.draw("n.exr", *SIZE, "--spp", 2, *options).read_bytes()
+            stats = self.folder / "s.json"
+            self.assertEqual(raw, self.draw("n.exr", *SIZE, "--spp", 2, *options, *FILTER, "--stats", stats).read_bytes())
+            self.assertIn(reason, json.loads(stats.read_text())["denoise"]["skipped"])
+
+    def test_alpha_stays(self):
+        options = [*SIZE, "--spp", 4, "--no-background"]
+        scene = SCENES / "sphere-textured.gltf"
+        raw, filtered = (Exr(self.draw("x.exr", *options, *more, scene=scene)) for more in ([], FILTER))
+        self.assertEqual(raw.values("A"), filtered.values("A"))
+
+    def test_pictures_of_any_size_and_number_of_samples(self):
+        for size in ("1,1", "1,70", "3000,1"):
+            for spp in (1, 2):
+                picture = read_pfm(self.draw("x.pfm", "--resolution", size, "--spp", spp, *FILTER))
+                self.finite(size, [value for row in picture for pixel in row for value in pixel])
+
+
+if __name__ == "__main__":
+    main()
