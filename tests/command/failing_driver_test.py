@@ -19,13 +19,15 @@ def real_egl():
 
 
 class Failing(Case):
+    options = ()
+
     def drawn(self, **faults):
         """`render` of a scene with a tree, textures and several lights, over a file that is there."""
         self.path = self.folder / "picture.pfm"
         self.path.write_bytes(OLD)
         settings = {f"FRAGTRACE_{name.upper()}": str(value) for name, value in faults.items()}
         paths = ":".join(filter(None, [str(STAND_IN), os.environ.get("LD_LIBRARY_PATH")]))
-        return run("render", SCENES / "sphere-textured.gltf", "-o", self.path, "--resolution", "16,16", "--spp", "2", "--quiet",
+        return run("render", SCENES / "sphere-textured.gltf", "-o", self.path, "--resolution", "16,16", "--spp", "2", "--quiet", *self.options,
                    "--rendering-backend", "egl", timeout=60,
                    env={**os.environ, **settings, "LD_LIBRARY_PATH": paths, "FRAGTRACE_REAL_EGL": real_egl()})
 
@@ -37,10 +39,12 @@ class Failing(Case):
         self.right = self.path.read_bytes()
         return log.read_text().splitlines()
 
-    def fail_each(self, kind, step):
+    def fail_each(self, kind, step, names=None):
+        """Every step-th call, of those of these names."""
         calls = self.calls(kind)
-        self.assertGreater(len(calls), 2)
-        for number in range(1, len(calls) + 1, step):
+        numbers = [i for i, name in enumerate(calls, 1) if names is None or name in names][::step]
+        self.assertGreater(len(numbers), 2)
+        for number in numbers:
             name = calls[number - 1]
             with self.subTest(kind=kind, call=number, name=name):
                 result = self.drawn(fail_kind=kind, fail_call=number)
@@ -68,6 +72,10 @@ class FailingDriver(Failing):
 
     def test_shaders_that_are_not_built_are_seen(self):
         self.fail_each("build", 1)
+
+    def test_a_filter_that_fails_is_seen(self):
+        self.options = ("--denoise", "variance")
+        self.fail_each("memory", 3, ("glNamedFramebufferTexture", "glNamedFramebufferDrawBuffers", "glUniform1i", "glUniform2i"))
 
     def test_every_function_that_is_called_can_fail(self):
         called = set()
