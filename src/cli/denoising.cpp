@@ -58,7 +58,7 @@ void denoise(Image& picture, const RenderOptions& options, Statistics& stats) {
   stats.denoise->filter = kVarianceFilter;
   const Image denoised =
       denoisedByVariance(picture, shaderSource(options.shaderFolder), stats.denoise->times);
-  const Image noisy = picture;
+  const Image noisy = onlyChannels(picture, {"R", "G", "B"});
   replaceColor(picture, denoised);
   std::vector<std::string> asked = picture.channels;
   std::erase_if(asked, [&](const std::string& channel) { return isForTheFilter(channel, options); });

@@ -17,7 +17,7 @@ int freeImageUnit(const ShaderVariant& variant) {
   return -1;
 }
 
-/// On llvmpipe the wavefront takes 0.15 to 0.35 s longer to compile and saves 0.1 to 1.4 us of a processor a
+/// On llvmpipe the wavefront takes 0.25 to 0.45 s longer to compile and saves 0.1 to 1.4 us of a processor a
 /// path: that is even at a quarter of a million paths in the room with the ball, at two million in Suzanne.
 constexpr double kFewPaths = 2e6;
 /// Rays of so few steps hardly wait for each other: many-lights, of 274 nodes, takes as long by both.

@@ -12,6 +12,7 @@
 #include "gl/gl.h"
 #include "gl/program.h"
 #include "image/channels.h"
+#include "render/picture_texture.h"
 
 namespace fragtrace {
 
@@ -44,40 +45,28 @@ std::vector<glm::vec4> texelsOf(const Image& image, const std::array<const char*
   return texels;
 }
 
-/// Radiance in units of its mean luminance, so that squares neither overflow nor vanish, and its variance;
-/// -1: not known.
-std::vector<glm::vec4> noisyTexels(const Image& image, double scale) {
-  std::vector<glm::vec4> texels = texelsOf(image, {"R", "G", "B", "variance.Y"});
+/// 1 / mean luminance; 1 where all is black.
+double scaleOf(const std::vector<glm::vec4>& radiance) {
+  double sum = 0.0;
+  for (const glm::vec4& texel : radiance)
+    sum += glm::dot(glm::dvec3(texel), glm::dvec3(0.2126, 0.7152, 0.0722));
+  return sum > 0.0 ? double(radiance.size()) / sum : 1.0;
+}
+
+/// Brings radiance and its variance into units of the mean luminance, so that squares neither overflow nor
+/// vanish; a variance that is not known becomes -1.
+void scaleNoisy(std::vector<glm::vec4>& texels, const Image& image, double scale) {
+  constexpr double kBrightest = 1e12;
   const size_t samples = channelOf(image, "samples.Y");
   for (size_t i = 0; i < texels.size(); ++i) {
     const bool known = image.values[i * image.channelCount() + samples] > 1.0f;
-    constexpr double kBrightest = 1e12;
     for (int c = 0; c < 3; ++c) texels[i][c] = float(std::clamp(texels[i][c] * scale, 0.0, kBrightest));
     texels[i].w = known ? float(std::min(texels[i].w * scale * scale, kBrightest * kBrightest)) : -1.0f;
   }
-  return texels;
-}
-
-/// 1 / mean luminance; 1 where all is black.
-double scaleOf(const Image& image) {
-  double sum = 0.0;
-  size_t count = 0;
-  const std::array<size_t, 3> rgb{channelOf(image, "R"), channelOf(image, "G"), channelOf(image, "B")};
-  for (size_t first = 0; first < image.values.size(); first += image.channelCount(), ++count) {
-    constexpr std::array<double, 3> kLuminance{0.2126, 0.7152, 0.0722};
-    for (int c = 0; c < 3; ++c) sum += kLuminance[c] * finite(image.values[first + rgb[c]]);
-  }
-  return sum > 0.0 ? double(count) / sum : 1.0;
-}
-
-GlTexture makeLayer(glm::ivec2 size, GLenum format = GL_RGBA32F) {
-  GlTexture texture = makeTexture(GL_TEXTURE_2D);
-  glTextureStorage2D(texture.name(), 1, format, size.x, size.y);
-  return texture;
 }
 
 GlTexture upload(const std::vector<glm::vec4>& texels, glm::ivec2 size) {
-  GlTexture texture = makeLayer(size);
+  GlTexture texture = makePictureTexture(GL_RGBA32F, size);
   glTextureSubImage2D(texture.name(), 0, 0, 0, size.x, size.y, GL_RGBA, GL_FLOAT, texels.data());
   return texture;
 }
@@ -113,21 +102,6 @@ class Passes {
   GlVertexArray vertexArray_;
 };
 
-Image readBack(const GlTexture& texture, glm::ivec2 size, double scale) {
-  std::vector<float> texels(size_t(size.x) * size_t(size.y) * 3);
-  // In bands, since the copy's size is an int.
-  const int rowsAtOnce = std::max(1, int((size_t(1) << 28) / (size_t(size.x) * 3 * sizeof(float))));
-  for (int y = 0; y < size.y; y += rowsAtOnce) {
-    const int rows = std::min(rowsAtOnce, size.y - y);
-    glGetTextureSubImage(texture.name(), 0, 0, y, 0, size.x, rows, 1, GL_RGB, GL_FLOAT,
-                         GLsizei(size_t(rows) * size_t(size.x) * 3 * sizeof(float)),
-                         texels.data() + size_t(y) * size_t(size.x) * 3);
-  }
-  checkGl("reading the denoised picture");
-  for (float& value : texels) value = float(value / scale);
-  return {size.x, size.y, {"R", "G", "B"}, std::move(texels), {}};
-}
-
 }  // namespace
 
 Image denoisedByVariance(const Image& noisy, const ShaderSource& source, DenoiseTimes& times) {
@@ -143,15 +117,18 @@ Image denoisedByVariance(const Image& noisy, const ShaderSource& source, Denoise
 
   start = std::chrono::steady_clock::now();
   const glm::ivec2 size(noisy.width, noisy.height);
-  const double scale = scaleOf(noisy);
-  const GlTexture radiance = upload(noisyTexels(noisy, scale), size);
+  std::vector<glm::vec4> texels = texelsOf(noisy, {"R", "G", "B", "variance.Y"});
+  const double scale = scaleOf(texels);
+  scaleNoisy(texels, noisy, scale);
+  const GlTexture radiance = upload(texels, size);
   const GlTexture albedos = upload(texelsOf(noisy, {"albedo.R", "albedo.G", "albedo.B", "A"}), size);
   const GlTexture normals = upload(texelsOf(noisy, {"normal.X", "normal.Y", "normal.Z", "depth.Z"}), size);
-  const GlTexture light = makeLayer(size);
-  const GlTexture surfaces = makeLayer(size);
-  const GlTexture shapes = makeLayer(size);
-  const GlTexture slopes = makeLayer(size, GL_RG32F);
-  const std::array<GlTexture, 2> turns{makeLayer(size), makeLayer(size)};
+  const GlTexture light = makePictureTexture(GL_RGBA32F, size);
+  const GlTexture surfaces = makePictureTexture(GL_RGBA32F, size);
+  const GlTexture shapes = makePictureTexture(GL_RGBA32F, size);
+  const GlTexture slopes = makePictureTexture(GL_RG32F, size);
+  const std::array<GlTexture, 2> turns{makePictureTexture(GL_RGBA32F, size),
+                                       makePictureTexture(GL_RGBA32F, size)};
 
   Passes passes(size);
   passes.draw(prepare, {&radiance, &albedos, &normals}, {&light, &surfaces, &shapes, &slopes});
@@ -163,9 +140,11 @@ Image denoisedByVariance(const Image& noisy, const ShaderSource& source, Denoise
   }
   const GlTexture* denoised = &turns[size_t(kLevels) % 2];
   passes.draw(finish, {&light, latest, &albedos}, {denoised});
-  Image result = readBack(*denoised, size, scale);
+  std::vector<float> colors =
+      readPictureTexture<float>(*denoised, GL_RGB, 3, GL_FLOAT, size, "reading the denoised picture");
+  for (float& value : colors) value = float(value / scale);
   times.filterMs = millisecondsSince(start);
-  return result;
+  return {size.x, size.y, {"R", "G", "B"}, std::move(colors), {}};
 }
 
 }  // namespace fragtrace

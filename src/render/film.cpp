@@ -2,32 +2,14 @@
 #include "render/film.h"
 
 #include "errors.h"
+#include "render/picture_texture.h"
 #include "shader/layout.h"
 
 namespace fragtrace {
 
 namespace {
 
-GlTexture makeLayer(GLenum format, glm::ivec2 size) {
-  GlTexture texture = makeTexture(GL_TEXTURE_2D);
-  glTextureStorage2D(texture.name(), 1, format, size.x, size.y);
-  return texture;
-}
-
-template <typename Value>
-std::vector<Value> readLayer(const GlTexture& texture, GLenum format, GLenum type, glm::ivec2 size) {
-  std::vector<Value> values(size_t(size.x) * size_t(size.y) * 4);
-  // The copy's size is an int in OpenGL, so large pictures are read in bands.
-  const int rowsAtOnce = std::max(1, int((size_t(1) << 28) / (size_t(size.x) * 4 * sizeof(Value))));
-  for (int y = 0; y < size.y; y += rowsAtOnce) {
-    const int rows = std::min(rowsAtOnce, size.y - y);
-    const size_t first = size_t(y) * size_t(size.x) * 4;
-    glGetTextureSubImage(texture.name(), 0, 0, y, 0, size.x, rows, 1, format, type,
-                         GLsizei(size_t(rows) * size_t(size.x) * 4 * sizeof(Value)), values.data() + first);
-  }
-  checkGl("reading the film");
-  return values;
-}
+constexpr const char* kReading = "reading the film";
 
 }  // namespace
 
@@ -38,9 +20,9 @@ Film::Film(glm::ivec2 size) : size_(size) {
     throw RenderError("the picture is " + std::to_string(size.x) + " x " + std::to_string(size.y) +
                       " pixels, this driver draws at most " + std::to_string(most) + " a side");
   }
-  sum_ = makeLayer(GL_RGBA32F, size);
-  compensation_ = makeLayer(GL_RGBA32F, size);
-  counts_ = makeLayer(GL_RGBA32UI, size);
+  sum_ = makePictureTexture(GL_RGBA32F, size);
+  compensation_ = makePictureTexture(GL_RGBA32F, size);
+  counts_ = makePictureTexture(GL_RGBA32UI, size);
   clear();
 }
 
@@ -62,9 +44,10 @@ void Film::bind() const {
 }
 
 FilmPixels Film::read() const {
-  const auto sum = readLayer<float>(sum_, GL_RGBA, GL_FLOAT, size_);
-  const auto compensation = readLayer<float>(compensation_, GL_RGBA, GL_FLOAT, size_);
-  const auto counts = readLayer<uint32_t>(counts_, GL_RGBA_INTEGER, GL_UNSIGNED_INT, size_);
+  const auto sum = readPictureTexture<float>(sum_, GL_RGBA, 4, GL_FLOAT, size_, kReading);
+  const auto compensation = readPictureTexture<float>(compensation_, GL_RGBA, 4, GL_FLOAT, size_, kReading);
+  const auto counts =
+      readPictureTexture<uint32_t>(counts_, GL_RGBA_INTEGER, 4, GL_UNSIGNED_INT, size_, kReading);
   FilmPixels film;
   film.size = size_;
   film.cut = cut_;

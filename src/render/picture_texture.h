@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Textures of one texel a pixel, and the way back from the device.
+#pragma once
+
+#include <algorithm>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "gl/gl.h"
+
+namespace fragtrace {
+
+inline GlTexture makePictureTexture(GLenum format, glm::ivec2 size) {
+  GlTexture texture = makeTexture(GL_TEXTURE_2D);
+  glTextureStorage2D(texture.name(), 1, format, size.x, size.y);
+  return texture;
+}
+
+/// All texels, row by row in the order of the device, of a format with so many channels of that type. `where`
+/// names the step in errors, as for checkGl().
+template <typename Value>
+std::vector<Value> readPictureTexture(const GlTexture& texture, GLenum format, int channels, GLenum type,
+                                      glm::ivec2 size, const char* where) {
+  const size_t row = size_t(size.x) * size_t(channels);
+  std::vector<Value> values(row * size_t(size.y));
+  // The copy's size is an int in OpenGL, so large pictures are read in bands.
+  const int rowsAtOnce = std::max(1, int((size_t(1) << 28) / (row * sizeof(Value))));
+  for (int y = 0; y < size.y; y += rowsAtOnce) {
+    const int rows = std::min(rowsAtOnce, size.y - y);
+    glGetTextureSubImage(texture.name(), 0, 0, y, 0, size.x, rows, 1, format, type,
+                         GLsizei(size_t(rows) * row * sizeof(Value)), values.data() + size_t(y) * row);
+  }
+  checkGl(where);
+  return values;
+}
+
+}  // namespace fragtrace
