@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What the passes of the variance filter share (src/render/denoise.h). Pictures are textures of one texel a pixel; light is divided by the albedo, so that
-// textures stay sharp.
+// textures stay sharp, and is in units of the picture's mean.
 
-const float kAlbedoFloor = 0.04;  // of light that the base colour does not tint
+const float kAlbedoFloor = 0.04;   // of light that the base colour does not tint
+const float kDarkSquared = 0.01;   // of light: what relative differences are relative to at least, squared
+const int kWindow = 2;             // pixels each way, of the passes that look at noise
 
 layout(location = 0) uniform ivec2 size;
 
@@ -12,3 +14,36 @@ float brightness(vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); 
 
 /// What a pixel's light is divided by; albedo and coverage are means over its samples.
 vec3 demodulation(vec4 albedo) { return albedo.a > 0.0 ? mix(max(albedo.rgb, vec3(0.0)), vec3(1.0), kAlbedoFloor) : vec3(1.0); }
+
+/// What tells surfaces apart: of the part of the samples that hit something.
+struct Guide {
+  vec4 albedo;  // and coverage
+  vec3 normal;
+  float depth;  // logarithm to base 2
+  vec2 slope;   // of that, a pixel
+};
+
+/// Into one texel, since a tap costs as much as it fetches; 8 bits are finer than what counts as alike.
+uvec4 packedGuide(Guide g) {
+  return uvec4(packUnorm4x8(g.albedo), packSnorm4x8(vec4(g.normal, 0.0)), floatBitsToUint(g.depth), packHalf2x16(g.slope));
+}
+
+Guide guideOf(uvec4 bits) {
+  return Guide(unpackUnorm4x8(bits.x), unpackSnorm4x8(bits.y).xyz, uintBitsToFloat(bits.z), unpackHalf2x16(bits.w));
+}
+
+/// The logarithm of the weight of a tap that is so many pixels away, 0 or less: how alike the surfaces are.
+float likeness(Guide own, Guide other, vec2 away) {
+  const float albedo = 0.5 / (0.08 * 0.08);
+  const float normal = 0.5 / (0.3 * 0.3);
+  const float depth = 0.5 / (0.01 * 0.01);  // beyond what the slope explains
+  const float coverage = 50.0;
+  const float slopes = 1.5;
+  vec4 tinted = other.albedo - own.albedo;
+  vec3 turned = other.normal - own.normal;
+  float beyond = max(abs(other.depth - own.depth) - slopes * dot(abs(away), own.slope), 0.0);
+  return -(albedo * dot(tinted.rgb, tinted.rgb) + normal * dot(turned, turned) + depth * beyond * beyond + coverage * tinted.a * tinted.a);
+}
+
+/// That the picture's background is there, which has no noise: nothing is filtered.
+bool empty(Guide g) { return g.albedo.a <= 0.0; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "cli/phase_timer.h"
 #include "gl/program.h"
 #include "image/channels.h"
 #include "image/format.h"
@@ -23,6 +24,7 @@ bool isUnasked(const RenderOptions& options, Feature feature) {
 /// Whether the channel is there for the filter alone.
 bool isForTheFilter(const std::string& channel, const RenderOptions& options) {
   if (channel == "A") return options.background;
+  if (channel == kObservedChannel) return true;
   if (channel == "samples.Y") return !options.aovSamples;
   if (channel == "variance.Y") return !options.aovVariance;
   return std::ranges::any_of(kGuides, [&](Feature guide) {
@@ -53,11 +55,15 @@ RenderOptions withGuides(const RenderOptions& options) {
 
 void denoise(Image& picture, const RenderOptions& options, Statistics& stats) {
   if (options.denoise == Denoise::None) return;
-  stats.denoise = DenoiseStatistics{"", whyNotDenoised(options), {}};
+  stats.denoise = DenoiseStatistics{"", whyNotDenoised(options), 0.0, 0.0};
   if (!stats.denoise->skipped.empty()) return;
   stats.denoise->filter = kVarianceFilter;
-  const Image denoised =
-      denoisedByVariance(picture, shaderSource(options.shaderFolder), stats.denoise->times);
+  const double start = steadyMilliseconds();
+  const VarianceFilter filter(shaderSource(options.shaderFolder));
+  const double compiled = steadyMilliseconds();
+  const Image denoised = filter.filtered(picture);
+  stats.denoise->compileMs = compiled - start;
+  stats.denoise->filterMs = steadyMilliseconds() - compiled;
   const Image noisy = onlyChannels(picture, {"R", "G", "B"});
   replaceColor(picture, denoised);
   std::vector<std::string> asked = picture.channels;

@@ -22,6 +22,8 @@
 #include "image/format.h"
 #include "image/process.h"
 #include "render/adaptive.h"
+#include "render/denoise.h"
+#include "render/noise.h"
 
 namespace fragtrace {
 
@@ -33,7 +35,29 @@ constexpr int kInterruptedStatus = 130;
 struct Drawing {
   FilmPixels pixels;
   std::vector<double> variance;  ///< a better estimate than the pixels' own; may be empty
+  std::vector<double> observed;  ///< observedVariance(); may be empty
 };
+
+/// All samples, with looks at the film on the way that tell the filter how fast the sequence converges.
+bool addAllSamples(Renderer& renderer, Film& film, const RenderOptions& options, const View& view,
+                   RenderTimes& times, const Renderer::Progress& progress, Drawing& drawing) {
+  constexpr int kFewest = 4;
+  const bool looks =
+      options.denoise != Denoise::None && whyNotDenoised(options).empty() && options.spp >= kFewest;
+  std::vector<FilmPixels> seen;
+  int from = 0;
+  for (const int to : {options.spp / 4, options.spp / 2, options.spp}) {
+    if (!looks && to < options.spp) continue;
+    const auto partly = [&](double fraction) {
+      return progress((from + fraction * (to - from)) / options.spp);
+    };
+    if (!renderer.addSamples(film, view, from, to, times, partly)) return false;
+    from = to;
+    if (looks) seen.push_back(film.read());
+  }
+  if (looks) drawing.observed = observedVariance(seen[0], seen[1], seen[2]);
+  return true;
+}
 
 /// `secondsAfter` is what the layers will take.
 Drawing draw(Renderer& renderer, Film& film, const RenderOptions& options, const View& view,
@@ -51,9 +75,9 @@ Drawing draw(Renderer& renderer, Film& film, const RenderOptions& options, const
     stats.complete = !picture.stopped;
     stats.adaptive = {options.noise,  options.seconds, picture.error, picture.share,
                       picture.rounds, picture.known,   picture.black};
-    drawing = {std::move(picture.pixels), std::move(picture.variance)};
+    drawing = {std::move(picture.pixels), std::move(picture.variance), {}};
   } else {
-    stats.complete = renderer.addSamples(film, view, 0, options.spp, stats.times, progress);
+    stats.complete = addAllSamples(renderer, film, options, view, stats.times, progress, drawing);
     drawing.pixels = film.read();
   }
   bar.clear();
@@ -260,6 +284,9 @@ int runRender(const RenderOptions& options) {
       options, tracer.variant, drawing.pixels,
       {!options.background || whyNotDenoised(options).empty(), drawn.aovSamples, drawn.aovVariance},
       drawing.variance);
+  if (!drawing.observed.empty())
+    appendChannels(picture, imageOfNumbers(loaded.size, [&](size_t i) { return drawing.observed[i]; }),
+                   {kObservedChannel});
 
   // Step: write. What has been drawn is not lost from here on.
   try {

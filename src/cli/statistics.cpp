@@ -78,8 +78,8 @@ std::string statisticsText(const Statistics& s) {
       json["denoise"] = {{"skipped", s.denoise->skipped}};
     else
       json["denoise"] = {{"filter", s.denoise->filter},
-                         {"ms", s.denoise->times.filterMs},
-                         {"compile_ms", s.denoise->times.compileMs}};
+                         {"ms", s.denoise->filterMs},
+                         {"compile_ms", s.denoise->compileMs}};
   }
   json["width"] = s.size.x;
   json["height"] = s.size.y;

@@ -7,7 +7,6 @@
 #include "bvh/bvh.h"
 #include "cli/phase_timer.h"
 #include "gl/context.h"
-#include "render/denoise.h"
 #include "render/film_pixels.h"
 #include "render/renderer.h"
 #include "scene/describe.h"
@@ -29,7 +28,8 @@ struct AdaptiveStatistics {
 struct DenoiseStatistics {
   std::string filter;   ///< and its version; empty: none ran
   std::string skipped;  ///< why none ran
-  DenoiseTimes times;
+  double compileMs = 0.0;  ///< programs, built anew
+  double filterMs = 0.0;   ///< by the wall clock, with the way to the device and back
 };
 
 /// What `--stats` writes about one render; the JSON's keys are the names here.

@@ -10,24 +10,12 @@ namespace fragtrace {
 
 namespace {
 
-/// One channel: a number of each pixel, told by its index.
-template <typename Number>
-Image numbersOf(const FilmPixels& film, const Number& number) {
-  Image image{film.size.x, film.size.y, {"Y"}, {}, {}};
-  image.values.reserve(film.pixels.size());
-  for (int y = film.size.y - 1; y >= 0; --y) {
-    for (int x = 0; x < film.size.x; ++x)
-      image.values.push_back(float(number(size_t(y) * size_t(film.size.x) + size_t(x))));
-  }
-  return image;
-}
-
 /// Per cent, as --noise has it: of the pixel's mean and a hundredth of the picture's.
 Image relativeErrors(const FilmPixels& film, std::span<const double> variance) {
   constexpr double kFloor = 0.01;
   double mean = 0.0;
   for (const FilmPixel& pixel : film.pixels) mean += pixel.luminance() / double(film.pixels.size());
-  return numbersOf(film, [&](size_t i) {
+  return imageOfNumbers(film.size, [&](size_t i) {
     const double of = film.pixels[i].luminance() + kFloor * mean;
     const double error = std::sqrt(variance.empty() ? film.pixels[i].variance() : variance[i]);
     return of > 0.0 ? 100.0 * error / of : 0.0;
@@ -51,7 +39,7 @@ Image debugPicture(DebugView view, const FilmPixels& film, std::span<const doubl
     case DebugView::Visits:
       return paintHeatmap(imageOf(film, {}));
     case DebugView::Samples:
-      return paintHeatmap(numbersOf(film, [&](size_t i) { return film.pixels[i].samples; }), "");
+      return paintHeatmap(imageOfNumbers(film.size, [&](size_t i) { return film.pixels[i].samples; }), "");
     case DebugView::Variance:
       return paintHeatmap(relativeErrors(film, variance), "");
     case DebugView::None:

@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <initializer_list>
 
 #include "errors.h"
-#include "gl/gl.h"
 #include "gl/program.h"
 #include "image/channels.h"
 #include "render/picture_texture.h"
@@ -18,11 +16,8 @@ namespace fragtrace {
 
 namespace {
 
-constexpr int kLevels = 5;  // of taps 1, 2, 4, 8 and 16 pixels apart
-
-double millisecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
+constexpr int kLevels = 4;  // of taps 1, 2, 4 and 8 pixels apart
+constexpr float kUnknown = -1.0f;
 
 size_t channelOf(const Image& image, const char* name) {
   const auto index = findChannel(image, name);
@@ -45,30 +40,63 @@ std::vector<glm::vec4> texelsOf(const Image& image, const std::array<const char*
   return texels;
 }
 
-/// 1 / mean luminance; 1 where all is black.
-double scaleOf(const std::vector<glm::vec4>& radiance) {
-  double sum = 0.0;
-  for (const glm::vec4& texel : radiance)
-    sum += glm::dot(glm::dvec3(texel), glm::dvec3(0.2126, 0.7152, 0.0722));
-  return sum > 0.0 ? double(radiance.size()) / sum : 1.0;
+double luminanceOf(const glm::vec4& color) {
+  return glm::dot(glm::dvec3(color), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-/// Brings radiance and its variance into units of the mean luminance, so that squares neither overflow nor
-/// vanish; a variance that is not known becomes -1.
+/// 1 / mean luminance of what has an albedo, divided by it as the shader does; 1 where all is black.
+double scaleOf(const std::vector<glm::vec4>& radiance, const std::vector<glm::vec4>& albedos) {
+  constexpr float kAlbedoFloor = 0.04f;
+  double sum = 0.0;
+  double count = 0.0;
+  for (size_t i = 0; i < radiance.size(); ++i) {
+    if (!(albedos[i].a > 0.0f)) continue;
+    const glm::vec4 divisor = glm::mix(glm::max(albedos[i], 0.0f), glm::vec4(1.0f), kAlbedoFloor);
+    const double light = luminanceOf(radiance[i] / divisor);
+    if (!(light > 0.0 && std::isfinite(light))) continue;
+    sum += light;
+    count += 1.0;
+  }
+  return sum > 0.0 ? count / sum : 1.0;
+}
+
+/// Brings radiance and its variance into units of the mean, so that squares neither overflow nor vanish; a
+/// variance that is not known becomes -1.
 void scaleNoisy(std::vector<glm::vec4>& texels, const Image& image, double scale) {
   constexpr double kBrightest = 1e12;
   const size_t samples = channelOf(image, "samples.Y");
   for (size_t i = 0; i < texels.size(); ++i) {
     const bool known = image.values[i * image.channelCount() + samples] > 1.0f;
     for (int c = 0; c < 3; ++c) texels[i][c] = float(std::clamp(texels[i][c] * scale, 0.0, kBrightest));
-    texels[i].w = known ? float(std::min(texels[i].w * scale * scale, kBrightest * kBrightest)) : -1.0f;
+    texels[i].w =
+        known ? float(std::clamp(texels[i].w * scale * scale, 0.0, kBrightest * kBrightest)) : kUnknown;
   }
 }
 
-GlTexture upload(const std::vector<glm::vec4>& texels, glm::ivec2 size) {
-  GlTexture texture = makePictureTexture(GL_RGBA32F, size);
-  glTextureSubImage2D(texture.name(), 0, 0, 0, size.x, size.y, GL_RGBA, GL_FLOAT, texels.data());
-  return texture;
+/// What was observed of the variance, in the same units; empty where nothing was.
+std::vector<float> observedOf(const Image& image, double scale) {
+  std::vector<float> observed;
+  const auto channel = findChannel(image, kObservedChannel);
+  if (!channel) return observed;
+  observed.reserve(size_t(image.width) * size_t(image.height));
+  for (size_t i = *channel; i < image.values.size(); i += image.channelCount())
+    observed.push_back(float(std::clamp(finite(image.values[i]) * scale * scale, 0.0, 1e24)));
+  return observed;
+}
+
+/// Observed / independent variance, relative to each pixel's light; kUnknown where nothing was observed.
+float shareOf(const std::vector<glm::vec4>& texels, const std::vector<float>& observed) {
+  constexpr double kDarkSquared = 0.01;
+  double seen = 0.0;
+  double independent = 0.0;
+  for (size_t i = 0; i < observed.size(); ++i) {
+    if (texels[i].w < 0.0f) continue;
+    const double luminance = luminanceOf(texels[i]);
+    const double weight = 1.0 / (luminance * luminance + kDarkSquared);
+    seen += weight * observed[i];
+    independent += weight * texels[i].w;
+  }
+  return independent > 0.0 ? float(std::min(seen / independent, 1.0)) : kUnknown;
 }
 
 /// Draws passes, each over all pixels, from textures into textures.
@@ -76,8 +104,17 @@ class Passes {
  public:
   explicit Passes(glm::ivec2 size) : size_(size), vertexArray_(makeVertexArray()) {}
 
+  GlTexture texture(GLenum format) const { return makePictureTexture(format, size_); }
+
+  template <typename Texel>
+  GlTexture upload(const std::vector<Texel>& texels, GLenum format, GLenum channels) const {
+    GlTexture uploaded = texture(format);
+    glTextureSubImage2D(uploaded.name(), 0, 0, 0, size_.x, size_.y, channels, GL_FLOAT, texels.data());
+    return uploaded;
+  }
+
   void draw(const GlProgram& program, std::initializer_list<const GlTexture*> from,
-            std::initializer_list<const GlTexture*> into, int stride = 0) {
+            std::initializer_list<const GlTexture*> into) {
     const GlFramebuffer framebuffer = makeFramebuffer();
     std::vector<GLenum> buffers;
     for (const GlTexture* target : into) {
@@ -89,8 +126,7 @@ class Passes {
     glBindVertexArray(vertexArray_.name());
     glViewport(0, 0, size_.x, size_.y);
     glUseProgram(program.name());
-    glUniform2i(0, size_.x, size_.y);
-    if (stride > 0) glUniform1i(1, stride);
+    glProgramUniform2i(program.name(), 0, size_.x, size_.y);
     GLuint unit = 0;
     for (const GlTexture* source : from) glBindTextureUnit(unit++, source->name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -102,48 +138,59 @@ class Passes {
   GlVertexArray vertexArray_;
 };
 
+GlProgram denoisingProgram(const ShaderSource& source, const char* entry) {
+  GlProgram program =
+      buildProgram(assembleShader(source, "fullscreen.vert", {}), assembleShader(source, entry, {}));
+  checkGl("building the programs that denoise");
+  return program;
+}
+
 }  // namespace
 
-Image denoisedByVariance(const Image& noisy, const ShaderSource& source, DenoiseTimes& times) {
-  const auto build = [&](const char* entry) {
-    return buildProgram(assembleShader(source, "fullscreen.vert", {}), assembleShader(source, entry, {}));
-  };
-  auto start = std::chrono::steady_clock::now();
-  const GlProgram prepare = build("denoise_prepare.frag");
-  const GlProgram filter = build("denoise_filter.frag");
-  const GlProgram finish = build("denoise_finish.frag");
-  checkGl("building the programs that denoise");
-  times.compileMs = millisecondsSince(start);
+VarianceFilter::VarianceFilter(const ShaderSource& source)
+    : prepare_(denoisingProgram(source, "denoise_prepare.frag")),
+      noise_(denoisingProgram(source, "denoise_noise.frag")),
+      filter_(denoisingProgram(source, "denoise_filter.frag")),
+      compare_(denoisingProgram(source, "denoise_compare.frag")),
+      finish_(denoisingProgram(source, "denoise_finish.frag")) {}
 
-  start = std::chrono::steady_clock::now();
+Image VarianceFilter::filtered(const Image& noisy) const {
   const glm::ivec2 size(noisy.width, noisy.height);
   std::vector<glm::vec4> texels = texelsOf(noisy, {"R", "G", "B", "variance.Y"});
-  const double scale = scaleOf(texels);
+  const std::vector<glm::vec4> albedo = texelsOf(noisy, {"albedo.R", "albedo.G", "albedo.B", "A"});
+  const double scale = scaleOf(texels, albedo);
   scaleNoisy(texels, noisy, scale);
-  const GlTexture radiance = upload(texels, size);
-  const GlTexture albedos = upload(texelsOf(noisy, {"albedo.R", "albedo.G", "albedo.B", "A"}), size);
-  const GlTexture normals = upload(texelsOf(noisy, {"normal.X", "normal.Y", "normal.Z", "depth.Z"}), size);
-  const GlTexture light = makePictureTexture(GL_RGBA32F, size);
-  const GlTexture surfaces = makePictureTexture(GL_RGBA32F, size);
-  const GlTexture shapes = makePictureTexture(GL_RGBA32F, size);
-  const GlTexture slopes = makePictureTexture(GL_RG32F, size);
-  const std::array<GlTexture, 2> turns{makePictureTexture(GL_RGBA32F, size),
-                                       makePictureTexture(GL_RGBA32F, size)};
+  std::vector<float> observed = observedOf(noisy, scale);
+  const float share = shareOf(texels, observed);
+  observed.resize(texels.size());
 
   Passes passes(size);
-  passes.draw(prepare, {&radiance, &albedos, &normals}, {&light, &surfaces, &shapes, &slopes});
-  const GlTexture* latest = &light;
+  const GlTexture radiance = passes.upload(texels, GL_RGBA32F, GL_RGBA);
+  const GlTexture albedos = passes.upload(albedo, GL_RGBA32F, GL_RGBA);
+  const GlTexture normals =
+      passes.upload(texelsOf(noisy, {"normal.X", "normal.Y", "normal.Z", "depth.Z"}), GL_RGBA32F, GL_RGBA);
+  const GlTexture seen = passes.upload(observed, GL_R32F, GL_RED);
+  const GlTexture light = passes.texture(GL_RGBA32F);
+  const GlTexture seenLight = passes.texture(GL_R32F);
+  const GlTexture guides = passes.texture(GL_RGBA32UI);
+  const GlTexture variance = passes.texture(GL_R32F);
+  const GlTexture moved = passes.texture(GL_RG32F);
+  const std::array<GlTexture, 2> turns{passes.texture(GL_RGBA32F), passes.texture(GL_RGBA32F)};
+
+  passes.draw(prepare_, {&radiance, &albedos, &normals, &seen}, {&light, &seenLight, &guides});
+  glProgramUniform1f(noise_.name(), 1, share);
+  passes.draw(noise_, {&light, &seenLight, &guides}, {&turns[0], &variance});
   for (int level = 0; level < kLevels; ++level) {
-    const GlTexture* next = &turns[size_t(level) % 2];
-    passes.draw(filter, {latest, &surfaces, &shapes, &slopes}, {next}, 1 << level);
-    latest = next;
+    glProgramUniform1i(filter_.name(), 1, 1 << level);
+    passes.draw(filter_, {&turns[size_t(level) % 2], &guides}, {&turns[size_t(level + 1) % 2]});
   }
-  const GlTexture* denoised = &turns[size_t(kLevels) % 2];
-  passes.draw(finish, {&light, latest, &albedos}, {denoised});
+  const GlTexture& latest = turns[size_t(kLevels) % 2];
+  const GlTexture& denoised = turns[size_t(kLevels + 1) % 2];
+  passes.draw(compare_, {&light, &latest, &variance}, {&moved});
+  passes.draw(finish_, {&light, &latest, &moved, &guides, &albedos}, {&denoised});
   std::vector<float> colors =
-      readPictureTexture<float>(*denoised, GL_RGB, 3, GL_FLOAT, size, "reading the denoised picture");
+      readPictureTexture<float>(denoised, GL_RGB, 3, GL_FLOAT, size, "reading the denoised picture");
   for (float& value : colors) value = float(value / scale);
-  times.filterMs = millisecondsSince(start);
   return {size.x, size.y, {"R", "G", "B"}, std::move(colors), {}};
 }
 

@@ -5,23 +5,37 @@
 
 #include <string_view>
 
+#include "gl/gl.h"
 #include "image/image.h"
 #include "shader/assemble.h"
 
 namespace fragtrace {
 
 /// Changes whenever the filter gives another picture.
-inline constexpr std::string_view kVarianceFilter = "variance 1";
+inline constexpr std::string_view kVarianceFilter = "variance 2";
 
-struct DenoiseTimes {
-  double compileMs = 0.0;  ///< programs, built anew
-  double filterMs = 0.0;   ///< the passes, by the wall clock, with the way to the device and back
+/// Of a picture that is to be filtered: one observation of the variance in variance.Y (observedVariance() of
+/// render/noise.h). Without it the samples count as independent.
+inline constexpr const char* kObservedChannel = "observed.Y";
+
+/// Its programs, which one context holds. Needs that context to be current in every call, of which framebuffer,
+/// viewport and program are changed.
+class VarianceFilter {
+ public:
+  /// Throws RenderError when the driver fails, as filtered() does.
+  explicit VarianceFilter(const ShaderSource& source);
+
+  /// R, G and B of the picture that `noisy` converges to, estimated from linear R, G, B, its variance.Y and
+  /// samples.Y, the layers A, albedo.RGB, normal.XYZ and depth.Z of first hits, and observed.Y where it is there.
+  /// Values that are not finite count as 0. Throws RenderError naming a layer that is missing.
+  Image filtered(const Image& noisy) const;
+
+ private:
+  GlProgram prepare_;
+  GlProgram noise_;
+  GlProgram filter_;
+  GlProgram compare_;
+  GlProgram finish_;
 };
-
-/// R, G and B of the picture that `noisy` converges to, estimated from linear R, G, B, its variance.Y and
-/// samples.Y, and the layers A, albedo.RGB, normal.XYZ and depth.Z of first hits, all of which it must have.
-/// Values that are not finite count as 0. Needs a current context, of which it leaves framebuffer, viewport
-/// and program changed. Throws RenderError naming a layer that is missing, or when the driver fails.
-Image denoisedByVariance(const Image& noisy, const ShaderSource& source, DenoiseTimes& times);
 
 }  // namespace fragtrace

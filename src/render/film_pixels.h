@@ -62,4 +62,16 @@ struct Layers {
 /// FilmPixel::variance, in the order of the pixels.
 Image imageOf(const FilmPixels& film, const Layers& layers, std::span<const double> variance = {});
 
+/// One channel, Y: number(i) of pixel i of a film of that size, the first row at the top.
+template <typename Number>
+Image imageOfNumbers(glm::ivec2 size, const Number& number) {
+  Image image{size.x, size.y, {"Y"}, {}, {}};
+  image.values.reserve(size_t(size.x) * size_t(size.y));
+  for (int y = size.y - 1; y >= 0; --y) {
+    for (int x = 0; x < size.x; ++x)
+      image.values.push_back(float(number(size_t(y) * size_t(size.x) + size_t(x))));
+  }
+  return image;
+}
+
 }  // namespace fragtrace

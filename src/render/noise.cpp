@@ -115,6 +115,27 @@ std::vector<double> varianceOfMean(const Halves& halves) {
   return variance;
 }
 
+std::vector<double> observedVariance(const FilmPixels& quarter, const FilmPixels& half,
+                                     const FilmPixels& whole) {
+  const double floor = floorOf(whole);
+  std::vector<double> observed(whole.pixels.size());
+  double first = 0.0;
+  double second = 0.0;
+  for (size_t i = 0; i < observed.size(); ++i) {
+    const double middle = half.pixels[i].luminance();
+    const double end = whole.pixels[i].luminance();
+    observed[i] = (middle - end) * (middle - end);
+    const double weight = 1.0 / std::max(1e-300, std::pow(std::abs(end) + floor, 2.0));
+    first += weight * std::pow(quarter.pixels[i].luminance() - middle, 2.0);
+    second += weight * observed[i];
+  }
+  // Where the variance falls as N^-p, the distance from half to whole is 2^p - 1 of it, and the distances fall
+  // as 2^p. Independent samples have p = 1; beyond 2 the ratio is one of small numbers.
+  const double ratio = second > 0.0 ? std::clamp(first / second, 2.0, 4.0) : 2.0;
+  for (double& value : observed) value /= ratio - 1.0;
+  return observed;
+}
+
 std::vector<double> relativeErrors(const FilmPixels& pooled, const std::vector<double>& variance) {
   const double floor = floorOf(pooled);
   std::vector<double> errors(pooled.pixels.size());

@@ -13,6 +13,9 @@ namespace fragtrace {
 inline GlTexture makePictureTexture(GLenum format, glm::ivec2 size) {
   GlTexture texture = makeTexture(GL_TEXTURE_2D);
   glTextureStorage2D(texture.name(), 1, format, size.x, size.y);
+  // A texture of integers that would be interpolated is incomplete: all its texels are 0.
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   return texture;
 }
 
