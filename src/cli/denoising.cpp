@@ -9,13 +9,13 @@
 #include "image/channels.h"
 #include "image/format.h"
 #include "render/denoise.h"
+#include "stage/same_picture.h"
 
 namespace fragtrace {
 
 namespace {
 
 constexpr const char* kFilterAttribute = "fragtrace:denoise";
-constexpr std::array kGuides{Feature::Albedo, Feature::Normal, Feature::Depth};
 
 bool isUnasked(const RenderOptions& options, Feature feature) {
   return std::ranges::find(options.aovFeatures, feature) == options.aovFeatures.end();
@@ -36,10 +36,7 @@ bool isForTheFilter(const std::string& channel, const RenderOptions& options) {
 
 std::string whyNotDenoised(const RenderOptions& options) {
   if (options.denoise == Denoise::None) return "--denoise";
-  if (!has(options.stages, Stage::Gi)) return "stages before gi have no noise but at edges";
-  if (options.debugView != DebugView::None || has(options.stages, Stage::BvhHeatmap))
-    return "a debug view shows what was drawn";
-  return "";
+  return whyWithoutNoise(options);
 }
 
 RenderOptions withGuides(const RenderOptions& options) {

@@ -2,6 +2,7 @@
 // `render --denoise`: what it needs beside the picture, and what becomes of both.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "cli/statistics.h"
@@ -9,6 +10,9 @@
 #include "stage/options.h"
 
 namespace fragtrace {
+
+/// Layers of first hits that tell surfaces apart.
+inline constexpr std::array kGuides{Feature::Albedo, Feature::Normal, Feature::Depth};
 
 /// Why such a picture is not denoised though that is asked for; empty: it is.
 std::string whyNotDenoised(const RenderOptions& options);

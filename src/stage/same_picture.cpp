@@ -59,4 +59,11 @@ bool drawSameSamples(const RenderOptions& a, const RenderOptions& b) {
   return sampledPart(a) == sampledPart(b);
 }
 
+std::string whyWithoutNoise(const RenderOptions& options) {
+  if (!has(options.stages, Stage::Gi)) return "stages before gi have no noise but at edges";
+  if (options.debugView != DebugView::None || has(options.stages, Stage::BvhHeatmap))
+    return "a debug view shows what was drawn";
+  return "";
+}
+
 }  // namespace fragtrace
