@@ -4,6 +4,12 @@
 #include <algorithm>
 #include <array>
 
+#include "cli/interrupt.h"
+#include "cli/progress_bar.h"
+#include "cli/say.h"
+#include "cli/setup.h"
+#include "denoise/oidn.h"
+#include "errors.h"
 #include "gl/program.h"
 #include "image/channels.h"
 #include "image/format.h"
@@ -15,6 +21,12 @@ namespace {
 
 constexpr const char* kFilterAttribute = "fragtrace:denoise";
 constexpr std::array kGuides{Feature::Albedo, Feature::Normal, Feature::Depth};
+std::vector<std::string> noisyNames() { return {"noisy.R", "noisy.G", "noisy.B"}; }
+
+/// Whether the filter looks at the layer.
+bool isGuide(const RenderOptions& options, Feature feature) {
+  return options.denoise == Denoise::Variance || feature != Feature::Depth;
+}
 
 bool isUnasked(const RenderOptions& options, Feature feature) {
   return std::ranges::find(options.aovFeatures, feature) == options.aovFeatures.end();
@@ -40,32 +52,80 @@ std::string whyNotDenoised(const RenderOptions& options) {
   return "";
 }
 
+std::optional<OidnLibrary> openDenoiser(RenderOptions& options) {
+  if (!whyNotDenoised(options).empty()) return std::nullopt;
+  if (options.denoise != Denoise::Oidn && options.denoise != Denoise::Auto) return std::nullopt;
+  try {
+    OidnLibrary library = openOidn(options.oidnLibrary);
+    options.denoise = Denoise::Oidn;
+    return library;
+  } catch (const UsageError& error) {
+    if (options.denoise == Denoise::Oidn) throw;
+    options.denoise = Denoise::Variance;
+    const std::string text = std::string("--denoise auto: the variance filter: ") + error.what();
+    if (namesOidn(options.oidnLibrary))
+      say(options, "warning: " + text);
+    else if (options.verbose)
+      say(options, text);
+  }
+  return std::nullopt;
+}
+
 RenderOptions withGuides(const RenderOptions& options) {
   RenderOptions drawn = options;
   if (!whyNotDenoised(options).empty()) return drawn;
-  drawn.aovSamples = true;
-  drawn.aovVariance = true;
+  if (options.denoise == Denoise::Variance) drawn.aovSamples = drawn.aovVariance = true;
   for (const Feature guide : kGuides) {
-    if (isUnasked(options, guide)) drawn.aovFeatures.push_back(guide);
+    if (isGuide(options, guide) && isUnasked(options, guide)) drawn.aovFeatures.push_back(guide);
   }
   return drawn;
 }
 
-void denoise(Image& picture, const RenderOptions& options, Statistics& stats) {
+std::optional<Image> filtered(const Image& picture, const RenderOptions& options,
+                              const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats) {
+  if (!oidn) {
+    stats.filter = kVarianceFilter;
+    return denoisedByVariance(picture, shaderSource(options.shaderFolder), stats.times);
+  }
+  Stopwatch watch;
+  ProgressBar bar("denoising", options.quiet);
+  const int before = interrupts();
+  std::optional<Image> result =
+      denoisedByOidn(picture, *oidn, options.limits.memoryBytes, [&](double fraction) {
+        bar.show(fraction);
+        return interrupts() == before;
+      });
+  bar.clear();
+  if (!result) {
+    stats.skipped = "interrupted";
+    return result;
+  }
+  stats.filter = "oidn " + oidn->version;
+  stats.library = oidn->file;
+  stats.loadMs = oidn->loadMs;
+  stats.times.filterMs = watch.lap();
+  return result;
+}
+
+void keepNoisy(Image& picture, const Image& noisy, const std::string& filter) {
+  appendChannels(picture, noisy, noisyNames());
+  picture.attributes[kFilterAttribute] = filter;
+}
+
+void denoise(Image& picture, const RenderOptions& options, const std::optional<OidnLibrary>& oidn,
+             Statistics& stats) {
   if (options.denoise == Denoise::None) return;
-  stats.denoise = DenoiseStatistics{"", whyNotDenoised(options), {}};
+  stats.denoise.emplace().skipped = whyNotDenoised(options);
   if (!stats.denoise->skipped.empty()) return;
-  stats.denoise->filter = kVarianceFilter;
-  const Image denoised =
-      denoisedByVariance(picture, shaderSource(options.shaderFolder), stats.denoise->times);
+  const std::optional<Image> denoised = filtered(picture, options, oidn, *stats.denoise);
+  if (!denoised) stats.complete = false;
   const Image noisy = onlyChannels(picture, {"R", "G", "B"});
-  replaceColor(picture, denoised);
+  if (denoised) replaceColor(picture, *denoised);
   std::vector<std::string> asked = picture.channels;
   std::erase_if(asked, [&](const std::string& channel) { return isForTheFilter(channel, options); });
   picture = onlyChannels(picture, asked);
-  if (formatOfName(options.output) != ImageFormat::OpenExr) return;
-  appendChannels(picture, noisy, {"noisy.R", "noisy.G", "noisy.B"});
-  picture.attributes[kFilterAttribute] = stats.denoise->filter;
+  if (denoised && formatOfName(options.output) == ImageFormat::OpenExr)
+    keepNoisy(picture, noisy, stats.denoise->filter);
 }
 
 Image asDrawn(const Image& picture) {
@@ -75,7 +135,7 @@ Image asDrawn(const Image& picture) {
   std::vector<std::string> rest = picture.channels;
   std::erase_if(rest, [](const std::string& channel) { return channel.starts_with("noisy."); });
   Image drawn = onlyChannels(picture, rest);
-  replaceColor(drawn, onlyChannels(picture, {"noisy.R", "noisy.G", "noisy.B"}));
+  replaceColor(drawn, onlyChannels(picture, noisyNames()));
   drawn.attributes.erase(kFilterAttribute);
   return drawn;
 }

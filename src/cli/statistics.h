@@ -30,6 +30,8 @@ struct DenoiseStatistics {
   std::string filter;   ///< and its version; empty: none ran
   std::string skipped;  ///< why none ran
   DenoiseTimes times;
+  std::string library;  ///< the file that did it; empty: we did
+  double loadMs = 0.0;  ///< that opening the library took
 };
 
 /// What `--stats` writes about one render; the JSON's keys are the names here.
