@@ -44,6 +44,24 @@ Triples triplesOf(const Image& image, const LayerNames& names) {
   return triples;
 }
 
+/// The power of two next to the geometric mean of what is not black: the library loses pictures that are far
+/// darker or brighter than 1 (all of 1e-40 or 1e38), and a few bright pixels do not move this mean.
+int exponentOf(const Triples& color) {
+  double sum = 0.0;
+  size_t count = 0;
+  for (const float value : color) {
+    if (value <= 0.0f) continue;
+    sum += std::log2(double(value));
+    ++count;
+  }
+  return count == 0 ? 0 : int(std::lround(sum / double(count)));
+}
+
+void multiplyByPowerOfTwo(Triples& color, int exponent) {
+  constexpr float kBrightest = 1e18f;  // its square is a float, too
+  for (float& value : color) value = std::clamp(std::ldexp(value, exponent), -kBrightest, kBrightest);
+}
+
 /// The library's filters, one after the other, as parts of one piece of work.
 class OidnRuns {
  public:
@@ -126,6 +144,9 @@ std::optional<Image> denoisedByOidn(const Image& noisy, const OidnLibrary& libra
                                     const OidnProgress& progress) {
   const bool guided = hasOidnGuides(noisy);
   Triples color = triplesOf(noisy, kOidnColor);
+  const int exponent = exponentOf(color);
+  Triples scaled = color;
+  multiplyByPowerOfTwo(scaled, -exponent);
   Triples output(color.size());
   OidnRuns runs(library, noisy.width, noisy.height, memoryBytes, guided ? 3 : 1, progress);
   if (guided) {
@@ -134,12 +155,13 @@ std::optional<Image> denoisedByOidn(const Image& noisy, const OidnLibrary& libra
     Triples normal = triplesOf(noisy, kOidnNormal);
     if (!runs.run({{"albedo", albedo}}, albedo, false, false) ||
         !runs.run({{"normal", normal}}, normal, false, false) ||
-        !runs.run({{"color", color}, {"albedo", albedo}, {"normal", normal}}, output, true, true))
+        !runs.run({{"color", scaled}, {"albedo", albedo}, {"normal", normal}}, output, true, true))
       return std::nullopt;
-  } else if (!runs.run({{"color", color}}, output, true, false)) {
+  } else if (!runs.run({{"color", scaled}}, output, true, false)) {
     return std::nullopt;
   }
   for (size_t i = 0; i < output.size(); ++i) {
+    output[i] = std::ldexp(output[i], exponent);
     if (!std::isfinite(output[i])) output[i] = color[i];
   }
   return Image{noisy.width, noisy.height, {"R", "G", "B"}, std::move(output), {}};

@@ -19,8 +19,8 @@ bool hasOidnGuides(const Image& picture);
 
 /// R, G and B of the picture that `noisy` converges to, estimated from its linear R, G and B, which it must
 /// have and which are not clamped, and from albedo.RGB (0..1) and normal.XYZ (-1..1) of first hits, if it has
-/// both. Values that are not finite count as 0. Takes about `memoryBytes` at most, beside twelve floats a
-/// pixel. Nothing when `progress` stops it. Throws RenderError with what the library says.
+/// both. Values that are not finite count as 0. Takes about `memoryBytes` at most, beside fifteen floats
+/// a pixel. Nothing when `progress` stops it. Throws RenderError with what the library says.
 std::optional<Image> denoisedByOidn(const Image& noisy, const OidnLibrary& library, uint64_t memoryBytes,
                                     const OidnProgress& progress = {});
 
