@@ -45,8 +45,9 @@ Triples triplesOf(const Image& image, const LayerNames& names) {
 }
 
 /// The power of two next to the geometric mean of what is not black: the library loses pictures that are far
-/// darker or brighter than 1 (all of 1e-40 or 1e38), and a few bright pixels do not move this mean.
-int exponentOf(const Triples& color) {
+/// darker or brighter than 1 (all of 1e-40 or 1e38), and a few bright pixels do not move this mean. Nothing
+/// where all is black.
+std::optional<int> exponentOf(const Triples& color) {
   double sum = 0.0;
   size_t count = 0;
   for (const float value : color) {
@@ -54,7 +55,8 @@ int exponentOf(const Triples& color) {
     sum += std::log2(double(value));
     ++count;
   }
-  return count == 0 ? 0 : int(std::lround(sum / double(count)));
+  if (count == 0) return std::nullopt;
+  return int(std::lround(sum / double(count)));
 }
 
 void multiplyByPowerOfTwo(Triples& color, int exponent) {
@@ -144,9 +146,11 @@ std::optional<Image> denoisedByOidn(const Image& noisy, const OidnLibrary& libra
                                     const OidnProgress& progress) {
   const bool guided = hasOidnGuides(noisy);
   Triples color = triplesOf(noisy, kOidnColor);
-  const int exponent = exponentOf(color);
+  const std::optional<int> exponent = exponentOf(color);
+  // The library would make light of it.
+  if (!exponent) return Image{noisy.width, noisy.height, {"R", "G", "B"}, std::move(color), {}};
   Triples scaled = color;
-  multiplyByPowerOfTwo(scaled, -exponent);
+  multiplyByPowerOfTwo(scaled, -*exponent);
   Triples output(color.size());
   OidnRuns runs(library, noisy.width, noisy.height, memoryBytes, guided ? 3 : 1, progress);
   if (guided) {
@@ -161,7 +165,7 @@ std::optional<Image> denoisedByOidn(const Image& noisy, const OidnLibrary& libra
     return std::nullopt;
   }
   for (size_t i = 0; i < output.size(); ++i) {
-    output[i] = std::ldexp(output[i], exponent);
+    output[i] = std::ldexp(output[i], *exponent);
     if (!std::isfinite(output[i])) output[i] = color[i];
   }
   return Image{noisy.width, noisy.height, {"R", "G", "B"}, std::move(output), {}};
