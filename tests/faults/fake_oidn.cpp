@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A stand-in for Open Image Denoise 2 whose output can be reckoned and which fails where it is told to:
-// FAKE_OIDN is one of the words below. It adds up what it gets: a picture becomes color + 2 albedo + 2 normal, and
-// albedo and normal become half of themselves first, so color + albedo + normal shows that all came as they should.
+// FAKE_OIDN is one of the words below. It adds up what it gets: a picture becomes color + 2 albedo + 2
+// normal, and albedo and normal become half of themselves first, so color + albedo + normal shows that all
+// came as they should.
 #include <csignal>
 #include <cstddef>
 #include <cstdlib>
@@ -61,7 +62,8 @@ const char* complaint(const Filter& filter) {
   if (number("quality") != 6) return "the quality is not high";
   if (number("maxMemoryMB") < 1 || number("maxMemoryMB") > 2000) return "maxMemoryMB is out of range";
   if (has("color") != (number("hdr") == 1)) return "hdr is not as it should be";
-  if ((has("color") && has("albedo") && has("normal")) != (number("cleanAux") == 1)) return "cleanAux is not as it should be";
+  if ((has("color") && has("albedo") && has("normal")) != (number("cleanAux") == 1))
+    return "cleanAux is not as it should be";
   return nullptr;
 }
 
@@ -102,14 +104,16 @@ Filter* oidnNewFilter(Device* device, const char* type) {
   return filter;
 }
 
-void oidnSetSharedFilterImage(Filter* filter, const char* name, void* pixels, int format, size_t width, size_t height, size_t, size_t,
-                              size_t) {
+void oidnSetSharedFilterImage(Filter* filter, const char* name, void* pixels, int format, size_t width,
+                              size_t height, size_t, size_t, size_t) {
   if (format != 3) fail(filter->device, 2, "the format is not three floats");
   filter->images[name] = static_cast<float*>(pixels);
   filter->floats = 3 * width * height;
 }
 
-void oidnSetFilterBool(Filter* filter, const char* name, bool value) { filter->numbers[name] = value ? 1 : 0; }
+void oidnSetFilterBool(Filter* filter, const char* name, bool value) {
+  filter->numbers[name] = value ? 1 : 0;
+}
 void oidnSetFilterInt(Filter* filter, const char* name, int value) { filter->numbers[name] = value; }
 
 void oidnSetFilterProgressMonitorFunction(Filter* filter, bool (*monitor)(void*, double), void* user) {
