@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "cli/say.h"
 #include "denoise/layers.h"
@@ -35,25 +34,13 @@ void checkVarianceLayers(const Image& drawn, const std::filesystem::path& name) 
                    "install pyoidn)");
 }
 
-/// Appends which part of each pixel shows a surface. It is 1 but beside pixels that see none; there the mean
-/// normal, in which a miss counts as 0, is as long as that part.
+/// Appends an alpha that is 1 where a pixel shows a surface. Pixels that show one in part get 1, too, which
+/// changes the light of a filtered pixel by 0.3 % on average at most (docs/denoise.md).
 void appendCoverage(Image& picture) {
   const size_t depth = findChannel(picture, "depth.Z").value();
-  const size_t normal = findChannel(picture, "normal.X").value();
   Image coverage{picture.width, picture.height, {"A"}, {}, {}};
-  const auto misses = [&](int x, int y) { return !(picture.pixel(x, y)[depth] > 0.0f); };
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      bool atEdge = false;
-      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, picture.height - 1); ++v) {
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, picture.width - 1); ++u)
-          atEdge = atEdge || misses(u, v);
-      }
-      const float* n = picture.pixel(x, y) + normal;
-      const float part = atEdge ? std::min(std::hypot(n[0], n[1], n[2]), 1.0f) : 1.0f;
-      coverage.values.push_back(misses(x, y) ? 0.0f : part);
-    }
-  }
+  for (size_t first = 0; first < picture.values.size(); first += picture.channelCount())
+    coverage.values.push_back(picture.values[first + depth] > 0.0f ? 1.0f : 0.0f);
   appendChannels(picture, coverage, {"A"});
 }
 

@@ -129,9 +129,9 @@ void denoise(Image& picture, const RenderOptions& options, const std::optional<O
 }
 
 Image asDrawn(const Image& picture) {
-  if (!findChannel(picture, "noisy.R") || !findChannel(picture, "noisy.G") ||
-      !findChannel(picture, "noisy.B"))
-    return picture;
+  for (const char* name : {"R", "G", "B", "noisy.R", "noisy.G", "noisy.B"}) {
+    if (!findChannel(picture, name)) return picture;
+  }
   std::vector<std::string> rest = picture.channels;
   std::erase_if(rest, [](const std::string& channel) { return channel.starts_with("noisy."); });
   Image drawn = onlyChannels(picture, rest);

@@ -58,7 +58,6 @@ std::optional<FoundLayer> findGuide(const Image& file, const std::string& prefix
 }
 
 std::optional<FoundLayer> findColor(const Image& file) {
-  if (const auto noisy = channelsOf(file, "noisy")) return FoundLayer{*noisy, ""};
   if (const auto own = findColorChannels(file)) return FoundLayer{*own, ""};
   return findLayer(file, {"Noisy Image", "Combined"});
 }
