@@ -4,7 +4,12 @@
 #include <algorithm>
 #include <array>
 
+#include "cli/interrupt.h"
 #include "cli/phase_timer.h"
+#include "cli/progress_bar.h"
+#include "cli/say.h"
+#include "denoise/oidn.h"
+#include "errors.h"
 #include "gl/program.h"
 #include "image/channels.h"
 #include "image/format.h"
@@ -16,6 +21,12 @@ namespace fragtrace {
 namespace {
 
 constexpr const char* kFilterAttribute = "fragtrace:denoise";
+std::vector<std::string> noisyNames() { return {"noisy.R", "noisy.G", "noisy.B"}; }
+
+/// Whether the filter looks at the layer.
+bool isGuide(const RenderOptions& options, Feature feature) {
+  return options.denoise == Denoise::Variance || feature != Feature::Depth;
+}
 
 bool isUnasked(const RenderOptions& options, Feature feature) {
   return std::ranges::find(options.aovFeatures, feature) == options.aovFeatures.end();
@@ -39,46 +50,96 @@ std::string whyNotDenoised(const RenderOptions& options) {
   return whyWithoutNoise(options);
 }
 
+std::optional<OidnLibrary> openDenoiser(RenderOptions& options) {
+  if (!whyNotDenoised(options).empty()) return std::nullopt;
+  if (options.denoise != Denoise::Oidn && options.denoise != Denoise::Auto) return std::nullopt;
+  try {
+    OidnLibrary library = openOidn(options.oidnLibrary);
+    options.denoise = Denoise::Oidn;
+    return library;
+  } catch (const UsageError& error) {
+    if (options.denoise == Denoise::Oidn) throw;
+    options.denoise = Denoise::Variance;
+    const std::string text = std::string("--denoise auto: the variance filter: ") + error.what();
+    if (namesOidn(options.oidnLibrary))
+      say(options, "warning: " + text);
+    else if (options.verbose)
+      say(options, text);
+  }
+  return std::nullopt;
+}
+
 RenderOptions withGuides(const RenderOptions& options) {
   RenderOptions drawn = options;
   if (!whyNotDenoised(options).empty()) return drawn;
-  drawn.aovSamples = true;
-  drawn.aovVariance = true;
+  if (options.denoise == Denoise::Variance) drawn.aovSamples = drawn.aovVariance = true;
   for (const Feature guide : kGuides) {
-    if (isUnasked(options, guide)) drawn.aovFeatures.push_back(guide);
+    if (isGuide(options, guide) && isUnasked(options, guide)) drawn.aovFeatures.push_back(guide);
   }
   return drawn;
 }
 
-void denoise(Image& picture, const RenderOptions& options, Statistics& stats) {
-  if (options.denoise == Denoise::None) return;
-  stats.denoise = DenoiseStatistics{"", whyNotDenoised(options), 0.0, 0.0};
-  if (!stats.denoise->skipped.empty()) return;
-  stats.denoise->filter = kVarianceFilter;
+std::optional<Image> filtered(const Image& picture, const RenderOptions& options,
+                              const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats) {
+  if (!oidn) {
+    stats.filter = kVarianceFilter;
+    const double start = steadyMilliseconds();
+    const VarianceFilter filter(shaderSource(options.shaderFolder));
+    const double compiled = steadyMilliseconds();
+    Image result = filter.filtered(picture);
+    stats.compileMs = compiled - start;
+    stats.filterMs = steadyMilliseconds() - compiled;
+    return result;
+  }
   const double start = steadyMilliseconds();
-  const VarianceFilter filter(shaderSource(options.shaderFolder));
-  const double compiled = steadyMilliseconds();
-  const Image denoised = filter.filtered(picture);
-  stats.denoise->compileMs = compiled - start;
-  stats.denoise->filterMs = steadyMilliseconds() - compiled;
+  ProgressBar bar("denoising", options.quiet);
+  const int before = interrupts();
+  std::optional<Image> result =
+      denoisedByOidn(picture, *oidn, options.limits.memoryBytes, [&](double fraction) {
+        bar.show(fraction);
+        return interrupts() == before;
+      });
+  bar.clear();
+  if (!result) {
+    stats.skipped = "interrupted";
+    return result;
+  }
+  stats.filter = "oidn " + oidn->version;
+  stats.library = oidn->file;
+  stats.loadMs = oidn->loadMs;
+  stats.filterMs = steadyMilliseconds() - start;
+  return result;
+}
+
+void keepNoisy(Image& picture, const Image& noisy, const std::string& filter) {
+  appendChannels(picture, noisy, noisyNames());
+  picture.attributes[kFilterAttribute] = filter;
+}
+
+void denoise(Image& picture, const RenderOptions& options, const std::optional<OidnLibrary>& oidn,
+             Statistics& stats) {
+  if (options.denoise == Denoise::None) return;
+  stats.denoise.emplace().skipped = whyNotDenoised(options);
+  if (!stats.denoise->skipped.empty()) return;
+  const std::optional<Image> denoised = filtered(picture, options, oidn, *stats.denoise);
+  if (!denoised) stats.complete = false;
   const Image noisy = onlyChannels(picture, {"R", "G", "B"});
-  replaceColor(picture, denoised);
+  if (denoised) replaceColor(picture, *denoised);
   std::vector<std::string> asked = picture.channels;
   std::erase_if(asked, [&](const std::string& channel) { return isForTheFilter(channel, options); });
   picture = onlyChannels(picture, asked);
-  if (formatOfName(options.output) != ImageFormat::OpenExr) return;
-  appendChannels(picture, noisy, {"noisy.R", "noisy.G", "noisy.B"});
-  picture.attributes[kFilterAttribute] = stats.denoise->filter;
+  if (denoised && formatOfName(options.output) == ImageFormat::OpenExr)
+    keepNoisy(picture, noisy, stats.denoise->filter);
 }
 
 Image asDrawn(const Image& picture) {
-  if (!findChannel(picture, "noisy.R") || !findChannel(picture, "noisy.G") ||
-      !findChannel(picture, "noisy.B"))
-    return picture;
+  for (const char* name : {"R", "G", "B", "noisy.R", "noisy.G", "noisy.B"}) {
+    if (!findChannel(picture, name)) return picture;
+  }
   std::vector<std::string> rest = picture.channels;
   std::erase_if(rest, [](const std::string& channel) { return channel.starts_with("noisy."); });
   Image drawn = onlyChannels(picture, rest);
-  replaceColor(drawn, onlyChannels(picture, {"noisy.R", "noisy.G", "noisy.B"}));
+  replaceColor(drawn, onlyChannels(picture, noisyNames()));
   drawn.attributes.erase(kFilterAttribute);
   return drawn;
 }

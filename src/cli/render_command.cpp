@@ -234,8 +234,10 @@ void sayWhatIsChosen(const RenderOptions& options, const Context& context, const
 
 }  // namespace
 
-int runRender(const RenderOptions& options) {
-  checkOutputs(outputsOf(options), inputsOf(options));
+int runRender(const RenderOptions& asked) {
+  checkOutputs(outputsOf(asked), inputsOf(asked));
+  RenderOptions options = asked;
+  const std::optional<OidnLibrary> oidn = openDenoiser(options);
   Statistics stats;
 
   // Step: load. The image library opens meanwhile, in its own process, when the output needs it.
@@ -282,7 +284,8 @@ int runRender(const RenderOptions& options) {
   if (interrupts() > 1) return kInterruptedStatus;
   Image picture = shownPicture(
       options, tracer.variant, drawing.pixels,
-      {!options.background || whyNotDenoised(options).empty(), drawn.aovSamples, drawn.aovVariance},
+      {!options.background || (options.denoise == Denoise::Variance && whyNotDenoised(options).empty()),
+       drawn.aovSamples, drawn.aovVariance},
       drawing.variance);
   if (!drawing.observed.empty())
     appendChannels(picture, imageOfNumbers(loaded.size, [&](size_t i) { return drawing.observed[i]; }),
@@ -291,7 +294,7 @@ int runRender(const RenderOptions& options) {
   // Step: write. What has been drawn is not lost from here on.
   try {
     addFeatures(picture, tracer, options, loaded, layerSeconds, stats);
-    denoise(picture, options, stats);
+    denoise(picture, options, oidn, stats);
     sayDriverLog();
     if (interrupts() > 1) return kInterruptedStatus;
     setProvenanceOf(picture, options, loaded, tracer, stats);

@@ -29,6 +29,7 @@ RenderOptions sampledPart(RenderOptions o) {
   o.aovVariance = standard.aovVariance;
   o.aovFeatures = standard.aovFeatures;
   o.denoise = standard.denoise;  // after all samples
+  o.oidnLibrary = standard.oidnLibrary;
   o.treeLevel = standard.treeLevel;
   o.statsFile = standard.statsFile;
   o.shaderFolder = standard.shaderFolder;
