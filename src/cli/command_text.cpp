@@ -115,7 +115,7 @@ RenderOptions parseCommand(const std::string& name, std::vector<std::string> wor
   RawView raw;
   raw.render.anyOutput = true;
   addViewOptions(app, raw);
-  addDenoiseOption(app, raw.render);  // of a render's command; the window shows what was drawn
+  if (name == "render") raw.render.denoise = "none";  // its default
   app.add_option("-o,--output", raw.render.output);
   parseWords(app, std::move(words));
   return finishConfigured(raw.render, raw.config, app);

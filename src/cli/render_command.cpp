@@ -43,7 +43,7 @@ bool addAllSamples(Renderer& renderer, Film& film, const RenderOptions& options,
                    RenderTimes& times, const Renderer::Progress& progress, Drawing& drawing) {
   constexpr int kFewest = 4;
   const bool looks =
-      options.denoise != Denoise::None && whyNotDenoised(options).empty() && options.spp >= kFewest;
+      options.denoise == Denoise::Variance && whyNotDenoised(options).empty() && options.spp >= kFewest;
   std::vector<FilmPixels> seen;
   int from = 0;
   for (const int to : {options.spp / 4, options.spp / 2, options.spp}) {

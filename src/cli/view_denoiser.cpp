@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "denoise/oidn.h"
 #include "gl/program.h"
 #include "image/channels.h"
 
@@ -62,8 +63,9 @@ bool ViewDenoiser::drawGuides(glm::ivec2 size, int samples, Tracer& tracer, cons
   return true;
 }
 
-std::optional<Image> ViewDenoiser::shown(const Image& drawn, int samples, Tracer& tracer, const View& view,
-                                         SideMemory& memory, const std::function<bool()>& goOn) {
+std::optional<Image> ViewDenoiser::shown(const Image& drawn, int samples, const RenderOptions& options,
+                                         bool moving, Tracer& tracer, const View& view, SideMemory& memory,
+                                         const std::function<bool()>& goOn) {
   const std::vector<std::string> colors{"R", "G", "B", "A"};
   const double share = filteredShare(samples);
   if (share <= 0.0) {
@@ -76,8 +78,12 @@ std::optional<Image> ViewDenoiser::shown(const Image& drawn, int samples, Tracer
   // The past fades out as the filter would: what it has seen from elsewhere is not what is seen here.
   const double past = kMostPastSamples * std::max(0.0, 1.0 - samples / kAllUpTo);
   if (memory.past && past > 0.0) present.layers = withPast(present, *memory.past, past);
-  if (!filter_) filter_ = std::make_unique<VarianceFilter>(shaderSource(shaderFolder_));
-  const std::optional<Image> filtered = filter_->filtered(present.layers, goOn);
+  const bool byOidn = options.denoise == Denoise::Oidn && oidn_ && !moving;
+  if (!byOidn && !filter_) filter_ = std::make_unique<VarianceFilter>(shaderSource(shaderFolder_));
+  const std::optional<Image> filtered =
+      byOidn
+          ? denoisedByOidn(present.layers, *oidn_, options.limits.memoryBytes, [&](double) { return goOn(); })
+          : filter_->filtered(present.layers, goOn);
   if (!filtered) return std::nullopt;
   Image picture = onlyChannels(drawn, colors);
   for (size_t i = 0, from = 0; i < picture.values.size(); i += 4, from += 3) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "cli/setup.h"
+#include "denoise/oidn_library.h"
 #include "render/denoise.h"
 #include "view/reproject.h"
 
@@ -28,19 +29,24 @@ struct SideMemory {
 
 class ViewDenoiser {
  public:
-  explicit ViewDenoiser(const std::filesystem::path& shaderFolder) : shaderFolder_(shaderFolder) {}
+  /// `oidn` must outlive this.
+  ViewDenoiser(const std::filesystem::path& shaderFolder, const std::optional<OidnLibrary>& oidn)
+      : shaderFolder_(shaderFolder), oidn_(oidn) {}
 
   /// R, G, B and A as they are to be shown. `drawn` has R, G, B, A, samples.Y and variance.Y of so many
-  /// samples a pixel, drawn by `tracer`, whose layers are drawn where they are not there yet. Nothing when
-  /// goOn() said no. Throws RenderError.
-  std::optional<Image> shown(const Image& drawn, int samples, Tracer& tracer, const View& view,
-                             SideMemory& memory, const std::function<bool()>& goOn);
+  /// samples a pixel, drawn by `tracer`, whose layers are drawn where they are not there yet. By Open Image
+  /// Denoise only where `options` say so, it is there, and nothing moves: it takes too long for that. Nothing
+  /// when goOn() said no. Throws RenderError.
+  std::optional<Image> shown(const Image& drawn, int samples, const RenderOptions& options, bool moving,
+                             Tracer& tracer, const View& view, SideMemory& memory,
+                             const std::function<bool()>& goOn);
 
  private:
   bool drawGuides(glm::ivec2 size, int samples, Tracer& tracer, const View& view, SideMemory& memory,
                   const std::function<bool()>& goOn);
 
   std::filesystem::path shaderFolder_;
+  const std::optional<OidnLibrary>& oidn_;
   std::unique_ptr<VarianceFilter> filter_;  ///< made when it is first needed
 };
 

@@ -53,7 +53,8 @@ std::optional<Image> ViewTracer::shownOf(Side& side, const FilmPixels& pixels,
   const auto start = Clock::now();
   const Image drawn = shownPicture(side.options, variant, pixels, {true, true, true});
   std::optional<Image> shown =
-      denoiser_->shown(drawn, side.samples, side.program->tracer, side.view, side.memory, goOn);
+      denoiser_->shown(drawn, side.samples, side.options, request_.moving || resolution_.step > 0,
+                       side.program->tracer, side.view, side.memory, goOn);
   filterMsPerPixel_ = sinceMs(start) / double(pixels.pixels.size());
   if (shown && !alpha) *shown = withoutAlpha(*shown);
   return shown;

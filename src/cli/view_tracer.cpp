@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/denoising.h"
 #include "cli/outputs.h"
 #include "cli/pick_text.h"
 #include "errors.h"
@@ -42,6 +43,8 @@ std::string whatFailed(const std::exception_ptr& error) {
 
 ViewTracer::ViewTracer(const ViewOptions& start, Exchange& exchange)
     : start_(start), exchange_(exchange), loader_(exchange) {
+  RenderOptions options = start_.render;
+  oidn_ = openDenoiser(options);
   passOnWhatIsSaid([&exchange](const std::string& text) { exchange.tell(text); });
 }
 
@@ -76,7 +79,7 @@ void ViewTracer::run() {
 void ViewTracer::enterContext() {
   context_ = makeContext(start_.render.backend);
   driverLog_ = std::make_unique<DebugLog>();
-  denoiser_ = std::make_unique<ViewDenoiser>(start_.render.shaderFolder);
+  denoiser_ = std::make_unique<ViewDenoiser>(start_.render.shaderFolder, oidn_);
 }
 
 /// What was in the context is made anew in another one.
@@ -154,7 +157,7 @@ void ViewTracer::watchFiles() {
 /// The shaders have changed; what cannot be compiled now stays as it was.
 void ViewTracer::rebuildPrograms() {
   programs_->forget();
-  denoiser_ = std::make_unique<ViewDenoiser>(start_.render.shaderFolder);
+  denoiser_ = std::make_unique<ViewDenoiser>(start_.render.shaderFolder, oidn_);
   for (Side& side : sides_) {
     const std::shared_ptr<ViewProgram> wanted = programFor(side.options);
     if (!wanted->error.empty()) return;
@@ -170,7 +173,21 @@ void ViewTracer::adopt(const TraceRequest& request) {
   for (size_t i = 0; i < sides_.size(); ++i) adoptSide(sides_[i], request.sides[i]);
 }
 
-void ViewTracer::adoptSide(Side& side, const RenderOptions& options) {
+RenderOptions ViewTracer::withFilter(RenderOptions options) {
+  const bool wanted = options.denoise == Denoise::Oidn || options.denoise == Denoise::Auto;
+  if (wanted && oidn_) options.denoise = Denoise::Oidn;
+  if (!wanted || oidn_) return options;
+  try {
+    oidn_ = openDenoiser(options);
+  } catch (const UsageError& error) {
+    exchange_.tellError(error.what());
+    options.denoise = Denoise::Variance;
+  }
+  return options;
+}
+
+void ViewTracer::adoptSide(Side& side, const RenderOptions& asked) {
+  const RenderOptions options = withFilter(asked);
   const bool same = side.program && drawsTheSame(side.options, options);
   const bool otherLook =
       side.options.treeLevel != options.treeLevel || side.options.denoise != options.denoise;

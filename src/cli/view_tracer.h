@@ -21,6 +21,7 @@ namespace fragtrace {
 class ViewTracer {
  public:
   /// The scene of the options is loaded first; when that fails, or there is no context, so does the program.
+  /// Throws UsageError when --denoise asks for a library that cannot be opened.
   ViewTracer(const ViewOptions& start, Exchange& exchange);
   ViewTracer(const ViewTracer&) = delete;
   ViewTracer& operator=(const ViewTracer&) = delete;
@@ -54,6 +55,8 @@ class ViewTracer {
   void watchFiles();
   void rebuildPrograms();
   void adopt(const TraceRequest& request);
+  /// With the filter that can be had; why not, the window is told.
+  RenderOptions withFilter(RenderOptions options);
   void adoptSide(Side& side, const RenderOptions& options);
   std::shared_ptr<ViewProgram> programFor(const RenderOptions& options);
   /// A film of the size that is drawn at now; empty, if it was of another.
@@ -79,6 +82,7 @@ class ViewTracer {
   std::unique_ptr<LoadedScene> loaded_;
   RenderOptions loadedOptions_;  ///< of the scene
   std::unique_ptr<ViewPrograms> programs_;
+  std::optional<OidnLibrary> oidn_;  ///< open once it was asked for
   std::unique_ptr<ViewDenoiser> denoiser_;
   TraceRequest request_;
   std::vector<Side> sides_;
