@@ -81,14 +81,6 @@ void drawStages(ViewState& state) {
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", row.sentence);
     dimAtEnd(reason.empty() ? keyOf(Action::ToggleStage, int(row.stage)) : reason);
   }
-  const std::string reason = whyWithoutNoise(o).empty() ? "" : "no noise";
-  bool on = o.denoise != Denoise::None && reason.empty();
-  ImGui::BeginDisabled(!reason.empty());
-  if (ImGui::Checkbox("Denoise", &on)) apply(state, *controlOf(Action::ToggleDenoise), {});
-  ImGui::EndDisabled();
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-    ImGui::SetTooltip("filters the noise out while samples are few; fades out from 64 to 256 a pixel");
-  dimAtEnd(reason.empty() ? keyOf(Action::ToggleDenoise) : reason);
 }
 
 void drawSampling(ViewState& state, Places& places) {
@@ -190,10 +182,20 @@ Errand drawCamera(ViewState& state, Places& places) {
   return errand;
 }
 
-void drawCompare(ViewState& state) {
+void drawCompare(ViewState& state, Places& places) {
   bool split = state.split;
   if (ImGui::Checkbox("Split view", &split)) apply(state, *controlOf(Action::ToggleSplit), {});
-  dimAtEnd(keyOf(Action::ToggleSplit));
+  stayOnLineFor("[ ] Denoise");
+  const std::string reason = whyWithoutNoise(state.options());
+  bool denoise = state.options().denoise != Denoise::None && reason.empty();
+  ImGui::BeginDisabled(!reason.empty());
+  if (ImGui::Checkbox("Denoise", &denoise)) apply(state, *controlOf(Action::ToggleDenoise), {});
+  ImGui::EndDisabled();
+  addItemPlace(places, "Denoise");
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip(
+        "%s", reason.empty() ? "all of it up to 64 samples a pixel, nothing from 256 on" : reason.c_str());
+  dimAtEnd(keyOf(Action::ToggleSplit) + ", " + keyOf(Action::ToggleDenoise));
   if (!state.split) return;
   int active = int(state.active);
   ImGui::TextUnformatted("Settings of the");
@@ -234,7 +236,7 @@ Errand drawPanel(ViewState& state, const OverlayLayout& layout, Places& places) 
                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse |
                        ImGuiWindowFlags_NoNav)) {
     addWindowPlace(places, "panel");
-    drawCompare(state);
+    drawCompare(state, places);
     if (ImGui::CollapsingHeader("Stages and switches", ImGuiTreeNodeFlags_DefaultOpen)) drawStages(state);
     if (ImGui::CollapsingHeader("Light and display", ImGuiTreeNodeFlags_DefaultOpen))
       drawLight(state, places);

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The noise filter in the window: while samples are few, while the camera moves, and against the raw picture."""
+from pathlib import Path
+
+from support import Case, main, pixels_of
+
+SIZE = ["--resolution", "160,120", "--tone-map", "linear"]
+FILTER = ["--denoise", "variance"]
+
+
+def distance(a, b):
+    """Mean squared difference, in levels."""
+    return sum((u - v) ** 2 for p, q in zip(a, b) for u, v in zip(p, q)) / len(a)
+
+
+class DenoisedView(Case):
+    def reference(self):
+        return pixels_of(self.render("cornell-box", *SIZE, "--spp", 400, "--seed", 5))
+
+    def shot(self, viewer):
+        return pixels_of(viewer.press_for_file("F12", ".png"))
+
+    def filtered(self, viewer, share):
+        viewer.until(lambda s: abs(s["sides"][0]["filtered"] - share) < 1e-6 and s["state"] == "resting", f"filtered {share}")
+
+    def test_a_key_and_the_box_compare_it_with_the_raw_picture(self):
+        viewer = self.view("cornell-box", "--resolution", "760,620", "--tone-map", "linear", *FILTER, "--spp", "4")
+        self.filtered(viewer, 1)
+        clean = self.shot(viewer)
+        viewer.key("g")
+        self.filtered(viewer, 0)
+        raw = self.shot(viewer)
+        self.same(raw, pixels_of(self.render("cornell-box", "--resolution", "760,620", "--tone-map", "linear", "--spp", 4)))
+        viewer.click("Denoise")
+        self.filtered(viewer, 1)
+        self.same(clean, self.shot(viewer))
+        self.assertEqual(viewer.status()["sides"][0]["samples"], 4)
+        viewer.key("F7")  # without gi there is nothing to filter
+        self.filtered(viewer, 0)
+        self.ends_well(viewer, viewer.close())
+
+    def test_it_takes_most_of_the_error_away_and_fades_out(self):
+        reference = self.reference()
+        errors = {}
+        for samples, share in ((4, 1), (256, 0)):
+            viewer = self.view("cornell-box", *SIZE, *FILTER, "--spp", samples)
+            self.filtered(viewer, share)
+            errors[samples] = distance(self.shot(viewer), reference)
+            raw = pixels_of(self.render("cornell-box", *SIZE, "--spp", samples))
+            with self.subTest(samples=samples):
+                if share == 0:
+                    self.same(self.shot(viewer), raw)
+                else:
+                    self.assertLess(errors[samples], 0.2 * distance(raw, reference))
+            self.ends_well(viewer, viewer.close())
+
+    def test_files_of_radiance_keep_what_was_drawn(self):
+        viewer = self.view("cornell-box", *SIZE, *FILTER, "--spp", "4")
+        self.filtered(viewer, 1)
+        files = []
+        for share in (1, 0):
+            self.filtered(viewer, share)
+            files.append(Path(viewer.press_for_file("shift+F12", ".exr")).read_bytes())
+            viewer.key("g")
+        self.assertEqual(*files)
+        self.ends_well(viewer, viewer.close())
+
+    def test_what_was_seen_before_counts(self):
+        """After a turn of the camera one sample and the past show less noise than one sample alone, and no ghost."""
+        viewer = self.view("cornell-box", *SIZE, *FILTER, "--spp", "32")
+        self.filtered(viewer, 1)
+        viewer.key("Page_Up")
+        viewer.until(lambda s: s["sides"][0]["samples"] >= 1 and s["sides"][0]["samples"] < 32, "a new view")
+        self.filtered(viewer, 1)
+        late = self.shot(viewer)
+        camera = viewer.status()["camera"].split()
+        reference = pixels_of(self.render("cornell-box", *camera, "--tone-map", "linear", "--spp", 400, "--seed", 5))
+        raw = pixels_of(self.render("cornell-box", *camera, "--tone-map", "linear", "--spp", 32))
+        self.assertLess(distance(late, reference), 0.5 * distance(raw, reference))
+        self.ends_well(viewer, viewer.close())
+
+
+if __name__ == "__main__":
+    main()
