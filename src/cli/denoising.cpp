@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "cli/phase_timer.h"
 #include "gl/program.h"
@@ -53,17 +54,23 @@ RenderOptions withGuides(const RenderOptions& options) {
   return drawn;
 }
 
+PictureFilter makeFilter(const RenderOptions& options) {
+  const double start = steadyMilliseconds();
+  const auto filter = std::make_shared<const VarianceFilter>(shaderSource(options.shaderFolder));
+  return {std::string(kVarianceFilter), steadyMilliseconds() - start,
+          [filter](const Image& picture) { return filter->filtered(picture); }};
+}
+
 void denoise(Image& picture, const RenderOptions& options, Statistics& stats) {
   if (options.denoise == Denoise::None) return;
   stats.denoise = DenoiseStatistics{"", whyNotDenoised(options), 0.0, 0.0};
   if (!stats.denoise->skipped.empty()) return;
-  stats.denoise->filter = kVarianceFilter;
+  const PictureFilter filter = makeFilter(options);
   const double start = steadyMilliseconds();
-  const VarianceFilter filter(shaderSource(options.shaderFolder));
-  const double compiled = steadyMilliseconds();
-  const Image denoised = filter.filtered(picture);
-  stats.denoise->compileMs = compiled - start;
-  stats.denoise->filterMs = steadyMilliseconds() - compiled;
+  const Image denoised = filter.apply(picture);
+  stats.denoise->filter = filter.name;
+  stats.denoise->compileMs = filter.compileMs;
+  stats.denoise->filterMs = steadyMilliseconds() - start;
   const Image noisy = onlyChannels(picture, {"R", "G", "B"});
   replaceColor(picture, denoised);
   std::vector<std::string> asked = picture.channels;

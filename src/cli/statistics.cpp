@@ -77,9 +77,8 @@ std::string statisticsText(const Statistics& s) {
     if (s.denoise->filter.empty())
       json["denoise"] = {{"skipped", s.denoise->skipped}};
     else
-      json["denoise"] = {{"filter", s.denoise->filter},
-                         {"ms", s.denoise->filterMs},
-                         {"compile_ms", s.denoise->compileMs}};
+      json["denoise"] = {
+          {"filter", s.denoise->filter}, {"ms", s.denoise->filterMs}, {"compile_ms", s.denoise->compileMs}};
   }
   json["width"] = s.size.x;
   json["height"] = s.size.y;
