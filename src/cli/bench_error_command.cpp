@@ -31,7 +31,7 @@ constexpr int kAdaptiveSteps = 6;          // goals, each half of the last
 
 /// One configuration on the device.
 struct Contender {
-  const BenchConfiguration& configuration;
+  BenchConfiguration configuration;  ///< with --denoise settled
   LoadedScene loaded;
   Tracer tracer;
   ErrorCurve curve;
@@ -85,7 +85,7 @@ ErrorSample finish(Contender& c, const View& view, const Judge& judge, const Dra
     compileMs += layer.compileMs;
   }
   const double start = steadyMilliseconds();
-  const Image denoised = c.filter->apply(picture);
+  const Image denoised = c.filter->apply(picture).value();
   seconds += 0.001 * (steadyMilliseconds() - start);
   const double pixels = double(picture.width) * picture.height;
   return judge.judge(denoised, double(totalsOf(draw.drawing.pixels).samples) / pixels, seconds);
@@ -201,18 +201,21 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
   int most = 1;
   for (const BenchConfiguration& configuration : options.configurations) {
     Statistics stats;
-    RenderOptions wanted = configuration.render;
+    BenchConfiguration settled = configuration;
+    const std::optional<OidnLibrary> oidn = openDenoiser(settled.render);
+    RenderOptions wanted = settled.render;
     wanted.quiet = wanted.quiet || !contenders.empty();  // warnings are said once
     wanted = withGuides(wanted);
     LoadedScene loaded = loadScene(wanted, stats);
     Tracer tracer = makeTracer(context, loaded, wanted, stats);
-    contenders.push_back({configuration, std::move(loaded), std::move(tracer), {}, {}, {}});
+    contenders.push_back({settled, std::move(loaded), std::move(tracer), {}, {}, {}});
     ErrorCurve& curve = contenders.back().curve;
     curve.name = configuration.name;
     curve.options = configuration.text;
     curve.variant = stats.variant;
     if (wanted.denoise != Denoise::None) {
-      contenders.back().filter = makeFilter(wanted);
+      wanted.quiet = true;  // no bar within that of the benchmark
+      contenders.back().filter = makeFilter(wanted, oidn);
       contenders.back().filtered.name = curve.name;
       contenders.back().filtered.filter = contenders.back().filter->name;
     }

@@ -97,6 +97,7 @@ void appendPicture(std::string& text, const RenderOptions& o) {
   appendChoice(text, "--tone-map", toneMapNames(), o.toneMap, standard.toneMap);
   append(text, "--aov", layersText(o), layersText(o).empty());
   appendChoice(text, "--denoise", kDenoiseNames, o.denoise, standard.denoise);
+  append(text, "--oidn-library", o.oidnLibrary.string(), o.oidnLibrary.empty());
   append(text, "--debug-view", std::string(rowOf(o.debugView).name), o.debugView == DebugView::None);
   if (o.treeLevel) appendOption(text, "--tree-level", std::to_string(*o.treeLevel));
   appendChoice(text, "--traversal", kTraversalNames, o.traversal, standard.traversal);

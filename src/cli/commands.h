@@ -11,6 +11,7 @@ int runView(const ViewOptions& options);
 int runInfo(const InfoOptions& options);
 int runDiff(const DiffOptions& options);
 int runMerge(const MergeOptions& options);
+int runDenoise(const DenoiseOptions& options);
 int runBenchError(const BenchErrorOptions& options);
 int runBenchFrame(const BenchFrameOptions& options);
 int runBenchReport(const BenchReportOptions& options);

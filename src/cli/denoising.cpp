@@ -5,18 +5,29 @@
 #include <array>
 #include <memory>
 
+#include "cli/interrupt.h"
 #include "cli/phase_timer.h"
+#include "cli/progress_bar.h"
+#include "cli/say.h"
+#include "denoise/oidn.h"
+#include "errors.h"
 #include "gl/program.h"
 #include "image/channels.h"
 #include "image/format.h"
 #include "render/denoise.h"
+#include "stage/same_picture.h"
 
 namespace fragtrace {
 
 namespace {
 
 constexpr const char* kFilterAttribute = "fragtrace:denoise";
-constexpr std::array kGuides{Feature::Albedo, Feature::Normal, Feature::Depth};
+std::vector<std::string> noisyNames() { return {"noisy.R", "noisy.G", "noisy.B"}; }
+
+/// Whether the filter looks at the layer.
+bool isGuide(const RenderOptions& options, Feature feature) {
+  return options.denoise == Denoise::Variance || feature != Feature::Depth;
+}
 
 bool isUnasked(const RenderOptions& options, Feature feature) {
   return std::ranges::find(options.aovFeatures, feature) == options.aovFeatures.end();
@@ -37,58 +48,107 @@ bool isForTheFilter(const std::string& channel, const RenderOptions& options) {
 
 std::string whyNotDenoised(const RenderOptions& options) {
   if (options.denoise == Denoise::None) return "--denoise";
-  if (!has(options.stages, Stage::Gi)) return "stages before gi have no noise but at edges";
-  if (options.debugView != DebugView::None || has(options.stages, Stage::BvhHeatmap))
-    return "a debug view shows what was drawn";
-  return "";
+  return whyWithoutNoise(options);
+}
+
+std::optional<OidnLibrary> openDenoiser(RenderOptions& options) {
+  if (!whyNotDenoised(options).empty()) return std::nullopt;
+  if (options.denoise != Denoise::Oidn && options.denoise != Denoise::Auto) return std::nullopt;
+  try {
+    OidnLibrary library = openOidn(options.oidnLibrary);
+    options.denoise = Denoise::Oidn;
+    return library;
+  } catch (const UsageError& error) {
+    if (options.denoise == Denoise::Oidn) throw;
+    options.denoise = Denoise::Variance;
+    const std::string text = std::string("--denoise auto: the variance filter: ") + error.what();
+    if (namesOidn(options.oidnLibrary))
+      say(options, "warning: " + text);
+    else if (options.verbose)
+      say(options, text);
+  }
+  return std::nullopt;
 }
 
 RenderOptions withGuides(const RenderOptions& options) {
   RenderOptions drawn = options;
   if (!whyNotDenoised(options).empty()) return drawn;
-  drawn.aovSamples = true;
-  drawn.aovVariance = true;
+  if (options.denoise == Denoise::Variance) drawn.aovSamples = drawn.aovVariance = true;
   for (const Feature guide : kGuides) {
-    if (isUnasked(options, guide)) drawn.aovFeatures.push_back(guide);
+    if (isGuide(options, guide) && isUnasked(options, guide)) drawn.aovFeatures.push_back(guide);
   }
   return drawn;
 }
 
-PictureFilter makeFilter(const RenderOptions& options) {
-  const double start = steadyMilliseconds();
-  const auto filter = std::make_shared<const VarianceFilter>(shaderSource(options.shaderFolder));
-  return {std::string(kVarianceFilter), steadyMilliseconds() - start,
-          [filter](const Image& picture) { return filter->filtered(picture); }};
+PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn) {
+  if (!oidn) {
+    const double start = steadyMilliseconds();
+    const auto filter = std::make_shared<const VarianceFilter>(shaderSource(options.shaderFolder));
+    return {std::string(kVarianceFilter), steadyMilliseconds() - start,
+            [filter](const Image& picture) { return filter->filtered(picture); }};
+  }
+  const auto apply = [library = *oidn, memory = options.limits.memoryBytes,
+                      quiet = options.quiet](const Image& picture) {
+    ProgressBar bar("denoising", quiet);
+    const int before = interrupts();
+    std::optional<Image> result = denoisedByOidn(picture, library, memory, [&](double fraction) {
+      bar.show(fraction);
+      return interrupts() == before;
+    });
+    bar.clear();
+    return result;
+  };
+  return {"oidn " + oidn->version, 0.0, apply};
 }
 
-void denoise(Image& picture, const RenderOptions& options, Statistics& stats) {
-  if (options.denoise == Denoise::None) return;
-  stats.denoise = DenoiseStatistics{"", whyNotDenoised(options), 0.0, 0.0};
-  if (!stats.denoise->skipped.empty()) return;
-  const PictureFilter filter = makeFilter(options);
+std::optional<Image> filtered(const Image& picture, const RenderOptions& options,
+                              const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats) {
+  const PictureFilter filter = makeFilter(options, oidn);
   const double start = steadyMilliseconds();
-  const Image denoised = filter.apply(picture);
-  stats.denoise->filter = filter.name;
-  stats.denoise->compileMs = filter.compileMs;
-  stats.denoise->filterMs = steadyMilliseconds() - start;
+  std::optional<Image> result = filter.apply(picture);
+  if (!result) {
+    stats.skipped = "interrupted";
+    return result;
+  }
+  stats.filter = filter.name;
+  stats.compileMs = filter.compileMs;
+  stats.filterMs = steadyMilliseconds() - start;
+  if (oidn) {
+    stats.library = oidn->file;
+    stats.loadMs = oidn->loadMs;
+  }
+  return result;
+}
+
+void keepNoisy(Image& picture, const Image& noisy, const std::string& filter) {
+  appendChannels(picture, noisy, noisyNames());
+  picture.attributes[kFilterAttribute] = filter;
+}
+
+void denoise(Image& picture, const RenderOptions& options, const std::optional<OidnLibrary>& oidn,
+             Statistics& stats) {
+  if (options.denoise == Denoise::None) return;
+  stats.denoise.emplace().skipped = whyNotDenoised(options);
+  if (!stats.denoise->skipped.empty()) return;
+  const std::optional<Image> denoised = filtered(picture, options, oidn, *stats.denoise);
+  if (!denoised) stats.complete = false;
   const Image noisy = onlyChannels(picture, {"R", "G", "B"});
-  replaceColor(picture, denoised);
+  if (denoised) replaceColor(picture, *denoised);
   std::vector<std::string> asked = picture.channels;
   std::erase_if(asked, [&](const std::string& channel) { return isForTheFilter(channel, options); });
   picture = onlyChannels(picture, asked);
-  if (formatOfName(options.output) != ImageFormat::OpenExr) return;
-  appendChannels(picture, noisy, {"noisy.R", "noisy.G", "noisy.B"});
-  picture.attributes[kFilterAttribute] = stats.denoise->filter;
+  if (denoised && formatOfName(options.output) == ImageFormat::OpenExr)
+    keepNoisy(picture, noisy, stats.denoise->filter);
 }
 
 Image asDrawn(const Image& picture) {
-  if (!findChannel(picture, "noisy.R") || !findChannel(picture, "noisy.G") ||
-      !findChannel(picture, "noisy.B"))
-    return picture;
+  for (const char* name : {"R", "G", "B", "noisy.R", "noisy.G", "noisy.B"}) {
+    if (!findChannel(picture, name)) return picture;
+  }
   std::vector<std::string> rest = picture.channels;
   std::erase_if(rest, [](const std::string& channel) { return channel.starts_with("noisy."); });
   Image drawn = onlyChannels(picture, rest);
-  replaceColor(drawn, onlyChannels(picture, {"noisy.R", "noisy.G", "noisy.B"}));
+  replaceColor(drawn, onlyChannels(picture, noisyNames()));
   drawn.attributes.erase(kFilterAttribute);
   return drawn;
 }

@@ -11,10 +11,19 @@
 
 namespace fragtrace {
 
+namespace {
+
+/// Whether the picture goes through our own filter, which needs to know its noise and coverage.
+bool byVariance(const RenderOptions& options) {
+  return options.denoise == Denoise::Variance && whyNotDenoised(options).empty();
+}
+
+}  // namespace
+
 bool drawAllSamples(Renderer& renderer, Film& film, const RenderOptions& options, const View& view,
                     RenderTimes& times, const Renderer::Progress& progress, Drawing& drawing) {
   constexpr int kFewest = 4;
-  const bool looks = whyNotDenoised(options).empty() && options.spp >= kFewest;
+  const bool looks = byVariance(options) && options.spp >= kFewest;
   std::vector<FilmPixels> seen;
   int from = 0;
   bool complete = true;
@@ -39,7 +48,7 @@ bool drawAllSamples(Renderer& renderer, Film& film, const RenderOptions& options
 
 Image pictureOf(const Drawing& drawing, const RenderOptions& options, const ShaderVariant& variant) {
   const RenderOptions drawn = withGuides(options);
-  const bool alpha = !options.background || whyNotDenoised(options).empty();
+  const bool alpha = !options.background || byVariance(options);
   Image picture = shownPicture(options, variant, drawing.pixels, {alpha, drawn.aovSamples, drawn.aovVariance},
                                drawing.variance);
   if (drawing.observed.empty()) return picture;

@@ -50,6 +50,8 @@ int run(int argc, char** argv) {
       return runDiff(line->diff);
     case Command::Merge:
       return runMerge(line->merge);
+    case Command::Denoise:
+      return runDenoise(line->denoise);
     case Command::BenchError:
       return runBenchError(line->benchError);
     case Command::BenchFrame:

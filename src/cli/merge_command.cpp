@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "cli/commands.h"
-#include "cli/denoising.h"
+#include "cli/denoised_file.h"
 #include "cli/outputs.h"
 #include "cli/provenance.h"
 #include "errors.h"
@@ -89,6 +89,8 @@ Image joinedPicture(const std::vector<Part>& parts) {
 
 int runMerge(const MergeOptions& options) {
   checkOutputs(std::array{NamedOutput{"--output", options.output}}, options.parts);
+  RenderOptions filter = options.filter;
+  const std::optional<OidnLibrary> oidn = openDenoiser(filter);
   std::vector<Part> parts;
   for (const std::filesystem::path& path : options.parts) parts.push_back(readPart(path));
   std::sort(parts.begin(), parts.end(),
@@ -98,6 +100,10 @@ int runMerge(const MergeOptions& options) {
   Provenance made = parts.front().made;
   for (size_t i = 1; i < parts.size(); ++i) made.samples += parts[i].made.samples;
   setProvenance(result, made);
+  if (filter.denoise != Denoise::None) {
+    DenoiseStatistics stats;
+    result = denoisedFile(result, options.output, filter, oidn, stats);
+  }
   writeImage(options.output, result);
   return 0;
 }

@@ -9,6 +9,7 @@
 
 #include "cli/choose.h"
 #include "cli/config_file.h"
+#include "cli/denoise_options.h"
 #include "cli/input_options.h"
 #include "cli/render_options.h"
 #include "cli/suggestion.h"
@@ -101,6 +102,15 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
   CLI::App& merge = *app.add_subcommand("merge", "join .exr parts of one render (--sample-offset)");
   merge.add_option("parts", parts, ".exr files of render, same settings and seed")->required();
   merge.add_option("-o,--output", mergedName, "the .exr to write")->required();
+  RawRender rawMerge;
+  merge
+      .add_option("--denoise", rawMerge.denoise,
+                  joined(kDenoiseNames) + ": filter the noise out of the joined picture, as denoise does")
+      ->capture_default_str();
+  addFileFilterOptions(merge, rawMerge);
+  RawDenoise rawDenoise;
+  CLI::App& denoise = *app.add_subcommand("denoise", "filter the noise out of a picture");
+  addDenoiseCommandOptions(denoise, rawDenoise);
 
   CLI::App& bench = *app.add_subcommand("bench", "measure speed and error");
   bench.require_subcommand(1);
@@ -186,6 +196,10 @@ std::optional<CommandLine> parseCommandLine(int argc, const char* const* argv) {
     line.merge.output = mergedName;
     if (formatOfName(mergedName) != ImageFormat::OpenExr)
       throw UsageError("--output: '" + mergedName + "' does not end in .exr");
+    line.merge.filter = finishRender(rawMerge);
+  } else if (denoise.parsed()) {
+    line.command = Command::Denoise;
+    line.denoise = finishDenoise(rawDenoise);
   } else {
     line.command = Command::Diff;
     line.diff.picture = picture;

@@ -12,6 +12,7 @@
 #include "cli/bench_stress_options.h"
 #include "cli/bench_traversal_options.h"
 #include "cli/bench_variants_options.h"
+#include "cli/denoise_options.h"
 #include "cli/view_options.h"
 #include "image/difference.h"
 #include "stage/options.h"
@@ -37,6 +38,7 @@ struct DiffOptions {
 struct MergeOptions {
   std::vector<std::filesystem::path> parts;
   std::filesystem::path output;
+  RenderOptions filter;  ///< of these: whether and how the joined picture is denoised
 };
 
 enum class Command : uint8_t {
@@ -45,6 +47,7 @@ enum class Command : uint8_t {
   Info,
   Diff,
   Merge,
+  Denoise,
   BenchError,
   BenchFrame,
   BenchReport,
@@ -63,6 +66,7 @@ struct CommandLine {
   InfoOptions info;
   DiffOptions diff;
   MergeOptions merge;
+  DenoiseOptions denoise;
   BenchErrorOptions benchError;
   BenchFrameOptions benchFrame;
   BenchReportOptions benchReport;

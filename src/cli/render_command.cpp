@@ -192,8 +192,10 @@ void sayWhatIsChosen(const RenderOptions& options, const Context& context, const
 
 }  // namespace
 
-int runRender(const RenderOptions& options) {
-  checkOutputs(outputsOf(options), inputsOf(options));
+int runRender(const RenderOptions& asked) {
+  checkOutputs(outputsOf(asked), inputsOf(asked));
+  RenderOptions options = asked;
+  const std::optional<OidnLibrary> oidn = openDenoiser(options);
   Statistics stats;
 
   // Step: load. The image library opens meanwhile, in its own process, when the output needs it.
@@ -243,7 +245,7 @@ int runRender(const RenderOptions& options) {
   // Step: write. What has been drawn is not lost from here on.
   try {
     addFeatures(picture, tracer, options, loaded, layerSeconds, stats);
-    denoise(picture, options, stats);
+    denoise(picture, options, oidn, stats);
     sayDriverLog();
     if (interrupts() > 1) return kInterruptedStatus;
     setProvenanceOf(picture, options, loaded, tracer, stats);

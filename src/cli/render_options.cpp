@@ -136,6 +136,7 @@ RenderOptions finishRender(const RawRender& raw) {
   if (o.treeLevel && !raw.output.empty() && !isDisplayFormat(o.output))
     throw UsageError("--tree-level: boxes are drawn over a .png or .jpg only");
   o.denoise = choose<Denoise>("--denoise", raw.denoise, kDenoiseNames);
+  o.oidnLibrary = raw.oidnLibrary;
   o.debugView = choose<DebugView>("--debug-view", raw.debugView, debugViewNames());
   if (o.debugView == DebugView::Visits) o.stages.set(size_t(Stage::BvhHeatmap));
   const bool adaptive = o.noise > 0.0 || o.seconds > 0.0;
@@ -245,8 +246,12 @@ void addDenoiseOption(CLI::App& app, RawRender& raw) {
   app.add_option("--denoise", raw.denoise,
                  joined(kDenoiseNames) +
                      ": filter the noise out of the finished picture; an .exr keeps the "
-                     "noisy one too, as noisy.R, noisy.G and noisy.B")
+                     "noisy one too, as noisy.R, noisy.G and noisy.B; auto: oidn where it is installed, "
+                     "else variance")
       ->capture_default_str();
+  app.add_option("--oidn-library", raw.oidnLibrary,
+                 "file of Open Image Denoise 2.x; default: FRAGTRACE_OIDN_LIBRARY, then where the system or "
+                 "pip (pyoidn) installs it");
 }
 
 }  // namespace fragtrace

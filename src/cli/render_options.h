@@ -43,6 +43,7 @@ struct RawRender {
   std::string shaderFolder;
   std::vector<std::string> aov;
   std::string denoise = "none";
+  std::string oidnLibrary;
   std::string debugView = "none";
   std::string fresnel = "exact";
   std::string compensation = "on";
@@ -56,7 +57,7 @@ struct RawRender {
 /// Adds all options but scene and output.
 void addRenderOptions(CLI::App& app, RawRender& raw);
 
-/// --denoise, of commands that finish a picture.
+/// --denoise and --oidn-library, of commands that finish a picture.
 void addDenoiseOption(CLI::App& app, RawRender& raw);
 
 /// Checks what the library cannot. Throws UsageError.

@@ -36,6 +36,18 @@ nlohmann::ordered_json phasesJson(const Statistics& s) {
   return json;
 }
 
+nlohmann::ordered_json denoiseJson(const DenoiseStatistics& denoise) {
+  if (denoise.filter.empty()) return {{"skipped", denoise.skipped}};
+  nlohmann::ordered_json json = {{"filter", denoise.filter}, {"ms", denoise.filterMs}};
+  if (denoise.library.empty()) {
+    json["compile_ms"] = denoise.compileMs;
+  } else {
+    json["load_ms"] = denoise.loadMs;
+    json["library"] = denoise.library;
+  }
+  return json;
+}
+
 }  // namespace
 
 double megaPathsPerSecond(const Statistics& s) {
@@ -73,13 +85,7 @@ std::string statisticsText(const Statistics& s) {
   }
   if (s.clampIndirect > 0.0) json["clamp_indirect"] = s.clampIndirect;
   if (s.featureMs > 0.0) json["feature_ms"] = s.featureMs;
-  if (s.denoise) {
-    if (s.denoise->filter.empty())
-      json["denoise"] = {{"skipped", s.denoise->skipped}};
-    else
-      json["denoise"] = {
-          {"filter", s.denoise->filter}, {"ms", s.denoise->filterMs}, {"compile_ms", s.denoise->compileMs}};
-  }
+  if (s.denoise) json["denoise"] = denoiseJson(*s.denoise);
   json["width"] = s.size.x;
   json["height"] = s.size.y;
   json["complete"] = s.complete;

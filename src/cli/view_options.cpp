@@ -20,10 +20,16 @@ constexpr int kMostWindowPixels = 16384;
 void addViewOptions(CLI::App& app, RawView& raw) {
   app.add_option("file", raw.render.scene, ".gltf or .glb file")->required();
   addRenderOptions(app, raw.render);
+  raw.render.denoise = "variance";
+  addDenoiseOption(app, raw.render);
   const auto describe = [&](const char* name, const char* text) { app.get_option(name)->description(text); };
   describe("--spp", "camera paths a pixel at which the picture rests, default unlimited");
   describe("--noise", "it rests when 95 % of the pixels have a relative error below this, default 0.005");
   describe("--time", "it rests after so many seconds of drawing");
+  describe(
+      "--denoise",
+      "none, variance: filter the noise out of the picture while its samples are few: all of it up to 64, "
+      "nothing from 256");
   describe("--resolution", "WIDTH,HEIGHT of the window, default 1280,720, at most 16384 a side");
   addConfigOption(app, raw.config);
   app.add_flag("--watch", raw.watch, "reload when a file of the scene, or of --shader-folder, changes");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cli/denoising.h"
 #include "errors.h"
 
 namespace fragtrace {
@@ -36,6 +37,8 @@ RenderOptions programPart(const RenderOptions& o) {
   part.schedule = o.schedule;
   part.shaderFolder = o.shaderFolder;
   part.quiet = o.quiet;
+  if (has(part.stages, Stage::Gi) && part.debugView == DebugView::None)
+    part.aovFeatures.assign(kGuides.begin(), kGuides.end());
   return part;
 }
 

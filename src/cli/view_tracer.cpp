@@ -6,12 +6,7 @@
 
 #include "cli/outputs.h"
 #include "cli/pick_text.h"
-#include "cli/picture_file.h"
-#include "cli/provenance.h"
 #include "errors.h"
-#include "image/format.h"
-#include "math/summary.h"
-#include "render/noise.h"
 
 namespace fragtrace {
 
@@ -21,12 +16,11 @@ using Clock = std::chrono::steady_clock;
 
 /// Samples between two looks at the clock, while nothing moves.
 constexpr double kRoundMs = 100.0;
-/// Pictures are published at most this often, and take at most a fifth of the time.
+/// Pictures are published at most this often, and take at most a fifth of the time; half of it where they are
+/// filtered, which shows more than the samples that this time would bring.
 constexpr double kPublishMs = 100.0;
 constexpr double kPublishShare = 4.0;
-/// Below this many samples the variance of a pixel tells little of its error.
-constexpr int kLeastForError = 32;
-constexpr double kErrorStep = 1.2;    ///< from one estimate of the error to the next, in samples
+constexpr double kFilteredShare = 1.0;
 constexpr size_t kFrames = 64;        ///< whose times are summarised
 constexpr double kLongWait = 3600.0;  ///< seconds
 constexpr double kWatchSeconds = 0.25;
@@ -34,15 +28,6 @@ constexpr int kMostLosses = 3;  ///< of the context, without a picture between t
 
 double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-/// R, G and B alone.
-Image colorsOf(const Image& image) {
-  Image colors{image.width, image.height, {"R", "G", "B"}, {}, {}};
-  colors.values.reserve(size_t(image.width) * size_t(image.height) * 3);
-  for (size_t i = 0; i < image.values.size(); i += image.channelCount())
-    colors.values.insert(colors.values.end(), {image.values[i], image.values[i + 1], image.values[i + 2]});
-  return colors;
 }
 
 std::string whatFailed(const std::exception_ptr& error) {
@@ -91,6 +76,7 @@ void ViewTracer::run() {
 void ViewTracer::enterContext() {
   context_ = makeContext(start_.render.backend);
   driverLog_ = std::make_unique<DebugLog>();
+  denoiser_ = std::make_unique<ViewDenoiser>(start_.render.shaderFolder);
 }
 
 /// What was in the context is made anew in another one.
@@ -106,6 +92,7 @@ void ViewTracer::recover(const ContextLost& error) {
 void ViewTracer::leaveContext() {
   sides_.clear();
   programs_.reset();
+  denoiser_.reset();
   driverLog_.reset();
   context_.reset();
 }
@@ -167,6 +154,7 @@ void ViewTracer::watchFiles() {
 /// The shaders have changed; what cannot be compiled now stays as it was.
 void ViewTracer::rebuildPrograms() {
   programs_->forget();
+  denoiser_ = std::make_unique<ViewDenoiser>(start_.render.shaderFolder);
   for (Side& side : sides_) {
     const std::shared_ptr<ViewProgram> wanted = programFor(side.options);
     if (!wanted->error.empty()) return;
@@ -184,9 +172,14 @@ void ViewTracer::adopt(const TraceRequest& request) {
 
 void ViewTracer::adoptSide(Side& side, const RenderOptions& options) {
   const bool same = side.program && drawsTheSame(side.options, options);
-  const bool otherLines = side.options.treeLevel != options.treeLevel;
+  const bool otherLook =
+      side.options.treeLevel != options.treeLevel || side.options.denoise != options.denoise;
+  if (differInCameraAlone(side.options, options))
+    side.memory.turn();
+  else if (!same)
+    side.memory = {};
   side.options = options;
-  if (same && otherLines && !side.stale && side.samples > 0) publish(side);
+  if (same && otherLook && !side.stale && side.samples > 0) publish(side);
   if (same) return;
   const std::shared_ptr<ViewProgram> wanted = programFor(options);
   // The last good one keeps drawing.
@@ -211,6 +204,7 @@ void ViewTracer::fitFilm(Side& side) {
   const glm::ivec2 size = sizeAtStep(request_.size, resolution_.step);
   const bool fits = side.film && side.film->size() == size;
   if (fits && !side.stale) return;
+  if (!fits) side.memory.turn();
   if (fits)
     side.film->clear();
   else
@@ -266,80 +260,15 @@ bool ViewTracer::work() {
       [&](double) { return !(request_.moving ? exchange_.ending() : exchange_.interrupted()); });
   if (!complete) return true;
   side->samples += count;
+  const double filterMs = denoises(*side) && !settled ? filterMsPerPixel_ * size.x * size.y : 0.0;
   frameTaken(resolution_, request_.size, size,
-             (side->times.renderMs - before) / count * double(sides_.size()));
+             ((side->times.renderMs - before) / count + filterMs) * double(sides_.size()));
   std::vector<double>& frames = side->times.frameMs;
   if (frames.size() > kFrames) frames.erase(frames.begin(), frames.end() - kFrames);
-  const bool due = millisecondsSince(published_) > std::max(kPublishMs, kPublishShare * publishMs_);
+  const double pause = (denoises(*side) ? kFilteredShare : kPublishShare) * publishMs_;
+  const bool due = millisecondsSince(published_) > std::max(kPublishMs, pause);
   if (!settled || side->samples == count || due || resting(*side)) publish(*side);
   return true;
-}
-
-void ViewTracer::estimate(Side& side, const FilmPixels& pixels) {
-  if (side.samples < kLeastForError || side.samples < kErrorStep * side.errorAt) return;
-  const std::vector<double> errors = relativeErrors(pixels, independentVariance(pixels));
-  side.error = distanceTo(side.options.noise, pixels, errors).error;
-  side.errorAt = side.samples;
-}
-
-void ViewTracer::publish(Side& side) {
-  const auto start = Clock::now();
-  const FilmPixels pixels = side.film->read();
-  estimate(side, pixels);
-  const FilmTotals totals = totalsOf(pixels);
-  TracedPicture picture;
-  picture.side = size_t(&side - sides_.data());
-  picture.request = request_.number;
-  picture.image =
-      shownPicture(side.options, side.program->tracer.variant, pixels, {!side.options.background});
-  if (has(side.program->tracer.variant.stages, Stage::BvhHeatmap)) picture.image = colorsOf(picture.image);
-  picture.asItIs = showsColors(side.options);
-  picture.lines = treeLines(side.options, *loaded_, side.view.camera, request_.size);
-  SideStatistics& s = picture.statistics;
-  s.samples = side.samples;
-  s.error = side.error;
-  s.seconds = side.times.renderMs / 1000.0;
-  const Summary frames = summarize(side.times.frameMs);
-  s.frameMs = frames.median;
-  s.frameP95Ms = frames.p95;
-  if (side.times.renderMs > 0.0) {
-    s.megaRaysPerSecond = double(totals.rays) / side.times.renderMs / 1000.0;
-    s.megaPathsPerSecond = double(totals.samples) / side.times.renderMs / 1000.0;
-  }
-  s.resting = !request_.moving && resolution_.step == 0 && resting(side);
-  s.variant = side.program->variant;
-  s.deviceBytes = side.program->bytes + pixels.pixels.size() * 48;
-  exchange_.deliver(std::move(picture));
-  losses_ = 0;
-  if (totals.budgetHits > 0)
-    exchange_.tellError("the driver ended loops early in " + std::to_string(totals.budgetHits) +
-                        " pixels; the picture is wrong");
-  published_ = Clock::now();
-  publishMs_ = millisecondsSince(start);
-}
-
-void ViewTracer::save(const SaveRequest& request) {
-  Side& side = sides_[std::min(request.side, sides_.size() - 1)];
-  if (!side.program) return exchange_.tell("not written: no picture is drawn");
-  try {
-    RenderOptions options = side.options;
-    options.output = request.path;
-    options.exposure = request.exposure;
-    options.toneMap = request.toneMap;
-    const FilmPixels pixels = side.film->read();
-    const FilmTotals totals = totalsOf(pixels);
-    const Layers layers{!options.background, options.aovSamples, options.aovVariance};
-    Image image = shownPicture(options, side.program->tracer.variant, pixels, layers);
-    loaded_->camera = side.view.camera;
-    loaded_->size = pixels.size;
-    if (formatOfName(options.output) == ImageFormat::OpenExr && options.debugView == DebugView::None)
-      setProvenance(image, {settingsText(options, *loaded_, side.program->tracer), options.seed,
-                            options.sampleOffset, side.samples, totals.fewestSamples == totals.mostSamples});
-    writePicture(options, image, treeLines(options, *loaded_, side.view.camera, pixels.size));
-    exchange_.tell("wrote " + request.path.string());
-  } catch (const RenderError& error) {
-    exchange_.tellError(error.what());
-  }
 }
 
 void ViewTracer::answer(const PickRequest& request) {

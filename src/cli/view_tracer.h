@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/setup.h"
+#include "cli/view_denoiser.h"
 #include "cli/view_loader.h"
 #include "cli/view_options.h"
 #include "cli/view_programs.h"
@@ -42,6 +43,7 @@ class ViewTracer {
     double error = -1.0;
     int errorAt = 0;    ///< samples when it was estimated
     bool stale = true;  ///< what the film holds is another picture
+    SideMemory memory;
   };
 
   void enterContext();
@@ -60,6 +62,10 @@ class ViewTracer {
   /// Some samples for the side that has the fewest; false when all rest.
   bool work();
   void estimate(Side& side, const FilmPixels& pixels);
+  /// Whether the side's picture is filtered.
+  static bool denoises(const Side& side);
+  /// What the side shows now; nothing when something more urgent waits.
+  std::optional<Image> shownOf(Side& side, const FilmPixels& pixels, const std::function<bool()>& goOn);
   void publish(Side& side);
   void save(const SaveRequest& request);
   void answer(const PickRequest& request);
@@ -73,12 +79,14 @@ class ViewTracer {
   std::unique_ptr<LoadedScene> loaded_;
   RenderOptions loadedOptions_;  ///< of the scene
   std::unique_ptr<ViewPrograms> programs_;
+  std::unique_ptr<ViewDenoiser> denoiser_;
   TraceRequest request_;
   std::vector<Side> sides_;
   ResolutionController resolution_;
   std::vector<SaveRequest> saves_;
-  int losses_ = 0;          ///< of the context since the latest publication
-  double publishMs_ = 0.0;  ///< what the latest publication took
+  int losses_ = 0;                 ///< of the context since the latest publication
+  double publishMs_ = 0.0;         ///< what the latest publication took
+  double filterMsPerPixel_ = 0.0;  ///< in it, of layers and filter
   std::chrono::steady_clock::time_point published_;
   FileWatch sceneFiles_;
   FileWatch shaderFiles_;

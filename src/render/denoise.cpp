@@ -154,7 +154,7 @@ VarianceFilter::VarianceFilter(const ShaderSource& source)
       compare_(denoisingProgram(source, "denoise_compare.frag")),
       finish_(denoisingProgram(source, "denoise_finish.frag")) {}
 
-Image VarianceFilter::filtered(const Image& noisy) const {
+std::optional<Image> VarianceFilter::filtered(const Image& noisy, const std::function<bool()>& goOn) const {
   const glm::ivec2 size(noisy.width, noisy.height);
   std::vector<glm::vec4> texels = texelsOf(noisy, {"R", "G", "B", "variance.Y"});
   const std::vector<glm::vec4> albedo = texelsOf(noisy, {"albedo.R", "albedo.G", "albedo.B", "A"});
@@ -183,6 +183,8 @@ Image VarianceFilter::filtered(const Image& noisy) const {
   for (int level = 0; level < kLevels; ++level) {
     glProgramUniform1i(filter_.name(), 1, 1 << level);
     passes.draw(filter_, {&turns[size_t(level) % 2], &guides}, {&turns[size_t(level + 1) % 2]});
+    glFinish();
+    if (!goOn()) return std::nullopt;
   }
   const GlTexture& latest = turns[size_t(kLevels) % 2];
   const GlTexture& denoised = turns[size_t(kLevels + 1) % 2];
@@ -191,7 +193,7 @@ Image VarianceFilter::filtered(const Image& noisy) const {
   std::vector<float> colors =
       readPictureTexture<float>(denoised, GL_RGB, 3, GL_FLOAT, size, "reading the denoised picture");
   for (float& value : colors) value = float(value / scale);
-  return {size.x, size.y, {"R", "G", "B"}, std::move(colors), {}};
+  return Image{size.x, size.y, {"R", "G", "B"}, std::move(colors), {}};
 }
 
 }  // namespace fragtrace

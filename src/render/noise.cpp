@@ -129,8 +129,8 @@ std::vector<double> observedVariance(const FilmPixels& quarter, const FilmPixels
     first += weight * std::pow(quarter.pixels[i].luminance() - middle, 2.0);
     second += weight * observed[i];
   }
-  // Where the variance falls as N^-p, the distance from half to whole is 2^p - 1 of it, and the distances fall
-  // as 2^p. Independent samples have p = 1; beyond 2 the ratio is one of small numbers.
+  // Where the variance falls as N^-p, the distance from half to whole is 2^p - 1 of it, and the distances
+  // fall as 2^p. Independent samples have p = 1; beyond 2 the ratio is one of small numbers.
   const double ratio = second > 0.0 ? std::clamp(first / second, 2.0, 4.0) : 2.0;
   for (double& value : observed) value /= ratio - 1.0;
   return observed;

@@ -191,13 +191,24 @@ bool Renderer::drawTile(Film& film, glm::ivec2 corner, glm::ivec2 tile, int targ
 
 double Renderer::compile(const ShaderVariant& variant, Film& film, const View& view) {
   const auto start = Clock::now();
-  variant_ = variant;
+  paces_[asked_] = {variant_, msPerSample_, mostSamplesPerDraw_};
+  asked_ = variant_ = variant;
   setFrame(film, view);
   drawTile(film, {0, 0}, glm::min(film.size(), glm::ivec2(kTinyTile)), 1, [] { return true; });
   film.clear();
   mostSamplesPerDraw_ = 1;
   msPerSample_ = 0.0;
   return milliseconds(start, Clock::now());
+}
+
+void Renderer::use(const ShaderVariant& variant) {
+  if (variant == asked_) return;
+  paces_[asked_] = {variant_, msPerSample_, mostSamplesPerDraw_};
+  const Pace& pace = paces_.at(variant);
+  asked_ = variant;
+  variant_ = pace.drawn;
+  msPerSample_ = pace.msPerSample;
+  mostSamplesPerDraw_ = pace.mostSamplesPerDraw;
 }
 
 void Renderer::adaptPace(int samples) {

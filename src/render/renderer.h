@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -59,6 +60,11 @@ class Renderer {
   /// follow use it. The film ends up cleared. Returns milliseconds.
   double compile(const ShaderVariant& variant, Film& film, const View& view);
 
+  /// Whether compile() has seen the variant.
+  bool knows(const ShaderVariant& variant) const { return variant == asked_ || paces_.contains(variant); }
+  /// Draws with such a variant, at the pace that it had.
+  void use(const ShaderVariant& variant);
+
   /// Called after each draw with the fraction of the work done, 0..1; false stops the work.
   using Progress = std::function<bool(double fraction)>;
   static bool toTheEnd(double) { return true; }
@@ -98,9 +104,18 @@ class Renderer {
   /// More samples a draw as long as the step budget takes them.
   void adaptPace(int samples);
 
+  /// How much of a variant's work goes into a draw.
+  struct Pace {
+    ShaderVariant drawn;  ///< resumable where it had to be
+    double msPerSample = 0.0;
+    int mostSamplesPerDraw = 1;
+  };
+
   ProgramCache programs_;
   SceneBuffers buffers_;
-  ShaderVariant variant_;
+  ShaderVariant asked_;
+  ShaderVariant variant_;                ///< the same, or resumable
+  std::map<ShaderVariant, Pace> paces_;  ///< of those that are not used now
   layout::Frame frame_{};
   GlBuffer frameBuffer_;
   GlBuffer progressBuffer_;

@@ -38,9 +38,10 @@ inline constexpr std::array<std::string_view, 3> kDispatchNames{"auto", "fragmen
 /// (shaders/wavefront.glsl).
 enum class Schedule : uint8_t { Auto, Megakernel, Wavefront };
 inline constexpr std::array<std::string_view, 3> kScheduleNames{"auto", "megakernel", "wavefront"};
-/// What takes the noise out of a finished picture (render/denoise.h).
-enum class Denoise : uint8_t { None, Variance };
-inline constexpr std::array<std::string_view, 2> kDenoiseNames{"none", "variance"};
+/// What takes the noise out of a finished picture (render/denoise.h, denoise/oidn.h). Auto: Open Image
+/// Denoise where it is installed, else the variance filter.
+enum class Denoise : uint8_t { None, Variance, Oidn, Auto };
+inline constexpr std::array<std::string_view, 4> kDenoiseNames{"none", "variance", "oidn", "auto"};
 /// How camera samples spread about the middle of their pixel (shaders/pixel_filter.glsl).
 enum class PixelFilter : uint8_t { Box, Gaussian, BlackmanHarris };
 inline constexpr std::array<std::string_view, 3> kPixelFilterNames{"box", "gaussian", "blackman-harris"};
@@ -87,6 +88,7 @@ struct RenderOptions {
   std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
   std::filesystem::path statsFile;
   std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
+  std::filesystem::path oidnLibrary;   ///< file of Open Image Denoise; none: it is looked for
   SceneSelection selection;
   InputLimits limits;
   bool quiet = false;

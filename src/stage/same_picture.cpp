@@ -29,6 +29,7 @@ RenderOptions sampledPart(RenderOptions o) {
   o.aovVariance = standard.aovVariance;
   o.aovFeatures = standard.aovFeatures;
   o.denoise = standard.denoise;  // after all samples
+  o.oidnLibrary = standard.oidnLibrary;
   o.treeLevel = standard.treeLevel;
   o.statsFile = standard.statsFile;
   o.shaderFolder = standard.shaderFolder;
@@ -57,6 +58,13 @@ bool showSame(const RenderOptions& a, const RenderOptions& b) { return shownPart
 
 bool drawSameSamples(const RenderOptions& a, const RenderOptions& b) {
   return sampledPart(a) == sampledPart(b);
+}
+
+std::string whyWithoutNoise(const RenderOptions& options) {
+  if (!has(options.stages, Stage::Gi)) return "stages before gi have no noise but at edges";
+  if (options.debugView != DebugView::None || has(options.stages, Stage::BvhHeatmap))
+    return "a debug view shows what was drawn";
+  return "";
 }
 
 }  // namespace fragtrace

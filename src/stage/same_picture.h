@@ -2,6 +2,8 @@
 // Which options a picture depends on.
 #pragma once
 
+#include <string>
+
 #include "stage/options.h"
 
 namespace fragtrace {
@@ -11,5 +13,8 @@ bool showSame(const RenderOptions& a, const RenderOptions& b);
 
 /// And their samples are the same.
 bool drawSameSamples(const RenderOptions& a, const RenderOptions& b);
+
+/// Why such a picture has no noise that a filter could take out; empty: it has.
+std::string whyWithoutNoise(const RenderOptions& options);
 
 }  // namespace fragtrace

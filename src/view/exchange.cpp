@@ -15,9 +15,17 @@ bool drawsTheSame(const RenderOptions& a, const RenderOptions& b) {
     o.spp = 0;
     o.noise = 0.0;
     o.seconds = 0.0;
+    o.denoise = Denoise::None;
     return o;
   };
   return traced(a) == traced(b);
+}
+
+bool differInCameraAlone(const RenderOptions& a, RenderOptions b) {
+  if (drawsTheSame(a, b)) return false;
+  b.camera = a.camera;
+  b.cameraIndex = a.cameraIndex;
+  return drawsTheSame(a, b);
 }
 
 void Exchange::setWake(std::function<void()> wake) {

@@ -29,6 +29,9 @@ struct TraceRequest {
 /// Whether both draw the same samples: not how many of them, nor what the display makes of them.
 bool drawsTheSame(const RenderOptions& a, const RenderOptions& b);
 
+/// Whether they draw different samples, and would not if they had the same camera.
+bool differInCameraAlone(const RenderOptions& a, RenderOptions b);
+
 /// Progress and cost of one side.
 struct SideStatistics {
   int samples = 0;       ///< a pixel
@@ -39,6 +42,8 @@ struct SideStatistics {
   double megaRaysPerSecond = 0.0;
   double megaPathsPerSecond = 0.0;
   bool resting = false;  ///< converged, or as many samples as asked for
+  double filtered = 0.0;  ///< the share of the noise filter in what is shown, 0 to 1
+  double filterMs = 0.0;  ///< what it took, with the layers it needs
   std::string variant;
   size_t deviceBytes = 0;  ///< scene and film
 };

@@ -85,6 +85,7 @@ void addPicture(std::vector<Control>& rows) {
   add(Press, 'L', kShift, Action::Exposure, "darker by half a stop", -1);
   add(Drag, mouse::kRight, kShift, Action::RotateEnvironment, "rotate the environment");
   add(Press, 'J', 0, Action::ToggleBackground, "background on or off");
+  add(Press, 'G', 0, Action::ToggleDenoise, "denoising on or off");
 }
 
 void addWindow(std::vector<Control>& rows) {

@@ -43,6 +43,7 @@ enum class Action : uint8_t {
   Exposure,
   RotateEnvironment,
   ToggleBackground,
+  ToggleDenoise,
   // Window.
   Inspect,
   ToggleSplit,

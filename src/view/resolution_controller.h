@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which resolution to draw at: while something moves, one whose frames take no longer than a target, by the
-// times measured; when all is still, finer and finer.
+// times measured, but no coarser than a quarter of the width and height; when all is still, finer and finer.
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@
 namespace fragtrace {
 
 /// The steps that a resolution may be at: a pixel drawn stands for so many a side.
-inline constexpr std::array<double, 9> kResolutionSteps{1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0};
+inline constexpr std::array<double, 5> kResolutionSteps{1.0, 1.5, 2.0, 3.0, 4.0};
 
 /// Its state, changed by the functions below alone. Steps are indices into kResolutionSteps.
 struct ResolutionController {
-  double targetMs = 1000.0 / 30.0;  ///< of one frame while moving
+  double targetMs = 1000.0 / 10.0;  ///< of one frame while moving
   size_t step = 0;                  ///< of the next frame
   bool moving = false;
   std::array<double, 8> msPerPixel{};  ///< of the latest frames, the newest first; 0: none yet

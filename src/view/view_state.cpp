@@ -125,6 +125,12 @@ bool moveCamera(ViewState& state, const Control& control, const Movement& m) {
   }
 }
 
+/// The one that the viewer was started with.
+Denoise filterOf(const ViewState& state) {
+  const bool chosen = state.scene && state.scene->options.denoise != Denoise::None;
+  return chosen ? state.scene->options.denoise : Denoise::Variance;
+}
+
 bool changePicture(ViewState& state, const Control& control, const Movement& m) {
   RenderOptions& o = state.options();
   switch (control.action) {
@@ -160,6 +166,9 @@ bool changePicture(ViewState& state, const Control& control, const Movement& m) 
       for (RenderOptions& side : state.sides)
         side.hdriRotationDegrees =
             std::remainder(side.hdriRotationDegrees + kDegreesPerHeight * m.drag.x, 360.0);
+      return true;
+    case Action::ToggleDenoise:
+      o.denoise = o.denoise == Denoise::None ? filterOf(state) : Denoise::None;
       return true;
     case Action::ToggleBackground:
       for (RenderOptions& side : state.sides) side.background = !side.background;

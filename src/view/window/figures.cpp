@@ -57,6 +57,7 @@ void drawCosts(const ViewState& state, const ViewFacts& facts, size_t side) {
   const SideStatistics& s = facts.statistics[side];
   row("frame", "%.1f ms, 95th %.1f ms", s.frameMs, s.frameP95Ms);
   row("rays", "%.2f million/s", s.megaRaysPerSecond);
+  if (s.filtered > 0.0) row("denoised", "%.0f %%, %.0f ms", 100.0 * s.filtered, s.filterMs);
   if (!state.split) row("paths", "%.2f million/s", s.megaPathsPerSecond);
   const glm::ivec2 size = facts.pictureSize[side];
   row("picture", "%d x %d", size.x, size.y);

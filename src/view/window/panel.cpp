@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 
+#include "stage/same_picture.h"
 #include "view/window/text.h"
 
 namespace fragtrace {
@@ -80,6 +81,14 @@ void drawStages(ViewState& state) {
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", row.sentence);
     dimAtEnd(reason.empty() ? keyOf(Action::ToggleStage, int(row.stage)) : reason);
   }
+  const std::string reason = whyWithoutNoise(o).empty() ? "" : "no noise";
+  bool on = o.denoise != Denoise::None && reason.empty();
+  ImGui::BeginDisabled(!reason.empty());
+  if (ImGui::Checkbox("Denoise", &on)) apply(state, *controlOf(Action::ToggleDenoise), {});
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip("filters the noise out while samples are few; fades out from 64 to 256 a pixel");
+  dimAtEnd(reason.empty() ? keyOf(Action::ToggleDenoise) : reason);
 }
 
 void drawSampling(ViewState& state, Places& places) {

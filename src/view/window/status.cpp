@@ -36,6 +36,8 @@ Json sideJson(const ViewState& state, const ViewFacts& facts, size_t side) {
   json["mrays_per_s"] = s.megaRaysPerSecond;
   json["mpaths_per_s"] = s.megaPathsPerSecond;
   json["resting"] = s.resting;
+  json["filtered"] = s.filtered;
+  json["filter_ms"] = s.filterMs;
   json["variant"] = s.variant;
   json["width"] = facts.pictureSize[side].x;
   json["height"] = facts.pictureSize[side].y;

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// `fragtrace denoise`: filters the noise out of a picture that stands in a file.
+#include <array>
+#include <cstdio>
+#include <fstream>
+
+#include "cli/commands.h"
+#include "cli/denoised_file.h"
+#include "cli/outputs.h"
+#include "cli/picture_file.h"
+#include "errors.h"
+#include "image/channels.h"
+#include "image/format.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// Formats of displays hold no radiance, which the filters are made for.
+void checkLinear(const std::filesystem::path& path) {
+  std::array<uint8_t, 16> bytes{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()));
+  const auto format = formatOfBytes({bytes.data(), size_t(file.gcount())});
+  if (format == ImageFormat::OpenExr || format == ImageFormat::Hdr || format == ImageFormat::Pfm) return;
+  throw InputError(path.string() + ": is no picture of linear radiance (.exr, .hdr, .pfm)");
+}
+
+/// What a format can hold of the picture.
+Image writable(const Image& picture, const std::filesystem::path& path) {
+  if (formatOfName(path) == ImageFormat::OpenExr) return picture;
+  std::vector<std::string> names{"R", "G", "B"};
+  if (findChannel(picture, "A")) names.emplace_back("A");
+  return onlyChannels(picture, names);
+}
+
+}  // namespace
+
+int runDenoise(const DenoiseOptions& asked) {
+  RenderOptions options = asked.render;
+  checkOutputs(std::array{NamedOutput{"--output", options.output}}, std::array{asked.picture});
+  const std::optional<OidnLibrary> oidn = openDenoiser(options);
+  const Image drawn = asDrawn(readImage(asked.picture, options.limits.memoryBytes));
+  checkLinear(asked.picture);
+  DenoiseStatistics stats;
+  const Image result = denoisedFile(drawn, asked.picture, options, oidn, stats);
+  writePicture(options, writable(result, options.output), {});
+  if (!options.quiet) {
+    std::printf("%s: %d x %d, %s in %.2f s\n", options.output.string().c_str(), result.width, result.height,
+                stats.filter.c_str(), (stats.filterMs + stats.compileMs) / 1000.0);
+  }
+  return 0;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "cli/denoise_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "cli/choose.h"
+#include "cli/numbers.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> kFileFilterNames{"auto", "variance", "oidn"};
+
+/// What `render` says of its option.
+std::string describedByRender(const char* name) {
+  CLI::App render;
+  RawRender unused;
+  addRenderOptions(render, unused);
+  addDenoiseOption(render, unused);
+  return render.get_option(name)->get_description();
+}
+
+}  // namespace
+
+void addFileFilterOptions(CLI::App& app, RawRender& raw) {
+  app.add_option("--oidn-library", raw.oidnLibrary, describedByRender("--oidn-library"));
+  app.add_option("--rendering-backend", raw.backend,
+                 describedByRender("--rendering-backend") + ": what runs the variance filter")
+      ->capture_default_str();
+  app.add_option("--shader-folder", raw.shaderFolder, describedByRender("--shader-folder"));
+  app.add_option("--memory-limit", raw.options.limits.memoryBytes,
+                 "memory that a picture and Open Image Denoise may each ask for, such as 500MB or 2GiB")
+      ->transform(memorySize(kLeastMemoryBytes));
+  app.add_flag("--quiet", raw.options.quiet, "print nothing but errors");
+  app.add_flag("--verbose", raw.options.verbose, "print what is chosen");
+}
+
+void addDenoiseCommandOptions(CLI::App& app, RawDenoise& raw) {
+  raw.render.denoise = "auto";
+  app.add_option("picture", raw.picture, "linear picture: .exr of fragtrace or another renderer, .hdr, .pfm")
+      ->required();
+  app.add_option(
+         "-o,--output", raw.render.output,
+         "picture: .exr (with all layers), .hdr .pfm (linear radiance), .png .jpg (tone-mapped, sRGB)")
+      ->required();
+  app.add_option("--denoise", raw.render.denoise,
+                 joined(kFileFilterNames) +
+                     ": the filter; auto: oidn where it is installed, else variance, "
+                     "which needs --aov albedo,normal,depth,samples,variance")
+      ->capture_default_str();
+  addFileFilterOptions(app, raw.render);
+  app.add_option("--exposure", raw.render.options.exposure, describedByRender("--exposure"))
+      ->capture_default_str();
+  app.add_option("--tone-map", raw.render.toneMap, describedByRender("--tone-map"))->capture_default_str();
+}
+
+DenoiseOptions finishDenoise(const RawDenoise& raw) {
+  if (std::ranges::find(kFileFilterNames, raw.render.denoise) == kFileFilterNames.end())
+    throw UsageError("--denoise: '" + raw.render.denoise + "' is none of " + joined(kFileFilterNames));
+  return {raw.picture, finishRender(raw.render)};
+}
+
+}  // namespace fragtrace

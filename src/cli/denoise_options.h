@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The options of `denoise`, and those of other commands that filter files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cli/render_options.h"
+
+namespace fragtrace {
+
+struct DenoiseOptions {
+  std::filesystem::path picture;
+  RenderOptions render;  ///< of these: output, filter and its library, backend, how a display shows it
+};
+
+struct RawDenoise {
+  std::string picture;
+  RawRender render;
+};
+
+/// Adds all options of `denoise`.
+void addDenoiseCommandOptions(CLI::App& app, RawDenoise& raw);
+
+/// Adds what a command needs that can filter a file: the filter itself is another option's.
+void addFileFilterOptions(CLI::App& app, RawRender& raw);
+
+/// Throws UsageError.
+DenoiseOptions finishDenoise(const RawDenoise& raw);
+
+}  // namespace fragtrace

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "cli/view_denoiser.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gl/program.h"
+#include "image/channels.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr double kAllUpTo = 64.0;  // samples
+constexpr double kNoneFrom = 256.0;
+constexpr int kMostGuideSamples = 16;
+constexpr int kGuideStep = 4;              // from one set of guides to the next, in samples
+constexpr double kMostPastSamples = 16.0;  // that the past counts for
+
+}  // namespace
+
+double filteredShare(double samples) {
+  return std::clamp(std::log2(kNoneFrom / std::max(samples, 1.0)) / std::log2(kNoneFrom / kAllUpTo), 0.0,
+                    1.0);
+}
+
+void SideMemory::turn() {
+  if (present) past = std::move(present);
+  present.reset();
+  guides = {};
+  guideSamples = 0;
+}
+
+bool ViewDenoiser::drawGuides(glm::ivec2 size, int samples, Tracer& tracer, const View& view,
+                              SideMemory& memory, const std::function<bool()>& goOn) {
+  const int wanted = std::min(samples, kMostGuideSamples);
+  const bool enough = memory.guides.width == size.x && memory.guides.height == size.y &&
+                      (memory.guideSamples >= kMostGuideSamples || wanted < kGuideStep * memory.guideSamples);
+  if (enough) return true;
+  Image guides{size.x, size.y, {}, {}, {}};
+  Film film(size);
+  bool complete = true;
+  for (const ShaderVariant& variant : tracer.features) {
+    const FeatureRow& row = rowOf(variant.feature);
+    if (tracer.renderer->knows(variant))
+      tracer.renderer->use(variant);
+    else
+      tracer.renderer->compile(variant, film, view);
+    film.clear();
+    RenderTimes times;
+    complete =
+        complete && tracer.renderer->addSamples(film, view, 0, wanted, times, [&](double) { return goOn(); });
+    if (!complete) break;
+    std::vector<std::string> names;
+    for (const char channel : row.channels) names.push_back(std::string(row.name) + "." + channel);
+    appendChannels(guides, imageOf(film.read(), {}), names);
+  }
+  tracer.renderer->use(tracer.variant);
+  if (!complete) return false;
+  memory.guides = std::move(guides);
+  memory.guideSamples = wanted;
+  return true;
+}
+
+std::optional<Image> ViewDenoiser::shown(const Image& drawn, int samples, Tracer& tracer, const View& view,
+                                         SideMemory& memory, const std::function<bool()>& goOn) {
+  const std::vector<std::string> colors{"R", "G", "B", "A"};
+  const double share = filteredShare(samples);
+  if (share <= 0.0) {
+    memory = {};
+    return onlyChannels(drawn, colors);
+  }
+  if (!drawGuides({drawn.width, drawn.height}, samples, tracer, view, memory, goOn)) return std::nullopt;
+  SeenPicture present{drawn, view.camera};
+  appendChannels(present.layers, memory.guides, memory.guides.channels);
+  // The past fades out as the filter would: what it has seen from elsewhere is not what is seen here.
+  const double past = kMostPastSamples * std::max(0.0, 1.0 - samples / kAllUpTo);
+  if (memory.past && past > 0.0) present.layers = withPast(present, *memory.past, past);
+  if (!filter_) filter_ = std::make_unique<VarianceFilter>(shaderSource(shaderFolder_));
+  const std::optional<Image> filtered = filter_->filtered(present.layers, goOn);
+  if (!filtered) return std::nullopt;
+  Image picture = onlyChannels(drawn, colors);
+  for (size_t i = 0, from = 0; i < picture.values.size(); i += 4, from += 3) {
+    for (size_t c = 0; c < 3; ++c) {
+      float& value = picture.values[i + c];
+      value = float(std::lerp(double(value), double(filtered->values[from + c]), share));
+    }
+  }
+  memory.present = std::move(present);
+  return picture;
+}
+
+}  // namespace fragtrace

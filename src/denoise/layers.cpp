@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "denoise/layers.h"
+
+#include <array>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "image/channels.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// Indices of a layer's three channels, and what stands before the layer's name: "ViewLayer.".
+struct FoundLayer {
+  std::array<size_t, 3> channels{};
+  std::string prefix;
+};
+
+/// The channels of `stem`, such as "albedo" or "" for R, G and B themselves, with one of the two endings.
+std::optional<std::array<size_t, 3>> channelsOf(const Image& file, const std::string& stem) {
+  for (const std::string_view endings : {"RGB", "XYZ"}) {
+    std::array<size_t, 3> indices{};
+    bool complete = true;
+    for (size_t c = 0; c < 3; ++c) {
+      const auto index = findChannel(file, stem + (stem.empty() ? "" : ".") + endings[c]);
+      complete = complete && index;
+      indices[c] = index.value_or(0);
+    }
+    if (complete) return indices;
+  }
+  return std::nullopt;
+}
+
+/// The first layer, in the names' order, that is called so, after any prefix that ends in a dot.
+std::optional<FoundLayer> findLayer(const Image& file, std::initializer_list<const char*> names) {
+  for (const std::string_view name : names) {
+    for (const std::string& channel : file.channels) {
+      const std::string stem = channel.substr(0, channel.rfind('.'));
+      if (stem.size() == channel.size() || !stem.ends_with(name)) continue;
+      const std::string prefix = stem.substr(0, stem.size() - name.size());
+      if (!prefix.empty() && !prefix.ends_with('.')) continue;
+      if (const auto channels = channelsOf(file, stem)) return FoundLayer{*channels, prefix};
+    }
+  }
+  return std::nullopt;
+}
+
+/// The same, but only after that prefix.
+std::optional<FoundLayer> findGuide(const Image& file, const std::string& prefix,
+                                    std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    if (const auto channels = channelsOf(file, prefix + name)) return FoundLayer{*channels, prefix};
+  }
+  return std::nullopt;
+}
+
+std::optional<FoundLayer> findColor(const Image& file) {
+  if (const auto own = findColorChannels(file)) return FoundLayer{*own, ""};
+  return findLayer(file, {"Noisy Image", "Combined"});
+}
+
+void appendLayer(Image& result, const Image& file, const FoundLayer& layer,
+                 const std::vector<std::string>& names) {
+  std::vector<std::string> from;
+  for (size_t c = 0; c < names.size(); ++c) from.push_back(file.channels[layer.channels[c]]);
+  appendChannels(result, onlyChannels(file, from), names);
+}
+
+}  // namespace
+
+Image layersForFilter(const Image& file) {
+  Image result{file.width, file.height, {}, {}, file.attributes};
+  const auto color = findColor(file);
+  if (!color) return result;
+  appendLayer(result, file, *color, {"R", "G", "B"});
+  auto alpha = findChannel(file, "A");
+  if (!alpha) alpha = findChannel(file, color->prefix + "Combined.A");
+  if (alpha) appendChannels(result, onlyChannels(file, {file.channels[*alpha]}), {"A"});
+  const auto albedo = findGuide(file, color->prefix, {"Denoising Albedo", "albedo", "Albedo", "alb"});
+  if (albedo) appendLayer(result, file, *albedo, {"albedo.R", "albedo.G", "albedo.B"});
+  const auto normal = findGuide(
+      file, color->prefix,
+      {"Denoising Normal", "normal", "sh_normal", "nn", "sn", "normals", "Ns", "N", "Normal", "geo_normal"});
+  if (normal) appendLayer(result, file, *normal, {"normal.X", "normal.Y", "normal.Z"});
+  return result;
+}
+
+}  // namespace fragtrace

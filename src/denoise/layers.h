@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// The layers of pictures that other renderers wrote, under our names.
+#pragma once
+
+#include "image/image.h"
+
+namespace fragtrace {
+
+/// R, G, B, A, albedo.RGB and normal.XYZ of a picture file, as far as it has them under our names or those of
+/// Cycles (ViewLayer.Combined.R, ViewLayer.Noisy Image.R, ViewLayer.Denoising Albedo.R, ...), Mitsuba
+/// (albedo.R, sh_normal.X, nn.X, ...) or pbrt (Albedo.R, Ns.X, N.X). Noisy colours of Cycles are taken before
+/// filtered ones; guides of the layer that the colours are of. Without a channel R where the file has no
+/// colour.
+Image layersForFilter(const Image& file);
+
+}  // namespace fragtrace

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Open Image Denoise 2.x, opened when it is asked for: the functions of its C interface that the filter
+// needs. Names, numbers and meanings are those of https://www.openimagedenoise.org/documentation.html.
+//
+// It runs in our process. Its input is our own numbers, not a file from anywhere, so there is no fault of a
+// decoder to fence off; a process of its own would cost its start and a copy of up to nine floats a pixel.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace fragtrace {
+
+struct OidnDeviceHandle;  // OIDNDevice is a pointer to one
+struct OidnFilterHandle;  // OIDNFilter
+
+inline constexpr int kOidnCpuDevice = 1;       // OIDN_DEVICE_TYPE_CPU
+inline constexpr int kOidnFloat3 = 3;          // OIDN_FORMAT_FLOAT3
+inline constexpr int kOidnHighQuality = 6;     // OIDN_QUALITY_HIGH
+inline constexpr int kOidnNoError = 0;         // OIDN_ERROR_NONE
+inline constexpr int kOidnCancelledError = 6;  // OIDN_ERROR_CANCELLED
+
+/// `fraction` is the part done, 0..1; false ends the filter with the error "cancelled".
+using OidnProgressMonitor = bool (*)(void* user, double fraction);
+
+struct OidnFunctions {
+  OidnDeviceHandle* (*newDevice)(int type);
+  void (*commitDevice)(OidnDeviceHandle*);
+  /// The first error since the last call, and what it says; of the calling thread where there is no device.
+  int (*getDeviceError)(OidnDeviceHandle*, const char** message);
+  int (*getDeviceInt)(OidnDeviceHandle*, const char* name);
+  void (*releaseDevice)(OidnDeviceHandle*);
+  OidnFilterHandle* (*newFilter)(OidnDeviceHandle*, const char* type);
+  /// Strides of 0: the pixels lie one behind the other. The memory stays the caller's.
+  void (*setSharedFilterImage)(OidnFilterHandle*, const char* name, void* pixels, int format, size_t width,
+                               size_t height, size_t byteOffset, size_t pixelStride, size_t rowStride);
+  void (*setFilterBool)(OidnFilterHandle*, const char* name, bool value);
+  void (*setFilterInt)(OidnFilterHandle*, const char* name, int value);
+  void (*setProgressMonitor)(OidnFilterHandle*, OidnProgressMonitor, void* user);
+  void (*commitFilter)(OidnFilterHandle*);
+  void (*executeFilter)(OidnFilterHandle*);
+  void (*releaseFilter)(OidnFilterHandle*);
+};
+
+/// The library with a device on the processor. It stays open when this goes.
+struct OidnLibrary {
+  OidnFunctions call{};
+  std::shared_ptr<OidnDeviceHandle> device;
+  std::string file;     ///< as it was opened: a path, or the name that the loader found
+  std::string version;  ///< "2.5.1"
+  double loadMs = 0.0;  ///< that opening it and making the device took
+};
+
+/// Opens `chosen`; without it the file that the variable FRAGTRACE_OIDN_LIBRARY names; without that what the
+/// loader finds as libOpenImageDenoise.so.2, or a copy in the folders where pip installs the package pyoidn.
+/// Throws UsageError that says what was looked for, or why a file that was named does not serve.
+OidnLibrary openOidn(const std::filesystem::path& chosen);
+
+/// Whether openOidn() opens one file that the user has named, or looks for any.
+bool namesOidn(const std::filesystem::path& chosen);
+
+}  // namespace fragtrace

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "view/reproject.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "image/channels.h"
+#include "scene/projection.h"
+
+namespace fragtrace {
+namespace {
+
+constexpr int kSide = 64;
+constexpr double kDistance = 4.0;
+constexpr double kLight = 3.0;  // without albedo
+
+/// Of the wall z = 0: stripes that are wide beside a pixel.
+double albedoAt(double x) { return 0.5 + 0.05 * std::sin(1.5 * x); }
+
+Camera cameraAt(double x, double distance) {
+  Camera camera;
+  camera.position = {x, 0.0, distance};
+  camera.forward = {0.0, 0.0, -1.0};
+  camera.up = {0.0, 1.0, 0.0};
+  camera.perspective = true;
+  camera.fovY = 0.8;
+  return camera;
+}
+
+/// The wall, lit evenly, as that camera sees it.
+SeenPicture seen(const Camera& camera, double light, double samples, double variance) {
+  SeenPicture picture;
+  picture.camera = camera;
+  picture.layers = {kSide,
+                    kSide,
+                    {"R", "G", "B", "A", "samples.Y", "variance.Y", "albedo.R", "albedo.G", "albedo.B",
+                     "normal.X", "normal.Y", "normal.Z", "depth.Z"},
+                    {},
+                    {}};
+  const Projection projection = projectionOf(camera, 1.0);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const double right = 2.0 * (x + 0.5) / kSide - 1.0;
+      const float albedo =
+          float(albedoAt(camera.position.x + camera.position.z * right * projection.right.x));
+      const float radiance = float(light * (0.96 * albedo + 0.04));
+      for (const double value :
+           {double(radiance), double(radiance), double(radiance), 1.0, samples, variance, double(albedo),
+            double(albedo), double(albedo), 0.0, 0.0, 1.0, camera.position.z})
+        picture.layers.values.push_back(float(value));
+    }
+  }
+  return picture;
+}
+
+float valueOf(const Image& image, const char* channel, int x, int y) {
+  return image
+      .values[(size_t(y) * kSide + size_t(x)) * image.channelCount() + findChannel(image, channel).value()];
+}
+
+TEST(Reprojection, JoinsAsIfAllSamplesHadBeenSeen) {
+  const Camera camera = cameraAt(0.0, kDistance);
+  const SeenPicture now = seen(camera, kLight, 4, 0.25);
+  const SeenPicture past = seen(camera, 2.0 * kLight, 8, 0.125);
+  const Image joined = withPast(now, past, 100.0);
+  const double own = valueOf(now.layers, "G", 20, 30);
+  EXPECT_NEAR(valueOf(joined, "samples.Y", 20, 30), 12.0, 1e-4);
+  EXPECT_NEAR(valueOf(joined, "G", 20, 30), (4.0 * own + 8.0 * 2.0 * own) / 12.0, 1e-4);
+  const double m2 = 0.25 * 4 * 3 + 0.125 * 8 * 7 + own * own * 4 * 8 / 12;
+  EXPECT_NEAR(valueOf(joined, "variance.Y", 20, 30), m2 / (12 * 11), 1e-4);
+}
+
+TEST(Reprojection, ThePastCountsForNoMoreThanAllowed) {
+  const Camera camera = cameraAt(0.0, kDistance);
+  const Image joined = withPast(seen(camera, kLight, 1, 0.0), seen(camera, kLight, 500, 0.1), 16.0);
+  EXPECT_NEAR(valueOf(joined, "samples.Y", 5, 5), 17.0, 1e-3);
+}
+
+TEST(Reprojection, ACameraThatMovedFindsTheSamePoints) {
+  const SeenPicture now = seen(cameraAt(0.3, 3.5), 0.5 * kLight, 1, 0.0);
+  const SeenPicture past = seen(cameraAt(0.0, kDistance), kLight, 1e6, 0.0);
+  const Image joined = withPast(now, past, 1e6);
+  // The past's light at the present's texture, to a bilinear lookup of a stripe.
+  for (int x = 8; x < kSide - 8; ++x)
+    EXPECT_NEAR(valueOf(joined, "R", x, 32) / (2.0 * valueOf(now.layers, "R", x, 32)), 1.0, 2e-3) << x;
+}
+
+TEST(Reprojection, OtherSurfacesGiveNothing) {
+  const Camera camera = cameraAt(0.0, kDistance);
+  const SeenPicture now = seen(camera, kLight, 1, 0.0);
+  for (const auto& [channel, value] :
+       {std::pair{"depth.Z", 3.5f}, {"normal.Z", -1.0f}, {"albedo.G", 0.9f}, {"A", 0.0f}}) {
+    SeenPicture past = seen(camera, 9.0, 8, 0.1);
+    const size_t at = findChannel(past.layers, channel).value();
+    for (size_t i = at; i < past.layers.values.size(); i += past.layers.channelCount())
+      past.layers.values[i] = value;
+    EXPECT_EQ(withPast(now, past, 16.0).values, now.layers.values) << channel;
+  }
+}
+
+TEST(Reprojection, WhatWasOutsideThePastPictureStaysAsItIs) {
+  const SeenPicture now = seen(cameraAt(50.0, kDistance), kLight, 1, 0.0);
+  EXPECT_EQ(withPast(now, seen(cameraAt(0.0, kDistance), kLight, 8, 0.1), 16.0).values, now.layers.values);
+}
+
+}  // namespace
+}  // namespace fragtrace
