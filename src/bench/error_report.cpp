@@ -14,11 +14,23 @@ namespace {
 
 constexpr double kEnoughSamples = 64.0;  // from which on errors fall as 1 / N, or faster
 
+/// As drawn.
 const ErrorCurve* curveNamed(const ErrorReport& report, const std::string& name) {
   for (const ErrorCurve& curve : report.curves) {
-    if (curve.name == name) return &curve;
+    if (curve.name == name && curve.filter.empty()) return &curve;
   }
   return nullptr;
+}
+
+/// The same pictures filtered, if they were.
+const ErrorCurve* filteredOf(const ErrorReport& report, const ErrorCurve& drawn) {
+  const ErrorCurve* next = &drawn + 1;
+  const bool there = drawn.filter.empty() && next != report.curves.data() + report.curves.size();
+  return there && !next->filter.empty() ? next : nullptr;
+}
+
+std::string labelOf(const ErrorCurve& curve) {
+  return curve.name + (curve.filter.empty() ? "" : " denoised");
 }
 
 /// A field of a CSV file (RFC 4180): names of configurations are the user's.
@@ -44,6 +56,57 @@ std::optional<Gain> gainOver(const ErrorReport& report, const ErrorCurve& slower
   const auto b = timeToReach(curve, report.goal);
   if (!a || !b) return std::nullopt;
   return Gain{a->seconds / b->seconds, a->samples / b->samples, a->extrapolated || b->extrapolated};
+}
+
+std::string gainText(const ErrorReport& report, const ErrorCurve& slower, const ErrorCurve& curve) {
+  const auto gain = gainOver(report, slower, curve);
+  return gain ? formatted("%s against %s: %.4g times sooner, %.4g times fewer samples\n",
+                          labelOf(curve).c_str(), labelOf(slower).c_str(), gain->time, gain->samples)
+              : "";
+}
+
+/// What a curve's entry holds in any case.
+nlohmann::ordered_json measuredJson(const ErrorReport& report, const ErrorCurve& curve) {
+  nlohmann::ordered_json entry;
+  entry["compile_ms"] = curve.compileMs;
+  entry["near_reference"] = curve.nearReference;
+  entry["slope"] = slopeOf(curve);
+  if (const auto reached = timeToReach(curve, report.goal)) {
+    entry["goal"] = {{"seconds", reached->seconds},
+                     {"samples", reached->samples},
+                     {"extrapolated", reached->extrapolated}};
+  }
+  return entry;
+}
+
+nlohmann::ordered_json repetitionsJson(const ErrorCurve& curve) {
+  nlohmann::ordered_json repetitions = nlohmann::ordered_json::array();
+  for (const auto& repetition : curve.repetitions) {
+    nlohmann::ordered_json steps = nlohmann::ordered_json::array();
+    for (const ErrorSample& s : repetition) {
+      steps.push_back({{"samples", s.samples},
+                       {"seconds", s.seconds},
+                       {"mse", s.mse},
+                       {"relmse", s.relmse},
+                       {"flip", s.flip}});
+    }
+    repetitions.push_back(std::move(steps));
+  }
+  return repetitions;
+}
+
+nlohmann::ordered_json gainJson(const Gain& gain) {
+  return {{"times_sooner", gain.time}, {"times_fewer_samples", gain.samples}};
+}
+
+/// Of the pictures filtered, in the entry of those as drawn.
+nlohmann::ordered_json filteredJson(const ErrorReport& report, const ErrorCurve& drawn,
+                                    const ErrorCurve& curve) {
+  nlohmann::ordered_json entry = {{"filter", curve.filter}};
+  entry.update(measuredJson(report, curve));
+  if (const auto gain = gainOver(report, drawn, curve)) entry["denoised_is"] = gainJson(*gain);
+  entry["repetitions"] = repetitionsJson(curve);
+  return entry;
 }
 
 }  // namespace
@@ -83,7 +146,8 @@ std::optional<Reached> timeToReach(const ErrorCurve& curve, double relmse) {
     return Reached{before.seconds * std::pow(here.seconds / before.seconds, part),
                    before.samples * std::pow(here.samples / before.samples, part), false};
   }
-  if (steps.empty() || steps.back().mean.samples < kEnoughSamples) return std::nullopt;
+  if (steps.empty() || steps.back().mean.samples < kEnoughSamples || !curve.filter.empty())
+    return std::nullopt;
   const ErrorSample& last = steps.back().mean;
   if (!std::isfinite(last.relmse)) return std::nullopt;
   const double factor = last.relmse / relmse;
@@ -110,31 +174,34 @@ std::string errorTable(const ErrorReport& report) {
     const std::vector<ErrorStep> steps = stepsOf(curve);
     for (size_t i = 0; i < steps.size(); ++i) {
       const ErrorSample& s = steps[i].mean;
-      text += formatted("%-18s %10.4g %10.4g %10.3e %10.3e %10.4f", i == 0 ? curve.name.c_str() : "",
+      text += formatted("%-18s %10.4g %10.4g %10.3e %10.3e %10.4f", i == 0 ? labelOf(curve).c_str() : "",
                         s.samples, s.seconds, s.mse, s.relmse, s.flip);
       text += i + 1 == steps.size() ? formatted(" %8.2f\n", slopeOf(curve)) : "\n";
     }
   }
   for (const ErrorCurve& curve : report.curves) {
     if (curve.nearReference)
-      text += "\nwarning: " + curve.name +
+      text += "\nwarning: " + labelOf(curve) +
               " has more than an eighth of the reference's samples: the reference's own noise counts in its "
               "error";
   }
   text += formatted("\ntime to a relative MSE of %g\n", report.goal);
   for (const ErrorCurve& curve : report.curves) {
     const auto reached = timeToReach(curve, report.goal);
-    text += formatted("%-18s ", curve.name.c_str());
+    text += formatted("%-18s ", labelOf(curve).c_str());
     text += reached ? formatted("%10.4g s %12.4g samples%s\n", reached->seconds, reached->samples,
                                 reached->extrapolated ? "  (extrapolated as 1 / N)" : "")
-                    : "not reached, with fewer than 64 samples\n";
+            : curve.filter.empty() ? "not reached, with fewer than 64 samples\n"
+                                   : "not reached\n";
   }
   const ErrorCurve* best = curveNamed(report, "default");
+  const ErrorCurve* bestFiltered = best ? filteredOf(report, *best) : nullptr;
   for (const ErrorCurve& curve : report.curves) {
-    const auto gain = best && &curve != best ? gainOver(report, curve, *best) : std::nullopt;
-    if (gain)
-      text += formatted("default against %s: %.4g times sooner, %.4g times fewer samples\n",
-                        curve.name.c_str(), gain->time, gain->samples);
+    const ErrorCurve* filtered = filteredOf(report, curve);
+    if (filtered) text += gainText(report, curve, *filtered);
+    if (!best || &curve == best || !curve.filter.empty()) continue;
+    text += gainText(report, curve, *best);
+    if (bestFiltered) text += gainText(report, curve, *bestFiltered);
   }
   return text;
 }
@@ -150,32 +217,15 @@ std::string errorJson(const ErrorReport& report) {
   json["goal_relmse"] = report.goal;
   const ErrorCurve* best = curveNamed(report, "default");
   for (const ErrorCurve& curve : report.curves) {
-    nlohmann::ordered_json entry;
-    entry["name"] = curve.name;
-    entry["options"] = curve.options;
-    entry["variant"] = curve.variant;
-    entry["compile_ms"] = curve.compileMs;
-    entry["near_reference"] = curve.nearReference;
-    entry["slope"] = slopeOf(curve);
-    if (const auto reached = timeToReach(curve, report.goal)) {
-      entry["goal"] = {{"seconds", reached->seconds},
-                       {"samples", reached->samples},
-                       {"extrapolated", reached->extrapolated}};
-    }
+    if (!curve.filter.empty()) continue;
+    nlohmann::ordered_json entry = {
+        {"name", curve.name}, {"options", curve.options}, {"variant", curve.variant}};
+    entry.update(measuredJson(report, curve));
     if (const auto gain = best && &curve != best ? gainOver(report, curve, *best) : std::nullopt)
-      entry["default_is"] = {{"times_sooner", gain->time}, {"times_fewer_samples", gain->samples}};
-    entry["repetitions"] = nlohmann::ordered_json::array();
-    for (const auto& repetition : curve.repetitions) {
-      nlohmann::ordered_json steps = nlohmann::ordered_json::array();
-      for (const ErrorSample& s : repetition) {
-        steps.push_back({{"samples", s.samples},
-                         {"seconds", s.seconds},
-                         {"mse", s.mse},
-                         {"relmse", s.relmse},
-                         {"flip", s.flip}});
-      }
-      entry["repetitions"].push_back(std::move(steps));
-    }
+      entry["default_is"] = gainJson(*gain);
+    entry["repetitions"] = repetitionsJson(curve);
+    if (const ErrorCurve* filtered = filteredOf(report, curve))
+      entry["denoised"] = filteredJson(report, curve, *filtered);
     json["configurations"].push_back(std::move(entry));
   }
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -186,8 +236,8 @@ std::string errorCsv(const ErrorReport& report) {
   for (const ErrorCurve& curve : report.curves) {
     for (size_t r = 0; r < curve.repetitions.size(); ++r) {
       for (const ErrorSample& s : curve.repetitions[r]) {
-        text += csvField(curve.name) + formatted(",%zu,%.9g,%.9g,%.9g,%.9g,%.9g\n", r, s.samples, s.seconds,
-                                                 s.mse, s.relmse, s.flip);
+        text += csvField(labelOf(curve)) + formatted(",%zu,%.9g,%.9g,%.9g,%.9g,%.9g\n", r, s.samples,
+                                                     s.seconds, s.mse, s.relmse, s.flip);
       }
     }
   }
@@ -197,7 +247,8 @@ std::string errorCsv(const ErrorReport& report) {
 std::string errorChart(const ErrorReport& report) {
   Chart chart;
   chart.title = "Error against time: " + report.scene;
-  chart.xLabel = "seconds of drawing";
+  const bool filtered = std::ranges::any_of(report.curves, [](const auto& c) { return !c.filter.empty(); });
+  chart.xLabel = filtered ? "seconds of drawing, and of filtering where denoised" : "seconds of drawing";
   chart.yLabel = "relative MSE";
   chart.logX = true;
   chart.logY = true;
@@ -209,7 +260,7 @@ std::string errorChart(const ErrorReport& report) {
       report.reference + ".";
   for (const ErrorCurve& curve : report.curves) {
     ChartSeries series;
-    series.name = curve.name + formatted(" (slope %.2f)", slopeOf(curve));
+    series.name = labelOf(curve) + formatted(" (slope %.2f)", slopeOf(curve));
     for (const ErrorStep& step : stepsOf(curve))
       series.points.push_back({step.mean.seconds, step.mean.relmse, step.lowRelmse, step.highRelmse});
     chart.series.push_back(std::move(series));

@@ -14,7 +14,7 @@ namespace fragtrace {
 /// One picture of one repetition.
 struct ErrorSample {
   double samples = 0.0;  ///< a pixel; the mean where they differ
-  double seconds = 0.0;  ///< drawing, without start-up and compilation
+  double seconds = 0.0;  ///< drawing (and filtering, with its layers), without start-up and compilation
   double mse = 0.0;
   double relmse = 0.0;
   double flip = 0.0;  ///< of the tone-mapped picture
@@ -23,6 +23,7 @@ struct ErrorSample {
 /// One configuration: repetitions differ in their seed. Every repetition has the same steps.
 struct ErrorCurve {
   std::string name;
+  std::string filter;   ///< that took the noise out, and its version; empty: pictures as drawn
   std::string options;  ///< as on the command line
   std::string variant;
   double compileMs = 0.0;
@@ -39,7 +40,8 @@ struct ErrorStep {
 std::vector<ErrorStep> stepsOf(const ErrorCurve& curve);
 
 /// When (in seconds, or in samples) a curve reaches a relative MSE: between its steps by a power law, beyond
-/// its last as 1 / N. Nothing when the last step has fewer than 64 samples and is still above it.
+/// its last as 1 / N. Nothing when the last step is still above it and has fewer than 64 samples or is
+/// filtered: nothing is known of how a filter goes on.
 struct Reached {
   double seconds = 0.0;
   double samples = 0.0;
@@ -53,9 +55,9 @@ struct ErrorReport {
   std::string reference;  ///< where it came from
   int width = 0;
   int height = 0;
-  std::string renderer;  ///< of OpenGL
-  double goal = 1e-3;    ///< relative MSE of the summary
-  std::vector<ErrorCurve> curves;
+  std::string renderer;            ///< of OpenGL
+  double goal = 1e-3;              ///< relative MSE of the summary
+  std::vector<ErrorCurve> curves;  ///< one that is filtered follows the one of the same pictures as drawn
 };
 
 /// The exponent p of relative MSE ~ samples^p over a curve's steps.

@@ -3,11 +3,15 @@
 // spent.
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "bench/error_report.h"
 #include "cli/commands.h"
+#include "cli/denoising.h"
+#include "cli/draw_picture.h"
 #include "cli/interrupt.h"
 #include "cli/outputs.h"
+#include "cli/phase_timer.h"
 #include "cli/progress_bar.h"
 #include "cli/setup.h"
 #include "errors.h"
@@ -27,10 +31,19 @@ constexpr int kAdaptiveSteps = 6;          // goals, each half of the last
 
 /// One configuration on the device.
 struct Contender {
-  const BenchConfiguration& configuration;
+  BenchConfiguration configuration;  ///< with --denoise settled
   LoadedScene loaded;
   Tracer tracer;
   ErrorCurve curve;
+  std::optional<PictureFilter> filter;
+  ErrorCurve filtered;  ///< of --denoise
+};
+
+/// One picture on the way to a filter.
+struct Draw {
+  Drawing drawing;
+  int layerSamples = 0;
+  double seconds = 0.0;  ///< that it took so far
 };
 
 struct Judge {
@@ -60,18 +73,85 @@ std::vector<ErrorSample> measureSteps(Contender& c, const View& view, const Judg
   return steps;
 }
 
-/// Error of adaptive pictures whose goals come down to the one asked for: the noise, else the time.
-std::vector<ErrorSample> measureAdaptive(Contender& c, const View& view, const Judge& judge) {
+/// The picture filtered, as `render --denoise` does it. `compileMs` grows by what was built on the way.
+ErrorSample finish(Contender& c, const View& view, const Judge& judge, const Draw& draw, double& compileMs) {
+  const RenderOptions& options = c.configuration.render;
+  Image picture = pictureOf(draw.drawing, options, c.tracer.variant);
+  double seconds = draw.seconds;
+  for (const ShaderVariant& variant : c.tracer.features) {
+    const int samples = samplesOfLayer(options, variant.feature, draw.layerSamples);
+    const LayerDraw layer = addLayer(picture, *c.tracer.renderer, variant, view, samples);
+    seconds += 0.001 * layer.drawMs;
+    compileMs += layer.compileMs;
+  }
+  const double start = steadyMilliseconds();
+  const Image denoised = c.filter->apply(picture).value();
+  seconds += 0.001 * (steadyMilliseconds() - start);
+  const double pixels = double(picture.width) * picture.height;
+  return judge.judge(denoised, double(totalsOf(draw.drawing.pixels).samples) / pixels, seconds);
+}
+
+/// One whole picture of so many samples: looks at the film on the way count, so that it is no part of a
+/// sequence.
+Draw drawWhole(Contender& c, const View& view, int samples, double& compileMs) {
+  RenderOptions options = c.configuration.render;
+  options.spp = samples;
+  Film film(c.loaded.size);
+  compileMs += c.tracer.renderer->compile(c.tracer.variant, film, view);
+  Draw draw;
+  draw.layerSamples = samples;
+  RenderTimes times;
+  const double start = steadyMilliseconds();
+  drawAllSamples(*c.tracer.renderer, film, options, view, times, Renderer::toTheEnd, draw.drawing);
+  draw.seconds = 0.001 * (steadyMilliseconds() - start);
+  return draw;
+}
+
+/// What the driver compiles at a first picture is done.
+double warmUpFilter(Contender& c, const View& view, const Judge& judge) {
+  double compileMs = c.filter->compileMs;
+  const Draw draw = drawWhole(c, view, 1, compileMs);
+  const double seconds = finish(c, view, judge, draw, compileMs).seconds;
+  const double again = finish(c, view, judge, draw, compileMs).seconds;
+  return compileMs + 1000.0 * std::max(seconds - again, 0.0);
+}
+
+/// Filtered pictures of 1, 2, 4, ... samples.
+std::vector<ErrorSample> measureFiltered(Contender& c, const View& view, const Judge& judge) {
+  std::vector<ErrorSample> steps;
+  const int most = c.configuration.render.spp;
+  for (int done = 0, next = 1; done < most; next *= 2) {
+    done = std::min(next, most);
+    double compileMs = 0.0;  // had been done
+    const Draw draw = drawWhole(c, view, done, compileMs);
+    steps.push_back(finish(c, view, judge, draw, compileMs));
+  }
+  return steps;
+}
+
+/// Error of adaptive pictures whose goals come down to the one asked for: the noise, else the time. Filtered
+/// ones are the same.
+std::vector<ErrorSample> measureAdaptive(Contender& c, const View& view, const Judge& judge,
+                                         std::vector<ErrorSample>& filtered) {
   std::vector<ErrorSample> steps;
   for (int i = kAdaptiveSteps - 1; i >= 0; --i) {
     const RenderOptions& options = c.configuration.render;
     RenderTimes times;
     const double part = options.noise > 0.0 ? 1.0 : std::exp2(-i);
     const AdaptiveGoal goal{options.noise * std::exp2(i), options.seconds * part, options.spp};
-    const AdaptivePicture picture = renderAdaptively(*c.tracer.renderer, c.loaded.size, view, goal, times);
+    AdaptivePicture picture = renderAdaptively(*c.tracer.renderer, c.loaded.size, view, goal, times);
     const double pixels = double(c.loaded.size.x) * c.loaded.size.y;
-    steps.push_back(judge.judge(imageOf(picture.pixels, {}),
-                                double(totalsOf(picture.pixels).samples) / pixels, times.renderMs / 1000.0));
+    const double seconds = times.renderMs / 1000.0;
+    const FilmTotals totals = totalsOf(picture.pixels);
+    steps.push_back(judge.judge(imageOf(picture.pixels, {}), double(totals.samples) / pixels, seconds));
+    if (!c.filter) continue;
+    const Draw draw{{std::move(picture.pixels), std::move(picture.variance), {}},
+                    int(std::max(1u, totals.fewestSamples)),
+                    seconds};
+    double compileMs = 0.0;  // had been done
+    filtered.push_back(finish(c, view, judge, draw, compileMs));
+    Film film(c.loaded.size);
+    c.tracer.renderer->compile(c.tracer.variant, film, view);  // after the layers'
   }
   return steps;
 }
@@ -121,15 +201,24 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
   int most = 1;
   for (const BenchConfiguration& configuration : options.configurations) {
     Statistics stats;
-    RenderOptions wanted = configuration.render;
+    BenchConfiguration settled = configuration;
+    const std::optional<OidnLibrary> oidn = openDenoiser(settled.render);
+    RenderOptions wanted = settled.render;
     wanted.quiet = wanted.quiet || !contenders.empty();  // warnings are said once
+    wanted = withGuides(wanted);
     LoadedScene loaded = loadScene(wanted, stats);
     Tracer tracer = makeTracer(context, loaded, wanted, stats);
-    contenders.push_back({configuration, std::move(loaded), std::move(tracer), {}});
+    contenders.push_back({settled, std::move(loaded), std::move(tracer), {}, {}, {}});
     ErrorCurve& curve = contenders.back().curve;
     curve.name = configuration.name;
     curve.options = configuration.text;
     curve.variant = stats.variant;
+    if (wanted.denoise != Denoise::None) {
+      wanted.quiet = true;  // no bar within that of the benchmark
+      contenders.back().filter = makeFilter(wanted, oidn);
+      contenders.back().filtered.name = curve.name;
+      contenders.back().filtered.filter = contenders.back().filter->name;
+    }
     if (!configuration.adaptive()) most = std::max(most, wanted.spp);
     checkOutputs(outputsOf(options), inputsOf(contenders.back().loaded.scene));
     checkSize(options, contenders.front().loaded.size, configuration, contenders.back().loaded.size);
@@ -162,8 +251,19 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
       if (r == 0) c.curve.compileMs = c.tracer.programMs + compileMs;  // later ones are in the program cache
       RenderTimes warmUp;
       c.tracer.renderer->addSamples(film, view, 0, 1, warmUp);
-      c.curve.repetitions.push_back(c.configuration.adaptive() ? measureAdaptive(c, view, judge)
-                                                               : measureSteps(c, view, judge));
+      std::vector<ErrorSample> filtered;
+      if (c.configuration.adaptive()) {
+        if (c.filter && r == 0) {
+          c.filtered.compileMs = warmUpFilter(c, view, judge);
+          c.tracer.renderer->compile(c.tracer.variant, film, view);  // after the layers'
+        }
+        c.curve.repetitions.push_back(measureAdaptive(c, view, judge, filtered));
+      } else {
+        c.curve.repetitions.push_back(measureSteps(c, view, judge));
+        if (c.filter && r == 0) c.filtered.compileMs = warmUpFilter(c, view, judge);
+        if (c.filter) filtered = measureFiltered(c, view, judge);
+      }
+      if (c.filter) c.filtered.repetitions.push_back(std::move(filtered));
       done += 1.0;
       bar.show(done / (double(contenders.size()) * options.repetitions));
     }
@@ -175,7 +275,11 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
       c.curve.nearReference = c.curve.nearReference || (options.reference.empty() &&
                                                         steps.back().samples * kFarFewer > referenceSamples);
   }
-  for (Contender& c : contenders) report.curves.push_back(std::move(c.curve));
+  for (Contender& c : contenders) {
+    c.filtered.nearReference = c.curve.nearReference;
+    report.curves.push_back(std::move(c.curve));
+    if (c.filter) report.curves.push_back(std::move(c.filtered));
+  }
   return report;
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/choose.h"
+#include "cli/denoising.h"
 #include "cli/numbers.h"
 #include "errors.h"
 
@@ -34,12 +36,24 @@ void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
   addConfigurationOptions(app, raw.configurations, "default,random,baseline, or with --config only default");
   app.get_option("--spp")->description(std::string("camera paths a pixel of the last step, default ") +
                                        kDefaultSamples);
+  addDenoiseOption(app, raw.configurations.shared);
+  app.get_option("--denoise")
+      ->description(joined(kDenoiseNames) +
+                    ": measure each picture filtered, too, against the time of drawing and filtering it");
 }
 
 BenchErrorOptions finishBenchError(const RawBenchError& raw, const CLI::App& app) {
   BenchErrorOptions options = raw.options;
   options.configurations = configurationsOf(raw.configurations, app, raw.scene,
                                             {"default", "random", "baseline"}, kDefaultSamples);
+  const auto denoise = choose<Denoise>("--denoise", raw.configurations.shared.denoise, kDenoiseNames);
+  for (BenchConfiguration& c : options.configurations) {
+    c.render.denoise = denoise;
+    c.render.oidnLibrary = raw.configurations.shared.oidnLibrary;
+    if (denoise == Denoise::None) continue;
+    const std::string reason = whyNotDenoised(c.render);
+    if (!reason.empty()) throw UsageError("configuration '" + c.name + "': --denoise: " + reason);
+  }
   if (!std::isfinite(options.goal)) throw UsageError("--goal: not a finite number");
   const auto isAdaptive = [](const BenchConfiguration& c) { return c.adaptive(); };
   if (options.reference.empty() && std::ranges::all_of(options.configurations, isAdaptive))

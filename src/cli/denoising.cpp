@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "cli/interrupt.h"
 #include "cli/phase_timer.h"
@@ -79,35 +80,43 @@ RenderOptions withGuides(const RenderOptions& options) {
   return drawn;
 }
 
+PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn) {
+  if (!oidn) {
+    const double start = steadyMilliseconds();
+    const auto filter = std::make_shared<const VarianceFilter>(shaderSource(options.shaderFolder));
+    return {std::string(kVarianceFilter), steadyMilliseconds() - start,
+            [filter](const Image& picture) { return filter->filtered(picture); }};
+  }
+  const auto apply = [library = *oidn, memory = options.limits.memoryBytes,
+                      quiet = options.quiet](const Image& picture) {
+    ProgressBar bar("denoising", quiet);
+    const int before = interrupts();
+    std::optional<Image> result = denoisedByOidn(picture, library, memory, [&](double fraction) {
+      bar.show(fraction);
+      return interrupts() == before;
+    });
+    bar.clear();
+    return result;
+  };
+  return {"oidn " + oidn->version, 0.0, apply};
+}
+
 std::optional<Image> filtered(const Image& picture, const RenderOptions& options,
                               const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats) {
-  if (!oidn) {
-    stats.filter = kVarianceFilter;
-    const double start = steadyMilliseconds();
-    const VarianceFilter filter(shaderSource(options.shaderFolder));
-    const double compiled = steadyMilliseconds();
-    Image result = filter.filtered(picture);
-    stats.compileMs = compiled - start;
-    stats.filterMs = steadyMilliseconds() - compiled;
-    return result;
-  }
+  const PictureFilter filter = makeFilter(options, oidn);
   const double start = steadyMilliseconds();
-  ProgressBar bar("denoising", options.quiet);
-  const int before = interrupts();
-  std::optional<Image> result =
-      denoisedByOidn(picture, *oidn, options.limits.memoryBytes, [&](double fraction) {
-        bar.show(fraction);
-        return interrupts() == before;
-      });
-  bar.clear();
+  std::optional<Image> result = filter.apply(picture);
   if (!result) {
     stats.skipped = "interrupted";
     return result;
   }
-  stats.filter = "oidn " + oidn->version;
-  stats.library = oidn->file;
-  stats.loadMs = oidn->loadMs;
+  stats.filter = filter.name;
+  stats.compileMs = filter.compileMs;
   stats.filterMs = steadyMilliseconds() - start;
+  if (oidn) {
+    stats.library = oidn->file;
+    stats.loadMs = oidn->loadMs;
+  }
   return result;
 }
 

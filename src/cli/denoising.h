@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -25,6 +26,17 @@ std::optional<OidnLibrary> openDenoiser(RenderOptions& options);
 
 /// The options with all layers that the filter needs beside those asked for.
 RenderOptions withGuides(const RenderOptions& options);
+
+/// A filter that is ready, with its programs in the current context.
+struct PictureFilter {
+  std::string name;        ///< and version
+  double compileMs = 0.0;  ///< that building its programs took
+  /// R, G and B of a picture with all layers that it needs; nothing when it was interrupted. Throws
+  /// RenderError.
+  std::function<std::optional<Image>(const Image&)> apply;
+};
+/// Of options that openDenoiser() has settled; `oidn` is what that gave.
+PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn);
 
 /// Puts the denoised colours in the place of the noisy ones, which an .exr keeps as noisy.R, noisy.G and
 /// noisy.B, and leaves out the layers that were not asked for. `picture` was drawn with withGuides(options).

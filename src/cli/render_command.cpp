@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/denoising.h"
+#include "cli/draw_picture.h"
 #include "cli/interrupt.h"
 #include "cli/leave.h"
 #include "cli/outputs.h"
@@ -18,46 +19,15 @@
 #include "errors.h"
 #include "gl/debug_log.h"
 #include "gl/driver_choice.h"
-#include "image/channels.h"
 #include "image/format.h"
 #include "image/process.h"
 #include "render/adaptive.h"
-#include "render/denoise.h"
-#include "render/noise.h"
 
 namespace fragtrace {
 
 namespace {
 
 constexpr int kInterruptedStatus = 130;
-
-/// What was drawn, before it is a picture.
-struct Drawing {
-  FilmPixels pixels;
-  std::vector<double> variance;  ///< a better estimate than the pixels' own; may be empty
-  std::vector<double> observed;  ///< observedVariance(); may be empty
-};
-
-/// All samples, with looks at the film on the way that tell the filter how fast the sequence converges.
-bool addAllSamples(Renderer& renderer, Film& film, const RenderOptions& options, const View& view,
-                   RenderTimes& times, const Renderer::Progress& progress, Drawing& drawing) {
-  constexpr int kFewest = 4;
-  const bool looks =
-      options.denoise == Denoise::Variance && whyNotDenoised(options).empty() && options.spp >= kFewest;
-  std::vector<FilmPixels> seen;
-  int from = 0;
-  for (const int to : {options.spp / 4, options.spp / 2, options.spp}) {
-    if (!looks && to < options.spp) continue;
-    const auto partly = [&](double fraction) {
-      return progress((from + fraction * (to - from)) / options.spp);
-    };
-    if (!renderer.addSamples(film, view, from, to, times, partly)) return false;
-    from = to;
-    if (looks) seen.push_back(film.read());
-  }
-  if (looks) drawing.observed = observedVariance(seen[0], seen[1], seen[2]);
-  return true;
-}
 
 /// `secondsAfter` is what the layers will take.
 Drawing draw(Renderer& renderer, Film& film, const RenderOptions& options, const View& view,
@@ -77,8 +47,7 @@ Drawing draw(Renderer& renderer, Film& film, const RenderOptions& options, const
                       picture.rounds, picture.known,   picture.black};
     drawing = {std::move(picture.pixels), std::move(picture.variance), {}};
   } else {
-    stats.complete = addAllSamples(renderer, film, options, view, stats.times, progress, drawing);
-    drawing.pixels = film.read();
+    stats.complete = drawAllSamples(renderer, film, options, view, stats.times, progress, drawing);
   }
   bar.clear();
   return drawing;
@@ -155,35 +124,24 @@ void sayWhatWasCut(const RenderOptions& options, const Statistics& stats) {
 /// have, of an interrupted one a few, since somebody waits.
 void addFeatures(Image& picture, const Tracer& tracer, const RenderOptions& options,
                  const LoadedScene& loaded, std::span<const double> secondsPerSample, Statistics& stats) {
-  constexpr unsigned kFewSamples = 16;
-  const unsigned drawn = std::max(1u, stats.adaptive ? stats.film.fewestSamples : stats.film.mostSamples);
-  const int all = int(stats.complete ? drawn : std::min(drawn, kFewSamples));
+  const int drawn = int(std::max(1u, stats.adaptive ? stats.film.fewestSamples : stats.film.mostSamples));
+  const int all = stats.complete ? drawn : std::min(drawn, kFewLayerSamples);
   const int before = interrupts();
   for (const ShaderVariant& variant : tracer.features) {
-    const FeatureRow& row = rowOf(variant.feature);
     secondsPerSample = secondsPerSample.subspan(1);
-    // A filter needs no more.
-    const bool asked = std::ranges::find(options.aovFeatures, variant.feature) != options.aovFeatures.end();
-    const int samples = asked ? all : std::min(all, int(kFewSamples));
+    const int samples = samplesOfLayer(options, variant.feature, all);
     const double after = all * std::accumulate(secondsPerSample.begin(), secondsPerSample.end(), 0.0);
-    Film film(loaded.size);
-    RenderTimes times;
-    stats.compileMs += tracer.renderer->compile(variant, film, loaded.view);
-    ProgressBar bar("layer " + std::string(row.name), options.quiet);
-    const bool complete =
-        tracer.renderer->addSamples(film, loaded.view, 0, samples, times, [&](double fraction) {
+    ProgressBar bar("layer " + std::string(rowOf(variant.feature).name), options.quiet);
+    const LayerDraw layer =
+        addLayer(picture, *tracer.renderer, variant, loaded.view, samples, [&](double fraction) {
           bar.show(fraction, after);
           return interrupts() == before;
         });
     bar.clear();
-    stats.complete = stats.complete && complete;
-    stats.featureMs += times.renderMs;
-    const FilmPixels pixels = film.read();
-    sayWhatWentWrong(options, totalsOf(pixels));
-    const Image layer = imageOf(pixels, {});
-    std::vector<std::string> names;
-    for (const char channel : row.channels) names.push_back(std::string(row.name) + "." + channel);
-    appendChannels(picture, layer, names);
+    stats.complete = stats.complete && layer.complete;
+    stats.compileMs += layer.compileMs;
+    stats.featureMs += layer.drawMs;
+    sayWhatWentWrong(options, layer.totals);
   }
 }
 
@@ -282,14 +240,7 @@ int runRender(const RenderOptions& asked) {
                       std::to_string(options.spp) + " samples and reported no error; no picture is written");
   }
   if (interrupts() > 1) return kInterruptedStatus;
-  Image picture = shownPicture(
-      options, tracer.variant, drawing.pixels,
-      {!options.background || (options.denoise == Denoise::Variance && whyNotDenoised(options).empty()),
-       drawn.aovSamples, drawn.aovVariance},
-      drawing.variance);
-  if (!drawing.observed.empty())
-    appendChannels(picture, imageOfNumbers(loaded.size, [&](size_t i) { return drawing.observed[i]; }),
-                   {kObservedChannel});
+  Image picture = pictureOf(drawing, options, tracer.variant);
 
   // Step: write. What has been drawn is not lost from here on.
   try {

@@ -26,12 +26,12 @@ struct AdaptiveStatistics {
 
 /// Of a render with --denoise.
 struct DenoiseStatistics {
-  std::string filter;   ///< and its version; empty: none ran
-  std::string skipped;  ///< why none ran
+  std::string filter;      ///< and its version; empty: none ran
+  std::string skipped;     ///< why none ran
   double compileMs = 0.0;  ///< programs, built anew
   double filterMs = 0.0;   ///< by the wall clock, with the way to the device and back
-  std::string library;  ///< the file that did it; empty: we did
-  double loadMs = 0.0;  ///< that opening the library took
+  std::string library;     ///< the file that did it; empty: we did
+  double loadMs = 0.0;     ///< that opening the library took
 };
 
 /// What `--stats` writes about one render; the JSON's keys are the names here.

@@ -41,7 +41,7 @@ struct SideStatistics {
   double frameP95Ms = 0.0;
   double megaRaysPerSecond = 0.0;
   double megaPathsPerSecond = 0.0;
-  bool resting = false;  ///< converged, or as many samples as asked for
+  bool resting = false;   ///< converged, or as many samples as asked for
   double filtered = 0.0;  ///< the share of the noise filter in what is shown, 0 to 1
   double filterMs = 0.0;  ///< what it took, with the layers it needs
   std::string variant;

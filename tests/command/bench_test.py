@@ -107,6 +107,32 @@ class BenchMeasures(Bench):
         self.assertGreater(found["coarse"]["repetitions"][0][-1]["samples"], 64)
         self.assertLess(found["timed"]["repetitions"][0][-1]["seconds"], 1.0)
 
+    def test_denoised_steps_are_pictures_of_render_denoise_and_take_longer(self):
+        reference, picture, table, chart = (self.folder / name for name in ("r.pfm", "p.pfm", "b.csv", "b.svg"))
+        size = ["--resolution", "32,32"]
+        self.renders(BOX, "-o", reference, "--quiet", *size, "--spp", 256, "--seed", 99)
+        result, _, found = self.bench("--quiet", *size, "--spp", 6, "--seed", 7, "--repetitions", 2, "--configs", "default", "--reference", reference,
+                                      "--denoise", "variance", "--goal", 0.3, "--csv", table, "--chart", chart)
+        drawn, denoised = found["default"], found["default"]["denoised"]
+        self.assertRegex(denoised["filter"], r"variance \d")
+        for number, (steps, before) in enumerate(zip(denoised["repetitions"], drawn["repetitions"])):
+            self.assertEqual([step["samples"] for step in steps], [1, 2, 4, 6])
+            self.assertEqual([step["samples"] for step in before], [1, 2, 4, 6])
+            for step, noisy in zip(steps, before):
+                # From four samples on the filter knows more, by looks at a quarter and a half of them.
+                self.renders(BOX, "-o", picture, "--quiet", *size, "--spp", int(step["samples"]), "--seed", 7 + number, "--denoise", "variance")
+                value = float(run("diff", picture, reference, "--metric", "relmse").stdout)
+                self.assertAlmostEqual(value / step["relmse"], 1, delta=1e-4)
+                self.assertLess(step["relmse"], 0.7 * noisy["relmse"])
+            # Layers and filter take longer than all samples of so small a picture, but may be measured while another program runs.
+            self.assertGreater(sum(s["seconds"] for s in steps), sum(s["seconds"] for s in before))
+        gain = drawn["goal"]["samples"] / denoised["goal"]["samples"]
+        self.assertAlmostEqual(denoised["denoised_is"]["times_fewer_samples"] / gain, 1, delta=1e-6)
+        self.assertIn("default denoised", result.stdout)
+        names = [row["configuration"] for row in csv.DictReader(table.read_text().splitlines())]
+        self.assertEqual(names, 8 * ["default"] + 8 * ["default denoised"])
+        self.assertIn("default denoised", chart.read_text())
+
 
 class BenchRefusals(Bench):
     def test_options_that_make_no_sense(self):
@@ -119,7 +145,8 @@ class BenchRefusals(Bench):
                               (["--configs", "random,random"], "twice"), (["--chart", self.folder / "b.png"], ".svg"),
                               (["--repetitions", "0"], "repetitions"), (["--goal", "-1"], "goal"), (["--goal", "nan"], "goal"),
                               (["--stats", self.folder / "s.json"], "--stats"), (["--configs", "adaptive"], "--reference"),
-                              (["--configs", "default", "--config", "wide=--resolution 9,8"], "wide")):
+                              (["--configs", "default", "--config", "wide=--resolution 9,8"], "wide"), (["--denoise", "fast"], "fast"),
+                              (["--denoise", "variance", "--config", "flat=--stage flat"], "flat")):
             with self.subTest(options):
                 self.refused(2, BOX, *SIZE, "--quiet", *options, says=[says])
         self.refused(2, says=["file"])

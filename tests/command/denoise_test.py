@@ -49,7 +49,7 @@ class Denoising(Case):
             self.assertNotEqual(raw.values(color), filtered.values(color))
         for layer in ("albedo.R", "albedo.G", "albedo.B", "samples.Y"):
             self.assertEqual(raw.values(layer), filtered.values(layer))
-        self.assertEqual(filtered.texts["fragtrace:denoise"], "variance 2")
+        self.assertRegex(filtered.texts["fragtrace:denoise"], r"^variance \d+$")
 
     def test_merge_joins_what_was_drawn(self):
         def joined(*options):

@@ -72,6 +72,28 @@ TEST(ErrorReport, TimeBetweenStepsIsThatOfThePowerLaw) {
   }
 }
 
+TEST(ErrorReport, FilteredCurvesAreReportedBesideThoseOfTheSamePicturesAndNotExtrapolated) {
+  ErrorReport report;
+  report.goal = 0.01;
+  report.curves = {curveOf(powerLaw(1.0, 1.0, 256)), curveOf(powerLaw(0.1, 1.0, 256)),
+                   curveOf(powerLaw(4.0, 1.0, 64), "slow"), curveOf(powerLaw(2.0, 1.0, 64), "slow")};
+  report.curves[1].filter = report.curves[3].filter = "blur 3";
+  EXPECT_FALSE(timeToReach(report.curves[3], report.goal));
+  const auto json = nlohmann::json::parse(errorJson(report))["configurations"];
+  ASSERT_EQ(json.size(), 2u);
+  EXPECT_EQ(json[0]["denoised"]["filter"], "blur 3");
+  EXPECT_NEAR(json[0]["denoised"]["denoised_is"]["times_sooner"].get<double>(), 10.0, 1e-9);
+  EXPECT_NEAR(json[1]["default_is"]["times_sooner"].get<double>(), 4.0, 1e-9);
+  EXPECT_EQ(json[1]["denoised"]["repetitions"][0].size(), 7u);
+  EXPECT_FALSE(json[1]["denoised"].contains("goal"));
+  const std::string table = errorTable(report);
+  for (const char* line : {"default denoised against default: 10 times", "default against slow: 4 times",
+                           "default denoised against slow: 40 times", "slow denoised      not reached"})
+    EXPECT_NE(table.find(line), std::string::npos) << line << "\n" << table;
+  EXPECT_NE(errorCsv(report).find("\nslow denoised,0,64,"), std::string::npos);
+  EXPECT_NE(errorChart(report).find("slow denoised"), std::string::npos);
+}
+
 TEST(ErrorReport, TimeOfAnErrorAboveTheFirstStepIsThatOfTheStep) {
   const auto reached = timeToReach(curveOf(powerLaw(2.0, 1.0, 4)), 100.0);
   ASSERT_TRUE(reached);
