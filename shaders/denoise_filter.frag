@@ -10,6 +10,7 @@ layout(location = 1) uniform int stride;
 layout(location = 0) out vec4 filtered;
 
 const float kDeviationsSquared = 2.5 * 2.5;  // of light, in standard deviations
+const float kUnlike = 20.0;  // times the lesser of two variances: what a quiet pixel takes a noisy one's for, and the other way round, so that no light is lost
 const float kRounding = 1e-6;                // of light, squared: what is not noise
 const float kTint = 0.2;                     // of luminance: what a channel's difference is relative to at least
 
@@ -40,7 +41,7 @@ void main() {
       bool there = inside(other);
       other = clamp(other, ivec2(0), size - 1);
       vec4 light = texelFetch(lights, other, 0);
-      float noise = kDeviationsSquared * (own.a + light.a) + rounding;
+      float noise = kDeviationsSquared * min(own.a + light.a, kUnlike * min(own.a, light.a)) + rounding;
       float exponent = likeness(guide, guideOf(texelFetch(guides, other, 0)), vec2(away)) - differenceOf(light.rgb, own.rgb) / noise;
       float weight = there ? kernel[abs(x)] * kernel[abs(y)] * exp(exponent) : 0.0;
       sum += weight * light.rgb;
