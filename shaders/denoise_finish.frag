@@ -9,10 +9,9 @@ layout(binding = 2) uniform sampler2D moved;
 layout(binding = 3) uniform usampler2D guides;
 layout(binding = 4) uniform sampler2D albedos;
 
-layout(location = 0) out vec4 denoised;
+layout(location = 1) uniform float trust;  // in the filter: its distance may be so many times the noise
 
-// A window's distance scatters about its noise, and a share below 1 gives noise back.
-const float kCertain = 1.5;
+layout(location = 0) out vec4 denoised;
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -28,7 +27,7 @@ void main() {
       sum += weight * texelFetch(moved, other, 0).xy;
     }
   }
-  float share = sum.x > kCertain * sum.y ? kCertain * sum.y / sum.x : 1.0;
+  float share = sum.x > trust * sum.y ? trust * sum.y / sum.x : 1.0;
   vec3 light = mix(texelFetch(lights, pixel, 0).rgb, texelFetch(filtered, pixel, 0).rgb, share);
   denoised = vec4(light * demodulation(texelFetch(albedos, pixel, 0)), 1.0);
 }

@@ -44,20 +44,28 @@ double luminanceOf(const glm::vec4& color) {
   return glm::dot(glm::dvec3(color), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-/// 1 / mean luminance of what has an albedo, divided by it as the shader does; 1 where all is black.
+/// 1 / typical luminance of what has an albedo, divided by it as the shader does; 1 where all is black. The
+/// geometric mean, in which a lamp that is a thousand times as bright as all else hardly counts, of no pixel
+/// less than a thousandth of the arithmetic one.
 double scaleOf(const std::vector<glm::vec4>& radiance, const std::vector<glm::vec4>& albedos) {
   constexpr float kAlbedoFloor = 0.04f;
+  constexpr double kLeast = 1e-3;
+  std::vector<double> lights;
+  lights.reserve(radiance.size());
   double sum = 0.0;
-  double count = 0.0;
   for (size_t i = 0; i < radiance.size(); ++i) {
     if (!(albedos[i].a > 0.0f)) continue;
     const glm::vec4 divisor = glm::mix(glm::max(albedos[i], 0.0f), glm::vec4(1.0f), kAlbedoFloor);
     const double light = luminanceOf(radiance[i] / divisor);
-    if (!(light > 0.0 && std::isfinite(light))) continue;
-    sum += light;
-    count += 1.0;
+    if (!std::isfinite(light)) continue;
+    lights.push_back(std::max(light, 0.0));
+    sum += lights.back();
   }
-  return sum > 0.0 ? count / sum : 1.0;
+  if (!(sum > 0.0)) return 1.0;
+  const double least = kLeast * sum / double(lights.size());
+  double logarithms = 0.0;
+  for (const double light : lights) logarithms += std::log(std::max(light, least));
+  return std::exp(-logarithms / double(lights.size()));
 }
 
 /// Brings radiance and its variance into units of the mean, so that squares neither overflow nor vanish; a
@@ -71,6 +79,17 @@ void scaleNoisy(std::vector<glm::vec4>& texels, const Image& image, double scale
     texels[i].w =
         known ? float(std::clamp(texels[i].w * scale * scale, 0.0, kBrightest * kBrightest)) : kUnknown;
   }
+}
+
+/// How many times the noise the filter may move a window's light. Distances scatter about their noise, and a
+/// share below 1 gives noise back; with many samples that matters less than what the filter takes for noise.
+float trustAt(const Image& image) {
+  constexpr double kFew = 16.0;
+  double samples = 0.0;
+  for (size_t i = channelOf(image, "samples.Y"); i < image.values.size(); i += image.channelCount())
+    samples += std::max(finite(image.values[i]), 0.0f);
+  const double each = samples * double(image.channelCount()) / double(image.values.size());
+  return float(1.0 + 0.5 * std::min(1.0, kFew / std::max(each, 1.0)));
 }
 
 /// What was observed of the variance, in the same units; empty where nothing was.
@@ -189,6 +208,7 @@ std::optional<Image> VarianceFilter::filtered(const Image& noisy, const std::fun
   const GlTexture& latest = turns[size_t(kLevels) % 2];
   const GlTexture& denoised = turns[size_t(kLevels + 1) % 2];
   passes.draw(compare_, {&light, &latest, &variance}, {&moved});
+  glProgramUniform1f(finish_.name(), 1, trustAt(noisy));
   passes.draw(finish_, {&light, &latest, &moved, &guides, &albedos}, {&denoised});
   std::vector<float> colors =
       readPictureTexture<float>(denoised, GL_RGB, 3, GL_FLOAT, size, "reading the denoised picture");
