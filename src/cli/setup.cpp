@@ -54,8 +54,9 @@ void checkFilmMemory(glm::ivec2 size, const RenderOptions& options) {
   constexpr uint64_t kOne = 48 + 48 + sizeof(FilmPixel);
   constexpr uint64_t kWithLayers = kOne + 48 + sizeof(FilmPixel);
   constexpr uint64_t kAdaptive = kOne + 96 + 2 * sizeof(FilmPixel) + 2 * sizeof(double);
-  // Textures, what one of them is made of, the picture with its layers twice, and the colours.
-  constexpr uint64_t kDenoised = 8 * 16 + 8 + 16 + 2 * 13 * 4 + 12;
+  // Textures, what two of them are made of, the film as it was on the way, the picture with its layers twice,
+  // and the colours.
+  constexpr uint64_t kDenoised = 7 * 16 + 20 + 20 + 2 * sizeof(FilmPixel) + 8 + 2 * 14 * 4 + 12;
   const bool adaptive = options.noise > 0.0 || options.seconds > 0.0;
   const uint64_t bytes = (adaptive                      ? kAdaptive
                           : options.aovFeatures.empty() ? kOne

@@ -29,8 +29,8 @@ PICTURES = {
     "lobes": SKY,
     "sun-sky": ["--hdri-file", SCENES / "sun-sky.pfm"],
 }
-# Where variance 2 does not hold the bound (docs/denoise.md).
-HARMED = {("lobes", 1024), ("sphere-textured", 64), ("sphere-textured", 256), ("glass-sphere", 1024), ("sun-sky", 1024)}
+# Where variance 2 falls short of that (docs/denoise.md), and what it must not get worse than.
+FALLS_SHORT = {("lobes", 1024): 1.13, ("sphere-textured", 64): 1.08, ("sphere-textured", 256): 1.12}
 
 
 class NoHarm(Case):
@@ -66,10 +66,8 @@ class NoHarm(Case):
         for scene, ratios in found.items():
             for spp, values in ratios.items():
                 bound = statistics.mean(values) + STUDENT * statistics.stdev(values) / math.sqrt(len(values))
-                if (scene, spp) in HARMED:
-                    continue
                 with self.subTest(scene=scene, spp=spp):
-                    self.assertLessEqual(bound, MOST, f"{statistics.mean(values):.3f} on average")
+                    self.assertLessEqual(bound, FALLS_SHORT.get((scene, spp), MOST), f"{statistics.mean(values):.3f} on average")
 
 
 if __name__ == "__main__":
