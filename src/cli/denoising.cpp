@@ -129,9 +129,18 @@ void denoise(Image& picture, const RenderOptions& options, const std::optional<O
              Statistics& stats) {
   if (options.denoise == Denoise::None) return;
   stats.denoise.emplace().skipped = whyNotDenoised(options);
-  if (!stats.denoise->skipped.empty()) return;
-  const std::optional<Image> denoised = filtered(picture, options, oidn, *stats.denoise);
-  if (!denoised) stats.complete = false;
+  if (!stats.denoise->skipped.empty()) {
+    say(options, "the picture is not filtered: " + stats.denoise->skipped);
+    return;
+  }
+  // Somebody who has interrupted the samples does not wait for seconds more.
+  const bool waits = !oidn || stats.complete;
+  const std::optional<Image> denoised =
+      waits ? filtered(picture, options, oidn, *stats.denoise) : std::nullopt;
+  if (!denoised) {
+    stats.complete = false;
+    stats.denoise->skipped = "interrupted";
+  }
   const Image noisy = onlyChannels(picture, {"R", "G", "B"});
   if (denoised) replaceColor(picture, *denoised);
   std::vector<std::string> asked = picture.channels;

@@ -163,6 +163,11 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
                   100.0 * stats.adaptive->error);
     noise = stats.adaptive->known ? text : ", error unknown";
   }
+  if (stats.denoise && !stats.denoise->filter.empty()) {
+    char text[32];
+    std::snprintf(text, sizeof text, " in %.2f s", stats.denoise->filterMs / 1000.0);
+    noise += ", " + stats.denoise->filter + text;
+  }
   sayWhatWasCut(options, stats);
   if (!stats.complete) say(options, "interrupted: what was finished is written");
   if (stats.adaptive && stats.adaptive->black) {

@@ -64,7 +64,7 @@ bool ViewDenoiser::drawGuides(glm::ivec2 size, int samples, Tracer& tracer, cons
 }
 
 std::optional<Image> ViewDenoiser::shown(const Image& drawn, int samples, const RenderOptions& options,
-                                         bool moving, Tracer& tracer, const View& view, SideMemory& memory,
+                                         bool byOidn, Tracer& tracer, const View& view, SideMemory& memory,
                                          const std::function<bool()>& goOn) {
   const std::vector<std::string> colors{"R", "G", "B", "A"};
   const double share = filteredShare(samples);
@@ -78,7 +78,6 @@ std::optional<Image> ViewDenoiser::shown(const Image& drawn, int samples, const 
   // The past fades out as the filter would: what it has seen from elsewhere is not what is seen here.
   const double past = kMostPastSamples * std::max(0.0, 1.0 - samples / kAllUpTo);
   if (memory.past && past > 0.0) present.layers = withPast(present, *memory.past, past);
-  const bool byOidn = options.denoise == Denoise::Oidn && oidn_ && !moving;
   if (!byOidn && !filter_) filter_ = std::make_unique<VarianceFilter>(shaderSource(shaderFolder_));
   const std::optional<Image> filtered =
       byOidn

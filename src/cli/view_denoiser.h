@@ -35,9 +35,8 @@ class ViewDenoiser {
 
   /// R, G, B and A as they are to be shown. `drawn` has R, G, B, A, samples.Y and variance.Y of so many
   /// samples a pixel, drawn by `tracer`, whose layers are drawn where they are not there yet. By Open Image
-  /// Denoise only where `options` say so, it is there, and nothing moves: it takes too long for that. Nothing
-  /// when goOn() said no. Throws RenderError.
-  std::optional<Image> shown(const Image& drawn, int samples, const RenderOptions& options, bool moving,
+  /// Denoise, which must be there, or by variance. Nothing when goOn() said no. Throws RenderError.
+  std::optional<Image> shown(const Image& drawn, int samples, const RenderOptions& options, bool byOidn,
                              Tracer& tracer, const View& view, SideMemory& memory,
                              const std::function<bool()>& goOn);
 

@@ -17,6 +17,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// The network makes little of fewer.
+constexpr int kFewestForOidn = 4;
 /// Below this many samples the variance of a pixel tells little of its error.
 constexpr int kLeastForError = 32;
 constexpr double kErrorStep = 1.2;  ///< from one estimate of the error to the next, in samples
@@ -45,6 +47,12 @@ void ViewTracer::estimate(Side& side, const FilmPixels& pixels) {
 
 bool ViewTracer::denoises(const Side& side) { return whyNotDenoised(side.options).empty(); }
 
+bool ViewTracer::denoisesByOidn(const Side& side) const {
+  const bool still = !request_.moving && resolution_.step == 0;
+  return denoises(side) && oidn_ && side.options.denoise == Denoise::Oidn && still &&
+         side.samples >= kFewestForOidn;
+}
+
 std::optional<Image> ViewTracer::shownOf(Side& side, const FilmPixels& pixels,
                                          const std::function<bool()>& goOn) {
   const ShaderVariant& variant = side.program->tracer.variant;
@@ -52,11 +60,20 @@ std::optional<Image> ViewTracer::shownOf(Side& side, const FilmPixels& pixels,
   if (!denoises(side)) return shownPicture(side.options, variant, pixels, {alpha});
   const auto start = Clock::now();
   const Image drawn = shownPicture(side.options, variant, pixels, {true, true, true});
-  std::optional<Image> shown =
-      denoiser_->shown(drawn, side.samples, side.options, request_.moving || resolution_.step > 0,
-                       side.program->tracer, side.view, side.memory, goOn);
-  filterMsPerPixel_ = sinceMs(start) / double(pixels.pixels.size());
+  std::optional<Image> shown;
+  try {
+    shown = denoiser_->shown(drawn, side.samples, side.options, denoisesByOidn(side), side.program->tracer,
+                             side.view, side.memory, goOn);
+  } catch (const ContextLost&) {
+    throw;
+  } catch (const RenderError& error) {
+    exchange_.tellError(error.what());
+    shown = onlyChannels(drawn, {"R", "G", "B", "A"});
+  }
+  if (!denoisesByOidn(side)) filterMsPerPixel_ = sinceMs(start) / double(pixels.pixels.size());
+  side.filterMs = sinceMs(start);
   if (shown && !alpha) *shown = withoutAlpha(*shown);
+  if (shown) side.shown = *shown;
   return shown;
 }
 
@@ -71,6 +88,7 @@ void ViewTracer::publish(Side& side) {
   std::optional<Image> shown = shownOf(
       side, pixels, [this] { return request_.moving ? !exchange_.ending() : !exchange_.interrupted(); });
   if (!shown) return;
+  side.shownAt = side.samples;
   picture.image = std::move(*shown);
   if (has(side.program->tracer.variant.stages, Stage::BvhHeatmap)) picture.image = colorsOf(picture.image);
   picture.asItIs = showsColors(side.options);
@@ -88,7 +106,7 @@ void ViewTracer::publish(Side& side) {
   }
   if (denoises(side)) {
     s.filtered = filteredShare(side.samples);
-    s.filterMs = filterMsPerPixel_ * double(pixels.pixels.size());
+    s.filterMs = side.filterMs;
   }
   s.resting = !request_.moving && resolution_.step == 0 && resting(side);
   s.variant = side.program->variant;
@@ -115,8 +133,11 @@ void ViewTracer::save(const SaveRequest& request) {
     const bool exr = formatOfName(options.output) == ImageFormat::OpenExr;
     const Layers layers{!options.background, options.aovSamples, options.aovVariance};
     // A file of radiance is what its samples say, one for a display what is seen.
-    Image image = exr ? shownPicture(options, side.program->tracer.variant, pixels, layers)
-                      : *shownOf(side, pixels, [] { return true; });
+    const bool seen =
+        denoises(side) && side.shown.width == pixels.size.x && side.shown.height == pixels.size.y;
+    Image image = exr    ? shownPicture(options, side.program->tracer.variant, pixels, layers)
+                  : seen ? side.shown
+                         : *shownOf(side, pixels, [] { return true; });
     loaded_->camera = side.view.camera;
     loaded_->size = pixels.size;
     if (exr && options.debugView == DebugView::None)

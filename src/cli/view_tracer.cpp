@@ -222,6 +222,8 @@ void ViewTracer::fitFilm(Side& side) {
   const bool fits = side.film && side.film->size() == size;
   if (fits && !side.stale) return;
   if (!fits) side.memory.turn();
+  side.shown = {};
+  side.shownAt = 0;
   if (fits)
     side.film->clear();
   else
@@ -283,7 +285,8 @@ bool ViewTracer::work() {
   std::vector<double>& frames = side->times.frameMs;
   if (frames.size() > kFrames) frames.erase(frames.begin(), frames.end() - kFrames);
   const double pause = (denoises(*side) ? kFilteredShare : kPublishShare) * publishMs_;
-  const bool due = millisecondsSince(published_) > std::max(kPublishMs, pause);
+  const bool due = denoisesByOidn(*side) ? side->samples >= 2 * side->shownAt
+                                         : millisecondsSince(published_) > std::max(kPublishMs, pause);
   if (!settled || side->samples == count || due || resting(*side)) publish(*side);
   return true;
 }

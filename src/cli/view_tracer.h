@@ -45,6 +45,9 @@ class ViewTracer {
     int errorAt = 0;    ///< samples when it was estimated
     bool stale = true;  ///< what the film holds is another picture
     SideMemory memory;
+    Image shown;            ///< published last, where it is filtered; may be empty
+    int shownAt = 0;        ///< samples when it was
+    double filterMs = 0.0;  ///< that it took
   };
 
   void enterContext();
@@ -67,6 +70,8 @@ class ViewTracer {
   void estimate(Side& side, const FilmPixels& pixels);
   /// Whether the side's picture is filtered.
   static bool denoises(const Side& side);
+  /// By Open Image Denoise, which takes seconds and so runs when the samples have doubled.
+  bool denoisesByOidn(const Side& side) const;
   /// What the side shows now; nothing when something more urgent waits.
   std::optional<Image> shownOf(Side& side, const FilmPixels& pixels, const std::function<bool()>& goOn);
   void publish(Side& side);

@@ -142,8 +142,45 @@ bool hasOidnGuides(const Image& picture) {
   return hasLayer(picture, kOidnAlbedo) && hasLayer(picture, kOidnNormal);
 }
 
+namespace {
+
+/// The library takes what is outside of a thin picture for black: its last rows and columns are repeated.
+constexpr int kThinnest = 64;
+
+Image atLeastAsLarge(const Image& image) {
+  Image larger{std::max(image.width, kThinnest), std::max(image.height, kThinnest), image.channels, {}, {}};
+  const size_t channels = image.channelCount();
+  larger.values.reserve(size_t(larger.width) * size_t(larger.height) * channels);
+  for (int y = 0; y < larger.height; ++y) {
+    for (int x = 0; x < larger.width; ++x) {
+      const size_t from =
+          size_t(std::min(y, image.height - 1)) * size_t(image.width) + size_t(std::min(x, image.width - 1));
+      const float* pixel = &image.values[from * channels];
+      larger.values.insert(larger.values.end(), pixel, pixel + channels);
+    }
+  }
+  return larger;
+}
+
+/// The first rows and columns.
+Image cutTo(const Image& image, int width, int height) {
+  Image part{width, height, image.channels, {}, {}};
+  for (int y = 0; y < height; ++y) {
+    const auto row =
+        image.values.begin() + std::ptrdiff_t(size_t(y) * size_t(image.width) * image.channelCount());
+    part.values.insert(part.values.end(), row, row + std::ptrdiff_t(size_t(width) * image.channelCount()));
+  }
+  return part;
+}
+
+}  // namespace
+
 std::optional<Image> denoisedByOidn(const Image& noisy, const OidnLibrary& library, uint64_t memoryBytes,
                                     const OidnProgress& progress) {
+  if (noisy.width < kThinnest || noisy.height < kThinnest) {
+    const std::optional<Image> larger = denoisedByOidn(atLeastAsLarge(noisy), library, memoryBytes, progress);
+    return larger ? std::optional(cutTo(*larger, noisy.width, noisy.height)) : std::nullopt;
+  }
   const bool guided = hasOidnGuides(noisy);
   Triples color = triplesOf(noisy, kOidnColor);
   const std::optional<int> exponent = exponentOf(color);

@@ -57,7 +57,8 @@ void* openOidnFile(const std::filesystem::path& path, std::string& reason) {
   std::error_code error;
   // The loader waits for whoever writes to a pipe.
   if (!std::filesystem::is_regular_file(path, error)) {
-    reason = path.string() + ": there is no such file";
+    reason =
+        path.string() + (std::filesystem::exists(path, error) ? ": is no file" : ": there is no such file");
     return nullptr;
   }
   void* handle = dlopen(std::filesystem::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -40,6 +40,29 @@ std::vector<glm::vec4> texelsOf(const Image& image, const std::array<const char*
   return texels;
 }
 
+/// Pixels whose colour is not finite get the mean of those around them that are.
+void fillHoles(std::vector<glm::vec4>& texels, const Image& image) {
+  const auto whole = [&](int x, int y) {
+    const float* pixel = &image.values[(size_t(y) * size_t(image.width) + size_t(x)) * image.channelCount()];
+    return std::isfinite(pixel[0]) && std::isfinite(pixel[1]) && std::isfinite(pixel[2]);
+  };
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (whole(x, y)) continue;
+      glm::vec4 sum(0.0f);
+      float count = 0.0f;
+      for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, image.height - 1); ++ny) {
+        for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, image.width - 1); ++nx) {
+          if (!whole(nx, ny)) continue;
+          sum += texels[size_t(ny) * size_t(image.width) + size_t(nx)];
+          count += 1.0f;
+        }
+      }
+      texels[size_t(y) * size_t(image.width) + size_t(x)] = sum / std::max(count, 1.0f);
+    }
+  }
+}
+
 double luminanceOf(const glm::vec4& color) {
   return glm::dot(glm::dvec3(color), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
@@ -175,7 +198,14 @@ VarianceFilter::VarianceFilter(const ShaderSource& source)
 
 std::optional<Image> VarianceFilter::filtered(const Image& noisy, const std::function<bool()>& goOn) const {
   const glm::ivec2 size(noisy.width, noisy.height);
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  if (size.x > most || size.y > most) {
+    throw RenderError("the picture is " + std::to_string(size.x) + " x " + std::to_string(size.y) +
+                      " pixels, this driver filters at most " + std::to_string(most) + " a side");
+  }
   std::vector<glm::vec4> texels = texelsOf(noisy, {"R", "G", "B", "variance.Y"});
+  fillHoles(texels, noisy);
   const std::vector<glm::vec4> albedo = texelsOf(noisy, {"albedo.R", "albedo.G", "albedo.B", "A"});
   const double scale = scaleOf(texels, albedo);
   scaleNoisy(texels, noisy, scale);

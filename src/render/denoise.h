@@ -29,8 +29,9 @@ class VarianceFilter {
 
   /// R, G and B of the picture that `noisy` converges to, estimated from linear R, G, B, its variance.Y and
   /// samples.Y, the layers A, albedo.RGB, normal.XYZ and depth.Z of first hits, and observed.Y where it is
-  /// there. Values that are not finite count as 0. Nothing, when goOn(), which is asked between passes, says
-  /// no. Throws RenderError naming a layer that is missing.
+  /// there. Pixels whose colour is not finite are filled from their neighbours; other such values count as 0.
+  /// Nothing, when goOn(), which is asked between passes, says no. Throws RenderError naming a layer that is
+  /// missing.
   std::optional<Image> filtered(const Image& noisy, const std::function<bool()>& goOn) const;
   Image filtered(const Image& noisy) const {
     return *filtered(noisy, [] { return true; });

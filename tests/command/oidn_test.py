@@ -138,7 +138,7 @@ class OidnFailures(OidnCase):
         text.write_text("no library")
         os.mkfifo(pipe)
         lacking.write_bytes(FAKE.read_bytes().replace(b"oidnExecuteFilter\0", b"oidnExecuteFrames\0"))
-        for path, says in ((text, "a.so"), (pipe, "no such file"), (self.folder, "no such file"), ("/none", "no such file"),
+        for path, says in ((text, "a.so"), (pipe, "is no file"), (self.folder, "is no file"), ("/none", "no such file"),
                            (lacking, "lacks oidnExecuteFilter")):
             self.refuses("--oidn-library", path, says=[says])
         self.refuses(says=["FRAGTRACE_OIDN_LIBRARY", "/none"], FRAGTRACE_OIDN_LIBRARY="/none")
@@ -181,18 +181,20 @@ class DenoiseFiles(OidnCase):
     """`fragtrace denoise`, and `merge --denoise`."""
 
     def test_a_file_gives_what_render_gives(self):
-        """Coverage, which the variance filter needs, is told from the other layers where a file lacks it."""
+        """Coverage, which the variance filter needs, is told from the other layers where a file lacks it. (Of pictures of four samples and more `render` knows
+        more than the file: how far the film was from its end on the way.)"""
         for scene in (BOX, SCENES / "glass-sphere.gltf"):
-            raw = self.draw("n.exr", *NEEDED, scene=scene)
+            few = ["--spp", "3", "--resolution", "96,64", *NEEDED]
+            raw = self.draw("n.exr", *few, scene=scene)
             for filter in ("oidn", "variance"):
-                whole = Exr(self.draw("d.exr", *NEEDED, "--denoise", filter, scene=scene))
+                whole = Exr(self.draw("d.exr", *few, "--denoise", filter, scene=scene))
                 file = Exr(self.denoises(raw, "f.exr", "--denoise", filter))
                 self.assertEqual((set(file.layers), file.texts), (set(whole.layers), whole.texts))
                 for name in whole.layers:
                     if filter == "oidn" or name not in "RGB":
                         self.assertEqual(file.values(name), whole.values(name), name)
                 light, differences = zip(*((abs(b), abs(a - b)) for c in "RGB" for a, b in zip(file.values(c), whole.values(c))))
-                self.assertLess(sum(differences), 0.01 * sum(light))
+                self.assertLess(sum(differences), 0.001 * sum(light))
 
     def test_a_filtered_file_is_filtered_from_its_noisy_colours(self):
         first = self.denoises(self.draw("n.exr", *NEEDED), "a.exr", "--denoise", "variance")
