@@ -8,6 +8,7 @@
 #include "cli/camera_options.h"
 #include "cli/command_text.h"
 #include "cli/commands.h"
+#include "cli/denoising.h"
 #include "cli/outputs.h"
 #include "cli/view_tracer.h"
 #include "errors.h"
@@ -32,12 +33,14 @@ const WindowLibrary& windowLibrary() {
 
 }  // namespace
 
-int runView(const ViewOptions& options) {
+int runView(const ViewOptions& asked) {
+  ViewOptions options = asked;
   const NamedOutput status{"--status-file", options.statusFile};
   checkOutputs({&status, 1}, inputsOf(options.render));
   const WindowLibrary& library = windowLibrary();
+  std::optional<OidnLibrary> oidn = openDenoiser(options.render);
   Exchange exchange;
-  ViewTracer tracer(options, exchange);
+  ViewTracer tracer(options, std::move(oidn), exchange);
   std::promise<void> ended;
   std::thread tracing;
   const auto begin = [&] {

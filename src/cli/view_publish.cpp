@@ -67,6 +67,7 @@ std::optional<Image> ViewTracer::shownOf(Side& side, const FilmPixels& pixels,
   } catch (const ContextLost&) {
     throw;
   } catch (const RenderError& error) {
+    side.program->tracer.renderer->use(variant);  // it may have been at a layer
     exchange_.tellError(error.what());
     shown = onlyChannels(drawn, {"R", "G", "B", "A"});
   }

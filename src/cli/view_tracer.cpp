@@ -41,10 +41,8 @@ std::string whatFailed(const std::exception_ptr& error) {
 
 }  // namespace
 
-ViewTracer::ViewTracer(const ViewOptions& start, Exchange& exchange)
-    : start_(start), exchange_(exchange), loader_(exchange) {
-  RenderOptions options = start_.render;
-  oidn_ = openDenoiser(options);
+ViewTracer::ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn, Exchange& exchange)
+    : start_(start), exchange_(exchange), loader_(exchange), oidn_(std::move(oidn)) {
   passOnWhatIsSaid([&exchange](const std::string& text) { exchange.tell(text); });
 }
 

@@ -21,8 +21,8 @@ namespace fragtrace {
 class ViewTracer {
  public:
   /// The scene of the options is loaded first; when that fails, or there is no context, so does the program.
-  /// Throws UsageError when --denoise asks for a library that cannot be opened.
-  ViewTracer(const ViewOptions& start, Exchange& exchange);
+  /// `oidn` is open where the options ask for it.
+  ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn, Exchange& exchange);
   ViewTracer(const ViewTracer&) = delete;
   ViewTracer& operator=(const ViewTracer&) = delete;
   ~ViewTracer() { passOnWhatIsSaid({}); }
@@ -87,7 +87,7 @@ class ViewTracer {
   std::unique_ptr<LoadedScene> loaded_;
   RenderOptions loadedOptions_;  ///< of the scene
   std::unique_ptr<ViewPrograms> programs_;
-  std::optional<OidnLibrary> oidn_;  ///< open once it was asked for
+  std::optional<OidnLibrary> oidn_;  ///< opened later where a pasted command asks for it
   std::unique_ptr<ViewDenoiser> denoiser_;
   TraceRequest request_;
   std::vector<Side> sides_;

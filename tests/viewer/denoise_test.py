@@ -3,7 +3,7 @@
 """The noise filter in the window: while samples are few, while the camera moves, and against the raw picture."""
 from pathlib import Path
 
-from support import Case, main, pixels_of
+from support import FRAGTRACE, Case, largest_difference, main, pixels_of
 
 SIZE = ["--resolution", "160,120", "--tone-map", "linear"]
 FILTER = ["--denoise", "variance"]
@@ -12,6 +12,10 @@ FILTER = ["--denoise", "variance"]
 def distance(a, b):
     """Mean squared difference, in levels."""
     return sum((u - v) ** 2 for p, q in zip(a, b) for u, v in zip(p, q)) / len(a)
+
+
+def mean(picture, channel):
+    return sum(pixel[channel] for pixel in picture) / len(picture)
 
 
 class DenoisedView(Case):
@@ -54,6 +58,26 @@ class DenoisedView(Case):
                 else:
                     self.assertLess(errors[samples], 0.2 * distance(raw, reference))
             self.ends_well(viewer, viewer.close())
+
+    def test_open_image_denoise(self):
+        """The stand-in adds 0.25 of albedo and -0.5 of the normal to each colour; one that fails leaves what was drawn."""
+        library = ["--denoise", "oidn", "--oidn-library", FRAGTRACE.parent / "fake_oidn/libOpenImageDenoise.so.2"]
+        raw = pixels_of(self.render("cornell-box", *SIZE, "--spp", 4))
+        for told, works in (("", True), ("execute", False)):
+            with self.subTest(told=told):
+                self.screen.environment["FAKE_OIDN"] = told
+                viewer = self.view("cornell-box", *SIZE, *library, "--spp", "4")
+                viewer.rest(lambda s: s["sides"][0]["samples"] == 4)
+                shown = self.shot(viewer)
+                if works:
+                    rendered = pixels_of(self.render("cornell-box", *SIZE, *library, "--spp", 4))
+                    for c in range(3):  # not pixel by pixel: the coarser pictures on the way to rest count, too
+                        self.assertAlmostEqual(mean(shown, c), mean(rendered, c), delta=3)
+                    self.assertGreater(abs(mean(shown, 1) - mean(raw, 1)), 5)
+                else:
+                    self.assertLessEqual(largest_difference(shown, raw), 1)  # the two compile with other optimisations
+                    self.assertIn("Open Image Denoise", viewer.status()["error"])
+                viewer.close()
 
     def test_files_of_radiance_keep_what_was_drawn(self):
         viewer = self.view("cornell-box", *SIZE, *FILTER, "--spp", "4")
