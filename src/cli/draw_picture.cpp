@@ -67,7 +67,10 @@ LayerDraw addLayer(Image& picture, Renderer& renderer, const ShaderVariant& vari
   LayerDraw layer;
   RenderTimes times;
   Film film({picture.width, picture.height});
-  layer.compileMs = renderer.compile(variant, film, view);
+  if (renderer.knows(variant))
+    renderer.use(variant);
+  else
+    layer.compileMs = renderer.compile(variant, film, view);
   layer.complete = renderer.addSamples(film, view, 0, samples, times, progress);
   layer.drawMs = times.renderMs;
   const FilmPixels pixels = film.read();

@@ -41,7 +41,8 @@ struct LayerDraw {
   FilmTotals totals;
 };
 
-/// Appends a layer of first hits to the picture; an incomplete one when progress stopped it.
+/// Appends a layer of first hits to the picture; an incomplete one when progress stopped it. The renderer
+/// goes on with that variant. Compiles what it does not know yet.
 LayerDraw addLayer(Image& picture, Renderer& renderer, const ShaderVariant& variant, const View& view,
                    int samples, const Renderer::Progress& progress = Renderer::toTheEnd);
 

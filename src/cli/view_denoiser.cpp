@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/draw_picture.h"
 #include "denoise/oidn.h"
 #include "gl/program.h"
 #include "image/channels.h"
@@ -14,7 +15,6 @@ namespace {
 
 constexpr double kAllUpTo = 64.0;  // samples
 constexpr double kNoneFrom = 256.0;
-constexpr int kMostGuideSamples = 16;
 constexpr int kGuideStep = 4;              // from one set of guides to the next, in samples
 constexpr double kMostPastSamples = 16.0;  // that the past counts for
 
@@ -34,27 +34,16 @@ void SideMemory::turn() {
 
 bool ViewDenoiser::drawGuides(glm::ivec2 size, int samples, Tracer& tracer, const View& view,
                               SideMemory& memory, const std::function<bool()>& goOn) {
-  const int wanted = std::min(samples, kMostGuideSamples);
+  const int wanted = std::min(samples, kFewLayerSamples);
   const bool enough = memory.guides.width == size.x && memory.guides.height == size.y &&
-                      (memory.guideSamples >= kMostGuideSamples || wanted < kGuideStep * memory.guideSamples);
+                      (memory.guideSamples >= kFewLayerSamples || wanted < kGuideStep * memory.guideSamples);
   if (enough) return true;
   Image guides{size.x, size.y, {}, {}, {}};
-  Film film(size);
   bool complete = true;
   for (const ShaderVariant& variant : tracer.features) {
-    const FeatureRow& row = rowOf(variant.feature);
-    if (tracer.renderer->knows(variant))
-      tracer.renderer->use(variant);
-    else
-      tracer.renderer->compile(variant, film, view);
-    film.clear();
-    RenderTimes times;
     complete =
-        complete && tracer.renderer->addSamples(film, view, 0, wanted, times, [&](double) { return goOn(); });
+        addLayer(guides, *tracer.renderer, variant, view, wanted, [&](double) { return goOn(); }).complete;
     if (!complete) break;
-    std::vector<std::string> names;
-    for (const char channel : row.channels) names.push_back(std::string(row.name) + "." + channel);
-    appendChannels(guides, imageOf(film.read(), {}), names);
   }
   tracer.renderer->use(tracer.variant);
   if (!complete) return false;
