@@ -37,3 +37,18 @@ FilmPixel addSample(FilmPixel f, vec3 radiance, float alpha) {
   f.m2 = min(f.m2 + (value - before) * (value - after), float(3.0e38));
   return f;
 }
+
+/// Adds what tells surfaces apart (kFeatureGuides), in plain sums: the normal in place of the compensation, depth in place of the squares
+/// (Film::readGuides).
+FilmPixel addGuides(FilmPixel f, vec3 albedo, vec3 normal, float depth, float alpha) {
+  f.samples += 1u;
+  f.alpha += alpha;
+  if (isNonfinite(dot(albedo, vec3(1.0f))) || isNonfinite(dot(normal, vec3(1.0f))) || isNonfinite(depth)) {
+    f.nonfinite += 1u;
+    return f;
+  }
+  f.sum += albedo;
+  f.compensation += normal;
+  f.m2 += depth;
+  return f;
+}

@@ -50,6 +50,7 @@ const int kFeatureDepth = 3;
 const int kFeatureGeometricNormal = 4;
 const int kFeatureRoughness = 5;
 const int kFeatureTexcoords = 6;
+const int kFeatureGuides = 7;
 
 // Film flags.
 const uint kPixelSuspended = 1u;  // the path of this pixel goes on in the next draw

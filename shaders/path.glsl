@@ -179,7 +179,7 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
   p.bounce += 1;
   p.clear += clear ? 1 : 0;
   // Roulette begins in time even where it is not wanted: nothing else ends a ray that glass keeps inside.
-  if ((kGi || clear) && p.bounce >= (clear ? min(frame.limits.y, kLatestRoulette) : frame.limits.y)) {
+  if ((kGi || clear) && kFeature == kFeatureNone && p.bounce >= (clear ? min(frame.limits.y, kLatestRoulette) : frame.limits.y)) {
     float survival = min(maxComponent(p.throughput) * p.compression, clear ? kClearSurvival : 0.95);
     if (drawFloat(p.numbers, kBounceDimensions * uint(p.bounce) + kRouletteDimension) >= survival) return p;
     p.throughput /= survival;

@@ -63,18 +63,28 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
 }
 
 /// Smooth glass of the stages before global illumination: one ray, chosen by the reflectance.
-Path scatterGlass(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
+Path scatterGlass(Path p, Surface s, SurfaceMaterial m, vec3 normal, float choice) {
   Bsdf b = baseBsdf(m, s.front);
   Frame3 around = frameAround(normal);
-  BsdfSample next = sampleSmoothGlass(b, toFrame(around, -p.direction), pathRandom(p, kLobeDimension));
+  BsdfSample next = sampleSmoothGlass(b, toFrame(around, -p.direction), choice);
   vec3 direction = ontoSide(normalize(toWorld(around, next.incoming)), s.geometricNormal, next.transmitted);
   return scatter(p, s, direction, next.weight, 0.0, next.transmitted, m);
+}
+
+/// Mirror reflection of the stages before global illumination, of so much of what a mirror would reflect.
+Path scatterMirror(Path p, Surface s, SurfaceMaterial m, vec3 normal, float share) {
+  vec3 outgoing = -p.direction;
+  vec3 f0 = phongF0(m.baseColor, m.metallic, m.dielectricF0);
+  vec3 weight = vec3(0.0);
+  if (kReflections) weight = fresnelSchlick(f0, mix(m.specular, 1.0, m.metallic), dot(normal, outgoing)) * share;
+  vec3 direction = ontoSide(normalize(mirrorDirection(outgoing, normal)), s.geometricNormal, false);
+  return scatter(p, s, direction, weight, 0.0, false, m);
 }
 
 /// Blinn-Phong, mirror reflection and smooth glass.
 Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   if (kRefraction && pathRandom(p, kGlassDimension) < m.transmission * (1.0 - m.metallic)) {
-    return scatterGlass(p, s, m, normal);
+    return scatterGlass(p, s, m, normal, pathRandom(p, kLobeDimension));
   }
   vec3 outgoing = -p.direction;
   vec3 f0 = phongF0(m.baseColor, m.metallic, m.dielectricF0);
@@ -92,14 +102,12 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   p.lightSlot += 1;
   p.after = kPhaseShade;
   if (p.lightSlot < lights) return p;
-  vec3 weight = vec3(0.0);
-  if (kReflections) {
-    float gloss = 1.0 - m.roughness;
-    weight = fresnelSchlick(f0, mix(m.specular, 1.0, m.metallic), dot(normal, outgoing)) * (gloss * gloss);
-  }
-  vec3 direction = ontoSide(normalize(mirrorDirection(outgoing, normal)), s.geometricNormal, false);
-  return scatter(p, s, direction, weight, 0.0, false, m);
+  float gloss = 1.0 - m.roughness;
+  return scatterMirror(p, s, m, normal, gloss * gloss);
 }
+
+/// Metres along the view axis.
+float depthOf(Surface s) { return dot(s.position - frame.cameraPosition.xyz, frame.cameraForward.xyz) * frame.cameraForward.w; }
 
 /// What kFeature asks for of the point that a camera ray hits.
 vec3 featureAt(Surface s, vec3 baseColor, vec3 outgoing) {
@@ -108,8 +116,10 @@ vec3 featureAt(Surface s, vec3 baseColor, vec3 outgoing) {
   if (kFeature == kFeatureGeometricNormal) return s.geometricNormal;
   if (kFeature == kFeatureRoughness) return vec3(materialAt(s.material, baseColor, s.texcoords).roughness);
   if (kFeature == kFeatureTexcoords) return vec3(s.texcoords.xy, 0.0);
-  return vec3(dot(s.position - frame.cameraPosition.xyz, frame.cameraForward.xyz) * frame.cameraForward.w);
+  return vec3(depthOf(s));
 }
+
+#include "guides.glsl"
 
 /// One step at the point hit. The first visit also settles alpha, absorption and emission.
 Path shade(Path p) {
@@ -122,6 +132,7 @@ Path shade(Path p) {
       return tracePast(p, kFarAway, p.hitT, p.hitSlot);
     }
     if (p.cameraRay) p.alpha = 1.0;
+    if (kFeature == kFeatureGuides) return guideAt(p, s, base.rgb);
     if (kFeature != kFeatureNone) {
       p.radiance = featureAt(s, base.rgb, -p.direction);
       p.phase = kPhaseEnd;

@@ -172,7 +172,11 @@ void tracePixel(ivec2 pixel) {
     if (p.phase >= kPhaseEnd) {
       cut += cutThroughput(p);
       if (kHeatmap) p.radiance = vec3(float(p.traversal.visits));
-      film = addSample(film, p.radiance, p.alpha);
+      if (kFeature == kFeatureGuides) {
+        film = addGuides(film, p.radiance, p.contribution, p.shadowLimit, p.alpha);
+      } else {
+        film = addSample(film, p.radiance, p.alpha);
+      }
       tracing = false;
     }
   }

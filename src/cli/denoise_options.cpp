@@ -50,7 +50,7 @@ void addDenoiseCommandOptions(CLI::App& app, RawDenoise& raw) {
   app.add_option("--denoise", raw.render.denoise,
                  joined(kFileFilterNames) +
                      ": the filter; auto: oidn where it is installed, else variance, "
-                     "which needs --aov albedo,normal,depth,samples,variance")
+                     "which needs --aov denoising")
       ->capture_default_str();
   addFileFilterOptions(app, raw.render);
   app.add_option("--exposure", raw.render.options.exposure, describedByRender("--exposure"))

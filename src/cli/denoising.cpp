@@ -24,24 +24,15 @@ namespace {
 constexpr const char* kFilterAttribute = "fragtrace:denoise";
 std::vector<std::string> noisyNames() { return {"noisy.R", "noisy.G", "noisy.B"}; }
 
-/// Whether the filter looks at the layer.
-bool isGuide(const RenderOptions& options, Feature feature) {
-  return options.denoise == Denoise::Variance || feature != Feature::Depth;
-}
-
-bool isUnasked(const RenderOptions& options, Feature feature) {
-  return std::ranges::find(options.aovFeatures, feature) == options.aovFeatures.end();
+bool hasGuides(const RenderOptions& options) {
+  return std::ranges::find(options.aovFeatures, Feature::Guides) != options.aovFeatures.end();
 }
 
 /// Whether the channel is there for the filter alone.
 bool isForTheFilter(const std::string& channel, const RenderOptions& options) {
-  if (channel == "A") return options.background;
-  if (channel == kObservedChannel) return true;
   if (channel == "samples.Y") return !options.aovSamples;
   if (channel == "variance.Y") return !options.aovVariance;
-  return std::ranges::any_of(kGuides, [&](Feature guide) {
-    return isUnasked(options, guide) && channel.starts_with(std::string(rowOf(guide).name) + ".");
-  });
+  return channel.starts_with("denoising.") && !hasGuides(options);
 }
 
 }  // namespace
@@ -74,9 +65,7 @@ RenderOptions withGuides(const RenderOptions& options) {
   RenderOptions drawn = options;
   if (!whyNotDenoised(options).empty()) return drawn;
   if (options.denoise == Denoise::Variance) drawn.aovSamples = drawn.aovVariance = true;
-  for (const Feature guide : kGuides) {
-    if (isGuide(options, guide) && isUnasked(options, guide)) drawn.aovFeatures.push_back(guide);
-  }
+  if (!hasGuides(options)) drawn.aovFeatures.push_back(Feature::Guides);
   return drawn;
 }
 

@@ -14,9 +14,6 @@
 
 namespace fragtrace {
 
-/// Layers of first hits that tell surfaces apart.
-inline constexpr std::array kGuides{Feature::Albedo, Feature::Normal, Feature::Depth};
-
 /// Why such a picture is not denoised though that is asked for; empty: it is.
 std::string whyNotDenoised(const RenderOptions& options);
 

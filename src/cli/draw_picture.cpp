@@ -13,9 +13,10 @@ namespace fragtrace {
 
 namespace {
 
-/// Whether the picture goes through our own filter, which needs to know its noise and coverage.
-bool byVariance(const RenderOptions& options) {
-  return options.denoise == Denoise::Variance && whyNotDenoised(options).empty();
+/// Whether somebody will ask for the picture's noise: our own filter, now or when the file is read again.
+bool needsObservation(const RenderOptions& options) {
+  const std::vector<Feature>& layers = withGuides(options).aovFeatures;
+  return withGuides(options).aovVariance && std::ranges::find(layers, Feature::Guides) != layers.end();
 }
 
 }  // namespace
@@ -23,7 +24,7 @@ bool byVariance(const RenderOptions& options) {
 bool drawAllSamples(Renderer& renderer, Film& film, const RenderOptions& options, const View& view,
                     RenderTimes& times, const Renderer::Progress& progress, Drawing& drawing) {
   constexpr int kFewest = 4;
-  const bool looks = byVariance(options) && options.spp >= kFewest;
+  const bool looks = needsObservation(options) && options.spp >= kFewest;
   std::vector<FilmPixels> seen;
   int from = 0;
   bool complete = true;
@@ -48,9 +49,8 @@ bool drawAllSamples(Renderer& renderer, Film& film, const RenderOptions& options
 
 Image pictureOf(const Drawing& drawing, const RenderOptions& options, const ShaderVariant& variant) {
   const RenderOptions drawn = withGuides(options);
-  const bool alpha = !options.background || byVariance(options);
-  Image picture = shownPicture(options, variant, drawing.pixels, {alpha, drawn.aovSamples, drawn.aovVariance},
-                               drawing.variance);
+  Image picture = shownPicture(options, variant, drawing.pixels,
+                               {!options.background, drawn.aovSamples, drawn.aovVariance}, drawing.variance);
   if (drawing.observed.empty()) return picture;
   const auto observed = [&](size_t i) { return drawing.observed[i]; };
   appendChannels(picture, imageOfNumbers(drawing.pixels.size, observed), {kObservedChannel});
@@ -58,6 +58,7 @@ Image pictureOf(const Drawing& drawing, const RenderOptions& options, const Shad
 }
 
 int samplesOfLayer(const RenderOptions& options, Feature feature, int ofPicture) {
+  if (feature == Feature::Guides) return std::min(ofPicture, kFewLayerSamples);
   const bool asked = std::ranges::find(options.aovFeatures, feature) != options.aovFeatures.end();
   return asked ? ofPicture : std::min(ofPicture, kFewLayerSamples);
 }
@@ -73,6 +74,12 @@ LayerDraw addLayer(Image& picture, Renderer& renderer, const ShaderVariant& vari
     layer.compileMs = renderer.compile(variant, film, view);
   layer.complete = renderer.addSamples(film, view, 0, samples, times, progress);
   layer.drawMs = times.renderMs;
+  if (variant.feature == Feature::Guides) {
+    const Film::Guides guides = film.readGuides();
+    layer.totals = totalsOf(guides.counts);
+    appendChannels(picture, guides.layers, guides.layers.channels);
+    return layer;
+  }
   const FilmPixels pixels = film.read();
   layer.totals = totalsOf(pixels);
   const FeatureRow& row = rowOf(variant.feature);

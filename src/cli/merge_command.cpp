@@ -56,12 +56,14 @@ void checkNext(const Part& first, const Part& next) {
 double luminanceOf(const float* pixel) { return 0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2]; }
 
 /// Means weighed by samples; counts added; variances of the means joined as if all samples had been seen
-/// (Chan, Golub and LeVeque, 1979). The colour channels are the first three.
+/// (Chan, Golub and LeVeque, 1979), and those that were observed as those of parts that know nothing of each
+/// other. The colour channels are the first three.
 Image joinedPicture(const std::vector<Part>& parts) {
   Image result = parts.front().image;
   const size_t channels = result.channelCount();
   const auto counts = findChannel(result, "samples.Y");
   const auto variance = findChannel(result, "variance.Y");
+  const auto observed = findChannel(result, kObservedChannel);
   double total = 0.0;
   for (const Part& part : parts) total += double(part.made.samples);
   for (size_t first = 0; first < result.values.size(); first += channels) {
@@ -72,6 +74,14 @@ Image joinedPicture(const std::vector<Part>& parts) {
     }
     for (size_t c = 0; c < channels; ++c) result.values[first + c] = float(sums[c] / total);
     if (counts) result.values[first + *counts] = float(total);
+    if (observed) {
+      double squares = 0.0;
+      for (const Part& part : parts) {
+        const double weight = double(part.made.samples) / total;
+        squares += weight * weight * part.image.values[first + *observed];
+      }
+      result.values[first + *observed] = float(squares);
+    }
     if (variance) {
       double m2 = 0.0;
       for (const Part& part : parts) {

@@ -75,7 +75,8 @@ std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedSce
 void checkPictureWritable(const RenderOptions& options, glm::ivec2 size) {
   size_t channels =
       3 + size_t(!options.background) + size_t(options.aovSamples) + size_t(options.aovVariance);
-  for (const Feature feature : options.aovFeatures) channels += rowOf(feature).channels.size();
+  for (const Feature feature : options.aovFeatures)
+    channels += feature == Feature::Guides ? kGuideChannels.size() + 1 : rowOf(feature).channels.size();
   if (options.denoise != Denoise::None) channels += 3;  // the noisy picture
   checkImageWritable(options.output, size.x, size.y, channels);
 }

@@ -76,6 +76,8 @@ void chooseLayers(const std::vector<std::string>& names, RenderOptions& o) {
     } else if (const Feature feature = Feature(index + 1);
                std::ranges::find(o.aovFeatures, feature) == o.aovFeatures.end()) {
       o.aovFeatures.push_back(feature);
+      // All that a filter needs.
+      if (feature == Feature::Guides) o.aovSamples = o.aovVariance = true;
     }
   }
 }

@@ -37,8 +37,7 @@ RenderOptions programPart(const RenderOptions& o) {
   part.schedule = o.schedule;
   part.shaderFolder = o.shaderFolder;
   part.quiet = o.quiet;
-  if (has(part.stages, Stage::Gi) && part.debugView == DebugView::None)
-    part.aovFeatures.assign(kGuides.begin(), kGuides.end());
+  if (has(part.stages, Stage::Gi) && part.debugView == DebugView::None) part.aovFeatures = {Feature::Guides};
   return part;
 }
 

@@ -16,8 +16,8 @@ namespace {
 
 using LayerNames = std::array<const char*, 3>;
 constexpr LayerNames kOidnColor{"R", "G", "B"};
-constexpr LayerNames kOidnAlbedo{"albedo.R", "albedo.G", "albedo.B"};
-constexpr LayerNames kOidnNormal{"normal.X", "normal.Y", "normal.Z"};
+constexpr LayerNames kOidnAlbedo{kGuideChannels[0], kGuideChannels[1], kGuideChannels[2]};
+constexpr LayerNames kOidnNormal{kGuideChannels[4], kGuideChannels[5], kGuideChannels[6]};
 
 /// Three floats a pixel, rows from the top.
 using Triples = std::vector<float>;

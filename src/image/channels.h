@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which channels of a picture are its colour and its alpha.
+// Which channels of a picture are its colour and its alpha, and what filters find beside them.
 #pragma once
 
 #include <array>
@@ -9,6 +9,15 @@
 #include "image/image.h"
 
 namespace fragtrace {
+
+/// What filters tell surfaces apart by, as means over the samples of a pixel: albedo, how much of the pixel
+/// shows a surface, normal, and depth in metres along the view axis (shaders/guides.glsl).
+inline constexpr std::array kGuideChannels{"denoising.albedo.R", "denoising.albedo.G", "denoising.albedo.B",
+                                           "denoising.albedo.A", "denoising.normal.X", "denoising.normal.Y",
+                                           "denoising.normal.Z", "denoising.depth.Z"};
+
+/// One observation of the variance (observedVariance() of render/noise.h).
+inline constexpr const char* kObservedChannel = "denoising.observed.Y";
 
 /// The index of the channel of that exact name.
 std::optional<size_t> findChannel(const Image& image, std::string_view name);

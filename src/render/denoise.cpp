@@ -40,6 +40,11 @@ std::vector<glm::vec4> texelsOf(const Image& image, const std::array<const char*
   return texels;
 }
 
+/// Four of kGuideChannels.
+std::array<const char*, 4> guideChannels(size_t from) {
+  return {kGuideChannels[from], kGuideChannels[from + 1], kGuideChannels[from + 2], kGuideChannels[from + 3]};
+}
+
 /// Pixels whose colour is not finite get the mean of those around them that are.
 void fillHoles(std::vector<glm::vec4>& texels, const Image& image) {
   const auto whole = [&](int x, int y) {
@@ -206,7 +211,7 @@ std::optional<Image> VarianceFilter::filtered(const Image& noisy, const std::fun
   }
   std::vector<glm::vec4> texels = texelsOf(noisy, {"R", "G", "B", "variance.Y"});
   fillHoles(texels, noisy);
-  const std::vector<glm::vec4> albedo = texelsOf(noisy, {"albedo.R", "albedo.G", "albedo.B", "A"});
+  const std::vector<glm::vec4> albedo = texelsOf(noisy, guideChannels(0));
   const double scale = scaleOf(texels, albedo);
   scaleNoisy(texels, noisy, scale);
   std::vector<float> observed = observedOf(noisy, scale);
@@ -216,8 +221,7 @@ std::optional<Image> VarianceFilter::filtered(const Image& noisy, const std::fun
   Passes passes(size);
   const GlTexture radiance = passes.upload(texels, GL_RGBA32F, GL_RGBA);
   const GlTexture albedos = passes.upload(albedo, GL_RGBA32F, GL_RGBA);
-  const GlTexture normals =
-      passes.upload(texelsOf(noisy, {"normal.X", "normal.Y", "normal.Z", "depth.Z"}), GL_RGBA32F, GL_RGBA);
+  const GlTexture normals = passes.upload(texelsOf(noisy, guideChannels(4)), GL_RGBA32F, GL_RGBA);
   const GlTexture seen = passes.upload(observed, GL_R32F, GL_RED);
   const GlTexture light = passes.texture(GL_RGBA32F);
   const GlTexture seenLight = passes.texture(GL_R32F);

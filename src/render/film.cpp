@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "render/film.h"
 
+#include <algorithm>
+
 #include "errors.h"
+#include "image/channels.h"
 #include "render/picture_texture.h"
 #include "shader/layout.h"
 
@@ -44,8 +47,20 @@ void Film::bind() const {
 }
 
 FilmPixels Film::read() const {
+  FilmPixels film = readCounts();
   const auto sum = readPictureTexture<float>(sum_, GL_RGBA, 4, GL_FLOAT, size_, kReading);
   const auto compensation = readPictureTexture<float>(compensation_, GL_RGBA, 4, GL_FLOAT, size_, kReading);
+  for (size_t p = 0; p < film.pixels.size(); ++p) {
+    const size_t i = p * 4;
+    FilmPixel& pixel = film.pixels[p];
+    for (int c = 0; c < 3; ++c) pixel.sum[c] = double(sum[i + size_t(c)]) - compensation[i + size_t(c)];
+    pixel.alpha = sum[i + 3];
+    pixel.m2 = compensation[i + 3];
+  }
+  return film;
+}
+
+FilmPixels Film::readCounts() const {
   const auto counts =
       readPictureTexture<uint32_t>(counts_, GL_RGBA_INTEGER, 4, GL_UNSIGNED_INT, size_, kReading);
   FilmPixels film;
@@ -53,17 +68,30 @@ FilmPixels Film::read() const {
   film.cut = cut_;
   film.pixels.resize(size_t(size_.x) * size_t(size_.y));
   for (size_t p = 0; p < film.pixels.size(); ++p) {
-    const size_t i = p * 4;
     FilmPixel& pixel = film.pixels[p];
-    for (int c = 0; c < 3; ++c) pixel.sum[c] = double(sum[i + size_t(c)]) - compensation[i + size_t(c)];
-    pixel.alpha = sum[i + 3];
-    pixel.m2 = compensation[i + 3];
-    pixel.samples = counts[i];
-    pixel.rays = counts[i + 1];
-    pixel.nonfinite = counts[i + 2];
-    pixel.flags = counts[i + 3];
+    pixel.samples = counts[p * 4];
+    pixel.rays = counts[p * 4 + 1];
+    pixel.nonfinite = counts[p * 4 + 2];
+    pixel.flags = counts[p * 4 + 3];
   }
   return film;
+}
+
+Film::Guides Film::readGuides() const {
+  Guides guides{{size_.x, size_.y, {kGuideChannels.begin(), kGuideChannels.end()}, {}, {}}, readCounts()};
+  const auto albedo = readPictureTexture<float>(sum_, GL_RGBA, 4, GL_FLOAT, size_, kReading);
+  const auto normal = readPictureTexture<float>(compensation_, GL_RGBA, 4, GL_FLOAT, size_, kReading);
+  std::vector<float>& values = guides.layers.values;
+  values.reserve(albedo.size() * 2);
+  for (int y = size_.y - 1; y >= 0; --y) {
+    for (int x = 0; x < size_.x; ++x) {
+      const size_t p = size_t(y) * size_t(size_.x) + size_t(x);
+      const float part = 1.0f / float(std::max(guides.counts.pixels[p].samples, 1u));
+      for (size_t c = 0; c < 4; ++c) values.push_back(part * albedo[p * 4 + c]);
+      for (size_t c = 0; c < 4; ++c) values.push_back(part * normal[p * 4 + c]);
+    }
+  }
+  return guides;
 }
 
 void Film::setTargets(const FilmPixels& pixels, std::span<const uint32_t> targets) {

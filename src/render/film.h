@@ -16,6 +16,13 @@ class Film {
 
   FilmPixels read() const;
 
+  /// What a program that draws guides has summed: kGuideChannels, and the counts of the pixels.
+  struct Guides {
+    Image layers;
+    FilmPixels counts;
+  };
+  Guides readGuides() const;
+
   /// Adds to FilmPixels::cut, which is kept on the host.
   void addCut(double cut) { cut_ += cut; }
 
@@ -24,6 +31,8 @@ class Film {
   void setTargets(const FilmPixels& pixels, std::span<const uint32_t> targets);
 
  private:
+  FilmPixels readCounts() const;
+
   glm::ivec2 size_;
   GlTexture sum_;
   GlTexture compensation_;

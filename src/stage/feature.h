@@ -12,7 +12,16 @@
 namespace fragtrace {
 
 /// What a first hit is, beside its radiance.
-enum class Feature : uint8_t { None, Albedo, Normal, Depth, GeometricNormal, Roughness, Texcoords };
+enum class Feature : uint8_t {
+  None,
+  Albedo,
+  Normal,
+  Depth,
+  GeometricNormal,
+  Roughness,
+  Texcoords,
+  Guides  ///< what a filter tells surfaces apart by, all in one: kGuideChannels
+};
 
 struct FeatureRow {
   std::string_view name;      ///< of the layer
@@ -20,13 +29,14 @@ struct FeatureRow {
 };
 
 /// In the order of Feature.
-inline constexpr std::array<FeatureRow, 7> kFeatureRows{{{"", ""},
+inline constexpr std::array<FeatureRow, 8> kFeatureRows{{{"", ""},
                                                          {"albedo", "RGB"},
                                                          {"normal", "XYZ"},
                                                          {"depth", "Z"},
                                                          {"geometric-normal", "XYZ"},
                                                          {"roughness", "Y"},
-                                                         {"texcoords", "UV"}}};
+                                                         {"texcoords", "UV"},
+                                                         {"denoising", ""}}};
 
 inline const FeatureRow& rowOf(Feature feature) { return kFeatureRows[size_t(feature)]; }
 

@@ -54,6 +54,8 @@ std::span<const TraitRow> traitRows() {
       {Trait::Instances, "instances", "kInstances", "no mesh that is shared"},
       {Trait::Creases, "creases", "kCreases", "no crease below 101 degrees, or no ray that leaves one"},
       {Trait::Slivers, "slivers", "kSlivers", "no triangle long and thin enough to need its plane"},
+      {Trait::SmoothSurfaces, "smooth-surfaces", "kSmoothSurfaces",
+       "no clear glass and no mirror, or no filter to see through them"},
   }};
   return rows;
 }

@@ -56,6 +56,7 @@ enum class Trait : uint8_t {
   Instances,
   Creases,
   Slivers,
+  SmoothSurfaces,
   Count
 };
 using TraitSet = std::bitset<size_t(Trait::Count)>;

@@ -101,6 +101,8 @@ void addMaterialTraits(const Material& m, const Vertices& vertices, TraitSet& tr
   mark(Trait::GlassSpecular, m.transmissive() && m.scalesSpecular());
   mark(Trait::Emission, m.emissive());
   mark(Trait::EmissionTexture, m.emissive() && m.emissiveTexture.present());
+  // kGuideAlpha of shaders/guides.glsl, and more than half of the light.
+  mark(Trait::SmoothSurfaces, m.roughnessFactor < 0.1f && (m.transmissive() || m.metallicFactor > 0.5f));
 }
 
 }  // namespace
@@ -255,6 +257,8 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
     without(Trait::TextureTransforms);
   }
 
+  without(Trait::SmoothSurfaces);  // for guides of filters alone
+
   // Step: stages that change nothing in this scene.
   if (!stage(Stage::Gi) || !hasAreaLight(v.traits)) drop(Stage::LightSampling);
   if (!hasLight(v.traits)) drop(Stage::Shadows);
@@ -292,20 +296,28 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
                                    Surroundings surroundings, uint32_t treeDepth, BufferReads reads,
                                    Feature feature) {
   RenderOptions wanted = options;
+  const bool guides = feature == Feature::Guides;
+  const bool normals = feature == Feature::Normal || guides;
+  const bool follows = guides && has(present, Trait::SmoothSurfaces);
   for (const StageRow& row : stageRows()) {
     // The same samples, and the same hits.
     const bool kept = row.stage == Stage::Sobol || row.stage == Stage::Watertight ||
-                      (feature == Feature::Normal && row.stage == Stage::NormalMaps);
+                      (normals && row.stage == Stage::NormalMaps) ||
+                      (follows && (row.stage == Stage::Reflections || row.stage == Stage::Refraction ||
+                                   row.stage == Stage::Schlick));
     if (!kept) wanted.stages.reset(size_t(row.stage));
   }
-  if (feature == Feature::Normal) wanted.stages.set(size_t(Stage::Phong));
+  if (normals) wanted.stages.set(size_t(Stage::Phong));
   TraitSet kept = present;
   for (Trait t :
        {Trait::PunctualLights, Trait::EmissiveTriangles, Trait::EnvironmentSampling, Trait::Environment,
-        Trait::Emission, Trait::EmissionTexture, Trait::Specular, Trait::Transmission, Trait::Unlit}) {
+        Trait::Emission, Trait::EmissionTexture, Trait::Absorption, Trait::Unlit}) {
     kept.reset(size_t(t));
   }
-  if (feature != Feature::Albedo && !has(present, Trait::Alpha)) {
+  if (!follows) {
+    for (Trait t : {Trait::Specular, Trait::Transmission}) kept.reset(size_t(t));
+  }
+  if (feature != Feature::Albedo && !guides && !has(present, Trait::Alpha)) {
     for (Trait t : {Trait::BaseColorTexture, Trait::VertexColors}) kept.reset(size_t(t));
   }
   ShaderVariant v = chooseVariant(wanted, kept, surroundings, treeDepth, reads);
@@ -324,6 +336,7 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
   }
   if (roughnessTexture) keep(Trait::TextureTransforms);
   if (roughnessTexture || feature == Feature::Texcoords) keep(Trait::Texcoords);
+  if (follows) keep(Trait::SmoothSurfaces);
   v.feature = feature;
   return v;
 }

@@ -27,10 +27,11 @@ const glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);
 struct Places {
   std::array<size_t, 13> at{};
   explicit Places(const Image& image) {
-    constexpr std::array<const char*, 13> kNames{
-        "R",        "G",        "B",        "A",        "samples.Y", "variance.Y", "albedo.R",
-        "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z",  "depth.Z"};
-    for (size_t i = 0; i < kNames.size(); ++i) at[i] = findChannel(image, kNames[i]).value();
+    constexpr std::array<const char*, 5> kNames{"R", "G", "B", "samples.Y", "variance.Y"};
+    for (size_t i = 0; i < at.size(); ++i) {
+      const char* name = i < kNames.size() ? kNames[i] : kGuideChannels[i - kNames.size()];
+      at[i] = findChannel(image, name).value();
+    }
   }
 };
 
@@ -47,13 +48,13 @@ struct Pixel {
 /// Albedo, normal and depth are those of what was hit.
 Pixel pixelOf(const float* values, const Places& places) {
   const auto get = [&](size_t i) { return double(values[places.at[i]]); };
-  const double coverage = get(3);
+  const double coverage = get(8);
   const double part = 1.0 / std::max(coverage, 1e-6);
   return {{get(0), get(1), get(2)},
           coverage,
+          get(3),
           get(4),
-          get(5),
-          part * glm::dvec3(get(6), get(7), get(8)),
+          part * glm::dvec3(get(5), get(6), get(7)),
           part * glm::dvec3(get(9), get(10), get(11)),
           part * get(12)};
 }
@@ -147,8 +148,8 @@ Image withPast(const SeenPicture& now, const SeenPicture& past, double most) {
                         apart * apart * pixel.samples * counted / samples;
       const glm::dvec3 mean = (pixel.light * pixel.samples + light * counted) / samples;
       for (int c = 0; c < 3; ++c) values[here.at[size_t(c)]] = float(mean[c]);
-      values[here.at[4]] = float(samples);
-      values[here.at[5]] = float(m2 / (samples * (samples - 1.0)));
+      values[here.at[3]] = float(samples);
+      values[here.at[4]] = float(m2 / (samples * (samples - 1.0)));
     }
   }
   return joined;

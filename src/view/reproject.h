@@ -8,8 +8,8 @@
 
 namespace fragtrace {
 
-/// A picture with the layers samples.Y, variance.Y, albedo.RGB, normal.XYZ and depth.Z, and A, as an .exr of
-/// `render` has them (docs/conventions.md), and who saw it.
+/// A picture with the layers samples.Y, variance.Y and kGuideChannels, as an .exr of `render` has them
+/// (docs/conventions.md), and who saw it.
 struct SeenPicture {
   Image layers;
   Camera camera;

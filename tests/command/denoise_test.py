@@ -58,6 +58,27 @@ class Denoising(Case):
             return (self.folder / "m.exr").read_bytes()
         self.assertEqual(joined(), joined(*FILTER))
 
+    def test_merge_joins_what_was_observed(self):
+        parts = [self.draw(f"{first}.exr", *SIZE, "--spp", 4, "--sample-offset", first, "--aov", "denoising") for first in (0, 4)]
+        self.assertEqual(run("merge", *parts, "-o", self.folder / "m.exr").returncode, 0)
+        first, second, both = (Exr(path).values("denoising.observed.Y") for path in (*parts, self.folder / "m.exr"))
+        self.assertGreater(sum(both), 0)
+        for a, b, joined in zip(first, second, both):
+            self.assertAlmostEqual((a + b) / 4, joined, delta=1e-6 * joined)
+
+    def test_guides_are_of_what_stands_behind_smooth_glass_and_mirrors(self):
+        """Albedo of wall and floor as the glass sphere and the mirror sphere show these, and depth of the spheres."""
+        wall, floor = (0.3, 0.45, 0.65), (0.65, 0.5, 0.35)
+        for scene, pixel, albedo in (("glass-sphere", (24, 33), wall), ("glass-sphere", (24, 12), floor), ("mirror-sphere", (24, 36), floor)):
+            with self.subTest(scene=scene, pixel=pixel):
+                options = ["--resolution", "50,50", "--spp", 4, "--aov", "denoising,albedo,depth"]
+                picture = Exr(self.draw("g.exr", *options, scene=SCENES / f"{scene}.gltf"))
+                seen = picture.pixel(*pixel, *("denoising.albedo." + c for c in "RGB"))
+                for a, b in zip(seen, albedo):
+                    self.assertAlmostEqual(a, b, delta=1e-3)
+                self.assertNotEqual(seen, picture.pixel(*pixel, *("albedo." + c for c in "RGB")))
+                self.assertEqual(picture.pixel(*pixel, "denoising.depth.Z"), picture.pixel(*pixel, "depth.Z"))
+
     def test_what_has_no_noise_is_left_alone_and_says_so(self):
         for options, reason in ((["--stage", "shadows"], "stages before gi"), (["--debug-view", "normal"], "debug view")):
             raw = self.draw("n.exr", *SIZE, "--spp", 2, *options).read_bytes()

@@ -16,8 +16,8 @@ from support import FRAGTRACE, SCENES, Case, Exr, main, read_pfm, run
 BOX = SCENES / "cornell-box.gltf"
 FAKE = FRAGTRACE.parent / "fake_oidn/libOpenImageDenoise.so.2"
 SMALL = ["--resolution", "24,16", "--spp", 2, "--quiet"]
-GUIDES = [f"{layer}.{c}" for layer, ends in (("albedo", "RGB"), ("normal", "XYZ")) for c in ends]
-NEEDED = ["--aov", "albedo,normal,depth,samples,variance"]
+GUIDES = [f"denoising.{layer}.{c}" for layer, ends in (("albedo", "RGB"), ("normal", "XYZ")) for c in ends]
+NEEDED = ["--aov", "denoising"]
 
 
 def surroundings(**variables):
@@ -85,7 +85,7 @@ class Oidn(OidnCase):
         self.assertGreater(said["ms"], 0)
 
     def test_auto_takes_what_there_is(self):
-        for library, name in ((FAKE, "oidn 2.77.1"), ("/none", "variance 2")):
+        for library, name in ((FAKE, "oidn 2.77.1"), ("/none", "variance 3")):
             picture = Exr(self.draw("d.exr", "--denoise", "auto", library=library))
             self.assertEqual(picture.texts["fragtrace:denoise"], name)
 
@@ -181,24 +181,27 @@ class DenoiseFiles(OidnCase):
     """`fragtrace denoise`, and `merge --denoise`."""
 
     def test_a_file_gives_what_render_gives(self):
-        """Coverage, which the variance filter needs, is told from the other layers where a file lacks it. (Of pictures of four samples and more `render` knows
-        more than the file: how far the film was from its end on the way.)"""
-        for scene in (BOX, SCENES / "glass-sphere.gltf"):
-            few = ["--spp", "3", "--resolution", "96,64", *NEEDED]
+        for scene, spp in ((BOX, 3), (SCENES / "glass-sphere.gltf", 8)):
+            few = ["--spp", spp, "--resolution", "96,64", *NEEDED]
             raw = self.draw("n.exr", *few, scene=scene)
             for filter in ("oidn", "variance"):
                 whole = Exr(self.draw("d.exr", *few, "--denoise", filter, scene=scene))
                 file = Exr(self.denoises(raw, "f.exr", "--denoise", filter))
                 self.assertEqual((set(file.layers), file.texts), (set(whole.layers), whole.texts))
                 for name in whole.layers:
-                    if filter == "oidn" or name not in "RGB":
-                        self.assertEqual(file.values(name), whole.values(name), name)
-                light, differences = zip(*((abs(b), abs(a - b)) for c in "RGB" for a, b in zip(file.values(c), whole.values(c))))
-                self.assertLess(sum(differences), 0.001 * sum(light))
+                    self.assertEqual(file.values(name), whole.values(name), name)
+
+    def test_layers_of_first_hits_do_for_the_variance_filter(self):
+        """Coverage is told from the depth."""
+        few = ["--spp", 3, "--resolution", "96,64"]
+        raw = self.draw("n.exr", *few, "--aov", "albedo,normal,depth,samples,variance")
+        whole, file = Exr(self.draw("d.exr", *few, "--denoise", "variance")), Exr(self.denoises(raw, "f.exr", "--denoise", "variance"))
+        light, differences = zip(*((abs(b), abs(a - b)) for c in "RGB" for a, b in zip(file.values(c), whole.values(c))))
+        self.assertLess(sum(differences), 0.001 * sum(light))
 
     def test_a_filtered_file_is_filtered_from_its_noisy_colours(self):
         first = self.denoises(self.draw("n.exr", *NEEDED), "a.exr", "--denoise", "variance")
-        self.assertEqual(Exr(first).texts["fragtrace:denoise"], "variance 2")
+        self.assertEqual(Exr(first).texts["fragtrace:denoise"], "variance 3")
         direct, again = self.denoises(self.folder / "n.exr", "b.exr"), self.denoises(first, "c.exr", "--denoise", "oidn")
         self.assertEqual(Exr(direct).layers, Exr(again).layers)
         self.assertEqual(Exr(again).texts["fragtrace:denoise"], "oidn 2.77.1")
@@ -216,6 +219,8 @@ class DenoiseFiles(OidnCase):
                  "mitsuba's example": {**colors, **layer("albedo.", "RGB", 0.25), **layer("nn.", "XYZ", -0.5)},
                  "pbrt": {**colors, **layer("Albedo.", "RGB", 0.25), **layer("Ns.", "XYZ", -0.5), **layer("N.", "XYZ", 9.0)},
                  "ours": {**colors, **layer("albedo.", "RGB", 0.25), **layer("normal.", "XYZ", -0.5)},
+                 "ours, with guides": {**colors, **layer("albedo.", "RGB", 9.0), **layer("denoising.albedo.", "RGBA", 0.25),
+                                       **layer("denoising.normal.", "XYZ", -0.5), "denoising.depth.Z": 1.0},
                  "colours alone": {**colors, "depth.Z": 3.0}, "normal alone": {**colors, **layer("normal.", "XYZ", -0.5)}}
         for name, layers in files.items():
             with self.subTest(name):
@@ -236,7 +241,7 @@ class DenoiseFiles(OidnCase):
         path = write_exr(self.folder / "in.exr", 2, 2, {"R": 1.0, "G": 1.0, "B": 1.0, "albedo.R": 1.0, "albedo.G": 1.0, "albedo.B": 1.0, "depth.Z": 1.0})
         for filter, library in (("variance", FAKE), ("auto", "/none")):
             self.fails(3, "denoise", path, "-o", self.folder / "o.exr", "--denoise", filter, "--quiet", env=surroundings(FRAGTRACE_OIDN_LIBRARY=str(library)),
-                       says=[path, "needs: normal, samples, variance (render with --aov albedo,normal,depth,samples,variance"])
+                       says=[path, "needs: normal, samples, variance (render with --aov denoising"])
 
     def test_refused_files_and_options(self):
         picture = self.draw("n.png", "--stage", "flat")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fault import callers_of
 
-COMMANDS = ("Means", "Sheets", "KnownLight", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging")
+COMMANDS = ("Means", "Sheets", "KnownLight", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising")
 # Where to look first, before there is any experience: scenes of picture tests, test files and groups by the beginning of a fault's name.
 LIKELY = {
     "path.": ("closed-furnace.gi", "command.KnownLight", "cornell-box.gi", "coverage.gi"),
@@ -28,7 +28,10 @@ LIKELY = {
     "shade.shadeLocal glass": ("command.Sheets",),
     "shade.shadeLocal": ("sphere-phong.phong", "sphere-plane-mirror.reflections", "water-cube-plain.refraction"),
     "shade.scatterGlass": ("water-cube-plain.refraction",),
+    "shade.scatterMirror": ("sphere-plane-mirror.reflections",),
     "shade.featureAt": ("command.FirstHits",),
+    "shade.depthOf": ("command.FirstHits",),
+    "guides.": ("command.Denoising",),
     "lights.": ("command.KnownLight", "lights.gi", "cornell-box-direct.gi", "lights.shadows"),
     "environment.": ("command.KnownLight", "environment-rotated.gi", "sun-sky.gi", "pure.shader_environment_test"),
     "material.": ("command.KnownSurfaces", "command.TextureFactors", "plastics.gi", "lights.gi", "command.Materials"),
@@ -41,6 +44,7 @@ LIKELY = {
     "surface.unitOr": ("command.Instancing",),
     "layers.": ("command.KnownSurfaces", "pure.shader_layers_test", "lobes.gi", "mapped-layers.gi", "command.Materials"),
     "film.": ("sphere-black.flat", "command.Pictures"),
+    "film_pixel.addGuides": ("command.Denoising",),
     "film_pixel.": ("sphere-black.flat", "pure.shader_film_test"),
     "camera.": ("transforms.flat", "sphere-textured.flat"),
     "pixel_filter.": ("command.Filters",),

@@ -32,12 +32,8 @@ Camera cameraAt(double x, double distance) {
 SeenPicture seen(const Camera& camera, double light, double samples, double variance) {
   SeenPicture picture;
   picture.camera = camera;
-  picture.layers = {kSide,
-                    kSide,
-                    {"R", "G", "B", "A", "samples.Y", "variance.Y", "albedo.R", "albedo.G", "albedo.B",
-                     "normal.X", "normal.Y", "normal.Z", "depth.Z"},
-                    {},
-                    {}};
+  picture.layers = {kSide, kSide, {"R", "G", "B", "samples.Y", "variance.Y"}, {}, {}};
+  picture.layers.channels.insert(picture.layers.channels.end(), kGuideChannels.begin(), kGuideChannels.end());
   const Projection projection = projectionOf(camera, 1.0);
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
@@ -46,8 +42,8 @@ SeenPicture seen(const Camera& camera, double light, double samples, double vari
           float(albedoAt(camera.position.x + camera.position.z * right * projection.right.x));
       const float radiance = float(light * (0.96 * albedo + 0.04));
       for (const double value :
-           {double(radiance), double(radiance), double(radiance), 1.0, samples, variance, double(albedo),
-            double(albedo), double(albedo), 0.0, 0.0, 1.0, camera.position.z})
+           {double(radiance), double(radiance), double(radiance), samples, variance, double(albedo),
+            double(albedo), double(albedo), 1.0, 0.0, 0.0, 1.0, camera.position.z})
         picture.layers.values.push_back(float(value));
     }
   }
@@ -89,8 +85,10 @@ TEST(Reprojection, ACameraThatMovedFindsTheSamePoints) {
 TEST(Reprojection, OtherSurfacesGiveNothing) {
   const Camera camera = cameraAt(0.0, kDistance);
   const SeenPicture now = seen(camera, kLight, 1, 0.0);
-  for (const auto& [channel, value] :
-       {std::pair{"depth.Z", 3.5f}, {"normal.Z", -1.0f}, {"albedo.G", 0.9f}, {"A", 0.0f}}) {
+  for (const auto& [channel, value] : {std::pair{kGuideChannels[7], 3.5f},
+                                       {kGuideChannels[6], -1.0f},
+                                       {kGuideChannels[1], 0.9f},
+                                       {kGuideChannels[3], 0.0f}}) {
     SeenPicture past = seen(camera, 9.0, 8, 0.1);
     const size_t at = findChannel(past.layers, channel).value();
     for (size_t i = at; i < past.layers.values.size(); i += past.layers.channelCount())

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// What a filter tells surfaces apart by (kFeatureGuides): albedo and normal of the first surface that is not seen by way of smooth glass or
+// a smooth metal alone, so that what stands behind these stays sharp, and depth of the first surface of all, which tells these from the
+// rest. No shadow ray is traced meanwhile, so its members keep them, also from draw to draw: contribution the normal, shadowLimit depth.
+
+const float kGuideAlpha = 0.01;    // the roughest that is followed: what it shows is hardly blurred
+const int kGuideScatterings = 16;  // at most
+
+/// One surface along the camera path: what it shows, or where it leads. Of reflection and refraction the stronger one is followed, without
+/// chance, since noise of the guides would be noise of the picture.
+Path guideAt(Path p, Surface s, vec3 baseColor) {
+  if (p.cameraRay) p.shadowLimit = depthOf(s);
+  vec3 normal = facingNormal(mappedNormal(s), -p.direction);
+  p.contribution = normal;
+  // What glass around the point makes of radiance is no matter of its colour.
+  vec3 tint = kPassesLight ? p.throughput * p.compression : p.throughput;
+  p.radiance = tint;
+  p.phase = kPhaseEnd;
+  if (kSmoothSurfaces && p.bounce < kGuideScatterings) {
+    SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
+    if (m.roughness * m.roughness < kGuideAlpha) {
+      if (kRefraction && m.transmission * (1.0 - m.metallic) > 0.5) return proceed(scatterGlass(p, s, m, normal, 0.5));
+      if (kReflections && m.metallic > 0.5) return proceed(scatterMirror(p, s, m, normal, 1.0));
+    }
+  }
+  p.radiance = tint * baseColor;
+  return p;
+}
