@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """The tables and charts of docs/denoise.md: what a filter brings, in error and in time.
 
-usage: denoise_table.py FRAGTRACE --assets DIR --out FOLDER [--filters variance,oidn] [--names NAME,...] [--references] [--print]
-DIR holds scenes/ and env/lightroom_14b.hdr. Seven scenes of 250 x 250 pixels, three seeds, 1 to 1024 samples per pixel, by `bench error --denoise`, against
+usage: denoise_table.py FRAGTRACE --assets DIR --out FOLDER [--filters variance,oidn] [--names NAME,...] [--spp N] [--repetitions N] [--references] [--print]
+DIR holds scenes/ and env/lightroom_14b.hdr. Seven scenes of 250 x 250 pixels, 1 to --spp samples per pixel, --repetitions seeds, by `bench error --denoise`, against
 references of 4096 samples. FOLDER keeps NAME-FILTER.json and references: what stands there is not made again. --references: makes these alone, which
 needs no quiet machine as the rest does. --print: the tables of what is there. Writes FOLDER/denoise-NAME.svg, the charts of the variance filter.
 """
@@ -55,7 +55,7 @@ def measure(options, name, arguments, filter_name):
     if result.exists():
         return
     chart = ["--chart", options.out / f"denoise-{name}.svg"] if filter_name == "variance" else []
-    run(options.fragtrace, "bench", "error", *arguments, *size, "--spp", 1024, "--repetitions", 3, "--reference", reference, "--configs", "default",
+    run(options.fragtrace, "bench", "error", *arguments, *size, "--spp", options.spp, "--repetitions", options.repetitions, "--reference", reference, "--configs", "default",
         "--denoise", filter_name, "--goal", GOALS[1], "--json", result, *chart)
 
 
@@ -68,16 +68,17 @@ def measure_baseline(options):
 
 
 def reached(curve, goal, what):
-    """Seconds or samples at which a curve falls below a relative MSE, between its steps as powers; beyond its end as 1 / N. None: it starts below."""
+    """Seconds or samples at which a curve falls below a relative MSE, between its steps as powers; beyond its end as 1 / N; its first
+    step where it starts below, which is an upper bound."""
     for before, after in zip(curve, curve[1:]):
         if before["relmse"] >= goal > after["relmse"]:
             part = math.log(before["relmse"] / goal) / math.log(before["relmse"] / after["relmse"])
             return before[what] * (after[what] / before[what]) ** part
-    return None if curve[0]["relmse"] < goal else curve[-1][what] * curve[-1]["relmse"] / goal
+    return curve[0][what] if curve[0]["relmse"] < goal else curve[-1][what] * curve[-1]["relmse"] / goal
 
 
 def at(curve, samples):
-    return next(step for step in curve if step["samples"] == samples)
+    return next((step for step in curve if step["samples"] == samples), None)
 
 
 def text_of(values, form):
@@ -101,17 +102,18 @@ def print_tables(options, filter_name):
             names[name], raw[name], filtered[name] = title, one["repetitions"], one["denoised"]["repetitions"]
             print(f"{title}: {one['denoised']['filter']}")
     for what in ("relmse", "flip"):
-        print(f"\n{filter_name}: {what} over that of the samples; median of three seeds, least, largest")
+        print(f"\n{filter_name}: {what} over that of the samples; median of the seeds, least, largest")
         table(["samples per pixel", *map(str, STEPS)],
-              [[title, *(text_of([at(f, n)[what] / at(r, n)[what] for r, f in zip(raw[name], filtered[name])], "{:.3f}") for n in STEPS)] for name, title in names.items()])
+              [[title, *(text_of([at(f, n)[what] / at(r, n)[what] for r, f in zip(raw[name], filtered[name])], "{:.3f}") if at(raw[name][0], n) else "-" for n in STEPS)] for name, title in names.items()])
     print(f"{filter_name}: how many times sooner, and with how many times fewer samples")
     rows = []
     for name, title in names.items():
         row = [title]
         for goal in GOALS:
             for what in ("seconds", "samples"):
-                times = [(reached(r, goal, what), reached(f, goal, what)) for r, f in zip(raw[name], filtered[name])]
-                row.append(text_of([a / b for a, b in times], "{:.2g}") if all(a and b for a, b in times) else "-")
+                times = [reached(r, goal, what) / reached(f, goal, what) for r, f in zip(raw[name], filtered[name])]
+                least = any(f[0]["relmse"] < goal for f in filtered[name])
+                row.append(("at least " if least else "") + text_of(times, "{:.2g}"))
         rows.append(row)
     table(["", *(f"{goal:g}: {what}" for goal in GOALS for what in ("sooner", "fewer samples"))], rows)
     baseline = options.out / f"{BASELINE}.json"
@@ -129,6 +131,8 @@ def main():
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--filters", default="variance")
     parser.add_argument("--names", default="")
+    parser.add_argument("--spp", type=int, default=1024)
+    parser.add_argument("--repetitions", type=int, default=3)
     parser.add_argument("--references", action="store_true")
     parser.add_argument("--print", action="store_true")
     options = parser.parse_args()
