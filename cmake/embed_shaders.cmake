@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Writes every file of shaders/ into one .cpp as a table of (name, text).
-file(GLOB shader_files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/*)
+file(GLOB_RECURSE shader_files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/*)
 set(FRAGTRACE_EMBEDDED_SHADERS ${CMAKE_BINARY_DIR}/embedded_shaders.cpp)
 add_custom_command(
   OUTPUT ${FRAGTRACE_EMBEDDED_SHADERS}

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-file(GLOB files ${FOLDER}/*)
+file(GLOB_RECURSE files ${FOLDER}/*)
 set(text "#include \"shader/embedded.h\"\n\nnamespace fragtrace {\n\nconst std::vector<EmbeddedShader>& embeddedShaders() {\n  static const std::vector<EmbeddedShader> shaders = {\n")
 foreach(file ${files})
-  get_filename_component(name ${file} NAME)
+  file(RELATIVE_PATH name ${FOLDER} ${file})
   file(READ ${file} body)
   string(APPEND text "      {\"${name}\", R\"shader(${body})shader\"},\n")
 endforeach()

@@ -6,7 +6,7 @@
 #include <glm/gtc/constants.hpp>
 #include <thread>
 
-#include "bvh/parallel.h"
+#include "process/parallel.h"
 
 namespace fragtrace {
 

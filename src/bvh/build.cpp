@@ -11,9 +11,9 @@
 #include <thread>
 #include <utility>
 
-#include "bvh/parallel.h"
 #include "bvh/split.h"
 #include "bvh/subtree.h"
+#include "process/parallel.h"
 
 namespace fragtrace {
 namespace {

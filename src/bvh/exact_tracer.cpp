@@ -8,7 +8,7 @@
 #include <limits>
 #include <thread>
 
-#include "bvh/parallel.h"
+#include "process/parallel.h"
 
 namespace fragtrace {
 

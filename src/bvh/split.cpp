@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "bvh/parallel.h"
+#include "process/parallel.h"
 
 namespace fragtrace {
 namespace {

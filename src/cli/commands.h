@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: MIT
-// The commands behind the command line; each returns the exit status and throws what main.cpp maps to one.
+// The commands: one row each.
 #pragma once
 
-#include "cli/options.h"
+#include <array>
+
+#include "options/command.h"
 
 namespace fragtrace {
 
-int runRender(const RenderOptions& options);
-int runView(const ViewOptions& options);
-int runInfo(const InfoOptions& options);
-int runDiff(const DiffOptions& options);
-int runMerge(const MergeOptions& options);
-int runDenoise(const DenoiseOptions& options);
-int runBenchError(const BenchErrorOptions& options);
-int runBenchFrame(const BenchFrameOptions& options);
-int runBenchReport(const BenchReportOptions& options);
-int runBenchVariants(const BenchVariantsOptions& options);
-int runBenchScale(const BenchScaleOptions& options);
-int runBenchTraversal(const BenchTraversalOptions& options);
-int runBenchStart(const BenchStartOptions& options);
-int runBenchStress(const BenchStressOptions& options);
+RunCommand addRender(CLI::App& app);
+RunCommand addView(CLI::App& app);
+RunCommand addInfo(CLI::App& app);
+RunCommand addDiff(CLI::App& app);
+RunCommand addMerge(CLI::App& app);
+RunCommand addDenoise(CLI::App& app);
+RunCommand addBench(CLI::App& app);
+
+/// In the order of --help.
+inline constexpr std::array kCommandRows{
+    CommandRow{"render", "render a scene to a file", addRender},
+    CommandRow{"view", "show a scene in a window", addView},
+    CommandRow{"info", "say what is in a scene", addInfo},
+    CommandRow{"diff", "compare a picture with a reference", addDiff},
+    CommandRow{"merge", "join .exr parts of one render (--sample-offset)", addMerge},
+    CommandRow{"denoise", "filter the noise out of a picture", addDenoise},
+    CommandRow{"bench", "measure speed and error", addBench},
+};
 
 }  // namespace fragtrace

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 // `fragtrace denoise`: filters the noise out of a picture that stands in a file.
+#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
 #include <fstream>
+#include <memory>
 
 #include "cli/commands.h"
-#include "cli/denoised_file.h"
-#include "cli/outputs.h"
-#include "cli/picture_file.h"
+#include "cli/denoise_options.h"
 #include "errors.h"
 #include "image/channels.h"
 #include "image/format.h"
+#include "session/denoised_file.h"
+#include "session/outputs.h"
+#include "session/picture_file.h"
 
 namespace fragtrace {
 
@@ -34,8 +37,6 @@ Image writable(const Image& picture, const std::filesystem::path& path) {
   return onlyChannels(picture, names);
 }
 
-}  // namespace
-
 int runDenoise(const DenoiseOptions& asked) {
   RenderOptions options = asked.render;
   checkOutputs(std::array{NamedOutput{"--output", options.output}}, std::array{asked.picture});
@@ -50,6 +51,14 @@ int runDenoise(const DenoiseOptions& asked) {
                 stats.filter.c_str(), (stats.filterMs + stats.compileMs) / 1000.0);
   }
   return 0;
+}
+
+}  // namespace
+
+RunCommand addDenoise(CLI::App& app) {
+  const auto raw = std::make_shared<RawDenoise>();
+  addDenoiseCommandOptions(app, *raw);
+  return [raw] { return runDenoise(finishDenoise(*raw)); };
 }
 
 }  // namespace fragtrace

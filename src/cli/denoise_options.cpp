@@ -6,8 +6,8 @@
 #include <array>
 #include <string_view>
 
-#include "cli/choose.h"
-#include "cli/numbers.h"
+#include "options/choose.h"
+#include "options/numbers.h"
 
 namespace fragtrace {
 

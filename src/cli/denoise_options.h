@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "cli/render_options.h"
+#include "options/parse_render.h"
 
 namespace fragtrace {
 

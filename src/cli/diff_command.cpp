@@ -1,14 +1,27 @@
 // SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
+#include <memory>
 
 #include "cli/commands.h"
-#include "cli/outputs.h"
-#include "image/flip.h"
+#include "image/compare/difference.h"
+#include "image/compare/flip.h"
+#include "image/format.h"
 #include "image/image.h"
+#include "options/choose.h"
+#include "session/outputs.h"
 
 namespace fragtrace {
 namespace {
+
+struct DiffOptions {
+  std::filesystem::path picture;
+  std::filesystem::path reference;
+  Metric metric = Metric::Rmse;
+  std::optional<double> threshold;
+  std::filesystem::path outfile;
+};
 
 /// What is printed, and the picture for --outfile.
 struct Comparison {
@@ -27,8 +40,6 @@ Comparison compareFiles(const DiffOptions& options) {
   return {value, options.outfile.empty() ? Image() : differenceImage(picture, reference)};
 }
 
-}  // namespace
-
 int runDiff(const DiffOptions& options) {
   checkOutputs(std::array{NamedOutput{"--outfile", options.outfile}},
                std::array{options.picture, options.reference});
@@ -36,6 +47,33 @@ int runDiff(const DiffOptions& options) {
   std::printf("%.9g\n", value);
   if (!options.outfile.empty()) writeImage(options.outfile, map);
   return options.threshold && !isWithin(options.metric, value, *options.threshold) ? 1 : 0;
+}
+
+}  // namespace
+
+RunCommand addDiff(CLI::App& app) {
+  struct Raw {
+    DiffOptions options;
+    std::string metric = "rmse";
+  };
+  const auto raw = std::make_shared<Raw>();
+  app.add_option("picture", raw->options.picture)->required();
+  app.add_option("reference", raw->options.reference)->required();
+  app.add_option("--metric", raw->metric, "rmse, mse, relmse, psnr, max, flip")->capture_default_str();
+  app.add_option("--threshold", raw->options.threshold, "status 1 when the metric is worse than this");
+  app.add_option("--outfile", raw->options.outfile,
+                 "picture of the absolute differences, or of the FLIP error");
+  return [raw] {
+    DiffOptions options = raw->options;
+    options.metric = choose<Metric>("--metric", raw->metric, metricNames());
+    if (options.threshold && !std::isfinite(*options.threshold))
+      throw UsageError("--threshold: not a finite number");
+    if (!options.outfile.empty() && !isWritableImageName(options.outfile)) {
+      throw UsageError("--outfile: '" + options.outfile.string() +
+                       "' ends in none of .png, .jpg, .exr, .hdr, .pfm");
+    }
+    return runDiff(options);
+  };
 }
 
 }  // namespace fragtrace

@@ -1,18 +1,31 @@
 // SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
+#include <memory>
 
 #include "bvh/two_level.h"
 #include "cli/commands.h"
-#include "cli/scene_json.h"
 #include "gltf/gltf.h"
+#include "options/choose.h"
+#include "options/input_options.h"
 #include "pack/gpu_scene.h"
 #include "scene/parts.h"
+#include "session/scene_json.h"
+#include "stage/render_options.h"
 #include "stage/variant.h"
 
 namespace fragtrace {
 
 namespace {
+
+struct InfoOptions {
+  std::filesystem::path scene;
+  SceneSelection selection;
+  InputLimits limits;
+  Instancing instancing = Instancing::Auto;
+  bool json = false;
+};
 
 /// What a scene takes on the device by default, textures and lights left out.
 double gpuBytesPerTriangle(const Scene& scene, const Bvh& bvh, const TraitSet& traits,
@@ -159,8 +172,6 @@ int inform(const InfoOptions& options) {
   return 0;
 }
 
-}  // namespace
-
 int runInfo(const InfoOptions& options) {
   try {
     return inform(options);
@@ -172,6 +183,27 @@ int runInfo(const InfoOptions& options) {
     }
     throw;
   }
+}
+
+}  // namespace
+
+RunCommand addInfo(CLI::App& app) {
+  struct Raw {
+    InfoOptions options;
+    std::string instancing = "auto";
+  };
+  const auto raw = std::make_shared<Raw>();
+  app.add_option("file", raw->options.scene, ".gltf or .glb file")->required();
+  app.add_flag("--json", raw->options.json, "as JSON");
+  addSelectionOptions(app, raw->options.selection);
+  app.add_option("--instancing", raw->instancing, joined(kInstancingNames) + ": as render's")
+      ->capture_default_str();
+  addInputOptions(app, raw->options.limits);
+  return [raw] {
+    InfoOptions options = raw->options;
+    options.instancing = choose<Instancing>("--instancing", raw->instancing, kInstancingNames);
+    return runInfo(options);
+  };
 }
 
 }  // namespace fragtrace

@@ -7,10 +7,10 @@
 #include <new>
 #include <system_error>
 
-#include "cli/commands.h"
-#include "cli/interrupt.h"
+#include "cli/command_line.h"
 #include "cli/leave.h"
 #include "errors.h"
+#include "session/interrupt.h"
 
 namespace {
 
@@ -37,39 +37,7 @@ int run(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   exitOnInterrupt();
   sayWhenCrashing();
-  const std::optional<CommandLine> line = parseCommandLine(argc, argv);
-  if (!line) return kDone;
-  switch (line->command) {
-    case Command::Render:
-      return runRender(line->render);
-    case Command::View:
-      return runView(line->view);
-    case Command::Info:
-      return runInfo(line->info);
-    case Command::Diff:
-      return runDiff(line->diff);
-    case Command::Merge:
-      return runMerge(line->merge);
-    case Command::Denoise:
-      return runDenoise(line->denoise);
-    case Command::BenchError:
-      return runBenchError(line->benchError);
-    case Command::BenchFrame:
-      return runBenchFrame(line->benchFrame);
-    case Command::BenchReport:
-      return runBenchReport(line->benchReport);
-    case Command::BenchVariants:
-      return runBenchVariants(line->benchVariants);
-    case Command::BenchScale:
-      return runBenchScale(line->benchScale);
-    case Command::BenchTraversal:
-      return runBenchTraversal(line->benchTraversal);
-    case Command::BenchStart:
-      return runBenchStart(line->benchStart);
-    case Command::BenchStress:
-      return runBenchStress(line->benchStress);
-  }
-  return kUsage;
+  return runCommandLine(argc, argv);
 }
 
 }  // namespace

@@ -1,19 +1,30 @@
 // SPDX-License-Identifier: MIT
 // `fragtrace merge`: parts of one render, made with --sample-offset, joined into what one run gives.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <memory>
 
 #include "cli/commands.h"
-#include "cli/denoised_file.h"
-#include "cli/outputs.h"
-#include "cli/provenance.h"
+#include "cli/denoise_options.h"
 #include "errors.h"
 #include "image/channels.h"
+#include "image/format.h"
+#include "options/choose.h"
+#include "session/denoised_file.h"
+#include "session/outputs.h"
+#include "session/provenance.h"
 
 namespace fragtrace {
 
 namespace {
+
+struct MergeOptions {
+  std::vector<std::filesystem::path> parts;
+  std::filesystem::path output;
+  RenderOptions filter;  ///< of these: whether and how the joined picture is denoised
+};
 
 struct Part {
   std::filesystem::path path;
@@ -95,8 +106,6 @@ Image joinedPicture(const std::vector<Part>& parts) {
   return result;
 }
 
-}  // namespace
-
 int runMerge(const MergeOptions& options) {
   checkOutputs(std::array{NamedOutput{"--output", options.output}}, options.parts);
   RenderOptions filter = options.filter;
@@ -116,6 +125,29 @@ int runMerge(const MergeOptions& options) {
   }
   writeImage(options.output, result);
   return 0;
+}
+
+}  // namespace
+
+RunCommand addMerge(CLI::App& app) {
+  struct Raw {
+    MergeOptions options;
+    RawRender filter;
+  };
+  const auto raw = std::make_shared<Raw>();
+  app.add_option("parts", raw->options.parts, ".exr files of render, same settings and seed")->required();
+  app.add_option("-o,--output", raw->options.output, "the .exr to write")->required();
+  app.add_option("--denoise", raw->filter.denoise,
+                 joined(kDenoiseNames) + ": filter the noise out of the joined picture, as denoise does")
+      ->capture_default_str();
+  addFileFilterOptions(app, raw->filter);
+  return [raw] {
+    MergeOptions options = raw->options;
+    if (formatOfName(options.output) != ImageFormat::OpenExr)
+      throw UsageError("--output: '" + options.output.string() + "' does not end in .exr");
+    options.filter = finishRender(raw->filter);
+    return runMerge(options);
+  };
 }
 
 }  // namespace fragtrace

@@ -1,27 +1,31 @@
 // SPDX-License-Identifier: MIT
 // The command line as a pipeline: scene, tree, context, packed scene, renderer, film, picture.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <numeric>
 #include <span>
 
 #include "cli/commands.h"
-#include "cli/denoising.h"
-#include "cli/draw_picture.h"
-#include "cli/interrupt.h"
 #include "cli/leave.h"
-#include "cli/outputs.h"
-#include "cli/picture_file.h"
-#include "cli/progress_bar.h"
-#include "cli/provenance.h"
-#include "cli/setup.h"
 #include "errors.h"
 #include "gl/debug_log.h"
 #include "gl/driver_choice.h"
+#include "image/files/process.h"
 #include "image/format.h"
-#include "image/process.h"
+#include "options/config_file.h"
+#include "options/parse_render.h"
 #include "render/adaptive.h"
+#include "session/denoising.h"
+#include "session/draw_picture.h"
+#include "session/interrupt.h"
+#include "session/outputs.h"
+#include "session/picture_file.h"
+#include "session/progress_bar.h"
+#include "session/provenance.h"
+#include "session/setup.h"
 
 namespace fragtrace {
 
@@ -195,8 +199,6 @@ void sayWhatIsChosen(const RenderOptions& options, const Context& context, const
   if (tracer.variant.clampIndirect) say(options, "indirect light is clamped (--clamp-indirect): biased");
 }
 
-}  // namespace
-
 int runRender(const RenderOptions& asked) {
   checkOutputs(outputsOf(asked), inputsOf(asked));
   RenderOptions options = asked;
@@ -263,6 +265,27 @@ int runRender(const RenderOptions& asked) {
   if (!options.statsFile.empty()) replaceText(options.statsFile, statisticsText(stats));
   sayWhatWasDone(options, stats);
   return leave(stats.complete ? 0 : kInterruptedStatus);
+}
+
+}  // namespace
+
+RunCommand addRender(CLI::App& app) {
+  struct Raw {
+    RawRender render;
+    std::string config;
+  };
+  const auto raw = std::make_shared<Raw>();
+  app.add_option("file", raw->render.scene, ".gltf or .glb file")->required();
+  app.add_option("-o,--output", raw->render.output,
+                 "picture: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); required");
+  addRenderOptions(app, raw->render);
+  addDenoiseOption(app, raw->render);
+  addConfigOption(app, raw->config);
+  return [raw, &app] {
+    const RenderOptions options = finishConfigured(raw->render, raw->config, app);
+    if (options.output.empty()) throw UsageError("--output is required; --help says more");
+    return runRender(options);
+  };
 }
 
 }  // namespace fragtrace

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
 // The viewer: the window in this thread, tracing in another.
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <future>
+#include <memory>
 #include <thread>
 
-#include "cli/camera_options.h"
-#include "cli/command_text.h"
 #include "cli/commands.h"
-#include "cli/denoising.h"
-#include "cli/outputs.h"
-#include "cli/view_tracer.h"
 #include "errors.h"
-#include "plugin.h"
+#include "live/view_tracer.h"
+#include "options/camera_options.h"
+#include "options/command_text.h"
+#include "options/view_options.h"
+#include "process/plugin.h"
+#include "session/denoising.h"
+#include "session/outputs.h"
 #include "view/window.h"
 
 namespace fragtrace {
@@ -30,8 +33,6 @@ const WindowLibrary& windowLibrary() {
                        ")");
   return *reinterpret_cast<WindowLibraryEntry>(plugin.entry)();
 }
-
-}  // namespace
 
 int runView(const ViewOptions& asked) {
   ViewOptions options = asked;
@@ -66,6 +67,14 @@ int runView(const ViewOptions& asked) {
   }
   tracing.join();
   return 0;
+}
+
+}  // namespace
+
+RunCommand addView(CLI::App& app) {
+  const auto raw = std::make_shared<RawView>();
+  addViewOptions(app, *raw);
+  return [raw, &app] { return runView(finishView(*raw, app)); };
 }
 
 }  // namespace fragtrace

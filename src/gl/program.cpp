@@ -58,11 +58,11 @@ GlProgram buildComputeProgram(const std::string& text) {
 const GlProgram& ProgramCache::tracer(const ShaderVariant& variant) {
   const auto found = tracers_.find(variant);
   if (found != tracers_.end()) return found->second;
-  const char* compute = variant.wavefront ? "wavefront.comp" : "trace.comp";
+  const char* compute = variant.wavefront ? "entry/wavefront.comp" : "entry/trace.comp";
   GlProgram program = variant.dispatch == Dispatch::Compute
                           ? buildComputeProgram(assembleShader(source_, compute, variant))
-                          : buildProgram(assembleShader(source_, "fullscreen.vert", variant),
-                                         assembleShader(source_, "trace.frag", variant));
+                          : buildProgram(assembleShader(source_, "entry/fullscreen.vert", variant),
+                                         assembleShader(source_, "entry/trace.frag", variant));
   checkGl("building a shader program");
   return tracers_.emplace(variant, std::move(program)).first->second;
 }

@@ -9,10 +9,10 @@
 #include <numeric>
 #include <thread>
 
-#include "bvh/parallel.h"
 #include "pack/inversion_table.h"
 #include "pack/pack_lights.h"
 #include "pack/words.h"
+#include "process/parallel.h"
 
 namespace fragtrace {
 

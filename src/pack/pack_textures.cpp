@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 
-#include "image/tone_map.h"
+#include "image/display/tone_map.h"
 #include "pack/words.h"
 
 namespace fragtrace {

@@ -2,7 +2,7 @@
 // Samples where they are needed: until the picture's noise or the time is what was asked for.
 #pragma once
 
-#include "render/noise.h"
+#include "film/noise.h"
 #include "render/renderer.h"
 
 namespace fragtrace {

@@ -187,7 +187,7 @@ class Passes {
 
 GlProgram denoisingProgram(const ShaderSource& source, const char* entry) {
   GlProgram program =
-      buildProgram(assembleShader(source, "fullscreen.vert", {}), assembleShader(source, entry, {}));
+      buildProgram(assembleShader(source, "entry/fullscreen.vert", {}), assembleShader(source, entry, {}));
   checkGl("building the programs that denoise");
   return program;
 }
@@ -195,11 +195,11 @@ GlProgram denoisingProgram(const ShaderSource& source, const char* entry) {
 }  // namespace
 
 VarianceFilter::VarianceFilter(const ShaderSource& source)
-    : prepare_(denoisingProgram(source, "denoise_prepare.frag")),
-      noise_(denoisingProgram(source, "denoise_noise.frag")),
-      filter_(denoisingProgram(source, "denoise_filter.frag")),
-      compare_(denoisingProgram(source, "denoise_compare.frag")),
-      finish_(denoisingProgram(source, "denoise_finish.frag")) {}
+    : prepare_(denoisingProgram(source, "denoise/prepare.frag")),
+      noise_(denoisingProgram(source, "denoise/noise.frag")),
+      filter_(denoisingProgram(source, "denoise/filter.frag")),
+      compare_(denoisingProgram(source, "denoise/compare.frag")),
+      finish_(denoisingProgram(source, "denoise/finish.frag")) {}
 
 std::optional<Image> VarianceFilter::filtered(const Image& noisy, const std::function<bool()>& goOn) const {
   const glm::ivec2 size(noisy.width, noisy.height);

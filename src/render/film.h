@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "film/film_pixels.h"
 #include "gl/gl.h"
-#include "render/film_pixels.h"
 
 namespace fragtrace {
 

@@ -38,7 +38,7 @@ GlBuffer makeFrameBuffer(const layout::Frame& frame) {
 
 GlProgram buildEntry(const std::filesystem::path& folder, const char* entry, const ShaderVariant& variant) {
   const ShaderSource source = shaderSource(folder);
-  return buildProgram(assembleShader(source, "fullscreen.vert", variant),
+  return buildProgram(assembleShader(source, "entry/fullscreen.vert", variant),
                       assembleShader(source, entry, variant));
 }
 
@@ -74,7 +74,8 @@ RayCaster::RayCaster(const Context& context, GpuScene scene, const ShaderVariant
 
 const GlProgram& RayCaster::program(bool anyHit) {
   std::optional<GlProgram>& program = programs_[anyHit ? 1 : 0];
-  if (!program) program = buildEntry(shaderFolder_, anyHit ? "rays_any.frag" : "rays_nearest.frag", variant_);
+  if (!program)
+    program = buildEntry(shaderFolder_, anyHit ? "entry/rays_any.frag" : "entry/rays_nearest.frag", variant_);
   return *program;
 }
 

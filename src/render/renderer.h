@@ -11,7 +11,7 @@
 #include "gl/program.h"
 #include "gl/scene_buffers.h"
 #include "render/film.h"
-#include "stage/options.h"
+#include "stage/render_options.h"
 
 namespace fragtrace {
 

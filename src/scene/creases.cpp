@@ -8,7 +8,7 @@
 #include <cmath>
 #include <thread>
 
-#include "bvh/parallel.h"
+#include "process/parallel.h"
 #include "scene/hit_error.h"
 
 namespace fragtrace {

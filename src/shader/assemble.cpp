@@ -42,7 +42,8 @@ struct Assembly {
   void append(const std::string& name, const std::string& includedFrom) {
     if (!done.insert(name).second) return;
     std::string file = name;
-    if (name == "read.glsl") file = "read_" + std::string(kBufferReadsNames[size_t(variant.reads)]) + ".glsl";
+    if (name == "read.glsl")
+      file = "reads/read_" + std::string(kBufferReadsNames[size_t(variant.reads)]) + ".glsl";
     const bool literal = name == "literals.glsl" && !variant.literals.empty();
     std::istringstream lines(literal ? variant.literals : shaderText(source, file, includedFrom));
     lineDirective(1, file);

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "stage/options.h"
+#include "stage/render_options.h"
 
 namespace fragtrace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The stages and switches, and what a scene holds: one table row each, which the parser, the statistics, the
-// shader prelude and the documents iterate over.
+// The stages and switches: one table row each, which the parser, the statistics, the shader prelude and the
+// documents iterate over.
 #pragma once
 
 #include <bitset>
@@ -10,64 +10,6 @@
 #include <string_view>
 
 namespace fragtrace {
-
-/// What a scene holds, as far as the shader can be cut down by it.
-enum class Trait : uint8_t {
-  Triangles,
-  Spheres,
-  SingleSided,
-  Alpha,
-  Texcoords,
-  VertexNormals,
-  Tangents,
-  VertexColors,
-  BaseColorTexture,
-  MetallicRoughnessTexture,
-  NormalTexture,
-  EmissionTexture,
-  TransmissionTexture,
-  SpecularTexture,
-  SpecularGlossiness,
-  TextureTransforms,
-  Clearcoat,
-  ClearcoatTexture,
-  ClearcoatNormal,
-  Sheen,
-  SheenTexture,
-  Anisotropy,
-  AnisotropyTexture,
-  Iridescence,
-  IridescenceTexture,
-  DiffuseTransmission,
-  DiffuseTransmissionTexture,
-  Dispersion,
-  GlassSpecular,
-  PerlinNormals,
-  Specular,
-  Metals,
-  Transmission,
-  Absorption,
-  Unlit,
-  Emission,
-  EmissiveTriangles,
-  PunctualLights,
-  Environment,
-  EnvironmentSampling,
-  Instances,
-  Creases,
-  Slivers,
-  SmoothSurfaces,
-  Count
-};
-using TraitSet = std::bitset<size_t(Trait::Count)>;
-
-struct TraitRow {
-  Trait trait;
-  const char* name;      ///< in the statistics and the variant's name
-  const char* constant;  ///< in the shader
-  const char* absence;   ///< why something that needs it is off
-};
-std::span<const TraitRow> traitRows();
 
 /// A stage (in the order of --stage) or a switch of its own.
 enum class Stage : uint8_t {

@@ -32,25 +32,6 @@ bool hasNormalMaps(const TraitSet& traits) {
          has(traits, Trait::ClearcoatNormal);
 }
 
-/// What traits need of others: the first is off without the second.
-struct Need {
-  Trait trait, needed;
-};
-constexpr Need kNeeds[] = {
-    {Trait::Clearcoat, Trait::Specular},
-    {Trait::ClearcoatTexture, Trait::Clearcoat},
-    {Trait::ClearcoatNormal, Trait::Clearcoat},
-    {Trait::SheenTexture, Trait::Sheen},
-    {Trait::Anisotropy, Trait::Specular},
-    {Trait::AnisotropyTexture, Trait::Anisotropy},
-    {Trait::Iridescence, Trait::Specular},
-    {Trait::IridescenceTexture, Trait::Iridescence},
-    {Trait::DiffuseTransmissionTexture, Trait::DiffuseTransmission},
-    {Trait::Dispersion, Trait::Transmission},
-    {Trait::GlassSpecular, Trait::Transmission},
-    {Trait::GlassSpecular, Trait::Specular},
-};
-
 /// A light that rays can hit, and that can be sampled.
 bool hasAreaLight(const TraitSet& traits) {
   return has(traits, Trait::EmissiveTriangles) || has(traits, Trait::EnvironmentSampling);
@@ -64,45 +45,77 @@ bool hasSlivers(const Scene& scene) {
 }
 
 void addMaterialTraits(const Material& m, const Vertices& vertices, TraitSet& traits) {
-  auto mark = [&](Trait trait, bool present) {
-    if (present) traits.set(size_t(trait));
-  };
-  mark(Trait::SingleSided, !m.doubleSided && !m.passesLight());
-  mark(Trait::Alpha, m.alphaMode != AlphaMode::Opaque);
-  mark(Trait::BaseColorTexture, m.baseColorTexture.present());
-  mark(Trait::Unlit, m.unlit);
-  const bool dielectricReflects = m.ior != 1.0f && m.specularFactor > 0.0f &&
-                                  glm::any(glm::greaterThan(m.specularColorFactor, glm::vec3(0.0f)));
-  mark(Trait::Specular, m.metallicFactor > 0.0f || dielectricReflects || m.transmissive() || m.clearcoated());
-  mark(Trait::Metals, m.metallicFactor > 0.0f);
-  mark(Trait::MetallicRoughnessTexture, m.metallicRoughnessTexture.present());
-  mark(Trait::SpecularTexture, m.specularTexture.present() || m.specularColorTexture.present());
-  mark(Trait::SpecularGlossiness, m.specularGlossiness);
-  for (const TextureRef* texture : m.textures()) mark(Trait::TextureTransforms, texture->transformed());
-  mark(Trait::NormalTexture, m.normalTexture.present() && !vertices.tangent.empty());
-  mark(Trait::PerlinNormals, m.perlinNormal.amplitude != 0.0f && !vertices.texcoord0.empty());
-  mark(Trait::Transmission, m.transmissive());
-  mark(Trait::TransmissionTexture, m.transmissive() && m.transmissionTexture.present());
-  mark(Trait::Absorption, m.passesLight() && m.thicknessFactor > 0.0f &&
-                              m.attenuationColor != glm::vec3(1.0f) && std::isfinite(m.attenuationDistance));
-  mark(Trait::Clearcoat, m.clearcoated());
-  mark(Trait::ClearcoatTexture, m.clearcoatTexture.present() || m.clearcoatRoughnessTexture.present());
-  mark(Trait::ClearcoatNormal, m.clearcoatNormalTexture.present() && !vertices.tangent.empty());
-  mark(Trait::Sheen, m.hasSheen());
-  mark(Trait::SheenTexture, m.sheenColorTexture.present() || m.sheenRoughnessTexture.present());
-  mark(Trait::Anisotropy, m.anisotropic());
-  mark(Trait::AnisotropyTexture, m.anisotropyTexture.present());
-  mark(Trait::Iridescence, m.iridescent());
-  mark(Trait::IridescenceTexture, m.iridescenceTexture.present() || m.iridescenceThicknessTexture.present());
-  mark(Trait::DiffuseTransmission, m.diffuseTransmissionFactor > 0.0f);
-  mark(Trait::DiffuseTransmissionTexture,
-       m.diffuseTransmissionTexture.present() || m.diffuseTransmissionColorTexture.present());
-  mark(Trait::Dispersion, m.disperses());
-  mark(Trait::GlassSpecular, m.transmissive() && m.scalesSpecular());
-  mark(Trait::Emission, m.emissive());
-  mark(Trait::EmissionTexture, m.emissive() && m.emissiveTexture.present());
-  // kGuideAlpha of shaders/guides.glsl, and more than half of the light.
-  mark(Trait::SmoothSurfaces, m.roughnessFactor < 0.1f && (m.transmissive() || m.metallicFactor > 0.5f));
+  for (const TraitRow& row : traitRows()) {
+    if (row.ofMaterial && row.ofMaterial(m, vertices)) traits.set(size_t(row.trait));
+  }
+}
+
+void drop(TraitSet& traits, std::initializer_list<Trait> members) {
+  for (const Trait t : members) traits.reset(size_t(t));
+}
+
+/// A stage that is off by itself, or by what was asked for, turns others off.
+void dropStages(StageSet& stages) {
+  // gi shades by itself; without it and phong nothing beyond flat has a meaning.
+  stages.set(size_t(Stage::Flat));
+  if (has(stages, Stage::Gi)) stages.set(size_t(Stage::Phong));
+  if (has(stages, Stage::BvhHeatmap)) {
+    stages &= StageSet(1ul << unsigned(Stage::Flat) | 1ul << unsigned(Stage::BvhHeatmap) |
+                       1ul << unsigned(Stage::Watertight));
+  }
+  if (has(stages, Stage::Phong)) return;
+  for (Stage s : {Stage::Shadows, Stage::Reflections, Stage::Refraction, Stage::NormalMaps, Stage::Gi,
+                  Stage::Schlick, Stage::EnergyCompensation}) {
+    stages.reset(size_t(s));
+  }
+}
+
+/// Traits that no stage left on asks for, or that lack what they need.
+void dropTraits(const StageSet& stages, Surroundings surroundings, TraitSet& traits) {
+  const bool gi = has(stages, Stage::Gi);
+  if (!has(stages, Stage::Phong) && surroundings != Surroundings::Map) drop(traits, {Trait::Environment});
+  if (has(stages, Stage::BvhHeatmap))
+    drop(traits, {Trait::Alpha, Trait::BaseColorTexture, Trait::VertexColors, Trait::Environment});
+  if (gi && !has(stages, Stage::Reflections)) drop(traits, {Trait::Specular});
+  for (TraitSet before; before != traits;) {
+    before = traits;
+    for (const TraitRow& row : traitRows()) {
+      if ((row.stages & ~stages).any() || (row.needs & ~traits).any()) drop(traits, {row.trait});
+    }
+  }
+  // Of specular-glossiness the diffuse colour gives way to the specular one, reflected or not.
+  if (!has(traits, Trait::Specular) && !has(traits, Trait::SpecularGlossiness))
+    drop(traits, {Trait::SpecularTexture});
+  if (!has(traits, Trait::Transmission) && !has(traits, Trait::DiffuseTransmission))
+    drop(traits, {Trait::Absorption});
+  if (!hasNormalMaps(traits) && !has(traits, Trait::Anisotropy)) drop(traits, {Trait::Tangents});
+  if (gi && !has(stages, Stage::LightSampling))
+    drop(traits, {Trait::EmissiveTriangles, Trait::EnvironmentSampling});
+  // A constant environment is found by scattered rays; only the stages without them sample it.
+  if (gi && surroundings == Surroundings::DefaultLight) drop(traits, {Trait::EnvironmentSampling});
+  const auto looksUp = [&](const TraitRow& row) { return row.texture && has(traits, row.trait); };
+  if (std::ranges::none_of(traitRows(), looksUp)) drop(traits, {Trait::Texcoords, Trait::TextureTransforms});
+  drop(traits, {Trait::SmoothSurfaces});  // for guides of filters alone
+}
+
+/// Stages that change nothing in a scene of these traits, and traits that stages alone ask for.
+void dropIdle(ShaderVariant& v) {
+  const auto stage = [&](Stage s) { return has(v.stages, s); };
+  const auto off = [&](Stage s) { v.stages.reset(size_t(s)); };
+  if (!stage(Stage::Gi) || !hasAreaLight(v.traits)) off(Stage::LightSampling);
+  if (!hasLight(v.traits)) off(Stage::Shadows);
+  if (!has(v.traits, Trait::Specular)) off(Stage::Reflections);
+  if (!stage(Stage::Gi) || !stage(Stage::Reflections)) off(Stage::EnergyCompensation);
+  if (!has(v.traits, Trait::Transmission)) {
+    off(Stage::Refraction);
+    off(Stage::Schlick);
+  }
+  if (!hasNormalMaps(v.traits)) off(Stage::NormalMaps);
+  if (!has(v.traits, Trait::Triangles)) off(Stage::Watertight);
+  const bool leavesSurfaces = stage(Stage::Gi) || stage(Stage::Shadows) || stage(Stage::Reflections) ||
+                              stage(Stage::Refraction) || has(v.traits, Trait::Alpha);
+  if (!leavesSurfaces || !stage(Stage::Watertight)) drop(v.traits, {Trait::Creases});
+  if (!stage(Stage::Watertight)) drop(v.traits, {Trait::Slivers});
 }
 
 }  // namespace
@@ -175,112 +188,16 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   v.stages = options.stages;
   v.traits = present;
   v.reads = reads;
-  auto stage = [&](Stage s) { return has(v.stages, s); };
-  auto drop = [&](Stage s) { v.stages.reset(size_t(s)); };
-  auto without = [&](Trait t) { v.traits.reset(size_t(t)); };
-
-  // Step: between stages. gi shades by itself; without it and phong nothing beyond flat has a meaning.
-  v.stages.set(size_t(Stage::Flat));
-  if (stage(Stage::Gi)) v.stages.set(size_t(Stage::Phong));
-  if (stage(Stage::BvhHeatmap)) {
-    v.stages &= StageSet(1ul << unsigned(Stage::Flat) | 1ul << unsigned(Stage::BvhHeatmap) |
-                         1ul << unsigned(Stage::Watertight));
-  }
-  if (!stage(Stage::Phong)) {
-    for (Stage s : {Stage::Shadows, Stage::Reflections, Stage::Refraction, Stage::NormalMaps, Stage::Gi,
-                    Stage::Schlick, Stage::EnergyCompensation}) {
-      drop(s);
-    }
-  }
-
-  // Step: traits that no stage left on asks for.
-  const bool shaded = stage(Stage::Phong);
-  if (!shaded) {
-    for (Trait t : {Trait::VertexNormals, Trait::Specular, Trait::Metals, Trait::MetallicRoughnessTexture,
-                    Trait::SpecularTexture, Trait::SpecularGlossiness, Trait::Unlit, Trait::Emission,
-                    Trait::EmissionTexture, Trait::EmissiveTriangles, Trait::PunctualLights,
-                    Trait::EnvironmentSampling}) {
-      without(t);
-    }
-    if (surroundings != Surroundings::Map) without(Trait::Environment);
-  }
-  if (stage(Stage::BvhHeatmap)) {
-    for (Trait t : {Trait::Alpha, Trait::BaseColorTexture, Trait::VertexColors, Trait::Environment})
-      without(t);
-  }
-  if (stage(Stage::Gi) && !stage(Stage::Reflections)) without(Trait::Specular);
-  if (!has(v.traits, Trait::Specular)) {
-    for (Trait t : {Trait::Metals, Trait::MetallicRoughnessTexture}) without(t);
-    // Of specular-glossiness the diffuse colour gives way to the specular one, reflected or not.
-    if (!has(v.traits, Trait::SpecularGlossiness)) without(Trait::SpecularTexture);
-  }
-  if (!stage(Stage::Refraction)) {
-    for (Trait t :
-         {Trait::Transmission, Trait::TransmissionTexture, Trait::Absorption, Trait::DiffuseTransmission})
-      without(t);
-  }
-  if (!stage(Stage::NormalMaps)) {
-    for (Trait t : {Trait::NormalTexture, Trait::PerlinNormals, Trait::ClearcoatNormal}) without(t);
-  }
-  if (!stage(Stage::Gi)) {
-    for (Trait t : {Trait::Clearcoat, Trait::Sheen, Trait::Anisotropy, Trait::Iridescence,
-                    Trait::DiffuseTransmission, Trait::Dispersion, Trait::GlassSpecular})
-      without(t);
-  }
-  for (const Need& need : kNeeds) {
-    if (!has(v.traits, need.needed)) without(need.trait);
-  }
-  if (!has(v.traits, Trait::Transmission) && !has(v.traits, Trait::DiffuseTransmission))
-    without(Trait::Absorption);
-  if (!hasNormalMaps(v.traits) && !has(v.traits, Trait::Anisotropy)) without(Trait::Tangents);
-  if (stage(Stage::Gi) && !stage(Stage::LightSampling)) {
-    without(Trait::EmissiveTriangles);
-    without(Trait::EnvironmentSampling);
-  }
-  // A constant environment is found by scattered rays; only the stages without them sample it.
-  if (stage(Stage::Gi) && surroundings == Surroundings::DefaultLight) without(Trait::EnvironmentSampling);
-  constexpr std::array kTextured = {Trait::BaseColorTexture,
-                                    Trait::MetallicRoughnessTexture,
-                                    Trait::NormalTexture,
-                                    Trait::EmissionTexture,
-                                    Trait::TransmissionTexture,
-                                    Trait::SpecularTexture,
-                                    Trait::PerlinNormals,
-                                    Trait::ClearcoatTexture,
-                                    Trait::ClearcoatNormal,
-                                    Trait::SheenTexture,
-                                    Trait::AnisotropyTexture,
-                                    Trait::IridescenceTexture,
-                                    Trait::DiffuseTransmissionTexture};
-  if (std::none_of(kTextured.begin(), kTextured.end(), [&](Trait t) { return has(v.traits, t); })) {
-    without(Trait::Texcoords);
-    without(Trait::TextureTransforms);
-  }
-
-  without(Trait::SmoothSurfaces);  // for guides of filters alone
-
-  // Step: stages that change nothing in this scene.
-  if (!stage(Stage::Gi) || !hasAreaLight(v.traits)) drop(Stage::LightSampling);
-  if (!hasLight(v.traits)) drop(Stage::Shadows);
-  if (!has(v.traits, Trait::Specular)) drop(Stage::Reflections);
-  if (!stage(Stage::Gi) || !stage(Stage::Reflections)) drop(Stage::EnergyCompensation);
-  if (!has(v.traits, Trait::Transmission)) {
-    drop(Stage::Refraction);
-    drop(Stage::Schlick);
-  }
-  if (!hasNormalMaps(v.traits)) drop(Stage::NormalMaps);
-  if (!has(v.traits, Trait::Triangles)) drop(Stage::Watertight);
-  const bool leavesSurfaces = stage(Stage::Gi) || stage(Stage::Shadows) || stage(Stage::Reflections) ||
-                              stage(Stage::Refraction) || has(v.traits, Trait::Alpha);
-  if (!leavesSurfaces || !stage(Stage::Watertight)) without(Trait::Creases);
-  if (!stage(Stage::Watertight)) without(Trait::Slivers);
+  dropStages(v.stages);
+  dropTraits(v.stages, surroundings, v.traits);
+  dropIdle(v);
 
   // Step: how rays find triangles.
-  // Literals need the packed scene; who has it puts them in (useLiterals of src/cli/setup.cpp).
+  // Literals need the packed scene; who has it puts them in (useLiterals of src/session/setup.cpp).
   const bool named =
       options.traversal != TraversalMethod::Auto && options.traversal != TraversalMethod::Literals;
   v.traversal = named ? options.traversal : TraversalMethod::FrontToBack;
-  if (v.traversal == TraversalMethod::Iterative) without(Trait::Instances);
+  if (v.traversal == TraversalMethod::Iterative) drop(v.traits, {Trait::Instances});
   v.stackSize = treeDepth <= kMaxBvhDepth ? int(kMaxBvhDepth) : int(kMaxTwoLevelDepth);
   for (int size : {24, 20, 16, 12, 8}) {
     if (treeDepth <= uint32_t(size)) v.stackSize = size;
@@ -288,7 +205,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   if (v.traversal == TraversalMethod::Iterative) v.stackSize = 8;
 
   v.pixelFilter = options.pixelFilter;
-  v.clampIndirect = stage(Stage::Gi) && options.clampIndirect > 0.0;
+  v.clampIndirect = has(v.stages, Stage::Gi) && options.clampIndirect > 0.0;
   return v;
 }
 

@@ -6,7 +6,8 @@
 #include <tuple>
 
 #include "scene/scene.h"
-#include "stage/options.h"
+#include "stage/render_options.h"
+#include "stage/traits.h"
 
 namespace fragtrace {
 

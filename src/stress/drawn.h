@@ -2,8 +2,8 @@
 // Pictures of scenes that are made in memory, for rows that look at pixels.
 #pragma once
 
+#include "film/film_pixels.h"
 #include "pack/gpu_scene.h"
-#include "render/film_pixels.h"
 #include "render/renderer.h"
 #include "stress/stress.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bench/formatted.h"
-#include "render/picture_check.h"
+#include "film/picture_check.h"
 #include "stress/random_sketch.h"
 
 namespace fragtrace {

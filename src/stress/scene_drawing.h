@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "bvh/bvh.h"
+#include "film/film_pixels.h"
 #include "pack/gpu_scene.h"
-#include "render/film_pixels.h"
 #include "render/renderer.h"
 #include "stress/sketch.h"
 

@@ -10,7 +10,7 @@
 
 #include "bench/stress_report.h"
 #include "gl/context.h"
-#include "stage/options.h"
+#include "stage/render_options.h"
 
 namespace fragtrace {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "stage/options.h"
+#include "stage/render_options.h"
 
 namespace fragtrace {
 

@@ -14,7 +14,8 @@
 #include "bvh/tree_boxes.h"
 #include "image/image.h"
 #include "scene/describe.h"
-#include "stage/options.h"
+#include "stage/render_options.h"
+#include "stage/traits.h"
 
 namespace fragtrace {
 

@@ -29,12 +29,20 @@ bool FileWatch::changed() {
   return any;
 }
 
-std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder, const char* extension) {
+std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder, std::string_view extension) {
   std::vector<std::filesystem::path> files;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const bool wanted = std::string_view(extension).empty() || entry.path().extension() == extension;
-    if (wanted && entry.is_regular_file(error)) files.push_back(entry.path());
+    if (entry.path().extension() == extension && entry.is_regular_file(error)) files.push_back(entry.path());
+  }
+  return files;
+}
+
+std::vector<std::filesystem::path> filesUnder(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
+    if (entry.is_regular_file(error)) files.push_back(entry.path());
   }
   return files;
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace fragtrace {
@@ -26,7 +27,10 @@ class FileWatch {
   std::map<std::filesystem::path, std::optional<Look>> files_;
 };
 
-/// All files in a folder whose names end so; with no ending all. Empty where there is no such folder.
-std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder, const char* extension);
+/// All files in a folder whose names end so. Empty where there is no such folder.
+std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder, std::string_view extension);
+
+/// All files in a folder and in those in it. Empty where there is no such folder.
+std::vector<std::filesystem::path> filesUnder(const std::filesystem::path& folder);
 
 }  // namespace fragtrace

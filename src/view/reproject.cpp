@@ -18,7 +18,7 @@ constexpr double kDepthApart = 0.02;    // of the depth: the same surface
 constexpr double kNormalAlike = 0.9;    // cosine
 constexpr double kAlbedoApart = 0.15;   // a channel
 constexpr double kCovered = 0.5;        // of the samples of a pixel: it shows a surface
-constexpr double kAlbedoFloor = 0.04;   // as in shaders/denoise.glsl
+constexpr double kAlbedoFloor = 0.04;   // as in shaders/denoise/denoise.glsl
 constexpr double kEnoughOfFour = 0.25;  // weight of the taps that fit, for the past to count
 
 const glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "image/header.h"
+#include "image/files/header.h"
+#include "image/files/pfm.h"
 #include "image/limits.h"
-#include "image/pfm.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   try {

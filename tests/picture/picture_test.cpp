@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "image/difference.h"
+#include "image/compare/difference.h"
 #include "image/image.h"
 
 namespace {

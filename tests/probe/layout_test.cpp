@@ -56,8 +56,8 @@ class Layout : public GlProbe {
     variant.reads = BufferReads::Ssbo;
     variant.resumable = true;
     const ShaderSource source = shaderSource({});
-    program_ = buildProgram(assembleShader(source, "fullscreen.vert", variant),
-                            assembleShader(source, "trace.frag", variant));
+    program_ = buildProgram(assembleShader(source, "entry/fullscreen.vert", variant),
+                            assembleShader(source, "entry/trace.frag", variant));
   }
 
   void expectMembers(GLenum interface, const std::vector<Member>& members) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/camera_options.h"
+#include "options/camera_options.h"
 
 #include <gtest/gtest.h>
 

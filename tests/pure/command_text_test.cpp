@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What the viewer copies is a whole command, and what it pastes gives the same options.
-#include "cli/command_text.h"
+#include "options/command_text.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "cli/option_text.h"
 #include "errors.h"
+#include "options/option_text.h"
 
 namespace fragtrace {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "render/debug_picture.h"
+#include "film/debug_picture.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "image/heatmap.h"
-#include "image/tone_map.h"
+#include "image/display/heatmap.h"
+#include "image/display/tone_map.h"
 
 namespace fragtrace {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How warnings of the loader are joined to lines.
-#include "gltf/diagnostics.h"
+#include "gltf/read/diagnostics.h"
 
 #include <gtest/gtest.h>
 

@@ -35,7 +35,11 @@ TEST_F(FileWatchTest, SeesWhatIsWrittenOnceAndNotWhatIsGone) {
                                    std::filesystem::last_write_time(missing) + std::chrono::seconds(2));
   EXPECT_TRUE(watch.changed());
   EXPECT_EQ(filesIn(folder, ".gltf").size(), 1u);
-  EXPECT_EQ(filesIn(folder / "none", "").size(), 0u);
+  EXPECT_EQ(filesIn(folder / "none", ".gltf").size(), 0u);
+  EXPECT_EQ(filesUnder(folder / "none").size(), 0u);
+  std::filesystem::create_directory(folder / "inner");
+  std::ofstream(folder / "inner" / "c.glsl") << "c";
+  EXPECT_EQ(filesUnder(folder).size(), filesIn(folder, ".gltf").size() + filesIn(folder, ".bin").size() + 1);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render/film_pixels.h"
+#include "film/film_pixels.h"
 
 #include <gtest/gtest.h>
 

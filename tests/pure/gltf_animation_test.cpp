@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "gltf/animation.h"
+#include "gltf/build/animation.h"
 #include "gltf_builder.h"
 
 namespace fragtrace::gltf_test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The table of extensions, docs/gltf.md and the sources that read them say the same.
-#include "gltf/extensions.h"
+#include "gltf/check/extensions.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Scenes and material variants that the user chooses.
 #include <gtest/gtest.h>
 
-#include "gltf/diagnostics.h"
+#include "gltf/read/diagnostics.h"
 
 #include "gltf_builder.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which meshes the scene holds once, and that they stand where their copies would.
-#include "gltf/sharing.h"
+#include "gltf/build/sharing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The metrics against values worked out by hand.
-#include "image/difference.h"
+#include "image/compare/difference.h"
 
 #include <gtest/gtest.h>
 

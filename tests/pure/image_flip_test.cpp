@@ -2,7 +2,7 @@
 // FLIP against NVIDIA's own implementation: flip-evaluator 1.7 from PyPI, evaluate(reference, picture, "LDR",
 // applyMagma=False, parameters={"ppd": ...}), mean and values of its map. Theirs is in single precision:
 // where a picture is flat it finds features of about 1e-7, whose square root moves the map by up to 1e-4.
-#include "image/flip.h"
+#include "image/compare/flip.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include <limits>
 
 #include "errors.h"
-#include "image/difference.h"
-#include "image/tone_map.h"
+#include "image/compare/difference.h"
+#include "image/display/tone_map.h"
 
 namespace fragtrace {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "errors.h"
-#include "image/header.h"
+#include "image/files/header.h"
+#include "image/files/whole_file.h"
 #include "image/image.h"
-#include "image/whole_file.h"
 #include "image_samples.h"
 #include "image_test_folder.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "image/heatmap.h"
+#include "image/display/heatmap.h"
 
 namespace fragtrace {
 namespace {

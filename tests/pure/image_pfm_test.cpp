@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "image/pfm.h"
+#include "image/files/pfm.h"
 
 namespace fragtrace {
 namespace {

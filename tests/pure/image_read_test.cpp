@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "errors.h"
+#include "image/files/jpeg.h"
+#include "image/files/png.h"
+#include "image/files/whole_file.h"
 #include "image/image.h"
-#include "image/jpeg.h"
-#include "image/png.h"
-#include "image/whole_file.h"
 #include "image_samples.h"
 #include "image_test_folder.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The tone curves against values computed with the published formulas in Python.
-#include "image/tone_map.h"
+#include "image/display/tone_map.h"
 
 #include <gtest/gtest.h>
 

@@ -14,9 +14,9 @@
 
 #include "errors.h"
 #include "image/channels.h"
+#include "image/files/process.h"
+#include "image/files/whole_file.h"
 #include "image/image.h"
-#include "image/process.h"
-#include "image/whole_file.h"
 #include "image_test_folder.h"
 
 namespace fragtrace {

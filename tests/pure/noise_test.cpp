@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// src/render/noise.cpp on films of known noise.
-#include "render/noise.h"
+// src/film/noise.cpp on films of known noise.
+#include "film/noise.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render/picture_check.h"
+#include "film/picture_check.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "glsl.h"
 #include "shader_statistics.h"
-#include "stage/options.h"
+#include "stage/render_options.h"
 
 namespace fragtrace {
 namespace {

@@ -116,7 +116,7 @@ TEST(ShaderText, AMissingIncludeThrows) {
 }
 
 TEST(ShaderText, EachFileIsPutInOnce) {
-  const std::string text = assembleShader({}, "trace.frag", ShaderVariant{});
+  const std::string text = assembleShader({}, "entry/trace.frag", ShaderVariant{});
   EXPECT_EQ(text.find("struct RayShear"), text.rfind("struct RayShear"));
   EXPECT_EQ(text.find("#include"), std::string::npos);
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "bvh_triangles.h"
-#include "image/lines.h"
+#include "image/display/lines.h"
 
 namespace fragtrace {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "image/serve.h"
 #include "image/worker/messages.h"
 #include "image/worker/openimageio.h"
+#include "process/serve.h"
 
 namespace fragtrace {
 namespace {

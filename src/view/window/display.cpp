@@ -10,7 +10,7 @@ namespace fragtrace {
 
 namespace {
 
-// As shaders/display.frag and shaders/window.frag have them.
+// As shaders/entry/display.frag and shaders/entry/window.frag have them.
 constexpr GLint kFactor = 0;
 constexpr GLint kToneMap = 1;
 constexpr GLint kWindowSize = 0;
@@ -20,9 +20,9 @@ constexpr GLint kBar = 1;
 
 Display::Display() : vertexArray_(makeVertexArray()) {
   const ShaderSource source = shaderSource({});
-  const std::string vertex = assembleShader(source, "fullscreen.vert", {});
-  mapping_ = buildProgram(vertex, assembleShader(source, "display.frag", {}));
-  window_ = buildProgram(vertex, assembleShader(source, "window.frag", {}));
+  const std::string vertex = assembleShader(source, "entry/fullscreen.vert", {});
+  mapping_ = buildProgram(vertex, assembleShader(source, "entry/display.frag", {}));
+  window_ = buildProgram(vertex, assembleShader(source, "entry/window.frag", {}));
   checkGl("building the display's programs");
 }
 

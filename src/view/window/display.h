@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The latest pictures on the window: exposure and tone map once a picture, at its own resolution
-// (shaders/display.frag), then both sides of the bar at the window's (shaders/window.frag).
+// (shaders/entry/display.frag), then both sides of the bar at the window's (shaders/entry/window.frag).
 #pragma once
 
 #include <array>
 
 #include "gl/gl.h"
-#include "image/tone_map.h"
+#include "image/display/tone_map.h"
 #include "view/exchange.h"
 
 namespace fragtrace {

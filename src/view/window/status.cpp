@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "image/whole_file.h"
+#include "image/files/whole_file.h"
 #include "math/summary.h"
 
 namespace fragtrace {

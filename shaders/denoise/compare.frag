@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Of the variance filter: how far each pixel was moved, and how much of that is noise; both relative to its light, squared, as x / (1 + x): else the few
+// brightest samples of a window would speak for all of it.
+#include "denoise/denoise.glsl"
+
+layout(binding = 0) uniform sampler2D lights;    // noisy
+layout(binding = 1) uniform sampler2D filtered;
+layout(binding = 2) uniform sampler2D noises;
+
+layout(location = 0) out vec2 moved;  // and noise
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec3 before = texelFetch(lights, pixel, 0).rgb;
+  vec3 after = texelFetch(filtered, pixel, 0).rgb;
+  // Light that leaks into a dark place counts for what it does there.
+  vec3 light = min(after, 0.5 * (before + after));
+  vec3 away = (after - before) * (after - before) / (light * light + kDarkSquared);
+  float luminance = brightness(light);
+  vec2 relative = vec2(dot(away, vec3(1.0 / 3.0)), texelFetch(noises, pixel, 0).r / (luminance * luminance + kDarkSquared));
+  moved = relative / (1.0 + relative);
+}

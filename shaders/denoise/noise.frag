@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// The second pass of the variance filter: how much noise each pixel has. Samples of a sequence are not independent, so the variance that they tell is
+// multiplied by what observations leave of it in a window of like surfaces, drawn towards the whole picture's share where the window is small.
+#include "denoise/denoise.glsl"
+
+layout(binding = 0) uniform sampler2D lights;     // as denoise_prepare.frag leaves these
+layout(binding = 1) uniform sampler2D observed;
+layout(binding = 2) uniform usampler2D guides;
+layout(location = 1) uniform float share;  // observed / independent variance of the whole picture; negative: nothing was observed
+
+layout(location = 0) out vec4 light;   // with the variance that the filter goes by
+layout(location = 1) out float noise;  // the variance that the pixel's own samples tell
+
+const float kPrior = 8.0;  // pixels that the whole picture's share counts for
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec4 own = texelFetch(lights, pixel, 0);
+  Guide guide = guideOf(texelFetch(guides, pixel, 0));
+  bool known = own.a >= 0.0;
+  float weights = 0.0;
+  float luminance = 0.0;
+  float squares = 0.0;
+  float variance = 0.0;
+  // Of relative variance, so that the brightest pixels do not drown the rest.
+  float independent = 0.0;
+  float independentSquares = 0.0;
+  float observations = 0.0;
+  int reach = empty(guide) ? -1 : kWindow;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      ivec2 other = pixel + ivec2(x, y);
+      bool there = inside(other);
+      other = clamp(other, ivec2(0), size - 1);
+      vec4 tap = texelFetch(lights, other, 0);
+      float weight = there ? exp(likeness(guide, guideOf(texelFetch(guides, other, 0)), vec2(x, y))) : 0.0;
+      float value = brightness(tap.rgb);
+      float part = tap.a / (value * value + kDarkSquared);
+      weights += weight;
+      luminance += weight * value;
+      squares += weight * value * value;
+      variance += weight * tap.a;
+      independent += weight * part;
+      independentSquares += weight * part * part;
+      observations += weight * texelFetch(observed, other, 0).r / (value * value + kDarkSquared);
+    }
+  }
+  light = vec4(own.rgb, 0.0);
+  noise = 0.0;
+  if (weights <= 0.0) return;
+  if (!known) {
+    luminance /= weights;
+    light.a = noise = max(squares / weights - luminance * luminance, 0.0);
+    return;
+  }
+  float left = 1.0;
+  if (share >= 0.0 && independent > 0.0) {
+    float prior = kPrior * independentSquares / independent;
+    left = min((observations + prior * share) / (independent + prior), 1.0);
+  }
+  noise = left * own.a;
+  light.a = left * max(own.a, variance / weights);
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The first pass of the variance filter: light without albedo, its variance, and what tells surfaces apart.
+#include "denoise/denoise.glsl"
+
+layout(binding = 0) uniform sampler2D noisy;    // radiance; variance of its luminance from independent samples, -1: not known
+layout(binding = 1) uniform sampler2D albedos;  // albedo, coverage
+layout(binding = 2) uniform sampler2D normals;  // normal, depth; means that count misses as 0, as albedo does
+layout(binding = 3) uniform sampler2D seen;     // one observation of the variance (observedVariance() of src/film/noise.h)
+
+layout(location = 0) out vec4 light;      // without albedo; variance of its luminance
+layout(location = 1) out float observed;  // of it
+layout(location = 2) out uvec4 guide;
+
+float logDepth(ivec2 pixel) {
+  float coverage = max(texelFetch(albedos, pixel, 0).a, 1e-6);
+  return log2(max(texelFetch(normals, pixel, 0).a / coverage, 1e-9));
+}
+
+/// The smaller of the steps to both neighbours: an edge is on one side.
+float slopeAlong(ivec2 pixel, ivec2 axis, float depth) {
+  float least = 1e4;
+  if (inside(pixel - axis)) least = min(least, abs(logDepth(pixel - axis) - depth));
+  if (inside(pixel + axis)) least = min(least, abs(logDepth(pixel + axis) - depth));
+  return least < 1e4 ? least : 0.0;
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec4 radiance = texelFetch(noisy, pixel, 0);
+  vec4 albedo = texelFetch(albedos, pixel, 0);
+  vec4 normal = texelFetch(normals, pixel, 0);
+  vec3 divisor = demodulation(albedo);
+  float part = brightness(divisor);
+  light = vec4(radiance.rgb / divisor, radiance.a >= 0.0 ? radiance.a / (part * part) : -1.0);
+  observed = texelFetch(seen, pixel, 0).r / (part * part);
+  float coverage = max(albedo.a, 1e-6);
+  float depth = logDepth(pixel);
+  guide = packedGuide(Guide(vec4(albedo.rgb / coverage, albedo.a), normal.xyz / coverage, depth,
+                            vec2(slopeAlong(pixel, ivec2(1, 0), depth), slopeAlong(pixel, ivec2(0, 1), depth))));
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "cli/bench/error_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "errors.h"
+#include "options/choose.h"
+#include "options/numbers.h"
+#include "session/denoising.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr const char* kDefaultSamples = "256";
+
+}  // namespace
+
+void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
+  BenchErrorOptions& o = raw.options;
+  app.add_option("file", raw.scene, ".gltf or .glb file")->required();
+  app.add_option(
+      "--reference", o.reference,
+      "picture to measure against; default: one of the first configuration with 64 times the samples");
+  app.add_option("--repetitions", o.repetitions, "with different seeds")
+      ->check(wholeNumber(1, 1000))
+      ->capture_default_str();
+  app.add_option("--goal", o.goal, "relative MSE whose time is compared")
+      ->check(CLI::Range(1e-12, 1e3))
+      ->capture_default_str();
+  app.add_option("--json", o.json, "file for everything measured");
+  app.add_option("--csv", o.csv, "the same as a table");
+  app.add_option("--chart", o.chart, ".svg: error against time");
+  addConfigurationOptions(app, raw.configurations, "default,random,baseline, or with --config only default");
+  app.get_option("--spp")->description(std::string("camera paths a pixel of the last step, default ") +
+                                       kDefaultSamples);
+  addDenoiseOption(app, raw.configurations.shared);
+  app.get_option("--denoise")
+      ->description(joined(kDenoiseNames) +
+                    ": measure each picture filtered, too, against the time of drawing and filtering it");
+}
+
+BenchErrorOptions finishBenchError(const RawBenchError& raw, const CLI::App& app) {
+  BenchErrorOptions options = raw.options;
+  options.configurations = configurationsOf(raw.configurations, app, raw.scene,
+                                            {"default", "random", "baseline"}, kDefaultSamples);
+  const auto denoise = choose<Denoise>("--denoise", raw.configurations.shared.denoise, kDenoiseNames);
+  for (BenchConfiguration& c : options.configurations) {
+    c.render.denoise = denoise;
+    c.render.oidnLibrary = raw.configurations.shared.oidnLibrary;
+    if (denoise == Denoise::None) continue;
+    const std::string reason = whyNotDenoised(c.render);
+    if (!reason.empty()) throw UsageError("configuration '" + c.name + "': --denoise: " + reason);
+  }
+  if (!std::isfinite(options.goal)) throw UsageError("--goal: not a finite number");
+  const auto isAdaptive = [](const BenchConfiguration& c) { return c.adaptive(); };
+  if (options.reference.empty() && std::ranges::all_of(options.configurations, isAdaptive))
+    throw UsageError("--reference: needed where every configuration is adaptive");
+  if (!options.chart.empty() && options.chart.extension() != ".svg")
+    throw UsageError("--chart: '" + options.chart.string() + "' does not end in .svg");
+  return options;
+}
+
+}  // namespace fragtrace

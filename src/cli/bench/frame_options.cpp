@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "cli/bench/frame_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "errors.h"
+
+namespace fragtrace {
+
+void addBenchFrameOptions(CLI::App& app, RawBenchFrame& raw) {
+  BenchFrameOptions& o = raw.options;
+  app.add_option("scenes", raw.scenes, ".gltf or .glb files")->required();
+  addTimingOptions(app, o.timing);
+  app.add_option("--reference", o.reference,
+                 "picture that all must show; default: what the other traversal of the tree makes");
+  app.add_option("--json", o.json, "file for all figures, a line a setting");
+  app.add_option("--baseline", o.baseline, "such a file of before: status 1 when something got slower");
+  app.add_option("--tolerance", o.tolerance, "by more than this part")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  addConfigurationOptions(app, raw.configurations, "default");
+  app.get_option("--spp")->description("frames a round; default: as many as --round-time takes");
+}
+
+BenchFrameOptions finishBenchFrame(const RawBenchFrame& raw, const CLI::App& app) {
+  BenchFrameOptions options = raw.options;
+  for (const std::string& scene : raw.scenes) {
+    options.scenes.push_back(configurationsOf(raw.configurations, app, scene, {"default"}, nullptr));
+    for (const BenchConfiguration& c : options.scenes.back()) checkTimed(c);
+    for (size_t i = 0; i + 1 < options.scenes.size(); ++i) {
+      if (raw.scenes[i] == scene) throw UsageError("scenes: '" + scene + "' stands twice");
+    }
+  }
+  if (!std::isfinite(options.tolerance)) throw UsageError("--tolerance: not a finite number");
+  if (!options.reference.empty() && raw.scenes.size() > 1)
+    throw UsageError("--reference: is of one scene, but there are " + std::to_string(raw.scenes.size()));
+  return options;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "cli/bench/start_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "errors.h"
+#include "options/numbers.h"
+
+namespace fragtrace {
+
+void addBenchStartOptions(CLI::App& app, RawBenchStart& raw) {
+  BenchStartOptions& o = raw.options;
+  app.add_option("file", raw.render.scene, ".gltf or .glb file")->required();
+  app.add_option("--starts", o.starts, "how often it is started")
+      ->check(wholeNumber(1, 1000))
+      ->capture_default_str();
+  app.add_option("--format", raw.format, "of the picture that is written: png, jpg, exr, hdr, pfm")
+      ->check(CLI::IsMember({"png", "jpg", "exr", "hdr", "pfm"}))
+      ->capture_default_str();
+  app.add_option("--json", o.json, "file for all figures");
+  addRenderOptions(app, raw.render);
+}
+
+BenchStartOptions finishBenchStart(const RawBenchStart& raw) {
+  BenchStartOptions options = raw.options;
+  RawRender render = raw.render;
+  render.output = "picture." + raw.format;
+  options.render = finishRender(render);
+  if (options.render.noise > 0.0 || options.render.seconds > 0.0)
+    throw UsageError("--noise and --time: a start ends with a number of samples; --spp says which");
+  if (!options.render.statsFile.empty())
+    throw UsageError("--stats: each start has its own; --json has them all");
+  return options;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "cli/bench/traversal_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "errors.h"
+#include "options/device_options.h"
+#include "options/numbers.h"
+
+namespace fragtrace {
+
+void addBenchTraversalOptions(CLI::App& app, RawBenchTraversal& raw) {
+  BenchTraversalOptions& o = raw.options;
+  app.add_option("file", raw.render.scene, ".gltf or .glb file")->required();
+  app.add_option("--resolution", raw.render.camera.resolution,
+                 "WIDTH,HEIGHT of the field of rays, one a pixel")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(wholeNumber(1, 4096));
+  raw.render.camera.resolution = {1024, 1024};
+  app.add_option("--rounds", o.rounds, "how often each set is traced, in turn")
+      ->check(wholeNumber(1, 10000))
+      ->capture_default_str();
+  app.add_option("--traversal", raw.render.traversal, "auto, bvh, front-to-back")->capture_default_str();
+  CLI::Option* index =
+      app.add_option("--camera-index", raw.render.camera.index, "camera of the primary rays, from 0");
+  app.add_option("--camera", raw.render.camera.name, "name or index of it")->excludes(index);
+  app.add_option("--seed", raw.render.options.seed, "of diffuse and shadow rays")->capture_default_str();
+  app.add_option("--json", o.json, "file for everything measured, a line a kind of rays");
+  app.add_option("--rays", o.rays, "file for triangles and rays, to be traced by another (bench/peers)");
+  addDeviceOptions(app, raw.render);
+}
+
+BenchTraversalOptions finishBenchTraversal(const RawBenchTraversal& raw) {
+  BenchTraversalOptions options = raw.options;
+  RawRender render = raw.render;
+  render.stage = "flat";
+  render.noDefaultLight = true;
+  render.instancing = "flatten";
+  options.render = finishRender(render);
+  if (options.render.traversal == TraversalMethod::Iterative)
+    throw UsageError("--traversal: 'iterative' takes more than one draw; `bench scale` measures it");
+  if (options.render.traversal == TraversalMethod::Literals)
+    throw UsageError("--traversal: 'literals' has no tree; 'bench traversal' measures trees");
+  return options;
+}
+
+}  // namespace fragtrace

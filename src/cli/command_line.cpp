@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "cli/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/bench/commands.h"
+#include "cli/commands.h"
+#include "cli/suggestion.h"
+#include "errors.h"
+#include "options/camera_options.h"
+#include "options/choose.h"
+
+namespace fragtrace {
+
+namespace {
+
+std::vector<std::string> argumentsOf(int argc, const char* const* argv) {
+  std::vector<std::string> arguments = withNumbersSettled({argv + std::min(argc, 1), argv + argc});
+  std::ranges::reverse(arguments);  // last first, as the library wants them
+  return arguments;
+}
+
+std::vector<std::string> commandNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+/// The library would call an unknown command an argument too many.
+void checkCommand(const CLI::App& app, std::optional<std::string> word) {
+  const std::vector<std::string> names = commandNames(app);
+  if (!word || word->starts_with('-') || std::ranges::find(names, *word) != names.end()) return;
+  throw UsageError("'" + *word + "' is no command of " + app.get_name() + ": " + joined(names));
+}
+
+/// What the library calls arguments that were not expected.
+std::string whatIsUnknown(const CLI::App& app) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  const std::vector<std::string> left = app.remaining(true);
+  const auto option =
+      std::ranges::find_if(left, [](const std::string& word) { return word.starts_with('-'); });
+  if (option == left.end()) return "'" + left.front() + "' is an argument too many; --help says more";
+  std::vector<std::string> known;
+  for (const CLI::Option* one : command->get_options()) known.push_back(one->get_name());
+  const std::string unknown = option->substr(0, option->find('='));
+  const std::string meant = suggestedOption(unknown, known);
+  return unknown + " is no option of " + command->get_name() +
+         (meant.empty() ? "; --help lists them" : "; did you mean " + meant + "?");
+}
+
+}  // namespace
+
+RunCommand addCommands(CLI::App& app, std::span<const CommandRow> rows) {
+  app.require_subcommand(1);
+  std::vector<std::pair<const CLI::App*, RunCommand>> commands;
+  for (const CommandRow& row : rows) {
+    CLI::App& command = *app.add_subcommand(row.name, row.sentence);
+    commands.emplace_back(&command, row.add(command));
+  }
+  return [commands] {
+    return std::ranges::find_if(commands, [](const auto& c) { return c.first->parsed(); })->second();
+  };
+}
+
+RunCommand addBench(CLI::App& app) { return addCommands(app, kBenchRows); }
+
+int runCommandLine(int argc, const char* const* argv) {
+  CLI::App app("A real-time ray tracer for glTF whose tracing runs in an OpenGL fragment shader.",
+               "fragtrace");
+  app.set_version_flag("--version", std::string("fragtrace ") + FRAGTRACE_VERSION);
+  const RunCommand run = addCommands(app, kCommandRows);
+  const auto word = [&](int i) { return i < argc ? std::optional<std::string>(argv[i]) : std::nullopt; };
+  checkCommand(app, word(1));
+  if (word(1) == "bench") checkCommand(*app.get_subcommand("bench"), word(2));
+  try {
+    app.parse(argumentsOf(argc, argv));
+  } catch (const CLI::Success& success) {
+    return app.exit(success, std::cout, std::cerr);
+  } catch (const CLI::ExtrasError&) {
+    throw UsageError(whatIsUnknown(app));
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(std::string(error.what()) + "; --help says more");
+  }
+  return run();
+}
+
+}  // namespace fragtrace

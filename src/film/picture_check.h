@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Whether two noisy pictures show the same: what a benchmark asks of a picture before its time counts.
+#pragma once
+
+#include <string>
+
+#include "film/film_pixels.h"
+
+namespace fragtrace {
+
+/// Which noise the other picture has.
+enum class CheckAgainst : uint8_t {
+  SameSamples,  ///< it was made of the very same samples: pixels are equal, but for rounding
+  OtherSamples,
+  NoiseFree,
+};
+
+/// How far a picture is from another of the same size. A block is 8 x 8 pixels; its standard error is
+/// estimated from the samples of both pictures, and at least that of the picture's mean block and a
+/// ten-thousandth of what it shows.
+struct PictureCheck {
+  double rmse = 0.0;        ///< over pixels and colours
+  double differing = 0.0;   ///< part of the pixels that are apart by more than rounding
+  double meanErrors = 0.0;  ///< how many standard errors the means of the whole pictures are apart
+  double farBlocks = 0.0;   ///< part of the blocks that are apart by more than kBlockErrors
+  double worstBlock = 0.0;  ///< how many standard errors the worst block is apart
+  std::string wrong;        ///< why they do not show the same; empty: they do
+};
+
+inline constexpr double kBlockErrors = 4.0;  ///< standard errors: of 16,000 blocks, one is beyond by chance
+inline constexpr double kMostFarBlocks =
+    0.01;  ///< part of the blocks: samples with rare bright ones are no Gauss
+inline constexpr double kMostMeanErrors = 5.0;  ///< standard errors of the mean: one of 1.7 million by chance
+inline constexpr double kMostDiffering = 0.005;  ///< part of the pixels; the same samples only
+
+/// Pixels that are no numbers, that have no sample, and pictures of different sizes are wrong. Without two
+/// samples a pixel its noise is not known: only SameSamples can then be judged, and the rest is wrong.
+PictureCheck checkPicture(const FilmPixels& picture, const FilmPixels& other, CheckAgainst against);
+
+/// A picture file as film, of as many samples as its layers samples.Y and variance.Y say; without these of
+/// one sample. True in `noiseFree` for the latter.
+FilmPixels filmOf(const Image& picture, bool& noiseFree);
+
+}  // namespace fragtrace

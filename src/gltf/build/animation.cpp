@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/build/animation.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "gltf/check/schema.h"
+#include "gltf/check/schema_checker.h"
+#include "gltf/read/accessor.h"
+
+namespace fragtrace {
+namespace {
+
+using nlohmann::json;
+
+double lengthOf(const std::vector<double>& v) {
+  double squared = 0.0;
+  for (const double x : v) squared += x * x;
+  return std::sqrt(squared);
+}
+
+/// Unit, or as it is where it has no direction.
+void normalize(std::vector<double>& quaternion) {
+  const double length = lengthOf(quaternion);
+  if (!(length > 0.0) || !std::isfinite(length)) return;
+  for (double& x : quaternion) x /= length;
+}
+
+/// Weights of two unit quaternions at `part` of the shorter way between them (glTF 2.0, appendix C.4).
+struct Blend {
+  double a, b;
+};
+
+Blend sphericalBlend(double dot, double part) {
+  constexpr double kNearlyOne = 1.0 - 1e-9;  // there the sine is the angle
+  const double sign = dot < 0.0 ? -1.0 : 1.0;
+  const double cosine = std::min(std::abs(dot), 1.0);
+  if (cosine > kNearlyOne) return {1.0 - part, sign * part};
+  const double angle = std::acos(cosine);
+  return {std::sin(angle * (1.0 - part)) / std::sin(angle), sign * std::sin(angle * part) / std::sin(angle)};
+}
+
+std::vector<double> numbersAt(const Keyframes& keys, size_t first) {
+  const auto begin = keys.values.begin() + std::ptrdiff_t(first);
+  return {begin, begin + std::ptrdiff_t(keys.width)};
+}
+
+std::vector<double> valueOfKey(const Keyframes& keys, size_t key) {
+  const bool isCubic = keys.interpolation == Interpolation::CubicSpline;
+  return numbersAt(keys, isCubic ? (3 * key + 1) * keys.width : key * keys.width);
+}
+
+/// glTF 2.0, appendix C.5.
+std::vector<double> splineAt(const Keyframes& keys, size_t key, double part, double duration) {
+  const std::vector<double> from = valueOfKey(keys, key);
+  const std::vector<double> to = valueOfKey(keys, key + 1);
+  const std::vector<double> out = numbersAt(keys, (3 * key + 2) * keys.width);
+  const std::vector<double> in = numbersAt(keys, (3 * key + 3) * keys.width);
+  const double s = part, s2 = s * s, s3 = s2 * s;
+  std::vector<double> result(keys.width);
+  for (size_t i = 0; i < keys.width; ++i) {
+    result[i] = (2 * s3 - 3 * s2 + 1) * from[i] + duration * (s3 - 2 * s2 + s) * out[i] +
+                (-2 * s3 + 3 * s2) * to[i] + duration * (s3 - s2) * in[i];
+  }
+  return result;
+}
+
+std::vector<double> blended(std::vector<double> from, std::vector<double> to, double part, bool isRotation) {
+  Blend blend{1.0 - part, part};
+  if (isRotation) {
+    normalize(from);
+    normalize(to);
+    double dot = 0.0;
+    for (size_t i = 0; i < from.size(); ++i) dot += from[i] * to[i];
+    blend = sphericalBlend(dot, part);
+  }
+  for (size_t i = 0; i < from.size(); ++i) from[i] = blend.a * from[i] + blend.b * to[i];
+  return from;
+}
+
+/// Whether all but the last part of the pointer is in the document. A material has pbrMetallicRoughness in
+/// any case.
+bool isOfSomething(const json& root, std::string_view pointer) {
+  const json* value = &root;
+  while (true) {
+    const std::string_view part = cutPart(pointer);
+    if (pointer.empty()) return value->is_object();
+    if (value->is_array()) {
+      size_t index = 0;
+      const auto parsed = std::from_chars(part.data(), part.data() + part.size(), index);
+      const bool isIndex = parsed.ec == std::errc{} && parsed.ptr == part.data() + part.size() &&
+                           (part == "0" || part[0] != '0');
+      if (!isIndex || index >= value->size()) return false;
+      value = &(*value)[index];
+      continue;
+    }
+    const auto member = value->is_object() ? value->find(std::string(part)) : value->end();
+    if (!value->is_object() || member == value->end())
+      return value->is_object() && part == "pbrMetallicRoughness";
+    value = &*member;
+  }
+}
+
+std::optional<Interpolation> interpolationNamed(const std::string& name) {
+  if (name == "STEP") return Interpolation::Step;
+  if (name == "LINEAR") return Interpolation::Linear;
+  if (name == "CUBICSPLINE") return Interpolation::CubicSpline;
+  return std::nullopt;
+}
+
+/// Times of the keys, checked.
+std::vector<float> readTimes(Document& document, const Channel& channel) {
+  const std::string place = channel.sampler + "/input";
+  Diagnostics& diagnostics = document.diagnostics;
+  const tinygltf::Accessor& accessor = document.model.accessors.at(size_t(channel.input));
+  if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+    diagnostics.refuse(place, "is not of floats of type SCALAR");
+  takeMemory(document, place, accessor.count * sizeof(float));
+  std::vector<float> times = readComponents(document, channel.input, 1, place);
+  size_t equal = 0;
+  for (size_t i = 0; i < times.size(); ++i) {
+    if (!std::isfinite(times[i]) || (i > 0 && times[i] < times[i - 1])) {
+      diagnostics.refuse(place, "key " + std::to_string(i) + " is not later than the one before");
+    }
+    equal += i > 0 && times[i] == times[i - 1];
+  }
+  if (equal > 0) diagnostics.warn(place, "a key at the time of the one before replaces it", equal);
+  if (times.front() < 0.0f)
+    diagnostics.warn(place, "begins before 0 seconds; its times are taken as they are");
+  return times;
+}
+
+/// Values of a channel that drives `width` numbers; a width of 0 is any.
+Keyframes readKeyframes(Document& document, const Channel& channel, size_t width, bool isArray, bool isFlag) {
+  Diagnostics& diagnostics = document.diagnostics;
+  const std::string place = channel.place + "/sampler";
+  const auto interpolation = interpolationNamed(channel.interpolation);
+  if (!interpolation) {
+    diagnostics.refuse(channel.sampler + "/interpolation",
+                       inQuotes(channel.interpolation) + " is no interpolation");
+  }
+  Keyframes keys;
+  keys.interpolation = isFlag ? Interpolation::Step : *interpolation;
+  keys.times = readTimes(document, channel);
+  const bool isCubic = keys.interpolation == Interpolation::CubicSpline;
+  if (isCubic && keys.times.size() < 2)
+    diagnostics.refuse(channel.sampler + "/input", "a spline needs two keys");
+  const size_t perKey = keys.times.size() * (isCubic ? 3 : 1);
+  const size_t count = accessorCount(document, channel.output);
+  keys.width = isArray ? count / perKey : width;
+  if (count != perKey * (isArray ? keys.width : 1) || keys.width == 0) {
+    diagnostics.refuse(place, std::to_string(count) + " elements do not fit its " +
+                                  std::to_string(keys.times.size()) + " keys");
+  }
+  takeMemory(document, place, count * (isArray ? 1 : width) * sizeof(float));
+  keys.values = readComponents(document, channel.output, isArray ? 1 : int(width), place, isFlag);
+  if (!std::all_of(keys.values.begin(), keys.values.end(), [](float v) { return std::isfinite(v); }))
+    diagnostics.refuse(place, "holds a number that is not finite");
+  return keys;
+}
+
+/// Rotations are normalized wherever they are read; what is far from unit is worth a warning.
+void checkRotations(const Keyframes& keys, const Channel& channel, Diagnostics& diagnostics) {
+  constexpr double kRoundedToBytes = 0.00788;  // four components, each off by half of 1 / 127
+  size_t count = 0;
+  for (size_t key = 0; key < keys.times.size(); ++key)
+    count += !(std::abs(lengthOf(valueOfKey(keys, key)) - 1.0) <= kRoundedToBytes);
+  if (count > 0)
+    diagnostics.warn(channel.place + "/sampler", "a rotation that is no unit quaternion is normalized",
+                     count);
+}
+
+void applyChannel(Document& document, const Channel& channel, double seconds, json& root) {
+  if (channel.target.empty()) return;  // checkMotion() has said so
+  const std::optional<NumberRule> rule = numberRuleAt(channel.target);
+  if (!rule || !isOfSomething(root, channel.target)) {
+    document.diagnostics.warn(channel.place + "/target",
+                              "is nothing that can be animated; the channel is ignored");
+    return;
+  }
+  Keyframes keys = readKeyframes(document, channel, rule->width, rule->width == 0, rule->isFlag);
+  keys.isRotation = channel.target.starts_with("/nodes/") && channel.target.ends_with("/rotation");
+  if (keys.isRotation) checkRotations(keys, channel, document.diagnostics);
+  const std::vector<double> values = valuesAt(keys, seconds);
+  if (keys.isRotation && lengthOf(values) == 0.0)
+    document.diagnostics.refuse(channel.place + "/sampler", "gives no rotation at that time");
+  json& place = root[json::json_pointer(channel.target)];
+  if (rule->isFlag) {
+    place = values[0] != 0.0;
+  } else if (rule->isArray) {
+    place = values;
+  } else {
+    place = values[0];
+  }
+}
+
+}  // namespace
+
+std::vector<double> valuesAt(const Keyframes& keys, double seconds) {
+  const auto next = std::upper_bound(keys.times.begin(), keys.times.end(), seconds);
+  std::vector<double> values;
+  if (next == keys.times.begin()) {
+    values = valueOfKey(keys, 0);
+  } else {
+    const size_t key = size_t(next - keys.times.begin()) - 1;
+    const bool isLast = next == keys.times.end();
+    const double duration = isLast ? 0.0 : double(*next) - double(keys.times[key]);
+    const double part = isLast ? 0.0 : (seconds - double(keys.times[key])) / duration;
+    if (isLast || keys.interpolation == Interpolation::Step) {
+      values = valueOfKey(keys, key);
+    } else if (keys.interpolation == Interpolation::CubicSpline) {
+      values = splineAt(keys, key, part, duration);
+    } else {
+      values = blended(valueOfKey(keys, key), valueOfKey(keys, key + 1), part, keys.isRotation);
+    }
+  }
+  if (keys.isRotation) normalize(values);
+  return values;
+}
+
+void applyAnimation(Document& document, const Animation& animation, double seconds, json& root) {
+  for (const Channel& channel : animation.channels) applyChannel(document, channel, seconds, root);
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Animations (glTF 2.0, section 3.11 and appendix C), at one moment.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gltf/read/document.h"
+
+namespace fragtrace {
+
+enum class Interpolation { Step, Linear, CubicSpline };
+
+/// Keys of a sampler: `width` numbers each; with a cubic spline three times as many, in-tangent, value,
+/// out-tangent.
+struct Keyframes {
+  Interpolation interpolation = Interpolation::Linear;
+  bool isRotation = false;  ///< unit quaternions, x y z w
+  size_t width = 1;
+  std::vector<float> times;  ///< seconds, never falling
+  std::vector<float> values;
+};
+
+/// The numbers at that time; before the first key and after the last theirs. Of keys at the same time the
+/// last counts.
+std::vector<double> valuesAt(const Keyframes& keys, double seconds);
+
+/// Writes what the animation makes of the file at that time into the document: node transforms, morph
+/// weights, and all else that the loader reads as numbers (KHR_animation_pointer). What it cannot drive is
+/// warned about. Throws InputError.
+void applyAnimation(Document& document, const Animation& animation, double seconds, nlohmann::json& root);
+
+}  // namespace fragtrace

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Mesh primitives from their own space into the scene's: world space in double precision, then local space,
+// rounded once.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gltf/build/primitives.h"
+#include "math/bounds.h"
+
+namespace fragtrace {
+
+/// A primitive as a node places it.
+struct PrimitiveInstance {
+  const MeshPrimitive* primitive = nullptr;
+  glm::dmat4 world{1.0};
+  std::span<const glm::dmat4> joints;  ///< in place of `world` for a primitive with influences
+  std::string node;
+  std::string mesh;
+  const std::vector<MeshPrimitive>* whole = nullptr;  ///< the mesh it is of; none: it is not to be shared
+};
+
+/// A mesh that the scene is to hold once, and where it stands.
+struct MeshToShare {
+  struct Place {
+    glm::dmat4 world{1.0};
+    std::string node;
+  };
+  const std::vector<MeshPrimitive>* mesh = nullptr;
+  std::string name;
+  std::vector<Place> places;
+};
+
+/// Bounds of all triangles of a mesh in its own space; vertices that no triangle uses do not count.
+BoundsDouble boundsOf(const std::vector<MeshPrimitive>& mesh);
+
+/// A box round what is in that box.
+BoundsDouble transformed(const BoundsDouble& box, const glm::dmat4& matrix);
+
+/// World bounds of all triangles; vertices that no triangle uses do not count.
+BoundsDouble boundsOf(std::span<const PrimitiveInstance> instances, std::span<const MeshToShare> shared);
+
+/// Appends all instances to the scene's vertices, triangles and origins, in scene.space, and behind them the
+/// shared meshes in spaces of their own, with their instances. A transform that mirrors turns the winding and
+/// the handedness of tangents round, so that front stays front. The totals must fit 32-bit indices.
+void flatten(std::span<const PrimitiveInstance> instances, std::span<const MeshToShare> shared, Scene& scene);
+
+}  // namespace fragtrace

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/gltf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "errors.h"
+#include "gltf/build/flatten.h"
+#include "gltf/build/materials.h"
+#include "gltf/build/meshes.h"
+#include "gltf/build/nodes.h"
+#include "gltf/build/placed.h"
+#include "gltf/build/read_document.h"
+#include "gltf/build/sharing.h"
+#include "scene/camera.h"
+#include "scene/creases.h"
+
+namespace fragtrace {
+namespace {
+
+/// Refuses what 32-bit indices or the memory limit do not allow.
+void takeMeshes(Document& document, const PlacedMeshes& placed) {
+  size_t vertexCount = 0;
+  size_t triangleCount = 0;
+  const auto count = [&](const MeshPrimitive& primitive) {
+    vertexCount += primitive.vertices.position.size();
+    triangleCount += primitive.triangles.size();
+  };
+  for (const PrimitiveInstance& instance : placed.flat) count(*instance.primitive);
+  for (const MeshToShare& shared : placed.shared) {
+    for (const MeshPrimitive& primitive : *shared.mesh) count(primitive);
+  }
+  if (std::max(vertexCount, triangleCount) >= kMissIndex) {
+    document.diagnostics.refuse("", std::to_string(triangleCount) + " triangles with " +
+                                        std::to_string(vertexCount) +
+                                        " vertices are too many for 32-bit indices");
+  }
+  takeMemory(document, "", placed.bytes);
+}
+
+BoundsDouble boundsOf(const std::vector<PlacedSphere>& spheres) {
+  BoundsDouble bounds;
+  for (const PlacedSphere& sphere : spheres) {
+    bounds.include(sphere.center - glm::dvec3(sphere.radius));
+    bounds.include(sphere.center + glm::dvec3(sphere.radius));
+  }
+  return bounds;
+}
+
+/// Where the picture will be taken from, as far as it is known; none: the camera that frames the scene.
+std::optional<glm::dvec3> cameraFor(const GltfOptions& options, const Scene& scene) {
+  if (options.cameraPosition) return options.cameraPosition;
+  const std::optional<int> named = cameraIndexOf({}, options.selection.camera, scene.cameras);
+  const auto index = size_t(named.value_or(std::max(options.cameraIndex, 0)));
+  return index < scene.cameras.size() ? std::optional(scene.cameras[index].position) : std::nullopt;
+}
+
+/// Chooses local space.
+void recentre(const GltfOptions& options, const Diagnostics& diagnostics, Scene& scene) {
+  const BoundsDouble& bounds = scene.bounds;
+  LocalSpace& space = scene.space;
+  space.origin =
+      options.recenterOn ? *options.recenterOn : recentringPoint(cameraFor(options, scene), bounds);
+  if (bounds.empty()) return;
+  const glm::dvec3 farthest =
+      glm::max(glm::abs(bounds.minimum - space.origin), glm::abs(bounds.maximum - space.origin));
+  const double reach = std::max({farthest.x, farthest.y, farthest.z});
+  if (!(reach <= kFarthest)) {
+    diagnostics.refuse("",
+                       "the scene is more than 1e30 m in size, or as far from the point it is recentred on");
+  }
+  // Shaders multiply up to five lengths. Where the scene reaches so far from its origin, triangles of a ten
+  // millionth of it, and cameras a million times as far away, stay within what floats can hold.
+  constexpr double kLeastReach = 0x1p-4;
+  constexpr double kMostReach = 0x1p16;
+  constexpr int kReachBits = 10;
+  if (reach == 0.0 || (reach >= kLeastReach && reach <= kMostReach)) return;
+  int exponent = 0;
+  std::frexp(reach, &exponent);
+  space.unit = std::ldexp(1.0, std::max(exponent, -900) - kReachBits);
+}
+
+/// The default material was appended last, and goes again if nothing uses it.
+void dropUnusedDefaultMaterial(Scene& scene) {
+  const auto last = uint32_t(scene.materials.size() - 1);
+  const auto usesLast = [last](const auto& part) { return part.material == last; };
+  if (last > 0 && std::none_of(scene.triangles.begin(), scene.triangles.end(), usesLast) &&
+      std::none_of(scene.spheres.begin(), scene.spheres.end(), usesLast)) {
+    scene.materials.pop_back();
+  }
+}
+
+Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) {
+  Document document = readDocument(path, options);
+  Scene scene;
+  scene.extensionsUsed = document.model.extensionsUsed;
+  scene.sceneNames = document.sceneNames;
+  scene.animationNames = document.animationNames;
+  scene.animationSeconds = document.animationSeconds;
+  scene.materialVariants = document.materialVariants;
+  addMaterials(document, scene);
+
+  // What nodes place, in world space.
+  const std::vector<PlacedNode> nodes = placeNodes(document);
+  ShownMeshes shown = showMeshes(document, scene.materials, nodes);
+  document.model.buffers.clear();
+  std::vector<PlacedSphere> spheres;
+  for (const PlacedNode& node : nodes) {
+    if (const auto camera = cameraAt(document, node)) scene.cameras.push_back(*camera);
+    if (node.hidden) continue;
+    if (const auto sphere = sphereAt(document, node)) spheres.push_back(*sphere);
+  }
+
+  // Local space.
+  const PlacedMeshes meshes =
+      chooseSharing(std::move(shown.instances), options.instancing, scene.materials, document.memory.left());
+  takeMeshes(document, meshes);
+  scene.sharing = meshes.reason + (meshes.copies.empty() ? "" : "; always copied: " + meshes.copies);
+  const bool isAsked = options.instancing == Instancing::Share;
+  if (isAsked && (meshes.shared.empty() || !meshes.copies.empty()))
+    document.diagnostics.warn(
+        "", (meshes.shared.empty() ? "nothing is shared: " : "not all is shared: ") + scene.sharing);
+  scene.bounds = boundsOf(meshes.flat, meshes.shared);
+  scene.bounds.include(boundsOf(spheres));
+  recentre(options, document.diagnostics, scene);
+  flatten(meshes.flat, meshes.shared, scene);
+  scene.insets = creaseInsets(scene);
+  for (const PlacedSphere& sphere : spheres) {
+    scene.spheres.push_back({glm::vec3(scene.space.localOf(sphere.center)),
+                             float(sphere.radius / scene.space.unit), glm::quat(sphere.rotation),
+                             sphere.material, sphere.node});
+  }
+  for (const PlacedNode& node : nodes) {
+    if (node.hidden) continue;
+    if (const auto light = lightAt(document, node, scene.space)) scene.lights.push_back(*light);
+  }
+  dropUnusedDefaultMaterial(scene);
+  scene.warnings = document.diagnostics.warnings();
+  return scene;
+}
+
+}  // namespace
+
+Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
+  try {
+    return buildScene(path, options);
+  } catch (const InputError&) {
+    throw;
+  } catch (const UsageError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw InputError(path.string() + ": not enough memory to load it");
+  } catch (const std::exception& error) {
+    throw InputError(path.string() + ": " + error.what());
+  }
+}
+
+}  // namespace fragtrace

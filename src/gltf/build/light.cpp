@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "gltf/build/placed.h"
+#include "gltf/read/value.h"
+
+namespace fragtrace {
+namespace {
+
+void readSpot(const tinygltf::SpotLight& spot, const std::string& place, const Diagnostics& diagnostics,
+              Light& light) {
+  constexpr double kRightAngle = 1.5707963267948966;
+  // The right angle itself, rounded up by an exporter, is meant to be legal.
+  constexpr double kRoundingSlack = 1e-6;
+  const bool inOrder = spot.innerConeAngle >= 0.0 && spot.innerConeAngle < spot.outerConeAngle;
+  if (!inOrder || spot.outerConeAngle > kRightAngle + kRoundingSlack) {
+    diagnostics.refuse(place + "/spot", "the cone angles do not fulfil 0 <= inner < outer <= pi/2");
+  }
+  light.innerConeAngle = float(spot.innerConeAngle);
+  light.outerConeAngle = float(std::min(spot.outerConeAngle, kRightAngle));
+}
+
+}  // namespace
+
+std::optional<Light> lightAt(Document& document, const PlacedNode& node, const LocalSpace& space) {
+  const tinygltf::Node& source = document.model.nodes.at(size_t(node.index));
+  const auto extension = source.extensions.find("KHR_lights_punctual");
+  if (extension == source.extensions.end()) return std::nullopt;
+  const int index = int(numberOf(extension->second, "light", -1));
+  const tinygltf::Light& described = document.model.lights.at(size_t(index));
+  const std::string place = pointerTo("extensions", "KHR_lights_punctual", "lights", index);
+
+  Light light;
+  if (described.type == "directional") {
+    light.type = LightType::Directional;
+  } else if (described.type == "spot") {
+    light.type = LightType::Spot;
+    readSpot(described.spot, place, document.diagnostics, light);
+  } else if (described.type != "point") {
+    document.diagnostics.refuse(place + "/type", inQuotes(described.type) + " is not a kind of light");
+  }
+  // What arrives at a distance of 1 in local space.
+  const double scale = light.type == LightType::Directional ? 1.0 : 1.0 / (space.unit * space.unit);
+  for (int c = 0; c < 3; ++c) {
+    const double color = described.color.empty() ? 1.0 : described.color.at(size_t(c));
+    light.intensity[c] = float(color * described.intensity * scale);
+    if (!std::isfinite(light.intensity[c]) || light.intensity[c] < 0.0f) {
+      document.diagnostics.refuse(place, "colour times intensity is negative or too large");
+    }
+  }
+  // tinygltf says 0 where no range is given.
+  if (described.range < 0.0) document.diagnostics.refuse(place + "/range", "is negative");
+  if (described.range > 0.0) light.range = float(described.range / space.unit);
+  light.position = glm::vec3(space.localOf(glm::dvec3(node.world[3])));
+  const glm::vec3& p = light.position;
+  if (light.type != LightType::Directional && !std::isfinite(glm::dot(p, p))) {
+    document.diagnostics.warn(pointerTo("nodes", node.index),
+                              "its light is too far away for a scene of this size, and left out");
+    return std::nullopt;
+  }
+  const glm::dvec3 backward(node.world[2]);
+  if (glm::length(backward) > 0.0) light.direction = glm::vec3(-glm::normalize(backward));
+  return light;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/build/material_extensions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "gltf/read/value.h"
+
+namespace fragtrace {
+namespace {
+
+constexpr float kSmallestPositive = std::numeric_limits<float>::min();
+constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
+const std::vector<double> kWhite = {1.0, 1.0, 1.0};
+
+void readEmissiveStrength(const MaterialPart& part, Material& m) {
+  m.emissiveStrength = part.factor("emissiveStrength", 1.0, 0.0f, kLargest);
+}
+
+void readIor(const MaterialPart& part, Material& m) {
+  m.ior =
+      numberOf(part.object(), "ior", 1.5) == 0.0 ? kInfiniteIor : part.factor("ior", 1.5, 1.0f, kInfiniteIor);
+}
+
+void readTransmission(const MaterialPart& part, Material& m) {
+  m.transmissionFactor = part.factor("transmissionFactor", 0.0, 0.0f, 1.0f);
+  m.transmissionTexture = part.texture("transmissionTexture");
+}
+
+void readVolume(const MaterialPart& part, Material& m) {
+  m.thicknessFactor = part.factor("thicknessFactor", 0.0, 0.0f, kLargest);
+  m.attenuationColor = part.color("attenuationColor", kWhite, 1.0f);
+  if (part.object().Has("attenuationDistance"))
+    m.attenuationDistance = part.factor("attenuationDistance", 1.0, kSmallestPositive, kLargest);
+  if (part.object().Has("thicknessTexture"))
+    part.warn("thicknessTexture", "thickness textures are ignored: the mesh itself decides how thick it is");
+}
+
+void readSpecular(const MaterialPart& part, Material& m) {
+  m.specularFactor = part.factor("specularFactor", 1.0, 0.0f, 1.0f);
+  m.specularColorFactor = part.color("specularColorFactor", kWhite, kLargest);
+  m.specularTexture = part.texture("specularTexture");
+  m.specularColorTexture = part.texture("specularColorTexture");
+}
+
+void readClearcoat(const MaterialPart& part, Material& m) {
+  m.clearcoatFactor = part.factor("clearcoatFactor", 0.0, 0.0f, 1.0f);
+  m.clearcoatRoughnessFactor = part.factor("clearcoatRoughnessFactor", 0.0, 0.0f, 1.0f);
+  if (!m.clearcoated()) return;
+  m.clearcoatTexture = part.texture("clearcoatTexture");
+  m.clearcoatRoughnessTexture = part.texture("clearcoatRoughnessTexture");
+  m.clearcoatNormalTexture = part.texture("clearcoatNormalTexture");
+  const tinygltf::Value& normal = memberOf(part.object(), "clearcoatNormalTexture");
+  m.clearcoatNormalScale =
+      part.within(numberOf(normal, "scale", 1.0), -kLargest, kLargest, "clearcoatNormalTexture/scale");
+}
+
+void readSheen(const MaterialPart& part, Material& m) {
+  m.sheenColorFactor = part.color("sheenColorFactor", {0.0, 0.0, 0.0}, 1.0f);
+  m.sheenRoughnessFactor = part.factor("sheenRoughnessFactor", 0.0, 0.0f, 1.0f);
+  if (!m.hasSheen()) return;
+  m.sheenColorTexture = part.texture("sheenColorTexture");
+  m.sheenRoughnessTexture = part.texture("sheenRoughnessTexture");
+}
+
+void readAnisotropy(const MaterialPart& part, Material& m) {
+  m.anisotropyStrength = part.factor("anisotropyStrength", 0.0, 0.0f, 1.0f);
+  m.anisotropyRotation = float(std::fmod(numberOf(part.object(), "anisotropyRotation", 0.0), 2.0 * M_PI));
+  if (m.anisotropic()) m.anisotropyTexture = part.texture("anisotropyTexture");
+}
+
+void readIridescence(const MaterialPart& part, Material& m) {
+  constexpr float kThickest = 1e6f;  // a millimetre, far from where colours are seen
+  m.iridescenceFactor = part.factor("iridescenceFactor", 0.0, 0.0f, 1.0f);
+  m.iridescenceIor = part.factor("iridescenceIor", 1.3, 1.0f, kInfiniteIor);
+  m.iridescenceThicknessMinimum = part.factor("iridescenceThicknessMinimum", 100.0, 0.0f, kThickest);
+  m.iridescenceThicknessMaximum = part.factor("iridescenceThicknessMaximum", 400.0, 0.0f, kThickest);
+  if (!m.iridescent()) return;
+  m.iridescenceTexture = part.texture("iridescenceTexture");
+  m.iridescenceThicknessTexture = part.texture("iridescenceThicknessTexture");
+}
+
+void readDiffuseTransmission(const MaterialPart& part, Material& m) {
+  m.diffuseTransmissionFactor = part.factor("diffuseTransmissionFactor", 0.0, 0.0f, 1.0f);
+  m.diffuseTransmissionColorFactor = part.color("diffuseTransmissionColorFactor", kWhite, 1.0f);
+  if (m.diffuseTransmissionFactor <= 0.0f) return;
+  m.diffuseTransmissionTexture = part.texture("diffuseTransmissionTexture");
+  m.diffuseTransmissionColorTexture = part.texture("diffuseTransmissionColorTexture");
+}
+
+void readDispersion(const MaterialPart& part, Material& m) {
+  constexpr float kMost = 40.0f;  // red's index is 1 from there on
+  m.dispersion = part.factor("dispersion", 0.0, 0.0f, kMost);
+}
+
+/// A dielectric of infinite index reflects what its specular colour says, which is all that the extension's
+/// two colours need.
+void readSpecularGlossiness(const MaterialPart& part, Material& m) {
+  const std::vector<double> diffuse = numbersOf(part.object(), "diffuseFactor", {1.0, 1.0, 1.0, 1.0});
+  m.specularGlossiness = true;
+  m.baseColorFactor = glm::vec4(part.colorWithin(diffuse, 1.0f, "diffuseFactor"),
+                                part.within(diffuse.at(3), 0.0f, 1.0f, "diffuseFactor"));
+  m.baseColorTexture = part.texture("diffuseTexture");
+  m.metallicFactor = 0.0f;
+  m.roughnessFactor = 1.0f - part.factor("glossinessFactor", 1.0, 0.0f, 1.0f);
+  m.ior = kInfiniteIor;
+  m.specularColorFactor = part.color("specularFactor", kWhite, 1.0f);
+  m.specularColorTexture = part.texture("specularGlossinessTexture");
+}
+
+struct ExtensionRow {
+  const char* name;
+  void (*read)(const MaterialPart&, Material&);
+  bool withSpecularGlossiness = false;  ///< may stand beside it
+};
+constexpr ExtensionRow kMaterialExtensions[] = {
+    {"KHR_materials_emissive_strength", readEmissiveStrength, true},
+    {"KHR_materials_ior", readIor},
+    {"KHR_materials_transmission", readTransmission},
+    {"KHR_materials_volume", readVolume},
+    {"KHR_materials_specular", readSpecular},
+    {"KHR_materials_clearcoat", readClearcoat},
+    {"KHR_materials_sheen", readSheen},
+    {"KHR_materials_anisotropy", readAnisotropy},
+    {"KHR_materials_iridescence", readIridescence},
+    {"KHR_materials_diffuse_transmission", readDiffuseTransmission},
+    {"KHR_materials_dispersion", readDispersion},
+    {kSpecularGlossiness, readSpecularGlossiness, true},
+};
+
+}  // namespace
+
+const tinygltf::Value* extensionOf(const tinygltf::Material& source, const char* name) {
+  const auto found = source.extensions.find(name);
+  return found != source.extensions.end() && found->second.IsObject() ? &found->second : nullptr;
+}
+
+void readMaterialExtensions(const tinygltf::Material& source, const MaterialPart& core, Material& result) {
+  result.unlit = extensionOf(source, "KHR_materials_unlit") != nullptr;
+  const bool specularGlossiness = extensionOf(source, kSpecularGlossiness) != nullptr;
+  for (const ExtensionRow& row : kMaterialExtensions) {
+    const tinygltf::Value* object = extensionOf(source, row.name);
+    if (object == nullptr) continue;
+    const std::string name = std::string("extensions/") + row.name;
+    if (specularGlossiness && !row.withSpecularGlossiness) {
+      core.warn(name, std::string("does not go with ") + kSpecularGlossiness + ", and is ignored");
+    } else {
+      row.read(core.below(name, *object), result);
+    }
+  }
+  for (int c = 0; c < 3; ++c) {
+    if (!std::isfinite(result.emissiveFactor[c] * result.emissiveStrength))
+      core.refuse("emissiveFactor times emissiveStrength is too large");
+  }
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/build/materials.h"
+
+#include "gltf/build/material_extensions.h"
+#include "gltf/build/material_part.h"
+#include "gltf/build/textures.h"
+#include "gltf/read/value.h"
+
+namespace fragtrace {
+namespace {
+
+const tinygltf::Value kNothing;
+
+AlphaMode alphaModeOf(const std::string& mode, const MaterialPart& part, const Diagnostics& diagnostics) {
+  if (mode == "MASK") return AlphaMode::Mask;
+  if (mode == "BLEND") return AlphaMode::Blend;
+  if (mode != "OPAQUE")
+    diagnostics.refuse(part.placeOf("alphaMode"), inQuotes(mode) + " is not an alpha mode");
+  return AlphaMode::Opaque;
+}
+
+template <typename Info>
+TextureRef textureOf(const Info& info, const MaterialPart& part, const char* name) {
+  const auto transform = info.extensions.find("KHR_texture_transform");
+  return part.texture(info.index, info.texCoord,
+                      transform != info.extensions.end() ? transform->second : kNothing, name);
+}
+
+void readMetallicRoughness(const tinygltf::PbrMetallicRoughness& pbr, const MaterialPart& part, Material& m) {
+  m.baseColorFactor = glm::vec4(part.colorWithin(pbr.baseColorFactor, 1.0f, "baseColorFactor"),
+                                part.within(pbr.baseColorFactor.at(3), 0.0f, 1.0f, "baseColorFactor"));
+  m.metallicFactor = part.within(pbr.metallicFactor, 0.0f, 1.0f, "metallicFactor");
+  m.roughnessFactor = part.within(pbr.roughnessFactor, 0.0f, 1.0f, "roughnessFactor");
+  m.baseColorTexture = textureOf(pbr.baseColorTexture, part, "baseColorTexture");
+  m.metallicRoughnessTexture = textureOf(pbr.metallicRoughnessTexture, part, "metallicRoughnessTexture");
+}
+
+/// What stands beside pbrMetallicRoughness.
+void readCommon(const tinygltf::Material& source, const MaterialPart& part, Material& m) {
+  // Above 1 is invalid but common in files from before KHR_materials_emissive_strength, and means what it
+  // says.
+  m.emissiveFactor = part.colorWithin(source.emissiveFactor, kLargest, "emissiveFactor");
+  m.normalScale = part.within(source.normalTexture.scale, -kLargest, kLargest, "normalTexture/scale");
+  m.occlusionStrength =
+      part.within(source.occlusionTexture.strength, 0.0f, 1.0f, "occlusionTexture/strength");
+  m.doubleSided = source.doubleSided;
+  m.alphaCutoff = part.within(source.alphaCutoff, 0.0f, kLargest, "alphaCutoff");
+  m.normalTexture = textureOf(source.normalTexture, part, "normalTexture");
+  m.emissiveTexture = textureOf(source.emissiveTexture, part, "emissiveTexture");
+  m.occlusionTexture = textureOf(source.occlusionTexture, part, "occlusionTexture");
+}
+
+void readPerlinNormal(const MaterialPart& part, PerlinNormal& result) {
+  constexpr float kMostOctaves = 16.0f;
+  result.frequency = part.factor("frequency", double(result.frequency), -kLargest, kLargest);
+  result.amplitude = part.factor("amplitude", double(result.amplitude), -kLargest, kLargest);
+  result.octaves = int(part.factor("octaves", result.octaves, 1.0f, kMostOctaves));
+}
+
+Material readMaterial(Document& document, TextureTable& textures, size_t index) {
+  const tinygltf::Material& source = document.model.materials[index];
+  const MaterialPart part(document.diagnostics, textures, pointerTo("materials", index), kNothing);
+  Material result;
+  result.name = source.name;
+  // Both may be given: specular-glossiness is what is meant, the other for who does not know it.
+  if (extensionOf(source, "KHR_materials_pbrSpecularGlossiness") == nullptr)
+    readMetallicRoughness(source.pbrMetallicRoughness, part.below("pbrMetallicRoughness", kNothing), result);
+  readCommon(source, part, result);
+  result.alphaMode = alphaModeOf(source.alphaMode, part, document.diagnostics);
+  readMaterialExtensions(source, part, result);
+  const tinygltf::Value& perlin = memberOf(source.extras, "perlinNormal");
+  if (perlin.IsObject()) readPerlinNormal(part.below("extras/perlinNormal", perlin), result.perlinNormal);
+  return result;
+}
+
+}  // namespace
+
+void addMaterials(Document& document, Scene& scene) {
+  TextureTable textures(document, scene);
+  for (size_t i = 0; i < document.model.materials.size(); ++i) {
+    scene.materials.push_back(readMaterial(document, textures, i));
+  }
+  scene.materials.emplace_back();
+  scene.materials.back().name = "default";
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/build/nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace fragtrace {
+namespace {
+
+glm::dmat4 localTransform(const tinygltf::Node& node, const std::string& place,
+                          const Diagnostics& diagnostics) {
+  glm::dmat4 transform(1.0);
+  if (!node.matrix.empty()) {
+    for (int i = 0; i < 16; ++i) transform[i / 4][i % 4] = node.matrix.at(size_t(i));
+    if (transform[0][3] != 0.0 || transform[1][3] != 0.0 || transform[2][3] != 0.0 ||
+        transform[3][3] != 1.0) {
+      diagnostics.refuse(place + "/matrix", "is not affine: its last row is not 0, 0, 0, 1");
+    }
+    return transform;
+  }
+  if (!node.translation.empty()) {
+    const auto& t = node.translation;
+    transform = glm::translate(transform, glm::dvec3(t.at(0), t.at(1), t.at(2)));
+  }
+  if (!node.rotation.empty()) {
+    const auto& r = node.rotation;
+    const glm::dquat rotation(r.at(3), r.at(0), r.at(1), r.at(2));
+    const double length = glm::length(rotation);
+    // Exporters round to float, so that nearly every quaternion is off by a little; zero has no direction at
+    // all.
+    if (!(length > 0.0) || !std::isfinite(length))
+      diagnostics.refuse(place + "/rotation", "is not a unit quaternion");
+    transform = transform * glm::mat4_cast(rotation / length);
+  }
+  if (!node.scale.empty()) {
+    const auto& s = node.scale;
+    transform = glm::scale(transform, glm::dvec3(s.at(0), s.at(1), s.at(2)));
+  }
+  return transform;
+}
+
+/// Parent by node, -1 for roots. Throws unless the nodes form trees.
+std::vector<int> parentsOf(const Document& document) {
+  const auto& nodes = document.model.nodes;
+  std::vector<int> parents(nodes.size(), -1);
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    for (size_t k = 0; k < nodes[i].children.size(); ++k) {
+      const int child = nodes[i].children[k];
+      int& parent = parents.at(size_t(child));
+      if (parent >= 0) {
+        document.diagnostics.refuse(
+            pointerTo("nodes", i, "children", k),
+            "node " + std::to_string(child) + " is already a child of node " + std::to_string(parent));
+      }
+      parent = int(i);
+    }
+  }
+
+  // Each node has one parent at most, so a walk upwards that meets itself is a loop, and no step is walked
+  // twice.
+  std::vector<size_t> walkOf(nodes.size(), nodes.size());
+  for (size_t start = 0; start < nodes.size(); ++start) {
+    for (int node = int(start); node >= 0 && walkOf[size_t(node)] != start; node = parents[size_t(node)]) {
+      if (walkOf[size_t(node)] < nodes.size()) break;
+      walkOf[size_t(node)] = start;
+      const int parent = parents[size_t(node)];
+      if (parent >= 0 && walkOf[size_t(parent)] == start) {
+        document.diagnostics.refuse(pointerTo("nodes", parent), "is in a loop: it is its own ancestor");
+      }
+    }
+  }
+  return parents;
+}
+
+std::vector<int> rootsOf(const Document& document, const std::vector<int>& parents) {
+  const auto& scenes = document.model.scenes;
+  if (!scenes.empty()) {
+    const size_t scene = size_t(std::max(document.model.defaultScene, 0));
+    const std::vector<int>& roots = scenes.at(scene).nodes;
+    std::vector<bool> seen(parents.size(), false);
+    for (const int root : roots) {
+      const std::string place = pointerTo("scenes", scene, "nodes");
+      if (parents.at(size_t(root)) >= 0) {
+        document.diagnostics.refuse(place, "node " + std::to_string(root) + " is not a root node");
+      }
+      if (seen[size_t(root)])
+        document.diagnostics.refuse(place, "names node " + std::to_string(root) + " twice");
+      seen[size_t(root)] = true;
+    }
+    return roots;
+  }
+  std::vector<int> roots;
+  for (size_t i = 0; i < parents.size(); ++i) {
+    if (parents[i] < 0) roots.push_back(int(i));
+  }
+  return roots;
+}
+
+bool hidesItself(const tinygltf::Node& node) {
+  const auto extension = node.extensions.find("KHR_node_visibility");
+  if (extension == node.extensions.end() || !extension->second.Has("visible")) return false;
+  return !extension->second.Get("visible").Get<bool>();
+}
+
+/// A scale of 0, which may well be meant.
+bool flattensAll(const glm::dmat4& matrix) { return glm::dmat3(matrix) == glm::dmat3(0.0); }
+
+}  // namespace
+
+bool isMultiplicable(const glm::dmat4& matrix) {
+  constexpr double kLargest = 1e75;
+  for (int c = 0; c < 4; ++c) {
+    for (int r = 0; r < 4; ++r) {
+      if (!(std::abs(matrix[c][r]) <= kLargest)) return false;
+    }
+  }
+  return true;
+}
+
+std::vector<PlacedNode> placeNodes(const Document& document) {
+  const std::vector<int> roots = rootsOf(document, parentsOf(document));
+  std::vector<PlacedNode> placed;
+  std::vector<PlacedNode> waiting;  // the last one is next; world and hidden are the parent's until then
+  const auto await = [&waiting](const std::vector<int>& nodes, const glm::dmat4& parent, bool hidden) {
+    const auto first = std::ptrdiff_t(waiting.size());
+    for (const int node : nodes) waiting.push_back({node, parent, hidden});
+    std::reverse(waiting.begin() + first, waiting.end());
+  };
+  await(roots, glm::dmat4(1.0), false);
+  while (!waiting.empty()) {
+    PlacedNode node = waiting.back();
+    waiting.pop_back();
+    const tinygltf::Node& source = document.model.nodes.at(size_t(node.index));
+    const std::string place = pointerTo("nodes", node.index);
+    const glm::dmat4 parent = node.world;
+    const glm::dmat4 local = localTransform(source, place, document.diagnostics);
+    node.world = parent * local;
+    if (!isMultiplicable(node.world)) document.diagnostics.refuse(place, "its world transform overflows");
+    if (flattensAll(node.world) && !flattensAll(parent) && !flattensAll(local))
+      document.diagnostics.refuse(place, "its world transform underflows");
+    node.hidden = node.hidden || hidesItself(source);
+    placed.push_back(node);
+    await(source.children, node.world, node.hidden);
+  }
+  return placed;
+}
+
+std::string nameOrPlace(const std::string& name, const char* array, int index) {
+  return name.empty() ? pointerTo(array, index) : name;
+}
+
+}  // namespace fragtrace

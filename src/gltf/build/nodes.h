@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The node tree in double precision.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "gltf/read/document.h"
+
+namespace fragtrace {
+
+/// What is drawn reaches no farther from the origin of its world, metres (1e30): depths are floats.
+inline constexpr double kFarthest = 0x1p100;
+/// What is smaller is left out, metres: squares of its size underflow.
+inline constexpr double kSmallest = 1e-75;
+
+struct PlacedNode {
+  int index = 0;
+  glm::dmat4 world{1.0};  ///< affine: the last row is 0, 0, 0, 1
+  bool hidden = false;  ///< it or an ancestor (KHR_node_visibility): its mesh, sphere and light are not there
+};
+
+/// The nodes of the default scene (else of scene 0, else of the whole file), parents before children, in file
+/// order. Throws InputError for a loop, a node with two parents, and a transform that is not affine or not
+/// finite.
+std::vector<PlacedNode> placeNodes(const Document& document);
+
+/// Finite, and so are the products of four of its numbers.
+bool isMultiplicable(const glm::dmat4& matrix);
+
+/// A node's or mesh's name, or its JSON pointer if it has none.
+std::string nameOrPlace(const std::string& name, const char* array, int index);
+
+}  // namespace fragtrace

@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/build/primitives.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtx/norm.hpp>
+#include <numeric>
+
+#include "gltf/build/topology.h"
+#include "gltf/read/accessor.h"
+#include "scene/tangents.h"
+
+namespace fragtrace {
+namespace {
+
+template <glm::length_t components>
+bool isFinite(const glm::vec<components, float>& v) {
+  for (glm::length_t c = 0; c < components; ++c) {
+    if (!std::isfinite(v[c])) return false;
+  }
+  return true;
+}
+
+/// True for what can be normalised: not zero, not NaN, and neither so small nor so large that its square is
+/// not a number.
+bool hasDirection(const glm::vec3& v) {
+  const float squared = glm::length2(v);
+  return squared > 0.0f && std::isfinite(squared);
+}
+
+/// Three components in bytes may each be off by half of 1 / 127.
+bool isUnit(const glm::vec3& v) {
+  constexpr float kRoundedToBytes = 0.00683f;
+  return std::abs(glm::length(v) - 1.0f) <= kRoundedToBytes;
+}
+
+class PrimitiveReader {
+ public:
+  PrimitiveReader(Document& document, const std::vector<Material>& materials, int mesh, int primitive,
+                  const MeshPose& pose)
+      : document_(document),
+        pose_(pose),
+        diagnostics_(document.diagnostics),
+        source_(document.model.meshes.at(size_t(mesh)).primitives.at(size_t(primitive))),
+        place_(pointerTo("meshes", mesh, "primitives", primitive)),
+        materialIndex_(source_.material >= 0 ? uint32_t(source_.material) : uint32_t(materials.size() - 1)),
+        material_(materials.at(materialIndex_)) {}
+
+  MeshPrimitive read() {
+    constexpr int kLastMode = TINYGLTF_MODE_TRIANGLE_FAN;
+    if (source_.mode > kLastMode)
+      diagnostics_.refuse(place_ + "/mode", std::to_string(source_.mode) + " is no mode");
+    const std::optional<Topology> topology = topologyOf(source_.mode);
+    if (!topology) {
+      diagnostics_.warn(place_, "points and lines are left out");
+      return {};
+    }
+    if (accessorOf("POSITION") < 0) {
+      // Where there is no attribute at all, the check of the document has said so.
+      if (!source_.attributes.empty()) diagnostics_.warn(place_, "a primitive without POSITION is left out");
+      return {};
+    }
+    readPositions();
+    readTriangles(*topology);
+    readNormals();
+    readTexcoords();
+    readColors();
+    if (pose_.jointCount > 0)
+      result_.influences = readInfluences(document_, source_, pose_.jointCount, place_);
+    readTangents();
+    return std::move(result_);
+  }
+
+ private:
+  int accessorOf(const char* attribute) const {
+    const auto found = source_.attributes.find(attribute);
+    return found != source_.attributes.end() ? found->second : -1;
+  }
+
+  std::string placeOf(const char* attribute) const { return place_ + "/attributes/" + attribute; }
+
+  /// The attribute's accessor after checking that it has as many elements as there are positions; -1 if not
+  /// given.
+  int matchingAccessor(const char* attribute) const {
+    const int accessor = accessorOf(attribute);
+    if (accessor >= 0 && accessorCount(document_, accessor) != result_.vertices.position.size()) {
+      diagnostics_.refuse(placeOf(attribute),
+                          "has " + std::to_string(accessorCount(document_, accessor)) + " elements for " +
+                              std::to_string(result_.vertices.position.size()) + " positions");
+    }
+    return accessor;
+  }
+
+  /// Adds what the morph targets change of an attribute (glTF 2.0, section 3.7.2.2), in double precision. A
+  /// target's elements may have fewer components: those of tangents leave the handedness alone.
+  template <glm::length_t components, glm::length_t all>
+  void morph(const char* attribute, std::vector<glm::vec<all, float>>& values) {
+    std::vector<glm::vec<components, double>> sums;
+    for (size_t t = 0; t < std::min(pose_.weights.size(), source_.targets.size()); ++t) {
+      const auto found = source_.targets[t].find(attribute);
+      if (pose_.weights[t] == 0.0 || found == source_.targets[t].end()) continue;
+      const std::string place = place_ + pointerTo("targets", t, attribute);
+      const size_t count = accessorCount(document_, found->second);
+      if (count != values.size()) {
+        diagnostics_.refuse(place, "has " + std::to_string(count) + " elements for " +
+                                       std::to_string(values.size()) + " vertices");
+      }
+      takeMemory(document_, place,
+                 count * sizeof(glm::vec<components, float>) + (sums.empty() ? count * sizeof(sums[0]) : 0));
+      sums.resize(count, glm::vec<components, double>(0.0));
+      const auto deltas = readVectors<components>(document_, found->second, place);
+      for (size_t i = 0; i < count; ++i)
+        sums[i] += pose_.weights[t] * glm::vec<components, double>(deltas[i]);
+    }
+    for (size_t i = 0; i < sums.size(); ++i) {
+      for (glm::length_t c = 0; c < components; ++c) values[i][c] = float(double(values[i][c]) + sums[i][c]);
+    }
+  }
+
+  void warnMended(const char* attribute, size_t count, const std::string& reason) {
+    if (count > 0) diagnostics_.warn(placeOf(attribute), reason, count);
+  }
+
+  void readPositions() {
+    // Elements may take no room in the file: without a buffer view they are zeros.
+    constexpr uint64_t kBytesOfAVertex =
+        sizeof(glm::vec3) * 2 + sizeof(glm::vec4) * 2 + sizeof(glm::vec2) * 2;
+    takeMemory(document_, placeOf("POSITION"),
+               kBytesOfAVertex * accessorCount(document_, accessorOf("POSITION")));
+    auto& positions = result_.vertices.position;
+    positions = readVectors<3>(document_, accessorOf("POSITION"), placeOf("POSITION"));
+    morph<3>("POSITION", positions);
+    if (positions.size() >= kMissIndex) diagnostics_.refuse(placeOf("POSITION"), "has too many elements");
+    for (size_t i = 0; i < positions.size(); ++i) {
+      if (!isFinite(positions[i])) {
+        diagnostics_.refuse(placeOf("POSITION"), "vertex " + std::to_string(i) + " is not finite");
+      }
+    }
+  }
+
+  void readTriangles(Topology topology) {
+    const size_t vertexCount = result_.vertices.position.size();
+    std::vector<uint32_t> indices;
+    if (source_.indices >= 0) {
+      constexpr uint64_t kBytesOfAnIndex = sizeof(uint32_t) + sizeof(Triangle);
+      takeMemory(document_, place_ + "/indices", kBytesOfAnIndex * accessorCount(document_, source_.indices));
+      indices = readIndices(document_, source_.indices, vertexCount, place_ + "/indices");
+      warnRestart(indices);
+    } else {
+      indices.resize(vertexCount);
+      std::iota(indices.begin(), indices.end(), 0u);
+    }
+    const std::vector<glm::uvec3> triangles = trianglesOf(topology, indices);
+    if (triangles.empty() || (topology == Topology::List && indices.size() % 3 != 0)) {
+      diagnostics_.warn(place_, "vertices that make no whole triangle are left out");
+    }
+    const bool flat = accessorOf("NORMAL") < 0;
+    result_.triangles.reserve(triangles.size());
+    for (const glm::uvec3& triangle : triangles)
+      result_.triangles.push_back({triangle, materialIndex_, flat});
+  }
+
+  /// glTF 2.0, 3.7.2.1: the largest value of the index type is none.
+  void warnRestart(const std::vector<uint32_t>& indices) {
+    const int type = document_.model.accessors.at(size_t(source_.indices)).componentType;
+    const uint32_t restart = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE    ? 0xffu
+                             : type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? 0xffffu
+                                                                              : 0xffffffffu;
+    if (result_.vertices.position.size() <= restart) return;
+    if (std::find(indices.begin(), indices.end(), restart) != indices.end())
+      diagnostics_.warn(place_ + "/indices", "holds the primitive restart value, which is taken as an index");
+  }
+
+  /// Not unit: the triangle's area is its weight.
+  glm::vec3 geometricNormal(const Triangle& triangle) const {
+    const auto& position = result_.vertices.position;
+    const glm::dvec3 a(position[triangle.vertex.x]);
+    const glm::dvec3 cross =
+        glm::cross(glm::dvec3(position[triangle.vertex.y]) - a, glm::dvec3(position[triangle.vertex.z]) - a);
+    const double length = glm::length(cross);
+    return length > 0.0 ? glm::vec3(cross / length) : glm::vec3(0.0f);
+  }
+
+  void readNormals() {
+    const int accessor = matchingAccessor("NORMAL");
+    if (accessor < 0) return;
+    auto& normals = result_.vertices.normal;
+    normals = readVectors<3>(document_, accessor, placeOf("NORMAL"));
+    std::vector<bool> broken(normals.size(), false);
+    size_t count = 0;
+    size_t notUnit = 0;
+    for (size_t i = 0; i < normals.size(); ++i) {
+      if (hasDirection(normals[i])) {
+        notUnit += !isUnit(normals[i]);
+        continue;
+      }
+      broken[i] = true;
+      normals[i] = glm::vec3(0.0f);
+      ++count;
+    }
+    warnMended("NORMAL", notUnit, "a normal that is not of unit length is normalized");
+    if (count > 0) mendNormals(broken, count);
+    morph<3>("NORMAL", normals);
+  }
+
+  void mendNormals(const std::vector<bool>& broken, size_t count) {
+    auto& normals = result_.vertices.normal;
+    for (const Triangle& triangle : result_.triangles) {
+      const glm::vec3 normal = geometricNormal(triangle);
+      for (int corner = 0; corner < 3; ++corner) {
+        if (broken[triangle.vertex[corner]]) normals[triangle.vertex[corner]] += normal;
+      }
+    }
+    for (glm::vec3& normal : normals) {
+      if (!hasDirection(normal)) normal = glm::vec3(0.0f, 0.0f, 1.0f);
+    }
+    warnMended("NORMAL", count, "a normal without a direction is replaced by that of its triangles");
+  }
+
+  bool isAskedForByTexture(uint32_t set) const {
+    const auto textures = material_.textures();
+    return std::any_of(textures.begin(), textures.end(), [set](const TextureRef* texture) {
+      return texture->present() && texture->texcoord == set;
+    });
+  }
+
+  bool needsTexcoord(uint32_t set) const {
+    if (isAskedForByTexture(set)) return true;
+    const bool tangentsAreMade = material_.anisotropic() && accessorOf("TANGENT") < 0;
+    return (set == 0 && hasPerlin()) || (set == tangentTexture().texcoord && tangentsAreMade);
+  }
+
+  bool hasPerlin() const { return material_.perlinNormal.amplitude != 0.0f; }
+
+  void readTexcoords() {
+    constexpr std::array<const char*, 2> kNames = {"TEXCOORD_0", "TEXCOORD_1"};
+    for (uint32_t set = 0; set < kNames.size(); ++set) {
+      if (!needsTexcoord(set)) continue;
+      const int accessor = matchingAccessor(kNames[set]);
+      auto& texcoords = set == 0 ? result_.vertices.texcoord0 : result_.vertices.texcoord1;
+      if (accessor < 0) {
+        // Where a texture asks for it, the check of the document has said so.
+        if (!isAskedForByTexture(set))
+          diagnostics_.warn(place_, std::string(kNames[set]) + " is needed and missing, (0, 0) is taken");
+        texcoords.assign(result_.vertices.position.size(), glm::vec2(0.0f));
+        continue;
+      }
+      texcoords = readVectors<2>(document_, accessor, placeOf(kNames[set]));
+      morph<2>(kNames[set], texcoords);
+      size_t count = 0;
+      for (glm::vec2& texcoord : texcoords) {
+        if (isFinite(texcoord)) continue;
+        texcoord = glm::vec2(0.0f);
+        ++count;
+      }
+      warnMended(kNames[set], count, "a texture coordinate that is not finite is replaced by (0, 0)");
+    }
+  }
+
+  void readColors() {
+    const int accessor = matchingAccessor("COLOR_0");
+    if (accessor < 0) return;
+    auto& colors = result_.vertices.color;
+    colors = fragtrace::readColors(document_, accessor, placeOf("COLOR_0"));
+    size_t count = 0;
+    size_t clamped = 0;
+    for (glm::vec4& color : colors) {
+      if (!isFinite(color)) {
+        color = glm::vec4(1.0f);
+        ++count;
+      }
+      const glm::vec4 given = color;
+      color = glm::clamp(given, 0.0f, 1.0f);  // glTF 2.0, section 3.7.2.1
+      clamped += color != given;
+    }
+    morphColors();
+    warnMended("COLOR_0", clamped, "a vertex colour is clamped to 0..1");
+    warnMended("COLOR_0", count, "a vertex colour that is not finite is replaced by white");
+  }
+
+  /// Deltas have the components of the colours; sums are clamped (section 3.7.2.2).
+  void morphColors() {
+    auto& colors = result_.vertices.color;
+    const bool hasAlpha =
+        document_.model.accessors.at(size_t(accessorOf("COLOR_0"))).type == TINYGLTF_TYPE_VEC4;
+    hasAlpha ? morph<4>("COLOR_0", colors) : morph<3>("COLOR_0", colors);
+    for (glm::vec4& color : colors) color = isFinite(color) ? glm::clamp(color, 0.0f, 1.0f) : glm::vec4(1.0f);
+  }
+
+  void readTangents() {
+    if (!tangentTexture().present() && !hasPerlin() && !material_.anisotropic()) return;
+    if (result_.vertices.normal.empty()) return makeFlatTangents();
+    const int accessor = matchingAccessor("TANGENT");
+    if (accessor < 0) return makeTangentsAlongTexture();
+
+    auto& tangents = result_.vertices.tangent;
+    tangents = readVectors<4>(document_, accessor, placeOf("TANGENT"));
+    size_t count = 0;
+    size_t notUnit = 0;
+    for (size_t i = 0; i < tangents.size(); ++i) {
+      if (!hasDirection(glm::vec3(tangents[i])) || !std::isfinite(tangents[i].w)) {
+        tangents[i] = glm::vec4(anyPerpendicular(result_.vertices.normal[i]), 1.0f);
+        ++count;
+      } else {
+        notUnit += !isUnit(glm::vec3(tangents[i])) || std::abs(tangents[i].w) != 1.0f;
+      }
+      tangents[i].w = tangents[i].w < 0.0f ? -1.0f : 1.0f;
+    }
+    morph<3>("TANGENT", tangents);
+    warnMended("TANGENT", notUnit, "a tangent is not of unit length with 1 or -1 behind it, and made so");
+    warnMended("TANGENT", count, "a tangent without a direction is replaced by any that fits");
+  }
+
+  /// The texture that tangents follow, if there is one: the first that is there.
+  const TextureRef& tangentTexture() const {
+    for (const TextureRef* texture : {&material_.normalTexture, &material_.clearcoatNormalTexture}) {
+      if (texture->present()) return *texture;
+    }
+    return material_.anisotropyTexture;
+  }
+
+  void makeTangentsAlongTexture() {
+    const TextureRef& texture = tangentTexture();
+    makeTangents(result_.vertices, result_.triangles, texture.texcoord, texture.transform);
+  }
+
+  /// Without normals each triangle has its own: corners are parted, and given tangents are ignored, as glTF
+  /// demands.
+  void makeFlatTangents() {
+    std::vector<uint32_t> corners;
+    corners.reserve(result_.triangles.size() * 3);
+    std::vector<glm::vec3> normals;
+    normals.reserve(corners.capacity());
+    for (Triangle& triangle : result_.triangles) {
+      const glm::vec3 normal = geometricNormal(triangle);
+      for (int corner = 0; corner < 3; ++corner) {
+        normals.push_back(normal);
+        corners.push_back(triangle.vertex[corner]);
+        triangle.vertex[corner] = uint32_t(corners.size() - 1);
+      }
+    }
+    const auto part = [&corners](auto& attribute) {
+      if (attribute.empty()) return;
+      auto parted = attribute;
+      parted.resize(corners.size());
+      for (size_t i = 0; i < corners.size(); ++i) parted[i] = attribute[corners[i]];
+      attribute = std::move(parted);
+    };
+    partInfluences(corners);
+    part(result_.vertices.position);
+    part(result_.vertices.texcoord0);
+    part(result_.vertices.texcoord1);
+    part(result_.vertices.color);
+    result_.vertices.normal = std::move(normals);
+    makeTangentsAlongTexture();
+    result_.vertices.normal.clear();
+  }
+
+  void partInfluences(const std::vector<uint32_t>& corners) {
+    const std::vector<Influence> shared = std::move(result_.influences);
+    const size_t perVertex = shared.size() / std::max<size_t>(result_.vertices.position.size(), 1);
+    result_.influences.clear();
+    result_.influences.reserve(corners.size() * perVertex);
+    for (const uint32_t corner : corners) {
+      const auto first = shared.begin() + std::ptrdiff_t(corner * perVertex);
+      result_.influences.insert(result_.influences.end(), first, first + std::ptrdiff_t(perVertex));
+    }
+  }
+
+  Document& document_;
+  const MeshPose& pose_;
+  Diagnostics& diagnostics_;
+  const tinygltf::Primitive& source_;
+  std::string place_;
+  uint32_t materialIndex_;
+  const Material& material_;
+  MeshPrimitive result_;
+};
+
+}  // namespace
+
+MeshPrimitive decodePrimitive(Document& document, const std::vector<Material>& materials, int mesh,
+                              int primitive, const MeshPose& pose) {
+  return PrimitiveReader(document, materials, mesh, primitive, pose).read();
+}
+
+}  // namespace fragtrace

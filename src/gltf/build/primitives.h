@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "gltf/build/skin.h"
+#include "gltf/read/document.h"
+#include "scene/scene.h"
+
+namespace fragtrace {
+
+/// A mesh primitive as a list of triangles in the mesh's own space. An attribute that the material does not
+/// need, or that is not given, is empty; all others have one entry a vertex.
+struct MeshPrimitive {
+  Vertices vertices;
+  std::vector<Influence> influences;  ///< of joints, equally many a vertex; none: the mesh is not skinned
+  std::vector<Triangle> triangles;
+};
+
+/// How a mesh is shown. The default is as it stands in the file.
+struct MeshPose {
+  std::vector<double> weights;  ///< of its morph targets; those left out are 0
+  size_t jointCount = 0;        ///< of the skin that bends it; 0: none does
+
+  bool operator<(const MeshPose& other) const {
+    if (jointCount != other.jointCount) return jointCount < other.jointCount;
+    return std::lexicographical_compare(weights.begin(), weights.end(), other.weights.begin(),
+                                        other.weights.end());
+  }
+};
+
+/// Decodes /meshes/MESH/primitives/PRIMITIVE with its morph targets applied; points, lines and primitives
+/// without positions come out empty, with a warning. The last of `materials` is the default one. Throws
+/// InputError.
+MeshPrimitive decodePrimitive(Document& document, const std::vector<Material>& materials, int mesh,
+                              int primitive, const MeshPose& pose);
+
+}  // namespace fragtrace

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/build/read_document.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "gltf/build/animation.h"
+#include "gltf/check/extensions.h"
+#include "gltf/check/schema.h"
+#include "gltf/check/validity.h"
+#include "gltf/codecs/compression.h"
+#include "gltf/read/accessor.h"
+#include "gltf/read/container.h"
+#include "gltf/read/json.h"
+
+namespace fragtrace {
+namespace {
+
+using nlohmann::json;
+
+/// The array of that name; an empty one is made where there is none.
+json& arrayIn(json& root, const char* name) {
+  json& array = root[name];
+  if (array.is_null()) array = json::array();
+  return array;
+}
+
+/// Warns of a data URI that says it is something else.
+void warnMediaType(std::string_view uri, const std::string& place,
+                   std::initializer_list<std::string_view> expected, Diagnostics& diagnostics) {
+  if (!isDataUri(uri)) return;
+  const std::string_view type = mediaTypeOf(uri);
+  if (std::find(expected.begin(), expected.end(), type) == expected.end())
+    diagnostics.warn(place, "has the media type " + inQuotes(type) +
+                                ", which is none of a buffer; it is read all the same");
+}
+
+void checkExtensions(json& root, Diagnostics& diagnostics) {
+  const json& required = arrayIn(root, "extensionsRequired");
+  for (size_t i = 0; i < required.size(); ++i) {
+    const auto& name = required[i].get_ref<const std::string&>();
+    if (!isApplied(name)) {
+      diagnostics.refuse(pointerTo("extensionsRequired", i),
+                         "the extension " + inQuotes(name) + " is required and not supported");
+    }
+  }
+  const json& used = arrayIn(root, "extensionsUsed");
+  for (size_t i = 0; i < used.size(); ++i) {
+    const auto& name = used[i].get_ref<const std::string&>();
+    if (!isApplied(name)) {
+      diagnostics.warn(pointerTo("extensionsUsed", i), "the extension " + inQuotes(name) + " is ignored");
+    }
+  }
+}
+
+/// Brings every buffer into memory, exactly as long as the document says; one without URI stays empty.
+Buffers readBuffers(json& root, Container& container, CodecProcess& codecs, Document& document) {
+  Diagnostics& diagnostics = document.diagnostics;
+  Buffers buffers;
+  const json& described = arrayIn(root, "buffers");
+  for (size_t i = 0; i < described.size(); ++i) {
+    const json& buffer = described[i];
+    const auto length = buffer["byteLength"].get<uint64_t>();
+    if (length == 0) diagnostics.refuse(pointerTo("buffers", i, "byteLength"), "is 0");
+    std::vector<uint8_t> bytes;
+    if (isFallback(buffer) && codecs.available()) {
+      buffers.emplace_back();
+      continue;
+    }
+    if (buffer.contains("uri")) {
+      const std::string place = pointerTo("buffers", i, "uri");
+      const auto& uri = buffer["uri"].get_ref<const std::string&>();
+      warnMediaType(uri, place, {"application/octet-stream", "application/gltf-buffer"}, diagnostics);
+      bytes =
+          diagnostics.attempt(place, [&] { return readUri(document.access, uri, document.memory.left()); });
+      takeMemory(document, place, bytes.size());
+    } else if (i == 0 && container.hasBinary) {
+      bytes = std::move(container.binary);
+    } else {
+      if (i == 0 && container.isGlb)
+        diagnostics.warn(pointerTo("buffers", i), "has neither URI nor BIN chunk, and no data");
+      buffers.emplace_back();  // an extension may bring it; bytesOf refuses its use
+      continue;
+    }
+    if (length > bytes.size()) {
+      diagnostics.refuse(pointerTo("buffers", i), "holds " + std::to_string(bytes.size()) +
+                                                      " bytes, fewer than its byteLength of " +
+                                                      std::to_string(length));
+    }
+    bytes.resize(length);
+    buffers.push_back(std::move(bytes));
+  }
+  return buffers;
+}
+
+void checkBufferViews(json& root, const Diagnostics& diagnostics) {
+  const json& views = arrayIn(root, "bufferViews");
+  for (size_t i = 0; i < views.size(); ++i) {
+    const json& view = views[i];
+    const std::string place = pointerTo("bufferViews", i);
+    const auto size = arrayIn(root, "buffers")[view["buffer"].get<size_t>()]["byteLength"].get<uint64_t>();
+    const uint64_t offset = view.value("byteOffset", uint64_t(0));
+    const auto length = view["byteLength"].get<uint64_t>();
+    if (length == 0) diagnostics.refuse(place + "/byteLength", "is 0");
+    if (offset > size || length > size - offset) {
+      diagnostics.refuse(place, std::to_string(length) + " bytes from byte " + std::to_string(offset) +
+                                    " reach past the " + std::to_string(size) + " of its buffer");
+    }
+    const uint64_t stride = view.value("byteStride", uint64_t(4));
+    if (stride < 4 || stride > 252 || stride % 4 != 0) {
+      diagnostics.refuse(place + "/byteStride",
+                         std::to_string(stride) + " is not a multiple of 4 from 4 to 252");
+    }
+  }
+}
+
+/// tinygltf refuses files with an accessor of a kind that it does not know, used or not. Such a one becomes
+/// empty, which is refused where it is used.
+void emptyUnknownAccessors(json& root, Diagnostics& diagnostics) {
+  constexpr std::array<std::string_view, 7> kTypes = {"SCALAR", "VEC2", "VEC3", "VEC4",
+                                                      "MAT2",   "MAT3", "MAT4"};
+  constexpr std::array<int, 6> kComponentTypes = {5120, 5121, 5122, 5123, 5125, 5126};
+  json& accessors = arrayIn(root, "accessors");
+  for (size_t i = 0; i < accessors.size(); ++i) {
+    json& accessor = accessors[i];
+    const bool isKnown = std::find(kTypes.begin(), kTypes.end(), accessor["type"]) != kTypes.end() &&
+                         std::find(kComponentTypes.begin(), kComponentTypes.end(),
+                                   accessor["componentType"]) != kComponentTypes.end();
+    if (isKnown) continue;
+    diagnostics.warn(pointerTo("accessors", i), "has a type that glTF does not know, and is taken as empty");
+    accessor = {{"type", "SCALAR"}, {"componentType", kComponentTypes.back()}, {"count", 0}};
+  }
+}
+
+/// tinygltf refuses spot lights without a cone, of which the default is meant.
+void addDefaultCones(json& root) {
+  const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+  if (!root.contains(lights)) return;
+  for (json& light : root[lights]) {
+    if (light["type"] == "spot") light.emplace("spot", json::object());
+  }
+}
+
+/// What the user may choose from.
+void noteNames(json& root, Document& document) {
+  const json::json_pointer variants("/extensions/KHR_materials_variants/variants");
+  document.sceneNames = namesOf(arrayIn(root, "scenes"));
+  document.animationNames = namesOf(arrayIn(root, "animations"));
+  for (const json& animation : arrayIn(root, "animations"))
+    document.animationSeconds.push_back(durationOf(animation, arrayIn(root, "accessors")));
+  if (root.contains(variants)) document.materialVariants = namesOf(root[variants]);
+}
+
+/// Notes where the pictures are, and gives tinygltf a name that leads nowhere, which it takes without
+/// complaint.
+std::vector<ImageSource> takeImages(json& root, const Diagnostics& diagnostics) {
+  std::vector<ImageSource> sources;
+  json& images = arrayIn(root, "images");
+  for (size_t i = 0; i < images.size(); ++i) {
+    if (images[i].contains("uri") == images[i].contains("bufferView")) {
+      diagnostics.refuse(pointerTo("images", i), "needs either a URI or a buffer view");
+    }
+    sources.push_back({images[i].value("uri", std::string()), images[i].value("bufferView", -1),
+                       images[i].value("mimeType", std::string())});
+    images[i] = {{"uri", "image"}};
+  }
+  return sources;
+}
+
+/// Gives tinygltf a number as the name of each buffer, behind which it finds our memory.
+void nameBuffers(json& root, Buffers& memory) {
+  json& buffers = arrayIn(root, "buffers");
+  for (size_t i = 0; i < buffers.size(); ++i) {
+    buffers[i]["uri"] = std::to_string(i);
+    if (!memory[i].empty()) continue;
+    memory[i].push_back(0);  // tinygltf refuses empty buffers
+    buffers[i]["byteLength"] = 1;
+  }
+}
+
+bool fileExists(const std::string& name, void*) {
+  return name.find_first_not_of("0123456789") == std::string::npos;
+}
+
+std::string keepPath(const std::string& name, void*) { return name; }
+
+bool takeBuffer(std::vector<unsigned char>* bytes, std::string*, const std::string& name, void* user) {
+  size_t index = 0;
+  std::from_chars(name.data(), name.data() + name.size(), index);
+  *bytes = std::move(static_cast<Buffers*>(user)->at(index));
+  return true;
+}
+
+bool leaveImage(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
+                void*) {
+  return true;
+}
+
+/// tinygltf wants a buffer view for indices, which glTF does not (they are all 0, or sparse): each accessor
+/// without one points past the others until it has been parsed.
+class CoveredAccessors {
+ public:
+  explicit CoveredAccessors(json& root) : root_(root), noView_(arrayIn(root, "bufferViews").size()) {
+    root["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 1}});
+    for (json& accessor : arrayIn(root, "accessors")) accessor.emplace("bufferView", noView_);
+  }
+
+  void uncover(tinygltf::Model& model) {
+    model.bufferViews.pop_back();
+    for (tinygltf::Accessor& accessor : model.accessors) {
+      if (size_t(accessor.bufferView) == noView_) accessor.bufferView = -1;
+    }
+    root_["bufferViews"].erase(noView_);
+    for (json& accessor : root_["accessors"]) {
+      if (accessor["bufferView"] == noView_) accessor.erase("bufferView");
+    }
+  }
+
+ private:
+  json& root_;
+  size_t noView_;
+};
+
+tinygltf::Model parseModel(json& root, Buffers& buffers, const Diagnostics& diagnostics) {
+  CoveredAccessors covered(root);
+  const std::string text = root.dump();
+  if (text.size() > std::numeric_limits<int32_t>::max()) diagnostics.refuse("", "the JSON is too large");
+  tinygltf::TinyGLTF parser;
+  parser.SetFsCallbacks({fileExists, keepPath, takeBuffer, nullptr, &buffers});
+  parser.SetImageLoader(leaveImage, nullptr);
+  tinygltf::Model model;
+  std::string error;
+  std::string warning;
+  if (!parser.LoadASCIIFromString(&model, &error, &warning, text.data(), unsigned(text.size()), "")) {
+    while (!error.empty() && error.back() == '\n') error.pop_back();
+    std::replace(error.begin(), error.end(), '\n', ' ');
+    diagnostics.refuse("", error.empty() ? "tinygltf cannot parse it" : error);
+  }
+  covered.uncover(model);
+  return model;
+}
+
+/// Poses the document as the user asked: what the animation drives is written into the JSON, which is parsed
+/// again, so that all that reads the model is as without animations.
+void pose(const std::vector<Animation>& animations, const SceneSelection& selection, json& root,
+          Document& document) {
+  if (animations.empty() && selection.animation.empty()) {
+    document.diagnostics.warn("", "has no animation that a time could be of");
+    return;
+  }
+  const size_t index = selection.animation.empty()
+                           ? 0
+                           : indexOfPart("--animation", selection.animation, document.animationNames);
+  applyAnimation(document, animations[index], *selection.animationTime, root);
+  Buffers buffers;
+  for (tinygltf::Buffer& buffer : document.model.buffers) buffers.push_back(std::move(buffer.data));
+  document.model = parseModel(root, buffers, document.diagnostics);
+}
+
+}  // namespace
+
+Document readDocument(const std::filesystem::path& path, const GltfOptions& options) {
+  Document document(path.string(), options.limits);
+  document.access = {path.parent_path(), options.limits.allowExternalFiles};
+  Diagnostics& diagnostics = document.diagnostics;
+  Container container = readContainer(path, options.limits.memoryBytes, diagnostics);
+  takeMemory(document, "", container.binary.size());
+  json root = parseJson(container.json, document.memory, diagnostics);
+  container.json = std::string();
+  checkSchema(root, diagnostics);
+  checkValidity(root, diagnostics);
+  checkExtensions(root, diagnostics);
+  checkMotion(root, diagnostics);
+  noteNames(root, document);
+  applySelection(root, options.selection, diagnostics);
+  CodecProcess codecs;
+  Buffers buffers = readBuffers(root, container, codecs, document);
+  checkBufferViews(root, diagnostics);
+  checkDataValidity(root, diagnostics);
+  emptyUnknownAccessors(root, diagnostics);
+  decompressViews(root, buffers, codecs, document);
+  decompressPrimitives(root, buffers, codecs, document);
+  addDefaultCones(root);
+  document.skins = takeSkins(root);
+  const std::vector<Animation> animations = takeAnimations(root);
+  document.images = takeImages(root, diagnostics);
+  nameBuffers(root, buffers);
+  document.model = parseModel(root, buffers, diagnostics);
+  checkAccessors(document);
+  if (options.selection.animationTime) {
+    pose(animations, options.selection, root, document);
+  } else if (!options.selection.animation.empty()) {
+    throw UsageError("--animation: needs --animation-time");
+  }
+  return document;
+}
+
+}  // namespace fragtrace

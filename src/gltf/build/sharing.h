@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Which meshes the scene holds once, in place of a copy for each time that they stand in it.
+#pragma once
+
+#include <cstdint>
+
+#include "gltf/build/flatten.h"
+
+namespace fragtrace {
+
+/// What a scene takes while it is loaded, built and packed, in bytes.
+struct SharingCost {
+  uint64_t flat = 0;    ///< every mesh copied for each time that it stands in the scene
+  uint64_t shared = 0;  ///< meshes shared where that is less
+};
+
+/// Rays take longer through two trees than through one: sharing must save half of more than 64 MiB, or be
+/// what stays within `limit`.
+bool paysToShare(const SharingCost& cost, uint64_t limit);
+
+struct PlacedMeshes {
+  std::vector<PrimitiveInstance> flat;
+  std::vector<MeshToShare> shared;
+  uint64_t bytes = 0;  ///< what they take
+  std::string reason;  ///< for it, in a few words
+  std::string copies;  ///< what cannot be shared though it stands in the scene more than once; may be empty
+};
+
+/// Parts what is to be copied from what is to be shared. Never shared are meshes that shine, whose triangles
+/// are lights of their own, and what is flattened or scaled so unevenly that rounding would show
+/// (docs/accuracy.md).
+PlacedMeshes chooseSharing(std::vector<PrimitiveInstance> instances, Instancing wanted,
+                           const std::vector<Material>& materials, uint64_t limit);
+
+}  // namespace fragtrace

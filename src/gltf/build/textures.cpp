@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/build/textures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gltf/read/uri.h"
+#include "gltf/read/value.h"
+#include "image/files/header.h"
+
+namespace fragtrace {
+namespace {
+
+Wrap wrapOf(int mode, const std::string& place, Diagnostics& diagnostics) {
+  switch (mode) {
+    case TINYGLTF_TEXTURE_WRAP_REPEAT:
+      return Wrap::Repeat;
+    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+      return Wrap::ClampToEdge;
+    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+      return Wrap::MirroredRepeat;
+    default:
+      diagnostics.refuse(place, std::to_string(mode) + " is not a wrap mode");
+  }
+}
+
+/// The bytes of a picture where it stands, not decoded.
+std::vector<uint8_t> imageBytes(Document& document, int index) {
+  const ImageSource& source = document.images.at(size_t(index));
+  if (source.bufferView >= 0) {
+    const std::span<const uint8_t> bytes = bytesOf(document, source.bufferView);
+    return {bytes.begin(), bytes.end()};
+  }
+  return document.diagnostics.attempt(pointerTo("images", index, "uri"), [&] {
+    return readUri(document.access, source.uri, document.memory.left());
+  });
+}
+
+/// Warns of a media type, declared for the picture, that its bytes are not of.
+void warnMediaType(std::string_view declared, ImageFormat format, const std::string& place,
+                   Diagnostics& diagnostics) {
+  const std::string_view found = format == ImageFormat::Png    ? "image/png"
+                                 : format == ImageFormat::Jpeg ? "image/jpeg"
+                                 : format == ImageFormat::WebP ? "image/webp"
+                                                               : "";
+  if (found.empty()) {
+    diagnostics.warn(place, "is neither PNG nor JPEG nor WebP, as glTF wants it; it is read if it can be");
+  } else if (!declared.empty() && declared != found) {
+    diagnostics.warn(place, "is declared " + inQuotes(declared) + " and is " + std::string(found) +
+                                ", as which it is read");
+  }
+}
+
+EncodedImage readImage(Document& document, int index) {
+  const ImageSource& source = document.images.at(size_t(index));
+  const std::string place = pointerTo("images", index);
+  EncodedImage result;
+  const bool isFile = source.bufferView < 0 && !isDataUri(source.uri);
+  result.name =
+      isFile ? pathOfUri(document.access, source.uri).string() : document.diagnostics.file() + ": " + place;
+  result.bytes = imageBytes(document, index);
+  const ImageHeader header =
+      document.diagnostics.attempt(place, [&] { return readImageHeader(result.bytes); });
+  if (header.format == ImageFormat::Pfm || header.format == ImageFormat::Hdr ||
+      header.format == ImageFormat::OpenExr)
+    document.diagnostics.refuse(place, "is no picture that a texture may have: PNG, JPEG, WebP");
+  result.width = header.width;
+  result.height = header.height;
+  if (std::max(header.width, header.height) > document.textureSide) {
+    const double scale = double(document.textureSide) / std::max(header.width, header.height);
+    result.width = std::max(1, int(std::lround(header.width * scale)));
+    result.height = std::max(1, int(std::lround(header.height * scale)));
+    document.diagnostics.warn(place, "pictures wider or higher than " + std::to_string(document.textureSide) +
+                                         " pixels are scaled down");
+  }
+  takeMemory(document, place, result.bytes.size() + texelBytes(result));
+  warnMediaType(
+      source.bufferView < 0 && !isFile ? mediaTypeOf(source.uri) : std::string_view(source.mimeType),
+      header.format, isFile || source.bufferView >= 0 ? place : place + "/uri", document.diagnostics);
+  return result;
+}
+
+/// The picture of a texture, -1 for none; that of EXT_texture_webp counts more than the fallback beside it.
+int sourceOf(const tinygltf::Texture& texture) {
+  const auto webp = texture.extensions.find("EXT_texture_webp");
+  return webp != texture.extensions.end() ? int(numberOf(webp->second, "source", texture.source))
+                                          : texture.source;
+}
+
+}  // namespace
+
+TextureTable::TextureTable(Document& document, Scene& scene)
+    : document_(document),
+      scene_(scene),
+      textures_(document.model.textures.size(), kMissIndex),
+      images_(document.images.size(), kMissIndex) {}
+
+uint32_t TextureTable::useImage(int image) {
+  uint32_t& known = images_.at(size_t(image));
+  if (known == kMissIndex) {
+    known = uint32_t(scene_.images.size());
+    scene_.images.push_back(readImage(document_, image));
+  }
+  return known;
+}
+
+uint32_t TextureTable::use(int texture, const std::string& place) {
+  uint32_t& known = textures_.at(size_t(texture));
+  if (known != kMissIndex) return known;
+  const tinygltf::Texture& source = document_.model.textures[size_t(texture)];
+  const int image = sourceOf(source);
+  if (image < 0) {
+    document_.diagnostics.warn(place, "a texture without a picture is left out");
+    return kMissIndex;
+  }
+  Texture result;
+  result.image = useImage(image);
+  if (source.sampler >= 0) {
+    const tinygltf::Sampler& sampler = document_.model.samplers.at(size_t(source.sampler));
+    const std::string samplerPlace = pointerTo("samplers", source.sampler);
+    result.wrapU = wrapOf(sampler.wrapS, samplerPlace + "/wrapS", document_.diagnostics);
+    result.wrapV = wrapOf(sampler.wrapT, samplerPlace + "/wrapT", document_.diagnostics);
+    result.linear = sampler.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST;
+  }
+  known = uint32_t(scene_.textures.size());
+  scene_.textures.push_back(result);
+  return known;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Types and references of a glTF document, checked before tinygltf sees it: tinygltf drops members of a wrong
+// type without a word, and does not check an index before it uses it.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string_view>
+
+#include "gltf/read/diagnostics.h"
+
+namespace fragtrace {
+
+/// Throws InputError with the place of the first member that is read by the loader and has the wrong type, is
+/// missing though required, or refers to something that is not there. Whole numbers written as 1.0 become
+/// integers.
+void checkSchema(nlohmann::json& root, const Diagnostics& diagnostics);
+
+/// Numbers that the loader reads.
+struct NumberRule {
+  size_t width = 1;  ///< how many; 0: any number of them, as of morph weights
+  bool isArray = false;
+  bool isFlag = false;  ///< 0: false
+};
+
+/// What the loader reads at a JSON pointer, if that is numbers, or a flag that can be animated.
+std::optional<NumberRule> numberRuleAt(std::string_view pointer);
+
+}  // namespace fragtrace

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// KHR_draco_mesh_compression.
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "gltf/codecs/compression.h"
+#include "scene/scene.h"
+
+namespace fragtrace {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kExtension = "KHR_draco_mesh_compression";
+
+uint64_t componentSize(uint32_t componentType) {
+  constexpr uint32_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123;
+  if (componentType == kByte || componentType == kUnsignedByte) return 1;
+  return componentType == kShort || componentType == kUnsignedShort ? 2 : 4;
+}
+
+uint64_t paddedTo4(uint64_t bytes) { return (bytes + 3) / 4 * 4; }
+
+/// One primitive: what is asked of the library, and the accessors that its answer replaces.
+class PrimitiveDecoder {
+ public:
+  PrimitiveDecoder(json& root, json& primitive, std::string place, Document& document)
+      : root_(root),
+        primitive_(primitive),
+        extension_(primitive["extensions"][kExtension]),
+        place_(std::move(place)),
+        document_(document) {}
+
+  /// Whether the file holds all of it uncompressed, too.
+  bool hasFallback() const {
+    for (const auto& attribute : extension_["attributes"].items()) {
+      const auto accessor = primitive_["attributes"].find(attribute.key());
+      if (accessor == primitive_["attributes"].end() || !hasView(*accessor)) return false;
+    }
+    return primitive_.contains("indices") && hasView(primitive_["indices"]);
+  }
+
+  /// The extension's schema wants at least one attribute; some files have none, beside accessors with data.
+  bool isEmpty() const { return extension_["attributes"].empty(); }
+
+  void takeOwnData() {
+    bool hasData = !primitive_.contains("indices") || hasView(primitive_["indices"]);
+    for (const auto& attribute : primitive_["attributes"].items())
+      hasData = hasData && hasView(attribute.value());
+    if (!hasData) refuse("/attributes", "is empty, and not all of the primitive's own accessors have data");
+    document_.diagnostics.warn(place_ + "/attributes", "is empty; the primitive's own data are taken");
+  }
+
+  void decode(Buffers& buffers, CodecProcess& codecs) {
+    makeRequest();
+    const std::span<const uint8_t> encoded = encodedBytes(buffers);
+    takeMemory(document_, place_, 2 * request_.outputBytes);
+    std::vector<uint8_t> decoded =
+        document_.diagnostics.attempt(place_, [&] { return codecs.decode(request_, encoded); });
+    putDecoded(buffers.size());
+    root_["buffers"].push_back({{"byteLength", decoded.size()}});
+    buffers.push_back(std::move(decoded));
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& part, const std::string& reason) const {
+    document_.diagnostics.refuse(place_ + part, reason);
+  }
+
+  bool hasView(const json& index) const { return accessorOf(index).contains("bufferView"); }
+
+  const json& accessorOf(const json& index) const { return root_["accessors"][index.get<size_t>()]; }
+
+  uint64_t countOf(const json& index) const {
+    const auto count = accessorOf(index)["count"].get<uint64_t>();
+    if (count == 0 || count >= kMissIndex) refuse("", "has an accessor with no or too many elements");
+    return count;
+  }
+
+  void makeRequest() {
+    constexpr int kTriangles = 4;
+    if (primitive_.value("mode", kTriangles) < kTriangles)
+      refuse("", "compresses triangles, which the primitive's mode has none of");
+    if (!primitive_.contains("indices")) refuse("", "has a primitive without indices");
+    request_.codec = Codec::Draco;
+    request_.indexCount = countOf(primitive_["indices"]);
+    request_.outputBytes = request_.indexCount * sizeof(uint32_t);
+    for (const auto& attribute : extension_["attributes"].items())
+      addAttribute(attribute.key(), attribute.value().get<uint32_t>());
+    if (names_.empty()) refuse("/attributes", "has no attribute of the primitive");
+  }
+
+  void addAttribute(const std::string& name, uint32_t id) {
+    const std::string part = "/attributes/" + escapedForPointer(name);
+    if (!primitive_["attributes"].contains(name))
+      return document_.diagnostics.warn(place_ + part, "is no attribute of the primitive, and ignored");
+    if (request_.attributeCount == kMostCodecAttributes) refuse("/attributes", "has too many attributes");
+    const json& index = primitive_["attributes"][name];
+    const auto& type = accessorOf(index)["type"].get_ref<const std::string&>();
+    const uint32_t components = type == "SCALAR"          ? 1
+                                : type.starts_with("VEC") ? uint32_t(type.back() - '0')
+                                                          : 0;
+    if (components == 0) refuse(part, "has an accessor that is neither of scalars nor of vectors");
+    const uint64_t count = countOf(index);
+    if (request_.count != 0 && request_.count != count)
+      refuse(part, "has an accessor with another number of elements than the others");
+    request_.count = count;
+    const auto component = accessorOf(index)["componentType"].get<uint32_t>();
+    request_.attributes[request_.attributeCount++] = {id, component, components};
+    request_.outputBytes += paddedTo4(count * components * componentSize(component));
+    names_.push_back(name);
+  }
+
+  std::span<const uint8_t> encodedBytes(const Buffers& buffers) const {
+    const json& view = root_["bufferViews"][extension_["bufferView"].get<size_t>()];
+    const std::vector<uint8_t>& bytes = buffers[view["buffer"].get<size_t>()];
+    if (bytes.empty()) refuse("/bufferView", "is of a buffer without data");
+    return std::span(bytes).subspan(view.value("byteOffset", uint64_t(0)),
+                                    view["byteLength"].get<uint64_t>());
+  }
+
+  /// An accessor as the given one, at those bytes of the buffer; returns its index.
+  size_t addAccessor(json accessor, size_t buffer, uint64_t offset, uint64_t length) {
+    root_["bufferViews"].push_back({{"buffer", buffer}, {"byteOffset", offset}, {"byteLength", length}});
+    accessor["bufferView"] = root_["bufferViews"].size() - 1;
+    accessor.erase("byteOffset");
+    accessor.erase("sparse");
+    root_["accessors"].push_back(std::move(accessor));
+    return root_["accessors"].size() - 1;
+  }
+
+  /// Accessors may be shared with primitives that are not compressed: the primitive gets its own.
+  void putDecoded(size_t buffer) {
+    constexpr int kTriangles = 4;
+    constexpr uint32_t kUnsignedInt = 5125;
+    json indices = {{"componentType", kUnsignedInt}, {"type", "SCALAR"}, {"count", request_.indexCount}};
+    uint64_t offset = request_.indexCount * sizeof(uint32_t);
+    primitive_["indices"] = addAccessor(std::move(indices), buffer, 0, offset);
+    primitive_["mode"] = kTriangles;
+    for (size_t i = 0; i < names_.size(); ++i) {
+      const CodecAttribute& attribute = request_.attributes[i];
+      const uint64_t length = request_.count * attribute.components * componentSize(attribute.componentType);
+      json& index = primitive_["attributes"][names_[i]];
+      index = addAccessor(accessorOf(index), buffer, offset, length);
+      offset += paddedTo4(length);
+    }
+  }
+
+  json& root_;
+  json& primitive_;
+  const json& extension_;
+  std::string place_;
+  Document& document_;
+  CodecRequest request_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace
+
+void decompressPrimitives(json& root, Buffers& buffers, CodecProcess& codecs, Document& document) {
+  if (!root.contains("meshes")) return;
+  for (size_t m = 0; m < root["meshes"].size(); ++m) {
+    json& primitives = root["meshes"][m]["primitives"];
+    for (size_t i = 0; i < primitives.size(); ++i) {
+      const json::json_pointer extension(pointerTo("extensions", kExtension));
+      if (!primitives[i].contains(extension)) continue;
+      const std::string place = pointerTo("meshes", m, "primitives", i, "extensions", kExtension);
+      PrimitiveDecoder decoder(root, primitives[i], place, document);
+      if (decoder.isEmpty()) {
+        decoder.takeOwnData();
+      } else if (codecs.available()) {
+        decoder.decode(buffers, codecs);
+      } else if (decoder.hasFallback()) {
+        document.diagnostics.warn(place,
+                                  "cannot be decoded, the uncompressed data are taken: " + codecs.whyNot());
+      } else {
+        document.diagnostics.refuse(place,
+                                    std::string(kExtension) + " cannot be decoded: " + codecs.whyNot());
+      }
+    }
+  }
+}
+
+}  // namespace fragtrace

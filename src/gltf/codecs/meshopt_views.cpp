@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// EXT_meshopt_compression.
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "gltf/codecs/compression.h"
+
+namespace fragtrace {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kExtension = "EXT_meshopt_compression";
+
+const json* extensionOf(const json& object) {
+  const auto extensions = object.find("extensions");
+  if (extensions == object.end() || !extensions->is_object()) return nullptr;
+  const auto extension = extensions->find(kExtension);
+  return extension != extensions->end() ? &*extension : nullptr;
+}
+
+std::optional<Codec> codecNamed(const std::string& mode) {
+  if (mode == "ATTRIBUTES") return Codec::MeshoptVertices;
+  if (mode == "TRIANGLES") return Codec::MeshoptTriangles;
+  if (mode == "INDICES") return Codec::MeshoptIndices;
+  return std::nullopt;
+}
+
+std::optional<MeshoptFilter> filterNamed(const std::string& filter) {
+  if (filter == "NONE") return MeshoptFilter::None;
+  if (filter == "OCTAHEDRAL") return MeshoptFilter::Octahedral;
+  if (filter == "QUATERNION") return MeshoptFilter::Quaternion;
+  if (filter == "EXPONENTIAL") return MeshoptFilter::Exponential;
+  return std::nullopt;
+}
+
+/// What the extension demands of strides and counts, which the library takes for granted.
+void checkSizes(const CodecRequest& request, const std::string& place, const Diagnostics& diagnostics) {
+  constexpr uint64_t kLargestStride = 256;
+  const uint64_t stride = request.stride;
+  const bool isStride = request.codec == Codec::MeshoptVertices
+                            ? stride > 0 && stride <= kLargestStride && stride % 4 == 0
+                            : stride == 2 || stride == 4;
+  const bool fitsFilter = request.filter == MeshoptFilter::None ||
+                          (request.codec == Codec::MeshoptVertices &&
+                           (request.filter == MeshoptFilter::Exponential || stride == 8 ||
+                            (request.filter == MeshoptFilter::Octahedral && stride == 4)));
+  if (!isStride) {
+    diagnostics.refuse(place + "/byteStride",
+                       std::to_string(stride) + " is no stride that its mode can have");
+  }
+  if (!fitsFilter) diagnostics.refuse(place + "/filter", "does not go with its mode or its byteStride");
+  if (request.count == 0) diagnostics.refuse(place + "/count", "is 0");
+  if (request.codec == Codec::MeshoptTriangles && request.count % 3 != 0)
+    diagnostics.refuse(place + "/count", std::to_string(request.count) + " is no multiple of 3");
+}
+
+CodecRequest requestOf(const json& extension, uint64_t viewBytes, const std::string& place,
+                       const Diagnostics& diagnostics) {
+  const auto& mode = extension["mode"].get_ref<const std::string&>();
+  const std::string filter = extension.value("filter", std::string("NONE"));
+  if (!codecNamed(mode)) diagnostics.refuse(place + "/mode", inQuotes(mode) + " is no mode");
+  if (!filterNamed(filter)) diagnostics.refuse(place + "/filter", inQuotes(filter) + " is no filter");
+  CodecRequest request;
+  request.codec = *codecNamed(mode);
+  request.filter = *filterNamed(filter);
+  request.count = extension["count"].get<uint64_t>();
+  request.stride = extension["byteStride"].get<uint64_t>();
+  request.outputBytes = viewBytes;
+  checkSizes(request, place, diagnostics);
+  // Divided rather than multiplied, so that no count is large enough to wrap round.
+  if (viewBytes % request.stride != 0 || viewBytes / request.stride != request.count) {
+    diagnostics.refuse(place + "/count", "times byteStride is not the " + std::to_string(viewBytes) +
+                                             " bytes of the buffer view");
+  }
+  return request;
+}
+
+std::span<const uint8_t> encodedBytes(const json& extension, const Buffers& buffers, const std::string& place,
+                                      const Diagnostics& diagnostics) {
+  const std::vector<uint8_t>& bytes = buffers[extension["buffer"].get<size_t>()];
+  const uint64_t offset = extension.value("byteOffset", uint64_t(0));
+  const auto length = extension["byteLength"].get<uint64_t>();
+  if (offset > bytes.size() || length > bytes.size() - offset) {
+    diagnostics.refuse(place, std::to_string(length) + " bytes from byte " + std::to_string(offset) +
+                                  " reach past the " + std::to_string(bytes.size()) + " of its buffer");
+  }
+  return std::span(bytes).subspan(offset, length);
+}
+
+}  // namespace
+
+bool isFallback(const json& buffer) {
+  const json* extension = extensionOf(buffer);
+  return extension != nullptr && extension->value("fallback", false);
+}
+
+void decompressViews(json& root, Buffers& buffers, CodecProcess& codecs, Document& document) {
+  Diagnostics& diagnostics = document.diagnostics;
+  for (size_t i = 0; i < root["bufferViews"].size(); ++i) {
+    json& view = root["bufferViews"][i];
+    const json* extension = extensionOf(view);
+    if (extension == nullptr) continue;
+    const std::string place = pointerTo("bufferViews", i, "extensions", kExtension);
+    if (!codecs.available()) {
+      if (buffers[view["buffer"].get<size_t>()].empty())
+        diagnostics.refuse(place, std::string(kExtension) + " cannot be decoded: " + codecs.whyNot());
+      diagnostics.warn(place, "cannot be decoded, the uncompressed data are taken: " + codecs.whyNot());
+      continue;
+    }
+    const CodecRequest request =
+        requestOf(*extension, view["byteLength"].get<uint64_t>(), place, diagnostics);
+    const std::span<const uint8_t> encoded = encodedBytes(*extension, buffers, place, diagnostics);
+    takeMemory(document, place, 2 * request.outputBytes);
+    std::vector<uint8_t> decoded =
+        diagnostics.attempt(place, [&] { return codecs.decode(request, encoded); });
+    view["buffer"] = buffers.size();
+    view["byteOffset"] = 0;
+    root["buffers"].push_back({{"byteLength", decoded.size()}});
+    buffers.push_back(std::move(decoded));
+  }
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include <draco/compression/decode.h>
+
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+#include "gltf/codecs/worker/decode.h"
+
+namespace fragtrace {
+namespace {
+
+void expect(bool condition, const std::string& reason) {
+  if (!condition) throw std::runtime_error(reason);
+}
+
+/// Values of all vertices as that type; returns the bytes that were written.
+template <typename Component>
+size_t writeValues(const draco::Mesh& mesh, const draco::PointAttribute& attribute, uint32_t components,
+                   std::span<uint8_t> output) {
+  const size_t size = components * sizeof(Component);
+  std::array<Component, 4> value{};
+  expect(components <= value.size() && output.size() >= size * mesh.num_points(), "has too many values");
+  for (uint32_t i = 0; i < mesh.num_points(); ++i) {
+    const draco::AttributeValueIndex index = attribute.mapped_index(draco::PointIndex(i));
+    expect(index.value() < attribute.size() &&
+               attribute.ConvertValue<Component>(index, int8_t(components), value.data()),
+           "has values that do not fit the accessor's component type");
+    std::memcpy(output.data() + i * size, value.data(), size);
+  }
+  return size * mesh.num_points();
+}
+
+size_t writeAttribute(const draco::Mesh& mesh, const CodecAttribute& wanted, std::span<uint8_t> output) {
+  const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(wanted.id);
+  expect(attribute != nullptr, "has no attribute " + std::to_string(wanted.id));
+  expect(uint32_t(attribute->num_components()) == wanted.components,
+         "has " + std::to_string(attribute->num_components()) + " components in attribute " +
+             std::to_string(wanted.id) + ", not " + std::to_string(wanted.components) + " as its accessor");
+  switch (wanted.componentType) {
+    case 5120:
+      return writeValues<int8_t>(mesh, *attribute, wanted.components, output);
+    case 5121:
+      return writeValues<uint8_t>(mesh, *attribute, wanted.components, output);
+    case 5122:
+      return writeValues<int16_t>(mesh, *attribute, wanted.components, output);
+    case 5123:
+      return writeValues<uint16_t>(mesh, *attribute, wanted.components, output);
+    case 5125:
+      return writeValues<uint32_t>(mesh, *attribute, wanted.components, output);
+    default:
+      return writeValues<float>(mesh, *attribute, wanted.components, output);
+  }
+}
+
+}  // namespace
+
+void decodeDraco(const CodecRequest& request, std::span<const uint8_t> input, std::span<uint8_t> output) {
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(input.data()), input.size());
+  draco::Decoder decoder;
+  const auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
+  expect(decoded.ok(), "cannot be decoded: " + decoded.status().error_msg_string());
+  const draco::Mesh& mesh = *decoded.value();
+  expect(mesh.num_points() == request.count, "has " + std::to_string(mesh.num_points()) + " vertices, not " +
+                                                 std::to_string(request.count) + " as its accessors");
+  expect(uint64_t(mesh.num_faces()) * 3 == request.indexCount,
+         "has " + std::to_string(mesh.num_faces()) + " triangles, not those of " +
+             std::to_string(request.indexCount) + " indices as its accessor");
+  size_t used = 0;
+  for (uint32_t i = 0; i < mesh.num_faces(); ++i) {
+    for (const draco::PointIndex& corner : mesh.face(draco::FaceIndex(i))) {
+      const uint32_t index = corner.value();
+      std::memcpy(output.data() + used, &index, sizeof index);
+      used += sizeof index;
+    }
+  }
+  for (uint32_t i = 0; i < request.attributeCount; ++i) {
+    used += writeAttribute(mesh, request.attributes[i], output.subspan(used));
+    used = (used + 3) / 4 * 4;
+  }
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/read/accessor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#include "scene/scene.h"
+
+namespace fragtrace {
+namespace {
+
+/// Elements in memory that are known to lie inside their buffer.
+struct Elements {
+  const uint8_t* data = nullptr;  ///< none: all elements are zero
+  size_t stride = 0;
+  size_t count = 0;
+  int componentType = 0;
+  int components = 1;
+  bool normalized = false;
+};
+
+/// A component as a float: 1/255 and so on if normalised (glTF 2.0, section 3.11).
+template <typename Component>
+float componentToFloat(Component value, bool normalized) {
+  if constexpr (std::is_floating_point_v<Component>) {
+    return value;
+  } else {
+    if (!normalized) return float(value);
+    return std::max(float(value) / float(std::numeric_limits<Component>::max()), -1.0f);
+  }
+}
+
+/// Calls use(Component()) with the C++ type of a glTF component type.
+template <typename Use>
+void withComponentType(int componentType, const Use& use) {
+  switch (componentType) {
+    // Each branch has its own type: NOLINTNEXTLINE(bugprone-branch-clone)
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return use(int8_t());
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return use(uint8_t());
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return use(int16_t());
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return use(uint16_t());
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      return use(uint32_t());
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+      return use(float());
+    default:
+      return;
+  }
+}
+
+size_t componentSize(int componentType) {
+  size_t size = 0;
+  withComponentType(componentType, [&](auto component) { size = sizeof(component); });
+  return size;
+}
+
+/// Calls store(element, component, value) for everything that lies in memory.
+template <typename Store>
+void forEachComponent(const Elements& elements, const Store& store) {
+  withComponentType(elements.componentType, [&](auto zero) {
+    for (size_t i = 0; i < elements.count; ++i) {
+      const uint8_t* element = elements.data + i * elements.stride;
+      for (int c = 0; c < elements.components; ++c) {
+        auto value = zero;
+        std::memcpy(&value, element + size_t(c) * sizeof(value), sizeof(value));
+        store(i, c, value);
+      }
+    }
+  });
+}
+
+/// Points into a buffer view after checking that all elements lie inside it.
+Elements checkedRange(const Document& document, const std::string& place, int view, size_t offset,
+                      Elements elements, bool useStride) {
+  const tinygltf::BufferView& bufferView = document.model.bufferViews.at(size_t(view));
+  const size_t size = componentSize(elements.componentType) * size_t(elements.components);
+  const size_t declared = useStride ? bufferView.byteStride : 0;
+  elements.stride = declared != 0 ? declared : size;
+  const std::span<const uint8_t> bytes = bytesOf(document, view);
+  const size_t length = bytes.size();
+  if (elements.stride < size) {
+    document.diagnostics.refuse(place, "elements of " + std::to_string(size) + " bytes lie " +
+                                           std::to_string(elements.stride) + " bytes apart");
+  }
+  // Divided rather than multiplied, so that no count is large enough to wrap round.
+  if (offset > length || size > length - offset ||
+      elements.count - 1 > (length - offset - size) / elements.stride) {
+    document.diagnostics.refuse(place, std::to_string(elements.count) + " elements reach past the " +
+                                           std::to_string(length) + " bytes of buffer view " +
+                                           std::to_string(view));
+  }
+  elements.data = bytes.data() + offset;
+  return elements;
+}
+
+Elements elementsOf(const Document& document, int index) {
+  const tinygltf::Accessor& accessor = document.model.accessors.at(size_t(index));
+  const std::string place = pointerTo("accessors", index);
+  Elements elements;
+  elements.count = accessor.count;
+  elements.componentType = accessor.componentType;
+  elements.components = tinygltf::GetNumComponentsInType(uint32_t(accessor.type));
+  elements.normalized = accessor.normalized;
+  if (accessor.count == 0)
+    document.diagnostics.refuse(place, "has no elements, or a type that glTF does not know");
+  if (componentSize(accessor.componentType) == 0) {
+    document.diagnostics.refuse(place + "/componentType",
+                                std::to_string(accessor.componentType) + " is not a component type");
+  }
+  if (accessor.bufferView >= 0) {
+    return checkedRange(document, place, accessor.bufferView, accessor.byteOffset, elements, true);
+  }
+  // Zeros take no room in the file, so that only this bounds the memory they take.
+  constexpr size_t kMostZeros = size_t(1) << 26;
+  if (accessor.count > kMostZeros) {
+    document.diagnostics.refuse(place, std::to_string(accessor.count) + " elements without a buffer view");
+  }
+  return elements;
+}
+
+/// The elements that a sparse accessor replaces, and by what.
+struct SparseElements {
+  std::vector<uint32_t> indices;
+  Elements values;
+};
+
+/// Of a type for which isIndexType() is true.
+template <typename Component>
+uint32_t indexOf(Component value) {
+  if constexpr (std::is_unsigned_v<Component>) return value;
+  return kMissIndex;
+}
+
+bool isIndexType(int componentType) {
+  return componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+         componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+         componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+}
+
+SparseElements sparseElementsOf(const Document& document, int index, const Elements& base) {
+  const tinygltf::Accessor& accessor = document.model.accessors.at(size_t(index));
+  SparseElements result;
+  if (!accessor.sparse.isSparse) return result;
+  const std::string place = pointerTo("accessors", index, "sparse");
+  const auto& sparse = accessor.sparse;
+  if (sparse.count <= 0 || size_t(sparse.count) > base.count) {
+    document.diagnostics.refuse(
+        place + "/count", std::to_string(sparse.count) + " is not from 1 to " + std::to_string(base.count));
+  }
+  if (!isIndexType(sparse.indices.componentType)) {
+    document.diagnostics.refuse(place + "/indices/componentType",
+                                std::to_string(sparse.indices.componentType) + " is not an unsigned integer");
+  }
+  Elements indices;
+  indices.count = size_t(sparse.count);
+  indices.componentType = sparse.indices.componentType;
+  indices = checkedRange(document, place + "/indices", sparse.indices.bufferView,
+                         size_t(sparse.indices.byteOffset), indices, false);
+  result.indices.resize(indices.count);
+  forEachComponent(indices, [&](size_t i, int, auto value) {
+    result.indices[i] = indexOf(value);
+    if (result.indices[i] >= base.count) {
+      document.diagnostics.refuse(place + "/indices", "index " + std::to_string(result.indices[i]) +
+                                                          " is past the " + std::to_string(base.count) +
+                                                          " elements");
+    }
+  });
+  result.values = base;
+  result.values.count = size_t(sparse.count);
+  result.values = checkedRange(document, place + "/values", sparse.values.bufferView,
+                               size_t(sparse.values.byteOffset), result.values, false);
+  return result;
+}
+
+/// Refuses what a vertex attribute may not be: only with KHR_mesh_quantization may integers be unscaled.
+void checkAttribute(const Document& document, const Elements& elements, const std::string& place) {
+  if (elements.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT || elements.normalized) return;
+  const auto& used = document.model.extensionsUsed;
+  if (std::find(used.begin(), used.end(), "KHR_mesh_quantization") != used.end()) return;
+  document.diagnostics.refuse(place, "integers that are not normalized need KHR_mesh_quantization");
+}
+
+template <typename Vector>
+std::vector<Vector> decodeAttribute(const Document& document, int accessor, const Elements& elements,
+                                    const std::string& place, const Vector& base) {
+  checkAttribute(document, elements, place);
+  const SparseElements sparse = sparseElementsOf(document, accessor, elements);
+  std::vector<Vector> result(elements.count, base);
+  if (elements.data != nullptr) {
+    forEachComponent(elements, [&](size_t i, int c, auto value) {
+      result[i][c] = componentToFloat(value, elements.normalized);
+    });
+  }
+  if (!sparse.indices.empty()) {
+    forEachComponent(sparse.values, [&](size_t i, int c, auto value) {
+      result[sparse.indices[i]][c] = componentToFloat(value, elements.normalized);
+    });
+  }
+  return result;
+}
+
+}  // namespace
+
+void checkAccessors(const Document& document) {
+  const auto hasData = [&document](int index) {
+    if (index < 0) return true;
+    const tinygltf::BufferView& view = document.model.bufferViews.at(size_t(index));
+    const size_t size = document.model.buffers.at(size_t(view.buffer)).data.size();
+    return view.byteOffset <= size && view.byteLength <= size - view.byteOffset;
+  };
+  for (size_t i = 0; i < document.model.accessors.size(); ++i) {
+    const tinygltf::Accessor& accessor = document.model.accessors[i];
+    if (accessor.count == 0 || !hasData(accessor.bufferView)) continue;
+    const Elements elements = elementsOf(document, int(i));
+    if (!accessor.sparse.isSparse) continue;
+    if (hasData(accessor.sparse.indices.bufferView) && hasData(accessor.sparse.values.bufferView))
+      sparseElementsOf(document, int(i), elements);
+  }
+}
+
+size_t accessorCount(const Document& document, int accessor) {
+  return document.model.accessors.at(size_t(accessor)).count;
+}
+
+template <glm::length_t components>
+std::vector<glm::vec<components, float>> readVectors(const Document& document, int accessor,
+                                                     const std::string& place) {
+  const Elements elements = elementsOf(document, accessor);
+  if (document.model.accessors.at(size_t(accessor)).type !=
+      components) {  // TINYGLTF_TYPE_VEC2 is 2, and so on
+    document.diagnostics.refuse(
+        place, "accessor " + std::to_string(accessor) + " is not of type VEC" + std::to_string(components));
+  }
+  return decodeAttribute(document, accessor, elements, place, glm::vec<components, float>(0.0f));
+}
+
+template std::vector<glm::vec2> readVectors<2>(const Document&, int, const std::string&);
+template std::vector<glm::vec3> readVectors<3>(const Document&, int, const std::string&);
+template std::vector<glm::vec4> readVectors<4>(const Document&, int, const std::string&);
+
+std::vector<glm::vec4> readColors(const Document& document, int accessor, const std::string& place) {
+  const Elements elements = elementsOf(document, accessor);
+  const int type = document.model.accessors.at(size_t(accessor)).type;
+  if (type != TINYGLTF_TYPE_VEC3 && type != TINYGLTF_TYPE_VEC4) {
+    document.diagnostics.refuse(place,
+                                "accessor " + std::to_string(accessor) + " is not of type VEC3 or VEC4");
+  }
+  const float alpha = type == TINYGLTF_TYPE_VEC3 ? 1.0f : 0.0f;
+  return decodeAttribute(document, accessor, elements, place, glm::vec4(0.0f, 0.0f, 0.0f, alpha));
+}
+
+std::vector<glm::uvec4> readJoints(const Document& document, int accessor, const std::string& place) {
+  const Elements elements = elementsOf(document, accessor);
+  if (document.model.accessors.at(size_t(accessor)).type != TINYGLTF_TYPE_VEC4 ||
+      !isIndexType(elements.componentType) ||
+      elements.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+    document.diagnostics.refuse(place, "accessor " + std::to_string(accessor) +
+                                           " does not hold unsigned bytes or shorts of type VEC4");
+  }
+  const SparseElements sparse = sparseElementsOf(document, accessor, elements);
+  std::vector<glm::uvec4> result(elements.count, glm::uvec4(0));
+  if (elements.data != nullptr)
+    forEachComponent(elements, [&](size_t i, int c, auto value) { result[i][c] = indexOf(value); });
+  if (!sparse.indices.empty()) {
+    forEachComponent(sparse.values,
+                     [&](size_t i, int c, auto value) { result[sparse.indices[i]][c] = indexOf(value); });
+  }
+  return result;
+}
+
+std::vector<glm::dmat4> readMatrices(const Document& document, int accessor, const std::string& place) {
+  const tinygltf::Accessor& source = document.model.accessors.at(size_t(accessor));
+  if (source.type != TINYGLTF_TYPE_MAT4 || source.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+    document.diagnostics.refuse(
+        place, "accessor " + std::to_string(accessor) + " does not hold floats of type MAT4");
+  }
+  const std::vector<float> numbers = readComponents(document, accessor, 16, place);
+  std::vector<glm::dmat4> result(numbers.size() / 16);
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    if (!std::isfinite(numbers[i]))
+      document.diagnostics.refuse(place, "matrix " + std::to_string(i / 16) + " is not finite");
+    result[i / 16][int(i % 16 / 4)][int(i % 4)] = double(numbers[i]);
+  }
+  return result;
+}
+
+std::vector<float> readComponents(const Document& document, int accessor, int components,
+                                  const std::string& place, bool wholeNumbers) {
+  const Elements elements = elementsOf(document, accessor);
+  if (elements.components != components) {
+    document.diagnostics.refuse(place, "accessor " + std::to_string(accessor) + " does not have " +
+                                           std::to_string(components) + " components an element");
+  }
+  if (elements.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !elements.normalized && !wholeNumbers)
+    document.diagnostics.refuse(place, "holds integers that are not normalized");
+  const SparseElements sparse = sparseElementsOf(document, accessor, elements);
+  const auto width = size_t(components);
+  std::vector<float> result(elements.count * width, 0.0f);
+  if (elements.data != nullptr) {
+    forEachComponent(elements, [&](size_t i, int c, auto value) {
+      result[i * width + size_t(c)] = componentToFloat(value, elements.normalized);
+    });
+  }
+  if (!sparse.indices.empty()) {
+    forEachComponent(sparse.values, [&](size_t i, int c, auto value) {
+      result[sparse.indices[i] * width + size_t(c)] = componentToFloat(value, elements.normalized);
+    });
+  }
+  return result;
+}
+
+std::vector<uint32_t> readIndices(const Document& document, int accessor, size_t vertexCount,
+                                  const std::string& place) {
+  const Elements elements = elementsOf(document, accessor);
+  if (document.model.accessors.at(size_t(accessor)).type != TINYGLTF_TYPE_SCALAR ||
+      !isIndexType(elements.componentType)) {
+    document.diagnostics.refuse(
+        place, "accessor " + std::to_string(accessor) + " does not hold unsigned integers of type SCALAR");
+  }
+  const SparseElements sparse = sparseElementsOf(document, accessor, elements);
+  std::vector<uint32_t> result(elements.count, 0);
+  if (elements.data != nullptr) {
+    forEachComponent(elements, [&](size_t i, int, auto value) { result[i] = indexOf(value); });
+  }
+  if (!sparse.indices.empty()) {
+    forEachComponent(sparse.values,
+                     [&](size_t i, int, auto value) { result[sparse.indices[i]] = indexOf(value); });
+  }
+  const uint32_t largest = *std::max_element(result.begin(), result.end());
+  if (largest >= vertexCount) {
+    document.diagnostics.refuse(place, "index " + std::to_string(largest) + " is past the " +
+                                           std::to_string(vertexCount) + " vertices");
+  }
+  return result;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/read/container.h"
+
+#include <cstring>
+#include <string_view>
+
+#include "image/files/whole_file.h"
+
+namespace fragtrace {
+namespace {
+
+constexpr size_t kHeaderSize = 12;
+constexpr size_t kChunkHeaderSize = 8;
+constexpr size_t kChunkAlignment = 4;
+constexpr uint32_t kJsonChunk = 0x4e4f534a;
+constexpr uint32_t kBinaryChunk = 0x004e4942;
+
+uint32_t readLittleEndian(const std::vector<uint8_t>& bytes, size_t offset) {
+  return uint32_t(bytes[offset]) | uint32_t(bytes[offset + 1]) << 8 | uint32_t(bytes[offset + 2]) << 16 |
+         uint32_t(bytes[offset + 3]) << 24;
+}
+
+/// Takes a .glb apart: a header, a JSON chunk, perhaps a BIN chunk, perhaps chunks that no one knows.
+Container splitGlb(const std::vector<uint8_t>& bytes, Diagnostics& diagnostics) {
+  if (bytes.size() < kHeaderSize) diagnostics.refuse("", "truncated .glb: it ends inside its header");
+  const uint32_t version = readLittleEndian(bytes, 4);
+  const size_t length = readLittleEndian(bytes, 8);
+  if (version != 2) diagnostics.refuse("", ".glb version " + std::to_string(version) + " is not supported");
+  if (length > bytes.size()) {
+    diagnostics.refuse("", "truncated .glb: its header says " + std::to_string(length) +
+                               " bytes, the file has " + std::to_string(bytes.size()));
+  }
+
+  if (length < bytes.size()) diagnostics.warn("", "holds more bytes than its header says; they are ignored");
+
+  Container container;
+  container.isGlb = true;
+  size_t offset = kHeaderSize;
+  for (size_t chunk = 0; offset < length; ++chunk) {
+    if (length - offset < kChunkHeaderSize) {
+      diagnostics.refuse("", "broken .glb: chunk " + std::to_string(chunk) + " ends inside its header");
+    }
+    const size_t size = readLittleEndian(bytes, offset);
+    const uint32_t type = readLittleEndian(bytes, offset + 4);
+    offset += kChunkHeaderSize;
+    if (size > length - offset) {
+      diagnostics.refuse("", "broken .glb: chunk " + std::to_string(chunk) + " of " + std::to_string(size) +
+                                 " bytes reaches past the end of the file");
+    }
+    const uint8_t* data = bytes.data() + offset;
+    if (size % kChunkAlignment != 0)
+      diagnostics.warn("", "chunk " + std::to_string(chunk) +
+                               " of the .glb is not a multiple of 4 bytes long; it is read all the same");
+    if (chunk == 0) {
+      if (type != kJsonChunk) diagnostics.refuse("", "broken .glb: its first chunk is not JSON");
+      container.json.assign(reinterpret_cast<const char*>(data), size);
+    } else if (chunk == 1 && type == kBinaryChunk) {
+      container.binary.assign(data, data + size);
+      container.hasBinary = true;
+    } else if (type == kBinaryChunk || type == kJsonChunk) {
+      diagnostics.warn("", "chunk " + std::to_string(chunk) + " of the .glb is one too many, and ignored");
+    }
+    offset += size;
+  }
+  if (container.json.empty()) diagnostics.refuse("", "broken .glb: it has no JSON chunk");
+  return container;
+}
+
+}  // namespace
+
+Container readContainer(const std::filesystem::path& path, uint64_t memoryLimit, Diagnostics& diagnostics) {
+  const std::vector<uint8_t> bytes = diagnostics.attempt("", [&] { return readBytes(path, memoryLimit); });
+  if (bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0) return splitGlb(bytes, diagnostics);
+
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const size_t mark = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
+  const size_t start = text.find_first_not_of(" \t\r\n", mark);
+  if (start == std::string_view::npos || text[start] != '{') {
+    diagnostics.refuse("", bytes.empty() ? "is empty, not glTF" : "is not glTF: neither JSON nor a .glb");
+  }
+  Container container;
+  container.json = text;
+  return container;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// The two containers of glTF: plain JSON, and the binary .glb.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "gltf/read/diagnostics.h"
+
+namespace fragtrace {
+
+struct Container {
+  std::string json;
+  std::vector<uint8_t> binary;  ///< the BIN chunk of a .glb
+  bool hasBinary = false;
+  bool isGlb = false;
+};
+
+/// Reads the file and takes it apart; which container it is follows from its content, not from its name.
+/// Throws InputError when the file is missing, truncated, neither, or larger than the limit in bytes.
+Container readContainer(const std::filesystem::path& path, uint64_t memoryLimit, Diagnostics& diagnostics);
+
+}  // namespace fragtrace

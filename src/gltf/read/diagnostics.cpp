@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/read/diagnostics.h"
+
+#include <algorithm>
+
+#include "errors.h"
+
+namespace fragtrace {
+
+std::string escapedForPointer(std::string_view name) {
+  std::string escaped;
+  for (const char c : name) {
+    if (c == '~') {
+      escaped += "~0";
+    } else if (c == '/') {
+      escaped += "~1";
+    } else {
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
+namespace {
+
+constexpr size_t kNamedPlaces = 4;
+
+}  // namespace
+
+std::string Diagnostics::line(std::string_view place, std::string_view reason) const {
+  std::string text = file_ + ": ";
+  if (!place.empty()) text.append(place).append(": ");
+  text.append(reason);
+  return withoutControls(text);
+}
+
+void Diagnostics::refuse(std::string_view place, std::string_view reason) const {
+  throw InputError(line(place, reason));
+}
+
+void Diagnostics::warn(std::string_view place, std::string_view reason, size_t count) {
+  const auto [known, isNew] = warningOf_.try_emplace(std::string(reason), warnings_.size());
+  if (isNew) warnings_.push_back({std::string(reason), {}, 0, 0});
+  Warning& warning = warnings_[known->second];
+  warning.count += count;
+  if (!warning.places.empty() && warning.places.back() == place) return;
+  ++warning.placeCount;
+  if (warning.places.size() < kNamedPlaces) warning.places.emplace_back(place);
+}
+
+std::vector<std::string> Diagnostics::warnings() const {
+  std::vector<std::string> lines;
+  for (const Warning& warning : warnings_) {
+    std::string others;
+    for (size_t i = 1; i < warning.places.size(); ++i) others += (i == 1 ? "" : ", ") + warning.places[i];
+    const size_t unnamed = warning.placeCount - warning.places.size();
+    if (unnamed > 0) others += " and " + std::to_string(unnamed) + " more places";
+    std::string text = warning.reason;
+    if (warning.count > 1) text += " (" + std::to_string(warning.count) + " times";
+    if (!others.empty()) text += "; also at " + others;
+    if (warning.count > 1) text += ")";
+    lines.push_back(line(warning.places[0], text));
+  }
+  return lines;
+}
+
+}  // namespace fragtrace

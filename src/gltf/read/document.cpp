@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#include "gltf/read/document.h"
+
+#include "errors.h"
+
+namespace fragtrace {
+
+std::span<const uint8_t> bytesOf(const Document& document, int bufferView) {
+  const tinygltf::BufferView& view = document.model.bufferViews.at(size_t(bufferView));
+  const std::vector<unsigned char>& bytes = document.model.buffers.at(size_t(view.buffer)).data;
+  if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset) {
+    document.diagnostics.refuse(pointerTo("bufferViews", bufferView), "is used, but its buffer has no data");
+  }
+  return {bytes.data() + view.byteOffset, view.byteLength};
+}
+
+void takeMemory(Document& document, const std::string& place, uint64_t bytes) {
+  document.diagnostics.attempt(place, [&] { document.memory.take(bytes); });
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// A glTF file as tinygltf's model, with all references and byte ranges checked and all buffers in memory.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gltf/gltf.h"
+#include "gltf/read/diagnostics.h"
+#include "gltf/read/motion.h"
+#include "gltf/read/uri.h"
+#include "image/limits.h"
+
+namespace fragtrace {
+
+/// Where a picture is, as the file says: a URI as written, or a buffer view.
+struct ImageSource {
+  std::string uri;
+  int bufferView = -1;
+  std::string mimeType;
+};
+
+struct Document {
+  Document(std::string file, const InputLimits& limits)
+      : diagnostics(std::move(file)), textureSide(limits.textureSide), memory(limits.memoryBytes) {}
+
+  tinygltf::Model model;  ///< without skins, animations and pictures
+  FileAccess access;
+  std::vector<ImageSource> images;
+  std::vector<Skin> skins;
+  std::vector<std::string> sceneNames, animationNames, materialVariants;
+  std::vector<std::optional<double>> animationSeconds;  ///< as in Scene
+  Diagnostics diagnostics;
+  int textureSide;      ///< larger pictures are scaled down
+  MemoryBudget memory;  ///< what loading may still take
+};
+
+/// The bytes of a buffer view. Throws InputError if its buffer has none, as a buffer without URI may.
+std::span<const uint8_t> bytesOf(const Document& document, int bufferView);
+
+/// Counts memory that `place` asks for. Throws InputError when it is too much.
+void takeMemory(Document& document, const std::string& place, uint64_t bytes);
+
+}  // namespace fragtrace

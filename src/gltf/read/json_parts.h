@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Parts of a document's JSON that may not be there.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "gltf/read/diagnostics.h"
+
+namespace fragtrace {
+
+/// Null where there is no such member.
+inline const nlohmann::json& memberOf(const nlohmann::json& object, const char* name) {
+  static const nlohmann::json kNone;
+  if (!object.is_object()) return kNone;
+  const auto found = object.find(name);
+  return found != object.end() ? *found : kNone;
+}
+
+/// The element of the root's list that `index` names, or an empty object.
+inline const nlohmann::json& elementOf(const nlohmann::json& root, const char* list,
+                                       const nlohmann::json& index) {
+  static const nlohmann::json kNone = nlohmann::json::object();
+  const nlohmann::json& elements = memberOf(root, list);
+  if (!index.is_number_unsigned() || !elements.is_array()) return kNone;
+  return index.get<size_t>() < elements.size() ? elements[index.get<size_t>()] : kNone;
+}
+
+/// check(element, its JSON pointer) for all of the root's list.
+template <typename Check>
+void forEachIn(const nlohmann::json& root, const char* list, const Check& check) {
+  const nlohmann::json& elements = memberOf(root, list);
+  for (size_t i = 0; i < elements.size(); ++i) check(elements[i], pointerTo(list, i));
+}
+
+}  // namespace fragtrace

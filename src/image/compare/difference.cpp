@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "image/compare/difference.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "image/compare/comparable.h"
+
+namespace fragtrace {
+namespace {
+
+constexpr std::array<std::string_view, 6> kMetricNames{"rmse", "mse", "relmse", "psnr", "max", "flip"};
+
+}  // namespace
+
+Difference compare(const Image& picture, const Image& reference) {
+  const size_t pixelCount = commonPixelCount(picture, reference);
+  const ColorReader a = colorReader(picture, "picture");
+  const ColorReader b = colorReader(reference, "reference");
+  const double count = 3.0 * double(pixelCount);
+
+  double referenceSum = 0;
+  for (size_t i = 0; i < pixelCount; ++i)
+    for (size_t c = 0; c < 3; ++c) referenceSum += b(i, c);
+  const double floor = 0.01 * (referenceSum / count) * (referenceSum / count);
+
+  double squareSum = 0;
+  double relativeSum = 0;
+  double maximum = 0;
+  for (size_t i = 0; i < pixelCount; ++i) {
+    for (size_t c = 0; c < 3; ++c) {
+      const double difference = std::abs(a(i, c) - b(i, c));
+      const double square = difference * difference;
+      squareSum += square;
+      // A NaN is not equal to 0, so it passes into the sum; where the whole reference is black, x / 0 is
+      // infinite.
+      if (square != 0) relativeSum += square / (b(i, c) * b(i, c) + floor);
+      // Of two comparisons with NaN both are false: once maximum is NaN it stays so.
+      if (difference > maximum || std::isnan(difference)) maximum = difference;
+    }
+  }
+
+  Difference result;
+  result.mse = squareSum / count;
+  result.rmse = std::sqrt(result.mse);
+  result.relmse = relativeSum / count;
+  result.psnr = 10 * std::log10(1 / result.mse);
+  result.maximum = maximum;
+  return result;
+}
+
+Image differenceImage(const Image& picture, const Image& reference) {
+  const size_t pixelCount = commonPixelCount(picture, reference);
+  const ColorReader a = colorReader(picture, "picture");
+  const ColorReader b = colorReader(reference, "reference");
+  Image result{picture.width, picture.height, {"R", "G", "B"}, {}, {}};
+  result.values.reserve(pixelCount * 3);
+  for (size_t i = 0; i < pixelCount; ++i)
+    for (size_t c = 0; c < 3; ++c) result.values.push_back(float(std::abs(a(i, c) - b(i, c))));
+  return result;
+}
+
+std::span<const std::string_view> metricNames() { return kMetricNames; }
+
+std::optional<Metric> parseMetric(std::string_view name) {
+  const auto* found = std::ranges::find(kMetricNames, name);
+  if (found == kMetricNames.end()) return std::nullopt;
+  return Metric(found - kMetricNames.begin());
+}
+
+double metricValue(const Difference& difference, Metric metric) {
+  const std::array values{difference.rmse, difference.mse,     difference.relmse,
+                          difference.psnr, difference.maximum, std::numeric_limits<double>::quiet_NaN()};
+  return values[size_t(metric)];
+}
+
+bool isWithin(Metric metric, double value, double threshold) {
+  return metric == Metric::Psnr ? value >= threshold : value <= threshold;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "image/display/heatmap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fragtrace {
+
+namespace {
+
+using Color = std::array<float, 3>;
+
+Color heatColor(double x) {
+  const double h = 4.0 * std::clamp(x, 0.0, 1.0);
+  const auto ramp = [](double v) { return float(std::clamp(v, 0.0, 1.0)); };
+  return {ramp(h - 2.0), ramp(std::min(h, 4.0 - h)), ramp(2.0 - h) * float(0.25 + 0.75 * std::min(h, 1.0))};
+}
+
+/// Digits, 3 x 5 cells, a row an octal digit from the top.
+constexpr std::array<unsigned, 10> kDigits = {075557, 026227, 071747, 071717, 055711,
+                                              074717, 074757, 071111, 075757, 075717};
+
+void drawNumber(Image& image, int value, int left, int top, int scale) {
+  const std::string digits = std::to_string(value);
+  for (size_t i = 0; i < digits.size(); ++i) {
+    const unsigned rows = kDigits[size_t(digits[i] - '0')];
+    for (int y = 0; y < 5 * scale; ++y) {
+      for (int x = 0; x < 3 * scale; ++x) {
+        const unsigned bit = (rows >> (3 * (4 - y / scale))) >> (2 - x / scale) & 1u;
+        const int px = left + int(i) * 4 * scale + x;
+        const int py = top + y;
+        if (bit == 0 || px < 0 || px >= image.width || py < 0 || py >= image.height) continue;
+        std::fill_n(image.pixel(px, py), 3, 1.0f);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+double heatmapLimit(const Image& counts) {
+  std::vector<float> sorted;
+  for (int y = 0; y < counts.height; ++y) {
+    for (int x = 0; x < counts.width; ++x) sorted.push_back(*counts.pixel(x, y));
+  }
+  if (sorted.empty()) return 1.0;
+  const size_t rank = std::min(sorted.size() - 1, size_t(0.995 * double(sorted.size())));
+  std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(rank), sorted.end());
+  const double value = std::max(1.0, double(sorted[rank]));
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (double step : {1.0, 2.0, 4.0, 5.0, 8.0}) {
+    if (value <= step * power) return step * power;
+  }
+  return 10.0 * power;
+}
+
+Image paintHeatmap(const Image& counts, const std::string& countsAs) {
+  const double limit = heatmapLimit(counts);
+  Image image;
+  image.width = counts.width;
+  image.height = counts.height;
+  image.channels = {"R", "G", "B"};
+  if (!countsAs.empty()) image.channels.push_back(countsAs);
+  image.values.resize(size_t(image.width) * size_t(image.height) * image.channelCount());
+  const int scale = std::max(1, image.height / 180);
+  const int barTop = image.height - 4 * scale;
+  const int textTop = barTop - 7 * scale;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const float visits = *counts.pixel(x, y);
+      const bool bar = y >= barTop;
+      Color color = heatColor(bar ? (x + 0.5) / image.width : visits / limit);
+      if (!bar && y >= textTop - scale) color = {0.0f, 0.0f, 0.0f};
+      float* pixel = image.pixel(x, y);
+      std::copy(color.begin(), color.end(), pixel);
+      if (!countsAs.empty()) pixel[3] = visits;
+    }
+  }
+  for (int part = 0; part <= 4; ++part) {
+    const int value = int(std::lround(limit * part / 4.0));
+    const int width = int(std::to_string(value).size()) * 4 * scale;
+    drawNumber(image, value, std::clamp(image.width * part / 4 - width / 2, scale, image.width - width),
+               textTop, scale);
+  }
+  return image;
+}
+
+}  // namespace fragtrace

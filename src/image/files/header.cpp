@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "image/files/header.h"
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+#include <string_view>
+
+#include "image/files/exr_header.h"
+#include "image/files/jpeg.h"
+#include "image/files/pfm.h"
+#include "image/files/png.h"
+#include "image/limits.h"
+
+namespace fragtrace {
+namespace {
+
+using Bytes = std::span<const uint8_t>;
+
+constexpr int kMostDecodedChannels = 4;
+
+[[noreturn]] void refuseTruncated() { throw std::runtime_error("the file is truncated"); }
+
+uint32_t littleEndian(Bytes bytes, size_t at, size_t count) {
+  if (bytes.size() < count || at > bytes.size() - count) refuseTruncated();
+  uint32_t value = 0;
+  for (size_t i = 0; i < count; ++i) value |= uint32_t(bytes[at + i]) << (8 * i);
+  return value;
+}
+
+ImageHeader checked(ImageFormat format, int64_t width, int64_t height, int channelCount) {
+  checkImageSize(width, height, channelCount);
+  return {format, int(width), int(height), channelCount};
+}
+
+ImageHeader pngHeader(Bytes bytes) {
+  // PNG specification, 11.2.2: IHDR is the first chunk, 8 bytes behind the signature.
+  constexpr size_t kWidthAt = 16, kEnd = 24;
+  if (bytes.size() < kEnd || !isCompletePng(bytes)) refuseTruncated();
+  if (std::string_view(reinterpret_cast<const char*>(bytes.data()) + 12, 4) != "IHDR")
+    throw std::runtime_error("the PNG header is wrong");
+  const auto bigEndian = [&](size_t at) {
+    return int64_t(bytes[at]) << 24 | bytes[at + 1] << 16 | bytes[at + 2] << 8 | bytes[at + 3];
+  };
+  return checked(ImageFormat::Png, bigEndian(kWidthAt), bigEndian(kWidthAt + 4), kMostDecodedChannels);
+}
+
+ImageHeader jpegHeader(Bytes bytes) {
+  const JpegFrame frame = readJpegFrame(bytes);
+  if (!frame.complete) refuseTruncated();
+  if (frame.height == 0 || frame.width == 0) throw std::runtime_error("the JPEG header has no size");
+  // Each scan goes over all blocks, however few bytes it has: thousands of empty ones would take minutes.
+  constexpr int64_t kMostWork = int64_t(1) << 32;
+  const int64_t pixels = int64_t(frame.width) * frame.height;
+  if (frame.scans > 1 && pixels > kMostWork / frame.scans) {
+    throw std::runtime_error(std::to_string(frame.scans) + " scans over " + std::to_string(frame.width) +
+                             " x " + std::to_string(frame.height) + " pixels are not supported");
+  }
+  return checked(ImageFormat::Jpeg, frame.width, frame.height, kMostDecodedChannels);
+}
+
+ImageHeader webpHeader(Bytes bytes) {
+  // RFC 9649, 2.5 to 2.7: the first chunk tells the size, in three ways.
+  constexpr size_t kChunk = 12, kData = 20;
+  if (bytes.size() < kData) refuseTruncated();
+  const std::string_view kind(reinterpret_cast<const char*>(bytes.data()) + kChunk, 4);
+  int64_t width = 0;
+  int64_t height = 0;
+  if (kind == "VP8 ") {
+    width = littleEndian(bytes, kData + 6, 2) & 0x3fff;
+    height = littleEndian(bytes, kData + 8, 2) & 0x3fff;
+  } else if (kind == "VP8L") {
+    const uint32_t bits = littleEndian(bytes, kData + 1, 4);
+    width = (bits & 0x3fff) + 1;
+    height = (bits >> 14 & 0x3fff) + 1;
+  } else if (kind == "VP8X") {
+    width = int64_t(littleEndian(bytes, kData + 4, 3)) + 1;
+    height = int64_t(littleEndian(bytes, kData + 7, 3)) + 1;
+  } else {
+    throw std::runtime_error("the WebP header is wrong");
+  }
+  return checked(ImageFormat::WebP, width, height, kMostDecodedChannels);
+}
+
+ImageHeader hdrHeader(Bytes bytes) {
+  // Ward, "Real Pixels": lines of text up to an empty one, the resolution, the scan lines.
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const size_t empty = text.find("\n\n");
+  const size_t end = empty == text.npos ? text.npos : text.find('\n', empty + 2);
+  if (end == text.npos) refuseTruncated();
+  std::string_view resolution = text.substr(empty + 2, end - empty - 2);
+  const auto takeSize = [&resolution](std::string_view down, std::string_view up) {
+    int size = 0;
+    if (!resolution.starts_with(down) && !resolution.starts_with(up))
+      throw std::runtime_error("the HDR header has no resolution such as -Y 512 +X 1024");
+    resolution.remove_prefix(down.size());
+    const auto [rest, error] =
+        std::from_chars(resolution.data(), resolution.data() + resolution.size(), size);
+    if (error != std::errc{}) throw std::runtime_error("the HDR header has no resolution");
+    resolution.remove_prefix(size_t(rest - resolution.data()));
+    return size;
+  };
+  const int height = takeSize("-Y ", "+Y ");
+  const int width = takeSize(" +X ", " -X ");
+  // A run says at most how often a pixel of four bytes is repeated, so that each line has one.
+  constexpr int64_t kLeastOfALine = 4;
+  const ImageHeader header = checked(ImageFormat::Hdr, width, height, 3);
+  if (int64_t(bytes.size() - end) < header.height * kLeastOfALine) refuseTruncated();
+  return header;
+}
+
+}  // namespace
+
+ImageHeader readImageHeader(Bytes bytes) {
+  if (bytes.empty()) throw std::runtime_error("it is empty");
+  const auto format = formatOfBytes(bytes);
+  if (!format) throw std::runtime_error("it is no PNG, JPEG, WebP, OpenEXR, Radiance HDR or PFM picture");
+  switch (*format) {
+    case ImageFormat::Png:
+      return pngHeader(bytes);
+    case ImageFormat::Jpeg:
+      return jpegHeader(bytes);
+    case ImageFormat::WebP:
+      return webpHeader(bytes);
+    case ImageFormat::Hdr:
+      return hdrHeader(bytes);
+    case ImageFormat::OpenExr: {
+      const ExrHeader exr = readExrHeader(bytes);
+      return checked(ImageFormat::OpenExr, exr.width, exr.height, exr.channelCount);
+    }
+    case ImageFormat::Pfm: {
+      const PfmHeader pfm = readPfmHeader(bytes);
+      return checked(ImageFormat::Pfm, pfm.width, pfm.height, pfm.channelCount);
+    }
+  }
+  refuseTruncated();
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The image library in a process of its own, fragtrace_imageio: the distribution's decoders carry known
+// faults, so what they do to a file from anywhere is limited in time and memory and cannot harm us; and a run
+// that reads and writes no encoded picture does not load OpenImageIO's 250 shared objects.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "image/files/header.h"
+#include "image/image.h"
+
+namespace fragtrace {
+
+// The process is started by the first call, from any thread, and serves one call after the other. It is
+// looked for in the folder FRAGTRACE_LIBRARY_PATH, then beside the executable. Every function throws
+// std::runtime_error with the bare reason; the caller adds the file.
+
+/// All channels as floats; values as stored, alpha unassociated in 8 and 16 bit formats.
+Image decodeByProcess(std::span<const uint8_t> bytes, const ImageHeader& header);
+
+TexelImage decodeTexelsByProcess(std::span<const uint8_t> bytes, const ImageHeader& header);
+
+/// Interleaved 8-bit RGB, or RGBA with unassociated alpha, as .png or .jpg.
+std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCount,
+                                          std::span<const uint8_t> values, ImageFormat format);
+
+/// Every channel as .exr, or three as .hdr.
+std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat format);
+
+/// Starts the process ahead of its first use, which takes a millisecond here and 0.1 s there. A failure is
+/// left for the first use to report.
+void startImageProcess() noexcept;
+
+}  // namespace fragtrace

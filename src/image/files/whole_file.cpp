@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "image/files/whole_file.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "errors.h"
+
+namespace fragtrace {
+namespace {
+
+std::string systemReason(int code) { return std::generic_category().message(code); }
+
+/// The errno of the first failing call, or 0.
+int writeAndClose(int file, std::span<const uint8_t> bytes) {
+  int error = 0;
+  while (!bytes.empty() && error == 0) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written >= 0)
+      bytes = bytes.subspan(size_t(written));
+    else if (errno != EINTR)
+      error = errno;
+  }
+  // Network file systems report a full disk only here.
+  if (::close(file) != 0 && error == 0) error = errno;
+  return error;
+}
+
+/// True for a device, a pipe or a socket: what is written to and not replaced.
+bool takesWrites(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+         !std::filesystem::is_directory(status);
+}
+
+/// The place behind symbolic links, whether or not anything is there yet.
+std::filesystem::path behindLinks(std::filesystem::path path) {
+  constexpr int kMostLinks = 40;  // as the kernel follows
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(path, error); ++i) {
+    const auto target = std::filesystem::read_symlink(path, error);
+    path = path.parent_path() / target;  // which an absolute target replaces
+  }
+  return path;
+}
+
+std::filesystem::path folderOf(const std::filesystem::path& target) {
+  return target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
+}
+
+std::filesystem::path partOf(const std::filesystem::path& path) {
+  // A name may be as long as the file system allows (255 bytes); its part must then be cut.
+  constexpr size_t kMaximumNameLength = 240;
+  std::string name(".");
+  name += path.filename().string().substr(0, kMaximumNameLength);
+  name += ".part";
+  return path.parent_path() / name;
+}
+
+}  // namespace
+
+std::vector<uint8_t> readOpenFile(int file, uint64_t limit) {
+  struct Closing {
+    int file;
+    ~Closing() { ::close(file); }
+  } const closing{file};
+  struct stat status {};
+  if (::fstat(file, &status) != 0) throw std::runtime_error("cannot be read: " + systemReason(errno));
+  if (S_ISDIR(status.st_mode)) throw std::runtime_error("is a directory");
+  if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode))
+    throw std::runtime_error("is a device, neither a file nor a pipe");
+
+  // The size is only a hint: a pipe has none, and a file may grow meanwhile.
+  const uint64_t expected = S_ISREG(status.st_mode) ? uint64_t(status.st_size) : 0;
+  std::vector<uint8_t> bytes;
+  if (expected <= limit) bytes.reserve(expected + 1);
+  for (;;) {
+    MemoryBudget(limit).take(std::max(expected, uint64_t(bytes.size())));
+    constexpr size_t kBlock = 1 << 16;
+    const size_t before = bytes.size();
+    bytes.resize(bytes.capacity() > before ? bytes.capacity() : before + kBlock);
+    const ssize_t count = ::read(file, bytes.data() + before, bytes.size() - before);
+    const int code = errno;
+    bytes.resize(before + size_t(std::max<ssize_t>(count, 0)));
+    if (count == 0) return bytes;
+    if (count < 0 && code != EINTR) throw std::runtime_error("cannot be read: " + systemReason(code));
+  }
+}
+
+std::vector<uint8_t> readBytes(const std::filesystem::path& path, uint64_t limit) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
+  if (file < 0) throw std::runtime_error("cannot be opened: " + systemReason(errno));
+  return readOpenFile(file, limit);
+}
+
+std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, uint64_t limit) {
+  try {
+    return readBytes(path, limit);
+  } catch (const std::runtime_error& error) {
+    throw InputError(path.string() + ": " + error.what());
+  }
+}
+
+void checkReplaceable(const std::filesystem::path& path) {
+  const auto check = [&](int code) {
+    if (code != 0) throw RenderError("cannot write " + path.string() + ": " + systemReason(code));
+  };
+  if (takesWrites(path)) return check(::access(path.c_str(), W_OK) != 0 ? errno : 0);
+  const std::filesystem::path target = behindLinks(path);
+  const std::filesystem::path folder = folderOf(target);
+  std::error_code error;
+  check(!target.has_filename() || std::filesystem::is_directory(target, error) ? EISDIR : 0);
+  const auto status = std::filesystem::status(folder, error);
+  check(!std::filesystem::exists(status) ? ENOENT : !std::filesystem::is_directory(status) ? ENOTDIR : 0);
+  check(::access(folder.c_str(), W_OK | X_OK) != 0 ? errno : 0);
+}
+
+void checkRoom(const std::filesystem::path& path, uint64_t bytes) {
+  if (takesWrites(path)) return;
+  const auto fail = [&](int code) {
+    throw RenderError("cannot write " + path.string() + ", which may take " +
+                      std::to_string((bytes + 999'999) / 1'000'000) + " MB: " + systemReason(code));
+  };
+  rlimit size{};
+  if (::getrlimit(RLIMIT_FSIZE, &size) == 0 && size.rlim_cur != RLIM_INFINITY && bytes > size.rlim_cur)
+    fail(EFBIG);
+  struct statvfs disk {};
+  if (::statvfs(folderOf(behindLinks(path)).c_str(), &disk) != 0 || disk.f_blocks == 0) return;
+  const uint64_t blocks = ::geteuid() == 0 ? disk.f_bfree : disk.f_bavail;
+  if (bytes / disk.f_frsize >= blocks) fail(ENOSPC);
+}
+
+void replaceFile(const std::filesystem::path& path, std::span<const uint8_t> bytes) {
+  const auto fail = [&](int code) -> RenderError {
+    return RenderError("cannot write " + path.string() + ": " + systemReason(code));
+  };
+  if (!path.has_filename()) throw fail(EISDIR);
+  if (takesWrites(path)) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+    const int code = file < 0 ? errno : writeAndClose(file, bytes);
+    if (code != 0) throw fail(code);
+    return;
+  }
+  const std::filesystem::path target = behindLinks(path);
+  const std::filesystem::path part = partOf(target);
+  const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (file < 0) throw fail(errno);
+
+  int code = writeAndClose(file, bytes);
+  if (code == 0 && ::rename(part.c_str(), target.c_str()) != 0) code = errno;
+  if (code != 0) {
+    ::unlink(part.c_str());
+    throw fail(code);
+  }
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// writeImage: encodes in memory, then replaces the file in one step.
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+
+#include "errors.h"
+#include "image/channels.h"
+#include "image/files/pfm.h"
+#include "image/files/process.h"
+#include "image/files/whole_file.h"
+#include "image/format.h"
+#include "image/image.h"
+
+namespace fragtrace {
+namespace {
+
+/// Rounded to the nearest of 256 levels; what lies outside 0..1 is clamped, and NaN becomes 0.
+uint8_t quantize(float value) {
+  if (!(value > 0)) return 0;  // NaN compares false
+  return uint8_t(std::lround(std::min(value, 1.0f) * 255.0f));
+}
+
+/// The indices of R, G, B and, if wanted and there, A.
+std::vector<size_t> outputChannels(const Image& image, bool withAlpha) {
+  const auto color = findColorChannels(image);
+  if (!color) throw std::runtime_error("the picture has no colour channels");
+  std::vector<size_t> channels(color->begin(), color->end());
+  const auto alpha = findChannel(image, "A");
+  if (withAlpha && alpha) channels.push_back(*alpha);
+  return channels;
+}
+
+std::vector<uint8_t> encodeBytes(const Image& image, ImageFormat format) {
+  const std::vector<size_t> channels = outputChannels(image, format == ImageFormat::Png);
+  std::vector<uint8_t> bytes;
+  bytes.reserve(image.values.size() / image.channelCount() * channels.size());
+  for (size_t first = 0; first < image.values.size(); first += image.channelCount())
+    for (const size_t channel : channels) bytes.push_back(quantize(image.values[first + channel]));
+  return encodeBytesByProcess(image.width, image.height, int(channels.size()), bytes, format);
+}
+
+/// The nearest colour that three 8-bit mantissas with one exponent hold (Ward, "Real Pixels", Graphics Gems
+/// II, 1991). The image library truncates, which would darken a picture by a third of a percent. No negative
+/// value and no NaN can be held: both become 0.
+void roundToRgbe(std::span<float, 3> color) {
+  constexpr float kBrightest = 1e38f;
+  for (float& value : color) value = value > 0 ? std::min(value, kBrightest) : 0.0f;
+  int exponent = 0;
+  const float peak = *std::ranges::max_element(color);
+  if (std::frexp(peak, &exponent) * 256 >= 255.5f) ++exponent;
+  for (float& value : color) value = std::ldexp(std::round(std::ldexp(value, 8 - exponent)), exponent - 8);
+}
+
+std::vector<uint8_t> encodeHdr(const Image& image) {
+  Image color{image.width, image.height, {"R", "G", "B"}, {}, {}};
+  color.values.reserve(size_t(image.width) * size_t(image.height) * 3);
+  const std::vector<size_t> channels = outputChannels(image, false);
+  for (size_t first = 0; first < image.values.size(); first += image.channelCount())
+    for (const size_t channel : channels) color.values.push_back(image.values[first + channel]);
+  for (size_t first = 0; first < color.values.size(); first += 3)
+    roundToRgbe(std::span<float, 3>(color.values.data() + first, 3));
+  return encodeFloatsByProcess(color, ImageFormat::Hdr);
+}
+
+std::vector<uint8_t> encode(const Image& image, const std::filesystem::path& path) {
+  if (image.width <= 0 || image.height <= 0 || image.channels.empty() ||
+      image.values.size() != size_t(image.width) * size_t(image.height) * image.channelCount())
+    throw std::runtime_error("the picture is empty, or its values do not fill it");
+
+  const auto format = formatOfName(path);
+  if (!format) throw std::runtime_error("the name must end in .png, .jpg, .exr, .hdr or .pfm");
+  if (format == ImageFormat::Pfm) return encodePfm(image);
+  if (format == ImageFormat::Hdr) return encodeHdr(image);
+  if (format == ImageFormat::OpenExr) return encodeFloatsByProcess(image, *format);
+  return encodeBytes(image, *format);
+}
+
+std::vector<uint8_t> encodeNamed(const Image& image, const std::filesystem::path& path) {
+  try {
+    return encode(image, path);
+  } catch (const std::exception& error) {
+    throw RenderError("cannot write " + path.string() + ": " + error.what());
+  }
+}
+
+/// What a pixel takes that cannot be compressed.
+uint64_t bytesOfPixel(std::optional<ImageFormat> format, size_t channelCount) {
+  if (format == ImageFormat::OpenExr) return 4 * channelCount;
+  if (format == ImageFormat::Pfm) return 12;
+  return 4;  // .png with alpha, .hdr; .jpg has 3
+}
+
+}  // namespace
+
+void writeImage(const std::filesystem::path& path, const Image& image) {
+  replaceFile(path, encodeNamed(image, path));
+}
+
+void checkImageWritable(const std::filesystem::path& path, int width, int height, size_t channelCount) {
+  encodeNamed({1, 1, {"R", "G", "B"}, {0.0f, 0.0f, 0.0f}, {}}, path);
+  checkRoom(path, uint64_t(width) * uint64_t(height) * bytesOfPixel(formatOfName(path), channelCount));
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Scenes for the viewer, loaded in a thread of their own while another is drawn.
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <memory>
+#include <optional>
+
+#include "session/setup.h"
+#include "view/exchange.h"
+
+namespace fragtrace {
+
+/// A load that has ended: the scene, or why there is none.
+struct LoadResult {
+  RenderOptions options;
+  std::unique_ptr<LoadedScene> scene;
+  Statistics stats;
+  std::exception_ptr error;
+};
+
+class SceneLoader {
+ public:
+  explicit SceneLoader(Exchange& exchange) : exchange_(exchange) {}
+
+  /// Begins; what was being loaded before is dropped.
+  void start(const RenderOptions& options);
+  void cancel();
+  /// What has ended since, if anything.
+  std::optional<LoadResult> take();
+  /// Whether a thread still works, be it in vain.
+  bool busy() const;
+
+ private:
+  struct Job;
+  Exchange& exchange_;
+  std::shared_ptr<Job> job_;
+  std::shared_ptr<std::atomic<int>> threads_ = std::make_shared<std::atomic<int>>(0);
+};
+
+}  // namespace fragtrace

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "live/view_programs.h"
+
+#include <algorithm>
+
+#include "errors.h"
+#include "session/denoising.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// A draw's time: a wish waits for one draw at most.
+constexpr double kSoftwareWishMs = 30.0;
+constexpr double kHardwareWishMs = 10.0;
+/// Programs are kept as long as they are few and small, but always those of two sides.
+constexpr size_t kLeastKept = 2;
+constexpr size_t kMostKept = 6;
+constexpr size_t kMostKeptBytes = size_t(1) << 29;
+constexpr int kTinyFilm = 8;  // pixels a side
+
+/// What of the options decides which program draws, and what it reads.
+RenderOptions programPart(const RenderOptions& o) {
+  RenderOptions part;
+  part.scene = o.scene;
+  part.hdriFile = o.hdriFile;
+  part.stages = o.stages;
+  const bool counts = o.debugView == DebugView::Samples || o.debugView == DebugView::Variance;
+  part.debugView = counts ? DebugView::None : o.debugView;
+  part.clampIndirect = o.clampIndirect > 0.0 ? 1.0 : 0.0;
+  part.defaultLight = o.defaultLight;
+  part.pixelFilter = o.pixelFilter;
+  part.traversal = o.traversal;
+  part.backend = o.backend;
+  part.bufferReads = o.bufferReads;
+  part.dispatch = o.dispatch;
+  part.schedule = o.schedule;
+  part.shaderFolder = o.shaderFolder;
+  part.quiet = o.quiet;
+  if (has(part.stages, Stage::Gi) && part.debugView == DebugView::None) part.aovFeatures = {Feature::Guides};
+  return part;
+}
+
+}  // namespace
+
+bool ViewPrograms::has(const RenderOptions& options) const {
+  return std::ranges::any_of(programs_,
+                             [part = programPart(options)](const auto& p) { return p->options == part; });
+}
+
+std::shared_ptr<ViewProgram> ViewPrograms::of(const RenderOptions& options) {
+  const RenderOptions part = programPart(options);
+  const auto found = std::ranges::find_if(programs_, [&](const auto& p) { return p->options == part; });
+  if (found != programs_.end()) {
+    programs_.splice(programs_.begin(), programs_, found);
+    return programs_.front();
+  }
+  programs_.push_front(make(part));
+  size_t bytes = 0;
+  size_t count = 0;
+  for (auto p = programs_.begin(); p != programs_.end(); ++count) {
+    bytes += (*p)->bytes;
+    const bool kept = count < kLeastKept || (count < kMostKept && bytes <= kMostKeptBytes);
+    p = kept ? std::next(p) : programs_.erase(p);
+  }
+  return programs_.front();
+}
+
+std::shared_ptr<ViewProgram> ViewPrograms::make(const RenderOptions& part) {
+  auto program = std::make_shared<ViewProgram>();
+  program->options = part;
+  const auto fail = [&](const std::exception& error) { program->error = error.what(); };
+  try {
+    if (!sameTree(treeOptions_, part)) loaded_.bvh = buildTree(loaded_.scene, part);
+    treeOptions_ = part;
+    Statistics stats;
+    program->tracer = makeTracer(context_, loaded_, part, stats, true);
+    program->variant = stats.variant;
+    program->bytes = stats.sceneBytes;
+    Film tiny(glm::ivec2{kTinyFilm});
+    program->tracer.renderer->setDrawTime(context_.software ? kSoftwareWishMs : kHardwareWishMs);
+    program->tracer.renderer->compile(program->tracer.variant, tiny, loaded_.view);
+  } catch (const ContextLost&) {
+    throw;
+  } catch (const RenderError& error) {
+    fail(error);
+  } catch (const UsageError& error) {
+    fail(error);
+  } catch (const InputError& error) {
+    fail(error);
+  }
+  return program;
+}
+
+}  // namespace fragtrace

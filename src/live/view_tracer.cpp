@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+#include "live/view_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "errors.h"
+#include "live/pick_text.h"
+#include "session/denoising.h"
+#include "session/outputs.h"
+
+namespace fragtrace {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Samples between two looks at the clock, while nothing moves.
+constexpr double kRoundMs = 100.0;
+/// Pictures are published at most this often, and take at most a fifth of the time; half of it where they are
+/// filtered, which shows more than the samples that this time would bring.
+constexpr double kPublishMs = 100.0;
+constexpr double kPublishShare = 4.0;
+constexpr double kFilteredShare = 1.0;
+constexpr size_t kFrames = 64;        ///< whose times are summarised
+constexpr double kLongWait = 3600.0;  ///< seconds
+constexpr double kWatchSeconds = 0.25;
+constexpr int kMostLosses = 3;  ///< of the context, without a picture between them
+
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::string whatFailed(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+}
+
+}  // namespace
+
+ViewTracer::ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn, Exchange& exchange)
+    : start_(start), exchange_(exchange), loader_(exchange), oidn_(std::move(oidn)) {
+  passOnWhatIsSaid([&exchange](const std::string& text) { exchange.tell(text); });
+}
+
+void ViewTracer::run() {
+  try {
+    loader_.start(start_.render);
+    enterContext();
+    bool working = false;
+    for (;;) {
+      Orders orders = exchange_.wait(working ? 0.0 : start_.watch ? kWatchSeconds : kLongWait);
+      if (orders.quit) break;
+      try {
+        obey(std::move(orders));
+        adoptScene();
+        watchFiles();
+        if (loaded_ && sides_.empty() && !request_.sides.empty()) adopt(request_);
+        working = work();
+      } catch (const ContextLost& error) {
+        recover(error);
+        working = true;
+      }
+      exchange_.tellState(request_.number, !working && !request_.moving);
+      tellDriver();
+    }
+  } catch (...) {
+    exchange_.fail(std::current_exception());
+  }
+  loader_.cancel();
+  leaveContext();
+}
+
+void ViewTracer::enterContext() {
+  context_ = makeContext(start_.render.backend);
+  driverLog_ = std::make_unique<DebugLog>();
+  denoiser_ = std::make_unique<ViewDenoiser>(start_.render.shaderFolder, oidn_);
+}
+
+/// What was in the context is made anew in another one.
+void ViewTracer::recover(const ContextLost& error) {
+  if (++losses_ > kMostLosses) throw error;
+  exchange_.tell(std::string(error.what()) + "; drawing anew");
+  leaveContext();
+  enterContext();
+  if (loaded_) programs_ = std::make_unique<ViewPrograms>(*context_, *loaded_, loadedOptions_);
+}
+
+/// In the thread whose context it is.
+void ViewTracer::leaveContext() {
+  sides_.clear();
+  programs_.reset();
+  denoiser_.reset();
+  driverLog_.reset();
+  context_.reset();
+}
+
+void ViewTracer::tellDriver() {
+  for (const std::string& message : driverLog_->take()) exchange_.tell("driver: " + message);
+}
+
+void ViewTracer::obey(Orders orders) {
+  if (orders.cancelLoad) {
+    loader_.cancel();
+    exchange_.tellLoad({});
+  }
+  if (orders.load) loader_.start(*orders.load);
+  if (orders.request && loaded_) adopt(*orders.request);
+  for (SaveRequest& save : orders.saves) saves_.push_back(std::move(save));
+  if (orders.pick && loaded_) answer(*orders.pick);
+}
+
+void ViewTracer::adoptScene() {
+  std::optional<LoadResult> result = loader_.take();
+  if (!result) return;
+  exchange_.tellLoad({});
+  if (result->error) {
+    if (!loaded_) std::rethrow_exception(result->error);
+    exchange_.tellError(whatFailed(result->error));
+    return;
+  }
+  sides_.clear();
+  programs_.reset();
+  loaded_ = std::move(result->scene);
+  loadedOptions_ = result->options;
+  programs_ = std::make_unique<ViewPrograms>(*context_, *loaded_, loadedOptions_);
+  exchange_.tellError({});
+  ViewedScene viewed;
+  viewed.options = loadedOptions_;
+  viewed.camera = loaded_->camera;
+  viewed.cameras = loaded_->scene.cameras;
+  viewed.bounds = loaded_->scene.bounds;
+  viewed.present = traitsOf(loaded_->scene, loaded_->environment.kind);
+  viewed.description = result->stats.scene;
+  viewed.defaultLight = result->stats.defaultLight;
+  exchange_.deliver(std::move(viewed));
+  if (!start_.watch) return;
+  std::vector<std::filesystem::path> files = inputsOf(loadedOptions_);
+  for (const auto& file : inputsOf(loaded_->scene)) files.push_back(file);
+  for (const auto& file : filesIn(loadedOptions_.scene.parent_path(), ".bin")) files.push_back(file);
+  sceneFiles_ = FileWatch(files);
+  shaderFiles_ = FileWatch(filesUnder(start_.render.shaderFolder));
+}
+
+void ViewTracer::watchFiles() {
+  if (!start_.watch || !loaded_ || millisecondsSince(watched_) < 1000.0 * kWatchSeconds) return;
+  watched_ = Clock::now();
+  if (sceneFiles_.changed()) loader_.start(loadedOptions_);
+  if (shaderFiles_.changed()) rebuildPrograms();
+}
+
+/// The shaders have changed; what cannot be compiled now stays as it was.
+void ViewTracer::rebuildPrograms() {
+  programs_->forget();
+  denoiser_ = std::make_unique<ViewDenoiser>(start_.render.shaderFolder, oidn_);
+  for (Side& side : sides_) {
+    const std::shared_ptr<ViewProgram> wanted = programFor(side.options);
+    if (!wanted->error.empty()) return;
+    side.program = wanted;
+    side.stale = true;
+  }
+}
+
+void ViewTracer::adopt(const TraceRequest& request) {
+  request_ = request;
+  if (request.moving) keepMoving(resolution_, request.size);
+  sides_.resize(request.sides.size());
+  for (size_t i = 0; i < sides_.size(); ++i) adoptSide(sides_[i], request.sides[i]);
+}
+
+RenderOptions ViewTracer::withFilter(RenderOptions options) {
+  const bool wanted = options.denoise == Denoise::Oidn || options.denoise == Denoise::Auto;
+  if (wanted && oidn_) options.denoise = Denoise::Oidn;
+  if (!wanted || oidn_) return options;
+  try {
+    oidn_ = openDenoiser(options);
+  } catch (const UsageError& error) {
+    exchange_.tellError(error.what());
+    options.denoise = Denoise::Variance;
+  }
+  return options;
+}
+
+void ViewTracer::adoptSide(Side& side, const RenderOptions& asked) {
+  const RenderOptions options = withFilter(asked);
+  const bool same = side.program && drawsTheSame(side.options, options);
+  const bool otherLook =
+      side.options.treeLevel != options.treeLevel || side.options.denoise != options.denoise;
+  if (differInCameraAlone(side.options, options))
+    side.memory.turn();
+  else if (!same)
+    side.memory = {};
+  side.options = options;
+  if (same && otherLook && !side.stale && side.samples > 0) publish(side);
+  if (same) return;
+  const std::shared_ptr<ViewProgram> wanted = programFor(options);
+  // The last good one keeps drawing.
+  if (wanted->error.empty()) side.program = wanted;
+  const Camera camera = chooseCamera(loaded_->scene.cameras, options.cameraIndex, options.camera,
+                                     loaded_->scene.bounds, framedAspect(loadedOptions_));
+  side.view = makeView(options, loaded_->scene, camera);
+  side.stale = true;
+}
+
+std::shared_ptr<ViewProgram> ViewTracer::programFor(const RenderOptions& options) {
+  if (!programs_->has(options)) exchange_.tellNote("compiling");
+  std::shared_ptr<ViewProgram> program = programs_->of(options);
+  exchange_.tellNote({});
+  exchange_.tellError(program->error);
+  // It says the same again.
+  if (!program->error.empty()) driverLog_->take();
+  return program;
+}
+
+void ViewTracer::fitFilm(Side& side) {
+  const glm::ivec2 size = sizeAtStep(request_.size, resolution_.step);
+  const bool fits = side.film && side.film->size() == size;
+  if (fits && !side.stale) return;
+  if (!fits) side.memory.turn();
+  side.shown = {};
+  side.shownAt = 0;
+  if (fits)
+    side.film->clear();
+  else
+    side.film = std::make_unique<Film>(size);
+  side.stale = false;
+  side.samples = 0;
+  side.times = {};
+  side.error = -1.0;
+  side.errorAt = 0;
+}
+
+bool ViewTracer::resting(const Side& side) const {
+  if (!side.program) return true;
+  if (side.stale || side.samples == 0) return false;
+  const RenderOptions& o = side.options;
+  const bool converged = o.noise > 0.0 && side.error >= 0.0 && side.error <= o.noise;
+  return converged || side.samples >= o.spp || (o.seconds > 0.0 && side.times.renderMs >= 1000.0 * o.seconds);
+}
+
+bool ViewTracer::work() {
+  if (sides_.empty()) return false;
+  // Step: one frame at each resolution on the way to the full one.
+  const bool drawn =
+      std::ranges::all_of(sides_, [](const Side& s) { return !s.program || (!s.stale && s.samples > 0); });
+  if (drawn && !request_.moving) refine(resolution_, request_.size);
+  for (Side& side : sides_) {
+    if (side.program) fitFilm(side);
+  }
+  const bool settled = !request_.moving && resolution_.step == 0;
+  // A film that has just become this large holds nothing yet.
+  const bool whole = std::ranges::all_of(sides_, [](const Side& s) { return !s.program || s.samples > 0; });
+  if (settled && whole) {
+    for (const SaveRequest& request : saves_) save(request);
+    saves_.clear();
+  }
+  // Step: the side that has the fewest samples.
+  Side* side = nullptr;
+  for (Side& s : sides_) {
+    if (!resting(s) && (!side || s.samples < side->samples)) side = &s;
+  }
+  if (!side) return false;
+  Renderer& renderer = *side->program->tracer.renderer;
+  const glm::ivec2 size = side->film->size();
+  const double frameMs = renderer.msPerSample() * size.x * size.y;
+  const double affordable = frameMs > 0.0 ? kRoundMs / frameMs : 1.0;
+  const int most = std::max(1, std::min(side->samples, side->options.spp - side->samples));
+  const int count = settled ? int(std::clamp(affordable, 1.0, double(most))) : 1;
+  const double before = side->times.renderMs;
+  // A frame of a moving picture is short, and worth its end: else nothing would be seen before the hand
+  // rests.
+  const bool complete = renderer.addSamples(
+      *side->film, side->view, side->samples, side->samples + count, side->times,
+      [&](double) { return !(request_.moving ? exchange_.ending() : exchange_.interrupted()); });
+  if (!complete) return true;
+  side->samples += count;
+  const double filterMs = denoises(*side) && !settled ? filterMsPerPixel_ * size.x * size.y : 0.0;
+  frameTaken(resolution_, request_.size, size,
+             ((side->times.renderMs - before) / count + filterMs) * double(sides_.size()));
+  std::vector<double>& frames = side->times.frameMs;
+  if (frames.size() > kFrames) frames.erase(frames.begin(), frames.end() - kFrames);
+  const double pause = (denoises(*side) ? kFilteredShare : kPublishShare) * publishMs_;
+  const bool due = denoisesByOidn(*side) ? side->samples >= 2 * side->shownAt
+                                         : millisecondsSince(published_) > std::max(kPublishMs, pause);
+  if (!settled || side->samples == count || due || resting(*side)) publish(*side);
+  return true;
+}
+
+void ViewTracer::answer(const PickRequest& request) {
+  PickAnswer answer{request, false, {}, {}};
+  const Side* side = request.side < sides_.size() ? &sides_[request.side] : nullptr;
+  if (!side || !side->program) return;
+  const Projection projection = projectionOf(side->view.camera, double(request_.size.x) / request_.size.y);
+  const glm::dvec2 place(2.0 * request.place.x - 1.0, 1.0 - 2.0 * request.place.y);
+  const Scene& scene = loaded_->scene;
+  if (const std::optional<Pick> pick = pickAt(scene, loaded_->bvh, projection, place)) {
+    answer.hit = true;
+    answer.point = pick->point;
+    answer.lines = pickLines(scene, *pick);
+  } else {
+    answer.lines = {"nothing is there"};
+  }
+  exchange_.deliver(std::move(answer));
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// The viewer's tracing thread: a context and renderers of its own, wishes in, finished pictures out.
+#pragma once
+
+#include <chrono>
+#include <memory>
+
+#include "errors.h"
+#include "gl/debug_log.h"
+#include "live/view_denoiser.h"
+#include "live/view_loader.h"
+#include "live/view_programs.h"
+#include "options/view_options.h"
+#include "session/setup.h"
+#include "view/exchange.h"
+#include "view/file_watch.h"
+#include "view/resolution_controller.h"
+
+namespace fragtrace {
+
+class ViewTracer {
+ public:
+  /// The scene of the options is loaded first; when that fails, or there is no context, so does the program.
+  /// `oidn` is open where the options ask for it.
+  ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn, Exchange& exchange);
+  ViewTracer(const ViewTracer&) = delete;
+  ViewTracer& operator=(const ViewTracer&) = delete;
+  ~ViewTracer() { passOnWhatIsSaid({}); }
+
+  /// Until the exchange says quit; to be called in the thread that is to draw.
+  void run();
+
+  /// Whether a thread still loads what nobody waits for any more.
+  bool loading() const { return loader_.busy(); }
+
+ private:
+  struct Side {
+    RenderOptions options;
+    std::shared_ptr<ViewProgram> program;
+    std::unique_ptr<Film> film;
+    View view;
+    int samples = 0;
+    RenderTimes times;
+    double error = -1.0;
+    int errorAt = 0;    ///< samples when it was estimated
+    bool stale = true;  ///< what the film holds is another picture
+    SideMemory memory;
+    Image shown;            ///< published last, where it is filtered; may be empty
+    int shownAt = 0;        ///< samples when it was
+    double filterMs = 0.0;  ///< that it took
+  };
+
+  void enterContext();
+  void leaveContext();
+  void recover(const ContextLost& error);
+  void obey(Orders orders);
+  void adoptScene();
+  void watchFiles();
+  void rebuildPrograms();
+  void adopt(const TraceRequest& request);
+  /// With the filter that can be had; why not, the window is told.
+  RenderOptions withFilter(RenderOptions options);
+  void adoptSide(Side& side, const RenderOptions& options);
+  std::shared_ptr<ViewProgram> programFor(const RenderOptions& options);
+  /// A film of the size that is drawn at now; empty, if it was of another.
+  void fitFilm(Side& side);
+  bool resting(const Side& side) const;
+  /// Some samples for the side that has the fewest; false when all rest.
+  bool work();
+  void estimate(Side& side, const FilmPixels& pixels);
+  /// Whether the side's picture is filtered.
+  static bool denoises(const Side& side);
+  /// By Open Image Denoise, which takes seconds and so runs when the samples have doubled.
+  bool denoisesByOidn(const Side& side) const;
+  /// What the side shows now; nothing when something more urgent waits.
+  std::optional<Image> shownOf(Side& side, const FilmPixels& pixels, const std::function<bool()>& goOn);
+  void publish(Side& side);
+  void save(const SaveRequest& request);
+  void answer(const PickRequest& request);
+  void tellDriver();
+
+  ViewOptions start_;
+  Exchange& exchange_;
+  SceneLoader loader_;
+  std::unique_ptr<Context> context_;
+  std::unique_ptr<DebugLog> driverLog_;
+  std::unique_ptr<LoadedScene> loaded_;
+  RenderOptions loadedOptions_;  ///< of the scene
+  std::unique_ptr<ViewPrograms> programs_;
+  std::optional<OidnLibrary> oidn_;  ///< opened later where a pasted command asks for it
+  std::unique_ptr<ViewDenoiser> denoiser_;
+  TraceRequest request_;
+  std::vector<Side> sides_;
+  ResolutionController resolution_;
+  std::vector<SaveRequest> saves_;
+  int losses_ = 0;                 ///< of the context since the latest publication
+  double publishMs_ = 0.0;         ///< what the latest publication took
+  double filterMsPerPixel_ = 0.0;  ///< in it, of layers and filter
+  std::chrono::steady_clock::time_point published_;
+  FileWatch sceneFiles_;
+  FileWatch shaderFiles_;
+  std::chrono::steady_clock::time_point watched_;
+};
+
+}  // namespace fragtrace

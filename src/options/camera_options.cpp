@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "options/camera_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <string_view>
+
+#include "errors.h"
+#include "options/numbers.h"
+#include "options/option_text.h"
+
+namespace fragtrace {
+
+namespace {
+
+std::optional<glm::dvec3> vectorOf(const char* option, const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  for (const double value : values) {
+    if (!std::isfinite(value)) throw UsageError(std::string(option) + ": not a finite number");
+  }
+  return glm::dvec3(values[0], values[1], values[2]);
+}
+
+std::optional<glm::dvec3> placeOf(const char* option, const std::vector<double>& values) {
+  constexpr double kFarthest = 1e30;  // metres, as for scenes
+  const std::optional<glm::dvec3> place = vectorOf(option, values);
+  if (place && glm::length(*place) > kFarthest)
+    throw UsageError(std::string(option) + ": farther than 1e30 m from the origin");
+  return place;
+}
+
+void append(std::string& text, const char* option, const std::optional<glm::dvec3>& v) {
+  if (v) appendOption(text, option, exactText(v->x) + "," + exactText(v->y) + "," + exactText(v->z));
+}
+
+void append(std::string& text, const char* option, const std::optional<double>& value) {
+  if (value) appendOption(text, option, exactText(*value));
+}
+
+}  // namespace
+
+std::string withNumberSettled(std::string argument, std::string_view before) {
+  if (argument.starts_with("-.") && argument.size() > 2 &&
+      std::isdigit(static_cast<unsigned char>(argument[2]))) {
+    argument.insert(1, "0");
+  }
+  constexpr std::string_view kResolution = "--resolution=";
+  constexpr const char* kDigits = "0123456789";
+  const bool joined = argument.starts_with(kResolution);
+  if (!joined && before != kResolution.substr(0, kResolution.size() - 1)) return argument;
+  const size_t start = joined ? kResolution.size() : 0;
+  const size_t middle = argument.find_first_not_of(kDigits, start);
+  const bool isSize = middle != std::string::npos && middle > start && argument[middle] == 'x' &&
+                      middle + 1 < argument.size() &&
+                      argument.find_first_not_of(kDigits, middle + 1) == std::string::npos;
+  if (isSize) argument[middle] = ',';
+  return argument;
+}
+
+std::vector<std::string> withNumbersSettled(std::vector<std::string> words) {
+  // From the last one on, so that the word before is still as it was given.
+  for (size_t i = words.size(); i-- > 0;)
+    words[i] = withNumberSettled(words[i], i > 0 ? std::string_view(words[i - 1]) : std::string_view());
+  return words;
+}
+
+void addCameraOptions(CLI::App& app, RawCamera& raw) {
+  const auto addVector = [&](const char* name, std::vector<double>& values, const char* sentence) {
+    app.add_option(name, values, sentence)->delimiter(',')->expected(3);
+  };
+  app.add_option("--resolution", raw.resolution,
+                 "WIDTH,HEIGHT or WIDTHxHEIGHT; default 1280,720, or 720 high at the camera's aspect ratio")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(wholeNumber(1, 65536));
+  CLI::Option* index =
+      app.add_option("--camera-index", raw.index,
+                     "camera of the scene, from 0; default: the first, else one that frames it")
+          ->check(wholeNumber(0, std::numeric_limits<int>::max()));
+  app.add_option("--camera", raw.name, "name or index of the camera, of those that `info` lists")
+      ->excludes(index);
+  addVector("--camera-position", raw.position, "X,Y,Z in world space");
+  addVector("--camera-focal-point", raw.focalPoint, "X,Y,Z");
+  addVector("--camera-view-up", raw.viewUp, "X,Y,Z");
+  CLI::Option* angle =
+      app.add_option("--camera-view-angle", raw.viewAngleDegrees, "vertical, in degrees: a perspective");
+  app.add_option("--camera-parallel-scale", raw.parallelScale,
+                 "half of the picture's height, in metres: an orthographic view")
+      ->excludes(angle);
+  addVector("--scene-origin", raw.sceneOrigin,
+            "X,Y,Z that positions are rounded about; default: the focal point given, else near the camera");
+}
+
+void finishCamera(const RawCamera& raw, RenderOptions& options) {
+  if (!raw.resolution.empty()) options.resolution = glm::ivec2(raw.resolution[0], raw.resolution[1]);
+  options.cameraIndex = raw.index;
+  options.selection.camera = raw.name;
+  options.camera.position = placeOf("--camera-position", raw.position);
+  options.camera.focalPoint = placeOf("--camera-focal-point", raw.focalPoint);
+  options.camera.viewUp = vectorOf("--camera-view-up", raw.viewUp);
+  options.camera.viewAngleDegrees = raw.viewAngleDegrees;
+  options.camera.parallelScale = raw.parallelScale;
+  options.sceneOrigin = placeOf("--scene-origin", raw.sceneOrigin);
+  if (options.camera.viewUp && *options.camera.viewUp == glm::dvec3(0.0))
+    throw UsageError("--camera-view-up: is zero");
+}
+
+std::string cameraText(const RenderOptions& options) {
+  std::string text;
+  if (!options.cameraIndex && !options.selection.camera.empty())
+    appendOption(text, "--camera", options.selection.camera);
+  if (options.cameraIndex) appendOption(text, "--camera-index", std::to_string(*options.cameraIndex));
+  append(text, "--camera-position", options.camera.position);
+  append(text, "--camera-focal-point", options.camera.focalPoint);
+  append(text, "--camera-view-up", options.camera.viewUp);
+  append(text, "--camera-view-angle", options.camera.viewAngleDegrees);
+  append(text, "--camera-parallel-scale", options.camera.parallelScale);
+  append(text, "--scene-origin", options.sceneOrigin);
+  if (options.resolution) {
+    appendOption(text, "--resolution",
+                 std::to_string(options.resolution->x) + "," + std::to_string(options.resolution->y));
+  }
+  return text;
+}
+
+RenderOptions withCameraText(RenderOptions options, const std::string& text) {
+  CLI::App app;
+  app.set_help_flag();
+  RawCamera raw;
+  addCameraOptions(app, raw);
+  parseWords(app, splitWords(text));
+  finishCamera(raw, options);
+  return options;
+}
+
+}  // namespace fragtrace

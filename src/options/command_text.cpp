@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "options/command_text.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "errors.h"
+#include "options/camera_options.h"
+#include "options/config_file.h"
+#include "options/option_text.h"
+#include "options/view_options.h"
+#include "stage/feature.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr size_t kLongestText = size_t(1) << 16;  // bytes
+
+void append(std::string& text, const char* option, const std::string& value, bool isDefault) {
+  if (!isDefault) appendOption(text, option, value);
+}
+
+/// A choice among names in the order of its values.
+template <typename Names, typename Choice>
+void appendChoice(std::string& text, const char* option, const Names& names, Choice choice,
+                  Choice byDefault) {
+  append(text, option, std::string(names[size_t(choice)]), choice == byDefault);
+}
+
+std::string stagesText(const StageSet& stages) {
+  Stage last = Stage::Flat;
+  for (const StageRow& row : stageRows()) {
+    if (row.cumulative && has(stages, row.stage)) last = row.stage;
+  }
+  std::string text;
+  for (const bool on : {true, false}) {
+    std::string names;
+    for (const StageRow& row : stageRows()) {
+      if (has(stages, row.stage) == on && has(stagesUpTo(last), row.stage) != on)
+        names += (names.empty() ? "" : ",") + std::string(row.name);
+    }
+    append(text, on ? "--enable" : "--disable", names, names.empty());
+  }
+  const auto row = std::ranges::find(stageRows(), last, &StageRow::stage);
+  append(text, "--stage", row->name, last == Stage::Gi);
+  return text;
+}
+
+std::string layersText(const RenderOptions& o) {
+  std::string names;
+  const auto add = [&](std::string_view name) { names += (names.empty() ? "" : ",") + std::string(name); };
+  for (const Feature feature : o.aovFeatures) add(rowOf(feature).name);
+  if (o.aovSamples) add("samples");
+  if (o.aovVariance) add("variance");
+  return names;
+}
+
+void appendSampling(std::string& text, const RenderOptions& o) {
+  const RenderOptions standard;
+  appendOption(text, "--spp", std::to_string(o.spp));
+  append(text, "--sample-offset", std::to_string(o.sampleOffset), o.sampleOffset == standard.sampleOffset);
+  append(text, "--seed", std::to_string(o.seed), o.seed == standard.seed);
+  append(text, "--bounces", o.bounces == kUnlimitedBounces ? "unlimited" : std::to_string(o.bounces),
+         o.bounces == standard.bounces);
+  append(text, "--rr-depth", std::to_string(o.rouletteDepth), o.rouletteDepth == standard.rouletteDepth);
+  append(text, "--clamp-indirect", exactText(o.clampIndirect), o.clampIndirect <= 0.0);
+  appendChoice(text, "--pixel-filter", kPixelFilterNames, o.pixelFilter, standard.pixelFilter);
+}
+
+void appendScene(std::string& text, const RenderOptions& o) {
+  const RenderOptions standard;
+  const SceneSelection& s = o.selection;
+  append(text, "--scene", s.scene, s.scene.empty());
+  if (s.animationTime) appendOption(text, "--animation-time", exactText(*s.animationTime));
+  append(text, "--animation", s.animation, s.animation.empty());
+  append(text, "--material-variant", s.materialVariant, s.materialVariant.empty());
+  append(text, "--hdri-file", o.hdriFile.string(), o.hdriFile.empty());
+  append(text, "--hdri-rotation", exactText(o.hdriRotationDegrees), o.hdriRotationDegrees == 0.0);
+  const glm::dvec3 color(o.backgroundColor.value_or(glm::vec3(0.0f)));
+  append(text, "--background-color", exactText(color.r) + "," + exactText(color.g) + "," + exactText(color.b),
+         !o.backgroundColor);
+  if (!o.background) text += " --no-background";
+  if (!o.defaultLight) text += " --no-default-light";
+  appendChoice(text, "--instancing", kInstancingNames, o.instancing, standard.instancing);
+  const InputLimits& limits = o.limits;
+  append(text, "--memory-limit", std::to_string(limits.memoryBytes),
+         limits.memoryBytes == standard.limits.memoryBytes);
+  append(text, "--texture-limit", std::to_string(limits.textureSide),
+         limits.textureSide == standard.limits.textureSide);
+  if (limits.allowExternalFiles) text += " --allow-external-files";
+}
+
+void appendPicture(std::string& text, const RenderOptions& o) {
+  const RenderOptions standard;
+  append(text, "--exposure", exactText(o.exposure), o.exposure == 0.0);
+  appendChoice(text, "--tone-map", toneMapNames(), o.toneMap, standard.toneMap);
+  append(text, "--aov", layersText(o), layersText(o).empty());
+  appendChoice(text, "--denoise", kDenoiseNames, o.denoise, standard.denoise);
+  append(text, "--oidn-library", o.oidnLibrary.string(), o.oidnLibrary.empty());
+  append(text, "--debug-view", std::string(rowOf(o.debugView).name), o.debugView == DebugView::None);
+  if (o.treeLevel) appendOption(text, "--tree-level", std::to_string(*o.treeLevel));
+  appendChoice(text, "--traversal", kTraversalNames, o.traversal, standard.traversal);
+  appendChoice(text, "--rendering-backend", std::array{"auto", "egl", "osmesa"}, o.backend, standard.backend);
+  appendChoice(text, "--buffer-reads", kBufferReadsNames, o.bufferReads, standard.bufferReads);
+  appendChoice(text, "--dispatch", kDispatchNames, o.dispatch, standard.dispatch);
+  appendChoice(text, "--schedule", kScheduleNames, o.schedule, standard.schedule);
+  append(text, "--shader-folder", o.shaderFolder.string(), o.shaderFolder.empty());
+}
+
+/// What follows "render" or "view".
+RenderOptions parseCommand(const std::string& name, std::vector<std::string> words) {
+  CLI::App app("", name);
+  app.set_help_flag();
+  RawView raw;
+  raw.render.anyOutput = true;
+  addViewOptions(app, raw);
+  if (name == "render") raw.render.denoise = "none";  // its default
+  app.add_option("-o,--output", raw.render.output);
+  parseWords(app, std::move(words));
+  return finishConfigured(raw.render, raw.config, app);
+}
+
+}  // namespace
+
+std::string commandText(const RenderOptions& options) {
+  std::string text = "fragtrace render";
+  const std::string scene = options.scene.string();
+  text += " " + quoted(scene.starts_with('-') ? "./" + scene : scene);
+  append(text, "--output", options.output.string(), options.output.empty());
+  for (const std::string& part : {cameraText(options), stagesText(options.stages)})
+    text += (part.empty() ? "" : " ") + part;
+  appendSampling(text, options);
+  appendScene(text, options);
+  appendPicture(text, options);
+  return text;
+}
+
+RenderOptions withCommandText(const RenderOptions& current, const std::string& text) {
+  if (text.size() > kLongestText) throw UsageError("this is longer than any command");
+  std::vector<std::string> words = splitWords(text);
+  if (words.empty()) throw UsageError("the clipboard is empty");
+  if (words.front().starts_with("--")) return withCameraText(current, text);
+  const bool isOurs = std::filesystem::path(words.front()).filename() == "fragtrace" && words.size() > 1 &&
+                      (words[1] == "render" || words[1] == "view");
+  if (!isOurs) throw UsageError("this is no command of fragtrace: " + text);
+  RenderOptions options = parseCommand(words[1], {words.begin() + 2, words.end()});
+  options.output = current.output;
+  options.resolution = current.resolution;
+  options.spp = current.spp;
+  options.noise = current.noise;
+  options.seconds = current.seconds;
+  options.backend = current.backend;
+  options.statsFile = current.statsFile;
+  options.shaderFolder = current.shaderFolder;
+  options.quiet = current.quiet;
+  options.verbose = current.verbose;
+  return options;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// A picture's options as a command, both ways: what the viewer copies and pastes.
+#pragma once
+
+#include <string>
+
+#include "stage/render_options.h"
+
+namespace fragtrace {
+
+/// The `fragtrace render` command of a picture with so many samples in every pixel: all that makes the
+/// options' picture what it is. Every number reads back as itself.
+std::string commandText(const RenderOptions& options);
+
+/// The options of a whole command of `render` or `view`, or, where the text begins with an option, the
+/// current ones with the camera of that text. Device, output, samples and size stay the current ones.
+/// Throws UsageError, InputError (of --config).
+RenderOptions withCommandText(const RenderOptions& current, const std::string& text);
+
+}  // namespace fragtrace

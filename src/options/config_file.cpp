@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "options/config_file.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "errors.h"
+#include "image/files/whole_file.h"
+
+namespace fragtrace {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What an error says is of which member; "~" and "/" as in RFC 6901.
+std::string placeOf(const std::filesystem::path& path, const std::string& name) {
+  return path.string() + ": " + (Json::json_pointer() / name).to_string();
+}
+
+/// Throws InputError with line and column, also where a name stands twice.
+Json parseFile(const std::filesystem::path& path) {
+  const std::vector<uint8_t> bytes = readWholeFile(path);
+  std::set<std::string> names;
+  const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::key && depth == 1) {
+      const auto name = parsed.get<std::string>();
+      if (!names.insert(name).second) throw InputError(placeOf(path, name) + ": stands there twice");
+    }
+    return true;
+  };
+  Json json;
+  try {
+    json = Json::parse(bytes, watch);
+  } catch (const Json::parse_error& error) {
+    const std::string text = error.what();  // "[json.exception...] parse error at line 1, column 2: ..."
+    const size_t from = text.find("at line");
+    throw InputError(path.string() + ": " + (from == std::string::npos ? text : text.substr(from)));
+  }
+  if (!json.is_object()) throw InputError(path.string() + ": is no JSON object of option names");
+  return json;
+}
+
+/// A value as the command line would spell it.
+std::string spelled(const Json& value, const std::string& place) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_integer()) return value.dump();
+  if (value.is_number()) {
+    char text[32];  // 17 digits name a double
+    std::snprintf(text, sizeof text, "%.17g", value.get<double>());
+    return text;
+  }
+  throw InputError(place + ": is neither a number nor a string");
+}
+
+std::vector<std::string> spelledValues(const Json& value, const std::string& place) {
+  if (!value.is_array()) return {spelled(value, place)};
+  std::vector<std::string> values;
+  for (const Json& element : value)
+    values.push_back(spelled(element, place + "/" + std::to_string(values.size())));
+  return values;
+}
+
+/// Gives the command all options of the file that its command line has not given, nor one that excludes them.
+/// Returns their names.
+std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& command) {
+  const Json json = parseFile(path);
+  std::set<const CLI::Option*> given;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() > 0) given.insert(option);
+  }
+  std::set<std::string> taken;
+  for (const auto& [name, value] : json.items()) {
+    const std::string place = placeOf(path, name);
+    CLI::Option* option = name.empty() || name[0] == '-' ? nullptr : command.get_option_no_throw("--" + name);
+    if (option == nullptr || name == "config" || name == "help" || name == "version")
+      throw InputError(place + ": is no option of " + command.get_name());
+    bool overruled = given.contains(option);
+    for (const CLI::Option* excluded : option->get_excludes()) {
+      overruled = overruled || given.contains(excluded);
+      if (!overruled && excluded->count() > 0)
+        throw InputError(place + ": does not go with " + excluded->get_name());
+    }
+    const bool isFlag = option->get_expected_max() == 0;
+    if (isFlag && !value.is_boolean()) throw InputError(place + ": is neither true nor false");
+    if (!isFlag && value.is_array() && value.empty()) throw InputError(place + ": is empty");
+    std::vector<std::string> values = isFlag ? std::vector<std::string>{"true"} : spelledValues(value, place);
+    if (name == "resolution") {
+      for (std::string& size : values) size = withNumberSettled(size, "--resolution");
+    }
+    if (overruled || (isFlag && !value.get<bool>())) continue;
+    try {
+      option->add_result(values);
+      option->run_callback();
+    } catch (const CLI::ParseError& error) {
+      throw InputError(place + ": " + error.what());
+    }
+    taken.insert(name);
+  }
+  return taken;
+}
+
+}  // namespace
+
+void addConfigOption(CLI::App& app, std::string& file) {
+  app.add_option("--config", file,
+                 "JSON file of options by their long names; what the command line says counts more");
+}
+
+RenderOptions finishConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command) {
+  if (config.empty()) return finishRender(raw);
+  const std::set<std::string> taken = applyFile(config, command);
+  try {
+    return finishRender(raw);
+  } catch (const UsageError& error) {
+    // Options are named first in what finishRender() says of them.
+    const std::string text = error.what();
+    for (const std::string& name : taken) {
+      if (text.starts_with("--" + name + ": "))
+        throw InputError(placeOf(config, name) + text.substr(name.size() + 2));
+    }
+    throw;
+  }
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "options/option_text.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
+
+#include "errors.h"
+#include "options/camera_options.h"
+
+namespace fragtrace {
+
+std::string exactText(double value) {
+  // The library's reader is strtold, then rounded.
+  char text[32];
+  for (int digits = 15; digits <= 17; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    if (double(std::strtold(text, nullptr)) == value) break;
+  }
+  return text;
+}
+
+std::string quoted(const std::string& word) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./,:=+@%-";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) {
+    if (c == '\'')
+      text += "'\\''";
+    else
+      text += c;
+  }
+  return text + "'";
+}
+
+void appendOption(std::string& text, const char* option, const std::string& value) {
+  // A value that looks like an option is taken for one, unless it is joined to its own.
+  const bool isNumber =
+      value.size() > 1 && (std::isdigit(static_cast<unsigned char>(value[1])) != 0 || value[1] == '.');
+  const char* join = value.starts_with('-') && !isNumber ? "=" : " ";
+  text += (text.empty() ? "" : " ") + std::string(option) + join + quoted(value);
+}
+
+std::vector<std::string> splitWords(const std::string& text) {
+  std::vector<std::string> words;
+  char quote = 0;
+  bool inWord = false;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quote == 0 && std::isspace(static_cast<unsigned char>(c)) != 0) {
+      inWord = false;
+      continue;
+    }
+    const bool escapes = c == '\\' && quote != '\'' && i + 1 < text.size();
+    if (escapes && text[i + 1] == '\n') {
+      ++i;
+      continue;
+    }
+    if (!inWord) words.emplace_back();
+    inWord = true;
+    if (escapes)
+      words.back() += text[++i];
+    else if (quote == 0 && (c == '\'' || c == '"'))
+      quote = c;
+    else if (c == quote)
+      quote = 0;
+    else
+      words.back() += c;
+  }
+  if (quote != 0) throw UsageError(std::string("a ") + quote + " has no end");
+  return words;
+}
+
+void parseWords(CLI::App& app, std::vector<std::string> words) {
+  words = withNumbersSettled(std::move(words));
+  std::ranges::reverse(words);  // last first, as the library wants them
+  try {
+    app.parse(words);
+  } catch (const CLI::ExtrasError&) {
+    // The library says them the other way round.
+    throw UsageError("not understood: " + CLI::detail::join(app.remaining(), " "));
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace fragtrace

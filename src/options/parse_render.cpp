@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+#include "options/parse_render.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "bvh/bvh.h"
+#include "image/format.h"
+#include "image/image.h"
+#include "options/choose.h"
+#include "options/input_options.h"
+#include "options/numbers.h"
+
+namespace fragtrace {
+
+namespace {
+
+std::vector<std::string> stageNames(bool cumulativeOnly) {
+  std::vector<std::string> names;
+  for (const StageRow& row : stageRows()) {
+    if (row.cumulative || !cumulativeOnly) names.emplace_back(row.name);
+  }
+  return names;
+}
+
+Stage stageNamed(const char* option, const std::string& name) {
+  const std::optional<Stage> stage = parseStage(name);
+  if (!stage)
+    throw UsageError(std::string(option) + ": '" + name + "' is none of " + joined(stageNames(false)));
+  return *stage;
+}
+
+int parseBounces(const std::string& text) {
+  if (text == "unlimited") return kUnlimitedBounces;
+  int value = -1;
+  if (!CLI::detail::lexical_cast(text, value) || value < 0) {
+    throw UsageError("--bounces: '" + text + "' is neither a number from 0 on nor 'unlimited'");
+  }
+  return value;
+}
+
+void checkFinite(const RenderOptions& o) {
+  const auto check = [](const char* option, double value) {
+    if (!std::isfinite(value)) throw UsageError(std::string(option) + ": not a finite number");
+  };
+  check("--exposure", o.exposure);
+  // The library's ranges let NaN pass.
+  check("--noise", o.noise);
+  check("--time", o.seconds);
+  check("--clamp-indirect", o.clampIndirect);
+  check("--hdri-rotation", o.hdriRotationDegrees);
+  const glm::vec3 background = o.backgroundColor.value_or(glm::vec3(0.0f));
+  for (int i = 0; i < 3; ++i) check("--background-color", background[i]);
+  if (glm::any(glm::lessThan(background, glm::vec3(0.0f)))) throw UsageError("--background-color: below 0");
+}
+
+/// Of first hits, then those of the film.
+std::vector<std::string_view> layerNames() {
+  std::vector<std::string_view> names;
+  for (const FeatureRow& row : kFeatureRows) {
+    if (!row.name.empty()) names.push_back(row.name);
+  }
+  names.insert(names.end(), {"samples", "variance"});
+  return names;
+}
+
+void chooseLayers(const std::vector<std::string>& names, RenderOptions& o) {
+  const std::vector<std::string_view> known = layerNames();
+  for (const std::string& name : names) {
+    const auto index = choose<size_t>("--aov", name, known);
+    if (name == "samples") {
+      o.aovSamples = true;
+    } else if (name == "variance") {
+      o.aovVariance = true;
+    } else if (const Feature feature = Feature(index + 1);
+               std::ranges::find(o.aovFeatures, feature) == o.aovFeatures.end()) {
+      o.aovFeatures.push_back(feature);
+      // All that a filter needs.
+      if (feature == Feature::Guides) o.aovSamples = o.aovVariance = true;
+    }
+  }
+}
+
+std::vector<std::string_view> debugViewNames() {
+  std::vector<std::string_view> names;
+  names.reserve(std::size(kDebugViewRows));
+  for (const DebugViewRow& row : kDebugViewRows) names.push_back(row.name);
+  return names;
+}
+
+/// What is shaded.
+void addStageOptions(CLI::App& app, RawRender& raw) {
+  app.add_option("--stage", raw.stage, joined(stageNames(true)) + "; each turns on itself and all before it")
+      ->capture_default_str();
+  app.add_option("--enable", raw.enable, "switches over that: " + joined(stageNames(false)))
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--disable", raw.disable, "switches off, over that")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
+/// How many samples, and which.
+void addSampleOptions(CLI::App& app, RawRender& raw) {
+  RenderOptions& o = raw.options;
+  app.add_option("--spp", raw.spp,
+                 "camera paths a pixel, default 64; with --noise or --time the most, default unlimited")
+      ->check(wholeNumber(1, kMostSamples));
+  app.add_option(
+         "--noise", o.noise,
+         "sample until 95 % of the pixels that can be noisy have a relative error below this, such as 0.01")
+      ->check(CLI::Range(1e-5, 1.0));
+  app.add_option("--time", o.seconds, "seconds to draw, sampling where it helps most")
+      ->check(CLI::Range(0.01, 1e7));
+  app.add_option("--sample-offset", o.sampleOffset,
+                 "index of the first sample: continues a seed's sequence (see merge)")
+      ->check(wholeNumber(0, kMostSamples))
+      ->capture_default_str();
+  app.add_option("--sampler", raw.sampler, "sobol, random: where sample points come from")
+      ->capture_default_str();
+  app.add_option("--seed", o.seed, "of the sample points, 0 to 4294967295")
+      ->check(wholeNumber(0, std::numeric_limits<uint32_t>::max()))
+      ->capture_default_str();
+}
+
+/// What a path does.
+void addPathOptions(CLI::App& app, RawRender& raw) {
+  RenderOptions& o = raw.options;
+  app.add_option("--bounces", raw.bounces, "scatterings of a path, or 'unlimited'")->capture_default_str();
+  app.add_option("--rr-depth", o.rouletteDepth, "Russian roulette from this scattering on")
+      ->check(wholeNumber(1, std::numeric_limits<int>::max() / 4))
+      ->capture_default_str();
+  app.add_option("--fresnel", raw.fresnel, "exact, schlick: of glass")->capture_default_str();
+  app.add_option("--energy-compensation", raw.compensation, "on, off: of rough surfaces in gi")
+      ->capture_default_str();
+  app.add_option("--light-sampling", raw.lightSampling,
+                 "nee, bsdf: lights are sampled in gi, or found by scattered rays only")
+      ->capture_default_str();
+  app.add_option(
+         "--clamp-indirect", o.clampIndirect,
+         "most radiance that light of two scatterings or more may add to a sample: fewer bright dots, "
+         "but biased")
+      ->check(CLI::Range(1e-6, 1e30));
+}
+
+/// What lights the scene from outside, and what is seen there.
+void addSurroundingsOptions(CLI::App& app, RawRender& raw) {
+  RenderOptions& o = raw.options;
+  app.add_option("--hdri-file", raw.hdriFile, "equirectangular environment: .hdr, .exr, .pfm");
+  app.add_option("--hdri-rotation", o.hdriRotationDegrees, "degrees about +Y")->capture_default_str();
+  app.add_flag("--no-background", raw.noBackground, "camera rays that miss see nothing; alpha is written");
+  app.add_option(
+         "--background-color", raw.backgroundColor,
+         "R,G,B, linear: what camera rays that miss see, also in place of --hdri-file; lights nothing")
+      ->delimiter(',')
+      ->expected(3);
+  app.add_flag("--no-default-light", raw.noDefaultLight, "a scene without any light stays dark");
+}
+
+/// What of the samples a picture shows.
+void addPictureOptions(CLI::App& app, RawRender& raw) {
+  RenderOptions& o = raw.options;
+  app.add_option("--pixel-filter", raw.pixelFilter, joined(kPixelFilterNames))->capture_default_str();
+  app.add_option("--aov", raw.aov, joined(layerNames()) + ": more layers in an .exr")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--debug-view", raw.debugView, joined(debugViewNames()) + ": what the picture shows")
+      ->capture_default_str();
+  app.add_option("--tree-level", o.treeLevel,
+                 "draws the boxes of this level of the tree over a .png or .jpg; 0: the root")
+      ->check(wholeNumber(0, int(kMaxBvhDepth)));
+  app.add_option("--exposure", o.exposure, "EV, for .png and .jpg")->capture_default_str();
+  app.add_option("--tone-map", raw.toneMap, "linear, reinhard, aces, agx, neutral, for .png and .jpg")
+      ->capture_default_str();
+}
+
+/// How, not what, is traced.
+void addTracingOptions(CLI::App& app, RawRender& raw) {
+  app.add_option("--traversal", raw.traversal, joined(kTraversalNames) + ": how rays find triangles")
+      ->capture_default_str();
+  app.add_option(
+         "--instancing", raw.instancing,
+         joined(kInstancingNames) + ": whether meshes that stand in the scene several times are copied")
+      ->capture_default_str();
+  app.add_option("--rendering-backend", raw.backend, "auto, egl, osmesa")->capture_default_str();
+  app.add_option("--buffer-reads", raw.reads, joined(kBufferReadsNames) + ": how the shader reads the scene")
+      ->capture_default_str();
+  app.add_option("--dispatch", raw.dispatch, joined(kDispatchNames) + ": which shader stage runs the tracer")
+      ->capture_default_str();
+  app.add_option("--schedule", raw.schedule,
+                 joined(kScheduleNames) + ": whether a lane traces one pixel at a time, or many together")
+      ->capture_default_str();
+}
+
+StageSet stagesOf(const RawRender& raw) {
+  StageSet stages = stagesUpTo(choose<Stage>("--stage", raw.stage, stageNames(true)));
+  if (choose<int>("--fresnel", raw.fresnel, std::vector<std::string>{"exact", "schlick"}) == 1) {
+    stages.set(size_t(Stage::Schlick));
+  }
+  if (choose<int>("--energy-compensation", raw.compensation, std::vector<std::string>{"on", "off"}) == 1) {
+    stages.reset(size_t(Stage::EnergyCompensation));
+  }
+  if (choose<int>("--sampler", raw.sampler, std::vector<std::string>{"sobol", "random"}) == 1) {
+    stages.reset(size_t(Stage::Sobol));
+  }
+  if (choose<int>("--light-sampling", raw.lightSampling, std::vector<std::string>{"nee", "bsdf"}) == 1) {
+    stages.reset(size_t(Stage::LightSampling));
+  }
+  for (const std::string& name : raw.enable) stages.set(size_t(stageNamed("--enable", name)));
+  for (const std::string& name : raw.disable) stages.reset(size_t(stageNamed("--disable", name)));
+  return stages;
+}
+
+/// Throws UsageError where the numbers of samples contradict each other.
+void settleSamples(const RawRender& raw, RenderOptions& o) {
+  const bool adaptive = o.noise > 0.0 || o.seconds > 0.0;
+  if (raw.spp) o.spp = *raw.spp;
+  if (adaptive && !raw.spp) o.spp = kMostSamples;
+  // Two halves of two: one sample says nothing of its error.
+  if (adaptive && o.sampleOffset > 0)
+    throw UsageError("--sample-offset: adaptive pictures (--noise, --time) are no parts of a render");
+  if (adaptive && o.spp < 4) throw UsageError("--spp: --noise and --time need at least 4");
+  if (int64_t(o.sampleOffset) + o.spp > kMostSamples && !adaptive)
+    throw UsageError("--sample-offset: with --spp it goes beyond sample " + std::to_string(kMostSamples));
+}
+
+}  // namespace
+
+RenderOptions finishRender(const RawRender& raw) {
+  RenderOptions o = raw.options;
+  o.scene = raw.scene;
+  o.output = raw.output;
+  if (!raw.output.empty() && !isWritableImageName(o.output)) {
+    throw UsageError("--output: '" + raw.output + "' ends in none of .png, .jpg, .exr, .hdr, .pfm");
+  }
+  finishCamera(raw.camera, o);
+  o.stages = stagesOf(raw);
+  o.bounces = parseBounces(raw.bounces);
+  if (!raw.backgroundColor.empty())
+    o.backgroundColor = glm::vec3(raw.backgroundColor[0], raw.backgroundColor[1], raw.backgroundColor[2]);
+  o.hdriFile = raw.hdriFile;
+  o.background = !raw.noBackground;
+  o.defaultLight = !raw.noDefaultLight;
+  o.pixelFilter = choose<PixelFilter>("--pixel-filter", raw.pixelFilter, kPixelFilterNames);
+  o.toneMap = choose<ToneMap>("--tone-map", raw.toneMap, toneMapNames());
+  o.traversal = choose<TraversalMethod>("--traversal", raw.traversal, kTraversalNames);
+  o.instancing = choose<Instancing>("--instancing", raw.instancing, kInstancingNames);
+  o.backend =
+      choose<Backend>("--rendering-backend", raw.backend, std::vector<std::string>{"auto", "egl", "osmesa"});
+  o.bufferReads = choose<BufferReads>("--buffer-reads", raw.reads, kBufferReadsNames);
+  o.dispatch = choose<Dispatch>("--dispatch", raw.dispatch, kDispatchNames);
+  o.schedule = choose<Schedule>("--schedule", raw.schedule, kScheduleNames);
+  o.statsFile = raw.statsFile;
+  o.shaderFolder = raw.shaderFolder;
+  chooseLayers(raw.aov, o);
+  if (!raw.aov.empty() && !raw.anyOutput && formatOfName(o.output) != ImageFormat::OpenExr) {
+    throw UsageError("--aov: only .exr files hold more layers");
+  }
+  if (o.treeLevel && !raw.output.empty() && !isDisplayFormat(o.output))
+    throw UsageError("--tree-level: boxes are drawn over a .png or .jpg only");
+  o.denoise = choose<Denoise>("--denoise", raw.denoise, kDenoiseNames);
+  o.oidnLibrary = raw.oidnLibrary;
+  o.debugView = choose<DebugView>("--debug-view", raw.debugView, debugViewNames());
+  if (o.debugView == DebugView::Visits) o.stages.set(size_t(Stage::BvhHeatmap));
+  settleSamples(raw, o);
+  checkFinite(o);
+  return o;
+}
+
+void addRenderOptions(CLI::App& app, RawRender& raw) {
+  RenderOptions& o = raw.options;
+  addCameraOptions(app, raw.camera);
+  addStageOptions(app, raw);
+  addSampleOptions(app, raw);
+  addPathOptions(app, raw);
+  addSurroundingsOptions(app, raw);
+  addPictureOptions(app, raw);
+  addTracingOptions(app, raw);
+  addSelectionOptions(app, o.selection);
+  addInputOptions(app, o.limits);
+  app.add_option("--stats", raw.statsFile,
+                 "JSON file for the statistics; '-': standard output, which then holds nothing else");
+  app.add_option("--shader-folder", raw.shaderFolder,
+                 "read the shaders from here in place of the built-in ones");
+  app.add_flag("--quiet", o.quiet, "print nothing but errors; benchmarks also their tables");
+  app.add_flag("--verbose", o.verbose, "print what is chosen and what it takes");
+}
+
+void addDenoiseOption(CLI::App& app, RawRender& raw) {
+  app.add_option("--denoise", raw.denoise,
+                 joined(kDenoiseNames) +
+                     ": filter the noise out of the finished picture; an .exr keeps the "
+                     "noisy one too, as noisy.R, noisy.G and noisy.B; auto: oidn where it is installed, "
+                     "else variance")
+      ->capture_default_str();
+  app.add_option("--oidn-library", raw.oidnLibrary,
+                 "file of Open Image Denoise 2.x; default: FRAGTRACE_OIDN_LIBRARY, then where the system or "
+                 "pip (pyoidn) installs it");
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "options/parse_render.h"
+
+namespace fragtrace {
+
+struct ViewOptions {
+  RenderOptions render;  ///< what is shown at first
+  bool watch = false;    ///< reload when the scene's files or the shaders change
+  std::filesystem::path statusFile;
+};
+
+struct RawView {
+  RawRender render;
+  std::string config;
+  std::string statusFile;
+  bool watch = false;
+};
+
+/// Adds all options of `view`.
+void addViewOptions(CLI::App& app, RawView& raw);
+
+/// Throws UsageError, InputError (of a file of options).
+ViewOptions finishView(RawView& raw, CLI::App& command);
+
+}  // namespace fragtrace

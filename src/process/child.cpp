@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "process/child.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+#include "process/plugin.h"
+
+namespace fragtrace {
+namespace {
+
+std::filesystem::path pathOf(const std::string& name) {
+  std::string places;
+  for (const auto& folder : ownFolders()) {
+    std::error_code error;
+    if (std::filesystem::exists(folder / name, error)) return folder / name;
+    places += (places.empty() ? "" : ", ") + folder.string();
+  }
+  throw std::runtime_error(name + " is not in " + places);
+}
+
+/// The error of posix_spawn, or 0. Signals of the terminal do not reach the child, whose output is dropped.
+int spawn(const std::filesystem::path& path, int socket, int socketThere, pid_t& process) {
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawnattr_init(&attributes);
+  posix_spawn_file_actions_adddup2(&actions, socket, socketThere);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+#ifndef __SANITIZE_ADDRESS__
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+#endif
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  std::string name = path.string();
+  char* const arguments[] = {name.data(), nullptr};
+  const int error = ::posix_spawn(&process, path.c_str(), &actions, &attributes, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
+  return error;
+}
+
+/// Seconds of processor time that a process has taken.
+rlim_t secondsTaken(pid_t process) {
+  clockid_t clock{};
+  timespec time{};
+  if (::clock_getcpuclockid(process, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return 0;
+  return rlim_t(time.tv_sec) + 1;
+}
+
+bool addressesAreLimited() {
+  rlimit addresses{};
+  return ::getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY;
+}
+
+/// How a process ends that got no memory: the loader of its libraries gives 127, they themselves abort, or go
+/// on with nothing.
+bool isWantOfMemory(int status) {
+  constexpr int kNotLoaded = 127;
+  if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGABRT || WTERMSIG(status) == SIGSEGV;
+  return WEXITSTATUS(status) == kNotLoaded;
+}
+
+}  // namespace
+
+Child::~Child() {
+  if (process <= 0) return;
+  ::kill(process, SIGKILL);
+  endChild(*this);
+}
+
+std::unique_ptr<Child> startChild(const std::string& name, int socketThere) {
+  const std::filesystem::path path = pathOf(name);
+  int sockets[2] = {-1, -1};
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, sockets) != 0)
+    throw std::runtime_error("no socket for " + name + ": " + std::generic_category().message(errno));
+  auto child = std::make_unique<Child>();
+  child->socket = sockets[0];
+  // dup2 of a descriptor to itself would leave it closed on exec.
+  if (sockets[1] == socketThere) {
+    const int moved = ::fcntl(sockets[1], F_DUPFD_CLOEXEC, socketThere + 1);
+    ::close(sockets[1]);
+    sockets[1] = moved;
+  }
+  const int error = spawn(path, sockets[1], socketThere, child->process);
+  ::close(sockets[1]);
+  if (error != 0) {
+    child->process = -1;
+    ::close(child->socket);
+    throw std::runtime_error(path.string() + " cannot be started (" + std::generic_category().message(error) +
+                             ")");
+  }
+  return child;
+}
+
+void limitChild(const Child& child, [[maybe_unused]] uint64_t dataBytes, unsigned cpuSeconds) {
+  const auto limit = [&](auto resource, rlim_t value) {
+    rlimit both{};
+    if (::prlimit(child.process, resource, nullptr, &both) != 0) return;
+    both.rlim_cur = std::min(value, both.rlim_max);
+    ::prlimit(child.process, resource, &both, nullptr);
+  };
+#ifndef __SANITIZE_ADDRESS__  // whose shadow memory is data, too
+  limit(RLIMIT_DATA, dataBytes);
+#endif
+  limit(RLIMIT_CPU, cpuSeconds == 0 ? RLIM_INFINITY : secondsTaken(child.process) + cpuSeconds);
+}
+
+bool awaitReply(const Child& child, std::span<uint8_t> reply, int patienceMs) {
+  pollfd waiting{child.socket, POLLIN, 0};
+  int ready = -1;
+  do {
+    ready = ::poll(&waiting, 1, patienceMs);
+  } while (ready < 0 && errno == EINTR);
+  return ready > 0 && ::recv(child.socket, reply.data(), reply.size(), 0) == ssize_t(reply.size());
+}
+
+std::string endChild(Child& child) {
+  ::close(child.socket);
+  // One that has ended by itself keeps its own status.
+  constexpr int kPatienceMs = 20;
+  int status = 0;
+  pid_t ended = 0;
+  int waited = 0;
+  for (; ended == 0; ++waited) {
+    if (waited == kPatienceMs) ::kill(child.process, SIGKILL);
+    ended = ::waitpid(child.process, &status, waited < kPatienceMs ? WNOHANG : 0);
+    if (ended == 0) ::usleep(1000);
+    if (ended < 0 && errno == EINTR) ended = 0;
+  }
+  child.process = -1;
+  if (ended < 0) return "it is gone";
+  if (addressesAreLimited() && isWantOfMemory(status)) return "memory ran out (ulimit -v)";
+  if (status == 0) return "it ended without an answer";
+  if (!WIFSIGNALED(status)) return "status " + std::to_string(WEXITSTATUS(status));
+  const int signal = WTERMSIG(status);
+  if (signal == SIGXCPU || (signal == SIGKILL && waited > kPatienceMs)) return kOutOfTime;
+  return "signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "session/denoising.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "denoise/oidn.h"
+#include "errors.h"
+#include "gl/program.h"
+#include "image/channels.h"
+#include "image/format.h"
+#include "render/denoise.h"
+#include "session/interrupt.h"
+#include "session/phase_timer.h"
+#include "session/progress_bar.h"
+#include "session/say.h"
+#include "stage/same_picture.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr const char* kFilterAttribute = "fragtrace:denoise";
+std::vector<std::string> noisyNames() { return {"noisy.R", "noisy.G", "noisy.B"}; }
+
+bool hasGuides(const RenderOptions& options) {
+  return std::ranges::find(options.aovFeatures, Feature::Guides) != options.aovFeatures.end();
+}
+
+/// Whether the channel is there for the filter alone.
+bool isForTheFilter(const std::string& channel, const RenderOptions& options) {
+  if (channel == "samples.Y") return !options.aovSamples;
+  if (channel == "variance.Y") return !options.aovVariance;
+  return channel.starts_with("denoising.") && !hasGuides(options);
+}
+
+}  // namespace
+
+std::string whyNotDenoised(const RenderOptions& options) {
+  if (options.denoise == Denoise::None) return "--denoise";
+  return whyWithoutNoise(options);
+}
+
+std::optional<OidnLibrary> openDenoiser(RenderOptions& options) {
+  if (!whyNotDenoised(options).empty()) return std::nullopt;
+  if (options.denoise != Denoise::Oidn && options.denoise != Denoise::Auto) return std::nullopt;
+  try {
+    OidnLibrary library = openOidn(options.oidnLibrary);
+    options.denoise = Denoise::Oidn;
+    return library;
+  } catch (const UsageError& error) {
+    if (options.denoise == Denoise::Oidn) throw;
+    options.denoise = Denoise::Variance;
+    const std::string text = std::string("--denoise auto: the variance filter: ") + error.what();
+    if (namesOidn(options.oidnLibrary))
+      say(options, "warning: " + text);
+    else if (options.verbose)
+      say(options, text);
+  }
+  return std::nullopt;
+}
+
+RenderOptions withGuides(const RenderOptions& options) {
+  RenderOptions drawn = options;
+  if (!whyNotDenoised(options).empty()) return drawn;
+  if (options.denoise == Denoise::Variance) drawn.aovSamples = drawn.aovVariance = true;
+  if (!hasGuides(options)) drawn.aovFeatures.push_back(Feature::Guides);
+  return drawn;
+}
+
+PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn) {
+  if (!oidn) {
+    const double start = steadyMilliseconds();
+    const auto filter = std::make_shared<const VarianceFilter>(shaderSource(options.shaderFolder));
+    return {std::string(kVarianceFilter), steadyMilliseconds() - start,
+            [filter](const Image& picture) { return filter->filtered(picture); }};
+  }
+  const auto apply = [library = *oidn, memory = options.limits.memoryBytes,
+                      quiet = options.quiet](const Image& picture) {
+    ProgressBar bar("denoising", quiet);
+    const int before = interrupts();
+    std::optional<Image> result = denoisedByOidn(picture, library, memory, [&](double fraction) {
+      bar.show(fraction);
+      return interrupts() == before;
+    });
+    bar.clear();
+    return result;
+  };
+  return {"oidn " + oidn->version, 0.0, apply};
+}
+
+std::optional<Image> filtered(const Image& picture, const RenderOptions& options,
+                              const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats) {
+  const PictureFilter filter = makeFilter(options, oidn);
+  const double start = steadyMilliseconds();
+  std::optional<Image> result = filter.apply(picture);
+  if (!result) {
+    stats.skipped = "interrupted";
+    return result;
+  }
+  stats.filter = filter.name;
+  stats.compileMs = filter.compileMs;
+  stats.filterMs = steadyMilliseconds() - start;
+  if (oidn) {
+    stats.library = oidn->file;
+    stats.loadMs = oidn->loadMs;
+  }
+  return result;
+}
+
+void keepNoisy(Image& picture, const Image& noisy, const std::string& filter) {
+  appendChannels(picture, noisy, noisyNames());
+  picture.attributes[kFilterAttribute] = filter;
+}
+
+void denoise(Image& picture, const RenderOptions& options, const std::optional<OidnLibrary>& oidn,
+             Statistics& stats) {
+  if (options.denoise == Denoise::None) return;
+  stats.denoise.emplace().skipped = whyNotDenoised(options);
+  if (!stats.denoise->skipped.empty()) {
+    say(options, "the picture is not filtered: " + stats.denoise->skipped);
+    return;
+  }
+  // Somebody who has interrupted the samples does not wait for seconds more.
+  const bool waits = !oidn || stats.complete;
+  const std::optional<Image> denoised =
+      waits ? filtered(picture, options, oidn, *stats.denoise) : std::nullopt;
+  if (!denoised) {
+    stats.complete = false;
+    stats.denoise->skipped = "interrupted";
+  }
+  const Image noisy = onlyChannels(picture, {"R", "G", "B"});
+  if (denoised) replaceColor(picture, *denoised);
+  std::vector<std::string> asked = picture.channels;
+  std::erase_if(asked, [&](const std::string& channel) { return isForTheFilter(channel, options); });
+  picture = onlyChannels(picture, asked);
+  if (denoised && formatOfName(options.output) == ImageFormat::OpenExr)
+    keepNoisy(picture, noisy, stats.denoise->filter);
+}
+
+Image asDrawn(const Image& picture) {
+  for (const char* name : {"R", "G", "B", "noisy.R", "noisy.G", "noisy.B"}) {
+    if (!findChannel(picture, name)) return picture;
+  }
+  std::vector<std::string> rest = picture.channels;
+  std::erase_if(rest, [](const std::string& channel) { return channel.starts_with("noisy."); });
+  Image drawn = onlyChannels(picture, rest);
+  replaceColor(drawn, onlyChannels(picture, noisyNames()));
+  drawn.attributes.erase(kFilterAttribute);
+  return drawn;
+}
+
+}  // namespace fragtrace

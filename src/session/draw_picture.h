@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Drawing one whole picture, as `render` does: its samples, with the looks at the film that a filter wants,
+// and its layers of first hits.
+#pragma once
+
+#include <vector>
+
+#include "image/image.h"
+#include "session/setup.h"
+#include "stage/render_options.h"
+
+namespace fragtrace {
+
+/// What was drawn, before it is a picture.
+struct Drawing {
+  FilmPixels pixels;
+  std::vector<double> variance;  ///< a better estimate than the pixels' own; may be empty
+  std::vector<double> observed;  ///< observedVariance(); may be empty
+};
+
+/// Adds samples up to options.spp to an empty film and reads it; looks at it on the way where it is to be
+/// filtered, which tells how fast the sequence converges. False when progress stopped it.
+bool drawAllSamples(Renderer& renderer, Film& film, const RenderOptions& options, const View& view,
+                    RenderTimes& times, const Renderer::Progress& progress, Drawing& drawing);
+
+/// The drawing as a picture, with all that the options ask for and their filter needs but layers of first
+/// hits.
+Image pictureOf(const Drawing& drawing, const RenderOptions& options, const ShaderVariant& variant);
+
+/// Samples of layers that nobody has asked for, or that somebody waits for.
+inline constexpr int kFewLayerSamples = 16;
+
+/// Samples of a layer of a picture of so many: a filter needs no more than a few.
+int samplesOfLayer(const RenderOptions& options, Feature feature, int ofPicture);
+
+/// What a layer took and counted.
+struct LayerDraw {
+  bool complete = true;
+  double compileMs = 0.0;
+  double drawMs = 0.0;
+  FilmTotals totals;
+};
+
+/// Appends a layer of first hits to the picture; an incomplete one when progress stopped it. The renderer
+/// goes on with that variant. Compiles what it does not know yet.
+LayerDraw addLayer(Image& picture, Renderer& renderer, const ShaderVariant& variant, const View& view,
+                   int samples, const Renderer::Progress& progress = Renderer::toTheEnd);
+
+}  // namespace fragtrace

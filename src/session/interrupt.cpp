@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "session/interrupt.h"
+
+#include <unistd.h>
+#include <csignal>
+#include <string_view>
+
+namespace fragtrace {
+
+namespace {
+
+constexpr int kInterruptedStatus = 130;
+// The first line ends that of a progress bar.
+constexpr std::string_view kSaidOnTerminal = "\nfragtrace: interrupted, nothing is written\n";
+constexpr std::string_view kSaid = kSaidOnTerminal.substr(1);
+constexpr int kCrashedStatus = 1;
+volatile std::sig_atomic_t interruptCount = 0;
+volatile std::sig_atomic_t onTerminal = 0;
+
+void handle(void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+}  // namespace
+
+void exitOnInterrupt() {
+  onTerminal = isatty(STDERR_FILENO);
+  handle([](int) {
+    const std::string_view said = onTerminal != 0 ? kSaidOnTerminal : kSaid;
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, said.data(), said.size());
+    _exit(kInterruptedStatus);
+  });
+}
+
+void sayWhenCrashing() {
+#ifndef __SANITIZE_ADDRESS__  // which says more
+  struct sigaction action {};
+  action.sa_handler = [](int) {
+    static constexpr char kMessage[] =
+        "fragtrace: a library or the driver crashed, perhaps for want of memory; nothing is written\n";
+    (void)!::write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
+    _exit(kCrashedStatus);
+  };
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(signal, &action, nullptr);
+#endif
+}
+
+void countInterrupts() {
+  handle([](int) { interruptCount = interruptCount + 1; });
+}
+
+int interrupts() { return interruptCount; }
+
+}  // namespace fragtrace

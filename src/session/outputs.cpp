@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "session/outputs.h"
+
+#include <cstdio>
+
+#include "errors.h"
+#include "image/files/whole_file.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// True when both names lead to one file, or to one place where none stands yet.
+bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
+  if (a.empty() || b.empty()) return false;
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error)) return true;
+  return std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error);
+}
+
+}  // namespace
+
+bool isStandardOutput(const std::filesystem::path& path) { return path == "-"; }
+
+void checkOutputs(std::span<const NamedOutput> outputs, std::span<const std::filesystem::path> inputs) {
+  for (const NamedOutput& output : outputs) {
+    if (isStandardOutput(output.path)) {
+      if (output.orStandardOutput) continue;
+      throw UsageError(std::string(output.option) + ": '-' is no file, and standard output does not take it");
+    }
+    if (!output.path.empty()) checkReplaceable(output.path);
+    const std::string name = std::string(output.option) + ": " + output.path.string();
+    for (const std::filesystem::path& input : inputs) {
+      if (sameFile(output.path, input)) throw UsageError(name + " is read by this command");
+    }
+    for (const NamedOutput& other : outputs) {
+      if (&other != &output && sameFile(output.path, other.path))
+        throw UsageError(name + " is the file of " + other.option + ", too");
+    }
+  }
+}
+
+void replaceText(const std::filesystem::path& path, const std::string& text) {
+  if (isStandardOutput(path)) {
+    std::fputs(text.c_str(), stdout);  // main() sees whether it could be written
+  } else if (!path.empty()) {
+    replaceFile(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+  }
+}
+
+std::vector<std::filesystem::path> inputsOf(const RenderOptions& options) {
+  return {options.scene, options.hdriFile};
+}
+
+std::vector<std::filesystem::path> inputsOf(const Scene& scene) {
+  std::vector<std::filesystem::path> inputs;
+  for (const EncodedImage& image : scene.images) inputs.emplace_back(image.name);
+  return inputs;
+}
+
+std::vector<NamedOutput> outputsOf(const RenderOptions& options) {
+  return {{"--output", options.output}, {"--stats", options.statsFile, true}};
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "stage/render_options.h"
+
+namespace fragtrace {
+
+/// A file to be written, and the option that says so. No path: not asked for.
+struct NamedOutput {
+  const char* option;
+  std::filesystem::path path;
+  bool orStandardOutput = false;  ///< which is what "-" means there
+};
+
+/// Whether a path means standard output where an option has it so.
+bool isStandardOutput(const std::filesystem::path& path);
+
+/// Before long work: throws RenderError when an output cannot be written, UsageError when one is a file that
+/// is read, two are one file, or one is "-" and not for standard output.
+void checkOutputs(std::span<const NamedOutput> outputs, std::span<const std::filesystem::path> inputs);
+
+/// Makes a file hold this text, whole or not at all, or prints it where the path is that of standard output;
+/// nothing when there is no path. Throws RenderError.
+void replaceText(const std::filesystem::path& path, const std::string& text);
+
+/// The files that a render reads, but for the pictures that the scene refers to.
+std::vector<std::filesystem::path> inputsOf(const RenderOptions& options);
+/// Those pictures, once the scene is loaded.
+std::vector<std::filesystem::path> inputsOf(const Scene& scene);
+/// What a render writes.
+std::vector<NamedOutput> outputsOf(const RenderOptions& options);
+
+}  // namespace fragtrace

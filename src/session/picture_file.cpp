@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "session/picture_file.h"
+
+#include <set>
+
+#include "film/debug_picture.h"
+#include "image/channels.h"
+#include "image/display/heatmap.h"
+#include "image/display/lines.h"
+#include "image/display/tone_map.h"
+#include "image/format.h"
+#include "scene/projection.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// Lines over what a display shows of the picture.
+void drawLines(Image& display, std::span<const PictureLine> lines) {
+  const glm::vec3 orange(1.0f, 0.55f, 0.1f);
+  const glm::dvec2 half(0.5 * display.width, -0.5 * display.height);
+  const glm::dvec2 middle(0.5 * display.width, 0.5 * display.height);
+  for (const PictureLine& line : lines)
+    drawLine(display, middle + line.from * half, middle + line.to * half, orange);
+}
+
+/// Beside the output, where nothing is overwritten.
+std::filesystem::path rescuePath(std::filesystem::path output) {
+  const std::string stem = output.stem().string();
+  output.replace_extension(".pfm");
+  std::error_code error;
+  for (int i = 2; std::filesystem::exists(std::filesystem::symlink_status(output, error)); ++i)
+    output.replace_filename(stem + "-" + std::to_string(i) + ".pfm");
+  return output;
+}
+
+/// What a picture has that a .pfm has not: "the layers albedo, A and what merge needs".
+std::string lostInPfm(const RenderOptions& options, const Image& linear) {
+  std::set<std::string> layers;
+  for (const std::string& channel : linear.channels) {
+    if (channel != "R" && channel != "G" && channel != "B")
+      layers.insert(channel == "A" ? "alpha" : channel.substr(0, channel.find('.')));
+  }
+  std::string lost;
+  for (const std::string& layer : layers) lost += (lost.empty() ? "" : ", ") + layer;
+  const auto add = [&](const char* more) { lost += (lost.empty() ? "" : " and ") + std::string(more); };
+  if (isDisplayFormat(options.output)) add("what only a display has (exposure, tone curve, boxes)");
+  if (!linear.attributes.empty()) add("what merge needs");
+  return lost;
+}
+
+}  // namespace
+
+bool showsColors(const RenderOptions& options) {
+  return has(options.stages, Stage::BvhHeatmap) || options.debugView != DebugView::None;
+}
+
+Image shownPicture(const RenderOptions& options, const ShaderVariant& variant, const FilmPixels& pixels,
+                   const Layers& layers, std::span<const double> variance) {
+  Image picture = imageOf(pixels, layers, variance);
+  if (has(variant.stages, Stage::BvhHeatmap)) return paintHeatmap(picture);
+  if (options.debugView != DebugView::None)
+    replaceColor(picture, debugPicture(options.debugView, pixels, variance));
+  return picture;
+}
+
+std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedScene& loaded,
+                                   const Camera& camera, glm::ivec2 size) {
+  if (!options.treeLevel) return {};
+  const std::vector<Bounds> boxes = boxesAtLevel(loaded.bvh, uint32_t(*options.treeLevel));
+  if (boxes.empty()) say(options, "warning: the tree has no level " + std::to_string(*options.treeLevel));
+  return boxEdges(boxes, projectionOf(camera, double(size.x) / size.y), loaded.scene.space);
+}
+
+void checkPictureWritable(const RenderOptions& options, glm::ivec2 size) {
+  size_t channels =
+      3 + size_t(!options.background) + size_t(options.aovSamples) + size_t(options.aovVariance);
+  for (const Feature feature : options.aovFeatures)
+    channels += feature == Feature::Guides ? kGuideChannels.size() + 1 : rowOf(feature).channels.size();
+  if (options.denoise != Denoise::None) channels += 3;  // the noisy picture
+  checkImageWritable(options.output, size.x, size.y, channels);
+}
+
+std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason) {
+  if (formatOfName(options.output) == ImageFormat::Pfm) return reason;
+  const std::filesystem::path path = rescuePath(options.output);
+  try {
+    writeImage(path, linear);
+  } catch (const std::exception& error) {
+    return reason + "; nor as .pfm: " + error.what();
+  }
+  const std::string lost = lostInPfm(options, linear);
+  return reason + "; the " + (showsColors(options) ? "colours" : "radiance") + " alone is in " +
+         path.string() + (lost.empty() ? "" : ", lost: " + lost);
+}
+
+void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> lines) {
+  if (!isDisplayFormat(options.output)) return writeImage(options.output, linear);
+  const bool colors = showsColors(options);
+  const bool keepsAlpha = formatOfName(options.output) == ImageFormat::Png;
+  Image display = toDisplay(keepsAlpha ? linear : withoutAlpha(linear), colors ? 0.0 : options.exposure,
+                            colors ? ToneMap::Linear : options.toneMap);
+  drawLines(display, lines);
+  writeImage(options.output, display);
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// A drawn picture as it is written: what it shows, and how.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "bvh/tree_boxes.h"
+#include "image/image.h"
+#include "session/setup.h"
+#include "stage/render_options.h"
+
+namespace fragtrace {
+
+/// Whether the picture's colours are those of a debug view, to be displayed as they are.
+bool showsColors(const RenderOptions& options);
+
+/// What the film holds as a picture: linear radiance, or the colours of a debug view. `variance` is as for
+/// imageOf().
+Image shownPicture(const RenderOptions& options, const ShaderVariant& variant, const FilmPixels& pixels,
+                   const Layers& layers, std::span<const double> variance = {});
+
+/// The edges of the boxes of the level asked for, if any, seen by a camera whose picture has that size.
+std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedScene& loaded,
+                                   const Camera& camera, glm::ivec2 size);
+
+/// To be asked before the first sample: throws RenderError when a picture of that size could not be written.
+void checkPictureWritable(const RenderOptions& options, glm::ivec2 size);
+
+/// A finished picture whose output cannot be written for that reason is not lost: writes its colours alone
+/// to NAME.pfm beside it, or to a name of which there is no file yet. Returns what to say: the reason, where
+/// the picture is and what it lacks. Nothing is written in place of a .pfm.
+std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason);
+
+/// Writes a linear picture to the options' output: as it is, or as a display shows it, with lines over it.
+/// Throws RenderError.
+void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> lines);
+
+}  // namespace fragtrace

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "session/provenance.h"
+
+#include <charconv>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "errors.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr const char* kSettings = "fragtrace:settings";
+constexpr const char* kSeed = "fragtrace:seed";
+constexpr const char* kSampleOffset = "fragtrace:sampleOffset";
+constexpr const char* kSamples = "fragtrace:samples";
+constexpr const char* kUniform = "fragtrace:uniform";
+
+std::string textOf(const Image& image, const char* name, const std::filesystem::path& path) {
+  const auto found = image.attributes.find(name);
+  if (found == image.attributes.end())
+    throw InputError(path.string() + ": has no attribute " + name + "; only .exr files of `render` have");
+  return found->second;
+}
+
+int64_t numberOf(const Image& image, const char* name, const std::filesystem::path& path) {
+  const std::string text = textOf(image, name, path);
+  int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < 0)
+    throw InputError(path.string() + ": attribute " + name + " is '" + text + "', no number from 0 on");
+  return value;
+}
+
+nlohmann::ordered_json numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+}  // namespace
+
+std::string settingsText(const RenderOptions& options, const LoadedScene& loaded, const Tracer& tracer) {
+  const Camera& camera = loaded.camera;
+  nlohmann::ordered_json json;
+  json["scene"] = options.scene.filename().string();
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(tracer.sceneHash));
+  json["scene_hash"] = hash;
+  json["width"] = loaded.size.x;
+  json["height"] = loaded.size.y;
+  // How buffers are read, and by which stage of the pipeline, changes no sample.
+  ShaderVariant variant = tracer.variant;
+  variant.reads = BufferReads::Ssbo;
+  variant.dispatch = Dispatch::Fragment;
+  variant.wavefront = false;
+  json["variant"] = variantName(variant);
+  json["bounces"] = options.bounces;
+  json["rr_depth"] = options.rouletteDepth;
+  json["clamp_indirect"] = options.clampIndirect;
+  json["hdri"] = options.hdriFile.filename().string();
+  json["hdri_rotation"] = options.hdriRotationDegrees;
+  json["background"] = options.background;
+  json["background_color"] = nullptr;
+  if (!seesEnvironment(options))
+    json["background_color"] = numbers(glm::dvec3(options.backgroundColor.value_or(glm::vec3(0.0f))));
+  json["camera_position"] = numbers(camera.position);
+  json["camera_forward"] = numbers(camera.forward);
+  json["camera_up"] = numbers(camera.up);
+  json["camera_view"] = camera.perspective ? camera.fovY : -camera.halfHeight;
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string differenceOf(const std::string& settings, const std::string& others) {
+  const auto a = nlohmann::json::parse(settings, nullptr, false);
+  const auto b = nlohmann::json::parse(others, nullptr, false);
+  if (!a.is_object() || !b.is_object()) return "they are not written as this version writes them";
+  std::string text;
+  for (const auto& [key, value] : a.items()) {
+    const auto other = b.find(key);
+    if (other != b.end() && *other == value) continue;
+    text += (text.empty() ? "" : ", ") + key + " " + value.dump() + " and " +
+            (other == b.end() ? "none" : other->dump());
+  }
+  return text.empty() ? "of another version" : text;
+}
+
+void setProvenance(Image& image, const Provenance& provenance) {
+  image.attributes[kSettings] = provenance.settings;
+  image.attributes[kSeed] = std::to_string(provenance.seed);
+  image.attributes[kSampleOffset] = std::to_string(provenance.sampleOffset);
+  image.attributes[kSamples] = std::to_string(provenance.samples);
+  image.attributes[kUniform] = std::to_string(int(provenance.uniform));
+}
+
+Provenance provenanceOf(const Image& image, const std::filesystem::path& path) {
+  Provenance p;
+  p.settings = textOf(image, kSettings, path);
+  p.seed = uint32_t(numberOf(image, kSeed, path));
+  p.sampleOffset = numberOf(image, kSampleOffset, path);
+  p.samples = numberOf(image, kSamples, path);
+  p.uniform = numberOf(image, kUniform, path) != 0;
+  return p;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "session/say.h"
+
+#include <cstdio>
+#include <mutex>
+#include <set>
+
+namespace fragtrace {
+
+namespace {
+
+struct Listening {
+  std::mutex mutex;
+  std::function<void(const std::string&)> listener;
+  std::set<std::string> said;
+};
+
+Listening& listening() {
+  static Listening state;
+  return state;
+}
+
+}  // namespace
+
+void say(const RenderOptions& options, const std::string& text) {
+  Listening& state = listening();
+  const std::lock_guard lock(state.mutex);
+  const bool fresh = !state.listener || state.said.insert(text).second;
+  if (!options.quiet && fresh) std::fprintf(stderr, "fragtrace: %s\n", text.c_str());
+  if (state.listener) state.listener(text);
+}
+
+void passOnWhatIsSaid(std::function<void(const std::string&)> listener) {
+  Listening& state = listening();
+  const std::lock_guard lock(state.mutex);
+  state.listener = std::move(listener);
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// What is told beside results: warnings, choices.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "stage/render_options.h"
+
+namespace fragtrace {
+
+/// Says a line on stderr unless quiet. From any thread.
+void say(const RenderOptions& options, const std::string& text);
+
+/// From now on every line goes to the listener, too, be it quiet or not; stderr has each only once, since
+/// what a viewer does again and again says the same. The listener is called from any thread.
+void passOnWhatIsSaid(std::function<void(const std::string&)> listener);
+
+}  // namespace fragtrace

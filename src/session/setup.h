@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// From options to a scene that is ready to be drawn: what every front end does before its first draw.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+
+#include "bvh/bvh.h"
+#include "render/renderer.h"
+#include "session/say.h"
+#include "session/statistics.h"
+#include "stage/render_options.h"
+
+namespace fragtrace {
+
+/// A scene with all that is seen around it and from where; no OpenGL yet.
+struct LoadedScene {
+  Scene scene;
+  Environment environment;
+  Camera camera;
+  std::optional<int> cameraIndex;  ///< which of the scene's that is, if one was asked for
+  glm::ivec2 size{0};
+  Bvh bvh;
+  View view;
+};
+
+/// Called before each step with its name and the part of the work done, 0..1; what it throws ends loading.
+using LoadProgress = std::function<void(const char* step, double fraction)>;
+
+/// Loads scene and environment, chooses camera and size, builds the tree; fills in the statistics of that.
+/// Says warnings on stderr unless quiet. Throws InputError, UsageError.
+LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress = {});
+
+/// Camera paths that the picture takes; infinite where time or noise ends it.
+double pathsOf(const RenderOptions& options, glm::ivec2 size);
+
+/// What of the options needs neither another program nor other buffers.
+View makeView(const RenderOptions& options, const Scene& scene, const Camera& camera);
+
+/// The tree of the options' traversal. The iterative one needs none; where it is chosen for them, the largest
+/// triangles stand beside it when that pays.
+Bvh buildTree(const Scene& scene, const RenderOptions& options);
+
+/// Whether buildTree() builds the same for both.
+bool sameTree(const RenderOptions& a, const RenderOptions& b);
+
+/// The scene on the device, and the variant that the options ask for.
+struct Tracer {
+  ShaderVariant variant;
+  std::vector<ShaderVariant> features;  ///< in the order of options.aovFeatures
+  std::unique_ptr<Renderer> renderer;
+  double programMs = 0.0;  ///< that building the variant's program took
+  uint64_t sceneHash = 0;  ///< of all that was uploaded; only for .exr, which keeps it
+};
+
+/// A scene that is small enough becomes part of the shader's text, unless another traversal was asked for, or
+/// first hits or visits are drawn.
+/// Throws UsageError.
+void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
+                 ShaderVariant& variant);
+
+/// Packs and uploads what the variants need; by default with the hash where the options' output keeps it.
+/// Throws InputError, RenderError.
+Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
+                  Statistics& stats, bool withHash);
+Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
+                  Statistics& stats);
+
+/// Frees what only packing needs: triangles, vertices, pictures, the tree. For front ends that pack once.
+void releaseGeometry(LoadedScene& loaded);
+
+/// Milliseconds since the last call.
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = Clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return ms;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace fragtrace

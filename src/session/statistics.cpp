@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "session/statistics.h"
+
+#include <algorithm>
+
+#include "math/summary.h"
+#include "session/scene_json.h"
+
+namespace fragtrace {
+
+namespace {
+
+nlohmann::ordered_json timesJson(const std::vector<double>& ms) {
+  nlohmann::ordered_json json;
+  if (ms.empty()) return json;
+  const Summary summary = summarize(ms);
+  json["median"] = summary.median;
+  json["mean"] = summary.mean;
+  json["stddev"] = summary.stddev;
+  json["min"] = summary.min;
+  json["p95"] = summary.p95;
+  return json;
+}
+
+nlohmann::ordered_json phasesJson(const Statistics& s) {
+  std::vector<Phase> phases = s.phases;
+  std::ranges::stable_sort(phases, {}, &Phase::begin);
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const Phase& phase : phases) {
+    json.push_back({{"name", phase.name},
+                    {"thread", phase.thread},
+                    {"begin_ms", phase.begin - s.clockMs},
+                    {"end_ms", phase.end - s.clockMs},
+                    {"cpu_ms", phase.cpu}});
+  }
+  return json;
+}
+
+nlohmann::ordered_json denoiseJson(const DenoiseStatistics& denoise) {
+  if (denoise.filter.empty()) return {{"skipped", denoise.skipped}};
+  nlohmann::ordered_json json = {{"filter", denoise.filter}, {"ms", denoise.filterMs}};
+  if (denoise.library.empty()) {
+    json["compile_ms"] = denoise.compileMs;
+  } else {
+    json["load_ms"] = denoise.loadMs;
+    json["library"] = denoise.library;
+  }
+  return json;
+}
+
+}  // namespace
+
+double megaPathsPerSecond(const Statistics& s) {
+  return s.times.renderMs > 0.0 ? double(s.film.samples) / s.times.renderMs / 1000.0 : 0.0;
+}
+
+double samplesPerPixel(const Statistics& s) { return double(s.film.samples) / (double(s.size.x) * s.size.y); }
+
+double cutShare(const Statistics& s) { return s.film.cut / double(std::max<uint64_t>(1, s.film.samples)); }
+
+std::string statisticsText(const Statistics& s) {
+  nlohmann::ordered_json json;
+  json["schema"] = 1;
+  json["scene"] = sceneJson(s.scene);
+  json["bvh"] = bvhJson(s.bvh);
+  json["load_ms"] = s.loadMs;
+  json["bvh_build_ms"] = s.bvhBuildMs;
+  json["pack_ms"] = s.packMs;
+  json["upload_ms"] = s.uploadMs;
+  json["compile_ms"] = s.compileMs;
+  json["first_frame_ms"] = s.times.firstFrameMs;
+  json["render_ms"] = s.times.renderMs;
+  json["frame_ms"] = timesJson(s.times.frameMs);
+  json["spp"] = s.spp;
+  json["samples_per_pixel"] = samplesPerPixel(s);
+  json["fewest_samples"] = s.film.fewestSamples;
+  json["most_samples"] = s.film.mostSamples;
+  if (s.adaptive) {
+    json["adaptive"] = {
+        {"noise", s.adaptive->noise},
+        {"seconds", s.adaptive->seconds},
+        {"error_p95", s.adaptive->known ? nlohmann::json(s.adaptive->error) : nlohmann::json()},
+        {"share_under_noise", s.adaptive->known ? s.adaptive->share : 0.0},
+        {"rounds", s.adaptive->rounds}};
+  }
+  if (s.clampIndirect > 0.0) json["clamp_indirect"] = s.clampIndirect;
+  if (s.featureMs > 0.0) json["feature_ms"] = s.featureMs;
+  if (s.denoise) json["denoise"] = denoiseJson(*s.denoise);
+  json["width"] = s.size.x;
+  json["height"] = s.size.y;
+  json["complete"] = s.complete;
+  json["rays"] = s.film.rays;
+  json["mpaths_per_s"] = megaPathsPerSecond(s);
+  json["mrays_per_s"] = s.times.renderMs > 0.0 ? double(s.film.rays) / s.times.renderMs / 1000.0 : 0.0;
+  json["nonfinite_pixels"] = s.film.nonfinitePixels;
+  json["budget_hits"] = s.film.budgetHits;
+  json["cut_share"] = cutShare(s);
+  json["scene_bytes"] = s.sceneBytes;
+  if (s.scene.triangles > 0)
+    json["gpu_bytes_per_triangle"] = double(s.geometryBytes) / double(s.scene.triangles);
+  json["default_light"] = s.defaultLight;
+  if (s.defaultLight) json["default_light_reason"] = s.defaultLightReason;
+  json["variant"] = s.variant;
+  json["quick_compilation"] = s.quickCompilation;
+  json["schedule"] = s.scheduleReason.empty() ? "wavefront" : "megakernel";
+  if (!s.scheduleReason.empty()) json["schedule_reason"] = s.scheduleReason;
+  if (!s.readFallback.empty()) json["buffer_reads_fallback"] = s.readFallback;
+  json["skipped"] = s.skipped;
+  json["backend"] = s.backend;
+  json["gl_renderer"] = s.glRenderer;
+  json["gl_version"] = s.glVersion;
+  json["warnings"] = s.warnings;
+  json["clock_ms"] = s.clockMs;
+  json["clock_cpu_ms"] = s.clockCpuMs;
+  json["phases"] = phasesJson(s);
+  return jsonText(json);
+}
+
+}  // namespace fragtrace

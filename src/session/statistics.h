@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bvh/bvh.h"
+#include "film/film_pixels.h"
+#include "gl/context.h"
+#include "render/renderer.h"
+#include "scene/describe.h"
+#include "session/phase_timer.h"
+
+namespace fragtrace {
+
+/// Of a render with --noise or --time.
+struct AdaptiveStatistics {
+  double noise = 0.0;    ///< asked for; 0: none
+  double seconds = 0.0;  ///< asked for; 0: none
+  double error = 0.0;    ///< the relative error that 95 % of the pixels are estimated to stay under
+  double share = 0.0;    ///< of the pixels under the noise asked for
+  int rounds = 0;
+  bool known = true;   ///< else error and share say nothing
+  bool black = false;  ///< no light was found
+};
+
+/// Of a render with --denoise.
+struct DenoiseStatistics {
+  std::string filter;      ///< and its version; empty: none ran
+  std::string skipped;     ///< why none ran
+  double compileMs = 0.0;  ///< programs, built anew
+  double filterMs = 0.0;   ///< by the wall clock, with the way to the device and back
+  std::string library;     ///< the file that did it; empty: we did
+  double loadMs = 0.0;     ///< that opening the library took
+};
+
+/// What `--stats` writes about one render; the JSON's keys are the names here.
+struct Statistics {
+  SceneDescription scene;
+  BvhQuality bvh;
+  double loadMs = 0.0;
+  double bvhBuildMs = 0.0;
+  double packMs = 0.0;
+  double uploadMs = 0.0;
+  double compileMs = 0.0;
+  RenderTimes times;
+  int spp = 0;
+  glm::ivec2 size{0};
+  FilmTotals film;
+  std::optional<AdaptiveStatistics> adaptive;
+  double featureMs = 0.0;  ///< drawing the layers of first hits
+  std::optional<DenoiseStatistics> denoise;
+  size_t sceneBytes = 0;     ///< on the device
+  size_t geometryBytes = 0;  ///< of these, tree, leaves, records and vertex attributes
+  bool defaultLight = false;
+  std::string defaultLightReason;
+  double clampIndirect = 0.0;  ///< 0: not clamped
+  bool complete = true;
+  bool quickCompilation = false;  ///< the driver was told not to optimise
+  std::string variant;
+  std::string scheduleReason = "not chosen yet";  ///< why the megakernel draws; empty: the wavefront does
+  std::string readFallback;  ///< why buffers are not read the fastest way; empty when they are
+  std::string backend;
+  std::string glRenderer;
+  std::string glVersion;
+  std::vector<std::string> skipped;  ///< "refraction: no transmissive material", ...
+  std::vector<std::string> warnings;
+  double clockMs = steadyMilliseconds();     ///< when the command began
+  double clockCpuMs = threadMilliseconds();  ///< that its thread had taken by then
+  std::vector<Phase> phases;                 ///< up to the written picture
+};
+
+/// As JSON.
+std::string statisticsText(const Statistics& statistics);
+
+double megaPathsPerSecond(const Statistics& statistics);
+double samplesPerPixel(const Statistics& statistics);
+/// What --bounces has cut of a camera path's throughput, on average (docs/conventions.md).
+double cutShare(const Statistics& statistics);
+
+}  // namespace fragtrace

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Everything a render is asked for, as the command line and the viewer spell it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "image/display/tone_map.h"
+#include "image/limits.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
+#include "scene/selection.h"
+#include "stage/feature.h"
+#include "stage/stage.h"
+
+namespace fragtrace {
+
+/// How rays find triangles. Literals: a small scene's triangles are part of the shader's text
+/// (src/pack/literals.h).
+enum class TraversalMethod : uint8_t { Auto, Iterative, Bvh, FrontToBack, Literals };
+inline constexpr std::array<std::string_view, 5> kTraversalNames{"auto", "iterative", "bvh", "front-to-back",
+                                                                 "literals"};
+enum class Backend : uint8_t { Auto, Egl, OsMesa };
+/// How the shader reads the scene: storage buffers, image buffers, texel buffers; the same buffers, bound
+/// otherwise.
+enum class BufferReads : uint8_t { Auto, Ssbo, Image, Texel };
+inline constexpr std::array<std::string_view, 4> kBufferReadsNames{"auto", "ssbo", "image", "texel"};
+/// Which stage of the pipeline runs the tracer: one fragment or one compute invocation a pixel.
+enum class Dispatch : uint8_t { Auto, Fragment, Compute };
+inline constexpr std::array<std::string_view, 3> kDispatchNames{"auto", "fragment", "compute"};
+/// How paths share the lanes of a draw: one pixel a lane, or many, whose rays are traced together
+/// (shaders/wavefront.glsl).
+enum class Schedule : uint8_t { Auto, Megakernel, Wavefront };
+inline constexpr std::array<std::string_view, 3> kScheduleNames{"auto", "megakernel", "wavefront"};
+/// What takes the noise out of a finished picture (render/denoise.h, denoise/oidn.h). Auto: Open Image
+/// Denoise where it is installed, else the variance filter.
+enum class Denoise : uint8_t { None, Variance, Oidn, Auto };
+inline constexpr std::array<std::string_view, 4> kDenoiseNames{"none", "variance", "oidn", "auto"};
+/// How camera samples spread about the middle of their pixel (shaders/pixel_filter.glsl).
+enum class PixelFilter : uint8_t { Box, Gaussian, BlackmanHarris };
+inline constexpr std::array<std::string_view, 3> kPixelFilterNames{"box", "gaussian", "blackman-harris"};
+
+inline constexpr int kUnlimitedBounces = std::numeric_limits<int>::max() - 1;
+
+struct RenderOptions {
+  std::filesystem::path scene;
+  std::filesystem::path output;
+  std::optional<glm::ivec2> resolution;
+  StageSet stages = stagesUpTo(Stage::Gi);
+  int spp = 64;
+  int sampleOffset = 0;  ///< index of the first sample in the seed's sequence
+  uint32_t seed = 0;
+  int bounces = 16;       ///< kUnlimitedBounces: no limit
+  int rouletteDepth = 6;  ///< roulette from this scattering on, the first being 1
+  double clampIndirect =
+      0.0;               ///< largest radiance that a path of two scatterings or more may add; 0: no limit
+  double noise = 0.0;    ///< relative error to reach, adaptively; 0: spp samples in every pixel
+  double seconds = 0.0;  ///< time to spend, adaptively; 0: no limit
+  std::optional<int> cameraIndex;
+  CameraOverrides camera;
+  std::optional<glm::dvec3>
+      sceneOrigin;  ///< place that positions are rounded about; none: the focal point given
+  std::filesystem::path hdriFile;
+  double hdriRotationDegrees = 0.0;
+  double exposure = 0.0;
+  std::optional<glm::vec3> backgroundColor;  ///< none: the environment map, black without one
+  bool background = true;
+  bool defaultLight = true;
+  ToneMap toneMap = ToneMap::Neutral;
+  PixelFilter pixelFilter = PixelFilter::Box;
+  TraversalMethod traversal = TraversalMethod::Auto;
+  Instancing instancing = Instancing::Auto;
+  Backend backend = Backend::Auto;
+  BufferReads bufferReads = BufferReads::Auto;
+  Dispatch dispatch = Dispatch::Auto;
+  Schedule schedule = Schedule::Auto;
+  bool aovSamples = false;  ///< more layers of .exr files
+  bool aovVariance = false;
+  std::vector<Feature> aovFeatures;
+  Denoise denoise = Denoise::None;
+  DebugView debugView = DebugView::None;
+  std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
+  std::filesystem::path statsFile;
+  std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
+  std::filesystem::path oidnLibrary;   ///< file of Open Image Denoise; none: it is looked for
+  SceneSelection selection;
+  InputLimits limits;
+  bool quiet = false;
+  bool verbose = false;
+
+  bool operator==(const RenderOptions&) const = default;
+};
+
+/// Whether camera rays that miss see the environment map.
+inline bool seesEnvironment(const RenderOptions& o) {
+  return o.background && !o.hdriFile.empty() && !o.backgroundColor;
+}
+
+/// Width / height of the picture that a scene without a camera is framed for; without --resolution it is
+/// wide, as good as square.
+inline double framedAspect(const RenderOptions& options) {
+  return options.resolution ? double(options.resolution->x) / options.resolution->y : 1.0;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: MIT
+#include "stage/traits.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+
+namespace fragtrace {
+
+namespace {
+
+StageSet setOf(std::initializer_list<Stage> members) {
+  StageSet set;
+  for (const Stage stage : members) set.set(size_t(stage));
+  return set;
+}
+
+TraitSet setOf(std::initializer_list<Trait> members) {
+  TraitSet set;
+  for (const Trait trait : members) set.set(size_t(trait));
+  return set;
+}
+
+bool dielectricReflects(const Material& m) {
+  return m.ior != 1.0f && m.specularFactor > 0.0f &&
+         glm::any(glm::greaterThan(m.specularColorFactor, glm::vec3(0.0f)));
+}
+
+}  // namespace
+
+std::span<const TraitRow> traitRows() {
+  static const std::array<TraitRow, size_t(Trait::Count)> rows = {{
+      {.trait = Trait::Triangles, .name = "triangles", .constant = "kTriangles", .absence = "no triangle"},
+      {.trait = Trait::Spheres, .name = "spheres", .constant = "kSpheres", .absence = "no sphere"},
+      {.trait = Trait::SingleSided,
+       .name = "single-sided",
+       .constant = "kCulling",
+       .absence = "no single-sided surface",
+       .ofMaterial = [](const Material& m, const Vertices&) { return !m.doubleSided && !m.passesLight(); }},
+      {.trait = Trait::Alpha,
+       .name = "alpha",
+       .constant = "kAlpha",
+       .absence = "no alpha MASK or BLEND",
+       .ofMaterial = [](const Material& m, const Vertices&) { return m.alphaMode != AlphaMode::Opaque; }},
+      {.trait = Trait::Texcoords,
+       .name = "texcoords",
+       .constant = "kTexcoords",
+       .absence = "no texture coordinates in use",
+       .brings = setOf({Trait::BaseColorTexture})},
+      {.trait = Trait::VertexNormals,
+       .name = "vertex-normals",
+       .constant = "kVertexNormals",
+       .absence = "no vertex normals",
+       .stages = setOf({Stage::Phong})},
+      {.trait = Trait::Tangents,
+       .name = "tangents",
+       .constant = "kTangents",
+       .absence = "no tangents in use",
+       .brings = setOf({Trait::NormalTexture, Trait::Texcoords})},
+      {.trait = Trait::VertexColors,
+       .name = "vertex-colors",
+       .constant = "kVertexColors",
+       .absence = "no vertex colours"},
+      {.trait = Trait::BaseColorTexture,
+       .name = "base-color-texture",
+       .constant = "kBaseColorTexture",
+       .absence = "no base colour texture",
+       .texture = true,
+       .ofMaterial = [](const Material& m, const Vertices&) { return m.baseColorTexture.present(); }},
+      {.trait = Trait::MetallicRoughnessTexture,
+       .name = "metallic-roughness-texture",
+       .constant = "kMetallicRoughnessTexture",
+       .absence = "no metallic-roughness texture",
+       .stages = setOf({Stage::Phong}),
+       .needs = setOf({Trait::Specular}),
+       .texture = true,
+       .ofMaterial = [](const Material& m, const Vertices&) { return m.metallicRoughnessTexture.present(); }},
+      {.trait = Trait::NormalTexture,
+       .name = "normal-texture",
+       .constant = "kNormalTexture",
+       .absence = "no normal texture",
+       .stages = setOf({Stage::NormalMaps}),
+       .brings = setOf({Trait::Tangents}),
+       .texture = true,
+       .ofMaterial = [](const Material& m,
+                        const Vertices& v) { return m.normalTexture.present() && !v.tangent.empty(); }},
+      {.trait = Trait::EmissionTexture,
+       .name = "emission-texture",
+       .constant = "kEmissionTexture",
+       .absence = "no emissive texture",
+       .stages = setOf({Stage::Phong}),
+       .brings = setOf({Trait::Emission}),
+       .texture = true,
+       .ofMaterial = [](const Material& m,
+                        const Vertices&) { return m.emissive() && m.emissiveTexture.present(); }},
+      {.trait = Trait::TransmissionTexture,
+       .name = "transmission-texture",
+       .constant = "kTransmissionTexture",
+       .absence = "no transmission texture",
+       .stages = setOf({Stage::Refraction}),
+       .brings = setOf({Trait::Transmission}),
+       .texture = true,
+       .ofMaterial = [](const Material& m,
+                        const Vertices&) { return m.transmissive() && m.transmissionTexture.present(); }},
+      {.trait = Trait::SpecularTexture,
+       .name = "specular-texture",
+       .constant = "kSpecularTexture",
+       .absence = "no specular texture",
+       .stages = setOf({Stage::Phong}),
+       .brings = setOf({Trait::Specular}),
+       .texture = true,
+       .ofMaterial =
+           [](const Material& m, const Vertices&) {
+             return m.specularTexture.present() || m.specularColorTexture.present();
+           }},
+      {.trait = Trait::SpecularGlossiness,
+       .name = "specular-glossiness",
+       .constant = "kSpecularGlossiness",
+       .absence = "no material of KHR_materials_pbrSpecularGlossiness",
+       .stages = setOf({Stage::Phong}),
+       .brings = setOf({Trait::Specular}),
+       .ofMaterial = [](const Material& m, const Vertices&) { return m.specularGlossiness; }},
+      {.trait = Trait::TextureTransforms,
+       .name = "texture-transforms",
+       .constant = "kTextureTransforms",
+       .absence = "no transformed texture",
+       .brings = setOf({Trait::BaseColorTexture, Trait::Texcoords}),
+       .ofMaterial =
+           [](const Material& m, const Vertices&) {
+             return std::ranges::any_of(m.textures(), [](const TextureRef* t) { return t->transformed(); });
+           }},
+      {.trait = Trait::Clearcoat,
+       .name = "clearcoat",
+       .constant = "kClearcoat",
+       .absence = "no clearcoat",
+       .stages = setOf({Stage::Gi}),
+       .needs = setOf({Trait::Specular}),
+       .ofMaterial = [](const Material& m, const Vertices&) { return m.clearcoated(); }},
+      {.trait = Trait::ClearcoatTexture,
+       .name = "clearcoat-texture",
+       .constant = "kClearcoatTexture",
+       .absence = "no clearcoat texture",
+       .needs = setOf({Trait::Clearcoat}),
+       .texture = true,
+       .ofMaterial =
+           [](const Material& m, const Vertices&) {
+             return m.clearcoatTexture.present() || m.clearcoatRoughnessTexture.present();
+           }},
+      {.trait = Trait::ClearcoatNormal,
+       .name = "clearcoat-normal",
+       .constant = "kClearcoatNormal",
+       .absence = "no clearcoat normal texture",
+       .stages = setOf({Stage::NormalMaps}),
+       .needs = setOf({Trait::Clearcoat}),
+       .brings = setOf({Trait::Tangents}),
+       .texture = true,
+       .ofMaterial =
+           [](const Material& m, const Vertices& v) {
+             return m.clearcoatNormalTexture.present() && !v.tangent.empty();
+           }},
+      {.trait = Trait::Sheen,
+       .name = "sheen",
+       .constant = "kSheen",
+       .absence = "no sheen",
+       .stages = setOf({Stage::Gi}),
+       .ofMaterial = [](const Material& m, const Vertices&) { return m.hasSheen(); }},
+      {.trait = Trait::SheenTexture,
+       .name = "sheen-texture",
+       .constant = "kSheenTexture",
+       .absence = "no sheen texture",
+       .needs = setOf({Trait::Sheen}),
+       .texture = true,
+       .ofMaterial =
+           [](const Material& m, const Vertices&) {
+             return m.sheenColorTexture.present() || m.sheenRoughnessTexture.present();
+           }},
+      {.trait = Trait::Anisotropy,
+       .name = "anisotropy",
+       .constant = "kAnisotropy",
+       .absence = "no anisotropic material",
+       .stages = setOf({Stage::Gi}),
+       .needs = setOf({Trait::Specular}),
+       .brings = setOf({Trait::Tangents}),
+       .ofMaterial = [](const Material& m, const Vertices&) { return m.anisotropic(); }},
+      {.trait = Trait::AnisotropyTexture,
+       .name = "anisotropy-texture",
+       .constant = "kAnisotropyTexture",
+       .absence = "no anisotropy texture",
+       .needs = setOf({Trait::Anisotropy}),
+       .texture = true,
+       .ofMaterial = [](const Material& m, const Vertices&) { return m.anisotropyTexture.present(); }},
+      {.trait = Trait::Iridescence,
+       .name = "iridescence",
+       .constant = "kIridescence",
+       .absence = "no iridescent material",
+       .stages = setOf({Stage::Gi}),
+       .needs = setOf({Trait::Specular}),
+       .ofMaterial = [](const Material& m, const Vertices&) { return m.iridescent(); }},
+      {.trait = Trait::IridescenceTexture,
+       .name = "iridescence-texture",
+       .constant = "kIridescenceTexture",
+       .absence = "no iridescence texture",
+       .needs = setOf({Trait::Iridescence}),
+       .texture = true,
+       .ofMaterial =
+           [](const Material& m, const Vertices&) {
+             return m.iridescenceTexture.present() || m.iridescenceThicknessTexture.present();
+           }},
+      {.trait = Trait::DiffuseTransmission,
+       .name = "diffuse-transmission",
+       .constant = "kDiffuseTransmission",
+       .absence = "no material that lets diffuse light through",
+       .stages = setOf({Stage::Refraction, Stage::Gi}),
+       .ofMaterial = [](const Material& m, const Vertices&) { return m.diffuseTransmissionFactor > 0.0f; }},
+      {.trait = Trait::DiffuseTransmissionTexture,
+       .name = "diffuse-transmission-texture",
+       .constant = "kDiffuseTransmissionTexture",
+       .absence = "no diffuse transmission texture",
+       .needs = setOf({Trait::DiffuseTransmission}),
+       .texture = true,
+       .ofMaterial =
+           [](const Material& m, const Vertices&) {
+             return m.diffuseTransmissionTexture.present() || m.diffuseTransmissionColorTexture.present();
+           }},
+      {.trait = Trait::Dispersion,
+       .name = "dispersion",
+       .constant = "kDispersion",
+       .absence = "no dispersive material",
+       .stages = setOf({Stage::Gi}),
+       .needs = setOf({Trait::Transmission}),
+       .brings = setOf({Trait::Specular}),
+       .ofMaterial = [](const Material& m, const Vertices&) { return m.disperses(); }},
+      {.trait = Trait::GlassSpecular,
+       .name = "glass-specular",
+       .constant = "kGlassSpecular",
+       .absence = "no specular factor on glass",
+       .stages = setOf({Stage::Gi}),
+       .needs = setOf({Trait::Transmission, Trait::Specular}),
+       .ofMaterial = [](const Material& m,
+                        const Vertices&) { return m.transmissive() && m.scalesSpecular(); }},
+      {.trait = Trait::PerlinNormals,
+       .name = "perlin-normals",
+       .constant = "kPerlinNormals",
+       .absence = "no Perlin normal map",
+       .stages = setOf({Stage::NormalMaps}),
+       .brings = setOf({Trait::Tangents}),
+       .texture = true,
+       .ofMaterial =
+           [](const Material& m, const Vertices& v) {
+             return m.perlinNormal.amplitude != 0.0f && !v.texcoord0.empty();
+           }},
+      {.trait = Trait::Specular,
+       .name = "specular",
+       .constant = "kSpecular",
+       .absence = "no surface that reflects",
+       .stages = setOf({Stage::Phong}),
+       .ofMaterial =
+           [](const Material& m, const Vertices&) {
+             return m.metallicFactor > 0.0f || dielectricReflects(m) || m.transmissive() || m.clearcoated();
+           }},
+      {.trait = Trait::Metals,
+       .name = "metals",
+       .constant = "kMetals",
+       .absence = "no metal",
+       .stages = setOf({Stage::Phong}),
+       .needs = setOf({Trait::Specular}),
+       .ofMaterial = [](const Material& m, const Vertices&) { return m.metallicFactor > 0.0f; }},
+      {.trait = Trait::Transmission,
+       .name = "transmission",
+       .constant = "kTransmission",
+       .absence = "no transmissive material",
+       .stages = setOf({Stage::Refraction}),
+       .ofMaterial = [](const Material& m, const Vertices&) { return m.transmissive(); }},
+      {.trait = Trait::Absorption,
+       .name = "absorption",
+       .constant = "kAbsorption",
+       .absence = "no absorbing volume",
+       .stages = setOf({Stage::Refraction}),
+       .brings = setOf({Trait::Transmission}),
+       .ofMaterial =
+           [](const Material& m, const Vertices&) {
+             return m.passesLight() && m.thicknessFactor > 0.0f && m.attenuationColor != glm::vec3(1.0f) &&
+                    std::isfinite(m.attenuationDistance);
+           }},
+      {.trait = Trait::Unlit,
+       .name = "unlit",
+       .constant = "kUnlit",
+       .absence = "no unlit material",
+       .stages = setOf({Stage::Phong}),
+       .ofMaterial = [](const Material& m, const Vertices&) { return m.unlit; }},
+      {.trait = Trait::Emission,
+       .name = "emission",
+       .constant = "kEmission",
+       .absence = "no emissive material",
+       .stages = setOf({Stage::Phong}),
+       .ofMaterial = [](const Material& m, const Vertices&) { return m.emissive(); }},
+      {.trait = Trait::EmissiveTriangles,
+       .name = "emissive-triangles",
+       .constant = "kEmissiveTriangles",
+       .absence = "no emissive triangle",
+       .stages = setOf({Stage::Phong})},
+      {.trait = Trait::PunctualLights,
+       .name = "punctual-lights",
+       .constant = "kPunctualLights",
+       .absence = "no punctual light",
+       .stages = setOf({Stage::Phong})},
+      {.trait = Trait::Environment,
+       .name = "environment",
+       .constant = "kEnvironment",
+       .absence = "no environment"},
+      {.trait = Trait::EnvironmentSampling,
+       .name = "environment-sampling",
+       .constant = "kEnvironmentSampling",
+       .absence = "no environment map",
+       .stages = setOf({Stage::Phong}),
+       .brings = setOf({Trait::Environment})},
+      {.trait = Trait::Instances,
+       .name = "instances",
+       .constant = "kInstances",
+       .absence = "no mesh that is shared"},
+      {.trait = Trait::Creases,
+       .name = "creases",
+       .constant = "kCreases",
+       .absence = "no crease below 101 degrees, or no ray that leaves one"},
+      {.trait = Trait::Slivers,
+       .name = "slivers",
+       .constant = "kSlivers",
+       .absence = "no triangle long and thin enough to need its plane"},
+      {.trait = Trait::SmoothSurfaces,
+       .name = "smooth-surfaces",
+       .constant = "kSmoothSurfaces",
+       .absence = "no clear glass and no mirror, or no filter to see through them",
+       .ofMaterial =  // kGuideAlpha of shaders/guides.glsl, and more than half of the light.
+       [](const Material& m, const Vertices&) {
+         return m.roughnessFactor < 0.1f && (m.transmissive() || m.metallicFactor > 0.5f);
+       }},
+  }};
+  return rows;
+}
+
+TraitSet withNeeded(Trait trait) {
+  TraitSet set;
+  set.set(size_t(trait));
+  for (TraitSet before; before != set;) {
+    before = set;
+    for (const TraitRow& row : traitRows()) {
+      if (has(before, row.trait)) set |= row.needs;
+    }
+  }
+  const TraitSet needed = set;
+  for (const TraitRow& row : traitRows()) {
+    if (!has(needed, row.trait)) continue;
+    set |= row.brings;
+    if (row.texture) set.set(size_t(Trait::Texcoords));
+  }
+  return set;
+}
+
+}  // namespace fragtrace

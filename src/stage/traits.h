@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// What a scene holds, as far as the shader can be cut down by it: one table row each, from which variants,
+// the shader prelude, benchmarks and statistics follow.
+#pragma once
+
+#include <bitset>
+#include <span>
+
+#include "scene/scene.h"
+#include "stage/stage.h"
+
+namespace fragtrace {
+
+/// What a scene holds, as far as the shader can be cut down by it.
+enum class Trait : uint8_t {
+  Triangles,
+  Spheres,
+  SingleSided,
+  Alpha,
+  Texcoords,
+  VertexNormals,
+  Tangents,
+  VertexColors,
+  BaseColorTexture,
+  MetallicRoughnessTexture,
+  NormalTexture,
+  EmissionTexture,
+  TransmissionTexture,
+  SpecularTexture,
+  SpecularGlossiness,
+  TextureTransforms,
+  Clearcoat,
+  ClearcoatTexture,
+  ClearcoatNormal,
+  Sheen,
+  SheenTexture,
+  Anisotropy,
+  AnisotropyTexture,
+  Iridescence,
+  IridescenceTexture,
+  DiffuseTransmission,
+  DiffuseTransmissionTexture,
+  Dispersion,
+  GlassSpecular,
+  PerlinNormals,
+  Specular,
+  Metals,
+  Transmission,
+  Absorption,
+  Unlit,
+  Emission,
+  EmissiveTriangles,
+  PunctualLights,
+  Environment,
+  EnvironmentSampling,
+  Instances,
+  Creases,
+  Slivers,
+  SmoothSurfaces,
+  Count
+};
+using TraitSet = std::bitset<size_t(Trait::Count)>;
+
+struct TraitRow {
+  Trait trait;
+  const char* name;      ///< in the statistics and the variant's name
+  const char* constant;  ///< in the shader
+  const char* absence;   ///< why something that needs it is off
+  StageSet stages{};     ///< it is off where one of these is
+  TraitSet needs{};      ///< it is off where one of these is
+  TraitSet brings{};     ///< without which a scene that has it would not show it
+  bool texture = false;  ///< it is looked up by texture coordinates
+  /// Whether a material has it; null: the scene as a whole has it or not (traitsOf).
+  bool (*ofMaterial)(const Material& material, const Vertices& vertices) = nullptr;
+};
+std::span<const TraitRow> traitRows();
+
+/// The trait, what it needs, and what brings it to light: what a scene that has it would have, too.
+TraitSet withNeeded(Trait trait);
+
+}  // namespace fragtrace
