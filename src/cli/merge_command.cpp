@@ -44,12 +44,26 @@ Part readPart(const std::filesystem::path& path) {
   return part;
 }
 
+/// Separated by commas.
+std::string channelsOfOneAlone(const Image& a, const Image& b) {
+  std::string names;
+  for (const auto& [from, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    for (const std::string& channel : from->channels) {
+      if (!findChannel(*other, channel)) names += (names.empty() ? "" : ", ") + channel;
+    }
+  }
+  return names;
+}
+
 /// Both must be of one render, and `next` must begin where `first` ends.
 void checkNext(const Part& first, const Part& next) {
   const std::string both = first.path.string() + " and " + next.path.string();
-  if (first.image.width != next.image.width || first.image.height != next.image.height ||
-      first.image.channels != next.image.channels)
-    throw InputError(both + ": differ in size or layers");
+  if (first.image.width != next.image.width || first.image.height != next.image.height)
+    throw InputError(both + ": differ in size");
+  if (first.image.channels != next.image.channels) {
+    const std::string lone = channelsOfOneAlone(first.image, next.image);
+    throw InputError(both + ": differ in layers" + (lone.empty() ? "" : ", only one of them has " + lone));
+  }
   if (first.made.settings != next.made.settings)
     throw InputError(both + ": were made with different settings: " +
                      differenceOf(first.made.settings, next.made.settings));

@@ -96,24 +96,23 @@ Image layersForFilter(const Image& file) {
   for (const char* name : {"samples.Y", "variance.Y", kObservedChannel}) {
     if (findChannel(file, name)) appendAs(result, file, name, name);
   }
-  if (std::ranges::all_of(kGuideChannels,
-                          [&](const char* name) { return findChannel(file, name).has_value(); })) {
-    for (const char* name : kGuideChannels) appendAs(result, file, name, name);
-    return result;
+  const auto has = [&](const char* name) { return findChannel(result, name).has_value(); };
+  for (const char* name : kGuideChannels) {
+    if (findChannel(file, name)) appendAs(result, file, name, name);
   }
   const auto names = [](size_t from, size_t count) {
     return std::vector<std::string>(kGuideChannels.begin() + from, kGuideChannels.begin() + from + count);
   };
   const auto albedo = findGuide(file, color->prefix, {"Denoising Albedo", "albedo", "Albedo", "alb"});
-  if (albedo) appendLayer(result, file, *albedo, names(0, 3));
+  if (albedo && !has(kGuideChannels[0])) appendLayer(result, file, *albedo, names(0, 3));
   const auto normal = findGuide(
       file, color->prefix,
       {"Denoising Normal", "normal", "sh_normal", "nn", "sn", "normals", "Ns", "N", "Normal", "geo_normal"});
-  if (normal) appendLayer(result, file, *normal, names(4, 3));
-  const auto depth = findChannel(file, "depth.Z");
-  if (!depth) return result;
-  appendAs(result, file, "depth.Z", kGuideChannels[7]);
-  appendChannels(result, alpha ? onlyChannels(result, {"A"}) : coverageOf(file, *depth), names(3, 1));
+  if (normal && !has(kGuideChannels[4])) appendLayer(result, file, *normal, names(4, 3));
+  if (findChannel(file, "depth.Z") && !has(kGuideChannels[7]))
+    appendAs(result, file, "depth.Z", kGuideChannels[7]);
+  if (const auto depth = findChannel(result, kGuideChannels[7]); depth && !has(kGuideChannels[3]))
+    appendChannels(result, alpha ? onlyChannels(result, {"A"}) : coverageOf(result, *depth), names(3, 1));
   return result;
 }
 

@@ -173,6 +173,15 @@ Image cutTo(const Image& image, int width, int height) {
   return part;
 }
 
+/// What shows no surface has no noise, where the picture says which that is.
+void keepBackground(Triples& output, const Triples& color, const Image& noisy) {
+  const std::optional<size_t> coverage = findChannel(noisy, kGuideChannels[3]);
+  if (!coverage) return;
+  for (size_t i = 0, pixel = *coverage; i < output.size(); i += 3, pixel += noisy.channelCount()) {
+    if (!(noisy.values[pixel] > 0.0f)) std::copy_n(&color[i], 3, &output[i]);
+  }
+}
+
 }  // namespace
 
 std::optional<Image> denoisedByOidn(const Image& noisy, const OidnLibrary& library, uint64_t memoryBytes,
@@ -205,6 +214,7 @@ std::optional<Image> denoisedByOidn(const Image& noisy, const OidnLibrary& libra
     output[i] = std::ldexp(output[i], *exponent);
     if (!std::isfinite(output[i])) output[i] = color[i];
   }
+  keepBackground(output, color, noisy);
   return Image{noisy.width, noisy.height, {"R", "G", "B"}, std::move(output), {}};
 }
 

@@ -14,13 +14,14 @@ namespace fragtrace {
 /// Called with the part done, 0..1, from one thread at a time; false stops the filter. Must not throw.
 using OidnProgress = std::function<bool(double)>;
 
-/// Whether the filter can look at the surfaces: the picture has albedo.RGB and normal.XYZ.
+/// Whether the filter can look at the surfaces: the picture has albedo and normal of kGuideChannels.
 bool hasOidnGuides(const Image& picture);
 
 /// R, G and B of the picture that `noisy` converges to, estimated from its linear R, G and B, which it must
-/// have and which are not clamped, and from albedo.RGB (0..1) and normal.XYZ (-1..1) of first hits, if it has
-/// both. Values that are not finite count as 0. Takes about `memoryBytes` at most, beside fifteen floats
-/// a pixel. Nothing when `progress` stops it. Throws RenderError with what the library says.
+/// have and which are not clamped, and from albedo (0..1) and normal (-1..1) of kGuideChannels, if it has
+/// both. Pixels whose coverage among these is 0 stay as they are. Values that are not finite count as 0.
+/// Takes about `memoryBytes` at most, beside fifteen floats a pixel. Nothing when `progress` stops it. Throws
+/// RenderError with what the library says.
 std::optional<Image> denoisedByOidn(const Image& noisy, const OidnLibrary& library, uint64_t memoryBytes,
                                     const OidnProgress& progress = {});
 

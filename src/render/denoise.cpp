@@ -45,26 +45,38 @@ std::array<const char*, 4> guideChannels(size_t from) {
   return {kGuideChannels[from], kGuideChannels[from + 1], kGuideChannels[from + 2], kGuideChannels[from + 3]};
 }
 
-/// Pixels whose colour is not finite get the mean of those around them that are.
+/// Pixels whose colour is not finite get the mean of those around them that are, from the rim of a hole to
+/// its middle.
 void fillHoles(std::vector<glm::vec4>& texels, const Image& image) {
-  const auto whole = [&](int x, int y) {
-    const float* pixel = &image.values[(size_t(y) * size_t(image.width) + size_t(x)) * image.channelCount()];
-    return std::isfinite(pixel[0]) && std::isfinite(pixel[1]) && std::isfinite(pixel[2]);
-  };
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      if (whole(x, y)) continue;
+  std::vector<size_t> holes;
+  std::vector<char> whole(texels.size(), 1);
+  for (size_t i = 0; i < texels.size(); ++i) {
+    const float* pixel = &image.values[i * image.channelCount()];
+    if (std::isfinite(pixel[0]) && std::isfinite(pixel[1]) && std::isfinite(pixel[2])) continue;
+    whole[i] = 0;
+    holes.push_back(i);
+  }
+  while (!holes.empty() && holes.size() < texels.size()) {
+    std::vector<size_t> filled;
+    std::vector<size_t> left;
+    for (const size_t i : holes) {
+      const int x = int(i % size_t(image.width));
+      const int y = int(i / size_t(image.width));
       glm::vec4 sum(0.0f);
       float count = 0.0f;
       for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, image.height - 1); ++ny) {
         for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, image.width - 1); ++nx) {
-          if (!whole(nx, ny)) continue;
-          sum += texels[size_t(ny) * size_t(image.width) + size_t(nx)];
+          const size_t other = size_t(ny) * size_t(image.width) + size_t(nx);
+          if (!whole[other]) continue;
+          sum += texels[other];
           count += 1.0f;
         }
       }
-      texels[size_t(y) * size_t(image.width) + size_t(x)] = sum / std::max(count, 1.0f);
+      if (count > 0.0f) texels[i] = sum / count;
+      (count > 0.0f ? filled : left).push_back(i);
     }
+    for (const size_t i : filled) whole[i] = 1;
+    holes = std::move(left);
   }
 }
 

@@ -66,6 +66,10 @@ class Denoising(Case):
         for a, b, joined in zip(first, second, both):
             self.assertAlmostEqual((a + b) / 4, joined, delta=1e-6 * joined)
 
+    def test_merge_names_the_layer_that_one_part_lacks(self):
+        parts = [self.draw(f"{first}.exr", *SIZE, "--spp", spp, "--sample-offset", first, "--aov", "denoising") for first, spp in ((0, 3), (3, 4))]
+        self.fails(3, "merge", *parts, "-o", self.folder / "m.exr", says=["only one of them has denoising.observed.Y"])
+
     def test_guides_are_of_what_stands_behind_smooth_glass_and_mirrors(self):
         """Albedo of wall and floor as the glass sphere and the mirror sphere show these, and depth of the spheres."""
         wall, floor = (0.3, 0.45, 0.65), (0.65, 0.5, 0.35)

@@ -122,10 +122,11 @@ class RefusedMerges(Parts):
         self.refuses(other, self.first, other, "settings")
 
     def test_another_size_or_other_layers(self):
-        for size, *options in (["16,13"], ["16,12", "--aov", "samples"], ["16,12", "--no-background"]):
+        for says, size, *options in (["differ in size", "16,13"], ["only one of them has samples.Y", "16,12", "--aov", "samples"],
+                                     ["only one of them has A", "16,12", "--no-background"]):
             with self.subTest(size=size, options=options):
                 other = self.part("other.exr", 4, 4, *options, size=size)
-                self.refuses(other, self.first, other, "differ in size or layers")
+                self.refuses(other, self.first, other, says)
 
     def test_an_adaptive_part(self):
         other = self.folder / "other.exr"

@@ -221,6 +221,8 @@ class DenoiseFiles(OidnCase):
                  "ours": {**colors, **layer("albedo.", "RGB", 0.25), **layer("normal.", "XYZ", -0.5)},
                  "ours, with guides": {**colors, **layer("albedo.", "RGB", 9.0), **layer("denoising.albedo.", "RGBA", 0.25),
                                        **layer("denoising.normal.", "XYZ", -0.5), "denoising.depth.Z": 1.0},
+                 "ours, of the background": {**colors, **layer("denoising.albedo.", "RGB", 0.25), "denoising.albedo.A": 0.0,
+                                             **layer("denoising.normal.", "XYZ", -0.5), "denoising.depth.Z": 0.0},
                  "colours alone": {**colors, "depth.Z": 3.0}, "normal alone": {**colors, **layer("normal.", "XYZ", -0.5)}}
         for name, layers in files.items():
             with self.subTest(name):
@@ -228,7 +230,7 @@ class DenoiseFiles(OidnCase):
                 path = write_exr(self.folder / "in.exr", 5, 3, layers)
                 out = Exr(self.denoises(path, "out.exr", "--quiet") if not lacking else
                           self.denoises(path, "out.exr", says="has no albedo and normal layers, so the colours alone are filtered"))
-                added = 0 if lacking else 0.25 - 0.5
+                added = 0 if lacking or name.endswith("background") else 0.25 - 0.5
                 for c, value in colors.items():
                     self.near(out.values(c), [value + added] * 15)
                     self.near(out.values("noisy." + c), [value] * 15)
@@ -242,6 +244,25 @@ class DenoiseFiles(OidnCase):
         for filter, library in (("variance", FAKE), ("auto", "/none")):
             self.fails(3, "denoise", path, "-o", self.folder / "o.exr", "--denoise", filter, "--quiet", env=surroundings(FRAGTRACE_OIDN_LIBRARY=str(library)),
                        says=[path, "needs: normal, samples, variance (render with --aov denoising"])
+
+    def test_a_guide_that_lacks_is_the_only_one_named(self):
+        picture = Exr(self.draw("n.exr", *NEEDED))
+        layers = {name: picture.values(name) for name in picture.layers if not name.startswith("denoising.normal")}
+        path = write_exr(self.folder / "in.exr", picture.width, picture.height, layers)
+        self.fails(3, "denoise", path, "-o", self.folder / "o.exr", "--denoise", "variance", "--quiet", says=[path, "needs: normal (render"])
+
+    def test_holes_are_filled_from_their_rims(self):
+        """Eight rows of a picture of one colour are no numbers."""
+        one = {name: 1.0 for name in ("R", "G", "B", "samples.Y", "denoising.depth.Z", "denoising.normal.Z", *(f"denoising.albedo.{c}" for c in "RGBA"))}
+        layers = {**one, "variance.Y": 0.0, "denoising.normal.X": 0.0, "denoising.normal.Y": 0.0}
+        for channel in "RGB":
+            layers[channel] = [math.nan if 4 <= i // 16 < 12 else 0.5 for i in range(256)]
+        path = write_exr(self.folder / "in.exr", 16, 16, layers)
+        filtered = self.denoises(path, "o.exr", "--denoise", "variance")
+        for channel in "RGB":
+            self.near(Exr(filtered).values(channel), [0.5] * 256)
+        path.unlink()  # these and noisy.* are no numbers
+        filtered.unlink()
 
     def test_refused_files_and_options(self):
         picture = self.draw("n.png", "--stage", "flat")
