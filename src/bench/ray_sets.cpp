@@ -13,7 +13,7 @@ namespace fragtrace {
 namespace {
 
 constexpr double kTwoPi = glm::two_pi<double>();
-constexpr float kFar = 1e30f;
+constexpr float kRayLimit = 1e30f;
 
 double uniform(std::mt19937& random) { return double(random()) * 0x1p-32; }
 
@@ -107,7 +107,7 @@ std::vector<Ray> diffuseRays(const ExactTracer& tracer, std::span<const Ray> pri
     if (hits[i].primitive == kMissIndex) continue;
     const Place place = placeOf(tracer, primary[i], hits[i]);
     rays[i] = {glm::vec3(place.point + place.error * place.normal),
-               glm::vec3(cosineDirection(place.normal, random)), kFar};
+               glm::vec3(cosineDirection(place.normal, random)), kRayLimit};
   }
   return rays;
 }
