@@ -13,7 +13,7 @@ using nlohmann::json;
 
 constexpr const char* kExtension = "EXT_meshopt_compression";
 
-const json* extensionOf(const json& object) {
+const json* meshoptOf(const json& object) {
   const auto extensions = object.find("extensions");
   if (extensions == object.end() || !extensions->is_object()) return nullptr;
   const auto extension = extensions->find(kExtension);
@@ -92,7 +92,7 @@ std::span<const uint8_t> encodedBytes(const json& extension, const Buffers& buff
 }  // namespace
 
 bool isFallback(const json& buffer) {
-  const json* extension = extensionOf(buffer);
+  const json* extension = meshoptOf(buffer);
   return extension != nullptr && extension->value("fallback", false);
 }
 
@@ -100,7 +100,7 @@ void decompressViews(json& root, Buffers& buffers, CodecProcess& codecs, Documen
   Diagnostics& diagnostics = document.diagnostics;
   for (size_t i = 0; i < root["bufferViews"].size(); ++i) {
     json& view = root["bufferViews"][i];
-    const json* extension = extensionOf(view);
+    const json* extension = meshoptOf(view);
     if (extension == nullptr) continue;
     const std::string place = pointerTo("bufferViews", i, "extensions", kExtension);
     if (!codecs.available()) {
