@@ -175,7 +175,7 @@ Image makeReference(Contender& c, int samples, bool quiet) {
 
 std::string sizeText(glm::ivec2 size) { return std::to_string(size.x) + " x " + std::to_string(size.y); }
 
-Image readReference(const BenchErrorOptions& options, glm::ivec2 size) {
+Image readGivenReference(const BenchErrorOptions& options, glm::ivec2 size) {
   const std::string name = options.reference.string();
   Image reference = readImage(options.reference);
   if (glm::ivec2(reference.width, reference.height) != size)
@@ -285,7 +285,7 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
                          : options.reference.filename().string();
   const Image reference = options.reference.empty()
                               ? makeReference(contenders.front(), referenceSamples, first.quiet)
-                              : readReference(options, size);
+                              : readGivenReference(options, size);
   const Judge judge{reference, toDisplay(reference, first.exposure, first.toneMap), first};
 
   // Step: repetitions outermost, so that a machine that slows down does so for all.

@@ -35,21 +35,21 @@ struct Runner {
   ScaleFrames report;
 };
 
-struct Stage {
+struct Setting {
   const BenchScaleOptions& options;
   const Context& context;
   View view;
   glm::ivec2 size;
 };
 
-ShaderVariant variantFor(const Stage& stage, TraversalMethod method, const Scene& scene, uint32_t depth) {
+ShaderVariant variantFor(const Setting& stage, TraversalMethod method, const Scene& scene, uint32_t depth) {
   RenderOptions wanted = stage.options.render;
   wanted.traversal = method;
   return chooseVariant(wanted, traitsOf(scene, Surroundings::None), Surroundings::None, depth,
                        BufferReads::Auto);
 }
 
-std::unique_ptr<Renderer> upload(const Stage& stage, GpuScene packed, ShaderVariant& variant) {
+std::unique_ptr<Renderer> upload(const Setting& stage, GpuScene packed, ShaderVariant& variant) {
   const RenderOptions& render = stage.options.render;
   variant.reads = chooseReads(render.bufferReads, stage.context.software, packed, readLimits()).reads;
   return std::make_unique<Renderer>(stage.context, std::move(packed), variant.reads, render.shaderFolder);
@@ -83,7 +83,7 @@ void check(Runner& runner, const Scene& scene, std::span<const ExactHit> hits, c
   }
 }
 
-void warmUp(const Stage& stage, Runner& runner) {
+void warmUp(const Setting& stage, Runner& runner) {
   runner.film = std::make_unique<Film>(stage.size);
   runner.report.compileMs = runner.renderer->compile(runner.variant, *runner.film, stage.view);
   runner.report.variant = variantName(runner.variant);
@@ -93,7 +93,7 @@ void warmUp(const Stage& stage, Runner& runner) {
 }
 
 /// A round: the variant is made current and finds its pace, then its frames are timed.
-void timeFrames(const Stage& stage, Runner& runner) {
+void timeFrames(const Setting& stage, Runner& runner) {
   runner.renderer->compile(runner.variant, *runner.film, stage.view);
   RenderTimes unused;
   runner.renderer->addSamples(*runner.film, stage.view, 0, 2, unused);
@@ -103,7 +103,7 @@ void timeFrames(const Stage& stage, Runner& runner) {
 }
 
 /// The iterative traversal walks a plain list: one frame, unless that takes too long.
-ScaleFrames measureIterative(const Stage& stage, const Scene& scene, std::span<const ExactHit> hits,
+ScaleFrames measureIterative(const Setting& stage, const Scene& scene, std::span<const ExactHit> hits,
                              const Image* first) {
   const Bvh list = listLeaves(scene);
   Runner runner{TraversalMethod::Iterative,
@@ -134,7 +134,7 @@ ScaleFrames measureIterative(const Stage& stage, const Scene& scene, std::span<c
   return runner.report;
 }
 
-ScaleRow measureSize(Stage& stage, size_t wanted, double iterativeMsPerTriangle) {
+ScaleRow measureSize(Setting& stage, size_t wanted, double iterativeMsPerTriangle) {
   const BenchScaleOptions& options = stage.options;
   ScaleRow row;
   const bool peakKnown = resetPeakMemory();
@@ -210,7 +210,7 @@ ScaleRow measureSize(Stage& stage, size_t wanted, double iterativeMsPerTriangle)
 }
 
 ScaleReport measure(const BenchScaleOptions& options, const Context& context) {
-  Stage stage{options, context, {}, *options.render.resolution};
+  Setting stage{options, context, {}, *options.render.resolution};
   stage.view.showEnvironment = false;
   ScaleReport report;
   report.width = stage.size.x;

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr unsigned kFloat = 5126;
+constexpr unsigned kFloatType = 5126;
 
 /// Where nodes stand in their trees. What is in a loop, which is refused later, stands alone.
 struct Ancestry {
@@ -114,7 +114,7 @@ class MotionChecker {
     const json& matrices = accessorAt(memberOf(skin, "inverseBindMatrices"));
     if (!matrices.empty()) {
       const std::string there = place + "/inverseBindMatrices";
-      if (matrices["type"] != "MAT4" || matrices["componentType"] != kFloat)
+      if (matrices["type"] != "MAT4" || matrices["componentType"] != kFloatType)
         warn(there, "are not floats of type MAT4, which is refused where a node has the skin");
       if (matrices["count"].get<size_t>() < joints.size())
         warn(there, "are fewer than the joints, which is refused where a node has the skin");
@@ -165,7 +165,7 @@ class MotionChecker {
       warn(place + "/interpolation",
            inQuotes(interpolation) +
                " is no interpolation, which is refused where the animation is asked for");
-    if (input["type"] != "SCALAR" || input["componentType"] != kFloat)
+    if (input["type"] != "SCALAR" || input["componentType"] != kFloatType)
       warn(place + "/input",
            "is not of floats of type SCALAR, which is refused where the animation is asked for");
     if (isCubic && input["count"].get<size_t>() < 2)
@@ -208,7 +208,7 @@ class MotionChecker {
     const std::string type = path == "weights" ? "SCALAR" : path == "rotation" ? "VEC4" : "VEC3";
     const bool mayBeInteger = path == "rotation" || path == "weights";
     if (output["type"] != type ||
-        (output["componentType"] != kFloat && !(mayBeInteger && output.value("normalized", false))))
+        (output["componentType"] != kFloatType && !(mayBeInteger && output.value("normalized", false))))
       warn(place,
            "has an output of a type that glTF does not allow for its target; it is refused where the "
            "animation is asked for");
