@@ -42,17 +42,17 @@ struct Setting {
   glm::ivec2 size;
 };
 
-ShaderVariant variantFor(const Setting& stage, TraversalMethod method, const Scene& scene, uint32_t depth) {
-  RenderOptions wanted = stage.options.render;
+ShaderVariant variantFor(const Setting& setting, TraversalMethod method, const Scene& scene, uint32_t depth) {
+  RenderOptions wanted = setting.options.render;
   wanted.traversal = method;
   return chooseVariant(wanted, traitsOf(scene, Surroundings::None), Surroundings::None, depth,
                        BufferReads::Auto);
 }
 
-std::unique_ptr<Renderer> upload(const Setting& stage, GpuScene packed, ShaderVariant& variant) {
-  const RenderOptions& render = stage.options.render;
-  variant.reads = chooseReads(render.bufferReads, stage.context.software, packed, readLimits()).reads;
-  return std::make_unique<Renderer>(stage.context, std::move(packed), variant.reads, render.shaderFolder);
+std::unique_ptr<Renderer> upload(const Setting& setting, GpuScene packed, ShaderVariant& variant) {
+  const RenderOptions& render = setting.options.render;
+  variant.reads = chooseReads(render.bufferReads, setting.context.software, packed, readLimits()).reads;
+  return std::make_unique<Renderer>(setting.context, std::move(packed), variant.reads, render.shaderFolder);
 }
 
 /// The picture is held against double precision, and against the first traversal's. Throws RenderError.
@@ -83,47 +83,47 @@ void check(Runner& runner, const Scene& scene, std::span<const ExactHit> hits, c
   }
 }
 
-void warmUp(const Setting& stage, Runner& runner) {
-  runner.film = std::make_unique<Film>(stage.size);
-  runner.report.compileMs = runner.renderer->compile(runner.variant, *runner.film, stage.view);
+void warmUp(const Setting& setting, Runner& runner) {
+  runner.film = std::make_unique<Film>(setting.size);
+  runner.report.compileMs = runner.renderer->compile(runner.variant, *runner.film, setting.view);
   runner.report.variant = variantName(runner.variant);
   RenderTimes times;
-  runner.renderer->addSamples(*runner.film, stage.view, 0, 4, times);
+  runner.renderer->addSamples(*runner.film, setting.view, 0, 4, times);
   runner.frames = int(std::clamp(kRoundMs / times.frameMs.back(), 1.0, double(kMostFrames)));
 }
 
 /// A round: the variant is made current and finds its pace, then its frames are timed.
-void timeFrames(const Setting& stage, Runner& runner) {
-  runner.renderer->compile(runner.variant, *runner.film, stage.view);
+void timeFrames(const Setting& setting, Runner& runner) {
+  runner.renderer->compile(runner.variant, *runner.film, setting.view);
   RenderTimes unused;
-  runner.renderer->addSamples(*runner.film, stage.view, 0, 2, unused);
+  runner.renderer->addSamples(*runner.film, setting.view, 0, 2, unused);
   RenderTimes times;
-  runner.renderer->addSamples(*runner.film, stage.view, 2, 2 + runner.frames, times);
+  runner.renderer->addSamples(*runner.film, setting.view, 2, 2 + runner.frames, times);
   runner.report.frameMs.push_back(times.renderMs / runner.frames);
 }
 
 /// The iterative traversal walks a plain list: one frame, unless that takes too long.
-ScaleFrames measureIterative(const Setting& stage, const Scene& scene, std::span<const ExactHit> hits,
+ScaleFrames measureIterative(const Setting& setting, const Scene& scene, std::span<const ExactHit> hits,
                              const Image* first) {
   const Bvh list = listLeaves(scene);
   Runner runner{TraversalMethod::Iterative,
-                variantFor(stage, TraversalMethod::Iterative, scene, 0),
+                variantFor(setting, TraversalMethod::Iterative, scene, 0),
                 nullptr,
                 {},
                 1,
                 {}};
   runner.report.traversal = "iterative";
-  const auto renderer = upload(stage, packScene(scene, list, {}, runner.variant), runner.variant);
+  const auto renderer = upload(setting, packScene(scene, list, {}, runner.variant), runner.variant);
   runner.renderer = renderer.get();
-  runner.film = std::make_unique<Film>(stage.size);
-  runner.report.compileMs = runner.renderer->compile(runner.variant, *runner.film, stage.view);
+  runner.film = std::make_unique<Film>(setting.size);
+  runner.report.compileMs = runner.renderer->compile(runner.variant, *runner.film, setting.view);
   runner.report.variant = variantName(runner.variant);
   RenderTimes times;
   Stopwatch watch;
   double spent = 0.0;
-  const bool complete = runner.renderer->addSamples(*runner.film, stage.view, 0, 1, times, [&](double) {
+  const bool complete = runner.renderer->addSamples(*runner.film, setting.view, 0, 1, times, [&](double) {
     spent += watch.lap();
-    return spent < 1000.0 * stage.options.longest;
+    return spent < 1000.0 * setting.options.longest;
   });
   if (!complete) {
     runner.report.left = "a frame takes longer than --longest";
@@ -134,8 +134,8 @@ ScaleFrames measureIterative(const Setting& stage, const Scene& scene, std::span
   return runner.report;
 }
 
-ScaleRow measureSize(Setting& stage, size_t wanted, double iterativeMsPerTriangle) {
-  const BenchScaleOptions& options = stage.options;
+ScaleRow measureSize(Setting& setting, size_t wanted, double iterativeMsPerTriangle) {
+  const BenchScaleOptions& options = setting.options;
   ScaleRow row;
   const bool peakKnown = resetPeakMemory();
   Stopwatch watch;
@@ -147,14 +147,14 @@ ScaleRow measureSize(Setting& stage, size_t wanted, double iterativeMsPerTriangl
   const BvhQuality quality = bvhQuality(bvh);
   row.sahCost = quality.sahCost;
   row.depth = quality.depth;
-  stage.view.camera = frameScene(scene.bounds);
+  setting.view.camera = frameScene(scene.bounds);
 
   // Step: both tree traversals read the same arrays.
   std::vector<Runner> runners;
   for (size_t i = 0; i < options.traversals.size(); ++i) {
     if (options.traversals[i] == TraversalMethod::Iterative) continue;
     runners.push_back({options.traversals[i],
-                       variantFor(stage, options.traversals[i], scene, bvh.depth),
+                       variantFor(setting, options.traversals[i], scene, bvh.depth),
                        nullptr,
                        {},
                        1,
@@ -167,30 +167,30 @@ ScaleRow measureSize(Setting& stage, size_t wanted, double iterativeMsPerTriangl
     GpuScene packed = packScene(scene, bvh, {}, runners.front().variant);
     row.packMs = watch.lap();
     row.gpuBytes = packed.bytes();
-    renderer = upload(stage, std::move(packed), runners.front().variant);
+    renderer = upload(setting, std::move(packed), runners.front().variant);
     row.uploadMs = watch.lap();
   }
   for (Runner& runner : runners) {
     runner.renderer = renderer.get();
     runner.variant.reads = runners.front().variant.reads;
-    warmUp(stage, runner);
+    warmUp(setting, runner);
   }
   for (int round = 0; round < options.rounds; ++round) {
-    for (Runner& runner : runners) timeFrames(stage, runner);
+    for (Runner& runner : runners) timeFrames(setting, runner);
   }
   if (peakKnown) row.peakBytes = peakMemory();
 
   // Step: right pictures only.
   const ExactTracer tracer(scene, bvh);
-  const std::vector<Ray> rays = primaryRays(stage.view.camera, stage.view.space, stage.size);
+  const std::vector<Ray> rays = primaryRays(setting.view.camera, setting.view.space, setting.size);
   proveTree(tracer, row.triangles, rays);
   const std::vector<ExactHit> hits = tracer.nearest(rays);
   std::unique_ptr<Image> first;
   for (Runner& runner : runners) {
     // The same samples for all.
-    runner.renderer->compile(runner.variant, *runner.film, stage.view);
+    runner.renderer->compile(runner.variant, *runner.film, setting.view);
     RenderTimes unused;
-    runner.renderer->addSamples(*runner.film, stage.view, 0, 1, unused);
+    runner.renderer->addSamples(*runner.film, setting.view, 0, 1, unused);
     check(runner, scene, hits, first.get());
     if (!first) first = std::make_unique<Image>(imageOf(runner.film->read(), {}));
     row.frames.push_back(std::move(runner.report));
@@ -202,7 +202,7 @@ ScaleRow measureSize(Setting& stage, size_t wanted, double iterativeMsPerTriangl
       iterative.left = "a frame takes longer than --longest";
     } else {
       renderer.reset();
-      iterative = measureIterative(stage, scene, hits, first.get());
+      iterative = measureIterative(setting, scene, hits, first.get());
     }
     row.frames.push_back(std::move(iterative));
   }
@@ -210,17 +210,17 @@ ScaleRow measureSize(Setting& stage, size_t wanted, double iterativeMsPerTriangl
 }
 
 ScaleReport measure(const BenchScaleOptions& options, const Context& context) {
-  Setting stage{options, context, {}, *options.render.resolution};
-  stage.view.showEnvironment = false;
+  Setting setting{options, context, {}, *options.render.resolution};
+  setting.view.showEnvironment = false;
   ScaleReport report;
-  report.width = stage.size.x;
-  report.height = stage.size.y;
+  report.width = setting.size.x;
+  report.height = setting.size.y;
   report.renderer = context.renderer;
   ProgressBar bar("measuring", options.render.quiet);
   double iterativeMsPerTriangle = 0.0;
   const std::vector<size_t> sizes = sizesOf(options);
   for (size_t i = 0; i < sizes.size(); ++i) {
-    report.rows.push_back(measureSize(stage, sizes[i], iterativeMsPerTriangle));
+    report.rows.push_back(measureSize(setting, sizes[i], iterativeMsPerTriangle));
     const ScaleRow& row = report.rows.back();
     for (const ScaleFrames& f : row.frames) {
       if (f.traversal == "iterative" && !f.frameMs.empty())
