@@ -11,12 +11,12 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kExtension = "EXT_meshopt_compression";
+constexpr const char* kMeshopt = "EXT_meshopt_compression";
 
 const json* meshoptOf(const json& object) {
   const auto extensions = object.find("extensions");
   if (extensions == object.end() || !extensions->is_object()) return nullptr;
-  const auto extension = extensions->find(kExtension);
+  const auto extension = extensions->find(kMeshopt);
   return extension != extensions->end() ? &*extension : nullptr;
 }
 
@@ -102,10 +102,10 @@ void decompressViews(json& root, Buffers& buffers, CodecProcess& codecs, Documen
     json& view = root["bufferViews"][i];
     const json* extension = meshoptOf(view);
     if (extension == nullptr) continue;
-    const std::string place = pointerTo("bufferViews", i, "extensions", kExtension);
+    const std::string place = pointerTo("bufferViews", i, "extensions", kMeshopt);
     if (!codecs.available()) {
       if (buffers[view["buffer"].get<size_t>()].empty())
-        diagnostics.refuse(place, std::string(kExtension) + " cannot be decoded: " + codecs.whyNot());
+        diagnostics.refuse(place, std::string(kMeshopt) + " cannot be decoded: " + codecs.whyNot());
       diagnostics.warn(place, "cannot be decoded, the uncompressed data are taken: " + codecs.whyNot());
       continue;
     }
