@@ -58,8 +58,7 @@ Image pictureOf(const Drawing& drawing, const RenderOptions& options, const Shad
 }
 
 int samplesOfLayer(const RenderOptions& options, Feature feature, int ofPicture) {
-  if (feature == Feature::Guides)
-    return std::clamp(ofPicture / kFewLayerSamples, std::min(ofPicture, kFewLayerSamples), kMostGuideSamples);
+  if (feature == Feature::Guides) return std::min(ofPicture, kFewLayerSamples);
   const bool asked = std::ranges::find(options.aovFeatures, feature) != options.aovFeatures.end();
   return asked ? ofPicture : std::min(ofPicture, kFewLayerSamples);
 }

@@ -30,9 +30,6 @@ Image pictureOf(const Drawing& drawing, const RenderOptions& options, const Shad
 /// Samples of layers that nobody has asked for, or that somebody waits for.
 inline constexpr int kFewLayerSamples = 16;
 
-/// Samples of guides of the longest pictures, whose edges else have more noise than their light.
-inline constexpr int kMostGuideSamples = 64;
-
 /// Samples of a layer of a picture of so many: a filter needs no more than a few.
 int samplesOfLayer(const RenderOptions& options, Feature feature, int ofPicture);
 
