@@ -91,9 +91,22 @@ class Screen:
         self.manager = subprocess.Popen(["openbox", "--sm-disable"], env=self.environment, stdout=subprocess.DEVNULL,
                                         stderr=subprocess.DEVNULL)
         self.display = Xlib.display.Display(self.name)
-        # A window manager is there once the root window says so.
-        root, check = self.display.screen().root, self.display.intern_atom("_NET_SUPPORTING_WM_CHECK")
-        wait_for(lambda: root.get_full_property(check, X.AnyPropertyType), 20, "no window manager")
+        # openbox announces itself before it manages windows, and loses what is mapped in between: only a window that it has shown proves it.
+        wait_for(self.shows_a_window, 20, "no window manager")
+
+    def shows_a_window(self):
+        root = self.display.screen().root
+        window = root.create_window(0, 0, 10, 10, 0, self.display.screen().root_depth)
+        window.map()
+        try:
+            wait_for(lambda: window.get_attributes().map_state == X.IsViewable, 0.5, "not shown")
+            managed = self.display.intern_atom("WM_STATE")
+            return window.get_full_property(managed, X.AnyPropertyType) is not None
+        except AssertionError:
+            return False
+        finally:
+            window.destroy()
+            self.display.sync()
 
     def call(self, *command):
         return subprocess.run(list(map(str, command)), env=self.environment, check=True, capture_output=True, text=True).stdout
