@@ -3,7 +3,7 @@
 // multiplied by what observations leave of it in a window of like surfaces, drawn towards the whole picture's share where the window is small.
 #include "denoise/denoise.glsl"
 
-layout(binding = 0) uniform sampler2D lights;     // as denoise_prepare.frag leaves these
+layout(binding = 0) uniform sampler2D lights;     // as prepare.frag leaves these
 layout(binding = 1) uniform sampler2D observed;
 layout(binding = 2) uniform usampler2D guides;
 layout(location = 1) uniform float share;  // observed / independent variance of the whole picture; negative: nothing was observed

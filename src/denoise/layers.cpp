@@ -63,16 +63,20 @@ std::optional<FoundLayer> findColor(const Image& file) {
   return findLayer(file, {"Noisy Image", "Combined"});
 }
 
-void appendLayer(Image& result, const Image& file, const FoundLayer& layer,
-                 const std::vector<std::string>& names) {
-  std::vector<std::string> from;
-  for (size_t c = 0; c < names.size(); ++c) from.push_back(file.channels[layer.channels[c]]);
-  appendChannels(result, onlyChannels(file, from), names);
-}
+/// What is taken of a file, in the order of the result.
+struct Taken {
+  std::vector<std::string> from;  ///< channels of the file
+  std::vector<std::string> names;
 
-void appendAs(Image& result, const Image& file, const std::string& from, const char* name) {
-  appendChannels(result, onlyChannels(file, {from}), {name});
-}
+  void take(const std::string& channel, const std::string& name) {
+    from.push_back(channel);
+    names.push_back(name);
+  }
+  void takeLayer(const Image& file, const FoundLayer& layer, const std::array<const char*, 3>& as) {
+    for (size_t c = 0; c < as.size(); ++c) take(file.channels[layer.channels[c]], as[c]);
+  }
+  bool has(const char* name) const { return std::ranges::find(names, name) != names.end(); }
+};
 
 /// 1 where a pixel shows a surface. Pixels that show one in part get 1, too, which changes the light of a
 /// filtered pixel by 0.3 % on average at most (docs/denoise.md).
@@ -86,33 +90,34 @@ Image coverageOf(const Image& file, size_t depth) {
 }  // namespace
 
 Image layersForFilter(const Image& file) {
-  Image result{file.width, file.height, {}, {}, file.attributes};
   const auto color = findColor(file);
-  if (!color) return result;
-  appendLayer(result, file, *color, {"R", "G", "B"});
+  if (!color) return {file.width, file.height, {}, {}, file.attributes};
+  Taken taken;
+  taken.takeLayer(file, *color, {"R", "G", "B"});
   auto alpha = findChannel(file, "A");
   if (!alpha) alpha = findChannel(file, color->prefix + "Combined.A");
-  if (alpha) appendAs(result, file, file.channels[*alpha], "A");
+  if (alpha) taken.take(file.channels[*alpha], "A");
   for (const char* name : {"samples.Y", "variance.Y", kObservedChannel}) {
-    if (findChannel(file, name)) appendAs(result, file, name, name);
+    if (findChannel(file, name)) taken.take(name, name);
   }
-  const auto has = [&](const char* name) { return findChannel(result, name).has_value(); };
   for (const char* name : kGuideChannels) {
-    if (findChannel(file, name)) appendAs(result, file, name, name);
+    if (findChannel(file, name)) taken.take(name, name);
   }
-  const auto names = [](size_t from, size_t count) {
-    return std::vector<std::string>(kGuideChannels.begin() + from, kGuideChannels.begin() + from + count);
-  };
   const auto albedo = findGuide(file, color->prefix, {"Denoising Albedo", "albedo", "Albedo", "alb"});
-  if (albedo && !has(kGuideChannels[0])) appendLayer(result, file, *albedo, names(0, 3));
+  if (albedo && !taken.has(kGuideChannels[0]))
+    taken.takeLayer(file, *albedo, {kGuideChannels[0], kGuideChannels[1], kGuideChannels[2]});
   const auto normal = findGuide(
       file, color->prefix,
       {"Denoising Normal", "normal", "sh_normal", "nn", "sn", "normals", "Ns", "N", "Normal", "geo_normal"});
-  if (normal && !has(kGuideChannels[4])) appendLayer(result, file, *normal, names(4, 3));
-  if (findChannel(file, "depth.Z") && !has(kGuideChannels[7]))
-    appendAs(result, file, "depth.Z", kGuideChannels[7]);
-  if (const auto depth = findChannel(result, kGuideChannels[7]); depth && !has(kGuideChannels[3]))
-    appendChannels(result, alpha ? onlyChannels(result, {"A"}) : coverageOf(result, *depth), names(3, 1));
+  if (normal && !taken.has(kGuideChannels[4]))
+    taken.takeLayer(file, *normal, {kGuideChannels[4], kGuideChannels[5], kGuideChannels[6]});
+  if (findChannel(file, "depth.Z") && !taken.has(kGuideChannels[7])) taken.take("depth.Z", kGuideChannels[7]);
+  const bool lacksCoverage = taken.has(kGuideChannels[7]) && !taken.has(kGuideChannels[3]);
+  if (lacksCoverage && alpha) taken.take(file.channels[*alpha], kGuideChannels[3]);
+  Image result = onlyChannels(file, taken.from);
+  result.channels = taken.names;
+  if (const auto depth = findChannel(result, kGuideChannels[7]); lacksCoverage && !alpha)
+    appendChannels(result, coverageOf(result, *depth), {kGuideChannels[3]});
   return result;
 }
 

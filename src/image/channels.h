@@ -16,7 +16,7 @@ inline constexpr std::array kGuideChannels{"denoising.albedo.R", "denoising.albe
                                            "denoising.albedo.A", "denoising.normal.X", "denoising.normal.Y",
                                            "denoising.normal.Z", "denoising.depth.Z"};
 
-/// One observation of the variance (observedVariance() of render/noise.h).
+/// One observation of the variance (observedVariance() of film/noise.h).
 inline constexpr const char* kObservedChannel = "denoising.observed.Y";
 
 /// The index of the channel of that exact name.

@@ -39,14 +39,10 @@ bool ViewDenoiser::drawGuides(glm::ivec2 size, int samples, Tracer& tracer, cons
                       (memory.guideSamples >= kFewLayerSamples || wanted < kGuideStep * memory.guideSamples);
   if (enough) return true;
   Image guides{size.x, size.y, {}, {}, {}};
-  bool complete = true;
-  for (const ShaderVariant& variant : tracer.features) {
-    complete =
-        addLayer(guides, *tracer.renderer, variant, view, wanted, [&](double) { return goOn(); }).complete;
-    if (!complete) break;
-  }
+  const LayerDraw layer = addLayer(guides, *tracer.renderer, tracer.features.front(), view, wanted,
+                                   [&](double) { return goOn(); });
   tracer.renderer->use(tracer.variant);
-  if (!complete) return false;
+  if (!layer.complete) return false;
   memory.guides = std::move(guides);
   memory.guideSamples = wanted;
   return true;

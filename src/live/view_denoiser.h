@@ -18,8 +18,8 @@ double filteredShare(double samples);
 
 /// What a side keeps from picture to picture.
 struct SideMemory {
-  Image guides;          ///< albedo, normal and depth of first hits of the present view; may be empty
-  int guideSamples = 0;  ///< of these
+  Image guides;                        ///< kGuideChannels of the present view; may be empty
+  int guideSamples = 0;                ///< of these
   std::optional<SeenPicture> past;     ///< of the view before
   std::optional<SeenPicture> present;  ///< published last, before it was filtered
 
@@ -34,8 +34,9 @@ class ViewDenoiser {
       : shaderFolder_(shaderFolder), oidn_(oidn) {}
 
   /// R, G, B and A as they are to be shown. `drawn` has R, G, B, A, samples.Y and variance.Y of so many
-  /// samples a pixel, drawn by `tracer`, whose layers are drawn where they are not there yet. By Open Image
-  /// Denoise, which must be there, or by variance. Nothing when goOn() said no. Throws RenderError.
+  /// samples a pixel, drawn by `tracer`, whose one feature is the guides, drawn where they are not there yet.
+  /// By Open Image Denoise, which must be there, or by variance. Nothing when goOn() said no. Throws
+  /// RenderError.
   std::optional<Image> shown(const Image& drawn, int samples, const RenderOptions& options, bool byOidn,
                              Tracer& tracer, const View& view, SideMemory& memory,
                              const std::function<bool()>& goOn);

@@ -24,10 +24,6 @@ namespace {
 constexpr const char* kFilterAttribute = "fragtrace:denoise";
 std::vector<std::string> noisyNames() { return {"noisy.R", "noisy.G", "noisy.B"}; }
 
-bool hasGuides(const RenderOptions& options) {
-  return std::ranges::find(options.aovFeatures, Feature::Guides) != options.aovFeatures.end();
-}
-
 /// Whether the channel is there for the filter alone.
 bool isForTheFilter(const std::string& channel, const RenderOptions& options) {
   if (channel == "samples.Y") return !options.aovSamples;
@@ -36,6 +32,10 @@ bool isForTheFilter(const std::string& channel, const RenderOptions& options) {
 }
 
 }  // namespace
+
+bool hasGuides(const RenderOptions& options) {
+  return std::ranges::find(options.aovFeatures, Feature::Guides) != options.aovFeatures.end();
+}
 
 std::string whyNotDenoised(const RenderOptions& options) {
   if (options.denoise == Denoise::None) return "--denoise";

@@ -2,7 +2,6 @@
 // `render --denoise`: what it needs beside the picture, and what becomes of both.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -13,6 +12,9 @@
 #include "stage/render_options.h"
 
 namespace fragtrace {
+
+/// Whether the layers that are asked for hold what filters tell surfaces apart by (Feature::Guides).
+bool hasGuides(const RenderOptions& options);
 
 /// Why such a picture is not denoised though that is asked for; empty: it is.
 std::string whyNotDenoised(const RenderOptions& options);

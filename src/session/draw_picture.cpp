@@ -15,8 +15,8 @@ namespace {
 
 /// Whether somebody will ask for the picture's noise: our own filter, now or when the file is read again.
 bool needsObservation(const RenderOptions& options) {
-  const std::vector<Feature>& layers = withGuides(options).aovFeatures;
-  return withGuides(options).aovVariance && std::ranges::find(layers, Feature::Guides) != layers.end();
+  const RenderOptions drawn = withGuides(options);
+  return drawn.aovVariance && hasGuides(drawn);
 }
 
 }  // namespace

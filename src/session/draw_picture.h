@@ -18,8 +18,9 @@ struct Drawing {
   std::vector<double> observed;  ///< observedVariance(); may be empty
 };
 
-/// Adds samples up to options.spp to an empty film and reads it; looks at it on the way where it is to be
-/// filtered, which tells how fast the sequence converges. False when progress stopped it.
+/// Adds samples up to options.spp to an empty film and reads it. Looks at it on the way, which tells how fast
+/// the sequence converges, where the picture is filtered or a file of it may be (`--aov denoising`). False
+/// when progress stopped it.
 bool drawAllSamples(Renderer& renderer, Film& film, const RenderOptions& options, const View& view,
                     RenderTimes& times, const Renderer::Progress& progress, Drawing& drawing);
 

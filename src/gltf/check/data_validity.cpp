@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gltf/check/validity.h"
+#include "gltf/read/component_types.h"
 #include "gltf/read/json_parts.h"
 
 namespace fragtrace {
@@ -14,28 +15,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr unsigned kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123,
-                   kUnsignedInt = 5125, kFloat = 5126;
-
-/// Accessors of others are warned about when they are emptied.
-bool isComponentType(unsigned type) {
-  return (type >= kByte && type <= kUnsignedShort) || type == kUnsignedInt || type == kFloat;
-}
-
 unsigned componentTypeOf(const json& accessor) { return accessor.value("componentType", 0u); }
 
-uint64_t componentSizeOf(const json& accessor) {
-  switch (componentTypeOf(accessor)) {
-    case kByte:
-    case kUnsignedByte:
-      return 1;
-    case kShort:
-    case kUnsignedShort:
-      return 2;
-    default:
-      return 4;
-  }
-}
+uint64_t componentSizeOf(const json& accessor) { return componentSize(componentTypeOf(accessor)); }
 
 bool isMatrix(const json& accessor) { return accessor.value("type", "").starts_with("MAT"); }
 

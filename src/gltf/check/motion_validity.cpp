@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "gltf/read/component_types.h"
 #include "gltf/read/json_parts.h"
 #include "gltf/read/motion.h"
 
@@ -13,8 +14,6 @@ namespace fragtrace {
 namespace {
 
 using nlohmann::json;
-
-constexpr unsigned kFloatType = 5126;
 
 /// Where nodes stand in their trees. What is in a loop, which is refused later, stands alone.
 struct Ancestry {
@@ -114,7 +113,7 @@ class MotionChecker {
     const json& matrices = accessorAt(memberOf(skin, "inverseBindMatrices"));
     if (!matrices.empty()) {
       const std::string there = place + "/inverseBindMatrices";
-      if (matrices["type"] != "MAT4" || matrices["componentType"] != kFloatType)
+      if (matrices["type"] != "MAT4" || matrices["componentType"] != kFloat)
         warn(there, "are not floats of type MAT4, which is refused where a node has the skin");
       if (matrices["count"].get<size_t>() < joints.size())
         warn(there, "are fewer than the joints, which is refused where a node has the skin");
@@ -165,7 +164,7 @@ class MotionChecker {
       warn(place + "/interpolation",
            inQuotes(interpolation) +
                " is no interpolation, which is refused where the animation is asked for");
-    if (input["type"] != "SCALAR" || input["componentType"] != kFloatType)
+    if (input["type"] != "SCALAR" || input["componentType"] != kFloat)
       warn(place + "/input",
            "is not of floats of type SCALAR, which is refused where the animation is asked for");
     if (isCubic && input["count"].get<size_t>() < 2)
@@ -208,7 +207,7 @@ class MotionChecker {
     const std::string type = path == "weights" ? "SCALAR" : path == "rotation" ? "VEC4" : "VEC3";
     const bool mayBeInteger = path == "rotation" || path == "weights";
     if (output["type"] != type ||
-        (output["componentType"] != kFloatType && !(mayBeInteger && output.value("normalized", false))))
+        (output["componentType"] != kFloat && !(mayBeInteger && output.value("normalized", false))))
       warn(place,
            "has an output of a type that glTF does not allow for its target; it is refused where the "
            "animation is asked for");

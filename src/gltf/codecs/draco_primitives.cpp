@@ -4,6 +4,7 @@
 #include <string>
 
 #include "gltf/codecs/compression.h"
+#include "gltf/read/component_types.h"
 #include "scene/scene.h"
 
 namespace fragtrace {
@@ -12,12 +13,6 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kExtension = "KHR_draco_mesh_compression";
-
-uint64_t componentSize(uint32_t componentType) {
-  constexpr uint32_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123;
-  if (componentType == kByte || componentType == kUnsignedByte) return 1;
-  return componentType == kShort || componentType == kUnsignedShort ? 2 : 4;
-}
 
 uint64_t paddedTo4(uint64_t bytes) { return (bytes + 3) / 4 * 4; }
 
@@ -132,7 +127,6 @@ class PrimitiveDecoder {
   /// Accessors may be shared with primitives that are not compressed: the primitive gets its own.
   void putDecoded(size_t buffer) {
     constexpr int kTriangles = 4;
-    constexpr uint32_t kUnsignedInt = 5125;
     json indices = {{"componentType", kUnsignedInt}, {"type", "SCALAR"}, {"count", request_.indexCount}};
     uint64_t offset = request_.indexCount * sizeof(uint32_t);
     primitive_["indices"] = addAccessor(std::move(indices), buffer, 0, offset);

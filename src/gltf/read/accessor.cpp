@@ -7,6 +7,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "gltf/read/component_types.h"
 #include "scene/scene.h"
 
 namespace fragtrace {
@@ -55,12 +56,6 @@ void withComponentType(int componentType, const Use& use) {
   }
 }
 
-size_t componentSize(int componentType) {
-  size_t size = 0;
-  withComponentType(componentType, [&](auto component) { size = sizeof(component); });
-  return size;
-}
-
 /// Calls store(element, component, value) for everything that lies in memory.
 template <typename Store>
 void forEachComponent(const Elements& elements, const Store& store) {
@@ -80,7 +75,7 @@ void forEachComponent(const Elements& elements, const Store& store) {
 Elements checkedRange(const Document& document, const std::string& place, int view, size_t offset,
                       Elements elements, bool useStride) {
   const tinygltf::BufferView& bufferView = document.model.bufferViews.at(size_t(view));
-  const size_t size = componentSize(elements.componentType) * size_t(elements.components);
+  const size_t size = componentSize(unsigned(elements.componentType)) * size_t(elements.components);
   const size_t declared = useStride ? bufferView.byteStride : 0;
   elements.stride = declared != 0 ? declared : size;
   const std::span<const uint8_t> bytes = bytesOf(document, view);
@@ -110,7 +105,7 @@ Elements elementsOf(const Document& document, int index) {
   elements.normalized = accessor.normalized;
   if (accessor.count == 0)
     document.diagnostics.refuse(place, "has no elements, or a type that glTF does not know");
-  if (componentSize(accessor.componentType) == 0) {
+  if (!isComponentType(unsigned(accessor.componentType))) {
     document.diagnostics.refuse(place + "/componentType",
                                 std::to_string(accessor.componentType) + " is not a component type");
   }
