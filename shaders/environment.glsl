@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The environment: an equirectangular map, bilinear; drawn from by inversion of its luminance, so that what is stratified stays so.
 
-/// Texture coordinates of a direction (docs/conventions.md); the rotation is undone first.
+/// Texture coordinates of a direction (docs/design/conventions.md); the rotation is undone first.
 vec2 environmentCoordinates(vec3 d) {
   float c = frame.environment.z;
   float s = frame.environment.w;

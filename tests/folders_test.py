@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The order of the folders of src: a file includes what is in its own folder or in one that is named before (docs/architecture.md).
+"""The order of the folders of src: a file includes what is in its own folder or in one that is named before (docs/design/architecture.md).
 
 usage: folders_test.py SOURCE_FOLDER"""
 import re

@@ -27,7 +27,7 @@ std::vector<double> independentVariance(const FilmPixels& film);
 
 /// Variance of the luminance of every pixel's mean over both halves. A pixel's samples say what independent
 /// ones would give; the squared differences between the halves say, over a window about the pixel, how much
-/// of that is left by the sampler, whose points are not independent (docs/accuracy.md).
+/// of that is left by the sampler, whose points are not independent (docs/design/accuracy.md).
 std::vector<double> varianceOfMean(const Halves& halves);
 
 /// One observation of the variance of each pixel's mean luminance: its squared distance from what the first

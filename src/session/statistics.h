@@ -75,7 +75,7 @@ std::string statisticsText(const Statistics& statistics);
 
 double megaPathsPerSecond(const Statistics& statistics);
 double samplesPerPixel(const Statistics& statistics);
-/// What --bounces has cut of a camera path's throughput, on average (docs/conventions.md).
+/// What --bounces has cut of a camera path's throughput, on average (docs/design/conventions.md).
 double cutShare(const Statistics& statistics);
 
 }  // namespace fragtrace

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """`render --denoise variance` does no harm: in no scene and at no number of samples is the filtered picture farther from the truth than the noisy one.
 
-Eight pictures with different seeds: the truth for each is the mean of the other seven of most samples. What noise that has, the same eight tell; it is taken
+Sixteen pictures with different seeds: the truth for each is the mean of the other fifteen of most samples. What noise that has, the same sixteen tell; it is taken
 off both errors."""
 import math
 import statistics
@@ -12,10 +12,10 @@ from support import SCENES, Case, Exr, main
 
 SIZE = "64,64"
 SAMPLES = (16, 64, 256, 1024)
-SEEDS = range(8)
+SEEDS = range(16)
 MOST = 1.02        # of filtered over noisy error
-STUDENT = 1.895    # 95 % of Student's t with seven degrees of freedom, one-sided
-DARK = 0.01        # of the mean, squared in relative errors as docs/conventions.md has it
+STUDENT = 1.753    # 95 % of Student's t with fifteen degrees of freedom, one-sided
+DARK = 0.01        # of the mean, squared in relative errors as docs/design/conventions.md has it
 SKY = ["--hdri-file", SCENES / "sky.pfm"]
 PICTURES = {
     "cornell-box": [],

@@ -43,7 +43,7 @@ def from_lamp(x, y, corners):
 
 
 def from_sky(rows, parts=6):
-    """Irradiance of a plane that faces +z under a map that is filtered bilinearly (docs/conventions.md)."""
+    """Irradiance of a plane that faces +z under a map that is filtered bilinearly (docs/design/conventions.md)."""
     height, width = len(rows), len(rows[0])
     total = 0.0
     for j in range(height * parts):
@@ -149,7 +149,7 @@ class KnownLight(Case):
         self.near(sum(pixel[2] for row in picture for pixel in row) / 128**2 / math.pi, share, 4 * error)
 
     def test_rough_white_metal_in_white_surroundings(self):
-        """Single scattering loses half of the light; tables give it back within 0.5 % (docs/accuracy.md, Energy)."""
+        """Single scattering loses half of the light; tables give it back within 0.5 % (docs/design/accuracy.md, Energy)."""
         picture = self.in_white(quad({"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 1}}), "--resolution", "16,16", "--spp", 1024)
         self.near(sum(pixel[0] for row in picture[4:12] for pixel in row[4:12]) / 8**2 / math.pi, 1, 5e-3)
 

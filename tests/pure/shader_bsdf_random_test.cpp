@@ -128,7 +128,7 @@ TEST(ShaderBsdfAtRandom, NoWhiteMetalOrGlassGivesMoreThanItGets) {
       const Boundary b = randomBoundary(draw, kConserving[k % 3], k % 4 == 0 ? 0.0 : 0.1, true);
       const Bsdf& side = k % 2 == 0 ? b.front : b.back;
       const dvec3 albedo = albedoByDrawing(side, draw.directionAbove());
-      // Compensation follows a table and a fit, good to 1 % (docs/accuracy.md).
+      // Compensation follows a table and a fit, good to 1 % (docs/design/accuracy.md).
       const double most = glsl_variant::kCompensation && k % 3 == 0 ? 1.01 : 1.002;
       EXPECT_LE(std::max({albedo.x, albedo.y, albedo.z}), most) << b.name;
       EXPECT_GE(albedo.y, glsl_variant::kCompensation && k % 3 == 0 ? 0.99 : 0.3) << b.name;

@@ -69,7 +69,7 @@ double densityAlong(const dvec3& d) {
   return glsl_double::environmentDensity(glsl_double::environmentAlong(d), d);
 }
 
-/// docs/conventions.md: u from atan2(z, x), v from acos(y).
+/// docs/design/conventions.md: u from atan2(z, x), v from acos(y).
 dvec3 directionAt(double u, double v) {
   const double phi = (u - 0.5) * 2.0 * M_PI;
   return {std::sin(v * M_PI) * std::cos(phi), std::cos(v * M_PI), std::sin(v * M_PI) * std::sin(phi)};

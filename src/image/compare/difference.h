@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a picture is from its reference, by the formulas of docs/conventions.md.
+// How far a picture is from its reference, by the formulas of docs/design/conventions.md.
 #pragma once
 
 #include <optional>
