@@ -62,7 +62,7 @@ TriangleHit intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2
   float inverse = 1.0f / sum;
   h.t = (u * a.z + v * b.z + w * c.z) * s.z * inverse;
   h.hit = (positive || negative) && sum != 0.0f;
-  // Edge functions of a triangle that is small beside its distance from the ray are rounding (docs/design/accuracy.md, "Zero from far away").
+  // Edge functions of a triangle that is small beside its distance from the ray are rounding (docs/design/numerics.md, "Zero from far away").
   h.hit = h.hit && !zeroBeyond(ax, bx, cx) && !zeroBeyond(ay, by, cy);
   h.front = (s.z > 0.0f) == (sum > 0.0f);
   h.weight1 = v * inverse;
@@ -71,7 +71,7 @@ TriangleHit intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2
 }
 
 /// Distance along the ray to the plane dot(normal, x) = distance of a triangle, within the depths of its vertices. The weighted depths of a sliver are
-/// rounding times its aspect ratio: a ray that starts beside it could find it behind (docs/design/accuracy.md, "Distance along the ray"). Farther away than a 64th of those
+/// rounding times its aspect ratio: a ray that starts beside it could find it behind (docs/design/numerics.md, "Distance along the ray"). Farther away than a 64th of those
 /// depths, `weighted` is kept where it is the better one: off by eps L^3 / 4A, the plane's mostly by less than 1.5 eps times the largest coordinate over the cosine to the normal.
 float distanceToPlane(vec3 origin, vec3 direction, RayShear s, vec3 v0, vec3 v1, vec3 v2, vec3 normal, float distance, float weighted) {
   float a = rotateToAxis(v0 - origin, s.axis).z * s.z;

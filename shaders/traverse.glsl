@@ -128,7 +128,7 @@ struct MeshRay {
   float start;  // distance along the ray at which the origin lies
 };
 
-/// The ray begins where it comes near the mesh, so that rounding from there on is of the mesh's size (docs/design/accuracy.md).
+/// The ray begins where it comes near the mesh, so that rounding from there on is of the mesh's size (docs/design/numerics.md).
 MeshRay rayInMesh(int instance, vec3 origin, vec3 direction) {
   InstanceSpace s = loadInstanceSpace(instance);
   vec3 from = origin - s.place;
@@ -199,7 +199,7 @@ Traversal changeSpace(Traversal s) {
 
 /// One step from an inner node: to the nearer child that is hit, or to what the stack holds. `there` false: nothing changes.
 /// kFrontToBack: the nearer child first, boxes behind the hit are discarded; else children in fixed order, and only the ray's own limit discards. Boxes are
-/// padded when packed, so that rounding in the slab test cannot lose one that holds a hit (docs/design/accuracy.md).
+/// padded when packed, so that rounding in the slab test cannot lose one that holds a hit (docs/design/numerics.md).
 Traversal stepNode(Traversal s, TreeRay ray, float rayLimit, TreeFrame tree, bool there) {
   NodePair n = loadNode(there ? s.node : 0);
   float limit = kFrontToBack ? s.t : rayLimit;

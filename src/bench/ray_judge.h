@@ -15,7 +15,7 @@ enum class RayFault : uint8_t { None, FalseHit, Behind, Missed };
 
 /// What a ray may pass beside a primitive that it hits, or inside of one that it misses: so many units of
 /// 2^-24 of the largest coordinate of ray, hit and primitive. The distance of a hit may be off by that times
-/// one plus the aspect of the triangle as the ray sees it (docs/design/accuracy.md).
+/// one plus the aspect of the triangle as the ray sees it (docs/design/numerics.md).
 inline constexpr double kRayRoundings = 16.0;
 
 /// Compares a hit with that of double precision (ExactTracer), which tells where the ray is well inside of a

@@ -54,7 +54,7 @@ BoundsDouble boxOf(const Instance& instance, const std::vector<Bounds>& parts) {
 }
 
 /// Widens a box by what rounding moves a ray when it is taken into the mesh's space, from anywhere in a scene
-/// of that size and its surroundings (docs/design/accuracy.md), and rounds it outwards.
+/// of that size and its surroundings (docs/design/numerics.md), and rounds it outwards.
 Bounds padded(const BoundsDouble& box, const Instance& instance, double sceneSize) {
   constexpr double kUnit = 0x1p-24;
   constexpr float kInfinity = std::numeric_limits<float>::infinity();

@@ -160,7 +160,7 @@ class TraversalText {
   }
 
   /// Whether the face is so small beside the mesh, or some corner's sides so close, that the edge functions
-  /// are rounding for rays that pass far away (docs/design/accuracy.md, "Zero from far away").
+  /// are rounding for rays that pass far away (docs/design/numerics.md, "Zero from far away").
   bool isTiny(const LiteralFace& f) const {
     constexpr double kShare = 0x1p-18;
     constexpr double kSmall = 0x1p-10;

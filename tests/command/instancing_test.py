@@ -49,7 +49,7 @@ class Instancing(Case):
         write_field(self.folder, "field", 64, 500, uneven=True)
         shared, flat = self.both("--spp", 1, "--stage", "shadows", layers="depth,normal")
         self.same(shared, flat, "depth.Z", 2e-5, 3)
-        # Normals are interpolated before or after they are transformed (docs/design/accuracy.md).
+        # Normals are interpolated before or after they are transformed (docs/design/numerics.md).
         for layer in ("normal.X", "normal.Y", "normal.Z"):
             self.same(shared, flat, layer, 3e-2, 10)
         self.same(shared, flat, "R", 3e-2, 60)

@@ -91,7 +91,7 @@ def velvet_albedo(alpha, direction, steps=64):
 
 
 def bent():
-    """Lambert under an interpolated normal, faded towards the horizon of the triangle (docs/design/accuracy.md, Shading)."""
+    """Lambert under an interpolated normal, faded towards the horizon of the triangle (docs/design/numerics.md, Shading)."""
     cosine = sum(n * l for n, l in zip(NORMAL, LIGHT))
     g = min(1, LIGHT[2] / (cosine * NORMAL[2]))
     return cosine * g * (1 + g - g * g)

@@ -252,7 +252,7 @@ TEST(ShaderInstances, ARayNeverHitsTheTriangleOfTheInstanceItLeaves) {
 }
 
 TEST(ShaderInstances, TheOffsetIsThatOfACopyOrSomeTimesIt) {
-  // docs/design/accuracy.md: twice for an instance that is not turned, up to nine times for one that is.
+  // docs/design/numerics.md: twice for an instance that is not turned, up to nine times for one that is.
   Draw draw(61);
   for (int i = 0; i < 200; ++i) {
     const bool isTurned = i % 2 == 1;

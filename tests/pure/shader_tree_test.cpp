@@ -51,7 +51,7 @@ TEST(ShaderTree, DecodedBoxesHoldThePackedOnes) {
         for (int axis = 0; axis < 3; ++axis) {
           const double origin = p.grid.origin[axis];
           const double cell = p.grid.cell[axis];
-          // An eighth of a cell is left for the rounding of the slab test (docs/design/accuracy.md).
+          // An eighth of a cell is left for the rounding of the slab test (docs/design/numerics.md).
           constexpr double kPadding = 0.125 - 1e-6;
           EXPECT_LE(origin + cell * (low[side][axis] + kPadding), box.minimum[axis]) << named.name;
           EXPECT_GE(origin + cell * (high[side][axis] - kPadding), box.maximum[axis]) << named.name;

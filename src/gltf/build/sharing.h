@@ -28,7 +28,7 @@ struct PlacedMeshes {
 
 /// Parts what is to be copied from what is to be shared. Never shared are meshes that shine, whose triangles
 /// are lights of their own, and what is flattened or scaled so unevenly that rounding would show
-/// (docs/design/accuracy.md).
+/// (docs/design/numerics.md).
 PlacedMeshes chooseSharing(std::vector<PrimitiveInstance> instances, Instancing wanted,
                            const std::vector<Material>& materials, uint64_t limit);
 
