@@ -13,7 +13,7 @@ namespace fragtrace {
 std::string whyNoLiterals(const Scene& scene, const GpuScene& packed);
 
 /// Whether drawing so many paths with every triangle as a literal takes less time than walking the tree, by
-/// the expected instructions of both and the longer compilation (docs/design/architecture.md). Never for scenes with
+/// the expected instructions of both and the longer compilation (docs/design/traversal.md). Never for scenes with
 /// spheres, or whose faces, materials and emitters are too many to choose from.
 bool paysAsLiterals(const Scene& scene, const Bvh& bvh, const GpuScene& packed, double paths);
 
