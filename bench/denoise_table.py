@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The tables and charts of docs/denoise.md: what a filter brings, in error and in time.
+"""The tables and charts of docs/design/denoising.md: what a filter brings, in error and in time.
 
 usage: denoise_table.py FRAGTRACE --assets DIR --out FOLDER [--filters variance,oidn] [--names NAME,...] [--spp N] [--repetitions N] [--references] [--print]
 DIR holds scenes/ and env/lightroom_14b.hdr. Seven scenes of 250 x 250 pixels, 1 to --spp samples per pixel, --repetitions seeds, by `bench error --denoise`, against

@@ -79,7 +79,7 @@ struct Taken {
 };
 
 /// 1 where a pixel shows a surface. Pixels that show one in part get 1, too, which changes the light of a
-/// filtered pixel by 0.3 % on average at most (docs/denoise.md).
+/// filtered pixel by 0.3 % on average at most (docs/design/denoising.md).
 Image coverageOf(const Image& file, size_t depth) {
   Image coverage{file.width, file.height, {"A"}, {}, {}};
   for (size_t first = 0; first < file.values.size(); first += file.channelCount())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture filtered by Open Image Denoise (docs/denoise.md).
+// A picture filtered by Open Image Denoise (docs/design/denoising.md).
 #pragma once
 
 #include <cstdint>

@@ -13,8 +13,8 @@ namespace fragtrace {
 std::string whyNoLiterals(const Scene& scene, const GpuScene& packed);
 
 /// Whether drawing so many paths with every triangle as a literal takes less time than walking the tree, by
-/// the expected instructions of both and the longer compilation (docs/design/traversal.md). Never for scenes with
-/// spheres, or whose faces, materials and emitters are too many to choose from.
+/// the expected instructions of both and the longer compilation (docs/design/traversal.md). Never for scenes
+/// with spheres, or whose faces, materials and emitters are too many to choose from.
 bool paysAsLiterals(const Scene& scene, const Bvh& bvh, const GpuScene& packed, double paths);
 
 /// Whether a tree without the large triangles, which are tested first, takes less work than one of all.

@@ -9,7 +9,8 @@ namespace fragtrace {
 BoxGrid makeGrid(const Bounds& bounds);
 
 /// Inner nodes with both children's boxes, 16 bits a coordinate, rounded outwards and padded by 1/8 of a cell
-/// against the rounding of the slab test (docs/design/numerics.md). Trees of shared meshes have grids of their own.
+/// against the rounding of the slab test (docs/design/numerics.md). Trees of shared meshes have grids of
+/// their own.
 Words packNodes(const Bvh& bvh, const BoxGrid& grid);
 
 /// Leaves as structure of arrays, padded with empty ones to a multiple of kLeafBlock.

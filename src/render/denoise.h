@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The variance filter: a joint bilateral filter whose width in each pixel follows the noise that its samples
-// show (docs/denoise.md).
+// show (docs/design/denoising.md).
 #pragma once
 
 #include <functional>

@@ -88,7 +88,8 @@ struct PerlinNormal {
 /// Stands for an index that reflects all: the reflectance seen from above is within 4e-6 of 1.
 inline constexpr float kInfiniteIor = 1e6f;
 
-/// Material of glTF 2.0 with the extensions named in docs/design/conventions.md; defaults are the specification's.
+/// Material of glTF 2.0 with the extensions named in docs/design/conventions.md; defaults are the
+/// specification's.
 struct Material {
   std::string name;
   glm::vec4 baseColorFactor{1.0f};

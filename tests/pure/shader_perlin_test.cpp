@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// shaders/perlin.glsl against the height field that docs/design/conventions.md defines, written down here a second
-// time.
+// shaders/perlin.glsl against the height field that docs/design/conventions.md defines, written down here a
+// second time.
 #include <gtest/gtest.h>
 
 #include <cmath>
