@@ -30,7 +30,7 @@ def compare_pictures(program, picture, reference):
 
 
 def measure(program, scenes, rounds, spp, iterative=True):
-    """{(traversal, mesh): milliseconds a frame, round by round}; the iterative one has one round. Raises where pictures differ."""
+    """{(traversal, mesh): milliseconds per frame, round by round}; the iterative one has one round. Raises where pictures differ."""
     times = {}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

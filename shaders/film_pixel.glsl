@@ -13,7 +13,7 @@ struct FilmPixel {
   uint flags;
 };
 
-/// Infinite, NaN, or so large (2^96) that the most samples a pixel can have would add up to infinity; told by its bits, since a
+/// Infinite, NaN, or so large (2^96) that the most samples per pixel can have would add up to infinity; told by its bits, since a
 /// compiler may take isnan() for false.
 bool isNonfinite(float x) { return (floatBitsToUint(x) & 0x7f800000u) >= 0x6f800000u; }
 

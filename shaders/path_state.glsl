@@ -40,8 +40,42 @@ struct Path {
 };
 
 const int kPathRows = int(kInstances ? kTwoLevelPathStateRows : kPathStateRows);
+const int kInstanceRow = 11;  // in scenes of instances
+const int kStackRow = kInstances ? 12 : 11;
 
 layout(std430, binding = kPathStatesBinding) restrict buffer PathStatesBlock { uvec4 pathStates[]; };
+
+void saveStack(Stack s, int r) {
+  pathStates[r] = uvec4(s.e0);
+  pathStates[r + 1] = uvec4(s.e1);
+  if (kStackSize > 8) pathStates[r + 2] = uvec4(s.e2);
+  if (kStackSize > 12) pathStates[r + 3] = uvec4(s.e3);
+  if (kStackSize > 16) pathStates[r + 4] = uvec4(s.e4);
+  if (kStackSize > 20) pathStates[r + 5] = uvec4(s.e5);
+  if (kStackSize > 24) pathStates[r + 6] = uvec4(s.e6);
+  if (kStackSize > 28) pathStates[r + 7] = uvec4(s.e7);
+  if (kStackSize > 32) pathStates[r + 8] = uvec4(s.e8);
+  if (kStackSize > 36) pathStates[r + 9] = uvec4(s.e9);
+  if (kStackSize > 40) pathStates[r + 10] = uvec4(s.e10);
+  if (kStackSize > 44) pathStates[r + 11] = uvec4(s.e11);
+}
+
+Stack loadStack(int r) {
+  Stack s = emptyStack();
+  s.e0 = ivec4(pathStates[r]);
+  s.e1 = ivec4(pathStates[r + 1]);
+  if (kStackSize > 8) s.e2 = ivec4(pathStates[r + 2]);
+  if (kStackSize > 12) s.e3 = ivec4(pathStates[r + 3]);
+  if (kStackSize > 16) s.e4 = ivec4(pathStates[r + 4]);
+  if (kStackSize > 20) s.e5 = ivec4(pathStates[r + 5]);
+  if (kStackSize > 24) s.e6 = ivec4(pathStates[r + 6]);
+  if (kStackSize > 28) s.e7 = ivec4(pathStates[r + 7]);
+  if (kStackSize > 32) s.e8 = ivec4(pathStates[r + 8]);
+  if (kStackSize > 36) s.e9 = ivec4(pathStates[r + 9]);
+  if (kStackSize > 40) s.e10 = ivec4(pathStates[r + 10]);
+  if (kStackSize > 44) s.e11 = ivec4(pathStates[r + 11]);
+  return s;
+}
 
 void savePath(Path p, int index) {
   int r = index * kPathRows;
@@ -58,66 +92,31 @@ void savePath(Path p, int index) {
   Traversal t = p.traversal;
   pathStates[r + 9] = uvec4(uint(t.node), floatBitsToUint(t.t), uint(t.slot), uint(kHeatmap ? t.visits : t.pastSlot));
   pathStates[r + 10] = uvec4(floatBitsToUint(p.hitWeights), floatBitsToUint(t.weights));
-  if (kIterative || kLiterals) return;
-  Stack s = t.stack;
-  pathStates[r + 11] = uvec4(ivec4(s.s0, s.s1, s.s2, s.s3));
-  pathStates[r + 12] = uvec4(ivec4(s.s4, s.s5, s.s6, s.s7));
-  if (kStackSize > 8) pathStates[r + 13] = uvec4(ivec4(s.s8, s.s9, s.s10, s.s11));
-  if (kStackSize > 12) pathStates[r + 14] = uvec4(ivec4(s.s12, s.s13, s.s14, s.s15));
-  if (kStackSize > 16) {
-    pathStates[r + 15] = uvec4(ivec4(s.s16, s.s17, s.s18, s.s19));
-    pathStates[r + 16] = uvec4(ivec4(s.s20, s.s21, s.s22, s.s23));
-  }
-  if (kStackSize > 24) {
-    pathStates[r + 17] = uvec4(ivec4(s.s24, s.s25, s.s26, s.s27));
-    pathStates[r + 18] = uvec4(ivec4(s.s28, s.s29, s.s30, s.s31));
-  }
-  if (kInstances) pathStates[r + 19] = uvec4(ivec4(p.hitInstance, t.instance, t.hitInstance, 0));
-  if (kStackSize > 32) {
-    pathStates[r + 20] = uvec4(ivec4(s.s32, s.s33, s.s34, s.s35));
-    pathStates[r + 21] = uvec4(ivec4(s.s36, s.s37, s.s38, s.s39));
-    pathStates[r + 22] = uvec4(ivec4(s.s40, s.s41, s.s42, s.s43));
-    pathStates[r + 23] = uvec4(ivec4(s.s44, s.s45, s.s46, s.s47));
-  }
+  if (kInstances) pathStates[r + kInstanceRow] = uvec4(ivec4(p.hitInstance, t.instance, t.hitInstance, 0));
+  if (!kIterative && !kLiterals) saveStack(t.stack, r + kStackRow);
 }
 
-Stack loadStack(int r) {
-  Stack s = emptyStack();
-  ivec4 a = ivec4(pathStates[r]);
-  s.s0 = a.x; s.s1 = a.y; s.s2 = a.z; s.s3 = a.w;
-  a = ivec4(pathStates[r + 1]);
-  s.s4 = a.x; s.s5 = a.y; s.s6 = a.z; s.s7 = a.w;
-  if (kStackSize > 8) {
-    a = ivec4(pathStates[r + 2]);
-    s.s8 = a.x; s.s9 = a.y; s.s10 = a.z; s.s11 = a.w;
+/// Without `past` and `tie`, which lie with the path.
+Traversal loadTraversal(int r) {
+  Traversal t;
+  uvec4 a = pathStates[r + 9];
+  t.node = int(a.x);
+  t.t = uintBitsToFloat(a.y);
+  t.slot = int(a.z);
+  t.visits = int(a.w);
+  t.pastSlot = int(a.w);
+  t.weights = uintBitsToFloat(pathStates[r + 10].zw);
+  t.instance = -1;
+  t.hitInstance = -1;
+  if (kInstances) {
+    ivec4 shown = ivec4(pathStates[r + kInstanceRow]);
+    t.instance = shown.y;
+    t.hitInstance = shown.z;
   }
-  if (kStackSize > 12) {
-    a = ivec4(pathStates[r + 3]);
-    s.s12 = a.x; s.s13 = a.y; s.s14 = a.z; s.s15 = a.w;
-  }
-  if (kStackSize > 16) {
-    a = ivec4(pathStates[r + 4]);
-    s.s16 = a.x; s.s17 = a.y; s.s18 = a.z; s.s19 = a.w;
-    a = ivec4(pathStates[r + 5]);
-    s.s20 = a.x; s.s21 = a.y; s.s22 = a.z; s.s23 = a.w;
-  }
-  if (kStackSize > 24) {
-    a = ivec4(pathStates[r + 6]);
-    s.s24 = a.x; s.s25 = a.y; s.s26 = a.z; s.s27 = a.w;
-    a = ivec4(pathStates[r + 7]);
-    s.s28 = a.x; s.s29 = a.y; s.s30 = a.z; s.s31 = a.w;
-  }
-  if (kStackSize > 32) {
-    a = ivec4(pathStates[r + 9]);
-    s.s32 = a.x; s.s33 = a.y; s.s34 = a.z; s.s35 = a.w;
-    a = ivec4(pathStates[r + 10]);
-    s.s36 = a.x; s.s37 = a.y; s.s38 = a.z; s.s39 = a.w;
-    a = ivec4(pathStates[r + 11]);
-    s.s40 = a.x; s.s41 = a.y; s.s42 = a.z; s.s43 = a.w;
-    a = ivec4(pathStates[r + 12]);
-    s.s44 = a.x; s.s45 = a.y; s.s46 = a.z; s.s47 = a.w;
-  }
-  return s;
+  t.steps = 0;
+  t.stack = emptyStack();
+  if (!kIterative && !kLiterals) t.stack = loadStack(r + kStackRow);
+  return t;
 }
 
 Path loadPath(int index) {
@@ -144,7 +143,7 @@ Path loadPath(int index) {
   p.density = f.w;
   f = uintBitsToFloat(pathStates[r + 4]);
   p.direction = f.xyz;
-  p.traversal.past = f.w;
+  float past = f.w;
   f = uintBitsToFloat(pathStates[r + 5]);
   p.shadowOrigin = f.xyz;
   p.shadowLimit = f.w;
@@ -160,27 +159,10 @@ Path loadPath(int index) {
   p.numbers.index = a.z;
   p.numbers.reversed = reverseBits(a.z);
   p.tie = uintBitsToFloat(a.w);
+  p.hitWeights = uintBitsToFloat(pathStates[r + 10].xy);
+  p.hitInstance = kInstances ? int(pathStates[r + kInstanceRow].x) : -1;
+  p.traversal = loadTraversal(r);
+  p.traversal.past = past;
   p.traversal.tie = p.phase == kPhaseExtend ? p.tie : 0.0;
-  a = pathStates[r + 9];
-  p.traversal.node = int(a.x);
-  p.traversal.t = uintBitsToFloat(a.y);
-  p.traversal.slot = int(a.z);
-  p.traversal.visits = int(a.w);
-  p.traversal.pastSlot = int(a.w);
-  f = uintBitsToFloat(pathStates[r + 10]);
-  p.hitWeights = f.xy;
-  p.traversal.weights = f.zw;
-  p.hitInstance = -1;
-  p.traversal.instance = -1;
-  p.traversal.hitInstance = -1;
-  if (kInstances) {
-    ivec4 shown = ivec4(pathStates[r + 19]);
-    p.hitInstance = shown.x;
-    p.traversal.instance = shown.y;
-    p.traversal.hitInstance = shown.z;
-  }
-  p.traversal.steps = 0;
-  p.traversal.stack = emptyStack();
-  if (!kIterative && !kLiterals) p.traversal.stack = loadStack(r + 11);
   return p;
 }

@@ -52,150 +52,183 @@ uint samplesWanted(FilmPixel film) {
   return own > 0u ? min(own, uint(frame.picture.z)) : uint(frame.picture.z);
 }
 
-/// Advances one pixel (y from the bottom) until it has the samples wanted or has used the step budget of this draw.
-void tracePixel(ivec2 pixel) {
-  FilmPixel film = loadFilm(pixel);
-  // Always so, but compilers do not know: they would put the block's reads back to where they are used, inside the loop.
-  if (film.flags != 0xffffffffu) frame = frameBlock;
-  ivec2 place = pixel - frame.tile.xy;
-  int state = place.y * frame.tile.z + place.x;
-  uint wanted = samplesWanted(film);
-  int budget = frame.limits.z;
-  uint key = pixelKey(uint(pixel.x), uint(frame.picture.y - 1 - pixel.y), uint(frame.picture.w));
-  TreeFrame tree = treeFrame();
-  uint samplesBefore = film.samples;
-  uint raysBefore = film.rays;
-  Path p;
-  p.phase = kPhaseEnd;
-  p.traversal.steps = 0;
-  if (kResumable && (film.flags & kPixelSuspended) != 0u) p = loadPath(state);
-  film.flags &= ~kPixelSuspended;
-  bool tracing = p.phase != kPhaseEnd;
-  bool finished = false;
-  float cut = 0.0;
+/// A pixel on its way: what the loops below advance.
+struct PixelTrace {
+  FilmPixel film;
+  Path path;
+  bool tracing;     // a sample is under way
+  uint raysBefore;  // the film's, when that began
+  float cut;        // what kBounces took of the throughput
+};
 
-  while (kDirect && !finished && p.traversal.steps < budget) {
-    if (!tracing) {
-      if (film.samples >= wanted) {
-        finished = true;
-        break;
-      }
-      raysBefore = film.rays;
-      p = startPath(pixel, key, film.samples + uint(frame.sampling.x), p.traversal.steps);
+/// What stays the same meanwhile.
+struct PixelTask {
+  ivec2 pixel;  // y from the bottom
+  uint key;     // of its random numbers
+  uint wanted;  // samples
+  int budget;   // traversal steps in this draw
+};
+
+PixelTrace beginSample(PixelTrace t, PixelTask task) {
+  t.raysBefore = t.film.rays;
+  t.path = startPath(task.pixel, task.key, t.film.samples + uint(frame.sampling.x), t.path.traversal.steps);
+  t.tracing = true;
+  return t;
+}
+
+/// Whole rays only: a traversal that the budget ends begins its sample anew in the next draw.
+PixelTrace traceDirect(PixelTrace t, PixelTask task, TreeFrame tree) {
+  while (t.path.traversal.steps < task.budget) {
+    if (!t.tracing) {
+      if (t.film.samples >= task.wanted) break;
+      t = beginSample(t, task);
     }
-    // Step: find what the ray hits. A traversal that does not come to its end here begins its sample anew in the next draw.
-    tracing = true;
-    Traversal hit = beginTraversal(kFarAway, true, p.traversal.steps + 1);
-    if (kCreases) hit.tie = p.tie;
-    hit = traverse(p.origin, p.direction, kFarAway, hit, tree, budget, false);
-    p.traversal.steps = hit.steps;
+    // Step: find what the ray hits.
+    Traversal hit = beginTraversal(kFarAway, true, t.path.traversal.steps + 1);
+    if (kCreases) hit.tie = t.path.tie;
+    hit = traverse(t.path.origin, t.path.direction, kFarAway, hit, tree, task.budget, false);
+    t.path.traversal.steps = hit.steps;
     if (hit.node != kTraversalDone) break;
-    film.rays += 1u;
+    t.film.rays += 1u;
 
     // Step: shade it.
     if (hit.slot < 0) {
-      p = meetSurroundings(p);
+      t.path = meetSurroundings(t.path);
     } else {
-      p.hitSlot = hit.slot;
-      p.hitInstance = hit.hitInstance;
-      p.hitT = hit.t;
-      p.hitWeights = hit.weights;
-      p = shade(p);
+      t.path.hitSlot = hit.slot;
+      t.path.hitInstance = hit.hitInstance;
+      t.path.hitT = hit.t;
+      t.path.hitWeights = hit.weights;
+      t.path = shade(t.path);
     }
-    p.traversal.steps = hit.steps;
+    t.path.traversal.steps = hit.steps;
 
     // Step: is the light seen? Literals are tested for lanes without a shadow ray, too: a branch would save nothing.
     if (kShadows) {
-      bool waiting = p.phase == kPhaseShadow;
-      Traversal shadow = beginTraversal(p.shadowLimit, waiting, hit.steps);
-      shadow = traverse(p.shadowOrigin, p.shadowDirection, p.shadowLimit, shadow, tree, budget, true);
-      p.traversal.steps = shadow.steps;
+      bool waiting = t.path.phase == kPhaseShadow;
+      Traversal shadow = beginTraversal(t.path.shadowLimit, waiting, hit.steps);
+      shadow = traverse(t.path.shadowOrigin, t.path.shadowDirection, t.path.shadowLimit, shadow, tree, task.budget, true);
+      t.path.traversal.steps = shadow.steps;
       if (waiting && shadow.node != kTraversalDone) break;
-      film.rays += waiting ? 1u : 0u;
-      p.radiance += waiting && shadow.slot < 0 ? p.contribution : vec3(0.0);
-      p.phase = waiting ? p.after : p.phase;
+      t.film.rays += waiting ? 1u : 0u;
+      t.path.radiance += waiting && shadow.slot < 0 ? t.path.contribution : vec3(0.0);
+      t.path.phase = waiting ? t.path.after : t.path.phase;
     }
-    tracing = p.phase == kPhaseExtend;
-    if (!tracing) {
-      cut += cutThroughput(p);
-      film = addSample(film, p.radiance, p.alpha);
+    t.tracing = t.path.phase == kPhaseExtend;
+    if (!t.tracing) {
+      t.cut += cutThroughput(t.path);
+      t.film = addSample(t.film, t.path.radiance, t.path.alpha);
     }
   }
+  return t;
+}
 
-  while (!kDirect && !finished && p.traversal.steps < budget) {
-    // Step: begin the next sample.
-    if (!tracing) {
-      if (film.samples >= wanted) {
-        finished = true;
-        break;
-      }
-      raysBefore = film.rays;
-      p = startPath(pixel, key, film.samples + uint(frame.sampling.x), p.traversal.steps);
-      tracing = true;
+/// In phases, between which a path can be suspended, and for what a ray alone does not decide: holes, guides, heat maps.
+PixelTrace tracePhases(PixelTrace t, PixelTask task, TreeFrame tree) {
+  while (t.path.traversal.steps < task.budget) {
+    if (!t.tracing) {
+      if (t.film.samples >= task.wanted) break;
+      t = beginSample(t, task);
     }
-    p.traversal.steps += 1;
+    t.path.traversal.steps += 1;
 
     // Step: find what the path's ray hits.
-    if (p.phase == kPhaseExtend) {
-      p.traversal = traverse(p.origin, p.direction, kFarAway, p.traversal, tree, budget, false);
-      if (p.traversal.node == kTraversalDone) {
-        film.rays += 1u;
-        p.hitSlot = p.traversal.slot;
-        p.hitInstance = p.traversal.hitInstance;
-        p.hitT = p.traversal.t;
-        p.hitWeights = p.traversal.weights;
-        p.phase = kPhaseShade;
+    if (t.path.phase == kPhaseExtend) {
+      t.path.traversal = traverse(t.path.origin, t.path.direction, kFarAway, t.path.traversal, tree, task.budget, false);
+      if (t.path.traversal.node == kTraversalDone) {
+        t.film.rays += 1u;
+        t.path.hitSlot = t.path.traversal.slot;
+        t.path.hitInstance = t.path.traversal.hitInstance;
+        t.path.hitT = t.path.traversal.t;
+        t.path.hitWeights = t.path.traversal.weights;
+        t.path.phase = kPhaseShade;
       }
     }
 
     // Step: shade it; this may need a shadow ray.
     if (kHeatmap) {
-      if (p.phase == kPhaseShade) p.phase = kPhaseEnd;
-    } else if (p.phase == kPhaseShade) {
-      if (p.hitSlot < 0) {
-        p = meetSurroundings(p);
+      if (t.path.phase == kPhaseShade) t.path.phase = kPhaseEnd;
+    } else if (t.path.phase == kPhaseShade) {
+      if (t.path.hitSlot < 0) {
+        t.path = meetSurroundings(t.path);
       } else {
-        p = shade(p);
+        t.path = shade(t.path);
       }
     }
 
     // Step: is the light seen?
-    if (kShadows && p.phase == kPhaseShadow) {
-      p.traversal = traverse(p.shadowOrigin, p.shadowDirection, p.shadowLimit, p.traversal, tree, budget, !kAlpha);
-      if (p.traversal.node == kTraversalDone) {
-        film.rays += 1u;
-        p = settleShadow(p);
+    if (kShadows && t.path.phase == kPhaseShadow) {
+      t.path.traversal = traverse(t.path.shadowOrigin, t.path.shadowDirection, t.path.shadowLimit, t.path.traversal, tree,
+                                  task.budget, !kAlpha);
+      if (t.path.traversal.node == kTraversalDone) {
+        t.film.rays += 1u;
+        t.path = settleShadow(t.path);
       }
     }
 
     // Step: the sample is complete.
-    if (p.phase >= kPhaseEnd) {
-      cut += cutThroughput(p);
-      if (kHeatmap) p.radiance = vec3(float(p.traversal.visits));
+    if (t.path.phase >= kPhaseEnd) {
+      t.cut += cutThroughput(t.path);
+      if (kHeatmap) t.path.radiance = vec3(float(t.path.traversal.visits));
       if (kFeature == kFeatureGuides) {
-        film = addGuides(film, p.radiance, p.contribution, p.shadowLimit, p.alpha);
+        t.film = addGuides(t.film, t.path.radiance, t.path.contribution, t.path.shadowLimit, t.path.alpha);
       } else {
-        film = addSample(film, p.radiance, p.alpha);
+        t.film = addSample(t.film, t.path.radiance, t.path.alpha);
       }
-      tracing = false;
+      t.tracing = false;
     }
+  }
+  return t;
+}
+
+/// What an unfinished pixel leaves for the next draw, and says of this one.
+PixelTrace leaveUnfinished(PixelTrace t, PixelTask task, uint samplesBefore, int state) {
+  // The budget alone may end the loops above: one that ended below it was cut by the driver.
+  if (t.path.traversal.steps < task.budget) t.film.flags |= kPixelBudgetHit;
+  atomicAdd(progress.unfinished, 1u);
+  if (kResumable && t.tracing) {
+    t.film.flags |= kPixelSuspended;
+    savePath(t.path, state);
+  }
+  if (!kResumable) {
+    // The sample begins anew in the next draw, unless it is longer than a whole draw.
+    if (t.tracing) t.film.rays = t.raysBefore;
+    if (t.film.samples == samplesBefore) atomicAdd(progress.stuck, 1u);
+  }
+  return t;
+}
+
+/// Advances one pixel (y from the bottom) until it has the samples wanted or has used the step budget of this draw.
+void tracePixel(ivec2 pixel) {
+  PixelTrace t;
+  t.film = loadFilm(pixel);
+  // Always so, but compilers do not know: they would put the block's reads back to where they are used, inside the loop.
+  if (t.film.flags != 0xffffffffu) frame = frameBlock;
+  ivec2 place = pixel - frame.tile.xy;
+  int state = place.y * frame.tile.z + place.x;
+  PixelTask task;
+  task.pixel = pixel;
+  task.key = pixelKey(uint(pixel.x), uint(frame.picture.y - 1 - pixel.y), uint(frame.picture.w));
+  task.wanted = samplesWanted(t.film);
+  task.budget = frame.limits.z;
+  TreeFrame tree = treeFrame();
+  uint samplesBefore = t.film.samples;
+  t.raysBefore = t.film.rays;
+  t.cut = 0.0;
+  t.path.phase = kPhaseEnd;
+  t.path.traversal.steps = 0;
+  if (kResumable && (t.film.flags & kPixelSuspended) != 0u) t.path = loadPath(state);
+  t.film.flags &= ~kPixelSuspended;
+  t.tracing = t.path.phase != kPhaseEnd;
+
+  if (kDirect) {
+    t = traceDirect(t, task, tree);
+  } else {
+    t = tracePhases(t, task, tree);
   }
 
-  if (!finished && film.samples >= wanted && !tracing) finished = true;
-  if (!finished) {
-    // The budget alone may end the loops above: one that ended below it was cut by the driver.
-    if (p.traversal.steps < budget) film.flags |= kPixelBudgetHit;
-    atomicAdd(progress.unfinished, 1u);
-    if (kResumable && tracing) {
-      film.flags |= kPixelSuspended;
-      savePath(p, state);
-    }
-    if (!kResumable) {
-      // The sample begins anew in the next draw, unless it is longer than a whole draw.
-      if (tracing) film.rays = raysBefore;
-      if (film.samples == samplesBefore) atomicAdd(progress.stuck, 1u);
-    }
-  }
-  if (kScatters) reportCut(cut);
-  storeFilm(pixel, film);
+  bool finished = t.film.samples >= task.wanted && !t.tracing;
+  if (!finished) t = leaveUnfinished(t, task, samplesBefore, state);
+  if (kScatters) reportCut(t.cut);
+  storeFilm(pixel, t.film);
 }

@@ -192,6 +192,23 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
   return v;
 }
 
+/// A ray has come to its end: what it met is kept.
+Wave settleRay(Wave v, Traversal t, int current, bool isShadow) {
+  uint bit = 1u << current;
+  int row = rowOf(v, current);
+  bool met = t.slot >= 0;
+  v.blocked |= isShadow && met ? bit : 0u;
+  v.hits |= !isShadow && met ? bit : 0u;
+  v.misses |= !isShadow && !met ? bit : 0u;
+  if (kAlpha || !isShadow) {
+    uvec4 hit = uvec4(floatBitsToUint(t.t), uint(t.slot), floatBitsToUint(t.weights));
+    pathStates[row + (isShadow ? kRowShadowHit : kRowHit)] = hit;
+    if (kInstances && !isShadow) pathStates[row + kRowContribution].w = uint(t.hitInstance);
+    if (kInstances && isShadow) pathStates[row + kRowCrossings].y = uint(t.hitInstance);
+  }
+  return v;
+}
+
 /// Traces all rays, but for those that the step budget leaves over. A lane whose ray is done takes its next one.
 Wave traceRays(Wave v, int budget, TreeFrame tree) {
   Traversal t = beginTraversal(0.0, false, 0);
@@ -244,19 +261,7 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
     }
     if (atLeaf) t = meetLeaf(t, ray, isShadow && !kAlpha);
     v.steps += 1;
-    if (t.node == kTraversalDone) {
-      uint bit = 1u << current;
-      int row = rowOf(v, current);
-      bool met = t.slot >= 0;
-      v.blocked |= isShadow && met ? bit : 0u;
-      v.hits |= !isShadow && met ? bit : 0u;
-      v.misses |= !isShadow && !met ? bit : 0u;
-      if (kAlpha || !isShadow) {
-        pathStates[row + (isShadow ? kRowShadowHit : kRowHit)] = uvec4(floatBitsToUint(t.t), uint(t.slot), floatBitsToUint(t.weights));
-        if (kInstances && !isShadow) pathStates[row + kRowContribution].w = uint(t.hitInstance);
-        if (kInstances && isShadow) pathStates[row + kRowCrossings].y = uint(t.hitInstance);
-      }
-    }
+    if (t.node == kTraversalDone) v = settleRay(v, t, current, isShadow);
   }
   if (t.node != kTraversalDone) v.rays |= 1u << current;
   return v;

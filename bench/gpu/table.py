@@ -50,7 +50,7 @@ def aim_text(aim):
 def frame_cells(frame, line):
     """Of a row of rows.FRAMES."""
     ms = line["frame_ms"]["median"] * frame.samples
-    each = f"ms a picture of {frame.samples} samples" if frame.samples > 1 else "ms a frame"
+    each = f"ms a picture of {frame.samples} samples" if frame.samples > 1 else "ms per frame"
     notes = [verdict(line["picture"]), f"compiled in {line['compile_ms'] / 1000:.1f} s"]
     lacking = frame.wants - set(line["variant"].split("+"))
     if lacking:
@@ -69,7 +69,7 @@ def report_rows(lines):
         times = {key: milliseconds(line["frame_ms"]["mean"] * samples) for key, line in found.items()}
         measured = f"{times.get('many', '-')} ms"
         if "single" in times:
-            measured += f"; a draw a sample: {times['single']} ms"
+            measured += f"; one draw per sample: {times['single']} ms"
         report = REPORT.get(name, REPORT.get(name.split(", ")[-1]))
         beside = [f"report {report} ms"] if report else []
         if name in REPORT_AIMS:
@@ -84,10 +84,10 @@ def scale_rows(lines):
             continue
         size = f"{line['triangles']:,} triangles"
         yield (f"{size}, tree", f"built in {line['build_ms']:.0f} ms, packed in {line['pack_ms']:.0f}, uploaded in {line['upload_ms']:.0f}", "",
-               f"{line['gpu_bytes_per_triangle']:.1f} bytes a triangle on the device, peak {line['peak_bytes'] / 1e6:.0f} MB here")
+               f"{line['gpu_bytes_per_triangle']:.1f} bytes per triangle on the device, peak {line['peak_bytes'] / 1e6:.0f} MB here")
         for t in line["traversals"]:
             wrong = f"{t['wrong_pixels']} of {t['compared_pixels']} pixels wrong"
-            yield f"{size}, flat, {t['traversal']}", f"{milliseconds(t['median_ms'])} ms a frame", "", wrong
+            yield f"{size}, flat, {t['traversal']}", f"{milliseconds(t['median_ms'])} ms per frame", "", wrong
 
 
 def ray_rows(lines):

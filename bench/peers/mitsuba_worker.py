@@ -4,7 +4,7 @@
 
 usage: mitsuba_worker.py SCENE.json VARIANT RESOLUTION (plain | defaults)
 Each line of stdin is {"spp", "seed", "output"}, and "sampler" if it is to be another than independent; each answer {"wall", "cpu", "samples"}: seconds
-for drawing alone, and the samples a pixel has, since some samplers round them up. The first request of a number of samples is drawn twice,
+for drawing alone, and the samples per pixel has, since some samplers round them up. The first request of a number of samples is drawn twice,
 so that its kernels are compiled. plain: no Russian roulette; defaults: Mitsuba's.
 """
 

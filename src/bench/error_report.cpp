@@ -255,7 +255,7 @@ std::string errorChart(const ErrorReport& report) {
   chart.line = ChartLine{report.goal, formatted("goal %g", report.goal)};
   chart.caption =
       std::to_string(report.width) + " x " + std::to_string(report.height) + " on " + report.renderer +
-      ". Points are 1, 2, 4, ... samples a pixel, or adaptive goals; bars the least and the largest of the "
+      ". Points are 1, 2, 4, ... samples per pixel, or adaptive goals; bars the least and the largest of the "
       "repetitions. Reference: " +
       report.reference + ".";
   for (const ErrorCurve& curve : report.curves) {

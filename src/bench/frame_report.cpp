@@ -60,7 +60,7 @@ std::string frameTable(const BenchMachine& machine, const std::vector<FrameSetti
   for (const FrameSetting& s : settings) {
     if (before == nullptr || before->scene != s.scene) {
       if (before != nullptr) text += '\n';
-      text += formatted("%s, %d x %d, %zu triangles: milliseconds a frame by %s, %s\n", s.scene.c_str(),
+      text += formatted("%s, %d x %d, %zu triangles: milliseconds per frame by %s, %s\n", s.scene.c_str(),
                         s.width, s.height, s.triangles, s.clock.c_str(), machine.glRenderer.c_str());
       text += formatted("%-18s %10s %10s %8s %10s %10s %10s  %-22s %s\n", "configuration", "median", "mean",
                         "stddev", "p95", "Mpaths/s", "Mrays/s", "ratio to the first", "n");

@@ -32,7 +32,7 @@ struct PictureVerdict {
 };
 
 /// One timed setting. A frame is one sample in every pixel. Every round draws `frames` of them; times of a
-/// round are milliseconds a frame.
+/// round are milliseconds per frame.
 struct FrameSetting {
   std::string scene;          ///< file name
   std::string configuration;  ///< its name

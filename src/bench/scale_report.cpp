@@ -164,7 +164,7 @@ std::string scaleChart(const ScaleReport& report) {
   chart.logX = true;
   chart.logY = true;
   chart.caption =
-      formatted("%d x %d, stage flat, one sample a pixel a frame, on ", report.width, report.height) +
+      formatted("%d x %d, stage flat, one sample per pixel and frame, on ", report.width, report.height) +
       report.renderer +
       ". p: the exponent of time ~ triangles^p over the larger half of the sizes. Bars: the least "
       "and the largest frame.";

@@ -7,7 +7,7 @@
 
 namespace fragtrace {
 
-/// One traversal at one size. A frame is one sample a pixel.
+/// One traversal at one size. A frame is one sample per pixel.
 struct ScaleFrames {
   std::string traversal;
   std::string variant;

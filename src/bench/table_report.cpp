@@ -119,7 +119,7 @@ std::string reportTable(const BenchMachine& machine, std::span<const MeasuredRow
       "%d x %d, milliseconds a picture (mean +- standard deviation of the rounds) by %s\n%s, %s\n\n",
       any ? any->width : 0, any ? any->height : 0, any ? any->clock.c_str() : "-", machine.glRenderer.c_str(),
       machine.processor.c_str());
-  text += formatted("%-18s %-14s %-20s %-20s %-10s %-12s %s\n", "scene", "method", "a draw a sample",
+  text += formatted("%-18s %-14s %-20s %-20s %-10s %-12s %s\n", "scene", "method", "one draw per sample",
                     "samples together", "report", "rounds x n", "picture");
   for (const MeasuredRow& m : rows) {
     std::string wrong;
@@ -156,7 +156,8 @@ std::string reportRatios(std::span<const MeasuredRow> rows) {
     const MeasuredRow* nothing = find(rows, subject, kNothing);
     if (flat == nullptr || shadows == nullptr || nothing == nullptr) continue;
     const std::string name = "shadow rays / flat, " + std::string(subject);
-    text += line(name + ", a draw a sample", ratioOf(timesOf(shadows, true), timesOf(flat, true)), "1.03");
+    text +=
+        line(name + ", one draw per sample", ratioOf(timesOf(shadows, true), timesOf(flat, true)), "1.03");
     text += line(name + ", samples together", ratioOf(timesOf(shadows, false), timesOf(flat, false)), "-");
     const std::vector<double> fixed = timesOf(nothing, false);
     const std::vector<double> traced = less(timesOf(flat, false), fixed);
@@ -173,7 +174,7 @@ std::string reportChart(const BenchMachine& machine, std::span<const MeasuredRow
   Chart chart;
   chart.title = "Frame time against faces";
   chart.xLabel = "triangles";
-  chart.yLabel = "milliseconds a frame";
+  chart.yLabel = "milliseconds per frame";
   chart.logX = true;
   chart.logY = true;
   std::string clock;
@@ -197,7 +198,7 @@ std::string reportChart(const BenchMachine& machine, std::span<const MeasuredRow
   chart.caption =
       "Flat stage, 500 x 500 in the report. Here: " + machine.glRenderer + ", " + machine.processor +
       ", by " + clock +
-      ", one sample a draw; bars are the standard deviation. The report's figures come from another GPU.";
+      ", one sample per draw; bars are the standard deviation. The report's figures come from another GPU.";
   return chartSvg(chart);
 }
 

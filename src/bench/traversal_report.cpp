@@ -16,7 +16,7 @@ double TraversalRow::megaRaysPerSecond() const {
 std::string traversalTable(const TraversalReport& report) {
   std::string text = formatted("%s, %zu triangles, %zu spheres, %d x %d rays\n", report.scene.c_str(),
                                report.triangles, report.spheres, report.width, report.height);
-  text += formatted("%s, %s\nSAH cost %.2f, GPU memory %.1f bytes a triangle\n\n", report.renderer.c_str(),
+  text += formatted("%s, %s\nSAH cost %.2f, GPU memory %.1f bytes per triangle\n\n", report.renderer.c_str(),
                     report.clock.c_str(), report.sahCost, report.gpuBytesPerTriangle);
   text += formatted("%-10s %10s %8s %10s %10s %10s %12s %8s\n", "rays", "number", "hit", "ms", "least", "p95",
                     "Mrays/s", "wrong");

@@ -24,7 +24,7 @@ std::string variantsTable(const BenchMachine& machine, const std::vector<FrameSe
   if (settings.empty()) return {};
   const FrameSetting& own = settings.front();
   std::string text =
-      formatted("%s, %d x %d, by %s, %s\nits own variant: %s\n%.4g ms a frame, compiled in %.4g ms\n\n",
+      formatted("%s, %d x %d, by %s, %s\nits own variant: %s\n%.4g ms per frame, compiled in %.4g ms\n\n",
                 own.scene.c_str(), own.width, own.height, own.clock.c_str(), machine.glRenderer.c_str(),
                 own.variant.c_str(), summarize(own.frameMs).median, own.compileMs);
   text += formatted("%-28s %-24s %-14s %12s %12s %12s  %s\n", "with", "time (least to largest)",

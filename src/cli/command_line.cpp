@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -14,6 +15,8 @@
 #include "errors.h"
 #include "options/camera_options.h"
 #include "options/choose.h"
+#include "options/option_text.h"
+#include "version_text.h"
 
 namespace fragtrace {
 
@@ -48,11 +51,27 @@ std::string whatIsUnknown(const CLI::App& app) {
       std::ranges::find_if(left, [](const std::string& word) { return word.starts_with('-'); });
   if (option == left.end()) return "'" + left.front() + "' is an argument too many; --help says more";
   std::vector<std::string> known;
-  for (const CLI::Option* one : command->get_options()) known.push_back(one->get_name());
+  for (const CLI::Option* one : command->get_options()) known.push_back(longName(*one));
   const std::string unknown = option->substr(0, option->find('='));
   const std::string meant = suggestedOption(unknown, known);
   return unknown + " is no option of " + command->get_name() +
          (meant.empty() ? "; --help lists them" : "; did you mean " + meant + "?");
+}
+
+/// Options that --help leaves out have a successor, which their description names.
+void sayOldSpellings(const CLI::App& app) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  const CLI::Option* quiet = command->get_option_no_throw("--quiet");
+  if (quiet != nullptr && quiet->count() > 0) return;
+  for (const CLI::Option* option : command->get_options()) {
+    if (option->get_group().empty() && option->count() > 0)
+      std::fprintf(stderr, "fragtrace: note: %s is an old spelling (%s)\n", longName(*option).c_str(),
+                   option->get_description().c_str());
+  }
+  const CLI::Option* view = command->get_option_no_throw("--debug-view");
+  if (view != nullptr && view->count() > 0 && view->results().back() == "visits")
+    std::fputs("fragtrace: note: --debug-view visits is an old spelling (--enable bvh-heatmap)\n", stderr);
 }
 
 }  // namespace
@@ -74,7 +93,7 @@ RunCommand addBench(CLI::App& app) { return addCommands(app, kBenchRows); }
 int runCommandLine(int argc, const char* const* argv) {
   CLI::App app("A real-time ray tracer for glTF whose tracing runs in an OpenGL fragment shader.",
                "fragtrace");
-  app.set_version_flag("--version", std::string("fragtrace ") + FRAGTRACE_VERSION);
+  app.set_version_flag("--version", std::string("fragtrace ") + kVersionText);
   const RunCommand run = addCommands(app, kCommandRows);
   const auto word = [&](int i) { return i < argc ? std::optional<std::string>(argv[i]) : std::nullopt; };
   checkCommand(app, word(1));
@@ -88,6 +107,7 @@ int runCommandLine(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     throw UsageError(std::string(error.what()) + "; --help says more");
   }
+  sayOldSpellings(app);
   return run();
 }
 

@@ -20,10 +20,10 @@ RunCommand addBench(CLI::App& app);
 inline constexpr std::array kCommandRows{
     CommandRow{"render", "render a scene to a file", addRender},
     CommandRow{"view", "show a scene in a window", addView},
-    CommandRow{"info", "say what is in a scene", addInfo},
+    CommandRow{"info", "print what a scene contains", addInfo},
     CommandRow{"diff", "compare a picture with a reference", addDiff},
-    CommandRow{"merge", "join .exr parts of one render (--sample-offset)", addMerge},
-    CommandRow{"denoise", "filter the noise out of a picture", addDenoise},
+    CommandRow{"merge", "merge parts of one render (--sample-offset)", addMerge},
+    CommandRow{"denoise", "remove noise from a picture file", addDenoise},
     CommandRow{"bench", "measure speed and error", addBench},
 };
 

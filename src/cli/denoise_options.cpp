@@ -29,28 +29,29 @@ std::string describedByRender(const char* name) {
 void addFileFilterOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--oidn-library", raw.oidnLibrary, describedByRender("--oidn-library"));
   app.add_option("--rendering-backend", raw.backend,
-                 describedByRender("--rendering-backend") + ": what runs the variance filter")
+                 describedByRender("--rendering-backend") + "; the variance filter needs it")
       ->capture_default_str();
   app.add_option("--shader-folder", raw.shaderFolder, describedByRender("--shader-folder"));
   app.add_option("--memory-limit", raw.options.limits.memoryBytes,
-                 "memory that a picture and Open Image Denoise may each ask for, such as 500MB or 2GiB")
+                 "memory limit, once for the picture and once for Open Image Denoise, such as 500MB or 2GiB")
       ->transform(memorySize(kLeastMemoryBytes));
-  app.add_flag("--quiet", raw.options.quiet, "print nothing but errors");
-  app.add_flag("--verbose", raw.options.verbose, "print what is chosen");
+  app.add_flag("--quiet", raw.options.quiet, "print errors only");
+  app.add_flag("--verbose", raw.options.verbose, "print what the program chooses");
 }
 
 void addDenoiseCommandOptions(CLI::App& app, RawDenoise& raw) {
   raw.render.denoise = "auto";
-  app.add_option("picture", raw.picture, "linear picture: .exr of fragtrace or another renderer, .hdr, .pfm")
+  app.add_option("picture", raw.picture,
+                 "linear picture: an .exr of fragtrace or another renderer, an .hdr or a .pfm")
       ->required();
-  app.add_option(
-         "-o,--output", raw.render.output,
-         "picture: .exr (with all layers), .hdr .pfm (linear radiance), .png .jpg (tone-mapped, sRGB)")
+  app.add_option("-o,--output", raw.render.output,
+                 "picture to write: .exr (with all layers), .hdr .pfm (linear radiance), .png .jpg "
+                 "(tone-mapped, sRGB)")
       ->required();
   app.add_option("--denoise", raw.render.denoise,
-                 joined(kFileFilterNames) +
-                     ": the filter; auto: oidn where it is installed, else variance, "
-                     "which needs --aov denoising")
+                 "filter: " + joined(kFileFilterNames) +
+                     "; auto takes oidn where it is installed, else variance, which needs the layers of "
+                     "--aov denoising")
       ->capture_default_str();
   addFileFilterOptions(app, raw.render);
   app.add_option("--exposure", raw.render.options.exposure, describedByRender("--exposure"))

@@ -111,7 +111,7 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
     const glm::dvec3& b = s.bounds.maximum;
     std::printf("  bounds      (%g, %g, %g) to (%g, %g, %g) m\n", a.x, a.y, a.z, b.x, b.y, b.z);
   }
-  std::printf("  tree        %u nodes, %u leaves, depth %u, %.2f primitives a leaf, SAH cost %.2f\n",
+  std::printf("  tree        %u nodes, %u leaves, depth %u, %.2f primitives per leaf, SAH cost %.2f\n",
               bvh.nodeCount, bvh.leafCount, bvh.depth, bvh.primitivesPerLeaf, bvh.sahCost);
   const double geometry = bytesPerTriangle * double(s.triangles);
   if (s.sharedMeshes > 0)
@@ -123,7 +123,7 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
   std::printf("  instancing  %s\n", s.sharing.c_str());
   std::printf("  GPU memory  %.1f MB: geometry %.1f", (geometry + double(s.texelBytes)) / 1e6,
               geometry / 1e6);
-  if (s.triangles > 0) std::printf(" (%.1f bytes a triangle)", bytesPerTriangle);
+  if (s.triangles > 0) std::printf(" (%.1f bytes per triangle)", bytesPerTriangle);
   std::printf(", textures %.1f\n", double(s.texelBytes) / 1e6);
   for (const StageRow& row : stageRows()) {
     const std::string reason = whyOff(row.stage, traits);
@@ -193,10 +193,11 @@ RunCommand addInfo(CLI::App& app) {
     std::string instancing = "auto";
   };
   const auto raw = std::make_shared<Raw>();
-  app.add_option("file", raw->options.scene, ".gltf or .glb file")->required();
-  app.add_flag("--json", raw->options.json, "as JSON");
+  app.add_option("file", raw->options.scene, "scene: a .gltf or .glb file")->required();
+  app.add_flag("--json", raw->options.json, "print one JSON object");
   addSelectionOptions(app, raw->options.selection);
-  app.add_option("--instancing", raw->instancing, joined(kInstancingNames) + ": as render's")
+  app.add_option("--instancing", raw->instancing,
+                 "whether copies of a mesh share its triangles: " + joined(kInstancingNames))
       ->capture_default_str();
   addInputOptions(app, raw->options.limits);
   return [raw] {

@@ -149,10 +149,11 @@ RunCommand addMerge(CLI::App& app) {
     RawRender filter;
   };
   const auto raw = std::make_shared<Raw>();
-  app.add_option("parts", raw->options.parts, ".exr files of render, same settings and seed")->required();
-  app.add_option("-o,--output", raw->options.output, "the .exr to write")->required();
+  app.add_option("parts", raw->options.parts, ".exr files that render wrote with the same settings and seed")
+      ->required();
+  app.add_option("-o,--output", raw->options.output, "file to write, an .exr")->required();
   app.add_option("--denoise", raw->filter.denoise,
-                 joined(kDenoiseNames) + ": filter the noise out of the joined picture, as denoise does")
+                 "filter that removes noise from the merged picture: " + joined(kDenoiseNames))
       ->capture_default_str();
   addFileFilterOptions(app, raw->filter);
   return [raw] {

@@ -182,7 +182,7 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
   if (options.quiet) return;
   // Standard output is the statistics' alone.
   std::fprintf(isStandardOutput(options.statsFile) ? stderr : stdout,
-               "%s: %d x %d, %.4g samples a pixel in %.2f s (%.2f million paths/s)%s\n",
+               "%s: %d x %d, %.4g samples per pixel in %.2f s (%.2f million paths/s)%s\n",
                options.output.string().c_str(), stats.size.x, stats.size.y, samplesPerPixel(stats),
                stats.times.renderMs / 1000.0, megaPathsPerSecond(stats), noise.c_str());
 }
@@ -199,6 +199,23 @@ void sayWhatIsChosen(const RenderOptions& options, const Context& context, const
   if (tracer.variant.clampIndirect) say(options, "indirect light is clamped (--clamp-indirect): biased");
 }
 
+/// Throws RenderError when the driver left out samples without a word.
+void checkSamples(const RenderOptions& options, const Statistics& stats) {
+  if (!stats.complete || stats.adaptive || stats.film.fewestSamples >= unsigned(options.spp)) return;
+  throw RenderError("the driver drew " + std::to_string(stats.film.fewestSamples) + " of " +
+                    std::to_string(options.spp) + " samples and reported no error; no picture is written");
+}
+
+std::unique_ptr<Context> openContext(const RenderOptions& options, const LoadedScene& loaded,
+                                     Statistics& stats) {
+  const bool quick = preferQuickCompilation(pathsOf(options, loaded.size));
+  PhaseTimer timer("context");
+  auto context = makeContext(options.backend);
+  stats.phases.push_back(timer.end());
+  stats.quickCompilation = quick && context->software;
+  return context;
+}
+
 int runRender(const RenderOptions& asked) {
   checkOutputs(outputsOf(asked), inputsOf(asked));
   RenderOptions options = asked;
@@ -211,11 +228,7 @@ int runRender(const RenderOptions& asked) {
   LoadedScene loaded = loadScene(drawn, stats);
 
   // Step: the shader variant, and the arrays that it reads.
-  const bool quick = preferQuickCompilation(pathsOf(options, loaded.size));
-  PhaseTimer contextTimer("context");
-  const auto context = makeContext(options.backend);
-  stats.phases.push_back(contextTimer.end());
-  stats.quickCompilation = quick && context->software;
+  const auto context = openContext(options, loaded, stats);
   DebugLog driverLog;
   const Tracer tracer = makeTracer(*context, loaded, drawn, stats);
   const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
@@ -242,10 +255,7 @@ int runRender(const RenderOptions& asked) {
   sayDriverLog();
   sayWhatWentWrong(options, stats.film);
   sayWhatIsNotSeen(options, loaded, tracer.variant, stats);
-  if (stats.complete && !stats.adaptive && stats.film.fewestSamples < unsigned(options.spp)) {
-    throw RenderError("the driver drew " + std::to_string(stats.film.fewestSamples) + " of " +
-                      std::to_string(options.spp) + " samples and reported no error; no picture is written");
-  }
+  checkSamples(options, stats);
   if (interrupts() > 1) return kInterruptedStatus;
   Image picture = pictureOf(drawing, options, tracer.variant);
 
@@ -275,9 +285,10 @@ RunCommand addRender(CLI::App& app) {
     std::string config;
   };
   const auto raw = std::make_shared<Raw>();
-  app.add_option("file", raw->render.scene, ".gltf or .glb file")->required();
-  app.add_option("-o,--output", raw->render.output,
-                 "picture: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); required");
+  app.add_option("file", raw->render.scene, "scene: a .gltf or .glb file")->required();
+  app.add_option(
+      "-o,--output", raw->render.output,
+      "picture to write: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); required");
   addRenderOptions(app, raw->render);
   addDenoiseOption(app, raw->render);
   addConfigOption(app, raw->config);

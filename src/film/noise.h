@@ -33,7 +33,8 @@ std::vector<double> varianceOfMean(const Halves& halves);
 /// One observation of the variance of each pixel's mean luminance: its squared distance from what the first
 /// half of its samples gave, in units of what that distance is expected to be. Stratified samples converge
 /// faster than independent ones; how much faster, the step before it tells, from a quarter to a half. All are
-/// of one picture, `whole` with at least four samples a pixel. One observation is no estimate: average many.
+/// of one picture, `whole` with at least four samples per pixel. One observation is no estimate: average
+/// many.
 std::vector<double> observedVariance(const FilmPixels& quarter, const FilmPixels& half,
                                      const FilmPixels& whole);
 

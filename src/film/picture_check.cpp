@@ -64,13 +64,8 @@ std::string percent(double part) {
   return text;
 }
 
-}  // namespace
-
-PictureCheck checkPicture(const FilmPixels& picture, const FilmPixels& other, CheckAgainst against) {
-  PictureCheck check;
-  check.wrong = whyNotComparable(picture, other);
-  if (!check.wrong.empty()) return check;
-
+/// Fills in all figures.
+void measure(const FilmPixels& picture, const FilmPixels& other, CheckAgainst against, PictureCheck& check) {
   double shown = 0.0;
   for (const FilmPixel& p : other.pixels) shown += p.luminance();
   shown /= double(other.pixels.size());
@@ -113,23 +108,35 @@ PictureCheck checkPicture(const FilmPixels& picture, const FilmPixels& other, Ch
   check.differing = differing / all.pixels;
   check.rmse = std::sqrt(squares / all.pixels);
   check.meanErrors = all.difference != 0.0 ? all.errors(kRounding * std::abs(shown)) : 0.0;
+}
 
-  // Step: judge.
-  const bool oneSample =
-      std::ranges::any_of(picture.pixels, [](const FilmPixel& p) { return p.samples < 2; });
+/// What is wrong by these figures; empty: nothing.
+std::string verdict(const PictureCheck& check, CheckAgainst against, bool oneSample) {
   if (against == CheckAgainst::SameSamples) {
-    if (check.differing > kMostDiffering)
-      check.wrong = percent(check.differing) + " of the pixels differ, although their samples are the same";
-  } else if (oneSample) {
-    check.wrong = "one sample a pixel does not tell its noise";
-  } else if (!(check.meanErrors <= kMostMeanErrors)) {
+    if (check.differing <= kMostDiffering) return "";
+    return percent(check.differing) + " of the pixels differ, although their samples are the same";
+  }
+  if (oneSample) return "one sample per pixel does not tell its noise";
+  if (!(check.meanErrors <= kMostMeanErrors)) {
     char text[64];
     std::snprintf(text, sizeof text, "its mean is %.3g standard errors off", check.meanErrors);
-    check.wrong = text;
-  } else if (check.farBlocks > kMostFarBlocks) {
-    check.wrong =
-        percent(check.farBlocks) + " of its blocks of 8 x 8 pixels are more than 4 standard errors off";
+    return text;
   }
+  if (check.farBlocks > kMostFarBlocks)
+    return percent(check.farBlocks) + " of its blocks of 8 x 8 pixels are more than 4 standard errors off";
+  return "";
+}
+
+}  // namespace
+
+PictureCheck checkPicture(const FilmPixels& picture, const FilmPixels& other, CheckAgainst against) {
+  PictureCheck check;
+  check.wrong = whyNotComparable(picture, other);
+  if (!check.wrong.empty()) return check;
+  measure(picture, other, against, check);
+  const bool oneSample =
+      std::ranges::any_of(picture.pixels, [](const FilmPixel& p) { return p.samples < 2; });
+  check.wrong = verdict(check, against, oneSample);
   return check;
 }
 

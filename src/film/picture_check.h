@@ -34,7 +34,7 @@ inline constexpr double kMostMeanErrors = 5.0;  ///< standard errors of the mean
 inline constexpr double kMostDiffering = 0.005;  ///< part of the pixels; the same samples only
 
 /// Pixels that are no numbers, that have no sample, and pictures of different sizes are wrong. Without two
-/// samples a pixel its noise is not known: only SameSamples can then be judged, and the rest is wrong.
+/// samples per pixel its noise is not known: only SameSamples can then be judged, and the rest is wrong.
 PictureCheck checkPicture(const FilmPixels& picture, const FilmPixels& other, CheckAgainst against);
 
 /// A picture file as film, of as many samples as its layers samples.Y and variance.Y say; without these of

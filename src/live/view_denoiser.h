@@ -34,8 +34,8 @@ class ViewDenoiser {
       : shaderFolder_(shaderFolder), oidn_(oidn) {}
 
   /// R, G, B and A as they are to be shown. `drawn` has R, G, B, A, samples.Y and variance.Y of so many
-  /// samples a pixel, drawn by `tracer`, whose one feature is the guides, drawn where they are not there yet.
-  /// By Open Image Denoise, which must be there, or by variance. Nothing when goOn() said no. Throws
+  /// samples per pixel, drawn by `tracer`, whose one feature is the guides, drawn where they are not there
+  /// yet. By Open Image Denoise, which must be there, or by variance. Nothing when goOn() said no. Throws
   /// RenderError.
   std::optional<Image> shown(const Image& drawn, int samples, const RenderOptions& options, bool byOidn,
                              Tracer& tracer, const View& view, SideMemory& memory,

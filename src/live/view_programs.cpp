@@ -5,6 +5,7 @@
 
 #include "errors.h"
 #include "session/denoising.h"
+#include "stage/option_effects.h"
 
 namespace fragtrace {
 
@@ -20,23 +21,11 @@ constexpr size_t kMostKeptBytes = size_t(1) << 29;
 constexpr int kTinyFilm = 8;  // pixels a side
 
 /// What of the options decides which program draws, and what it reads.
-RenderOptions programPart(const RenderOptions& o) {
-  RenderOptions part;
-  part.scene = o.scene;
-  part.hdriFile = o.hdriFile;
-  part.stages = o.stages;
-  const bool counts = o.debugView == DebugView::Samples || o.debugView == DebugView::Variance;
-  part.debugView = counts ? DebugView::None : o.debugView;
-  part.clampIndirect = o.clampIndirect > 0.0 ? 1.0 : 0.0;
-  part.defaultLight = o.defaultLight;
-  part.pixelFilter = o.pixelFilter;
-  part.traversal = o.traversal;
-  part.backend = o.backend;
-  part.bufferReads = o.bufferReads;
-  part.dispatch = o.dispatch;
-  part.schedule = o.schedule;
-  part.shaderFolder = o.shaderFolder;
-  part.quiet = o.quiet;
+RenderOptions programPart(const RenderOptions& options) {
+  RenderOptions part = programOptions(options);
+  if (part.debugView == DebugView::Samples || part.debugView == DebugView::Variance)
+    part.debugView = DebugView::None;  // drawn by the picture's own
+  part.clampIndirect = part.clampIndirect > 0.0 ? 1.0 : 0.0;
   if (has(part.stages, Stage::Gi) && part.debugView == DebugView::None) part.aovFeatures = {Feature::Guides};
   return part;
 }

@@ -69,26 +69,31 @@ void addCameraOptions(CLI::App& app, RawCamera& raw) {
     app.add_option(name, values, sentence)->delimiter(',')->expected(3);
   };
   app.add_option("--resolution", raw.resolution,
-                 "WIDTH,HEIGHT or WIDTHxHEIGHT; default 1280,720, or 720 high at the camera's aspect ratio")
+                 "WIDTH,HEIGHT or WIDTHxHEIGHT in pixels; by default 1280,720, or 720 high at the aspect "
+                 "ratio of the "
+                 "camera")
       ->delimiter(',')
       ->expected(2)
       ->check(wholeNumber(1, 65536));
-  CLI::Option* index =
-      app.add_option("--camera-index", raw.index,
-                     "camera of the scene, from 0; default: the first, else one that frames it")
-          ->check(wholeNumber(0, std::numeric_limits<int>::max()));
-  app.add_option("--camera", raw.name, "name or index of the camera, of those that `info` lists")
+  CLI::Option* index = app.add_option("--camera-index", raw.index,
+                                      "index of the scene's camera, from 0; by default the first camera, or "
+                                      "a view of the whole scene where "
+                                      "it has none")
+                           ->check(wholeNumber(0, std::numeric_limits<int>::max()));
+  app.add_option("--camera", raw.name, "name or index of the camera; `fragtrace info` lists the cameras")
       ->excludes(index);
-  addVector("--camera-position", raw.position, "X,Y,Z in world space");
-  addVector("--camera-focal-point", raw.focalPoint, "X,Y,Z");
-  addVector("--camera-view-up", raw.viewUp, "X,Y,Z");
-  CLI::Option* angle =
-      app.add_option("--camera-view-angle", raw.viewAngleDegrees, "vertical, in degrees: a perspective");
+  addVector("--camera-position", raw.position, "X,Y,Z of the camera in world space, in metres");
+  addVector("--camera-focal-point", raw.focalPoint, "X,Y,Z of the point that the camera looks at");
+  addVector("--camera-view-up", raw.viewUp, "X,Y,Z of the direction that points up in the picture");
+  CLI::Option* angle = app.add_option("--camera-view-angle", raw.viewAngleDegrees,
+                                      "vertical field of view in degrees, of a perspective camera");
   app.add_option("--camera-parallel-scale", raw.parallelScale,
-                 "half of the picture's height, in metres: an orthographic view")
+                 "half of the picture's height in metres, of an orthographic camera")
       ->excludes(angle);
-  addVector("--scene-origin", raw.sceneOrigin,
-            "X,Y,Z that positions are rounded about; default: the focal point given, else near the camera");
+  addVector(
+      "--scene-origin", raw.sceneOrigin,
+      "X,Y,Z around which positions are rounded; by default the focal point, if given, else a point near the "
+      "camera");
 }
 
 void finishCamera(const RawCamera& raw, RenderOptions& options) {

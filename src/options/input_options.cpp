@@ -9,15 +9,16 @@
 namespace fragtrace {
 
 void addInputOptions(CLI::App& app, InputLimits& limits) {
-  app.add_option(
-         "--memory-limit", limits.memoryBytes,
-         "memory that files and the picture may each ask for, such as 500MB or 2GiB, at least 1MB; default: "
-         "8 GiB, half of the machine's or ulimit -v, whichever is least")
+  app.add_option("--memory-limit", limits.memoryBytes,
+                 "memory limit, once for files and once for the picture, such as 500MB or 2GiB, at least "
+                 "1MB; by default "
+                 "the smallest of 8 GiB, half of the machine's memory and ulimit -v")
       ->transform(memorySize(kLeastMemoryBytes));
-  app.add_option("--texture-limit", limits.textureSide, "pixels; wider or higher textures are scaled down")
+  app.add_option("--texture-limit", limits.textureSide,
+                 "maximum width and height of textures in pixels; larger ones are scaled down")
       ->check(wholeNumber(1, kLargestTextureSide));
   app.add_flag("--allow-external-files", limits.allowExternalFiles,
-               "the scene may name files that are not in its folder");
+               "let the scene name files outside its folder");
 }
 
 void addSelectionOptions(CLI::App& app, SceneSelection& selection) {
@@ -30,14 +31,15 @@ void addSelectionOptions(CLI::App& app, SceneSelection& selection) {
       },
       "SECONDS");
   app.add_option("--scene", selection.scene,
-                 "name or index of the file's scene; default: the file's own choice");
-  app.add_option("--animation-time", selection.animationTime,
-                 "seconds: the scene as it stands then in its animation; default: as the file stands")
+                 "name or index of the scene; by default the one that the file chooses");
+  app.add_option(
+         "--animation-time", selection.animationTime,
+         "pose the scene as its animation has it at this time, in seconds; by default it is not animated")
       ->check(isTime);
   app.add_option("--animation", selection.animation,
-                 "name or index of the animation of --animation-time; default: the first");
+                 "name or index of the animation for --animation-time; by default the first");
   app.add_option("--material-variant", selection.materialVariant,
-                 "name or index of the materials that are shown, of those that `info` lists");
+                 "name or index of the material variant; `fragtrace info` lists the variants");
 }
 
 }  // namespace fragtrace

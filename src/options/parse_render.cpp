@@ -91,12 +91,14 @@ std::vector<std::string_view> debugViewNames() {
 
 /// What is shaded.
 void addStageOptions(CLI::App& app, RawRender& raw) {
-  app.add_option("--stage", raw.stage, joined(stageNames(true)) + "; each turns on itself and all before it")
+  app.add_option("--stage", raw.stage,
+                 "last stage: " + joined(stageNames(true)) + "; each stage includes those before it")
       ->capture_default_str();
-  app.add_option("--enable", raw.enable, "switches over that: " + joined(stageNames(false)))
+  app.add_option("--enable", raw.enable,
+                 "stages and switches to turn on as well, separated by commas: " + joined(stageNames(false)))
       ->delimiter(',')
       ->allow_extra_args(false);
-  app.add_option("--disable", raw.disable, "switches off, over that")
+  app.add_option("--disable", raw.disable, "stages and switches to turn off, separated by commas")
       ->delimiter(',')
       ->allow_extra_args(false);
 }
@@ -104,92 +106,114 @@ void addStageOptions(CLI::App& app, RawRender& raw) {
 /// How many samples, and which.
 void addSampleOptions(CLI::App& app, RawRender& raw) {
   RenderOptions& o = raw.options;
-  app.add_option("--spp", raw.spp,
-                 "camera paths a pixel, default 64; with --noise or --time the most, default unlimited")
+  app.add_option(
+         "--spp", raw.spp,
+         "samples (camera paths) per pixel, 64 by default; with --noise or --time: at most so many, by "
+         "default without limit")
       ->check(wholeNumber(1, kMostSamples));
   app.add_option(
          "--noise", o.noise,
-         "sample until 95 % of the pixels that can be noisy have a relative error below this, such as 0.01")
+         "render until 95 % of the pixels that can be noisy have an estimated relative error below this, for "
+         "example 0.01")
       ->check(CLI::Range(1e-5, 1.0));
-  app.add_option("--time", o.seconds, "seconds to draw, sampling where it helps most")
+  app.add_option("--time", o.seconds,
+                 "render for so many seconds, and place the samples where they help most")
       ->check(CLI::Range(0.01, 1e7));
   app.add_option("--sample-offset", o.sampleOffset,
-                 "index of the first sample: continues a seed's sequence (see merge)")
+                 "index of the first sample in the sequence of the seed, to render in parts (see merge)")
       ->check(wholeNumber(0, kMostSamples))
       ->capture_default_str();
-  app.add_option("--sampler", raw.sampler, "sobol, random: where sample points come from")
-      ->capture_default_str();
-  app.add_option("--seed", o.seed, "of the sample points, 0 to 4294967295")
+  app.add_option("--seed", o.seed, "seed of the sample points, 0 to 4294967295")
       ->check(wholeNumber(0, std::numeric_limits<uint32_t>::max()))
       ->capture_default_str();
+}
+
+/// What --enable and --disable say today; --help leaves them out, and its use is told (sayOldSpellings).
+void addOldSpellings(CLI::App& app, RawRender& raw) {
+  app.add_option("--sampler", raw.sampler, "sobol: --enable sobol, random: --disable sobol")->group("");
+  app.add_option("--fresnel", raw.fresnel, "schlick: --enable schlick, exact: --disable schlick")->group("");
+  app.add_option("--energy-compensation", raw.compensation,
+                 "on: --enable energy-compensation, off: --disable energy-compensation")
+      ->group("");
+  app.add_option("--light-sampling", raw.lightSampling,
+                 "nee: --enable light-sampling, bsdf: --disable light-sampling")
+      ->group("");
 }
 
 /// What a path does.
 void addPathOptions(CLI::App& app, RawRender& raw) {
   RenderOptions& o = raw.options;
-  app.add_option("--bounces", raw.bounces, "scatterings of a path, or 'unlimited'")->capture_default_str();
-  app.add_option("--rr-depth", o.rouletteDepth, "Russian roulette from this scattering on")
+  app.add_option("--bounces", raw.bounces, "maximum number of scattering events per path, or 'unlimited'")
+      ->capture_default_str();
+  app.add_option("--rr-depth", o.rouletteDepth,
+                 "number of the scattering event from which Russian roulette may end a path")
       ->check(wholeNumber(1, std::numeric_limits<int>::max() / 4))
-      ->capture_default_str();
-  app.add_option("--fresnel", raw.fresnel, "exact, schlick: of glass")->capture_default_str();
-  app.add_option("--energy-compensation", raw.compensation, "on, off: of rough surfaces in gi")
-      ->capture_default_str();
-  app.add_option("--light-sampling", raw.lightSampling,
-                 "nee, bsdf: lights are sampled in gi, or found by scattered rays only")
       ->capture_default_str();
   app.add_option(
          "--clamp-indirect", o.clampIndirect,
-         "most radiance that light of two scatterings or more may add to a sample: fewer bright dots, "
-         "but biased")
+         "maximum radiance that light after two or more scattering events adds to a sample; this removes "
+         "bright dots and darkens the picture")
       ->check(CLI::Range(1e-6, 1e30));
 }
 
 /// What lights the scene from outside, and what is seen there.
 void addSurroundingsOptions(CLI::App& app, RawRender& raw) {
   RenderOptions& o = raw.options;
-  app.add_option("--hdri-file", raw.hdriFile, "equirectangular environment: .hdr, .exr, .pfm");
-  app.add_option("--hdri-rotation", o.hdriRotationDegrees, "degrees about +Y")->capture_default_str();
-  app.add_flag("--no-background", raw.noBackground, "camera rays that miss see nothing; alpha is written");
-  app.add_option(
-         "--background-color", raw.backgroundColor,
-         "R,G,B, linear: what camera rays that miss see, also in place of --hdri-file; lights nothing")
+  app.add_option("--hdri-file", raw.hdriFile, "equirectangular environment map: .hdr, .exr, .pfm");
+  app.add_option("--hdri-rotation", o.hdriRotationDegrees,
+                 "rotation of the environment map about +Y, in degrees")
+      ->capture_default_str();
+  app.add_flag("--no-background", raw.noBackground,
+               "hide the environment map from the camera, and write alpha");
+  app.add_option("--background-color", raw.backgroundColor,
+                 "linear R,G,B that the camera sees where there is no surface, in place of the environment "
+                 "map; it lights "
+                 "nothing")
       ->delimiter(',')
       ->expected(3);
-  app.add_flag("--no-default-light", raw.noDefaultLight, "a scene without any light stays dark");
+  app.add_flag("--no-default-light", raw.noDefaultLight, "leave a scene dark that has no light");
 }
 
 /// What of the samples a picture shows.
 void addPictureOptions(CLI::App& app, RawRender& raw) {
   RenderOptions& o = raw.options;
-  app.add_option("--pixel-filter", raw.pixelFilter, joined(kPixelFilterNames))->capture_default_str();
-  app.add_option("--aov", raw.aov, joined(layerNames()) + ": more layers in an .exr")
+  app.add_option("--pixel-filter", raw.pixelFilter, "pixel filter: " + joined(kPixelFilterNames))
+      ->capture_default_str();
+  app.add_option("--aov", raw.aov, "more layers of an .exr, separated by commas: " + joined(layerNames()))
       ->delimiter(',')
       ->allow_extra_args(false);
-  app.add_option("--debug-view", raw.debugView, joined(debugViewNames()) + ": what the picture shows")
+  app.add_option("--debug-view", raw.debugView,
+                 "show this in place of the picture: " + joined(debugViewNames()))
       ->capture_default_str();
-  app.add_option("--tree-level", o.treeLevel,
-                 "draws the boxes of this level of the tree over a .png or .jpg; 0: the root")
+  app.add_option(
+         "--tree-level", o.treeLevel,
+         "draw the boxes of this level of the bounding-volume hierarchy over a .png or .jpg; 0 is the root")
       ->check(wholeNumber(0, int(kMaxBvhDepth)));
-  app.add_option("--exposure", o.exposure, "EV, for .png and .jpg")->capture_default_str();
-  app.add_option("--tone-map", raw.toneMap, "linear, reinhard, aces, agx, neutral, for .png and .jpg")
+  app.add_option("--exposure", o.exposure, "exposure in stops (EV), for .png and .jpg")
+      ->capture_default_str();
+  app.add_option("--tone-map", raw.toneMap,
+                 "tone curve of .png and .jpg: linear, reinhard, aces, agx, neutral")
       ->capture_default_str();
 }
 
 /// How, not what, is traced.
 void addTracingOptions(CLI::App& app, RawRender& raw) {
-  app.add_option("--traversal", raw.traversal, joined(kTraversalNames) + ": how rays find triangles")
+  app.add_option("--traversal", raw.traversal, "how rays find triangles: " + joined(kTraversalNames))
+      ->capture_default_str();
+  app.add_option("--instancing", raw.instancing,
+                 "whether copies of a mesh share its triangles: " + joined(kInstancingNames))
+      ->capture_default_str();
+  app.add_option("--rendering-backend", raw.backend, "how the OpenGL context is made: auto, egl, osmesa")
+      ->capture_default_str();
+  app.add_option("--buffer-reads", raw.reads, "how the shader reads the scene: " + joined(kBufferReadsNames))
+      ->capture_default_str();
+  app.add_option("--dispatch", raw.dispatch, "which shader stage runs the tracer: " + joined(kDispatchNames))
       ->capture_default_str();
   app.add_option(
-         "--instancing", raw.instancing,
-         joined(kInstancingNames) + ": whether meshes that stand in the scene several times are copied")
-      ->capture_default_str();
-  app.add_option("--rendering-backend", raw.backend, "auto, egl, osmesa")->capture_default_str();
-  app.add_option("--buffer-reads", raw.reads, joined(kBufferReadsNames) + ": how the shader reads the scene")
-      ->capture_default_str();
-  app.add_option("--dispatch", raw.dispatch, joined(kDispatchNames) + ": which shader stage runs the tracer")
-      ->capture_default_str();
-  app.add_option("--schedule", raw.schedule,
-                 joined(kScheduleNames) + ": whether a lane traces one pixel at a time, or many together")
+         "--schedule", raw.schedule,
+         "whether a lane of the device traces one pixel at a time (megakernel) or many paths together "
+         "(wavefront): " +
+             joined(kScheduleNames))
       ->capture_default_str();
 }
 
@@ -274,29 +298,32 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
   addStageOptions(app, raw);
   addSampleOptions(app, raw);
   addPathOptions(app, raw);
+  addOldSpellings(app, raw);
   addSurroundingsOptions(app, raw);
   addPictureOptions(app, raw);
   addTracingOptions(app, raw);
   addSelectionOptions(app, o.selection);
   addInputOptions(app, o.limits);
-  app.add_option("--stats", raw.statsFile,
-                 "JSON file for the statistics; '-': standard output, which then holds nothing else");
+  app.add_option(
+      "--stats", raw.statsFile,
+      "write statistics to this JSON file; '-' writes them to standard output, and nothing else goes there");
   app.add_option("--shader-folder", raw.shaderFolder,
-                 "read the shaders from here in place of the built-in ones");
-  app.add_flag("--quiet", o.quiet, "print nothing but errors; benchmarks also their tables");
-  app.add_flag("--verbose", o.verbose, "print what is chosen and what it takes");
+                 "read the shaders from this folder in place of the built-in ones");
+  app.add_flag("--quiet", o.quiet, "print errors only; benchmarks still print their tables");
+  app.add_flag("--verbose", o.verbose, "print what the program chooses, and times and sizes");
 }
 
 void addDenoiseOption(CLI::App& app, RawRender& raw) {
-  app.add_option("--denoise", raw.denoise,
-                 joined(kDenoiseNames) +
-                     ": filter the noise out of the finished picture; an .exr keeps the "
-                     "noisy one too, as noisy.R, noisy.G and noisy.B; auto: oidn where it is installed, "
-                     "else variance")
+  app.add_option(
+         "--denoise", raw.denoise,
+         "filter that removes noise from the finished picture: " + joined(kDenoiseNames) +
+             "; auto takes oidn where it is installed, else variance; an .exr keeps the noisy colours "
+             "as noisy.R, noisy.G, noisy.B")
       ->capture_default_str();
-  app.add_option("--oidn-library", raw.oidnLibrary,
-                 "file of Open Image Denoise 2.x; default: FRAGTRACE_OIDN_LIBRARY, then where the system or "
-                 "pip (pyoidn) installs it");
+  app.add_option(
+      "--oidn-library", raw.oidnLibrary,
+      "library file of Open Image Denoise 2.x; by default that of FRAGTRACE_OIDN_LIBRARY, else where the "
+      "system or pip (pyoidn) installs it");
 }
 
 }  // namespace fragtrace

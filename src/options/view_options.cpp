@@ -18,23 +18,25 @@ constexpr int kMostWindowPixels = 16384;
 }  // namespace
 
 void addViewOptions(CLI::App& app, RawView& raw) {
-  app.add_option("file", raw.render.scene, ".gltf or .glb file")->required();
+  app.add_option("file", raw.render.scene, "scene: a .gltf or .glb file")->required();
   addRenderOptions(app, raw.render);
   raw.render.denoise = "variance";
   addDenoiseOption(app, raw.render);
   const auto describe = [&](const char* name, const char* text) { app.get_option(name)->description(text); };
-  describe("--spp", "camera paths a pixel at which the picture rests, default unlimited");
-  describe("--noise", "it rests when 95 % of the pixels have a relative error below this, default 0.005");
-  describe("--time", "it rests after so many seconds of drawing");
+  describe("--spp", "samples per pixel after which the picture rests, by default without limit");
+  describe("--noise",
+           "estimated relative error of 95 % of the pixels at which the picture rests, by default 0.005");
+  describe("--time", "seconds of rendering after which the picture rests");
   describe(
       "--denoise",
-      "none, variance: filter the noise out of the picture while its samples are few: all of it up to 64, "
-      "nothing from 256");
-  describe("--resolution", "WIDTH,HEIGHT of the window, default 1280,720, at most 16384 a side");
+      "filter that removes noise while the samples are few: none, variance, oidn, auto; it fades out between "
+      "64 and 256 samples per pixel");
+  describe("--resolution", "WIDTH,HEIGHT of the window in pixels, by default 1280,720, at most 16384 each");
   addConfigOption(app, raw.config);
-  app.add_flag("--watch", raw.watch, "reload when a file of the scene, or of --shader-folder, changes");
+  app.add_flag("--watch", raw.watch,
+               "reload the scene or the shaders of --shader-folder when a file changes");
   app.add_option("--status-file", raw.statusFile,
-                 "JSON file that always holds what the viewer is doing, for scripts that drive it");
+                 "JSON file in which the viewer keeps its present state, for scripts that control it");
 }
 
 ViewOptions finishView(RawView& raw, CLI::App& command) {

@@ -3,6 +3,8 @@
 
 #include <unistd.h>
 #include <csignal>
+#include <cstdlib>
+#include <ctime>
 #include <string_view>
 
 namespace fragtrace {
@@ -14,7 +16,10 @@ constexpr int kInterruptedStatus = 130;
 constexpr std::string_view kSaidOnTerminal = "\nfragtrace: interrupted, nothing is written\n";
 constexpr std::string_view kSaid = kSaidOnTerminal.substr(1);
 constexpr int kCrashedStatus = 1;
+constexpr int kSameInterruptMs = 100;
 volatile std::sig_atomic_t interruptCount = 0;
+volatile std::sig_atomic_t lastSignal = 0;
+volatile std::sig_atomic_t lastMs = 0;
 volatile std::sig_atomic_t onTerminal = 0;
 
 void handle(void (*handler)(int)) {
@@ -51,7 +56,17 @@ void sayWhenCrashing() {
 }
 
 void countInterrupts() {
-  handle([](int) { interruptCount = interruptCount + 1; });
+  handle([](int signal) {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    constexpr time_t kDays = 24 * 24 * 3600;  // whose milliseconds fit into an int
+    const auto ms = std::sig_atomic_t(now.tv_sec % kDays * 1000 + now.tv_nsec / 1000000);
+    // `timeout` sends its signal to the process and to its group, so what follows at once is the same one.
+    const bool same = interruptCount > 0 && signal == lastSignal && std::abs(ms - lastMs) < kSameInterruptMs;
+    if (!same) interruptCount = interruptCount + 1;
+    lastSignal = signal;
+    lastMs = ms;
+  });
 }
 
 int interrupts() { return interruptCount; }

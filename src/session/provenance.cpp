@@ -4,8 +4,11 @@
 #include <charconv>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <type_traits>
 
 #include "errors.h"
+#include "stage/option_effects.h"
 
 namespace fragtrace {
 
@@ -52,12 +55,17 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   variant.dispatch = Dispatch::Fragment;
   variant.wavefront = false;
   json["variant"] = variantName(variant);
-  json["bounces"] = options.bounces;
-  json["rr_depth"] = options.rouletteDepth;
-  json["clamp_indirect"] = options.clampIndirect;
-  json["hdri"] = options.hdriFile.filename().string();
-  json["hdri_rotation"] = options.hdriRotationDegrees;
-  json["background"] = options.background;
+  RenderOptions named = options;
+  forEachOption(named, [&](const auto& row, const auto& value) {
+    if (row.attribute == nullptr) return;
+    using Value = std::remove_cvref_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, std::filesystem::path>)
+      json[row.attribute] = value.filename().string();
+    else if constexpr (std::is_arithmetic_v<Value>)
+      json[row.attribute] = value;
+    else
+      throw std::logic_error(std::string(row.attribute) + " has no text");
+  });
   json["background_color"] = nullptr;
   if (!seesEnvironment(options))
     json["background_color"] = numbers(glm::dvec3(options.backgroundColor.value_or(glm::vec3(0.0f))));

@@ -165,13 +165,9 @@ bool sameTree(const RenderOptions& a, const RenderOptions& b) {
   return iterative(a) == iterative(b) && besideAllowed(a) == besideAllowed(b);
 }
 
-LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress) {
-  const auto step = [&](const char* name, double fraction) {
-    if (progress) progress(name, fraction);
-  };
-  Stopwatch watch;
-  step("reading the scene", 0.0);
-  LoadedScene loaded;
+namespace {
+
+GltfOptions gltfOptionsOf(const RenderOptions& options) {
   GltfOptions loading;
   loading.recenterOn = options.sceneOrigin ? options.sceneOrigin : options.camera.focalPoint;
   loading.cameraPosition = options.camera.position;
@@ -179,6 +175,26 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   loading.selection = options.selection;
   loading.instancing = walksTree(options) ? options.instancing : Instancing::Flatten;
   loading.limits = options.limits;
+  return loading;
+}
+
+void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& stats) {
+  stats.defaultLightReason = light == OwnLight::None
+                                 ? "no light in the scene"
+                                 : "the scene's emissive textures are too dim to light it";
+  say(options, stats.defaultLightReason +
+                   ": a white environment that the camera does not see lights it (--no-default-light)");
+}
+
+}  // namespace
+
+LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress) {
+  const auto step = [&](const char* name, double fraction) {
+    if (progress) progress(name, fraction);
+  };
+  Stopwatch watch;
+  step("reading the scene", 0.0);
+  LoadedScene loaded;
   // The environment is decoded in another process, so it is read meanwhile.
   Phase reading;  // outlives the thread that sets it
   std::future<Image> map;
@@ -191,7 +207,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
     });
   }
   PhaseTimer sceneTimer("scene");
-  loaded.scene = loadGltf(options.scene, loading);
+  loaded.scene = loadGltf(options.scene, gltfOptionsOf(options));
   stats.phases.push_back(sceneTimer.end());
   if (options.instancing == Instancing::Share && !walksTree(options))
     loaded.scene.warnings.emplace_back("--instancing share: only trees hold shared meshes; all are copied");
@@ -227,13 +243,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   stats.size = loaded.size;
   stats.loadMs += watch.lap();
   stats.defaultLight = loaded.environment.kind == Surroundings::DefaultLight;
-  if (stats.defaultLight) {
-    stats.defaultLightReason = light == OwnLight::None
-                                   ? "no light in the scene"
-                                   : "the scene's emissive textures are too dim to light it";
-    say(options, stats.defaultLightReason +
-                     ": a white environment that the camera does not see lights it (--no-default-light)");
-  }
+  if (stats.defaultLight) sayDefaultLight(options, light, stats);
   return loaded;
 }
 

@@ -73,7 +73,7 @@ inline constexpr std::array<DebugViewRow, 10> kDebugViewRows{{
     {"texcoords", "Texture coordinates", "the fractions of TEXCOORD_0, red and green", Feature::Texcoords},
     {"depth", "Depth", "along the view's axis, from white (nearest) to dark grey (farthest)", Feature::Depth},
     {"visits", "Node visits", "nodes of the tree that a camera ray visits, as a heat map", Feature::None},
-    {"samples", "Samples", "samples a pixel, as a heat map", Feature::None},
+    {"samples", "Samples", "samples per pixel, as a heat map", Feature::None},
     {"variance", "Variance", "estimated relative error of each pixel in per cent, as a heat map",
      Feature::None},
 }};

@@ -1,55 +1,24 @@
 // SPDX-License-Identifier: MIT
-// All options are compared but those that are made equal here, so that a new one counts until it is known not
-// to change the picture.
 #include "stage/same_picture.h"
+
+#include "stage/option_effects.h"
 
 namespace fragtrace {
 
 namespace {
 
-/// The options with all that changes neither picture nor samples as by default.
-RenderOptions sampledPart(RenderOptions o) {
-  const RenderOptions standard;
-  o.stages.set(size_t(Stage::Watertight), has(standard.stages, Stage::Watertight));
-  o.output = standard.output;
-  o.spp = standard.spp;
-  o.noise = standard.noise;
-  o.seconds = standard.seconds;
-  o.sceneOrigin = standard.sceneOrigin;  // rounding alone
-  o.exposure = standard.exposure;        // this and the next: of files, not of what was drawn
-  o.toneMap = standard.toneMap;
+/// What the samples depend on.
+RenderOptions sampledPart(const RenderOptions& options) {
+  RenderOptions part =
+      withoutEffects(options, {Effect::Report, Effect::Way, Effect::Layers, Effect::Count, Effect::Display});
   // The heat map shows the way through the tree.
-  if (!has(o.stages, Stage::BvhHeatmap)) o.traversal = standard.traversal;
-  o.instancing = standard.instancing;
-  o.backend = standard.backend;
-  o.bufferReads = standard.bufferReads;
-  o.dispatch = standard.dispatch;
-  o.schedule = standard.schedule;
-  o.aovSamples = standard.aovSamples;
-  o.aovVariance = standard.aovVariance;
-  o.aovFeatures = standard.aovFeatures;
-  o.denoise = standard.denoise;  // after all samples
-  o.oidnLibrary = standard.oidnLibrary;
-  o.treeLevel = standard.treeLevel;
-  o.statsFile = standard.statsFile;
-  o.shaderFolder = standard.shaderFolder;
-  o.limits.memoryBytes = standard.limits.memoryBytes;
-  o.limits.allowExternalFiles = standard.limits.allowExternalFiles;
-  o.quiet = standard.quiet;
-  o.verbose = standard.verbose;
-  return o;
+  if (has(options.stages, Stage::BvhHeatmap)) part.traversal = options.traversal;
+  return part;
 }
 
-/// The same, with what changes the samples alone.
+/// What they converge to depends on.
 RenderOptions shownPart(const RenderOptions& options) {
-  const RenderOptions standard;
-  RenderOptions o = sampledPart(options);
-  o.stages.set(size_t(Stage::Sobol), has(standard.stages, Stage::Sobol));
-  o.stages.set(size_t(Stage::LightSampling), has(standard.stages, Stage::LightSampling));
-  o.seed = standard.seed;
-  o.sampleOffset = standard.sampleOffset;
-  o.rouletteDepth = standard.rouletteDepth;
-  return o;
+  return withoutEffects(sampledPart(options), {Effect::Noise});
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "stage/traits.h"
+
 namespace fragtrace {
 
 std::span<const StageRow> stageRows() {
@@ -12,29 +14,42 @@ std::span<const StageRow> stageRows() {
        "kPhong"},
       {Stage::Shadows, "shadows", "Shadows", "shadow rays towards each light", true, false, "kShadows"},
       {Stage::Reflections, "reflections", "Reflections", "mirror reflections, and specular lobes in gi", true,
-       false, "kReflections"},
+       false, "kReflections", Trait::Specular},
       {Stage::Refraction, "refraction", "Refraction", "refraction with dielectric Fresnel and absorption",
-       true, false, "kRefraction"},
+       true, false, "kRefraction", Trait::Transmission},
       {Stage::NormalMaps, "normal-maps", "Normal maps", "normal textures and Perlin normal maps", true, false,
        "kNormalMaps"},
       {Stage::Gi, "gi", "Global illumination", "path tracing with the glTF material", true, false, "kGi"},
       {Stage::Schlick, "schlick", "Schlick's Fresnel",
-       "Schlick's approximation for glass, in place of the exact Fresnel", false, false, "kSchlick"},
+       "Schlick's approximation for glass, in place of the exact Fresnel", false, false, "kSchlick",
+       Trait::Transmission},
       {Stage::EnergyCompensation, "energy-compensation", "Energy compensation",
        "gives back what rough surfaces lose to single scattering in gi (on by default)", false, true,
-       "kCompensation"},
-      {Stage::Sobol, "sobol", "Sobol samples",
-       "Owen-scrambled Sobol points in place of independent random numbers (on by default)", false, true,
-       "kSobol"},
-      {Stage::LightSampling, "light-sampling", "Light sampling",
+       "kCompensation", Trait::Specular},
+      {Stage::Sobol,
+       "sobol",
+       "Sobol samples",
+       "Owen-scrambled Sobol points in place of independent random numbers (on by default)",
+       false,
+       true,
+       "kSobol",
+       {},
+       Effect::Noise},
+      {Stage::LightSampling,
+       "light-sampling",
+       "Light sampling",
        "samples emissive triangles and the environment in gi, which else scattered rays alone find (on by "
        "default)",
-       false, true, nullptr},
+       false,
+       true,
+       nullptr,
+       {},
+       Effect::Noise},
       {Stage::Watertight, "watertight", "Watertight triangles",
        "triangle test of the trees that lets no ray through between neighbours, and points moved out of "
        "sharp creases, in place of a faster test "
        "(on by default)",
-       false, true, "kWatertight"},
+       false, true, "kWatertight", Trait::Triangles, Effect::Way},
       {Stage::BvhHeatmap, "bvh-heatmap", "Node heat map", "paints how many nodes each camera ray visits",
        false, false, "kHeatmap"},
   }};

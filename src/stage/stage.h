@@ -9,7 +9,11 @@
 #include <string>
 #include <string_view>
 
+#include "stage/effect.h"
+
 namespace fragtrace {
+
+enum class Trait : uint8_t;  // stage/traits.h
 
 /// A stage (in the order of --stage) or a switch of its own.
 enum class Stage : uint8_t {
@@ -32,12 +36,14 @@ using StageSet = std::bitset<size_t(Stage::Count)>;
 
 struct StageRow {
   Stage stage;
-  const char* name;      ///< on the command line
-  const char* label;     ///< in the viewer
-  const char* sentence;  ///< in the help
-  bool cumulative;       ///< --stage NAME turns on this and all cumulative rows before it
-  bool standard;         ///< a switch that is on unless turned off
-  const char* constant;  ///< in the shader; null: always on
+  const char* name;              ///< on the command line
+  const char* label;             ///< in the viewer
+  const char* sentence;          ///< in the help
+  bool cumulative;               ///< --stage NAME turns on this and all cumulative rows before it
+  bool standard;                 ///< a switch that is on unless turned off
+  const char* constant;          ///< in the shader; null: always on
+  std::optional<Trait> needs{};  ///< without which it changes nothing
+  Effect effect = Effect::Picture;
 };
 std::span<const StageRow> stageRows();
 

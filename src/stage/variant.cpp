@@ -11,22 +11,6 @@ namespace fragtrace {
 
 namespace {
 
-/// The trait without which a stage changes nothing; Trait::Count: none.
-Trait neededBy(Stage stage) {
-  switch (stage) {
-    case Stage::Refraction:
-    case Stage::Schlick:
-      return Trait::Transmission;
-    case Stage::Reflections:
-    case Stage::EnergyCompensation:
-      return Trait::Specular;
-    case Stage::Watertight:
-      return Trait::Triangles;
-    default:
-      return Trait::Count;
-  }
-}
-
 bool hasNormalMaps(const TraitSet& traits) {
   return has(traits, Trait::NormalTexture) || has(traits, Trait::PerlinNormals) ||
          has(traits, Trait::ClearcoatNormal);
@@ -172,9 +156,9 @@ std::string whyOff(Stage stage, const TraitSet& present) {
   if (stage == Stage::Shadows && !hasLight(present)) return "no light to cast shadows";
   if (stage == Stage::LightSampling && !hasAreaLight(present))
     return "no emissive triangle and no environment";
-  const Trait needed = neededBy(stage);
-  if (needed == Trait::Count || has(present, needed)) return {};
-  return traitRows()[size_t(needed)].absence;
+  const std::optional<Trait> needed = stageRows()[size_t(stage)].needs;
+  if (!needed || has(present, *needed)) return {};
+  return traitRows()[size_t(*needed)].absence;
 }
 
 std::string whyBlank(DebugView view, const TraitSet& present) {

@@ -24,7 +24,7 @@ class SceneDrawing {
 
   /// options.spp samples of options.seed.
   FilmPixels picture(const GoOn& goOn);
-  /// Metres along the view axis, one sample a pixel, of seed 0.
+  /// Metres along the view axis, one sample per pixel, of seed 0.
   FilmPixels depth(const GoOn& goOn);
 
  private:

@@ -13,8 +13,8 @@ StressOutcome drawForms(const StressSetting& setting, Form form);
 /// The same: pixels in which one sample hits something else.
 StressOutcome hitForms(const StressSetting& setting, Form form);
 
-/// A million identical triangles (quick: 20,000), 64 samples a pixel: pixels that differ from one triangle's
-/// in a bit, or in which a loop was cut.
+/// A million identical triangles (quick: 20,000), 64 samples per pixel: pixels that differ from one
+/// triangle's in a bit, or in which a loop was cut.
 StressOutcome drawIdentical(const StressSetting& setting);
 
 /// 50,000 triangles of shrinking sizes (quick: 20,000), a fifth of them within one cell of the boxes' grid;

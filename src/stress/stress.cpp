@@ -42,7 +42,7 @@ std::vector<StressRow> stressRows() {
     rows.push_back({"hits " + name, "random scenes, " + name + ": pixels that show something else", 1e-3,
                     false, [i](const StressSetting& setting) { return hitForms(setting, Form(i)); }});
   }
-  rows.push_back({"tree identical", "a million identical triangles, 64 samples a pixel, beside one", 0.0,
+  rows.push_back({"tree identical", "a million identical triangles, 64 samples per pixel, beside one", 0.0,
                   false, drawIdentical});
   rows.push_back({"tree shrinking", "50,000 triangles from 1 to 1e-6, rays against double precision",
                   1.0 / 20000.0, false, castAtShrinking});

@@ -5,27 +5,20 @@
 #include <chrono>
 #include <utility>
 
+#include "stage/option_effects.h"
+
 namespace fragtrace {
 
 bool drawsTheSame(const RenderOptions& a, const RenderOptions& b) {
-  const auto traced = [](RenderOptions o) {
-    o.exposure = 0.0;
-    o.toneMap = ToneMap::Neutral;
-    o.treeLevel.reset();
-    o.spp = 0;
-    o.noise = 0.0;
-    o.seconds = 0.0;
-    o.denoise = Denoise::None;
-    return o;
+  const auto drawn = [](const RenderOptions& o) {
+    return withoutEffects(o, {Effect::Count, Effect::Display});
   };
-  return traced(a) == traced(b);
+  return drawn(a) == drawn(b);
 }
 
-bool differInCameraAlone(const RenderOptions& a, RenderOptions b) {
-  if (drawsTheSame(a, b)) return false;
-  b.camera = a.camera;
-  b.cameraIndex = a.cameraIndex;
-  return drawsTheSame(a, b);
+bool differInCameraAlone(const RenderOptions& a, const RenderOptions& b) {
+  const auto fixed = [](const RenderOptions& o) { return withoutEffects(o, {Effect::View}); };
+  return !drawsTheSame(a, b) && drawsTheSame(fixed(a), fixed(b));
 }
 
 void Exchange::setWake(std::function<void()> wake) {

@@ -31,7 +31,7 @@ struct TraceRequest {
 bool drawsTheSame(const RenderOptions& a, const RenderOptions& b);
 
 /// Whether they draw different samples, and would not if they had the same camera.
-bool differInCameraAlone(const RenderOptions& a, RenderOptions b);
+bool differInCameraAlone(const RenderOptions& a, const RenderOptions& b);
 
 /// Progress and cost of one side.
 struct SideStatistics {

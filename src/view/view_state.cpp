@@ -63,6 +63,12 @@ void resetCamera(ViewState& state) {
   state.posed = false;
 }
 
+/// The one so many further in the file's order, round and round.
+void nextSceneCamera(ViewState& state, int further) {
+  const int count = state.scene ? int(state.scene->cameras.size()) : 0;
+  if (count > 0) chooseSceneCamera(state, (std::max(state.sceneCamera, 0) + further + count) % count);
+}
+
 bool moveCamera(ViewState& state, const Control& control, const Movement& m) {
   const CameraPose& pose = state.pose;
   const double argument = control.argument;
@@ -114,12 +120,9 @@ bool moveCamera(ViewState& state, const Control& control, const Movement& m) {
     case Action::SceneCamera:
       chooseSceneCamera(state, control.argument);
       return true;
-    case Action::NextCamera: {
-      const int count = state.scene ? int(state.scene->cameras.size()) : 0;
-      if (count > 0)
-        chooseSceneCamera(state, (std::max(state.sceneCamera, 0) + control.argument + count) % count);
+    case Action::NextCamera:
+      nextSceneCamera(state, control.argument);
       return true;
-    }
     default:
       return false;
   }

@@ -187,7 +187,7 @@ class NoisePromise(Case):
                 bias = seeds.mean / statistics.fmean(luminances(plain)) - 1
                 print(f"{scene}: standard error, 95th percentile {100 * seeds.p95:.2f} %, rms {100 * seeds.rms:.2f} %; mean "
                       f"against plain {100 * bias:+.3f} % (standard error {100 * seeds.mean_error:.3f} %); last seed: estimated "
-                      f"{100 * stats['adaptive']['error_p95']:.2f} %, {stats['samples_per_pixel']:.0f} samples a pixel, "
+                      f"{100 * stats['adaptive']['error_p95']:.2f} %, {stats['samples_per_pixel']:.0f} samples per pixel, "
                       f"{stats['fewest_samples']} to {stats['most_samples']}; {time.monotonic() - began:.0f} s", flush=True)
                 self.assertGreater(seeds.p95, 0.004)
                 self.assertLess(seeds.p95, 0.012)

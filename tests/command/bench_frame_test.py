@@ -49,7 +49,7 @@ class FrameTimes(Frame):
             self.assertEqual((line["budget_hits"], line["nonfinite_pixels"]), (0, 0))
             self.assertRegex(line["date"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ$")
             self.assertIn(name, result.stdout)
-        self.assertEqual(found[BOX.name, "random"]["options"], "--resolution 16,16 --sampler random --spp 5")
+        self.assertEqual(found[BOX.name, "random"]["options"], "--disable sobol --resolution 16,16 --spp 5")
         self.assertEqual(found[BOX.name, "tree"]["ratio"]["to"], "default")
         self.assertIn("+bvh+", found[BOX.name, "tree"]["variant"])
         # The same samples give the same picture; random ones another, of the same light.
@@ -127,7 +127,7 @@ class FrameBaseline(Frame):
         _, found = self.frame(*options, "--configs", "default,random")
         result, _ = self.frame(*options, "--configs", "default", "--baseline", self.baseline(found, 100), status=1)
         self.assertIn("SLOWER", result.stdout)
-        self.assertIn("--sampler random --spp 4: only in the baseline", result.stdout)
+        self.assertIn("--disable sobol --resolution 16,16 --spp 4: only in the baseline", result.stdout)
         result, _ = self.frame(*options, "--configs", "default", "--baseline", self.baseline(found, 1e-4))
         self.assertNotIn("SLOWER", result.stdout)
         result, _ = self.frame(*options, "--configs", "default", "--bounces", 2, "--baseline", self.baseline(found, 1e6), status=3)

@@ -37,7 +37,7 @@ class BenchMeasures(Bench):
         self.assertEqual((report["scene"], report["width"], report["height"], report["goal_relmse"]), ("cornell-box.gltf", 32, 32, 0.01))
         self.assertEqual(report["reference"], "6400 samples of 'default' with another seed")
         self.assertEqual(list(found), ["default", "random", "baseline"])
-        self.assertEqual(found["baseline"]["options"], "--light-sampling bsdf --sampler random")
+        self.assertEqual(found["baseline"]["options"], "--disable light-sampling,sobol")
         rows = iter(csv.DictReader(table.read_text().splitlines()))
         for name, entry in found.items():
             self.assertEqual(len(entry["repetitions"]), 2)

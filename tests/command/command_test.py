@@ -338,6 +338,15 @@ class Interruption(Case):
         picture = read_pfm(self.folder / "x.pfm")
         self.assertGreater(sum(picture[100][100]), 0)
 
+    def test_the_same_signal_twice_at_once_is_one_as_timeout_sends_it(self):
+        process = self.start("1000000")
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.005)
+        process.send_signal(signal.SIGINT)
+        process.wait(10)
+        self.assertEqual(process.returncode, 130)
+        self.assertTrue((self.folder / "x.pfm").exists())
+
     def test_a_second_ctrl_c_writes_nothing(self):
         process = self.start("1000000")
         process.send_signal(signal.SIGINT)

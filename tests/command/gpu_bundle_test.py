@@ -62,7 +62,7 @@ class GpuTable(Case):
         self.assertIn("commit 0123456", text.splitlines()[0])
         rows = self.rows()
         fragment, compute = (rows[f"62,975 triangles, flat, front to back, {name}"] for name in ("fragment", "compute"))
-        self.assertEqual(fragment, ["0.250 ms a frame; 2.00 Mpaths/s, 3.0 Mrays/s", "aim < 0.1 ms", "right, compiled in 0.1 s |"])
+        self.assertEqual(fragment, ["0.250 ms per frame; 2.00 Mpaths/s, 3.0 Mrays/s", "aim < 0.1 ms", "right, compiled in 0.1 s |"])
         self.assertIn("NOT drawn as asked: without compute", compute[2])
         self.assertIn("FAILED: status 1: fragtrace: too many triangles", rows["10 million triangles"][2])
         self.assertIn("FAILED: stopped at its limit of 2 s", rows["rays a second"][2])

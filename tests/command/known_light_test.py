@@ -174,7 +174,7 @@ class KnownLight(Case):
         emitted, albedo, most = 0.5, 0.5, 0.1
         expected = emitted + emitted * albedo + sum(min(emitted * albedo**k, most) for k in range(2, 60))
         picture = self.picture("closed-furnace", "x.pfm", "--resolution", "8,8", "--spp", 4, "--bounces", 60, "--rr-depth", 1000,
-                               "--light-sampling", "bsdf", "--clamp-indirect", most)
+                               "--disable", "light-sampling", "--clamp-indirect", most)
         for row in picture:
             for pixel in row:
                 self.assertAlmostEqual(pixel[0], expected, delta=1e-4)

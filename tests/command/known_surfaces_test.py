@@ -193,7 +193,7 @@ class KnownSurfaces(Case):
         path = self.folder / "squares.gltf"
         path.write_text(json.dumps(self.scene([material for material, _ in known], turned)))
         picture = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", f"{len(known) * SIDE},{SIDE}", "--spp", 16, "--bounces", 3,
-                               "--energy-compensation", "off")
+                               "--disable", "energy-compensation")
         for i, (material, colors) in enumerate(known):
             for c, color in enumerate(colors):
                 seen = sum(row[SIDE * i + x][c] for row in picture for x in range(SIDE)) / SIDE**2
@@ -221,7 +221,7 @@ class KnownSurfaces(Case):
         gltf["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 2}]}}
         path = self.folder / "grazing.gltf"
         path.write_text(json.dumps({key: value for key, value in gltf.items() if value}))
-        pixel = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", "8,8", "--spp", 1, "--bounces", 0, "--energy-compensation", "off")[4][4]
+        pixel = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", "8,8", "--spp", 1, "--bounces", 0, "--disable", "energy-compensation")[4][4]
         cosine, f0 = math.cos(angle), 0.04 * specular
         smith = (math.sqrt(1 + alpha**2 * math.tan(angle)**2) - 1) / 2
         lobe = 1 / (math.pi * alpha**2) / ((1 + 2 * smith) * 4 * cosine)

@@ -113,7 +113,7 @@ class FirstHits(Case):
 
     def test_they_have_the_samples_of_the_picture(self):
         """What stage flat shows is the albedo, so with the same samples through the same filter both are the same bits."""
-        for options in ([], ["--pixel-filter", "gaussian"], ["--pixel-filter", "blackman-harris", "--sampler", "random"],
+        for options in ([], ["--pixel-filter", "gaussian"], ["--pixel-filter", "blackman-harris", "--disable", "sobol"],
                         ["--seed", "9", "--sample-offset", "1000"]):
             for scene in ("sphere-plane", "sphere-textured"):
                 with self.subTest(scene=scene, options=options):
@@ -146,7 +146,7 @@ class LayerFiles(Case):
             self.assertEqual(plain.values(channel), layered.values(channel))
 
     def test_the_variance_is_that_of_the_mean_of_independent_samples(self):
-        pictures = [self.picture("cornell-box", "x.exr", "--resolution", "8,8", "--spp", 64, "--sampler", "random", "--seed", s,
+        pictures = [self.picture("cornell-box", "x.exr", "--resolution", "8,8", "--spp", 64, "--disable", "sobol", "--seed", s,
                                  "--aov", "variance,samples", "--bounces", 1) for s in range(12)]
         columns = list(zip(*(p.luminances() for p in pictures)))
         seen = sum(sum((v - sum(c) / 12) ** 2 for v in c) / 11 for c in columns)

@@ -38,7 +38,7 @@ class Merging(Parts):
                                      name)
 
     def test_parts_give_what_one_run_gives_in_every_layer(self):
-        for options in ([], ["--pixel-filter", "blackman-harris", "--sampler", "random", "--no-background"]):
+        for options in ([], ["--pixel-filter", "blackman-harris", "--disable", "sobol", "--no-background"]):
             with self.subTest(options):
                 whole = Exr(self.part("whole.exr", 0, 64, *LAYERS, *options))
                 one, two = self.part("a.exr", 0, 24, *LAYERS, *options), self.part("b.exr", 24, 40, *LAYERS, *options)
@@ -106,8 +106,8 @@ class RefusedMerges(Parts):
         self.refuses(other, self.first, other, "seeds")
 
     def test_other_settings(self):
-        for options in (["--bounces", "2"], ["--camera-position", "0,0,4"], ["--camera-view-angle", "30"], ["--light-sampling", "bsdf"],
-                        ["--sampler", "random"], ["--rr-depth", "5"], ["--clamp-indirect", "3"], ["--pixel-filter", "gaussian"],
+        for options in (["--bounces", "2"], ["--camera-position", "0,0,4"], ["--camera-view-angle", "30"], ["--disable", "light-sampling"],
+                        ["--disable", "sobol"], ["--rr-depth", "5"], ["--clamp-indirect", "3"], ["--pixel-filter", "gaussian"],
                         ["--hdri-file", SCENES / "sky.pfm"]):
             with self.subTest(options):
                 other = self.part("other.exr", 4, 4, *options)

@@ -108,7 +108,7 @@ class Goal(Case):
         errors = [math.sqrt(statistics.fmean((x - r) ** 2 for x in pixel)) / (r + floor)
                   for pixel, r, s in zip(zip(*(p.luminances() for p in pictures)), light, seen) if s and r > 0]
         error = quantile(errors, 0.95)
-        print(f"{len(errors)} of {len(light)} pixels: true error {error:.4f}, goal {goal}, {stats['samples_per_pixel']:.0f} samples a pixel", flush=True)
+        print(f"{len(errors)} of {len(light)} pixels: true error {error:.4f}, goal {goal}, {stats['samples_per_pixel']:.0f} samples per pixel", flush=True)
         self.assertGreaterEqual(stats["fewest_samples"], 32)
         self.assertLess(error, 1.2 * goal * math.sqrt(SCATTER[seeds]))
 

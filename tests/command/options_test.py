@@ -106,5 +106,35 @@ class CameraOptions(Case):
         self.assertNotEqual(self.picture_of(*spelled), self.picture_of())
 
 
+class OldSpellings(Case):
+    """What --enable and --disable say today had options of its own."""
+    SAME = {"--sampler": ("random", "--disable", "sobol"), "--light-sampling": ("bsdf", "--disable", "light-sampling"),
+            "--fresnel": ("schlick", "--enable", "schlick"), "--energy-compensation": ("off", "--disable", "energy-compensation"),
+            "--debug-view": ("visits", "--enable", "bvh-heatmap")}
+
+    def drawn(self, *options):
+        path = self.folder / "picture.pfm"
+        result = run("render", SCENES / "rough-glass.gltf", "-o", path, "--resolution", "16,16", "--spp", "2", "--hdri-file", SCENES / "sky.pfm", *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return path.read_bytes(), result.stderr
+
+    def test_they_draw_the_same_and_say_the_new_ones(self):
+        for option, (value, new, name) in self.SAME.items():
+            with self.subTest(option=option):
+                before, said = self.drawn(option, value)
+                now, silent = self.drawn(new, name)
+                self.assertEqual(before, now)
+                self.assertEqual([line for line in said.splitlines() if "old spelling" in line and option in line and f"{new} {name}" in line],
+                                 said.splitlines())
+                self.assertNotIn("old spelling", silent)
+                self.assertEqual(self.drawn(option, value, "--quiet")[1], "")
+                self.assertNotIn(option + " TEXT=" + value, run("render", "--help").stdout)
+
+    def test_help_leaves_them_out(self):
+        text = run("render", "--help").stdout
+        for option in ("--sampler", "--light-sampling", "--fresnel", "--energy-compensation"):
+            self.assertNotIn(option, text)
+
+
 if __name__ == "__main__":
     main()

@@ -17,7 +17,7 @@ PICTURES = {
     "rough-glass": [*SKY, "--bounces", "6"],
     "lobes": [*SKY, "--traversal", "front-to-back"],
     "mapped-layers": [*SKY, "--traversal", "front-to-back"],
-    "glass-sphere": [*SKY, "--traversal", "front-to-back", "--light-sampling", "bsdf"],
+    "glass-sphere": [*SKY, "--traversal", "front-to-back", "--disable", "light-sampling"],
     "thin-glass": [*SKY, "--traversal", "front-to-back", "--rr-depth", "1"],
     "coverage": ["--traversal", "front-to-back"],
 }

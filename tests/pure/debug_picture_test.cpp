@@ -11,7 +11,7 @@
 namespace fragtrace {
 namespace {
 
-/// Two samples a pixel, both of this value, of which so many have hit something. The first pixel is the
+/// Two samples per pixel, both of this value, of which so many have hit something. The first pixel is the
 /// bottom left.
 FilmPixels filmOf(glm::ivec2 size, const std::vector<glm::dvec3>& values,
                   const std::vector<double>& hits = {}) {

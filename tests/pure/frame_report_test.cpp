@@ -94,7 +94,7 @@ TEST(FrameReport, TableNamesTheClockAndWhatIsWrong) {
                                         settingOf("c.glb", "default", {5})};
   settings[1].picture.wrong = "too dark";
   const std::string table = frameTable(machineOf(), settings);
-  EXPECT_NE(table.find("a.glb, 100 x 50, 0 triangles: milliseconds a frame by wall clock, llvmpipe"),
+  EXPECT_NE(table.find("a.glb, 100 x 50, 0 triangles: milliseconds per frame by wall clock, llvmpipe"),
             std::string::npos);
   EXPECT_NE(table.find("WRONG: too dark"), std::string::npos);
   EXPECT_NE(table.find("2.5 (2.5 to 2.5)"), std::string::npos);

@@ -70,7 +70,7 @@ TEST(TableReport, ShapesAreRatiosPairByPair) {
   const std::string text = reportRatios(shaped());
   EXPECT_NE(lineWith(text, "iterative").find("4 (4 to 4)"), std::string::npos) << text;
   EXPECT_NE(lineWith(text, "bvh").find("1.25 (1.25 to 1.25)"), std::string::npos) << text;
-  EXPECT_NE(lineWith(text, "shadow rays / flat, 1 primitive, a draw a sample").find(" 2 (2 to 2)"),
+  EXPECT_NE(lineWith(text, "shadow rays / flat, 1 primitive, one draw per sample").find(" 2 (2 to 2)"),
             std::string::npos);
   EXPECT_NE(lineWith(text, "shadow rays / flat, 2 primitives, samples together").find("2.2 (2.2 to 2.2)"),
             std::string::npos);

@@ -325,7 +325,7 @@ def camera_rays(camera, width, height, x, y):
 
 
 def render(scene, stage, width, height, strata, seed, camera=0, **options):
-    """One picture with strata x strata jittered samples a pixel."""
+    """One picture with strata x strata jittered samples per pixel."""
     tracer = Tracer(scene, stage, seed=seed, **options)
     picture = np.zeros((height, width, 3))
     row, column = np.mgrid[0:height, 0:width].reshape(2, -1)

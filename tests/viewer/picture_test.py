@@ -11,7 +11,7 @@ FEW = [*SIZE, "--spp", "4"]
 # Keys, and the options of `render` that do the same. (F2 turns Blinn-Phong off, which gi does without.)
 SWITCHES = {"F3": ["--disable", "shadows"], "F4": ["--disable", "reflections"], "F5": ["--disable", "refraction"],
             "F6": ["--disable", "normal-maps"], "F7": ["--disable", "gi"], "F8": ["--enable", "schlick"],
-            "F9": ["--energy-compensation", "off"], "F10": ["--sampler", "random"], "F11": ["--light-sampling", "bsdf"],
+            "F9": ["--disable", "energy-compensation"], "F10": ["--disable", "sobol"], "F11": ["--disable", "light-sampling"],
             "x": ["--enable", "bvh-heatmap"]}
 
 

@@ -19,14 +19,15 @@ RunCommand addBenchStress(CLI::App& app);
 
 /// In the order of --help.
 inline constexpr std::array kBenchRows{
-    CommandRow{"error", "error against samples and time", addBenchError},
-    CommandRow{"frame", "frame times of sets of options, in turn", addBenchFrame},
-    CommandRow{"report", "the report's table of frame times, measured here", addBenchReport},
-    CommandRow{"variants", "what leaving out what a scene does not need saves", addBenchVariants},
-    CommandRow{"scale", "1 thousand to 10 million triangles: time and memory", addBenchScale},
-    CommandRow{"traversal", "rays a second, nothing shaded", addBenchTraversal},
-    CommandRow{"start", "what waits for what from a cold start to a picture", addBenchStart},
-    CommandRow{"stress", "what breaks ray tracers, as rates of failure", addBenchStress},
+    CommandRow{"error", "measure error against samples and time", addBenchError},
+    CommandRow{"frame", "measure frame times of several settings in turn", addBenchFrame},
+    CommandRow{"report", "measure the frame times of the report that this program began with",
+               addBenchReport},
+    CommandRow{"variants", "measure what a smaller shader saves in a scene", addBenchVariants},
+    CommandRow{"scale", "measure time and memory from 1 thousand to 10 million triangles", addBenchScale},
+    CommandRow{"traversal", "measure rays per second without shading", addBenchTraversal},
+    CommandRow{"start", "measure the steps from a cold start to a written picture", addBenchStart},
+    CommandRow{"stress", "measure failure rates in cases that break ray tracers", addBenchStress},
 };
 
 }  // namespace fragtrace

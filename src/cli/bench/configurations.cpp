@@ -7,6 +7,7 @@
 #include <map>
 
 #include "options/choose.h"
+#include "options/option_text.h"
 
 namespace fragtrace {
 
@@ -20,12 +21,12 @@ struct NamedConfiguration {
 /// What the questions "what does it cost, what does it bring?" are asked of most.
 constexpr std::array<NamedConfiguration, 9> kNamedConfigurations = {{
     {"default", ""},
-    {"baseline", "--light-sampling bsdf --sampler random"},
-    {"random", "--sampler random"},
-    {"bsdf", "--light-sampling bsdf"},
+    {"baseline", "--disable light-sampling,sobol"},
+    {"random", "--disable sobol"},
+    {"bsdf", "--disable light-sampling"},
     {"adaptive", "--noise 0.02 --spp 65536"},
-    {"schlick", "--fresnel schlick"},
-    {"no-compensation", "--energy-compensation off"},
+    {"schlick", "--enable schlick"},
+    {"no-compensation", "--disable energy-compensation"},
     {"clamped", "--clamp-indirect 10"},
     {"fast-triangles", "--disable watertight"},
 }};
@@ -46,16 +47,18 @@ GivenOptions givenOptions(const CLI::App& app) {
   addRenderOptions(render, raw);
   GivenOptions given;
   for (const CLI::Option* option : render.get_options()) {
-    const CLI::Option* here = app.get_option_no_throw(option->get_name());
-    if (here == nullptr || here->count() == 0 || option->get_name() == "--help") continue;
-    std::vector<std::string>& arguments = given[option->get_name()];
-    arguments.push_back(option->get_name());
+    const std::string name = longName(*option);
+    const CLI::Option* here = app.get_option_no_throw(name);
+    if (here == nullptr || here->count() == 0 || name == "--help") continue;
+    std::vector<std::string>& arguments = given[name];
+    arguments.push_back(name);
     if (option->get_items_expected_max() > 0) arguments.push_back(CLI::detail::join(here->results(), ","));
   }
   return given;
 }
 
-/// Fills in the options of one configuration: its own, and those given for all where it has none.
+/// Fills in the options of one configuration: its own, and those given for all where it has none. What both
+/// turn on or off adds up.
 void parseRender(const GivenOptions& shared, BenchConfiguration& c, const std::string& scene,
                  const char* defaultSamples) {
   const auto parsed = [&](std::vector<std::string> arguments, const auto& use) {
@@ -74,7 +77,11 @@ void parseRender(const GivenOptions& shared, BenchConfiguration& c, const std::s
   std::vector<std::string> arguments = withNumbersSettled(CLI::detail::split_up(c.text));
   GivenOptions given =
       parsed(arguments, [](const CLI::App& app, const RawRender&) { return givenOptions(app); });
-  for (const auto& [name, option] : shared) given.try_emplace(name, option);
+  for (const auto& [name, option] : shared) {
+    const auto [own, isNew] = given.try_emplace(name, option);
+    const bool addsUp = name == "--enable" || name == "--disable";
+    if (!isNew && addsUp) own->second.back() += "," + option.back();
+  }
   c.samplesGiven = given.contains("--spp");
   // An adaptive one goes on until its goal.
   if (defaultSamples != nullptr && !given.contains("--noise") && !given.contains("--time"))
@@ -92,9 +99,10 @@ void parseRender(const GivenOptions& shared, BenchConfiguration& c, const std::s
 }  // namespace
 
 void addConfigurationOptions(CLI::App& app, RawConfigurations& raw, const char* defaults) {
-  app.add_option("--configs", raw.names, joined(configurationNames()) + "; default: " + defaults)
+  app.add_option("--configs", raw.names,
+                 "settings to measure: " + joined(configurationNames()) + "; by default " + defaults)
       ->delimiter(',');
-  app.add_option("--config", raw.own, "NAME=OPTIONS: one more, such as \"rough=--bounces 4\"")
+  app.add_option("--config", raw.own, "NAME=OPTIONS: a setting of your own, such as \"rough=--bounces 4\"")
       ->allow_extra_args(false);
   addRenderOptions(app, raw.shared);
 }

@@ -20,26 +20,26 @@ constexpr const char* kDefaultSamples = "256";
 
 void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
   BenchErrorOptions& o = raw.options;
-  app.add_option("file", raw.scene, ".gltf or .glb file")->required();
-  app.add_option(
-      "--reference", o.reference,
-      "picture to measure against; default: one of the first configuration with 64 times the samples");
-  app.add_option("--repetitions", o.repetitions, "with different seeds")
+  app.add_option("file", raw.scene, "scene: a .gltf or .glb file")->required();
+  app.add_option("--reference", o.reference,
+                 "reference picture; by default the first configuration with 64 times the samples");
+  app.add_option("--repetitions", o.repetitions, "pictures of each step, with different seeds")
       ->check(wholeNumber(1, 1000))
       ->capture_default_str();
-  app.add_option("--goal", o.goal, "relative MSE whose time is compared")
+  app.add_option("--goal", o.goal, "relative MSE for which times are compared")
       ->check(CLI::Range(1e-12, 1e3))
       ->capture_default_str();
-  app.add_option("--json", o.json, "file for everything measured");
-  app.add_option("--csv", o.csv, "the same as a table");
-  app.add_option("--chart", o.chart, ".svg: error against time");
-  addConfigurationOptions(app, raw.configurations, "default,random,baseline, or with --config only default");
-  app.get_option("--spp")->description(std::string("camera paths a pixel of the last step, default ") +
+  app.add_option("--json", o.json, "write all measurements to this JSON file");
+  app.add_option("--csv", o.csv, "write all measurements to this table");
+  app.add_option("--chart", o.chart, "write a chart of error against time, an .svg");
+  addConfigurationOptions(app, raw.configurations, "default,random,baseline, or default alone with --config");
+  app.get_option("--spp")->description(std::string("samples per pixel of the last step, by default ") +
                                        kDefaultSamples);
   addDenoiseOption(app, raw.configurations.shared);
   app.get_option("--denoise")
-      ->description(joined(kDenoiseNames) +
-                    ": measure each picture filtered, too, against the time of drawing and filtering it");
+      ->description(
+          joined(kDenoiseNames) +
+          "; each picture is measured with the filter as well, against the time of rendering and filtering");
 }
 
 BenchErrorOptions finishBenchError(const RawBenchError& raw, const CLI::App& app) {

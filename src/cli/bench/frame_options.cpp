@@ -10,17 +10,19 @@ namespace fragtrace {
 
 void addBenchFrameOptions(CLI::App& app, RawBenchFrame& raw) {
   BenchFrameOptions& o = raw.options;
-  app.add_option("scenes", raw.scenes, ".gltf or .glb files")->required();
+  app.add_option("scenes", raw.scenes, "scenes: .gltf or .glb files")->required();
   addTimingOptions(app, o.timing);
   app.add_option("--reference", o.reference,
-                 "picture that all must show; default: what the other traversal of the tree makes");
-  app.add_option("--json", o.json, "file for all figures, a line a setting");
-  app.add_option("--baseline", o.baseline, "such a file of before: status 1 when something got slower");
-  app.add_option("--tolerance", o.tolerance, "by more than this part")
+                 "picture that all settings must show; by default that of the other traversal of the tree");
+  app.add_option("--json", o.json, "write all measurements to this file, one JSON line per setting");
+  app.add_option(
+      "--baseline", o.baseline,
+      "earlier file of --json; status 1 when a setting is slower than there by more than --tolerance");
+  app.add_option("--tolerance", o.tolerance, "part of the earlier time, for --baseline")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   addConfigurationOptions(app, raw.configurations, "default");
-  app.get_option("--spp")->description("frames a round; default: as many as --round-time takes");
+  app.get_option("--spp")->description("frames per round; by default as many as fit into --round-time");
 }
 
 BenchFrameOptions finishBenchFrame(const RawBenchFrame& raw, const CLI::App& app) {

@@ -10,18 +10,18 @@ namespace fragtrace {
 
 void addBenchReportOptions(CLI::App& app, RawBenchReport& raw) {
   BenchReportOptions& o = raw.options;
-  app.add_option("--scenes", raw.scenes, "folder of the scenes, as in the repository")->capture_default_str();
-  app.add_option("--parts", raw.parts, joined(kReportPartNames) + "; default: all")
+  app.add_option("--scenes", raw.scenes, "folder of the scenes")->capture_default_str();
+  app.add_option("--parts", raw.parts, "parts of the table: " + joined(kReportPartNames) + "; by default all")
       ->delimiter(',')
       ->allow_extra_args(false);
-  app.add_flag("--no-iterative", raw.noIterative, "without the rows that have no tree");
+  app.add_flag("--no-iterative", raw.noIterative, "leave out the rows that have no tree");
   addTimingOptions(app, o.timing);
   app.remove_option(app.get_option("--samples-per-draw"));
-  app.add_option("--json", o.json, "file for all figures, a line a setting");
-  app.add_option("--chart", o.chart, ".svg: frame time against faces");
+  app.add_option("--json", o.json, "write all measurements to this file, one JSON line per setting");
+  app.add_option("--chart", o.chart, "write a chart of frame time against faces, an .svg");
   addRenderOptions(app, raw.configurations.shared);
-  app.get_option("--spp")->description("frames a round; default: as many as --round-time takes");
-  app.get_option("--resolution")->description("default 500,500");
+  app.get_option("--spp")->description("frames per round; by default as many as fit into --round-time");
+  app.get_option("--resolution")->description("WIDTH,HEIGHT in pixels, by default 500,500");
 }
 
 BenchReportOptions finishBenchReport(const RawBenchReport& raw, const CLI::App& app) {

@@ -134,6 +134,33 @@ ScaleFrames measureIterative(const Setting& setting, const Scene& scene, std::sp
   return runner.report;
 }
 
+/// What times the traversals of the tree that are asked for; without a renderer yet.
+std::vector<Runner> treeRunners(const Setting& setting, const Scene& scene, uint32_t depth) {
+  const BenchScaleOptions& options = setting.options;
+  std::vector<Runner> runners;
+  for (size_t i = 0; i < options.traversals.size(); ++i) {
+    const TraversalMethod traversal = options.traversals[i];
+    if (traversal == TraversalMethod::Iterative) continue;
+    runners.push_back({traversal, variantFor(setting, traversal, scene, depth), nullptr, {}, 1, {}});
+    runners.back().report.traversal = options.traversalNames[i];
+  }
+  return runners;
+}
+
+/// Looks at the same samples of all, and says which picture is right: the first one's.
+std::unique_ptr<Image> checkRunners(Setting& setting, std::vector<Runner>& runners, const Scene& scene,
+                                    const std::vector<ExactHit>& hits) {
+  std::unique_ptr<Image> first;
+  for (Runner& runner : runners) {
+    runner.renderer->compile(runner.variant, *runner.film, setting.view);
+    RenderTimes unused;
+    runner.renderer->addSamples(*runner.film, setting.view, 0, 1, unused);
+    check(runner, scene, hits, first.get());
+    if (!first) first = std::make_unique<Image>(imageOf(runner.film->read(), {}));
+  }
+  return first;
+}
+
 ScaleRow measureSize(Setting& setting, size_t wanted, double iterativeMsPerTriangle) {
   const BenchScaleOptions& options = setting.options;
   ScaleRow row;
@@ -150,17 +177,7 @@ ScaleRow measureSize(Setting& setting, size_t wanted, double iterativeMsPerTrian
   setting.view.camera = frameScene(scene.bounds);
 
   // Step: both tree traversals read the same arrays.
-  std::vector<Runner> runners;
-  for (size_t i = 0; i < options.traversals.size(); ++i) {
-    if (options.traversals[i] == TraversalMethod::Iterative) continue;
-    runners.push_back({options.traversals[i],
-                       variantFor(setting, options.traversals[i], scene, bvh.depth),
-                       nullptr,
-                       {},
-                       1,
-                       {}});
-    runners.back().report.traversal = options.traversalNames[i];
-  }
+  std::vector<Runner> runners = treeRunners(setting, scene, bvh.depth);
   std::unique_ptr<Renderer> renderer;
   if (!runners.empty()) {
     watch.lap();
@@ -185,16 +202,8 @@ ScaleRow measureSize(Setting& setting, size_t wanted, double iterativeMsPerTrian
   const std::vector<Ray> rays = primaryRays(setting.view.camera, setting.view.space, setting.size);
   proveTree(tracer, row.triangles, rays);
   const std::vector<ExactHit> hits = tracer.nearest(rays);
-  std::unique_ptr<Image> first;
-  for (Runner& runner : runners) {
-    // The same samples for all.
-    runner.renderer->compile(runner.variant, *runner.film, setting.view);
-    RenderTimes unused;
-    runner.renderer->addSamples(*runner.film, setting.view, 0, 1, unused);
-    check(runner, scene, hits, first.get());
-    if (!first) first = std::make_unique<Image>(imageOf(runner.film->read(), {}));
-    row.frames.push_back(std::move(runner.report));
-  }
+  const std::unique_ptr<Image> first = checkRunners(setting, runners, scene, hits);
+  for (Runner& runner : runners) row.frames.push_back(std::move(runner.report));
   if (std::ranges::count(options.traversals, TraversalMethod::Iterative) > 0) {
     ScaleFrames iterative;
     iterative.traversal = "iterative";

@@ -31,24 +31,26 @@ void addBenchScaleOptions(CLI::App& app, RawBenchScale& raw) {
   app.add_option("--to", o.to, "triangles of the largest scene")
       ->check(wholeNumber(kFewest, kMost))
       ->capture_default_str();
-  app.add_option("--per-decade", o.perDecade, "sizes in each factor of ten")
+  app.add_option("--per-decade", o.perDecade, "number of sizes per factor of ten")
       ->check(wholeNumber(1, 10))
       ->capture_default_str();
-  app.add_option("--resolution", raw.render.camera.resolution, "WIDTH,HEIGHT of the picture")
+  app.add_option("--resolution", raw.render.camera.resolution, "WIDTH,HEIGHT of the picture in pixels")
       ->delimiter(',')
       ->expected(2)
       ->check(wholeNumber(8, 4096));
   raw.render.camera.resolution = {500, 500};
-  app.add_option("--traversals", raw.traversals, joined(traversalNames()) + "; the first is compared with")
+  app.add_option("--traversals", raw.traversals,
+                 "traversals to measure: " + joined(traversalNames()) + "; ratios are to the first")
       ->delimiter(',');
-  app.add_option("--rounds", o.rounds, "how often frames are timed, in turn")
+  app.add_option("--rounds", o.rounds, "rounds of timing")
       ->check(wholeNumber(1, 1000))
       ->capture_default_str();
-  app.add_option("--longest", o.longest, "seconds that a frame of the iterative traversal may take")
+  app.add_option("--longest", o.longest,
+                 "leave out the iterative traversal where its frame takes more seconds than this")
       ->check(CLI::Range(0.001, 1e6))
       ->capture_default_str();
-  app.add_option("--json", o.json, "file for everything measured, a line a size");
-  app.add_option("--chart", o.chart, ".svg: time against triangles");
+  app.add_option("--json", o.json, "write all measurements to this file, one JSON line per size");
+  app.add_option("--chart", o.chart, "write a chart of time against triangles, an .svg");
   addDeviceOptions(app, raw.render);
 }
 

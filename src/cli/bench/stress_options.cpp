@@ -10,12 +10,15 @@ namespace fragtrace {
 
 void addBenchStressOptions(CLI::App& app, RawBenchStress& raw) {
   BenchStressOptions& o = raw.options;
-  app.add_flag("--quick", o.quick, "about a hundredth of the cases");
-  app.add_option("--rows", o.rows, "only rows whose name holds one of these")->delimiter(',');
-  app.add_option("--json", o.json, "file for everything found, a line a row");
+  app.add_flag("--quick", o.quick, "try about a hundredth of the cases");
+  app.add_option("--rows", o.rows,
+                 "rows to try: those whose name contains one of these texts, separated by commas")
+      ->delimiter(',');
+  app.add_option("--json", o.json, "write all results to this file, one JSON line per row");
   addDeviceOptions(app, raw.render);
   app.add_option("--schedule", raw.render.schedule,
-                 joined(kScheduleNames) + ": what traces paths; auto: the megakernel, as pictures are small")
+                 "what traces paths: " + joined(kScheduleNames) +
+                     "; auto takes the megakernel, because the pictures are small")
       ->capture_default_str();
 }
 

@@ -11,23 +11,26 @@ namespace fragtrace {
 
 void addBenchTraversalOptions(CLI::App& app, RawBenchTraversal& raw) {
   BenchTraversalOptions& o = raw.options;
-  app.add_option("file", raw.render.scene, ".gltf or .glb file")->required();
+  app.add_option("file", raw.render.scene, "scene: a .gltf or .glb file")->required();
   app.add_option("--resolution", raw.render.camera.resolution,
-                 "WIDTH,HEIGHT of the field of rays, one a pixel")
+                 "WIDTH,HEIGHT of the field of rays, one ray per pixel")
       ->delimiter(',')
       ->expected(2)
       ->check(wholeNumber(1, 4096));
   raw.render.camera.resolution = {1024, 1024};
-  app.add_option("--rounds", o.rounds, "how often each set is traced, in turn")
+  app.add_option("--rounds", o.rounds, "rounds of timing")
       ->check(wholeNumber(1, 10000))
       ->capture_default_str();
-  app.add_option("--traversal", raw.render.traversal, "auto, bvh, front-to-back")->capture_default_str();
-  CLI::Option* index =
-      app.add_option("--camera-index", raw.render.camera.index, "camera of the primary rays, from 0");
-  app.add_option("--camera", raw.render.camera.name, "name or index of it")->excludes(index);
-  app.add_option("--seed", raw.render.options.seed, "of diffuse and shadow rays")->capture_default_str();
-  app.add_option("--json", o.json, "file for everything measured, a line a kind of rays");
-  app.add_option("--rays", o.rays, "file for triangles and rays, to be traced by another (bench/peers)");
+  app.add_option("--traversal", raw.render.traversal, "traversal to measure: auto, bvh, front-to-back")
+      ->capture_default_str();
+  CLI::Option* index = app.add_option("--camera-index", raw.render.camera.index,
+                                      "index of the camera of the primary rays, from 0");
+  app.add_option("--camera", raw.render.camera.name, "name or index of the camera of the primary rays")
+      ->excludes(index);
+  app.add_option("--seed", raw.render.options.seed, "seed of the diffuse and shadow rays")
+      ->capture_default_str();
+  app.add_option("--json", o.json, "write all measurements to this file, one JSON line per kind of ray");
+  app.add_option("--rays", o.rays, "write triangles and rays to this file, for another tracer (bench/peers)");
   addDeviceOptions(app, raw.render);
 }
 

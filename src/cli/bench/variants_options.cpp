@@ -20,14 +20,14 @@ std::vector<std::string> forcedNames() {
 
 void addBenchVariantsOptions(CLI::App& app, RawBenchVariants& raw) {
   BenchVariantsOptions& o = raw.options;
-  app.add_option("scenes", raw.scenes, ".gltf or .glb files")->required();
-  app.add_option("--only", o.only, "turn on only these: " + joined(forcedNames()))
+  app.add_option("scenes", raw.scenes, "scenes: .gltf or .glb files")->required();
+  app.add_option("--only", o.only, "traits to turn on, one at a time: " + joined(forcedNames()))
       ->delimiter(',')
       ->allow_extra_args(false);
   addTimingOptions(app, o.timing);
-  app.add_option("--json", o.json, "file for all figures, a line a setting");
+  app.add_option("--json", o.json, "write all measurements to this file, one JSON line per setting");
   addRenderOptions(app, raw.configurations.shared);
-  app.get_option("--spp")->description("frames a round; default: as many as --round-time takes");
+  app.get_option("--spp")->description("frames per round; by default as many as fit into --round-time");
 }
 
 BenchVariantsOptions finishBenchVariants(const RawBenchVariants& raw, const CLI::App& app) {

@@ -59,8 +59,43 @@ bool isWellConditioned(const glm::dmat3& matrix) {
   return std::sqrt(squared) * std::sqrt(inverseSquared) <= kMostUneven;
 }
 
+using MeshUses = std::map<const Mesh*, MeshUse>;
+
+bool mayShare(const PrimitiveInstance& i, const MeshUses& uses) {
+  return i.whole != nullptr && !uses.at(i.whole).shines && isWellConditioned(glm::dmat3(i.world));
+}
+
+/// How often each mesh stands in the scene.
+MeshUses countUses(const std::vector<PrimitiveInstance>& instances, const std::vector<Material>& materials) {
+  MeshUses uses;
+  for (const PrimitiveInstance& i : instances) {
+    const auto [use, isNew] = uses.try_emplace(i.whole);
+    if (isNew && i.whole != nullptr) use->second = useOf(*i.whole, materials);
+    if (i.primitive != use->second.first) continue;
+    ++use->second.allPlaces;
+    if (mayShare(i, uses)) ++use->second.places;
+  }
+  return uses;
+}
+
+/// Meshes that are shared, with their places, and all else as it is.
+void part(std::vector<PrimitiveInstance> instances, MeshUses& uses, PlacedMeshes& placed) {
+  for (PrimitiveInstance& i : instances) {
+    MeshUse& use = uses.at(i.whole);
+    if (!use.isShared || !mayShare(i, uses)) {
+      placed.flat.push_back(std::move(i));
+    } else if (i.primitive == use.first) {
+      if (use.index == 0) {
+        placed.shared.push_back({i.whole, i.mesh, {}});
+        use.index = placed.shared.size();
+      }
+      placed.shared[use.index - 1].places.push_back({i.world, std::move(i.node)});
+    }
+  }
+}
+
 /// What is copied though it stands in the scene more than once; empty if nothing is.
-std::string copiesAmong(const std::map<const Mesh*, MeshUse>& uses) {
+std::string copiesAmong(const MeshUses& uses) {
   uint64_t shining = 0;
   uint64_t uneven = 0;
   for (const auto& [mesh, use] : uses) {
@@ -85,24 +120,14 @@ bool paysToShare(const SharingCost& cost, uint64_t limit) {
 
 PlacedMeshes chooseSharing(std::vector<PrimitiveInstance> instances, Instancing wanted,
                            const std::vector<Material>& materials, uint64_t limit) {
-  // Step: how often each mesh stands in the scene.
-  std::map<const Mesh*, MeshUse> uses;
-  const auto mayShare = [&uses](const PrimitiveInstance& i) {
-    return i.whole != nullptr && !uses.at(i.whole).shines && isWellConditioned(glm::dmat3(i.world));
-  };
   SharingCost cost;
   uint64_t flatTriangles = 0;
   for (const PrimitiveInstance& i : instances) {
-    const auto [use, isNew] = uses.try_emplace(i.whole);
-    if (isNew && i.whole != nullptr) use->second = useOf(*i.whole, materials);
-    if (i.primitive == use->second.first) {
-      ++use->second.allPlaces;
-      if (mayShare(i)) ++use->second.places;
-    }
     cost.flat += i.primitive->vertices.position.size() * kBytesOfAVertex +
                  i.primitive->triangles.size() * kBytesOfATriangle;
     flatTriangles += i.primitive->triangles.size();
   }
+  MeshUses uses = countUses(instances, materials);
 
   // Step: which of them would take less when shared.
   PlacedMeshes placed;
@@ -143,19 +168,7 @@ PlacedMeshes chooseSharing(std::vector<PrimitiveInstance> instances, Instancing 
     return placed;
   }
 
-  // Step: part them.
-  for (PrimitiveInstance& i : instances) {
-    MeshUse& use = uses.at(i.whole);
-    if (!use.isShared || !mayShare(i)) {
-      placed.flat.push_back(std::move(i));
-    } else if (i.primitive == use.first) {
-      if (use.index == 0) {
-        placed.shared.push_back({i.whole, i.mesh, {}});
-        use.index = placed.shared.size();
-      }
-      placed.shared[use.index - 1].places.push_back({i.world, std::move(i.node)});
-    }
-  }
+  part(std::move(instances), uses, placed);
   return placed;
 }
 

@@ -21,7 +21,7 @@ bool CodecProcess::available() {
 }
 
 std::vector<uint8_t> CodecProcess::decode(CodecRequest request, std::span<const uint8_t> encoded) {
-  // Draco's tables of corners take some hundred bytes a triangle, of which 24 come out.
+  // Draco's tables of corners take some hundred bytes per triangle, of which 24 come out.
   constexpr uint64_t kLibraries = uint64_t(256) << 20;
   constexpr uint64_t kOfAByte = 64;
   constexpr uint64_t kBytesASecond = 5'000'000;

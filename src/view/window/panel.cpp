@@ -194,7 +194,7 @@ void drawCompare(ViewState& state, Places& places) {
   addItemPlace(places, "Denoise");
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
     ImGui::SetTooltip(
-        "%s", reason.empty() ? "all of it up to 64 samples a pixel, nothing from 256 on" : reason.c_str());
+        "%s", reason.empty() ? "all of it up to 64 samples per pixel, nothing from 256 on" : reason.c_str());
   dimAtEnd(keyOf(Action::ToggleSplit) + ", " + keyOf(Action::ToggleDenoise));
   if (!state.split) return;
   int active = int(state.active);

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace fragtrace {
+
+/// What a change of an option or a stage changes.
+enum class Effect : uint8_t {
+  Report,   ///< what is said, written beside the picture, or allowed
+  Way,      ///< how the same samples are drawn: their time and rounding
+  Layers,   ///< what a file holds beside the picture
+  Count,    ///< how many samples
+  Display,  ///< what is made of finished samples
+  Noise,    ///< which samples; their mean stays
+  View,     ///< from where the scene is seen
+  Picture   ///< what the samples converge to
+};
+
+}  // namespace fragtrace
