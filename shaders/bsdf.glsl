@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The glTF 2.0 material (appendix B, KHR_materials_specular, _transmission, _volume) as one BSDF: metal, dielectric over a
-// diffuse base, and glass, mixed by metallic and transmission; and what extensions change of these: the shape of the facets, a film on them,
-// diffuse light through the surface. Sheen and clearcoat lie above (layers.glsl). Frame: z is the shading normal, outgoing.z > 0.
+// The glTF 2.0 material (appendix B, KHR_materials_specular, _transmission, _volume) as one BSDF: metal, dielectric
+// over a diffuse base, and glass, mixed by metallic and transmission; and what extensions change of these: the shape of
+// the facets, a film on them, diffuse light through the surface. Sheen and clearcoat lie above (layers.glsl). Frame: z
+// is the shading normal, outgoing.z > 0.
 
 struct Bsdf {
   vec3 baseColor;
@@ -27,7 +28,8 @@ struct Bsdf {
   float coat;         // weight, GGX width and normal of the clearcoat (kClearcoat)
   float coatAlpha;
   vec3 coatNormal;
-  vec3 between;    // colour of light scattered more than once between the facets, over pi (1 - average albedo); see compensate
+  // colour of light scattered more than once between the facets, over pi (1 - average albedo); see compensate
+  vec3 between;
 };
 
 /// A direction drawn from a Bsdf. weight = f |cos| / density; density 0 for a single direction; weight 0 ends the path.
@@ -47,7 +49,8 @@ struct BsdfValue {
 /// Below this width a lobe is taken as a single direction: it is narrower than 0.001 radians.
 const float kMirrorAlpha = float(0.001);
 
-/// Between indices that are closer than this a rough boundary bends light by less than kMirrorAlpha, and half vectors lose their digits.
+/// Between indices that are closer than this a rough boundary bends light by less than kMirrorAlpha, and half vectors
+/// lose their digits.
 const float kEqualIndices = float(0.001);
 
 /// Whether glass is a single direction each way. A thin wall spreads light by its roughness alone.
@@ -76,8 +79,9 @@ float throughLayer(Bsdf b, float cosine) {
   return 1.0f - maxComponent(facetFresnel(b, b.dielectricF0, b.dielectricF90, cosine));
 }
 
-/// Reflectance of one interface of the glass whose exact reflectance is `bare`, as KHR_materials_specular scales it: f0 and f90 are those of the
-/// dielectric layer, and between them it grows as the exact one does. Light that cannot leave stays.
+/// Reflectance of one interface of the glass whose exact reflectance is `bare`, as KHR_materials_specular scales it: f0
+/// and f90 are those of the dielectric layer, and between them it grows as the exact one does. Light that cannot leave
+/// stays.
 vec3 scaledGlass(Bsdf b, float bare) {
   float root = (b.eta - 1.0f) / (b.eta + 1.0f);
   float f0 = root * root;
@@ -85,8 +89,8 @@ vec3 scaledGlass(Bsdf b, float bare) {
   return mix(b.dielectricF0, vec3(b.dielectricF90), max(0.0f, bare - f0) / (1.0f - f0));
 }
 
-/// Reflectance of one interface of the glass under its film, on whichever side it is. What the film lies on is that of the dielectric layer where
-/// KHR_materials_specular scales it.
+/// Reflectance of one interface of the glass under its film, on whichever side it is. What the film lies on is that of
+/// the dielectric layer where KHR_materials_specular scales it.
 vec3 filmedGlass(Bsdf b, float cosine, float eta, vec3 bare) {
   float squared = refractedSquared(cosine, eta);
   if (squared <= 0.0f) return bare;
@@ -96,7 +100,8 @@ vec3 filmedGlass(Bsdf b, float cosine, float eta, vec3 bare) {
   return mix(bare, filmReflectance(f0, b.filmIndex, b.filmThickness, outside), b.film);
 }
 
-/// Reflectance of the glass at a facet seen at `cosine`; what it transmits is 1 less the largest channel (KHR_materials_iridescence, rgb_mix).
+/// Reflectance of the glass at a facet seen at `cosine`; what it transmits is 1 less the largest channel
+/// (KHR_materials_iridescence, rgb_mix).
 vec3 glassReflectance(Bsdf b, float cosine) {
   float eta = b.solid ? b.eta : max(b.eta, 1.0f / b.eta);
   float single = kSchlick ? schlickDielectric(cosine, eta) : fresnelDielectric(cosine, eta);
@@ -123,14 +128,15 @@ vec3 glassTint(Bsdf b, float cosine) {
 /// Mean of Schlick's reflectance over cosine-weighted directions.
 vec3 averageFresnel(vec3 f0, float f90) { return f0 + (vec3(f90) - f0) / float(21.0); }
 
-/// The colour of what facets with mean reflectance `fresnel` send out after more than one scattering, given their average loss.
+/// The colour of what facets with mean reflectance `fresnel` send out after more than one scattering, given their
+/// average loss.
 vec3 manyScatterings(vec3 fresnel, float averageLoss) {
   float albedo = 1.0f - averageLoss;
   return fresnel * fresnel * albedo / (vec3(1.0f) - fresnel * averageLoss);
 }
 
-/// Fills in what single scattering loses (Kulla and Conty, Revisiting Physically Based Shading at Imageworks, 2017): the lobe
-/// between (1 - E(o)) (1 - E(i)) cos(i).
+/// Fills in what single scattering loses (Kulla and Conty, Revisiting Physically Based Shading at Imageworks, 2017):
+/// the lobe between (1 - E(o)) (1 - E(i)) cos(i).
 Bsdf compensate(Bsdf b) {
   b.between = vec3(0.0f);
   if (!kCompensation || b.mirrorLike) return b;
@@ -139,7 +145,8 @@ Bsdf compensate(Bsdf b) {
   vec3 color = b.opaque * manyScatterings(averageFresnel(b.dielectricF0, b.dielectricF90), averageLoss);
   if (kMetals) color = color + b.metal * manyScatterings(averageFresnel(b.baseColor, 1.0f), averageLoss);
   b.between = color * (kInversePi / averageLoss);
-  // Stretched facets are in no table: of what isotropic ones of the same area would lose, so much is given back that nothing is gained.
+  // Stretched facets are in no table: of what isotropic ones of the same area would lose, so much is given back that
+  // nothing is gained.
   if (kAnisotropy) b.between = b.between / (b.stretch * b.stretch);
   return b;
 }
@@ -150,7 +157,8 @@ float throughChance(Bsdf b, float reflected, float through) {
   return reflected > 0.0f ? through / (reflected + through) : 1.0f;
 }
 
-/// Chances of drawing from glass (x), the opaque specular lobe (y), the diffuse lobe (z) and what goes through diffusely (w); they add up to 1.
+/// Chances of drawing from glass (x), the opaque specular lobe (y), the diffuse lobe (z) and what goes through
+/// diffusely (w); they add up to 1.
 vec4 lobeChances(Bsdf b, float cosine) {
   float glass = kTransmission ? b.glass : 0.0f;
   float reflected = maxComponent(b.baseColor);
@@ -210,8 +218,8 @@ BsdfValue evaluateGlass(Bsdf b, vec3 outgoing, vec3 incoming) {
     tint = b.baseColor;
     share = 1.0f - fresnel;
     if (bends) {
-      // Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007, equations 17 and 21, times 1 / eta^2 since
-      // radiance is compressed by the denser side.
+      // Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007, equations 17 and 21, times 1 /
+      // eta^2 since radiance is compressed by the denser side.
       float denominator = oh + b.eta * ih;
       if (denominator == 0.0f) return none;
       jacobian = b.eta * b.eta * abs(ih) / (denominator * denominator);
@@ -286,7 +294,8 @@ BsdfSample sampleSmoothGlass(Bsdf b, vec3 outgoing, float choice) {
 /// The density of a sample whose direction is drawn, but not weighed yet.
 const float kUnweighed = float(-1.0);
 
-/// Draws from what lies under sheen and clearcoat: a direction to be weighed, a single one with its weight, or a lost one of weight 0.
+/// Draws from what lies under sheen and clearcoat: a direction to be weighed, a single one with its weight, or a lost
+/// one of weight 0.
 BsdfSample drawBase(Bsdf b, vec3 outgoing, float choice, float u, float v) {
   BsdfSample s;
   s.weight = vec3(0.0f);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Tables behind the materials: the energy that single scattering loses between GGX facets (src/pack/ggx_energy.cpp) and the albedo of sheen
-// (src/pack/sheen_albedo.cpp). Each has one row a cell with the values at its corners, over the roots of cosine and alpha; the first goes on with one row a
-// cell of the average loss.
+// Tables behind the materials: the energy that single scattering loses between GGX facets (src/pack/ggx_energy.cpp) and
+// the albedo of sheen (src/pack/sheen_albedo.cpp). Each has one row a cell with the values at its corners, over the
+// roots of cosine and alpha; the first goes on with one row a cell of the average loss.
 
 const int kEnergyRows = int(kEnergyCells * kEnergyCells + kEnergyCells);
 
@@ -30,4 +30,6 @@ float ggxAverageLoss(float alpha) {
 }
 
 /// Albedo of white sheen, seen at `cosine`.
-float sheenAlbedo(float cosine, float alpha) { return kSheen ? energyTableAt(kCompensation ? kEnergyRows : 0, cosine, alpha) : 0.0; }
+float sheenAlbedo(float cosine, float alpha) {
+  return kSheen ? energyTableAt(kCompensation ? kEnergyRows : 0, cosine, alpha) : 0.0;
+}

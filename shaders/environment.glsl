@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The environment: an equirectangular map, bilinear; drawn from by inversion of its luminance, so that what is stratified stays so.
+// The environment: an equirectangular map, bilinear; drawn from by inversion of its luminance, so that what is
+// stratified stays so.
 
 /// Texture coordinates of a direction (docs/design/conventions.md); the rotation is undone first.
 vec2 environmentCoordinates(vec3 d) {
@@ -21,8 +22,8 @@ vec3 environmentDirection(vec2 uv) {
 
 vec4 environmentTexel(ivec2 p, ivec2 size) { return uintBitsToFloat(readEnvironment(p.y * size.x + p.x)); }
 
-/// Radiance and, relative to an even density over the map's area, the density at a place of the map: in texels, the middle of the first at 0.5,
-/// from -0.5 to half a texel beyond the width.
+/// Radiance and, relative to an even density over the map's area, the density at a place of the map: in texels, the
+/// middle of the first at 0.5, from -0.5 to half a texel beyond the width.
 vec4 environmentAt(vec2 place) {
   ivec2 size = ivec2(frame.environment);
   vec2 position = place - vec2(0.5f);
@@ -87,8 +88,9 @@ float invertTable(int firstRow, uint count, uint bits) {
 /// Drawn by the density 1 - |x|.
 float sampleTent(float u) { return u < 0.5f ? sqrt(2.0f * u) - 1.0f : 1.0f - sqrt(2.0f - 2.0f * u); }
 
-/// A place of the map in texels. Bilinear filtering makes of each texel a tent about its middle, so drawing a texel and a place in its tent has the
-/// density that environmentAt gives. What a row's tent has beyond a pole, clamping spreads over half a texel.
+/// A place of the map in texels. Bilinear filtering makes of each texel a tent about its middle, so drawing a texel and
+/// a place in its tent has the density that environmentAt gives. What a row's tent has beyond a pole, clamping spreads
+/// over half a texel.
 vec2 sampleEnvironment(uvec2 bits) {
   ivec2 size = ivec2(frame.environment);
   float row = invertTable(0, uint(size.y), bits.y);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One pixel of the film: the compensated sum of all samples, their variance and their counts. Samples are added one by one
-// in order, so the result does not depend on how they were split into draws.
+// One pixel of the film: the compensated sum of all samples, their variance and their counts. Samples are added one by
+// one in order, so the result does not depend on how they were split into draws.
 
 struct FilmPixel {
   vec3 sum;
@@ -13,11 +13,12 @@ struct FilmPixel {
   uint flags;
 };
 
-/// Infinite, NaN, or so large (2^96) that the most samples per pixel can have would add up to infinity; told by its bits, since a
-/// compiler may take isnan() for false.
+/// Infinite, NaN, or so large (2^96) that the most samples per pixel can have would add up to infinity; told by its
+/// bits, since a compiler may take isnan() for false.
 bool isNonfinite(float x) { return (floatBitsToUint(x) & 0x7f800000u) >= 0x6f800000u; }
 
-/// Adds one sample (Kahan, Further Remarks on Reducing Truncation Errors, 1965; Welford, 1962). One that is not finite is counted and adds black.
+/// Adds one sample (Kahan, Further Remarks on Reducing Truncation Errors, 1965; Welford, 1962). One that is not finite
+/// is counted and adds black.
 FilmPixel addSample(FilmPixel f, vec3 radiance, float alpha) {
   if (isNonfinite(radiance.x) || isNonfinite(radiance.y) || isNonfinite(radiance.z)) {
     f.nonfinite += 1u;
@@ -38,8 +39,8 @@ FilmPixel addSample(FilmPixel f, vec3 radiance, float alpha) {
   return f;
 }
 
-/// Adds what tells surfaces apart (kFeatureGuides), in plain sums: the normal in place of the compensation, depth in place of the squares
-/// (Film::readGuides).
+/// Adds what tells surfaces apart (kFeatureGuides), in plain sums: the normal in place of the compensation, depth in
+/// place of the squares (Film::readGuides).
 FilmPixel addGuides(FilmPixel f, vec3 albedo, vec3 normal, float depth, float alpha) {
   f.samples += 1u;
   f.alpha += alpha;

@@ -8,8 +8,8 @@ vec3 fresnelSchlick(vec3 f0, float f90, float cosine) {
   return f0 + (vec3(f90) - f0) * (m2 * m2 * m);
 }
 
-/// The square of eta times the cosine behind the boundary; negative at total internal reflection. As a product it keeps its digits where index and
-/// angle bring it near zero, and an index of 1 refracts at every angle.
+/// The square of eta times the cosine behind the boundary; negative at total internal reflection. As a product it keeps
+/// its digits where index and angle bring it near zero, and an index of 1 refracts at every angle.
 float refractedSquared(float cosine, float eta) { return (eta - 1.0f) * (eta + 1.0f) + cosine * cosine; }
 
 /// Unpolarised reflectance of a smooth dielectric boundary. cosine >= 0 is that of the incident side, eta the index
@@ -41,8 +41,8 @@ float schlickDielectric(float cosine, float eta) {
   return f0 + (1.0f - f0) * (m2 * m2 * m);
 }
 
-/// Snell: the direction behind the boundary. outgoing and normal are unit and on the same side; at total internal reflection, which who asks has
-/// ruled out but for rounding, along the boundary.
+/// Snell: the direction behind the boundary. outgoing and normal are unit and on the same side; at total internal
+/// reflection, which who asks has ruled out but for rounding, along the boundary.
 vec3 refractThrough(vec3 outgoing, vec3 normal, float eta) {
   float cosine = dot(outgoing, normal);
   float refracted = sqrt(max(refractedSquared(cosine, eta), 0.0f));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The GGX microfacet distribution in a frame whose z is the normal (glTF 2.0, appendix B), isotropic, or stretched along x: facets of width alpha
-// x stretch along x and alpha / stretch along y. In a space that is stretched the other way these are isotropic ones (kAnisotropy).
+// The GGX microfacet distribution in a frame whose z is the normal (glTF 2.0, appendix B), isotropic, or stretched
+// along x: facets of width alpha x stretch along x and alpha / stretch along y. In a space that is stretched the other
+// way these are isotropic ones (kAnisotropy).
 
 /// Trowbridge-Reitz density of half vectors, in the form that keeps its digits at small alpha.
 float ggxDensity(vec3 h, float alpha) {
@@ -35,7 +36,8 @@ vec3 sampleVisibleGgx(vec3 outgoing, float alpha, float u, float v) {
 }
 
 float visibleGgxDensity(vec3 outgoing, vec3 h, float alpha) {
-  return ggxDensity(h, alpha) * ggxMasking(outgoing, alpha) * max(0.0f, dot(outgoing, h)) / max(outgoing.z, float(1e-12));
+  return ggxDensity(h, alpha) * ggxMasking(outgoing, alpha) * max(0.0f, dot(outgoing, h)) /
+         max(outgoing.z, float(1e-12));
 }
 
 /// A direction where its masking is that of isotropic facets of width alpha.

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What a filter tells surfaces apart by (kFeatureGuides): albedo and normal of the first surface that is not seen by way of smooth glass or
-// a smooth metal alone, so that what stands behind these stays sharp, and depth of the first surface of all, which tells these from the
-// rest. No shadow ray is traced meanwhile, so its members keep them, also from draw to draw: contribution the normal, shadowLimit depth.
+// What a filter tells surfaces apart by (kFeatureGuides): albedo and normal of the first surface that is not seen by
+// way of smooth glass or a smooth metal alone, so that what stands behind these stays sharp, and depth of the first
+// surface of all, which tells these from the rest. No shadow ray is traced meanwhile, so its members keep them, also
+// from draw to draw: contribution the normal, shadowLimit depth.
 
 const float kGuideAlpha = 0.01;    // the roughest that is followed: what it shows is hardly blurred
 const int kGuideScatterings = 16;  // at most
 
-/// One surface along the camera path: what it shows, or where it leads. Of reflection and refraction the stronger one is followed, without
-/// chance, since noise of the guides would be noise of the picture.
+/// One surface along the camera path: what it shows, or where it leads. Of reflection and refraction the stronger one
+/// is followed, without chance, since noise of the guides would be noise of the picture.
 Path guideAt(Path p, Surface s, vec3 baseColor) {
   if (p.cameraRay) p.shadowLimit = depthOf(s);
   vec3 normal = facingNormal(mappedNormal(s), -p.direction);

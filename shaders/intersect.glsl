@@ -28,7 +28,8 @@ RayShear makeShear(vec3 direction) {
   return s;
 }
 
-/// hit: the line of the ray meets the triangle, in front of the origin where t > 0. front: it is seen from its counter-clockwise side. Meaningless where hit is false.
+/// hit: the line of the ray meets the triangle, in front of the origin where t > 0. front: it is seen from its
+/// counter-clockwise side. Meaningless where hit is false.
 struct TriangleHit {
   bool hit;
   bool front;
@@ -62,7 +63,8 @@ TriangleHit intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2
   float inverse = 1.0f / sum;
   h.t = (u * a.z + v * b.z + w * c.z) * s.z * inverse;
   h.hit = (positive || negative) && sum != 0.0f;
-  // Edge functions of a triangle that is small beside its distance from the ray are rounding (docs/design/numerics.md, "Zero from far away").
+  // Edge functions of a triangle that is small beside its distance from the ray are rounding (docs/design/numerics.md,
+  // "Zero from far away").
   h.hit = h.hit && !zeroBeyond(ax, bx, cx) && !zeroBeyond(ay, by, cy);
   h.front = (s.z > 0.0f) == (sum > 0.0f);
   h.weight1 = v * inverse;
@@ -70,10 +72,13 @@ TriangleHit intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2
   return h;
 }
 
-/// Distance along the ray to the plane dot(normal, x) = distance of a triangle, within the depths of its vertices. The weighted depths of a sliver are
-/// rounding times its aspect ratio: a ray that starts beside it could find it behind (docs/design/numerics.md, "Distance along the ray"). Farther away than a 64th of those
-/// depths, `weighted` is kept where it is the better one: off by eps L^3 / 4A, the plane's mostly by less than 1.5 eps times the largest coordinate over the cosine to the normal.
-float distanceToPlane(vec3 origin, vec3 direction, RayShear s, vec3 v0, vec3 v1, vec3 v2, vec3 normal, float distance, float weighted) {
+/// Distance along the ray to the plane dot(normal, x) = distance of a triangle, within the depths of its vertices. The
+/// weighted depths of a sliver are rounding times its aspect ratio: a ray that starts beside it could find it behind
+/// (docs/design/numerics.md, "Distance along the ray"). Farther away than a 64th of those depths, `weighted` is kept
+/// where it is the better one: off by eps L^3 / 4A, the plane's mostly by less than 1.5 eps times the largest
+/// coordinate over the cosine to the normal.
+float distanceToPlane(vec3 origin, vec3 direction, RayShear s, vec3 v0, vec3 v1, vec3 v2, vec3 normal, float distance,
+                      float weighted) {
   float a = rotateToAxis(v0 - origin, s.axis).z * s.z;
   float b = rotateToAxis(v1 - origin, s.axis).z * s.z;
   float c = rotateToAxis(v2 - origin, s.axis).z * s.z;
@@ -91,8 +96,9 @@ float distanceToPlane(vec3 origin, vec3 direction, RayShear s, vec3 v0, vec3 v1,
   return rough || weighted <= 0.015625f * (farthest - nearest) ? max(nearest, min(t, farthest)) : weighted;
 }
 
-/// The test of Moller and Trumbore (Fast, Minimum Storage Ray/Triangle Intersection, 1997): each triangle rounds its edges by itself, so rays
-/// can pass between neighbours. What the watertight test is measured against (--disable watertight).
+/// The test of Moller and Trumbore (Fast, Minimum Storage Ray/Triangle Intersection, 1997): each triangle rounds its
+/// edges by itself, so rays can pass between neighbours. What the watertight test is measured against (--disable
+/// watertight).
 TriangleHit intersectTriangleFast(vec3 origin, vec3 direction, vec3 v0, vec3 v1, vec3 v2) {
   vec3 e1 = v1 - v0;
   vec3 e2 = v2 - v0;
@@ -113,10 +119,10 @@ TriangleHit intersectTriangleFast(vec3 origin, vec3 direction, vec3 v0, vec3 v1,
 /// Whether t lies behind a distance, or at it where that counts, too.
 bool liesBehind(float t, float distance, bool at) { return t > distance || (at && t == distance); }
 
-/// Distance to the sphere's nearest surface that may be hit and lies behind `past` (or at it); `inside`: its inner side counts.
-/// A miss is -1. The discriminant is taken from the distance of the centre to the ray, so that a
-/// far sphere keeps its digits (Hearn and Baker's form; Haines et al., Precision Improvements for Ray/Sphere
-/// Intersection, 2019). direction is unit length.
+/// Distance to the sphere's nearest surface that may be hit and lies behind `past` (or at it); `inside`: its inner side
+/// counts. A miss is -1. The discriminant is taken from the distance of the centre to the ray, so that a far sphere
+/// keeps its digits (Hearn and Baker's form; Haines et al., Precision Improvements for Ray/Sphere Intersection, 2019).
+/// direction is unit length.
 float intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, bool inside, float past, bool at) {
   vec3 f = origin - center;
   float b = -dot(f, direction);
@@ -138,14 +144,16 @@ vec3 offsetOrigin(vec3 point, float error, vec3 normal, vec3 direction) {
   return point + (dot(direction, normal) < 0.0f ? -error : error) * normal;
 }
 
-/// The part of the way to a triangle's middle, where a weight is `middle`, that takes it up to times * 2^-code, at most a quarter; code 0 asks for nothing.
+/// The part of the way to a triangle's middle, where a weight is `middle`, that takes it up to times * 2^-code, at most
+/// a quarter; code 0 asks for nothing.
 float insetPart(float weight, float middle, uint code, float times) {
   float least = code == 0u ? 0.0f : min(times * uintBitsToFloat((127u - code) << 23), 0.25f);
   return weight < least ? (least - weight) / (middle - weight) : 0.0f;
 }
 
-/// A point of a triangle, of these weights, moved towards its middle until it is as far from edges and vertices as its sharp creases ask
-/// (creaseInsets of src/scene/creases.h): else the offset along the normal could lead through the neighbour. `times`: of the triangle's own offset that the ray is moved by.
+/// A point of a triangle, of these weights, moved towards its middle until it is as far from edges and vertices as its
+/// sharp creases ask (creaseInsets of src/scene/creases.h): else the offset along the normal could lead through the
+/// neighbour. `times`: of the triangle's own offset that the ray is moved by.
 vec3 insetFromCreases(vec3 point, vec2 weights, vec3 middle, uint inset, float times) {
   const float third = 1.0f / 3.0f;
   float w0 = 1.0f - weights.x - weights.y;
@@ -158,9 +166,10 @@ vec3 insetFromCreases(vec3 point, vec2 weights, vec3 middle, uint inset, float t
   return point + part * (middle - point);
 }
 
-/// The point at distance t along a ray, moved onto the plane dot(normal, x) = distance that it lies on but for rounding: off the plane its error no
-/// longer grows with the distance from the ray's origin. It is moved along the ray, on which the distance to a sliver is what is known
-/// worst; but along the normal where the ray grazes, which would carry the point's own rounding away.
+/// The point at distance t along a ray, moved onto the plane dot(normal, x) = distance that it lies on but for
+/// rounding: off the plane its error no longer grows with the distance from the ray's origin. It is moved along the
+/// ray, on which the distance to a sliver is what is known worst; but along the normal where the ray grazes, which
+/// would carry the point's own rounding away.
 vec3 pointOnPlane(vec3 origin, vec3 direction, float t, vec3 normal, float distance) {
   vec3 point = origin + t * direction;
   float facing = dot(normal, direction);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Reflectance of a surface under a thin film (Belcour and Barla, A Practical Extension to Microfacet Theory for the Modeling of Varying
-// Iridescence, 2017), with the approximations of KHR_materials_iridescence: Schlick's reflectances, real indices, two orders of interference.
+// Reflectance of a surface under a thin film (Belcour and Barla, A Practical Extension to Microfacet Theory for the
+// Modeling of Varying Iridescence, 2017), with the approximations of KHR_materials_iridescence: Schlick's reflectances,
+// real indices, two orders of interference.
 
-/// How much three sensors for red, green and blue see of a wave with this optical path difference (nm) and phase shifts: their sensitivities are
-/// Gaussians over the wave number, whose Fourier transforms these are.
+/// How much three sensors for red, green and blue see of a wave with this optical path difference (nm) and phase
+/// shifts: their sensitivities are Gaussians over the wave number, whose Fourier transforms these are.
 vec3 filmInterference(float pathDifference, vec3 shift) {
   float phase = 2.0f * kPi * pathDifference * float(1e-9);
   float squared = phase * phase;
@@ -13,15 +14,16 @@ vec3 filmInterference(float pathDifference, vec3 shift) {
   vec3 xyz = height * sqrt(2.0f * kPi * width) * cos(place * phase + shift) * exp(-squared * width);
   // The red sensor's second bump, in the blue.
   const float blueWidth = float(4.5282e9);
-  xyz.x += float(9.7470e-14) * sqrt(2.0f * kPi * blueWidth) * cos(float(2.2399e6) * phase + shift.x) * exp(-squared * blueWidth);
+  xyz.x += float(9.7470e-14) * sqrt(2.0f * kPi * blueWidth) * cos(float(2.2399e6) * phase + shift.x) *
+           exp(-squared * blueWidth);
   xyz = xyz / float(1.0685e-7);
   return vec3(dot(xyz, vec3(float(3.2404542), float(-1.5371385), float(-0.4985314))),
               dot(xyz, vec3(float(-0.9692660), float(1.8760108), float(0.0415560))),
               dot(xyz, vec3(float(0.0556434), float(-0.2040259), float(1.0572252))));
 }
 
-/// Reflectance seen at `cosine` from air, between 0 and 1. baseF0: what the surface would reflect without the film, seen from above; index and
-/// thickness (nm) are the film's.
+/// Reflectance seen at `cosine` from air, between 0 and 1. baseF0: what the surface would reflect without the film,
+/// seen from above; index and thickness (nm) are the film's.
 vec3 filmReflectance(vec3 baseF0, float index, float thickness, float cosine) {
   float inside = sqrt(max(0.0f, 1.0f - (1.0f - cosine * cosine) / (index * index)));
   float root = (index - 1.0f) / (index + 1.0f);
@@ -31,7 +33,8 @@ vec3 filmReflectance(vec3 baseF0, float index, float thickness, float cosine) {
   vec3 ratio = (baseIndex - index) / (baseIndex + index);
   vec3 bottom = fresnelSchlick(ratio * ratio, 1.0f, inside);
   // The film is denser than air; light that meets something thinner behind it is not turned round.
-  vec3 shift = vec3(kPi) + vec3(baseIndex.x < index ? kPi : 0.0f, baseIndex.y < index ? kPi : 0.0f, baseIndex.z < index ? kPi : 0.0f);
+  vec3 shift = vec3(kPi) + vec3(baseIndex.x < index ? kPi : 0.0f, baseIndex.y < index ? kPi : 0.0f,
+                                baseIndex.z < index ? kPi : 0.0f);
   vec3 both = clamp(top * bottom, float(1e-5), float(0.9999));
   vec3 order = sqrt(both);
   float through = 1.0f - top;

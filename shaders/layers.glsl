@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The whole surface: clearcoat (KHR_materials_clearcoat) over sheen (KHR_materials_sheen) over the base of bsdf.glsl. A clearcoat of weight w with the
-// reflectance F, seen at the angle of the viewer, is w F x its lobe + (1 - w F) x all below; sheen s is s x its lobe + (1 - max(s) E) x the base,
-// where E is the lobe's albedo in the direction, of both, in which it is larger.
+// The whole surface: clearcoat (KHR_materials_clearcoat) over sheen (KHR_materials_sheen) over the base of bsdf.glsl. A
+// clearcoat of weight w with the reflectance F, seen at the angle of the viewer, is w F x its lobe + (1 - w F) x all
+// below; sheen s is s x its lobe + (1 - max(s) E) x the base, where E is the lobe's albedo in the direction, of both,
+// in which it is larger.
 
 const float kCoatF0 = float(0.04);  // of the index 1.5
 
@@ -21,12 +22,14 @@ float underSheen(Bsdf b, vec3 outgoing, vec3 incoming) {
   return 1.0f - strongest * max(sheenShare(outgoing.z, b.sheenAlpha), sheenShare(incoming.z, b.sheenAlpha));
 }
 
-/// Chances of drawing from clearcoat (x), sheen (y) and the base (z); they add up to 1. No layer that is there is drawn too rarely.
+/// Chances of drawing from clearcoat (x), sheen (y) and the base (z); they add up to 1. No layer that is there is drawn
+/// too rarely.
 vec3 layerChances(Bsdf b, vec3 outgoing) {
   float coat = coatShare(b, outgoing);
   float sheen = kSheen ? maxComponent(b.sheenColor) * sheenShare(outgoing.z, b.sheenAlpha) : 0.0f;
   float glass = kTransmission ? b.glass : 0.0f;
-  float diffuse = kDiffuseTransmission ? mix(maxComponent(b.baseColor), maxComponent(b.throughColor), b.diffuseThrough) : maxComponent(b.baseColor);
+  float diffuse = kDiffuseTransmission ? mix(maxComponent(b.baseColor), maxComponent(b.throughColor), b.diffuseThrough)
+                                       : maxComponent(b.baseColor);
   float base = glass + b.opaque * diffuse + maxComponent(opaqueFresnel(b, outgoing.z));
   float below = sheen + (1.0f - sheen) * min(base, 1.0f);
   float coatChance = coat > 0.0f ? clamp(coat / (coat + (1.0f - coat) * below), 0.125f, 0.875f) : 0.0f;
@@ -119,8 +122,9 @@ BsdfSample drawLayered(Bsdf b, vec3 outgoing, float choice, float u, float v) {
   return s;
 }
 
-/// (u, v) picks the lobe and the direction, so that each lobe gets its part of points that are stratified together; choice decides between
-/// reflection and refraction at glass, and between both sides of diffuse light. Each is uniform in [0, 1).
+/// (u, v) picks the lobe and the direction, so that each lobe gets its part of points that are stratified together;
+/// choice decides between reflection and refraction at glass, and between both sides of diffuse light. Each is uniform
+/// in [0, 1).
 BsdfSample sampleBsdf(Bsdf b, vec3 outgoing, float choice, float u, float v) {
   BsdfSample s;
   if (kClearcoat || kSheen) s = drawLayered(b, outgoing, choice, u, v);

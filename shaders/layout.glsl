@@ -4,7 +4,8 @@
 // Scene buffers: each is read through one function of read_*.glsl.
 const uint kNodesBinding = 0u;         // kNodeRows uvec4 a node; behind them kInstanceRows an instance
 const uint kLeavesBinding = 1u;        // 5 uvec4 a leaf: two primitives, structure of arrays
-const uint kFacesBinding = 2u;         // kFaceRows uvec4 a leaf slot (leaf * 2 + side): what shading needs of a primitive; behind them 1 a slot: kCreases
+// kFaceRows uvec4 a leaf slot (leaf * 2 + side): what shading needs of a primitive; behind them 1 a slot: kCreases
+const uint kFacesBinding = 2u;
 const uint kNormalsBinding = 3u;       // 1 vec4 a vertex
 const uint kTexcoordsBinding = 4u;     // 1 vec4 a vertex: TEXCOORD_0, TEXCOORD_1
 const uint kTangentsBinding = 5u;      // 1 vec4 a vertex
@@ -14,7 +15,8 @@ const uint kTexelsBinding = 8u;        // 1 uvec2 a texel: RGBA as linear half f
 const uint kEmittersBinding = 9u;      // kEmitterRows uvec4 an emitter
 const uint kLightsBinding = 10u;       // kLightRows vec4 a punctual light
 const uint kEnvironmentBinding = 11u;  // 1 vec4 a texel: radiance, density over the area of the map (mean 1)
-const uint kEnvironmentInversionBinding = 12u;  // 1 uvec4 a step: of the rows, then of each row (src/pack/inversion_table.h)
+// 1 uvec4 a step: of the rows, then of each row (src/pack/inversion_table.h)
+const uint kEnvironmentInversionBinding = 12u;
 const uint kSceneBufferCount = 13u;
 
 // Where scene buffers read as images begin among the image units, behind the film.
@@ -30,7 +32,8 @@ const uint kPathStatesBinding = 13u;
 const uint kProgressBinding = 14u;
 const uint kPathStateRows = 19u;  // uvec4s a suspended path
 const uint kTwoLevelPathStateRows = 24u;  // where there are instances
-// Of the wavefront: a lane has this many pixels of a column of its tile, each with the state of its path, and a row of its own before them.
+// Of the wavefront: a lane has this many pixels of a column of its tile, each with the state of its path, and a row of
+// its own before them.
 const uint kWaveSlots = 32u;
 const uint kWaveRows = 12u;  // at most: scenes without alpha leave the last ones out
 const uint kWaveAlphaRows = 3u;
@@ -63,13 +66,15 @@ const uint kNodeRows = 2u;
 const uint kLeafRows = 5u;
 const uint kLeafBlock = 4u;  // the iterative traversal tests this many leaves in one loop iteration
 
-// An instance is a leaf of the upper tree whose index is from here on: kInstanceLeaf + its number, which is that of its first row / kInstanceRows.
-// Popping kInstanceEnd leads back out of it. Rows: three of the matrix from local space into its mesh's, beside them the mesh's origin in local
-// space; origin of its grid and root of its tree; cell of its grid and scale of offsets; three rows of the matrix back, beside them what
-// is added to offsets, -1 where the matrix mirrors, else 1, and how much lengths can grow on the way into the mesh's space.
+// An instance is a leaf of the upper tree whose index is from here on: kInstanceLeaf + its number, which is that of its
+// first row / kInstanceRows. Popping kInstanceEnd leads back out of it. Rows: three of the matrix from local space into
+// its mesh's, beside them the mesh's origin in local space; origin of its grid and root of its tree; cell of its grid
+// and scale of offsets; three rows of the matrix back, beside them what is added to offsets, -1 where the matrix
+// mirrors, else 1, and how much lengths can grow on the way into the mesh's space.
 const int kInstanceLeaf = 0x40000000;
 const int kInstanceEnd = -2147483647;
 const uint kInstanceRows = 8u;
+const float kAlbedoFloor = 0.04f;  // of white, in the albedo that denoising divides light by
 const float kMeshReach = 1.75f;  // a shared mesh lies within this distance of its origin: coordinates are at most 1
 
 // Primitive words in a leaf: index and flags.
@@ -80,9 +85,10 @@ const uint kPrimitiveAlpha = 0x40000000u;   // alpha MASK or BLEND decides wheth
 const uint kPrimitiveSphere = 0x20000000u;  // v0 is the centre, v1.x the radius
 const uint kPrimitiveSliver = 0x10000000u;  // distances to it may be those to its plane
 
-// Face rows. Triangle: unit normal and face word; distance of its plane from the origin, vertex indices. Sphere: rotation quaternion
-// x, y, z with w >= 0 and face word; centre, radius. Face word: material, flag, and the bound on a hit point's error (local space) as
-// the upper bits of a float. Of creases: the middle of the triangle and its inset (creaseInsets of src/scene/creases.h).
+// Face rows. Triangle: unit normal and face word; distance of its plane from the origin, vertex indices. Sphere:
+// rotation quaternion x, y, z with w >= 0 and face word; centre, radius. Face word: material, flag, and the bound on a
+// hit point's error (local space) as the upper bits of a float. Of creases: the middle of the triangle and its inset
+// (creaseInsets of src/scene/creases.h).
 const uint kFaceRows = 2u;
 const uint kFaceMaterialMask = 0xfffffu;
 const uint kFaceSphere = 0x100000u;
@@ -96,7 +102,8 @@ const uint kMaterialEmission = 1u;     // radiance, alpha cutoff
 const uint kMaterialSurface = 2u;      // metallic, roughness, index of refraction, transmission
 const uint kMaterialSpecular = 3u;     // specular colour, specular factor
 const uint kMaterialVolume = 4u;       // absorption coefficient (1 / local space), whether there is any thickness
-const uint kMaterialMaps = 5u;         // normal scale, occlusion strength, emitter density (1 / area in local space), flags
+// normal scale, occlusion strength, emitter density (1 / area in local space), flags
+const uint kMaterialMaps = 5u;
 const uint kMaterialPerlin = 6u;       // frequency, amplitude, octaves
 const uint kMaterialTextures = 7u;     // then one row a texture slot
 const uint kSlotBaseColor = 0u;
@@ -125,7 +132,8 @@ const uint kMaterialIridescence = 27u;          // weight, index, least and larg
 const uint kMaterialDiffuseTransmission = 28u;  // colour, weight
 const uint kMaterialRows = 29u;
 
-// Cells along each axis of the tables of energy and of sheen, which stand behind the materials and the transforms of textures.
+// Cells along each axis of the tables of energy and of sheen, which stand behind the materials and the transforms of
+// textures.
 const uint kEnergyCells = 32u;
 
 // Material flags.
@@ -135,7 +143,8 @@ const uint kMaterialDoubleSided = 4u;
 const uint kMaterialUnlit = 8u;
 const uint kMaterialSpecularGlossiness = 16u;
 
-// Texture slot row: first texel, width | height << 16, flags, row of its transform among the materials or 0. A transform is two rows of a matrix.
+// Texture slot row: first texel, width | height << 16, flags, row of its transform among the materials or 0. A
+// transform is two rows of a matrix.
 const uint kTexturePresent = 1u;
 const uint kTextureLinear = 2u;
 const uint kTextureTexcoord1 = 4u;
@@ -144,11 +153,13 @@ const uint kTextureMirrorU = 16u;
 const uint kTextureClampV = 32u;
 const uint kTextureMirrorV = 64u;
 
-// The table of a row of the environment has half as many steps as the row has texels, but at least one and at most these.
+// The table of a row of the environment has half as many steps as the row has texels, but at least one and at most
+// these.
 const int kMostEnvironmentSteps = 1024;
 
-// Emitter rows: the first and the last emitter that its equal share of the numbers draws, the last number that draws itself, probability (float); of an
-// emissive triangle its first vertex and material, its edges from there with 1 / area (float) and, of every emitter, what it is.
+// Emitter rows: the first and the last emitter that its equal share of the numbers draws, the last number that draws
+// itself, probability (float); of an emissive triangle its first vertex and material, its edges from there with 1 /
+// area (float) and, of every emitter, what it is.
 const uint kEmitterRows = 4u;
 const uint kEmitterPunctual = 0x80000000u;     // else the leaf slot of an emissive triangle; below it the light's index
 const uint kEmitterDoubleSided = 0x80000000u;  // beside the material
@@ -169,11 +180,15 @@ struct Frame {
   vec4 gridCell;        // local space, a step
   vec4 background;      // radiance that camera rays see; w: 1 when the environment is seen by camera rays
   vec4 environment;     // width, height, cosine and sine of the rotation
-  vec4 lightChoice;     // probability of sampling the environment, emitter count, row of the energy table among the materials, punctual lights
+  // probability of sampling the environment, emitter count, row of the energy table among the materials, punctual
+  // lights
+  vec4 lightChoice;
   ivec4 picture;        // width, height, samples wanted, seed
   ivec4 tile;           // x, y (from the bottom), width, height
   ivec4 limits;         // bounces, roulette depth, step budget, leaf count
-  ivec4 sampling;       // index of the first sample in the seed's sequence; bits of the largest indirect radiance; whether the tile goes on (wavefront)
+  // index of the first sample in the seed's sequence; bits of the largest indirect radiance; whether the tile goes on
+  // (wavefront)
+  ivec4 sampling;
 };
 
 // What one draw reports.

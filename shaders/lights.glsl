@@ -77,7 +77,8 @@ LightSample triangleLight(int emitter, float chance, vec3 point, float u, float 
   vec4 texcoords = vec4(0.0f);
   if ((kEmissionTexture || kClearcoatTexture) && kTexcoords) {
     uvec4 place = faceRow(int(edge2.w), 1);
-    texcoords = interpolate(readTexcoordsAt(int(place.y)), readTexcoordsAt(int(place.z)), readTexcoordsAt(int(place.w)), w);
+    texcoords = interpolate(readTexcoordsAt(int(place.y)), readTexcoordsAt(int(place.z)), readTexcoordsAt(int(place.w)),
+                            w);
   }
   float density = chance * inverseArea * squared / cosine;
   uint material = corner.w & kFaceMaterialMask;
@@ -95,7 +96,8 @@ LightSample environmentLight(float chance, uvec2 bits) {
   return makeLight(direction, kFarAway, vec3(there) / density, density);
 }
 
-/// The emitter that bits draw by power: they are in the order of the numbers that draw them, and each tells which its equal share of these can draw.
+/// The emitter that bits draw by power: they are in the order of the numbers that draw them, and each tells which its
+/// equal share of these can draw.
 int emitterAt(uint bits) {
   uvec4 entry = emitterRow(placeInTable(bits, uint(frame.lightChoice.y)).index, 0);
   int low = int(entry.x);
@@ -158,7 +160,8 @@ LightSample lightOfSlot(int slot, vec3 point, Sampler numbers, uint dimension) {
       // The choice takes its part of the number, so that each side gets points that are stratified together.
       uint border = uint(chance * 4294967040.0f);
       environment = bits.x < border;
-      bits.x = environment ? stretchBits(bits.x, 0u, 1.0f / chance) : stretchBits(bits.x, border, 1.0f / (1.0f - chance));
+      bits.x = environment ? stretchBits(bits.x, 0u, 1.0f / chance)
+                           : stretchBits(bits.x, border, 1.0f / (1.0f - chance));
     }
     if (kEnvironmentSampling && environment) s = environmentLight(chance, bits);
     if (emitters && !environment) s = emitterLight(1.0f - chance, point, bits, false);
@@ -168,6 +171,7 @@ LightSample lightOfSlot(int slot, vec3 point, Sampler numbers, uint dimension) {
   LightSample s = noLight();
   if (kPunctualLights && slot < punctual) s = punctualLight(slot, point);
   if (kEmissiveTriangles && slot == punctual) s = emitterLight(1.0f, point, drawPairBits(numbers, dimension), true);
-  if (kEnvironmentSampling && slot == lightSlotCount() - 1) s = environmentLight(1.0f, drawPairBits(numbers, dimension + 2u));
+  if (kEnvironmentSampling && slot == lightSlotCount() - 1)
+    s = environmentLight(1.0f, drawPairBits(numbers, dimension + 2u));
   return s;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What src/pack/literals.cpp puts in place of this file when a scene is so small that it becomes part of the shader's text: all its
-// triangles are tested without a tree, and its faces, materials and emitters are constants to choose from.
+// What src/pack/literals.cpp puts in place of this file when a scene is so small that it becomes part of the shader's
+// text: all its triangles are tested without a tree, and its faces, materials and emitters are constants to choose
+// from.
 
 const bool kLiterals = false;    // the whole scene
 const bool kLargeFirst = false;  // its largest triangles, which the tree does not hold

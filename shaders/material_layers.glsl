@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What extensions add to a Bsdf, read from the rows behind the texture slots (layout.glsl).
 
-/// Direction in which facets are stretched, in tangent and bitangent (x, y), and strength of the anisotropy (KHR_materials_anisotropy).
+/// Direction in which facets are stretched, in tangent and bitangent (x, y), and strength of the anisotropy
+/// (KHR_materials_anisotropy).
 vec3 anisotropyAt(uint material, vec4 texcoords) {
   vec3 row = materialFloats(material, kMaterialAnisotropy).xyz;
   vec2 direction = vec2(1.0, 0.0);
@@ -18,7 +19,8 @@ vec3 anisotropyAt(uint material, vec4 texcoords) {
   return vec3(row.y * direction.x - row.z * direction.y, row.z * direction.x + row.y * direction.y, row.x);
 }
 
-/// alpha is that of the perpendicular direction, alpha along = mix(alpha, 1, strength^2); alpha of the Bsdf is the root of their product.
+/// alpha is that of the perpendicular direction, alpha along = mix(alpha, 1, strength^2); alpha of the Bsdf is the root
+/// of their product.
 Bsdf stretchFacets(Bsdf b, float strength) {
   b.stretch = 1.0;
   if (strength <= 0.0) return b;
@@ -98,7 +100,8 @@ vec3 coatNormalAt(Surface s, Frame3 around, vec3 outgoing) {
   return normalize(toFrame(around, normal));
 }
 
-/// All of the layers of a point, `around` its shading normal. Inside of a solid there is no layer: clearcoat and sheen lie on the outside.
+/// All of the layers of a point, `around` its shading normal. Inside of a solid there is no layer: clearcoat and sheen
+/// lie on the outside.
 Bsdf addLayers(Bsdf b, Surface s, Frame3 around, vec3 outgoing, float strength) {
   if (kAnisotropy) b = stretchFacets(b, strength);
   if (kIridescence) b = addFilm(b, s.material, s.texcoords);

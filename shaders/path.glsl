@@ -14,8 +14,9 @@ const uint kRouletteDimension = 3u;
 const uint kLightDimension = 4u;  // to 7
 const uint kGlassDimension = 12u;
 
-/// The most that roulette lets a path at smooth glass survive by, and the scattering from which on it always decides. Paths through glass that absorbs
-/// nothing get fewer by a factor from each scattering to the next; were that factor above the survival, their variance would be infinite.
+/// The most that roulette lets a path at smooth glass survive by, and the scattering from which on it always decides.
+/// Paths through glass that absorbs nothing get fewer by a factor from each scattering to the next; were that factor
+/// above the survival, their variance would be infinite.
 const float kClearSurvival = 0.99;
 const int kLatestRoulette = 1000;
 
@@ -28,7 +29,8 @@ float pathRandom(Path p, uint offset) {
 /// Red (0), green or blue: the one that is left once dispersion parts them.
 int pathChannel(Path p) { return min(int(3.0 * drawFloat(p.numbers, kChannelDimension)), 2); }
 
-/// The index of refraction of a solid for the channel of the path (KHR_materials_dispersion: they are apart by (n - 1) / 40 x 20 / Abbe number).
+/// The index of refraction of a solid for the channel of the path (KHR_materials_dispersion: they are apart by (n - 1)
+/// / 40 x 20 / Abbe number).
 float dispersedIor(Path p, uint material) {
   float ior = materialFloats(material, kMaterialSurface).z;
   if (!kDispersion || !p.oneChannel) return ior;
@@ -103,10 +105,12 @@ vec3 clampIndirect(vec3 light, int scatterings) {
   return light * min(1.0, intBitsToFloat(frame.sampling.y) / max(maxComponent(light), 1e-30));
 }
 
-/// Scatterings that --bounces limits. Those at smooth glass end by roulette alone: a thick rim or nested glasses take dozens.
+/// Scatterings that --bounces limits. Those at smooth glass end by roulette alone: a thick rim or nested glasses take
+/// dozens.
 int limitedScatterings(Path p) { return kTransmission ? p.bounce - p.clear : p.bounce; }
 
-/// What a path that --bounces has ended could still have carried: luminance of its throughput, as seen from outside all glass.
+/// What a path that --bounces has ended could still have carried: luminance of its throughput, as seen from outside all
+/// glass.
 float cutThroughput(Path p) {
   if (!kScatters || p.phase != kPhaseCut) return 0.0;
   return kPassesLight ? luminance(p.throughput) * p.compression : luminance(p.throughput);
@@ -142,14 +146,15 @@ Path meetSurroundings(Path p) {
   return p;
 }
 
-/// The number of a meeting with a surface that may let the path pass. One that stops it counts too: the rays that follow must not meet the
-/// same chance again.
+/// The number of a meeting with a surface that may let the path pass. One that stops it counts too: the rays that
+/// follow must not meet the same chance again.
 int nextCrossing(inout Path p) {
   p.crossings += 1;
   return p.crossings - 1;
 }
 
-/// Decides by the alpha of the point whether the ray goes through it; 1 opaque, 0 not there (docs/design/conventions.md).
+/// Decides by the alpha of the point whether the ray goes through it; 1 opaque, 0 not there
+/// (docs/design/conventions.md).
 bool passesThrough(uint flags, float alpha, Sampler numbers, int crossing) {
   if ((flags & kMaterialMask) != 0u) return alpha == 0.0;
   if ((flags & kMaterialBlend) != 0u) return hashFloat(numbers, kAlphaDimensions + uint(crossing)) >= alpha;
@@ -162,7 +167,8 @@ float alphaAt(uint material, uint flags, float alpha) {
   return clamp(alpha, 0.0, 1.0);
 }
 
-/// Settles where the path goes on from the surface, once its shadow ray is done; weight multiplies the throughput, and zero ends the path.
+/// Settles where the path goes on from the surface, once its shadow ray is done; weight multiplies the throughput, and
+/// zero ends the path.
 Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool transmitted, SurfaceMaterial m) {
   p.throughput *= weight;
   p.after = kPhaseEnd;
@@ -173,13 +179,15 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
     float squared = m.ior * m.ior;
     float before = p.compression;
     p.compression = s.front ? before * squared : max(before / squared, 1.0);
-    // Nothing is thinner than air: who leaves more than was entered has missed a face that touches another. The weight has counted it all.
+    // Nothing is thinner than air: who leaves more than was entered has missed a face that touches another. The weight
+    // has counted it all.
     if (!s.front) p.throughput *= before / (squared * p.compression);
   }
   p.bounce += 1;
   p.clear += clear ? 1 : 0;
   // Roulette begins in time even where it is not wanted: nothing else ends a ray that glass keeps inside.
-  if ((kGi || clear) && kFeature == kFeatureNone && p.bounce >= (clear ? min(frame.limits.y, kLatestRoulette) : frame.limits.y)) {
+  if ((kGi || clear) && kFeature == kFeatureNone &&
+      p.bounce >= (clear ? min(frame.limits.y, kLatestRoulette) : frame.limits.y)) {
     float survival = min(maxComponent(p.throughput) * p.compression, clear ? kClearSurvival : 0.95);
     if (drawFloat(p.numbers, kBounceDimensions * uint(p.bounce) + kRouletteDimension) >= survival) return p;
     p.throughput /= survival;
@@ -188,7 +196,8 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
   p.density = density;
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, direction);
   p.direction = direction;
-  // Where two faces meet sharply, which of them a ray hits first is a matter of rounding: one that has left a front is to meet a front.
+  // Where two faces meet sharply, which of them a ray hits first is a matter of rounding: one that has left a front is
+  // to meet a front.
   if (kCreases) p.tie = (dot(direction, s.geometricNormal) > 0.0) == s.front ? kTie : -kTie;
   p.after = kPhaseExtend;
   return p;

@@ -80,7 +80,8 @@ Stack loadStack(int r) {
 void savePath(Path p, int index) {
   int r = index * kPathRows;
   uint flags = (p.cameraRay ? 1u : 0u) | (p.oneChannel ? 2u : 0u) | (p.alpha > 0.0 ? 4u : 0u);
-  pathStates[r] = uvec4(uint(p.phase) | uint(p.after) << 4 | flags << 8, uint(p.lightSlot), uint(p.bounce), uint(p.crossings));
+  pathStates[r] = uvec4(uint(p.phase) | uint(p.after) << 4 | flags << 8, uint(p.lightSlot), uint(p.bounce),
+                        uint(p.crossings));
   pathStates[r + 1] = uvec4(floatBitsToUint(p.radiance), uint(p.clear));
   pathStates[r + 2] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.compression));
   pathStates[r + 3] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.density));

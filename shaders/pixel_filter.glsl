@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Where in and about its pixel a camera sample lies: drawn with the density of the pixel filter, so that all samples weigh the same
-// (Ernst, Stamminger and Greiner, Filter Importance Sampling, 2006).
+// Where in and about its pixel a camera sample lies: drawn with the density of the pixel filter, so that all samples
+// weigh the same (Ernst, Stamminger and Greiner, Filter Importance Sampling, 2006).
 
 const int kBoxFilter = 0;
 const int kGaussianFilter = 1;
 const int kBlackmanHarrisFilter = 2;
 
-/// Pixels: standard deviation of the Gaussian, which is cut off at 4 of them; width of the window of Blackman and Harris.
+/// Pixels: standard deviation of the Gaussian, which is cut off at 4 of them; width of the window of Blackman and
+/// Harris.
 const float kGaussianDeviation = float(0.5);
 const float kBlackmanHarrisWidth = float(3.0);
 
-/// Density of the window over its width 0..1 and its integral from 0 (Harris, On the Use of Windows for Harmonic Analysis, 1978: four terms,
-/// 92 dB), both over the window's area.
+/// Density of the window over its width 0..1 and its integral from 0 (Harris, On the Use of Windows for Harmonic
+/// Analysis, 1978: four terms, 92 dB), both over the window's area.
 vec2 blackmanHarris(float t) {
   float x = 2.0f * kPi * t;
-  float density = float(0.35875) - float(0.48829) * cos(x) + float(0.14128) * cos(2.0f * x) - float(0.01168) * cos(3.0f * x);
+  float density = float(0.35875) - float(0.48829) * cos(x) + float(0.14128) * cos(2.0f * x) -
+                  float(0.01168) * cos(3.0f * x);
   float integral = float(0.35875) * t -
-                   (float(0.48829) * sin(x) - float(0.07064) * sin(2.0f * x) + float(0.0038933333) * sin(3.0f * x)) / (2.0f * kPi);
+                   (float(0.48829) * sin(x) - float(0.07064) * sin(2.0f * x) + float(0.0038933333) * sin(3.0f * x)) /
+                       (2.0f * kPi);
   return vec2(density, integral) / float(0.35875);
 }
 

@@ -23,8 +23,8 @@ float randomFloat(uint key, uint dimension) {
   return float(bits >> 8) * 5.9604644775390625e-8f;
 }
 
-/// What the numbers of one path are drawn from: key of pixel and seed, and the sample's index with and without its bits reversed (kSobol);
-/// else the path's own key.
+/// What the numbers of one path are drawn from: key of pixel and seed, and the sample's index with and without its bits
+/// reversed (kSobol); else the path's own key.
 struct Sampler {
   uint key;
   uint index;
@@ -39,8 +39,8 @@ uint reverseBits(uint x) {
   return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
 }
 
-/// An Owen scramble of numbers whose bits are reversed: each bit is flipped by a hash of those below it (Laine and Karras, Stratified
-/// Sampling for Stochastic Transparency, 2011; constants of Vegdahl, 2021).
+/// An Owen scramble of numbers whose bits are reversed: each bit is flipped by a hash of those below it (Laine and
+/// Karras, Stratified Sampling for Stochastic Transparency, 2011; constants of Vegdahl, 2021).
 uint owenScramble(uint x, uint seed) {
   x ^= x * 0x3d20adeau;
   x += seed;
@@ -50,8 +50,8 @@ uint owenScramble(uint x, uint seed) {
   return x;
 }
 
-/// Second dimension of the Sobol sequence, bits reversed: the polynomial of the index over GF(2) shifted by one, since its generator
-/// matrix is Pascal's triangle.
+/// Second dimension of the Sobol sequence, bits reversed: the polynomial of the index over GF(2) shifted by one, since
+/// its generator matrix is Pascal's triangle.
 uint sobolSecond(uint x) {
   x ^= x >> 16;
   x ^= (x & 0xff00ff00u) >> 8;
@@ -72,11 +72,12 @@ Sampler makeSampler(uint key, uint sampleIndex) {
 
 uint dimensionSeed(Sampler s, uint dimension) { return mixBits(s.key ^ mixBits(dimension + 0x9e3779b9u)); }
 
-/// The sample's index, shuffled within blocks of powers of two, so that numbers of different dimensions are independent (Burley, Practical
-/// Hash-based Owen Scrambling, 2020).
+/// The sample's index, shuffled within blocks of powers of two, so that numbers of different dimensions are independent
+/// (Burley, Practical Hash-based Owen Scrambling, 2020).
 uint shuffledIndex(Sampler s, uint seed) { return reverseBits(owenScramble(s.reversed, seed)); }
 
-/// 32 bits for one dimension: over the samples of a pixel an Owen-scrambled van der Corput sequence, or independent ones.
+/// 32 bits for one dimension: over the samples of a pixel an Owen-scrambled van der Corput sequence, or independent
+/// ones.
 uint drawBits(Sampler s, uint dimension) {
   uint seed = dimensionSeed(s, dimension);
   return kSobol ? reverseBits(owenScramble(shuffledIndex(s, seed), mixBits(seed + 1u))) : seed;
@@ -91,7 +92,8 @@ uvec2 drawPairBits(Sampler s, uint dimension) {
   uint other = dimensionSeed(s, dimension + 1u);
   if (!kSobol) return uvec2(seed, other);
   uint index = shuffledIndex(s, seed);
-  return uvec2(reverseBits(owenScramble(index, mixBits(seed + 1u))), reverseBits(owenScramble(sobolSecond(index), other)));
+  return uvec2(reverseBits(owenScramble(index, mixBits(seed + 1u))),
+               reverseBits(owenScramble(sobolSecond(index), other)));
 }
 
 /// The same as numbers in [0, 1).

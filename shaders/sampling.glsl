@@ -26,11 +26,13 @@ vec3 toWorld(Frame3 f, vec3 v) { return v.x * f.tangent + v.y * f.bitangent + v.
 
 vec3 toFrame(Frame3 f, vec3 v) { return vec3(dot(v, f.tangent), dot(v, f.bitangent), dot(v, f.normal)); }
 
-/// Cosine and sine of an angle in -pi/4..pi/4 by their Taylor series, within 3e-8 on every driver; GLSL leaves sin() and cos() to each.
+/// Cosine and sine of an angle in -pi/4..pi/4 by their Taylor series, within 3e-8 on every driver; GLSL leaves sin()
+/// and cos() to each.
 vec2 cosSinOctant(float x) {
   float s = x * x;
   float c = 1.0f + s * (-0.5f + s * (float(1.0 / 24.0) + s * (float(-1.0 / 720.0) + s * float(1.0 / 40320.0))));
-  float n = x + x * s * (float(-1.0 / 6.0) + s * (float(1.0 / 120.0) + s * (float(-1.0 / 5040.0) + s * float(1.0 / 362880.0))));
+  float n = x + x * s * (float(-1.0 / 6.0) +
+                         s * (float(1.0 / 120.0) + s * (float(-1.0 / 5040.0) + s * float(1.0 / 362880.0))));
   return vec2(c, n);
 }
 
@@ -77,17 +79,17 @@ float misWeight(float own, float other) {
   return 1.0f / (1.0f + ratio * ratio);
 }
 
-/// The same by the balance heuristic, for which MIS compensation of the environment is made; it is smooth, which stratified points reward.
+/// The same by the balance heuristic, for which MIS compensation of the environment is made; it is smooth, which
+/// stratified points reward.
 float balanceWeight(float own, float other) { return own > 0.0f ? own / (own + other) : 0.0f; }
 
-/// How much of a diffuse reflection is left towards `incoming`: where an interpolated normal sees light that is near the horizon of its flat triangle,
-/// light fades, which would else end at once, triangle by triangle (Chiang, Li and Burley, Taming the Shadow Terminator, 2019). At most 1.
+/// How much of a diffuse reflection is left towards `incoming`: where an interpolated normal sees light that is near
+/// the horizon of its flat triangle, light fades, which would else end at once, triangle by triangle (Chiang, Li and
+/// Burley, Taming the Shadow Terminator, 2019). At most 1.
 float terminatorFade(vec3 faceNormal, vec3 vertexNormal, vec3 incoming) {
   float above = dot(vertexNormal, incoming) * dot(vertexNormal, faceNormal);
   float g = above > 0.0f ? clamp(dot(faceNormal, incoming) / above, 0.0f, 1.0f) : 1.0f;
   return g * (1.0f + g * (1.0f - g));
 }
-
-float luminance(vec3 color) { return dot(color, vec3(float(0.2126), float(0.7152), float(0.0722))); }
 
 float maxComponent(vec3 v) { return max(v.x, max(v.y, v.z)); }

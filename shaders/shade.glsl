@@ -107,7 +107,9 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
 }
 
 /// Metres along the view axis.
-float depthOf(Surface s) { return dot(s.position - frame.cameraPosition.xyz, frame.cameraForward.xyz) * frame.cameraForward.w; }
+float depthOf(Surface s) {
+  return dot(s.position - frame.cameraPosition.xyz, frame.cameraForward.xyz) * frame.cameraForward.w;
+}
 
 /// What kFeature asks for of the point that a camera ray hits.
 vec3 featureAt(Surface s, vec3 baseColor, vec3 outgoing) {
@@ -173,7 +175,8 @@ Path shade(Path p) {
 Path settleShadow(Path p) {
   int slot = p.traversal.slot;
   if (kAlpha && slot >= 0) {
-    Surface s = surfaceAt(slot, p.traversal.hitInstance, p.shadowOrigin, p.shadowDirection, p.traversal.t, p.traversal.weights);
+    Surface s = surfaceAt(slot, p.traversal.hitInstance, p.shadowOrigin, p.shadowDirection, p.traversal.t,
+                          p.traversal.weights);
     uint flags = materialFlags(s.material);
     float alpha = alphaAt(s.material, flags, baseColorAt(s.material, s.texcoords, s.color).a);
     if (passesThrough(flags, alpha, p.numbers, nextCrossing(p))) {

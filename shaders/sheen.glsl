@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The lobe of velvet (Estevez and Kulla, Production Friendly Microfacet Sheen BRDF, 2017; KHR_materials_sheen), in a frame whose z is the normal.
-// alpha is the square of the extension's sheenRoughness.
+// The lobe of velvet (Estevez and Kulla, Production Friendly Microfacet Sheen BRDF, 2017; KHR_materials_sheen), in a
+// frame whose z is the normal. alpha is the square of the extension's sheenRoughness.
 
 /// The fit of the logarithm of Smith's Lambda for cosines up to a half.
 float sheenFit(float x, float alpha) {
@@ -19,8 +19,9 @@ float sheenLambda(float cosine, float alpha) {
   return exp(2.0f * sheenFit(0.5f, alpha) - sheenFit(max(0.0f, 1.0f - cosine), alpha));
 }
 
-/// Value times the cosine of `incoming`, for white sheen; both directions above the surface. Its albedo is sheenAlbedo, unless that is above 1:
-/// then the lobe, which gives out more than it gets at grazing angles of low roughness, is divided by it.
+/// Value times the cosine of `incoming`, for white sheen; both directions above the surface. Its albedo is sheenAlbedo,
+/// unless that is above 1: then the lobe, which gives out more than it gets at grazing angles of low roughness, is
+/// divided by it.
 float sheenValue(vec3 outgoing, vec3 incoming, float alpha) {
   vec3 h = normalize(outgoing + incoming);
   float sine2 = max(0.0f, h.x * h.x + h.y * h.y);

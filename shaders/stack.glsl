@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The traversal stack in named vectors of four entries, shifted by selects: a private array is what costs most on
-// llvmpipe. Only the first kStackSize entries live, a multiple of four and at least eight; the others are never named, and
-// taken out of the text (src/shader/live_text.h). The tree is no deeper than kStackSize, so nothing is ever lost at the
-// bottom.
+// llvmpipe. Only the first kStackSize entries live, a multiple of four and at least eight; the others are never named,
+// and taken out of the text (src/shader/live_text.h). The tree is no deeper than kStackSize, so nothing is ever lost at
+// the bottom.
 
 struct Stack {
   ivec4 e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11;  // e0.x: the top
@@ -29,9 +29,9 @@ Stack emptyStack() {
 ivec4 pushed(ivec4 e, int top) { return ivec4(top, e.x, e.y, e.z); }
 ivec4 popped(ivec4 e, int next) { return ivec4(e.y, e.z, e.w, next); }
 
-/// Pushes value on top, pops the top (e0.x), or neither; never both. Two passes of single selects: nested ones cost llvmpipe
-/// a seventh of the time of a ball's paths. A push goes from the bottom up, a pop from the top down, so that each entry is
-/// read before it changes.
+/// Pushes value on top, pops the top (e0.x), or neither; never both. Two passes of single selects: nested ones cost
+/// llvmpipe a seventh of the time of a ball's paths. A push goes from the bottom up, a pop from the top down, so that
+/// each entry is read before it changes.
 Stack stepStack(Stack s, bool push, bool pop, int value) {
   if (kStackSize > 44) s.e11 = push ? pushed(s.e11, s.e10.w) : s.e11;
   if (kStackSize > 40) s.e10 = push ? pushed(s.e10, s.e9.w) : s.e10;

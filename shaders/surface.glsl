@@ -30,7 +30,9 @@ vec3 rotateBy(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + 
 uvec4 faceRow(int slot, int row) { return kLiterals ? literalFace(slot, row) : readFaces(slot * int(kFaceRows) + row); }
 
 /// Row of the creases of a leaf slot; the frame knows how many leaves there are.
-uvec4 insetRow(int slot) { return kLiterals ? literalInset(slot, 0) : readFaces(frame.limits.w * 2 * int(kFaceRows) + slot); }
+uvec4 insetRow(int slot) {
+  return kLiterals ? literalInset(slot, 0) : readFaces(frame.limits.w * 2 * int(kFaceRows) + slot);
+}
 
 Surface sphereSurface(uvec4 face, uvec4 place, vec3 origin, vec3 direction, float t) {
   Surface s;
@@ -92,11 +94,13 @@ Surface inLocalSpace(Surface s, int instance) {
   s.positionError = offsetOutOfMesh(back, s.positionError);
   s.geometricNormal = unitOrZero(normalOutOfMesh(space, s.geometricNormal));
   s.shadingNormal = unitOrZero(normalOutOfMesh(space, s.shadingNormal));
-  s.tangent = vec4(unitOrZero(timesRows(back.row0, back.row1, back.row2, s.tangent.xyz)), s.tangent.w * back.handedness);
+  s.tangent = vec4(unitOrZero(timesRows(back.row0, back.row1, back.row2, s.tangent.xyz)),
+                   s.tangent.w * back.handedness);
   return s;
 }
 
-/// The point that a ray hits on the primitive of a leaf slot (shown by an instance, or -1), at distance t and with barycentric weights.
+/// The point that a ray hits on the primitive of a leaf slot (shown by an instance, or -1), at distance t and with
+/// barycentric weights.
 Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, vec2 weights) {
   uvec4 face = faceRow(slot, 0);
   uvec4 place = faceRow(slot, 1);
@@ -133,7 +137,8 @@ Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, 
   return s;
 }
 
-/// Of a normal texture, in tangent space. Blue below the middle would look into the surface: the specification leaves it out, and here it is the middle.
+/// Of a normal texture, in tangent space. Blue below the middle would look into the surface: the specification leaves
+/// it out, and here it is the middle.
 vec3 texturedNormal(uvec4 slot, float scale, vec4 texcoords) {
   vec3 texel = sampleTexture(slot, texcoords).rgb * 2.0 - 1.0;
   return vec3(texel.xy * scale, max(texel.z, 0.0));
@@ -166,7 +171,8 @@ vec3 mappedNormal(Surface s) {
   return normalFromMap(s, mapped);
 }
 
-/// A frame round the normal whose first axis lies along a direction of tangent and bitangent; any where there are no tangents.
+/// A frame round the normal whose first axis lies along a direction of tangent and bitangent; any where there are no
+/// tangents.
 Frame3 frameAlong(Surface s, vec3 normal, vec2 direction) {
   vec3 tangent = s.tangent.xyz - normal * dot(normal, s.tangent.xyz);
   float squared = dot(tangent, tangent);
@@ -180,21 +186,24 @@ Frame3 frameAlong(Surface s, vec3 normal, vec2 direction) {
   return f;
 }
 
-/// A shading normal from which the direction towards the viewer is above the horizon: one that points away is turned just far enough.
+/// A shading normal from which the direction towards the viewer is above the horizon: one that points away is turned
+/// just far enough.
 vec3 facingNormal(vec3 shadingNormal, vec3 outgoing) {
   float cosine = dot(shadingNormal, outgoing);
   const float least = 0.001;
   return cosine >= least ? shadingNormal : normalize(shadingNormal + (least - cosine) * outgoing);
 }
 
-/// A single direction that a bent normal has sent to the wrong side of the surface, folded back onto the right one, so that it is not lost.
+/// A single direction that a bent normal has sent to the wrong side of the surface, folded back onto the right one, so
+/// that it is not lost.
 vec3 ontoSide(vec3 direction, vec3 geometricNormal, bool below) {
   float height = dot(direction, geometricNormal);
   return (height < 0.0) == below ? direction : direction - 2.0 * height * geometricNormal;
 }
 
-/// A shading normal about which the mirror image of `outgoing` lies above the surface: where it would not, the image is lifted to just above the
-/// horizon, and the normal is what mirrors one into the other. Both normals are unit and on the side of `outgoing`.
+/// A shading normal about which the mirror image of `outgoing` lies above the surface: where it would not, the image is
+/// lifted to just above the horizon, and the normal is what mirrors one into the other. Both normals are unit and on
+/// the side of `outgoing`.
 vec3 reflectingNormal(vec3 shadingNormal, vec3 geometricNormal, vec3 outgoing) {
   vec3 image = mirrorDirection(outgoing, shadingNormal);
   float height = dot(image, geometricNormal);

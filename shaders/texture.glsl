@@ -6,8 +6,8 @@ vec4 readTexel(int index) {
   return vec4(unpackHalf2x16(t.x), unpackHalf2x16(t.y));
 }
 
-/// A texel coordinate from -1 to twice the size brought into 0..size-1 by repeating, clamping or mirroring. No division: llvmpipe divides integers lane by
-/// lane.
+/// A texel coordinate from -1 to twice the size brought into 0..size-1 by repeating, clamping or mirroring. No
+/// division: llvmpipe divides integers lane by lane.
 int wrapTexel(int x, int size, bool clamped, bool mirrored) {
   int period = mirrored ? 2 * size : size;
   int m = x < 0 ? x + period : x;
@@ -25,7 +25,8 @@ vec4 sampleTexture(uvec4 slot, vec4 texcoords) {
   if (kTextureTransforms && slot.w != 0u) {
     vec3 place = vec3(clamp(uv, -1e30, 1e30), 1.0);
     int row = int(slot.w);
-    uv = vec2(dot(uintBitsToFloat(readMaterials(row)).xyz, place), dot(uintBitsToFloat(readMaterials(row + 1)).xyz, place));
+    uv = vec2(dot(uintBitsToFloat(readMaterials(row)).xyz, place),
+              dot(uintBitsToFloat(readMaterials(row + 1)).xyz, place));
   }
   ivec2 size = ivec2(slot.y & 0xffffu, slot.y >> 16);
   bool linear = (flags & kTextureLinear) != 0u;

@@ -3,11 +3,13 @@
 #include "layout.glsl"
 layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frameBlock; };
 // The block once more as a variable: llvmpipe reads a uniform lane by lane, so each is read once a draw.
-Frame frame = Frame(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), ivec4(0), ivec4(0), ivec4(0), ivec4(0));
+Frame frame = Frame(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0),
+                    ivec4(0), ivec4(0), ivec4(0), ivec4(0));
 layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progress progress; };
 #include "read.glsl"
 #include "random.glsl"
 #include "sampling.glsl"
+#include "luminance.glsl"
 #include "pixel_filter.glsl"
 #include "camera.glsl"
 #include "intersect.glsl"
@@ -36,7 +38,8 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "path.glsl"
 #include "shade.glsl"
 
-/// Each round of the loop is one ray of a path, its shading and its shadow ray, without the phases of a path that can be suspended.
+/// Each round of the loop is one ray of a path, its shading and its shadow ray, without the phases of a path that can
+/// be suspended.
 const bool kDirect = kGi && !kAlpha && !kResumable && kFeature == kFeatureNone;
 
 Traversal beginTraversal(float limit, bool wanted, int steps) {
@@ -107,7 +110,8 @@ PixelTrace traceDirect(PixelTrace t, PixelTask task, TreeFrame tree) {
     if (kShadows) {
       bool waiting = t.path.phase == kPhaseShadow;
       Traversal shadow = beginTraversal(t.path.shadowLimit, waiting, hit.steps);
-      shadow = traverse(t.path.shadowOrigin, t.path.shadowDirection, t.path.shadowLimit, shadow, tree, task.budget, true);
+      shadow =
+          traverse(t.path.shadowOrigin, t.path.shadowDirection, t.path.shadowLimit, shadow, tree, task.budget, true);
       t.path.traversal.steps = shadow.steps;
       if (waiting && shadow.node != kTraversalDone) break;
       t.film.rays += waiting ? 1u : 0u;
@@ -123,7 +127,8 @@ PixelTrace traceDirect(PixelTrace t, PixelTask task, TreeFrame tree) {
   return t;
 }
 
-/// In phases, between which a path can be suspended, and for what a ray alone does not decide: holes, guides, heat maps.
+/// In phases, between which a path can be suspended, and for what a ray alone does not decide: holes, guides, heat
+/// maps.
 PixelTrace tracePhases(PixelTrace t, PixelTask task, TreeFrame tree) {
   while (t.path.traversal.steps < task.budget) {
     if (!t.tracing) {
@@ -134,7 +139,8 @@ PixelTrace tracePhases(PixelTrace t, PixelTask task, TreeFrame tree) {
 
     // Step: find what the path's ray hits.
     if (t.path.phase == kPhaseExtend) {
-      t.path.traversal = traverse(t.path.origin, t.path.direction, kFarAway, t.path.traversal, tree, task.budget, false);
+      t.path.traversal =
+          traverse(t.path.origin, t.path.direction, kFarAway, t.path.traversal, tree, task.budget, false);
       if (t.path.traversal.node == kTraversalDone) {
         t.film.rays += 1u;
         t.path.hitSlot = t.path.traversal.slot;
@@ -158,8 +164,8 @@ PixelTrace tracePhases(PixelTrace t, PixelTask task, TreeFrame tree) {
 
     // Step: is the light seen?
     if (kShadows && t.path.phase == kPhaseShadow) {
-      t.path.traversal = traverse(t.path.shadowOrigin, t.path.shadowDirection, t.path.shadowLimit, t.path.traversal, tree,
-                                  task.budget, !kAlpha);
+      t.path.traversal = traverse(t.path.shadowOrigin, t.path.shadowDirection, t.path.shadowLimit, t.path.traversal,
+                                  tree, task.budget, !kAlpha);
       if (t.path.traversal.node == kTraversalDone) {
         t.film.rays += 1u;
         t.path = settleShadow(t.path);
@@ -202,7 +208,8 @@ PixelTrace leaveUnfinished(PixelTrace t, PixelTask task, uint samplesBefore, int
 void tracePixel(ivec2 pixel) {
   PixelTrace t;
   t.film = loadFilm(pixel);
-  // Always so, but compilers do not know: they would put the block's reads back to where they are used, inside the loop.
+  // Always so, but compilers do not know: they would put the block's reads back to where they are used, inside the
+  // loop.
   if (t.film.flags != 0xffffffffu) frame = frameBlock;
   ivec2 place = pixel - frame.tile.xy;
   int state = place.y * frame.tile.z + place.x;

@@ -10,7 +10,9 @@ struct Traversal {
   int instance;  // whose mesh is being walked, or -1; node and stack are of its tree then
   int hitInstance;  // that shows slot, or -1
   int steps;  // loop iterations so far in this draw
-  float tie;  // kCreases: part of t by which hits on front faces count as nearer, those on back faces as farther; negative: the other way
+  // kCreases: part of t by which hits on front faces count as nearer, those on back faces as farther; negative: the
+  // other way
+  float tie;
   int visits; // nodes and leaves visited, counted for the heat map only
   float past;     // kAlpha: only hits behind this distance count,
   int pastSlot;   // and those at it in later slots: what the ray has passed through lies there
@@ -41,8 +43,8 @@ Traversal startTraversal(float limit, int leafCount) {
   return s;
 }
 
-/// Whether a hit at distance t is nearer than what the traversal has. Where a ray passes through surfaces, all hits along it have one order, by distance
-/// and slot, so that it meets each once, however close they lie.
+/// Whether a hit at distance t is nearer than what the traversal has. Where a ray passes through surfaces, all hits
+/// along it have one order, by distance and slot, so that it meets each once, however close they lie.
 bool isNearer(Traversal s, float t, int slot) {
   if (!kAlpha) return t > 0.0f && t < s.t;
   return liesBehind(t, s.past, slot > s.pastSlot) && (t < s.t || (t == s.t && slot < s.slot));
@@ -59,7 +61,8 @@ struct PrimitiveHit {
   vec2 weights;
 };
 
-PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear shear, vec3 v0, vec3 v1, vec3 v2, uint word, int slot) {
+PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear shear, vec3 v0, vec3 v1, vec3 v2,
+                           uint word, int slot) {
   PrimitiveHit r;
   r.t = -1.0f;
   r.weights = vec2(0.0f);
@@ -69,7 +72,8 @@ PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear sh
     if (!kWatertight) h = intersectTriangleFast(origin, direction, v0, v1, v2);
     if (kSlivers && h.hit && (word & kPrimitiveSliver) != 0u) {
       int row = slot * int(kFaceRows);
-      h.t = distanceToPlane(origin, direction, shear, v0, v1, v2, vec3(uintBitsToFloat(readFaces(row))), uintBitsToFloat(readFaces(row + 1).x), h.t);
+      h.t = distanceToPlane(origin, direction, shear, v0, v1, v2, vec3(uintBitsToFloat(readFaces(row))),
+                            uintBitsToFloat(readFaces(row + 1).x), h.t);
     }
     bool there = !kCulling || h.front || (word & kPrimitiveCull) == 0u;
     r.t = h.hit && there ? h.t : -1.0f;
@@ -85,7 +89,8 @@ PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear sh
   return r;
 }
 
-/// The nearest of what the traversal has and the two primitives of a leaf. The origin lies at distance `start` along the ray (kInstances).
+/// The nearest of what the traversal has and the two primitives of a leaf. The origin lies at distance `start` along
+/// the ray (kInstances).
 Traversal intersectLeaf(Traversal s, int leaf, vec3 origin, vec3 direction, RayShear shear, float start) {
   LeafPair l = loadLeaf(leaf);
   PrimitiveHit a = intersectWord(s, origin, direction, shear, l.v0a, l.v1a, l.v2a, l.worda, 2 * leaf);
@@ -121,14 +126,16 @@ Traversal traverseIterative(vec3 origin, vec3 direction, Traversal s, TreeFrame 
   return s;
 }
 
-/// A ray in the space of an instance's mesh, of which no part lies before its origin. direction is as long as makes distances those of local space.
+/// A ray in the space of an instance's mesh, of which no part lies before its origin. direction is as long as makes
+/// distances those of local space.
 struct MeshRay {
   vec3 origin;
   vec3 direction;
   float start;  // distance along the ray at which the origin lies
 };
 
-/// The ray begins where it comes near the mesh, so that rounding from there on is of the mesh's size (docs/design/numerics.md).
+/// The ray begins where it comes near the mesh, so that rounding from there on is of the mesh's size
+/// (docs/design/numerics.md).
 MeshRay rayInMesh(int instance, vec3 origin, vec3 direction) {
   InstanceSpace s = loadInstanceSpace(instance);
   vec3 from = origin - s.place;
@@ -165,8 +172,8 @@ TreeRay makeTreeRay(vec3 origin, vec3 direction, float start, vec3 gridOrigin, v
   return r;
 }
 
-/// What distances along a ray round by at most, but for triangles seen edge-on: a hit may lie that far outside of its box. A 16,384th of the way and of
-/// the scene, which is 65,536 cells wide; large triangles need a 2^21st.
+/// What distances along a ray round by at most, but for triangles seen edge-on: a hit may lie that far outside of its
+/// box. A 16,384th of the way and of the scene, which is 65,536 cells wide; large triangles need a 2^21st.
 float roundingOf(float t, TreeFrame tree) {
   return 6.103515625e-5f * t + 4.0f * max(max(tree.cell.x, tree.cell.y), tree.cell.z);
 }
@@ -197,9 +204,10 @@ Traversal changeSpace(Traversal s) {
   return s;
 }
 
-/// One step from an inner node: to the nearer child that is hit, or to what the stack holds. `there` false: nothing changes.
-/// kFrontToBack: the nearer child first, boxes behind the hit are discarded; else children in fixed order, and only the ray's own limit discards. Boxes are
-/// padded when packed, so that rounding in the slab test cannot lose one that holds a hit (docs/design/numerics.md).
+/// One step from an inner node: to the nearer child that is hit, or to what the stack holds. `there` false: nothing
+/// changes. kFrontToBack: the nearer child first, boxes behind the hit are discarded; else children in fixed order, and
+/// only the ray's own limit discards. Boxes are padded when packed, so that rounding in the slab test cannot lose one
+/// that holds a hit (docs/design/numerics.md).
 Traversal stepNode(Traversal s, TreeRay ray, float rayLimit, TreeFrame tree, bool there) {
   NodePair n = loadNode(there ? s.node : 0);
   float limit = kFrontToBack ? s.t : rayLimit;

@@ -12,9 +12,10 @@ struct WavePath {
   int rays;
 };
 
-// Rows: 0 origin, tie; 1 direction, medium; 2 distance, slot, weights of the hit; 3 throughput, density; 4 radiance, flags; 5 sample, rays, scatterings; with kShadowRows
-// 6 shadow ray, limit; 7 its direction, compression; 8 contribution, instance of the hit; with kAlpha 9 distance, slot, weights of the shadow ray's hit; 10 what the ray and the shadow ray
-// have passed through; 11 crossings, instance of the shadow ray's hit.
+// Rows: 0 origin, tie; 1 direction, medium; 2 distance, slot, weights of the hit; 3 throughput, density; 4 radiance,
+// flags; 5 sample, rays, scatterings; with kShadowRows 6 shadow ray, limit; 7 its direction, compression; 8
+// contribution, instance of the hit; with kAlpha 9 distance, slot, weights of the shadow ray's hit; 10 what the ray and
+// the shadow ray have passed through; 11 crossings, instance of the shadow ray's hit.
 const int kRowHit = 2;
 const int kRowFlags = 4;
 const int kRowShadow = 6;
@@ -23,7 +24,8 @@ const int kRowShadowHit = 9;
 const int kRowPast = 10;
 const int kRowCrossings = 11;
 
-/// A row of the states: by an image unit that the scene leaves free where there is one, since llvmpipe reads those five times as fast.
+/// A row of the states: by an image unit that the scene leaves free where there is one, since llvmpipe reads those five
+/// times as fast.
 layout(rgba32ui, binding = kWaveUnit) uniform readonly uimageBuffer waveStates;
 uvec4 readWave(int row) {
   if (kWaveImage) return imageLoad(waveStates, row);
@@ -60,7 +62,8 @@ void saveWave(WavePath w, Traversal t, int row) {
   }
   if (kAlpha) {
     Traversal none = startTraversal(0.0, 0);
-    pathStates[row + kRowPast] = uvec4(floatBitsToUint(t.past), uint(t.pastSlot), floatBitsToUint(none.past), uint(none.pastSlot));
+    pathStates[row + kRowPast] = uvec4(floatBitsToUint(t.past), uint(t.pastSlot), floatBitsToUint(none.past),
+                                       uint(none.pastSlot));
     pathStates[row + kRowCrossings] = uvec4(uint(p.crossings), 0u, 0u, 0u);
   }
 }

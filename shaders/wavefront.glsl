@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Many paths a lane: the wavefront (docs/design/architecture.md). Each lane owns the pixels of a column of its tile. A round shades what the rays of the last one hit, ends and begins
-// samples, then traces all rays in one loop that gives a lane its next ray as soon as the last one is done, so that no lane waits for the longest ray. What is done to some pixels only is a loop
-// of its own over their bits: llvmpipe executes a branch that no lane takes, but not an iteration.
-// Shading and traversal are those of the megakernel, in the same order for each pixel, so pictures are the same bits where a compiler keeps to the text.
+// Many paths a lane: the wavefront (docs/design/architecture.md). Each lane owns the pixels of a column of its tile. A
+// round shades what the rays of the last one hit, ends and begins samples, then traces all rays in one loop that gives
+// a lane its next ray as soon as the last one is done, so that no lane waits for the longest ray. What is done to some
+// pixels only is a loop of its own over their bits: llvmpipe executes a branch that no lane takes, but not an
+// iteration. Shading and traversal are those of the megakernel, in the same order for each pixel, so pictures are the
+// same bits where a compiler keeps to the text.
 #include "wave_state.glsl"
 
 const int kWaveSamples = 64;  // the most samples a round that end in the surroundings at once
 
-// Steps count iterations of loops, as llvmpipe does, which ends all of them at 65,535 (src/render/renderer.cpp): samples that fall out so are never drawn.
-// A round: its own iteration, and the first of each of the five loops in it, which all lanes take.
+// Steps count iterations of loops, as llvmpipe does, which ends all of them at 65,535 (src/render/renderer.cpp):
+// samples that fall out so are never drawn. A round: its own iteration, and the first of each of the five loops in it,
+// which all lanes take.
 const int kWaveLoops = 6;
 
 /// The lane's pixels, a bit each. One that is in none of hits, misses, rays and shadows has its samples.
@@ -50,7 +53,8 @@ void settleStates() {
   memoryBarrierImage();
 }
 
-/// What is short and the same for all rays: the triangles that the tree does not hold, and the first step into the tree. Done: the ray misses the tree.
+/// What is short and the same for all rays: the triangles that the tree does not hold, and the first step into the
+/// tree. Done: the ray misses the tree.
 Traversal beginRay(vec3 origin, vec3 direction, float limit, Traversal t, bool anyHit, TreeFrame tree) {
   if (kLargeFirst) {
     t = traverseLiterals(origin, direction, t, anyHit);
@@ -66,9 +70,12 @@ Traversal beginExtension(Path p, TreeFrame tree) {
 }
 
 /// Shadow rays end at any hit, unless light may pass what they hit.
-Traversal beginShadow(Path p, TreeFrame tree) { return beginRay(p.shadowOrigin, p.shadowDirection, p.shadowLimit, p.traversal, !kAlpha, tree); }
+Traversal beginShadow(Path p, TreeFrame tree) {
+  return beginRay(p.shadowOrigin, p.shadowDirection, p.shadowLimit, p.traversal, !kAlpha, tree);
+}
 
-/// Notes what a shadow ray has met before the tree, and whether it is to be traced. Where light may pass what it has met, it is done when that was asked, in the next round.
+/// Notes what a shadow ray has met before the tree, and whether it is to be traced. Where light may pass what it has
+/// met, it is done when that was asked, in the next round.
 Wave sendShadow(Wave v, uint bit, int row, Traversal t) {
   bool done = t.node == kTraversalDone && !(kAlpha && t.slot >= 0);
   v.shadows |= done ? 0u : bit;
@@ -88,7 +95,8 @@ Wave sendRay(Wave v, uint bit, Traversal t) {
   return v;
 }
 
-/// Shadow rays that have met a surface go on behind it where its alpha lets light pass; what their paths do next waits for them.
+/// Shadow rays that have met a surface go on behind it where its alpha lets light pass; what their paths do next waits
+/// for them.
 Wave passShadows(Wave v, uint left, TreeFrame tree) {
   for (; left != 0u; left &= left - 1u) {
     int k = findLSB(left);
@@ -123,7 +131,8 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
     int k = findLSB(left);
     uint bit = 1u << k;
     int row = rowOf(v, k);
-    v.steps += 1;  // searches in tables of lights are not counted: they take one or two iterations, and lanes shade together
+    // searches in tables of lights are not counted: they take one or two iterations, and lanes shade together
+    v.steps += 1;
     WavePath w = takeUp(v, k);
     w.rays += 1;
     Path p = shade(w.path);
@@ -147,7 +156,8 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
   return v;
 }
 
-/// Ends the samples whose rays have met nothing, or whose paths have ended, and begins the next ones. What ends in the surroundings at once goes no farther than here.
+/// Ends the samples whose rays have met nothing, or whose paths have ended, and begins the next ones. What ends in the
+/// surroundings at once goes no farther than here.
 Wave beginSamples(Wave v, uint left, TreeFrame tree) {
   bool more = false;
   int k = 0;
@@ -246,7 +256,8 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
       }
       ray = treeRayOf(t, origin, direction, tree);
     }
-    // Six node steps between two leaves (5, 8 and 10 were slower). As a loop they are six iterations, and 1.01 to 1.03 times slower.
+    // Six node steps between two leaves (5, 8 and 10 were slower). As a loop they are six iterations, and 1.01 to 1.03
+    // times slower.
     t = stepNode(t, ray, limit, tree, t.node >= 0);
     t = stepNode(t, ray, limit, tree, t.node >= 0);
     t = stepNode(t, ray, limit, tree, t.node >= 0);
@@ -284,7 +295,8 @@ Wave beginAnew(Wave v, uint left) {
   return v;
 }
 
-/// Advances the pixels of one lane (in rows from lane.y x kWaveSlots of the tile on) until they have the samples wanted or the step budget of this draw is used.
+/// Advances the pixels of one lane (in rows from lane.y x kWaveSlots of the tile on) until they have the samples wanted
+/// or the step budget of this draw is used.
 void traceWave(ivec2 lane) {
   Wave v;
   v.corner = frameBlock.tile.xy + ivec2(lane.x, lane.y * int(kWaveSlots));

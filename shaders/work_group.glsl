@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which lanes of a tile a work group has. llvmpipe gives each of its threads a run of successive groups, so these are dealt out over the tile: what takes
-// long often stands together in the picture, and all threads should get of it.
+// Which lanes of a tile a work group has. llvmpipe gives each of its threads a run of successive groups, so these are
+// dealt out over the tile: what takes long often stands together in the picture, and all threads should get of it.
 
 /// The lane of a tile of so many lanes; beyond it for lanes that have nothing to do.
 ivec2 laneOfTile(ivec2 lanes) {

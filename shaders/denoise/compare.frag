@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Of the variance filter: how far each pixel was moved, and how much of that is noise; both relative to its light, squared, as x / (1 + x): else the few
-// brightest samples of a window would speak for all of it.
+// Of the variance filter: how far each pixel was moved, and how much of that is noise; both relative to its light,
+// squared, as x / (1 + x): else the few brightest samples of a window would speak for all of it.
 #include "denoise/denoise.glsl"
 
 layout(binding = 0) uniform sampler2D lights;    // noisy
@@ -16,7 +16,8 @@ void main() {
   // Light that leaks into a dark place counts for what it does there.
   vec3 light = min(after, 0.5 * (before + after));
   vec3 away = (after - before) * (after - before) / (light * light + kDarkSquared);
-  float luminance = brightness(light);
-  vec2 relative = vec2(dot(away, vec3(1.0 / 3.0)), texelFetch(noises, pixel, 0).r / (luminance * luminance + kDarkSquared));
+  float bright = luminance(light);
+  vec2 relative = vec2(dot(away, vec3(1.0 / 3.0)),
+                       texelFetch(noises, pixel, 0).r / (bright * bright + kDarkSquared));
   moved = relative / (1.0 + relative);
 }

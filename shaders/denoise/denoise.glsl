@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What the passes of the variance filter share (src/render/denoise.h). Pictures are textures of one texel a pixel; light is divided by the albedo, so that
-// textures stay sharp, and is in units of the picture's mean.
+// What the passes of the variance filter share (src/render/denoise.h). Pictures are textures of one texel a pixel;
+// light is divided by the albedo, so that textures stay sharp, and is in units of the picture's mean.
+#include "layout.glsl"
+#include "luminance.glsl"
 
-const float kAlbedoFloor = 0.04;   // of light that the base colour does not tint
 const float kDarkSquared = 0.01;   // of light: what relative differences are relative to at least, squared
 const int kWindow = 2;             // pixels each way, of the passes that look at noise
 
@@ -10,10 +11,10 @@ layout(location = 0) uniform ivec2 size;
 
 bool inside(ivec2 pixel) { return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, size)); }
 
-float brightness(vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); }
-
 /// What a pixel's light is divided by; albedo and coverage are means over its samples.
-vec3 demodulation(vec4 albedo) { return albedo.a > 0.0 ? mix(max(albedo.rgb, vec3(0.0)), vec3(1.0), kAlbedoFloor) : vec3(1.0); }
+vec3 demodulation(vec4 albedo) {
+  return albedo.a > 0.0 ? mix(max(albedo.rgb, vec3(0.0)), vec3(1.0), kAlbedoFloor) : vec3(1.0);
+}
 
 /// What tells surfaces apart: of the part of the samples that hit something.
 struct Guide {
@@ -25,7 +26,8 @@ struct Guide {
 
 /// Into one texel, since a tap costs as much as it fetches; 8 bits are finer than what counts as alike.
 uvec4 packedGuide(Guide g) {
-  return uvec4(packUnorm4x8(g.albedo), packSnorm4x8(vec4(g.normal, 0.0)), floatBitsToUint(g.depth), packHalf2x16(g.slope));
+  return uvec4(packUnorm4x8(g.albedo), packSnorm4x8(vec4(g.normal, 0.0)), floatBitsToUint(g.depth),
+               packHalf2x16(g.slope));
 }
 
 Guide guideOf(uvec4 bits) {
@@ -42,7 +44,8 @@ float likeness(Guide own, Guide other, vec2 away) {
   vec4 tinted = other.albedo - own.albedo;
   vec3 turned = other.normal - own.normal;
   float beyond = max(abs(other.depth - own.depth) - slopes * dot(abs(away), own.slope), 0.0);
-  return -(albedo * dot(tinted.rgb, tinted.rgb) + normal * dot(turned, turned) + depth * beyond * beyond + coverage * tinted.a * tinted.a);
+  return -(albedo * dot(tinted.rgb, tinted.rgb) + normal * dot(turned, turned) + depth * beyond * beyond +
+           coverage * tinted.a * tinted.a);
 }
 
 /// That the picture's background is there, which has no noise: nothing is filtered.

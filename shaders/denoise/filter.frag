@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One level of the variance filter: 5 x 5 taps `stride` pixels apart (edge-avoiding a-trous wavelets: Dammertz et al. 2010), each weighed by how alike the
-// surfaces are and by whether the light differs by more than its noise explains; the variance of the mean is carried along (Schied et al. 2017 do both).
+// One level of the variance filter: 5 x 5 taps `stride` pixels apart (edge-avoiding a-trous wavelets: Dammertz et al.
+// 2010), each weighed by how alike the surfaces are and by whether the light differs by more than its noise explains;
+// the variance of the mean is carried along (Schied et al. 2017 do both).
 #include "denoise/denoise.glsl"
 
 layout(binding = 0) uniform sampler2D lights;  // light without albedo; variance of its luminance
@@ -10,25 +11,27 @@ layout(location = 1) uniform int stride;
 layout(location = 0) out vec4 filtered;
 
 const float kDeviationsSquared = 2.5 * 2.5;  // of light, in standard deviations
-const float kUnlike = 20.0;  // times the lesser of two variances: what a quiet pixel takes a noisy one's for, and the other way round, so that no light is lost
+// times the lesser of two variances: what a quiet pixel takes a noisy one's for, and the other way round, so that no
+// light is lost
+const float kUnlike = 20.0;
 const float kRounding = 1e-6;                // of light, squared: what is not noise
 const float kTint = 0.2;                     // of luminance: what a channel's difference is relative to at least
 
-/// Squared difference of luminance, or of what it would be if all channels differed as much relative to their size: noise is known of luminance alone, and
-/// most of it is as coloured as the light itself.
+/// Squared difference of luminance, or of what it would be if all channels differed as much relative to their size:
+/// noise is known of luminance alone, and most of it is as coloured as the light itself.
 float differenceOf(vec3 a, vec3 b) {
-  float luminances = brightness(a) + brightness(b);
-  float luminance = brightness(a) - brightness(b);
-  vec3 relative = (a - b) * (1.0 + kTint) * luminances / (a + b + kTint * luminances + 1e-20);
-  return max(luminance * luminance, dot(relative, relative) / 3.0);
+  float both = luminance(a) + luminance(b);
+  float apart = luminance(a) - luminance(b);
+  vec3 relative = (a - b) * (1.0 + kTint) * both / (a + b + kTint * both + 1e-20);
+  return max(apart * apart, dot(relative, relative) / 3.0);
 }
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 own = texelFetch(lights, pixel, 0);
   Guide guide = guideOf(texelFetch(guides, pixel, 0));
-  float luminance = brightness(own.rgb);
-  float rounding = kRounding * luminance * luminance + 1e-30;
+  float bright = luminance(own.rgb);
+  float rounding = kRounding * bright * bright + 1e-30;
   vec3 sum = vec3(0.0);
   float variance = 0.0;
   float weights = 0.0;
@@ -42,7 +45,8 @@ void main() {
       other = clamp(other, ivec2(0), size - 1);
       vec4 light = texelFetch(lights, other, 0);
       float noise = kDeviationsSquared * min(own.a + light.a, kUnlike * min(own.a, light.a)) + rounding;
-      float exponent = likeness(guide, guideOf(texelFetch(guides, other, 0)), vec2(away)) - differenceOf(light.rgb, own.rgb) / noise;
+      float exponent = likeness(guide, guideOf(texelFetch(guides, other, 0)), vec2(away)) -
+                       differenceOf(light.rgb, own.rgb) / noise;
       float weight = there ? kernel[abs(x)] * kernel[abs(y)] * exp(exponent) : 0.0;
       sum += weight * light.rgb;
       variance += weight * weight * light.a;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The second pass of the variance filter: how much noise each pixel has. Samples of a sequence are not independent, so the variance that they tell is
-// multiplied by what observations leave of it in a window of like surfaces, drawn towards the whole picture's share where the window is small.
+// The second pass of the variance filter: how much noise each pixel has. Samples of a sequence are not independent, so
+// the variance that they tell is multiplied by what observations leave of it in a window of like surfaces, drawn
+// towards the whole picture's share where the window is small.
 #include "denoise/denoise.glsl"
 
 layout(binding = 0) uniform sampler2D lights;     // as prepare.frag leaves these
 layout(binding = 1) uniform sampler2D observed;
 layout(binding = 2) uniform usampler2D guides;
-layout(location = 1) uniform float share;  // observed / independent variance of the whole picture; negative: nothing was observed
+// observed / independent variance of the whole picture; negative: nothing was observed
+layout(location = 1) uniform float share;
 
 layout(location = 0) out vec4 light;   // with the variance that the filter goes by
 layout(location = 1) out float noise;  // the variance that the pixel's own samples tell
@@ -19,7 +21,7 @@ void main() {
   Guide guide = guideOf(texelFetch(guides, pixel, 0));
   bool known = own.a >= 0.0;
   float weights = 0.0;
-  float luminance = 0.0;
+  float shown = 0.0;
   float squares = 0.0;
   float variance = 0.0;
   // Of relative variance, so that the brightest pixels do not drown the rest.
@@ -34,7 +36,7 @@ void main() {
       other = clamp(other, ivec2(0), size - 1);
       vec4 tap = texelFetch(lights, other, 0);
       float weight = there ? exp(likeness(guide, guideOf(texelFetch(guides, other, 0)), vec2(x, y))) : 0.0;
-      float value = brightness(tap.rgb);
+      float value = luminance(tap.rgb);
       float part = tap.a / (value * value + kDarkSquared);
       weights += weight;
       luminance += weight * value;

@@ -2,10 +2,12 @@
 // The first pass of the variance filter: light without albedo, its variance, and what tells surfaces apart.
 #include "denoise/denoise.glsl"
 
-layout(binding = 0) uniform sampler2D noisy;    // radiance; variance of its luminance from independent samples, -1: not known
+// radiance; variance of its luminance from independent samples, -1: not known
+layout(binding = 0) uniform sampler2D noisy;
 layout(binding = 1) uniform sampler2D albedos;  // albedo, coverage
 layout(binding = 2) uniform sampler2D normals;  // normal, depth; means that count misses as 0, as albedo does
-layout(binding = 3) uniform sampler2D seen;     // one observation of the variance (observedVariance() of src/film/noise.h)
+// one observation of the variance (observedVariance() of src/film/noise.h)
+layout(binding = 3) uniform sampler2D seen;
 
 layout(location = 0) out vec4 light;      // without albedo; variance of its luminance
 layout(location = 1) out float observed;  // of it
@@ -30,7 +32,7 @@ void main() {
   vec4 albedo = texelFetch(albedos, pixel, 0);
   vec4 normal = texelFetch(normals, pixel, 0);
   vec3 divisor = demodulation(albedo);
-  float part = brightness(divisor);
+  float part = luminance(divisor);
   light = vec4(radiance.rgb / divisor, radiance.a >= 0.0 ? radiance.a / (part * part) : -1.0);
   observed = texelFetch(seen, pixel, 0).r / (part * part);
   float coverage = max(albedo.a, 1e-6);

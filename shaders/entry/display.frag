@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A traced picture as a display shows it: exposure, tone map and sRGB, as src/image/display/tone_map.cpp has them, whose curves and
-// sources these are. Coverage stays in alpha.
+// A traced picture as a display shows it: exposure, tone map and sRGB, as src/image/display/tone_map.cpp has them,
+// whose curves and sources these are. Coverage stays in alpha.
 layout(binding = 0) uniform sampler2D traced;
 layout(location = 0) uniform float factor;  // 2^EV
 layout(location = 1) uniform int toneMap;   // in the order of ToneMap

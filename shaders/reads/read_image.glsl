@@ -23,7 +23,9 @@ layout(rgba32ui, binding = kSceneImageBase + kEmittersBinding) uniform readonly 
 uvec4 readEmitters(int index) { return imageLoad(emittersBuffer, index); }
 layout(rgba32ui, binding = kSceneImageBase + kLightsBinding) uniform readonly restrict uimageBuffer lightsBuffer;
 uvec4 readLights(int index) { return imageLoad(lightsBuffer, index); }
-layout(rgba32ui, binding = kSceneImageBase + kEnvironmentBinding) uniform readonly restrict uimageBuffer environmentBuffer;
+layout(rgba32ui, binding = kSceneImageBase + kEnvironmentBinding)
+    uniform readonly restrict uimageBuffer environmentBuffer;
 uvec4 readEnvironment(int index) { return imageLoad(environmentBuffer, index); }
-layout(rgba32ui, binding = kSceneImageBase + kEnvironmentInversionBinding) uniform readonly restrict uimageBuffer environmentInversionBuffer;
+layout(rgba32ui, binding = kSceneImageBase + kEnvironmentInversionBinding)
+    uniform readonly restrict uimageBuffer environmentInversionBuffer;
 uvec4 readEnvironmentInversion(int index) { return imageLoad(environmentInversionBuffer, index); }

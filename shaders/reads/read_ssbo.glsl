@@ -25,5 +25,6 @@ layout(std430, binding = kLightsBinding) readonly restrict buffer LightsBlock { 
 uvec4 readLights(int index) { return lightsBuffer[index]; }
 layout(std430, binding = kEnvironmentBinding) readonly restrict buffer EnvironmentBlock { uvec4 environmentBuffer[]; };
 uvec4 readEnvironment(int index) { return environmentBuffer[index]; }
-layout(std430, binding = kEnvironmentInversionBinding) readonly restrict buffer EnvironmentInversionBlock { uvec4 environmentInversionBuffer[]; };
+layout(std430, binding = kEnvironmentInversionBinding)
+    readonly restrict buffer EnvironmentInversionBlock { uvec4 environmentInversionBuffer[]; };
 uvec4 readEnvironmentInversion(int index) { return environmentInversionBuffer[index]; }

@@ -11,6 +11,7 @@
 #include "errors.h"
 #include "image/channels.h"
 #include "image/format.h"
+#include "math/luminance.h"
 #include "options/choose.h"
 #include "session/denoised_file.h"
 #include "session/outputs.h"
@@ -78,7 +79,7 @@ void checkNext(const Part& first, const Part& next) {
                      std::to_string(next.made.sampleOffset - 1) + " are missing between them");
 }
 
-double luminanceOf(const float* pixel) { return 0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2]; }
+double luminanceOf(const float* pixel) { return luminance({pixel[0], pixel[1], pixel[2]}); }
 
 /// Means weighed by samples; counts added; variances of the means joined as if all samples had been seen
 /// (Chan, Golub and LeVeque, 1979), and those that were observed as those of parts that know nothing of each

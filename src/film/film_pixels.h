@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "image/image.h"
+#include "math/luminance.h"
 
 namespace fragtrace {
 
@@ -22,7 +23,7 @@ struct FilmPixel {
   uint32_t flags = 0;
 
   glm::dvec3 mean() const { return sum / double(samples > 0 ? samples : 1); }
-  double luminance() const { return glm::dot(mean(), glm::dvec3(0.2126, 0.7152, 0.0722)); }
+  double luminance() const { return fragtrace::luminance(mean()); }
   /// Of the mean's luminance, from samples taken as independent; 0 below two samples.
   double variance() const { return samples > 1 ? m2 / (double(samples) * (double(samples) - 1.0)) : 0.0; }
 };

@@ -6,6 +6,9 @@
 
 namespace fragtrace {
 
+/// Scenes and cameras reach no farther from the origin of the world, metres (1e30): depths are floats.
+inline constexpr double kFarthest = 0x1p100;
+
 /// An axis-aligned box; the default one is empty (minimum above maximum) and grows by include().
 template <typename Vector>
 struct BoxOf {

@@ -22,7 +22,6 @@ std::optional<glm::dvec3> vectorOf(const char* option, const std::vector<double>
 }
 
 std::optional<glm::dvec3> placeOf(const char* option, const std::vector<double>& values) {
-  constexpr double kFarthest = 1e30;  // metres, as for scenes
   const std::optional<glm::dvec3> place = vectorOf(option, values);
   if (place && glm::length(*place) > kFarthest)
     throw UsageError(std::string(option) + ": farther than 1e30 m from the origin");

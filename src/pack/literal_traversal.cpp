@@ -196,11 +196,8 @@ class TraversalText {
   /// The cosine between ray and normal from which on the plane's distance is the better one
   /// (distanceToPlane).
   static double roughFacing(const std::array<glm::vec3, 3>& v) {
-    const glm::dvec3 a = glm::dvec3(v[1]) - glm::dvec3(v[0]);
-    const glm::dvec3 b = glm::dvec3(v[2]) - glm::dvec3(v[0]);
-    const double longest = std::max({glm::length(a), glm::length(b), glm::length(b - a)});
     const double largest = hitPointError(v) * 0x1p19;
-    return 3.0 * largest * glm::length(glm::cross(a, b)) / (longest * longest * longest);
+    return 3.0 * largest / sliverLength(v);
   }
 
   /// A sum of products with the components of a vector.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <glm/gtc/constants.hpp>
 
+#include "math/luminance.h"
 #include "pack/pack_lights.h"
 #include "pack/pack_textures.h"
 #include "stage/variant.h"

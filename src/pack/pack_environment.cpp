@@ -9,6 +9,7 @@
 #include <numeric>
 #include <thread>
 
+#include "math/luminance.h"
 #include "pack/inversion_table.h"
 #include "pack/pack_lights.h"
 #include "pack/words.h"
@@ -39,7 +40,7 @@ double copyRow(const Image& image, int y, std::span<uint32_t> texels) {
   const float* p = image.pixel(0, y);
   double sum = 0.0;
   for (size_t i = 0; i < texels.size(); i += 4, p += image.channelCount()) {
-    const float bright = std::max(0.0f, 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2]);
+    const float bright = std::max(0.0f, glm::dot(glm::vec3(p[0], p[1], p[2]), glm::vec3(kLuminance)));
     std::memcpy(&texels[i], p, 3 * sizeof(float));
     texels[i + 3] = floatWord(bright);
     sum += double(bright);

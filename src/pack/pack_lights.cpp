@@ -8,6 +8,7 @@
 #include <glm/gtx/component_wise.hpp>
 #include <numeric>
 
+#include "math/luminance.h"
 #include "pack/inversion_table.h"
 #include "pack/words.h"
 
@@ -102,8 +103,6 @@ double triangleArea(const Scene& scene, const Triangle& t) {
   const auto [a, b, c] = cornersOf<glm::dvec3>(scene, t);
   return 0.5 * glm::length(glm::cross(b - a, c - a));
 }
-
-double luminance(const glm::dvec3& color) { return glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722)); }
 
 PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> materialRadiance,
                             std::span<const uint32_t> slots, double radius, const TraitSet& traits) {

@@ -24,6 +24,4 @@ Words packLights(const Scene& scene);
 /// In local space.
 double triangleArea(const Scene& scene, const Triangle& t);
 
-double luminance(const glm::dvec3& color);
-
 }  // namespace fragtrace

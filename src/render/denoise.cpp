@@ -10,7 +10,9 @@
 #include "errors.h"
 #include "gl/program.h"
 #include "image/channels.h"
+#include "math/luminance.h"
 #include "render/picture_texture.h"
+#include "shader/layout.h"
 
 namespace fragtrace {
 
@@ -80,22 +82,19 @@ void fillHoles(std::vector<glm::vec4>& texels, const Image& image) {
   }
 }
 
-double luminanceOf(const glm::vec4& color) {
-  return glm::dot(glm::dvec3(color), glm::dvec3(0.2126, 0.7152, 0.0722));
-}
+double luminanceOf(const glm::vec4& color) { return luminance(glm::dvec3(color)); }
 
 /// 1 / typical luminance of what has an albedo, divided by it as the shader does; 1 where all is black. The
 /// geometric mean, in which a lamp that is a thousand times as bright as all else hardly counts, of no pixel
 /// less than a thousandth of the arithmetic one.
 double scaleOf(const std::vector<glm::vec4>& radiance, const std::vector<glm::vec4>& albedos) {
-  constexpr float kAlbedoFloor = 0.04f;
   constexpr double kLeast = 1e-3;
   std::vector<double> lights;
   lights.reserve(radiance.size());
   double sum = 0.0;
   for (size_t i = 0; i < radiance.size(); ++i) {
     if (!(albedos[i].a > 0.0f)) continue;
-    const glm::vec4 divisor = glm::mix(glm::max(albedos[i], 0.0f), glm::vec4(1.0f), kAlbedoFloor);
+    const glm::vec4 divisor = glm::mix(glm::max(albedos[i], 0.0f), glm::vec4(1.0f), layout::kAlbedoFloor);
     const double light = luminanceOf(radiance[i] / divisor);
     if (!std::isfinite(light)) continue;
     lights.push_back(std::max(light, 0.0));

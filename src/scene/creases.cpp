@@ -137,10 +137,7 @@ Sector sectorAt(const Scene& scene, const Fans& fans, uint32_t corner) {
   s.altitude = {area / glm::length(b - a), area / s.length[1], area / s.length[0]};
   s.offset = kPackedOffset * hitPointError(v);
   s.grazing = kGrazing * s.offset;
-  if (isSliver(v)) {
-    const double longest = std::max({s.length[0], s.length[1], glm::length(b - a)});
-    s.grazing += 0x1p-25 * longest * longest * longest / area;
-  }
+  if (isSliver(v)) s.grazing += 0x1p-25 * sliverLength(v);
   return s;
 }
 

@@ -2,6 +2,8 @@
 #include "scene/hit_error.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace fragtrace {
 
@@ -16,15 +18,17 @@ double largestCoordinate(const std::array<glm::vec3, 3>& v) {
 
 double hitPointError(const std::array<glm::vec3, 3>& v) { return 0x1p-19 * largestCoordinate(v); }
 
-bool isSliver(const std::array<glm::vec3, 3>& v) {
+double sliverLength(const std::array<glm::vec3, 3>& v) {
   const glm::dvec3 a = glm::dvec3(v[1]) - glm::dvec3(v[0]);
   const glm::dvec3 b = glm::dvec3(v[2]) - glm::dvec3(v[0]);
-  const glm::dvec3 c = b - a;
-  const glm::dvec3 cross = glm::cross(a, b);
-  const double squaredArea = glm::dot(cross, cross);  // of twice the area
-  const double squaredSide = std::max(glm::dot(a, a), std::max(glm::dot(b, b), glm::dot(c, c)));
-  const double most = 8.0 * largestCoordinate(v);
-  return squaredArea > 0.0 && squaredSide * squaredSide * squaredSide > most * most * squaredArea;
+  const double longest = std::max({glm::length(a), glm::length(b), glm::length(b - a)});
+  const double twiceArea = glm::length(glm::cross(a, b));
+  return twiceArea > 0.0 ? longest * longest * longest / twiceArea : std::numeric_limits<double>::infinity();
+}
+
+bool isSliver(const std::array<glm::vec3, 3>& v) {
+  const double length = sliverLength(v);
+  return std::isfinite(length) && length > 8.0 * largestCoordinate(v);
 }
 
 }  // namespace fragtrace

@@ -14,9 +14,13 @@ namespace fragtrace {
 /// to it carries the rounding of all axes.
 double hitPointError(const std::array<glm::vec3, 3>& v);
 
+/// L^3 / 2A of the triangle, L its longest side and A its area; infinite where it has none. Times half of
+/// 2^-24 it is how far off the plane its vertices' weighted depths leave a point (docs/design/numerics.md,
+/// "Distance along the ray").
+double sliverLength(const std::array<glm::vec3, 3>& v);
+
 /// Whether the weighted depths of the vertices are too rough a distance for a ray that starts beside the
-/// triangle: they are off its plane by up to half of 2^-24 L^3 / 2A, L its longest side and A its area, which
-/// is asked to be at most 4 units of 2^-24 of the largest coordinate.
+/// triangle: half of 2^-24 sliverLength() is asked to be at most 4 units of 2^-24 of the largest coordinate.
 bool isSliver(const std::array<glm::vec3, 3>& v);
 
 }  // namespace fragtrace

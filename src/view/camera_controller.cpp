@@ -13,7 +13,6 @@ constexpr glm::dvec3 kWorldUp{0.0, 1.0, 0.0};
 /// Radians from a pole within which a horizontal axis is mostly rounding.
 constexpr double kPoleAngle = 1e-3;
 constexpr double kNearest = 1e-9;   // metres, and parts of the focal point's distance from the origin
-constexpr double kFarthest = 1e9;   // metres, as for options and scenes
 constexpr double kNarrowest = 1.0;  // degrees
 constexpr double kWidest = 170.0;
 

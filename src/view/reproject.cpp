@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "image/channels.h"
+#include "math/luminance.h"
 #include "scene/projection.h"
+#include "shader/layout.h"
 
 namespace fragtrace {
 
@@ -18,10 +20,7 @@ constexpr double kDepthApart = 0.02;    // of the depth: the same surface
 constexpr double kNormalAlike = 0.9;    // cosine
 constexpr double kAlbedoApart = 0.15;   // a channel
 constexpr double kCovered = 0.5;        // of the samples of a pixel: it shows a surface
-constexpr double kAlbedoFloor = 0.04;   // as in shaders/denoise/denoise.glsl
 constexpr double kEnoughOfFour = 0.25;  // weight of the taps that fit, for the past to count
-
-const glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);
 
 /// Where the channels are.
 struct Places {
@@ -60,7 +59,7 @@ Pixel pixelOf(const float* values, const Places& places) {
 }
 
 glm::dvec3 divisorOf(const Pixel& p) {
-  return glm::mix(glm::max(p.albedo, glm::dvec3(0.0)), glm::dvec3(1.0), kAlbedoFloor);
+  return glm::mix(glm::max(p.albedo, glm::dvec3(0.0)), glm::dvec3(1.0), double(layout::kAlbedoFloor));
 }
 
 double aspectOf(const Image& image) { return double(image.width) / image.height; }
@@ -109,7 +108,7 @@ std::optional<Known> knownOf(const SeenPicture& past, const Places& places, cons
         &image.values[(size_t(ty) * size_t(image.width) + size_t(tx)) * image.channelCount()], places);
     if (!(weight > 0.0) || !(before.samples > 0.0) || !showsTheSame(now, depth, before)) continue;
     const glm::dvec3 divisor = divisorOf(before);
-    const double part = glm::dot(divisor, kLuminance);
+    const double part = luminance(divisor);
     known.light += weight * before.light / divisor;
     known.variance += weight * before.variance / (part * part);
     known.samples += weight * before.samples;
@@ -139,10 +138,10 @@ Image withPast(const SeenPicture& now, const SeenPicture& past, double most) {
       const double counted = std::min(known->samples, most);
       const double samples = pixel.samples + counted;
       const glm::dvec3 divisor = divisorOf(pixel);
-      const double part = glm::dot(divisor, kLuminance);
+      const double part = luminance(divisor);
       const glm::dvec3 light = known->light * divisor;
       const double pastVariance = known->variance * part * part * known->samples / counted;
-      const double apart = glm::dot(light - pixel.light, kLuminance);
+      const double apart = luminance(light - pixel.light);
       const double m2 = pixel.variance * pixel.samples * (pixel.samples - 1.0) +
                         pastVariance * counted * std::max(counted - 1.0, 0.0) +
                         apart * apart * pixel.samples * counted / samples;

@@ -37,6 +37,13 @@ class Documents(Case):
             self.assertEqual(self.faults(f"# One\n\na\nsee [it]({target})\n"), [f"README.md:4: {target}: no such " +
                              ("heading" if "#" in target else "file")])
 
+    def test_long_lines_of_prose_and_shaders_are_found(self):
+        wide = "word " * 25
+        (self.folder / "shaders").mkdir()
+        (self.folder / "shaders/x.glsl").write_text("int x;\n// " + wide + "\n")
+        found = self.faults(f"# One\n\n{wide}\n\n    {wide}\n\n| {wide} |\n| --- |\n", "shaders/x.glsl")
+        self.assertEqual([fault.split(" ")[0] for fault in found], ["README.md:3:", "shaders/x.glsl:2:"])
+
     def test_a_file_that_does_not_belong_into_the_root_is_found(self):
         found = self.faults("# One\n", "-", "src/main.cpp", "docs/x.png")
         self.assertEqual(len(found), 1)

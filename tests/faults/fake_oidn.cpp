@@ -41,7 +41,7 @@ void fail(Device* device, int error, const char* message) {
 /// Goes on until it is stopped, or gives up.
 void runUntilStopped(Filter* filter) {
   std::raise(SIGINT);
-  if (isTold("interrupted-twice")) std::raise(SIGINT);
+  if (isTold("interrupted-twice")) std::raise(SIGTERM);
   for (int i = 0; i < 1000; ++i) {
     if (!filter->monitor(filter->user, 0.5)) return fail(filter->device, 6, "execution was cancelled");
     const timespec wait{0, 10'000'000};

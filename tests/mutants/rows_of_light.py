@@ -102,5 +102,5 @@ ROWS = [
     F("sampling.balanceWeight", "own / (own + other)", "own / (own + float(1.05) * other)", "the weight takes the other density 5 % too high"),
     F("sampling.misWeight", "float ratio = other", "float ratio = float(1.05) * other", "the weight takes the other density 5 % too high"),
     F("sampling.terminatorFade", "return g *", "return float(0.98) * g *", "the fade at the terminator is 2 % too strong"),
-    F("sampling.luminance", "float(0.7152)", "float(0.7295)", "green weighs 2 % too much in luminance"),
+    F("luminance.luminance", "float(0.7152)", "float(0.7295)", "green weighs 2 % too much in luminance"),
 ]

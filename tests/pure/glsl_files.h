@@ -3,6 +3,7 @@
 // clang-format off
 #include "random.glsl"
 #include "sampling.glsl"
+#include "luminance.glsl"
 #include "pixel_filter.glsl"
 #include "camera.glsl"
 #include "intersect.glsl"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "glsl.h"
+#include "math/luminance.h"
 #include "shader_statistics.h"
 
 namespace fragtrace {
@@ -170,6 +171,9 @@ TEST(ShaderSampling, MisWeightsOfTwoStrategiesAddUpToOne) {
 TEST(ShaderSampling, LuminanceOfWhiteIsOne) {
   EXPECT_NEAR(glsl_double::luminance(dvec3(1.0)), 1.0, 1e-15);
   EXPECT_NEAR(glsl_double::luminance(dvec3(0, 1, 0)), 0.7152, 1e-15);
+  // The host's is the same.
+  for (const dvec3 color : {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1)})
+    EXPECT_EQ(glsl_double::luminance(color), fragtrace::luminance(color));
   EXPECT_EQ(glsl_double::maxComponent(dvec3(0.3, 0.1, 0.7)), 0.7);
 }
 

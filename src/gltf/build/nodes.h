@@ -10,8 +10,6 @@
 
 namespace fragtrace {
 
-/// What is drawn reaches no farther from the origin of its world, metres (1e30): depths are floats.
-inline constexpr double kFarthest = 0x1p100;
 /// What is smaller is left out, metres: squares of its size underflow.
 inline constexpr double kSmallest = 1e-75;
 
