@@ -39,7 +39,7 @@ void main() {
       float value = luminance(tap.rgb);
       float part = tap.a / (value * value + kDarkSquared);
       weights += weight;
-      luminance += weight * value;
+      shown += weight * value;
       squares += weight * value * value;
       variance += weight * tap.a;
       independent += weight * part;
@@ -51,8 +51,8 @@ void main() {
   noise = 0.0;
   if (weights <= 0.0) return;
   if (!known) {
-    luminance /= weights;
-    light.a = noise = max(squares / weights - luminance * luminance, 0.0);
+    shown /= weights;
+    light.a = noise = max(squares / weights - shown * shown, 0.0);
     return;
   }
   float left = 1.0;
