@@ -2,16 +2,19 @@
 # SPDX-License-Identifier: MIT
 """The tables and charts of docs/design/denoising.md: what a filter brings, in error and in time.
 
-usage: denoise_table.py FRAGTRACE --assets DIR --out FOLDER [--filters variance,oidn] [--names NAME,...] [--spp N] [--repetitions N] [--references] [--print]
+usage: denoise_table.py FRAGTRACE [--assets DIR] --out FOLDER [--filters variance,oidn] [--names NAME,...] [--spp N] [--repetitions N] [--references] [--print]
 DIR holds scenes/ and env/lightroom_14b.hdr. Seven scenes of 250 x 250 pixels, 1 to --spp samples per pixel, --repetitions seeds, by `bench error --denoise`, against
 references of 4096 samples. FOLDER keeps NAME-FILTER.json and references: what stands there is not made again. --references: makes these alone, which
-needs no quiet machine as the rest does. --print: the tables of what is there. Writes FOLDER/denoise-NAME.svg, the charts of the variance filter.
+needs no quiet machine as the rest does. --print: the tables of what is there; those of docs/design/data/denoise
+are in the document: `--out docs/design/data/denoise --filters variance,oidn --document docs/design/denoising.md` writes them there, and a test
+compares (--check). Writes FOLDER/denoise-NAME.svg, the charts of the variance filter.
 """
 
 import argparse
 import json
 import math
 import os
+import re
 import statistics
 import subprocess
 import sys
@@ -83,29 +86,31 @@ def at(curve, samples):
 
 def text_of(values, form):
     low, high = min(values), max(values)
+    if len(values) == 1:
+        return form.format(low)
     return f"{form.format(statistics.median(values))} ({form.format(low)} to {form.format(high)})"
 
 
 def table(head, rows):
-    print("\n| " + " | ".join(head) + " |\n| " + " | ".join("---" for _ in head) + " |")
-    for row in rows:
-        print("| " + " | ".join(row) + " |")
-    print(flush=True)
+    """As lines, without the columns in which no row has anything."""
+    kept = [i for i in range(len(head)) if any(row[i] != "-" for row in rows)]
+    lines = [head, ["---"] * len(head), *rows]
+    return ["| " + " | ".join(line[i] for i in kept) + " |" for line in lines]
 
 
-def print_tables(options, filter_name):
+def tables_of(options, filter_name):
+    """Lines by what they say: relmse, flip, sooner."""
     raw, filtered, names = {}, {}, {}
     for name, (title, _) in scenes(options.assets, options.out).items():
         path = options.out / f"{name}-{filter_name}.json"
         if path.exists():
             one = json.loads(path.read_text())["configurations"][0]
             names[name], raw[name], filtered[name] = title, one["repetitions"], one["denoised"]["repetitions"]
-            print(f"{title}: {one['denoised']['filter']}")
+    found = {}
     for what in ("relmse", "flip"):
-        print(f"\n{filter_name}: {what} over that of the samples; median of the seeds, least, largest")
-        table(["samples per pixel", *map(str, STEPS)],
-              [[title, *(text_of([at(f, n)[what] / at(r, n)[what] for r, f in zip(raw[name], filtered[name])], "{:.3f}") if at(raw[name][0], n) else "-" for n in STEPS)] for name, title in names.items()])
-    print(f"{filter_name}: how many times sooner, and with how many times fewer samples")
+        found[what] = table(["samples per pixel", *map(str, STEPS)],
+                            [[title, *(text_of([at(f, n)[what] / at(r, n)[what] for r, f in zip(raw[name], filtered[name])], "{:.3f}")
+                                       if at(raw[name][0], n) else "-" for n in STEPS)] for name, title in names.items()])
     rows = []
     for name, title in names.items():
         row = [title]
@@ -115,19 +120,35 @@ def print_tables(options, filter_name):
                 least = any(f[0]["relmse"] < goal for f in filtered[name])
                 row.append(("at least " if least else "") + text_of(times, "{:.2g}"))
         rows.append(row)
-    table(["", *(f"{goal:g}: {what}" for goal in GOALS for what in ("sooner", "fewer samples"))], rows)
+    found["sooner"] = table(["scene", *(f"{goal:g}: {what}" for goal in GOALS for what in ("sooner", "fewer samples"))], rows)
     baseline = options.out / f"{BASELINE}.json"
     if baseline.exists() and "cornell-box" in names:
         slow = json.loads(baseline.read_text())["configurations"][0]["repetitions"]
-        for goal in GOALS:
-            print(f"the report's tracer, Cornell box, {goal:g}:", *(f"{what} {text_of([reached(b, goal, what) / reached(f, goal, what) for b, f in zip(slow, filtered['cornell-box'])], '{:.3g}')}"
-                                                                      for what in ("seconds", "samples")))
+        ratios = lambda goal, what: text_of([reached(b, goal, what) / reached(f, goal, what) for b, f in zip(slow, filtered["cornell-box"])], "{:.3g}")
+        found["baseline"] = table(["goal", "sooner", "fewer samples"],
+                                  [[f"{goal:g}", ratios(goal, "seconds"), ratios(goal, "samples")] for goal in GOALS])
+    return found
+
+
+def written(text, tables):
+    """The document with each table put behind its mark, <!-- denoise_table: FILTER WHAT -->."""
+    lines, replacing = [], False
+    for line in text.split("\n"):
+        mark = re.fullmatch(r"<!-- denoise_table: (\w+) (\w+) -->", line)
+        if mark:
+            lines += [line, "", *tables[mark[1]][mark[2]]]
+            replacing = True
+        elif not replacing or (line and not line.startswith("|")):
+            lines += [""] if replacing else []
+            lines.append(line)
+            replacing = False
+    return "\n".join(lines)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("fragtrace", type=Path)
-    parser.add_argument("--assets", type=Path, required=True)
+    parser.add_argument("--assets", type=Path, default=Path("/work/shared/assets"))
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--filters", default="variance")
     parser.add_argument("--names", default="")
@@ -135,21 +156,31 @@ def main():
     parser.add_argument("--repetitions", type=int, default=3)
     parser.add_argument("--references", action="store_true")
     parser.add_argument("--print", action="store_true")
+    parser.add_argument("--document", type=Path, help="put the tables into this document, where its marks say so")
+    parser.add_argument("--check", action="store_true", help="change nothing; status 1 where the document has other tables")
     options = parser.parse_args()
     options.fragtrace = options.fragtrace.resolve()
-    options.out.mkdir(parents=True, exist_ok=True)
-    peer_scenes.matt_scene(options.out, "matt-ball")
+    if not options.print and not options.document:
+        options.out.mkdir(parents=True, exist_ok=True)
+        peer_scenes.matt_scene(options.out, "matt-ball")
     filters = [None] if options.references else options.filters.split(",")
-    if not options.print:
+    if not options.print and not options.document:
         for filter_name in filters:
             for name, (_, arguments) in scenes(options.assets, options.out).items():
                 if not options.names or name in options.names.split(","):
                     measure(options, name, arguments, filter_name)
         if not options.references and not options.names:
             measure_baseline(options)
-    for filter_name in filters:
-        if filter_name:
-            print_tables(options, filter_name)
+    tables = {name: tables_of(options, name) for name in filters if name}
+    if options.document:
+        text = options.document.read_text(encoding="utf-8")
+        if options.check and written(text, tables) != text:
+            sys.exit(f"{options.document}: its tables are not those of {options.out}")
+        options.document.write_text(written(text, tables), encoding="utf-8")
+        return
+    for name, found in tables.items():
+        for what, lines in found.items():
+            print(f"\n{name}: {what}\n\n" + "\n".join(lines), flush=True)
 
 
 if __name__ == "__main__":

@@ -136,7 +136,7 @@ int runMerge(const MergeOptions& options) {
   setProvenance(result, made);
   if (filter.denoise != Denoise::None) {
     DenoiseStatistics stats;
-    result = denoisedFile(result, options.output, filter, oidn, stats);
+    result = denoisedFile(result, options.parts.front(), filter, oidn, stats);
   }
   writeImage(options.output, result);
   return 0;

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""scripts/check_files, which scripts/lint runs: broken documents and files that do not belong into the root are found."""
+"""scripts/check_files, which scripts/lint runs, finds broken documents and files that do not belong into the root. Tables are those of their data."""
+import subprocess
 from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_loader
 
-from support import SCENES, Case, main
+from support import FRAGTRACE, SCENES, Case, main
 
 SCRIPT = SCENES.parent / "scripts/check_files"
 TABLE = "| a | b |\n| --- | --- |\n| `x \\| y` | 2 |\n"
@@ -48,6 +49,21 @@ class Documents(Case):
         found = self.faults("# One\n", "-", "src/main.cpp", "docs/x.png")
         self.assertEqual(len(found), 1)
         self.assertTrue(found[0].startswith("-: "))
+
+
+class Tables(Case):
+    def test_those_of_denoising_are_of_its_data(self):
+        root = SCENES.parent
+        document = self.folder / "denoising.md"
+        document.write_text((root / "docs/design/denoising.md").read_text())
+
+        def check():
+            return subprocess.run([root / "bench/denoise_table.py", FRAGTRACE, "--out", root / "docs/design/data/denoise", "--filters", "variance,oidn",
+                                   "--document", document, "--check"], capture_output=True, text=True).returncode
+        self.assertEqual(document.read_text().count("<!-- denoise_table:"), 6)
+        self.assertEqual(check(), 0)
+        document.write_text(document.read_text().replace("0.062 (", "0.061 ("))
+        self.assertEqual(check(), 1)
 
 
 if __name__ == "__main__":

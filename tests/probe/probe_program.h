@@ -23,8 +23,8 @@ inline std::string probePrelude() {
       "#version 450 core\nconst bool kAnisotropy = false;\nconst bool kSobol = true;\nconst bool kWatertight "
       "= true;\nconst bool kIterative = "
       "true;\n";
-  for (const char* file : {"random.glsl", "sampling.glsl", "intersect.glsl", "perlin.glsl", "fresnel.glsl",
-                           "ggx.glsl", "film_pixel.glsl"}) {
+  for (const char* file : {"random.glsl", "sampling.glsl", "luminance.glsl", "intersect.glsl", "perlin.glsl",
+                           "fresnel.glsl", "ggx.glsl", "film_pixel.glsl"}) {
     text += shaderText(file);
   }
   return text;
