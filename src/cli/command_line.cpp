@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -15,7 +14,7 @@
 #include "errors.h"
 #include "options/camera_options.h"
 #include "options/choose.h"
-#include "options/option_text.h"
+#include "options/old_spellings.h"
 #include "version_text.h"
 
 namespace fragtrace {
@@ -42,36 +41,28 @@ void checkCommand(const CLI::App& app, std::optional<std::string> word) {
   throw UsageError("'" + *word + "' is no command of " + app.get_name() + ": " + joined(names));
 }
 
-/// What the library calls arguments that were not expected.
-std::string whatIsUnknown(const CLI::App& app) {
+/// The command that was given.
+const CLI::App& chosenCommand(const CLI::App& app) {
   const CLI::App* command = &app;
   while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  return *command;
+}
+
+/// What the library calls arguments that were not expected.
+std::string whatIsUnknown(const CLI::App& app) {
+  const CLI::App& command = chosenCommand(app);
   const std::vector<std::string> left = app.remaining(true);
   const auto option =
       std::ranges::find_if(left, [](const std::string& word) { return word.starts_with('-'); });
   if (option == left.end()) return "'" + left.front() + "' is an argument too many; --help says more";
   std::vector<std::string> known;
-  for (const CLI::Option* one : command->get_options()) known.push_back(longName(*one));
+  for (const CLI::Option* one : command.get_options()) {
+    if (one->get_group() != kOldSpellings) known.push_back(one->get_name());
+  }
   const std::string unknown = option->substr(0, option->find('='));
   const std::string meant = suggestedOption(unknown, known);
-  return unknown + " is no option of " + command->get_name() +
+  return unknown + " is no option of " + command.get_name() +
          (meant.empty() ? "; --help lists them" : "; did you mean " + meant + "?");
-}
-
-/// Options that --help leaves out have a successor, which their description names.
-void sayOldSpellings(const CLI::App& app) {
-  const CLI::App* command = &app;
-  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
-  const CLI::Option* quiet = command->get_option_no_throw("--quiet");
-  if (quiet != nullptr && quiet->count() > 0) return;
-  for (const CLI::Option* option : command->get_options()) {
-    if (option->get_group().empty() && option->count() > 0)
-      std::fprintf(stderr, "fragtrace: note: %s is an old spelling (%s)\n", longName(*option).c_str(),
-                   option->get_description().c_str());
-  }
-  const CLI::Option* view = command->get_option_no_throw("--debug-view");
-  if (view != nullptr && view->count() > 0 && view->results().back() == "visits")
-    std::fputs("fragtrace: note: --debug-view visits is an old spelling (--enable bvh-heatmap)\n", stderr);
 }
 
 }  // namespace
@@ -91,8 +82,8 @@ RunCommand addCommands(CLI::App& app, std::span<const CommandRow> rows) {
 RunCommand addBench(CLI::App& app) { return addCommands(app, kBenchRows); }
 
 int runCommandLine(int argc, const char* const* argv) {
-  CLI::App app("A real-time ray tracer for glTF whose tracing runs in an OpenGL fragment shader.",
-               "fragtrace");
+  CLI::App app("A path tracer for glTF whose tracing runs in an OpenGL shader.", "fragtrace");
+  hideOldSpellings(app);
   app.set_version_flag("--version", std::string("fragtrace ") + kVersionText);
   const RunCommand run = addCommands(app, kCommandRows);
   const auto word = [&](int i) { return i < argc ? std::optional<std::string>(argv[i]) : std::nullopt; };
@@ -107,7 +98,7 @@ int runCommandLine(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     throw UsageError(std::string(error.what()) + "; --help says more");
   }
-  sayOldSpellings(app);
+  sayOldSpellings(chosenCommand(app));
   return run();
 }
 

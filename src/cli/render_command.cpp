@@ -199,6 +199,11 @@ void sayWhatIsChosen(const RenderOptions& options, const Context& context, const
   if (tracer.variant.clampIndirect) say(options, "indirect light is clamped (--clamp-indirect): biased");
 }
 
+int leaveUnwritten(const RenderOptions& options) {
+  say(options, "interrupted, nothing is written");
+  return kInterruptedStatus;
+}
+
 /// Throws RenderError when the driver left out samples without a word.
 void checkSamples(const RenderOptions& options, const Statistics& stats) {
   if (!stats.complete || stats.adaptive || stats.film.fewestSamples >= unsigned(options.spp)) return;
@@ -253,10 +258,10 @@ int runRender(const RenderOptions& asked) {
     for (const std::string& message : driverLog.take()) say(options, "driver: " + message);
   };
   sayDriverLog();
+  if (interrupts() > 1) return leaveUnwritten(options);
   sayWhatWentWrong(options, stats.film);
   sayWhatIsNotSeen(options, loaded, tracer.variant, stats);
   checkSamples(options, stats);
-  if (interrupts() > 1) return kInterruptedStatus;
   Image picture = pictureOf(drawing, options, tracer.variant);
 
   // Step: write. What has been drawn is not lost from here on.
@@ -264,7 +269,7 @@ int runRender(const RenderOptions& asked) {
     addFeatures(picture, tracer, options, loaded, layerSeconds, stats);
     denoise(picture, options, oidn, stats);
     sayDriverLog();
-    if (interrupts() > 1) return kInterruptedStatus;
+    if (interrupts() > 1) return leaveUnwritten(options);
     setProvenanceOf(picture, options, loaded, tracer, stats);
     PhaseTimer writing("write");
     writePicture(options, picture, boxes);

@@ -6,9 +6,11 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "errors.h"
 #include "image/files/whole_file.h"
+#include "options/old_spellings.h"
 
 namespace fragtrace {
 
@@ -78,7 +80,9 @@ std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& com
     CLI::Option* option = name.empty() || name[0] == '-' ? nullptr : command.get_option_no_throw("--" + name);
     if (option == nullptr || name == "config" || name == "help" || name == "version")
       throw InputError(place + ": is no option of " + command.get_name());
-    bool overruled = given.contains(option);
+    // Switches of the command line count more one by one, not as a list.
+    const bool isSwitch = name == "enable" || name == "disable";
+    bool overruled = given.contains(option) && !isSwitch;
     for (const CLI::Option* excluded : option->get_excludes()) {
       overruled = overruled || given.contains(excluded);
       if (!overruled && excluded->count() > 0)
@@ -93,6 +97,7 @@ std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& com
     }
     if (overruled || (isFlag && !value.get<bool>())) continue;
     try {
+      if (isSwitch) option->clear();
       option->add_result(values);
       option->run_callback();
     } catch (const CLI::ParseError& error) {
@@ -111,7 +116,13 @@ void addConfigOption(CLI::App& app, std::string& file) {
 
 RenderOptions finishConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command) {
   if (config.empty()) return finishRender(raw);
+  const std::vector<std::string> said = oldSpellingsOf(command);
+  std::vector<std::string> enable = std::exchange(raw.enable, {});
+  std::vector<std::string> disable = std::exchange(raw.disable, {});
   const std::set<std::string> taken = applyFile(config, command);
+  raw.fileEnable = std::exchange(raw.enable, std::move(enable));
+  raw.fileDisable = std::exchange(raw.disable, std::move(disable));
+  sayOldSpellings(command, said);
   try {
     return finishRender(raw);
   } catch (const UsageError& error) {

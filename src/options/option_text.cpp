@@ -12,11 +12,6 @@
 
 namespace fragtrace {
 
-std::string longName(const CLI::Option& option) {
-  const std::vector<std::string>& names = option.get_lnames();
-  return names.empty() ? option.get_name() : "--" + names.front();
-}
-
 std::string exactText(double value) {
   // The library's reader is strtold, then rounded.
   char text[32];

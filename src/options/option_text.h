@@ -7,13 +7,9 @@
 
 namespace CLI {
 class App;
-class Option;
 }  // namespace CLI
 
 namespace fragtrace {
-
-/// "--output". The library's own name of an option that --help leaves out is empty.
-std::string longName(const CLI::Option& option);
 
 /// The fewest digits, from 15 on, that the command line reads as the same number.
 std::string exactText(double value);

@@ -11,6 +11,7 @@
 #include "options/choose.h"
 #include "options/input_options.h"
 #include "options/numbers.h"
+#include "options/old_spellings.h"
 
 namespace fragtrace {
 
@@ -89,6 +90,19 @@ std::vector<std::string_view> debugViewNames() {
   return names;
 }
 
+/// Those that --help names: the heat map is a switch.
+std::vector<std::string_view> namedDebugViews() {
+  std::vector<std::string_view> names = debugViewNames();
+  std::erase(names, rowOf(DebugView::Visits).name);
+  return names;
+}
+
+DebugView debugViewNamed(const std::string& name) {
+  if (name == rowOf(DebugView::Visits).name) return DebugView::Visits;
+  choose<int>("--debug-view", name, namedDebugViews());  // throws for what is none
+  return choose<DebugView>("--debug-view", name, debugViewNames());
+}
+
 /// What is shaded.
 void addStageOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--stage", raw.stage,
@@ -130,14 +144,16 @@ void addSampleOptions(CLI::App& app, RawRender& raw) {
 
 /// What --enable and --disable say today; --help leaves them out, and its use is told (sayOldSpellings).
 void addOldSpellings(CLI::App& app, RawRender& raw) {
-  app.add_option("--sampler", raw.sampler, "sobol: --enable sobol, random: --disable sobol")->group("");
-  app.add_option("--fresnel", raw.fresnel, "schlick: --enable schlick, exact: --disable schlick")->group("");
+  app.add_option("--sampler", raw.sampler, "sobol: --enable sobol, random: --disable sobol")
+      ->group(kOldSpellings);
+  app.add_option("--fresnel", raw.fresnel, "schlick: --enable schlick, exact: --disable schlick")
+      ->group(kOldSpellings);
   app.add_option("--energy-compensation", raw.compensation,
                  "on: --enable energy-compensation, off: --disable energy-compensation")
-      ->group("");
+      ->group(kOldSpellings);
   app.add_option("--light-sampling", raw.lightSampling,
                  "nee: --enable light-sampling, bsdf: --disable light-sampling")
-      ->group("");
+      ->group(kOldSpellings);
 }
 
 /// What a path does.
@@ -183,7 +199,7 @@ void addPictureOptions(CLI::App& app, RawRender& raw) {
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_option("--debug-view", raw.debugView,
-                 "show this in place of the picture: " + joined(debugViewNames()))
+                 "show this in place of the picture: " + joined(namedDebugViews()))
       ->capture_default_str();
   app.add_option(
          "--tree-level", o.treeLevel,
@@ -217,8 +233,14 @@ void addTracingOptions(CLI::App& app, RawRender& raw) {
       ->capture_default_str();
 }
 
+void switchStages(const std::vector<std::string>& on, const std::vector<std::string>& off, StageSet& stages) {
+  for (const std::string& name : on) stages.set(size_t(stageNamed("--enable", name)));
+  for (const std::string& name : off) stages.reset(size_t(stageNamed("--disable", name)));
+}
+
 StageSet stagesOf(const RawRender& raw) {
   StageSet stages = stagesUpTo(choose<Stage>("--stage", raw.stage, stageNames(true)));
+  switchStages(raw.fileEnable, raw.fileDisable, stages);
   if (choose<int>("--fresnel", raw.fresnel, std::vector<std::string>{"exact", "schlick"}) == 1) {
     stages.set(size_t(Stage::Schlick));
   }
@@ -231,8 +253,7 @@ StageSet stagesOf(const RawRender& raw) {
   if (choose<int>("--light-sampling", raw.lightSampling, std::vector<std::string>{"nee", "bsdf"}) == 1) {
     stages.reset(size_t(Stage::LightSampling));
   }
-  for (const std::string& name : raw.enable) stages.set(size_t(stageNamed("--enable", name)));
-  for (const std::string& name : raw.disable) stages.reset(size_t(stageNamed("--disable", name)));
+  switchStages(raw.enable, raw.disable, stages);
   return stages;
 }
 
@@ -285,7 +306,7 @@ RenderOptions finishRender(const RawRender& raw) {
     throw UsageError("--tree-level: boxes are drawn over a .png or .jpg only");
   o.denoise = choose<Denoise>("--denoise", raw.denoise, kDenoiseNames);
   o.oidnLibrary = raw.oidnLibrary;
-  o.debugView = choose<DebugView>("--debug-view", raw.debugView, debugViewNames());
+  o.debugView = debugViewNamed(raw.debugView);
   if (o.debugView == DebugView::Visits) o.stages.set(size_t(Stage::BvhHeatmap));
   settleSamples(raw, o);
   checkFinite(o);

@@ -28,6 +28,8 @@ struct RawRender {
   std::string stage = "gi";
   std::vector<std::string> enable;
   std::vector<std::string> disable;
+  std::vector<std::string> fileEnable;  ///< of --config: what the command line switches counts more
+  std::vector<std::string> fileDisable;
   std::string bounces = "16";
   std::vector<double> backgroundColor;
   std::string hdriFile;

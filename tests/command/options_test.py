@@ -106,6 +106,24 @@ class CameraOptions(Case):
         self.assertNotEqual(self.picture_of(*spelled), self.picture_of())
 
 
+class Switches(Case):
+    def drawn(self, config, *options):
+        path, file = self.folder / "picture.pfm", self.folder / "c.json"
+        file.write_text(json.dumps(config))
+        self.renders(ROOM, "-o", path, "--quiet", "--resolution", "16,16", "--spp", "2", "--config", file, *options)
+        return path.read_bytes()
+
+    def test_those_of_the_command_line_count_more_one_by_one(self):
+        plain = self.drawn({})
+        self.assertNotEqual(self.drawn({"disable": "sobol"}), plain)
+        self.assertEqual(self.drawn({"disable": "sobol"}, "--enable", "sobol"), plain)
+        self.assertEqual(self.drawn({"sampler": "random"}, "--enable", "sobol"), plain)
+        self.assertEqual(self.drawn({"enable": ["bvh-heatmap"]}, "--disable", "bvh-heatmap"), plain)
+        both = self.drawn({}, "--disable", "sobol,light-sampling")
+        self.assertEqual(self.drawn({"disable": "light-sampling"}, "--disable", "sobol"), both)
+        self.assertEqual(self.drawn({"disable": ["light-sampling", "sobol"]}), both)
+
+
 class OldSpellings(Case):
     """What --enable and --disable say today had options of its own."""
     SAME = {"--sampler": ("random", "--disable", "sobol"), "--light-sampling": ("bsdf", "--disable", "light-sampling"),
@@ -129,6 +147,20 @@ class OldSpellings(Case):
                 self.assertNotIn("old spelling", silent)
                 self.assertEqual(self.drawn(option, value, "--quiet")[1], "")
                 self.assertNotIn(option + " TEXT=" + value, run("render", "--help").stdout)
+
+    def test_those_in_files_and_configurations_say_so_too(self):
+        config = self.folder / "old.json"
+        config.write_text(json.dumps({"sampler": "random", "debug-view": "none"}))
+        before, said = self.drawn("--config", config)
+        self.assertEqual((before, said.count("old spelling")), (self.drawn("--disable", "sobol")[0], 1), said)
+        self.assertNotIn("old spelling", self.drawn("--config", config, "--quiet")[1])
+        bench = ["bench", "frame", ROOM, *SMALL, "--rounds", "1", "--round-time", "0.001", "--config", "x=--sampler random"]
+        self.assertIn("--sampler is an old spelling", run(*[o for o in bench if o != "--quiet"]).stderr)
+
+    def test_their_mistakes_have_a_name_and_are_not_suggested(self):
+        self.fails(2, "render", ROOM, "-o", self.folder / "x.pfm", "--sampler", says=["--sampler"])
+        result = run("render", ROOM, "-o", self.folder / "x.pfm", "--samplr", "random")
+        self.assertNotIn("--sampler", result.stderr)
 
     def test_help_leaves_them_out(self):
         text = run("render", "--help").stdout

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "options/choose.h"
-#include "options/option_text.h"
+#include "options/old_spellings.h"
 
 namespace fragtrace {
 
@@ -47,7 +47,7 @@ GivenOptions givenOptions(const CLI::App& app) {
   addRenderOptions(render, raw);
   GivenOptions given;
   for (const CLI::Option* option : render.get_options()) {
-    const std::string name = longName(*option);
+    const std::string name = option->get_name();
     const CLI::Option* here = app.get_option_no_throw(name);
     if (here == nullptr || here->count() == 0 || name == "--help") continue;
     std::vector<std::string>& arguments = given[name];
@@ -75,8 +75,10 @@ void parseRender(const GivenOptions& shared, BenchConfiguration& c, const std::s
     return use(app, raw);
   };
   std::vector<std::string> arguments = withNumbersSettled(CLI::detail::split_up(c.text));
-  GivenOptions given =
-      parsed(arguments, [](const CLI::App& app, const RawRender&) { return givenOptions(app); });
+  GivenOptions given = parsed(arguments, [&](const CLI::App& app, const RawRender&) {
+    if (!shared.contains("--quiet")) sayOldSpellings(app);
+    return givenOptions(app);
+  });
   for (const auto& [name, option] : shared) {
     const auto [own, isNew] = given.try_emplace(name, option);
     const bool addsUp = name == "--enable" || name == "--disable";
