@@ -33,10 +33,11 @@ void addFileFilterOptions(CLI::App& app, RawRender& raw) {
       ->capture_default_str();
   app.add_option("--shader-folder", raw.shaderFolder, describedByRender("--shader-folder"));
   app.add_option("--memory-limit", raw.options.limits.memoryBytes,
-                 "memory limit, once for the picture and once for Open Image Denoise, such as 500MB or 2GiB")
+                 "memory limit, counted separately for the picture and for Open Image Denoise, such as 500MB "
+                 "or 2GiB")
       ->transform(memorySize(kLeastMemoryBytes));
   app.add_flag("--quiet", raw.options.quiet, "print errors only");
-  app.add_flag("--verbose", raw.options.verbose, "print what the program chooses");
+  app.add_flag("--verbose", raw.options.verbose, "print the choices that the program makes");
 }
 
 void addDenoiseCommandOptions(CLI::App& app, RawDenoise& raw) {

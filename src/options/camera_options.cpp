@@ -91,8 +91,8 @@ void addCameraOptions(CLI::App& app, RawCamera& raw) {
       ->excludes(angle);
   addVector(
       "--scene-origin", raw.sceneOrigin,
-      "X,Y,Z around which positions are rounded; by default the focal point, if given, else a point near the "
-      "camera");
+      "X,Y,Z of the point about which positions are rounded; by default the focal point, if given, else a "
+      "point near the camera");
 }
 
 void finishCamera(const RawCamera& raw, RenderOptions& options) {

@@ -10,9 +10,8 @@ namespace fragtrace {
 
 void addInputOptions(CLI::App& app, InputLimits& limits) {
   app.add_option("--memory-limit", limits.memoryBytes,
-                 "memory limit, once for files and once for the picture, such as 500MB or 2GiB, at least "
-                 "1MB; by default "
-                 "the smallest of 8 GiB, half of the machine's memory and ulimit -v")
+                 "memory limit, counted separately for files and for the picture, such as 500MB or 2GiB, at "
+                 "least 1MB; by default the smallest of 8 GiB, half of the machine's memory and ulimit -v")
       ->transform(memorySize(kLeastMemoryBytes));
   app.add_option("--texture-limit", limits.textureSide,
                  "maximum width and height of textures in pixels; larger ones are scaled down")
@@ -32,9 +31,8 @@ void addSelectionOptions(CLI::App& app, SceneSelection& selection) {
       "SECONDS");
   app.add_option("--scene", selection.scene,
                  "name or index of the scene; by default the one that the file chooses");
-  app.add_option(
-         "--animation-time", selection.animationTime,
-         "pose the scene as its animation has it at this time, in seconds; by default it is not animated")
+  app.add_option("--animation-time", selection.animationTime,
+                 "pose the scene as in its animation at this time, in seconds; by default it is not animated")
       ->check(isTime);
   app.add_option("--animation", selection.animation,
                  "name or index of the animation for --animation-time; by default the first");

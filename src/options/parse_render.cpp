@@ -122,7 +122,7 @@ void addSampleOptions(CLI::App& app, RawRender& raw) {
   RenderOptions& o = raw.options;
   app.add_option(
          "--spp", raw.spp,
-         "samples (camera paths) per pixel, 64 by default; with --noise or --time: at most so many, by "
+         "samples (camera paths) per pixel, 64 by default; with --noise or --time: at most this many, by "
          "default without limit")
       ->check(wholeNumber(1, kMostSamples));
   app.add_option(
@@ -131,10 +131,10 @@ void addSampleOptions(CLI::App& app, RawRender& raw) {
          "example 0.01")
       ->check(CLI::Range(1e-5, 1.0));
   app.add_option("--time", o.seconds,
-                 "render for so many seconds, and place the samples where they help most")
+                 "render for this many seconds, and place the samples where they help most")
       ->check(CLI::Range(0.01, 1e7));
   app.add_option("--sample-offset", o.sampleOffset,
-                 "index of the first sample in the sequence of the seed, to render in parts (see merge)")
+                 "index of the first sample in the sequence of the seed, for renders in parts (see merge)")
       ->check(wholeNumber(0, kMostSamples))
       ->capture_default_str();
   app.add_option("--seed", o.seed, "seed of the sample points, 0 to 4294967295")
@@ -182,12 +182,11 @@ void addSurroundingsOptions(CLI::App& app, RawRender& raw) {
   app.add_flag("--no-background", raw.noBackground,
                "hide the environment map from the camera, and write alpha");
   app.add_option("--background-color", raw.backgroundColor,
-                 "linear R,G,B that the camera sees where there is no surface, in place of the environment "
-                 "map; it lights "
-                 "nothing")
+                 "linear R,G,B that the camera sees where there is no surface, instead of the environment "
+                 "map; it lights nothing")
       ->delimiter(',')
       ->expected(3);
-  app.add_flag("--no-default-light", raw.noDefaultLight, "leave a scene dark that has no light");
+  app.add_flag("--no-default-light", raw.noDefaultLight, "do not light a scene that has no light of its own");
 }
 
 /// What of the samples a picture shows.
@@ -195,11 +194,12 @@ void addPictureOptions(CLI::App& app, RawRender& raw) {
   RenderOptions& o = raw.options;
   app.add_option("--pixel-filter", raw.pixelFilter, "pixel filter: " + joined(kPixelFilterNames))
       ->capture_default_str();
-  app.add_option("--aov", raw.aov, "more layers of an .exr, separated by commas: " + joined(layerNames()))
+  app.add_option("--aov", raw.aov,
+                 "extra layers to write into an .exr, separated by commas: " + joined(layerNames()))
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_option("--debug-view", raw.debugView,
-                 "show this in place of the picture: " + joined(namedDebugViews()))
+                 "show this instead of the picture: " + joined(namedDebugViews()))
       ->capture_default_str();
   app.add_option(
          "--tree-level", o.treeLevel,
@@ -329,9 +329,9 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
       "--stats", raw.statsFile,
       "write statistics to this JSON file; '-' writes them to standard output, and nothing else goes there");
   app.add_option("--shader-folder", raw.shaderFolder,
-                 "read the shaders from this folder in place of the built-in ones");
+                 "read the shaders from this folder instead of the built-in ones");
   app.add_flag("--quiet", o.quiet, "print errors only; benchmarks still print their tables");
-  app.add_flag("--verbose", o.verbose, "print what the program chooses, and times and sizes");
+  app.add_flag("--verbose", o.verbose, "print the choices that the program makes, and times and sizes");
 }
 
 void addDenoiseOption(CLI::App& app, RawRender& raw) {

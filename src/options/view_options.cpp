@@ -24,8 +24,10 @@ void addViewOptions(CLI::App& app, RawView& raw) {
   addDenoiseOption(app, raw.render);
   const auto describe = [&](const char* name, const char* text) { app.get_option(name)->description(text); };
   describe("--spp", "samples per pixel after which the picture rests, by default without limit");
-  describe("--noise",
-           "estimated relative error of 95 % of the pixels at which the picture rests, by default 0.005");
+  describe(
+      "--noise",
+      "the picture rests once 95 % of the pixels have an estimated relative error below this, by default "
+      "0.005");
   describe("--time", "seconds of rendering after which the picture rests");
   describe(
       "--denoise",
@@ -36,7 +38,7 @@ void addViewOptions(CLI::App& app, RawView& raw) {
   app.add_flag("--watch", raw.watch,
                "reload the scene or the shaders of --shader-folder when a file changes");
   app.add_option("--status-file", raw.statusFile,
-                 "JSON file in which the viewer keeps its present state, for scripts that control it");
+                 "JSON file in which the viewer keeps its current state, for scripts that control it");
 }
 
 ViewOptions finishView(RawView& raw, CLI::App& command) {

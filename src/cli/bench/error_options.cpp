@@ -22,8 +22,8 @@ void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
   BenchErrorOptions& o = raw.options;
   app.add_option("file", raw.scene, "scene: a .gltf or .glb file")->required();
   app.add_option("--reference", o.reference,
-                 "reference picture; by default the first configuration with 64 times the samples");
-  app.add_option("--repetitions", o.repetitions, "pictures of each step, with different seeds")
+                 "reference picture; by default one of the first configuration with 64 times the samples");
+  app.add_option("--repetitions", o.repetitions, "pictures per step, each with its own seed")
       ->check(wholeNumber(1, 1000))
       ->capture_default_str();
   app.add_option("--goal", o.goal, "relative MSE for which times are compared")

@@ -13,12 +13,13 @@ void addBenchFrameOptions(CLI::App& app, RawBenchFrame& raw) {
   app.add_option("scenes", raw.scenes, "scenes: .gltf or .glb files")->required();
   addTimingOptions(app, o.timing);
   app.add_option("--reference", o.reference,
-                 "picture that all settings must show; by default that of the other traversal of the tree");
+                 "picture that all settings must show; by default one drawn by the other traversal of the "
+                 "tree");
   app.add_option("--json", o.json, "write all measurements to this file, one JSON line per setting");
-  app.add_option(
-      "--baseline", o.baseline,
-      "earlier file of --json; status 1 when a setting is slower than there by more than --tolerance");
-  app.add_option("--tolerance", o.tolerance, "part of the earlier time, for --baseline")
+  app.add_option("--baseline", o.baseline,
+                 "file that --json wrote earlier; status 1 when a setting is slower than there by more than "
+                 "--tolerance");
+  app.add_option("--tolerance", o.tolerance, "allowed slowdown for --baseline, as a part of the earlier time")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   addConfigurationOptions(app, raw.configurations, "default");

@@ -14,7 +14,7 @@ void addBenchReportOptions(CLI::App& app, RawBenchReport& raw) {
   app.add_option("--parts", raw.parts, "parts of the table: " + joined(kReportPartNames) + "; by default all")
       ->delimiter(',')
       ->allow_extra_args(false);
-  app.add_flag("--no-iterative", raw.noIterative, "leave out the rows that have no tree");
+  app.add_flag("--no-iterative", raw.noIterative, "leave out the rows of the iterative traversal");
   addTimingOptions(app, o.timing);
   app.remove_option(app.get_option("--samples-per-draw"));
   app.add_option("--json", o.json, "write all measurements to this file, one JSON line per setting");
