@@ -113,6 +113,7 @@ PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> mater
   if (has(traits, Trait::PunctualLights)) appendPunctual(emitters, scene.lights, radius);
   orderInSpace(emitters);
   std::vector<double> powers;
+  powers.reserve(emitters.size());
   for (const Emitter& e : emitters) powers.push_back(e.power);
   packed.power = std::accumulate(powers.begin(), powers.end(), 0.0);
   const std::vector<InversionEntry> table = makeInversionEntries(powers);

@@ -21,6 +21,9 @@ struct OptionRow {
   const char* attribute = nullptr;  ///< its name in the attribute fragtrace:settings, where it stands there
 };
 
+template <typename Member>
+OptionRow(Member, Effect, bool = false, const char* = nullptr) -> OptionRow<Member>;
+
 /// A member without a row counts as Effect::Picture and decides the program: what is forgotten here costs
 /// time, never a wrong picture. Stages have their effects in stageRows().
 inline constexpr std::tuple kOptionRows{
