@@ -79,6 +79,15 @@ PixelTrace beginSample(PixelTrace t, PixelTask task) {
   return t;
 }
 
+/// What the path's ray has met.
+Path withHit(Path p, Traversal hit) {
+  p.hitSlot = hit.slot;
+  p.hitInstance = hit.hitInstance;
+  p.hitT = hit.t;
+  p.hitWeights = hit.weights;
+  return p;
+}
+
 /// Whole rays only: a traversal that the budget ends begins its sample anew in the next draw.
 PixelTrace traceDirect(PixelTrace t, PixelTask task, TreeFrame tree) {
   while (t.path.traversal.steps < task.budget) {
@@ -98,10 +107,7 @@ PixelTrace traceDirect(PixelTrace t, PixelTask task, TreeFrame tree) {
     if (hit.slot < 0) {
       t.path = meetSurroundings(t.path);
     } else {
-      t.path.hitSlot = hit.slot;
-      t.path.hitInstance = hit.hitInstance;
-      t.path.hitT = hit.t;
-      t.path.hitWeights = hit.weights;
+      t.path = withHit(t.path, hit);
       t.path = shade(t.path);
     }
     t.path.traversal.steps = hit.steps;
@@ -143,10 +149,7 @@ PixelTrace tracePhases(PixelTrace t, PixelTask task, TreeFrame tree) {
           traverse(t.path.origin, t.path.direction, kFarAway, t.path.traversal, tree, task.budget, false);
       if (t.path.traversal.node == kTraversalDone) {
         t.film.rays += 1u;
-        t.path.hitSlot = t.path.traversal.slot;
-        t.path.hitInstance = t.path.traversal.hitInstance;
-        t.path.hitT = t.path.traversal.t;
-        t.path.hitWeights = t.path.traversal.weights;
+        t.path = withHit(t.path, t.path.traversal);
         t.path.phase = kPhaseShade;
       }
     }
