@@ -125,12 +125,12 @@ const uint kSlotDiffuseTransmission = 15u;
 const uint kSlotDiffuseTransmissionColor = 16u;
 const uint kSlotCount = 17u;
 // What extensions add; read only where a material of the scene has them.
-const uint kMaterialClearcoat = 24u;            // weight, roughness, normal scale, dispersion
-const uint kMaterialSheen = 25u;                // colour, roughness
-const uint kMaterialAnisotropy = 26u;           // strength, cosine and sine of the rotation
-const uint kMaterialIridescence = 27u;          // weight, index, least and largest thickness (nm)
-const uint kMaterialDiffuseTransmission = 28u;  // colour, weight
-const uint kMaterialRows = 29u;
+const uint kMaterialClearcoat = kMaterialTextures + kSlotCount;       // weight, roughness, normal scale, dispersion
+const uint kMaterialSheen = kMaterialClearcoat + 1u;                  // colour, roughness
+const uint kMaterialAnisotropy = kMaterialSheen + 1u;                 // strength, cosine and sine of the rotation
+const uint kMaterialIridescence = kMaterialAnisotropy + 1u;           // weight, index, least and largest thickness (nm)
+const uint kMaterialDiffuseTransmission = kMaterialIridescence + 1u;  // colour, weight
+const uint kMaterialRows = kMaterialDiffuseTransmission + 1u;
 
 // Cells along each axis of the tables of energy and of sheen, which stand behind the materials and the transforms of
 // textures.

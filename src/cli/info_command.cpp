@@ -31,11 +31,11 @@ struct InfoOptions {
 double gpuBytesPerTriangle(const Scene& scene, const Bvh& bvh, const TraitSet& traits,
                            Surroundings surroundings) {
   ShaderVariant variant = chooseVariant({}, traits, surroundings, bvh.depth, BufferReads::Auto);
-  for (const Trait t : {Trait::BaseColorTexture, Trait::MetallicRoughnessTexture, Trait::NormalTexture,
-                        Trait::EmissionTexture, Trait::TransmissionTexture, Trait::SpecularTexture,
-                        Trait::EmissiveTriangles, Trait::PunctualLights, Trait::Environment}) {
-    variant.traits.reset(size_t(t));
+  for (const TraitRow& row : traitRows()) {
+    if (row.textures.front()) variant.traits.reset(size_t(row.trait));
   }
+  for (const Trait t : {Trait::EmissiveTriangles, Trait::PunctualLights, Trait::Environment})
+    variant.traits.reset(size_t(t));
   return double(packScene(scene, bvh, {}, variant).geometryBytes()) / double(scene.triangles.size());
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "pack/ggx_energy.h"
 #include "pack/gpu_scene.h"
@@ -81,8 +82,8 @@ void appendLayers(Words& words, const Material& m) {
   appendRow(words, m.diffuseTransmissionColorFactor, m.diffuseTransmissionFactor);
 }
 
-void appendMaterial(Words& words, const Material& m, double unit, double emitterDensity,
-                    const TraitSet& traits, TexturePacker& textures) {
+void appendMaterial(Words& words, const Material& m, const Vertices& vertices, double unit,
+                    double emitterDensity, const TraitSet& traits, TexturePacker& textures) {
   const size_t first = words.size();
   appendRow(words, m.baseColorFactor);
   appendRow(words, m.emissiveFactor * m.emissiveStrength, m.alphaCutoff);
@@ -93,29 +94,17 @@ void appendMaterial(Words& words, const Material& m, double unit, double emitter
   words.back() = materialFlags(m);
   appendRow(words, glm::vec4(m.perlinNormal.frequency, m.perlinNormal.amplitude,
                              float(m.perlinNormal.octaves), 0.0f));
-  auto slot = [&](Trait trait, const TextureRef& ref, TransferCurve curve) {
-    const glm::uvec4 row = has(traits, trait) ? textures.slot(ref, curve) : glm::uvec4(0u);
-    words.insert(words.end(), {row.x, row.y, row.z, row.w});
-  };
-  slot(Trait::BaseColorTexture, m.baseColorTexture, TransferCurve::Srgb);
-  slot(Trait::MetallicRoughnessTexture, m.metallicRoughnessTexture, TransferCurve::Linear);
-  slot(Trait::NormalTexture, m.normalTexture, TransferCurve::Linear);
-  slot(Trait::EmissionTexture, m.emissive() ? m.emissiveTexture : TextureRef{}, TransferCurve::Srgb);
-  slot(Trait::TransmissionTexture, m.transmissionTexture, TransferCurve::Linear);
-  slot(Trait::SpecularTexture, m.specularTexture, TransferCurve::Linear);
-  slot(Trait::SpecularTexture, m.specularColorTexture, TransferCurve::Srgb);
-  slot(Trait::ClearcoatTexture, m.clearcoatTexture, TransferCurve::Linear);
-  slot(Trait::ClearcoatTexture, m.clearcoatRoughnessTexture, TransferCurve::Linear);
-  slot(Trait::ClearcoatNormal, m.clearcoatNormalTexture, TransferCurve::Linear);
-  slot(Trait::SheenTexture, m.sheenColorTexture, TransferCurve::Srgb);
-  slot(Trait::SheenTexture, m.sheenRoughnessTexture, TransferCurve::Linear);
-  slot(Trait::AnisotropyTexture, m.anisotropyTexture, TransferCurve::Linear);
-  slot(Trait::IridescenceTexture, m.iridescenceTexture, TransferCurve::Linear);
-  slot(Trait::IridescenceTexture, m.iridescenceThicknessTexture, TransferCurve::Linear);
-  slot(Trait::DiffuseTransmissionTexture, m.diffuseTransmissionTexture, TransferCurve::Linear);
-  slot(Trait::DiffuseTransmissionTexture, m.diffuseTransmissionColorTexture, TransferCurve::Srgb);
+  static_assert(kTextureRefs.size() == layout::kSlotCount + 1);  // and occlusion
+  for (uint32_t slot = 0; slot < layout::kSlotCount; ++slot) {
+    const auto& [ref, curve] = kTextureRefs[slot];
+    const TraitRow& row = traitOfTexture(ref);
+    const bool read = has(traits, row.trait) && isOfMaterial(row, m, vertices);
+    const glm::uvec4 use = read ? textures.slot(m.*ref, curve) : glm::uvec4(0u);
+    words.insert(words.end(), {use.x, use.y, use.z, use.w});
+  }
   appendLayers(words, m);
-  if (words.size() - first != layout::kMaterialRows * 4) std::abort();
+  if (words.size() - first != layout::kMaterialRows * 4)
+    throw std::logic_error("a packed material has other rows than layout.glsl says");
 }
 
 /// One row a cell of a table with the values at its four corners (shaders/energy.glsl).
@@ -216,8 +205,8 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
 
   Words& materials = packed.buffers[kMaterialsBinding];
   for (size_t i = 0; i < scene.materials.size(); ++i) {
-    appendMaterial(materials, scene.materials[i], scene.space.unit, emitters.materialDensity[i], traits,
-                   textures);
+    appendMaterial(materials, scene.materials[i], scene.vertices, scene.space.unit,
+                   emitters.materialDensity[i], traits, textures);
   }
   textures.appendTransforms(materials);
   packed.energyTableRow = uint32_t(materials.size() / 4);

@@ -8,9 +8,6 @@
 
 namespace fragtrace {
 
-/// How a texture's colour channels are encoded.
-enum class TransferCurve : uint8_t { Linear, Srgb };
-
 /// The largest width and height at which all of the scene's pictures together take at most so many bytes.
 int textureSideWithin(const Scene& scene, int64_t mostBytes);
 

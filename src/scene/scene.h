@@ -88,7 +88,7 @@ struct PerlinNormal {
 /// Stands for an index that reflects all: the reflectance seen from above is within 4e-6 of 1.
 inline constexpr float kInfiniteIor = 1e6f;
 
-/// Material of glTF 2.0 with the extensions named in docs/design/conventions.md; defaults are the
+/// Material of glTF 2.0 with the extensions named in docs/design/surfaces.md; defaults are the
 /// specification's.
 struct Material {
   std::string name;
@@ -128,46 +128,25 @@ struct Material {
   glm::vec3 diffuseTransmissionColorFactor{1.0f};
   float dispersion = 0.0f;  ///< 20 over the Abbe number
   PerlinNormal perlinNormal;
-  TextureRef baseColorTexture;                 // sRGB + alpha
-  TextureRef metallicRoughnessTexture;         // linear, G roughness, B metallic
-  TextureRef normalTexture;                    // linear, tangent space
-  TextureRef emissiveTexture;                  // sRGB
-  TextureRef occlusionTexture;                 // linear, R
-  TextureRef transmissionTexture;              // linear, R
-  TextureRef specularTexture;                  // linear, A
-  TextureRef specularColorTexture;             // sRGB
-  TextureRef clearcoatTexture;                 // linear, R
-  TextureRef clearcoatRoughnessTexture;        // linear, G
-  TextureRef clearcoatNormalTexture;           // linear, tangent space
-  TextureRef sheenColorTexture;                // sRGB
-  TextureRef sheenRoughnessTexture;            // linear, A
-  TextureRef anisotropyTexture;                // linear, RG direction, B strength
-  TextureRef iridescenceTexture;               // linear, R
-  TextureRef iridescenceThicknessTexture;      // linear, G
-  TextureRef diffuseTransmissionTexture;       // linear, A
-  TextureRef diffuseTransmissionColorTexture;  // sRGB
+  TextureRef baseColorTexture;
+  TextureRef metallicRoughnessTexture;
+  TextureRef normalTexture;
+  TextureRef emissiveTexture;
+  TextureRef occlusionTexture;
+  TextureRef transmissionTexture;
+  TextureRef specularTexture;
+  TextureRef specularColorTexture;
+  TextureRef clearcoatTexture;
+  TextureRef clearcoatRoughnessTexture;
+  TextureRef clearcoatNormalTexture;
+  TextureRef sheenColorTexture;
+  TextureRef sheenRoughnessTexture;
+  TextureRef anisotropyTexture;
+  TextureRef iridescenceTexture;
+  TextureRef iridescenceThicknessTexture;
+  TextureRef diffuseTransmissionTexture;
+  TextureRef diffuseTransmissionColorTexture;
 
-  /// All of the above.
-  std::array<const TextureRef*, 18> textures() const {
-    return {&baseColorTexture,
-            &metallicRoughnessTexture,
-            &normalTexture,
-            &emissiveTexture,
-            &occlusionTexture,
-            &transmissionTexture,
-            &specularTexture,
-            &specularColorTexture,
-            &clearcoatTexture,
-            &clearcoatRoughnessTexture,
-            &clearcoatNormalTexture,
-            &sheenColorTexture,
-            &sheenRoughnessTexture,
-            &anisotropyTexture,
-            &iridescenceTexture,
-            &iridescenceThicknessTexture,
-            &diffuseTransmissionTexture,
-            &diffuseTransmissionColorTexture};
-  }
   bool transmissive() const { return transmissionFactor > 0.0f; }
   /// Light of any kind goes through, so that the back is there.
   bool passesLight() const { return transmissive() || diffuseTransmissionFactor > 0.0f; }
@@ -185,6 +164,36 @@ struct Material {
            (emissiveFactor.x > 0 || emissiveFactor.y > 0 || emissiveFactor.z > 0);
   }
 };
+
+/// How the colour channels of a texture are encoded.
+enum class TransferCurve : uint8_t { Linear, Srgb };
+
+struct TextureRefRow {
+  TextureRef Material::*ref;
+  TransferCurve curve;
+};
+
+/// All textures of a material; those that are traced in the order of their slots (shaders/layout.glsl).
+inline constexpr std::array kTextureRefs = std::to_array<TextureRefRow>({
+    {&Material::baseColorTexture, TransferCurve::Srgb},            // and alpha
+    {&Material::metallicRoughnessTexture, TransferCurve::Linear},  // G roughness, B metallic
+    {&Material::normalTexture, TransferCurve::Linear},             // tangent space
+    {&Material::emissiveTexture, TransferCurve::Srgb},
+    {&Material::transmissionTexture, TransferCurve::Linear},  // R
+    {&Material::specularTexture, TransferCurve::Linear},      // A
+    {&Material::specularColorTexture, TransferCurve::Srgb},
+    {&Material::clearcoatTexture, TransferCurve::Linear},           // R
+    {&Material::clearcoatRoughnessTexture, TransferCurve::Linear},  // G
+    {&Material::clearcoatNormalTexture, TransferCurve::Linear},     // tangent space
+    {&Material::sheenColorTexture, TransferCurve::Srgb},
+    {&Material::sheenRoughnessTexture, TransferCurve::Linear},        // A
+    {&Material::anisotropyTexture, TransferCurve::Linear},            // RG direction, B strength
+    {&Material::iridescenceTexture, TransferCurve::Linear},           // R
+    {&Material::iridescenceThicknessTexture, TransferCurve::Linear},  // G
+    {&Material::diffuseTransmissionTexture, TransferCurve::Linear},   // A
+    {&Material::diffuseTransmissionColorTexture, TransferCurve::Srgb},
+    {&Material::occlusionTexture, TransferCurve::Linear},  // R; not traced
+});
 
 /// Three vertex indices, counter-clockwise seen from the front, and the material.
 struct Triangle {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <stdexcept>
 
 namespace fragtrace {
 
@@ -66,23 +67,21 @@ std::span<const TraitRow> traitRows() {
        .name = "base-color-texture",
        .constant = "kBaseColorTexture",
        .absence = "no base colour texture",
-       .texture = true,
-       .ofMaterial = [](const Material& m, const Vertices&) { return m.baseColorTexture.present(); }},
+       .textures = {&Material::baseColorTexture}},
       {.trait = Trait::MetallicRoughnessTexture,
        .name = "metallic-roughness-texture",
        .constant = "kMetallicRoughnessTexture",
        .absence = "no metallic-roughness texture",
        .stages = setOf({Stage::Phong}),
        .needs = setOf({Trait::Specular}),
-       .texture = true,
-       .ofMaterial = [](const Material& m, const Vertices&) { return m.metallicRoughnessTexture.present(); }},
+       .textures = {&Material::metallicRoughnessTexture}},
       {.trait = Trait::NormalTexture,
        .name = "normal-texture",
        .constant = "kNormalTexture",
        .absence = "no normal texture",
        .stages = setOf({Stage::NormalMaps}),
        .brings = setOf({Trait::Tangents}),
-       .texture = true,
+       .textures = {&Material::normalTexture},
        .ofMaterial = [](const Material& m,
                         const Vertices& v) { return m.normalTexture.present() && !v.tangent.empty(); }},
       {.trait = Trait::EmissionTexture,
@@ -91,7 +90,7 @@ std::span<const TraitRow> traitRows() {
        .absence = "no emissive texture",
        .stages = setOf({Stage::Phong}),
        .brings = setOf({Trait::Emission}),
-       .texture = true,
+       .textures = {&Material::emissiveTexture},
        .ofMaterial = [](const Material& m,
                         const Vertices&) { return m.emissive() && m.emissiveTexture.present(); }},
       {.trait = Trait::TransmissionTexture,
@@ -100,7 +99,7 @@ std::span<const TraitRow> traitRows() {
        .absence = "no transmission texture",
        .stages = setOf({Stage::Refraction}),
        .brings = setOf({Trait::Transmission}),
-       .texture = true,
+       .textures = {&Material::transmissionTexture},
        .ofMaterial = [](const Material& m,
                         const Vertices&) { return m.transmissive() && m.transmissionTexture.present(); }},
       {.trait = Trait::SpecularTexture,
@@ -109,11 +108,7 @@ std::span<const TraitRow> traitRows() {
        .absence = "no specular texture",
        .stages = setOf({Stage::Phong}),
        .brings = setOf({Trait::Specular}),
-       .texture = true,
-       .ofMaterial =
-           [](const Material& m, const Vertices&) {
-             return m.specularTexture.present() || m.specularColorTexture.present();
-           }},
+       .textures = {&Material::specularTexture, &Material::specularColorTexture}},
       {.trait = Trait::SpecularGlossiness,
        .name = "specular-glossiness",
        .constant = "kSpecularGlossiness",
@@ -128,7 +123,8 @@ std::span<const TraitRow> traitRows() {
        .brings = setOf({Trait::BaseColorTexture, Trait::Texcoords}),
        .ofMaterial =
            [](const Material& m, const Vertices&) {
-             return std::ranges::any_of(m.textures(), [](const TextureRef* t) { return t->transformed(); });
+             return std::ranges::any_of(kTextureRefs,
+                                        [&](const TextureRefRow& t) { return (m.*t.ref).transformed(); });
            }},
       {.trait = Trait::Clearcoat,
        .name = "clearcoat",
@@ -142,11 +138,7 @@ std::span<const TraitRow> traitRows() {
        .constant = "kClearcoatTexture",
        .absence = "no clearcoat texture",
        .needs = setOf({Trait::Clearcoat}),
-       .texture = true,
-       .ofMaterial =
-           [](const Material& m, const Vertices&) {
-             return m.clearcoatTexture.present() || m.clearcoatRoughnessTexture.present();
-           }},
+       .textures = {&Material::clearcoatTexture, &Material::clearcoatRoughnessTexture}},
       {.trait = Trait::ClearcoatNormal,
        .name = "clearcoat-normal",
        .constant = "kClearcoatNormal",
@@ -154,7 +146,7 @@ std::span<const TraitRow> traitRows() {
        .stages = setOf({Stage::NormalMaps}),
        .needs = setOf({Trait::Clearcoat}),
        .brings = setOf({Trait::Tangents}),
-       .texture = true,
+       .textures = {&Material::clearcoatNormalTexture},
        .ofMaterial =
            [](const Material& m, const Vertices& v) {
              return m.clearcoatNormalTexture.present() && !v.tangent.empty();
@@ -170,11 +162,7 @@ std::span<const TraitRow> traitRows() {
        .constant = "kSheenTexture",
        .absence = "no sheen texture",
        .needs = setOf({Trait::Sheen}),
-       .texture = true,
-       .ofMaterial =
-           [](const Material& m, const Vertices&) {
-             return m.sheenColorTexture.present() || m.sheenRoughnessTexture.present();
-           }},
+       .textures = {&Material::sheenColorTexture, &Material::sheenRoughnessTexture}},
       {.trait = Trait::Anisotropy,
        .name = "anisotropy",
        .constant = "kAnisotropy",
@@ -188,8 +176,7 @@ std::span<const TraitRow> traitRows() {
        .constant = "kAnisotropyTexture",
        .absence = "no anisotropy texture",
        .needs = setOf({Trait::Anisotropy}),
-       .texture = true,
-       .ofMaterial = [](const Material& m, const Vertices&) { return m.anisotropyTexture.present(); }},
+       .textures = {&Material::anisotropyTexture}},
       {.trait = Trait::Iridescence,
        .name = "iridescence",
        .constant = "kIridescence",
@@ -202,11 +189,7 @@ std::span<const TraitRow> traitRows() {
        .constant = "kIridescenceTexture",
        .absence = "no iridescence texture",
        .needs = setOf({Trait::Iridescence}),
-       .texture = true,
-       .ofMaterial =
-           [](const Material& m, const Vertices&) {
-             return m.iridescenceTexture.present() || m.iridescenceThicknessTexture.present();
-           }},
+       .textures = {&Material::iridescenceTexture, &Material::iridescenceThicknessTexture}},
       {.trait = Trait::DiffuseTransmission,
        .name = "diffuse-transmission",
        .constant = "kDiffuseTransmission",
@@ -218,11 +201,7 @@ std::span<const TraitRow> traitRows() {
        .constant = "kDiffuseTransmissionTexture",
        .absence = "no diffuse transmission texture",
        .needs = setOf({Trait::DiffuseTransmission}),
-       .texture = true,
-       .ofMaterial =
-           [](const Material& m, const Vertices&) {
-             return m.diffuseTransmissionTexture.present() || m.diffuseTransmissionColorTexture.present();
-           }},
+       .textures = {&Material::diffuseTransmissionTexture, &Material::diffuseTransmissionColorTexture}},
       {.trait = Trait::Dispersion,
        .name = "dispersion",
        .constant = "kDispersion",
@@ -245,7 +224,7 @@ std::span<const TraitRow> traitRows() {
        .absence = "no Perlin normal map",
        .stages = setOf({Stage::NormalMaps}),
        .brings = setOf({Trait::Tangents}),
-       .texture = true,
+       .texcoords = true,
        .ofMaterial =
            [](const Material& m, const Vertices& v) {
              return m.perlinNormal.amplitude != 0.0f && !v.texcoord0.empty();
@@ -339,6 +318,21 @@ std::span<const TraitRow> traitRows() {
   return rows;
 }
 
+bool isOfMaterial(const TraitRow& row, const Material& material, const Vertices& vertices) {
+  if (row.ofMaterial) return row.ofMaterial(material, vertices);
+  return std::ranges::any_of(row.textures,
+                             [&](auto texture) { return texture && (material.*texture).present(); });
+}
+
+bool readsTexcoords(const TraitRow& row) { return row.texcoords || row.textures.front(); }
+
+const TraitRow& traitOfTexture(TextureRef Material::*texture) {
+  for (const TraitRow& row : traitRows()) {
+    if (std::ranges::find(row.textures, texture) != row.textures.end()) return row;
+  }
+  throw std::logic_error("a texture of kTextureRefs is in no row of traitRows()");
+}
+
 TraitSet withNeeded(Trait trait) {
   TraitSet set;
   set.set(size_t(trait));
@@ -352,7 +346,7 @@ TraitSet withNeeded(Trait trait) {
   for (const TraitRow& row : traitRows()) {
     if (!has(needed, row.trait)) continue;
     set |= row.brings;
-    if (row.texture) set.set(size_t(Trait::Texcoords));
+    if (readsTexcoords(row)) set.set(size_t(Trait::Texcoords));
   }
   return set;
 }

@@ -3,6 +3,7 @@
 // the shader prelude, benchmarks and statistics follow.
 #pragma once
 
+#include <array>
 #include <bitset>
 #include <span>
 
@@ -69,11 +70,20 @@ struct TraitRow {
   StageSet stages{};     ///< it is off where one of these is
   TraitSet needs{};      ///< it is off where one of these is
   TraitSet brings{};     ///< without which a scene that has it would not show it
-  bool texture = false;  ///< it is looked up by texture coordinates
-  /// Whether a material has it; null: the scene as a whole has it or not (traitsOf).
+  /// The textures that the shader reads where it is on; the rest null.
+  std::array<TextureRef Material::*, 2> textures{};
+  bool texcoords = false;  ///< it reads texture coordinates without a texture
+  /// Whether a material has it; null: one with one of its textures has it, and without textures the scene as
+  /// a whole has it or not (traitsOf).
   bool (*ofMaterial)(const Material& material, const Vertices& vertices) = nullptr;
 };
 std::span<const TraitRow> traitRows();
+
+bool isOfMaterial(const TraitRow& row, const Material& material, const Vertices& vertices);
+bool readsTexcoords(const TraitRow& row);
+
+/// The row that lists the texture; std::logic_error where none does.
+const TraitRow& traitOfTexture(TextureRef Material::*texture);
 
 /// The trait, what it needs, and what brings it to light: what a scene that has it would have, too.
 TraitSet withNeeded(Trait trait);

@@ -30,7 +30,7 @@ bool hasSlivers(const Scene& scene) {
 
 void addMaterialTraits(const Material& m, const Vertices& vertices, TraitSet& traits) {
   for (const TraitRow& row : traitRows()) {
-    if (row.ofMaterial && row.ofMaterial(m, vertices)) traits.set(size_t(row.trait));
+    if (isOfMaterial(row, m, vertices)) traits.set(size_t(row.trait));
   }
 }
 
@@ -77,7 +77,7 @@ void dropTraits(const StageSet& stages, Surroundings surroundings, TraitSet& tra
     drop(traits, {Trait::EmissiveTriangles, Trait::EnvironmentSampling});
   // A constant environment is found by scattered rays; only the stages without them sample it.
   if (gi && surroundings == Surroundings::DefaultLight) drop(traits, {Trait::EnvironmentSampling});
-  const auto looksUp = [&](const TraitRow& row) { return row.texture && has(traits, row.trait); };
+  const auto looksUp = [&](const TraitRow& row) { return readsTexcoords(row) && has(traits, row.trait); };
   if (std::ranges::none_of(traitRows(), looksUp)) drop(traits, {Trait::Texcoords, Trait::TextureTransforms});
   drop(traits, {Trait::SmoothSurfaces});  // for guides of filters alone
 }

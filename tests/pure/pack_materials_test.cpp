@@ -2,7 +2,9 @@
 // Rows of materials, transforms and tables, as the shader reads them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
+#include <vector>
 
 #include "bvh/build.h"
 #include "gltf_builder.h"
@@ -58,6 +60,30 @@ Packed pack(const Scene& scene) {
 
 json moved(const json& transform) {
   return {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}};
+}
+
+TEST(PackMaterials, EachTextureBelongsToOneTrait) {
+  std::vector<TextureRef Material::*> inRows;
+  for (const TraitRow& row : traitRows()) {
+    for (const auto texture : row.textures) {
+      if (texture) inRows.push_back(texture);
+    }
+  }
+  EXPECT_EQ(inRows.size(), kSlotCount);
+  for (size_t slot = 0; slot < kSlotCount; ++slot)
+    EXPECT_EQ(std::ranges::count(inRows, kTextureRefs[slot].ref), 1) << "slot " << slot;
+}
+
+TEST(PackMaterials, TexturesThatAMaterialDoesNotShowAreLeftOut) {
+  const auto glass = [](double factor) {
+    return json{{"extensions",
+                 {{"KHR_materials_transmission",
+                   {{"transmissionFactor", factor}, {"transmissionTexture", {{"index", 0}}}}}}}};
+  };
+  const Packed packed = pack(sceneOf({glass(0.0), glass(1.0)}));
+  const size_t slot = kMaterialTextures + kSlotTransmission;
+  EXPECT_EQ(packed.row(slot).z & kTexturePresent, 0u);
+  EXPECT_EQ(packed.row(kMaterialRows + slot).z & kTexturePresent, kTexturePresent);
 }
 
 TEST(PackMaterials, TransformsStandBehindTheMaterialsOnceEach) {

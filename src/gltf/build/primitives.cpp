@@ -219,9 +219,9 @@ class PrimitiveReader {
   }
 
   bool isAskedForByTexture(uint32_t set) const {
-    const auto textures = material_.textures();
-    return std::any_of(textures.begin(), textures.end(), [set](const TextureRef* texture) {
-      return texture->present() && texture->texcoord == set;
+    return std::ranges::any_of(kTextureRefs, [&](const TextureRefRow& texture) {
+      const TextureRef& ref = material_.*texture.ref;
+      return ref.present() && ref.texcoord == set;
     });
   }
 
