@@ -2,44 +2,49 @@
 # SPDX-License-Identifier: MIT
 """The tables and charts of docs/design/denoising.md: what a filter brings, in error and in time.
 
-usage: denoise_table.py FRAGTRACE [--assets DIR] --out FOLDER [--filters variance,oidn] [--names NAME,...] [--spp N] [--repetitions N] [--references] [--print]
-DIR holds scenes/ and env/lightroom_14b.hdr. Seven scenes of 250 x 250 pixels, 1 to --spp samples per pixel, --repetitions seeds, by `bench error --denoise`, against
-references of 4096 samples. FOLDER keeps NAME-FILTER.json and references: what stands there is not made again. --references: makes these alone, which
-needs no quiet machine as the rest does. --print: the tables of what is there; those of docs/design/data/denoise
-are in the document: `--out docs/design/data/denoise --filters variance,oidn --document docs/design/denoising.md` writes them there, and a test
-compares (--check). Writes FOLDER/denoise-NAME.svg, the charts of the variance filter.
+usage: denoise_table.py FRAGTRACE [--assets DIR] --out FOLDER [--filters variance,oidn] [--names NAME,...] [--spp N]
+                        [--repetitions N] [--references] [--print]
+DIR holds scenes/ and env/lightroom_14b.hdr. Seven scenes of 250 x 250 pixels, 1 to --spp samples per pixel,
+--repetitions seeds, by `bench error --denoise`, against references of 4096 samples. FOLDER keeps NAME-FILTER.json and
+references: what stands there is not made again. --references: makes these alone, which needs no quiet machine as the
+rest does. --print: the tables of what is there. Writes FOLDER/denoise-NAME.svg, the charts of the variance filter.
+bench/tables.py puts the tables of docs/design/data/denoise into the document.
 """
 
 import argparse
 import json
 import math
 import os
-import re
 import statistics
 import subprocess
 import sys
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(REPOSITORY / "bench/peers"))
+sys.path[:0] = [str(REPOSITORY / folder) for folder in ("bench", "bench/peers")]
 
+import markdown  # noqa: E402
 import peer_scenes  # noqa: E402
 
 STEPS = (1, 4, 16, 64, 256, 1024)
 GOALS = (1e-2, 1e-3)
 BASELINE = "cornell-box-baseline"
+TITLES = {"cornell-box": "Cornell box", "matt-ball": "matt ball under lightroom_14b", "many-lights": "many lights",
+          "rough-glass": "rough glass (default light)", "glass-sphere": "glass sphere",
+          "boom-box": "BoomBoxWithAxes under lightroom_14b", "flight-helmet": "FlightHelmet under lightroom_14b"}
 
 
 def scenes(assets, folder):
+    """What `render` gets of each."""
     room = ["--hdri-file", assets / "env/lightroom_14b.hdr"]
     own = REPOSITORY / "scenes"
-    return {"cornell-box": ("Cornell box", [own / "cornell-box.gltf"]),
-            "matt-ball": ("matt ball under lightroom_14b", [folder / "matt-ball.gltf", *room]),
-            "many-lights": ("many lights", [own / "many-lights.gltf"]),
-            "rough-glass": ("rough glass (default light)", [own / "rough-glass.gltf"]),
-            "glass-sphere": ("glass sphere", [own / "glass-sphere.gltf"]),
-            "boom-box": ("BoomBoxWithAxes under lightroom_14b", [assets / "scenes/BoomBoxWithAxes/BoomBoxWithAxes.gltf", *room]),
-            "flight-helmet": ("FlightHelmet under lightroom_14b", [assets / "scenes/FlightHelmet/FlightHelmet.gltf", *room])}
+    return {"cornell-box": [own / "cornell-box.gltf"],
+            "matt-ball": [folder / "matt-ball.gltf", *room],
+            "many-lights": [own / "many-lights.gltf"],
+            "rough-glass": [own / "rough-glass.gltf"],
+            "glass-sphere": [own / "glass-sphere.gltf"],
+            "boom-box": [assets / "scenes/BoomBoxWithAxes/BoomBoxWithAxes.gltf", *room],
+            "flight-helmet": [assets / "scenes/FlightHelmet/FlightHelmet.gltf", *room]}
 
 
 def run(program, *arguments):
@@ -91,26 +96,19 @@ def text_of(values, form):
     return f"{form.format(statistics.median(values))} ({form.format(low)} to {form.format(high)})"
 
 
-def table(head, rows):
-    """As lines, without the columns in which no row has anything."""
-    kept = [i for i in range(len(head)) if any(row[i] != "-" for row in rows)]
-    lines = [head, ["---"] * len(head), *rows]
-    return ["| " + " | ".join(line[i] for i in kept) + " |" for line in lines]
-
-
-def tables_of(options, filter_name):
-    """Lines by what they say: relmse, flip, sooner."""
+def tables_of(folder, filter_name):
+    """Lines by what they say: relmse, flip, sooner; baseline where that was measured."""
     raw, filtered, names = {}, {}, {}
-    for name, (title, _) in scenes(options.assets, options.out).items():
-        path = options.out / f"{name}-{filter_name}.json"
+    for name, title in TITLES.items():
+        path = folder / f"{name}-{filter_name}.json"
         if path.exists():
             one = json.loads(path.read_text())["configurations"][0]
             names[name], raw[name], filtered[name] = title, one["repetitions"], one["denoised"]["repetitions"]
     found = {}
     for what in ("relmse", "flip"):
-        found[what] = table(["samples per pixel", *map(str, STEPS)],
-                            [[title, *(text_of([at(f, n)[what] / at(r, n)[what] for r, f in zip(raw[name], filtered[name])], "{:.3f}")
-                                       if at(raw[name][0], n) else "-" for n in STEPS)] for name, title in names.items()])
+        ratio = lambda name, n: text_of([at(f, n)[what] / at(r, n)[what] for r, f in zip(raw[name], filtered[name])], "{:.3f}")
+        rows = [[title, *(ratio(name, n) if at(raw[name][0], n) else "-" for n in STEPS)] for name, title in names.items()]
+        found[what] = markdown.table(["samples per pixel", *map(str, STEPS)], rows)
     rows = []
     for name, title in names.items():
         row = [title]
@@ -120,29 +118,14 @@ def tables_of(options, filter_name):
                 least = any(f[0]["relmse"] < goal for f in filtered[name])
                 row.append(("at least " if least else "") + text_of(times, "{:.2g}"))
         rows.append(row)
-    found["sooner"] = table(["scene", *(f"{goal:g}: {what}" for goal in GOALS for what in ("sooner", "fewer samples"))], rows)
-    baseline = options.out / f"{BASELINE}.json"
+    found["sooner"] = markdown.table(["scene", *(f"{goal:g}: {what}" for goal in GOALS for what in ("sooner", "fewer samples"))], rows)
+    baseline = folder / f"{BASELINE}.json"
     if baseline.exists() and "cornell-box" in names:
         slow = json.loads(baseline.read_text())["configurations"][0]["repetitions"]
-        ratios = lambda goal, what: text_of([reached(b, goal, what) / reached(f, goal, what) for b, f in zip(slow, filtered["cornell-box"])], "{:.3g}")
-        found["baseline"] = table(["goal", "sooner", "fewer samples"],
-                                  [[f"{goal:g}", ratios(goal, "seconds"), ratios(goal, "samples")] for goal in GOALS])
+        ratios = lambda goal, what: text_of([reached(b, goal, what) / reached(f, goal, what) for b, f in zip(slow, filtered["cornell-box"])], "{:,.0f}")
+        found["baseline"] = markdown.table(["goal", "sooner", "fewer samples"],
+                                           [[f"{goal:g}", ratios(goal, "seconds"), ratios(goal, "samples")] for goal in GOALS])
     return found
-
-
-def written(text, tables):
-    """The document with each table put behind its mark, <!-- denoise_table: FILTER WHAT -->."""
-    lines, replacing = [], False
-    for line in text.split("\n"):
-        mark = re.fullmatch(r"<!-- denoise_table: (\w+) (\w+) -->", line)
-        if mark:
-            lines += [line, "", *tables[mark[1]][mark[2]]]
-            replacing = True
-        elif not replacing or (line and not line.startswith("|")):
-            lines += [""] if replacing else []
-            lines.append(line)
-            replacing = False
-    return "\n".join(lines)
 
 
 def main():
@@ -156,30 +139,21 @@ def main():
     parser.add_argument("--repetitions", type=int, default=3)
     parser.add_argument("--references", action="store_true")
     parser.add_argument("--print", action="store_true")
-    parser.add_argument("--document", type=Path, help="put the tables into this document, where its marks say so")
-    parser.add_argument("--check", action="store_true", help="change nothing; status 1 where the document has other tables")
     options = parser.parse_args()
     options.fragtrace = options.fragtrace.resolve()
-    if not options.print and not options.document:
+    if not options.print:
         options.out.mkdir(parents=True, exist_ok=True)
         peer_scenes.matt_scene(options.out, "matt-ball")
     filters = [None] if options.references else options.filters.split(",")
-    if not options.print and not options.document:
+    if not options.print:
         for filter_name in filters:
-            for name, (_, arguments) in scenes(options.assets, options.out).items():
+            for name, arguments in scenes(options.assets, options.out).items():
                 if not options.names or name in options.names.split(","):
                     measure(options, name, arguments, filter_name)
         if not options.references and not options.names:
             measure_baseline(options)
-    tables = {name: tables_of(options, name) for name in filters if name}
-    if options.document:
-        text = options.document.read_text(encoding="utf-8")
-        if options.check and written(text, tables) != text:
-            sys.exit(f"{options.document}: its tables are not those of {options.out}")
-        options.document.write_text(written(text, tables), encoding="utf-8")
-        return
-    for name, found in tables.items():
-        for what, lines in found.items():
+    for name in filter(None, filters):
+        for what, lines in tables_of(options.out, name).items():
             print(f"\n{name}: {what}\n\n" + "\n".join(lines), flush=True)
 
 

@@ -5,7 +5,8 @@
 usage: aims.py FRAGTRACE --assets DIR --json FILE [--parts NAME,...] [--python PYTHON] [--clock cpu] [--rounds N] [--before PROGRAM]
 FILE keeps what each part found: what stands there is not measured again unless a peer was missing, so the same command goes on after an interruption, and ends with the
 table of all that is there. DIR holds scenes/FlightHelmet and env/lightroom_14b.hdr. PYTHON has mitsuba 3.9.1 and numpy; blender and libembree-dev are
-installed. Status 1: a picture is not right, or a part could not be measured; what falls short of an aim is no failure. docs/design/benchmarks.md says more.
+installed. Status 1: a picture is not right, or a part could not be measured; what falls short of an aim is no failure. bench/tables.py puts the table of
+docs/design/data/aims.json into docs/design/benchmarks.md, which says more.
 """
 
 import argparse
@@ -26,6 +27,7 @@ import traversal
 REPOSITORY = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "bench"))
 
+import markdown  # noqa: E402
 import traversals  # noqa: E402
 
 GOAL = "1e-3"
@@ -169,15 +171,13 @@ PARTS = {
 }
 
 
-def print_table(results):
-    print(f"{results['machine']}; {results['clock']} clock; commit {results['commit']}; parts by hour, load before: " +
-          ", ".join(f"{part} {result['when']}" for part, result in results["parts"].items()) + "\n")
-    print("| what | median (least to largest) | at least | moonshot | | pictures: mean, blocks beyond noise |\n| --- | --- | --- | --- | --- | --- |")
-    measured = {each["row"]: each for result in results["parts"].values() for each in result["rows"]}
+def table(results):
+    """As lines."""
+    rows, measured = [], {each["row"]: each for result in results["parts"].values() for each in result["rows"]}
     for name, aim in AIMS.items():
         if name not in measured and name.endswith(KEPT):
             continue
-        limit = f"at most {aim['most']}" if "most" in aim else aim["least"]
+        limit = f"at most {aim['most']}" if "most" in aim else str(aim["least"])
         each, verdict, found = measured.get(name), "", "not measured"
         if each and each["values"]:
             sign = -1 if "most" in aim else 1
@@ -185,7 +185,14 @@ def print_table(results):
             reached = [level is not None and median >= sign * level for level in levels]
             verdict = "PICTURES DIFFER" if not each["right"] else "moonshot" if reached[1] else "reached" if reached[0] else "short"
             found = compare.median_and_range(each["values"], "{:.0f}" if -sign * median < -100 else "{:.2f}")
-        print(f"| {name} | {found} | {limit} | {aim['moonshot'] or ''} | {verdict} | {each['note'] if each else ''} |")
+        rows.append([name, found, limit, str(aim["moonshot"] or ""), verdict, each["note"] if each else ""])
+    return markdown.table(["what", "median (least to largest)", "at least", "moonshot", "", "pictures: mean, blocks beyond noise"], rows)
+
+
+def print_table(results):
+    parts = ", ".join(f"{part} {result['when']}" for part, result in results["parts"].items())
+    print(f"{results['machine']}; {results['clock']} clock; commit {results['commit']}; parts by hour, load before: {parts}\n")
+    print("\n".join(table(results)))
 
 
 def main():

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """scripts/check_files, which scripts/lint runs, finds broken documents and files that do not belong into the root. Tables are those of their data."""
+import re
 import subprocess
+import sys
 from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_loader
 
-from support import FRAGTRACE, SCENES, Case, main
+from support import SCENES, Case, main
 
 SCRIPT = SCENES.parent / "scripts/check_files"
 TABLE = "| a | b |\n| --- | --- |\n| `x \\| y` | 2 |\n"
@@ -52,18 +54,49 @@ class Documents(Case):
 
 
 class Tables(Case):
-    def test_those_of_denoising_are_of_its_data(self):
-        root = SCENES.parent
-        document = self.folder / "denoising.md"
-        document.write_text((root / "docs/design/denoising.md").read_text())
+    """Of measurements: bench/tables.py makes them of docs/design/data."""
+    ROOT = SCENES.parent
 
-        def check():
-            return subprocess.run([root / "bench/denoise_table.py", FRAGTRACE, "--out", root / "docs/design/data/denoise", "--filters", "variance,oidn",
-                                   "--document", document, "--check"], capture_output=True, text=True).returncode
-        self.assertEqual(document.read_text().count("<!-- denoise_table:"), 6)
-        self.assertEqual(check(), 0)
-        document.write_text(document.read_text().replace("0.062 (", "0.061 ("))
-        self.assertEqual(check(), 1)
+    def setUp(self):
+        super().setUp()
+        sys.path.insert(0, str(self.ROOT / "bench"))
+        import tables
+        self.tables, self.document = tables, self.folder / "document.md"
+
+    def status(self, *arguments):
+        return subprocess.run([sys.executable, self.ROOT / "bench/tables.py", *arguments], capture_output=True).returncode
+
+    def faults(self, text, data=None):
+        self.document.write_text(text, encoding="utf-8")
+        return self.tables.faults_of(self.document, data or self.tables.DATA, True)
+
+    def test_all_are_of_their_data(self):
+        self.assertEqual(self.status("--check"), 0)
+
+    def test_any_other_figure_is_found_and_put_right(self):
+        changed = 0
+        for text in [path.read_text(encoding="utf-8") for path in sorted(self.tables.DOCUMENTS.glob("*.md"))]:
+            for block in self.tables.markdown.BLOCK.finditer(text):
+                figure = max(found.start() for found in re.finditer(r"\d", block[0]))
+                other = block[0][:figure] + str(9 - int(block[0][figure])) + block[0][figure + 1:]
+                self.assertEqual(len(self.faults(text.replace(block[0], other))), 1, block[1])
+                self.assertEqual(self.tables.faults_of(self.document, self.tables.DATA, False), [])
+                self.assertEqual(self.document.read_text(encoding="utf-8"), text)
+                changed += 1
+        self.assertGreaterEqual(changed, 8)
+        self.document.write_text("<!-- table: aims -->\n<!-- end of table -->\n")
+        self.assertEqual(self.status("--check", self.document), 1)
+
+    def test_marks_without_a_table_an_end_or_data_are_found(self):
+        for text, said in (("<!-- table: none -->\n<!-- end of table -->\n", "none: no such table"),
+                           ("<!-- table: aims -->\n| a |\n", "do not come in pairs"),
+                           ("<!-- table: aims -->\n<!-- table: aims -->\n<!-- end of table -->\n", "do not come in pairs")):
+            self.assertIn(said, "".join(self.faults(text)))
+        self.assertIn("aims: no data", "".join(self.faults("<!-- table: aims -->\n<!-- end of table -->\n", self.folder)))
+
+    def test_data_without_a_mark_are_found(self):
+        self.document.write_text("text\n")
+        self.assertIn("no document has <!-- table: aims -->", "".join(self.tables.unshown([self.document], self.tables.DATA)))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Writes the tables of measurements into the documents, from what the benchmarks wrote into docs/design/data.
+
+usage: tables.py [--check] [--data FOLDER] [DOCUMENT...]
+Without DOCUMENT: all of docs/design. A document has a table between <!-- table: NAME --> and <!-- end of table -->.
+--check: changes nothing, and ends with status 1 where a document has other tables than its data. With and without it,
+the status is also 1 where a mark has no data or no end, and where data have no mark. The data are benchmarks' files,
+whole:
+
+  report.json      fragtrace bench report --rounds 3 --round-time 0.3 --json FILE
+  scale.json       fragtrace bench scale --json FILE
+  aims.json        bench/peers/aims.py FRAGTRACE --assets DIR --json FILE
+  aims-again.json  the same, parts that were measured again by a later program and replace those of aims.json
+  denoise/         bench/denoise_table.py FRAGTRACE --out FOLDER --filters variance,oidn
+"""
+
+import argparse
+import json
+import sys
+from functools import partial
+from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(REPOSITORY / folder) for folder in ("bench", "bench/peers", "bench/gpu")]
+
+import aims  # noqa: E402
+import denoise_table  # noqa: E402
+import markdown  # noqa: E402
+import program_tables  # noqa: E402
+
+DOCUMENTS, DATA = REPOSITORY / "docs/design", REPOSITORY / "docs/design/data"
+
+
+def facts(results):
+    return f"{results['machine']}; {results['clock']} clock, {results['rounds']} rounds, commit {results['commit']}"
+
+
+def aims_table(path):
+    """With the parts of aims-again.json, where that is there, in place of those of `path`."""
+    results = json.loads(path.read_text(encoding="utf-8"))
+    text, again = facts(results), path.with_name("aims-again.json")
+    if again.exists():
+        later = json.loads(again.read_text(encoding="utf-8"))
+        results["parts"].update(later["parts"])
+        text += ". Measured again: " + ", ".join(f"`{part}`" for part in later["parts"]) + f" ({facts(later)})"
+    minutes = sum(part["seconds"] for part in results["parts"].values()) / 60
+    return markdown.wrapped(f"{text}. All parts together take {minutes:.0f} minutes.") + aims.table(results)
+
+
+def denoise(filter_name, what, folder):
+    return denoise_table.tables_of(folder, filter_name)[what]
+
+
+# What tables there are: the place of the data, and what makes lines of them.
+TABLES = {"report": ("report.json", program_tables.report_times),
+          "report shapes": ("report.json", program_tables.report_shapes),
+          "scale": ("scale.json", program_tables.scale_times),
+          "scale exponents": ("scale.json", program_tables.scale_exponents),
+          "aims": ("aims.json", aims_table)}
+for one, whats in (("variance", ("relmse", "flip", "sooner", "baseline")), ("oidn", ("relmse", "flip", "sooner"))):
+    TABLES.update({f"denoise {one} {what}": ("denoise", partial(denoise, one, what)) for what in whats})
+
+
+def tables_of(data, names):
+    """Lines by name, without those that have no data."""
+    known = [name for name in names if name in TABLES and (data / TABLES[name][0]).exists()]
+    return {name: TABLES[name][1](data / TABLES[name][0]) for name in known}
+
+
+def faults_of(document, data, is_check):
+    """What is wrong with the marks of a document and, with is_check, its tables, which are written without it."""
+    text = document.read_text(encoding="utf-8")
+    try:
+        names = markdown.marks(text)
+    except ValueError as error:
+        return [f"{document}: {error}"]
+    tables = tables_of(data, names)
+    faults = [f"{document}: {name}: " + (f"no data {data / TABLES[name][0]}" if name in TABLES else "no such table")
+              for name in names if name not in tables]
+    new = markdown.written(text, tables)
+    if new == text:
+        return faults
+    if is_check:
+        return [*faults, f"{document}: its tables are not those of {data}; bench/tables.py writes them"]
+    document.write_text(new, encoding="utf-8")
+    return faults
+
+
+def unshown(documents, data):
+    """Faults: data of which no document has the table. Tables without data are named on stderr."""
+    shown = {name for document in documents for name in markdown.names(document.read_text(encoding="utf-8"))}
+    for name, (place, _) in TABLES.items():
+        if name not in shown and (data / place).exists():
+            yield f"{data / place}: no document has {markdown.BEGIN.format(name)}"
+        elif name not in shown:
+            print(f"tables.py: {name} is not generated: no data {data / place}", file=sys.stderr)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("documents", nargs="*", type=Path)
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--data", type=Path, default=DATA)
+    options = parser.parse_args()
+    documents = options.documents or sorted(DOCUMENTS.glob("*.md"))
+    faults = [fault for document in documents for fault in faults_of(document, options.data, options.check)]
+    faults += [] if options.documents else unshown(documents, options.data)
+    for fault in faults:
+        print(f"tables.py: {fault}", file=sys.stderr)
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()
