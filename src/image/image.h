@@ -46,6 +46,15 @@ Image readImage(const std::filesystem::path& path, uint64_t memoryLimit = defaul
 /// rest as stored. Throws InputError, or RenderError where there is no colour to tone-map.
 Image readDisplayImage(const std::filesystem::path& path);
 
+/// All channels as linear values; an 8 or 16 bit file's are decoded from sRGB, so they are at most 1.
+struct LinearImage {
+  Image image;
+  bool wasEncoded = false;
+};
+
+/// Throws as readImage does.
+LinearImage readLinearImage(const std::filesystem::path& path, uint64_t memoryLimit);
+
 /// Decodes an encoded picture held in memory (glTF textures). Throws InputError naming `name`.
 TexelImage decodeTexels(std::span<const uint8_t> bytes, const std::string& name);
 

@@ -80,26 +80,31 @@ void checkFinite(const Image& image, const std::filesystem::path& path) {
   }
 }
 
-Environment makeEnvironment(const RenderOptions& options, std::future<Image>& map, OwnLight light) {
+void warn(const RenderOptions& options, const std::string& what, std::vector<std::string>& warnings) {
+  warnings.push_back(options.hdriFile.string() + what);
+  say(options, "warning: " + warnings.back());
+}
+
+Environment makeEnvironment(const RenderOptions& options, std::future<LinearImage>& map, OwnLight light,
+                            std::vector<std::string>& warnings) {
   Environment environment;
   if (map.valid()) {
+    LinearImage read = map.get();
     environment.kind = Surroundings::Map;
-    environment.image = map.get();
-    if (environment.image.channelCount() < 3) throw InputError(options.hdriFile.string() + ": has no colour");
-    checkFinite(environment.image, options.hdriFile);
+    environment.image = std::move(read.image);
+    const Image& image = environment.image;
+    if (image.channelCount() < 3) throw InputError(options.hdriFile.string() + ": has no colour");
+    checkFinite(image, options.hdriFile);
+    if (read.wasEncoded)
+      warn(options, ": holds no light above 1, so no sun and no lamp; an .hdr, .exr or .pfm does", warnings);
+    // Mirror balls and faces of cubes are square; there is one reading of an environment here.
+    if (image.width == image.height && image.width > 1)
+      warn(options, ": is square, and drawn as latitude and longitude: 360 degrees wide, 180 high", warnings);
   } else if (options.defaultLight && light != OwnLight::Enough) {
     environment.kind = Surroundings::DefaultLight;
     environment.image = {1, 1, {"R", "G", "B"}, {1.0f, 1.0f, 1.0f}, {}};
   }
   return environment;
-}
-
-/// Mirror balls and faces of cubes are square; there is one reading of an environment here.
-void warnOfSquare(const Image& map, const RenderOptions& options, std::vector<std::string>& warnings) {
-  if (map.width != map.height || map.width <= 1) return;
-  warnings.push_back(options.hdriFile.string() +
-                     ": is square, and drawn as latitude and longitude: 360 degrees wide, 180 high");
-  say(options, "warning: " + warnings.back());
 }
 
 /// FNV-1a over the words of all buffers.
@@ -197,11 +202,11 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   LoadedScene loaded;
   // The environment is decoded in another process, so it is read meanwhile.
   Phase reading;  // outlives the thread that sets it
-  std::future<Image> map;
+  std::future<LinearImage> map;
   if (!options.hdriFile.empty()) {
     map = std::async(kThreadIfGranted, [&] {
       PhaseTimer timer("environment", "second");
-      Image image = readImage(options.hdriFile, options.limits.memoryBytes);
+      LinearImage image = readLinearImage(options.hdriFile, options.limits.memoryBytes);
       reading = timer.end();
       return image;
     });
@@ -235,9 +240,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   step("reading the environment", 0.9);
   const bool isAsked = options.hdriFile.empty() && options.defaultLight;
   const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
-  loaded.environment = makeEnvironment(options, map, light);
+  loaded.environment = makeEnvironment(options, map, light, loaded.scene.warnings);
   if (!options.hdriFile.empty()) stats.phases.push_back(reading);
-  warnOfSquare(loaded.environment.image, options, loaded.scene.warnings);
   stats.scene = describe(scene);
   stats.warnings = scene.warnings;
   stats.size = loaded.size;

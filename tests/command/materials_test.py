@@ -67,6 +67,13 @@ class Materials(Case):
                 for a, b in zip(pixel, wanted):
                     self.assertAlmostEqual(a, b, delta=delta)
 
+    def test_an_encoded_environment_is_decoded(self):
+        path = self.folder / "grey.hdr"  # its bytes decide
+        path.write_bytes(png(4, 2, [128, 128, 128, 7] * 8))
+        corner = self.picture("environment-diffuse", "x.pfm", "--resolution", "16,16", "--spp", "1", "--hdri-file", path)[0][0]
+        for channel in corner:
+            self.assertAlmostEqual(channel, ((128 / 255 + 0.055) / 1.055)**2.4, delta=1e-3)
+
     def test_a_transformed_texture_is_read_where_transformed_coordinates_say(self):
         angle, (sx, sy), (ox, oy) = 0.5, (1.5, -0.75), (0.2, 0.6)
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// readImage, readDisplayImage and decodeTexels: the format is chosen by the first bytes, the file's name only
-// stands in messages.
+// readImage, readDisplayImage, readLinearImage and decodeTexels: the format is chosen by the first bytes, the
+// file's name only stands in messages.
 #include <new>
 #include <stdexcept>
 
@@ -37,6 +37,11 @@ Image decodeImage(std::span<const uint8_t> bytes, const std::filesystem::path& p
   });
 }
 
+bool isLinear(std::span<const uint8_t> bytes) {
+  const auto format = formatOfBytes(bytes);
+  return format == ImageFormat::OpenExr || format == ImageFormat::Hdr || format == ImageFormat::Pfm;
+}
+
 }  // namespace
 
 Image readImage(const std::filesystem::path& path, uint64_t memoryLimit) {
@@ -47,10 +52,16 @@ Image readDisplayImage(const std::filesystem::path& path) {
   const uint64_t memoryLimit = defaultMemoryLimit();
   const std::vector<uint8_t> bytes = readWholeFile(path, memoryLimit);
   Image image = decodeImage(bytes, path, memoryLimit);
-  const auto format = formatOfBytes(bytes);
-  const bool isLinear =
-      format == ImageFormat::OpenExr || format == ImageFormat::Hdr || format == ImageFormat::Pfm;
-  return isLinear ? toDefaultDisplay(image) : image;
+  return isLinear(bytes) ? toDefaultDisplay(image) : image;
+}
+
+LinearImage readLinearImage(const std::filesystem::path& path, uint64_t memoryLimit) {
+  const std::vector<uint8_t> bytes = readWholeFile(path, memoryLimit);
+  LinearImage read{decodeImage(bytes, path, memoryLimit), !isLinear(bytes)};
+  if (read.wasEncoded) {
+    for (float& value : read.image.values) value = float(decodeSrgb(double(value)));
+  }
+  return read;
 }
 
 TexelImage decodeTexels(std::span<const uint8_t> bytes, const std::string& name) {
