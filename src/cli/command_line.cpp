@@ -15,6 +15,7 @@
 #include "options/camera_options.h"
 #include "options/choose.h"
 #include "options/old_spellings.h"
+#include "options/option_text.h"
 #include "version_text.h"
 
 namespace fragtrace {
@@ -34,10 +35,11 @@ std::vector<std::string> commandNames(const CLI::App& app) {
   return names;
 }
 
-/// The library would call an unknown command an argument too many.
+/// The library would call an unknown command an argument too many, and a missing one a subcommand.
 void checkCommand(const CLI::App& app, std::optional<std::string> word) {
   const std::vector<std::string> names = commandNames(app);
-  if (!word || word->starts_with('-') || std::ranges::find(names, *word) != names.end()) return;
+  if (!word) throw UsageError(app.get_name() + " needs a command: " + joined(names) + "; --help says more");
+  if (word->starts_with('-') || std::ranges::find(names, *word) != names.end()) return;
   throw UsageError("'" + *word + "' is no command of " + app.get_name() + ": " + joined(names));
 }
 
@@ -96,7 +98,7 @@ int runCommandLine(int argc, const char* const* argv) {
   } catch (const CLI::ExtrasError&) {
     throw UsageError(whatIsUnknown(app));
   } catch (const CLI::ParseError& error) {
-    throw UsageError(std::string(error.what()) + "; --help says more");
+    throw UsageError(plainText(error) + "; --help says more");
   }
   sayOldSpellings(chosenCommand(app));
   return run();

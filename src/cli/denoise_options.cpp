@@ -35,7 +35,8 @@ void addFileFilterOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--memory-limit", raw.options.limits.memoryBytes,
                  "memory limit, counted separately for the picture and for Open Image Denoise, such as 500MB "
                  "or 2GiB")
-      ->transform(memorySize(kLeastMemoryBytes));
+      ->transform(memorySize(kLeastMemoryBytes))
+      ->type_name("SIZE");
   app.add_flag("--quiet", raw.options.quiet, "print errors only");
   app.add_flag("--verbose", raw.options.verbose, "print the choices that the program makes");
 }

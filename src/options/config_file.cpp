@@ -11,6 +11,7 @@
 #include "errors.h"
 #include "image/files/whole_file.h"
 #include "options/old_spellings.h"
+#include "options/option_text.h"
 
 namespace fragtrace {
 
@@ -101,7 +102,7 @@ std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& com
       option->add_result(values);
       option->run_callback();
     } catch (const CLI::ParseError& error) {
-      throw InputError(place + ": " + error.what());
+      throw InputError(place + ": " + plainText(error));
     }
     taken.insert(name);
   }

@@ -12,7 +12,8 @@ void addInputOptions(CLI::App& app, InputLimits& limits) {
   app.add_option("--memory-limit", limits.memoryBytes,
                  "memory limit, counted separately for files and for the picture, such as 500MB or 2GiB, at "
                  "least 1MB; by default the smallest of 8 GiB, half of the machine's memory and ulimit -v")
-      ->transform(memorySize(kLeastMemoryBytes));
+      ->transform(memorySize(kLeastMemoryBytes))
+      ->type_name("SIZE");
   app.add_option("--texture-limit", limits.textureSide,
                  "maximum width and height of textures in pixels; larger ones are scaled down")
       ->check(wholeNumber(1, kLargestTextureSide));

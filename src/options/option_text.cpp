@@ -6,6 +6,8 @@
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
+#include <regex>
+#include <utility>
 
 #include "errors.h"
 #include "options/camera_options.h"
@@ -73,6 +75,20 @@ std::vector<std::string> splitWords(const std::string& text) {
   return words;
 }
 
+std::string plainText(const CLI::ParseError& error) {
+  static const std::pair<std::regex, const char*> kWordings[] = {
+      {std::regex("(.*): At Most 1 required but received (\\d+)"), "$1: takes one value, not $2"},
+      {std::regex("(.*): At Most (\\d+) required but received (\\d+)"), "$1: takes $2 values, not $3"},
+      {std::regex("(.*): At least (\\d+) required but received (\\d+)"), "$1: takes $2 values, not $3"},
+      {std::regex("(.*): \\d+ required .* missing"), "$1: its value is missing"},
+  };
+  const std::string text = error.what();
+  for (const auto& [pattern, wording] : kWordings) {
+    if (std::regex_match(text, pattern)) return std::regex_replace(text, pattern, wording);
+  }
+  return text;
+}
+
 void parseWords(CLI::App& app, std::vector<std::string> words) {
   words = withNumbersSettled(std::move(words));
   std::ranges::reverse(words);  // last first, as the library wants them
@@ -82,7 +98,7 @@ void parseWords(CLI::App& app, std::vector<std::string> words) {
     // The library says them the other way round.
     throw UsageError("not understood: " + CLI::detail::join(app.remaining(), " "));
   } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
+    throw UsageError(plainText(error));
   }
 }
 

@@ -7,6 +7,7 @@
 
 namespace CLI {
 class App;
+class ParseError;
 }  // namespace CLI
 
 namespace fragtrace {
@@ -23,6 +24,9 @@ void appendOption(std::string& text, const char* option, const std::string& valu
 /// The words that a POSIX shell makes of a text by quotes, backslashes and continued lines; it expands
 /// nothing. Throws UsageError for a quote without its end.
 std::vector<std::string> splitWords(const std::string& text);
+
+/// What the option library found wrong, in the words of this program's messages.
+std::string plainText(const CLI::ParseError& error);
 
 /// Gives a command its words, in their order. Throws UsageError, which names words that it does not know in
 /// that order.

@@ -135,6 +135,13 @@ class Words(Case):
     def test_a_command_that_is_not_there_is_named_with_those_that_are(self):
         self.fails(2, "bench", "foo", says=["'foo'", "error", "frame", "stress"])
         self.fails(2, "foo", says=["'foo'", "render", "bench"])
+        self.fails(2, says=["fragtrace needs a command: render, view"])
+        self.fails(2, "bench", says=["bench needs a command: error, frame"])
+
+    def test_a_wrong_number_of_values_is_told(self):
+        self.refused("--spp", "1", "--spp", "2", says=["--spp: takes one value, not 2"])
+        self.refused("--camera-position", "3", says=["--camera-position: takes 3 values, not 1"])
+        self.refused("--seed", says=["--seed: its value is missing"])
 
     def test_a_size_in_a_config_file_may_be_written_as_people_do(self):
         config = self.folder / "c.json"
