@@ -154,7 +154,7 @@ int nextCrossing(inout Path p) {
 }
 
 /// Decides by the alpha of the point whether the ray goes through it; 1 opaque, 0 not there
-/// (docs/design/conventions.md).
+/// (docs/design/surfaces.md).
 bool passesThrough(uint flags, float alpha, Sampler numbers, int crossing) {
   if ((flags & kMaterialMask) != 0u) return alpha == 0.0;
   if ((flags & kMaterialBlend) != 0u) return hashFloat(numbers, kAlphaDimensions + uint(crossing)) >= alpha;

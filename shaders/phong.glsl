@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reflection model of the stages before global illumination (docs/design/conventions.md).
+// The reflection model of the stages before global illumination (docs/design/surfaces.md).
 
 /// Normal-incidence reflectance of a material: dielectric and metal mixed.
 vec3 phongF0(vec3 baseColor, float metallic, vec3 dielectricF0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scene buffers read as image buffers: the fastest reads on llvmpipe (docs/design/traversal.md).
+// Scene buffers read as image buffers: the fastest reads on llvmpipe (docs/design/traversal-decisions.md).
 
 layout(rgba32ui, binding = kSceneImageBase + kNodesBinding) uniform readonly restrict uimageBuffer nodesBuffer;
 uvec4 readNodes(int index) { return imageLoad(nodesBuffer, index); }

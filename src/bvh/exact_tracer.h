@@ -25,7 +25,7 @@ struct ExactRay {
   glm::dvec3 direction{0.0};
 };
 
-/// Alpha is not looked at; the back of single-sided surfaces is not there (docs/design/conventions.md).
+/// Alpha is not looked at; the back of single-sided surfaces is not there (docs/design/surfaces.md).
 class ExactTracer {
  public:
   /// Keeps references. The tree may be empty when nearest() is not called.

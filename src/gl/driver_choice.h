@@ -6,9 +6,10 @@
 
 namespace fragtrace {
 
-/// Fragments, but compute where that was measured to be faster (docs/design/benchmarks.md): on NVIDIA's
-/// data-centre GPUs, which run fragment shaders on a small part of the chip only and are known by their
-/// names; and on software for scenes that are literals.
+/// Fragments, but compute in two cases: on software for scenes that are literals, where it was measured to
+/// be faster (docs/design/architecture.md, "The shader"); and on NVIDIA's data-centre GPUs, known by their
+/// names. Those are expected to run fragment shaders on a small part of the chip only; that compute is faster
+/// there has not been measured (docs/design/gpu.md).
 Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals);
 
 /// Tells llvmpipe not to optimise what it compiles, if that saves more time than drawing so many paths then

@@ -16,7 +16,7 @@ namespace fragtrace {
 namespace {
 
 /// What the next ray's own rounding needs of a height over a plane, in offsets: 22 of 32
-/// (docs/design/numerics.md).
+/// (docs/design/ray-origins.md).
 constexpr double kClearance = 22.0 / 32.0;
 /// What a grazing ray leaves unknown of where in the plane its point is, in offsets: 16 of 32, for the floats
 /// of the ray's point and a sine of 1/16 (pointOnPlane of shaders/intersect.glsl). Of slivers also what the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Creases too narrow for the offset of rays (docs/design/numerics.md, "Creases").
+// Creases too narrow for the offset of rays (docs/design/ray-origins.md, "Creases").
 #pragma once
 
 #include <glm/glm.hpp>

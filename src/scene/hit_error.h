@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What rounding does to hit points on a triangle of 32-bit floats (docs/design/numerics.md).
+// What rounding does to hit points on a triangle of 32-bit floats (docs/design/ray-origins.md).
 #pragma once
 
 #include <array>
@@ -9,9 +9,9 @@ namespace fragtrace {
 
 /// A bound on how far a hit point on a triangle of these vertices, rounded to 32-bit floats, lies
 /// off its plane, and on how far in front of its own plane a ray that starts there can still be told to hit
-/// it: 32 units of 2^-24 of the largest coordinate (docs/design/numerics.md, "Leaving a surface"). It is one
-/// number, not one an axis: a wall through the origin has no rounding across it, but a grazing ray's distance
-/// to it carries the rounding of all axes.
+/// it: 32 units of 2^-24 of the largest coordinate (docs/design/ray-origins.md, "How a ray leaves a
+/// surface"). It is one number, not one an axis: a wall through the origin has no rounding across it, but a
+/// grazing ray's distance to it carries the rounding of all axes.
 double hitPointError(const std::array<glm::vec3, 3>& v);
 
 /// L^3 / 2A of the triangle, L its longest side and A its area; infinite where it has none. Times half of

@@ -9,7 +9,7 @@
 namespace fragtrace {
 
 /// A picture with the layers samples.Y, variance.Y and kGuideChannels, as an .exr of `render` has them
-/// (docs/design/conventions.md), and who saw it.
+/// (docs/design/output.md), and who saw it.
 struct SeenPicture {
   Image layers;
   Camera camera;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""References for the stage gi, rendered by Mitsuba 3 with the conventions of docs/design/conventions.md.
+"""References for the stage gi, rendered by Mitsuba 3 with the conventions of docs/design/conventions.md and surfaces.md.
 
 Needs: pip install mitsuba==3.9.1; libLLVM (libllvm19). Usage: render_mitsuba.py [NAME...]
 """

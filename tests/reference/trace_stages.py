@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The stages flat to normal-maps of docs/design/conventions.md, traced by brute force in doubles: references for the picture tests.
+"""The stages flat to normal-maps of docs/design/surfaces.md, traced by brute force in doubles: references for the picture tests.
 
 Usage: trace_stages.py [NAME...]   those references of references.json; default all that this script makes.
        trace_stages.py --preview FILE.png SCENE STAGE [SIZE [CAMERA]]

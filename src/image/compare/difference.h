@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a picture is from its reference, by the formulas of docs/design/conventions.md.
+// How far a picture is from its reference, by the formulas of docs/design/output.md.
 #pragma once
 
 #include <optional>
