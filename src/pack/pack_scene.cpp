@@ -82,8 +82,8 @@ void appendLayers(Words& words, const Material& m) {
   appendRow(words, m.diffuseTransmissionColorFactor, m.diffuseTransmissionFactor);
 }
 
-void appendMaterial(Words& words, const Material& m, const Vertices& vertices, double unit,
-                    double emitterDensity, const TraitSet& traits, TexturePacker& textures) {
+void appendMaterial(Words& words, const Material& m, double unit, double emitterDensity,
+                    const TraitSet& traits, TexturePacker& textures) {
   const size_t first = words.size();
   appendRow(words, m.baseColorFactor);
   appendRow(words, m.emissiveFactor * m.emissiveStrength, m.alphaCutoff);
@@ -98,7 +98,7 @@ void appendMaterial(Words& words, const Material& m, const Vertices& vertices, d
   for (uint32_t slot = 0; slot < layout::kSlotCount; ++slot) {
     const auto& [ref, curve] = kTextureRefs[slot];
     const TraitRow& row = traitOfTexture(ref);
-    const bool read = has(traits, row.trait) && isOfMaterial(row, m, vertices);
+    const bool read = has(traits, row.trait) && isOfMaterial(row, m, Coordinates{});
     const glm::uvec4 use = read ? textures.slot(m.*ref, curve) : glm::uvec4(0u);
     words.insert(words.end(), {use.x, use.y, use.z, use.w});
   }
@@ -205,8 +205,8 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
 
   Words& materials = packed.buffers[kMaterialsBinding];
   for (size_t i = 0; i < scene.materials.size(); ++i) {
-    appendMaterial(materials, scene.materials[i], scene.vertices, scene.space.unit,
-                   emitters.materialDensity[i], traits, textures);
+    appendMaterial(materials, scene.materials[i], scene.space.unit, emitters.materialDensity[i], traits,
+                   textures);
   }
   textures.appendTransforms(materials);
   packed.energyTableRow = uint32_t(materials.size() / 4);

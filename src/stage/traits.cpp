@@ -38,12 +38,13 @@ std::span<const TraitRow> traitRows() {
        .name = "single-sided",
        .constant = "kCulling",
        .absence = "no single-sided surface",
-       .ofMaterial = [](const Material& m, const Vertices&) { return !m.doubleSided && !m.passesLight(); }},
+       .ofMaterial = [](const Material& m,
+                        const Coordinates&) { return !m.doubleSided && !m.passesLight(); }},
       {.trait = Trait::Alpha,
        .name = "alpha",
        .constant = "kAlpha",
        .absence = "no alpha MASK or BLEND",
-       .ofMaterial = [](const Material& m, const Vertices&) { return m.alphaMode != AlphaMode::Opaque; }},
+       .ofMaterial = [](const Material& m, const Coordinates&) { return m.alphaMode != AlphaMode::Opaque; }},
       {.trait = Trait::Texcoords,
        .name = "texcoords",
        .constant = "kTexcoords",
@@ -83,7 +84,7 @@ std::span<const TraitRow> traitRows() {
        .brings = setOf({Trait::Tangents}),
        .textures = {&Material::normalTexture},
        .ofMaterial = [](const Material& m,
-                        const Vertices& v) { return m.normalTexture.present() && !v.tangent.empty(); }},
+                        const Coordinates& c) { return m.normalTexture.present() && c.tangents; }},
       {.trait = Trait::EmissionTexture,
        .name = "emission-texture",
        .constant = "kEmissionTexture",
@@ -92,7 +93,7 @@ std::span<const TraitRow> traitRows() {
        .brings = setOf({Trait::Emission}),
        .textures = {&Material::emissiveTexture},
        .ofMaterial = [](const Material& m,
-                        const Vertices&) { return m.emissive() && m.emissiveTexture.present(); }},
+                        const Coordinates&) { return m.emissive() && m.emissiveTexture.present(); }},
       {.trait = Trait::TransmissionTexture,
        .name = "transmission-texture",
        .constant = "kTransmissionTexture",
@@ -101,7 +102,7 @@ std::span<const TraitRow> traitRows() {
        .brings = setOf({Trait::Transmission}),
        .textures = {&Material::transmissionTexture},
        .ofMaterial = [](const Material& m,
-                        const Vertices&) { return m.transmissive() && m.transmissionTexture.present(); }},
+                        const Coordinates&) { return m.transmissive() && m.transmissionTexture.present(); }},
       {.trait = Trait::SpecularTexture,
        .name = "specular-texture",
        .constant = "kSpecularTexture",
@@ -115,14 +116,14 @@ std::span<const TraitRow> traitRows() {
        .absence = "no material of KHR_materials_pbrSpecularGlossiness",
        .stages = setOf({Stage::Phong}),
        .brings = setOf({Trait::Specular}),
-       .ofMaterial = [](const Material& m, const Vertices&) { return m.specularGlossiness; }},
+       .ofMaterial = [](const Material& m, const Coordinates&) { return m.specularGlossiness; }},
       {.trait = Trait::TextureTransforms,
        .name = "texture-transforms",
        .constant = "kTextureTransforms",
        .absence = "no transformed texture",
        .brings = setOf({Trait::BaseColorTexture, Trait::Texcoords}),
        .ofMaterial =
-           [](const Material& m, const Vertices&) {
+           [](const Material& m, const Coordinates&) {
              return std::ranges::any_of(kTextureRefs,
                                         [&](const TextureRefRow& t) { return (m.*t.ref).transformed(); });
            }},
@@ -132,7 +133,7 @@ std::span<const TraitRow> traitRows() {
        .absence = "no clearcoat",
        .stages = setOf({Stage::Gi}),
        .needs = setOf({Trait::Specular}),
-       .ofMaterial = [](const Material& m, const Vertices&) { return m.clearcoated(); }},
+       .ofMaterial = [](const Material& m, const Coordinates&) { return m.clearcoated(); }},
       {.trait = Trait::ClearcoatTexture,
        .name = "clearcoat-texture",
        .constant = "kClearcoatTexture",
@@ -147,16 +148,14 @@ std::span<const TraitRow> traitRows() {
        .needs = setOf({Trait::Clearcoat}),
        .brings = setOf({Trait::Tangents}),
        .textures = {&Material::clearcoatNormalTexture},
-       .ofMaterial =
-           [](const Material& m, const Vertices& v) {
-             return m.clearcoatNormalTexture.present() && !v.tangent.empty();
-           }},
+       .ofMaterial = [](const Material& m,
+                        const Coordinates& c) { return m.clearcoatNormalTexture.present() && c.tangents; }},
       {.trait = Trait::Sheen,
        .name = "sheen",
        .constant = "kSheen",
        .absence = "no sheen",
        .stages = setOf({Stage::Gi}),
-       .ofMaterial = [](const Material& m, const Vertices&) { return m.hasSheen(); }},
+       .ofMaterial = [](const Material& m, const Coordinates&) { return m.hasSheen(); }},
       {.trait = Trait::SheenTexture,
        .name = "sheen-texture",
        .constant = "kSheenTexture",
@@ -170,7 +169,7 @@ std::span<const TraitRow> traitRows() {
        .stages = setOf({Stage::Gi}),
        .needs = setOf({Trait::Specular}),
        .brings = setOf({Trait::Tangents}),
-       .ofMaterial = [](const Material& m, const Vertices&) { return m.anisotropic(); }},
+       .ofMaterial = [](const Material& m, const Coordinates&) { return m.anisotropic(); }},
       {.trait = Trait::AnisotropyTexture,
        .name = "anisotropy-texture",
        .constant = "kAnisotropyTexture",
@@ -183,7 +182,7 @@ std::span<const TraitRow> traitRows() {
        .absence = "no iridescent material",
        .stages = setOf({Stage::Gi}),
        .needs = setOf({Trait::Specular}),
-       .ofMaterial = [](const Material& m, const Vertices&) { return m.iridescent(); }},
+       .ofMaterial = [](const Material& m, const Coordinates&) { return m.iridescent(); }},
       {.trait = Trait::IridescenceTexture,
        .name = "iridescence-texture",
        .constant = "kIridescenceTexture",
@@ -195,7 +194,8 @@ std::span<const TraitRow> traitRows() {
        .constant = "kDiffuseTransmission",
        .absence = "no material that lets diffuse light through",
        .stages = setOf({Stage::Refraction, Stage::Gi}),
-       .ofMaterial = [](const Material& m, const Vertices&) { return m.diffuseTransmissionFactor > 0.0f; }},
+       .ofMaterial = [](const Material& m,
+                        const Coordinates&) { return m.diffuseTransmissionFactor > 0.0f; }},
       {.trait = Trait::DiffuseTransmissionTexture,
        .name = "diffuse-transmission-texture",
        .constant = "kDiffuseTransmissionTexture",
@@ -209,7 +209,7 @@ std::span<const TraitRow> traitRows() {
        .stages = setOf({Stage::Gi}),
        .needs = setOf({Trait::Transmission}),
        .brings = setOf({Trait::Specular}),
-       .ofMaterial = [](const Material& m, const Vertices&) { return m.disperses(); }},
+       .ofMaterial = [](const Material& m, const Coordinates&) { return m.disperses(); }},
       {.trait = Trait::GlassSpecular,
        .name = "glass-specular",
        .constant = "kGlassSpecular",
@@ -217,7 +217,7 @@ std::span<const TraitRow> traitRows() {
        .stages = setOf({Stage::Gi}),
        .needs = setOf({Trait::Transmission, Trait::Specular}),
        .ofMaterial = [](const Material& m,
-                        const Vertices&) { return m.transmissive() && m.scalesSpecular(); }},
+                        const Coordinates&) { return m.transmissive() && m.scalesSpecular(); }},
       {.trait = Trait::PerlinNormals,
        .name = "perlin-normals",
        .constant = "kPerlinNormals",
@@ -225,17 +225,15 @@ std::span<const TraitRow> traitRows() {
        .stages = setOf({Stage::NormalMaps}),
        .brings = setOf({Trait::Tangents}),
        .texcoords = true,
-       .ofMaterial =
-           [](const Material& m, const Vertices& v) {
-             return m.perlinNormal.amplitude != 0.0f && !v.texcoord0.empty();
-           }},
+       .ofMaterial = [](const Material& m,
+                        const Coordinates& c) { return m.perlinNormal.amplitude != 0.0f && c.texcoord0; }},
       {.trait = Trait::Specular,
        .name = "specular",
        .constant = "kSpecular",
        .absence = "no surface that reflects",
        .stages = setOf({Stage::Phong}),
        .ofMaterial =
-           [](const Material& m, const Vertices&) {
+           [](const Material& m, const Coordinates&) {
              return m.metallicFactor > 0.0f || dielectricReflects(m) || m.transmissive() || m.clearcoated();
            }},
       {.trait = Trait::Metals,
@@ -244,13 +242,13 @@ std::span<const TraitRow> traitRows() {
        .absence = "no metal",
        .stages = setOf({Stage::Phong}),
        .needs = setOf({Trait::Specular}),
-       .ofMaterial = [](const Material& m, const Vertices&) { return m.metallicFactor > 0.0f; }},
+       .ofMaterial = [](const Material& m, const Coordinates&) { return m.metallicFactor > 0.0f; }},
       {.trait = Trait::Transmission,
        .name = "transmission",
        .constant = "kTransmission",
        .absence = "no transmissive material",
        .stages = setOf({Stage::Refraction}),
-       .ofMaterial = [](const Material& m, const Vertices&) { return m.transmissive(); }},
+       .ofMaterial = [](const Material& m, const Coordinates&) { return m.transmissive(); }},
       {.trait = Trait::Absorption,
        .name = "absorption",
        .constant = "kAbsorption",
@@ -258,7 +256,7 @@ std::span<const TraitRow> traitRows() {
        .stages = setOf({Stage::Refraction}),
        .brings = setOf({Trait::Transmission}),
        .ofMaterial =
-           [](const Material& m, const Vertices&) {
+           [](const Material& m, const Coordinates&) {
              return m.passesLight() && m.thicknessFactor > 0.0f && m.attenuationColor != glm::vec3(1.0f) &&
                     std::isfinite(m.attenuationDistance);
            }},
@@ -267,13 +265,13 @@ std::span<const TraitRow> traitRows() {
        .constant = "kUnlit",
        .absence = "no unlit material",
        .stages = setOf({Stage::Phong}),
-       .ofMaterial = [](const Material& m, const Vertices&) { return m.unlit; }},
+       .ofMaterial = [](const Material& m, const Coordinates&) { return m.unlit; }},
       {.trait = Trait::Emission,
        .name = "emission",
        .constant = "kEmission",
        .absence = "no emissive material",
        .stages = setOf({Stage::Phong}),
-       .ofMaterial = [](const Material& m, const Vertices&) { return m.emissive(); }},
+       .ofMaterial = [](const Material& m, const Coordinates&) { return m.emissive(); }},
       {.trait = Trait::EmissiveTriangles,
        .name = "emissive-triangles",
        .constant = "kEmissiveTriangles",
@@ -311,15 +309,15 @@ std::span<const TraitRow> traitRows() {
        .constant = "kSmoothSurfaces",
        .absence = "no clear glass and no mirror, or no filter to see through them",
        .ofMaterial =  // kGuideAlpha of shaders/guides.glsl, and more than half of the light.
-       [](const Material& m, const Vertices&) {
+       [](const Material& m, const Coordinates&) {
          return m.roughnessFactor < 0.1f && (m.transmissive() || m.metallicFactor > 0.5f);
        }},
   }};
   return rows;
 }
 
-bool isOfMaterial(const TraitRow& row, const Material& material, const Vertices& vertices) {
-  if (row.ofMaterial) return row.ofMaterial(material, vertices);
+bool isOfMaterial(const TraitRow& row, const Material& material, const Coordinates& coordinates) {
+  if (row.ofMaterial) return row.ofMaterial(material, coordinates);
   return std::ranges::any_of(row.textures,
                              [&](auto texture) { return texture && (material.*texture).present(); });
 }

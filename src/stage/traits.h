@@ -62,6 +62,12 @@ enum class Trait : uint8_t {
 };
 using TraitSet = std::bitset<size_t(Trait::Count)>;
 
+/// What primitives bring for their materials' maps; spheres bring all of it.
+struct Coordinates {
+  bool texcoord0 = true;
+  bool tangents = true;
+};
+
 struct TraitRow {
   Trait trait;
   const char* name;      ///< in the statistics and the variant's name
@@ -75,11 +81,11 @@ struct TraitRow {
   bool texcoords = false;  ///< it reads texture coordinates without a texture
   /// Whether a material has it; null: one with one of its textures has it, and without textures the scene as
   /// a whole has it or not (traitsOf).
-  bool (*ofMaterial)(const Material& material, const Vertices& vertices) = nullptr;
+  bool (*ofMaterial)(const Material& material, const Coordinates& coordinates) = nullptr;
 };
 std::span<const TraitRow> traitRows();
 
-bool isOfMaterial(const TraitRow& row, const Material& material, const Vertices& vertices);
+bool isOfMaterial(const TraitRow& row, const Material& material, const Coordinates& coordinates);
 bool readsTexcoords(const TraitRow& row);
 
 /// The row that lists the texture; std::logic_error where none does.

@@ -28,9 +28,9 @@ bool hasSlivers(const Scene& scene) {
                              [&](const Triangle& t) { return isSliver(cornersOf(scene, t)); });
 }
 
-void addMaterialTraits(const Material& m, const Vertices& vertices, TraitSet& traits) {
+void addMaterialTraits(const Material& m, const Coordinates& coordinates, TraitSet& traits) {
   for (const TraitRow& row : traitRows()) {
-    if (isOfMaterial(row, m, vertices)) traits.set(size_t(row.trait));
+    if (isOfMaterial(row, m, coordinates)) traits.set(size_t(row.trait));
   }
 }
 
@@ -121,24 +121,17 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings) {
     emissiveTriangles = emissiveTriangles || scene.materials[t.material].emissive();
     smooth = smooth || !t.flat;
   }
-  for (const Sphere& s : scene.spheres) used[s.material] = true;
+  const Coordinates ofVertices{.texcoord0 = !scene.vertices.texcoord0.empty(),
+                               .tangents = !scene.vertices.tangent.empty()};
   for (size_t i = 0; i < used.size(); ++i) {
-    if (used[i]) addMaterialTraits(scene.materials[i], scene.vertices, traits);
+    if (used[i]) addMaterialTraits(scene.materials[i], ofVertices, traits);
   }
+  for (const Sphere& s : scene.spheres) addMaterialTraits(scene.materials[s.material], Coordinates{}, traits);
   auto mark = [&](Trait trait, bool present) { traits.set(size_t(trait), present); };
   mark(Trait::Triangles, !scene.triangles.empty());
   mark(Trait::Spheres, !scene.spheres.empty());
-  if (!scene.spheres.empty()) {
-    // Spheres bring texture coordinates and tangents of their own.
-    for (const Sphere& s : scene.spheres) {
-      const Material& m = scene.materials[s.material];
-      if (m.normalTexture.present()) traits.set(size_t(Trait::NormalTexture));
-      if (m.clearcoatNormalTexture.present()) traits.set(size_t(Trait::ClearcoatNormal));
-      if (m.perlinNormal.amplitude != 0.0f) traits.set(size_t(Trait::PerlinNormals));
-    }
-  }
   mark(Trait::VertexNormals, smooth && !scene.vertices.normal.empty());
-  mark(Trait::Tangents, !scene.vertices.tangent.empty());
+  mark(Trait::Tangents, ofVertices.tangents);
   mark(Trait::VertexColors, !scene.vertices.color.empty());
   mark(Trait::Texcoords, !scene.vertices.texcoord0.empty() || !scene.vertices.texcoord1.empty());
   mark(Trait::EmissiveTriangles, emissiveTriangles);
