@@ -121,16 +121,17 @@ class Compiler:
         self.source, self.build = source, build
         entries = json.loads((build / "compile_commands.json").read_text())
         self.compile = {Path(entry["file"]).stem: entry["command"] for entry in entries if "/tests/pure/" in entry["file"]}
+        self.any = next(iter(self.compile))  # stands for those that the build compiles together with others
         commands = subprocess.run(["ninja", "-C", build, "-t", "commands", "pure_tests"], capture_output=True, text=True, check=True).stdout
         self.link = next(line for line in reversed(commands.splitlines()) if "-o pure_tests " in line)
 
     def make(self, stem, folder):
         """The program of the test file `stem`, with the shaders in folder/shaders."""
         object_file, program = folder / f"{stem}.o", folder / stem
-        compile = re.sub(r"-o \S+\.o ", f"-o {object_file} ", self.compile[stem]).replace(" -O3 ", " -O1 ")
+        compile = re.sub(r"-o \S+\.o ", f"-o {object_file} ", self.compile.get(stem) or self.compile[self.any].replace(self.any, stem)).replace(" -O3 ", " -O1 ")
         # The folder of the faulty shaders comes before the sound ones.
         compile = compile.replace(f"-I{self.source}/shaders", f"-I{folder}/shaders -I{self.source}/shaders")
-        link = re.sub(r"(?:\S*pure_tests\.dir/\S+\.o ?)+", f"{object_file} ", self.link, count=1).replace("-o pure_tests ", f"-o {program} ")
+        link = re.sub(r"(?:\S*(?:pure|plain)_tests\.dir/\S+\.o ?)+", f"{object_file} ", self.link, count=1).replace("-o pure_tests ", f"-o {program} ")
         link = link.split("&& cd ")[0].removesuffix("&& :").removeprefix(": && ")
         for command in (compile, link):
             result = subprocess.run(command, shell=True, cwd=self.build, capture_output=True, text=True)

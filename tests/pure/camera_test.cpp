@@ -11,20 +11,20 @@
 namespace fragtrace {
 namespace {
 
-constexpr double kTolerance = 1e-12;
+constexpr double kRounding = 1e-12;
 
-void expectNear(const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LE(glm::distance(a, b), kTolerance); }
+void expectSame(const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LE(glm::distance(a, b), kRounding); }
 
 const BoundsDouble kBox = {{-1, -2, -3}, {3, 2, 1}};  // centre (1, 0, -1), radius sqrt(12)
 
 TEST(FrameScene, BoundingSphereTouchesTheViewCone) {
   const Camera camera = frameScene(kBox);
-  expectNear(camera.forward, {0, 0, -1});
-  EXPECT_NEAR(camera.fovY, std::acos(-1.0) / 4, kTolerance);
+  expectSame(camera.forward, {0, 0, -1});
+  EXPECT_NEAR(camera.fovY, std::acos(-1.0) / 4, kRounding);
   EXPECT_EQ(camera.position.x, 1.0);
   EXPECT_EQ(camera.position.y, 0.0);
   const double distance = camera.position.z - -1.0;
-  EXPECT_NEAR(distance * std::sin(camera.fovY / 2), std::sqrt(12.0), kTolerance);
+  EXPECT_NEAR(distance * std::sin(camera.fovY / 2), std::sqrt(12.0), kRounding);
 }
 
 /// In pictures of any shape the sphere about the box is within the narrower side of the view, and fills 9
@@ -41,15 +41,15 @@ TEST(FrameScene, FitsTheWidthOfNarrowPictures) {
 
 TEST(FrameScene, FlatBoundsAreSeenFromWhereTheyShowMost) {
   const Camera above = frameScene({{-1, 3, -2}, {1, 3, 2}});
-  expectNear(above.forward, {0, -1, 0});
-  expectNear(above.up, {0, 0, -1});
+  expectSame(above.forward, {0, -1, 0});
+  expectSame(above.up, {0, 0, -1});
   EXPECT_GT(above.position.y, 3.0);
   const Camera side = frameScene({{5, -1, -2}, {5, 1, 2}});
-  expectNear(side.forward, {-1, 0, 0});
+  expectSame(side.forward, {-1, 0, 0});
   EXPECT_GT(side.position.x, 5.0);
-  expectNear(frameScene({{-1, -1, 0}, {1, 1, 0}}).forward, {0, 0, -1});
-  expectNear(frameScene({{0, -1, 0}, {0, 1, 0}}).forward, {0, 0, -1});
-  expectNear(frameScene({{-1, -0.01, -1}, {1, 0.01, 1}}).forward, {0, 0, -1});
+  expectSame(frameScene({{-1, -1, 0}, {1, 1, 0}}).forward, {0, 0, -1});
+  expectSame(frameScene({{0, -1, 0}, {0, 1, 0}}).forward, {0, 0, -1});
+  expectSame(frameScene({{-1, -0.01, -1}, {1, 0.01, 1}}).forward, {0, 0, -1});
 }
 
 TEST(FrameScene, EmptyBoundsStillGiveACamera) {
@@ -61,10 +61,10 @@ TEST(FrameScene, EmptyBoundsStillGiveACamera) {
 TEST(FocalPoint, IsAsDeepAsTheCentreOfTheBounds) {
   Camera camera;
   camera.position = {0, 0, 9};
-  expectNear(focalPointOf(camera, kBox), {0, 0, -1});
+  expectSame(focalPointOf(camera, kBox), {0, 0, -1});
   camera.position = {0, 0, -9};
-  expectNear(focalPointOf(camera, kBox), {0, 0, -9 - std::sqrt(12.0)});
-  expectNear(focalPointOf(camera, {}), {0, 0, -10});
+  expectSame(focalPointOf(camera, kBox), {0, 0, -9 - std::sqrt(12.0)});
+  expectSame(focalPointOf(camera, {}), {0, 0, -10});
 }
 
 TEST(CameraOverrides, NoneChangeNothing) {
@@ -79,34 +79,34 @@ TEST(CameraOverrides, NoneChangeNothing) {
 
 TEST(CameraOverrides, PositionAloneKeepsTheFocalPoint) {
   const Camera camera = withOverrides(frameScene(kBox), {.position = glm::dvec3(11, 0, -1)}, kBox);
-  expectNear(camera.forward, {-1, 0, 0});
-  expectNear(camera.up, {0, 1, 0});
-  expectNear(camera.position, {11, 0, -1});
+  expectSame(camera.forward, {-1, 0, 0});
+  expectSame(camera.up, {0, 1, 0});
+  expectSame(camera.position, {11, 0, -1});
 }
 
 TEST(CameraOverrides, FocalPointAloneTurnsTheCamera) {
   Camera camera;
   camera.position = {1, 2, 3};
   const Camera turned = withOverrides(camera, {.focalPoint = glm::dvec3(1, 2, 8)});
-  expectNear(turned.forward, {0, 0, 1});
-  expectNear(turned.position, {1, 2, 3});
+  expectSame(turned.forward, {0, 0, 1});
+  expectSame(turned.position, {1, 2, 3});
 }
 
 TEST(CameraOverrides, ViewUpIsMadeOrthogonal) {
   const Camera camera = withOverrides(Camera(), {.viewUp = glm::dvec3(5, 0, 3)});
-  expectNear(camera.up, {1, 0, 0});
-  expectNear(camera.forward, {0, 0, -1});
+  expectSame(camera.up, {1, 0, 0});
+  expectSame(camera.forward, {0, 0, -1});
 }
 
 TEST(CameraOverrides, ParallelViewUpGivesWayToAnotherAxis) {
   const Camera down = withOverrides(
       Camera(),
       {.position = glm::dvec3(0, 5, 0), .focalPoint = glm::dvec3(0), .viewUp = glm::dvec3(0, 1, 0)});
-  expectNear(down.forward, {0, -1, 0});
-  EXPECT_NEAR(glm::dot(down.up, down.forward), 0.0, kTolerance);
-  EXPECT_NEAR(glm::length(down.up), 1.0, kTolerance);
+  expectSame(down.forward, {0, -1, 0});
+  EXPECT_NEAR(glm::dot(down.up, down.forward), 0.0, kRounding);
+  EXPECT_NEAR(glm::length(down.up), 1.0, kRounding);
   const Camera none = withOverrides(Camera(), {.viewUp = glm::dvec3(0.0)});
-  expectNear(none.up, {0, 1, 0});
+  expectSame(none.up, {0, 1, 0});
 }
 
 TEST(CameraOverrides, ViewAngleMakesThePictureAPerspective) {
@@ -114,7 +114,7 @@ TEST(CameraOverrides, ViewAngleMakesThePictureAPerspective) {
   camera.perspective = false;
   const Camera perspective = withOverrides(camera, {.viewAngleDegrees = 90.0});
   EXPECT_TRUE(perspective.perspective);
-  EXPECT_NEAR(perspective.fovY, std::acos(-1.0) / 2, kTolerance);
+  EXPECT_NEAR(perspective.fovY, std::acos(-1.0) / 2, kRounding);
 }
 
 TEST(CameraOverrides, SenselessOnesAreUsageErrors) {
@@ -130,7 +130,7 @@ TEST(CameraOverrides, SenselessOnesAreUsageErrors) {
 TEST(CameraOverrides, FarAwayPositionsKeepDoublePrecision) {
   const Camera camera = withOverrides(
       Camera(), {.position = glm::dvec3(1e8, 0.5, 0), .focalPoint = glm::dvec3(1e8, 0.5, -1e-3)});
-  expectNear(camera.forward, {0, 0, -1});
+  expectSame(camera.forward, {0, 0, -1});
 }
 
 }  // namespace

@@ -18,16 +18,16 @@ namespace fragtrace {
 namespace {
 
 using Texels = std::vector<uint16_t>;
-using Bytes = std::span<const uint8_t>;
+using Encoded = std::span<const uint8_t>;
 
 constexpr uint16_t from8(int value) { return uint16_t(value * 257); }
 
-Texels texelsOf(Bytes bytes) {
+Texels texelsOf(Encoded bytes) {
   const TexelImage image = decodeTexels(bytes, "sample");
   return {image.rgba.begin(), image.rgba.end()};
 }
 
-std::string errorOf(Bytes bytes) {
+std::string errorOf(Encoded bytes) {
   try {
     decodeTexels(bytes, "wood.png");
   } catch (const InputError& error) {
@@ -102,7 +102,7 @@ TEST(ImageTexels, CmykJpegBecomesRgb) {
 }
 
 TEST(ImageTexels, JpegIsNearThePictureItWasMadeOf) {
-  for (const Bytes jpeg : {Bytes(samples::kGradientJpeg), Bytes(samples::kProgressiveJpeg)}) {
+  for (const Encoded jpeg : {Encoded(samples::kGradientJpeg), Encoded(samples::kProgressiveJpeg)}) {
     const Texels texels = texelsOf(jpeg);
     const Texels exact = texelsOf(samples::kGradientPng);
     ASSERT_EQ(texels.size(), exact.size());
@@ -113,9 +113,9 @@ TEST(ImageTexels, JpegIsNearThePictureItWasMadeOf) {
 }
 
 TEST(ImageTexels, EveryTruncationIsAnErrorThatNamesThePicture) {
-  for (const Bytes whole :
-       {Bytes(samples::kGradientPng), Bytes(samples::kGradientJpeg), Bytes(samples::kProgressiveJpeg),
-        Bytes(samples::kRgba8Png), Bytes(samples::kRgbaWebP)}) {
+  for (const Encoded whole :
+       {Encoded(samples::kGradientPng), Encoded(samples::kGradientJpeg), Encoded(samples::kProgressiveJpeg),
+        Encoded(samples::kRgba8Png), Encoded(samples::kRgbaWebP)}) {
     ASSERT_EQ(errorOf(whole), "");
     // The padding byte of a WebP holds nothing of the picture.
     const size_t end = whole[0] == 'R' ? whole.size() - 1 : whole.size();
@@ -126,7 +126,7 @@ TEST(ImageTexels, EveryTruncationIsAnErrorThatNamesThePicture) {
 }
 
 TEST(ImageTexels, JpegIsCompleteOnlyWithItsEndMarker) {
-  const Bytes whole = samples::kProgressiveJpeg;
+  const Encoded whole = samples::kProgressiveJpeg;
   EXPECT_TRUE(readJpegFrame(whole).complete);
   for (size_t size = 0; size < whole.size(); ++size)
     EXPECT_FALSE(readJpegFrame(whole.first(size)).complete) << size;
@@ -135,12 +135,12 @@ TEST(ImageTexels, JpegIsCompleteOnlyWithItsEndMarker) {
 TEST(ImageTexels, WrongProfileAndTruncationOfPngPrintNothing) {
   testing::internal::CaptureStderr();
   EXPECT_EQ(texelsOf(samples::kBadProfilePng), (Texels{from8(1), from8(2), from8(3), 65535}));
-  EXPECT_NE(errorOf(Bytes(samples::kGradientPng).first(200)).find("truncated"), std::string::npos);
+  EXPECT_NE(errorOf(Encoded(samples::kGradientPng).first(200)).find("truncated"), std::string::npos);
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(ImageTexels, PngIsCompleteOnlyWithItsEndChunk) {
-  const Bytes whole = samples::kPaletteAlphaPng;
+  const Encoded whole = samples::kPaletteAlphaPng;
   EXPECT_TRUE(isCompletePng(whole));
   for (size_t size = 0; size < whole.size(); ++size) EXPECT_FALSE(isCompletePng(whole.first(size))) << size;
 }

@@ -12,7 +12,7 @@
 namespace fragtrace {
 namespace {
 
-Image picture(std::vector<float> values, std::vector<std::string> channels = {"R", "G", "B"}) {
+Image pictureOf(std::vector<float> values, std::vector<std::string> channels = {"R", "G", "B"}) {
   const int width = int(values.size() / channels.size());
   return {width, 1, std::move(channels), std::move(values), {}};
 }
@@ -24,7 +24,7 @@ struct Case {
 
 void expectCurve(ToneMap toneMap, const std::vector<Case>& cases) {
   for (const Case& c : cases) {
-    const Image display = toDisplay(picture(c.linear), 0, toneMap);
+    const Image display = toDisplay(pictureOf(c.linear), 0, toneMap);
     for (size_t i = 0; i < 3; ++i)
       EXPECT_NEAR(display.values[i], c.display[i], 2e-6F) << c.linear[0] << " channel " << i;
   }
@@ -91,9 +91,9 @@ TEST(ImageToneMap, NanNegativeAndInfiniteValuesGiveValuesInRange) {
   for (const std::string_view name : toneMapNames()) {
     const ToneMap toneMap = *parseToneMap(name);
     for (const float value :
-         toDisplay(picture({infinity, 0.5F, -1, infinity, infinity, infinity}), 0, toneMap).values)
+         toDisplay(pictureOf({infinity, 0.5F, -1, infinity, infinity, infinity}), 0, toneMap).values)
       EXPECT_TRUE(value >= 0 && value <= 1) << name << ": " << value;
-    for (const float value : toDisplay(picture({std::nanf(""), -1, -infinity}), 0, toneMap).values)
+    for (const float value : toDisplay(pictureOf({std::nanf(""), -1, -infinity}), 0, toneMap).values)
       EXPECT_LT(value, 1e-6F) << name;
   }
 }
@@ -101,25 +101,25 @@ TEST(ImageToneMap, NanNegativeAndInfiniteValuesGiveValuesInRange) {
 TEST(ImageToneMap, ExposureIsAFactorOfTwoPerStep) {
   for (const std::string_view name : toneMapNames()) {
     const ToneMap toneMap = *parseToneMap(name);
-    EXPECT_EQ(toDisplay(picture({0.1F, 0.2F, 0.4F}), 2, toneMap).values,
-              toDisplay(picture({0.4F, 0.8F, 1.6F}), 0, toneMap).values);
-    EXPECT_EQ(toDisplay(picture({0.1F, 0.2F, 0.4F}), -1, toneMap).values,
-              toDisplay(picture({0.05F, 0.1F, 0.2F}), 0, toneMap).values);
+    EXPECT_EQ(toDisplay(pictureOf({0.1F, 0.2F, 0.4F}), 2, toneMap).values,
+              toDisplay(pictureOf({0.4F, 0.8F, 1.6F}), 0, toneMap).values);
+    EXPECT_EQ(toDisplay(pictureOf({0.1F, 0.2F, 0.4F}), -1, toneMap).values,
+              toDisplay(pictureOf({0.05F, 0.1F, 0.2F}), 0, toneMap).values);
   }
 }
 
 TEST(ImageToneMap, PremultipliedColourIsDividedBeforeTheCurve) {
   const Image display =
-      toDisplay(picture({0.25F, 0.5F, 1, 0.5F, 3, 3, 3, 0}, {"R", "G", "B", "A"}), 0, ToneMap::Reinhard);
-  const Image opaque = toDisplay(picture({0.5F, 1, 2}), 0, ToneMap::Reinhard);
+      toDisplay(pictureOf({0.25F, 0.5F, 1, 0.5F, 3, 3, 3, 0}, {"R", "G", "B", "A"}), 0, ToneMap::Reinhard);
+  const Image opaque = toDisplay(pictureOf({0.5F, 1, 2}), 0, ToneMap::Reinhard);
   EXPECT_EQ(display.channels, (std::vector<std::string>{"R", "G", "B", "A"}));
   EXPECT_EQ(display.values,
             (std::vector<float>{opaque.values[0], opaque.values[1], opaque.values[2], 0.5F, 0, 0, 0, 0}));
 }
 
 TEST(ImageToneMap, GreyBecomesRgbAndNoColourIsAnError) {
-  EXPECT_EQ(toDisplay(picture({1}, {"Y"}), 0, ToneMap::Linear).values, (std::vector<float>{1, 1, 1}));
-  EXPECT_THROW(toDisplay(picture({1, 1}, {"u", "v"}), 0, ToneMap::Linear), RenderError);
+  EXPECT_EQ(toDisplay(pictureOf({1}, {"Y"}), 0, ToneMap::Linear).values, (std::vector<float>{1, 1, 1}));
+  EXPECT_THROW(toDisplay(pictureOf({1, 1}, {"u", "v"}), 0, ToneMap::Linear), RenderError);
 }
 
 TEST(ImageToneMap, NamesAreThoseOfTheCommandLine) {
