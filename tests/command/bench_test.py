@@ -159,7 +159,7 @@ class BenchRefusals(Bench):
             with self.subTest(options):
                 self.refused(2, BOX, *SIZE, "--quiet", *options, says=[says])
         self.refused(2, says=["file"])
-        self.fails(2, "bench", says=["subcommand"])
+        self.fails(2, "bench", says=["needs a command"])
 
     def test_inputs_that_cannot_be_used(self):
         reference = self.folder / "r.pfm"

@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <functional>
+#include <sstream>
 
 #include "shader_layers_cases.h"
 
@@ -90,7 +91,9 @@ bool isSound(const vec3& v) {
 }
 
 std::string text(const vec3& v) {
-  return "(" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + ")";
+  std::ostringstream out;
+  out << '(' << v.x << ", " << v.y << ", " << v.z << ')';
+  return out.str();
 }
 
 /// What is wrong with one input; empty: nothing.
