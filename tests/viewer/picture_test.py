@@ -82,7 +82,7 @@ class Camera(Case):
         viewer.xdotool("click", 1)
         picked = viewer.until(lambda s: s["pick"], "what is under the cursor")["pick"]
         self.assertTrue(any("roughness" in line for line in picked), picked)
-        viewer.key("ctrl+c", "f")
+        viewer.keys_at_once("ctrl+c", "f")  # the first is done before the second
         viewer.rest(lambda s: s["camera"] != status["camera"], "framed")
         viewer.key("ctrl+v")
         viewer.rest(lambda s: s["camera"] == status["camera"], "pasted")

@@ -5,6 +5,7 @@ A test file is run as FILE FRAGTRACE SOURCE_FOLDER [unittest arguments].
 """
 import json
 import os
+import signal
 import struct
 import subprocess
 import sys
@@ -183,6 +184,12 @@ class Viewer:
     def key(self, *names):
         for name in names:
             self.xdotool("key", name)
+
+    def keys_at_once(self, *names):
+        """All in one frame of the window, as on a machine with much to do."""
+        self.process.send_signal(signal.SIGSTOP)
+        self.key(*names)
+        self.process.send_signal(signal.SIGCONT)
 
     def at(self, x, y):
         self.xdotool("mousemove", "--window", self.id, x, y)

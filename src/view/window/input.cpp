@@ -68,17 +68,16 @@ glm::dvec2 Input::place() const {
   return cursor_ / glm::dvec2(glm::max(size, 1));
 }
 
-std::vector<PlacedErrand> Input::update(ViewState& state, float scale) {
-  std::vector<PlacedErrand> errands;
+void Input::update(ViewState& state, float scale, const RunErrand& run) {
   const ImGuiIO& io = ImGui::GetIO();
   for (const Event& event : std::exchange(events_, {})) {
     switch (event.kind) {
       case Kind::Key:
-        if (!io.WantTextInput || event.action == GLFW_RELEASE) key(event, state, errands);
+        if (!io.WantTextInput || event.action == GLFW_RELEASE) key(event, state, run);
         break;
       case Kind::Button:
         if (event.action == GLFW_RELEASE)
-          release(event, state, errands);
+          release(event, state, run);
         else if (!io.WantCaptureMouse)
           press(event, state, scale);
         break;
@@ -96,10 +95,9 @@ std::vector<PlacedErrand> Input::update(ViewState& state, float scale) {
     apply(state, *control, {.seconds = std::clamp(now - lastUpdate_, 0.0, kLongestFrame)});
   lastUpdate_ = now;
   woken_ = false;
-  return errands;
 }
 
-void Input::key(const Event& event, ViewState& state, std::vector<PlacedErrand>& errands) {
+void Input::key(const Event& event, ViewState& state, const RunErrand& run) {
   if (event.action == GLFW_RELEASE) {
     std::erase_if(held_, [&](const Control* c) { return c->code == event.code; });
     return;
@@ -116,7 +114,7 @@ void Input::key(const Event& event, ViewState& state, std::vector<PlacedErrand>&
   if (!control || (event.action == GLFW_REPEAT && !repeats(control->action))) return;
   if (control->action == Action::Close && Interface::closePopup()) return;
   const Errand errand = apply(state, *control, {});
-  if (errand != Errand::None) errands.push_back({errand, place()});
+  if (errand != Errand::None) run({errand, place()});
 }
 
 void Input::press(const Event& event, const ViewState& state, float scale) {
@@ -128,7 +126,7 @@ void Input::press(const Event& event, const ViewState& state, float scale) {
   button_.bar = state.split && event.code == GLFW_MOUSE_BUTTON_LEFT && away <= kBarPixels * scale;
 }
 
-void Input::release(const Event& event, ViewState& state, std::vector<PlacedErrand>& errands) {
+void Input::release(const Event& event, ViewState& state, const RunErrand& run) {
   if (event.code != button_.code) return;
   const Button button = std::exchange(button_, {});
   if (button.dragging || button.bar) return;
@@ -142,7 +140,7 @@ void Input::release(const Event& event, ViewState& state, std::vector<PlacedErra
       controlFor(twice ? Gesture::DoubleClick : Gesture::Click, button.code, button.modifiers);
   if (!control) return;
   const Errand errand = apply(state, *control, {});
-  if (errand != Errand::None) errands.push_back({errand, place()});
+  if (errand != Errand::None) run({errand, place()});
 }
 
 void Input::move(const Event& event, ViewState& state) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "view/view_state.h"
@@ -17,6 +18,8 @@ struct PlacedErrand {
   glm::dvec2 place{0.0};
 };
 
+using RunErrand = std::function<void(const PlacedErrand&)>;
+
 class Input {
  public:
   /// Takes over the window's callbacks; to be made before Dear ImGui, which passes on what it gets.
@@ -24,9 +27,10 @@ class Input {
   Input(const Input&) = delete;
   Input& operator=(const Input&) = delete;
 
-  /// Applies what has happened since the last call; to be called inside Dear ImGui's frame, which knows by
-  /// then whether mouse and keys are its own. `scale`: as for the panel.
-  std::vector<PlacedErrand> update(ViewState& state, float scale);
+  /// Applies what has happened since the last call, in its order, and gives `run` the errands among it; to be
+  /// called inside Dear ImGui's frame, which knows by then whether mouse and keys are its own. `scale`: as
+  /// for the panel.
+  void update(ViewState& state, float scale, const RunErrand& run);
 
   /// Whether anything has happened since the last update().
   bool waiting() const { return !events_.empty() || woken_; }
@@ -51,9 +55,9 @@ class Input {
     bool bar = false;  ///< that of the split view is dragged
   };
 
-  void key(const Event& event, ViewState& state, std::vector<PlacedErrand>& errands);
+  void key(const Event& event, ViewState& state, const RunErrand& run);
   void press(const Event& event, const ViewState& state, float scale);
-  void release(const Event& event, ViewState& state, std::vector<PlacedErrand>& errands);
+  void release(const Event& event, ViewState& state, const RunErrand& run);
   void move(const Event& event, ViewState& state);
   glm::dvec2 place() const;
 

@@ -222,7 +222,7 @@ void Window::draw() {
   if (size.x <= 0 || size.y <= 0) return;
   state_.size = size;
   interface_.begin();
-  for (const PlacedErrand& errand : input_.update(state_, interface_.scale())) execute(errand);
+  input_.update(state_, interface_.scale(), [this](const PlacedErrand& errand) { execute(errand); });
   takeDrops();
   const bool panel = state_.panel && state_.scene;
   const OverlayLayout layout = layoutOf(glm::vec2(size), interface_.scale(), panel, state_.split);
