@@ -82,7 +82,7 @@ std::string plainText(const CLI::ParseError& error) {
       {std::regex("(.*): At least (\\d+) required but received (\\d+)"), "$1: takes $2 values, not $3"},
       {std::regex("(.*): \\d+ required .* missing"), "$1: its value is missing"},
   };
-  const std::string text = error.what();
+  std::string text = error.what();
   for (const auto& [pattern, wording] : kWordings) {
     if (std::regex_match(text, pattern)) return std::regex_replace(text, pattern, wording);
   }
