@@ -58,7 +58,7 @@ def report_times(path):
         shown, before = "" if scene == before and scene in PRIMITIVES else scene, scene
         rows.append([shown, method, mean_text(name, found.get("single")), mean_text(name, found.get("many")),
                      REPORT.get(name, REPORT.get(method)) or "-"])
-    return report_head(settings) + markdown.table(["scene", "method", "a draw a sample", "together", "report"], rows)
+    return report_head(settings) + markdown.table(["scene", "method", "one draw per sample", "samples together", "report"], rows)
 
 
 def ratios(over, under, less=None):
@@ -76,7 +76,7 @@ def report_shapes(path):
         here = f"{statistics.median_low(values):.2f}" if values else "-"
         here += f" ({min(values):.2f} to {max(values):.2f})" if len(values) > 1 else ""
         rows.append([f"{method}, 62,975 / 15,743 triangles (4.00 times as many)", here, report])
-    for title, what, fixed, report in (("a draw a sample", "single", False, "1.03"),
+    for title, what, fixed, report in (("one draw per sample", "single", False, "1.03"),
                                        ("samples together", "many", False, "-"),
                                        (f'samples together, without "{NOTHING}"', "many", True, "-")):
         cells = []

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 
 #include "cli/commands.h"
@@ -19,16 +18,6 @@ namespace fragtrace {
 
 namespace {
 
-/// Formats of displays hold no radiance, which the filters are made for.
-void checkLinear(const std::filesystem::path& path) {
-  std::array<uint8_t, 16> bytes{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()));
-  const auto format = formatOfBytes({bytes.data(), size_t(file.gcount())});
-  if (format == ImageFormat::OpenExr || format == ImageFormat::Hdr || format == ImageFormat::Pfm) return;
-  throw InputError(path.string() + ": is no picture of linear radiance (.exr, .hdr, .pfm)");
-}
-
 /// What a format can hold of the picture.
 Image writable(const Image& picture, const std::filesystem::path& path) {
   if (formatOfName(path) == ImageFormat::OpenExr) return picture;
@@ -41,8 +30,11 @@ int runDenoise(const DenoiseOptions& asked) {
   RenderOptions options = asked.render;
   checkOutputs(std::array{NamedOutput{"--output", options.output}}, std::array{asked.picture});
   const std::optional<OidnLibrary> oidn = openDenoiser(options);
-  const Image drawn = asDrawn(readImage(asked.picture, options.limits.memoryBytes));
-  checkLinear(asked.picture);
+  const LinearImage read = readLinearImage(asked.picture, options.limits.memoryBytes);
+  // What such files encode is as a display shows it, which is not what the filters are made for.
+  if (read.wasEncoded)
+    throw InputError(asked.picture.string() + ": is no picture of linear radiance (.exr, .hdr, .pfm)");
+  const Image drawn = asDrawn(read.image);
   DenoiseStatistics stats;
   const Image result = denoisedFile(drawn, asked.picture, options, oidn, stats);
   writePicture(options, writable(result, options.output), {});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -70,6 +71,17 @@ uint32_t materialFlags(const Material& m) {
   return flags;
 }
 
+/// Rows of traitRows(), looked up once.
+const std::array<const TraitRow*, layout::kSlotCount>& traitsOfSlots() {
+  static_assert(kTextureRefs.size() == layout::kSlotCount + 1);  // and occlusion
+  static const auto rows = [] {
+    std::array<const TraitRow*, layout::kSlotCount> found{};
+    for (size_t slot = 0; slot < found.size(); ++slot) found[slot] = &traitOfTexture(kTextureRefs[slot].ref);
+    return found;
+  }();
+  return rows;
+}
+
 /// The rows of extensions.
 void appendLayers(Words& words, const Material& m) {
   appendRow(words,
@@ -94,10 +106,9 @@ void appendMaterial(Words& words, const Material& m, double unit, double emitter
   words.back() = materialFlags(m);
   appendRow(words, glm::vec4(m.perlinNormal.frequency, m.perlinNormal.amplitude,
                              float(m.perlinNormal.octaves), 0.0f));
-  static_assert(kTextureRefs.size() == layout::kSlotCount + 1);  // and occlusion
   for (uint32_t slot = 0; slot < layout::kSlotCount; ++slot) {
     const auto& [ref, curve] = kTextureRefs[slot];
-    const TraitRow& row = traitOfTexture(ref);
+    const TraitRow& row = *traitsOfSlots()[slot];
     const bool read = has(traits, row.trait) && isOfMaterial(row, m, Coordinates{});
     const glm::uvec4 use = read ? textures.slot(m.*ref, curve) : glm::uvec4(0u);
     words.insert(words.end(), {use.x, use.y, use.z, use.w});

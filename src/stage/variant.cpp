@@ -113,20 +113,22 @@ bool hasOwnLight(const Scene& scene) {
 
 TraitSet traitsOf(const Scene& scene, Surroundings surroundings) {
   TraitSet traits;
-  std::vector<bool> used(scene.materials.size(), false);
+  std::vector<bool> onTriangles(scene.materials.size(), false);
+  std::vector<bool> onSpheres(scene.materials.size(), false);
   bool emissiveTriangles = false;
   bool smooth = false;
   for (const Triangle& t : scene.triangles) {
-    used[t.material] = true;
+    onTriangles[t.material] = true;
     emissiveTriangles = emissiveTriangles || scene.materials[t.material].emissive();
     smooth = smooth || !t.flat;
   }
   const Coordinates ofVertices{.texcoord0 = !scene.vertices.texcoord0.empty(),
                                .tangents = !scene.vertices.tangent.empty()};
-  for (size_t i = 0; i < used.size(); ++i) {
-    if (used[i]) addMaterialTraits(scene.materials[i], ofVertices, traits);
+  for (const Sphere& s : scene.spheres) onSpheres[s.material] = true;
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    if (onTriangles[i]) addMaterialTraits(scene.materials[i], ofVertices, traits);
+    if (onSpheres[i]) addMaterialTraits(scene.materials[i], Coordinates{}, traits);
   }
-  for (const Sphere& s : scene.spheres) addMaterialTraits(scene.materials[s.material], Coordinates{}, traits);
   auto mark = [&](Trait trait, bool present) { traits.set(size_t(trait), present); };
   mark(Trait::Triangles, !scene.triangles.empty());
   mark(Trait::Spheres, !scene.spheres.empty());

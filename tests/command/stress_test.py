@@ -34,8 +34,11 @@ class Stress(Case):
 class StressRows(Stress):
     def test_rows_that_see_what_protects_rays(self):
         """Those of StressMutations; all rows are StressAll's."""
-        for row in self.rows("--rows", "rims-from-inside,boxes,shell white,shell shared,strips,skins").values():
+        rows = self.rows("--rows", "rims-from-inside,boxes,shell white,shell shared,strips,skins")
+        for row in rows.values():
             self.assertGreater(row["cases"], 100, row)
+        # What the fast test is there to show.
+        self.assertGreater(rows["rays rims-from-inside"]["fast_failures"], 0)
 
 
 class StressAll(Stress):
