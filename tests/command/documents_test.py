@@ -47,6 +47,12 @@ class Documents(Case):
         found = self.faults(f"# One\n\n{wide}\n\n    {wide}\n\n| {wide} |\n| --- |\n", "shaders/x.glsl")
         self.assertEqual([fault.split(" ")[0] for fault in found], ["README.md:3:", "shaders/x.glsl:2:"])
 
+    def test_long_files_are_found(self):
+        for name, lines in (("a.cpp", 401), ("b.md", 401), ("c.py", 400), ("d.svg", 401)):
+            (self.folder / name).write_text("x\n" * lines)
+        found = self.faults("# One\n", "a.cpp", "b.md", "c.py", "d.svg")
+        self.assertEqual([fault.split(" ")[0] for fault in found if "lines" in fault], ["a.cpp:", "b.md:"])
+
     def test_a_file_that_does_not_belong_into_the_root_is_found(self):
         found = self.faults("# One\n", "-", "src/main.cpp", "docs/x.png")
         self.assertEqual(len(found), 1)
