@@ -183,12 +183,13 @@ struct Frame {
   // probability of sampling the environment, emitter count, row of the energy table among the materials, punctual
   // lights
   vec4 lightChoice;
-  ivec4 picture;        // width, height, samples wanted, seed
+  ivec4 picture;        // width, height (of the whole, where the film is a part of it), samples wanted, seed
   ivec4 tile;           // x, y (from the bottom), width, height
   ivec4 limits;         // bounces, roulette depth, step budget, leaf count
   // index of the first sample in the seed's sequence; bits of the largest indirect radiance; whether the tile goes on
   // (wavefront)
   ivec4 sampling;
+  ivec4 part;           // x, y (from the bottom) of the film's first pixel in the picture
 };
 
 // What one draw reports.

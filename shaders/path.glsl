@@ -64,11 +64,20 @@ Path extend(Path p) {
   return p;
 }
 
+/// Where a pixel of the film is in the picture; y from the bottom.
+ivec2 inPicture(ivec2 pixel) { return pixel + frame.part.xy; }
+
+/// Of the random numbers of a pixel of the film.
+uint keyOfPixel(ivec2 pixel) {
+  ivec2 place = inPicture(pixel);
+  return pixelKey(uint(place.x), uint(frame.picture.y - 1 - place.y), uint(frame.picture.w));
+}
+
 Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   Path p;
   p.numbers = makeSampler(key, sampleIndex);
   vec2 jitter = drawPair(p.numbers, kCameraDimensions);
-  vec2 place = vec2(pixel) + 0.5 + samplePixelFilter(kPixelFilter, jitter.x, jitter.y);
+  vec2 place = vec2(inPicture(pixel)) + 0.5 + samplePixelFilter(kPixelFilter, jitter.x, jitter.y);
   vec2 point = place / vec2(frame.picture.xy) * 2.0 - 1.0;
   CameraRay ray = makeCameraRay(frame.cameraPosition.xyz, frame.cameraRight.xyz, frame.cameraUp.xyz,
                                 frame.cameraForward.xyz, frame.cameraPosition.w != 0.0, point.x, point.y);

@@ -4,7 +4,7 @@
 layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frameBlock; };
 // The block once more as a variable: llvmpipe reads a uniform lane by lane, so each is read once a draw.
 Frame frame = Frame(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0),
-                    ivec4(0), ivec4(0), ivec4(0), ivec4(0));
+                    ivec4(0), ivec4(0), ivec4(0), ivec4(0), ivec4(0));
 layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progress progress; };
 #include "read.glsl"
 #include "random.glsl"
@@ -218,7 +218,7 @@ void tracePixel(ivec2 pixel) {
   int state = place.y * frame.tile.z + place.x;
   PixelTask task;
   task.pixel = pixel;
-  task.key = pixelKey(uint(pixel.x), uint(frame.picture.y - 1 - pixel.y), uint(frame.picture.w));
+  task.key = keyOfPixel(pixel);
   task.wanted = samplesWanted(t.film);
   task.budget = frame.limits.z;
   TreeFrame tree = treeFrame();

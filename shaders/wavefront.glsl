@@ -17,7 +17,7 @@ const int kWaveLoops = 6;
 /// The lane's pixels, a bit each. One that is in none of hits, misses, rays and shadows has its samples.
 struct Wave {
   int first;     // row of the states of the first
-  ivec2 corner;  // the first, in the picture
+  ivec2 corner;  // the first, in the film
   uint hits;     // the ray has hit a surface, which is to be shaded
   uint misses;   // it has not; or the path has ended; or none has begun
   uint waiting;  // for the shadow ray as well
@@ -30,10 +30,7 @@ struct Wave {
 
 int rowOf(Wave v, int k) { return v.first + k * kWavePathRows; }
 
-uint keyOf(Wave v, int k) {
-  ivec2 pixel = v.corner + ivec2(0, k);
-  return pixelKey(uint(pixel.x), uint(frame.picture.y - 1 - pixel.y), uint(frame.picture.w));
-}
+uint keyOf(Wave v, int k) { return keyOfPixel(v.corner + ivec2(0, k)); }
 
 /// The path of pixel k, with what its shadow ray has let through.
 WavePath takeUp(inout Wave v, int k) {

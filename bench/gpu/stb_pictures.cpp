@@ -88,8 +88,12 @@ std::vector<uint8_t> writeExr(const Image& image, std::span<const float> values)
   file.add(uint32_t(channels.bytes.size()));
   file.bytes.insert(file.bytes.end(), channels.bytes.begin(), channels.bytes.end());
   file.addAttribute("compression", "compression", uint8_t(0));
-  for (const char* window : {"dataWindow", "displayWindow"})
-    file.addAttribute(window, "box2i", 0, 0, image.width - 1, image.height - 1);
+  const glm::ivec2 size(image.width, image.height);
+  const Placement placed = image.placement.value_or(Placement{{0, 0}, size});
+  const glm::ivec2 first = placed.corner;
+  const glm::ivec2 last = first + size - 1;
+  file.addAttribute("dataWindow", "box2i", first.x, first.y, last.x, last.y);
+  file.addAttribute("displayWindow", "box2i", 0, 0, placed.whole.x - 1, placed.whole.y - 1);
   file.addAttribute("lineOrder", "lineOrder", uint8_t(0));
   file.addAttribute("pixelAspectRatio", "float", 1.0F);
   file.addAttribute("screenWindowCenter", "v2f", 0.0F, 0.0F);
@@ -100,7 +104,7 @@ std::vector<uint8_t> writeExr(const Image& image, std::span<const float> values)
   uint64_t place = file.bytes.size() + size_t(image.height) * sizeof place;
   for (int y = 0; y < image.height; ++y, place += lineBytes + 8) file.add(place);
   for (int y = 0; y < image.height; ++y) {
-    file.add(y);
+    file.add(first.y + y);
     file.add(uint32_t(lineBytes));
     const float* line = values.data() + size_t(y) * size_t(image.width) * image.channelCount();
     for (const size_t c : order) {

@@ -22,7 +22,7 @@ inline constexpr std::array kCommandRows{
     CommandRow{"view", "show a scene in a window", addView},
     CommandRow{"info", "print what a scene contains", addInfo},
     CommandRow{"diff", "compare a picture with a reference", addDiff},
-    CommandRow{"merge", "merge parts of one render (--sample-offset)", addMerge},
+    CommandRow{"merge", "merge parts of one render", addMerge},
     CommandRow{"denoise", "remove noise from a picture file", addDenoise},
     CommandRow{"bench", "measure speed and error", addBench},
 };

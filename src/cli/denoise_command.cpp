@@ -10,9 +10,9 @@
 #include "errors.h"
 #include "image/channels.h"
 #include "image/format.h"
-#include "session/denoised_file.h"
+#include "picture/denoised_file.h"
+#include "picture/picture_file.h"
 #include "session/outputs.h"
-#include "session/picture_file.h"
 
 namespace fragtrace {
 
@@ -36,7 +36,8 @@ int runDenoise(const DenoiseOptions& asked) {
     throw InputError(asked.picture.string() + ": is no picture of linear radiance (.exr, .hdr, .pfm)");
   const Image drawn = asDrawn(read.image);
   DenoiseStatistics stats;
-  const Image result = denoisedFile(drawn, asked.picture, options, oidn, stats);
+  Image result = denoisedFile(drawn, asked.picture, options, oidn, stats);
+  result.placement = drawn.placement;
   writePicture(options, writable(result, options.output), {});
   if (!options.quiet) {
     std::printf("%s: %d x %d, %s in %.2f s\n", options.output.string().c_str(), result.width, result.height,

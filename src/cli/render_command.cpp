@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <numeric>
-#include <span>
 
 #include "cli/commands.h"
 #include "cli/leave.h"
@@ -17,14 +15,14 @@
 #include "image/format.h"
 #include "options/config_file.h"
 #include "options/parse_render.h"
+#include "picture/checkpoints.h"
+#include "picture/denoising.h"
+#include "picture/draw_parts.h"
+#include "picture/picture_file.h"
+#include "picture/provenance.h"
 #include "render/adaptive.h"
-#include "session/denoising.h"
-#include "session/draw_picture.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
-#include "session/picture_file.h"
-#include "session/progress_bar.h"
-#include "session/provenance.h"
 #include "session/setup.h"
 
 namespace fragtrace {
@@ -33,73 +31,6 @@ namespace {
 
 constexpr int kInterruptedStatus = 130;
 
-/// `secondsAfter` is what the layers will take.
-Drawing draw(Renderer& renderer, Film& film, const RenderOptions& options, const View& view,
-             double secondsAfter, Statistics& stats) {
-  const bool adaptive = options.noise > 0.0 || options.seconds > 0.0;
-  ProgressBar bar("rendering", options.quiet);
-  const Renderer::Progress progress = [&](double fraction) {
-    bar.show(fraction, secondsAfter);
-    return interrupts() == 0;
-  };
-  Drawing drawing;
-  if (adaptive) {
-    const AdaptiveGoal goal{options.noise, options.seconds, options.spp};
-    AdaptivePicture picture = renderAdaptively(renderer, film.size(), view, goal, stats.times, progress);
-    stats.complete = !picture.stopped;
-    stats.adaptive = {options.noise,  options.seconds, picture.error, picture.share,
-                      picture.rounds, picture.known,   picture.black};
-    drawing = {std::move(picture.pixels), std::move(picture.variance), {}};
-  } else {
-    stats.complete = drawAllSamples(renderer, film, options, view, stats.times, progress, drawing);
-  }
-  bar.clear();
-  return drawing;
-}
-
-void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film) {
-  if (film.budgetHits > 0) {
-    throw RenderError("the driver ended loops early in " + std::to_string(film.budgetHits) +
-                      " pixels (budget_hits); the picture would be wrong, so none is written");
-  }
-  if (film.emptyPixels > 0) {
-    say(options, "warning: stopped before the first sample of " + std::to_string(film.emptyPixels) +
-                     " pixels; they are black");
-  }
-  if (film.nonfinitePixels > 0) {
-    say(options, "warning: samples of " + std::to_string(film.nonfinitePixels) +
-                     " pixels were not finite and count as black (nonfinite_pixels)");
-  }
-}
-
-/// Seconds that a sample of each layer takes in all pixels, measured in the middle of the picture; all are
-/// compiled, so that none fails when the picture is drawn. The film ends up cleared.
-std::vector<double> measureFeatures(const Tracer& tracer, Film& film, const LoadedScene& loaded,
-                                    Statistics& stats) {
-  constexpr int kSide = 256;
-  Work work{{}, glm::min(film.size(), glm::ivec2(kSide)), 0, 1};
-  work.corner = (film.size() - work.size) / 2;
-  const double parts = double(film.size().x) * film.size().y / (double(work.size.x) * work.size.y);
-  std::vector<double> seconds;
-  for (const ShaderVariant& variant : tracer.features) {
-    stats.compileMs += tracer.renderer->compile(variant, film, loaded.view);
-    RenderTimes times;
-    tracer.renderer->addSamples(film, loaded.view, {&work, 1}, times);
-    seconds.push_back(0.001 * times.renderMs * parts);
-    film.clear();
-  }
-  return seconds;
-}
-
-/// What layers will take: those of an adaptive picture have the fewest samples of any pixel, which is not yet
-/// known, but these at least.
-double secondsOfFeatures(std::span<const double> secondsPerSample, const RenderOptions& options) {
-  constexpr int kLeastAdaptive = 64;
-  const bool adaptive = options.noise > 0.0 || options.seconds > 0.0;
-  const int samples = adaptive ? std::min(options.spp, kLeastAdaptive) : options.spp;
-  return samples * std::accumulate(secondsPerSample.begin(), secondsPerSample.end(), 0.0);
-}
-
 /// A view that nobody has chosen and that shows nothing is likely to be a mistake: of ours, or a surface's
 /// back.
 void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, const ShaderVariant& variant,
@@ -107,7 +38,7 @@ void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, c
   const bool chosen = !loaded.scene.cameras.empty() || options.camera != CameraOverrides();
   const bool nothing = stats.scene.triangles == 0 && stats.scene.spheres == 0;
   const bool seen = stats.film.hitPixels > 0 || stats.film.samples == 0;
-  if (chosen || nothing || seen || has(variant.stages, Stage::BvhHeatmap)) return;
+  if (chosen || options.region || nothing || seen || has(variant.stages, Stage::BvhHeatmap)) return;
   say(options,
       "warning: the default view shows nothing of the scene; --camera-position and --camera-focal-point "
       "choose another");
@@ -124,39 +55,24 @@ void sayWhatWasCut(const RenderOptions& options, const Statistics& stats) {
                    " of the light (cut_share); more make the picture brighter");
 }
 
-/// Adds the layers of first hits, drawn with the picture's samples: of an adaptive one those that all pixels
-/// have, of an interrupted one a few, since somebody waits.
-void addFeatures(Image& picture, const Tracer& tracer, const RenderOptions& options,
-                 const LoadedScene& loaded, std::span<const double> secondsPerSample, Statistics& stats) {
-  const int drawn = int(std::max(1u, stats.adaptive ? stats.film.fewestSamples : stats.film.mostSamples));
-  const int all = stats.complete ? drawn : std::min(drawn, kFewLayerSamples);
-  const int before = interrupts();
-  for (const ShaderVariant& variant : tracer.features) {
-    secondsPerSample = secondsPerSample.subspan(1);
-    const int samples = samplesOfLayer(options, variant.feature, all);
-    const double after = all * std::accumulate(secondsPerSample.begin(), secondsPerSample.end(), 0.0);
-    ProgressBar bar("layer " + std::string(rowOf(variant.feature).name), options.quiet);
-    const LayerDraw layer =
-        addLayer(picture, *tracer.renderer, variant, loaded.view, samples, [&](double fraction) {
-          bar.show(fraction, after);
-          return interrupts() == before;
-        });
-    bar.clear();
-    stats.complete = stats.complete && layer.complete;
-    stats.compileMs += layer.compileMs;
-    stats.featureMs += layer.drawMs;
-    sayWhatWentWrong(options, layer.totals);
-  }
+/// Whether every pixel has the same samples: neither adaptive nor interrupted.
+bool isUniform(const Statistics& stats) {
+  return stats.complete && stats.film.fewestSamples == stats.film.mostSamples && !stats.adaptive;
 }
 
 /// An .exr says how it was made, as merge needs it.
 void setProvenanceOf(Image& picture, const RenderOptions& options, const LoadedScene& loaded,
                      const Tracer& tracer, const Statistics& stats) {
   if (formatOfName(options.output) != ImageFormat::OpenExr || options.debugView != DebugView::None) return;
-  const bool uniform =
-      stats.complete && stats.film.fewestSamples == stats.film.mostSamples && !stats.adaptive;
-  setProvenance(picture, {settingsText(options, loaded, tracer), options.seed, options.sampleOffset,
-                          std::llround(samplesPerPixel(stats)), uniform});
+  Provenance made{settingsText(options, loaded, tracer), options.seed, options.sampleOffset,
+                  std::llround(samplesPerPixel(stats)), isUniform(stats)};
+  const int64_t most = stats.film.mostSamples;
+  if (stats.adaptive)
+    made.ranges = joinedRanges({{options.seed, 0, most}, {seedOfOtherHalf(options.seed), 0, most}});
+  else if (!made.uniform)
+    made.ranges = {{options.seed, options.sampleOffset, most}};
+  setProvenance(picture, made);
+  if (!stats.complete) picture.attributes[kInterruptedAttribute] = "1";
 }
 
 void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
@@ -213,7 +129,7 @@ void checkSamples(const RenderOptions& options, const Statistics& stats) {
 
 std::unique_ptr<Context> openContext(const RenderOptions& options, const LoadedScene& loaded,
                                      Statistics& stats) {
-  const bool quick = preferQuickCompilation(pathsOf(options, loaded.size));
+  const bool quick = preferQuickCompilation(pathsOf(options, loaded.region.size));
   PhaseTimer timer("context");
   auto context = makeContext(options.backend);
   stats.phases.push_back(timer.end());
@@ -223,6 +139,7 @@ std::unique_ptr<Context> openContext(const RenderOptions& options, const LoadedS
 
 int runRender(const RenderOptions& asked) {
   checkOutputs(outputsOf(asked), inputsOf(asked));
+  if (isFinished(asked)) return 0;
   RenderOptions options = asked;
   const std::optional<OidnLibrary> oidn = openDenoiser(options);
   Statistics stats;
@@ -230,7 +147,7 @@ int runRender(const RenderOptions& asked) {
   // Step: load. The image library opens meanwhile, in its own process, when the output needs it.
   if (options.output.extension() != ".pfm") startImageProcess();
   const RenderOptions drawn = withGuides(options);
-  LoadedScene loaded = loadScene(drawn, stats);
+  LoadedScene loaded = loadScene(drawn, stats, {}, FilmOf::Part);
 
   // Step: the shader variant, and the arrays that it reads.
   const auto context = openContext(options, loaded, stats);
@@ -238,22 +155,21 @@ int runRender(const RenderOptions& asked) {
   const Tracer tracer = makeTracer(*context, loaded, drawn, stats);
   const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
   releaseGeometry(loaded);
-  Film film(loaded.size);
-  const std::vector<double> layerSeconds = measureFeatures(tracer, film, loaded, stats);
+  const PictureJob job{options, loaded, tracer};
   PhaseTimer firstDraw("first draw");
-  stats.compileMs += tracer.renderer->compile(tracer.variant, film, loaded.view);
+  DrawingPlan plan = planDrawing(job, stats);
   stats.phases.push_back(firstDraw.end());
   sayWhatIsChosen(options, *context, tracer, stats);
 
   // Step: draw.
-  checkPictureWritable(options, loaded.size);
+  checkPictureWritable(options, loaded.region.size);
   countInterrupts();
   PhaseTimer drawTimer("draw");
-  const Drawing drawing =
-      draw(*tracer.renderer, film, options, loaded.view, secondsOfFeatures(layerSeconds, options), stats);
+  CheckpointKeeper keeper(options);
+  Image picture = drawPicture(job, plan, stats, keeper);
+  if (!isUniform(stats)) options.aovSamples = true;  // merge needs them
   stats.phases.push_back(drawTimer.end());
   stats.spp = options.spp;
-  stats.film = totalsOf(drawing.pixels);
   const auto sayDriverLog = [&] {
     for (const std::string& message : driverLog.take()) say(options, "driver: " + message);
   };
@@ -262,21 +178,22 @@ int runRender(const RenderOptions& asked) {
   sayWhatWentWrong(options, stats.film);
   sayWhatIsNotSeen(options, loaded, tracer.variant, stats);
   checkSamples(options, stats);
-  Image picture = pictureOf(drawing, options, tracer.variant);
 
   // Step: write. What has been drawn is not lost from here on.
   try {
-    addFeatures(picture, tracer, options, loaded, layerSeconds, stats);
+    addFeatures(picture, job, plan, stats);
     denoise(picture, options, oidn, stats);
     sayDriverLog();
     if (interrupts() > 1) return leaveUnwritten(options);
     setProvenanceOf(picture, options, loaded, tracer, stats);
+    picture.placement = viewOf(loaded, loaded.region).placement;
     PhaseTimer writing("write");
     writePicture(options, picture, boxes);
     stats.phases.push_back(writing.end());
   } catch (const std::exception& error) {
     throw RenderError(rescuePicture(options, picture, error.what()));
   }
+  if (stats.complete) keeper.remove();
   if (!options.statsFile.empty()) replaceText(options.statsFile, statisticsText(stats));
   sayWhatWasDone(options, stats);
   return leave(stats.complete ? 0 : kInterruptedStatus);
@@ -295,6 +212,7 @@ RunCommand addRender(CLI::App& app) {
       "-o,--output", raw->render.output,
       "picture to write: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); required");
   addRenderOptions(app, raw->render);
+  addPartOptions(app, raw->render);
   addDenoiseOption(app, raw->render);
   addConfigOption(app, raw->config);
   return [raw, &app] {

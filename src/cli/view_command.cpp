@@ -13,8 +13,8 @@
 #include "options/camera_options.h"
 #include "options/command_text.h"
 #include "options/view_options.h"
+#include "picture/denoising.h"
 #include "process/plugin.h"
-#include "session/denoising.h"
 #include "session/outputs.h"
 #include "view/window.h"
 

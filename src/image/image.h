@@ -7,11 +7,13 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "image/limits.h"
+#include "image/region.h"
 
 namespace fragtrace {
 
@@ -22,6 +24,8 @@ struct Image {
   std::vector<std::string> channels;              ///< "R", "G", "B", "A", "albedo.R", ...
   std::vector<float> values;                      ///< width * height * channels.size()
   std::map<std::string, std::string> attributes;  ///< kept in EXR files only
+  std::optional<Placement> placement =
+      std::nullopt;  ///< the same: data window in display window; none: a whole
 
   size_t channelCount() const { return channels.size(); }
   float* pixel(int x, int y) { return values.data() + (size_t(y) * width + x) * channels.size(); }
@@ -42,11 +46,19 @@ struct TexelImage {
 /// unassociated there. Throws InputError, also when it would take more than `memoryLimit` bytes.
 Image readImage(const std::filesystem::path& path, uint64_t memoryLimit = defaultMemoryLimit());
 
+/// The larger picture that a part lies in, where it does: the rest is 0. readImage() gives this.
+Image wholeOf(Image part);
+
+/// Reads as readImage() does, but of an .exr that holds only a part of a picture (its data window) that part
+/// alone, with its placement.
+Image readStoredImage(const std::filesystem::path& path, uint64_t memoryLimit = defaultMemoryLimit());
+
 /// The same as shown on a display: .exr, .hdr and .pfm (by their first bytes) through toDefaultDisplay, the
 /// rest as stored. Throws InputError, or RenderError where there is no colour to tone-map.
 Image readDisplayImage(const std::filesystem::path& path);
 
-/// All channels as linear values; an 8 or 16 bit file's are decoded from sRGB, so they are at most 1.
+/// All channels as linear values, as stored (readStoredImage); an 8 or 16 bit file's are decoded from sRGB,
+/// so they are at most 1.
 struct LinearImage {
   Image image;
   bool wasEncoded = false;

@@ -7,7 +7,7 @@
 #include "denoise/oidn.h"
 #include "gl/program.h"
 #include "image/channels.h"
-#include "session/draw_picture.h"
+#include "picture/draw_picture.h"
 
 namespace fragtrace {
 

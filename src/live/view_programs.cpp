@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "errors.h"
-#include "session/denoising.h"
+#include "picture/denoising.h"
 #include "stage/option_effects.h"
 
 namespace fragtrace {

@@ -7,9 +7,9 @@
 #include "image/format.h"
 #include "live/view_tracer.h"
 #include "math/summary.h"
-#include "session/denoising.h"
-#include "session/picture_file.h"
-#include "session/provenance.h"
+#include "picture/denoising.h"
+#include "picture/picture_file.h"
+#include "picture/provenance.h"
 
 namespace fragtrace {
 

@@ -6,7 +6,7 @@
 
 #include "errors.h"
 #include "live/pick_text.h"
-#include "session/denoising.h"
+#include "picture/denoising.h"
 #include "session/outputs.h"
 
 namespace fragtrace {

@@ -49,6 +49,7 @@ void checkFinite(const RenderOptions& o) {
   // The library's ranges let NaN pass.
   check("--noise", o.noise);
   check("--time", o.seconds);
+  check("--checkpoint", o.checkpointSeconds);
   check("--clamp-indirect", o.clampIndirect);
   check("--hdri-rotation", o.hdriRotationDegrees);
   const glm::vec3 background = o.backgroundColor.value_or(glm::vec3(0.0f));
@@ -81,6 +82,13 @@ void chooseLayers(const std::vector<std::string>& names, RenderOptions& o) {
       if (feature == Feature::Guides) o.aovSamples = o.aovVariance = true;
     }
   }
+}
+
+/// X, Y, width, height.
+Region regionOf(const std::vector<int>& numbers) {
+  const Region region{{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+  if (region.size.x < 1 || region.size.y < 1) throw UsageError("--region: holds no pixel");
+  return region;
 }
 
 std::vector<std::string_view> debugViewNames() {
@@ -286,6 +294,7 @@ RenderOptions finishRender(const RawRender& raw) {
     o.backgroundColor = glm::vec3(raw.backgroundColor[0], raw.backgroundColor[1], raw.backgroundColor[2]);
   o.hdriFile = raw.hdriFile;
   o.background = !raw.noBackground;
+  if (!raw.region.empty()) o.region = regionOf(raw.region);
   o.defaultLight = !raw.noDefaultLight;
   o.pixelFilter = choose<PixelFilter>("--pixel-filter", raw.pixelFilter, kPixelFilterNames);
   o.toneMap = choose<ToneMap>("--tone-map", raw.toneMap, toneMapNames());
@@ -332,6 +341,25 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
                  "read the shaders from this folder instead of the built-in ones");
   app.add_flag("--quiet", o.quiet, "print errors only; benchmarks still print their tables");
   app.add_flag("--verbose", o.verbose, "print the choices that the program makes, and times and sizes");
+}
+
+void addPartOptions(CLI::App& app, RawRender& raw) {
+  app.add_option(
+         "--region", raw.region,
+         "X,Y,WIDTH,HEIGHT in pixels from the top left of the picture: draw and write this part alone, "
+         "with the same samples as in the whole")
+      ->delimiter(',')
+      ->expected(4)
+      ->check(wholeNumber(0, 65536));
+  app.add_option(
+         "--checkpoint", raw.options.checkpointSeconds,
+         "write the state of the render to OUTPUT.checkpoint each time this many seconds have passed, and "
+         "when it is interrupted; the finished picture removes the file")
+      ->check(CLI::Range(0.1, 1e7));
+  app.add_flag(
+      "--resume", raw.options.resume,
+      "continue from OUTPUT.checkpoint to the same picture; without that file begin anew, or do nothing "
+      "if the picture is finished");
 }
 
 void addDenoiseOption(CLI::App& app, RawRender& raw) {

@@ -32,6 +32,7 @@ struct RawRender {
   std::vector<std::string> fileDisable;
   std::string bounces = "16";
   std::vector<double> backgroundColor;
+  std::vector<int> region;
   std::string hdriFile;
   std::string pixelFilter = "box";
   std::string toneMap = "neutral";
@@ -58,6 +59,9 @@ struct RawRender {
 
 /// Adds all options but scene and output.
 void addRenderOptions(CLI::App& app, RawRender& raw);
+
+/// --region, --checkpoint and --resume, of the command that writes one picture.
+void addPartOptions(CLI::App& app, RawRender& raw);
 
 /// --denoise and --oidn-library, of commands that finish a picture.
 void addDenoiseOption(CLI::App& app, RawRender& raw);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <stdexcept>
 
 namespace fragtrace {
 
@@ -16,9 +17,6 @@ using Clock = std::chrono::steady_clock;
 constexpr int kBlock = 8;          // pixels a side that share one number of samples
 constexpr int kTile = 256;         // pixels a side of one draw
 constexpr int kFirstSamples = 32;  // of each half
-
-/// The seed of the second half; no involution, so that two seeds never give the same picture.
-uint32_t seedOfOtherHalf(uint32_t seed) { return seed * 0x9e3779b1u + 0x7f4a7c15u; }
 
 /// One block of pixels: its samples in each half, and what the next ones are worth.
 struct Block {
@@ -112,14 +110,22 @@ double chooseTargets(Blocks& blocks, const AdaptiveGoal& goal, double affordable
   return cost;
 }
 
-/// The targets of all pixels, and the draws that lead to them, by tiles and numbers of samples.
-std::vector<Work> takeWork(Blocks& blocks, std::vector<uint32_t>& targets) {
+/// Of all pixels.
+std::vector<uint32_t> targetsOf(Blocks& blocks) {
+  std::vector<uint32_t> targets;
+  targets.reserve(size_t(blocks.picture.x) * size_t(blocks.picture.y));
+  for (int y = 0; y < blocks.picture.y; ++y) {
+    for (int x = 0; x < blocks.picture.x; ++x) targets.push_back(uint32_t(blocks.ofPixel(x, y).target));
+  }
+  return targets;
+}
+
+/// The draws that lead to the targets, by tiles and numbers of samples.
+std::vector<Work> workOf(Blocks& blocks) {
   std::map<std::tuple<int, int, int, int>, int> busy;  // samples, target, tile y, tile x: pixels
-  targets.resize(size_t(blocks.picture.x) * size_t(blocks.picture.y));
   for (int y = 0; y < blocks.picture.y; ++y) {
     for (int x = 0; x < blocks.picture.x; ++x) {
       const Block& b = blocks.ofPixel(x, y);
-      targets[size_t(y) * size_t(blocks.picture.x) + size_t(x)] = uint32_t(b.target);
       if (b.target > b.samples) ++busy[{b.samples, b.target, y / kTile, x / kTile}];
     }
   }
@@ -130,40 +136,93 @@ std::vector<Work> takeWork(Blocks& blocks, std::vector<uint32_t>& targets) {
     const glm::ivec2 size = glm::min(glm::ivec2(kTile), blocks.picture - corner);
     work.push_back({corner, size, from, to, double(pixels) / (double(size.x) * size.y)});
   }
-  for (Block& b : blocks.blocks) b.samples = b.target;
   return work;
+}
+
+/// Before the first round.
+Block firstOf(const AdaptiveGoal& goal) {
+  Block block;
+  block.samples = 0;
+  block.target = std::max(1, std::min(kFirstSamples, goal.mostSamples / 2));
+  return block;
+}
+
+/// Adds a round's samples to both halves; false when it was stopped.
+bool drawRound(Renderer& renderer, AdaptiveRun& run, Blocks& blocks, std::span<const View> views,
+               RenderTimes& times, const Renderer::Progress& progress) {
+  const int first = blocks.blocks.front().target;
+  const std::vector<Work> work = run.state.rounds > 0 ? workOf(blocks) : std::vector<Work>();
+  bool more = true;
+  for (size_t half : {0, 1}) {
+    if (!more) break;
+    more = run.state.rounds > 0
+               ? renderer.addSamples(run.films[half], views[half], work, times, progress)
+               : renderer.addSamples(run.films[half], views[half], 0, first, times, progress);
+  }
+  for (Block& b : blocks.blocks) b.samples = b.target;
+  return more;
+}
+
+AdaptiveState stateOf(const Blocks& blocks, const AdaptiveState& before) {
+  AdaptiveState state{{}, {}, before.rounds, before.seconds};
+  for (const Block& b : blocks.blocks) {
+    state.samples.push_back(b.samples);
+    state.targets.push_back(b.target);
+  }
+  return state;
+}
+
+void loadState(Blocks& blocks, const AdaptiveState& state) {
+  if (state.samples.size() != blocks.blocks.size() || state.targets.size() != blocks.blocks.size())
+    throw std::invalid_argument("an adaptive picture goes on from the state of another size");
+  for (size_t i = 0; i < blocks.blocks.size(); ++i) {
+    blocks.blocks[i].samples = state.samples[i];
+    blocks.blocks[i].target = state.targets[i];
+  }
 }
 
 }  // namespace
 
-AdaptivePicture renderAdaptively(Renderer& renderer, glm::ivec2 size, const View& view,
+size_t AdaptiveRun::blocksOf(glm::ivec2 size) { return Blocks(size).blocks.size(); }
+
+uint32_t seedOfOtherHalf(uint32_t seed) { return seed * 0x9e3779b1u + 0x7f4a7c15u; }
+
+AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const View& view,
                                  const AdaptiveGoal& goal, RenderTimes& times,
                                  const Renderer::Progress& progress) {
   const auto start = Clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  const double before = run.state.seconds;
+  const auto elapsed = [&] { return before + std::chrono::duration<double>(Clock::now() - start).count(); };
   AdaptivePicture picture;
   double roundsDone = 0.0;
   const auto goOn = [&](double) {
+    run.state.seconds = elapsed();
     const double timeDone = goal.seconds > 0.0 ? elapsed() / goal.seconds : 0.0;
     picture.stopped = !progress(std::clamp(std::max(roundsDone, timeDone), 0.0, 1.0));
     return !picture.stopped && timeDone < 1.0;
   };
 
-  Film films[2] = {Film(size), Film(size)};
   View views[2] = {view, view};
   views[1].seed = seedOfOtherHalf(view.seed);
-  Blocks blocks(size);
-  for (Block& b : blocks.blocks) b.samples = std::max(1, std::min(kFirstSamples, goal.mostSamples / 2));
-  const int first = blocks.blocks.front().samples;
-  bool more = true;
-  for (int half : {0, 1}) more = more && renderer.addSamples(films[half], views[half], 0, first, times, goOn);
+  Blocks blocks(run.films[0].size());
+  if (run.state.targets.empty()) {
+    for (Block& b : blocks.blocks) b = firstOf(goal);
+    run.state = stateOf(blocks, run.state);
+  } else {
+    loadState(blocks, run.state);
+  }
 
   for (;;) {
-    Halves halves{films[0].read(), films[1].read()};
+    // Step: draw the round.
+    const bool more = drawRound(renderer, run, blocks, views, times, goOn);
+
+    // Step: how far is the picture from the goal?
+    const Halves halves{run.films[0].read(), run.films[1].read()};
     picture.pixels = pooled(halves.a, halves.b);
     picture.variance = varianceOfMean(halves);
     const std::vector<double> errors = relativeErrors(picture.pixels, picture.variance);
-    picture.rounds += 1;
+    run.state.rounds += 1;
+    picture.rounds = run.state.rounds;
     weigh(blocks, picture.pixels, errors, goal.noise);
     const GoalDistance distance = distanceTo(goal.noise, picture.pixels, errors);
     picture.share = goal.noise > 0.0 ? distance.share : 0.0;
@@ -180,18 +239,19 @@ AdaptivePicture renderAdaptively(Renderer& renderer, glm::ivec2 size, const View
     const bool blind = goal.seconds > 0.0 && std::ranges::all_of(errors, [](double e) { return e == 0.0; });
     // Errors fall with the root of the samples.
     roundsDone = goal.noise > 0.0 ? std::pow(goal.noise / std::max(picture.error, goal.noise), 2.0) : 0.0;
+    if (!more) run.state.rounds -= 1;  // it goes on where it stopped
     if (!more || (goal.noise > 0.0 && picture.share >= kPartUnderGoal && !(picture.black && blind)))
       return picture;
 
+    // Step: choose where the next samples go.
     const double msLeft = (goal.seconds - elapsed()) * 1000.0;
     const double affordable = goal.seconds > 0.0 ? msLeft / std::max(renderer.msPerSample(), 1e-9)
                                                  : std::numeric_limits<double>::infinity();
     if (chooseTargets(blocks, goal, affordable, blind) <= 0.0) return picture;
-    std::vector<uint32_t> targets;
-    const std::vector<Work> work = takeWork(blocks, targets);
-    films[0].setTargets(halves.a, targets);
-    films[1].setTargets(halves.b, targets);
-    for (int half : {0, 1}) more = more && renderer.addSamples(films[half], views[half], work, times, goOn);
+    run.state = stateOf(blocks, run.state);
+    const std::vector<uint32_t> targets = targetsOf(blocks);
+    run.films[0].setTargets(halves.a, targets);
+    run.films[1].setTargets(halves.b, targets);
   }
 }
 

@@ -2,6 +2,9 @@
 // Samples where they are needed: until the picture's noise or the time is what was asked for.
 #pragma once
 
+#include <array>
+
+#include "film/checkpoint.h"
 #include "film/noise.h"
 #include "render/renderer.h"
 
@@ -26,11 +29,24 @@ struct AdaptivePicture {
   bool stopped = false;  ///< by progress
 };
 
+/// An adaptive picture on its way. Whoever keeps a copy of it between two draws can go on from there.
+struct AdaptiveRun {
+  std::array<Film, 2> films;  ///< the halves
+  AdaptiveState state;
+
+  explicit AdaptiveRun(glm::ivec2 size) : films{Film(size), Film(size)} {}
+  /// Of the state of a picture of that size.
+  static size_t blocksOf(glm::ivec2 size);
+};
+
+/// Of the second half of an adaptive picture. No involution, so that two seeds never give the same picture.
+uint32_t seedOfOtherHalf(uint32_t seed);
+
 /// Draws two halves of the samples in rounds. The number of samples doubles in blocks of 8 x 8 pixels, so
 /// that Sobol sequences stay whole (the last time to what mostSamples leaves): where more than 5 % of a
 /// block's pixels that can be noisy are above the noise asked for, or without such a goal where a sample
-/// brings most. The renderer's current variant is used.
-AdaptivePicture renderAdaptively(Renderer& renderer, glm::ivec2 size, const View& view,
+/// brings most. The renderer's current variant is used. `run` is a new one, or goes on.
+AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const View& view,
                                  const AdaptiveGoal& goal, RenderTimes& times,
                                  const Renderer::Progress& progress = Renderer::toTheEnd);
 

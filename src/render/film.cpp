@@ -2,6 +2,7 @@
 #include "render/film.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "errors.h"
 #include "image/channels.h"
@@ -13,12 +14,18 @@ namespace fragtrace {
 namespace {
 
 constexpr const char* kReading = "reading the film";
+constexpr const char* kLoading = "loading the film";
 
 }  // namespace
 
-Film::Film(glm::ivec2 size) : size_(size) {
+int Film::mostSide() {
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  return most;
+}
+
+Film::Film(glm::ivec2 size) : size_(size) {
+  const int most = mostSide();
   if (size.x > most || size.y > most) {
     throw RenderError("the picture is " + std::to_string(size.x) + " x " + std::to_string(size.y) +
                       " pixels, this driver draws at most " + std::to_string(most) + " a side");
@@ -58,6 +65,22 @@ FilmPixels Film::read() const {
     pixel.m2 = compensation[i + 3];
   }
   return film;
+}
+
+FilmState Film::save() const {
+  return {size_, readPictureTexture<float>(sum_, GL_RGBA, 4, GL_FLOAT, size_, kReading),
+          readPictureTexture<float>(compensation_, GL_RGBA, 4, GL_FLOAT, size_, kReading),
+          readPictureTexture<uint32_t>(counts_, GL_RGBA_INTEGER, 4, GL_UNSIGNED_INT, size_, kReading), cut_};
+}
+
+void Film::load(const FilmState& state) {
+  if (state.size != size_) throw std::invalid_argument("a film is loaded with the state of another size");
+  std::vector<uint32_t> counts = state.counts;
+  for (size_t i = 3; i < counts.size(); i += 4) counts[i] &= ~layout::kPixelSuspended;
+  writePictureTexture(sum_, GL_RGBA, 4, GL_FLOAT, size_, state.sum, kLoading);
+  writePictureTexture(compensation_, GL_RGBA, 4, GL_FLOAT, size_, state.compensation, kLoading);
+  writePictureTexture(counts_, GL_RGBA_INTEGER, 4, GL_UNSIGNED_INT, size_, counts, kLoading);
+  cut_ = state.cut;
 }
 
 FilmPixels Film::readCounts() const {
@@ -103,9 +126,8 @@ void Film::setTargets(const FilmPixels& pixels, std::span<const uint32_t> target
     counts.insert(counts.end(), {p.samples, p.rays, p.nonfinite,
                                  (p.flags & kFlagMask) | targets[i] << layout::kPixelTargetShift});
   }
-  glTextureSubImage2D(counts_.name(), 0, 0, 0, size_.x, size_.y, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
-                      counts.data());
-  checkGl("setting how many samples each pixel is to have");
+  writePictureTexture(counts_, GL_RGBA_INTEGER, 4, GL_UNSIGNED_INT, size_, counts,
+                      "setting how many samples each pixel is to have");
 }
 
 }  // namespace fragtrace

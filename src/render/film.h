@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "film/checkpoint.h"
 #include "film/film_pixels.h"
 #include "gl/gl.h"
 
@@ -10,11 +11,18 @@ namespace fragtrace {
 class Film {
  public:
   explicit Film(glm::ivec2 size);
+  /// Of the pixels that this driver's films can have a side.
+  static int mostSide();
   void clear();
   void bind() const;
   glm::ivec2 size() const { return size_; }
 
   FilmPixels read() const;
+
+  /// All of it, and back again into a film of that size: what is drawn from then on has the bits that it
+  /// would have had. Paths that were suspended between draws begin anew.
+  FilmState save() const;
+  void load(const FilmState& state);
 
   /// What a program that draws guides has summed: kGuideChannels, and the counts of the pixels.
   struct Guides {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <glm/glm.hpp>
+#include <stdexcept>
 #include <vector>
 
 #include "gl/gl.h"
@@ -35,6 +36,16 @@ std::vector<Value> readPictureTexture(const GlTexture& texture, GLenum format, i
   }
   checkGl(where);
   return values;
+}
+
+/// The way there, of as many values as readPictureTexture() gives.
+template <typename Value>
+void writePictureTexture(const GlTexture& texture, GLenum format, int channels, GLenum type, glm::ivec2 size,
+                         const std::vector<Value>& values, const char* where) {
+  const size_t row = size_t(size.x) * size_t(channels);
+  if (values.size() != row * size_t(size.y)) throw std::invalid_argument("values do not fill the texture");
+  glTextureSubImage2D(texture.name(), 0, 0, 0, size.x, size.y, format, type, values.data());
+  checkGl(where);
 }
 
 }  // namespace fragtrace

@@ -69,7 +69,8 @@ Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads, Pr
 
 void Renderer::setFrame(const Film& film, const View& view) {
   const Camera& camera = view.camera;
-  const glm::dvec2 half = halfExtents(camera, view.space.unit, film.size());
+  const Placement placed = view.placement.value_or(Placement{{0, 0}, film.size()});
+  const glm::dvec2 half = halfExtents(camera, view.space.unit, placed.whole);
   const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
   const glm::dvec3 up = glm::cross(right, camera.forward);
   frame_.cameraPosition =
@@ -80,10 +81,11 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.background = glm::vec4(view.background, view.showEnvironment ? 1.0f : 0.0f);
   frame_.environment.z = float(std::cos(view.hdriRotation));
   frame_.environment.w = float(std::sin(view.hdriRotation));
-  frame_.picture = {film.size(), 0, int(view.seed)};
+  frame_.picture = {placed.whole, 0, int(view.seed)};
   frame_.limits.x = view.bounces;
   frame_.limits.y = view.rouletteDepth;
   frame_.sampling = {view.sampleOffset, std::bit_cast<int>(view.clampIndirect), 0, 0};
+  frame_.part = {placed.corner.x, placed.whole.y - placed.corner.y - film.size().y, 0, 0};
   film.bind();
   buffers_.bind();
   glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, film.size().x);

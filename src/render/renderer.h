@@ -4,12 +4,14 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "gl/context.h"
 #include "gl/program.h"
 #include "gl/scene_buffers.h"
+#include "image/region.h"
 #include "render/film.h"
 #include "stage/render_options.h"
 
@@ -25,8 +27,9 @@ struct View {
   int bounces = 16;
   int rouletteDepth = 6;
   uint32_t seed = 0;
-  int sampleOffset = 0;        ///< index of sample 0 of the film in the seed's sequence
-  float clampIndirect = 0.0f;  ///< largest indirect radiance of a sample, when the variant clamps
+  int sampleOffset = 0;                ///< index of sample 0 of the film in the seed's sequence
+  float clampIndirect = 0.0f;          ///< largest indirect radiance of a sample, when the variant clamps
+  std::optional<Placement> placement;  ///< of the film in the picture; none: it is the whole
 };
 
 /// Time of the draws so far; frames are one sample in every pixel.

@@ -59,7 +59,10 @@ std::vector<std::filesystem::path> inputsOf(const Scene& scene) {
 }
 
 std::vector<NamedOutput> outputsOf(const RenderOptions& options) {
-  return {{"--output", options.output}, {"--stats", options.statsFile, true}};
+  std::vector<NamedOutput> outputs = {{"--output", options.output}, {"--stats", options.statsFile, true}};
+  if (options.checkpointSeconds > 0.0 || options.resume)
+    outputs.push_back({"--checkpoint", std::filesystem::path(options.output) += ".checkpoint"});
+  return outputs;
 }
 
 }  // namespace fragtrace

@@ -19,6 +19,7 @@
 #include "pack/pack_tree.h"
 #include "process/parallel.h"
 #include "session/outputs.h"
+#include "session/picture_memory.h"
 
 namespace fragtrace {
 
@@ -47,27 +48,15 @@ glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options) {
   return {std::clamp(int(std::lround(720.0 * camera.aspectRatio)), 1, 16384), 720};
 }
 
-/// Refuses a picture whose film would take more than --memory-limit.
-void checkFilmMemory(glm::ivec2 size, const RenderOptions& options) {
-  // Three images of the device, a copy of these, and the pixels made of it: what 16384 x 2000 were seen to
-  // take. Layers are drawn on one more film, adaptive pictures on two, which are joined.
-  constexpr uint64_t kOne = 48 + 48 + sizeof(FilmPixel);
-  constexpr uint64_t kWithLayers = kOne + 48 + sizeof(FilmPixel);
-  constexpr uint64_t kAdaptive = kOne + 96 + 2 * sizeof(FilmPixel) + 2 * sizeof(double);
-  // Textures, what two of them are made of, the film as it was on the way, the picture with its layers twice,
-  // and the colours.
-  constexpr uint64_t kDenoised = 7 * 16 + 20 + 20 + 2 * sizeof(FilmPixel) + 8 + 2 * 14 * 4 + 12;
-  const bool adaptive = options.noise > 0.0 || options.seconds > 0.0;
-  const uint64_t bytes = (adaptive                      ? kAdaptive
-                          : options.aovFeatures.empty() ? kOne
-                                                        : kWithLayers) +
-                         (options.denoise == Denoise::None ? 0 : kDenoised);
-  try {
-    MemoryBudget(options.limits.memoryBytes).take(uint64_t(size.x) * uint64_t(size.y) * bytes);
-  } catch (const std::runtime_error& error) {
-    throw UsageError("a picture of " + std::to_string(size.x) + " x " + std::to_string(size.y) + " pixels " +
-                     error.what());
-  }
+/// The region asked for, else all of the picture.
+Region chooseRegion(glm::ivec2 size, const RenderOptions& options) {
+  const Region region = options.region.value_or(Region{{0, 0}, size});
+  if (glm::all(glm::lessThanEqual(region.size, size - region.corner))) return region;
+  const auto text = [](glm::ivec2 v, const char* between) {
+    return std::to_string(v.x) + between + std::to_string(v.y);
+  };
+  throw UsageError("--region: " + text(region.corner, ",") + "," + text(region.size, ",") +
+                   " is not inside the picture of " + text(size, " x ") + " pixels");
 }
 
 /// Throws InputError for the first pixel that is NaN or infinite.
@@ -193,7 +182,8 @@ void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& s
 
 }  // namespace
 
-LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress) {
+LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress,
+                      FilmOf film) {
   const auto step = [&](const char* name, double fraction) {
     if (progress) progress(name, fraction);
   };
@@ -207,6 +197,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
     map = std::async(kThreadIfGranted, [&] {
       PhaseTimer timer("environment", "second");
       LinearImage image = readLinearImage(options.hdriFile, options.limits.memoryBytes);
+      image.image = wholeOf(std::move(image.image));
       reading = timer.end();
       return image;
     });
@@ -228,7 +219,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
       chooseCamera(scene.cameras, loaded.cameraIndex, options.camera, scene.bounds, framedAspect(options));
   checkDistance(loaded.camera, scene.space, options);
   loaded.size = chooseSize(loaded.camera, options);
-  checkFilmMemory(loaded.size, options);
+  loaded.region = chooseRegion(loaded.size, options);
+  if (film == FilmOf::Picture) checkFilmMemory(options, loaded.region.size);
   loaded.view = makeView(options, scene, loaded.camera);
   stats.loadMs = watch.lap();
   step("building the tree", 0.5);
@@ -244,7 +236,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   if (!options.hdriFile.empty()) stats.phases.push_back(reading);
   stats.scene = describe(scene);
   stats.warnings = scene.warnings;
-  stats.size = loaded.size;
+  stats.size = loaded.region.size;
+  stats.region = options.region;
   stats.loadMs += watch.lap();
   stats.defaultLight = loaded.environment.kind == Surroundings::DefaultLight;
   if (stats.defaultLight) sayDefaultLight(options, light, stats);
@@ -309,7 +302,9 @@ std::optional<Phase> buildAhead(ProgramCache& programs, ShaderVariant variant, c
 
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
                   Statistics& stats) {
-  return makeTracer(context, loaded, options, stats, formatOfName(options.output) == ImageFormat::OpenExr);
+  const bool kept = options.checkpointSeconds > 0.0 || options.resume;
+  return makeTracer(context, loaded, options, stats,
+                    kept || formatOfName(options.output) == ImageFormat::OpenExr);
 }
 
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,

@@ -20,7 +20,8 @@ struct LoadedScene {
   Environment environment;
   Camera camera;
   std::optional<int> cameraIndex;  ///< which of the scene's that is, if one was asked for
-  glm::ivec2 size{0};
+  glm::ivec2 size{0};              ///< of the picture
+  Region region;                   ///< of it, that is drawn
   Bvh bvh;
   View view;
 };
@@ -28,9 +29,14 @@ struct LoadedScene {
 /// Called before each step with its name and the part of the work done, 0..1; what it throws ends loading.
 using LoadProgress = std::function<void(const char* step, double fraction)>;
 
+/// Whether one film is to hold all of a picture, or only a part at a time (picture/picture_parts.h).
+enum class FilmOf : uint8_t { Picture, Part };
+
 /// Loads scene and environment, chooses camera and size, builds the tree; fills in the statistics of that.
-/// Says warnings on stderr unless quiet. Throws InputError, UsageError.
-LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress = {});
+/// Says warnings on stderr unless quiet. Throws InputError, UsageError, also where the film of a whole
+/// picture would not fit into memory.
+LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress = {},
+                      FilmOf film = FilmOf::Picture);
 
 /// Camera paths that the picture takes; infinite where time or noise ends it.
 double pathsOf(const RenderOptions& options, glm::ivec2 size);

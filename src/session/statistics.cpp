@@ -88,6 +88,8 @@ std::string statisticsText(const Statistics& s) {
   if (s.denoise) json["denoise"] = denoiseJson(*s.denoise);
   json["width"] = s.size.x;
   json["height"] = s.size.y;
+  if (s.region) json["region"] = {s.region->corner.x, s.region->corner.y, s.region->size.x, s.region->size.y};
+  if (s.parts > 1) json["parts"] = s.parts;
   json["complete"] = s.complete;
   json["rays"] = s.film.rays;
   json["mpaths_per_s"] = megaPathsPerSecond(s);

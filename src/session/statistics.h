@@ -45,7 +45,9 @@ struct Statistics {
   double compileMs = 0.0;
   RenderTimes times;
   int spp = 0;
-  glm::ivec2 size{0};
+  glm::ivec2 size{0};            ///< of what is drawn
+  std::optional<Region> region;  ///< of the picture, that this is, if one was asked for
+  int parts = 1;                 ///< in which it was drawn
   FilmTotals film;
   std::optional<AdaptiveStatistics> adaptive;
   double featureMs = 0.0;  ///< drawing the layers of first hits

@@ -13,6 +13,7 @@
 
 #include "image/display/tone_map.h"
 #include "image/limits.h"
+#include "image/region.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
 #include "scene/selection.h"
@@ -52,6 +53,7 @@ struct RenderOptions {
   std::filesystem::path scene;
   std::filesystem::path output;
   std::optional<glm::ivec2> resolution;
+  std::optional<Region> region;  ///< of the picture, that is drawn; none: all of it
   StageSet stages = stagesUpTo(Stage::Gi);
   int spp = 64;
   int sampleOffset = 0;  ///< index of the first sample in the seed's sequence
@@ -85,7 +87,9 @@ struct RenderOptions {
   std::vector<Feature> aovFeatures;
   Denoise denoise = Denoise::None;
   DebugView debugView = DebugView::None;
-  std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
+  std::optional<int> treeLevel;    ///< its boxes are drawn over the picture
+  double checkpointSeconds = 0.0;  ///< between two checkpoints; 0: none is written
+  bool resume = false;             ///< go on from the checkpoint beside the output
   std::filesystem::path statsFile;
   std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
   std::filesystem::path oidnLibrary;   ///< file of Open Image Denoise; none: it is looked for

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Parts of a render (--sample-offset) and `merge`, which joins them into what one run gives."""
 import json
+import re
 import signal
 import subprocess
 import time
@@ -23,7 +24,9 @@ class Parts(Case):
     def merged(self, name, *parts):
         path = self.folder / name
         result = run("merge", *parts, "-o", path)
-        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertRegex(result.stdout, f"^{re.escape(str(path))}: {len(parts)} parts, [0-9]+ .*samples per pixel[^\n]*\n$")
+        self.said = result.stdout
         return path
 
 
@@ -95,15 +98,29 @@ class RefusedMerges(Parts):
             self.fails(3, "merge", *parts, "-o", self.folder / "m.exr", says=says)
             self.assertFalse((self.folder / "m.exr").exists())
 
-    def test_samples_that_overlap_or_miss(self):
-        for first, samples, says in ((3, 4, "sample 3"), (0, 4, "sample 0"), (5, 4, "samples 4 to 4 "), (9, 1, "samples 4 to 8 ")):
-            other = self.part("other.exr", first, samples)
+    def test_samples_that_overlap(self):
+        for first, says in ((3, "sample 3 of seed 0 twice"), (0, "sample 0 of seed 0 twice")):
+            other = self.part("other.exr", first, 4)
             self.refuses(other, self.first, other, says)
         self.fails(3, "merge", self.first, self.first, "-o", self.folder / "m.exr", says=["overlap"])
+        # Of three, where the two that overlap do not stand beside each other.
+        parts = [self.part(f"{i}.exr", first, count, "--seed", 7) for i, (first, count) in enumerate(((0, 9), (20, 2), (4, 1)))]
+        self.fails(3, "merge", *parts, "-o", self.folder / "m.exr", says=["0.exr", "2.exr", "sample 4 of seed 7 twice"])
 
-    def test_another_seed(self):
-        other = self.part("other.exr", 4, 4, "--seed", "1")
-        self.refuses(other, self.first, other, "seeds")
+    def test_an_adaptive_part_that_holds_the_same_samples(self):
+        other = self.folder / "other.exr"
+        self.renders(BOX, "-o", other, "--quiet", *SIZE, "--noise", "0.5")
+        self.refuses(other, self.first, other, "sample 0 of seed 0 twice")
+
+    def test_ranges_that_are_none(self):
+        """In a part of two ranges, the one attribute is replaced by something of the same length."""
+        joined = self.folder / "two.exr"
+        self.assertEqual(run("merge", self.first, self.part("b.exr", 8, 4), "-o", joined).returncode, 0)
+        data, ranges = joined.read_bytes(), b"[[0,0,4],[0,8,4]]"
+        self.assertEqual(data.count(ranges), 1)
+        for bad in (b"[[0,0,4],[0,3,4]]", b"[[0,0,4],[0,8,0]]", b"[[0,0,4],[0,8,4 ]", b"[[0,0,4],[0,8]  ]", b'[[0,0,4],[0,"8",]'):
+            joined.write_bytes(data.replace(ranges, bad))
+            self.fails(3, "merge", joined, "-o", self.folder / "m.exr", says=[joined, "fragtrace:ranges"])
 
     def test_other_settings(self):
         for options in (["--bounces", "2"], ["--camera-position", "0,0,4"], ["--camera-view-angle", "30"], ["--disable", "light-sampling"],
@@ -122,17 +139,11 @@ class RefusedMerges(Parts):
         self.refuses(other, self.first, other, "settings")
 
     def test_another_size_or_other_layers(self):
-        for says, size, *options in (["differ in size", "16,13"], ["only one of them has samples.Y", "16,12", "--aov", "samples"],
+        for says, size, *options in (["differ in size", "16,13"], ["only one of them has variance.Y", "16,12", "--aov", "samples,variance"],
                                      ["only one of them has A", "16,12", "--no-background"]):
             with self.subTest(size=size, options=options):
                 other = self.part("other.exr", 4, 4, *options, size=size)
                 self.refuses(other, self.first, other, says)
-
-    def test_an_adaptive_part(self):
-        other = self.folder / "other.exr"
-        self.renders(BOX, "-o", other, "--quiet", *SIZE, "--noise", "0.5")
-        self.assertEqual(Exr(other).texts["fragtrace:uniform"], "0")
-        self.refuses(other, other, "adaptive or interrupted")
 
     def test_an_adaptive_picture_has_no_offset(self):
         self.fails(2, "render", BOX, "-o", self.folder / "x.pfm", *SIZE, "--noise", "0.5", "--sample-offset", "4", says=["--sample-offset"])
@@ -171,17 +182,68 @@ class RefusedMerges(Parts):
                    says=["--sample-offset"])
 
 
-class InterruptedParts(Parts):
-    def test_an_interrupted_part_is_refused(self):
-        first, other = self.part("first.exr", 0, 4), self.folder / "other.exr"
-        process = subprocess.Popen([FRAGTRACE, "render", BOX, "-o", other, "--resolution", "200,200", "--spp", "1000000",
+class UnevenParts(Parts):
+    """Parts of which pixels differ in samples, with gaps between them, of several seeds."""
+
+    def weighted(self, merged, parts):
+        """`merged` holds the parts' means, weighted by the samples of each pixel."""
+        self.assertEqual(merged.values("samples.Y"), [sum(counts) for counts in zip(*(count for _, count in parts))])
+        for color in "RGB":
+            for pixel, mean in enumerate(merged.values(color)):
+                expected = sum(exr.values(color)[pixel] * counts[pixel] for exr, counts in parts) / sum(counts[pixel] for _, counts in parts)
+                self.assertAlmostEqual(mean, expected, delta=1e-6 * max(1, expected))
+
+    def test_a_gap_is_said(self):
+        a, b = self.part("a.exr", 0, 4), self.part("b.exr", 10, 2)
+        merged = Exr(self.merged("m.exr", a, b))
+        self.assertIn("2 parts, 6 samples per pixel; missing: samples 4 to 9", self.said)
+        self.assertEqual([merged.texts["fragtrace:" + name] for name in ("samples", "uniform", "ranges")], ["6", "1", "[[0,0,4],[0,10,2]]"])
+        # What fills the gap joins with it, and the picture is one of one range again.
+        whole = Exr(self.merged("w.exr", self.folder / "m.exr", self.part("c.exr", 4, 6)))
+        self.assertNotIn("missing", self.said)
+        self.assertNotIn("fragtrace:ranges", whole.texts)
+        self.assertEqual(whole.texts["fragtrace:samples"], "12")
+
+    def test_other_seeds(self):
+        parts = [self.part(f"{seed}.exr", 0, 4 + seed, "--seed", seed, "--aov", "samples") for seed in range(3)]
+        merged = Exr(self.merged("m.exr", *parts))
+        self.assertIn("3 parts, 15 samples per pixel, of 3 sequences (seeds)", self.said)
+        self.weighted(merged, [(exr, exr.values("samples.Y")) for exr in map(Exr, parts)])
+
+    def test_adaptive_and_even_parts(self):
+        adaptive = self.folder / "adaptive.exr"
+        self.renders(BOX, "-o", adaptive, "--quiet", *SIZE, "--noise", "0.2", "--aov", "variance")
+        even = self.part("even.exr", 3, 8, "--seed", 5, "--aov", "variance")
+        merged = Exr(self.merged("m.exr", adaptive, even))
+        self.assertRegex(self.said, r"2 parts, \d+ to \d+ samples per pixel, [\d.]+ on average, of 3 sequences")
+        self.assertEqual(merged.texts["fragtrace:uniform"], "0")
+        counts = Exr(adaptive).values("samples.Y")
+        self.assertGreater(max(counts), min(counts))
+        self.weighted(merged, [(Exr(adaptive), counts), (Exr(even), [8] * len(counts))])
+        # Of two means, the joined one varies less than the better one.
+        self.assertLess(sum(merged.values("variance.Y")), sum(Exr(adaptive).values("variance.Y")))
+
+    def test_a_part_without_numbers_of_samples_is_none(self):
+        """As earlier versions wrote interrupted ones."""
+        part = self.part("a.exr", 0, 4)
+        data = part.read_bytes()
+        place = data.index(b"fragtrace:uniform\0string\0") + len(b"fragtrace:uniform\0string\0") + 4
+        part.write_bytes(data[:place] + b"0" + data[place + 1:])
+        self.fails(3, "merge", part, "-o", self.folder / "m.exr", says=[part, "adaptive or interrupted", "samples.Y"])
+
+    def test_an_interrupted_part(self):
+        first, other = self.part("first.exr", 0, 4, size="100,100"), self.folder / "other.exr"
+        process = subprocess.Popen([FRAGTRACE, "render", BOX, "-o", other, "--resolution", "100,100", "--spp", "1000000",
                                     "--sample-offset", "4", "--quiet"])
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
-        time.sleep(3)
+        time.sleep(2)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(20), 130)
-        self.fails(3, "merge", first, other, "-o", self.folder / "m.exr", says=[other, "adaptive or interrupted"])
+        exr = Exr(other)
+        self.assertEqual(exr.texts["fragtrace:uniform"], "0")
+        merged = Exr(self.merged("m.exr", other, first))
+        self.weighted(merged, [(Exr(first), [4] * 10000), (exr, exr.values("samples.Y"))])
 
 
 if __name__ == "__main__":

@@ -58,7 +58,8 @@ def unzipped(data, size):
 
 
 class Exr:
-    """Scan lines of floats of 32 or 16 bits, uncompressed or ZIP: `layers` by name, rows from the top; `texts`: the string attributes."""
+    """Scan lines of floats of 32 or 16 bits, uncompressed or ZIP: `layers` by name, rows from the top; `texts`: the string attributes;
+    `windows`: of data and display, each left, top, right, bottom."""
 
     def __init__(self, path):
         data = Path(path).read_bytes()
@@ -80,7 +81,8 @@ class Exr:
             names.append(name.decode())
             sizes.append(2 * kind)
             channels = channels[16:]
-        left, top, right, bottom = struct.unpack("<4i", header["dataWindow"])
+        self.windows = {name: struct.unpack("<4i", header[name]) for name in ("dataWindow", "displayWindow")}
+        left, top, right, bottom = self.windows["dataWindow"]
         self.width, self.height = right - left + 1, bottom - top + 1
         lines = {0: 1, 2: 1, 3: 16}[header["compression"][0]]
         self.layers = {name: [None] * self.height for name in names}

@@ -5,7 +5,9 @@ from fault import Fault as F
 ROWS = [
     F("path.dispersedIor", "0.025", "0.0255", "dispersion parts the indices 2 % too far"),
     F("path.tracePast", "p.traversal.past = t", "p.traversal.past = 1.02 * t", "what lies 2 % of the distance behind a surface that is passed through is missed"),
-    F("path.startPath place", "vec2(pixel) + 0.5", "vec2(pixel) + vec2(0.6, 0.5)", "the picture is shifted by a tenth of a pixel"),
+    F("path.inPicture", "pixel + frame.part.xy", "pixel + frame.part.xx", "parts of a picture stand elsewhere"),
+    F("path.keyOfPixel", "frame.picture.y - 1 - place.y", "frame.picture.y - 2 - place.y", "random numbers are those of the pixel below"),
+    F("path.startPath place", "vec2(inPicture(pixel)) + 0.5", "vec2(inPicture(pixel)) + vec2(0.6, 0.5)", "the picture is shifted by a tenth of a pixel"),
     F("path.startPath throughput", "p.throughput = vec3(1.0)", "p.throughput = vec3(1.02)", "all light is 2 % too bright"),
     F("path.clampIndirect", "intBitsToFloat(frame.sampling.y)", "1.02 * intBitsToFloat(frame.sampling.y)", "light is clamped 2 % too high"),
     F("path.meetSurroundings seen", "p.throughput * seen", "1.02 * p.throughput * seen", "the background is 2 % too bright"),

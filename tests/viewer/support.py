@@ -6,13 +6,11 @@ A test file is run as FILE FRAGTRACE SOURCE_FOLDER [unittest arguments].
 import json
 import os
 import signal
-import struct
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
-import zlib
 from pathlib import Path
 
 import Xlib.display
@@ -21,41 +19,8 @@ from Xlib.protocol import event
 
 FRAGTRACE = Path(sys.argv[1]).resolve()
 SCENES = Path(sys.argv[2]).resolve() / "scenes"
-
-
-def read_png(path):
-    """8-bit RGB or RGBA: width, height, rows of bytes, bytes a pixel (www.w3.org/TR/png)."""
-    data = Path(path).read_bytes()
-    at, packed = 8, b""
-    while at < len(data):
-        size, kind = struct.unpack_from(">I4s", data, at)
-        body = data[at + 8:at + 8 + size]
-        if kind == b"IHDR":
-            width, height, depth, color = struct.unpack_from(">IIBB", body)
-            assert depth == 8 and color in (2, 6), path
-        elif kind == b"IDAT":
-            packed += body
-        at += size + 12
-    step = 3 if color == 2 else 4
-    raw, stride, rows = zlib.decompress(packed), step * width, []
-    before = bytearray(stride)
-    for y in range(height):
-        kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for x in range(stride):
-            a, b = (line[x - step] if x >= step else 0), before[x]
-            c = before[x - step] if x >= step else 0
-            if kind == 1:
-                line[x] = (line[x] + a) & 255
-            elif kind == 2:
-                line[x] = (line[x] + b) & 255
-            elif kind == 3:
-                line[x] = (line[x] + (a + b) // 2) & 255
-            elif kind == 4:
-                p, da, db, dc = a + b - c, abs(b - c), abs(a - c), abs(a + b - 2 * c)
-                line[x] = (line[x] + (a if da <= db and da <= dc else b if db <= dc else c)) & 255
-        rows.append(bytes(line))
-        before = line
-    return width, height, rows, step
+sys.path.insert(0, str(SCENES))
+from picture_files import read_png  # noqa: E402, F401
 
 
 def pixels_of(path):

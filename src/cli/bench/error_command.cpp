@@ -14,9 +14,9 @@
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
 #include "image/display/tone_map.h"
+#include "picture/denoising.h"
+#include "picture/draw_picture.h"
 #include "render/adaptive.h"
-#include "session/denoising.h"
-#include "session/draw_picture.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/phase_timer.h"
@@ -98,13 +98,13 @@ ErrorSample finish(Contender& c, const View& view, const Judge& judge, const Dra
 Draw drawWhole(Contender& c, const View& view, int samples, double& compileMs) {
   RenderOptions options = c.configuration.render;
   options.spp = samples;
-  Film film(c.loaded.size);
-  compileMs += c.tracer.renderer->compile(c.tracer.variant, film, view);
+  SampledFilm sampled{Film(c.loaded.size), {}, 0};
+  compileMs += c.tracer.renderer->compile(c.tracer.variant, sampled.film, view);
   Draw draw;
   draw.layerSamples = samples;
   RenderTimes times;
   const double start = steadyMilliseconds();
-  drawAllSamples(*c.tracer.renderer, film, options, view, times, Renderer::toTheEnd, draw.drawing);
+  drawAllSamples(*c.tracer.renderer, sampled, options, view, times, Renderer::toTheEnd, draw.drawing);
   draw.seconds = 0.001 * (steadyMilliseconds() - start);
   return draw;
 }
@@ -141,7 +141,8 @@ std::vector<ErrorSample> measureAdaptive(Contender& c, const View& view, const J
     RenderTimes times;
     const double part = options.noise > 0.0 ? 1.0 : std::exp2(-i);
     const AdaptiveGoal goal{options.noise * std::exp2(i), options.seconds * part, options.spp};
-    AdaptivePicture picture = renderAdaptively(*c.tracer.renderer, c.loaded.size, view, goal, times);
+    AdaptiveRun run(c.loaded.size);
+    AdaptivePicture picture = renderAdaptively(*c.tracer.renderer, run, view, goal, times);
     const double pixels = double(c.loaded.size.x) * c.loaded.size.y;
     const double seconds = times.renderMs / 1000.0;
     const FilmTotals totals = totalsOf(picture.pixels);

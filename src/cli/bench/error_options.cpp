@@ -8,7 +8,7 @@
 #include "errors.h"
 #include "options/choose.h"
 #include "options/numbers.h"
-#include "session/denoising.h"
+#include "picture/denoising.h"
 
 namespace fragtrace {
 

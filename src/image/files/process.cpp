@@ -30,7 +30,7 @@ Limits decodingLimits(const ImageHeader& header, size_t encodedBytes) {
 }
 
 struct Answer {
-  int channelCount = 0;
+  ImageReply reply;
   std::shared_ptr<SharedMemory> memory;
   std::span<uint8_t> output;
 };
@@ -58,7 +58,7 @@ class Service {
     if (reply.outputBytes > request.outputBytes || reply.channelCount < 1 ||
         reply.channelCount > request.channelCount)
       throw std::runtime_error("the image process sent a broken answer");
-    answer.channelCount = reply.channelCount;
+    answer.reply = reply;
     answer.output = answer.memory->bytes().subspan(outputOffset(request), reply.outputBytes);
     return answer;
   }
@@ -103,6 +103,15 @@ std::span<const uint8_t> asBytes(std::span<const float> values) {
   return {reinterpret_cast<const uint8_t*>(values.data()), values.size_bytes()};
 }
 
+/// Whether the picture, or the larger one that it lies in, has that size.
+bool isPlacedIn(const Image& image, glm::ivec2 whole) {
+  const glm::ivec2 size(image.width, image.height);
+  const Placement placed = image.placement.value_or(Placement{{0, 0}, size});
+  return placed.whole == whole && glm::all(glm::greaterThan(size, glm::ivec2(0))) &&
+         glm::all(glm::greaterThanEqual(placed.corner, glm::ivec2(0))) &&
+         glm::all(glm::lessThanEqual(size, placed.whole - placed.corner));
+}
+
 /// More than any of the formats makes of incompressible values.
 uint64_t roomForEncoded(uint64_t rawBytes, int height) {
   constexpr uint64_t kHeader = 1 << 20;
@@ -121,30 +130,39 @@ Image decodeByProcess(std::span<const uint8_t> bytes, const ImageHeader& header)
                        header.height,
                        header.channelCount,
                        bytes.size(),
-                       0};
+                       0,
+                       {}};
   request.outputBytes = pixels * uint64_t(header.channelCount) * sizeof(float) + bytes.size() + kRoomForTexts;
   const Answer answer = service().perform(request, bytes, {}, decodingLimits(header, bytes.size()));
 
-  Image image{header.width, header.height, {}, {}, {}};
-  const uint64_t count = pixels * uint64_t(answer.channelCount);
+  const int channelCount = answer.reply.channelCount;
+  Image image{answer.reply.width, answer.reply.height, {}, {}, {}};
+  image.placement = placementOf(answer.reply.placement);
+  if (!isPlacedIn(image, {header.width, header.height}))
+    throw std::runtime_error("the image process sent a broken answer");
+  const uint64_t count = uint64_t(image.width) * uint64_t(image.height) * uint64_t(channelCount);
   if (answer.output.size() < count * sizeof(float))
     throw std::runtime_error("the image process sent a broken answer");
   const auto* values = reinterpret_cast<const float*>(answer.output.data());
   image.values.assign(values, values + count);
   const auto texts = unpackTexts(answer.output.subspan(count * sizeof(float)));
-  if (texts.size() < size_t(answer.channelCount) || (texts.size() - size_t(answer.channelCount)) % 2 != 0)
+  if (texts.size() < size_t(channelCount) || (texts.size() - size_t(channelCount)) % 2 != 0)
     throw std::runtime_error("the image process sent a broken answer");
-  image.channels.assign(texts.begin(), texts.begin() + answer.channelCount);
-  for (size_t i = size_t(answer.channelCount); i < texts.size(); i += 2)
-    image.attributes[texts[i]] = texts[i + 1];
+  image.channels.assign(texts.begin(), texts.begin() + channelCount);
+  for (size_t i = size_t(channelCount); i < texts.size(); i += 2) image.attributes[texts[i]] = texts[i + 1];
   return image;
 }
 
 TexelImage decodeTexelsByProcess(std::span<const uint8_t> bytes, const ImageHeader& header) {
   const uint64_t values = uint64_t(header.width) * uint64_t(header.height) * 4;
-  const ImageRequest request{
-      ImageTask::DecodeTexels,  header.format, header.width, header.height, header.channelCount, bytes.size(),
-      values * sizeof(uint16_t)};
+  const ImageRequest request{ImageTask::DecodeTexels,
+                             header.format,
+                             header.width,
+                             header.height,
+                             header.channelCount,
+                             bytes.size(),
+                             values * sizeof(uint16_t),
+                             {}};
   const Answer answer = service().perform(request, bytes, {}, decodingLimits(header, bytes.size()));
   if (answer.output.size() != request.outputBytes)
     throw std::runtime_error("the image process sent a broken answer");
@@ -162,7 +180,8 @@ std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCoun
                              height,
                              channelCount,
                              values.size(),
-                             roomForEncoded(values.size(), height)};
+                             roomForEncoded(values.size(), height),
+                             {}};
   const Answer answer = service().perform(request, values, {}, {});
   return {answer.output.begin(), answer.output.end()};
 }
@@ -176,9 +195,14 @@ std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat forma
   const std::vector<uint8_t> packed = packTexts(texts);
   const std::span<const uint8_t> values = asBytes(image.values);
   const uint64_t size = values.size() + packed.size();
-  const ImageRequest request{
-      ImageTask::EncodeFloats,           format, image.width, image.height, int(image.channelCount()), size,
-      roomForEncoded(size, image.height)};
+  const ImageRequest request{ImageTask::EncodeFloats,
+                             format,
+                             image.width,
+                             image.height,
+                             int(image.channelCount()),
+                             size,
+                             roomForEncoded(size, image.height),
+                             messageOf(image.placement)};
   const Answer answer = service().perform(request, values, packed, {});
   return {answer.output.begin(), answer.output.end()};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // readImage, readDisplayImage, readLinearImage and decodeTexels: the format is chosen by the first bytes, the
 // file's name only stands in messages.
+#include <algorithm>
 #include <new>
 #include <stdexcept>
 
@@ -28,7 +29,7 @@ auto decodeNamed(const std::string& name, Decode decode) {
   }
 }
 
-Image decodeImage(std::span<const uint8_t> bytes, const std::filesystem::path& path, uint64_t memoryLimit) {
+Image decodeStored(std::span<const uint8_t> bytes, const std::filesystem::path& path, uint64_t memoryLimit) {
   return decodeNamed(path.string(), [&] {
     const ImageHeader header = readImageHeader(bytes);
     const uint64_t values = uint64_t(header.width) * uint64_t(header.height) * uint64_t(header.channelCount);
@@ -37,12 +38,31 @@ Image decodeImage(std::span<const uint8_t> bytes, const std::filesystem::path& p
   });
 }
 
+Image decodeImage(std::span<const uint8_t> bytes, const std::filesystem::path& path, uint64_t memoryLimit) {
+  return wholeOf(decodeStored(bytes, path, memoryLimit));
+}
+
 bool isLinear(std::span<const uint8_t> bytes) {
   const auto format = formatOfBytes(bytes);
   return format == ImageFormat::OpenExr || format == ImageFormat::Hdr || format == ImageFormat::Pfm;
 }
 
 }  // namespace
+
+Image wholeOf(Image part) {
+  if (!part.placement) return part;
+  const auto [corner, size] = *part.placement;
+  Image whole{size.x, size.y, part.channels, {}, std::move(part.attributes)};
+  whole.values.resize(size_t(size.x) * size_t(size.y) * whole.channelCount());
+  const size_t row = size_t(part.width) * part.channelCount();
+  for (int y = 0; y < part.height; ++y)
+    std::copy_n(part.pixel(0, y), row, whole.pixel(corner.x, corner.y + y));
+  return whole;
+}
+
+Image readStoredImage(const std::filesystem::path& path, uint64_t memoryLimit) {
+  return decodeStored(readWholeFile(path, memoryLimit), path, memoryLimit);
+}
 
 Image readImage(const std::filesystem::path& path, uint64_t memoryLimit) {
   return decodeImage(readWholeFile(path, memoryLimit), path, memoryLimit);
@@ -57,7 +77,7 @@ Image readDisplayImage(const std::filesystem::path& path) {
 
 LinearImage readLinearImage(const std::filesystem::path& path, uint64_t memoryLimit) {
   const std::vector<uint8_t> bytes = readWholeFile(path, memoryLimit);
-  LinearImage read{decodeImage(bytes, path, memoryLimit), !isLinear(bytes)};
+  LinearImage read{decodeStored(bytes, path, memoryLimit), !isLinear(bytes)};
   if (read.wasEncoded) {
     for (float& value : read.image.values) value = float(decodeSrgb(double(value)));
   }

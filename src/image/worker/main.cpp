@@ -28,9 +28,11 @@ std::span<const uint8_t> bytesOf(std::span<const float> values) {
   return {reinterpret_cast<const uint8_t*>(values.data()), values.size_bytes()};
 }
 
-int decodeFloatsInto(const ImageRequest& request, std::span<const uint8_t> input, Output& output) {
+void decodeFloatsInto(const ImageRequest& request, std::span<const uint8_t> input, Output& output,
+                      ImageReply& reply) {
   const Image image = decodeFloats(input, request.format);
-  if (image.width != request.width || image.height != request.height ||
+  const glm::ivec2 size(image.width, image.height);
+  if ((image.placement ? image.placement->whole : size) != glm::ivec2(request.width, request.height) ||
       int(image.channelCount()) > request.channelCount)
     throw std::runtime_error("its size is not what its header says");
   std::vector<std::string> texts = image.channels;
@@ -40,7 +42,10 @@ int decodeFloatsInto(const ImageRequest& request, std::span<const uint8_t> input
   }
   output.append(bytesOf(image.values));
   output.append(packTexts(texts));
-  return int(image.channelCount());
+  reply.channelCount = int(image.channelCount());
+  reply.width = size.x;
+  reply.height = size.y;
+  reply.placement = messageOf(image.placement);
 }
 
 std::vector<uint8_t> encodeFloatsOf(const ImageRequest& request, std::span<const uint8_t> input) {
@@ -50,6 +55,7 @@ std::vector<uint8_t> encodeFloatsOf(const ImageRequest& request, std::span<const
   const auto channels = texts.begin() + request.channelCount;
   image.channels.assign(texts.begin(), channels);
   for (auto text = channels; text != texts.end(); text += 2) image.attributes[*text] = *(text + 1);
+  image.placement = placementOf(request.placement);
   return encodeFloats(image, {reinterpret_cast<const float*>(input.data()), count}, request.format);
 }
 
@@ -59,7 +65,7 @@ void perform(const ImageRequest& request, std::span<const uint8_t> input, std::s
   reply.channelCount = request.channelCount;
   switch (request.task) {
     case ImageTask::DecodeFloats:
-      reply.channelCount = decodeFloatsInto(request, input, output);
+      decodeFloatsInto(request, input, output, reply);
       break;
     case ImageTask::DecodeTexels:
       decodeTexels(input, request.format, request.width, request.height,

@@ -6,6 +6,16 @@
 
 namespace fragtrace {
 
+PlacementMessage messageOf(const std::optional<Placement>& placement) {
+  if (!placement) return {};
+  return {placement->corner.x, placement->corner.y, placement->whole.x, placement->whole.y};
+}
+
+std::optional<Placement> placementOf(const PlacementMessage& message) {
+  if (message.wholeWidth == 0) return std::nullopt;
+  return Placement{{message.left, message.top}, {message.wholeWidth, message.wholeHeight}};
+}
+
 std::vector<uint8_t> packTexts(const std::vector<std::string>& texts) {
   std::vector<uint8_t> bytes;
   for (const std::string& text : texts) {

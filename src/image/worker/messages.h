@@ -4,15 +4,25 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "image/format.h"
+#include "image/region.h"
 
 namespace fragtrace {
 
 enum class ImageTask : uint32_t { DecodeFloats, DecodeTexels, EncodeBytes, EncodeFloats };
+
+/// A Placement; one in a picture of width 0 is none.
+struct PlacementMessage {
+  int32_t left = 0;
+  int32_t top = 0;
+  int32_t wholeWidth = 0;
+  int32_t wholeHeight = 0;
+};
 
 /// Encoded pictures are their file's bytes; decoded ones their values, then texts.
 struct ImageRequest {
@@ -22,15 +32,22 @@ struct ImageRequest {
   int32_t height = 0;
   int32_t channelCount = 0;
   uint64_t inputBytes = 0;
-  uint64_t outputBytes = 0;  ///< room for the output
+  uint64_t outputBytes = 0;    ///< room for the output
+  PlacementMessage placement;  ///< of what is encoded
 };
 
 struct ImageReply {
   bool done = false;
   int32_t channelCount = 0;
   uint64_t outputBytes = 0;
+  int32_t width = 0;  ///< of what was decoded
+  int32_t height = 0;
+  PlacementMessage placement;
   char reason[1000] = {};  ///< why it is not done
 };
+
+PlacementMessage messageOf(const std::optional<Placement>& placement);
+std::optional<Placement> placementOf(const PlacementMessage& message);
 
 /// Texts with their lengths before them.
 std::vector<uint8_t> packTexts(const std::vector<std::string>& texts);

@@ -98,21 +98,22 @@ Image decodeFloats(std::span<const uint8_t> bytes, ImageFormat format) {
   OpenPicture picture(bytes, format);
   const OIIO::ImageSpec& spec = picture.spec;
 
-  // An EXR file may hold only a window of its picture; the rest is black.
+  // An EXR file may hold only a window of its picture.
   Image image;
-  image.width = std::max(spec.full_width, 1);
-  image.height = std::max(spec.full_height, 1);
-  const int left = spec.x - spec.full_x;
-  const int top = spec.y - spec.full_y;
-  if (left < 0 || top < 0 || left + spec.width > image.width || top + spec.height > image.height)
+  image.width = spec.width;
+  image.height = spec.height;
+  const Placement placed{{spec.x - spec.full_x, spec.y - spec.full_y},
+                         {std::max(spec.full_width, 1), std::max(spec.full_height, 1)}};
+  if (glm::any(glm::lessThan(placed.corner, glm::ivec2(0))) ||
+      spec.width > placed.whole.x - placed.corner.x || spec.height > placed.whole.y - placed.corner.y)
     throw std::runtime_error("its data window is not inside its display window");
-  checkImageSize(image.width, image.height, spec.nchannels);
+  checkImageSize(placed.whole.x, placed.whole.y, spec.nchannels);
+  if (placed.whole != glm::ivec2(spec.width, spec.height)) image.placement = placed;
 
   image.channels = spec.channelnames;
   if (format == ImageFormat::OpenExr) image.attributes = stringAttributes(spec);
   image.values.resize(size_t(image.width) * size_t(image.height) * image.channelCount());
-  const auto pixelStride = OIIO::stride_t(image.channelCount() * sizeof(float));
-  picture.read(OIIO::TypeFloat, image.pixel(left, top), pixelStride, pixelStride * image.width);
+  picture.read(OIIO::TypeFloat, image.values.data(), OIIO::AutoStride, OIIO::AutoStride);
   if (format == ImageFormat::WebP && spec.nchannels == 4) unassociate<float>(image.values, 1);
   return image;
 }
@@ -175,6 +176,12 @@ std::vector<uint8_t> encodeFloats(const Image& image, std::span<const float> val
   const auto alpha = std::ranges::find(image.channels, "A");
   spec.alpha_channel = alpha == image.channels.end() ? -1 : int(alpha - image.channels.begin());
   for (const auto& [name, text] : image.attributes) spec.attribute(name, text);
+  if (image.placement) {
+    spec.x = image.placement->corner.x;
+    spec.y = image.placement->corner.y;
+    spec.full_width = image.placement->whole.x;
+    spec.full_height = image.placement->whole.y;
+  }
   spec.attribute("oiio:ColorSpace", "Linear");
   spec.attribute("compression", "zip");
   spec.attribute("DateTime", "");  // else the time of writing, and the same picture gave different files

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/denoising.h"
+#include "picture/denoising.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/denoised_file.h"
+#include "picture/denoised_file.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "session/denoising.h"
+#include "picture/denoising.h"
 
 namespace fragtrace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/picture_file.h"
+#include "picture/picture_file.h"
 
 #include <set>
 
@@ -10,16 +10,17 @@
 #include "image/display/tone_map.h"
 #include "image/format.h"
 #include "scene/projection.h"
+#include "session/picture_memory.h"
 
 namespace fragtrace {
 
 namespace {
 
-/// Lines over what a display shows of the picture.
-void drawLines(Image& display, std::span<const PictureLine> lines) {
+/// Lines over what a display shows of a picture that lies there.
+void drawLines(Image& display, std::span<const PictureLine> lines, const Placement& placement) {
   const glm::vec3 orange(1.0f, 0.55f, 0.1f);
-  const glm::dvec2 half(0.5 * display.width, -0.5 * display.height);
-  const glm::dvec2 middle(0.5 * display.width, 0.5 * display.height);
+  const glm::dvec2 half = 0.5 * glm::dvec2(placement.whole) * glm::dvec2(1.0, -1.0);
+  const glm::dvec2 middle = 0.5 * glm::dvec2(placement.whole) - glm::dvec2(placement.corner);
   for (const PictureLine& line : lines)
     drawLine(display, middle + line.from * half, middle + line.to * half, orange);
 }
@@ -73,12 +74,7 @@ std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedSce
 }
 
 void checkPictureWritable(const RenderOptions& options, glm::ivec2 size) {
-  size_t channels =
-      3 + size_t(!options.background) + size_t(options.aovSamples) + size_t(options.aovVariance);
-  for (const Feature feature : options.aovFeatures)
-    channels += feature == Feature::Guides ? kGuideChannels.size() + 1 : rowOf(feature).channels.size();
-  if (options.denoise != Denoise::None) channels += 3;  // the noisy picture
-  checkImageWritable(options.output, size.x, size.y, channels);
+  checkImageWritable(options.output, size.x, size.y, channelsOf(options));
 }
 
 std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason) {
@@ -100,7 +96,7 @@ void writePicture(const RenderOptions& options, const Image& linear, std::span<c
   const bool keepsAlpha = formatOfName(options.output) == ImageFormat::Png;
   Image display = toDisplay(keepsAlpha ? linear : withoutAlpha(linear), colors ? 0.0 : options.exposure,
                             colors ? ToneMap::Linear : options.toneMap);
-  drawLines(display, lines);
+  drawLines(display, lines, linear.placement.value_or(Placement{{0, 0}, {linear.width, linear.height}}));
   writeImage(options.output, display);
 }
 

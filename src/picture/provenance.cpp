@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "session/provenance.h"
+#include "picture/provenance.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <tuple>
 #include <type_traits>
 
 #include "errors.h"
@@ -19,6 +21,7 @@ constexpr const char* kSeed = "fragtrace:seed";
 constexpr const char* kSampleOffset = "fragtrace:sampleOffset";
 constexpr const char* kSamples = "fragtrace:samples";
 constexpr const char* kUniform = "fragtrace:uniform";
+constexpr const char* kRanges = "fragtrace:ranges";
 
 std::string textOf(const Image& image, const char* name, const std::filesystem::path& path) {
   const auto found = image.attributes.find(name);
@@ -36,6 +39,21 @@ int64_t numberOf(const Image& image, const char* name, const std::filesystem::pa
   return value;
 }
 
+std::vector<SampleRange> rangesIn(const std::string& text, const std::filesystem::path& path) {
+  std::vector<SampleRange> ranges;
+  try {
+    for (const nlohmann::json& range : nlohmann::json::parse(text)) {
+      const auto [seed, first, count] = range.get<std::tuple<int64_t, int64_t, int64_t>>();
+      if (seed < 0 || seed > UINT32_MAX || first < 0 || count < 1 || count > INT64_MAX - first)
+        throw std::invalid_argument("a number is out of range");
+      ranges.push_back({uint32_t(seed), first, count});
+    }
+    return joinedRanges(std::move(ranges));
+  } catch (const std::exception& error) {
+    throw InputError(path.string() + ": attribute " + kRanges + " is '" + text + "': " + error.what());
+  }
+}
+
 nlohmann::ordered_json numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
@@ -49,8 +67,15 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   json["scene_hash"] = hash;
   json["width"] = loaded.size.x;
   json["height"] = loaded.size.y;
-  // How buffers are read, and by which stage of the pipeline, changes no sample.
+  if (options.region)
+    json["region"] = {options.region->corner.x, options.region->corner.y, options.region->size.x,
+                      options.region->size.y};
+  // How rays find triangles, which depends on the number of samples, changes rounding alone; how buffers are
+  // read, and by which stage of the pipeline, nothing.
   ShaderVariant variant = tracer.variant;
+  variant.traversal = ShaderVariant().traversal;
+  variant.stackSize = ShaderVariant().stackSize;
+  variant.literals.clear();
   variant.reads = BufferReads::Ssbo;
   variant.dispatch = Dispatch::Fragment;
   variant.wavefront = false;
@@ -96,6 +121,35 @@ void setProvenance(Image& image, const Provenance& provenance) {
   image.attributes[kSampleOffset] = std::to_string(provenance.sampleOffset);
   image.attributes[kSamples] = std::to_string(provenance.samples);
   image.attributes[kUniform] = std::to_string(int(provenance.uniform));
+  image.attributes.erase(kRanges);
+  Provenance plain = provenance;
+  plain.ranges.clear();
+  if (provenance.ranges.empty() || provenance.ranges == rangesOf(plain)) return;
+  auto json = nlohmann::json::array();
+  for (const SampleRange& range : provenance.ranges) json.push_back({range.seed, range.first, range.count});
+  image.attributes[kRanges] = json.dump();
+}
+
+std::vector<SampleRange> rangesOf(const Provenance& provenance) {
+  if (!provenance.ranges.empty()) return provenance.ranges;
+  return {{provenance.seed, provenance.sampleOffset, provenance.samples}};
+}
+
+std::vector<SampleRange> joinedRanges(std::vector<SampleRange> ranges) {
+  std::ranges::sort(ranges);
+  std::vector<SampleRange> joined;
+  for (const SampleRange& range : ranges) {
+    if (joined.empty() || joined.back().seed != range.seed ||
+        joined.back().first + joined.back().count < range.first) {
+      joined.push_back(range);
+      continue;
+    }
+    if (joined.back().first + joined.back().count > range.first)
+      throw std::invalid_argument("sample " + std::to_string(range.first) + " of seed " +
+                                  std::to_string(range.seed) + " twice");
+    joined.back().count += range.count;
+  }
+  return joined;
 }
 
 Provenance provenanceOf(const Image& image, const std::filesystem::path& path) {
@@ -105,6 +159,7 @@ Provenance provenanceOf(const Image& image, const std::filesystem::path& path) {
   p.sampleOffset = numberOf(image, kSampleOffset, path);
   p.samples = numberOf(image, kSamples, path);
   p.uniform = numberOf(image, kUniform, path) != 0;
+  if (image.attributes.contains(kRanges)) p.ranges = rangesIn(textOf(image, kRanges, path), path);
   return p;
 }
 

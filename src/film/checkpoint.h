@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// What a render that was broken off goes on from, as a file.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "film/film_pixels.h"
+#include "image/image.h"
+
+namespace fragtrace {
+
+/// All that a film holds, as the device has it (shaders/film.glsl): four values a pixel, the first row at the
+/// bottom.
+struct FilmState {
+  glm::ivec2 size{0};
+  std::vector<float> sum;
+  std::vector<float> compensation;
+  std::vector<uint32_t> counts;
+  double cut = 0.0;  ///< as in FilmPixels
+};
+
+/// How far adaptive sampling is: of each block of pixels the samples of a half before the round under way,
+/// and after it. Without blocks it has not begun.
+struct AdaptiveState {
+  std::vector<int32_t> samples;
+  std::vector<int32_t> targets;
+  int rounds = 0;        ///< that are complete
+  double seconds = 0.0;  ///< that drawing has taken
+};
+
+/// A render between two draws. What it is a render of, and what was measured, are texts of whoever writes it.
+struct Checkpoint {
+  std::string job;                ///< JSON of all that its samples depend on
+  std::string statistics;         ///< JSON of the parts before the one under way
+  Image picture;                  ///< of these parts, with values of all of them; may be empty
+  int part = 0;                   ///< of the picture, that is under way
+  std::vector<FilmState> films;   ///< of that part: one, or the halves of an adaptive one
+  std::vector<FilmPixels> looks;  ///< at its film on the way (observedVariance() needs them)
+  AdaptiveState adaptive;
+};
+
+/// Of this machine's byte order and layout.
+std::vector<uint8_t> encodeCheckpoint(const Checkpoint& checkpoint);
+
+/// Throws std::runtime_error with the bare reason when the bytes are not what encodeCheckpoint() makes.
+Checkpoint decodeCheckpoint(std::span<const uint8_t> bytes);
+
+}  // namespace fragtrace

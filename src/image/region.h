@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace fragtrace {
+
+/// A rectangle of a picture, in pixels; its corner is the top left one, from the picture's top left.
+struct Region {
+  glm::ivec2 corner{0};
+  glm::ivec2 size{0};
+
+  bool operator==(const Region&) const = default;
+};
+
+/// Where a picture lies in a larger one.
+struct Placement {
+  glm::ivec2 corner{0};  ///< of its top left pixel, from the larger one's top left
+  glm::ivec2 whole{0};   ///< size of the larger one
+
+  bool operator==(const Placement&) const = default;
+};
+
+}  // namespace fragtrace

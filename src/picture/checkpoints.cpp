@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "picture/checkpoints.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "errors.h"
+#include "image/files/whole_file.h"
+#include "image/format.h"
+#include "picture/draw_picture.h"
+#include "picture/provenance.h"
+#include "render/adaptive.h"
+#include "session/say.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// FNV-1a.
+uint64_t hashOfText(const std::string& text) {
+  uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : text) hash = (hash ^ uint8_t(c)) * 0x100000001b3u;
+  return hash;
+}
+
+bool isFile(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error);
+}
+
+/// Whether an .exr says that its render was interrupted; other formats do not say.
+bool saysInterrupted(const std::filesystem::path& output) {
+  if (formatOfName(output) != ImageFormat::OpenExr) return false;
+  return readStoredImage(output).attributes.contains(kInterruptedAttribute);
+}
+
+/// Throws InputError unless films, looks and blocks have the sizes of the part that is under way.
+void checkShape(const Checkpoint& c, const PictureJob& job, const DrawingPlan& plan) {
+  const auto check = [&](bool right) {
+    if (!right)
+      throw InputError(checkpointOf(job.options.output).string() + ": does not fit its own settings");
+  };
+  check(c.part >= 0 && size_t(c.part) < plan.parts.size());
+  const glm::ivec2 size = plan.parts[size_t(c.part)].size;
+  const bool adaptive = job.options.noise > 0.0 || job.options.seconds > 0.0;
+  check(c.films.size() == (adaptive ? 2u : 1u) && c.looks.size() <= 2u);
+  for (const FilmState& film : c.films) check(film.size == size);
+  for (const FilmPixels& look : c.looks) check(look.size == size);
+  check(c.adaptive.samples.size() == (adaptive ? AdaptiveRun::blocksOf(size) : 0u));
+  for (const std::vector<int32_t>& counts : {c.adaptive.samples, c.adaptive.targets})
+    check(std::ranges::all_of(counts, [&](int32_t n) { return n >= 0 && n <= job.options.spp; }));
+  const bool first = c.part == 0;
+  check(first == c.picture.values.empty());
+  check(first || glm::ivec2(c.picture.width, c.picture.height) == job.loaded.region.size);
+}
+
+nlohmann::json totalsJson(const FilmTotals& t) {
+  return {t.samples,    t.rays, t.hitPixels,     t.emptyPixels, t.nonfinitePixels,
+          t.budgetHits, t.cut,  t.fewestSamples, t.mostSamples};
+}
+
+FilmTotals totalsIn(const nlohmann::json& json) {
+  return {json.at(0), json.at(1), json.at(2), json.at(3), json.at(4),
+          json.at(5), json.at(6), json.at(7), json.at(8)};
+}
+
+}  // namespace
+
+std::string measuredText(const Statistics& before, const RenderTimes& now) {
+  nlohmann::json json = {{"film", totalsJson(before.film)},
+                         {"before_ms", before.times.renderMs},
+                         {"render_ms", now.renderMs},
+                         {"draw_ms", now.drawMs}};
+  if (before.adaptive) {
+    const AdaptiveStatistics& a = *before.adaptive;
+    json["adaptive"] = {a.noise, a.seconds, a.error, a.share, a.rounds, a.known, a.black};
+  }
+  return json.dump();
+}
+
+double restoreMeasured(const std::string& text, Statistics& stats) {
+  try {
+    const auto json = nlohmann::json::parse(text);
+    stats.film = totalsIn(json.at("film"));
+    stats.times.renderMs = json.at("render_ms");
+    stats.times.drawMs = json.at("draw_ms");
+    if (json.contains("adaptive")) {
+      const nlohmann::json& a = json["adaptive"];
+      stats.adaptive = {a.at(0), a.at(1), a.at(2), a.at(3), a.at(4), a.at(5), a.at(6)};
+    }
+    return json.at("before_ms");
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(std::string("its statistics are broken: ") + error.what());
+  }
+}
+
+std::filesystem::path checkpointOf(const std::filesystem::path& output) {
+  return std::filesystem::path(output) += ".checkpoint";
+}
+
+std::string jobText(const PictureJob& job, const DrawingPlan& plan) {
+  const RenderOptions& options = job.options;
+  auto json = nlohmann::json::parse(settingsText(options, job.loaded, job.tracer));
+  json["variant"] = variantName(job.tracer.variant);
+  json["shader_text"] = hashOfText(job.tracer.variant.literals);
+  json["shader_folder"] = options.shaderFolder.string();
+  json["seed"] = options.seed;
+  json["sample_offset"] = options.sampleOffset;
+  json["spp"] = options.spp;
+  json["noise"] = options.noise;
+  json["time"] = options.seconds;
+  json["for_denoising"] = looksOnTheWay(options);
+  for (const Region& part : plan.parts)
+    json["parts"].push_back({part.corner.x, part.corner.y, part.size.x, part.size.y});
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::optional<Checkpoint> readCheckpoint(const PictureJob& job, const DrawingPlan& plan) {
+  if (!job.options.resume) return std::nullopt;
+  const std::filesystem::path path = checkpointOf(job.options.output);
+  if (!isFile(path)) {
+    say(job.options, "there is no " + path.string() + ": the picture begins anew");
+    return std::nullopt;
+  }
+  std::optional<Checkpoint> checkpoint;
+  try {
+    checkpoint = decodeCheckpoint(readBytes(path, job.options.limits.memoryBytes));
+  } catch (const std::exception& error) {
+    throw InputError(path.string() + ": " + error.what());
+  }
+  const std::string text = jobText(job, plan);
+  if (checkpoint->job != text)
+    throw UsageError("--resume: " + path.string() +
+                     " is of another render: " + differenceOf(checkpoint->job, text));
+  checkShape(*checkpoint, job, plan);
+  return checkpoint;
+}
+
+bool isFinished(const RenderOptions& options) {
+  if (!options.resume || isFile(checkpointOf(options.output)) || !isFile(options.output)) return false;
+  if (saysInterrupted(options.output)) return false;
+  say(options, options.output.string() + " is finished: there is no checkpoint beside it");
+  return true;
+}
+
+CheckpointKeeper::CheckpointKeeper(const RenderOptions& options)
+    : path_(checkpointOf(options.output)),
+      period_(options.checkpointSeconds),
+      kept_(options.checkpointSeconds > 0.0 || options.resume),
+      last_(steadyMilliseconds()) {}
+
+bool CheckpointKeeper::isDue() {
+  const double now = steadyMilliseconds();
+  if (period_ <= 0.0 || now - last_ < 1000.0 * period_) return false;
+  last_ = now;
+  return true;
+}
+
+void CheckpointKeeper::write(const Checkpoint& checkpoint) const {
+  replaceFile(path_, encodeCheckpoint(checkpoint));
+}
+
+void CheckpointKeeper::remove() const {
+  if (!kept_) return;
+  std::error_code error;
+  std::filesystem::remove(path_, error);
+  if (error) throw RenderError("cannot remove " + path_.string() + ": " + error.message());
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+#include "picture/draw_parts.h"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+#include "errors.h"
+#include "image/channels.h"
+#include "image/format.h"
+#include "picture/checkpoints.h"
+#include "picture/denoising.h"
+#include "picture/draw_picture.h"
+#include "picture/picture_file.h"
+#include "render/adaptive.h"
+#include "session/interrupt.h"
+#include "session/progress_bar.h"
+
+namespace fragtrace {
+
+namespace {
+
+double areaOf(glm::ivec2 size) { return double(size.x) * size.y; }
+
+/// Of a picture of several parts, how much was done before one of them and how much that brings.
+struct Share {
+  double done = 0.0;
+  double own = 1.0;
+
+  double of(double fraction) const { return done + own * fraction; }
+};
+
+std::vector<Share> sharesOf(std::span<const Region> parts, glm::ivec2 size) {
+  std::vector<Share> shares;
+  double done = 0.0;
+  for (const Region& part : parts) {
+    const double own = areaOf(part.size) / areaOf(size);
+    shares.push_back({done, own});
+    done += own;
+  }
+  return shares;
+}
+
+/// Seconds that a sample of each layer takes in all pixels, measured in the middle of the first part; all are
+/// compiled. The film ends up cleared.
+std::vector<double> measureFeatures(const PictureJob& job, Film& film, const View& view, Statistics& stats) {
+  constexpr int kSide = 256;
+  Work work{{}, glm::min(film.size(), glm::ivec2(kSide)), 0, 1};
+  work.corner = (film.size() - work.size) / 2;
+  const double times = areaOf(job.loaded.region.size) / areaOf(work.size);
+  std::vector<double> seconds;
+  for (const ShaderVariant& variant : job.tracer.features) {
+    stats.compileMs += job.tracer.renderer->compile(variant, film, view);
+    RenderTimes measured;
+    job.tracer.renderer->addSamples(film, view, {&work, 1}, measured);
+    seconds.push_back(0.001 * measured.renderMs * times);
+    film.clear();
+  }
+  return seconds;
+}
+
+bool isAdaptive(const RenderOptions& options) { return options.noise > 0.0 || options.seconds > 0.0; }
+
+/// What layers will take: those of an adaptive picture have the fewest samples of any pixel, which is not yet
+/// known, but these at least.
+double secondsOfFeatures(std::span<const double> secondsPerSample, const RenderOptions& options) {
+  constexpr int kLeastAdaptive = 64;
+  const int samples = isAdaptive(options) ? std::min(options.spp, kLeastAdaptive) : options.spp;
+  return samples * std::accumulate(secondsPerSample.begin(), secondsPerSample.end(), 0.0);
+}
+
+/// The parts' worst, since a goal holds in each of them.
+AdaptiveStatistics joined(const AdaptiveStatistics& a, const AdaptiveStatistics& b) {
+  return {a.noise,
+          a.seconds,
+          std::max(a.error, b.error),
+          std::min(a.share, b.share),
+          std::max(a.rounds, b.rounds),
+          a.known && b.known,
+          a.black && b.black};
+}
+
+void add(FilmTotals& totals, const FilmTotals& part, bool first) {
+  totals.fewestSamples = first ? part.fewestSamples : std::min(totals.fewestSamples, part.fewestSamples);
+  totals.mostSamples = std::max(totals.mostSamples, part.mostSamples);
+  totals.samples += part.samples;
+  totals.rays += part.rays;
+  totals.hitPixels += part.hitPixels;
+  totals.emptyPixels += part.emptyPixels;
+  totals.nonfinitePixels += part.nonfinitePixels;
+  totals.budgetHits += part.budgetHits;
+  totals.cut += part.cut;
+}
+
+/// An image of all parts with the channels of one of them, black so far.
+Image imageOfAll(const Image& part, glm::ivec2 size) {
+  Image all{size.x, size.y, part.channels, {}, {}};
+  all.values.resize(size_t(size.x) * size_t(size.y) * all.channelCount());
+  return all;
+}
+
+/// Adds a part to the picture of all of them, which is made by the first.
+void addPart(Image& picture, Image part, const Region& place, const Region& all) {
+  if (place == all) {
+    picture = std::move(part);
+    return;
+  }
+  if (picture.values.empty()) picture = imageOfAll(part, all.size);
+  paste(part, place.corner - all.corner, picture);
+}
+
+}  // namespace
+
+void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film) {
+  if (film.budgetHits > 0) {
+    throw RenderError("the driver ended loops early in " + std::to_string(film.budgetHits) +
+                      " pixels (budget_hits); the picture would be wrong, so none is written");
+  }
+  if (film.emptyPixels > 0) {
+    say(options, "warning: stopped before the first sample of " + std::to_string(film.emptyPixels) +
+                     " pixels; they are black");
+  }
+  if (film.nonfinitePixels > 0) {
+    say(options, "warning: samples of " + std::to_string(film.nonfinitePixels) +
+                     " pixels were not finite and count as black (nonfinite_pixels)");
+  }
+}
+
+DrawingPlan planDrawing(const PictureJob& job, Statistics& stats) {
+  std::vector<Region> parts = partsOf(job.options, job.loaded);
+  Film film(parts.front().size);
+  const View view = viewOf(job.loaded, parts.front());
+  std::vector<double> layerSeconds = measureFeatures(job, film, view, stats);
+  stats.parts = int(parts.size());
+  stats.compileMs += job.tracer.renderer->compile(job.tracer.variant, film, view);
+  return {std::move(parts), std::move(film), std::move(layerSeconds)};
+}
+
+namespace {
+
+/// One part on its way.
+struct PartRun {
+  const PictureJob& job;
+  const View view;
+  Share share;
+  double spentMs;  ///< by the parts before
+  Statistics& stats;
+  Renderer::Progress progress;
+  /// Writes a checkpoint of the part as it is.
+  std::function<void(std::vector<FilmState>, const std::vector<FilmPixels>&, const AdaptiveState&)> keep;
+  CheckpointKeeper& keeper;
+  const Checkpoint* from;  ///< to go on from; may be none
+
+  /// Goes on with the progress, and keeps a checkpoint where one is due or the work is to stop.
+  template <typename State>
+  Renderer::Progress keeping(const State& state) const {
+    return [this, state](double fraction) {
+      const bool goOn = progress(fraction);
+      if (keeper.isDue() || (!goOn && keeper.isKept())) state();
+      return goOn;
+    };
+  }
+};
+
+/// Until the goal, of which a part of the picture gets its share of the time that is left.
+Drawing drawAdaptively(const PartRun& part, glm::ivec2 size) {
+  const RenderOptions& options = part.job.options;
+  const double left = std::max(0.001, options.seconds - 0.001 * part.spentMs);
+  const double seconds = options.seconds > 0.0 ? left * part.share.own / (1.0 - part.share.done) : 0.0;
+  AdaptiveRun run(size);
+  if (part.from != nullptr) {
+    for (size_t half : {0, 1}) run.films[half].load(part.from->films[half]);
+    run.state = part.from->adaptive;
+  }
+  const auto keep = [&] { part.keep({run.films[0].save(), run.films[1].save()}, {}, run.state); };
+  AdaptivePicture picture =
+      renderAdaptively(*part.job.tracer.renderer, run, part.view, {options.noise, seconds, options.spp},
+                       part.stats.times, part.keeping(keep));
+  part.stats.complete = !picture.stopped;
+  const AdaptiveStatistics own{options.noise,  options.seconds, picture.error, picture.share,
+                               picture.rounds, picture.known,   picture.black};
+  part.stats.adaptive = part.stats.adaptive ? joined(*part.stats.adaptive, own) : own;
+  return {std::move(picture.pixels), std::move(picture.variance), {}};
+}
+
+/// Up to --spp, on an empty film.
+Drawing drawEvenly(const PartRun& part, Film film) {
+  SampledFilm sampled{std::move(film), {}, 0};
+  if (part.from != nullptr) {
+    const FilmState& state = part.from->films.front();
+    sampled.film.load(state);
+    sampled.looks = part.from->looks;
+    sampled.fewest =
+        int(std::min<uint32_t>(totalsOf(sampled.film.read()).fewestSamples, uint32_t(part.job.options.spp)));
+  }
+  const auto keep = [&] { part.keep({sampled.film.save()}, sampled.looks, {}); };
+  Drawing drawing;
+  part.stats.complete = drawAllSamples(*part.job.tracer.renderer, sampled, part.job.options, part.view,
+                                       part.stats.times, part.keeping(keep), drawing);
+  return drawing;
+}
+
+/// Without the numbers of samples, where nobody has asked for them and all are the same.
+Image withoutNeedlessCounts(Image picture, const RenderOptions& options, const Statistics& stats) {
+  const bool needed = stats.adaptive || !stats.complete || withGuides(options).aovSamples;
+  if (needed || !findChannel(picture, "samples.Y")) return picture;
+  std::vector<std::string> channels = picture.channels;
+  std::erase(channels, "samples.Y");
+  return onlyChannels(picture, channels);
+}
+
+}  // namespace
+
+Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, CheckpointKeeper& keeper) {
+  const RenderOptions& options = job.options;
+  std::optional<Checkpoint> from = readCheckpoint(job, plan);
+  const std::string text = keeper.isKept() ? jobText(job, plan) : "";
+  const std::vector<Share> shares = sharesOf(plan.parts, job.loaded.region.size);
+  const double secondsAfter = secondsOfFeatures(plan.layerSeconds, options);
+  // merge needs the samples of each pixel where these differ.
+  const bool keepsCounts = formatOfName(options.output) == ImageFormat::OpenExr && !showsColors(options);
+  ProgressBar bar("rendering", options.quiet);
+  Image picture;
+  double spentMs = 0.0;
+  size_t i = 0;
+  if (from) {
+    i = size_t(from->part);
+    picture = std::move(from->picture);
+    spentMs = restoreMeasured(from->statistics, stats);
+  }
+  for (; i < plan.parts.size() && stats.complete; ++i) {
+    const Region& region = plan.parts[i];
+    Statistics before;
+    before.film = stats.film;
+    before.adaptive = stats.adaptive;
+    before.times.renderMs = spentMs;
+    const double timedMs = stats.times.renderMs;
+    const double begun = steadyMilliseconds();
+    const auto progress = [&](double fraction) {
+      bar.show(shares[i].of(fraction), secondsAfter);
+      return interrupts() == 0;
+    };
+    const auto keep = [&](std::vector<FilmState> films, const std::vector<FilmPixels>& looks,
+                          const AdaptiveState& state) {
+      RenderTimes now = stats.times;
+      now.renderMs = timedMs + steadyMilliseconds() - begun;
+      keeper.write({text, measuredText(before, now), picture, int(i), std::move(films), looks, state});
+    };
+    const PartRun part{job,    viewOf(job.loaded, region), shares[i], spentMs, stats, progress, keep,
+                       keeper, from ? &*from : nullptr};
+    const bool isFirst = region == plan.parts.front();
+    const Drawing drawing = isAdaptive(options)
+                                ? drawAdaptively(part, region.size)
+                                : drawEvenly(part, isFirst ? std::move(plan.film) : Film(region.size));
+    from.reset();
+    add(stats.film, totalsOf(drawing.pixels), isFirst);
+    spentMs = stats.times.renderMs;
+    const bool counted = keepsCounts && (plan.parts.size() > 1 || stats.adaptive || !stats.complete);
+    addPart(picture, pictureOf(drawing, options, job.tracer.variant, counted), region, job.loaded.region);
+  }
+  bar.clear();
+  for (; i < plan.parts.size(); ++i) {
+    stats.film.emptyPixels += uint64_t(areaOf(plan.parts[i].size));
+    stats.film.fewestSamples = 0;
+  }
+  return withoutNeedlessCounts(std::move(picture), options, stats);
+}
+
+void addFeatures(Image& picture, const PictureJob& job, const DrawingPlan& plan, Statistics& stats) {
+  const int drawn = int(std::max(1u, stats.adaptive ? stats.film.fewestSamples : stats.film.mostSamples));
+  const int all = stats.complete ? drawn : std::min(drawn, kFewLayerSamples);
+  const int before = interrupts();
+  const std::vector<Share> shares = sharesOf(plan.parts, job.loaded.region.size);
+  std::span<const double> secondsPerSample = plan.layerSeconds;
+  for (const ShaderVariant& variant : job.tracer.features) {
+    secondsPerSample = secondsPerSample.subspan(1);
+    const int samples = samplesOfLayer(job.options, variant.feature, all);
+    const double after = all * std::accumulate(secondsPerSample.begin(), secondsPerSample.end(), 0.0);
+    ProgressBar bar("layer " + std::string(rowOf(variant.feature).name), job.options.quiet);
+    Image layer;
+    FilmTotals totals;
+    for (size_t i = 0; i < plan.parts.size(); ++i) {
+      const Region& part = plan.parts[i];
+      LayerDraw own = drawLayer(part.size, *job.tracer.renderer, variant, viewOf(job.loaded, part), samples,
+                                [&](double fraction) {
+                                  bar.show(shares[i].of(fraction), after);
+                                  return interrupts() == before;
+                                });
+      stats.complete = stats.complete && own.complete;
+      stats.compileMs += own.compileMs;
+      stats.featureMs += own.drawMs;
+      add(totals, own.totals, i == 0);
+      addPart(layer, std::move(own.image), part, job.loaded.region);
+    }
+    bar.clear();
+    appendChannels(picture, layer, layer.channels);
+    sayWhatWentWrong(job.options, totals);
+  }
+}
+
+}  // namespace fragtrace

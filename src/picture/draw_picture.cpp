@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "picture/draw_picture.h"
+
+#include <algorithm>
+
+#include "film/noise.h"
+#include "image/channels.h"
+#include "picture/denoising.h"
+#include "picture/picture_file.h"
+#include "render/denoise.h"
+
+namespace fragtrace {
+
+bool looksOnTheWay(const RenderOptions& options) {
+  constexpr int kFewest = 4;
+  const RenderOptions drawn = withGuides(options);
+  return drawn.aovVariance && hasGuides(drawn) && options.spp >= kFewest;
+}
+
+bool drawAllSamples(Renderer& renderer, SampledFilm& sampled, const RenderOptions& options, const View& view,
+                    RenderTimes& times, const Renderer::Progress& progress, Drawing& drawing) {
+  const bool looks = looksOnTheWay(options);
+  std::vector<int> steps;
+  if (looks) steps = {options.spp / 4, options.spp / 2};
+  steps.push_back(options.spp);
+  int from = sampled.fewest;
+  for (size_t step = sampled.looks.size(); step < steps.size(); ++step) {
+    const int to = steps[step];
+    const auto partly = [&](double fraction) {
+      return progress((from + fraction * (to - from)) / options.spp);
+    };
+    if (!renderer.addSamples(sampled.film, view, from, to, times, partly)) {
+      drawing.pixels = sampled.film.read();
+      return false;
+    }
+    from = to;
+    if (to < options.spp) sampled.looks.push_back(sampled.film.read());
+  }
+  drawing.pixels = sampled.film.read();
+  if (looks) drawing.observed = observedVariance(sampled.looks[0], sampled.looks[1], drawing.pixels);
+  return true;
+}
+
+Image pictureOf(const Drawing& drawing, const RenderOptions& options, const ShaderVariant& variant,
+                bool withSamples) {
+  const RenderOptions drawn = withGuides(options);
+  Image picture = shownPicture(options, variant, drawing.pixels,
+                               {!options.background, drawn.aovSamples || withSamples, drawn.aovVariance},
+                               drawing.variance);
+  if (drawing.observed.empty()) return picture;
+  const auto observed = [&](size_t i) { return drawing.observed[i]; };
+  appendChannels(picture, imageOfNumbers(drawing.pixels.size, observed), {kObservedChannel});
+  return picture;
+}
+
+int samplesOfLayer(const RenderOptions& options, Feature feature, int ofPicture) {
+  if (feature == Feature::Guides) return std::min(ofPicture, kFewLayerSamples);
+  const bool asked = std::ranges::find(options.aovFeatures, feature) != options.aovFeatures.end();
+  return asked ? ofPicture : std::min(ofPicture, kFewLayerSamples);
+}
+
+LayerDraw drawLayer(glm::ivec2 size, Renderer& renderer, const ShaderVariant& variant, const View& view,
+                    int samples, const Renderer::Progress& progress) {
+  LayerDraw layer;
+  RenderTimes times;
+  Film film(size);
+  if (renderer.knows(variant))
+    renderer.use(variant);
+  else
+    layer.compileMs = renderer.compile(variant, film, view);
+  layer.complete = renderer.addSamples(film, view, 0, samples, times, progress);
+  layer.drawMs = times.renderMs;
+  if (variant.feature == Feature::Guides) {
+    Film::Guides guides = film.readGuides();
+    layer.totals = totalsOf(guides.counts);
+    layer.image = std::move(guides.layers);
+    return layer;
+  }
+  const FilmPixels pixels = film.read();
+  layer.totals = totalsOf(pixels);
+  const FeatureRow& row = rowOf(variant.feature);
+  std::vector<std::string> names = {"R", "G", "B"};
+  names.resize(row.channels.size());
+  layer.image = onlyChannels(imageOf(pixels, {}), names);
+  for (size_t c = 0; c < names.size(); ++c)
+    layer.image.channels[c] = std::string(row.name) + "." + row.channels[c];
+  return layer;
+}
+
+LayerDraw addLayer(Image& picture, Renderer& renderer, const ShaderVariant& variant, const View& view,
+                   int samples, const Renderer::Progress& progress) {
+  LayerDraw layer = drawLayer({picture.width, picture.height}, renderer, variant, view, samples, progress);
+  appendChannels(picture, layer.image, layer.image.channels);
+  return layer;
+}
+
+}  // namespace fragtrace

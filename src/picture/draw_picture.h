@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Drawing one whole picture, as `render` does: its samples, with the looks at the film that a filter wants,
+// and its layers of first hits.
+#pragma once
+
+#include <vector>
+
+#include "image/image.h"
+#include "render/film.h"
+#include "session/setup.h"
+#include "stage/render_options.h"
+
+namespace fragtrace {
+
+/// What was drawn, before it is a picture.
+struct Drawing {
+  FilmPixels pixels;
+  std::vector<double> variance;  ///< a better estimate than the pixels' own; may be empty
+  std::vector<double> observed;  ///< observedVariance(); may be empty
+};
+
+/// A film that gets samples, and what was seen of it on the way.
+struct SampledFilm {
+  Film film;
+  std::vector<FilmPixels> looks;  ///< at a quarter and at half of the samples
+  int fewest = 0;                 ///< samples that each pixel has
+};
+
+/// Whether the film is looked at on the way, which tells how fast the sequence converges: where the picture
+/// is filtered, or a file of it may be (`--aov denoising`).
+bool looksOnTheWay(const RenderOptions& options);
+
+/// Adds samples up to options.spp and reads the film. False when progress stopped it.
+bool drawAllSamples(Renderer& renderer, SampledFilm& sampled, const RenderOptions& options, const View& view,
+                    RenderTimes& times, const Renderer::Progress& progress, Drawing& drawing);
+
+/// The drawing as a picture, with all that the options ask for and their filter needs but layers of first
+/// hits; with samples.Y also where it is wanted without being asked for.
+Image pictureOf(const Drawing& drawing, const RenderOptions& options, const ShaderVariant& variant,
+                bool withSamples = false);
+
+/// Samples of layers that nobody has asked for, or that somebody waits for.
+inline constexpr int kFewLayerSamples = 16;
+
+/// Samples of a layer of a picture of so many: a filter needs no more than a few.
+int samplesOfLayer(const RenderOptions& options, Feature feature, int ofPicture);
+
+/// A layer, what it took and counted.
+struct LayerDraw {
+  Image image;  ///< with the names that its channels have in a file
+  bool complete = true;
+  double compileMs = 0.0;
+  double drawMs = 0.0;
+  FilmTotals totals;
+};
+
+/// Draws a layer of first hits; an incomplete one when progress stopped it. The renderer goes on with that
+/// variant. Compiles what it does not know yet.
+LayerDraw drawLayer(glm::ivec2 size, Renderer& renderer, const ShaderVariant& variant, const View& view,
+                    int samples, const Renderer::Progress& progress = Renderer::toTheEnd);
+
+/// The same, appended to a picture of that size.
+LayerDraw addLayer(Image& picture, Renderer& renderer, const ShaderVariant& variant, const View& view,
+                   int samples, const Renderer::Progress& progress = Renderer::toTheEnd);
+
+}  // namespace fragtrace

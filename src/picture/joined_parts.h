@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Parts of one render, drawn with other samples each, joined into one picture.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "picture/provenance.h"
+
+namespace fragtrace {
+
+/// A picture as it was drawn (asDrawn), with layers of all its samples. Where pixels differ in their numbers
+/// of samples, samples.Y is one of the layers.
+struct Part {
+  std::filesystem::path path;
+  Image image;
+  Provenance made;
+};
+
+/// Throws InputError naming the file when it is no part of a render, or does not say how many samples its
+/// pixels have.
+Part readPart(const std::filesystem::path& path);
+
+/// One part with the samples of all. Each pixel's means are weighted by its samples; counts are added;
+/// variances of the means are joined as if all samples had been seen (Chan, Golub and LeVeque, 1979), and
+/// those that were observed as those of parts that know nothing of each other. The same whatever the order of
+/// the parts. Throws InputError naming the files when two of them are not of one picture or hold the same
+/// sample.
+Part joinedParts(std::vector<Part> parts);
+
+/// What a picture consists of, in a line: numbers of samples, seeds, and samples that are missing in between.
+std::string describeParts(size_t count, const Part& joined);
+
+}  // namespace fragtrace

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// What a rendered .exr says of its own making, so that parts of one render can be joined.
+#pragma once
+
+#include <compare>
+#include <vector>
+
+#include "image/image.h"
+#include "session/setup.h"
+
+namespace fragtrace {
+
+/// Samples of the sequence of a seed: all that any pixel may have.
+struct SampleRange {
+  uint32_t seed = 0;
+  int64_t first = 0;
+  int64_t count = 0;
+
+  bool operator==(const SampleRange&) const = default;
+  auto operator<=>(const SampleRange&) const = default;
+};
+
+/// Written as the string attributes fragtrace:settings, :seed, :sampleOffset, :samples, :uniform and, where
+/// these do not tell all ranges, :ranges, a JSON array of [seed, first, count].
+struct Provenance {
+  std::string settings;  ///< JSON of all that the picture depends on, but for the samples
+  uint32_t seed = 0;
+  int64_t sampleOffset = 0;
+  int64_t samples = 0;  ///< of every pixel; their mean, rounded, where they differ
+  bool uniform = true;  ///< every pixel has the same samples: neither adaptive nor interrupted
+  std::vector<SampleRange> ranges =
+      {};  ///< in ascending order; none: the one that seed, offset and samples say
+};
+
+/// Of an .exr whose render was interrupted: "1".
+inline constexpr const char* kInterruptedAttribute = "fragtrace:interrupted";
+
+/// The ranges as they are, or as the other members say.
+std::vector<SampleRange> rangesOf(const Provenance& provenance);
+
+/// The same samples in as few ranges as can be. Throws std::invalid_argument when two of them overlap.
+std::vector<SampleRange> joinedRanges(std::vector<SampleRange> ranges);
+
+/// The settings of a render as JSON, in one line.
+std::string settingsText(const RenderOptions& options, const LoadedScene& loaded, const Tracer& tracer);
+
+/// What differs in two settings: "bounces 16 and 4, ...".
+std::string differenceOf(const std::string& settings, const std::string& others);
+
+void setProvenance(Image& image, const Provenance& provenance);
+
+/// Throws InputError naming the file when an attribute is missing or is not what it should be.
+Provenance provenanceOf(const Image& image, const std::filesystem::path& path);
+
+}  // namespace fragtrace

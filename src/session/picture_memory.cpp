@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "session/picture_memory.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "errors.h"
+#include "film/film_pixels.h"
+#include "image/channels.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// A pixel of the film. Three images of the device, a copy of these, and the pixels made of it: what 16384 x
+/// 2000 were seen to take. Layers are drawn on one more film, adaptive pictures on two, which are joined.
+uint64_t bytesOfFilm(const RenderOptions& options) {
+  constexpr uint64_t kOne = 48 + 48 + sizeof(FilmPixel);
+  constexpr uint64_t kWithLayers = kOne + 48 + sizeof(FilmPixel);
+  constexpr uint64_t kAdaptive = kOne + 96 + 2 * sizeof(FilmPixel) + 2 * sizeof(double);
+  if (options.noise > 0.0 || options.seconds > 0.0) return kAdaptive;
+  return options.aovFeatures.empty() ? kOne : kWithLayers;
+}
+
+/// A pixel of what is filtered. Textures, what two of them are made of, the film as it was on the way, the
+/// picture with its layers twice, and the colours.
+uint64_t bytesOfFilter(const RenderOptions& options) {
+  constexpr uint64_t kDenoised = 7 * 16 + 20 + 20 + 2 * sizeof(FilmPixel) + 8 + 2 * 14 * 4 + 12;
+  return options.denoise == Denoise::None ? 0 : kDenoised;
+}
+
+/// A pixel of a picture that is drawn in parts: the picture, and what encoding makes of it.
+uint64_t bytesOfPicture(const RenderOptions& options) { return 4 * sizeof(float) * channelsOf(options); }
+
+uint64_t pixelsOf(glm::ivec2 size) { return uint64_t(size.x) * uint64_t(size.y); }
+
+[[noreturn]] void refuse(glm::ivec2 size, uint64_t limit, uint64_t bytes, const char* how) {
+  try {
+    MemoryBudget(limit).take(bytes);
+    throw std::logic_error("there is memory enough");
+  } catch (const std::runtime_error& error) {
+    throw UsageError("a picture of " + std::to_string(size.x) + " x " + std::to_string(size.y) + " pixels" +
+                     how + " " + error.what());
+  }
+}
+
+}  // namespace
+
+size_t channelsOf(const RenderOptions& options) {
+  size_t channels =
+      3 + size_t(!options.background) + size_t(options.aovSamples) + size_t(options.aovVariance);
+  for (const Feature feature : options.aovFeatures)
+    channels += feature == Feature::Guides ? kGuideChannels.size() + 1 : rowOf(feature).channels.size();
+  if (options.denoise != Denoise::None) channels += 3;  // the noisy picture
+  return channels;
+}
+
+void checkFilmMemory(const RenderOptions& options, glm::ivec2 size) {
+  const uint64_t bytes = pixelsOf(size) * (bytesOfFilm(options) + bytesOfFilter(options));
+  if (bytes > options.limits.memoryBytes) refuse(size, options.limits.memoryBytes, bytes, "");
+}
+
+uint64_t mostFilmPixels(const RenderOptions& options, glm::ivec2 size) {
+  constexpr uint64_t kSmall = 1 << 16;
+  const uint64_t pixels = pixelsOf(size);
+  const uint64_t limit = options.limits.memoryBytes;
+  const uint64_t film = bytesOfFilm(options);
+  const uint64_t filter = bytesOfFilter(options);
+  if (pixels * (film + filter) <= limit) return pixels;
+  const uint64_t picture = pixels * (bytesOfPicture(options) + filter);
+  const uint64_t left = picture < limit ? (limit - picture) / film : 0;
+  if (left >= std::min(pixels, kSmall)) return left;
+  refuse(size, limit, picture + std::min(pixels, kSmall) * film, ", drawn in parts,");
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""`render --checkpoint` and `--resume`: a render that was killed or interrupted ends with the picture of an unbroken one."""
+import random
+import signal
+import subprocess
+import time
+
+from support import FRAGTRACE, SCENES, Case, Exr, main, run
+
+BALL = SCENES / "room-ball.gltf"
+BOX = SCENES / "cornell-box.gltf"
+SIZE = ["--resolution", "100,80"]
+
+
+class Broken(Case):
+    def setUp(self):
+        super().setUp()
+        self.output = self.folder / "x.exr"
+        self.checkpoint = self.folder / "x.exr.checkpoint"
+
+    def arguments(self, *options, scene=BALL):
+        return ["render", str(scene), "-o", str(self.output), "--quiet", *map(str, options)]
+
+    def unbroken(self, *options, scene=BALL):
+        started = time.monotonic()
+        self.assertEqual(run(*self.arguments(*options, scene=scene)).returncode, 0)
+        seconds = time.monotonic() - started
+        picture = self.output.read_bytes()
+        self.output.unlink()
+        return picture, seconds
+
+    def broken(self, seconds, *options, scene=BALL, by=signal.SIGKILL):
+        process = subprocess.Popen([FRAGTRACE, *self.arguments("--checkpoint", 0.1, *options, scene=scene)], stderr=subprocess.PIPE)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        try:
+            process.wait(seconds)
+        except subprocess.TimeoutExpired:
+            process.send_signal(by)
+        return process.wait(60)
+
+    def resumed(self, *options, scene=BALL):
+        result = run(*self.arguments("--resume", *options, scene=scene))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertFalse(self.checkpoint.exists())
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir() if p.name != ".x.exr.checkpoint.part"), ["x.exr"])
+        return self.output.read_bytes()
+
+    def equal_after_kills(self, kills, dice, *options, scene=BALL):
+        """Each render is killed twice on its way; how many left a checkpoint that was not of an earlier one."""
+        whole, seconds = self.unbroken(*options, scene=scene)
+        kept = 0
+        for _ in range(kills // 2):
+            for resume in ([], ["--resume"]):
+                self.broken(dice.uniform(0.2, 0.9) * seconds, *options, *resume, scene=scene)
+                kept += self.checkpoint.exists()
+            self.assertEqual(self.resumed(*options, scene=scene), whole)
+            self.output.unlink()
+        return kept
+
+
+class Checkpoints(Broken):
+    def test_killed_and_resumed(self):
+        self.assertGreater(self.equal_after_kills(2, random.Random(3), *SIZE, "--spp", 150), 0)
+
+    def test_an_interrupted_render_writes_what_it_has_and_goes_on(self):
+        options = [*SIZE, "--spp", 150, "--aov", "denoising"]
+        whole, seconds = self.unbroken(*options)
+        self.assertEqual(self.broken(0.6 * seconds, *options, by=signal.SIGINT), 130)
+        partly = Exr(self.output)
+        self.assertEqual(partly.texts["fragtrace:interrupted"], "1")
+        self.assertTrue(self.checkpoint.exists())
+        self.assertEqual(self.resumed(*options), whole)
+        self.assertNotIn("fragtrace:interrupted", Exr(self.output).texts)
+
+    def test_adaptive(self):
+        options = [*SIZE, "--noise", 0.06]
+        self.assertGreater(self.equal_after_kills(2, random.Random(5), *options, scene=BOX), 0)
+
+    def test_drawn_in_parts(self):
+        options = ["--resolution", "400,300", "--spp", 60, "--memory-limit", "33MB", "--aov", "albedo"]
+        self.assertGreater(self.equal_after_kills(2, random.Random(9), *options, scene=BOX), 0)
+
+    def test_without_a_checkpoint_it_begins_anew_or_is_finished(self):
+        options = ["--resolution", "16,16", "--spp", 2, "--resume"]
+        said = run(*[a for a in self.arguments(*options, scene=BOX) if a != "--quiet"])
+        self.assertEqual(said.returncode, 0)
+        self.assertIn("there is no " + str(self.checkpoint) + ": the picture begins anew", said.stderr)
+        before = self.output.stat()
+        said = run(*[a for a in self.arguments(*options, scene=BOX) if a != "--quiet"])
+        self.assertEqual((said.returncode, said.stdout), (0, ""))
+        self.assertIn("x.exr is finished", said.stderr)
+        self.assertEqual(self.output.stat().st_mtime_ns, before.st_mtime_ns)
+
+    def test_other_settings_are_named(self):
+        settings = {"--resolution": "120,90", "--spp": 100000, "--bounces": 16, "--seed": 0}
+        options = [word for setting in settings.items() for word in setting]
+        self.assertEqual(self.broken(1.5, *options, by=signal.SIGINT), 130)
+        kept = self.checkpoint.read_bytes()
+        for other, says in (({"--spp": 100001}, "spp 100000 and 100001"), ({"--bounces": 3}, "bounces 16 and 3"), ({"--seed": 5}, "seed 0 and 5"),
+                            ({"--resolution": "90,120"}, "width 120 and 90")):
+            changed = [word for setting in (settings | other).items() for word in setting]
+            self.fails(2, *self.arguments(*changed, "--resume"), says=["--resume", self.checkpoint, "another render", says])
+        self.assertEqual(self.checkpoint.read_bytes(), kept)
+
+    def test_broken_checkpoints_are_refused(self):
+        options = ["--resolution", "20,10", "--spp", 1000000]
+        self.assertEqual(self.broken(1, *options, by=signal.SIGINT), 130)
+        good = self.checkpoint.read_bytes()
+        end = good.index(b"{")
+        for bad in (b"", b"x", good[:-1], good + b"x", good[:end + 20], good.replace(b"checkpoint 1", b"checkpoint 9"),
+                    good.replace(b'"size":[20,10]', b'"size":[10,20]'), good.replace(b'"part":0', b'"part":7')):
+            self.assertNotEqual(bad, good)
+            self.checkpoint.write_bytes(bad)
+            self.fails(3, *self.arguments(*options, "--resume"), says=[self.checkpoint])
+        self.checkpoint.unlink()
+        self.output.unlink()
+
+    def test_a_checkpoint_that_cannot_be_written_is_said_before_the_first_sample(self):
+        self.output = self.folder / "none/x.exr"
+        self.fails(1, *self.arguments("--checkpoint", 1, *SIZE), says=["none"])
+        self.fails(2, "render", BOX, "-o", self.folder / "x.exr", "--checkpoint", "0", says=["--checkpoint"])
+
+
+class Kills(Broken):
+    def test_twenty_kills(self):
+        kept = self.equal_after_kills(20, random.Random(20), *SIZE, "--spp", 300)
+        print(f"{kept} of 20 killed renders left a checkpoint")
+        self.assertGreater(kept, 10)
+
+
+if __name__ == "__main__":
+    main()
