@@ -15,15 +15,17 @@
 #include "image/format.h"
 #include "options/config_file.h"
 #include "options/parse_render.h"
+#include "options/sequence_options.h"
 #include "picture/checkpoints.h"
 #include "picture/denoising.h"
 #include "picture/draw_parts.h"
 #include "picture/picture_file.h"
 #include "picture/provenance.h"
+#include "picture/sequence.h"
 #include "render/adaptive.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
-#include "session/setup.h"
+#include "session/tracer.h"
 
 namespace fragtrace {
 
@@ -115,11 +117,6 @@ void sayWhatIsChosen(const RenderOptions& options, const Context& context, const
   if (tracer.variant.clampIndirect) say(options, "indirect light is clamped (--clamp-indirect): biased");
 }
 
-int leaveUnwritten(const RenderOptions& options) {
-  say(options, "interrupted, nothing is written");
-  return kInterruptedStatus;
-}
-
 /// Throws RenderError when the driver left out samples without a word.
 void checkSamples(const RenderOptions& options, const Statistics& stats) {
   if (!stats.complete || stats.adaptive || stats.film.fewestSamples >= unsigned(options.spp)) return;
@@ -127,42 +124,42 @@ void checkSamples(const RenderOptions& options, const Statistics& stats) {
                     std::to_string(options.spp) + " samples and reported no error; no picture is written");
 }
 
-std::unique_ptr<Context> openContext(const RenderOptions& options, const LoadedScene& loaded,
-                                     Statistics& stats) {
-  const bool quick = preferQuickCompilation(pathsOf(options, loaded.region.size));
+/// What pictures share.
+struct Device {
+  std::unique_ptr<Context> context;
+  std::optional<DebugLog> driverLog;  ///< of the context
+  std::optional<OidnLibrary> oidn;
+};
+
+/// For so many camera paths in all.
+void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats) {
+  const bool quick = preferQuickCompilation(paths);
   PhaseTimer timer("context");
-  auto context = makeContext(options.backend);
+  device.context = makeContext(options.backend);
+  device.driverLog.emplace();
   stats.phases.push_back(timer.end());
-  stats.quickCompilation = quick && context->software;
-  return context;
+  stats.quickCompilation = quick && device.context->software;
 }
 
-int runRender(const RenderOptions& asked) {
-  checkOutputs(outputsOf(asked), inputsOf(asked));
-  if (isFinished(asked)) return 0;
-  RenderOptions options = asked;
-  const std::optional<OidnLibrary> oidn = openDenoiser(options);
-  Statistics stats;
+void sayDriverLog(const RenderOptions& options, Device& device) {
+  for (const std::string& message : device.driverLog->take()) say(options, "driver: " + message);
+}
 
-  // Step: load. The image library opens meanwhile, in its own process, when the output needs it.
-  if (options.output.extension() != ".pfm") startImageProcess();
-  const RenderOptions drawn = withGuides(options);
-  LoadedScene loaded = loadScene(drawn, stats, {}, FilmOf::Part);
+/// What becomes of a picture: it is written, written as far as it was drawn, or not at all.
+enum class Outcome { Complete, Partial, None };
 
-  // Step: the shader variant, and the arrays that it reads.
-  const auto context = openContext(options, loaded, stats);
-  DebugLog driverLog;
-  const Tracer tracer = makeTracer(*context, loaded, drawn, stats);
-  const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
-  releaseGeometry(loaded);
-  const PictureJob job{options, loaded, tracer};
+/// From the scene on the device to the files. `boxes` are drawn over it.
+Outcome drawAndWrite(const PictureJob& asked, const std::vector<PictureLine>& boxes, Device& device,
+                     Statistics& stats) {
+  RenderOptions options = asked.options;
+  const PictureJob job{options, asked.loaded, asked.tracer, asked.showsProgress};
   PhaseTimer firstDraw("first draw");
   DrawingPlan plan = planDrawing(job, stats);
   stats.phases.push_back(firstDraw.end());
-  sayWhatIsChosen(options, *context, tracer, stats);
+  sayWhatIsChosen(options, *device.context, job.tracer, stats);
 
   // Step: draw.
-  checkPictureWritable(options, loaded.region.size);
+  checkPictureWritable(options, job.loaded.region.size);
   countInterrupts();
   PhaseTimer drawTimer("draw");
   CheckpointKeeper keeper(options);
@@ -170,23 +167,22 @@ int runRender(const RenderOptions& asked) {
   if (!isUniform(stats)) options.aovSamples = true;  // merge needs them
   stats.phases.push_back(drawTimer.end());
   stats.spp = options.spp;
-  const auto sayDriverLog = [&] {
-    for (const std::string& message : driverLog.take()) say(options, "driver: " + message);
-  };
-  sayDriverLog();
-  if (interrupts() > 1) return leaveUnwritten(options);
+  sayDriverLog(options, device);
+  // Who goes on with a sequence later takes a picture that is there for a whole one.
+  const int most = asked.showsProgress ? 1 : 0;
+  if (interrupts() > most) return Outcome::None;
   sayWhatWentWrong(options, stats.film);
-  sayWhatIsNotSeen(options, loaded, tracer.variant, stats);
+  sayWhatIsNotSeen(options, job.loaded, job.tracer.variant, stats);
   checkSamples(options, stats);
 
   // Step: write. What has been drawn is not lost from here on.
   try {
     addFeatures(picture, job, plan, stats);
-    denoise(picture, options, oidn, stats);
-    sayDriverLog();
-    if (interrupts() > 1) return leaveUnwritten(options);
-    setProvenanceOf(picture, options, loaded, tracer, stats);
-    picture.placement = viewOf(loaded, loaded.region).placement;
+    denoise(picture, options, device.oidn, stats);
+    sayDriverLog(options, device);
+    if (interrupts() > most) return Outcome::None;
+    setProvenanceOf(picture, options, job.loaded, job.tracer, stats);
+    picture.placement = viewOf(job.loaded, job.loaded.region).placement;
     PhaseTimer writing("write");
     writePicture(options, picture, boxes);
     stats.phases.push_back(writing.end());
@@ -196,7 +192,132 @@ int runRender(const RenderOptions& asked) {
   if (stats.complete) keeper.remove();
   if (!options.statsFile.empty()) replaceText(options.statsFile, statisticsText(stats));
   sayWhatWasDone(options, stats);
-  return leave(stats.complete ? 0 : kInterruptedStatus);
+  return stats.complete ? Outcome::Complete : Outcome::Partial;
+}
+
+int runRender(const RenderOptions& asked) {
+  checkOutputs(outputsOf(asked), inputsOf(asked));
+  if (isFinished(asked)) return 0;
+  RenderOptions options = asked;
+  Device device;
+  device.oidn = openDenoiser(options);
+  Statistics stats;
+
+  // Step: load. The image library opens meanwhile, in its own process, when the output needs it.
+  if (options.output.extension() != ".pfm") startImageProcess();
+  const RenderOptions drawn = withGuides(options);
+  LoadedScene loaded = loadScene(drawn, stats, {}, FilmOf::Part);
+
+  // Step: the shader variant, and the arrays that it reads.
+  openContext(options, pathsOf(options, loaded.region.size), device, stats);
+  const Tracer tracer = makeTracer(*device.context, loaded, drawn, stats);
+  const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
+  releaseGeometry(loaded);
+
+  const Outcome outcome = drawAndWrite({options, loaded, tracer}, boxes, device, stats);
+  if (outcome == Outcome::None) {
+    say(options, "interrupted, nothing is written");
+    return kInterruptedStatus;
+  }
+  return leave(outcome == Outcome::Complete ? 0 : kInterruptedStatus);
+}
+
+/// What the pictures of a sequence share, and what the one before leaves to the next.
+struct SequenceRun {
+  Device device;
+  Tracer tracer;
+  std::optional<LoadedScene> loaded;  ///< as of the picture before
+  Statistics prepared;                ///< of a turntable's scene
+};
+
+/// The scene as the picture shows it, on the device. A turntable loads it once; else the environment stays.
+Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOptions& sequence) {
+  const RenderOptions& options = frame.options;
+  const RenderOptions drawn = withGuides(options);
+  const bool turntable = sequence.turntable > 0;
+  const bool first = run.tracer.renderer == nullptr;
+  if (!first && turntable) return run.prepared;
+  Statistics stats;
+  std::optional<Environment> map;
+  if (run.loaded && run.loaded->environment.kind == Surroundings::Map)
+    map = std::move(run.loaded->environment);
+  run.loaded.reset();
+  run.loaded = loadScene(drawn, stats, {}, FilmOf::Part, std::move(map));
+  if (first) {
+    if (!turntable && run.loaded->scene.animationNames.empty())
+      throw UsageError("--frames: " + options.scene.string() + " has no animation");
+    openContext(options, frameCount(sequence) * pathsOf(options, run.loaded->region.size), run.device, stats);
+    run.tracer = makeTracer(*run.device.context, *run.loaded, drawn, stats);
+    run.prepared = stats;
+    run.prepared.phases.clear();
+  } else {
+    replaceScene(run.tracer, *run.device.context, *run.loaded, drawn, stats);
+  }
+  return stats;
+}
+
+Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOptions& sequence) {
+  const RenderOptions& options = frame.options;
+  checkOutputs(outputsOf(options), inputsOf(options));
+  Statistics stats = prepareFrame(run, frame, sequence);
+  LoadedScene& loaded = *run.loaded;
+  const Camera camera = loaded.camera;
+  if (sequence.turntable > 0) {
+    const glm::dvec3 focalPoint =
+        options.camera.focalPoint.value_or(focalPointOf(camera, loaded.scene.bounds));
+    loaded.camera = turnedCamera(camera, focalPoint, frame.turn);
+    loaded.view = makeView(options, loaded.scene, loaded.camera);
+  }
+  const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
+  if (!options.treeLevel) releaseGeometry(loaded);
+  const Outcome outcome = drawAndWrite({options, loaded, run.tracer, false}, boxes, run.device, stats);
+  loaded.camera = camera;
+  return outcome;
+}
+
+/// Also with --quiet.
+void complain(const std::string& text) { std::fprintf(stderr, "fragtrace: %s\n", text.c_str()); }
+
+/// All pictures that are wanted; one that fails is said, and the others are drawn. Returns the status.
+int runSequence(const RenderOptions& options) {
+  const SequenceOptions& sequence = *options.sequence;
+  SequenceRun run;
+  RenderOptions settled = options;
+  run.device.oidn = openDenoiser(settled);
+  passOnWhatIsSaid([](const std::string&) {});  // what all of them say, once
+  countInterrupts();
+  if (options.output.extension() != ".pfm") startImageProcess();
+  const RenderOptions firstOptions = frameOf(settled, 0).options;
+  checkOutputs(outputsOf(firstOptions), inputsOf(firstOptions));  // a wrong folder would be wrong for all
+  const int count = frameCount(sequence);
+  int drawn = 0;
+  int failed = 0;
+  int skipped = 0;
+  for (int i = 0; i < count && interrupts() == 0; ++i) {
+    const SequenceFrame frame = frameOf(settled, i);
+    std::error_code error;
+    if (sequence.keep && std::filesystem::exists(frame.options.output, error)) {
+      ++skipped;
+      continue;
+    }
+    try {
+      drawn += drawFrame(run, frame, sequence) == Outcome::Complete;
+    } catch (const UsageError&) {
+      throw;  // it would be the same for every picture
+    } catch (const ContextLost&) {
+      throw;
+    } catch (const std::exception& reason) {
+      complain("picture " + std::to_string(frame.number) + ": " + reason.what());
+      ++failed;
+    }
+  }
+  const std::string all = " of " + std::to_string(count) + " pictures ";
+  const int missing = count - skipped - drawn - failed;
+  if (skipped > 0) say(options, std::to_string(skipped) + all + "were there already");
+  if (failed > 0) complain(std::to_string(failed) + all + "failed");
+  if (missing > 0)
+    say(options, "interrupted: " + std::to_string(missing) + all + "are missing; --continue draws them");
+  return leave(missing > 0 ? kInterruptedStatus : failed > 0 ? 1 : 0);
 }
 
 }  // namespace
@@ -204,6 +325,7 @@ int runRender(const RenderOptions& asked) {
 RunCommand addRender(CLI::App& app) {
   struct Raw {
     RawRender render;
+    RawSequence sequence;
     std::string config;
   };
   const auto raw = std::make_shared<Raw>();
@@ -213,12 +335,14 @@ RunCommand addRender(CLI::App& app) {
       "picture to write: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); required");
   addRenderOptions(app, raw->render);
   addPartOptions(app, raw->render);
+  addSequenceOptions(app, raw->sequence);
   addDenoiseOption(app, raw->render);
   addConfigOption(app, raw->config);
   return [raw, &app] {
-    const RenderOptions options = finishConfigured(raw->render, raw->config, app);
+    RenderOptions options = finishConfigured(raw->render, raw->config, app);
     if (options.output.empty()) throw UsageError("--output is required; --help says more");
-    return runRender(options);
+    finishSequence(raw->sequence, options);
+    return options.sequence ? runSequence(options) : runRender(options);
   };
 }
 

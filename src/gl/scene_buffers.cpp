@@ -66,11 +66,14 @@ ReadChoice chooseReads(BufferReads wanted, bool software, const GpuScene& scene,
   return {other, reason};
 }
 
-SceneBuffers::SceneBuffers(GpuScene& scene, BufferReads reads) : reads_(reads) {
-  const std::string tooLarge = whatIsTooLarge(scene, reads, readLimits());
+SceneBuffers::SceneBuffers(GpuScene& scene, BufferReads reads) : reads_(reads) { replace(scene); }
+
+void SceneBuffers::replace(GpuScene& scene) {
+  const std::string tooLarge = whatIsTooLarge(scene, reads_, readLimits());
   if (!tooLarge.empty()) throw RenderError(tooLarge + " (--buffer-reads)");
   for (uint32_t binding = 0; binding < layout::kSceneBufferCount; ++binding) {
     static constexpr std::array<uint32_t, 4> kNothing{};
+    if (scene.unchanged[binding]) continue;
     Words& words = scene.buffers[binding];
     Entry& entry = entries_[binding];
     entry.format = hasTwoWords(binding) ? GL_RG32UI : GL_RGBA32UI;
@@ -79,7 +82,7 @@ SceneBuffers::SceneBuffers(GpuScene& scene, BufferReads reads) : reads_(reads) {
     entry.buffer = makeBuffer();
     glNamedBufferStorage(entry.buffer.name(), GLsizeiptr(bytes), data, 0);
     words = Words();
-    if (reads != BufferReads::Ssbo) {
+    if (reads_ != BufferReads::Ssbo) {
       entry.view = makeTexture(GL_TEXTURE_BUFFER);
       glTextureBuffer(entry.view.name(), entry.format, entry.buffer.name());
     }

@@ -15,6 +15,8 @@ class SceneBuffers {
   /// Frees each array of the scene as soon as the driver has it. Throws RenderError when one is larger than
   /// this driver reads that way, or memory runs out.
   SceneBuffers(GpuScene& scene, BufferReads reads);
+  /// The same for the next scene, but for arrays that are unchanged. Throws the same, and then holds neither.
+  void replace(GpuScene& scene);
   void bind() const;
 
  private:

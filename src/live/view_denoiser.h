@@ -8,7 +8,7 @@
 
 #include "denoise/oidn_library.h"
 #include "render/denoise.h"
-#include "session/setup.h"
+#include "session/tracer.h"
 #include "view/reproject.h"
 
 namespace fragtrace {

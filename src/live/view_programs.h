@@ -6,7 +6,7 @@
 #include <list>
 #include <memory>
 
-#include "session/setup.h"
+#include "session/tracer.h"
 
 namespace fragtrace {
 

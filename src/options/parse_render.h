@@ -60,7 +60,7 @@ struct RawRender {
 /// Adds all options but scene and output.
 void addRenderOptions(CLI::App& app, RawRender& raw);
 
-/// --region, --checkpoint and --resume, of the command that writes one picture.
+/// --region, --checkpoint and --resume, of the command that writes pictures.
 void addPartOptions(CLI::App& app, RawRender& raw);
 
 /// --denoise and --oidn-library, of commands that finish a picture.

@@ -38,16 +38,22 @@ struct GpuScene {
   uint32_t emitterCount = 0;
   uint32_t punctualLights = 0;
   uint32_t energyTableRow = 0;  ///< where the energy table begins among the material rows
+  std::array<bool, layout::kSceneBufferCount> unchanged{};  ///< those that are as packed before: empty here
 
   size_t bytes() const;
   /// Of these, what the primitives take: tree, leaves, faces and vertex attributes.
   size_t geometryBytes() const;
 };
 
+struct KeptArrays;
+
 /// Packs what the variant reads; textures wider or higher than `textureSide` are scaled down. The tree may be
 /// a plain list of leaves without nodes (iterative traversal). Throws InputError when a texture cannot be
 /// decoded.
+/// With `kept`, pictures that stand there are not packed again (GpuScene::unchanged), and it learns of those
+/// that are.
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
-                   const ShaderVariant& variant, int textureSide = kLargestTextureSide);
+                   const ShaderVariant& variant, int textureSide = kLargestTextureSide,
+                   KeptArrays* kept = nullptr);
 
 }  // namespace fragtrace

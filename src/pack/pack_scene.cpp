@@ -6,6 +6,7 @@
 
 #include "pack/ggx_energy.h"
 #include "pack/gpu_scene.h"
+#include "pack/kept_arrays.h"
 #include "pack/pack_environment.h"
 #include "pack/pack_faces.h"
 #include "pack/pack_instances.h"
@@ -175,8 +176,35 @@ size_t GpuScene::geometryBytes() const {
   return words * sizeof(uint32_t);
 }
 
+namespace {
+
+/// What the lights need to know of the packed map, which may stand on the device already.
+KeptArrays::KeptEnvironment packMap(const Environment& environment, EnvironmentDraws draws, KeptArrays* kept,
+                                    GpuScene& packed) {
+  const bool keeps = kept != nullptr && environment.kind == Surroundings::Map;
+  if (keeps && kept->environment && kept->environment->draws == int(draws)) {
+    packed.unchanged[layout::kEnvironmentBinding] = true;
+    packed.unchanged[layout::kEnvironmentInversionBinding] = true;
+    return *kept->environment;
+  }
+  PackedEnvironment map = packEnvironment(environment.image, draws);
+  packed.buffers[layout::kEnvironmentBinding] = std::move(map.texels);
+  packed.buffers[layout::kEnvironmentInversionBinding] = std::move(map.inversion);
+  const KeptArrays::KeptEnvironment result{map.size, map.power, int(draws)};
+  if (kept != nullptr) kept->environment = keeps ? std::optional(result) : std::nullopt;
+  return result;
+}
+
+std::vector<std::pair<std::string, size_t>> imagesOf(const Scene& scene) {
+  std::vector<std::pair<std::string, size_t>> images;
+  for (const EncodedImage& image : scene.images) images.emplace_back(image.name, image.bytes.size());
+  return images;
+}
+
+}  // namespace
+
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
-                   const ShaderVariant& variant, int textureSide) {
+                   const ShaderVariant& variant, int textureSide, KeptArrays* kept) {
   using namespace layout;
   GpuScene packed;
   const TraitSet& traits = variant.traits;
@@ -190,7 +218,8 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   packAttributes(scene.vertices, traits, packed);
 
   // Step: lights; the environment shares light samples with the rest by power.
-  TexturePacker textures(scene, textureSide);
+  if (kept != nullptr && kept->images != imagesOf(scene)) *kept = {imagesOf(scene), {}, kept->environment};
+  TexturePacker textures(scene, textureSide, kept != nullptr ? kept->textures : PlacedTextures());
   const std::vector<glm::vec3> radiance = meanRadiance(scene, traits, textures);
   std::vector<uint32_t> slots;
   if (has(traits, Trait::EmissiveTriangles)) slots = leafSlots(scene, bvh);
@@ -202,10 +231,8 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
     packed.punctualLights = uint32_t(scene.lights.size());
   }
   if (has(traits, Trait::Environment)) {
-    PackedEnvironment surroundings = packEnvironment(environment.image, drawsOf(variant));
+    const KeptArrays::KeptEnvironment surroundings = packMap(environment, drawsOf(variant), kept, packed);
     packed.environmentSize = surroundings.size;
-    packed.buffers[kEnvironmentBinding] = std::move(surroundings.texels);
-    packed.buffers[kEnvironmentInversionBinding] = std::move(surroundings.inversion);
     const double power = surroundings.power * radius * radius;
     if (has(traits, Trait::EnvironmentSampling)) {
       // Neither side is left out altogether: a dim one can still be the only light of a corner.
@@ -224,6 +251,16 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   if (has(variant.stages, Stage::EnergyCompensation)) appendEnergyTable(materials);
   static_assert(SheenAlbedoTable::kCells == layout::kEnergyCells);
   if (has(traits, Trait::Sheen)) appendCells(materials, sheenAlbedoTable().albedo);
+  if (kept != nullptr && !kept->textures.empty()) {
+    if (!textures.allKnown()) {  // one that no picture before has shown: all of them are placed anew
+      kept->textures.clear();
+      if (!packed.unchanged[kEnvironmentBinding]) kept->environment.reset();
+      return packScene(scene, bvh, environment, variant, textureSide, kept);
+    }
+    packed.unchanged[kTexelsBinding] = true;
+    return packed;
+  }
+  if (kept != nullptr) kept->textures = textures.placed();
   packed.buffers[kTexelsBinding] = textures.takeTexels();
   return packed;
 }

@@ -63,9 +63,9 @@ int textureSideWithin(const Scene& scene, int64_t mostBytes) {
   return side;
 }
 
-const TexturePacker::Placed& TexturePacker::place(uint32_t image, TransferCurve curve) {
+const PlacedTexels& TexturePacker::place(uint32_t image, TransferCurve curve) {
   const auto [entry, isNew] = placed_.try_emplace({image, curve});
-  Placed& placed = entry->second;
+  PlacedTexels& placed = entry->second;
   if (!isNew) return placed;
   const EncodedImage& encoded = scene_.images[image];
   const TexelImage texels = decodeTexels(encoded.bytes, encoded.name);
@@ -129,7 +129,7 @@ glm::uvec4 TexturePacker::slot(const TextureRef& ref, TransferCurve curve) {
   if (!ref.present()) return glm::uvec4(0u);
   const Texture& texture = scene_.textures[ref.texture];
   if (texture.image == kMissIndex) return glm::uvec4(0u);
-  const Placed& placed = place(texture.image, curve);
+  const PlacedTexels& placed = place(texture.image, curve);
   uint32_t flags = layout::kTexturePresent;
   if (texture.linear) flags |= layout::kTextureLinear;
   if (ref.texcoord == 1) flags |= layout::kTextureTexcoord1;

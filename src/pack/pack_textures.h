@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <map>
-
 #include "image/image.h"
 #include "pack/gpu_scene.h"
+#include "pack/kept_arrays.h"
 
 namespace fragtrace {
 
@@ -14,8 +13,10 @@ int textureSideWithin(const Scene& scene, int64_t mostBytes);
 /// Decodes textures on demand into one array of texels (RGBA as linear half floats); each image once a curve.
 class TexturePacker {
  public:
-  /// Wider or higher pictures than `side` are scaled down to it.
-  TexturePacker(const Scene& scene, int side) : scene_(scene), side_(side) {}
+  /// Wider or higher pictures than `side` are scaled down to it. `known` are in the array already, of a scene
+  /// with the same images; as long as no other is asked for, nothing is decoded.
+  TexturePacker(const Scene& scene, int side, PlacedTextures known = {})
+      : scene_(scene), side_(side), placed_(std::move(known)), known_(placed_.size()) {}
 
   /// The slot row (shaders/layout.glsl) of a use of a texture; all zero for none.
   glm::uvec4 slot(const TextureRef& ref, TransferCurve curve);
@@ -27,15 +28,12 @@ class TexturePacker {
   void appendTransforms(Words& materials) const;
 
   Words takeTexels() { return std::move(texels_); }
+  const PlacedTextures& placed() const { return placed_; }
+  /// Whether all were known.
+  bool allKnown() const { return placed_.size() == known_; }
 
  private:
-  struct Placed {
-    uint32_t first = 0;
-    int width = 0;
-    int height = 0;
-    glm::vec3 mean{1.0f};
-  };
-  const Placed& place(uint32_t image, TransferCurve curve);
+  const PlacedTexels& place(uint32_t image, TransferCurve curve);
   /// Both append the texels and return the sum of their linear colours.
   glm::dvec3 append(const TexelImage& texels, TransferCurve curve);
   /// Each texel is the mean of those that it stands for, in linear light.
@@ -43,7 +41,8 @@ class TexturePacker {
 
   const Scene& scene_;
   int side_;
-  std::map<std::pair<uint32_t, TransferCurve>, Placed> placed_;
+  PlacedTextures placed_;
+  size_t known_;
   uint32_t transformRow(const TextureTransform& transform);
 
   std::vector<TextureTransform> transforms_;

@@ -50,7 +50,13 @@ std::vector<double> measureFeatures(const PictureJob& job, Film& film, const Vie
   const double times = areaOf(job.loaded.region.size) / areaOf(work.size);
   std::vector<double> seconds;
   for (const ShaderVariant& variant : job.tracer.features) {
-    stats.compileMs += job.tracer.renderer->compile(variant, film, view);
+    if (!job.tracer.renderer->knows(variant))
+      stats.compileMs += job.tracer.renderer->compile(variant, film, view);
+    if (!job.showsProgress) {
+      seconds.push_back(0.0);
+      continue;
+    }
+    job.tracer.renderer->use(variant);
     RenderTimes measured;
     job.tracer.renderer->addSamples(film, view, {&work, 1}, measured);
     seconds.push_back(0.001 * measured.renderMs * times);
@@ -132,7 +138,10 @@ DrawingPlan planDrawing(const PictureJob& job, Statistics& stats) {
   const View view = viewOf(job.loaded, parts.front());
   std::vector<double> layerSeconds = measureFeatures(job, film, view, stats);
   stats.parts = int(parts.size());
-  stats.compileMs += job.tracer.renderer->compile(job.tracer.variant, film, view);
+  if (job.tracer.renderer->knows(job.tracer.variant))
+    job.tracer.renderer->use(job.tracer.variant);
+  else
+    stats.compileMs += job.tracer.renderer->compile(job.tracer.variant, film, view);
   return {std::move(parts), std::move(film), std::move(layerSeconds)};
 }
 
@@ -219,7 +228,7 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
   const double secondsAfter = secondsOfFeatures(plan.layerSeconds, options);
   // merge needs the samples of each pixel where these differ.
   const bool keepsCounts = formatOfName(options.output) == ImageFormat::OpenExr && !showsColors(options);
-  ProgressBar bar("rendering", options.quiet);
+  ProgressBar bar("rendering", options.quiet || !job.showsProgress);
   Image picture;
   double spentMs = 0.0;
   size_t i = 0;
@@ -276,7 +285,8 @@ void addFeatures(Image& picture, const PictureJob& job, const DrawingPlan& plan,
     secondsPerSample = secondsPerSample.subspan(1);
     const int samples = samplesOfLayer(job.options, variant.feature, all);
     const double after = all * std::accumulate(secondsPerSample.begin(), secondsPerSample.end(), 0.0);
-    ProgressBar bar("layer " + std::string(rowOf(variant.feature).name), job.options.quiet);
+    ProgressBar bar("layer " + std::string(rowOf(variant.feature).name),
+                    job.options.quiet || !job.showsProgress);
     Image layer;
     FilmTotals totals;
     for (size_t i = 0; i < plan.parts.size(); ++i) {

@@ -7,7 +7,7 @@
 
 #include "picture/picture_parts.h"
 #include "render/film.h"
-#include "session/setup.h"
+#include "session/tracer.h"
 
 namespace fragtrace {
 
@@ -16,6 +16,7 @@ struct PictureJob {
   const RenderOptions& options;
   const LoadedScene& loaded;
   const Tracer& tracer;
+  bool showsProgress = true;  ///< of this picture alone; a sequence shows its own
 };
 
 /// What is made and measured before the first sample that counts.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "image/image.h"
-#include "session/setup.h"
+#include "session/tracer.h"
 
 namespace fragtrace {
 

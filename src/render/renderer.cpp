@@ -59,6 +59,15 @@ Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads, Pr
   glNamedBufferStorage(frameBuffer_.name(), sizeof(layout::Frame), nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferStorage(progressBuffer_.name(), sizeof(layout::Progress), nullptr, GL_DYNAMIC_STORAGE_BIT);
   checkGl("making buffers");
+  describeScene(scene);
+}
+
+void Renderer::replaceScene(GpuScene scene) {
+  buffers_.replace(scene);
+  describeScene(scene);
+}
+
+void Renderer::describeScene(const GpuScene& scene) {
   frame_.gridOrigin = glm::vec4(scene.grid.origin, 0.0f);
   frame_.gridCell = glm::vec4(scene.grid.cell, 0.0f);
   frame_.environment = glm::vec4(scene.environmentSize, 1.0f, 0.0f);

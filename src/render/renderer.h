@@ -59,6 +59,9 @@ class Renderer {
   /// The same with programs that may have been built already.
   Renderer(const Context& context, GpuScene scene, BufferReads reads, ProgramCache programs);
 
+  /// The next scene of a sequence, read the same way; programs stay.
+  void replaceScene(GpuScene scene);
+
   /// Builds the variant's program and draws one tiny tile, which is where llvmpipe compiles; draws that
   /// follow use it. The film ends up cleared. Returns milliseconds.
   double compile(const ShaderVariant& variant, Film& film, const View& view);
@@ -92,6 +95,8 @@ class Renderer {
   void setDrawTime(double ms) { targetMs_ = ms; }
 
  private:
+  /// What of a scene stands in the frame's block.
+  void describeScene(const GpuScene& scene);
   void setFrame(const Film& film, const View& view);
   /// From now on paths are suspended between draws: for scenes with paths that take more than one draw.
   void makeResumable();

@@ -25,9 +25,6 @@ namespace fragtrace {
 
 namespace {
 
-/// Smaller scenes are literals as a whole, or not at all.
-constexpr size_t kLeastBesideLarge = 256;
-
 /// Refuses what would not leave shaders room to multiply lengths (src/gltf/build/gltf.cpp): in the options,
 /// if the camera's place is theirs, or in the file.
 void checkDistance(const Camera& camera, const LocalSpace& space, const RenderOptions& options) {
@@ -94,16 +91,6 @@ Environment makeEnvironment(const RenderOptions& options, std::future<LinearImag
     environment.image = {1, 1, {"R", "G", "B"}, {1.0f, 1.0f, 1.0f}, {}};
   }
   return environment;
-}
-
-/// FNV-1a over the words of all buffers.
-uint64_t hashOf(const GpuScene& scene) {
-  uint64_t hash = 0xcbf29ce484222325u;
-  for (const Words& buffer : scene.buffers) {
-    for (const uint32_t word : buffer) hash = (hash ^ word) * 0x100000001b3u;
-    hash = (hash ^ buffer.size()) * 0x100000001b3u;
-  }
-  return hash;
 }
 
 /// Only trees hold instances.
@@ -183,7 +170,7 @@ void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& s
 }  // namespace
 
 LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress,
-                      FilmOf film) {
+                      FilmOf film, std::optional<Environment> known) {
   const auto step = [&](const char* name, double fraction) {
     if (progress) progress(name, fraction);
   };
@@ -193,7 +180,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   // The environment is decoded in another process, so it is read meanwhile.
   Phase reading;  // outlives the thread that sets it
   std::future<LinearImage> map;
-  if (!options.hdriFile.empty()) {
+  const bool reads = !options.hdriFile.empty() && !known;
+  if (reads) {
     map = std::async(kThreadIfGranted, [&] {
       PhaseTimer timer("environment", "second");
       LinearImage image = readLinearImage(options.hdriFile, options.limits.memoryBytes);
@@ -232,8 +220,9 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   step("reading the environment", 0.9);
   const bool isAsked = options.hdriFile.empty() && options.defaultLight;
   const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
-  loaded.environment = makeEnvironment(options, map, light, loaded.scene.warnings);
-  if (!options.hdriFile.empty()) stats.phases.push_back(reading);
+  loaded.environment =
+      known ? std::move(*known) : makeEnvironment(options, map, light, loaded.scene.warnings);
+  if (reads) stats.phases.push_back(reading);
   stats.scene = describe(scene);
   stats.warnings = scene.warnings;
   stats.size = loaded.region.size;
@@ -242,130 +231,6 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   stats.defaultLight = loaded.environment.kind == Surroundings::DefaultLight;
   if (stats.defaultLight) sayDefaultLight(options, light, stats);
   return loaded;
-}
-
-void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
-                 ShaderVariant& variant) {
-  if (loaded.bvh.besideTree > 0) {
-    variant.literals = largeFirst(loaded.scene, loaded.bvh, variant);
-    return;
-  }
-  if (variant.feature != Feature::None) return;
-  const bool asked = options.traversal == TraversalMethod::Literals;
-  if (has(variant.stages, Stage::BvhHeatmap)) {
-    if (asked) throw UsageError("--traversal literals: has no tree whose nodes the heat map could count");
-    return;
-  }
-  if (!asked && options.traversal != TraversalMethod::Auto) return;
-  // Who asks for the wavefront gets it, which needs a tree.
-  if (!asked && options.schedule == Schedule::Wavefront && has(variant.stages, Stage::Gi)) return;
-  const std::string reason = asked ? whyNoLiterals(loaded.scene, packed) : "";
-  if (!reason.empty()) throw UsageError("--traversal literals: " + reason);
-  if (!asked && !paysAsLiterals(loaded.scene, loaded.bvh, packed, pathsOf(options, loaded.size))) return;
-  variant.traversal = TraversalMethod::Literals;
-  variant.literals = literalScene(loaded.scene, loaded.bvh, packed, variant);
-}
-
-namespace {
-
-/// What the packed scene and the driver decide of a picture's variant. Returns why the megakernel draws.
-std::string settleVariant(ShaderVariant& variant, const LoadedScene& loaded, const GpuScene& packed,
-                          const RenderOptions& options, const Context& context, BufferReads reads) {
-  useLiterals(loaded, packed, options, variant);
-  variant.reads = reads;
-  variant.dispatch =
-      chooseDispatch(options.dispatch, context, variant.traversal == TraversalMethod::Literals);
-  return chooseSchedule(variant, options,
-                        {context.software, pathsOf(options, loaded.size), loaded.bvh.nodes.size()});
-}
-
-Phase buildProgram(ProgramCache& programs, const ShaderVariant& variant) {
-  PhaseTimer timer("program");
-  programs.tracer(variant);
-  return timer.end();
-}
-
-/// Builds the picture's program while its scene is being packed, unless the scene may become part of its
-/// text. Where buffers turn out too large for the fastest reads, another one is built later.
-std::optional<Phase> buildAhead(ProgramCache& programs, ShaderVariant variant, const LoadedScene& loaded,
-                                const RenderOptions& options, const Context& context) {
-  const bool asked = options.traversal == TraversalMethod::Literals;
-  const bool large = loaded.scene.triangles.size() > kLeastBesideLarge;
-  if (asked || !large) return std::nullopt;
-  const GpuScene unknown;
-  const BufferReads reads = chooseReads(options.bufferReads, context.software, unknown, readLimits()).reads;
-  settleVariant(variant, loaded, unknown, options, context, reads);
-  return buildProgram(programs, variant);
-}
-
-}  // namespace
-
-Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
-                  Statistics& stats) {
-  const bool kept = options.checkpointSeconds > 0.0 || options.resume;
-  return makeTracer(context, loaded, options, stats,
-                    kept || formatOfName(options.output) == ImageFormat::OpenExr);
-}
-
-Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
-                  Statistics& stats, bool withHash) {
-  const TraitSet present = traitsOf(loaded.scene, loaded.environment.kind);
-  const uint32_t depth = loaded.bvh.depth;
-  const BufferReads undecided = options.bufferReads;  // what is packed does not depend on it
-  Tracer tracer;
-  tracer.variant = choosePictureVariant(options, present, loaded.environment.kind, depth, undecided);
-  ShaderVariant everything = tracer.variant;
-  for (const Feature feature : options.aovFeatures) {
-    tracer.features.push_back(
-        chooseFeatureVariant(options, present, loaded.environment.kind, depth, undecided, feature));
-    everything.traits |= tracer.features.back().traits;
-  }
-  if (tracer.variant.clampIndirect) stats.clampIndirect = options.clampIndirect;
-  stats.backend = context.backend;
-  stats.glRenderer = context.renderer;
-  stats.glVersion = context.version;
-  for (const StageRow& row : stageRows()) {
-    const std::string reason = has(options.stages, row.stage) ? whyOff(row.stage, present) : "";
-    if (!reason.empty()) stats.skipped.push_back(std::string(row.name) + ": " + reason);
-  }
-  const int textureSide = textureSideWithin(loaded.scene, mostTexelBytes(options.bufferReads, readLimits()));
-  if (textureSide < kLargestTextureSide) {
-    say(options, "warning: the textures are larger than what this driver reads; those wider or higher than " +
-                     std::to_string(textureSide) + " pixels are scaled down");
-  }
-  ProgramCache programs(shaderSource(options.shaderFolder));
-  Phase packing;  // outlives the thread that sets it
-  std::future<GpuScene> packedLater = std::async(kThreadIfGranted, [&] {
-    PhaseTimer timer("pack", "second");
-    GpuScene scene = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, textureSide);
-    packing = timer.end();
-    return scene;
-  });
-  const std::optional<Phase> ahead = buildAhead(programs, tracer.variant, loaded, options, context);
-  GpuScene packed = packedLater.get();
-  stats.phases.push_back(packing);
-  stats.packMs = packing.end - packing.begin;
-  stats.sceneBytes = packed.bytes();
-  stats.geometryBytes = packed.geometryBytes();
-  if (withHash) tracer.sceneHash = hashOf(packed);
-  const ReadChoice choice = chooseReads(options.bufferReads, context.software, packed, readLimits());
-  stats.scheduleReason = settleVariant(tracer.variant, loaded, packed, options, context, choice.reads);
-  const Phase building = ahead ? *ahead : buildProgram(programs, tracer.variant);
-  stats.phases.push_back(building);
-  tracer.programMs = building.end - building.begin;
-  stats.compileMs += tracer.programMs;
-  for (ShaderVariant& feature : tracer.features) {
-    useLiterals(loaded, packed, options, feature);
-    feature.reads = choice.reads;
-    feature.dispatch = chooseDispatch(options.dispatch, context, false);
-  }
-  stats.variant = variantName(tracer.variant);
-  stats.readFallback = choice.fallback;
-  PhaseTimer uploading("upload");
-  tracer.renderer = std::make_unique<Renderer>(context, std::move(packed), choice.reads, std::move(programs));
-  stats.phases.push_back(uploading.end());
-  stats.uploadMs = stats.phases.back().end - stats.phases.back().begin;
-  return tracer;
 }
 
 void releaseGeometry(LoadedScene& loaded) {

@@ -35,8 +35,12 @@ enum class FilmOf : uint8_t { Picture, Part };
 /// Loads scene and environment, chooses camera and size, builds the tree; fills in the statistics of that.
 /// Says warnings on stderr unless quiet. Throws InputError, UsageError, also where the film of a whole
 /// picture would not fit into memory.
+/// `map` is the environment map where it has been read already; it is moved into the result.
 LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress = {},
-                      FilmOf film = FilmOf::Picture);
+                      FilmOf film = FilmOf::Picture, std::optional<Environment> map = {});
+
+/// Triangles. Smaller scenes are literals as a whole, or not at all.
+inline constexpr size_t kLeastBesideLarge = 256;
 
 /// Camera paths that the picture takes; infinite where time or noise ends it.
 double pathsOf(const RenderOptions& options, glm::ivec2 size);
@@ -50,28 +54,6 @@ Bvh buildTree(const Scene& scene, const RenderOptions& options);
 
 /// Whether buildTree() builds the same for both.
 bool sameTree(const RenderOptions& a, const RenderOptions& b);
-
-/// The scene on the device, and the variant that the options ask for.
-struct Tracer {
-  ShaderVariant variant;
-  std::vector<ShaderVariant> features;  ///< in the order of options.aovFeatures
-  std::unique_ptr<Renderer> renderer;
-  double programMs = 0.0;  ///< that building the variant's program took
-  uint64_t sceneHash = 0;  ///< of all that was uploaded; only for .exr, which keeps it
-};
-
-/// A scene that is small enough becomes part of the shader's text, unless another traversal was asked for, or
-/// first hits or visits are drawn.
-/// Throws UsageError.
-void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
-                 ShaderVariant& variant);
-
-/// Packs and uploads what the variants need; by default with the hash where the options' output keeps it.
-/// Throws InputError, RenderError.
-Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
-                  Statistics& stats, bool withHash);
-Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
-                  Statistics& stats);
 
 /// Frees what only packing needs: triangles, vertices, pictures, the tree. For front ends that pack once.
 void releaseGeometry(LoadedScene& loaded);

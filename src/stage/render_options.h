@@ -47,6 +47,18 @@ inline constexpr std::array<std::string_view, 4> kDenoiseNames{"none", "variance
 enum class PixelFilter : uint8_t { Box, Gaussian, BlackmanHarris };
 inline constexpr std::array<std::string_view, 3> kPixelFilterNames{"box", "gaussian", "blackman-harris"};
 
+/// Pictures of one scene, numbered: at times of an animation, or from all around.
+struct SequenceOptions {
+  int first = 0;
+  int last = 0;  ///< belongs to it
+  int step = 1;
+  double fps = 24.0;  ///< picture k is the animation at k / fps seconds
+  int turntable = 0;  ///< pictures of a whole turn about the focal point; 0: of the animation
+  bool keep = false;  ///< pictures that are there already are not drawn again
+
+  bool operator==(const SequenceOptions&) const = default;
+};
+
 inline constexpr int kUnlimitedBounces = std::numeric_limits<int>::max() - 1;
 
 struct RenderOptions {
@@ -89,7 +101,8 @@ struct RenderOptions {
   DebugView debugView = DebugView::None;
   std::optional<int> treeLevel;    ///< its boxes are drawn over the picture
   double checkpointSeconds = 0.0;  ///< between two checkpoints; 0: none is written
-  bool resume = false;             ///< go on from the checkpoint beside the output
+  std::optional<SequenceOptions> sequence;
+  bool resume = false;  ///< go on from the checkpoint beside the output
   std::filesystem::path statsFile;
   std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
   std::filesystem::path oidnLibrary;   ///< file of Open Image Denoise; none: it is looked for

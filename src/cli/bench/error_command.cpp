@@ -21,7 +21,7 @@
 #include "session/outputs.h"
 #include "session/phase_timer.h"
 #include "session/progress_bar.h"
-#include "session/setup.h"
+#include "session/tracer.h"
 
 namespace fragtrace {
 

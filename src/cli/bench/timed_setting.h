@@ -9,7 +9,7 @@
 #include "bench/frame_report.h"
 #include "cli/bench/configurations.h"
 #include "render/film.h"
-#include "session/setup.h"
+#include "session/tracer.h"
 
 namespace CLI {
 class App;

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// What need not be packed again for the next picture of a sequence: the pictures of textures and environment,
+// which stay on the device.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace fragtrace {
+
+/// Where a picture lies among the texels, and its mean linear colour.
+struct PlacedTexels {
+  uint32_t first = 0;
+  int width = 0;
+  int height = 0;
+  glm::vec3 mean{1.0f};
+};
+/// By the index of the scene's image.
+using PlacedTextures = std::map<std::pair<uint32_t, TransferCurve>, PlacedTexels>;
+
+struct KeptArrays {
+  std::vector<std::pair<std::string, size_t>> images;  ///< names and bytes of the scene's, when it was packed
+  PlacedTextures textures;
+  struct KeptEnvironment {
+    glm::ivec2 size{0};
+    double power = 0.0;
+    int draws = 0;  ///< EnvironmentDraws
+  };
+  std::optional<KeptEnvironment> environment;  ///< of the map; there is one a sequence
+};
+
+}  // namespace fragtrace

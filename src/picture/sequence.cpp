@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "picture/sequence.h"
+
+#include <glm/gtc/constants.hpp>
+#include <glm/gtx/rotate_vector.hpp>
+#include <string>
+
+namespace fragtrace {
+
+std::filesystem::path numberedName(const std::filesystem::path& pattern, int number) {
+  std::string name = pattern.filename().string();
+  const size_t last = name.rfind('#');
+  if (last == std::string::npos) return pattern;
+  size_t first = last;
+  while (first > 0 && name[first - 1] == '#') --first;
+  std::string digits = std::to_string(number);
+  const size_t width = last - first + 1;
+  if (digits.size() < width) digits.insert(0, width - digits.size(), '0');
+  name.replace(first, width, digits);
+  return std::filesystem::path(pattern).replace_filename(name);
+}
+
+int frameCount(const SequenceOptions& sequence) {
+  return (sequence.last - sequence.first) / sequence.step + 1;
+}
+
+SequenceFrame frameOf(const RenderOptions& options, int index) {
+  const SequenceOptions& sequence = *options.sequence;
+  SequenceFrame frame{sequence.first + index * sequence.step, options, 0.0};
+  frame.options.output = numberedName(options.output, frame.number);
+  if (!options.statsFile.empty()) frame.options.statsFile = numberedName(options.statsFile, frame.number);
+  if (sequence.turntable > 0)
+    frame.turn = 2.0 * glm::pi<double>() * frame.number / sequence.turntable;
+  else
+    frame.options.selection.animationTime = frame.number / sequence.fps;
+  if (options.traversal == TraversalMethod::Auto) frame.options.traversal = TraversalMethod::FrontToBack;
+  frame.options.sequence.reset();
+  return frame;
+}
+
+Camera turnedCamera(Camera camera, const glm::dvec3& focalPoint, double angle) {
+  const auto turned = [&](const glm::dvec3& v) { return glm::rotateY(v, angle); };
+  camera.position = focalPoint + turned(camera.position - focalPoint);
+  camera.forward = turned(camera.forward);
+  camera.up = turned(camera.up);
+  return camera;
+}
+
+}  // namespace fragtrace

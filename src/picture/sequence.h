@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// The pictures of a sequence: their numbers, names, times and views.
+#pragma once
+
+#include <filesystem>
+
+#include "scene/camera.h"
+#include "stage/render_options.h"
+
+namespace fragtrace {
+
+/// One picture of a sequence.
+struct SequenceFrame {
+  int number = 0;
+  RenderOptions options;  ///< with its own names and time
+  double turn = 0.0;      ///< radians about the focal point
+};
+
+/// The name with the number in place of its last run of #, with at least as many digits.
+std::filesystem::path numberedName(const std::filesystem::path& pattern, int number);
+
+int frameCount(const SequenceOptions& sequence);
+
+/// The picture of that index, from 0; options.sequence is there. Small scenes are no shader text in it, so
+/// that one program draws all pictures.
+SequenceFrame frameOf(const RenderOptions& options, int index);
+
+/// The camera turned by an angle (radians, to the right of who looks through it) about the vertical axis, +Y,
+/// through its focal point.
+Camera turnedCamera(Camera camera, const glm::dvec3& focalPoint, double angle);
+
+}  // namespace fragtrace

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "session/tracer.h"
+
+#include <future>
+
+#include "errors.h"
+#include "gl/driver_choice.h"
+#include "gl/schedule.h"
+#include "image/format.h"
+#include "pack/literals.h"
+#include "pack/pack_textures.h"
+#include "process/parallel.h"
+#include "session/say.h"
+
+namespace fragtrace {
+
+void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
+                 ShaderVariant& variant) {
+  if (loaded.bvh.besideTree > 0) {
+    variant.literals = largeFirst(loaded.scene, loaded.bvh, variant);
+    return;
+  }
+  if (variant.feature != Feature::None) return;
+  const bool asked = options.traversal == TraversalMethod::Literals;
+  if (has(variant.stages, Stage::BvhHeatmap)) {
+    if (asked) throw UsageError("--traversal literals: has no tree whose nodes the heat map could count");
+    return;
+  }
+  if (!asked && options.traversal != TraversalMethod::Auto) return;
+  // Who asks for the wavefront gets it, which needs a tree.
+  if (!asked && options.schedule == Schedule::Wavefront && has(variant.stages, Stage::Gi)) return;
+  const std::string reason = asked ? whyNoLiterals(loaded.scene, packed) : "";
+  if (!reason.empty()) throw UsageError("--traversal literals: " + reason);
+  if (!asked && !paysAsLiterals(loaded.scene, loaded.bvh, packed, pathsOf(options, loaded.size))) return;
+  variant.traversal = TraversalMethod::Literals;
+  variant.literals = literalScene(loaded.scene, loaded.bvh, packed, variant);
+}
+
+namespace {
+
+/// What the packed scene and the driver decide of a picture's variant. Returns why the megakernel draws.
+std::string settleVariant(ShaderVariant& variant, const LoadedScene& loaded, const GpuScene& packed,
+                          const RenderOptions& options, const Context& context, BufferReads reads) {
+  useLiterals(loaded, packed, options, variant);
+  variant.reads = reads;
+  variant.dispatch =
+      chooseDispatch(options.dispatch, context, variant.traversal == TraversalMethod::Literals);
+  return chooseSchedule(variant, options,
+                        {context.software, pathsOf(options, loaded.size), loaded.bvh.nodes.size()});
+}
+
+Phase buildProgram(ProgramCache& programs, const ShaderVariant& variant) {
+  PhaseTimer timer("program");
+  programs.tracer(variant);
+  return timer.end();
+}
+
+/// FNV-1a over the words of each array, and over these hashes; arrays that are unchanged have theirs.
+uint64_t hashOf(const GpuScene& scene, std::array<uint64_t, layout::kSceneBufferCount>& arrays) {
+  constexpr uint64_t kStart = 0xcbf29ce484222325u;
+  constexpr uint64_t kPrime = 0x100000001b3u;
+  uint64_t all = kStart;
+  for (size_t i = 0; i < arrays.size(); ++i) {
+    if (!scene.unchanged[i]) {
+      arrays[i] = kStart;
+      for (const uint32_t word : scene.buffers[i]) arrays[i] = (arrays[i] ^ word) * kPrime;
+    }
+    all = (all ^ arrays[i]) * kPrime;
+  }
+  return all;
+}
+
+/// The variants that the options ask for, as far as the scene alone decides them. Returns what all of them
+/// read.
+ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const RenderOptions& options,
+                             Statistics& stats) {
+  const TraitSet present = traitsOf(loaded.scene, loaded.environment.kind);
+  const uint32_t depth = loaded.bvh.depth;
+  const BufferReads undecided = options.bufferReads;  // what is packed does not depend on it
+  tracer.variant = choosePictureVariant(options, present, loaded.environment.kind, depth, undecided);
+  ShaderVariant everything = tracer.variant;
+  tracer.features.clear();
+  for (const Feature feature : options.aovFeatures) {
+    tracer.features.push_back(
+        chooseFeatureVariant(options, present, loaded.environment.kind, depth, undecided, feature));
+    everything.traits |= tracer.features.back().traits;
+  }
+  if (tracer.variant.clampIndirect) stats.clampIndirect = options.clampIndirect;
+  for (const StageRow& row : stageRows()) {
+    const std::string reason = has(options.stages, row.stage) ? whyOff(row.stage, present) : "";
+    if (!reason.empty()) stats.skipped.push_back(std::string(row.name) + ": " + reason);
+  }
+  return everything;
+}
+
+/// What the packed scene decides of all variants.
+void settleVariants(Tracer& tracer, const LoadedScene& loaded, const GpuScene& packed,
+                    const RenderOptions& options, const Context& context, Statistics& stats) {
+  stats.scheduleReason = settleVariant(tracer.variant, loaded, packed, options, context, tracer.reads);
+  for (ShaderVariant& feature : tracer.features) {
+    useLiterals(loaded, packed, options, feature);
+    feature.reads = tracer.reads;
+    feature.dispatch = chooseDispatch(options.dispatch, context, false);
+  }
+  stats.variant = variantName(tracer.variant);
+}
+
+/// What --stats says of a context and of a packed scene.
+void describe(Statistics& stats, const Context& context, const GpuScene& packed, const Phase& packing) {
+  stats.backend = context.backend;
+  stats.glRenderer = context.renderer;
+  stats.glVersion = context.version;
+  stats.phases.push_back(packing);
+  stats.packMs = packing.end - packing.begin;
+  stats.sceneBytes = packed.bytes();
+  stats.geometryBytes = packed.geometryBytes();
+}
+
+/// Builds the picture's program while its scene is being packed, unless the scene may become part of its
+/// text. Where buffers turn out too large for the fastest reads, another one is built later.
+std::optional<Phase> buildAhead(ProgramCache& programs, ShaderVariant variant, const LoadedScene& loaded,
+                                const RenderOptions& options, const Context& context) {
+  const bool asked = options.traversal == TraversalMethod::Literals;
+  const bool large = loaded.scene.triangles.size() > kLeastBesideLarge;
+  if (asked || !large) return std::nullopt;
+  const GpuScene unknown;
+  const BufferReads reads = chooseReads(options.bufferReads, context.software, unknown, readLimits()).reads;
+  settleVariant(variant, loaded, unknown, options, context, reads);
+  return buildProgram(programs, variant);
+}
+
+}  // namespace
+
+Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
+                  Statistics& stats) {
+  const bool kept = options.checkpointSeconds > 0.0 || options.resume;
+  return makeTracer(context, loaded, options, stats,
+                    kept || formatOfName(options.output) == ImageFormat::OpenExr);
+}
+
+Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
+                  Statistics& stats, bool withHash) {
+  Tracer tracer;
+  const ShaderVariant everything = chooseVariants(tracer, loaded, options, stats);
+  tracer.textureSide = textureSideWithin(loaded.scene, mostTexelBytes(options.bufferReads, readLimits()));
+  if (tracer.textureSide < kLargestTextureSide) {
+    say(options, "warning: the textures are larger than what this driver reads; those wider or higher than " +
+                     std::to_string(tracer.textureSide) + " pixels are scaled down");
+  }
+  ProgramCache programs(shaderSource(options.shaderFolder));
+  Phase packing;  // outlives the thread that sets it
+  std::future<GpuScene> packedLater = std::async(kThreadIfGranted, [&] {
+    PhaseTimer timer("pack", "second");
+    GpuScene scene =
+        packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textureSide, &tracer.kept);
+    packing = timer.end();
+    return scene;
+  });
+  const std::optional<Phase> ahead = buildAhead(programs, tracer.variant, loaded, options, context);
+  GpuScene packed = packedLater.get();
+  describe(stats, context, packed, packing);
+  if (withHash) tracer.sceneHash = hashOf(packed, tracer.arrayHashes);
+  const ReadChoice choice = chooseReads(options.bufferReads, context.software, packed, readLimits());
+  tracer.reads = choice.reads;
+  stats.readFallback = choice.fallback;
+  settleVariants(tracer, loaded, packed, options, context, stats);
+  const Phase building = ahead ? *ahead : buildProgram(programs, tracer.variant);
+  stats.phases.push_back(building);
+  tracer.programMs = building.end - building.begin;
+  stats.compileMs += tracer.programMs;
+  PhaseTimer uploading("upload");
+  tracer.renderer = std::make_unique<Renderer>(context, std::move(packed), choice.reads, std::move(programs));
+  stats.phases.push_back(uploading.end());
+  stats.uploadMs = stats.phases.back().end - stats.phases.back().begin;
+  return tracer;
+}
+
+void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loaded,
+                  const RenderOptions& options, Statistics& stats) {
+  const ShaderVariant everything = chooseVariants(tracer, loaded, options, stats);
+  PhaseTimer timer("pack");
+  GpuScene packed =
+      packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textureSide, &tracer.kept);
+  describe(stats, context, packed, timer.end());
+  if (tracer.sceneHash != 0) tracer.sceneHash = hashOf(packed, tracer.arrayHashes);
+  settleVariants(tracer, loaded, packed, options, context, stats);
+  PhaseTimer uploading("upload");
+  tracer.renderer->replaceScene(std::move(packed));
+  stats.phases.push_back(uploading.end());
+  stats.uploadMs = stats.phases.back().end - stats.phases.back().begin;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// A loaded scene on the device, with the programs that draw it.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "pack/kept_arrays.h"
+#include "session/setup.h"
+
+namespace fragtrace {
+
+/// The scene on the device, and the variant that the options ask for.
+struct Tracer {
+  ShaderVariant variant;
+  std::vector<ShaderVariant> features;  ///< in the order of options.aovFeatures
+  std::unique_ptr<Renderer> renderer;
+  double programMs = 0.0;  ///< that building the variant's program took
+  uint64_t sceneHash = 0;  ///< of all that was uploaded; only for .exr and checkpoints, which keep it
+  KeptArrays kept;         ///< what of it the next scene of a sequence need not upload
+  std::array<uint64_t, layout::kSceneBufferCount> arrayHashes{};  ///< where sceneHash is
+  BufferReads reads = BufferReads::Auto;
+  int textureSide = kLargestTextureSide;
+};
+
+/// A scene that is small enough becomes part of the shader's text, unless another traversal was asked for, or
+/// first hits or visits are drawn.
+/// Throws UsageError.
+void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const RenderOptions& options,
+                 ShaderVariant& variant);
+
+/// Packs and uploads what the variants need; by default with the hash where the options' output keeps it.
+/// Throws InputError, RenderError.
+Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
+                  Statistics& stats, bool withHash);
+Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
+                  Statistics& stats);
+
+/// The next scene of a sequence: packs and uploads what has changed. `loaded` is of the same file and options
+/// but for the time of its animation. Throws as makeTracer().
+void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loaded,
+                  const RenderOptions& options, Statistics& stats);
+
+}  // namespace fragtrace

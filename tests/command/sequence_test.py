@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Sequences of pictures (--frames, --turntable): each is the picture of a single command, what does not change stays, a broken one is said."""
+import base64
+import json
+import shutil
+import signal
+import struct
+import subprocess
+import time
+
+from support import FRAGTRACE, SCENES, Case, main, run
+
+PLANE = SCENES / "mapped-plane.gltf"
+SMALL = ["--resolution", "40,30", "--spp", "2", "--traversal", "front-to-back"]
+
+
+class Sequences(Case):
+    def setUp(self):
+        super().setUp()
+        self.scene = self.moving()
+
+    def moving(self, name="moving.gltf", keys=((0.0, (0, 0, 0)), (1.0, (1, 0, 0)))):
+        """A plane with a texture whose node stands at these places at these times."""
+        root = json.loads(PLANE.read_text())
+        for image in root["images"]:
+            shutil.copy(SCENES / image["uri"], self.folder)
+        for buffer in root["buffers"]:
+            if not buffer["uri"].startswith("data:"):
+                shutil.copy(SCENES / buffer["uri"], self.folder)
+        times = struct.pack(f"<{len(keys)}f", *(t for t, _ in keys))
+        places = b"".join(struct.pack("<3f", *p) for _, p in keys)
+        root["buffers"].append({"byteLength": len(times + places), "uri": "data:application/octet-stream;base64," + base64.b64encode(times + places).decode()})
+        buffer = len(root["buffers"]) - 1
+        root["bufferViews"] += [{"buffer": buffer, "byteLength": len(times)}, {"buffer": buffer, "byteOffset": len(times), "byteLength": len(places)}]
+        view = len(root["bufferViews"]) - 2
+        root["accessors"] += [{"bufferView": view, "componentType": 5126, "count": len(keys), "type": "SCALAR", "min": [keys[0][0]], "max": [keys[-1][0]]},
+                              {"bufferView": view + 1, "componentType": 5126, "count": len(keys), "type": "VEC3"}]
+        accessor = len(root["accessors"]) - 2
+        node = next(i for i, n in enumerate(root["nodes"]) if "mesh" in n)
+        root["nodes"][node].pop("matrix", None)
+        root["animations"] = [{"samplers": [{"input": accessor, "output": accessor + 1}],
+                               "channels": [{"sampler": 0, "target": {"node": node, "path": "translation"}}]}]
+        path = self.folder / name
+        path.write_text(json.dumps(root))
+        return path
+
+    def draw(self, *options, status=0):
+        result = run("render", self.scene, "-o", self.folder / "x.##.exr", *SMALL, *options)
+        self.assertEqual(result.returncode, status, result.stderr)
+        return result
+
+    def single(self, *options):
+        path = self.folder / "single.exr"
+        self.renders(self.scene, "-o", path, "--quiet", *SMALL, *options)
+        return path.read_bytes()
+
+    def test_each_frame_is_the_picture_of_a_single_command(self):
+        layers = ["--aov", "albedo,depth", "--hdri-file", SCENES / "sky.pfm"]
+        result = self.draw("--frames", "0:6:3", "--fps", 8, *layers)
+        self.assertEqual(sorted(p.name for p in self.folder.glob("x.*")), ["x.00.exr", "x.03.exr", "x.06.exr"])
+        self.assertEqual(len(result.stdout.splitlines()), 3)
+        pictures = [(self.folder / f"x.{k:02}.exr").read_bytes() for k in (0, 3, 6)]
+        self.assertEqual(len(set(pictures)), 3)
+        for k, picture in zip((0, 3, 6), pictures):
+            self.assertEqual(picture, self.single("--animation-time", k / 8, *layers), k)
+
+    def test_a_turntable_begins_with_the_view_of_a_single_command_and_goes_round(self):
+        self.draw("--turntable", 4)
+        first, *others = ((self.folder / f"x.{k:02}.exr").read_bytes() for k in range(4))
+        self.assertEqual(first, self.single())
+        self.assertEqual(len({first, *others}), 4)
+
+    def test_what_does_not_change_is_made_once(self):
+        self.draw("--frames", "0:2", "--fps", 8, "--stats", self.folder / "s.##.json", "--hdri-file", SCENES / "sky.pfm")
+        first, *later = (json.loads((self.folder / f"s.{k:02}.json").read_text()) for k in range(3))
+        self.assertGreater(first["compile_ms"], 0)
+        for stats in later:
+            self.assertEqual(stats["compile_ms"], 0)
+            self.assertLess(stats["scene_bytes"], first["scene_bytes"])  # neither texture nor environment
+            self.assertFalse({"context", "program", "environment"} & {phase["name"] for phase in stats["phases"]})
+
+    def test_continue_draws_what_is_missing(self):
+        self.draw("--frames", "0:3")
+        before = {k: (self.folder / f"x.{k:02}.exr").stat().st_mtime_ns for k in range(4)}
+        (self.folder / "x.02.exr").unlink()
+        result = self.draw("--frames", "0:3", "--continue")
+        self.assertEqual(len(result.stdout.splitlines()), 1)
+        self.assertIn("3 of 4 pictures were there already", result.stderr)
+        for k in (0, 1, 3):
+            self.assertEqual((self.folder / f"x.{k:02}.exr").stat().st_mtime_ns, before[k])
+        self.assertTrue((self.folder / "x.02.exr").exists())
+
+    def test_a_broken_frame_is_said_and_the_rest_is_drawn(self):
+        # Between frames 1 and 3 the plane is farther away than floats reach.
+        self.scene = self.moving("far.gltf", ((0.0, (0, 0, 0)), (1.5, (0, 0, 0)), (1.5, (3e38,) * 3), (2.5, (3e38,) * 3), (2.5, (0, 0, 0)), (4.0, (0, 0, 0))))
+        result = self.draw("--frames", "0:4", "--fps", 1, "--quiet", status=1)
+        self.assertIn("picture 2: ", result.stderr)
+        self.assertIn("1 of 5 pictures failed", result.stderr)
+        self.assertEqual(sorted(p.name for p in self.folder.glob("x.*")), ["x.00.exr", "x.01.exr", "x.03.exr", "x.04.exr"])
+        self.assertEqual((self.folder / "x.00.exr").read_bytes(), (self.folder / "x.03.exr").read_bytes())
+
+    def test_an_interrupted_sequence_leaves_whole_pictures_only(self):
+        process = subprocess.Popen([FRAGTRACE, "render", self.scene, "-o", self.folder / "x.##.exr", "--resolution", "40,30", "--spp", "3000", "--quiet",
+                                    "--frames", "0:90"])
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        while not (self.folder / "x.01.exr").exists():
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(20), 130)
+        pictures = sorted(self.folder.glob("x.*.exr"))
+        self.assertLess(len(pictures), 91)
+        for path in pictures:
+            self.assertIn(b"fragtrace:uniform\0string\0\1\0\0\0" + b"1", path.read_bytes())
+
+    def test_what_is_no_sequence_is_refused(self):
+        for options, says in ((["--frames", "3:1"], "--frames"), (["--frames", "1"], "--frames"), (["--frames", "0:4:0"], "--frames"),
+                              (["--frames", "0:4", "--turntable", 3], "--turntable"), (["--frames", "0:4", "--animation-time", 1], "--animation-time"),
+                              (["--frames", "0:4", "--resume"], "--continue"), (["--frames", "0:4", "--stats", "-"], "--stats"),
+                              (["--continue"], "--frames"), (["--turntable", 0], "--turntable"), (["--frames", "0:4", "--fps", 0], "--fps")):
+            self.fails(2, "render", self.scene, "-o", self.folder / "x.##.exr", *options, says=[says])
+        self.fails(2, "render", self.scene, "-o", self.folder / "x.exr", "--frames", "0:4", says=["--output", "####"])
+        self.fails(2, "render", PLANE, "-o", self.folder / "x.##.exr", "--frames", "0:4", "--quiet", says=["no animation"])
+        self.assertEqual(list(self.folder.glob("x*")), [])
+
+
+if __name__ == "__main__":
+    main()
