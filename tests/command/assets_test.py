@@ -32,6 +32,8 @@ PLACES = {
     "Cameras-1": ("Cameras/Cameras.gltf", "--camera-index", 1),
     "CornellBox": ("CornellBox/CornellBox.glb",),
     "FlightHelmet": ("FlightHelmet/FlightHelmet.gltf",),
+    "Fox-1s": ("Fox/Fox.glb", "--animation-time", 1),
+    "GlassVaseFlowers": ("GlassVaseFlowers/GlassVaseFlowers.glb",),
     "LightsPunctualLamp": ("LightsPunctualLamp/LightsPunctualLamp.gltf",),
     "MetalRoughSpheresNoTextures": ("MetalRoughSpheresNoTextures/MetalRoughSpheresNoTextures.glb",),
     "MultiUVTest": ("MultiUVTest/MultiUVTest.gltf",),
@@ -39,7 +41,9 @@ PLACES = {
     "SimpleSparseAccessor": ("SimpleSparseAccessor/SimpleSparseAccessor.gltf",),
     "Suzanne": ("Suzanne/Suzanne.gltf",),
     "TextureSettingsTest": ("TextureSettingsTest/TextureSettingsTest.glb",),
+    "ToyCar": ("ToyCar/ToyCar.gltf",),
     "TransmissionTest": ("TransmissionTest/TransmissionTest.glb",),
+    "TwoSidedPlane": ("TwoSidedPlane/TwoSidedPlane.gltf",),
     "VertexColorTest": ("VertexColorTest/VertexColorTest.gltf",),
     "WaterBottle": ("WaterBottle/WaterBottle.gltf",),
 }
