@@ -275,6 +275,13 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
   return outcome;
 }
 
+/// Whether there is a picture by that name: files are replaced as a whole, so that one with contents is
+/// whole.
+bool isWhole(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) > 0;
+}
+
 /// Also with --quiet.
 void complain(const std::string& text) { std::fprintf(stderr, "fragtrace: %s\n", text.c_str()); }
 
@@ -295,8 +302,7 @@ int runSequence(const RenderOptions& options) {
   int skipped = 0;
   for (int i = 0; i < count && interrupts() == 0; ++i) {
     const SequenceFrame frame = frameOf(settled, i);
-    std::error_code error;
-    if (sequence.keep && std::filesystem::exists(frame.options.output, error)) {
+    if (sequence.keep && isWhole(frame.options.output)) {
       ++skipped;
       continue;
     }

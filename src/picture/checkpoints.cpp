@@ -2,6 +2,7 @@
 #include "picture/checkpoints.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -29,10 +30,28 @@ bool isFile(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path, error);
 }
 
-/// Whether an .exr says that its render was interrupted; other formats do not say.
-bool saysInterrupted(const std::filesystem::path& output) {
-  if (formatOfName(output) != ImageFormat::OpenExr) return false;
-  return readStoredImage(output).attributes.contains(kInterruptedAttribute);
+/// Whether the output is a whole picture. An .exr says whether its render was interrupted, and by how many
+/// samples of which seed; throws UsageError when these are others. Pictures of other formats only have to be
+/// readable.
+bool isWholePicture(const RenderOptions& options) {
+  Image picture;
+  try {
+    picture = readStoredImage(options.output, options.limits.memoryBytes);
+  } catch (const InputError&) {
+    say(options, options.output.string() + " is no whole picture: it is drawn anew");
+    return false;
+  }
+  if (picture.attributes.contains(kInterruptedAttribute)) return false;
+  if (!picture.attributes.contains("fragtrace:settings")) return true;
+  const Provenance made = provenanceOf(picture, options.output);
+  const auto check = [&](const char* option, int64_t there, int64_t asked) {
+    if (there != asked)
+      throw UsageError("--resume: " + options.output.string() + " is finished with " + option + " " +
+                       std::to_string(there) + ", not " + std::to_string(asked));
+  };
+  check("--seed", made.seed, options.seed);
+  if (made.uniform) check("--spp", made.samples, options.spp);
+  return true;
 }
 
 /// Throws InputError unless films, looks and blocks have the sizes of the part that is under way.
@@ -68,10 +87,8 @@ FilmTotals totalsIn(const nlohmann::json& json) {
 }  // namespace
 
 std::string measuredText(const Statistics& before, const RenderTimes& now) {
-  nlohmann::json json = {{"film", totalsJson(before.film)},
-                         {"before_ms", before.times.renderMs},
-                         {"render_ms", now.renderMs},
-                         {"draw_ms", now.drawMs}};
+  nlohmann::json json = {
+      {"film", totalsJson(before.film)}, {"render_ms", now.renderMs}, {"draw_ms", now.drawMs}};
   if (before.adaptive) {
     const AdaptiveStatistics& a = *before.adaptive;
     json["adaptive"] = {a.noise, a.seconds, a.error, a.share, a.rounds, a.known, a.black};
@@ -79,7 +96,7 @@ std::string measuredText(const Statistics& before, const RenderTimes& now) {
   return json.dump();
 }
 
-double restoreMeasured(const std::string& text, Statistics& stats) {
+void restoreMeasured(const std::string& text, Statistics& stats) {
   try {
     const auto json = nlohmann::json::parse(text);
     stats.film = totalsIn(json.at("film"));
@@ -89,7 +106,6 @@ double restoreMeasured(const std::string& text, Statistics& stats) {
       const nlohmann::json& a = json["adaptive"];
       stats.adaptive = {a.at(0), a.at(1), a.at(2), a.at(3), a.at(4), a.at(5), a.at(6)};
     }
-    return json.at("before_ms");
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(std::string("its statistics are broken: ") + error.what());
   }
@@ -102,15 +118,18 @@ std::filesystem::path checkpointOf(const std::filesystem::path& output) {
 std::string jobText(const PictureJob& job, const DrawingPlan& plan) {
   const RenderOptions& options = job.options;
   auto json = nlohmann::json::parse(settingsText(options, job.loaded, job.tracer));
-  json["variant"] = variantName(job.tracer.variant);
-  json["shader_text"] = hashOfText(job.tracer.variant.literals);
+  char shader[17];
+  std::snprintf(shader, sizeof shader, "%016llx",
+                static_cast<unsigned long long>(
+                    hashOfText(variantName(job.tracer.variant) + job.tracer.variant.literals)));
+  json["shader (--traversal, --schedule, --dispatch, --buffer-reads)"] = shader;
   json["shader_folder"] = options.shaderFolder.string();
   json["seed"] = options.seed;
   json["sample_offset"] = options.sampleOffset;
   json["spp"] = options.spp;
   json["noise"] = options.noise;
   json["time"] = options.seconds;
-  json["for_denoising"] = looksOnTheWay(options);
+  json["--denoise or --aov denoising"] = looksOnTheWay(options);
   for (const Region& part : plan.parts)
     json["parts"].push_back({part.corner.x, part.corner.y, part.size.x, part.size.y});
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -138,14 +157,22 @@ std::optional<Checkpoint> readCheckpoint(const PictureJob& job, const DrawingPla
 }
 
 bool isFinished(const RenderOptions& options) {
-  if (!options.resume || isFile(checkpointOf(options.output)) || !isFile(options.output)) return false;
-  if (saysInterrupted(options.output)) return false;
+  const std::filesystem::path checkpoint = checkpointOf(options.output);
+  if (isFile(checkpoint)) {
+    if (!options.resume)
+      say(options, "warning: " + checkpoint.string() + " is not used without --resume" +
+                       (options.checkpointSeconds > 0.0 ? ", and will be replaced" : ""));
+    return false;
+  }
+  const bool there = isFile(options.output) && isFile(options.scene);
+  if (!options.resume || !there || !isWholePicture(options)) return false;
   say(options, options.output.string() + " is finished: there is no checkpoint beside it");
   return true;
 }
 
 CheckpointKeeper::CheckpointKeeper(const RenderOptions& options)
-    : path_(checkpointOf(options.output)),
+    : options_(options),
+      path_(checkpointOf(options.output)),
       period_(options.checkpointSeconds),
       kept_(options.checkpointSeconds > 0.0 || options.resume),
       last_(steadyMilliseconds()) {}
@@ -157,8 +184,13 @@ bool CheckpointKeeper::isDue() {
   return true;
 }
 
-void CheckpointKeeper::write(const Checkpoint& checkpoint) const {
-  replaceFile(path_, encodeCheckpoint(checkpoint));
+void CheckpointKeeper::write(const Checkpoint& checkpoint) {
+  try {
+    replaceFile(path_, encodeCheckpoint(checkpoint));
+  } catch (const RenderError& error) {
+    if (!failed_) say(options_, std::string("warning: ") + error.what() + "; the render goes on");
+    failed_ = true;
+  }
 }
 
 void CheckpointKeeper::remove() const {

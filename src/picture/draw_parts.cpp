@@ -152,7 +152,6 @@ struct PartRun {
   const PictureJob& job;
   const View view;
   Share share;
-  double spentMs;  ///< by the parts before
   Statistics& stats;
   Renderer::Progress progress;
   /// Writes a checkpoint of the part as it is.
@@ -171,11 +170,11 @@ struct PartRun {
   }
 };
 
-/// Until the goal, of which a part of the picture gets its share of the time that is left.
+/// Until the goal; a part of the picture has its share of the time.
 Drawing drawAdaptively(const PartRun& part, glm::ivec2 size) {
   const RenderOptions& options = part.job.options;
-  const double left = std::max(0.001, options.seconds - 0.001 * part.spentMs);
-  const double seconds = options.seconds > 0.0 ? left * part.share.own / (1.0 - part.share.done) : 0.0;
+  // What a part leaves of its time is no other's, which would have less noise than the rest.
+  const double seconds = options.seconds * part.share.own;
   AdaptiveRun run(size);
   if (part.from != nullptr) {
     for (size_t half : {0, 1}) run.films[half].load(part.from->films[half]);
@@ -230,19 +229,17 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
   const bool keepsCounts = formatOfName(options.output) == ImageFormat::OpenExr && !showsColors(options);
   ProgressBar bar("rendering", options.quiet || !job.showsProgress);
   Image picture;
-  double spentMs = 0.0;
   size_t i = 0;
   if (from) {
     i = size_t(from->part);
     picture = std::move(from->picture);
-    spentMs = restoreMeasured(from->statistics, stats);
+    restoreMeasured(from->statistics, stats);
   }
   for (; i < plan.parts.size() && stats.complete; ++i) {
     const Region& region = plan.parts[i];
     Statistics before;
     before.film = stats.film;
     before.adaptive = stats.adaptive;
-    before.times.renderMs = spentMs;
     const double timedMs = stats.times.renderMs;
     const double begun = steadyMilliseconds();
     const auto progress = [&](double fraction) {
@@ -255,7 +252,7 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
       now.renderMs = timedMs + steadyMilliseconds() - begun;
       keeper.write({text, measuredText(before, now), picture, int(i), std::move(films), looks, state});
     };
-    const PartRun part{job,    viewOf(job.loaded, region), shares[i], spentMs, stats, progress, keep,
+    const PartRun part{job,    viewOf(job.loaded, region), shares[i], stats, progress, keep,
                        keeper, from ? &*from : nullptr};
     const bool isFirst = region == plan.parts.front();
     const Drawing drawing = isAdaptive(options)
@@ -263,7 +260,6 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
                                 : drawEvenly(part, isFirst ? std::move(plan.film) : Film(region.size));
     from.reset();
     add(stats.film, totalsOf(drawing.pixels), isFirst);
-    spentMs = stats.times.renderMs;
     const bool counted = keepsCounts && (plan.parts.size() > 1 || stats.adaptive || !stats.complete);
     addPart(picture, pictureOf(drawing, options, job.tracer.variant, counted), region, job.loaded.region);
   }

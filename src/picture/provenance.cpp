@@ -112,6 +112,9 @@ std::string differenceOf(const std::string& settings, const std::string& others)
     text += (text.empty() ? "" : ", ") + key + " " + value.dump() + " and " +
             (other == b.end() ? "none" : other->dump());
   }
+  for (const auto& [key, value] : b.items()) {
+    if (!a.contains(key)) text += (text.empty() ? "" : ", ") + key + " none and " + value.dump();
+  }
   return text.empty() ? "of another version" : text;
 }
 

@@ -147,17 +147,25 @@ Block firstOf(const AdaptiveGoal& goal) {
   return block;
 }
 
-/// Adds a round's samples to both halves; false when it was stopped.
+/// Adds a round's samples to both halves; false when it was stopped. Where time may end the first one, all
+/// pixels get a sample before any gets many.
 bool drawRound(Renderer& renderer, AdaptiveRun& run, Blocks& blocks, std::span<const View> views,
-               RenderTimes& times, const Renderer::Progress& progress) {
+               bool isTimed, RenderTimes& times, const Renderer::Progress& progress) {
   const int first = blocks.blocks.front().target;
-  const std::vector<Work> work = run.state.rounds > 0 ? workOf(blocks) : std::vector<Work>();
+  const bool begins = run.state.rounds == 0;
+  const std::vector<Work> work = begins ? std::vector<Work>() : workOf(blocks);
+  std::vector<int> steps = {first};
+  if (begins && isTimed) steps = {1, std::min(4, first), first};
   bool more = true;
-  for (size_t half : {0, 1}) {
-    if (!more) break;
-    more = run.state.rounds > 0
-               ? renderer.addSamples(run.films[half], views[half], work, times, progress)
-               : renderer.addSamples(run.films[half], views[half], 0, first, times, progress);
+  int from = 0;
+  for (const int to : steps) {
+    for (size_t half : {0, 1}) {
+      if (!more || (begins && to <= from)) continue;
+      more = begins ? renderer.addSamples(run.films[half], views[half], from, to, times, progress)
+                    : renderer.addSamples(run.films[half], views[half], work, times, progress);
+    }
+    from = std::max(from, to);
+    if (!begins) break;
   }
   for (Block& b : blocks.blocks) b.samples = b.target;
   return more;
@@ -214,7 +222,7 @@ AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const Vie
 
   for (;;) {
     // Step: draw the round.
-    const bool more = drawRound(renderer, run, blocks, views, times, goOn);
+    const bool more = drawRound(renderer, run, blocks, views, goal.seconds > 0.0, times, goOn);
 
     // Step: how far is the picture from the goal?
     const Halves halves{run.films[0].read(), run.films[1].read()};

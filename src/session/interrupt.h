@@ -3,7 +3,8 @@
 
 namespace fragtrace {
 
-/// From now on Ctrl-C (SIGINT) and SIGTERM are counted; until then they end the program with status 130.
+/// From now on Ctrl-C (SIGINT), SIGTERM and SIGHUP are counted; until then they end the program with status
+/// 130.
 void countInterrupts();
 
 /// How often the program was interrupted: once means stop and write what is finished, more means write

@@ -93,6 +93,12 @@ class Checkpoints(Broken):
         self.assertEqual((said.returncode, said.stdout), (0, ""))
         self.assertIn("x.exr is finished", said.stderr)
         self.assertEqual(self.output.stat().st_mtime_ns, before.st_mtime_ns)
+        self.fails(2, *self.arguments("--resolution", "16,16", "--spp", 3, "--resume", scene=BOX), says=["--resume", "--spp 2, not 3"])
+        self.fails(3, *self.arguments(*options, scene=self.folder / "none.gltf"), says=["none.gltf"])
+        # What a crash of others has left is no picture.
+        self.output.write_bytes(b"")
+        self.assertEqual(run(*self.arguments(*options, scene=BOX)).returncode, 0)
+        self.assertGreater(self.output.stat().st_size, 0)
 
     def test_other_settings_are_named(self):
         settings = {"--resolution": "120,90", "--spp": 100000, "--bounces": 16, "--seed": 0}
@@ -110,13 +116,33 @@ class Checkpoints(Broken):
         self.assertEqual(self.broken(1, *options, by=signal.SIGINT), 130)
         good = self.checkpoint.read_bytes()
         end = good.index(b"{")
-        for bad in (b"", b"x", good[:-1], good + b"x", good[:end + 20], good.replace(b"checkpoint 1", b"checkpoint 9"),
+        middle = len(good) // 2
+        for bad in (b"", b"x", good[:-1], good[:middle] + bytes([good[middle] ^ 4]) + good[middle + 1:], good + b"x", good[:end + 20], good.replace(b"checkpoint 1", b"checkpoint 9"),
                     good.replace(b'"size":[20,10]', b'"size":[10,20]'), good.replace(b'"part":0', b'"part":7')):
             self.assertNotEqual(bad, good)
             self.checkpoint.write_bytes(bad)
             self.fails(3, *self.arguments(*options, "--resume"), says=[self.checkpoint])
         self.checkpoint.unlink()
         self.output.unlink()
+
+    def test_one_that_cannot_be_written_on_the_way_does_not_end_the_render(self):
+        """Its name becomes a folder's while the picture is drawn."""
+        process = subprocess.Popen([FRAGTRACE, *[a for a in self.arguments("--checkpoint", 0.1, *SIZE, "--spp", 200) if a != "--quiet"]],
+                                   stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        while not self.checkpoint.exists():
+            time.sleep(0.01)
+        self.checkpoint.unlink()
+        self.checkpoint.mkdir()
+        said = process.communicate(timeout=60)[1]
+        self.assertTrue(self.output.exists(), said)
+        self.assertEqual(said.count("the render goes on"), 1, said)
+
+    def test_a_checkpoint_that_is_not_asked_for_is_said(self):
+        self.checkpoint.write_bytes(b"old")
+        result = run(*[a for a in self.arguments("--resolution", "16,16", "--spp", 1, scene=BOX) if a != "--quiet"])
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("is not used without --resume", result.stderr)
 
     def test_a_checkpoint_that_cannot_be_written_is_said_before_the_first_sample(self):
         self.output = self.folder / "none/x.exr"

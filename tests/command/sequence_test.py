@@ -83,13 +83,13 @@ class Sequences(Case):
     def test_continue_draws_what_is_missing(self):
         self.draw("--frames", "0:3")
         before = {k: (self.folder / f"x.{k:02}.exr").stat().st_mtime_ns for k in range(4)}
-        (self.folder / "x.02.exr").unlink()
+        (self.folder / "x.02.exr").write_bytes(b"")  # as a copy that crashed leaves it
         result = self.draw("--frames", "0:3", "--continue")
         self.assertEqual(len(result.stdout.splitlines()), 1)
         self.assertIn("3 of 4 pictures were there already", result.stderr)
         for k in (0, 1, 3):
             self.assertEqual((self.folder / f"x.{k:02}.exr").stat().st_mtime_ns, before[k])
-        self.assertTrue((self.folder / "x.02.exr").exists())
+        self.assertGreater((self.folder / "x.02.exr").stat().st_size, 0)
 
     def test_a_broken_frame_is_said_and_the_rest_is_drawn(self):
         # Between frames 1 and 3 the plane is farther away than floats reach.
