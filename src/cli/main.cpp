@@ -40,9 +40,7 @@ int run(int argc, char** argv) {
   return runCommandLine(argc, argv);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int statusOf(int argc, char** argv) {
   try {
     const int status = run(argc, argv);
     fragtrace::checkPrinted();
@@ -62,4 +60,12 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return fail(kFailed, error.what());
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int status = statusOf(argc, argv);
+  fragtrace::endAsMeant();
+  return status;
 }

@@ -22,6 +22,15 @@ volatile std::sig_atomic_t lastSignal = 0;
 volatile std::sig_atomic_t lastMs = 0;
 volatile std::sig_atomic_t onTerminal = 0;
 
+volatile std::sig_atomic_t isMeant = 0;
+
+void sayCrash(int) {
+  static constexpr char kMessage[] =
+      "fragtrace: a library or the driver crashed, perhaps for want of memory; nothing is written\n";
+  (void)!::write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
+  _exit(kCrashedStatus);
+}
+
 void handle(void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
@@ -45,15 +54,17 @@ void exitOnInterrupt() {
   });
 }
 
+void endAsMeant() { isMeant = 1; }
+
 void sayWhenCrashing() {
 #ifndef __SANITIZE_ADDRESS__  // which says more
+  on_exit(
+      [](int, void*) {
+        if (isMeant == 0) sayCrash(0);
+      },
+      nullptr);
   struct sigaction action {};
-  action.sa_handler = [](int) {
-    static constexpr char kMessage[] =
-        "fragtrace: a library or the driver crashed, perhaps for want of memory; nothing is written\n";
-    (void)!::write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
-    _exit(kCrashedStatus);
-  };
+  action.sa_handler = sayCrash;
   sigemptyset(&action.sa_mask);
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(signal, &action, nullptr);
 #endif

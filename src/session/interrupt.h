@@ -15,7 +15,10 @@ int interrupts();
 /// written yet.
 void exitOnInterrupt();
 
-/// From now on a crash, such as Mesa's when an allocation fails, ends with a message and status 1.
+/// From now on a crash, such as Mesa's when an allocation fails, ends with a message and status 1; so does a
+/// library that ends the process by exit(), as Mesa's parser does without memory.
 void sayWhenCrashing();
+/// Before main() returns: the end is the program's own.
+void endAsMeant();
 
 }  // namespace fragtrace
