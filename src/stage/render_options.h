@@ -76,6 +76,7 @@ struct RenderOptions {
       0.0;               ///< largest radiance that a path of two scatterings or more may add; 0: no limit
   double noise = 0.0;    ///< relative error to reach, adaptively; 0: spp samples in every pixel
   double seconds = 0.0;  ///< time to spend, adaptively; 0: no limit
+  double checkpointSeconds = 0.0;  ///< between two checkpoints; 0: none is written
   std::optional<int> cameraIndex;
   CameraOverrides camera;
   std::optional<glm::dvec3>
@@ -99,15 +100,14 @@ struct RenderOptions {
   std::vector<Feature> aovFeatures;
   Denoise denoise = Denoise::None;
   DebugView debugView = DebugView::None;
-  std::optional<int> treeLevel;    ///< its boxes are drawn over the picture
-  double checkpointSeconds = 0.0;  ///< between two checkpoints; 0: none is written
+  std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
   std::optional<SequenceOptions> sequence;
-  bool resume = false;  ///< go on from the checkpoint beside the output
   std::filesystem::path statsFile;
   std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
   std::filesystem::path oidnLibrary;   ///< file of Open Image Denoise; none: it is looked for
   SceneSelection selection;
   InputLimits limits;
+  bool resume = false;  ///< go on from the checkpoint beside the output
   bool quiet = false;
   bool verbose = false;
 
