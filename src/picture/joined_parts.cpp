@@ -61,6 +61,7 @@ struct Sources {
 /// Where the channels of a picture are in another.
 std::vector<size_t> placesOf(const std::vector<std::string>& channels, const Image& image) {
   std::vector<size_t> places;
+  places.reserve(channels.size());
   for (const std::string& channel : channels) places.push_back(findChannel(image, channel).value_or(0));
   return places;
 }

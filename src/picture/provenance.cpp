@@ -139,7 +139,7 @@ std::vector<SampleRange> rangesOf(const Provenance& provenance) {
 }
 
 std::vector<SampleRange> joinedRanges(std::vector<SampleRange> ranges) {
-  std::ranges::sort(ranges);
+  std::sort(ranges.begin(), ranges.end());
   std::vector<SampleRange> joined;
   for (const SampleRange& range : ranges) {
     if (joined.empty() || joined.back().seed != range.seed ||

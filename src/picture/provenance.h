@@ -2,7 +2,7 @@
 // What a rendered .exr says of its own making, so that parts of one render can be joined.
 #pragma once
 
-#include <compare>
+#include <tuple>
 #include <vector>
 
 #include "image/image.h"
@@ -17,7 +17,9 @@ struct SampleRange {
   int64_t count = 0;
 
   bool operator==(const SampleRange&) const = default;
-  auto operator<=>(const SampleRange&) const = default;
+  bool operator<(const SampleRange& other) const {
+    return std::tie(seed, first, count) < std::tie(other.seed, other.first, other.count);
+  }
 };
 
 /// Written as the string attributes fragtrace:settings, :seed, :sampleOffset, :samples, :uniform and, where
