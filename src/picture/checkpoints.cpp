@@ -12,6 +12,7 @@
 #include "picture/draw_picture.h"
 #include "picture/provenance.h"
 #include "render/adaptive.h"
+#include "session/outputs.h"
 #include "session/say.h"
 
 namespace fragtrace {
@@ -111,10 +112,6 @@ void restoreMeasured(const std::string& text, Statistics& stats) {
   }
 }
 
-std::filesystem::path checkpointOf(const std::filesystem::path& output) {
-  return std::filesystem::path(output) += ".checkpoint";
-}
-
 std::string jobText(const PictureJob& job, const DrawingPlan& plan) {
   const RenderOptions& options = job.options;
   auto json = nlohmann::json::parse(settingsText(options, job.loaded, job.tracer));
@@ -174,7 +171,7 @@ CheckpointKeeper::CheckpointKeeper(const RenderOptions& options)
     : options_(options),
       path_(checkpointOf(options.output)),
       period_(options.checkpointSeconds),
-      kept_(options.checkpointSeconds > 0.0 || options.resume),
+      kept_(keepsCheckpoint(options)),
       last_(steadyMilliseconds()) {}
 
 bool CheckpointKeeper::isDue() {

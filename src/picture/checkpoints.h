@@ -11,9 +11,6 @@
 
 namespace fragtrace {
 
-/// OUTPUT.checkpoint.
-std::filesystem::path checkpointOf(const std::filesystem::path& output);
-
 /// JSON of all that a picture's samples depend on, one member a setting: settingsText(), the samples asked
 /// for, the shader variant and the parts.
 std::string jobText(const PictureJob& job, const DrawingPlan& plan);

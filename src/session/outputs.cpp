@@ -58,10 +58,17 @@ std::vector<std::filesystem::path> inputsOf(const Scene& scene) {
   return inputs;
 }
 
+std::filesystem::path checkpointOf(const std::filesystem::path& output) {
+  return std::filesystem::path(output) += ".checkpoint";
+}
+
+bool keepsCheckpoint(const RenderOptions& options) {
+  return options.checkpointSeconds > 0.0 || options.resume;
+}
+
 std::vector<NamedOutput> outputsOf(const RenderOptions& options) {
   std::vector<NamedOutput> outputs = {{"--output", options.output}, {"--stats", options.statsFile, true}};
-  if (options.checkpointSeconds > 0.0 || options.resume)
-    outputs.push_back({"--checkpoint", std::filesystem::path(options.output) += ".checkpoint"});
+  if (keepsCheckpoint(options)) outputs.push_back({"--checkpoint", checkpointOf(options.output)});
   return outputs;
 }
 

@@ -33,6 +33,10 @@ void replaceText(const std::filesystem::path& path, const std::string& text);
 std::vector<std::filesystem::path> inputsOf(const RenderOptions& options);
 /// Those pictures, once the scene is loaded.
 std::vector<std::filesystem::path> inputsOf(const Scene& scene);
+/// OUTPUT.checkpoint.
+std::filesystem::path checkpointOf(const std::filesystem::path& output);
+/// Whether a render that is stopped leaves one.
+bool keepsCheckpoint(const RenderOptions& options);
 /// What a render writes.
 std::vector<NamedOutput> outputsOf(const RenderOptions& options);
 

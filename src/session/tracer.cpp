@@ -10,6 +10,7 @@
 #include "pack/literals.h"
 #include "pack/pack_textures.h"
 #include "process/parallel.h"
+#include "session/outputs.h"
 #include "session/say.h"
 
 namespace fragtrace {
@@ -133,9 +134,8 @@ std::optional<Phase> buildAhead(ProgramCache& programs, ShaderVariant variant, c
 
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
                   Statistics& stats) {
-  const bool kept = options.checkpointSeconds > 0.0 || options.resume;
   return makeTracer(context, loaded, options, stats,
-                    kept || formatOfName(options.output) == ImageFormat::OpenExr);
+                    keepsCheckpoint(options) || formatOfName(options.output) == ImageFormat::OpenExr);
 }
 
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
