@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: MIT
 // The command line as a pipeline: scene, tree, context, packed scene, renderer, film, picture.
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 
 #include "cli/commands.h"
 #include "cli/leave.h"
 #include "errors.h"
-#include "gl/debug_log.h"
-#include "gl/driver_choice.h"
 #include "image/files/process.h"
-#include "image/format.h"
 #include "options/config_file.h"
 #include "options/parse_render.h"
 #include "options/sequence_options.h"
-#include "picture/checkpoints.h"
 #include "picture/denoising.h"
-#include "picture/draw_parts.h"
+#include "picture/finished_picture.h"
 #include "picture/picture_file.h"
-#include "picture/provenance.h"
 #include "picture/sequence.h"
-#include "render/adaptive.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/tracer.h"
@@ -32,50 +24,6 @@ namespace fragtrace {
 namespace {
 
 constexpr int kInterruptedStatus = 130;
-
-/// A view that nobody has chosen and that shows nothing is likely to be a mistake: of ours, or a surface's
-/// back.
-void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, const ShaderVariant& variant,
-                      const Statistics& stats) {
-  const bool chosen = !loaded.scene.cameras.empty() || options.camera != CameraOverrides();
-  const bool nothing = stats.scene.triangles == 0 && stats.scene.spheres == 0;
-  const bool seen = stats.film.hitPixels > 0 || stats.film.samples == 0;
-  if (chosen || options.region || nothing || seen || has(variant.stages, Stage::BvhHeatmap)) return;
-  say(options,
-      "warning: the default view shows nothing of the scene; --camera-position and --camera-focal-point "
-      "choose another");
-}
-
-/// What --bounces cut is missing from the picture.
-void sayWhatWasCut(const RenderOptions& options, const Statistics& stats) {
-  constexpr double kNoticed = 0.01;
-  if (cutShare(stats) <= kNoticed) return;
-  char share[32];
-  std::snprintf(share, sizeof share, "%.2g", cutShare(stats));
-  say(options, "warning: --bounces " + std::to_string(options.bounces) +
-                   " cut paths that could still carry " + share +
-                   " of the light (cut_share); more make the picture brighter");
-}
-
-/// Whether every pixel has the same samples: neither adaptive nor interrupted.
-bool isUniform(const Statistics& stats) {
-  return stats.complete && stats.film.fewestSamples == stats.film.mostSamples && !stats.adaptive;
-}
-
-/// An .exr says how it was made, as merge needs it.
-void setProvenanceOf(Image& picture, const RenderOptions& options, const LoadedScene& loaded,
-                     const Tracer& tracer, const Statistics& stats) {
-  if (formatOfName(options.output) != ImageFormat::OpenExr || options.debugView != DebugView::None) return;
-  Provenance made{settingsText(options, loaded, tracer), options.seed, options.sampleOffset,
-                  std::llround(samplesPerPixel(stats)), isUniform(stats)};
-  const int64_t most = stats.film.mostSamples;
-  if (stats.adaptive)
-    made.ranges = joinedRanges({{options.seed, 0, most}, {seedOfOtherHalf(options.seed), 0, most}});
-  else if (!made.uniform)
-    made.ranges = {{options.seed, options.sampleOffset, most}};
-  setProvenance(picture, made);
-  if (!stats.complete) picture.attributes[kInterruptedAttribute] = "1";
-}
 
 void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
   std::string noise;
@@ -90,13 +38,8 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
     std::snprintf(text, sizeof text, " in %.2f s", stats.denoise->filterMs / 1000.0);
     noise += ", " + stats.denoise->filter + text;
   }
-  sayWhatWasCut(options, stats);
+  sayHowItEnded(options, stats);
   if (!stats.complete) say(options, "interrupted: what was finished is written");
-  if (stats.adaptive && stats.adaptive->black) {
-    say(options, "warning: the picture is black, so nothing is known of its noise");
-  } else if (stats.complete && options.noise > 0.0 && stats.adaptive->share < 0.95) {
-    say(options, "warning: --spp or --time ended the render before the noise asked for");
-  }
   if (options.quiet) return;
   // Standard output is the statistics' alone.
   std::fprintf(isStandardOutput(options.statsFile) ? stderr : stdout,
@@ -105,89 +48,34 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
                stats.times.renderMs / 1000.0, megaPathsPerSecond(stats), noise.c_str());
 }
 
-void sayWhatIsChosen(const RenderOptions& options, const Context& context, const Tracer& tracer,
-                     const Statistics& stats) {
-  if (options.verbose) {
-    say(options, "OpenGL " + context.version + " on " + context.renderer + " (" + context.backend + ")");
-    say(options, "variant " + stats.variant);
-    for (const std::string& line : stats.skipped) say(options, "skipped " + line);
-  }
-  if (options.schedule == Schedule::Wavefront && !stats.scheduleReason.empty())
-    say(options, "warning: --schedule wavefront: the megakernel draws: " + stats.scheduleReason);
-  if (tracer.variant.clampIndirect) say(options, "indirect light is clamped (--clamp-indirect): biased");
-}
-
-/// Throws RenderError when the driver left out samples without a word.
-void checkSamples(const RenderOptions& options, const Statistics& stats) {
-  if (!stats.complete || stats.adaptive || stats.film.fewestSamples >= unsigned(options.spp)) return;
-  throw RenderError("the driver drew " + std::to_string(stats.film.fewestSamples) + " of " +
-                    std::to_string(options.spp) + " samples and reported no error; no picture is written");
-}
-
-/// What pictures share.
-struct Device {
-  std::unique_ptr<Context> context;
-  std::optional<DebugLog> driverLog;  ///< of the context
-  std::optional<OidnLibrary> oidn;
-};
-
-/// For so many camera paths in all.
-void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats) {
-  const bool quick = preferQuickCompilation(paths);
-  PhaseTimer timer("context");
-  device.context = makeContext(options.backend);
-  device.driverLog.emplace();
-  stats.phases.push_back(timer.end());
-  stats.quickCompilation = quick && device.context->software;
-}
-
-void sayDriverLog(const RenderOptions& options, Device& device) {
-  for (const std::string& message : device.driverLog->take()) say(options, "driver: " + message);
-}
-
 /// What becomes of a picture: it is written, written as far as it was drawn, or not at all.
 enum class Outcome { Complete, Partial, None };
 
 /// From the scene on the device to the files. `boxes` are drawn over it.
-Outcome drawAndWrite(const PictureJob& asked, const std::vector<PictureLine>& boxes, Device& device,
+Outcome drawAndWrite(const PictureJob& job, const std::vector<PictureLine>& boxes, Device& device,
                      Statistics& stats) {
-  RenderOptions options = asked.options;
-  const PictureJob job{options, asked.loaded, asked.tracer, asked.showsProgress};
+  const RenderOptions& options = job.options;
+  // Who goes on with a sequence later takes a picture that is there for a whole one.
+  const int most = job.showsProgress ? 1 : 0;
   PhaseTimer firstDraw("first draw");
   DrawingPlan plan = planDrawing(job, stats);
   stats.phases.push_back(firstDraw.end());
-  sayWhatIsChosen(options, *device.context, job.tracer, stats);
 
   // Step: draw.
   checkPictureWritable(options, job.loaded.region.size);
   countInterrupts();
-  PhaseTimer drawTimer("draw");
   CheckpointKeeper keeper(options);
-  Image picture = drawPicture(job, plan, stats, keeper);
-  if (!isUniform(stats)) options.aovSamples = true;  // merge needs them
-  stats.phases.push_back(drawTimer.end());
-  stats.spp = options.spp;
-  sayDriverLog(options, device);
-  // Who goes on with a sequence later takes a picture that is there for a whole one.
-  const int most = asked.showsProgress ? 1 : 0;
-  if (interrupts() > most) return Outcome::None;
-  sayWhatWentWrong(options, stats.film);
-  sayWhatIsNotSeen(options, job.loaded, job.tracer.variant, stats);
-  checkSamples(options, stats);
+  std::optional<Image> drawn = drawSamples(job, plan, device, keeper, most, stats);
+  if (!drawn) return Outcome::None;
 
   // Step: write. What has been drawn is not lost from here on.
   try {
-    addFeatures(picture, job, plan, stats);
-    denoise(picture, options, device.oidn, stats);
-    sayDriverLog(options, device);
-    if (interrupts() > most) return Outcome::None;
-    setProvenanceOf(picture, options, job.loaded, job.tracer, stats);
-    picture.placement = viewOf(job.loaded, job.loaded.region).placement;
+    if (!finishPicture(*drawn, job, plan, device, most, stats)) return Outcome::None;
     PhaseTimer writing("write");
-    writePicture(options, picture, boxes);
+    writePicture(options, *drawn, boxes);
     stats.phases.push_back(writing.end());
   } catch (const std::exception& error) {
-    throw RenderError(rescuePicture(options, picture, error.what()));
+    throw RenderError(rescuePicture(options, *drawn, error.what()));
   }
   if (stats.complete) keeper.remove();
   if (!options.statsFile.empty()) replaceText(options.statsFile, statisticsText(stats));

@@ -9,9 +9,9 @@
 #include "errors.h"
 #include "gl/program.h"
 #include "image/channels.h"
-#include "image/format.h"
 #include "render/denoise.h"
 #include "session/interrupt.h"
+#include "session/outputs.h"
 #include "session/phase_timer.h"
 #include "session/progress_bar.h"
 #include "session/say.h"
@@ -135,7 +135,7 @@ void denoise(Image& picture, const RenderOptions& options, const std::optional<O
   std::vector<std::string> asked = picture.channels;
   std::erase_if(asked, [&](const std::string& channel) { return isForTheFilter(channel, options); });
   picture = onlyChannels(picture, asked);
-  if (denoised && formatOfName(options.output) == ImageFormat::OpenExr)
+  if (denoised && holdsLayers(options))
     keepNoisy(picture, noisy, stats.denoise->filter);
 }
 

@@ -7,13 +7,13 @@
 
 #include "errors.h"
 #include "image/channels.h"
-#include "image/format.h"
 #include "picture/checkpoints.h"
 #include "picture/denoising.h"
 #include "picture/draw_picture.h"
 #include "picture/picture_file.h"
 #include "render/adaptive.h"
 #include "session/interrupt.h"
+#include "session/outputs.h"
 #include "session/progress_bar.h"
 
 namespace fragtrace {
@@ -226,7 +226,7 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
   const std::vector<Share> shares = sharesOf(plan.parts, job.loaded.region.size);
   const double secondsAfter = secondsOfFeatures(plan.layerSeconds, options);
   // merge needs the samples of each pixel where these differ.
-  const bool keepsCounts = formatOfName(options.output) == ImageFormat::OpenExr && !showsColors(options);
+  const bool keepsCounts = holdsLayers(options) && !showsColors(options);
   ProgressBar bar("rendering", options.quiet || !job.showsProgress);
   Image picture;
   size_t i = 0;
@@ -244,6 +244,7 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
     const double begun = steadyMilliseconds();
     const auto progress = [&](double fraction) {
       bar.show(shares[i].of(fraction), secondsAfter);
+      if (job.told) job.told(shares[i].of(fraction));
       return interrupts() == 0;
     };
     const auto keep = [&](std::vector<FilmState> films, const std::vector<FilmPixels>& looks,

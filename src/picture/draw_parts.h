@@ -3,6 +3,7 @@
 // and stops at interrupts.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "picture/picture_parts.h"
@@ -17,6 +18,8 @@ struct PictureJob {
   const LoadedScene& loaded;
   const Tracer& tracer;
   bool showsProgress = true;  ///< of this picture alone; a sequence shows its own
+  /// Told how far the samples are, 0..1; may be none.
+  std::function<void(double fraction)> told = {};
 };
 
 /// What is made and measured before the first sample that counts.

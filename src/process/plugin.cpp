@@ -13,7 +13,11 @@ std::vector<std::filesystem::path> ownFolders() {
   if (const char* folder = std::getenv("FRAGTRACE_LIBRARY_PATH")) folders.emplace_back(folder);
   std::error_code error;
   const auto executable = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) folders.push_back(executable.parent_path());
+  // Where this code is part of a shared object, Python's module, its folder is ours, not the interpreter's.
+  Dl_info own{};
+  const bool known = dladdr(reinterpret_cast<const void*>(&ownFolders), &own) != 0 && own.dli_fname[0] == '/';
+  const auto object = known ? std::filesystem::canonical(own.dli_fname, error) : executable;
+  if (!object.empty()) folders.push_back(object.parent_path());
   return folders;
 }
 

@@ -10,7 +10,7 @@
 namespace fragtrace {
 
 /// Where our own libraries and programs are looked for: the folder FRAGTRACE_LIBRARY_PATH, then that of the
-/// executable.
+/// executable or shared object that this code is part of.
 std::vector<std::filesystem::path> ownFolders();
 
 struct Plugin {

@@ -23,6 +23,7 @@ volatile std::sig_atomic_t lastMs = 0;
 volatile std::sig_atomic_t onTerminal = 0;
 
 volatile std::sig_atomic_t isMeant = 0;
+thread_local const std::atomic<int>* ownCounter = nullptr;
 
 void sayCrash(int) {
   static constexpr char kMessage[] =
@@ -84,6 +85,10 @@ void countInterrupts() {
   });
 }
 
-int interrupts() { return interruptCount; }
+int interrupts() { return ownCounter != nullptr ? ownCounter->load() : interruptCount; }
+
+InterruptSource::InterruptSource(const std::atomic<int>& counter) { ownCounter = &counter; }
+
+InterruptSource::~InterruptSource() { ownCounter = nullptr; }
 
 }  // namespace fragtrace

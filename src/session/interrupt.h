@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
+
 namespace fragtrace {
 
 /// From now on Ctrl-C (SIGINT), SIGTERM and SIGHUP are counted; until then they end the program with status
@@ -8,8 +10,18 @@ namespace fragtrace {
 void countInterrupts();
 
 /// How often the program was interrupted: once means stop and write what is finished, more means write
-/// nothing.
+/// nothing. In a thread with an InterruptSource: what that counts.
 int interrupts();
+
+/// While it lives, interrupts() of the thread that made it are counted there and not by signals: for
+/// programs that handle these themselves. One a thread; the counter must outlive it.
+class InterruptSource {
+ public:
+  explicit InterruptSource(const std::atomic<int>& counter);
+  ~InterruptSource();
+  InterruptSource(const InterruptSource&) = delete;
+  InterruptSource& operator=(const InterruptSource&) = delete;
+};
 
 /// Until then: either ends the program at once with status 130 and a line that says so, as nothing has been
 /// written yet.

@@ -5,6 +5,7 @@
 
 #include "errors.h"
 #include "image/files/whole_file.h"
+#include "image/format.h"
 
 namespace fragtrace {
 
@@ -56,6 +57,10 @@ std::vector<std::filesystem::path> inputsOf(const Scene& scene) {
   std::vector<std::filesystem::path> inputs;
   for (const EncodedImage& image : scene.images) inputs.emplace_back(image.name);
   return inputs;
+}
+
+bool holdsLayers(const RenderOptions& options) {
+  return options.output.empty() || formatOfName(options.output) == ImageFormat::OpenExr;
 }
 
 std::filesystem::path checkpointOf(const std::filesystem::path& output) {

@@ -33,6 +33,8 @@ void replaceText(const std::filesystem::path& path, const std::string& text);
 std::vector<std::filesystem::path> inputsOf(const RenderOptions& options);
 /// Those pictures, once the scene is loaded.
 std::vector<std::filesystem::path> inputsOf(const Scene& scene);
+/// Whether what becomes of a picture holds layers and attributes: an .exr, or memory where no file is named.
+bool holdsLayers(const RenderOptions& options);
 /// OUTPUT.checkpoint.
 std::filesystem::path checkpointOf(const std::filesystem::path& output);
 /// Whether a render that is stopped leaves one.

@@ -20,9 +20,15 @@ Listening& listening() {
   return state;
 }
 
+thread_local std::vector<std::string>* saidHere = nullptr;
+
 }  // namespace
 
 void say(const RenderOptions& options, const std::string& text) {
+  if (saidHere != nullptr) {
+    saidHere->push_back(text);
+    return;
+  }
   Listening& state = listening();
   const std::lock_guard lock(state.mutex);
   const bool fresh = !state.listener || state.said.insert(text).second;
@@ -35,5 +41,9 @@ void passOnWhatIsSaid(std::function<void(const std::string&)> listener) {
   const std::lock_guard lock(state.mutex);
   state.listener = std::move(listener);
 }
+
+SaidHere::SaidHere(std::vector<std::string>& lines) { saidHere = &lines; }
+
+SaidHere::~SaidHere() { saidHere = nullptr; }
 
 }  // namespace fragtrace

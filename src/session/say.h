@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "stage/render_options.h"
 
@@ -15,5 +16,15 @@ void say(const RenderOptions& options, const std::string& text);
 /// From now on every line goes to the listener, too, be it quiet or not; stderr has each only once, since
 /// what a viewer does again and again says the same. The listener is called from any thread.
 void passOnWhatIsSaid(std::function<void(const std::string&)> listener);
+
+/// While it lives, what the thread that made it says is appended there and is said nowhere else. One a
+/// thread.
+class SaidHere {
+ public:
+  explicit SaidHere(std::vector<std::string>& lines);
+  ~SaidHere();
+  SaidHere(const SaidHere&) = delete;
+  SaidHere& operator=(const SaidHere&) = delete;
+};
 
 }  // namespace fragtrace

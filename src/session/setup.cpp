@@ -169,6 +169,18 @@ void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& s
 
 }  // namespace
 
+void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
+  const Scene& scene = loaded.scene;
+  loaded.cameraIndex = cameraIndexOf(options.cameraIndex, options.selection.camera, scene.cameras);
+  loaded.camera =
+      chooseCamera(scene.cameras, loaded.cameraIndex, options.camera, scene.bounds, framedAspect(options));
+  checkDistance(loaded.camera, scene.space, options);
+  loaded.size = chooseSize(loaded.camera, options);
+  loaded.region = chooseRegion(loaded.size, options);
+  if (film == FilmOf::Picture) checkFilmMemory(options, loaded.region.size);
+  loaded.view = makeView(options, scene, loaded.camera);
+}
+
 LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress,
                       FilmOf film, std::optional<Environment> known) {
   const auto step = [&](const char* name, double fraction) {
@@ -202,14 +214,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   if (scene.triangles.empty() && scene.spheres.empty()) {
     say(options, "warning: " + options.scene.string() + ": no triangle and no sphere, nothing to draw");
   }
-  loaded.cameraIndex = cameraIndexOf(options.cameraIndex, options.selection.camera, scene.cameras);
-  loaded.camera =
-      chooseCamera(scene.cameras, loaded.cameraIndex, options.camera, scene.bounds, framedAspect(options));
-  checkDistance(loaded.camera, scene.space, options);
-  loaded.size = chooseSize(loaded.camera, options);
-  loaded.region = chooseRegion(loaded.size, options);
-  if (film == FilmOf::Picture) checkFilmMemory(options, loaded.region.size);
-  loaded.view = makeView(options, scene, loaded.camera);
+  aim(loaded, options, film);
   stats.loadMs = watch.lap();
   step("building the tree", 0.5);
   PhaseTimer treeTimer("tree");

@@ -42,6 +42,9 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
 /// Triangles. Smaller scenes are literals as a whole, or not at all.
 inline constexpr size_t kLeastBesideLarge = 256;
 
+/// Chooses camera, size and region of a scene that is there. Throws as loadScene() does for these.
+void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film);
+
 /// Camera paths that the picture takes; infinite where time or noise ends it.
 double pathsOf(const RenderOptions& options, glm::ivec2 size);
 

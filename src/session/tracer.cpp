@@ -6,7 +6,6 @@
 #include "errors.h"
 #include "gl/driver_choice.h"
 #include "gl/schedule.h"
-#include "image/format.h"
 #include "pack/literals.h"
 #include "pack/pack_textures.h"
 #include "process/parallel.h"
@@ -134,8 +133,7 @@ std::optional<Phase> buildAhead(ProgramCache& programs, ShaderVariant variant, c
 
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,
                   Statistics& stats) {
-  return makeTracer(context, loaded, options, stats,
-                    keepsCheckpoint(options) || formatOfName(options.output) == ImageFormat::OpenExr);
+  return makeTracer(context, loaded, options, stats, keepsCheckpoint(options) || holdsLayers(options));
 }
 
 Tracer makeTracer(const Context& context, const LoadedScene& loaded, const RenderOptions& options,

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "picture/finished_picture.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "errors.h"
+#include "gl/driver_choice.h"
+#include "picture/denoising.h"
+#include "picture/picture_file.h"
+#include "picture/provenance.h"
+#include "render/adaptive.h"
+#include "session/interrupt.h"
+#include "session/outputs.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// A view that nobody has chosen and that shows nothing is likely to be a mistake: of ours, or a surface's
+/// back.
+void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, const ShaderVariant& variant,
+                      const Statistics& stats) {
+  const bool chosen = !loaded.scene.cameras.empty() || options.camera != CameraOverrides();
+  const bool nothing = stats.scene.triangles == 0 && stats.scene.spheres == 0;
+  const bool seen = stats.film.hitPixels > 0 || stats.film.samples == 0;
+  if (chosen || options.region || nothing || seen || has(variant.stages, Stage::BvhHeatmap)) return;
+  say(options,
+      "warning: the default view shows nothing of the scene; --camera-position and --camera-focal-point "
+      "choose another");
+}
+
+/// What --bounces cut is missing from the picture.
+void sayWhatWasCut(const RenderOptions& options, const Statistics& stats) {
+  constexpr double kNoticed = 0.01;
+  if (cutShare(stats) <= kNoticed) return;
+  char share[32];
+  std::snprintf(share, sizeof share, "%.2g", cutShare(stats));
+  say(options, "warning: --bounces " + std::to_string(options.bounces) +
+                   " cut paths that could still carry " + share +
+                   " of the light (cut_share); more make the picture brighter");
+}
+
+/// Whether every pixel has the same samples: neither adaptive nor interrupted.
+bool isUniform(const Statistics& stats) {
+  return stats.complete && stats.film.fewestSamples == stats.film.mostSamples && !stats.adaptive;
+}
+
+/// An .exr says how it was made, as merge needs it.
+void setProvenanceOf(Image& picture, const RenderOptions& options, const LoadedScene& loaded,
+                     const Tracer& tracer, const Statistics& stats) {
+  if (!holdsLayers(options) || options.debugView != DebugView::None) return;
+  Provenance made{settingsText(options, loaded, tracer), options.seed, options.sampleOffset,
+                  std::llround(samplesPerPixel(stats)), isUniform(stats)};
+  const int64_t most = stats.film.mostSamples;
+  if (stats.adaptive)
+    made.ranges = joinedRanges({{options.seed, 0, most}, {seedOfOtherHalf(options.seed), 0, most}});
+  else if (!made.uniform)
+    made.ranges = {{options.seed, options.sampleOffset, most}};
+  setProvenance(picture, made);
+  if (!stats.complete) picture.attributes[kInterruptedAttribute] = "1";
+}
+
+void sayWhatIsChosen(const RenderOptions& options, const Context& context, const Tracer& tracer,
+                     const Statistics& stats) {
+  if (options.verbose) {
+    say(options, "OpenGL " + context.version + " on " + context.renderer + " (" + context.backend + ")");
+    say(options, "variant " + stats.variant);
+    for (const std::string& line : stats.skipped) say(options, "skipped " + line);
+  }
+  if (options.schedule == Schedule::Wavefront && !stats.scheduleReason.empty())
+    say(options, "warning: --schedule wavefront: the megakernel draws: " + stats.scheduleReason);
+  if (tracer.variant.clampIndirect) say(options, "indirect light is clamped (--clamp-indirect): biased");
+}
+
+/// Throws RenderError when the driver left out samples without a word.
+void checkSamples(const RenderOptions& options, const Statistics& stats) {
+  if (!stats.complete || stats.adaptive || stats.film.fewestSamples >= unsigned(options.spp)) return;
+  throw RenderError("the driver drew " + std::to_string(stats.film.fewestSamples) + " of " +
+                    std::to_string(options.spp) + " samples and reported no error; no picture is written");
+}
+
+void sayDriverLog(const RenderOptions& options, Device& device) {
+  for (const std::string& message : device.driverLog->take()) say(options, "driver: " + message);
+}
+
+}  // namespace
+
+void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats) {
+  const bool quick = preferQuickCompilation(paths);
+  PhaseTimer timer("context");
+  device.context = makeContext(options.backend);
+  device.driverLog.emplace();
+  stats.phases.push_back(timer.end());
+  stats.quickCompilation = quick && device.context->software;
+}
+
+std::optional<Image> drawSamples(const PictureJob& job, DrawingPlan& plan, Device& device,
+                                 CheckpointKeeper& keeper, int most, Statistics& stats) {
+  const RenderOptions& options = job.options;
+  sayWhatIsChosen(options, *device.context, job.tracer, stats);
+  PhaseTimer drawTimer("draw");
+  Image picture = drawPicture(job, plan, stats, keeper);
+  stats.phases.push_back(drawTimer.end());
+  stats.spp = options.spp;
+  sayDriverLog(options, device);
+  if (interrupts() > most) return std::nullopt;
+  sayWhatWentWrong(options, stats.film);
+  sayWhatIsNotSeen(options, job.loaded, job.tracer.variant, stats);
+  checkSamples(options, stats);
+  return picture;
+}
+
+bool finishPicture(Image& picture, const PictureJob& job, const DrawingPlan& plan, Device& device, int most,
+                   Statistics& stats) {
+  RenderOptions options = job.options;
+  if (!isUniform(stats)) options.aovSamples = true;  // merge needs them
+  addFeatures(picture, {options, job.loaded, job.tracer, job.showsProgress, job.told}, plan, stats);
+  denoise(picture, options, device.oidn, stats);
+  sayDriverLog(options, device);
+  if (interrupts() > most) return false;
+  setProvenanceOf(picture, options, job.loaded, job.tracer, stats);
+  picture.placement = viewOf(job.loaded, job.loaded.region).placement;
+  return true;
+}
+
+void sayHowItEnded(const RenderOptions& options, const Statistics& stats) {
+  sayWhatWasCut(options, stats);
+  if (stats.adaptive && stats.adaptive->black) {
+    say(options, "warning: the picture is black, so nothing is known of its noise");
+  } else if (stats.complete && options.noise > 0.0 && stats.adaptive->share < 0.95) {
+    say(options, "warning: --spp or --time ended the render before the noise asked for");
+  }
+}
+
+}  // namespace fragtrace

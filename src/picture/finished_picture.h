@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// From a scene on the device to a picture with all that its file holds: what every front end that finishes
+// pictures shares.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "denoise/oidn_library.h"
+#include "gl/context.h"
+#include "gl/debug_log.h"
+#include "picture/checkpoints.h"
+#include "picture/draw_parts.h"
+
+namespace fragtrace {
+
+/// What pictures share.
+struct Device {
+  std::unique_ptr<Context> context;
+  std::optional<DebugLog> driverLog;  ///< of the context
+  std::optional<OidnLibrary> oidn;
+};
+
+/// For so many camera paths in all. Throws ContextError.
+void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats);
+
+/// Draws the picture's samples, and says what is odd about them. `plan` is what its layers need later.
+/// Nothing when the thread was interrupted more than `most` times. Throws what planDrawing() and
+/// drawPicture() throw.
+std::optional<Image> drawSamples(const PictureJob& job, DrawingPlan& plan, Device& device,
+                                 CheckpointKeeper& keeper, int most, Statistics& stats);
+
+/// Adds layers, filters, and puts the provenance into what drawSamples() gave. False when the thread was
+/// interrupted more than `most` times. Throws RenderError; the picture stays as far as it came.
+bool finishPicture(Image& picture, const PictureJob& job, const DrawingPlan& plan, Device& device, int most,
+                   Statistics& stats);
+
+/// What --bounces has cut, and what ended the samples, where that is worth a line.
+void sayHowItEnded(const RenderOptions& options, const Statistics& stats);
+
+}  // namespace fragtrace

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: MIT
+"""Path tracing of glTF scenes in an OpenGL shader.
+
+    import fragtrace
+    picture = fragtrace.render("helmet.glb", spp=64, resolution=(640, 360))   # a NumPy array (height, width, 4)
+    picture.save("helmet.png")
+
+Every option of the command `fragtrace render` is a keyword: --light-sampling is light_sampling=. Colours are linear, Rec. 709 primaries,
+float32; the first row is the top."""
+from fragtrace._core import ContextError, InputError, RenderError, UsageError
+from fragtrace._files import diff, info, merge, read
+from fragtrace._picture import Layers, Picture, tonemap
+from fragtrace._scene import Scene, render
+
+__all__ = ["ContextError", "InputError", "Layers", "Picture", "RenderError", "Scene", "UsageError", "diff", "info", "merge", "read", "render",
+           "tonemap"]

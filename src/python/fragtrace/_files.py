@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: MIT
+"""Files of pictures and scenes: reading, comparing, joining, describing."""
+import json
+import os
+import subprocess
+
+import numpy as np
+
+from fragtrace import _core
+from fragtrace._picture import Layers, _planes, picture_of
+from fragtrace._program import program
+
+ERRORS = {2: _core.UsageError, 3: _core.InputError, 4: _core.ContextError}
+
+
+def read(path):
+    """A picture file as a Picture, or as Layers where an .exr holds more: linear values of .exr, .hdr and .pfm, sRGB-encoded values 0..1 of
+    others. Raises InputError."""
+    return picture_of(*_core.read(os.fspath(path)))
+
+
+def _color(picture):
+    if isinstance(picture, (str, os.PathLike)):
+        picture = read(picture)
+    return picture["color"] if isinstance(picture, Layers) else picture
+
+
+def diff(picture, reference, metric="rmse"):
+    """How far a picture is from its reference, as a number: rmse, mse, relmse, psnr (dB), max, or flip (of what a display shows).
+
+    Both are arrays of linear colours (height, width, 3 or 4), or files of such. Alpha is not compared. Raises RenderError for other sizes."""
+    a, b = (np.ascontiguousarray(_planes(np.asarray(_color(one)))[0][:, :, :3]) for one in (picture, reference))
+    if a.shape[2] != b.shape[2]:
+        raise _core.UsageError("one picture is grey, and the other is not")
+    return _core.difference(a, b, ["Y"] if a.shape[2] == 1 else ["R", "G", "B"], metric)
+
+
+def merge(paths):
+    """Joins .exr files that hold other samples (sample_offset, seed) of one picture, each pixel weighted by its samples: as render() gives
+    them. `messages` says what it consists of. Raises InputError."""
+    channels, values, attributes, words = _core.merge([os.fspath(path) for path in paths])
+    made = picture_of(channels, values, attributes)
+    (made["color"] if isinstance(made, dict) else made).messages.append(words)
+    return made
+
+
+def info(path):
+    """What a scene holds, as `fragtrace info --json` prints it: a dict. Raises InputError."""
+    ran = subprocess.run([program(), "info", "--json", os.fspath(path)], capture_output=True, text=True, check=False)
+    if ran.returncode:
+        words = ran.stderr.strip().removeprefix("fragtrace: ")
+        raise ERRORS.get(ran.returncode, _core.RenderError)(words)
+    return json.loads(ran.stdout)

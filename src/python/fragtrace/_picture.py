@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: MIT
+"""Pictures as NumPy arrays that know how they were made."""
+import os
+import tempfile
+
+import numpy as np
+
+from fragtrace import _core
+
+COLOR = ("R", "G", "B", "A")
+
+
+def _planes(array):
+    """The array as (height, width, channels), float32, and the channels' names."""
+    values = np.ascontiguousarray(array, dtype=np.float32)
+    if values.ndim == 2:
+        values = values[:, :, np.newaxis]
+    if values.ndim != 3 or values.shape[2] not in (1, 3, 4):
+        raise _core.UsageError(f"an array of shape {np.shape(array)} is no picture: (height, width), (height, width, 3) or (..., 4) is")
+    return values, ["Y"] if values.shape[2] == 1 else list(COLOR[:values.shape[2]])
+
+
+def tonemap(picture, exposure=0.0, tone_map="neutral"):
+    """A linear picture (height, width, 3 or 4) as a display shows it: sRGB-encoded, uint8, the same shape; alpha is unassociated.
+
+    exposure is in stops (EV). tone_map: linear, reinhard, aces, agx or neutral, as the command's options. Raises UsageError."""
+    values, channels = _planes(picture)
+    _, shown, _ = _core.display(values, channels, float(exposure), tone_map)
+    return np.rint(np.clip(shown, 0.0, 1.0) * 255.0).astype(np.uint8)
+
+
+class Picture(np.ndarray):
+    """Linear colours (height, width, 4), float32: R, G, B, multiplied by A. What is calculated from it is a plain picture without
+    statistics.
+
+    statistics: what `--stats` writes, as a dict; messages: what the command prints on stderr; attributes: strings that an .exr keeps."""
+
+    def __array_finalize__(self, other):
+        self.statistics = {}
+        self.messages = []
+        self.attributes = {}
+
+    def save(self, path, *, exposure=0.0, tone_map="neutral"):
+        """Writes .exr, .hdr, .pfm (linear) or .png, .jpg (as tonemap() shows it), whole or not at all. Raises RenderError."""
+        _save(path, {"": np.asarray(self)}, self.attributes, exposure, tone_map)
+
+    def _repr_png_(self):
+        return _png(self)
+
+
+class Layers(dict):
+    """A picture with layers, by their names: "color" is a Picture; the others are arrays (height, width) or (height, width, channels).
+
+    statistics and messages are those of the picture."""
+
+    @property
+    def statistics(self):
+        return self["color"].statistics
+
+    @property
+    def messages(self):
+        return self["color"].messages
+
+    def save(self, path, *, exposure=0.0, tone_map="neutral"):
+        """As Picture.save(); an .exr holds all layers."""
+        planes = {"" if name == "color" else name: np.asarray(layer) for name, layer in self.items()}
+        _save(path, planes, self["color"].attributes, exposure, tone_map, self._channels())
+
+    def _channels(self):
+        return getattr(self, "channels", None)
+
+    def _repr_png_(self):
+        return _png(self["color"])
+
+
+def _png(picture):
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "picture.png")
+        _save(path, {"": np.asarray(picture)}, {}, 0.0, "neutral")
+        with open(path, "rb") as file:
+            return file.read()
+
+
+def _save(path, planes, attributes, exposure, tone_map, channels=None):
+    path = os.fspath(path)
+    color, names = _planes(planes[""])
+    if _core.is_display_format(path):
+        if names == ["Y"]:
+            color, names = np.repeat(color, 3, axis=2), list(COLOR[:3])
+        if not path.lower().endswith(".png"):
+            color, names = color[:, :, :3], names[:3]  # over black: colour is multiplied by alpha
+        names, color, _ = _core.display(np.ascontiguousarray(color), names, float(exposure), tone_map)
+        attributes = {}
+    elif path.lower().endswith(".exr"):
+        for name, layer in planes.items():
+            if name:
+                values, own = _planes(layer)
+                own = (channels or {}).get(name, [f"{name}.{one}" for one in own])
+                color, names = np.concatenate([color, values], axis=2), names + own
+    _core.save(path, np.ascontiguousarray(color), names, attributes)
+
+
+def picture_of(channels, values, attributes):
+    """What _core gives, as a Picture, or Layers where there is more than colour."""
+    index = {name: i for i, name in enumerate(channels)}
+    height, width = values.shape[:2]
+    if "R" not in index and "Y" in index:
+        color = np.repeat(values[:, :, index["Y"]][:, :, np.newaxis], 4, axis=2)
+        color[:, :, 3] = 1.0
+    else:
+        color = np.ones((height, width, 4), np.float32)
+        for i, name in enumerate(COLOR):
+            if name in index:
+                color[:, :, i] = values[:, :, index[name]]
+    picture = color.view(Picture)
+    picture.attributes = dict(attributes)
+    layers = Layers(color=picture)
+    layers.channels = {}
+    for name in channels:
+        if name in COLOR or "." not in name:
+            continue
+        layers.channels.setdefault(name.rsplit(".", 1)[0], []).append(name)
+    for layer, names in layers.channels.items():
+        taken = values[:, :, [index[name] for name in names]]
+        layers[layer] = np.ascontiguousarray(taken[:, :, 0] if len(names) == 1 else taken)
+    return layers if layers.channels else picture

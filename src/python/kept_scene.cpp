@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "python/kept_scene.h"
+
+#include <CLI/CLI.hpp>
+#include <limits>
+
+#include "errors.h"
+#include "options/config_file.h"
+#include "options/option_text.h"
+#include "picture/denoising.h"
+#include "stage/option_effects.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// The device, and the scenes that have something there.
+struct DrawingState {
+  Device device;
+  std::vector<std::weak_ptr<KeptScene>> scenes;
+};
+
+/// Of the drawing thread; never destroyed, since the driver may be gone before.
+DrawingState& drawing() {
+  static auto* const theOne = new DrawingState;
+  return *theOne;
+}
+
+/// What of the options loadScene() looks at, but for what aim() does again.
+RenderOptions loadPart(const RenderOptions& options) {
+  RenderOptions part;
+  part.scene = options.scene;
+  part.hdriFile = options.hdriFile;
+  part.defaultLight = options.defaultLight;
+  part.selection = options.selection;
+  part.instancing = options.instancing;
+  part.traversal = options.traversal;
+  part.stages = options.stages;
+  part.sceneOrigin = options.sceneOrigin;
+  part.limits = options.limits;
+  return part;
+}
+
+/// What makeTracer() looks at.
+RenderOptions tracerPart(const RenderOptions& options) {
+  RenderOptions part = programOptions(options);
+  part.aovFeatures = options.aovFeatures;
+  part.clampIndirect = options.clampIndirect;
+  part.background = options.background;
+  part.backgroundColor = options.backgroundColor;
+  return part;
+}
+
+/// The context is the process's: all scenes share it.
+Device& deviceFor(const RenderOptions& options, Statistics& stats) {
+  DrawingState& state = drawing();
+  // The driver's compiler is told once how hard to try, and nobody knows what is drawn later.
+  constexpr double kManyPaths = std::numeric_limits<double>::infinity();
+  if (!state.device.context) openContext(options, kManyPaths, state.device, stats);
+  const std::string& name = state.device.context->backend;
+  const bool other = (options.backend == Backend::Egl && name != "egl") ||
+                     (options.backend == Backend::OsMesa && name != "osmesa");
+  if (other)
+    throw UsageError("--rendering-backend: this process draws by " + name +
+                     " already; another needs another process");
+  return state.device;
+}
+
+/// The driver has lost all that was on the device.
+void forgetDevice() {
+  DrawingState& state = drawing();
+  for (const auto& kept : state.scenes) {
+    if (const auto scene = kept.lock()) scene->tracer.reset();
+  }
+  state.device.driverLog.reset();
+  state.device.context.reset();
+}
+
+/// The scene as loaded and uploaded for these options; the statistics say what of that was to be done.
+Statistics prepare(KeptScene& kept, const RenderOptions& options) {
+  Statistics stats;
+  const bool isLoaded = kept.loaded && kept.loadedFor == loadPart(options);
+  const bool isThere = isLoaded && kept.tracer && kept.tracedFor == tracerPart(options);
+  if (isLoaded) {
+    stats = kept.prepared;
+    stats.phases.clear();
+    stats.clockMs = steadyMilliseconds();
+    stats.clockCpuMs = threadMilliseconds();
+    stats.loadMs = stats.bvhBuildMs = 0.0;
+    aim(*kept.loaded, options, FilmOf::Part);
+    stats.size = kept.loaded->region.size;
+    stats.region = options.region;
+  } else {
+    kept.tracer.reset();
+    kept.loaded.reset();
+    kept.loaded = loadScene(options, stats, {}, FilmOf::Part);
+    kept.loadedFor = loadPart(options);
+  }
+  const Device& device = deviceFor(options, stats);
+  if (isThere) {
+    stats.packMs = stats.uploadMs = stats.compileMs = 0.0;
+    return stats;
+  }
+  kept.tracer.reset();
+  stats.skipped.clear();
+  kept.tracer = makeTracer(*device.context, *kept.loaded, options, stats, true);
+  kept.tracedFor = tracerPart(options);
+  if (!kept.isKept) releaseGeometry(*kept.loaded);
+  kept.prepared = stats;
+  return stats;
+}
+
+std::optional<DrawnPicture> draw(KeptScene& kept, const RenderOptions& asked, DrawJob& job) {
+  RenderOptions options = asked;
+  drawing().device.oidn = openDenoiser(options);
+  const RenderOptions drawn = withGuides(options);
+  Statistics stats = prepare(kept, drawn);
+  Device& device = drawing().device;
+  const PictureJob picture{options, *kept.loaded, *kept.tracer, false,
+                           [&](double fraction) { job.fraction = fraction; }};
+  PhaseTimer firstDraw("first draw");
+  DrawingPlan plan = planDrawing(picture, stats);
+  stats.phases.push_back(firstDraw.end());
+  CheckpointKeeper keeper(options);
+  std::optional<Image> image = drawSamples(picture, plan, device, keeper, 0, stats);
+  if (!image || !finishPicture(*image, picture, plan, device, 0, stats)) return std::nullopt;
+  sayHowItEnded(options, stats);
+  return DrawnPicture{std::move(*image), statisticsText(stats), stats.complete};
+}
+
+}  // namespace
+
+std::optional<DrawnPicture> drawKept(const std::shared_ptr<KeptScene>& scene, const RenderOptions& options,
+                                     DrawJob& job) {
+  if (job.interrupts > 0) return std::nullopt;
+  std::vector<std::weak_ptr<KeptScene>>& scenes = drawing().scenes;
+  std::erase_if(scenes, [&](const auto& other) { return other.expired() || other.lock() == scene; });
+  scenes.push_back(scene);
+  try {
+    return draw(*scene, options, job);
+  } catch (const ContextLost&) {
+    forgetDevice();
+    throw;
+  }
+}
+
+void releaseLater(std::shared_ptr<KeptScene> scene) {
+  postJob([scene = std::move(scene)](DrawJob&) mutable { scene.reset(); });
+}
+
+RenderOptions optionsOfWords(std::vector<std::string> words) {
+  struct Raw {
+    RawRender render;
+    std::string config;
+  } raw;
+  raw.render.anyOutput = true;
+  CLI::App app("", "fragtrace.render");
+  app.add_option("file", raw.render.scene)->required();
+  addRenderOptions(app, raw.render);
+  addPartOptions(app, raw.render);
+  addDenoiseOption(app, raw.render);
+  addConfigOption(app, raw.config);
+  parseWords(app, withNumbersSettled(std::move(words)));
+  RenderOptions options = finishConfigured(raw.render, raw.config, app);
+  if (options.checkpointSeconds > 0.0 || options.resume)
+    throw UsageError("--checkpoint: needs a file, so the command `fragtrace render`");
+  if (options.treeLevel)
+    throw UsageError("--tree-level: is drawn over files, so needs the command `fragtrace render`");
+  if (!options.statsFile.empty()) throw UsageError("--stats: the picture has its statistics with it");
+  return options;
+}
+
+}  // namespace fragtrace

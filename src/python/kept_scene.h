@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// A scene that stays on the device between its pictures. All of this belongs to the drawing thread
+// (draw_thread.h).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "picture/finished_picture.h"
+#include "python/draw_thread.h"
+
+namespace fragtrace {
+
+/// What is loaded and uploaded, and for which options.
+struct KeptScene {
+  std::optional<LoadedScene> loaded;
+  RenderOptions loadedFor;
+  std::optional<Tracer> tracer;
+  RenderOptions tracedFor;
+  Statistics prepared;  ///< of loading and uploading
+  bool isKept = true;   ///< else one picture is drawn, and memory that only loading needs is freed before
+};
+
+/// A picture with all its layers, linear, and the statistics as JSON.
+struct DrawnPicture {
+  Image image;
+  std::string statistics;
+  bool complete = true;
+};
+
+/// Draws a picture of the scene by options without an output; loads and uploads what is not there yet. Throws
+/// what `render` throws. Nothing when the job was interrupted.
+std::optional<DrawnPicture> drawKept(const std::shared_ptr<KeptScene>& scene, const RenderOptions& options,
+                                     DrawJob& job);
+
+/// Frees a scene, in the drawing thread.
+void releaseLater(std::shared_ptr<KeptScene> scene);
+
+/// The options of a render by the words of its command line, without its output. Throws UsageError,
+/// InputError.
+RenderOptions optionsOfWords(std::vector<std::string> words);
+
+}  // namespace fragtrace

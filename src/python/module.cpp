@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// fragtrace._core: what the Python package (src/python/fragtrace) is made of. Words go in, pictures come out.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+
+#include "errors.h"
+#include "image/compare/difference.h"
+#include "image/compare/flip.h"
+#include "image/display/tone_map.h"
+#include "image/image.h"
+#include "options/choose.h"
+#include "picture/joined_parts.h"
+#include "python/kept_scene.h"
+
+namespace nb = nanobind;
+
+namespace fragtrace {
+namespace {
+
+using Values = nb::ndarray<nb::numpy, float, nb::ndim<3>>;
+using GivenValues = nb::ndarray<const float, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
+
+/// Height, width, channels; the array keeps the values alive.
+Values arrayOf(Image& image) {
+  auto* const values = new std::vector<float>(std::move(image.values));
+  const nb::capsule owner(values, [](void* p) noexcept { delete static_cast<std::vector<float>*>(p); });
+  return Values(values->data(), {size_t(image.height), size_t(image.width), image.channels.size()}, owner);
+}
+
+/// Channels' names, values and attributes.
+nb::tuple pictureTuple(Image& image) {
+  Values values = arrayOf(image);
+  return nb::make_tuple(image.channels, values, image.attributes);
+}
+
+Image imageOfArray(const GivenValues& values, std::vector<std::string> channels,
+                   std::map<std::string, std::string> attributes) {
+  if (values.shape(2) != channels.size())
+    throw UsageError("an array of another number of channels than names");
+  constexpr size_t kMost = 1 << 20;
+  if (values.size() == 0 || values.shape(0) > kMost || values.shape(1) > kMost)
+    throw UsageError("an array that is no picture: height, width and channels are wanted");
+  Image image{int(values.shape(1)), int(values.shape(0)), std::move(channels), {}, std::move(attributes)};
+  image.values.assign(values.data(), values.data() + values.size());
+  return image;
+}
+
+/// Waits for a job as Python wants it: with the interpreter free, but heeding Ctrl-C. `told` is called with
+/// the fraction done.
+void await(DrawJob& job, const nb::object& told) {
+  constexpr int kLookMs = 40;
+  constexpr int kLeaveMs = 120;  // what is compiled just now goes on, and is not waited for
+  double last = -1.0;
+  const auto leave = [&] {
+    job.interrupts = 2;
+    const nb::gil_scoped_release free;
+    job.wait(kLeaveMs);
+  };
+  while (true) {
+    bool ended = false;
+    {
+      const nb::gil_scoped_release free;
+      ended = job.wait(kLookMs);
+    }
+    if (ended) break;
+    if (PyErr_CheckSignals() != 0) {
+      nb::python_error error;
+      leave();
+      throw error;
+    }
+    const double fraction = job.fraction;
+    if (told.is_none() || fraction == last) continue;
+    last = fraction;
+    try {
+      told(fraction);
+    } catch (...) {
+      leave();
+      throw;
+    }
+  }
+  if (job.error) std::rethrow_exception(job.error);
+}
+
+/// A scene that Python holds.
+class SceneHandle {
+ public:
+  explicit SceneHandle(bool kept) : scene_(std::make_shared<KeptScene>()) { scene_->isKept = kept; }
+  SceneHandle(const SceneHandle&) = delete;
+  SceneHandle& operator=(const SceneHandle&) = delete;
+  ~SceneHandle() {
+    try {
+      releaseLater(std::move(scene_));
+    } catch (const std::exception&) {
+      // A forked process has no drawing thread, and nothing to free.
+    }
+  }
+
+  /// Channels, values, attributes, statistics (JSON), whether it is complete, what was said.
+  nb::object draw(std::vector<std::string> words, const nb::object& told) {
+    const auto drawn = std::make_shared<std::optional<DrawnPicture>>();
+    const auto options = std::make_shared<RenderOptions>(optionsOfWords(std::move(words)));
+    const auto job =
+        postJob([scene = scene_, drawn, options](DrawJob& own) { *drawn = drawKept(scene, *options, own); });
+    await(*job, told);
+    if (!*drawn) throw RenderError("interrupted, nothing is drawn");
+    Values values = arrayOf((*drawn)->image);
+    return nb::make_tuple((*drawn)->image.channels, values, (*drawn)->image.attributes, (*drawn)->statistics,
+                          (*drawn)->complete, job->said);
+  }
+
+ private:
+  std::shared_ptr<KeptScene> scene_;
+};
+
+Metric metricNamed(const std::string& name) { return choose<Metric>("metric", name, metricNames()); }
+
+double differenceOfArrays(const GivenValues& picture, const GivenValues& reference,
+                          const std::vector<std::string>& channels, const std::string& metric) {
+  const Image a = imageOfArray(picture, channels, {});
+  const Image b = imageOfArray(reference, channels, {});
+  const Metric chosen = metricNamed(metric);
+  const nb::gil_scoped_release free;
+  if (chosen == Metric::Flip) return flipError(toDefaultDisplay(a), toDefaultDisplay(b)).mean;
+  return metricValue(compare(a, b), chosen);
+}
+
+/// sRGB-encoded display values, 0..1, of R, G, B and perhaps A.
+nb::tuple displayed(const GivenValues& values, const std::vector<std::string>& channels, double exposure,
+                    const std::string& curve) {
+  const std::optional<ToneMap> toneMap = parseToneMap(curve);
+  if (!toneMap) throw UsageError("tone_map: '" + curve + "' is none of " + joined(toneMapNames()));
+  Image display = toDisplay(imageOfArray(values, channels, {}), exposure, *toneMap);
+  return pictureTuple(display);
+}
+
+void save(const std::string& path, const GivenValues& values, std::vector<std::string> channels,
+          std::map<std::string, std::string> attributes) {
+  const Image image = imageOfArray(values, std::move(channels), std::move(attributes));
+  const nb::gil_scoped_release free;
+  writeImage(path, image);
+}
+
+nb::tuple readFile(const std::string& path) {
+  Image image;
+  {
+    const nb::gil_scoped_release free;
+    image = readImage(path);
+  }
+  return pictureTuple(image);
+}
+
+/// As readFile(), and what the picture consists of.
+nb::tuple merge(const std::vector<std::string>& paths) {
+  Part joined;
+  {
+    const nb::gil_scoped_release free;
+    std::vector<Part> parts;
+    for (const std::string& path : paths) parts.push_back(readPart(path));
+    joined = joinedParts(std::move(parts));
+  }
+  const std::string words = describeParts(paths.size(), joined);
+  const std::map<std::string, std::string> attributes = joined.image.attributes;
+  return nb::make_tuple(joined.image.channels, arrayOf(joined.image), attributes, words);
+}
+
+}  // namespace
+}  // namespace fragtrace
+
+NB_MODULE(_core, module) {
+  using namespace fragtrace;
+  nb::set_leak_warnings(false);
+  nb::exception<RenderError>(module, "RenderError", PyExc_RuntimeError);
+  nb::exception<UsageError>(module, "UsageError", PyExc_ValueError);
+  nb::exception<InputError>(module, "InputError", PyExc_ValueError);
+  nb::exception<ContextError>(module, "ContextError", PyExc_RuntimeError);
+  nb::class_<SceneHandle>(module, "Scene")
+      .def(nb::init<bool>())
+      .def("draw", &SceneHandle::draw, nb::arg("words"), nb::arg("told").none());
+  module.def("read", &readFile);
+  module.def("save", &save);
+  module.def("merge", &merge);
+  module.def("difference", &differenceOfArrays);
+  module.def("display", &displayed);
+  module.def("is_display_format", [](const std::string& path) { return isDisplayFormat(path); });
+  module.def("stop", [] {
+    const nb::gil_scoped_release free;
+    stopDrawing();
+  });
+}

@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: MIT
+"""The Python package as it is installed, beside the command. usage: package_test.py FRAGTRACE SOURCE_FOLDER [unittest arguments]"""
+import _thread
+import multiprocessing
+import os
+import pickle
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import fragtrace
+
+FRAGTRACE, SCENES = (Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve() / "scenes") if __name__ == "__main__" else (None, None)
+SMALL = {"resolution": (24, 16), "spp": 2}
+
+
+def draw_in_process(path, queue):
+    try:
+        queue.put(pickle.dumps(np.asarray(fragtrace.render(path, **SMALL))))
+    except Exception as error:
+        queue.put(pickle.dumps(str(error)))
+
+
+class Package(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def command(self, *words):
+        """The picture of the command built beside the tests, all layers."""
+        path = self.folder / "command.exr"
+        subprocess.run([FRAGTRACE, "render", *map(str, words), "-o", path, "--quiet"], check=True)
+        return fragtrace.read(path)
+
+
+class Pictures(Package):
+    def test_the_values_are_those_of_the_command(self):
+        for scene, words, keywords in [
+                ("cornell-box.gltf", (), {}),
+                ("coverage.gltf", ("--stage", "phong", "--seed", 3), {"stage": "phong", "seed": 3}),
+                ("plastics.gltf", ("--hdri-file", SCENES / "sky.pfm", "--hdri-rotation", -30.5), {"hdri": SCENES / "sky.pfm", "hdri_rotation": -30.5}),
+                ("layered.gltf", ("--camera-position", "-1,2,5", "--camera-focal-point", "0,0.5,0"),
+                 {"camera": {"position": (-1, 2, 5), "focal_point": np.array([0, 0.5, 0])}}),
+                ("mesh-15743.gltf", ("--noise", 0.2, "--region", "4,4,10,10"), {"noise": 0.2, "region": (4, 4, 10, 10), "spp": 64})]:
+            with self.subTest(scene):
+                options = ["--resolution", "24x16", "--spp", keywords.get("spp", 2)]
+                expected = self.command(SCENES / scene, *options, *words)
+                picture = fragtrace.render(SCENES / scene, **{**SMALL, **keywords})
+                if isinstance(expected, dict):
+                    region = np.asarray(picture["color"])
+                    whole = np.asarray(expected["color"])
+                    np.testing.assert_array_equal(region, whole[4:14, 4:14] if whole.shape != region.shape else whole)
+                    continue
+                np.testing.assert_array_equal(np.asarray(picture), np.asarray(expected))
+
+    def test_a_scene_is_kept_and_draws_the_same(self):
+        scene = fragtrace.Scene(SCENES / "mesh-15743.gltf", **SMALL)
+        first = scene.render()
+        again = scene.render()
+        np.testing.assert_array_equal(first, again)
+        self.assertGreater(first.statistics["load_ms"], 0)
+        self.assertEqual([again.statistics[name] for name in ("load_ms", "bvh_build_ms", "compile_ms", "upload_ms")], [0, 0, 0, 0])
+        for keywords in ({"seed": 5}, {"hdri_rotation": 10}, {"stage": "flat"}, {"background_color": (1, 0, 0)}, {"traversal": "bvh"},
+                         {"resolution": (8, 30)}, {"aov": "albedo"}, {"bounces": 1}, {"no_default_light": True}, {"clamp_indirect": 0.5}):
+            with self.subTest(str(keywords)):
+                kept, anew = (make(**{**SMALL, **keywords}) for make in (scene.render, lambda **k: fragtrace.render(SCENES / "mesh-15743.gltf", **k)))
+                if isinstance(kept, dict):
+                    self.assertEqual(list(kept), ["color", "albedo"])
+                    kept, anew = kept["albedo"], anew["albedo"]
+                np.testing.assert_array_equal(kept, anew)
+
+    def test_shapes_and_facts(self):
+        layers = fragtrace.render(SCENES / "coverage.gltf", aov=("albedo", "depth", "samples"), **SMALL)
+        self.assertEqual({name: layer.shape for name, layer in layers.items()},
+                         {"color": (16, 24, 4), "albedo": (16, 24, 3), "depth": (16, 24), "samples": (16, 24)})
+        self.assertEqual({layer.dtype.name for layer in layers.values()}, {"float32"})
+        self.assertEqual(layers.statistics["spp"], 2)
+        self.assertTrue((layers["samples"] == 2).all())
+        self.assertEqual(layers._repr_png_()[:8], b"\x89PNG\r\n\x1a\n")
+        half = layers["color"] * 0.5
+        self.assertEqual(half.statistics, {})
+
+    def test_files(self):
+        picture = fragtrace.render(SCENES / "cornell-box.gltf", **SMALL)
+        command = self.folder / "command.png"
+        subprocess.run([FRAGTRACE, "render", SCENES / "cornell-box.gltf", "--resolution", "24x16", "--spp", "2", "--exposure", "1", "--quiet",
+                        "-o", command], check=True)
+        for name in ("a.png", "a.exr", "a.pfm", "a.hdr", "a.jpg"):
+            picture.save(self.folder / name, exposure=1)
+        np.testing.assert_array_equal(fragtrace.read(self.folder / "a.png"), fragtrace.read(command))
+        np.testing.assert_array_equal(fragtrace.tonemap(picture, 1)[:, :, :3], np.rint(255 * fragtrace.read(command)[:, :, :3]))
+        np.testing.assert_array_equal(fragtrace.read(self.folder / "a.exr"), picture)
+        self.assertEqual(fragtrace.diff(picture, self.folder / "a.pfm"), 0)
+        self.assertLess(fragtrace.diff(self.folder / "a.hdr", picture, "relmse"), 1e-4)
+        self.assertGreater(fragtrace.diff(picture, picture * 1.1, "flip"), 0)
+        self.assertLess(fragtrace.diff(self.folder / "a.jpg", self.folder / "a.png"), 0.1)
+
+    def test_parts_merge(self):
+        scene = fragtrace.Scene(SCENES / "cornell-box.gltf", resolution=(24, 16))
+        for part in range(2):
+            scene.render(spp=4, sample_offset=4 * part).save(self.folder / f"{part}.exr")
+        joined = fragtrace.merge([self.folder / "0.exr", self.folder / "1.exr"])
+        self.assertLess(fragtrace.diff(joined, scene.render(spp=8), "max"), 1e-5)
+        self.assertIn("8 samples", " ".join(joined.messages))
+        with self.assertRaises(fragtrace.InputError):
+            fragtrace.merge([self.folder / "0.exr", self.folder / "0.exr"])
+
+    def test_info(self):
+        self.assertEqual(fragtrace.info(SCENES / "mesh-15743.gltf")["scene"]["triangles"], 15743)
+
+
+class Errors(Package):
+    def test_each_kind_is_an_exception(self):
+        with self.assertRaisesRegex(fragtrace.UsageError, "--spp"):
+            fragtrace.render(SCENES / "cornell-box.gltf", spp=-1)
+        with self.assertRaisesRegex(ValueError, "--colour"):
+            fragtrace.render(SCENES / "cornell-box.gltf", colour="red")
+        with self.assertRaisesRegex(fragtrace.UsageError, "checkpoint"):
+            fragtrace.render(SCENES / "cornell-box.gltf", checkpoint=3)
+        with self.assertRaisesRegex(fragtrace.InputError, "none.gltf"):
+            fragtrace.render(self.folder / "none.gltf")
+        with self.assertRaisesRegex(fragtrace.InputError, "none.gltf"):
+            fragtrace.info(self.folder / "none.gltf")
+        with self.assertRaisesRegex(fragtrace.RenderError, "nowhere"):
+            fragtrace.render(SCENES / "cornell-box.gltf", **SMALL).save(self.folder / "nowhere/a.png")
+        with self.assertRaises(fragtrace.UsageError):
+            fragtrace.tonemap(np.zeros(3))
+        with self.assertRaises(fragtrace.RenderError):
+            fragtrace.diff(np.zeros((2, 2, 3)), np.zeros((3, 2, 3)))
+        # And the next picture is drawn.
+        fragtrace.render(SCENES / "cornell-box.gltf", **SMALL)
+
+    def test_no_opengl(self):
+        code = f"import fragtrace, sys\ntry: fragtrace.render({str(SCENES / 'cornell-box.gltf')!r}, rendering_backend='egl')\n" \
+               "except fragtrace.ContextError as error: sys.exit(44)"
+        broken = {**os.environ, "__EGL_VENDOR_LIBRARY_DIRS": "/nowhere", "LD_LIBRARY_PATH": ""}
+        self.assertEqual(subprocess.run([sys.executable, "-c", code], env=broken, check=False).returncode, 44)
+
+    def test_ctrl_c(self):
+        scene = fragtrace.Scene(SCENES / "cornell-box.gltf", resolution=(200, 200))
+        scene.render(spp=1)
+        pressed = []
+
+        def press():
+            pressed.append(time.monotonic())
+            _thread.interrupt_main()
+
+        timer = threading.Timer(1.0, press)
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            scene.render(spp=1_000_000)
+        self.assertLess(time.monotonic() - pressed[0], 0.2 if os.environ.get("FRAGTRACE_QUIET_MACHINE") else 2)
+        self.assertEqual(scene.render(spp=1).shape, (200, 200, 4))
+
+    def test_what_progress_raises_ends_the_picture(self):
+        def told(fraction):
+            raise KeyError("enough")
+
+        with self.assertRaisesRegex(KeyError, "enough"):
+            fragtrace.render(SCENES / "cornell-box.gltf", resolution=(200, 200), spp=100_000, progress=told)
+
+    def test_progress(self):
+        fractions = []
+        fragtrace.render(SCENES / "cornell-box.gltf", resolution=(100, 100), spp=256, progress=fractions.append)
+        self.assertEqual(fractions, sorted(fractions))
+        self.assertTrue(fractions and 0 <= fractions[0] and fractions[-1] <= 1, fractions)
+
+
+class Sharing(Package):
+    def test_threads(self):
+        expected = [fragtrace.render(SCENES / "cornell-box.gltf", seed=seed, **SMALL) for seed in range(4)]
+        scene = fragtrace.Scene(SCENES / "cornell-box.gltf", **SMALL)
+        results = [None] * 8
+
+        def draw(i):
+            results[i] = (scene.render if i % 2 else lambda **k: fragtrace.render(SCENES / "cornell-box.gltf", **{**SMALL, **k}))(seed=i % 4)
+
+        threads = [threading.Thread(target=draw, args=(i,)) for i in range(8)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for i, picture in enumerate(results):
+            np.testing.assert_array_equal(picture, expected[i % 4])
+
+    def test_the_interpreter_is_free(self):
+        counted, done = [0], threading.Event()
+
+        def count():
+            while not done.is_set():
+                counted[0] += 1
+                time.sleep(0.01)
+
+        thread = threading.Thread(target=count)
+        thread.start()
+        fragtrace.render(SCENES / "cornell-box.gltf", resolution=(200, 200), time=1)
+        done.set()
+        thread.join()
+        self.assertGreater(counted[0], 20)
+
+    def test_processes(self):
+        expected = np.asarray(fragtrace.render(SCENES / "cornell-box.gltf", **SMALL))
+        for method in ("spawn", "fork"):
+            with self.subTest(method):
+                context = multiprocessing.get_context(method)
+                queue = context.Queue()
+                process = context.Process(target=draw_in_process, args=(SCENES / "cornell-box.gltf", queue))
+                process.start()
+                result = pickle.loads(queue.get(timeout=120))
+                process.join()
+                if method == "spawn":
+                    np.testing.assert_array_equal(result, expected)
+                else:
+                    self.assertIn("spawn", result)
+
+    def test_scenes_come_and_go(self):
+        for _ in range(20):
+            scene = fragtrace.Scene(SCENES / "cornell-box.gltf", **SMALL)
+            scene.render()
+            del scene
+        subprocess.run([sys.executable, "-c", f"import fragtrace; s = fragtrace.Scene({str(SCENES / 'cornell-box.gltf')!r}); s.render(spp=1)"],
+                       check=True, timeout=120)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
