@@ -128,7 +128,9 @@ class DebianPackage(Case):
 
     def setUp(self):
         super().setUp()
-        self.debian = Debian(tempfile.mkdtemp(dir=self.place))
+        folder = tempfile.mkdtemp(dir=self.place)
+        self.addCleanup(shutil.rmtree, folder)
+        self.debian = Debian(folder)
         shutil.copy(self.package, self.debian.root / "root/fragtrace.deb")
 
     def does(self, result):
