@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 # The program, its worker processes and its window library lie in one folder, where it looks for them; bin has a link to it.
 include(GNUInstallDirs)
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(FRAGTRACE_FOLDER ${CMAKE_INSTALL_LIBDIR}/fragtrace)
 install(TARGETS fragtrace fragtrace_imageio fragtrace_codecs RUNTIME DESTINATION ${FRAGTRACE_FOLDER})
 install(TARGETS fragtrace_window LIBRARY DESTINATION ${FRAGTRACE_FOLDER})
-install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 file(RELATIVE_PATH link /${CMAKE_INSTALL_BINDIR} /${FRAGTRACE_FOLDER}/fragtrace)
 install(CODE "
   set(bin \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}\")
@@ -12,3 +13,19 @@ install(CODE "
   message(STATUS \"Installing: \${bin}/fragtrace\")
   file(CREATE_LINK ${link} \"\${bin}/fragtrace\" SYMBOLIC)
 ")
+
+# What a desktop and a shell show of it. Man pages and completion are what the program that is installed says of itself.
+set(package ${CMAKE_SOURCE_DIR}/cmake/package)
+set(written ${CMAKE_BINARY_DIR}/generated/installed)
+install(CODE "execute_process(COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/scripts/help_files
+                                      $<TARGET_FILE:fragtrace> ${written} COMMAND_ERROR_IS_FATAL ANY)")
+install(DIRECTORY ${written}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${written}/completions/fragtrace DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${package}/fragtrace.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
+install(FILES ${package}/fragtrace.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
+install(FILES ${package}/fragtrace.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages)
+
+# Debian has its own form of these two.
+install(FILES CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT plain)
+
+include(cmake/package/debian.cmake)

@@ -27,11 +27,12 @@ std::string describedByRender(const char* name) {
 }  // namespace
 
 void addFileFilterOptions(CLI::App& app, RawRender& raw) {
-  app.add_option("--oidn-library", raw.oidnLibrary, describedByRender("--oidn-library"));
+  app.add_option("--oidn-library", raw.oidnLibrary, describedByRender("--oidn-library"))->type_name("FILE");
   app.add_option("--rendering-backend", raw.backend,
                  describedByRender("--rendering-backend") + "; the variance filter needs it")
       ->capture_default_str();
-  app.add_option("--shader-folder", raw.shaderFolder, describedByRender("--shader-folder"));
+  app.add_option("--shader-folder", raw.shaderFolder, describedByRender("--shader-folder"))
+      ->type_name("FOLDER");
   app.add_option("--memory-limit", raw.options.limits.memoryBytes,
                  "memory limit, counted separately for the picture and for Open Image Denoise, such as 500MB "
                  "or 2GiB")
@@ -45,10 +46,12 @@ void addDenoiseCommandOptions(CLI::App& app, RawDenoise& raw) {
   raw.render.denoise = "auto";
   app.add_option("picture", raw.picture,
                  "linear picture: an .exr of fragtrace or another renderer, an .hdr or a .pfm")
+      ->type_name("FILE")
       ->required();
   app.add_option("-o,--output", raw.render.output,
                  "picture to write: .exr (with all layers), .hdr .pfm (linear radiance), .png .jpg "
                  "(tone-mapped, sRGB)")
+      ->type_name("FILE")
       ->required();
   app.add_option("--denoise", raw.render.denoise,
                  "filter: " + joined(kFileFilterNames) +

@@ -57,13 +57,16 @@ RunCommand addDiff(CLI::App& app) {
     std::string metric = "rmse";
   };
   const auto raw = std::make_shared<Raw>();
-  app.add_option("picture", raw->options.picture, "picture to compare")->required();
-  app.add_option("reference", raw->options.reference, "reference picture, of the same size")->required();
+  app.add_option("picture", raw->options.picture, "picture to compare")->type_name("FILE")->required();
+  app.add_option("reference", raw->options.reference, "reference picture, of the same size")
+      ->type_name("FILE")
+      ->required();
   app.add_option("--metric", raw->metric, "error metric: rmse, mse, relmse, psnr, max, flip")
       ->capture_default_str();
   app.add_option("--threshold", raw->options.threshold, "return status 1 when the error is worse than this");
   app.add_option("--outfile", raw->options.outfile,
-                 "write a picture of the absolute differences, or of the FLIP error");
+                 "write a picture of the absolute differences, or of the FLIP error")
+      ->type_name("FILE");
   return [raw] {
     DiffOptions options = raw->options;
     options.metric = choose<Metric>("--metric", raw->metric, metricNames());

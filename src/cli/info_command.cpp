@@ -193,7 +193,7 @@ RunCommand addInfo(CLI::App& app) {
     std::string instancing = "auto";
   };
   const auto raw = std::make_shared<Raw>();
-  app.add_option("file", raw->options.scene, "scene: a .gltf or .glb file")->required();
+  app.add_option("file", raw->options.scene, "scene: a .gltf or .glb file")->type_name("FILE")->required();
   app.add_flag("--json", raw->options.json, "print one JSON object");
   addSelectionOptions(app, raw->options.selection);
   app.add_option("--instancing", raw->instancing,

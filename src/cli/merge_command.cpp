@@ -55,8 +55,9 @@ RunCommand addMerge(CLI::App& app) {
   app.add_option(
          "parts", raw->options.parts,
          ".exr files that render wrote with the same settings and other samples (--sample-offset, --seed)")
+      ->type_name("FILE")
       ->required();
-  app.add_option("-o,--output", raw->options.output, "file to write, an .exr")->required();
+  app.add_option("-o,--output", raw->options.output, "file to write, an .exr")->type_name("FILE")->required();
   app.add_option("--denoise", raw->filter.denoise,
                  "filter that removes noise from the merged picture: " + joined(kDenoiseNames))
       ->capture_default_str();

@@ -223,10 +223,11 @@ RunCommand addRender(CLI::App& app) {
     std::string config;
   };
   const auto raw = std::make_shared<Raw>();
-  app.add_option("file", raw->render.scene, "scene: a .gltf or .glb file")->required();
+  app.add_option("file", raw->render.scene, "scene: a .gltf or .glb file")->type_name("FILE")->required();
   app.add_option(
-      "-o,--output", raw->render.output,
-      "picture to write: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); required");
+         "-o,--output", raw->render.output,
+         "picture to write: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); required")
+      ->type_name("FILE");
   addRenderOptions(app, raw->render);
   addPartOptions(app, raw->render);
   addSequenceOptions(app, raw->sequence);

@@ -23,6 +23,8 @@ namespace fragtrace {
 namespace {
 
 constexpr const char* kLibraryName = "libfragtrace_window.so";
+/// Those of Debian 12 that render does without.
+constexpr const char* kPackages = "libglfw3 libgl1 fonts-dejavu-core";
 /// How long the end of the program may wait for the driver, which cannot be interrupted while it compiles.
 constexpr std::chrono::seconds kPatience{1};
 
@@ -30,7 +32,8 @@ const WindowLibrary& windowLibrary() {
   const Plugin plugin = openPlugin(kLibraryName, kWindowLibraryEntry);
   if (plugin.entry == nullptr)
     throw ContextError(std::string("no window: ") + kLibraryName + " cannot be opened (" + plugin.error +
-                       ")");
+                       ")" +
+                       (plugin.found ? std::string("; on Debian 12: apt-get install ") + kPackages : ""));
   return *reinterpret_cast<WindowLibraryEntry>(plugin.entry)();
 }
 

@@ -112,7 +112,8 @@ std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& com
 }  // namespace
 
 void addConfigOption(CLI::App& app, std::string& file) {
-  app.add_option("--config", file, "JSON file of options by their long names; the command line overrides it");
+  app.add_option("--config", file, "JSON file of options by their long names; the command line overrides it")
+      ->type_name("FILE");
 }
 
 RenderOptions finishConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command) {

@@ -120,7 +120,8 @@ void addStageOptions(CLI::App& app, RawRender& raw) {
                  "stages and switches to turn on as well, separated by commas: " + joined(stageNames(false)))
       ->delimiter(',')
       ->allow_extra_args(false);
-  app.add_option("--disable", raw.disable, "stages and switches to turn off, separated by commas")
+  app.add_option("--disable", raw.disable,
+                 "stages and switches to turn off, separated by commas: the names of --enable")
       ->delimiter(',')
       ->allow_extra_args(false);
 }
@@ -183,7 +184,8 @@ void addPathOptions(CLI::App& app, RawRender& raw) {
 /// What lights the scene from outside, and what is seen there.
 void addSurroundingsOptions(CLI::App& app, RawRender& raw) {
   RenderOptions& o = raw.options;
-  app.add_option("--hdri-file", raw.hdriFile, "equirectangular environment map: .hdr, .exr, .pfm");
+  app.add_option("--hdri-file", raw.hdriFile, "equirectangular environment map: .hdr, .exr, .pfm")
+      ->type_name("FILE");
   app.add_option("--hdri-rotation", o.hdriRotationDegrees,
                  "rotation of the environment map about +Y, in degrees")
       ->capture_default_str();
@@ -334,11 +336,13 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
   addTracingOptions(app, raw);
   addSelectionOptions(app, o.selection);
   addInputOptions(app, o.limits);
-  app.add_option(
-      "--stats", raw.statsFile,
-      "write statistics to this JSON file; '-' writes them to standard output, and nothing else goes there");
+  app.add_option("--stats", raw.statsFile,
+                 "write statistics to this JSON file; '-' writes them to standard output, and nothing else "
+                 "goes there")
+      ->type_name("FILE");
   app.add_option("--shader-folder", raw.shaderFolder,
-                 "read the shaders from this folder instead of the built-in ones");
+                 "read the shaders from this folder instead of the built-in ones")
+      ->type_name("FOLDER");
   app.add_flag("--quiet", o.quiet, "print errors only; benchmarks still print their tables");
   app.add_flag("--verbose", o.verbose, "print the choices that the program makes, and times and sizes");
 }
@@ -370,9 +374,10 @@ void addDenoiseOption(CLI::App& app, RawRender& raw) {
              "as noisy.R, noisy.G, noisy.B")
       ->capture_default_str();
   app.add_option(
-      "--oidn-library", raw.oidnLibrary,
-      "library file of Open Image Denoise 2.x; by default that of FRAGTRACE_OIDN_LIBRARY, else where the "
-      "system or pip (pyoidn) installs it");
+         "--oidn-library", raw.oidnLibrary,
+         "library file of Open Image Denoise 2.x; by default that of FRAGTRACE_OIDN_LIBRARY, else where the "
+         "system or pip (pyoidn) installs it")
+      ->type_name("FILE");
 }
 
 }  // namespace fragtrace

@@ -18,7 +18,7 @@ constexpr int kMostWindowPixels = 16384;
 }  // namespace
 
 void addViewOptions(CLI::App& app, RawView& raw) {
-  app.add_option("file", raw.render.scene, "scene: a .gltf or .glb file")->required();
+  app.add_option("file", raw.render.scene, "scene: a .gltf or .glb file")->type_name("FILE")->required();
   addRenderOptions(app, raw.render);
   raw.render.denoise = "variance";
   addDenoiseOption(app, raw.render);
@@ -38,7 +38,8 @@ void addViewOptions(CLI::App& app, RawView& raw) {
   app.add_flag("--watch", raw.watch,
                "reload the scene or the shaders of --shader-folder when a file changes");
   app.add_option("--status-file", raw.statusFile,
-                 "JSON file in which the viewer keeps its current state, for scripts that control it");
+                 "JSON file in which the viewer keeps its current state, for scripts that control it")
+      ->type_name("FILE");
 }
 
 ViewOptions finishView(RawView& raw, CLI::App& command) {

@@ -67,10 +67,11 @@ bool addressesAreLimited() {
   return ::getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY;
 }
 
-/// How a process ends that got no memory: the loader of its libraries gives 127, they themselves abort, or go
-/// on with nothing.
+/// What the loader of its libraries gives where it fails.
+constexpr int kNotLoaded = 127;
+
+/// How a process ends that got no memory: the loader gives up, the libraries abort, or go on with nothing.
 bool isWantOfMemory(int status) {
-  constexpr int kNotLoaded = 127;
   if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGABRT || WTERMSIG(status) == SIGSEGV;
   return WEXITSTATUS(status) == kNotLoaded;
 }
@@ -146,6 +147,7 @@ std::string endChild(Child& child) {
   if (ended < 0) return "it is gone";
   if (addressesAreLimited() && isWantOfMemory(status)) return "memory ran out (ulimit -v)";
   if (status == 0) return "it ended without an answer";
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kNotLoaded) return kLibraryMissing;
   if (!WIFSIGNALED(status)) return "status " + std::to_string(WEXITSTATUS(status));
   const int signal = WTERMSIG(status);
   if (signal == SIGXCPU || (signal == SIGKILL && waited > kPatienceMs)) return kOutOfTime;

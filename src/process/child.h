@@ -23,6 +23,8 @@ struct Child {
 
 /// What endChild says of one that was stopped for its processor time.
 inline constexpr const char* kOutOfTime = "out of time";
+/// And of one that a shared library was missing for.
+inline constexpr const char* kLibraryMissing = "a library that it needs is not installed";
 
 /// Starts an executable, looked for in the folder FRAGTRACE_LIBRARY_PATH, then beside our own, with a
 /// sequential-packet socket as its descriptor `socketThere`. Throws std::runtime_error naming it.
@@ -34,8 +36,8 @@ void limitChild(const Child& child, uint64_t dataBytes, unsigned cpuSeconds);
 /// Waits for a message of exactly that size; false when none comes in that time, or it has ended.
 bool awaitReply(const Child& child, std::span<uint8_t> reply, int patienceMs);
 
-/// Ends it if it has not ended, and says how: kOutOfTime, "signal 11 (Segmentation fault)", "status 1",
-/// or that memory ran out, where the system lets processes have little of it.
+/// Ends it if it has not ended, and says how: kOutOfTime, kLibraryMissing, "signal 11 (Segmentation fault)",
+/// "status 1", or that memory ran out, where the system lets processes have little of it.
 std::string endChild(Child& child);
 
 }  // namespace fragtrace

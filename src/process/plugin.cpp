@@ -22,21 +22,20 @@ std::vector<std::filesystem::path> ownFolders() {
 }
 
 Plugin openPlugin(const char* library, const char* function) {
-  std::string reason = "not found";
+  Plugin plugin{nullptr, "not found", false};
   for (const auto& folder : ownFolders()) {
     const auto path = folder / library;
     std::error_code error;
     if (!std::filesystem::exists(path, error)) {
-      reason = "not in " + folder.string();
+      plugin.error = "not in " + folder.string();
       continue;
     }
     void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     void* entry = handle != nullptr ? dlsym(handle, function) : nullptr;
-    if (entry != nullptr) return {entry, {}};
-    reason = dlerror();
-    break;
+    if (entry != nullptr) return {entry, {}, true};
+    return {nullptr, dlerror(), true};
   }
-  return {nullptr, reason};
+  return plugin;
 }
 
 }  // namespace fragtrace

@@ -15,7 +15,8 @@ std::vector<std::filesystem::path> ownFolders();
 
 struct Plugin {
   void* entry = nullptr;
-  std::string error;  ///< why there is no entry
+  std::string error;   ///< why there is no entry
+  bool found = false;  ///< the file is there: without an entry, a library that it needs is not
 };
 
 /// Opens the library, which is in one of these folders, and finds the function of that name. It stays open.

@@ -67,8 +67,17 @@ class Codecs(Case):
             self.assertEqual(result.returncode, 3)
             self.assertIn(name + " cannot be decoded: fragtrace_codecs is not in", result.stderr)
 
+    def test_where_their_libraries_are_missing_uncompressed_data_are_taken(self):
+        stand_in = self.folder / "fragtrace_codecs"
+        stand_in.write_text("#!/bin/sh\nexit 127")  # as the loader of libraries does
+        stand_in.chmod(0o755)
+        for make in (meshopt, draco):
+            result = run("info", self.write(make(True)), env={**os.environ, "FRAGTRACE_LIBRARY_PATH": str(self.folder)})
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("the uncompressed data are taken: its libraries are not installed (on Debian 12: apt-get install", result.stderr)
+
     def test_codecs_that_crash_loop_or_end_are_named(self):
-        for script, says in (("kill -SEGV $$", "signal 11"), ("exit 7", "status 7"), ("while :; do :; done", "out of time")):
+        for script, says in (("kill -SEGV $$", "signal 11"), ("exit 7", "status 7"), ("exit 127", "apt-get install libdraco7"), ("while :; do :; done", "out of time")):
             stand_in = self.folder / "fragtrace_codecs"
             stand_in.write_text("#!/bin/sh\n" + script)
             stand_in.chmod(0o755)

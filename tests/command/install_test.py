@@ -1,12 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""`cmake --install` gives a program that runs from anywhere, and docs/options.md is what --help says."""
+"""`cmake --install` gives a program that runs from anywhere; docs/options.md, man pages and completion are what --help says."""
+import gzip
 import os
+import re
+import shlex
 import subprocess
+import sys
 
-from support import FRAGTRACE, SCENES, Case, main
+from support import FRAGTRACE, SCENES, Case, main, run
 
 BUILD = FRAGTRACE.parent
+SCRIPTS = SCENES.parent / "scripts"
+sys.path.insert(0, str(SCRIPTS))
+from help_text import choices, command, commands, kind_of, readable  # noqa: E402
 
 
 class Installed(Case):
@@ -33,8 +40,86 @@ class Installed(Case):
 
 class OptionReference(Case):
     def test_it_is_what_the_help_says(self):
-        result = subprocess.run([SCENES.parent / "scripts/option_reference", "--check", FRAGTRACE], capture_output=True, text=True, check=False)
+        result = subprocess.run([SCRIPTS / "option_reference", "--check", FRAGTRACE], capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
+
+
+class HelpFiles(Case):
+    """What scripts/help_files writes."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.found = commands(FRAGTRACE)
+
+    def written(self):
+        subprocess.run([SCRIPTS / "help_files", FRAGTRACE, self.folder], check=True)
+        return self.folder
+
+    def completed(self, script, *words):
+        """What bash offers for the last word, in a folder with some files."""
+        place = self.folder / "place"
+        place.mkdir(exist_ok=True)
+        for name in ("a scene.glb", "b.gltf", "c.png", "notes.txt"):
+            (place / name).touch()
+        (place / "folder").mkdir(exist_ok=True)
+        # Bash makes a word of its own of each sign of equality.
+        words = [part for word in words for part in re.findall(r"=|[^=]+|^$", word)]
+        line = (f"source {shlex.quote(str(script))}; COMP_WORDS=({shlex.join(words)}); COMP_CWORD={len(words) - 1}; _fragtrace; "
+                'printf "%s\\n" "${COMPREPLY[@]}"')
+        result = subprocess.run(["bash", "--norc", "-c", line], cwd=place, check=True, capture_output=True, text=True)
+        self.assertEqual(result.stderr, "")
+        return result.stdout.split("\n")[:-1]
+
+    def test_bash_completes_commands_options_values_and_files(self):
+        script = self.written() / "completions/fragtrace"
+        for words, expected in (
+                (["ren"], ["render"]),
+                (["bench", "sta"], ["start"]),
+                (["render", "x.gltf", "--trav"], ["--traversal"]),
+                (["render", "--traversal", "f"], ["front-to-back"]),
+                (["render", "--traversal=f"], ["front-to-back"]),
+                (["render", "--disable", "sobol,wat"], ["sobol,watertight"]),
+                (["denoise", "--denoise", ""], ["auto", "variance", "oidn"]),
+                (["bench", "start", "--format", "e"], ["exr"]),
+                (["render", ""], ["folder", "a scene.glb", "b.gltf"]),
+                (["render", "b.gltf", "-o", ""], ["folder", "c.png"]),
+                (["diff", "n"], ["notes.txt"]),
+                (["render", "b.gltf", "--shader-folder", ""], ["folder"]),
+                (["render", "b.gltf", "--spp", ""], [""]),
+                (["render", "b.gltf", "--quiet", "b"], ["b.gltf"])):
+            self.assertEqual(sorted(self.completed(script, "fragtrace", *words)), sorted(expected), words)
+
+    def test_each_option_is_offered(self):
+        script = self.written() / "completions/fragtrace"
+        for one in self.found:
+            offered = self.completed(script, "fragtrace", *one.words, "--")
+            self.assertEqual(offered, [name for entry, _ in one.options for name in readable(entry)[0].split(",") if name.startswith("--")])
+
+    def test_the_names_of_values_are_those_that_the_program_knows(self):
+        entries = command(FRAGTRACE, ["render"]).options
+        named = {readable(name)[0]: choices(name, text, entries) for name, text in entries if choices(name, text, entries)}
+        self.assertGreater(len(named), 12)
+        for option, names in named.items():
+            refusal = run("render", "x.gltf", "-o", "x.exr", option, "nonsense").stderr
+            known = re.search(r"'nonsense' is none of (.*)\n", refusal)
+            self.assertTrue(known, option + refusal)
+            self.assertEqual(names, known[1].split(", "), option)
+
+    def test_what_names_a_file_says_so(self):
+        for one in self.found:
+            for name, text in [*one.options, *one.positionals]:
+                if re.search(r"\bfile\b|folder of|\.(exr|gltf)\b", text) and kind_of(name) == "TEXT":
+                    self.assertTrue(choices(name, text, one.options) or "--output" in text or text.startswith("name or index"), f"{one.words} {name}")
+
+    def test_each_command_has_a_page_with_all_options(self):
+        folder = self.written() / "man"
+        self.assertEqual(len(list(folder.iterdir())), len(self.found))
+        for one in self.found:
+            page = gzip.decompress((folder / ("-".join(["fragtrace", *one.words]) + ".1.gz")).read_bytes()).decode()
+            self.assertIn(".SH NAME\n" + "\\-".join(["fragtrace", *one.words]), page)
+            for name, _ in one.options:
+                self.assertIn(readable(name)[0].split(",")[-1].replace("-", "\\-"), page)
 
 
 if __name__ == "__main__":

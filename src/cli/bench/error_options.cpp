@@ -20,18 +20,19 @@ constexpr const char* kDefaultSamples = "256";
 
 void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
   BenchErrorOptions& o = raw.options;
-  app.add_option("file", raw.scene, "scene: a .gltf or .glb file")->required();
+  app.add_option("file", raw.scene, "scene: a .gltf or .glb file")->type_name("FILE")->required();
   app.add_option("--reference", o.reference,
-                 "reference picture; by default one of the first configuration with 64 times the samples");
+                 "reference picture; by default one of the first configuration with 64 times the samples")
+      ->type_name("FILE");
   app.add_option("--repetitions", o.repetitions, "pictures per step, each with its own seed")
       ->check(wholeNumber(1, 1000))
       ->capture_default_str();
   app.add_option("--goal", o.goal, "relative MSE for which times are compared")
       ->check(CLI::Range(1e-12, 1e3))
       ->capture_default_str();
-  app.add_option("--json", o.json, "write all measurements to this JSON file");
-  app.add_option("--csv", o.csv, "write all measurements to this table");
-  app.add_option("--chart", o.chart, "write a chart of error against time, an .svg");
+  app.add_option("--json", o.json, "write all measurements to this JSON file")->type_name("FILE");
+  app.add_option("--csv", o.csv, "write all measurements to this table")->type_name("FILE");
+  app.add_option("--chart", o.chart, "write a chart of error against time, an .svg")->type_name("FILE");
   addConfigurationOptions(app, raw.configurations, "default,random,baseline, or default alone with --config");
   app.get_option("--spp")->description(std::string("samples per pixel of the last step, by default ") +
                                        kDefaultSamples);

@@ -10,15 +10,18 @@ namespace fragtrace {
 
 void addBenchFrameOptions(CLI::App& app, RawBenchFrame& raw) {
   BenchFrameOptions& o = raw.options;
-  app.add_option("scenes", raw.scenes, "scenes: .gltf or .glb files")->required();
+  app.add_option("scenes", raw.scenes, "scenes: .gltf or .glb files")->type_name("FILE")->required();
   addTimingOptions(app, o.timing);
   app.add_option("--reference", o.reference,
                  "picture that all settings must show; by default one drawn by the other traversal of the "
-                 "tree");
-  app.add_option("--json", o.json, "write all measurements to this file, one JSON line per setting");
+                 "tree")
+      ->type_name("FILE");
+  app.add_option("--json", o.json, "write all measurements to this file, one JSON line per setting")
+      ->type_name("FILE");
   app.add_option("--baseline", o.baseline,
                  "file that --json wrote earlier; status 1 when a setting is slower than there by more than "
-                 "--tolerance");
+                 "--tolerance")
+      ->type_name("FILE");
   app.add_option("--tolerance", o.tolerance, "allowed slowdown for --baseline, as a part of the earlier time")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();

@@ -10,15 +10,16 @@ namespace fragtrace {
 
 void addBenchReportOptions(CLI::App& app, RawBenchReport& raw) {
   BenchReportOptions& o = raw.options;
-  app.add_option("--scenes", raw.scenes, "folder of the scenes")->capture_default_str();
+  app.add_option("--scenes", raw.scenes, "folder of the scenes")->type_name("FOLDER")->capture_default_str();
   app.add_option("--parts", raw.parts, "parts of the table: " + joined(kReportPartNames) + "; by default all")
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_flag("--no-iterative", raw.noIterative, "leave out the rows of the iterative traversal");
   addTimingOptions(app, o.timing);
   app.remove_option(app.get_option("--samples-per-draw"));
-  app.add_option("--json", o.json, "write all measurements to this file, one JSON line per setting");
-  app.add_option("--chart", o.chart, "write a chart of frame time against faces, an .svg");
+  app.add_option("--json", o.json, "write all measurements to this file, one JSON line per setting")
+      ->type_name("FILE");
+  app.add_option("--chart", o.chart, "write a chart of frame time against faces, an .svg")->type_name("FILE");
   addRenderOptions(app, raw.configurations.shared);
   app.get_option("--spp")->description("frames per round; by default as many as fit into --round-time");
   app.get_option("--resolution")->description("WIDTH,HEIGHT in pixels, by default 500,500");

@@ -49,8 +49,9 @@ void addBenchScaleOptions(CLI::App& app, RawBenchScale& raw) {
                  "leave out the iterative traversal where its frame takes more seconds than this")
       ->check(CLI::Range(0.001, 1e6))
       ->capture_default_str();
-  app.add_option("--json", o.json, "write all measurements to this file, one JSON line per size");
-  app.add_option("--chart", o.chart, "write a chart of time against triangles, an .svg");
+  app.add_option("--json", o.json, "write all measurements to this file, one JSON line per size")
+      ->type_name("FILE");
+  app.add_option("--chart", o.chart, "write a chart of time against triangles, an .svg")->type_name("FILE");
   addDeviceOptions(app, raw.render);
 }
 

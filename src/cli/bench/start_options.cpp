@@ -10,14 +10,14 @@ namespace fragtrace {
 
 void addBenchStartOptions(CLI::App& app, RawBenchStart& raw) {
   BenchStartOptions& o = raw.options;
-  app.add_option("file", raw.render.scene, "scene: a .gltf or .glb file")->required();
+  app.add_option("file", raw.render.scene, "scene: a .gltf or .glb file")->type_name("FILE")->required();
   app.add_option("--starts", o.starts, "number of starts")
       ->check(wholeNumber(1, 1000))
       ->capture_default_str();
   app.add_option("--format", raw.format, "format of the picture: png, jpg, exr, hdr, pfm")
       ->check(CLI::IsMember({"png", "jpg", "exr", "hdr", "pfm"}))
       ->capture_default_str();
-  app.add_option("--json", o.json, "write all measurements to this JSON file");
+  app.add_option("--json", o.json, "write all measurements to this JSON file")->type_name("FILE");
   addRenderOptions(app, raw.render);
 }
 

@@ -14,7 +14,8 @@ void addBenchStressOptions(CLI::App& app, RawBenchStress& raw) {
   app.add_option("--rows", o.rows,
                  "rows to try: those whose name contains one of these texts, separated by commas")
       ->delimiter(',');
-  app.add_option("--json", o.json, "write all results to this file, one JSON line per row");
+  app.add_option("--json", o.json, "write all results to this file, one JSON line per row")
+      ->type_name("FILE");
   addDeviceOptions(app, raw.render);
   app.add_option("--schedule", raw.render.schedule,
                  "what traces paths: " + joined(kScheduleNames) +

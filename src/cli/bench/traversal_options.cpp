@@ -11,7 +11,7 @@ namespace fragtrace {
 
 void addBenchTraversalOptions(CLI::App& app, RawBenchTraversal& raw) {
   BenchTraversalOptions& o = raw.options;
-  app.add_option("file", raw.render.scene, "scene: a .gltf or .glb file")->required();
+  app.add_option("file", raw.render.scene, "scene: a .gltf or .glb file")->type_name("FILE")->required();
   app.add_option("--resolution", raw.render.camera.resolution,
                  "WIDTH,HEIGHT of the field of rays, one ray per pixel")
       ->delimiter(',')
@@ -29,8 +29,10 @@ void addBenchTraversalOptions(CLI::App& app, RawBenchTraversal& raw) {
       ->excludes(index);
   app.add_option("--seed", raw.render.options.seed, "seed of the diffuse and shadow rays")
       ->capture_default_str();
-  app.add_option("--json", o.json, "write all measurements to this file, one JSON line per kind of ray");
-  app.add_option("--rays", o.rays, "write triangles and rays to this file, for another tracer (bench/peers)");
+  app.add_option("--json", o.json, "write all measurements to this file, one JSON line per kind of ray")
+      ->type_name("FILE");
+  app.add_option("--rays", o.rays, "write triangles and rays to this file, for another tracer (bench/peers)")
+      ->type_name("FILE");
   addDeviceOptions(app, raw.render);
 }
 

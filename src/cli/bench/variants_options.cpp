@@ -20,12 +20,13 @@ std::vector<std::string> forcedNames() {
 
 void addBenchVariantsOptions(CLI::App& app, RawBenchVariants& raw) {
   BenchVariantsOptions& o = raw.options;
-  app.add_option("scenes", raw.scenes, "scenes: .gltf or .glb files")->required();
+  app.add_option("scenes", raw.scenes, "scenes: .gltf or .glb files")->type_name("FILE")->required();
   app.add_option("--only", o.only, "traits to turn on, one at a time: " + joined(forcedNames()))
       ->delimiter(',')
       ->allow_extra_args(false);
   addTimingOptions(app, o.timing);
-  app.add_option("--json", o.json, "write all measurements to this file, one JSON line per setting");
+  app.add_option("--json", o.json, "write all measurements to this file, one JSON line per setting")
+      ->type_name("FILE");
   addRenderOptions(app, raw.configurations.shared);
   app.get_option("--spp")->description("frames per round; by default as many as fit into --round-time");
 }

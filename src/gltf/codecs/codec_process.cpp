@@ -6,45 +6,68 @@
 #include <stdexcept>
 #include <utility>
 
-#include "process/shared_memory.h"
-
 namespace fragtrace {
+namespace {
+
+constexpr const char* kMissing =
+    "its libraries are not installed (on Debian 12: apt-get install libdraco7 libmeshoptimizer2d)";
+
+/// Of Draco data that hold nothing: an answer to it, which is a refusal, proves that the process works.
+CodecRequest emptyRequest() {
+  CodecRequest request;
+  request.outputBytes = 1;  // shared memory cannot be empty
+  return request;
+}
+
+}  // namespace
 
 bool CodecProcess::available() {
   if (child_) return true;
+  if (!whyNot_.empty()) return false;
   try {
     child_ = startChild("fragtrace_codecs", kServiceSocket);
+    // One that lacks a library starts, and ends at once.
+    CodecReply reply;
+    exchange(emptyRequest(), {}, reply);
   } catch (const std::runtime_error& error) {
     whyNot_ = error.what();
   }
   return child_ != nullptr;
 }
 
-std::vector<uint8_t> CodecProcess::decode(CodecRequest request, std::span<const uint8_t> encoded) {
+std::vector<uint8_t> CodecProcess::decode(const CodecRequest& request, std::span<const uint8_t> encoded) {
+  if (!available()) throw std::runtime_error(whyNot_);
+  CodecReply reply;
+  const std::unique_ptr<SharedMemory> memory = exchange(request, encoded, reply);
+  if (!reply.done)
+    throw std::runtime_error(std::string(reply.reason, ::strnlen(reply.reason, sizeof reply.reason)));
+  const std::span<const uint8_t> decoded =
+      memory->bytes().subspan(memory->bytes().size() - request.outputBytes);
+  return {decoded.begin(), decoded.end()};
+}
+
+std::unique_ptr<SharedMemory> CodecProcess::exchange(CodecRequest request, std::span<const uint8_t> encoded,
+                                                     CodecReply& reply) {
   // Draco's tables of corners take some hundred bytes per triangle, of which 24 come out.
   constexpr uint64_t kLibraries = uint64_t(256) << 20;
   constexpr uint64_t kOfAByte = 64;
   constexpr uint64_t kBytesASecond = 5'000'000;
-  if (!available()) throw std::runtime_error(whyNot_);
   request.inputBytes = encoded.size();
   const uint64_t bytes = request.inputBytes + request.outputBytes;
   const auto seconds = unsigned(2 + bytes / kBytesASecond);
-  SharedMemory memory(outputOffset(request) + request.outputBytes);
-  std::ranges::copy(encoded, memory.bytes().begin());
+  auto memory = std::make_unique<SharedMemory>(outputOffset(request) + request.outputBytes);
+  std::ranges::copy(encoded, memory->bytes().begin());
   limitChild(*child_, kLibraries + kOfAByte * bytes, seconds);
-  CodecReply reply;
   // The processor time ends it; this is for one that sleeps.
   const int patienceMs = int(std::min(seconds * 20 + 60, 100'000u)) * 1000;
-  if (!sendWithFile(child_->socket, asMessage(std::as_const(request)), memory.file()) ||
+  if (!sendWithFile(child_->socket, asMessage(std::as_const(request)), memory->file()) ||
       !awaitReply(*child_, asMessage(reply), patienceMs)) {
     const std::string end = endChild(*child_);
     child_.reset();
-    throw std::runtime_error("the library that decodes it failed: " + end);
+    throw std::runtime_error(end == kLibraryMissing ? kMissing
+                                                    : "the library that decodes it failed: " + end);
   }
-  if (!reply.done)
-    throw std::runtime_error(std::string(reply.reason, ::strnlen(reply.reason, sizeof reply.reason)));
-  const std::span<const uint8_t> decoded = memory.bytes().subspan(outputOffset(request));
-  return {decoded.begin(), decoded.end()};
+  return memory;
 }
 
 }  // namespace fragtrace

@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: MIT
+# Read by cpack: the packages of the libraries that the programs link. Those of `view` and of compressed scenes are only
+# recommended, since `render` works without them, and the program says which are missing.
+set(folder ${CPACK_FRAGTRACE_BUILD}/generated/shlibdeps)
+file(WRITE ${folder}/debian/control "Source: fragtrace\n\nPackage: fragtrace\nArchitecture: any\n")
+set(build ${CPACK_FRAGTRACE_BUILD})
+execute_process(
+  COMMAND dpkg-shlibdeps -O
+          -dDepends -e${build}/fragtrace -e${build}/fragtrace_imageio
+          -dRecommends -e${build}/fragtrace_codecs -e${build}/libfragtrace_window.so
+  WORKING_DIRECTORY ${folder} OUTPUT_VARIABLE found COMMAND_ERROR_IS_FATAL ANY)
+foreach(field Depends Recommends)
+  string(TOUPPER ${field} name)
+  if(NOT found MATCHES "shlibs:${field}=([^\n]+)")
+    message(FATAL_ERROR "dpkg-shlibdeps named no ${field}:\n${found}")
+  endif()
+  set(CPACK_DEBIAN_PACKAGE_${name} "${CMAKE_MATCH_1}, ${CPACK_FRAGTRACE_${name}}")
+endforeach()
