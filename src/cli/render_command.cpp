@@ -114,9 +114,19 @@ int runRender(const RenderOptions& asked) {
 struct SequenceRun {
   Device device;
   Tracer tracer;
-  std::optional<LoadedScene> loaded;  ///< as of the picture before
-  Statistics prepared;                ///< of a turntable's scene
+  std::optional<LoadedScene> loaded;   ///< as of the picture before
+  std::optional<RefittableTree> tree;  ///< that was built last, where the next may take it over
+  Statistics prepared;                 ///< of a turntable's scene
 };
+
+/// Whether the next picture may refit this one's tree. What is merged later tells scenes apart by their
+/// arrays, and a small tree is built as fast: there each picture has the bits of a single command, whatever
+/// was drawn before.
+bool keepsTree(const RenderOptions& options, const Scene& scene) {
+  constexpr size_t kLeastTriangles = 4096;
+  return !holdsLayers(options) && !keepsCheckpoint(options) && !has(options.stages, Stage::BvhHeatmap) &&
+         options.debugView == DebugView::None && scene.triangles.size() >= kLeastTriangles;
+}
 
 /// The scene as the picture shows it, on the device. A turntable loads it once; else the environment stays.
 Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOptions& sequence) {
@@ -126,11 +136,17 @@ Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const Sequ
   const bool first = run.tracer.renderer == nullptr;
   if (!first && turntable) return run.prepared;
   Statistics stats;
-  std::optional<Environment> map;
+  SceneBefore before;
   if (run.loaded && run.loaded->environment.kind == Surroundings::Map)
-    map = std::move(run.loaded->environment);
+    before.environment = std::move(run.loaded->environment);
+  if (run.tree) before.tree = &*run.tree;
   run.loaded.reset();
-  run.loaded = loadScene(drawn, stats, {}, FilmOf::Part, std::move(map));
+  run.loaded = loadScene(drawn, stats, {}, FilmOf::Part, std::move(before));
+  if (!stats.treeRefitted) {
+    run.tree.reset();
+    if (!turntable && keepsTree(options, run.loaded->scene))
+      run.tree = refittable(run.loaded->bvh, run.loaded->scene);
+  }
   if (first) {
     if (!turntable && run.loaded->scene.animationNames.empty())
       throw UsageError("--frames: " + options.scene.string() + " has no animation");

@@ -182,7 +182,7 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
 }
 
 LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress,
-                      FilmOf film, std::optional<Environment> known) {
+                      FilmOf film, SceneBefore before) {
   const auto step = [&](const char* name, double fraction) {
     if (progress) progress(name, fraction);
   };
@@ -192,7 +192,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   // The environment is decoded in another process, so it is read meanwhile.
   Phase reading;  // outlives the thread that sets it
   std::future<LinearImage> map;
-  const bool reads = !options.hdriFile.empty() && !known;
+  const bool reads = !options.hdriFile.empty() && !before.environment;
   if (reads) {
     map = std::async(kThreadIfGranted, [&] {
       PhaseTimer timer("environment", "second");
@@ -218,15 +218,18 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   stats.loadMs = watch.lap();
   step("building the tree", 0.5);
   PhaseTimer treeTimer("tree");
-  loaded.bvh = buildTree(scene, options);
+  std::optional<Bvh> tree;
+  if (before.tree != nullptr) tree = refitted(*before.tree, scene);
+  stats.treeRefitted = tree.has_value();
+  loaded.bvh = tree ? std::move(*tree) : buildTree(scene, options);
   stats.phases.push_back(treeTimer.end());
   stats.bvh = bvhQuality(loaded.bvh);
   stats.bvhBuildMs = watch.lap();
   step("reading the environment", 0.9);
   const bool isAsked = options.hdriFile.empty() && options.defaultLight;
   const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
-  loaded.environment =
-      known ? std::move(*known) : makeEnvironment(options, map, light, loaded.scene.warnings);
+  loaded.environment = before.environment ? std::move(*before.environment)
+                                          : makeEnvironment(options, map, light, loaded.scene.warnings);
   if (reads) stats.phases.push_back(reading);
   stats.scene = describe(scene);
   stats.warnings = scene.warnings;

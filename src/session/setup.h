@@ -6,7 +6,7 @@
 #include <functional>
 #include <memory>
 
-#include "bvh/bvh.h"
+#include "bvh/refit.h"
 #include "render/renderer.h"
 #include "session/say.h"
 #include "session/statistics.h"
@@ -32,12 +32,17 @@ using LoadProgress = std::function<void(const char* step, double fraction)>;
 /// Whether one film is to hold all of a picture, or only a part at a time (picture/picture_parts.h).
 enum class FilmOf : uint8_t { Picture, Part };
 
+/// What the scene of one picture of a sequence leaves to the next.
+struct SceneBefore {
+  std::optional<Environment> environment;  ///< the map of the options; it is moved into the next scene
+  const RefittableTree* tree = nullptr;    ///< may be none
+};
+
 /// Loads scene and environment, chooses camera and size, builds the tree; fills in the statistics of that.
 /// Says warnings on stderr unless quiet. Throws InputError, UsageError, also where the film of a whole
 /// picture would not fit into memory.
-/// `map` is the environment map where it has been read already; it is moved into the result.
 LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress = {},
-                      FilmOf film = FilmOf::Picture, std::optional<Environment> map = {});
+                      FilmOf film = FilmOf::Picture, SceneBefore before = {});
 
 /// Triangles. Smaller scenes are literals as a whole, or not at all.
 inline constexpr size_t kLeastBesideLarge = 256;

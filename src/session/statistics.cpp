@@ -63,6 +63,7 @@ std::string statisticsText(const Statistics& s) {
   json["schema"] = 1;
   json["scene"] = sceneJson(s.scene);
   json["bvh"] = bvhJson(s.bvh);
+  json["bvh"]["refitted"] = s.treeRefitted;
   json["load_ms"] = s.loadMs;
   json["bvh_build_ms"] = s.bvhBuildMs;
   json["pack_ms"] = s.packMs;

@@ -40,6 +40,7 @@ struct Statistics {
   BvhQuality bvh;
   double loadMs = 0.0;
   double bvhBuildMs = 0.0;
+  bool treeRefitted = false;  ///< the tree is that of the picture before, with other boxes
   double packMs = 0.0;
   double uploadMs = 0.0;
   double compileMs = 0.0;

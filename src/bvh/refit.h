@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// A tree whose primitives have moved: the same nodes with other boxes (Wald, Boulos and Shirley, "Ray Tracing
+// Deformable Scenes Using Dynamic Bounding Volume Hierarchies", 2007).
+#pragma once
+
+#include <optional>
+
+#include "bvh/bvh.h"
+
+namespace fragtrace {
+
+/// A tree, and its cost when it was built.
+struct RefittableTree {
+  Bvh bvh;
+  double builtCost = 0.0;  ///< BvhQuality::sahCost
+  size_t triangles = 0;    ///< it was built for so many,
+  size_t spheres = 0;      ///< and so many
+};
+
+/// Room for the cost to rise before another tree is better built.
+inline constexpr double kMostRefitCost = 1.2;
+
+RefittableTree refittable(Bvh bvh, const Scene& scene);
+
+/// The tree with the boxes that the scene's primitives have now, which are numbered as they were. Nothing
+/// where their number has changed, where the scene has instances, or where the cost is more than
+/// kMostRefitCost times that of the tree when it was built.
+std::optional<Bvh> refitted(const RefittableTree& tree, const Scene& scene);
+
+}  // namespace fragtrace
