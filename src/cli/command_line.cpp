@@ -83,6 +83,15 @@ RunCommand addCommands(CLI::App& app, std::span<const CommandRow> rows) {
 
 RunCommand addBench(CLI::App& app) { return addCommands(app, kBenchRows); }
 
+bool asksForJson(std::span<const char* const> words) {
+  for (size_t i = 0; i < words.size(); ++i) {
+    const std::string_view word = words[i];
+    if (word == "--progress=json") return true;
+    if (word == "--progress" && i + 1 < words.size() && std::string_view(words[i + 1]) == "json") return true;
+  }
+  return false;
+}
+
 int runCommandLine(int argc, const char* const* argv) {
   CLI::App app("A path tracer for glTF whose tracing runs in an OpenGL shader.", "fragtrace");
   hideOldSpellings(app);

@@ -7,6 +7,9 @@
 
 namespace fragtrace {
 
+/// Whether the words, not parsed yet, ask for JSON on stderr, which an error in them is told by, too.
+bool asksForJson(std::span<const char* const> words);
+
 /// Runs the command that the arguments ask for, or prints help or version, and returns the exit status.
 /// Throws UsageError, and what the command does.
 int runCommandLine(int argc, const char* const* argv);

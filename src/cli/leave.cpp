@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "errors.h"
+#include "process/report.h"
 
 namespace fragtrace {
 
@@ -17,6 +18,7 @@ void checkPrinted() {
 
 int leave(int status) {
   checkPrinted();
+  reportEnd(status);
 #ifndef __SANITIZE_ADDRESS__
   std::_Exit(status);
 #endif

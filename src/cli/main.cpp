@@ -3,13 +3,13 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <cstdio>
 #include <new>
 #include <system_error>
 
 #include "cli/command_line.h"
 #include "cli/leave.h"
 #include "errors.h"
+#include "process/report.h"
 #include "session/interrupt.h"
 
 namespace {
@@ -17,7 +17,7 @@ namespace {
 enum ExitStatus { kDone = 0, kFailed = 1, kUsage = 2, kInput = 3, kNoContext = 4 };
 
 int fail(ExitStatus status, const char* message) {
-  std::fprintf(stderr, "fragtrace: %s\n", message);
+  fragtrace::reportError(message);
   return status;
 }
 
@@ -35,6 +35,7 @@ int run(int argc, char** argv) {
   // A full pipe or file gives an error where it is written to, which reaches the user.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  if (asksForJson({argv, size_t(argc)})) reportAsJson(false);
   exitOnInterrupt();
   sayWhenCrashing();
   return runCommandLine(argc, argv);
@@ -66,6 +67,7 @@ int statusOf(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   const int status = statusOf(argc, argv);
+  fragtrace::reportEnd(status);
   fragtrace::endAsMeant();
   return status;
 }

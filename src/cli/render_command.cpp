@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: MIT
 // The command line as a pipeline: scene, tree, context, packed scene, renderer, film, picture.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
 #include "cli/leave.h"
 #include "errors.h"
 #include "image/files/process.h"
 #include "options/config_file.h"
+#include "options/output_options.h"
 #include "options/parse_render.h"
 #include "options/sequence_options.h"
 #include "picture/denoising.h"
 #include "picture/finished_picture.h"
 #include "picture/picture_file.h"
 #include "picture/sequence.h"
+#include "process/report.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/tracer.h"
@@ -40,9 +45,14 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
   }
   sayHowItEnded(options, stats);
   if (!stats.complete) say(options, "interrupted: what was finished is written");
-  if (options.quiet) return;
-  // Standard output is the statistics' alone.
-  std::fprintf(isStandardOutput(options.statsFile) ? stderr : stdout,
+  reportEvent("picture", {{"width", stats.size.x},
+                          {"height", stats.size.y},
+                          {"samples", samplesPerPixel(stats)},
+                          {"complete", stats.complete}});
+  // Standard output is the statistics' or the picture's alone.
+  const bool taken = isStandardOutput(options.statsFile) || options.toStandardOutput;
+  if (options.quiet || (taken && reportsAsJson())) return;
+  std::fprintf(taken ? stderr : stdout,
                "%s: %d x %d, %.4g samples per pixel in %.2f s (%.2f million paths/s)%s\n",
                options.output.string().c_str(), stats.size.x, stats.size.y, samplesPerPixel(stats),
                stats.times.renderMs / 1000.0, megaPathsPerSecond(stats), noise.c_str());
@@ -83,7 +93,13 @@ Outcome drawAndWrite(const PictureJob& job, const std::vector<PictureLine>& boxe
   return stats.complete ? Outcome::Complete : Outcome::Partial;
 }
 
+/// Of the events of a picture: its file, and which of a sequence it is.
+nlohmann::ordered_json eventContext(const RenderOptions& options) {
+  return {{"output", options.toStandardOutput ? "-" : options.output.string()}};
+}
+
 int runRender(const RenderOptions& asked) {
+  setReportContext(eventContext(asked));
   checkOutputs(outputsOf(asked), inputsOf(asked));
   if (isFinished(asked)) return 0;
   RenderOptions options = asked;
@@ -163,6 +179,9 @@ Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const Sequ
 Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOptions& sequence) {
   const RenderOptions& options = frame.options;
   checkOutputs(outputsOf(options), inputsOf(options));
+  nlohmann::ordered_json context = eventContext(options);
+  context.update({{"frame", frame.number}, {"first_frame", sequence.first}, {"last_frame", sequence.last}});
+  setReportContext(context);
   Statistics stats = prepareFrame(run, frame, sequence);
   LoadedScene& loaded = *run.loaded;
   const Camera camera = loaded.camera;
@@ -185,9 +204,6 @@ bool isWhole(const std::filesystem::path& path) {
   std::error_code error;
   return std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) > 0;
 }
-
-/// Also with --quiet.
-void complain(const std::string& text) { std::fprintf(stderr, "fragtrace: %s\n", text.c_str()); }
 
 /// All pictures that are wanted; one that fails is said, and the others are drawn. Returns the status.
 int runSequence(const RenderOptions& options) {
@@ -217,14 +233,14 @@ int runSequence(const RenderOptions& options) {
     } catch (const ContextLost&) {
       throw;
     } catch (const std::exception& reason) {
-      complain("picture " + std::to_string(frame.number) + ": " + reason.what());
+      reportError("picture " + std::to_string(frame.number) + ": " + reason.what());
       ++failed;
     }
   }
   const std::string all = " of " + std::to_string(count) + " pictures ";
   const int missing = count - skipped - drawn - failed;
   if (skipped > 0) say(options, std::to_string(skipped) + all + "were there already");
-  if (failed > 0) complain(std::to_string(failed) + all + "failed");
+  if (failed > 0) reportError(std::to_string(failed) + all + "failed");
   if (missing > 0)
     say(options, "interrupted: " + std::to_string(missing) + all + "are missing; --continue draws them");
   return leave(missing > 0 ? kInterruptedStatus : failed > 0 ? 1 : 0);
@@ -242,10 +258,11 @@ RunCommand addRender(CLI::App& app) {
   app.add_option("file", raw->render.scene, "scene: a .gltf or .glb file")->type_name("FILE")->required();
   app.add_option(
          "-o,--output", raw->render.output,
-         "picture to write: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); required")
+         "picture to write: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); '-' writes it to "
+         "standard output (--format), and nothing else goes there; required")
       ->type_name("FILE");
   addRenderOptions(app, raw->render);
-  addPartOptions(app, raw->render);
+  addOutputOptions(app, raw->render);
   addSequenceOptions(app, raw->sequence);
   addDenoiseOption(app, raw->render);
   addConfigOption(app, raw->config);
@@ -253,6 +270,9 @@ RunCommand addRender(CLI::App& app) {
     RenderOptions options = finishConfigured(raw->render, raw->config, app);
     if (options.output.empty()) throw UsageError("--output is required; --help says more");
     finishSequence(raw->sequence, options);
+    if (options.progress == ProgressForm::Json) reportAsJson(options.quiet);
+    if (options.toStandardOutput && isatty(STDOUT_FILENO) != 0)
+      throw UsageError("--output -: standard output is a terminal; send it to a file or a program");
     return options.sequence ? runSequence(options) : runRender(options);
   };
 }

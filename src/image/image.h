@@ -82,9 +82,13 @@ bool isDisplayFormat(const std::filesystem::path& path);
 /// RenderError naming the path and the reason.
 void writeImage(const std::filesystem::path& path, const Image& image);
 
+/// The same on standard output; the path tells the format, and is what messages call it.
+void printImage(const std::filesystem::path& path, const Image& image);
+
 /// To be asked before long work: throws what writeImage() would where the library of the format does not
 /// answer, or where there is no room for a picture of that size and so many channels that cannot be
 /// compressed.
-void checkImageWritable(const std::filesystem::path& path, int width, int height, size_t channelCount);
+void checkImageWritable(const std::filesystem::path& path, int width, int height, size_t channelCount,
+                        bool isFile = true);
 
 }  // namespace fragtrace

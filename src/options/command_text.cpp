@@ -146,6 +146,8 @@ RenderOptions withCommandText(const RenderOptions& current, const std::string& t
   if (!isOurs) throw UsageError("this is no command of fragtrace: " + text);
   RenderOptions options = parseCommand(words[1], {words.begin() + 2, words.end()});
   options.output = current.output;
+  options.toStandardOutput = current.toStandardOutput;
+  options.progress = current.progress;
   options.resolution = current.resolution;
   options.spp = current.spp;
   options.noise = current.noise;

@@ -3,8 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <memory>
+
+#include "process/report.h"
 
 namespace fragtrace {
 
@@ -37,8 +38,7 @@ void sayOldSpellings(const CLI::App& command, const std::vector<std::string>& sa
   const CLI::Option* quiet = command.get_option_no_throw("--quiet");
   if (quiet != nullptr && quiet->count() > 0) return;
   for (const std::string& line : oldSpellingsOf(command)) {
-    if (std::ranges::find(said, line) == said.end())
-      std::fprintf(stderr, "fragtrace: note: %s\n", line.c_str());
+    if (std::ranges::find(said, line) == said.end()) reportMessage("note: " + line);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "options/input_options.h"
 #include "options/numbers.h"
 #include "options/old_spellings.h"
+#include "options/output_options.h"
 
 namespace fragtrace {
 
@@ -286,6 +287,7 @@ RenderOptions finishRender(const RawRender& raw) {
   RenderOptions o = raw.options;
   o.scene = raw.scene;
   o.output = raw.output;
+  chooseStandardOutput(raw, o);
   if (!raw.output.empty() && !isWritableImageName(o.output)) {
     throw UsageError("--output: '" + raw.output + "' ends in none of .png, .jpg, .exr, .hdr, .pfm");
   }
@@ -315,6 +317,7 @@ RenderOptions finishRender(const RawRender& raw) {
   }
   if (o.treeLevel && !raw.output.empty() && !isDisplayFormat(o.output))
     throw UsageError("--tree-level: boxes are drawn over a .png or .jpg only");
+  o.progress = choose<ProgressForm>("--progress", raw.progress, kProgressNames);
   o.denoise = choose<Denoise>("--denoise", raw.denoise, kDenoiseNames);
   o.oidnLibrary = raw.oidnLibrary;
   o.debugView = debugViewNamed(raw.debugView);
@@ -345,25 +348,6 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
       ->type_name("FOLDER");
   app.add_flag("--quiet", o.quiet, "print errors only; benchmarks still print their tables");
   app.add_flag("--verbose", o.verbose, "print the choices that the program makes, and times and sizes");
-}
-
-void addPartOptions(CLI::App& app, RawRender& raw) {
-  app.add_option(
-         "--region", raw.region,
-         "X,Y,WIDTH,HEIGHT in pixels from the top left of the picture: draw and write this part alone, "
-         "with the same samples as in the whole")
-      ->delimiter(',')
-      ->expected(4)
-      ->check(wholeNumber(0, 65536));
-  app.add_option(
-         "--checkpoint", raw.options.checkpointSeconds,
-         "write the state of the render to OUTPUT.checkpoint each time this many seconds have passed, and "
-         "when it is interrupted; the finished picture removes the file")
-      ->check(CLI::Range(0.1, 1e7));
-  app.add_flag(
-      "--resume", raw.options.resume,
-      "continue from OUTPUT.checkpoint to the same picture; without that file begin anew, or do nothing "
-      "if the picture is finished");
 }
 
 void addDenoiseOption(CLI::App& app, RawRender& raw) {

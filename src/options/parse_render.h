@@ -48,6 +48,8 @@ struct RawRender {
   std::string denoise = "none";
   std::string oidnLibrary;
   std::string debugView = "none";
+  std::string progress = "auto";
+  std::string format;  ///< of a picture on standard output
   std::string fresnel = "exact";
   std::string compensation = "on";
   std::string sampler = "sobol";
@@ -59,9 +61,6 @@ struct RawRender {
 
 /// Adds all options but scene and output.
 void addRenderOptions(CLI::App& app, RawRender& raw);
-
-/// --region, --checkpoint and --resume, of the command that writes pictures.
-void addPartOptions(CLI::App& app, RawRender& raw);
 
 /// --denoise and --oidn-library, of commands that finish a picture.
 void addDenoiseOption(CLI::App& app, RawRender& raw);

@@ -77,7 +77,7 @@ PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnL
             [filter](const Image& picture) { return filter->filtered(picture); }};
   }
   const auto apply = [library = *oidn, memory = options.limits.memoryBytes,
-                      quiet = options.quiet](const Image& picture) {
+                      quiet = options.quiet || options.progress == ProgressForm::None](const Image& picture) {
     ProgressBar bar("denoising", quiet);
     const int before = interrupts();
     std::optional<Image> result = denoisedByOidn(picture, library, memory, [&](double fraction) {

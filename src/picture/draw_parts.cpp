@@ -20,6 +20,13 @@ namespace fragtrace {
 
 namespace {
 
+/// A sequence has no bars, but its pictures' progress is told to other programs.
+bool hidesProgress(const PictureJob& job) {
+  const ProgressForm form = job.options.progress;
+  return job.options.quiet || form == ProgressForm::None ||
+         (!job.showsProgress && form != ProgressForm::Json);
+}
+
 double areaOf(glm::ivec2 size) { return double(size.x) * size.y; }
 
 /// Of a picture of several parts, how much was done before one of them and how much that brings.
@@ -227,7 +234,8 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
   const double secondsAfter = secondsOfFeatures(plan.layerSeconds, options);
   // merge needs the samples of each pixel where these differ.
   const bool keepsCounts = holdsLayers(options) && !showsColors(options);
-  ProgressBar bar("rendering", options.quiet || !job.showsProgress);
+  ProgressBar bar("rendering", hidesProgress(job),
+                  isAdaptive(options) ? std::nullopt : std::optional(options.spp));
   Image picture;
   size_t i = 0;
   if (from) {
@@ -282,8 +290,7 @@ void addFeatures(Image& picture, const PictureJob& job, const DrawingPlan& plan,
     secondsPerSample = secondsPerSample.subspan(1);
     const int samples = samplesOfLayer(job.options, variant.feature, all);
     const double after = all * std::accumulate(secondsPerSample.begin(), secondsPerSample.end(), 0.0);
-    ProgressBar bar("layer " + std::string(rowOf(variant.feature).name),
-                    job.options.quiet || !job.showsProgress);
+    ProgressBar bar("layer " + std::string(rowOf(variant.feature).name), hidesProgress(job), samples);
     Image layer;
     FilmTotals totals;
     for (size_t i = 0; i < plan.parts.size(); ++i) {

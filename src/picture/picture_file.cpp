@@ -25,6 +25,13 @@ void drawLines(Image& display, std::span<const PictureLine> lines, const Placeme
     drawLine(display, middle + line.from * half, middle + line.to * half, orange);
 }
 
+void writeOut(const RenderOptions& options, const Image& image) {
+  if (options.toStandardOutput)
+    printImage(options.output, image);
+  else
+    writeImage(options.output, image);
+}
+
 /// Beside the output, where nothing is overwritten.
 std::filesystem::path rescuePath(std::filesystem::path output) {
   const std::string stem = output.stem().string();
@@ -74,11 +81,11 @@ std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedSce
 }
 
 void checkPictureWritable(const RenderOptions& options, glm::ivec2 size) {
-  checkImageWritable(options.output, size.x, size.y, channelsOf(options));
+  checkImageWritable(options.output, size.x, size.y, channelsOf(options), !options.toStandardOutput);
 }
 
 std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason) {
-  if (formatOfName(options.output) == ImageFormat::Pfm) return reason;
+  if (options.toStandardOutput || formatOfName(options.output) == ImageFormat::Pfm) return reason;
   const std::filesystem::path path = rescuePath(options.output);
   try {
     writeImage(path, linear);
@@ -91,13 +98,13 @@ std::string rescuePicture(const RenderOptions& options, const Image& linear, con
 }
 
 void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> lines) {
-  if (!isDisplayFormat(options.output)) return writeImage(options.output, linear);
+  if (!isDisplayFormat(options.output)) return writeOut(options, linear);
   const bool colors = showsColors(options);
   const bool keepsAlpha = formatOfName(options.output) == ImageFormat::Png;
   Image display = toDisplay(keepsAlpha ? linear : withoutAlpha(linear), colors ? 0.0 : options.exposure,
                             colors ? ToneMap::Linear : options.toneMap);
   drawLines(display, lines, linear.placement.value_or(Placement{{0, 0}, {linear.width, linear.height}}));
-  writeImage(options.output, display);
+  writeOut(options, display);
 }
 
 }  // namespace fragtrace

@@ -29,7 +29,8 @@ void checkPictureWritable(const RenderOptions& options, glm::ivec2 size);
 
 /// A finished picture whose output cannot be written for that reason is not lost: writes its colours alone
 /// to NAME.pfm beside it, or to a name of which there is no file yet. Returns what to say: the reason, where
-/// the picture is and what it lacks. Nothing is written in place of a .pfm.
+/// the picture is and what it lacks. Nothing is written in place of a .pfm
+/// or of standard output.
 std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason);
 
 /// Writes a linear picture to the options' output: as it is, or as a display shows it, with lines over it.

@@ -7,6 +7,7 @@
 #include "errors.h"
 #include "options/config_file.h"
 #include "options/option_text.h"
+#include "options/output_options.h"
 #include "picture/denoising.h"
 #include "stage/option_effects.h"
 
@@ -157,7 +158,7 @@ RenderOptions optionsOfWords(std::vector<std::string> words) {
   CLI::App app("", "fragtrace.render");
   app.add_option("file", raw.render.scene)->required();
   addRenderOptions(app, raw.render);
-  addPartOptions(app, raw.render);
+  addOutputOptions(app, raw.render);
   addDenoiseOption(app, raw.render);
   addConfigOption(app, raw.config);
   parseWords(app, withNumbersSettled(std::move(words)));

@@ -7,6 +7,8 @@
 #include <ctime>
 #include <string_view>
 
+#include "process/report.h"
+
 namespace fragtrace {
 
 namespace {
@@ -15,6 +17,13 @@ constexpr int kInterruptedStatus = 130;
 // The first line ends that of a progress bar.
 constexpr std::string_view kSaidOnTerminal = "\nfragtrace: interrupted, nothing is written\n";
 constexpr std::string_view kSaid = kSaidOnTerminal.substr(1);
+constexpr std::string_view kSaidAsJson =
+    "{\"type\":\"error\",\"text\":\"interrupted, nothing is written\"}\n{\"type\":\"done\",\"status\":130}\n";
+constexpr std::string_view kCrashed =
+    "fragtrace: a library or the driver crashed, perhaps for want of memory; nothing is written\n";
+constexpr std::string_view kCrashedAsJson =
+    "{\"type\":\"error\",\"text\":\"a library or the driver crashed, perhaps for want of memory; nothing is "
+    "written\"}\n{\"type\":\"done\",\"status\":1}\n";
 constexpr int kCrashedStatus = 1;
 constexpr int kSameInterruptMs = 100;
 volatile std::sig_atomic_t interruptCount = 0;
@@ -26,9 +35,8 @@ volatile std::sig_atomic_t isMeant = 0;
 thread_local const std::atomic<int>* ownCounter = nullptr;
 
 void sayCrash(int) {
-  static constexpr char kMessage[] =
-      "fragtrace: a library or the driver crashed, perhaps for want of memory; nothing is written\n";
-  (void)!::write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
+  const std::string_view said = reportsAsJson() ? kCrashedAsJson : kCrashed;
+  (void)!::write(STDERR_FILENO, said.data(), said.size());
   _exit(kCrashedStatus);
 }
 
@@ -49,7 +57,7 @@ void handle(void (*handler)(int)) {
 void exitOnInterrupt() {
   onTerminal = isatty(STDERR_FILENO);
   handle([](int) {
-    const std::string_view said = onTerminal != 0 ? kSaidOnTerminal : kSaid;
+    const std::string_view said = reportsAsJson() ? kSaidAsJson : onTerminal != 0 ? kSaidOnTerminal : kSaid;
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, said.data(), said.size());
     _exit(kInterruptedStatus);
   });

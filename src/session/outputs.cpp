@@ -72,7 +72,8 @@ bool keepsCheckpoint(const RenderOptions& options) {
 }
 
 std::vector<NamedOutput> outputsOf(const RenderOptions& options) {
-  std::vector<NamedOutput> outputs = {{"--output", options.output}, {"--stats", options.statsFile, true}};
+  std::vector<NamedOutput> outputs = {{"--stats", options.statsFile, true}};
+  if (!options.toStandardOutput) outputs.push_back({"--output", options.output});
   if (keepsCheckpoint(options)) outputs.push_back({"--checkpoint", checkpointOf(options.output)});
   return outputs;
 }

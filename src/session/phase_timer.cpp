@@ -3,6 +3,9 @@
 
 #include <chrono>
 #include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "process/report.h"
 
 namespace fragtrace {
 
@@ -21,6 +24,7 @@ PhaseTimer::PhaseTimer(const char* name, const char* thread) : cpuBefore_(thread
   phase_.name = name;
   phase_.thread = thread;
   phase_.begin = steadyMilliseconds();
+  reportEvent("phase", {{"phase", name}});
 }
 
 Phase PhaseTimer::end() {

@@ -5,6 +5,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "process/report.h"
 
 namespace fragtrace {
 
@@ -19,15 +22,21 @@ std::string timeText(double seconds) {
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::string label, bool quiet)
-    : label_(std::move(label)), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+ProgressBar::ProgressBar(std::string label, bool quiet, std::optional<int> samples)
+    : label_(std::move(label)), samples_(samples), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 void ProgressBar::show(double fraction, double secondsAfter) {
   if (quiet_) return;
   const auto now = Clock::now();
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const std::string left =
-      fraction > 0.0 ? timeText(elapsed * (1.0 - fraction) / fraction + secondsAfter) : "?";
+  const double secondsLeft = fraction > 0.0 ? elapsed * (1.0 - fraction) / fraction + secondsAfter : 0.0;
+  if (reportsAsJson()) {
+    nlohmann::ordered_json event = {{"phase", label_}, {"fraction", fraction}, {"seconds_left", nullptr}};
+    if (fraction > 0.0) event["seconds_left"] = secondsLeft;
+    if (samples_) event.update({{"samples", fraction * *samples_}, {"samples_asked", *samples_}});
+    return reportEvent("progress", event);
+  }
+  const std::string left = fraction > 0.0 ? timeText(secondsLeft) : "?";
   if (terminal_) {
     if (drawn_ && now - last_ < std::chrono::milliseconds(100)) return;
     constexpr int kCells = 30;

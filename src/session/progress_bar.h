@@ -2,15 +2,17 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace fragtrace {
 
 /// Shows on stderr how far work has come: a bar with the time left on a terminal, a line each 10 % otherwise,
-/// nothing when quiet.
+/// nothing when quiet; events of the type "progress" where JSON is told (process/report.h).
 class ProgressBar {
  public:
-  ProgressBar(std::string label, bool quiet);
+  /// `samples` per pixel are the whole of the work, as far as that is known.
+  ProgressBar(std::string label, bool quiet, std::optional<int> samples = std::nullopt);
   /// The time left is that of this work, by the fraction done, and of what follows it.
   void show(double fraction, double secondsAfter = 0.0);
   /// Removes the bar, so that messages can follow.
@@ -19,6 +21,7 @@ class ProgressBar {
  private:
   using Clock = std::chrono::steady_clock;
   std::string label_;
+  std::optional<int> samples_;
   bool quiet_;
   bool terminal_;
   bool drawn_ = false;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "session/say.h"
 
-#include <cstdio>
 #include <mutex>
 #include <set>
+
+#include "process/report.h"
 
 namespace fragtrace {
 
@@ -32,7 +33,7 @@ void say(const RenderOptions& options, const std::string& text) {
   Listening& state = listening();
   const std::lock_guard lock(state.mutex);
   const bool fresh = !state.listener || state.said.insert(text).second;
-  if (!options.quiet && fresh) std::fprintf(stderr, "fragtrace: %s\n", text.c_str());
+  if (!options.quiet && fresh) reportMessage(text);
   if (state.listener) state.listener(text);
 }
 

@@ -75,6 +75,8 @@ inline constexpr std::tuple kOptionRows{
 , Effect::Picture
 }
 , OptionRow{&RenderOptions::quiet, Effect::Report, true}, OptionRow{&RenderOptions::verbose, Effect::Report},
+    OptionRow{&RenderOptions::progress, Effect::Report},
+    OptionRow{&RenderOptions::toStandardOutput, Effect::Report},
 }
 ;
 

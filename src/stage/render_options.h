@@ -43,6 +43,10 @@ inline constexpr std::array<std::string_view, 3> kScheduleNames{"auto", "megaker
 /// Denoise where it is installed, else the variance filter.
 enum class Denoise : uint8_t { None, Variance, Oidn, Auto };
 inline constexpr std::array<std::string_view, 4> kDenoiseNames{"none", "variance", "oidn", "auto"};
+/// What stderr says of the work on its way: a bar or lines of text; JSON lines, all messages included
+/// (process/report.h); nothing.
+enum class ProgressForm : uint8_t { Auto, Json, None };
+inline constexpr std::array<std::string_view, 3> kProgressNames{"auto", "json", "none"};
 /// How camera samples spread about the middle of their pixel (shaders/pixel_filter.glsl).
 enum class PixelFilter : uint8_t { Box, Gaussian, BlackmanHarris };
 inline constexpr std::array<std::string_view, 3> kPixelFilterNames{"box", "gaussian", "blackman-harris"};
@@ -99,6 +103,7 @@ struct RenderOptions {
   bool aovVariance = false;
   std::vector<Feature> aovFeatures;
   Denoise denoise = Denoise::None;
+  ProgressForm progress = ProgressForm::Auto;
   DebugView debugView = DebugView::None;
   std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
   std::optional<SequenceOptions> sequence;
@@ -107,7 +112,8 @@ struct RenderOptions {
   std::filesystem::path oidnLibrary;   ///< file of Open Image Denoise; none: it is looked for
   SceneSelection selection;
   InputLimits limits;
-  bool resume = false;  ///< go on from the checkpoint beside the output
+  bool resume = false;            ///< go on from the checkpoint beside the output
+  bool toStandardOutput = false;  ///< the picture; `output` then tells its format and what messages call it
   bool quiet = false;
   bool verbose = false;
 

@@ -25,6 +25,23 @@ class Farm(Case):
         self.assertEqual(process.returncode, status, error)
         return out.splitlines() if status == 0 else error
 
+    def worker(self):
+        """The process of the second part of x.exr, once it has a checkpoint."""
+        part = b"x.exr.parts/0001.exr"
+        deadline = time.monotonic() + 60
+        while time.monotonic() < deadline:
+            for entry in Path("/proc").iterdir():
+                try:
+                    words = (entry / "cmdline").read_bytes().split(b"\0") if entry.name.isdigit() else []
+                    mine = entry.name.isdigit() and (entry / "cwd").resolve() == self.folder.resolve()
+                except OSError:
+                    continue
+                if mine and words[0] == os.fsencode(FRAGTRACE) and b"render" in words and part in words:
+                    if (self.folder / (os.fsdecode(part) + ".checkpoint")).exists():
+                        return int(entry.name)
+            time.sleep(0.02)
+        self.fail("no worker")
+
 
 class FarmParts(Farm):
     def test_a_picture_is_cut_into_ranges_of_samples(self):
@@ -39,6 +56,8 @@ class FarmParts(Farm):
             ranges.append((int(option["--sample-offset"]), int(option["--spp"])))
         self.assertEqual(ranges, [(100, 3), (103, 3), (106, 4)])
         self.assertIn("merge x.exr.parts/0000.exr x.exr.parts/0001.exr x.exr.parts/0002.exr -o x.exr && rm", join)
+        self.assertEqual(option["--checkpoint"], "30")
+        self.assertIn("--checkpoint 5 ", self.parts(2, "render", "s", "-o", "x.exr", "--spp", 2, "--checkpoint=5")[0])
         # No part is empty.
         self.assertEqual(len(self.parts(9, "render", "s", "-o", "x.exr", "--spp", 2)), 3)
 
@@ -60,29 +79,13 @@ class FarmParts(Farm):
 
 class FarmParallel(Farm):
     SIZE = ["--resolution", "100,80", "--spp", 300]
-
-    def killed(self):
-        """Kills the first render that has a checkpoint."""
-        deadline = time.monotonic() + 60
-        while time.monotonic() < deadline:
-            for entry in Path("/proc").iterdir():
-                try:
-                    words = (entry / "cmdline").read_bytes().split(b"\0") if entry.name.isdigit() else []
-                    mine = entry.name.isdigit() and (entry / "cwd").resolve() == self.folder.resolve()
-                except OSError:
-                    continue
-                if mine and words[0] == os.fsencode(FRAGTRACE) and b"render" in words and b"x.exr.parts/0001.exr" in words:
-                    time.sleep(0.4)
-                    os.kill(int(entry.name), signal.SIGKILL)
-                    return
-            time.sleep(0.02)
-        self.fail("no worker")
+    OFTEN = ["--checkpoint", 0.2]
 
     def test_a_worker_that_is_killed_costs_nothing_but_time(self):
         def joined(kill):
-            process = self.script("farm_parallel", 3, "render", BALL, "-o", "x.exr", "--quiet", *self.SIZE, JOBS="2")
+            process = self.script("farm_parallel", 3, "render", BALL, "-o", "x.exr", "--quiet", *self.SIZE, *self.OFTEN, JOBS="2")
             if kill:
-                self.killed()
+                os.kill(self.worker(), signal.SIGKILL)
             out, error = process.communicate(timeout=120)
             self.assertEqual(process.returncode, 0, out + error)
             self.assertIn("3 parts, 300 samples per pixel", out)

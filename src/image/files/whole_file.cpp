@@ -21,7 +21,7 @@ namespace {
 std::string systemReason(int code) { return std::generic_category().message(code); }
 
 /// The errno of the first failing call, or 0.
-int writeAndClose(int file, std::span<const uint8_t> bytes) {
+int writeAll(int file, std::span<const uint8_t> bytes) {
   int error = 0;
   while (!bytes.empty() && error == 0) {
     const ssize_t written = ::write(file, bytes.data(), bytes.size());
@@ -30,6 +30,11 @@ int writeAndClose(int file, std::span<const uint8_t> bytes) {
     else if (errno != EINTR)
       error = errno;
   }
+  return error;
+}
+
+int writeAndClose(int file, std::span<const uint8_t> bytes) {
+  int error = writeAll(file, bytes);
   // Network file systems report a full disk only here.
   if (::close(file) != 0 && error == 0) error = errno;
   return error;
@@ -138,6 +143,11 @@ void checkRoom(const std::filesystem::path& path, uint64_t bytes) {
   if (::statvfs(folderOf(behindLinks(path)).c_str(), &disk) != 0 || disk.f_blocks == 0) return;
   const uint64_t blocks = ::geteuid() == 0 ? disk.f_bfree : disk.f_bavail;
   if (bytes / disk.f_frsize >= blocks) fail(ENOSPC);
+}
+
+void writeToStandardOutput(std::span<const uint8_t> bytes) {
+  const int code = writeAll(STDOUT_FILENO, bytes);
+  if (code != 0) throw RenderError("cannot write to standard output: " + systemReason(code));
 }
 
 void replaceFile(const std::filesystem::path& path, std::span<const uint8_t> bytes) {

@@ -26,6 +26,9 @@ std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, uint64_t l
 /// Throws RenderError naming the path and the system's reason.
 void replaceFile(const std::filesystem::path& path, std::span<const uint8_t> bytes);
 
+/// Writes all bytes to standard output. Throws RenderError, also where its reader has gone.
+void writeToStandardOutput(std::span<const uint8_t> bytes);
+
 /// Throws what replaceFile would when the folder is missing or closed to us: to be asked before long work.
 void checkReplaceable(const std::filesystem::path& path);
 

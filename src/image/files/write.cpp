@@ -98,13 +98,19 @@ void writeImage(const std::filesystem::path& path, const Image& image) {
   replaceFile(path, encodeNamed(image, path));
 }
 
-void checkImageWritable(const std::filesystem::path& path, int width, int height, size_t channelCount) {
+void printImage(const std::filesystem::path& path, const Image& image) {
+  writeToStandardOutput(encodeNamed(image, path));
+}
+
+void checkImageWritable(const std::filesystem::path& path, int width, int height, size_t channelCount,
+                        bool isFile) {
   constexpr int kMostJpegSide = 65500;  // libjpeg's JPEG_MAX_DIMENSION
   if (formatOfName(path) == ImageFormat::Jpeg && std::max(width, height) > kMostJpegSide)
     throw RenderError("cannot write " + path.string() + ": a .jpg has at most " +
                       std::to_string(kMostJpegSide) + " pixels a side");
   encodeNamed({1, 1, {"R", "G", "B"}, {0.0f, 0.0f, 0.0f}, {}}, path);
-  checkRoom(path, uint64_t(width) * uint64_t(height) * bytesOfPixel(formatOfName(path), channelCount));
+  if (isFile)
+    checkRoom(path, uint64_t(width) * uint64_t(height) * bytesOfPixel(formatOfName(path), channelCount));
 }
 
 }  // namespace fragtrace

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "options/output_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "options/choose.h"
+#include "options/numbers.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr std::array<std::string_view, 5> kFormatNames{"png", "jpg", "exr", "hdr", "pfm"};
+
+}  // namespace
+
+void addOutputOptions(CLI::App& app, RawRender& raw) {
+  app.add_option(
+         "--region", raw.region,
+         "X,Y,WIDTH,HEIGHT in pixels from the top left of the picture: draw and write this part alone, "
+         "with the same samples as in the whole")
+      ->delimiter(',')
+      ->expected(4)
+      ->check(wholeNumber(0, 65536));
+  app.add_option(
+         "--checkpoint", raw.options.checkpointSeconds,
+         "write the state of the render to OUTPUT.checkpoint each time this many seconds have passed, and "
+         "when it is interrupted; the finished picture removes the file")
+      ->check(CLI::Range(0.1, 1e7));
+  app.add_flag(
+      "--resume", raw.options.resume,
+      "continue from OUTPUT.checkpoint to the same picture; without that file begin anew, or do nothing "
+      "if the picture is finished");
+  app.add_option("--format", raw.format,
+                 "format of the picture that --output - writes to standard output: " + joined(kFormatNames));
+  app.add_option("--progress", raw.progress,
+                 "how progress is told on stderr: a bar or lines (auto), one JSON object a line, messages "
+                 "included (json), or not at all (none)")
+      ->capture_default_str();
+}
+
+void chooseStandardOutput(const RawRender& raw, RenderOptions& o) {
+  if (raw.output != "-") {
+    if (!raw.format.empty())
+      throw UsageError("--format: goes with --output -; a file's name tells its format");
+    return;
+  }
+  const auto refuse = [](const std::string& why) { throw UsageError("--output -: " + why); };
+  if (raw.format.empty()) refuse("needs --format, one of " + joined(kFormatNames));
+  choose<int>("--format", raw.format, kFormatNames);
+  if (o.checkpointSeconds > 0.0 || o.resume) refuse("--checkpoint and --resume need a file");
+  if (raw.statsFile == "-")
+    refuse("standard output takes the picture or the statistics (--stats -), not both");
+  o.toStandardOutput = true;
+  o.output = "standard output." + raw.format;
+}
+
+}  // namespace fragtrace
