@@ -20,10 +20,10 @@ class Sequences(Case):
         super().setUp()
         self.scene = self.moving()
 
-    def moving(self, name="moving.gltf", keys=((0.0, (0, 0, 0)), (1.0, (1, 0, 0)))):
-        """A plane with a texture whose node stands at these places at these times."""
-        root = json.loads(PLANE.read_text())
-        for image in root["images"]:
+    def moving(self, name="moving.gltf", keys=((0.0, (0, 0, 0)), (1.0, (1, 0, 0))), scene=PLANE):
+        """A scene, the plane with a texture, whose first mesh stands at these places at these times."""
+        root = json.loads(scene.read_text())
+        for image in root.get("images", ()):
             shutil.copy(SCENES / image["uri"], self.folder)
         for buffer in root["buffers"]:
             if not buffer["uri"].startswith("data:"):
@@ -79,6 +79,17 @@ class Sequences(Case):
             self.assertEqual(stats["compile_ms"], 0)
             self.assertLess(stats["scene_bytes"], first["scene_bytes"])  # neither texture nor environment
             self.assertFalse({"context", "program", "environment"} & {phase["name"] for phase in stats["phases"]})
+
+    def test_a_tree_is_refitted_and_pictures_stay(self):
+        self.scene = self.moving(scene=SCENES / "mesh-15743.gltf")
+        frames = ["--frames", "0:2", "--fps", 8, *SMALL, "--quiet"]
+        for kind, refitted in (("pfm", [False, True, True]), ("exr", [False] * 3)):
+            self.renders(self.scene, "-o", self.folder / f"m.##.{kind}", "--stats", self.folder / f"{kind}.##.json", *frames)
+            statistics = [json.loads((self.folder / f"{kind}.{k:02}.json").read_text()) for k in range(3)]
+            self.assertEqual([one["bvh"]["refitted"] for one in statistics], refitted, kind)
+        for k in range(3):
+            result = run("diff", self.folder / f"m.{k:02}.pfm", self.folder / f"m.{k:02}.exr", "--metric", "max")
+            self.assertEqual(result.stdout, "0\n", k)
 
     def test_continue_draws_what_is_missing(self):
         self.draw("--frames", "0:3")
