@@ -220,7 +220,9 @@ void decodeTexels(Bytes bytes, ImageFormat format, int width, int height, std::s
   std::copy_n(static_cast<const uint16_t*>(texels.get()), rgba.size(), rgba.data());
 }
 
-std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, Bytes values, ImageFormat format) {
+std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, int bits, Bytes values,
+                                 ImageFormat format) {
+  if (bits != 8) throw std::runtime_error("the GPU bundle writes pictures of 8 bits alone");
   constexpr int kQuality = 95;
   std::vector<uint8_t> bytes;
   int done = 0;
@@ -236,7 +238,9 @@ std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, Bytes 
   return bytes;
 }
 
-std::vector<uint8_t> encodeFloats(const Image& image, std::span<const float> values, ImageFormat format) {
+std::vector<uint8_t> encodeFloats(const Image& image, std::span<const float> values,
+                                  const std::vector<bool>& halves, ImageFormat format) {
+  if (!halves.empty()) throw std::runtime_error("the GPU bundle writes .exr of 32-bit floats alone");
   if (format != ImageFormat::OpenExr) refuseFormat();
   return writeExr(image, values);
 }

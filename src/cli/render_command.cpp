@@ -14,6 +14,7 @@
 #include "image/files/process.h"
 #include "image/format.h"
 #include "options/config_file.h"
+#include "options/output_options.h"
 #include "options/parse_render.h"
 #include "options/sequence_options.h"
 #include "picture/checkpoints.h"
@@ -340,6 +341,8 @@ RunCommand addRender(CLI::App& app) {
       "-o,--output", raw->render.output,
       "picture to write: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); required");
   addRenderOptions(app, raw->render);
+  addHalfOption(app, raw->render.options.encoding);
+  addPngDepthOption(app, raw->render.options.encoding);
   addPartOptions(app, raw->render);
   addSequenceOptions(app, raw->sequence);
   addDenoiseOption(app, raw->render);
@@ -347,6 +350,7 @@ RunCommand addRender(CLI::App& app) {
   return [raw, &app] {
     RenderOptions options = finishConfigured(raw->render, raw->config, app);
     if (options.output.empty()) throw UsageError("--output is required; --help says more");
+    checkEncoding(options.encoding, options.output);
     finishSequence(raw->sequence, options);
     return options.sequence ? runSequence(options) : runRender(options);
   };

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "image/encoding.h"
 #include "image/limits.h"
 #include "image/region.h"
 
@@ -77,14 +78,16 @@ bool isWritableImageName(const std::filesystem::path& path);
 bool isDisplayFormat(const std::filesystem::path& path);
 
 /// Writes beside the target and renames, so that the target is the old file or the new one, whole. The
-/// picture's values are written as they are (8 bit, rounded, for .png and .jpg); channels R, G, B and
-/// optionally A, and more for .exr (32-bit float). Colour is taken as unassociated for .png. Throws
+/// picture's values are written as they are (rounded to 8 bits for .png and .jpg, to 16 where asked); channels
+/// R, G, B and optionally A, and more for .exr (32-bit float, or 16-bit where asked). Colour is taken as
+/// unassociated for .png. Returns how many values were beyond the largest 16-bit float and became that. Throws
 /// RenderError naming the path and the reason.
-void writeImage(const std::filesystem::path& path, const Image& image);
+size_t writeImage(const std::filesystem::path& path, const Image& image, const Encoding& encoding = {});
 
 /// To be asked before long work: throws what writeImage() would where the library of the format does not
 /// answer, or where there is no room for a picture of that size and so many channels that cannot be
 /// compressed.
-void checkImageWritable(const std::filesystem::path& path, int width, int height, size_t channelCount);
+void checkImageWritable(const std::filesystem::path& path, int width, int height, size_t channelCount,
+                        const Encoding& encoding = {});
 
 }  // namespace fragtrace

@@ -74,7 +74,7 @@ std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedSce
 }
 
 void checkPictureWritable(const RenderOptions& options, glm::ivec2 size) {
-  checkImageWritable(options.output, size.x, size.y, channelsOf(options));
+  checkImageWritable(options.output, size.x, size.y, channelsOf(options), options.encoding);
 }
 
 std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason) {
@@ -90,14 +90,23 @@ std::string rescuePicture(const RenderOptions& options, const Image& linear, con
          path.string() + (lost.empty() ? "" : ", lost: " + lost);
 }
 
+void sayClamped(const RenderOptions& options, size_t values) {
+  if (values == 0) return;
+  say(options, "warning: " + options.output.string() + ": " + std::to_string(values) +
+                   " values are beyond 65504, the largest 16-bit float, and clamped to it (--half)");
+}
+
 void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> lines) {
-  if (!isDisplayFormat(options.output)) return writeImage(options.output, linear);
+  if (!isDisplayFormat(options.output)) {
+    sayClamped(options, writeImage(options.output, linear, options.encoding));
+    return;
+  }
   const bool colors = showsColors(options);
   const bool keepsAlpha = formatOfName(options.output) == ImageFormat::Png;
   Image display = toDisplay(keepsAlpha ? linear : withoutAlpha(linear), colors ? 0.0 : options.exposure,
                             colors ? ToneMap::Linear : options.toneMap);
   drawLines(display, lines, linear.placement.value_or(Placement{{0, 0}, {linear.width, linear.height}}));
-  writeImage(options.output, display);
+  writeImage(options.output, display, options.encoding);
 }
 
 }  // namespace fragtrace

@@ -44,6 +44,7 @@ inline constexpr std::tuple kOptionRows{
     OptionRow{&RenderOptions::background, Effect::Picture, false, "background"},
     OptionRow{&RenderOptions::defaultLight, Effect::Picture, true},
     OptionRow{&RenderOptions::toneMap, Effect::Display},
+    OptionRow{&RenderOptions::encoding, Effect::Display},
     OptionRow{&RenderOptions::pixelFilter, Effect::Picture, true},
     OptionRow{&RenderOptions::traversal, Effect::Way, true},
     OptionRow{&RenderOptions::instancing, Effect::Way}, OptionRow{&RenderOptions::backend, Effect::Way, true},

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "image/channels.h"
 #include "image/worker/messages.h"
 #include "process/child.h"
 #include "process/shared_memory.h"
@@ -131,7 +132,8 @@ Image decodeByProcess(std::span<const uint8_t> bytes, const ImageHeader& header)
                        header.channelCount,
                        bytes.size(),
                        0,
-                       {}};
+                       {},
+                       0};
   request.outputBytes = pixels * uint64_t(header.channelCount) * sizeof(float) + bytes.size() + kRoomForTexts;
   const Answer answer = service().perform(request, bytes, {}, decodingLimits(header, bytes.size()));
 
@@ -162,7 +164,8 @@ TexelImage decodeTexelsByProcess(std::span<const uint8_t> bytes, const ImageHead
                              header.channelCount,
                              bytes.size(),
                              values * sizeof(uint16_t),
-                             {}};
+                             {},
+                             0};
   const Answer answer = service().perform(request, bytes, {}, decodingLimits(header, bytes.size()));
   if (answer.output.size() != request.outputBytes)
     throw std::runtime_error("the image process sent a broken answer");
@@ -172,7 +175,7 @@ TexelImage decodeTexelsByProcess(std::span<const uint8_t> bytes, const ImageHead
           answer.memory};
 }
 
-std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCount,
+std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCount, int bits,
                                           std::span<const uint8_t> values, ImageFormat format) {
   const ImageRequest request{ImageTask::EncodeBytes,
                              format,
@@ -181,13 +184,18 @@ std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCoun
                              channelCount,
                              values.size(),
                              roomForEncoded(values.size(), height),
-                             {}};
+                             {},
+                             bits};
   const Answer answer = service().perform(request, values, {}, {});
   return {answer.output.begin(), answer.output.end()};
 }
 
-std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat format) {
+std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat format, bool half) {
   std::vector<std::string> texts = image.channels;
+  if (half) {
+    for (const std::string& channel : image.channels)
+      texts.emplace_back(isStoredAsHalf(channel) ? "half" : "float");
+  }
   for (const auto& [name, text] : image.attributes) {
     texts.push_back(name);
     texts.push_back(text);
@@ -202,7 +210,8 @@ std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat forma
                              int(image.channelCount()),
                              size,
                              roomForEncoded(size, image.height),
-                             messageOf(image.placement)};
+                             messageOf(image.placement),
+                             half ? 16 : 32};
   const Answer answer = service().perform(request, values, packed, {});
   return {answer.output.begin(), answer.output.end()};
 }

@@ -54,9 +54,12 @@ std::vector<uint8_t> encodeFloatsOf(const ImageRequest& request, std::span<const
   Image image{request.width, request.height, {}, {}, {}};
   const auto channels = texts.begin() + request.channelCount;
   image.channels.assign(texts.begin(), channels);
-  for (auto text = channels; text != texts.end(); text += 2) image.attributes[*text] = *(text + 1);
+  const auto types = channels + (request.bits == 16 ? request.channelCount : 0);
+  std::vector<bool> halves;
+  for (auto type = channels; type != types; ++type) halves.push_back(*type == "half");
+  for (auto text = types; text != texts.end(); text += 2) image.attributes[*text] = *(text + 1);
   image.placement = placementOf(request.placement);
-  return encodeFloats(image, {reinterpret_cast<const float*>(input.data()), count}, request.format);
+  return encodeFloats(image, {reinterpret_cast<const float*>(input.data()), count}, halves, request.format);
 }
 
 void perform(const ImageRequest& request, std::span<const uint8_t> input, std::span<uint8_t> room,
@@ -73,7 +76,8 @@ void perform(const ImageRequest& request, std::span<const uint8_t> input, std::s
       output.used = room.size();
       break;
     case ImageTask::EncodeBytes:
-      output.append(encodeBytes(request.width, request.height, request.channelCount, input, request.format));
+      output.append(encodeBytes(request.width, request.height, request.channelCount, request.bits, input,
+                                request.format));
       break;
     case ImageTask::EncodeFloats:
       output.append(encodeFloatsOf(request, input));

@@ -24,7 +24,9 @@ struct PlacementMessage {
   int32_t wholeHeight = 0;
 };
 
-/// Encoded pictures are their file's bytes; decoded ones their values, then texts.
+/// Encoded pictures are their file's bytes; decoded ones their values, then texts: the channels, then pairs of
+/// an attribute's name and its text. To encode floats of 16 bits, a text "half" or "float" of each channel
+/// stands between these.
 struct ImageRequest {
   ImageTask task = ImageTask::DecodeFloats;
   ImageFormat format = ImageFormat::Png;
@@ -34,6 +36,7 @@ struct ImageRequest {
   uint64_t inputBytes = 0;
   uint64_t outputBytes = 0;    ///< room for the output
   PlacementMessage placement;  ///< of what is encoded
+  int32_t bits = 0;            ///< of a channel of EncodeBytes, 8 or 16; of EncodeFloats: 16 where some are half
 };
 
 struct ImageReply {

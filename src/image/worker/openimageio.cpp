@@ -160,9 +160,9 @@ std::vector<uint8_t> encode(const OIIO::ImageSpec& spec, ImageFormat format, con
 
 }  // namespace
 
-std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, std::span<const uint8_t> values,
-                                 ImageFormat format) {
-  OIIO::ImageSpec spec(width, height, channelCount, OIIO::TypeUInt8);
+std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, int bits,
+                                 std::span<const uint8_t> values, ImageFormat format) {
+  OIIO::ImageSpec spec(width, height, channelCount, bits == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("oiio:UnassociatedAlpha", 1);  // else the colour is divided by alpha
   spec.attribute("Compression", "jpeg:95");
@@ -170,9 +170,11 @@ std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, std::s
   return encode(spec, format, values.data());
 }
 
-std::vector<uint8_t> encodeFloats(const Image& image, std::span<const float> values, ImageFormat format) {
+std::vector<uint8_t> encodeFloats(const Image& image, std::span<const float> values,
+                                  const std::vector<bool>& halves, ImageFormat format) {
   OIIO::ImageSpec spec(image.width, image.height, int(image.channelCount()), OIIO::TypeFloat);
   spec.channelnames = image.channels;
+  for (const bool half : halves) spec.channelformats.push_back(half ? OIIO::TypeHalf : OIIO::TypeFloat);
   const auto alpha = std::ranges::find(image.channels, "A");
   spec.alpha_channel = alpha == image.channels.end() ? -1 : int(alpha - image.channels.begin());
   for (const auto& [name, text] : image.attributes) spec.attribute(name, text);
