@@ -60,6 +60,14 @@ class ExrWriter {
     (add(values), ...);
   }
 
+  /// A matrix, chromaticities or one number.
+  void addNumbers(const std::string& name, const std::vector<float>& numbers) {
+    addText(name);
+    addText(numbers.size() == 16 ? "m44f" : numbers.size() == 8 ? "chromaticities" : "float");
+    add(uint32_t(numbers.size() * sizeof(float)));
+    for (const float number : numbers) add(number);
+  }
+
   std::vector<uint8_t> bytes;
 };
 
@@ -97,7 +105,8 @@ std::vector<uint8_t> writeExr(const Image& image, std::span<const float> values)
   file.addAttribute("lineOrder", "lineOrder", uint8_t(0));
   file.addAttribute("pixelAspectRatio", "float", 1.0F);
   file.addAttribute("screenWindowCenter", "v2f", 0.0F, 0.0F);
-  file.addAttribute("screenWindowWidth", "float", 1.0F);
+  if (!image.numbers.contains("screenWindowWidth")) file.addAttribute("screenWindowWidth", "float", 1.0F);
+  for (const auto& [name, numbers] : image.numbers) file.addNumbers(name, numbers);
   file.bytes.push_back(0);
 
   const size_t lineBytes = size_t(image.width) * image.channelCount() * sizeof(float);

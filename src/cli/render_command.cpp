@@ -21,6 +21,7 @@
 #include "picture/denoising.h"
 #include "picture/draw_parts.h"
 #include "picture/picture_file.h"
+#include "picture/picture_header.h"
 #include "picture/provenance.h"
 #include "picture/sequence.h"
 #include "render/adaptive.h"
@@ -184,6 +185,8 @@ Outcome drawAndWrite(const PictureJob& asked, const std::vector<PictureLine>& bo
     if (interrupts() > most) return Outcome::None;
     setProvenanceOf(picture, options, job.loaded, job.tracer, stats);
     picture.placement = viewOf(job.loaded, job.loaded.region).placement;
+    setCamera(picture, job.loaded.camera, job.loaded.size);
+    if (!showsColors(options)) setChromaticities(picture);
     PhaseTimer writing("write");
     writePicture(options, picture, boxes);
     stats.phases.push_back(writing.end());
@@ -264,8 +267,7 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
   LoadedScene& loaded = *run.loaded;
   const Camera camera = loaded.camera;
   if (sequence.turntable > 0) {
-    const glm::dvec3 focalPoint =
-        options.camera.focalPoint.value_or(focalPointOf(camera, loaded.scene.bounds));
+    const glm::dvec3 focalPoint = turningPoint(camera, options.camera, loaded.scene.bounds);
     loaded.camera = turnedCamera(camera, focalPoint, frame.turn);
     loaded.view = makeView(options, loaded.scene, loaded.camera);
   }

@@ -58,7 +58,7 @@ Image onlyChannels(const Image& image, const std::vector<std::string>& names) {
     if (!index) throw std::out_of_range("no channel " + name);
     indices.push_back(*index);
   }
-  Image result{image.width, image.height, names, {}, image.attributes, image.placement};
+  Image result{image.width, image.height, names, {}, image.attributes, image.placement, image.numbers};
   result.values.reserve(image.values.size() / image.channelCount() * names.size());
   for (size_t first = 0; first < image.values.size(); first += image.channelCount()) {
     for (const size_t index : indices) result.values.push_back(image.values[first + index]);

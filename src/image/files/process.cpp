@@ -133,6 +133,7 @@ Image decodeByProcess(std::span<const uint8_t> bytes, const ImageHeader& header)
                        bytes.size(),
                        0,
                        {},
+                       0,
                        0};
   request.outputBytes = pixels * uint64_t(header.channelCount) * sizeof(float) + bytes.size() + kRoomForTexts;
   const Answer answer = service().perform(request, bytes, {}, decodingLimits(header, bytes.size()));
@@ -148,10 +149,9 @@ Image decodeByProcess(std::span<const uint8_t> bytes, const ImageHeader& header)
   const auto* values = reinterpret_cast<const float*>(answer.output.data());
   image.values.assign(values, values + count);
   const auto texts = unpackTexts(answer.output.subspan(count * sizeof(float)));
-  if (texts.size() < size_t(channelCount) || (texts.size() - size_t(channelCount)) % 2 != 0)
-    throw std::runtime_error("the image process sent a broken answer");
+  if (texts.size() < size_t(channelCount)) throw std::runtime_error("the image process sent a broken answer");
   image.channels.assign(texts.begin(), texts.begin() + channelCount);
-  for (size_t i = size_t(channelCount); i < texts.size(); i += 2) image.attributes[texts[i]] = texts[i + 1];
+  takeAttributes(std::span(texts).subspan(size_t(channelCount)), answer.reply.numberCount, image);
   return image;
 }
 
@@ -165,6 +165,7 @@ TexelImage decodeTexelsByProcess(std::span<const uint8_t> bytes, const ImageHead
                              bytes.size(),
                              values * sizeof(uint16_t),
                              {},
+                             0,
                              0};
   const Answer answer = service().perform(request, bytes, {}, decodingLimits(header, bytes.size()));
   if (answer.output.size() != request.outputBytes)
@@ -185,7 +186,8 @@ std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCoun
                              values.size(),
                              roomForEncoded(values.size(), height),
                              {},
-                             bits};
+                             bits,
+                             0};
   const Answer answer = service().perform(request, values, {}, {});
   return {answer.output.begin(), answer.output.end()};
 }
@@ -196,10 +198,7 @@ std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat forma
     for (const std::string& channel : image.channels)
       texts.emplace_back(isStoredAsHalf(channel) ? "half" : "float");
   }
-  for (const auto& [name, text] : image.attributes) {
-    texts.push_back(name);
-    texts.push_back(text);
-  }
+  appendAttributes(image, texts);
   const std::vector<uint8_t> packed = packTexts(texts);
   const std::span<const uint8_t> values = asBytes(image.values);
   const uint64_t size = values.size() + packed.size();
@@ -211,7 +210,8 @@ std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat forma
                              size,
                              roomForEncoded(size, image.height),
                              messageOf(image.placement),
-                             half ? 16 : 32};
+                             half ? 16 : 32,
+                             int(image.numbers.size())};
   const Answer answer = service().perform(request, values, packed, {});
   return {answer.output.begin(), answer.output.end()};
 }

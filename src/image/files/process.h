@@ -26,8 +26,8 @@ TexelImage decodeTexelsByProcess(std::span<const uint8_t> bytes, const ImageHead
 std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCount, int bits,
                                           std::span<const uint8_t> values, ImageFormat format);
 
-/// Every channel as .exr, or three as .hdr; `half`: of an .exr, where isStoredAsHalf(), as 16-bit floats, which
-/// must be able to hold the values.
+/// Every channel as .exr, or three as .hdr; `half`: of an .exr, where isStoredAsHalf(), as 16-bit floats,
+/// which must be able to hold the values.
 std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat format, bool half = false);
 
 /// Starts the process ahead of its first use, which takes a millisecond here and 0.1 s there. A failure is

@@ -18,7 +18,8 @@ namespace {
 
 constexpr float kLargestHalf = 65504.0f;
 
-/// Rounded to the nearest of the levels up to `highest`; what lies outside 0..1 is clamped, and NaN becomes 0.
+/// Rounded to the nearest of the levels up to `highest`; what lies outside 0..1 is clamped, and NaN becomes
+/// 0.
 uint16_t quantize(float value, float highest) {
   if (!(value > 0)) return 0;  // NaN compares false
   return uint16_t(std::lround(std::min(value, 1.0f) * highest));

@@ -23,8 +23,8 @@ void decodeTexels(std::span<const uint8_t> bytes, ImageFormat format, int width,
 std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, int bits,
                                  std::span<const uint8_t> values, ImageFormat format);
 
-/// Every channel as .exr, or three as .hdr. `halves` says of each channel whether it is stored as 16-bit floats;
-/// empty: none is.
+/// Every channel as .exr, or three as .hdr. `halves` says of each channel whether it is stored as 16-bit
+/// floats; empty: none is.
 std::vector<uint8_t> encodeFloats(const Image& image, std::span<const float> values,
                                   const std::vector<bool>& halves, ImageFormat format);
 
