@@ -89,6 +89,7 @@ void appendScene(std::string& text, const RenderOptions& o) {
          limits.memoryBytes == standard.limits.memoryBytes);
   append(text, "--texture-limit", std::to_string(limits.textureSide),
          limits.textureSide == standard.limits.textureSide);
+  if (limits.drawMissingTextures) text += " --missing-textures warn";
   if (limits.allowExternalFiles) text += " --allow-external-files";
 }
 
