@@ -60,6 +60,14 @@ class ExrWriter {
     (add(values), ...);
   }
 
+  /// A matrix, chromaticities or one number.
+  void addNumbers(const std::string& name, const std::vector<float>& numbers) {
+    addText(name);
+    addText(numbers.size() == 16 ? "m44f" : numbers.size() == 8 ? "chromaticities" : "float");
+    add(uint32_t(numbers.size() * sizeof(float)));
+    for (const float number : numbers) add(number);
+  }
+
   std::vector<uint8_t> bytes;
 };
 
@@ -97,7 +105,8 @@ std::vector<uint8_t> writeExr(const Image& image, std::span<const float> values)
   file.addAttribute("lineOrder", "lineOrder", uint8_t(0));
   file.addAttribute("pixelAspectRatio", "float", 1.0F);
   file.addAttribute("screenWindowCenter", "v2f", 0.0F, 0.0F);
-  file.addAttribute("screenWindowWidth", "float", 1.0F);
+  if (!image.numbers.contains("screenWindowWidth")) file.addAttribute("screenWindowWidth", "float", 1.0F);
+  for (const auto& [name, numbers] : image.numbers) file.addNumbers(name, numbers);
   file.bytes.push_back(0);
 
   const size_t lineBytes = size_t(image.width) * image.channelCount() * sizeof(float);
@@ -220,7 +229,9 @@ void decodeTexels(Bytes bytes, ImageFormat format, int width, int height, std::s
   std::copy_n(static_cast<const uint16_t*>(texels.get()), rgba.size(), rgba.data());
 }
 
-std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, Bytes values, ImageFormat format) {
+std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, int bits, Bytes values,
+                                 ImageFormat format) {
+  if (bits != 8) throw std::runtime_error("the GPU bundle writes pictures of 8 bits alone");
   constexpr int kQuality = 95;
   std::vector<uint8_t> bytes;
   int done = 0;
@@ -236,7 +247,9 @@ std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, Bytes 
   return bytes;
 }
 
-std::vector<uint8_t> encodeFloats(const Image& image, std::span<const float> values, ImageFormat format) {
+std::vector<uint8_t> encodeFloats(const Image& image, std::span<const float> values,
+                                  const std::vector<bool>& halves, ImageFormat format) {
+  if (!halves.empty()) throw std::runtime_error("the GPU bundle writes .exr of 32-bit floats alone");
   if (format != ImageFormat::OpenExr) refuseFormat();
   return writeExr(image, values);
 }

@@ -8,6 +8,7 @@
 
 #include "options/choose.h"
 #include "options/numbers.h"
+#include "options/encoding_options.h"
 
 namespace fragtrace {
 
@@ -62,12 +63,16 @@ void addDenoiseCommandOptions(CLI::App& app, RawDenoise& raw) {
   app.add_option("--exposure", raw.render.options.exposure, describedByRender("--exposure"))
       ->capture_default_str();
   app.add_option("--tone-map", raw.render.toneMap, describedByRender("--tone-map"))->capture_default_str();
+  addHalfOption(app, raw.render.options.encoding);
+  addPngDepthOption(app, raw.render.options.encoding);
 }
 
 DenoiseOptions finishDenoise(const RawDenoise& raw) {
   if (std::ranges::find(kFileFilterNames, raw.render.denoise) == kFileFilterNames.end())
     throw UsageError("--denoise: '" + raw.render.denoise + "' is none of " + joined(kFileFilterNames));
-  return {raw.picture, finishRender(raw.render)};
+  const RenderOptions render = finishRender(raw.render);
+  checkEncoding(render.encoding, render.output);
+  return {raw.picture, render};
 }
 
 }  // namespace fragtrace

@@ -10,8 +10,10 @@
 #include "errors.h"
 #include "image/format.h"
 #include "options/choose.h"
+#include "options/encoding_options.h"
 #include "picture/denoised_file.h"
 #include "picture/joined_parts.h"
+#include "picture/picture_file.h"
 #include "session/outputs.h"
 
 namespace fragtrace {
@@ -37,7 +39,8 @@ int runMerge(const MergeOptions& options) {
     result = denoisedFile(result, options.parts.front(), filter, oidn, stats);
     result.placement = joined.image.placement;
   }
-  writeImage(options.output, result);
+  filter.output = options.output;
+  sayClamped(filter, writeImage(options.output, result, filter.encoding));
   if (!filter.quiet)
     std::printf("%s: %s\n", options.output.string().c_str(),
                 describeParts(options.parts.size(), joined).c_str());
@@ -61,6 +64,7 @@ RunCommand addMerge(CLI::App& app) {
   app.add_option("--denoise", raw->filter.denoise,
                  "filter that removes noise from the merged picture: " + joined(kDenoiseNames))
       ->capture_default_str();
+  addHalfOption(app, raw->filter.options.encoding);
   addFileFilterOptions(app, raw->filter);
   return [raw] {
     MergeOptions options = raw->options;

@@ -12,6 +12,7 @@
 #include "errors.h"
 #include "image/files/process.h"
 #include "options/config_file.h"
+#include "options/encoding_options.h"
 #include "options/output_options.h"
 #include "options/parse_render.h"
 #include "options/sequence_options.h"
@@ -186,8 +187,7 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
   LoadedScene& loaded = *run.loaded;
   const Camera camera = loaded.camera;
   if (sequence.turntable > 0) {
-    const glm::dvec3 focalPoint =
-        options.camera.focalPoint.value_or(focalPointOf(camera, loaded.scene.bounds));
+    const glm::dvec3 focalPoint = turningPoint(camera, options.camera, loaded.scene.bounds);
     loaded.camera = turnedCamera(camera, focalPoint, frame.turn);
     loaded.view = makeView(options, loaded.scene, loaded.camera);
   }
@@ -262,6 +262,8 @@ RunCommand addRender(CLI::App& app) {
          "standard output (--format), and nothing else goes there; required")
       ->type_name("FILE");
   addRenderOptions(app, raw->render);
+  addHalfOption(app, raw->render.options.encoding);
+  addPngDepthOption(app, raw->render.options.encoding);
   addOutputOptions(app, raw->render);
   addSequenceOptions(app, raw->sequence);
   addDenoiseOption(app, raw->render);
@@ -269,6 +271,7 @@ RunCommand addRender(CLI::App& app) {
   return [raw, &app] {
     RenderOptions options = finishConfigured(raw->render, raw->config, app);
     if (options.output.empty()) throw UsageError("--output is required; --help says more");
+    checkEncoding(options.encoding, options.output);
     finishSequence(raw->sequence, options);
     if (options.progress == ProgressForm::Json) reportAsJson(options.quiet);
     if (options.toStandardOutput && isatty(STDOUT_FILENO) != 0)

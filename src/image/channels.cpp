@@ -6,6 +6,16 @@
 
 namespace fragtrace {
 
+bool isStoredAsHalf(std::string_view channel) {
+  constexpr std::string_view kColors = "RGBA";
+  const size_t point = channel.rfind('.');
+  const std::string_view layer = channel.substr(0, point == std::string_view::npos ? 0 : point);
+  const std::string_view last = channel.substr(point == std::string_view::npos ? 0 : point + 1);
+  if (layer.ends_with("normal") || layer == "roughness") return true;
+  const bool isCryptomatte = layer.starts_with("Crypto") || layer.starts_with("crypto");
+  return !isCryptomatte && last.size() == 1 && kColors.find(last[0]) != std::string_view::npos;
+}
+
 std::optional<size_t> findChannel(const Image& image, std::string_view name) {
   const auto found = std::ranges::find(image.channels, name);
   if (found == image.channels.end()) return std::nullopt;
@@ -48,7 +58,7 @@ Image onlyChannels(const Image& image, const std::vector<std::string>& names) {
     if (!index) throw std::out_of_range("no channel " + name);
     indices.push_back(*index);
   }
-  Image result{image.width, image.height, names, {}, image.attributes, image.placement};
+  Image result{image.width, image.height, names, {}, image.attributes, image.placement, image.numbers};
   result.values.reserve(image.values.size() / image.channelCount() * names.size());
   for (size_t first = 0; first < image.values.size(); first += image.channelCount()) {
     for (const size_t index : indices) result.values.push_back(image.values[first + index]);

@@ -19,6 +19,11 @@ inline constexpr std::array kGuideChannels{"denoising.albedo.R", "denoising.albe
 /// One observation of the variance (observedVariance() of film/noise.h).
 inline constexpr const char* kObservedChannel = "denoising.observed.Y";
 
+/// Whether 16-bit floats, with their 11 bits of precision up to 65504, do for a channel of that name: colours
+/// (.R .G .B .A), normals and roughness. All others keep 32 bits: numbers of samples, depths, variances,
+/// texture coordinates, and the identifiers of Cryptomatte.
+bool isStoredAsHalf(std::string_view channel);
+
 /// The index of the channel of that exact name.
 std::optional<size_t> findChannel(const Image& image, std::string_view name);
 

@@ -3,6 +3,7 @@
 // otherwise.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -12,10 +13,19 @@
 #include <string>
 #include <vector>
 
+#include "image/encoding.h"
 #include "image/limits.h"
 #include "image/region.h"
 
 namespace fragtrace {
+
+/// A standard attribute of OpenEXR that is made of numbers, and how many they are. Matrices are rows of four.
+struct NumberAttribute {
+  const char* name;
+  size_t count;
+};
+inline constexpr std::array<NumberAttribute, 4> kNumberAttributes{
+    {{"worldToCamera", 16}, {"worldToNDC", 16}, {"chromaticities", 8}, {"screenWindowWidth", 1}}};
 
 /// Interleaved float channels; the first row is the top.
 struct Image {
@@ -26,6 +36,8 @@ struct Image {
   std::map<std::string, std::string> attributes;  ///< kept in EXR files only
   std::optional<Placement> placement =
       std::nullopt;  ///< the same: data window in display window; none: a whole
+  /// The same: attributes of OpenEXR's own that are numbers, by kNumberAttributes.
+  std::map<std::string, std::vector<float>> numbers = {};
 
   size_t channelCount() const { return channels.size(); }
   float* pixel(int x, int y) { return values.data() + (size_t(y) * width + x) * channels.size(); }
@@ -77,18 +89,19 @@ bool isWritableImageName(const std::filesystem::path& path);
 bool isDisplayFormat(const std::filesystem::path& path);
 
 /// Writes beside the target and renames, so that the target is the old file or the new one, whole. The
-/// picture's values are written as they are (8 bit, rounded, for .png and .jpg); channels R, G, B and
-/// optionally A, and more for .exr (32-bit float). Colour is taken as unassociated for .png. Throws
-/// RenderError naming the path and the reason.
-void writeImage(const std::filesystem::path& path, const Image& image);
+/// picture's values are written as they are (rounded to 8 bits for .png and .jpg, to 16 where asked);
+/// channels R, G, B and optionally A, and more for .exr (32-bit float, or 16-bit where asked). Colour is
+/// taken as unassociated for .png. Returns how many values were beyond the largest 16-bit float and became
+/// that. Throws RenderError naming the path and the reason.
+size_t writeImage(const std::filesystem::path& path, const Image& image, const Encoding& encoding = {});
 
 /// The same on standard output; the path tells the format, and is what messages call it.
-void printImage(const std::filesystem::path& path, const Image& image);
+size_t printImage(const std::filesystem::path& path, const Image& image, const Encoding& encoding = {});
 
 /// To be asked before long work: throws what writeImage() would where the library of the format does not
 /// answer, or where there is no room for a picture of that size and so many channels that cannot be
 /// compressed.
 void checkImageWritable(const std::filesystem::path& path, int width, int height, size_t channelCount,
-                        bool isFile = true);
+                        const Encoding& encoding = {}, bool isFile = true);
 
 }  // namespace fragtrace

@@ -32,6 +32,7 @@ struct InputLimits {
   uint64_t memoryBytes = defaultMemoryLimit();
   int textureSide = kLargestTextureSide;  ///< wider or higher textures are scaled down to this
   bool allowExternalFiles = false;        ///< URIs may lead out of the scene's folder
+  bool drawMissingTextures = false;       ///< a picture that cannot be read is warned of, and marked
 
   bool operator==(const InputLimits&) const = default;
 };

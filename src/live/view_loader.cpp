@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "live/view_loader.h"
 
+#include "view/camera_controller.h"
+
 #include <atomic>
 #include <mutex>
 #include <thread>
@@ -35,6 +37,9 @@ void SceneLoader::start(const RenderOptions& options) {
       // From now on it is told by its index, as others are that are chosen in the window.
       result.options.cameraIndex = result.scene->cameraIndex;
       result.options.selection.camera.clear();
+      // So is a camera that was placed by the scene's vertices.
+      if (result.options.camera.fit != Fit::None)
+        result.options.camera = overridesOf(poseOf(result.scene->camera, result.scene->scene.bounds));
       progress("packing", 0.9);
     } catch (const Cancelled&) {
       result.scene.reset();

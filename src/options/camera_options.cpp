@@ -82,6 +82,19 @@ void addCameraOptions(CLI::App& app, RawCamera& raw) {
   app.add_option("--camera", raw.name, "name or index of the camera; `fragtrace info` lists the cameras")
       ->excludes(index);
   addVector("--camera-position", raw.position, "X,Y,Z of the camera in world space, in metres");
+  app.add_option(
+         "--camera-orbit", raw.orbit,
+         "AZIMUTH,ELEVATION or AZIMUTH,ELEVATION,ZOOM: look at the middle of the scene, or at "
+         "--camera-focal-point, from this direction in degrees; 0,0 is the front (+Z), azimuth goes to the "
+         "right and elevation up; at zoom 2 all is twice as large")
+      ->delimiter(',')
+      ->expected(2, 3)
+      ->allow_extra_args(false)
+      ->excludes("--camera-position");
+  app.add_flag(
+      "--fit", raw.fit,
+      "move the camera, without turning it, until the scene fills the picture but for a narrow margin; with "
+      "--turntable one distance fits all pictures");
   addVector("--camera-focal-point", raw.focalPoint, "X,Y,Z of the point that the camera looks at");
   addVector("--camera-view-up", raw.viewUp, "X,Y,Z of the direction that points up in the picture");
   CLI::Option* angle = app.add_option("--camera-view-angle", raw.viewAngleDegrees,
@@ -95,6 +108,22 @@ void addCameraOptions(CLI::App& app, RawCamera& raw) {
       "point near the camera");
 }
 
+namespace {
+
+Orbit orbitOf(const std::vector<double>& values) {
+  for (const double value : values) {
+    if (!std::isfinite(value)) throw UsageError("--camera-orbit: not a finite number");
+  }
+  const Orbit orbit{values[0], values[1], values.size() > 2 ? values[2] : 1.0};
+  if (std::abs(orbit.elevationDegrees) > 90.0)
+    throw UsageError("--camera-orbit: the elevation is not between -90 and 90 degrees");
+  if (!(orbit.zoom >= 1e-3 && orbit.zoom <= 1e6))
+    throw UsageError("--camera-orbit: the zoom is not between 0.001 and 1000000");
+  return orbit;
+}
+
+}  // namespace
+
 void finishCamera(const RawCamera& raw, RenderOptions& options) {
   if (!raw.resolution.empty()) options.resolution = glm::ivec2(raw.resolution[0], raw.resolution[1]);
   options.cameraIndex = raw.index;
@@ -104,6 +133,8 @@ void finishCamera(const RawCamera& raw, RenderOptions& options) {
   options.camera.viewUp = vectorOf("--camera-view-up", raw.viewUp);
   options.camera.viewAngleDegrees = raw.viewAngleDegrees;
   options.camera.parallelScale = raw.parallelScale;
+  if (!raw.orbit.empty()) options.camera.orbit = orbitOf(raw.orbit);
+  options.camera.fit = raw.fit ? Fit::View : Fit::None;
   options.sceneOrigin = placeOf("--scene-origin", raw.sceneOrigin);
   if (options.camera.viewUp && *options.camera.viewUp == glm::dvec3(0.0))
     throw UsageError("--camera-view-up: is zero");
@@ -115,6 +146,12 @@ std::string cameraText(const RenderOptions& options) {
     appendOption(text, "--camera", options.selection.camera);
   if (options.cameraIndex) appendOption(text, "--camera-index", std::to_string(*options.cameraIndex));
   append(text, "--camera-position", options.camera.position);
+  if (const auto& orbit = options.camera.orbit) {
+    appendOption(text, "--camera-orbit",
+                 exactText(orbit->azimuthDegrees) + "," + exactText(orbit->elevationDegrees) +
+                     (orbit->zoom == 1.0 ? "" : "," + exactText(orbit->zoom)));
+  }
+  if (options.camera.fit != Fit::None) text += text.empty() ? "--fit" : " --fit";
   append(text, "--camera-focal-point", options.camera.focalPoint);
   append(text, "--camera-view-up", options.camera.viewUp);
   append(text, "--camera-view-angle", options.camera.viewAngleDegrees);

@@ -23,9 +23,11 @@ struct RawCamera {
   std::vector<double> position;
   std::vector<double> focalPoint;
   std::vector<double> viewUp;
+  std::vector<double> orbit;
   std::optional<double> viewAngleDegrees;
   std::optional<double> parallelScale;
   std::vector<double> sceneOrigin;
+  bool fit = false;
 };
 
 /// Numbers such as "-.5,0,1" look like short options to the library; a zero before the point settles it. And

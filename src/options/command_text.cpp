@@ -7,6 +7,7 @@
 #include "errors.h"
 #include "options/camera_options.h"
 #include "options/config_file.h"
+#include "options/encoding_options.h"
 #include "options/option_text.h"
 #include "options/view_options.h"
 #include "stage/feature.h"
@@ -88,6 +89,7 @@ void appendScene(std::string& text, const RenderOptions& o) {
          limits.memoryBytes == standard.limits.memoryBytes);
   append(text, "--texture-limit", std::to_string(limits.textureSide),
          limits.textureSide == standard.limits.textureSide);
+  if (limits.drawMissingTextures) text += " --missing-textures warn";
   if (limits.allowExternalFiles) text += " --allow-external-files";
 }
 
@@ -117,6 +119,8 @@ RenderOptions parseCommand(const std::string& name, std::vector<std::string> wor
   addViewOptions(app, raw);
   if (name == "render") raw.render.denoise = "none";  // its default
   app.add_option("-o,--output", raw.render.output);
+  addHalfOption(app, raw.render.options.encoding);
+  addPngDepthOption(app, raw.render.options.encoding);
   parseWords(app, std::move(words));
   return finishConfigured(raw.render, raw.config, app);
 }
@@ -128,6 +132,9 @@ std::string commandText(const RenderOptions& options) {
   const std::string scene = options.scene.string();
   text += " " + quoted(scene.starts_with('-') ? "./" + scene : scene);
   append(text, "--output", options.output.string(), options.output.empty());
+  if (options.encoding.half) text += " --half";
+  append(text, "--png-depth", std::to_string(options.encoding.pngBits),
+         options.encoding.pngBits == Encoding().pngBits);
   for (const std::string& part : {cameraText(options), stagesText(options.stages)})
     text += (part.empty() ? "" : " ") + part;
   appendSampling(text, options);

@@ -17,6 +17,13 @@ void addInputOptions(CLI::App& app, InputLimits& limits) {
   app.add_option("--texture-limit", limits.textureSide,
                  "maximum width and height of textures in pixels; larger ones are scaled down")
       ->check(wholeNumber(1, kLargestTextureSide));
+  app.add_option_function<std::string>(
+         "--missing-textures",
+         [&limits](const std::string& choice) { limits.drawMissingTextures = choice == "warn"; },
+         "what happens when the picture of a texture cannot be read: error (the default) ends the program; "
+         "warn "
+         "says so and draws a magenta base colour, or the material without what the texture controls")
+      ->check(CLI::IsMember({"error", "warn"}));
   app.add_flag("--allow-external-files", limits.allowExternalFiles,
                "let the scene name files outside its folder");
 }

@@ -84,6 +84,9 @@ void finishSequence(const RawSequence& raw, RenderOptions& options) {
     refuse("the name of --stats needs #### where the number of the picture goes");
   if (options.selection.animationTime && raw.turntable == 0)
     refuse("--animation-time is of a single picture");
+  if (options.camera.fit != Fit::None && raw.turntable == 0)
+    refuse(
+        "--fit would place another camera for each picture; --camera-orbit or --camera-position place one");
   if (options.checkpointSeconds > 0.0 || options.resume)
     refuse("--checkpoint and --resume are of a single picture; --continue goes on with a sequence");
   if (options.traversal == TraversalMethod::Literals)

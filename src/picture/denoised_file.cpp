@@ -59,6 +59,7 @@ Image denoisedFile(const Image& drawn, const std::filesystem::path& name, const 
   Image result = onlyChannels(layers, front);
   replaceColor(result, *denoised);
   if (!rest.empty()) appendChannels(result, onlyChannels(drawn, rest), rest);
+  result.numbers = drawn.numbers;
   keepNoisy(result, onlyChannels(layers, {"R", "G", "B"}), stats.filter);
   return result;
 }

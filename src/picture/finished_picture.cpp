@@ -8,6 +8,7 @@
 #include "gl/driver_choice.h"
 #include "picture/denoising.h"
 #include "picture/picture_file.h"
+#include "picture/picture_header.h"
 #include "picture/provenance.h"
 #include "render/adaptive.h"
 #include "session/interrupt.h"
@@ -121,6 +122,8 @@ bool finishPicture(Image& picture, const PictureJob& job, const DrawingPlan& pla
   if (interrupts() > most) return false;
   setProvenanceOf(picture, options, job.loaded, job.tracer, stats);
   picture.placement = viewOf(job.loaded, job.loaded.region).placement;
+  setCamera(picture, job.loaded.camera, job.loaded.size);
+  if (!showsColors(options)) setChromaticities(picture);
   return true;
 }
 

@@ -25,13 +25,6 @@ void drawLines(Image& display, std::span<const PictureLine> lines, const Placeme
     drawLine(display, middle + line.from * half, middle + line.to * half, orange);
 }
 
-void writeOut(const RenderOptions& options, const Image& image) {
-  if (options.toStandardOutput)
-    printImage(options.output, image);
-  else
-    writeImage(options.output, image);
-}
-
 /// Beside the output, where nothing is overwritten.
 std::filesystem::path rescuePath(std::filesystem::path output) {
   const std::string stem = output.stem().string();
@@ -81,7 +74,8 @@ std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedSce
 }
 
 void checkPictureWritable(const RenderOptions& options, glm::ivec2 size) {
-  checkImageWritable(options.output, size.x, size.y, channelsOf(options), !options.toStandardOutput);
+  checkImageWritable(options.output, size.x, size.y, channelsOf(options), options.encoding,
+                     !options.toStandardOutput);
 }
 
 std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason) {
@@ -96,6 +90,21 @@ std::string rescuePicture(const RenderOptions& options, const Image& linear, con
   return reason + "; the " + (showsColors(options) ? "colours" : "radiance") + " alone is in " +
          path.string() + (lost.empty() ? "" : ", lost: " + lost);
 }
+
+void sayClamped(const RenderOptions& options, size_t values) {
+  if (values == 0) return;
+  say(options, "warning: " + options.output.string() + ": " + std::to_string(values) +
+                   " values are beyond 65504, the largest 16-bit float, and clamped to it (--half)");
+}
+
+namespace {
+
+void writeOut(const RenderOptions& options, const Image& image) {
+  const auto write = options.toStandardOutput ? printImage : writeImage;
+  sayClamped(options, write(options.output, image, options.encoding));
+}
+
+}  // namespace
 
 void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> lines) {
   if (!isDisplayFormat(options.output)) return writeOut(options, linear);

@@ -33,6 +33,9 @@ void checkPictureWritable(const RenderOptions& options, glm::ivec2 size);
 /// or of standard output.
 std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason);
 
+/// Says how many values of the output 16-bit floats could not hold, if any.
+void sayClamped(const RenderOptions& options, size_t values);
+
 /// Writes a linear picture to the options' output: as it is, or as a display shows it, with lines over it.
 /// Throws RenderError.
 void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> lines);

@@ -29,10 +29,12 @@ SequenceFrame frameOf(const RenderOptions& options, int index) {
   SequenceFrame frame{sequence.first + index * sequence.step, options, 0.0};
   frame.options.output = numberedName(options.output, frame.number);
   if (!options.statsFile.empty()) frame.options.statsFile = numberedName(options.statsFile, frame.number);
-  if (sequence.turntable > 0)
+  if (sequence.turntable > 0) {
     frame.turn = 2.0 * glm::pi<double>() * frame.number / sequence.turntable;
-  else
+    if (options.camera.fit != Fit::None) frame.options.camera.fit = Fit::AllAround;
+  } else {
     frame.options.selection.animationTime = frame.number / sequence.fps;
+  }
   if (options.traversal == TraversalMethod::Auto) frame.options.traversal = TraversalMethod::FrontToBack;
   frame.options.sequence.reset();
   return frame;

@@ -17,6 +17,7 @@
 #include "image/display/tone_map.h"
 #include "image/image.h"
 #include "options/choose.h"
+#include "options/encoding_options.h"
 #include "picture/joined_parts.h"
 #include "python/kept_scene.h"
 
@@ -35,20 +36,22 @@ Values arrayOf(Image& image) {
   return Values(values->data(), {size_t(image.height), size_t(image.width), image.channels.size()}, owner);
 }
 
+/// What Python gives and gets beside the channels' names and values: the strings and numbers of an .exr.
+nb::tuple attributesOf(const Image& image) { return nb::make_tuple(image.attributes, image.numbers); }
+
 /// Channels' names, values and attributes.
 nb::tuple pictureTuple(Image& image) {
   Values values = arrayOf(image);
-  return nb::make_tuple(image.channels, values, image.attributes);
+  return nb::make_tuple(image.channels, values, attributesOf(image));
 }
 
-Image imageOfArray(const GivenValues& values, std::vector<std::string> channels,
-                   std::map<std::string, std::string> attributes) {
+Image imageOfArray(const GivenValues& values, std::vector<std::string> channels) {
   if (values.shape(2) != channels.size())
     throw UsageError("an array of another number of channels than names");
   constexpr size_t kMost = 1 << 20;
   if (values.size() == 0 || values.shape(0) > kMost || values.shape(1) > kMost)
     throw UsageError("an array that is no picture: height, width and channels are wanted");
-  Image image{int(values.shape(1)), int(values.shape(0)), std::move(channels), {}, std::move(attributes)};
+  Image image{int(values.shape(1)), int(values.shape(0)), std::move(channels), {}, {}};
   image.values.assign(values.data(), values.data() + values.size());
   return image;
 }
@@ -112,8 +115,8 @@ class SceneHandle {
     await(*job, told);
     if (!*drawn) throw RenderError("interrupted, nothing is drawn");
     Values values = arrayOf((*drawn)->image);
-    return nb::make_tuple((*drawn)->image.channels, values, (*drawn)->image.attributes, (*drawn)->statistics,
-                          (*drawn)->complete, job->said);
+    return nb::make_tuple((*drawn)->image.channels, values, attributesOf((*drawn)->image),
+                          (*drawn)->statistics, (*drawn)->complete, job->said);
   }
 
  private:
@@ -124,8 +127,8 @@ Metric metricNamed(const std::string& name) { return choose<Metric>("metric", na
 
 double differenceOfArrays(const GivenValues& picture, const GivenValues& reference,
                           const std::vector<std::string>& channels, const std::string& metric) {
-  const Image a = imageOfArray(picture, channels, {});
-  const Image b = imageOfArray(reference, channels, {});
+  const Image a = imageOfArray(picture, channels);
+  const Image b = imageOfArray(reference, channels);
   const Metric chosen = metricNamed(metric);
   const nb::gil_scoped_release free;
   if (chosen == Metric::Flip) return flipError(toDefaultDisplay(a), toDefaultDisplay(b)).mean;
@@ -137,15 +140,22 @@ nb::tuple displayed(const GivenValues& values, const std::vector<std::string>& c
                     const std::string& curve) {
   const std::optional<ToneMap> toneMap = parseToneMap(curve);
   if (!toneMap) throw UsageError("tone_map: '" + curve + "' is none of " + joined(toneMapNames()));
-  Image display = toDisplay(imageOfArray(values, channels, {}), exposure, *toneMap);
+  Image display = toDisplay(imageOfArray(values, channels), exposure, *toneMap);
   return pictureTuple(display);
 }
 
-void save(const std::string& path, const GivenValues& values, std::vector<std::string> channels,
-          std::map<std::string, std::string> attributes) {
-  const Image image = imageOfArray(values, std::move(channels), std::move(attributes));
+/// Returns how many values --half has clamped.
+size_t save(const std::string& path, const GivenValues& values, std::vector<std::string> channels,
+            std::map<std::string, std::string> attributes, std::map<std::string, std::vector<float>> numbers,
+            bool half, int pngDepth) {
+  Image image = imageOfArray(values, std::move(channels));
+  image.attributes = std::move(attributes);
+  image.numbers = std::move(numbers);
+  const Encoding encoding{half, pngDepth};
+  if (pngDepth != 8 && pngDepth != 16) throw UsageError("png_depth: is neither 8 nor 16");
+  checkEncoding(encoding, path);
   const nb::gil_scoped_release free;
-  writeImage(path, image);
+  return writeImage(path, image, encoding);
 }
 
 nb::tuple readFile(const std::string& path) {
@@ -167,7 +177,7 @@ nb::tuple merge(const std::vector<std::string>& paths) {
     joined = joinedParts(std::move(parts));
   }
   const std::string words = describeParts(paths.size(), joined);
-  const std::map<std::string, std::string> attributes = joined.image.attributes;
+  const nb::tuple attributes = attributesOf(joined.image);
   return nb::make_tuple(joined.image.channels, arrayOf(joined.image), attributes, words);
 }
 

@@ -33,13 +33,46 @@ glm::dvec3 orthogonalUp(const glm::dvec3& up, const glm::dvec3& forward) {
   return {0, 1, 0};
 }
 
+/// From where a view of that angle, in a picture of that width / height, holds the sphere about the bounds.
+double framingDistance(double fovY, double aspectRatio, const BoundsDouble& bounds) {
+  // The narrower side of the picture decides. A narrow view of a sphere shows it up to its middle, so that
+  // what is wide would touch the picture's edge: a tenth stays free.
+  const double narrow = std::min(1.0, aspectRatio);
+  const double filled = 1.0 - 0.1 * std::min(1.0, 2.0 * (1.0 - narrow));
+  return radiusOf(bounds) / std::sin(std::atan(std::tan(0.5 * fovY) * narrow * filled));
+}
+
+glm::dvec3 centerOf(const BoundsDouble& bounds) { return bounds.empty() ? glm::dvec3(0.0) : bounds.center(); }
+
+/// The camera's lens on the sphere about what is looked at.
+Camera orbiting(const Camera& lens, const CameraOverrides& overrides, const BoundsDouble& bounds,
+                double aspectRatio) {
+  const CameraOverrides ofLens{.viewAngleDegrees = overrides.viewAngleDegrees,
+                               .parallelScale = overrides.parallelScale};
+  Camera camera = withOverrides(lens, ofLens, bounds);
+  const double azimuth = glm::radians(overrides.orbit->azimuthDegrees);
+  const double elevation = glm::radians(overrides.orbit->elevationDegrees);
+  const glm::dvec3 outwards(std::sin(azimuth), 0.0, std::cos(azimuth));
+  const glm::dvec3 vertical(0.0, 1.0, 0.0);
+  camera.forward = -(std::cos(elevation) * outwards + std::sin(elevation) * vertical);
+  camera.up = std::cos(elevation) * vertical - std::sin(elevation) * outwards;
+  if (overrides.viewUp) camera.up = orthogonalUp(*overrides.viewUp, camera.forward);
+  double distance = 2.0 * radiusOf(bounds);
+  if (camera.perspective)
+    distance = framingDistance(camera.fovY, aspectRatio, bounds);
+  else if (!overrides.parallelScale)
+    camera.halfHeight = radiusOf(bounds) / std::min(1.0, aspectRatio);
+  camera.position = overrides.focalPoint.value_or(centerOf(bounds)) - camera.forward * distance;
+  return overrides.fit == Fit::None ? zoomed(camera, overrides.orbit->zoom) : camera;
+}
+
 }  // namespace
 
 Camera frameScene(const BoundsDouble& bounds, double aspectRatio) {
   Camera camera;
   camera.name = "framing camera";
   camera.fovY = glm::quarter_pi<double>();
-  const glm::dvec3 center = bounds.empty() ? glm::dvec3(0.0) : bounds.center();
+  const glm::dvec3 center = centerOf(bounds);
   const glm::dvec3 extent = bounds.empty() ? glm::dvec3(1.0) : bounds.extent();
   constexpr double kFlat = 1e-3;  // of the largest extent
   const double thin = kFlat * std::max({extent.x, extent.y, extent.z});
@@ -49,12 +82,7 @@ Camera frameScene(const BoundsDouble& bounds, double aspectRatio) {
   } else if (extent.z > thin && extent.x <= thin) {
     camera.forward = {-1, 0, 0};
   }
-  // The narrower side of the picture decides. A narrow view of a sphere shows it up to its middle, so that
-  // what is wide would touch the picture's edge: a tenth stays free.
-  const double narrow = std::min(1.0, aspectRatio);
-  const double filled = 1.0 - 0.1 * std::min(1.0, 2.0 * (1.0 - narrow));
-  const double halfAngle = std::atan(std::tan(0.5 * camera.fovY) * narrow * filled);
-  camera.position = center - camera.forward * (radiusOf(bounds) / std::sin(halfAngle));
+  camera.position = center - camera.forward * framingDistance(camera.fovY, aspectRatio, bounds);
   return camera;
 }
 
@@ -106,6 +134,18 @@ Camera withOverrides(Camera camera, const CameraOverrides& overrides, const Boun
   return camera;
 }
 
+Camera zoomed(Camera camera, double zoom) {
+  camera.fovY = 2.0 * std::atan(std::tan(0.5 * camera.fovY) / zoom);
+  camera.halfHeight /= zoom;
+  return camera;
+}
+
+glm::dvec3 turningPoint(const Camera& camera, const CameraOverrides& overrides, const BoundsDouble& bounds) {
+  if (overrides.focalPoint) return *overrides.focalPoint;
+  const bool placed = overrides.orbit || overrides.fit != Fit::None;
+  return placed ? centerOf(bounds) : focalPointOf(camera, bounds);
+}
+
 std::optional<int> cameraIndexOf(std::optional<int> index, const std::string& name,
                                  std::span<const Camera> cameras) {
   if (index || name.empty()) return index;
@@ -120,9 +160,11 @@ Camera chooseCamera(std::span<const Camera> cameras, std::optional<int> index,
     throw UsageError("--camera-index: " + std::to_string(*index) + ", but the scene has " +
                      std::to_string(cameras.size()) + " cameras (counted from 0)");
   }
-  if (index) return withOverrides(cameras[size_t(*index)], overrides, bounds);
-  return withOverrides(cameras.empty() ? frameScene(bounds, aspectRatio) : cameras.front(), overrides,
-                       bounds);
+  const Camera camera = index             ? cameras[size_t(*index)]
+                        : cameras.empty() ? frameScene(bounds, aspectRatio)
+                                          : cameras.front();
+  return overrides.orbit ? orbiting(camera, overrides, bounds, aspectRatio)
+                         : withOverrides(camera, overrides, bounds);
 }
 
 }  // namespace fragtrace

@@ -12,6 +12,19 @@
 
 namespace fragtrace {
 
+/// A place on a sphere round the point that the camera looks at, which is upright.
+struct Orbit {
+  double azimuthDegrees = 0.0;    ///< 0: in front of it (+Z); to the right of who looks from there
+  double elevationDegrees = 0.0;  ///< -90 to 90, up
+  double zoom = 1.0;              ///< how many times as large things are in the picture
+
+  bool operator==(const Orbit&) const = default;
+};
+
+/// Whether the camera is moved until the scene fills the picture: as it is seen, or as it is seen from all
+/// sides while it turns about the vertical axis through what the camera looks at.
+enum class Fit : uint8_t { None, View, AllAround };
+
 /// World space, metres; the view angle is vertical.
 struct CameraOverrides {
   std::optional<glm::dvec3> position{};
@@ -19,6 +32,8 @@ struct CameraOverrides {
   std::optional<glm::dvec3> viewUp{};
   std::optional<double> viewAngleDegrees{};
   std::optional<double> parallelScale{};  ///< half of the picture's height: an orthographic view
+  std::optional<Orbit> orbit{};
+  Fit fit = Fit::None;  ///< left to fitted() of fit.h
 
   bool operator==(const CameraOverrides&) const = default;
 };
@@ -44,14 +59,22 @@ glm::dvec3 recentringPoint(const std::optional<glm::dvec3>& camera, const Bounds
 /// the angle is not between 0 and 180 degrees, the scale is not above 0, or both are given.
 Camera withOverrides(Camera camera, const CameraOverrides& overrides, const BoundsDouble& bounds = {});
 
+/// A camera with a narrower lens, so that what is in the middle of its picture is so many times as large.
+Camera zoomed(Camera camera, double zoom);
+
+/// What a turntable turns about, the point on its axis: the focal point asked for, else that of the camera,
+/// else, where the camera was placed by the scene's bounds (orbit, fit), their centre.
+glm::dvec3 turningPoint(const Camera& camera, const CameraOverrides& overrides, const BoundsDouble& bounds);
+
 /// The index asked for, or that of the camera asked for by name (indexOfPart()); none where neither is.
 /// Throws UsageError.
 std::optional<int> cameraIndexOf(std::optional<int> index, const std::string& name,
                                  std::span<const Camera> cameras);
 
 /// The camera of that index, or without one the first, or one that frames the scene in a picture of that
-/// width / height, with its overrides.
-/// Throws UsageError if there is none of that index.
+/// width / height, with its overrides but the fit. An orbit takes only the lens of that camera, stands as far
+/// away as the camera that frames the scene, and is zoomed unless it is to be fitted. Throws UsageError if
+/// there is none of that index.
 Camera chooseCamera(std::span<const Camera> cameras, std::optional<int> index,
                     const CameraOverrides& overrides, const BoundsDouble& bounds, double aspectRatio = 1.0);
 

@@ -71,6 +71,7 @@ struct TextureRef {
   uint32_t texture = kMissIndex;
   uint32_t texcoord = 0;  ///< which TEXCOORD_n, 0 or 1
   TextureTransform transform{};
+  bool lost = false;  ///< its picture could not be read: there is no texture
   bool present() const { return texture != kMissIndex; }
   bool transformed() const { return present() && transform != TextureTransform{}; }
 };

@@ -18,6 +18,7 @@
 #include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
 #include "process/parallel.h"
+#include "scene/fit.h"
 #include "session/outputs.h"
 #include "session/picture_memory.h"
 
@@ -37,6 +38,14 @@ void checkDistance(const Camera& camera, const LocalSpace& space, const RenderOp
       throw UsageError(reason);
     throw InputError(options.scene.string() + ": " + reason);
   }
+}
+
+/// The camera as --fit moves it, then zoomed as --camera-orbit says.
+Camera fitCamera(const Camera& camera, const Scene& scene, const RenderOptions& options, glm::ivec2 size) {
+  std::vector<glm::dvec3> points = outlineOf(scene);
+  if (options.camera.fit == Fit::AllAround)
+    points = sweptAbout(turningPoint(camera, options.camera, scene.bounds), points);
+  return zoomed(fitted(camera, points, double(size.x) / size.y), options.camera.orbit.value_or(Orbit()).zoom);
 }
 
 glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options) {
@@ -174,8 +183,9 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
   loaded.cameraIndex = cameraIndexOf(options.cameraIndex, options.selection.camera, scene.cameras);
   loaded.camera =
       chooseCamera(scene.cameras, loaded.cameraIndex, options.camera, scene.bounds, framedAspect(options));
-  checkDistance(loaded.camera, scene.space, options);
   loaded.size = chooseSize(loaded.camera, options);
+  if (options.camera.fit != Fit::None) loaded.camera = fitCamera(loaded.camera, scene, options, loaded.size);
+  checkDistance(loaded.camera, scene.space, options);
   loaded.region = chooseRegion(loaded.size, options);
   if (film == FilmOf::Picture) checkFilmMemory(options, loaded.region.size);
   loaded.view = makeView(options, scene, loaded.camera);

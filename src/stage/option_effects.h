@@ -43,7 +43,7 @@ inline constexpr std::tuple kOptionRows{
     OptionRow{&RenderOptions::backgroundColor, Effect::Picture},
     OptionRow{&RenderOptions::background, Effect::Picture, false, "background"},
     OptionRow{&RenderOptions::defaultLight, Effect::Picture, true},
-    OptionRow{&RenderOptions::toneMap, Effect::Display},
+    OptionRow{&RenderOptions::toneMap, Effect::Display}, OptionRow{&RenderOptions::encoding, Effect::Display},
     OptionRow{&RenderOptions::pixelFilter, Effect::Picture, true},
     OptionRow{&RenderOptions::traversal, Effect::Way, true},
     OptionRow{&RenderOptions::instancing, Effect::Way}, OptionRow{&RenderOptions::backend, Effect::Way, true},
@@ -71,6 +71,10 @@ inline constexpr std::tuple kOptionRows{
 , Effect::Report
 }
 , OptionRow{[](RenderOptions & o) -> auto& {return o.limits.textureSide;
+}
+, Effect::Picture
+}
+, OptionRow{[](RenderOptions & o) -> auto& {return o.limits.drawMissingTextures;
 }
 , Effect::Picture
 }

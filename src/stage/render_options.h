@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "image/display/tone_map.h"
+#include "image/encoding.h"
 #include "image/limits.h"
 #include "image/region.h"
 #include "scene/camera.h"
@@ -91,6 +92,7 @@ struct RenderOptions {
   std::optional<glm::vec3> backgroundColor;  ///< none: the environment map, black without one
   bool background = true;
   bool defaultLight = true;
+  Encoding encoding;  ///< of the output
   ToneMap toneMap = ToneMap::Neutral;
   PixelFilter pixelFilter = PixelFilter::Box;
   TraversalMethod traversal = TraversalMethod::Auto;

@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 from materials_test import quad
-from support import Case, Exr, main
+from support import Case, Exr, main, run
 
 ASSETS = Path(os.environ.get("FRAGTRACE_ASSETS", "/work/shared/assets")) / "scenes"
 
@@ -44,6 +44,22 @@ class Framing(FramingCase):
                     alphas, said = self.alphas(self.write(scale), "--resolution", size, "--rendering-backend", backend)
                     self.assert_inside(alphas)
                     self.assertNotIn("shows nothing", said)
+
+    def test_fit_leaves_a_narrow_margin(self):
+        for scale, size in (((3, 1, 0.2), (60, 40)), ((0.1, 5, 1), (40, 60))):
+            for options in (("--camera-orbit", "30,20"), ("--camera-orbit", "-100,-50,1"), ("--camera-parallel-scale", 1)):
+                alphas, _ = self.alphas(self.write(scale), "--resolution", "%d,%d" % size, "--fit", *options)
+                rows = [y for y, row in enumerate(alphas) if max(row) > 0]
+                columns = [x for x in range(size[0]) if max(row[x] for row in alphas) > 0]
+                margin = min(min(columns) / size[0], 1 - (max(columns) + 1) / size[0],
+                             min(rows) / size[1], 1 - (max(rows) + 1) / size[1])
+                self.assertGreaterEqual(margin, 0, (scale, options))
+                self.assertLess(margin, 0.05, (scale, options))
+
+    def test_an_orbit_does_not_go_with_a_position(self):
+        for options in (("--camera-position", "1,2,3"), ("--frames", "0:3", "--fit")):
+            result = run("render", self.write((1, 1, 1)), "-o", self.folder / "x.##.png", "--camera-orbit", "1,2", *options)
+            self.assertEqual(result.returncode, 2, result.stderr)
 
     def test_a_flat_object_is_seen_from_where_it_shows_most(self):
         half = 0.70710678

@@ -59,17 +59,19 @@ def unzipped(data, size):
 
 class Exr:
     """Scan lines of floats of 32 or 16 bits, uncompressed or ZIP: `layers` by name, rows from the top; `texts`: the string attributes;
-    `windows`: of data and display, each left, top, right, bottom."""
+    `numbers`: those that are floats, matrices or chromaticities;    `windows`: of data and display, each left, top, right, bottom."""
 
     def __init__(self, path):
         data = Path(path).read_bytes()
         assert data[:4] == struct.pack("<I", 20000630) and data[4:8] == struct.pack("<I", 2), path
-        self.texts, at, header = {}, 8, {}
+        self.texts, self.numbers, at, header = {}, {}, 8, {}
         while data[at]:
             name, kind, rest = data[at:].split(b"\0", 2)
             at += len(name) + len(kind) + 2
             size = struct.unpack_from("<I", data, at)[0]
             header[name.decode()] = data[at + 4:at + 4 + size]
+            if kind in (b"float", b"m44f", b"chromaticities"):
+                self.numbers[name.decode()] = struct.unpack(f"<{size // 4}f", data[at + 4:at + 4 + size])
             if kind == b"string":
                 self.texts[name.decode()] = data[at + 4:at + 4 + size].decode()
             at += 4 + size

@@ -53,6 +53,11 @@ TEST(CameraText, ReadsBackAsItselfBitForBit) {
       options.camera.parallelScale = std::abs(number());
     options.sceneOrigin = vector();
     if (i % 3 == 0) options.cameraIndex = i;
+    if (i % 5 == 0) {
+      options.camera.position.reset();
+      options.camera.orbit = Orbit{number(), i % 90 - 45.0, i % 10 == 0 ? 1.0 : 0.5 + i};
+      options.camera.fit = i % 4 == 0 ? Fit::View : Fit::None;
+    }
     const RenderOptions read = withCameraText(RenderOptions(), cameraText(options));
     ASSERT_EQ(read.camera, options.camera) << cameraText(options);
     ASSERT_EQ(read.sceneOrigin, options.sceneOrigin);

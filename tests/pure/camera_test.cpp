@@ -133,5 +133,44 @@ TEST(CameraOverrides, FarAwayPositionsKeepDoublePrecision) {
   expectSame(camera.forward, {0, 0, -1});
 }
 
+TEST(CameraOrbit, GoesRoundTheMiddleOfTheScene) {
+  const auto seen = [](const CameraOverrides& overrides) { return chooseCamera({}, {}, overrides, kBox); };
+  const Camera front = seen({.orbit = Orbit{}});
+  const Camera framed = frameScene(kBox);
+  expectSame(front.position, framed.position);
+  expectSame(front.forward, {0, 0, -1});
+  expectSame(front.up, {0, 1, 0});
+  const double distance = glm::distance(framed.position, kBox.center());
+  const Camera right = seen({.orbit = Orbit{90, 0}});
+  expectSame(right.position, kBox.center() + glm::dvec3(distance, 0, 0));
+  expectSame(right.forward, {-1, 0, 0});
+  const Camera above = seen({.orbit = Orbit{90, 90}});
+  expectSame(above.forward, {0, -1, 0});
+  expectSame(above.up, {-1, 0, 0});
+  const Camera below = seen({.orbit = Orbit{0, -30}});
+  EXPECT_NEAR(below.position.y, kBox.center().y - 0.5 * distance, 1e-9);
+  const Camera about = seen({.focalPoint = glm::dvec3(5, 6, 7), .orbit = Orbit{0, 0}});
+  expectSame(about.position, {5, 6, 7 + distance});
+}
+
+TEST(CameraOrbit, ZoomEnlargesByItsFactorAndKeepsThePlace) {
+  const Camera plain = chooseCamera({}, {}, {.orbit = Orbit{20, 10}}, kBox);
+  const Camera zoomed = chooseCamera({}, {}, {.orbit = Orbit{20, 10, 2.0}}, kBox);
+  expectSame(zoomed.position, plain.position);
+  EXPECT_NEAR(std::tan(0.5 * zoomed.fovY), 0.5 * std::tan(0.5 * plain.fovY), kRounding);
+  const Camera flat = chooseCamera({}, {}, {.parallelScale = 3.0, .orbit = Orbit{20, 10, 2.0}}, kBox);
+  EXPECT_FALSE(flat.perspective);
+  EXPECT_NEAR(flat.halfHeight, 1.5, kRounding);
+}
+
+TEST(CameraOrbit, KeepsTheLensOfTheFilesCamera) {
+  std::vector<Camera> cameras(1);
+  cameras[0].fovY = 0.3;
+  cameras[0].position = {9, 9, 9};
+  const Camera camera = chooseCamera(cameras, {}, {.orbit = Orbit{}}, kBox);
+  EXPECT_EQ(camera.fovY, 0.3);
+  expectSame(camera.forward, {0, 0, -1});
+}
+
 }  // namespace
 }  // namespace fragtrace

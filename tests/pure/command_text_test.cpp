@@ -61,6 +61,10 @@ std::vector<std::function<void(RenderOptions&)>> changes() {
       [](RenderOptions& o) { o.aovSamples = o.aovVariance = true; },
       [](RenderOptions& o) { o.debugView = DebugView::Depth; },
       [](RenderOptions& o) { o.treeLevel = 3; },
+      [](RenderOptions& o) {
+        o.encoding = {true, 16};
+      },
+      [](RenderOptions& o) { o.limits.drawMissingTextures = true; },
       [](RenderOptions& o) { o.traversal = TraversalMethod::Iterative; },
       [](RenderOptions& o) { o.bufferReads = BufferReads::Texel; },
       [](RenderOptions& o) { o.dispatch = Dispatch::Compute; },

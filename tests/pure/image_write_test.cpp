@@ -9,6 +9,7 @@
 #include <csignal>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <string>
 #include <thread>
 
@@ -68,6 +69,24 @@ TEST_F(ImageWrite, ExrKeepsEveryFloatEveryChannelAndTheAttributes) {
   EXPECT_EQ(read.attributes.at("fragtrace:note"), "two\nlines");
 }
 
+TEST_F(ImageWrite, ExrKeepsTheNumbersOfItsHeaderWithTheirStandardTypes) {
+  Image image = smoothPicture(4, 4, {"R", "G", "B"});
+  std::vector<float> matrix(16);
+  for (size_t i = 0; i < matrix.size(); ++i) matrix[i] = 0.1F * float(i) - 1e-7F;
+  image.numbers = {{"worldToCamera", matrix},
+                   {"worldToNDC", std::vector<float>(16, 1 / 3.0F)},
+                   {"chromaticities", {0.64F, 0.33F, 0.3F, 0.6F, 0.15F, 0.06F, 0.3127F, 0.329F}},
+                   {"screenWindowWidth", {1.25F}}};
+  EXPECT_EQ(written(folder / "a.exr", image).numbers, image.numbers);
+  const auto bytes = readWholeFile(folder / "a.exr");
+  const std::string text(bytes.begin(), bytes.end());
+  for (const std::string& entry :
+       {std::string("worldToCamera\0m44f\0\x40", 20), std::string("worldToNDC\0m44f\0", 16),
+        std::string("chromaticities\0chromaticities\0", 30)}) {
+    EXPECT_NE(text.find(entry), std::string::npos) << entry;
+  }
+}
+
 TEST_F(ImageWrite, ExrHoldsThirtyTwoBitFloatsZipped) {
   writeImage(folder / "a.exr", smoothPicture(4, 4, {"R", "G", "B"}));
   const auto bytes = readWholeFile(folder / "a.exr");
@@ -77,6 +96,90 @@ TEST_F(ImageWrite, ExrHoldsThirtyTwoBitFloatsZipped) {
   EXPECT_EQ(text[compression + 28], 3);  // ZIP_COMPRESSION
   const size_t red = text.find(std::string("R\0\2\0\0\0", 6));
   EXPECT_NE(red, std::string::npos);  // channel R of pixel type FLOAT
+}
+
+/// The pixel types of an .exr by channel: 1 half, 2 float.
+std::map<std::string, int> pixelTypes(const std::filesystem::path& path, const Names& channels) {
+  const auto bytes = readWholeFile(path);
+  const std::string text(bytes.begin(), bytes.end());
+  std::map<std::string, int> types;
+  for (const std::string& channel : channels) {
+    const size_t at = text.find('\0' + channel + '\0');
+    if (at != std::string::npos) types[channel] = text[at + channel.size() + 2];
+  }
+  return types;
+}
+
+/// To the nearest of 11 binary digits, of which the last is no less than 2^-24; a half between two goes to
+/// the even.
+float nearestHalf(float value) {
+  const int exponent = std::max(std::ilogb(value), -14) - 10;
+  return std::ldexp(std::nearbyint(std::ldexp(value, -exponent)), exponent);
+}
+
+TEST_F(ImageWrite, HalfExrRoundsColoursToTheNearestHalfAndKeepsTheRest) {
+  const Names channels{"R",
+                       "G",
+                       "B",
+                       "A",
+                       "albedo.G",
+                       "normal.X",
+                       "depth.Z",
+                       "samples.Y",
+                       "noisy.B",
+                       "roughness.Y",
+                       "denoising.depth.Z",
+                       "texcoords.U",
+                       "variance.Y",
+                       "CryptoObject00.R",
+                       "denoising.normal.Z"};
+  const Image image = smoothPicture(19, 7, channels);
+  EXPECT_EQ(writeImage(folder / "a.exr", image, {true, 8}), 0U);
+  const Image read = readImage(folder / "a.exr");
+  const auto types = pixelTypes(folder / "a.exr", channels);
+  for (size_t c = 0; c < channels.size(); ++c) {
+    const bool half = isStoredAsHalf(channels[c]);
+    EXPECT_EQ(types.at(channels[c]), half ? 1 : 2) << channels[c];
+    const size_t found = findChannel(read, channels[c]).value();
+    for (int y = 0; y < 7; ++y) {
+      for (int x = 0; x < 19; ++x) {
+        const float exact = image.pixel(x, y)[c];
+        const float expected = half ? nearestHalf(exact) : exact;
+        ASSERT_EQ(read.pixel(x, y)[found], expected) << channels[c];
+      }
+    }
+  }
+  const std::map<std::string, int> wanted{{"depth.Z", 2},
+                                          {"samples.Y", 2},
+                                          {"denoising.depth.Z", 2},
+                                          {"variance.Y", 2},
+                                          {"CryptoObject00.R", 2},
+                                          {"texcoords.U", 2},
+                                          {"R", 1},
+                                          {"noisy.B", 1},
+                                          {"A", 1},
+                                          {"denoising.normal.Z", 1},
+                                          {"roughness.Y", 1}};
+  for (const auto& [channel, type] : wanted) EXPECT_EQ(types.at(channel), type) << channel;
+}
+
+TEST_F(ImageWrite, HalfExrClampsWhatIsTooLargeAndCountsIt) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  const Image image{
+      2, 1, {"R", "G", "B", "depth.Z"}, {65504, 65519, 1e6F, 1e9F, -infinity, -7e4F, 2, 65520}, {}};
+  EXPECT_EQ(writeImage(folder / "a.exr", image, {true, 8}), 4U);
+  const Image read = readImage(folder / "a.exr");
+  EXPECT_EQ(read.values, (std::vector<float>{65504, 65504, 65504, 1e9F, -65504, -65504, 2, 65520}));
+  EXPECT_EQ(writeImage(folder / "a.exr", image), 0U);
+}
+
+TEST_F(ImageWrite, PngOfSixteenBitsIsWithinHalfAStep) {
+  const Image image = smoothPicture(31, 9, {"R", "G", "B", "A"});
+  writeImage(folder / "a.png", image, {false, 16});
+  EXPECT_EQ(readWholeFile(folder / "a.png")[24], 16);  // the bit depth in IHDR
+  const Image read = readImage(folder / "a.png");
+  EXPECT_EQ(read.channels, image.channels);
+  EXPECT_LE(largestDifference(read, image), 0.5F / 65535 + 1e-7F);
 }
 
 TEST_F(ImageWrite, PfmKeepsEveryFloat) {

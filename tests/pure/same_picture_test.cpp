@@ -60,6 +60,7 @@ TEST(SamePicture, DoesNotDependOnHowItIsTracedOrWritten) {
       [](RenderOptions& o) { o.noise = 0.1; },
       [](RenderOptions& o) { o.output = "x.png"; },
       [](RenderOptions& o) { o.exposure = 1.0; },
+      [](RenderOptions& o) { o.encoding.half = true; },
       [](RenderOptions& o) { o.aovSamples = true; },
       [](RenderOptions& o) { o.stages.reset(size_t(Stage::Watertight)); },
       [](RenderOptions& o) { o.limits.memoryBytes = 1 << 30; },

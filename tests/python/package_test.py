@@ -68,7 +68,8 @@ class Pictures(Package):
         self.assertGreater(first.statistics["load_ms"], 0)
         self.assertEqual([again.statistics[name] for name in ("load_ms", "bvh_build_ms", "compile_ms", "upload_ms")], [0, 0, 0, 0])
         for keywords in ({"seed": 5}, {"hdri_rotation": 10}, {"stage": "flat"}, {"background_color": (1, 0, 0)}, {"traversal": "bvh"},
-                         {"resolution": (8, 30)}, {"aov": "albedo"}, {"bounces": 1}, {"no_default_light": True}, {"clamp_indirect": 0.5}):
+                         {"resolution": (8, 30)}, {"aov": "albedo"}, {"bounces": 1}, {"no_default_light": True}, {"clamp_indirect": 0.5},
+                         {"camera_orbit": (30, 20)}, {"fit": True}):
             with self.subTest(str(keywords)):
                 kept, anew = (make(**{**SMALL, **keywords}) for make in (scene.render, lambda **k: fragtrace.render(SCENES / "mesh-15743.gltf", **k)))
                 if isinstance(kept, dict):
@@ -101,6 +102,24 @@ class Pictures(Package):
         self.assertLess(fragtrace.diff(self.folder / "a.hdr", picture, "relmse"), 1e-4)
         self.assertGreater(fragtrace.diff(picture, picture * 1.1, "flip"), 0)
         self.assertLess(fragtrace.diff(self.folder / "a.jpg", self.folder / "a.png"), 0.1)
+
+    def test_the_header_and_the_depth(self):
+        picture = fragtrace.render(SCENES / "cornell-box.gltf", **SMALL)
+        expected = self.command(SCENES / "cornell-box.gltf", "--resolution", "24x16", "--spp", 2)
+        self.assertEqual(picture.numbers, expected.numbers)
+        self.assertEqual(len(picture.numbers["worldToCamera"]), 16)
+        picture.save(self.folder / "half.exr", half=True)
+        again = fragtrace.read(self.folder / "half.exr")
+        self.assertEqual(again.numbers, picture.numbers)
+        np.testing.assert_array_equal(again, np.asarray(picture).astype(np.float16).astype(np.float32))
+        picture.save(self.folder / "deep.png", png_depth=16)
+        deep = fragtrace.read(self.folder / "deep.png")
+        self.assertGreater(len(np.unique(deep)), 256)
+        self.assertLess(np.abs(deep - fragtrace.tonemap(picture) / 255).max(), 0.51 / 255)
+        with self.assertRaises(fragtrace.UsageError):
+            picture.save(self.folder / "half.png", half=True)
+        with self.assertWarnsRegex(UserWarning, "65504"):
+            fragtrace.Picture.save(np.full((2, 2, 4), 1e6, np.float32).view(fragtrace.Picture), self.folder / "bright.exr", half=True)
 
     def test_parts_merge(self):
         scene = fragtrace.Scene(SCENES / "cornell-box.gltf", resolution=(24, 16))

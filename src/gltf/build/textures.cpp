@@ -7,6 +7,7 @@
 #include "gltf/read/uri.h"
 #include "gltf/read/value.h"
 #include "image/files/header.h"
+#include "image/image.h"
 
 namespace fragtrace {
 namespace {
@@ -73,7 +74,6 @@ EncodedImage readImage(Document& document, int index) {
     document.diagnostics.warn(place, "pictures wider or higher than " + std::to_string(document.textureSide) +
                                          " pixels are scaled down");
   }
-  takeMemory(document, place, result.bytes.size() + texelBytes(result));
   warnMediaType(
       source.bufferView < 0 && !isFile ? mediaTypeOf(source.uri) : std::string_view(source.mimeType),
       header.format, isFile || source.bufferView >= 0 ? place : place + "/uri", document.diagnostics);
@@ -93,28 +93,52 @@ TextureTable::TextureTable(Document& document, Scene& scene)
     : document_(document),
       scene_(scene),
       textures_(document.model.textures.size(), kMissIndex),
-      images_(document.images.size(), kMissIndex) {}
+      images_(document.images.size(), kMissIndex),
+      lost_(document.images.size(), false) {}
+
+void TextureTable::warnLost(int image, const std::string& reason) {
+  lost_[size_t(image)] = true;
+  const std::string file = document_.diagnostics.file() + ": ";
+  const std::string& uri = document_.images.at(size_t(image)).uri;
+  const bool isNamed = uri.empty() || isDataUri(uri) || reason.find(uri) != std::string::npos;
+  document_.diagnostics.warn("", (reason.starts_with(file) ? reason.substr(file.size()) : reason) +
+                                     (isNamed ? "" : " (" + uri + ")") +
+                                     "; materials do without it (--missing-textures warn)");
+}
 
 uint32_t TextureTable::useImage(int image) {
   uint32_t& known = images_.at(size_t(image));
-  if (known == kMissIndex) {
+  if (known != kMissIndex || lost_[size_t(image)]) return known;
+  try {
+    EncodedImage encoded = readImage(document_, image);
+    if (document_.drawMissingTextures) decodeTexels(encoded.bytes, encoded.name);  // a fault shows only then
     known = uint32_t(scene_.images.size());
-    scene_.images.push_back(readImage(document_, image));
+    scene_.images.push_back(std::move(encoded));
+  } catch (const InputError& error) {
+    if (!document_.drawMissingTextures) throw;
+    warnLost(image, error.what());
+    return kMissIndex;
   }
+  const EncodedImage& read = scene_.images.back();
+  takeMemory(document_, pointerTo("images", image), read.bytes.size() + texelBytes(read));
   return known;
 }
 
-uint32_t TextureTable::use(int texture, const std::string& place) {
+TextureRef TextureTable::use(int texture, const std::string& place) {
+  TextureRef ref;
   uint32_t& known = textures_.at(size_t(texture));
-  if (known != kMissIndex) return known;
+  ref.texture = known;
+  if (known != kMissIndex) return ref;
   const tinygltf::Texture& source = document_.model.textures[size_t(texture)];
   const int image = sourceOf(source);
   if (image < 0) {
     document_.diagnostics.warn(place, "a texture without a picture is left out");
-    return kMissIndex;
+    return ref;
   }
   Texture result;
   result.image = useImage(image);
+  ref.lost = result.image == kMissIndex;
+  if (ref.lost) return ref;
   if (source.sampler >= 0) {
     const tinygltf::Sampler& sampler = document_.model.samplers.at(size_t(source.sampler));
     const std::string samplerPlace = pointerTo("samplers", source.sampler);
@@ -122,9 +146,9 @@ uint32_t TextureTable::use(int texture, const std::string& place) {
     result.wrapV = wrapOf(sampler.wrapT, samplerPlace + "/wrapT", document_.diagnostics);
     result.linear = sampler.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST;
   }
-  known = uint32_t(scene_.textures.size());
+  ref.texture = known = uint32_t(scene_.textures.size());
   scene_.textures.push_back(result);
-  return known;
+  return ref;
 }
 
 }  // namespace fragtrace

@@ -15,17 +15,20 @@ class TextureTable {
  public:
   TextureTable(Document& document, Scene& scene);
 
-  /// The scene's texture for a glTF texture used at `place`; kMissIndex, with a warning, if it has no
-  /// picture. Throws InputError when its picture cannot be read.
-  uint32_t use(int texture, const std::string& place);
+  /// The scene's texture for a glTF texture used at `place`; none, with a warning, if it has no picture, or
+  /// if that cannot be read and Document::drawMissingTextures is on: it is lost then. Else throws InputError
+  /// when it cannot be read.
+  TextureRef use(int texture, const std::string& place);
 
  private:
-  uint32_t useImage(int image);
+  uint32_t useImage(int image);  ///< kMissIndex: it is lost
+  void warnLost(int image, const std::string& reason);
 
   Document& document_;
   Scene& scene_;
   std::vector<uint32_t> textures_;  ///< scene index by glTF index
   std::vector<uint32_t> images_;
+  std::vector<bool> lost_;  ///< by glTF index of the picture
 };
 
 }  // namespace fragtrace

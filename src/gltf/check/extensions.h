@@ -20,6 +20,7 @@ struct Extension {
   std::string_view reader;                 ///< the file of src/gltf that reads it; empty where it is ignored
   std::array<std::string_view, 2> places;  ///< where it may stand: pointers with * for an index, "" the root,
                                            ///< kTextureInfo; kNowhere
+  std::string_view advice = {};            ///< what to do with a file that requires it, where it is ignored
 };
 
 /// For what has no object of its own, and for a second place that there is not.

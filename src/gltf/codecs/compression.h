@@ -14,12 +14,13 @@ namespace fragtrace {
 /// In the order of the document; empty where a buffer has no data.
 using Buffers = std::vector<std::vector<uint8_t>>;
 
-/// Whether a buffer only stands in for readers that cannot decode EXT_meshopt_compression.
+/// Whether a buffer only stands in for readers that cannot decode EXT_ or KHR_meshopt_compression.
 bool isFallback(const nlohmann::json& buffer);
 
-/// Decode all buffer views with EXT_meshopt_compression, and all primitives with KHR_draco_mesh_compression:
-/// the document gets more buffers, buffer views and accessors. Where the libraries are missing and the file
-/// holds the data uncompressed, too, these are taken, with a warning. Throw InputError.
+/// Decode all buffer views with EXT_ or KHR_meshopt_compression, and all primitives with
+/// KHR_draco_mesh_compression: the document gets more buffers, buffer views and accessors. Where the
+/// libraries are missing and the file holds the data uncompressed, too, these are taken, with a warning.
+/// Throw InputError.
 void decompressViews(nlohmann::json& root, Buffers& buffers, CodecProcess& codecs, Document& document);
 void decompressPrimitives(nlohmann::json& root, Buffers& buffers, CodecProcess& codecs, Document& document);
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// EXT_meshopt_compression.
+// EXT_meshopt_compression and its successor, KHR_meshopt_compression, which has one more filter and a second
+// version of the streams of vertices.
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "gltf/codecs/compression.h"
 
@@ -11,13 +13,25 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kMeshopt = "EXT_meshopt_compression";
+constexpr std::string_view kExt = "EXT_meshopt_compression";
+constexpr std::string_view kKhr = "KHR_meshopt_compression";
 
-const json* meshoptOf(const json& object) {
+const json* extensionOf(const json& object, std::string_view name) {
   const auto extensions = object.find("extensions");
   if (extensions == object.end() || !extensions->is_object()) return nullptr;
-  const auto extension = extensions->find(kMeshopt);
+  const auto extension = extensions->find(std::string(name));
   return extension != extensions->end() ? &*extension : nullptr;
+}
+
+/// What of both extensions an object has.
+struct Meshopt {
+  std::string_view name = kExt;
+  const json* object = nullptr;  ///< none
+};
+
+Meshopt meshoptOf(const json& object) {
+  const json* khr = extensionOf(object, kKhr);
+  return khr != nullptr ? Meshopt{kKhr, khr} : Meshopt{kExt, extensionOf(object, kExt)};
 }
 
 std::optional<Codec> codecNamed(const std::string& mode) {
@@ -27,11 +41,12 @@ std::optional<Codec> codecNamed(const std::string& mode) {
   return std::nullopt;
 }
 
-std::optional<MeshoptFilter> filterNamed(const std::string& filter) {
+std::optional<MeshoptFilter> filterNamed(const std::string& filter, bool isKhr) {
   if (filter == "NONE") return MeshoptFilter::None;
   if (filter == "OCTAHEDRAL") return MeshoptFilter::Octahedral;
   if (filter == "QUATERNION") return MeshoptFilter::Quaternion;
   if (filter == "EXPONENTIAL") return MeshoptFilter::Exponential;
+  if (filter == "COLOR" && isKhr) return MeshoptFilter::Color;
   return std::nullopt;
 }
 
@@ -45,7 +60,7 @@ void checkSizes(const CodecRequest& request, const std::string& place, const Dia
   const bool fitsFilter = request.filter == MeshoptFilter::None ||
                           (request.codec == Codec::MeshoptVertices &&
                            (request.filter == MeshoptFilter::Exponential || stride == 8 ||
-                            (request.filter == MeshoptFilter::Octahedral && stride == 4)));
+                            (request.filter != MeshoptFilter::Quaternion && stride == 4)));
   if (!isStride) {
     diagnostics.refuse(place + "/byteStride",
                        std::to_string(stride) + " is no stride that its mode can have");
@@ -56,15 +71,15 @@ void checkSizes(const CodecRequest& request, const std::string& place, const Dia
     diagnostics.refuse(place + "/count", std::to_string(request.count) + " is no multiple of 3");
 }
 
-CodecRequest requestOf(const json& extension, uint64_t viewBytes, const std::string& place,
+CodecRequest requestOf(const json& extension, bool isKhr, uint64_t viewBytes, const std::string& place,
                        const Diagnostics& diagnostics) {
   const auto& mode = extension["mode"].get_ref<const std::string&>();
   const std::string filter = extension.value("filter", std::string("NONE"));
   if (!codecNamed(mode)) diagnostics.refuse(place + "/mode", inQuotes(mode) + " is no mode");
-  if (!filterNamed(filter)) diagnostics.refuse(place + "/filter", inQuotes(filter) + " is no filter");
+  if (!filterNamed(filter, isKhr)) diagnostics.refuse(place + "/filter", inQuotes(filter) + " is no filter");
   CodecRequest request;
   request.codec = *codecNamed(mode);
-  request.filter = *filterNamed(filter);
+  request.filter = *filterNamed(filter, isKhr);
   request.count = extension["count"].get<uint64_t>();
   request.stride = extension["byteStride"].get<uint64_t>();
   request.outputBytes = viewBytes;
@@ -92,7 +107,7 @@ std::span<const uint8_t> encodedBytes(const json& extension, const Buffers& buff
 }  // namespace
 
 bool isFallback(const json& buffer) {
-  const json* extension = meshoptOf(buffer);
+  const json* extension = meshoptOf(buffer).object;
   return extension != nullptr && extension->value("fallback", false);
 }
 
@@ -100,17 +115,19 @@ void decompressViews(json& root, Buffers& buffers, CodecProcess& codecs, Documen
   Diagnostics& diagnostics = document.diagnostics;
   for (size_t i = 0; i < root["bufferViews"].size(); ++i) {
     json& view = root["bufferViews"][i];
-    const json* extension = meshoptOf(view);
+    const auto [name, extension] = meshoptOf(view);
     if (extension == nullptr) continue;
-    const std::string place = pointerTo("bufferViews", i, "extensions", kMeshopt);
+    const std::string place = pointerTo("bufferViews", i, "extensions", name);
+    if (name == kKhr && extensionOf(view, kExt) != nullptr)
+      diagnostics.refuse(place, "excludes " + std::string(kExt) + ", which stands beside it");
     if (!codecs.available()) {
       if (buffers[view["buffer"].get<size_t>()].empty())
-        diagnostics.refuse(place, std::string(kMeshopt) + " cannot be decoded: " + codecs.whyNot());
+        diagnostics.refuse(place, std::string(name) + " cannot be decoded: " + codecs.whyNot());
       diagnostics.warn(place, "cannot be decoded, the uncompressed data are taken: " + codecs.whyNot());
       continue;
     }
     const CodecRequest request =
-        requestOf(*extension, view["byteLength"].get<uint64_t>(), place, diagnostics);
+        requestOf(*extension, name == kKhr, view["byteLength"].get<uint64_t>(), place, diagnostics);
     const std::span<const uint8_t> encoded = encodedBytes(*extension, buffers, place, diagnostics);
     takeMemory(document, place, 2 * request.outputBytes);
     std::vector<uint8_t> decoded =

@@ -28,7 +28,10 @@ struct ImageSource {
 
 struct Document {
   Document(std::string file, const InputLimits& limits)
-      : diagnostics(std::move(file)), textureSide(limits.textureSide), memory(limits.memoryBytes) {}
+      : diagnostics(std::move(file)),
+        textureSide(limits.textureSide),
+        drawMissingTextures(limits.drawMissingTextures),
+        memory(limits.memoryBytes) {}
 
   tinygltf::Model model;  ///< without skins, animations and pictures
   FileAccess access;
@@ -37,8 +40,9 @@ struct Document {
   std::vector<std::string> sceneNames, animationNames, materialVariants;
   std::vector<std::optional<double>> animationSeconds;  ///< as in Scene
   Diagnostics diagnostics;
-  int textureSide;      ///< larger pictures are scaled down
-  MemoryBudget memory;  ///< what loading may still take
+  int textureSide;           ///< larger pictures are scaled down
+  bool drawMissingTextures;  ///< pictures that cannot be read are warned of
+  MemoryBudget memory;       ///< what loading may still take
 };
 
 /// The bytes of a buffer view. Throws InputError if its buffer has none, as a buffer without URI may.

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "image/channels.h"
 #include "image/worker/messages.h"
 #include "process/child.h"
 #include "process/shared_memory.h"
@@ -135,7 +136,9 @@ Image decodeByProcess(std::span<const uint8_t> bytes, const ImageHeader& header)
                        header.channelCount,
                        bytes.size(),
                        0,
-                       {}};
+                       {},
+                       0,
+                       0};
   request.outputBytes = pixels * uint64_t(header.channelCount) * sizeof(float) + bytes.size() + kRoomForTexts;
   const Answer answer = service().perform(request, bytes, {}, decodingLimits(header, bytes.size()));
 
@@ -150,10 +153,9 @@ Image decodeByProcess(std::span<const uint8_t> bytes, const ImageHeader& header)
   const auto* values = reinterpret_cast<const float*>(answer.output.data());
   image.values.assign(values, values + count);
   const auto texts = unpackTexts(answer.output.subspan(count * sizeof(float)));
-  if (texts.size() < size_t(channelCount) || (texts.size() - size_t(channelCount)) % 2 != 0)
-    throw std::runtime_error("the image process sent a broken answer");
+  if (texts.size() < size_t(channelCount)) throw std::runtime_error("the image process sent a broken answer");
   image.channels.assign(texts.begin(), texts.begin() + channelCount);
-  for (size_t i = size_t(channelCount); i < texts.size(); i += 2) image.attributes[texts[i]] = texts[i + 1];
+  takeAttributes(std::span(texts).subspan(size_t(channelCount)), answer.reply.numberCount, image);
   return image;
 }
 
@@ -166,7 +168,9 @@ TexelImage decodeTexelsByProcess(std::span<const uint8_t> bytes, const ImageHead
                              header.channelCount,
                              bytes.size(),
                              values * sizeof(uint16_t),
-                             {}};
+                             {},
+                             0,
+                             0};
   const Answer answer = service().perform(request, bytes, {}, decodingLimits(header, bytes.size()));
   if (answer.output.size() != request.outputBytes)
     throw std::runtime_error("the image process sent a broken answer");
@@ -176,7 +180,7 @@ TexelImage decodeTexelsByProcess(std::span<const uint8_t> bytes, const ImageHead
           answer.memory};
 }
 
-std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCount,
+std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCount, int bits,
                                           std::span<const uint8_t> values, ImageFormat format) {
   const ImageRequest request{ImageTask::EncodeBytes,
                              format,
@@ -185,17 +189,20 @@ std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCoun
                              channelCount,
                              values.size(),
                              roomForEncoded(values.size(), height),
-                             {}};
+                             {},
+                             bits,
+                             0};
   const Answer answer = service().perform(request, values, {}, {});
   return {answer.output.begin(), answer.output.end()};
 }
 
-std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat format) {
+std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat format, bool half) {
   std::vector<std::string> texts = image.channels;
-  for (const auto& [name, text] : image.attributes) {
-    texts.push_back(name);
-    texts.push_back(text);
+  if (half) {
+    for (const std::string& channel : image.channels)
+      texts.emplace_back(isStoredAsHalf(channel) ? "half" : "float");
   }
+  appendAttributes(image, texts);
   const std::vector<uint8_t> packed = packTexts(texts);
   const std::span<const uint8_t> values = asBytes(image.values);
   const uint64_t size = values.size() + packed.size();
@@ -206,7 +213,9 @@ std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat forma
                              int(image.channelCount()),
                              size,
                              roomForEncoded(size, image.height),
-                             messageOf(image.placement)};
+                             messageOf(image.placement),
+                             half ? 16 : 32,
+                             int(image.numbers.size())};
   const Answer answer = service().perform(request, values, packed, {});
   return {answer.output.begin(), answer.output.end()};
 }

@@ -22,12 +22,13 @@ Image decodeByProcess(std::span<const uint8_t> bytes, const ImageHeader& header)
 
 TexelImage decodeTexelsByProcess(std::span<const uint8_t> bytes, const ImageHeader& header);
 
-/// Interleaved 8-bit RGB, or RGBA with unassociated alpha, as .png or .jpg.
-std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCount,
+/// Interleaved RGB, or RGBA with unassociated alpha, of 8 bits as .png or .jpg, of 16 as .png.
+std::vector<uint8_t> encodeBytesByProcess(int width, int height, int channelCount, int bits,
                                           std::span<const uint8_t> values, ImageFormat format);
 
-/// Every channel as .exr, or three as .hdr.
-std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat format);
+/// Every channel as .exr, or three as .hdr; `half`: of an .exr, where isStoredAsHalf(), as 16-bit floats,
+/// which must be able to hold the values.
+std::vector<uint8_t> encodeFloatsByProcess(const Image& image, ImageFormat format, bool half = false);
 
 /// Starts the process ahead of its first use, which takes a millisecond here and 0.1 s there. A failure is
 /// left for the first use to report.

@@ -52,7 +52,8 @@ bool isLinear(std::span<const uint8_t> bytes) {
 Image wholeOf(Image part) {
   if (!part.placement) return part;
   const auto [corner, size] = *part.placement;
-  Image whole{size.x, size.y, part.channels, {}, std::move(part.attributes)};
+  Image whole{
+      size.x, size.y, part.channels, {}, std::move(part.attributes), std::nullopt, std::move(part.numbers)};
   whole.values.resize(size_t(size.x) * size_t(size.y) * whole.channelCount());
   const size_t row = size_t(part.width) * part.channelCount();
   for (int y = 0; y < part.height; ++y)

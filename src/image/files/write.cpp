@@ -16,10 +16,13 @@
 namespace fragtrace {
 namespace {
 
-/// Rounded to the nearest of 256 levels; what lies outside 0..1 is clamped, and NaN becomes 0.
-uint8_t quantize(float value) {
+constexpr float kLargestHalf = 65504.0f;
+
+/// Rounded to the nearest of the levels up to `highest`; what lies outside 0..1 is clamped, and NaN becomes
+/// 0.
+uint16_t quantize(float value, float highest) {
   if (!(value > 0)) return 0;  // NaN compares false
-  return uint8_t(std::lround(std::min(value, 1.0f) * 255.0f));
+  return uint16_t(std::lround(std::min(value, 1.0f) * highest));
 }
 
 /// The indices of R, G, B and, if wanted and there, A.
@@ -32,13 +35,20 @@ std::vector<size_t> outputChannels(const Image& image, bool withAlpha) {
   return channels;
 }
 
-std::vector<uint8_t> encodeBytes(const Image& image, ImageFormat format) {
+std::vector<uint8_t> encodeBytes(const Image& image, ImageFormat format, int bits) {
   const std::vector<size_t> channels = outputChannels(image, format == ImageFormat::Png);
+  const float highest = bits == 16 ? 65535.0f : 255.0f;
+  const size_t count = image.values.size() / image.channelCount() * channels.size();
   std::vector<uint8_t> bytes;
-  bytes.reserve(image.values.size() / image.channelCount() * channels.size());
-  for (size_t first = 0; first < image.values.size(); first += image.channelCount())
-    for (const size_t channel : channels) bytes.push_back(quantize(image.values[first + channel]));
-  return encodeBytesByProcess(image.width, image.height, int(channels.size()), bytes, format);
+  bytes.reserve(count * size_t(bits / 8));
+  for (size_t first = 0; first < image.values.size(); first += image.channelCount()) {
+    for (const size_t channel : channels) {
+      const uint16_t level = quantize(image.values[first + channel], highest);
+      bytes.push_back(uint8_t(level));
+      if (bits == 16) bytes.push_back(uint8_t(level >> 8));  // this machine's order
+    }
+  }
+  return encodeBytesByProcess(image.width, image.height, int(channels.size()), bits, bytes, format);
 }
 
 /// The nearest colour that three 8-bit mantissas with one exponent hold (Ward, "Real Pixels", Graphics Gems
@@ -64,53 +74,88 @@ std::vector<uint8_t> encodeHdr(const Image& image) {
   return encodeFloatsByProcess(color, ImageFormat::Hdr);
 }
 
-std::vector<uint8_t> encode(const Image& image, const std::filesystem::path& path) {
+/// Clamps values that 16-bit floats cannot hold, in the channels that are stored so, and counts them.
+size_t clampToHalf(Image& image) {
+  std::vector<size_t> halves;
+  for (size_t c = 0; c < image.channelCount(); ++c) {
+    if (isStoredAsHalf(image.channels[c])) halves.push_back(c);
+  }
+  size_t clamped = 0;
+  for (size_t first = 0; first < image.values.size(); first += image.channelCount()) {
+    for (const size_t c : halves) {
+      float& value = image.values[first + c];
+      if (!(std::abs(value) > kLargestHalf)) continue;  // NaN stays
+      value = std::copysign(kLargestHalf, value);
+      ++clamped;
+    }
+  }
+  return clamped;
+}
+
+struct Encoded {
+  std::vector<uint8_t> bytes;
+  size_t clamped = 0;  ///< values
+};
+
+Encoded encodeExr(const Image& image, bool half) {
+  if (!half) return {encodeFloatsByProcess(image, ImageFormat::OpenExr), 0};
+  Image stored = image;
+  const size_t clamped = clampToHalf(stored);
+  return {encodeFloatsByProcess(stored, ImageFormat::OpenExr, true), clamped};
+}
+
+Encoded encode(const Image& image, const std::filesystem::path& path, const Encoding& encoding) {
   if (image.width <= 0 || image.height <= 0 || image.channels.empty() ||
       image.values.size() != size_t(image.width) * size_t(image.height) * image.channelCount())
     throw std::runtime_error("the picture is empty, or its values do not fill it");
 
   const auto format = formatOfName(path);
   if (!format) throw std::runtime_error("the name must end in .png, .jpg, .exr, .hdr or .pfm");
-  if (format == ImageFormat::Pfm) return encodePfm(image);
-  if (format == ImageFormat::Hdr) return encodeHdr(image);
-  if (format == ImageFormat::OpenExr) return encodeFloatsByProcess(image, *format);
-  return encodeBytes(image, *format);
+  if (format == ImageFormat::Pfm) return {encodePfm(image), 0};
+  if (format == ImageFormat::Hdr) return {encodeHdr(image), 0};
+  if (format == ImageFormat::OpenExr) return encodeExr(image, encoding.half);
+  return {encodeBytes(image, *format, format == ImageFormat::Png ? encoding.pngBits : 8), 0};
 }
 
-std::vector<uint8_t> encodeNamed(const Image& image, const std::filesystem::path& path) {
+Encoded encodeNamed(const Image& image, const std::filesystem::path& path, const Encoding& encoding) {
   try {
-    return encode(image, path);
+    return encode(image, path, encoding);
   } catch (const std::exception& error) {
     throw RenderError("cannot write " + path.string() + ": " + error.what());
   }
 }
 
 /// What a pixel takes that cannot be compressed.
-uint64_t bytesOfPixel(std::optional<ImageFormat> format, size_t channelCount) {
-  if (format == ImageFormat::OpenExr) return 4 * channelCount;
+uint64_t bytesOfPixel(std::optional<ImageFormat> format, size_t channelCount, const Encoding& encoding) {
+  if (format == ImageFormat::OpenExr) return (encoding.half ? 2 : 4) * channelCount;
+  if (format == ImageFormat::Png && encoding.pngBits == 16) return 8;
   if (format == ImageFormat::Pfm) return 12;
   return 4;  // .png with alpha, .hdr; .jpg has 3
 }
 
 }  // namespace
 
-void writeImage(const std::filesystem::path& path, const Image& image) {
-  replaceFile(path, encodeNamed(image, path));
+size_t writeImage(const std::filesystem::path& path, const Image& image, const Encoding& encoding) {
+  const Encoded encoded = encodeNamed(image, path, encoding);
+  replaceFile(path, encoded.bytes);
+  return encoded.clamped;
 }
 
-void printImage(const std::filesystem::path& path, const Image& image) {
-  writeToStandardOutput(encodeNamed(image, path));
+size_t printImage(const std::filesystem::path& path, const Image& image, const Encoding& encoding) {
+  const Encoded encoded = encodeNamed(image, path, encoding);
+  writeToStandardOutput(encoded.bytes);
+  return encoded.clamped;
 }
 
 void checkImageWritable(const std::filesystem::path& path, int width, int height, size_t channelCount,
-                        bool isFile) {
+                        const Encoding& encoding, bool isFile) {
   constexpr int kMostJpegSide = 65500;  // libjpeg's JPEG_MAX_DIMENSION
   if (formatOfName(path) == ImageFormat::Jpeg && std::max(width, height) > kMostJpegSide)
     throw RenderError("cannot write " + path.string() + ": a .jpg has at most " +
                       std::to_string(kMostJpegSide) + " pixels a side");
-  encodeNamed({1, 1, {"R", "G", "B"}, {0.0f, 0.0f, 0.0f}, {}}, path);
-  if (isFile)
-    checkRoom(path, uint64_t(width) * uint64_t(height) * bytesOfPixel(formatOfName(path), channelCount));
+  encodeNamed({1, 1, {"R", "G", "B"}, {0.0f, 0.0f, 0.0f}, {}}, path, encoding);
+  const uint64_t pixels = uint64_t(width) * uint64_t(height);
+  if (isFile) checkRoom(path, pixels * bytesOfPixel(formatOfName(path), channelCount, encoding));
 }
 
 }  // namespace fragtrace

@@ -36,10 +36,8 @@ void decodeFloatsInto(const ImageRequest& request, std::span<const uint8_t> inpu
       int(image.channelCount()) > request.channelCount)
     throw std::runtime_error("its size is not what its header says");
   std::vector<std::string> texts = image.channels;
-  for (const auto& [name, text] : image.attributes) {
-    texts.push_back(name);
-    texts.push_back(text);
-  }
+  appendAttributes(image, texts);
+  reply.numberCount = int(image.numbers.size());
   output.append(bytesOf(image.values));
   output.append(packTexts(texts));
   reply.channelCount = int(image.channelCount());
@@ -52,11 +50,15 @@ std::vector<uint8_t> encodeFloatsOf(const ImageRequest& request, std::span<const
   const size_t count = size_t(request.width) * size_t(request.height) * size_t(request.channelCount);
   const std::vector<std::string> texts = unpackTexts(input.subspan(count * sizeof(float)));
   Image image{request.width, request.height, {}, {}, {}};
-  const auto channels = texts.begin() + request.channelCount;
-  image.channels.assign(texts.begin(), channels);
-  for (auto text = channels; text != texts.end(); text += 2) image.attributes[*text] = *(text + 1);
+  const auto channelCount = size_t(request.channelCount);
+  const size_t typeCount = request.bits == 16 ? channelCount : 0;
+  if (texts.size() < channelCount + typeCount) throw std::runtime_error("the request is broken");
+  image.channels.assign(texts.begin(), texts.begin() + request.channelCount);
+  std::vector<bool> halves;
+  for (size_t i = 0; i < typeCount; ++i) halves.push_back(texts[channelCount + i] == "half");
+  takeAttributes(std::span(texts).subspan(channelCount + typeCount), request.numberCount, image);
   image.placement = placementOf(request.placement);
-  return encodeFloats(image, {reinterpret_cast<const float*>(input.data()), count}, request.format);
+  return encodeFloats(image, {reinterpret_cast<const float*>(input.data()), count}, halves, request.format);
 }
 
 void perform(const ImageRequest& request, std::span<const uint8_t> input, std::span<uint8_t> room,
@@ -73,7 +75,8 @@ void perform(const ImageRequest& request, std::span<const uint8_t> input, std::s
       output.used = room.size();
       break;
     case ImageTask::EncodeBytes:
-      output.append(encodeBytes(request.width, request.height, request.channelCount, input, request.format));
+      output.append(encodeBytes(request.width, request.height, request.channelCount, request.bits, input,
+                                request.format));
       break;
     case ImageTask::EncodeFloats:
       output.append(encodeFloatsOf(request, input));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "image/format.h"
+#include "image/image.h"
 #include "image/region.h"
 
 namespace fragtrace {
@@ -24,7 +25,10 @@ struct PlacementMessage {
   int32_t wholeHeight = 0;
 };
 
-/// Encoded pictures are their file's bytes; decoded ones their values, then texts.
+/// Encoded pictures are their file's bytes; decoded ones their values, then texts: the channels, then pairs
+/// of an attribute's name and its text. To encode floats of 16 bits, a text "half" or "float" of each channel
+/// stands between these. The last attributes are Image::numbers, whose texts are the numbers with a space
+/// between.
 struct ImageRequest {
   ImageTask task = ImageTask::DecodeFloats;
   ImageFormat format = ImageFormat::Png;
@@ -34,6 +38,8 @@ struct ImageRequest {
   uint64_t inputBytes = 0;
   uint64_t outputBytes = 0;    ///< room for the output
   PlacementMessage placement;  ///< of what is encoded
+  int32_t bits = 0;         ///< of a channel of EncodeBytes, 8 or 16; of EncodeFloats: 16 where some are half
+  int32_t numberCount = 0;  ///< attributes that are numbers, the last of the texts
 };
 
 struct ImageReply {
@@ -43,11 +49,22 @@ struct ImageReply {
   int32_t width = 0;  ///< of what was decoded
   int32_t height = 0;
   PlacementMessage placement;
-  char reason[1000] = {};  ///< why it is not done
+  char reason[1000] = {};   ///< why it is not done
+  int32_t numberCount = 0;  ///< as of a request
 };
 
 PlacementMessage messageOf(const std::optional<Placement>& placement);
 std::optional<Placement> placementOf(const PlacementMessage& message);
+
+/// Numbers with a space between, as few digits as give the same float again.
+std::string numbersText(const std::vector<float>& numbers);
+/// Throws std::runtime_error when it is no such text.
+std::vector<float> numbersOf(const std::string& text);
+
+/// Appends the attributes, those that are numbers behind the others.
+void appendAttributes(const Image& image, std::vector<std::string>& texts);
+/// Takes all attributes from pairs of texts, of which so many are numbers.
+void takeAttributes(std::span<const std::string> texts, int numberCount, Image& image);
 
 /// Texts with their lengths before them.
 std::vector<uint8_t> packTexts(const std::vector<std::string>& texts);

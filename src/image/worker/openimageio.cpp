@@ -81,6 +81,32 @@ std::map<std::string, std::string> stringAttributes(const OIIO::ImageSpec& spec)
   return attributes;
 }
 
+/// What the image library calls a standard attribute of OpenEXR.
+std::string libraryName(const std::string& name) {
+  if (name == "worldToCamera") return "worldtocamera";
+  if (name == "worldToNDC") return "worldtoNDC";
+  return name;
+}
+
+OIIO::TypeDesc typeOfNumbers(size_t count) {
+  if (count == 1) return OIIO::TypeFloat;
+  if (count == 16) return OIIO::TypeMatrix44;
+  return {OIIO::TypeDesc::FLOAT, int(count)};
+}
+
+/// Those of kNumberAttributes that the file has.
+std::map<std::string, std::vector<float>> numberAttributes(const OIIO::ImageSpec& spec) {
+  std::map<std::string, std::vector<float>> attributes;
+  for (const NumberAttribute& row : kNumberAttributes) {
+    // Written under the library's name, they are read under their own.
+    const OIIO::ParamValue* value = spec.find_attribute(row.name, typeOfNumbers(row.count), true);
+    if (value == nullptr) continue;
+    const auto* numbers = static_cast<const float*>(value->data());
+    attributes[row.name].assign(numbers, numbers + row.count);
+  }
+  return attributes;
+}
+
 /// OpenImageIO 2.4 multiplies WebP's colour by its alpha, whatever it is asked. Divides it again, as well as
 /// the 8 bits left allow; colour under alpha 0 is lost.
 template <typename Value>
@@ -111,7 +137,10 @@ Image decodeFloats(std::span<const uint8_t> bytes, ImageFormat format) {
   if (placed.whole != glm::ivec2(spec.width, spec.height)) image.placement = placed;
 
   image.channels = spec.channelnames;
-  if (format == ImageFormat::OpenExr) image.attributes = stringAttributes(spec);
+  if (format == ImageFormat::OpenExr) {
+    image.attributes = stringAttributes(spec);
+    image.numbers = numberAttributes(spec);
+  }
   image.values.resize(size_t(image.width) * size_t(image.height) * image.channelCount());
   picture.read(OIIO::TypeFloat, image.values.data(), OIIO::AutoStride, OIIO::AutoStride);
   if (format == ImageFormat::WebP && spec.nchannels == 4) unassociate<float>(image.values, 1);
@@ -160,9 +189,9 @@ std::vector<uint8_t> encode(const OIIO::ImageSpec& spec, ImageFormat format, con
 
 }  // namespace
 
-std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, std::span<const uint8_t> values,
-                                 ImageFormat format) {
-  OIIO::ImageSpec spec(width, height, channelCount, OIIO::TypeUInt8);
+std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, int bits,
+                                 std::span<const uint8_t> values, ImageFormat format) {
+  OIIO::ImageSpec spec(width, height, channelCount, bits == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("oiio:UnassociatedAlpha", 1);  // else the colour is divided by alpha
   spec.attribute("Compression", "jpeg:95");
@@ -170,12 +199,16 @@ std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, std::s
   return encode(spec, format, values.data());
 }
 
-std::vector<uint8_t> encodeFloats(const Image& image, std::span<const float> values, ImageFormat format) {
+std::vector<uint8_t> encodeFloats(const Image& image, std::span<const float> values,
+                                  const std::vector<bool>& halves, ImageFormat format) {
   OIIO::ImageSpec spec(image.width, image.height, int(image.channelCount()), OIIO::TypeFloat);
   spec.channelnames = image.channels;
+  for (const bool half : halves) spec.channelformats.push_back(half ? OIIO::TypeHalf : OIIO::TypeFloat);
   const auto alpha = std::ranges::find(image.channels, "A");
   spec.alpha_channel = alpha == image.channels.end() ? -1 : int(alpha - image.channels.begin());
   for (const auto& [name, text] : image.attributes) spec.attribute(name, text);
+  for (const auto& [name, numbers] : image.numbers)
+    spec.attribute(libraryName(name), typeOfNumbers(numbers.size()), numbers.data());
   if (image.placement) {
     spec.x = image.placement->corner.x;
     spec.y = image.placement->corner.y;

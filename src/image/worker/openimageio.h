@@ -19,12 +19,14 @@ Image decodeFloats(std::span<const uint8_t> bytes, ImageFormat format);
 void decodeTexels(std::span<const uint8_t> bytes, ImageFormat format, int width, int height,
                   std::span<uint16_t> rgba);
 
-/// Interleaved 8-bit RGB, or RGBA with unassociated alpha, as .png or .jpg.
-std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, std::span<const uint8_t> values,
-                                 ImageFormat format);
+/// Interleaved RGB, or RGBA with unassociated alpha, of 8 bits as .png or .jpg, of 16 as .png.
+std::vector<uint8_t> encodeBytes(int width, int height, int channelCount, int bits,
+                                 std::span<const uint8_t> values, ImageFormat format);
 
-/// Every channel as .exr, or three as .hdr.
-std::vector<uint8_t> encodeFloats(const Image& image, std::span<const float> values, ImageFormat format);
+/// Every channel as .exr, or three as .hdr. `halves` says of each channel whether it is stored as 16-bit
+/// floats; empty: none is.
+std::vector<uint8_t> encodeFloats(const Image& image, std::span<const float> values,
+                                  const std::vector<bool>& halves, ImageFormat format);
 
 /// Everything that the first use of the library would spend its time on.
 void openImageLibrary();

@@ -2,6 +2,7 @@
 """Pictures as NumPy arrays that know how they were made."""
 import os
 import tempfile
+import warnings
 
 import numpy as np
 
@@ -33,16 +34,19 @@ class Picture(np.ndarray):
     """Linear colours (height, width, 4), float32: R, G, B, multiplied by A. What is calculated from it is a plain picture without
     statistics.
 
-    statistics: what `--stats` writes, as a dict; messages: what the command prints on stderr; attributes: strings that an .exr keeps."""
+    statistics: what `--stats` writes, as a dict; messages: what the command prints on stderr; attributes and numbers: what an .exr keeps
+    beside pixels, as strings and as lists (worldToCamera, worldToNDC, chromaticities)."""
 
     def __array_finalize__(self, other):
         self.statistics = {}
         self.messages = []
         self.attributes = {}
+        self.numbers = {}
 
-    def save(self, path, *, exposure=0.0, tone_map="neutral"):
-        """Writes .exr, .hdr, .pfm (linear) or .png, .jpg (as tonemap() shows it), whole or not at all. Raises RenderError."""
-        _save(path, {"": np.asarray(self)}, self.attributes, exposure, tone_map)
+    def save(self, path, *, exposure=0.0, tone_map="neutral", half=False, png_depth=8):
+        """Writes .exr, .hdr, .pfm (linear) or .png, .jpg (as tonemap() shows it), whole or not at all. half: 16-bit floats in an .exr;
+        png_depth: 8 or 16. Raises RenderError, and UsageError for what the format cannot hold."""
+        _save(path, {"": np.asarray(self)}, self, exposure, tone_map, half, png_depth)
 
     def _repr_png_(self):
         return _png(self)
@@ -61,13 +65,10 @@ class Layers(dict):
     def messages(self):
         return self["color"].messages
 
-    def save(self, path, *, exposure=0.0, tone_map="neutral"):
+    def save(self, path, *, exposure=0.0, tone_map="neutral", half=False, png_depth=8):
         """As Picture.save(); an .exr holds all layers."""
         planes = {"" if name == "color" else name: np.asarray(layer) for name, layer in self.items()}
-        _save(path, planes, self["color"].attributes, exposure, tone_map, self._channels())
-
-    def _channels(self):
-        return getattr(self, "channels", None)
+        _save(path, planes, self["color"], exposure, tone_map, half, png_depth, getattr(self, "channels", None))
 
     def _repr_png_(self):
         return _png(self["color"])
@@ -76,12 +77,13 @@ class Layers(dict):
 def _png(picture):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "picture.png")
-        _save(path, {"": np.asarray(picture)}, {}, 0.0, "neutral")
+        _save(path, {"": np.asarray(picture)}, None, 0.0, "neutral", False, 8)
         with open(path, "rb") as file:
             return file.read()
 
 
-def _save(path, planes, attributes, exposure, tone_map, channels=None):
+def _save(path, planes, made, exposure, tone_map, half, png_depth, channels=None):
+    attributes, numbers = ({}, {}) if made is None else (made.attributes, made.numbers)
     path = os.fspath(path)
     color, names = _planes(planes[""])
     if _core.is_display_format(path):
@@ -90,14 +92,16 @@ def _save(path, planes, attributes, exposure, tone_map, channels=None):
         if not path.lower().endswith(".png"):
             color, names = color[:, :, :3], names[:3]  # over black: colour is multiplied by alpha
         names, color, _ = _core.display(np.ascontiguousarray(color), names, float(exposure), tone_map)
-        attributes = {}
+        attributes, numbers = {}, {}
     elif path.lower().endswith(".exr"):
         for name, layer in planes.items():
             if name:
                 values, own = _planes(layer)
                 own = (channels or {}).get(name, [f"{name}.{one}" for one in own])
                 color, names = np.concatenate([color, values], axis=2), names + own
-    _core.save(path, np.ascontiguousarray(color), names, attributes)
+    clamped = _core.save(path, np.ascontiguousarray(color), names, attributes, numbers, half, png_depth)
+    if clamped:
+        warnings.warn(f"{path}: {clamped} values are beyond 65504, the largest 16-bit float, and clamped to it", stacklevel=3)
 
 
 def picture_of(channels, values, attributes):
@@ -113,7 +117,7 @@ def picture_of(channels, values, attributes):
             if name in index:
                 color[:, :, i] = values[:, :, index[name]]
     picture = color.view(Picture)
-    picture.attributes = dict(attributes)
+    picture.attributes, picture.numbers = map(dict, attributes)
     layers = Layers(color=picture)
     layers.channels = {}
     for name in channels:

@@ -9,12 +9,12 @@
 namespace fragtrace {
 
 enum class Codec : uint32_t {
-  MeshoptVertices,   ///< EXT_meshopt_compression, mode ATTRIBUTES
+  MeshoptVertices,   ///< EXT_ and KHR_meshopt_compression, mode ATTRIBUTES
   MeshoptTriangles,  ///< TRIANGLES
   MeshoptIndices,    ///< INDICES
   Draco              ///< KHR_draco_mesh_compression
 };
-enum class MeshoptFilter : uint32_t { None, Octahedral, Quaternion, Exponential };
+enum class MeshoptFilter : uint32_t { None, Octahedral, Quaternion, Exponential, Color };
 
 /// An attribute of a Draco mesh, and as what its values are wanted.
 struct CodecAttribute {

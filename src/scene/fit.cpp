@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "scene/fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <limits>
+
+#include "math/bounds.h"
+#include "scene/projection.h"
+
+namespace fragtrace {
+namespace {
+
+/// About the sphere: the golden angle apart, a little outside, so that their hull holds it.
+void appendSphere(const glm::dvec3& center, double radius, std::vector<glm::dvec3>& points) {
+  constexpr int kPoints = 512;
+  constexpr double kOutside = 1.01;
+  const double goldenAngle = glm::pi<double>() * (3.0 - std::sqrt(5.0));
+  for (int i = 0; i < kPoints; ++i) {
+    const double y = 1.0 - 2.0 * (i + 0.5) / kPoints;
+    const double r = std::sqrt(1.0 - y * y);
+    points.push_back(center +
+                     kOutside * radius *
+                         glm::dvec3(r * std::cos(goldenAngle * i), y, r * std::sin(goldenAngle * i)));
+  }
+}
+
+/// Vertices of these triangles, each once.
+std::vector<glm::dvec3> verticesOf(const Scene& scene, size_t first, size_t count) {
+  std::vector<uint32_t> used;
+  used.reserve(3 * count);
+  for (size_t i = first; i < first + count; ++i) {
+    for (int c = 0; c < 3; ++c) used.push_back(scene.triangles[i].vertex[c]);
+  }
+  std::ranges::sort(used);
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::vector<glm::dvec3> points;
+  points.reserve(used.size());
+  for (const uint32_t vertex : used) points.emplace_back(scene.vertices.position[vertex]);
+  return points;
+}
+
+std::vector<glm::dvec3> cornersOfBox(std::span<const glm::dvec3> points) {
+  BoundsDouble box;
+  for (const glm::dvec3& point : points) box.include(point);
+  std::vector<glm::dvec3> corners;
+  for (int i = 0; i < 8 && !box.empty(); ++i) {
+    corners.emplace_back((i & 1) != 0 ? box.maximum.x : box.minimum.x,
+                         (i & 2) != 0 ? box.maximum.y : box.minimum.y,
+                         (i & 4) != 0 ? box.maximum.z : box.minimum.z);
+  }
+  return corners;
+}
+
+void appendInstances(const Scene& scene, std::vector<glm::dvec3>& points) {
+  constexpr size_t kMostPoints = 5'000'000;
+  std::vector<std::vector<glm::dvec3>> meshes;
+  for (const SharedMesh& mesh : scene.sharedMeshes)
+    meshes.push_back(verticesOf(scene, mesh.firstTriangle, mesh.triangleCount));
+  size_t count = 0;
+  for (const Instance& instance : scene.instances) count += meshes[instance.mesh].size();
+  if (count > kMostPoints) {
+    for (std::vector<glm::dvec3>& mesh : meshes) mesh = cornersOfBox(mesh);
+  }
+  for (const Instance& instance : scene.instances) {
+    for (const glm::dvec3& point : meshes[instance.mesh])
+      points.push_back(scene.space.worldOf(glm::dvec3(instance.toLocal * glm::dvec4(point, 1.0))));
+  }
+}
+
+/// Right, up and depth, from the camera.
+struct ViewAxes {
+  glm::dvec3 right;
+  glm::dvec3 up;
+  glm::dvec3 forward;
+
+  explicit ViewAxes(const Camera& camera)
+      : right(glm::normalize(glm::cross(camera.forward, camera.up))),
+        up(glm::cross(right, camera.forward)),
+        forward(camera.forward) {}
+
+  glm::dvec3 of(const glm::dvec3& v) const {
+    return {glm::dot(v, right), glm::dot(v, up), glm::dot(v, forward)};
+  }
+  glm::dvec3 worldOf(const glm::dvec3& v) const { return v.x * right + v.y * up + v.z * forward; }
+};
+
+/// Where a perspective camera stands so that all points lie between two planes through it, of slope `slope`
+/// to both sides: the depth of the place nearest to them, and what it is across there.
+struct Wedge {
+  double depth = 0.0;
+  double across = 0.0;
+};
+
+Wedge wedgeAbout(std::span<const glm::dvec3> points, int axis, double slope) {
+  double right = -std::numeric_limits<double>::infinity();
+  double left = right;
+  for (const glm::dvec3& p : points) {
+    right = std::max(right, p[axis] - slope * p.z);
+    left = std::max(left, -p[axis] - slope * p.z);
+  }
+  return {-(right + left) / (2.0 * slope), (right - left) / 2.0};
+}
+
+/// The place across, at that depth, from which the points reach as far to both sides (Newton's method on what
+/// they reach to one side more).
+double middleAcross(std::span<const glm::dvec3> points, int axis, double depth, double across) {
+  constexpr int kRounds = 12;
+  for (int i = 0; i < kRounds; ++i) {
+    double most = -std::numeric_limits<double>::infinity();
+    double least = -most;
+    double slope = 0.0;
+    double inverseOfMost = 0.0;
+    double inverseOfLeast = 0.0;
+    for (const glm::dvec3& p : points) {
+      const double inverse = 1.0 / (p.z - depth);
+      slope = (p[axis] - across) * inverse;
+      if (slope > most) {
+        most = slope;
+        inverseOfMost = inverse;
+      }
+      if (slope < least) {
+        least = slope;
+        inverseOfLeast = inverse;
+      }
+    }
+    across += (most + least) / (inverseOfMost + inverseOfLeast);
+  }
+  return across;
+}
+
+/// Not beyond `mostDepth`.
+glm::dvec3 perspectivePlace(std::span<const glm::dvec3> points, const glm::dvec2& slope, double mostDepth) {
+  glm::dvec3 place(0.0);
+  const std::array<Wedge, 2> wedges{wedgeAbout(points, 0, slope.x), wedgeAbout(points, 1, slope.y)};
+  place.z = std::min({wedges[0].depth, wedges[1].depth, mostDepth});
+  for (int axis = 0; axis < 2; ++axis) {
+    const Wedge& wedge = wedges[size_t(axis)];
+    // From farther away than need be, the points are between the planes, too, but not in the middle.
+    place[axis] = wedge.depth > place.z ? middleAcross(points, axis, place.z, wedge.across) : wedge.across;
+  }
+  return place;
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> outlineOf(const Scene& scene) {
+  std::vector<glm::dvec3> points = verticesOf(scene, 0, flatTriangleCount(scene));
+  for (glm::dvec3& point : points) point = scene.space.worldOf(point);
+  appendInstances(scene, points);
+  for (const Sphere& sphere : scene.spheres)
+    appendSphere(scene.space.worldOf(glm::dvec3(sphere.center)), scene.space.unit * sphere.radius, points);
+  return points;
+}
+
+std::vector<glm::dvec3> sweptAbout(const glm::dvec3& point, std::span<const glm::dvec3> points) {
+  // Only the hull of the profile, distance from the axis over height, counts (Andrew's monotone chain).
+  std::vector<glm::dvec2> profile;  // height, distance
+  profile.reserve(points.size());
+  for (const glm::dvec3& p : points) profile.emplace_back(p.y, std::hypot(p.x - point.x, p.z - point.z));
+  std::ranges::sort(profile, [](const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x < b.x || (a.x == b.x && a.y < b.y);
+  });
+  std::vector<glm::dvec2> hull;
+  for (const glm::dvec2& p : profile) {
+    const auto turnsLeft = [&] {
+      const glm::dvec2 a = hull[hull.size() - 1] - hull[hull.size() - 2];
+      const glm::dvec2 b = p - hull[hull.size() - 1];
+      return a.x * b.y - a.y * b.x >= 0.0;
+    };
+    while (hull.size() >= 2 && turnsLeft()) hull.pop_back();
+    hull.push_back(p);
+  }
+  constexpr int kSteps = 256;
+  const double outside = 1.0 / std::cos(glm::pi<double>() / kSteps);
+  std::vector<glm::dvec3> swept;
+  swept.reserve(hull.size() * kSteps);
+  for (const glm::dvec2& p : hull) {
+    for (int i = 0; i < kSteps; ++i) {
+      const double angle = 2.0 * glm::pi<double>() * i / kSteps;
+      swept.emplace_back(point.x + outside * p.y * std::sin(angle), p.x,
+                         point.z + outside * p.y * std::cos(angle));
+    }
+  }
+  return swept;
+}
+
+Camera fitted(Camera camera, std::span<const glm::dvec3> points, double aspectRatio) {
+  BoundsDouble bounds;
+  const ViewAxes axes(camera);
+  std::vector<glm::dvec3> seen;
+  seen.reserve(points.size());
+  for (const glm::dvec3& point : points) {
+    seen.push_back(axes.of(point - camera.position));
+    bounds.include(seen.back());
+  }
+  const double size = glm::length(bounds.extent());
+  if (!(size > 0.0)) return camera;
+  glm::dvec3 place = bounds.center();
+  if (camera.perspective) {
+    // What is flat and seen from its edge has neither width nor height, and a tip may reach up to the lens.
+    constexpr double kNearest = 0.01;  // of the size
+    const double slope = std::tan(0.5 * camera.fovY) * kFitted;
+    place = perspectivePlace(seen, {slope * aspectRatio, slope}, bounds.minimum.z - kNearest * size);
+  } else {
+    const glm::dvec3 half = 0.5 * bounds.extent();
+    camera.halfHeight = std::max({half.y, half.x / aspectRatio, 1e-6 * size}) / kFitted;
+    place.z = bounds.minimum.z - size;
+  }
+  camera.position += axes.worldOf(place);
+  return camera;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Framing by the scene's own vertices, which is tighter than by its box.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace fragtrace {
+
+/// How much of the picture's width or height a fitted scene takes.
+inline constexpr double kFitted = 0.95;
+
+/// Points in world space whose convex hull is that of all triangles and spheres; a little larger where
+/// spheres or very many instances are.
+std::vector<glm::dvec3> outlineOf(const Scene& scene);
+
+/// The same of what they sweep as they turn about the vertical axis, +Y, through `point`.
+std::vector<glm::dvec3> sweptAbout(const glm::dvec3& point, std::span<const glm::dvec3> points);
+
+/// The camera moved without being turned, and an orthographic one scaled, until the points fill kFitted of
+/// the width or of the height of a picture of that width / height, in its middle. Unchanged where there are
+/// none, or where they are a single point.
+Camera fitted(Camera camera, std::span<const glm::dvec3> points, double aspectRatio);
+
+}  // namespace fragtrace

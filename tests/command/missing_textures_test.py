@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Textures whose picture is missing or broken: refused, or drawn without and said (--missing-textures)."""
+import json
+
+from materials_test import png, quad
+from support import Case, main, read_pfm, run
+
+WARN = ("--missing-textures", "warn")
+
+
+class MissingTextures(Case):
+    def scene(self, material, uris):
+        gltf = quad(material)
+        gltf["images"] = [{"uri": uri} for uri in uris]
+        gltf["textures"] = [{"source": i} for i in range(len(uris))]
+        path = self.folder / "scene.gltf"
+        path.write_text(json.dumps(gltf))
+        return path
+
+    def middle(self, scene, *options):
+        path = self.folder / "x.pfm"
+        result = run("render", scene, "-o", path, "--resolution", "9,9", "--spp", 4, "--stage", "flat", *WARN, *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return read_pfm(path)[4][4], result.stderr
+
+    BASE = {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}
+
+    def test_a_base_colour_is_magenta_and_said_once(self):
+        whole = png(4, 4, [10, 200, 10, 255] * 16)
+        (self.folder / "cut.png").write_bytes(whole[:-30])
+        (self.folder / "odd.png").write_text("no picture")
+        for name, reason in (("gone.png", "cannot be opened"), ("cut.png", ""), ("odd.png", "")):
+            scene = self.scene(self.BASE, [name, name])
+            refused = run("render", scene, "-o", self.folder / "y.pfm", "--resolution", "9,9", "--spp", 1)
+            self.assertEqual(refused.returncode, 3, name)
+            self.assertFalse((self.folder / "y.pfm").exists())
+            color, said = self.middle(scene)
+            self.assertEqual(color, (1, 0, 1), name)
+            self.assertEqual(said.count(name), 1, said)
+            self.assertIn(reason, said)
+            info = run("info", scene, *WARN)
+            self.assertEqual(info.returncode, 0)
+            self.assertIn(name, info.stderr + info.stdout)
+
+    def test_one_that_is_there_is_drawn(self):
+        (self.folder / "there.png").write_bytes(png(4, 4, [0, 255, 0, 255] * 16))
+        color, said = self.middle(self.scene(self.BASE, ["there.png"]))
+        self.assertEqual(color, (0, 1, 0))
+        self.assertNotIn("there.png", said)
+
+    def test_a_lamp_does_not_shine(self):
+        material = {"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0},
+                    "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0}}
+        color, _ = self.middle(self.scene(material, ["gone.png"]))
+        self.assertEqual(color, (0, 0, 0))
+
+    def test_a_choice_that_is_none_is_refused(self):
+        result = run("info", self.scene(self.BASE, ["gone.png"]), "--missing-textures", "maybe")
+        self.assertEqual(result.returncode, 2)
+
+
+if __name__ == "__main__":
+    main()
