@@ -40,6 +40,7 @@ void addOutputOptions(CLI::App& app, RawRender& raw) {
 }
 
 void chooseStandardOutput(const RawRender& raw, RenderOptions& o) {
+  if (!raw.format.empty()) choose<int>("--format", raw.format, kFormatNames);
   if (raw.output != "-") {
     if (!raw.format.empty())
       throw UsageError("--format: goes with --output -; a file's name tells its format");
@@ -47,7 +48,6 @@ void chooseStandardOutput(const RawRender& raw, RenderOptions& o) {
   }
   const auto refuse = [](const std::string& why) { throw UsageError("--output -: " + why); };
   if (raw.format.empty()) refuse("needs --format, one of " + joined(kFormatNames));
-  choose<int>("--format", raw.format, kFormatNames);
   if (o.checkpointSeconds > 0.0 || o.resume) refuse("--checkpoint and --resume need a file");
   if (raw.statsFile == "-")
     refuse("standard output takes the picture or the statistics (--stats -), not both");

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The Debian package, installed by apt in a fresh Debian 12 (debootstrap) and used there by an ordinary user, without a compiler.
+"""The Debian package, installed by apt in a fresh Debian 12 (debootstrap) and used there by an ordinary user, without a compiler; and
+Python's wheel, installed by pip in another one.
 
 Needs root, the network and debootstrap; skipped without them. The fresh Debian and the packages that apt has fetched stay in BUILD/debian.
 """
@@ -186,6 +187,49 @@ class DebianPackage(Case):
         self.advised("fragtrace view box.gltf", 4)
         self.does(self.debian.install("--no-install-recommends", "xvfb", *window))
         self.shows()
+
+
+class WheelInDebian(Case):
+    """All that the machine brings is Python and OpenGL."""
+
+    def setUp(self):
+        super().setUp()
+        reason = why_not()
+        if reason:
+            self.skipTest(reason)
+        KEPT.mkdir(exist_ok=True)
+        folder = self.enterContext(tempfile.TemporaryDirectory(dir=KEPT))
+        subprocess.run([SCENES.parent / "scripts/package", "wheel"], check=True, capture_output=True)
+        self.debian = Debian(folder)
+        certificates = Path(os.environ.get("PIP_CERT", "/etc/ssl/certs/ca-certificates.crt"))
+        shutil.copy(certificates, self.debian.root / "etc/certificates.crt")
+        home = self.debian.home
+        for wheel in (SCENES.parent / "dist").glob("fragtrace-*.whl"):
+            shutil.copy(wheel, home)
+        (home / "docs").mkdir()
+        (home / "scenes").mkdir()
+        shutil.copy(SCENES.parent / "docs/notebook.ipynb", home / "docs")
+        shutil.copy(SCENES / "cornell-box.gltf", home / "scenes")
+        self.does("apt-get install --yes --no-install-recommends python3-venv libegl1 libosmesa6 libgl1-mesa-dri; chown -R painter: /home/painter")
+
+    def does(self, script, user="root"):
+        result = self.debian.run(script, user)
+        self.assertEqual(result.returncode, 0, result.stdout[-2000:] + result.stderr[-2000:])
+        return result.stdout
+
+    def test_it_draws_and_the_notebook_runs(self):
+        self.assertEqual(self.debian.run("type gcc g++ cc c++ clang", "painter").stdout, "")
+        self.does("python3 -m venv there && there/bin/pip install --cert /etc/certificates.crt fragtrace-*.whl nbclient ipykernel", "painter")
+        own = self.folder / "own.exr"
+        self.renders(SCENES / "cornell-box.gltf", *RENDER, "-o", own)
+        for backend in ("egl", "osmesa"):
+            self.does(f"there/bin/python -c \"import fragtrace; fragtrace.render('box.gltf', resolution=(64, 64), spp=8, "
+                      f"rendering_backend='{backend}').save('box.exr')\"", "painter")
+            result = run("diff", self.debian.home / "box.exr", own, "--metric", "max", "--threshold", "0.001")
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.does("there/bin/fragtrace render box.gltf -o command.png --spp 1 --resolution 16,16", "painter")
+        self.does("cd docs && ../there/bin/python -c \"import nbformat, nbclient; "
+                  "nbclient.NotebookClient(nbformat.read('notebook.ipynb', 4), timeout=900).execute()\"", "painter")
 
 
 if __name__ == "__main__":
