@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "options/choose.h"
-#include "options/numbers.h"
 #include "options/encoding_options.h"
+#include "options/numbers.h"
 
 namespace fragtrace {
 

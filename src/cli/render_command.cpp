@@ -256,10 +256,10 @@ RunCommand addRender(CLI::App& app) {
   };
   const auto raw = std::make_shared<Raw>();
   app.add_option("file", raw->render.scene, "scene: a .gltf or .glb file")->type_name("FILE")->required();
-  app.add_option(
-         "-o,--output", raw->render.output,
-         "picture to write: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); '-' writes it to "
-         "standard output (--format), and nothing else goes there; required")
+  app.add_option("-o,--output", raw->render.output,
+                 "picture to write: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); '-' "
+                 "writes it to "
+                 "standard output (--format), and nothing else goes there; required")
       ->type_name("FILE");
   addRenderOptions(app, raw->render);
   addHalfOption(app, raw->render.options.encoding);

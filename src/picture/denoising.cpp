@@ -135,8 +135,7 @@ void denoise(Image& picture, const RenderOptions& options, const std::optional<O
   std::vector<std::string> asked = picture.channels;
   std::erase_if(asked, [&](const std::string& channel) { return isForTheFilter(channel, options); });
   picture = onlyChannels(picture, asked);
-  if (denoised && holdsLayers(options))
-    keepNoisy(picture, noisy, stats.denoise->filter);
+  if (denoised && holdsLayers(options)) keepNoisy(picture, noisy, stats.denoise->filter);
 }
 
 Image asDrawn(const Image& picture) {
