@@ -14,7 +14,9 @@ const uint kMaterialsBinding = 7u;     // kMaterialRows uvec4 a material
 const uint kTexelsBinding = 8u;        // 1 uvec2 a texel: RGBA as linear half floats
 const uint kEmittersBinding = 9u;      // kEmitterRows uvec4 an emitter
 const uint kLightsBinding = 10u;       // kLightRows vec4 a punctual light
-const uint kEnvironmentBinding = 11u;  // 1 vec4 a texel: radiance, density over the area of the map (mean 1)
+// 1 vec4 a texel: radiance, density over the area of the map (mean 1); behind them those of the backdrop, if there is
+// one that camera rays see in place of the map
+const uint kEnvironmentBinding = 11u;
 // 1 uvec4 a step: of the rows, then of each row (src/pack/inversion_table.h)
 const uint kEnvironmentInversionBinding = 12u;
 const uint kSceneBufferCount = 13u;
@@ -189,7 +191,10 @@ struct Frame {
   // index of the first sample in the seed's sequence; bits of the largest indirect radiance; whether the tile goes on
   // (wavefront)
   ivec4 sampling;
-  ivec4 part;           // x, y (from the bottom) of the film's first pixel in the picture
+  // x, y (from the bottom) of the film's first pixel in the picture; width, height of the backdrop
+  ivec4 part;
+  vec4 worldOrigin;     // of local space, in world space, metres; w: height of the shadow catcher, local space
+  vec4 catcherLight;    // what reaches the shadow catcher from far away when nothing is in the way: irradiance
 };
 
 // What one draw reports.

@@ -89,6 +89,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   p.clear = 0;
   p.crossings = 0;
   p.cameraRay = true;
+  p.caught = false;
   p.oneChannel = false;
   p.alpha = 0.0;
   p.radiance = vec3(0.0);
@@ -133,14 +134,19 @@ void reportCut(float cut) {
   if (before + units < before) atomicAdd(progress.cutHigh, 1u);
 }
 
+/// What the camera sees where its ray meets nothing.
+vec3 seenBehind(vec3 direction) {
+  if (!kEnvironment || frame.background.w == 0.0) return frame.background.rgb;
+  if (kBackdrop) return backdropAlong(direction);
+  return environmentAlong(direction).rgb;
+}
+
 /// The path's ray has met nothing.
 Path meetSurroundings(Path p) {
   p.phase = kPhaseEnd;
   if (kFeature != kFeatureNone) return p;
   if (p.cameraRay) {
-    vec3 seen = frame.background.rgb;
-    if (kEnvironment && frame.background.w != 0.0) seen = environmentAlong(p.direction).rgb;
-    p.radiance += p.throughput * seen;
+    p.radiance += p.throughput * seenBehind(p.direction);
     return p;
   }
   if (!kEnvironment) return p;

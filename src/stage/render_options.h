@@ -83,10 +83,14 @@ struct RenderOptions {
       sceneOrigin;  ///< place that positions are rounded about; none: the focal point given
   std::filesystem::path hdriFile;
   double hdriRotationDegrees = 0.0;
+  double backgroundBlur = 0.0;  ///< of the environment map as the camera sees it: standard deviation, degrees
   double exposure = 0.0;
   std::optional<glm::vec3> backgroundColor;  ///< none: the environment map, black without one
   bool background = true;
   bool defaultLight = true;
+  bool studio = false;                  ///< the built-in environment (scene/studio.h)
+  bool shadowCatcher = false;           ///< a plane that shows nothing but shadows
+  std::optional<double> catcherHeight;  ///< its Y in world space, metres; none: the bottom of the scene
   ToneMap toneMap = ToneMap::Neutral;
   PixelFilter pixelFilter = PixelFilter::Box;
   TraversalMethod traversal = TraversalMethod::Auto;
@@ -114,9 +118,12 @@ struct RenderOptions {
   bool operator==(const RenderOptions&) const = default;
 };
 
+/// Whether an environment map lights the scene, of a file or built in.
+inline bool hasMap(const RenderOptions& o) { return o.studio || !o.hdriFile.empty(); }
+
 /// Whether camera rays that miss see the environment map.
 inline bool seesEnvironment(const RenderOptions& o) {
-  return o.background && !o.hdriFile.empty() && !o.backgroundColor;
+  return o.background && hasMap(o) && !o.backgroundColor;
 }
 
 /// Width / height of the picture that a scene without a camera is framed for; without --resolution it is

@@ -54,6 +54,7 @@ enum class Trait : uint8_t {
   PunctualLights,
   Environment,
   EnvironmentSampling,
+  Backdrop,
   Instances,
   Creases,
   Slivers,
