@@ -55,7 +55,10 @@ const int kFeatureDepth = 3;
 const int kFeatureGeometricNormal = 4;
 const int kFeatureRoughness = 5;
 const int kFeatureTexcoords = 6;
-const int kFeatureGuides = 7;
+const int kFeaturePosition = 7;
+const int kFeatureObject = 8;
+const int kFeatureMaterial = 9;
+const int kFeatureGuides = 10;
 
 // Film flags.
 const uint kPixelSuspended = 1u;  // the path of this pixel goes on in the next draw
@@ -135,7 +138,8 @@ const uint kMaterialDiffuseTransmission = kMaterialIridescence + 1u;  // colour,
 const uint kMaterialRows = kMaterialDiffuseTransmission + 1u;
 
 // Cells along each axis of the tables of energy and of sheen, which stand behind the materials and the transforms of
-// textures.
+// textures. Behind them all are the numbers of objects (kObjectNumbers), four a row: one a leaf slot, then one an
+// instance, whose numbers do not begin at 0.
 const uint kEnergyCells = 32u;
 
 // Material flags.
@@ -189,7 +193,7 @@ struct Frame {
   ivec4 tile;           // x, y (from the bottom), width, height
   ivec4 limits;         // bounces, roulette depth, step budget, leaf count
   // index of the first sample in the seed's sequence; bits of the largest indirect radiance; whether the tile goes on
-  // (wavefront)
+  // (wavefront); row of the numbers of objects among the materials
   ivec4 sampling;
   // x, y (from the bottom) of the film's first pixel in the picture; width, height of the backdrop
   ivec4 part;

@@ -11,6 +11,7 @@
 #include "pack/pack_faces.h"
 #include "pack/pack_instances.h"
 #include "pack/pack_lights.h"
+#include "pack/pack_objects.h"
 #include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
 #include "pack/sheen_albedo.h"
@@ -266,6 +267,8 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   if (has(variant.stages, Stage::EnergyCompensation)) appendEnergyTable(materials);
   static_assert(SheenAlbedoTable::kCells == layout::kEnergyCells);
   if (has(traits, Trait::Sheen)) appendCells(materials, sheenAlbedoTable().albedo);
+  packed.objectRow = uint32_t(materials.size() / 4);
+  if (has(traits, Trait::ObjectNumbers)) appendObjectNumbers(scene, bvh, materials);
   if (kept != nullptr && !kept->textures.empty()) {
     if (!textures.allKnown()) {  // one that no picture before has shown: all of them are placed anew
       kept->textures.clear();

@@ -317,6 +317,10 @@ std::span<const TraitRow> traitRows() {
        [](const Material& m, const Coordinates&) {
          return m.roughnessFactor < 0.1f && (m.transmissive() || m.metallicFactor > 0.5f);
        }},
+      {.trait = Trait::ObjectNumbers,
+       .name = "object-numbers",
+       .constant = "kObjectNumbers",
+       .absence = "no layer of objects"},
   }};
   return rows;
 }

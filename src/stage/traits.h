@@ -59,6 +59,7 @@ enum class Trait : uint8_t {
   Creases,
   Slivers,
   SmoothSurfaces,
+  ObjectNumbers,
   Count
 };
 using TraitSet = std::bitset<size_t(Trait::Count)>;

@@ -79,7 +79,7 @@ void dropTraits(const StageSet& stages, Surroundings surroundings, TraitSet& tra
   if (gi && surroundings == Surroundings::DefaultLight) drop(traits, {Trait::EnvironmentSampling});
   const auto looksUp = [&](const TraitRow& row) { return readsTexcoords(row) && has(traits, row.trait); };
   if (std::ranges::none_of(traitRows(), looksUp)) drop(traits, {Trait::Texcoords, Trait::TextureTransforms});
-  drop(traits, {Trait::SmoothSurfaces});  // for guides of filters alone
+  drop(traits, {Trait::SmoothSurfaces, Trait::ObjectNumbers});  // for layers alone
 }
 
 /// Stages that change nothing in a scene of these traits, and traits that stages alone ask for.
@@ -235,6 +235,7 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
   if (roughnessTexture) keep(Trait::TextureTransforms);
   if (roughnessTexture || feature == Feature::Texcoords) keep(Trait::Texcoords);
   if (follows) keep(Trait::SmoothSurfaces);
+  if (feature == Feature::Object) v.traits.set(size_t(Trait::ObjectNumbers));
   v.shadowCatcher = guides && has(options.stages, Stage::Gi) && options.shadowCatcher;
   v.feature = feature;
   return v;

@@ -50,6 +50,8 @@ ROWS = [
     F("guides.guideAt", "tint * baseColor", "1.02 * tint * baseColor", "the albedo of guides is 2 % too bright"),
     F("shade.featureAt albedo", "return baseColor", "return 1.02 * baseColor", "the layer of albedo is 2 % too bright"),
     F("shade.depthOf", "* frame.cameraForward.w", "* 1.02 * frame.cameraForward.w", "the layer of depth is 2 % too far"),
+    F("shade.featureAt position", "frame.cameraForward.w * s.position", "1.02 * frame.cameraForward.w * s.position", "the layer of positions is 2 % too large"),
+    F("shade.objectNumber", "index / 4", "index / 4 * 50 / 51", "objects have the numbers of others"),
     F("catcher.catcherDistance", "above / -direction.y", "1.02 * above / -direction.y", "the shadow catcher is seen 2 % too far away"),
     F("catcher.freeIrradiance", "light.irradiance * max", "1.02 * light.irradiance * max", "lights that nothing hides count 2 % too much for the shadow catcher"),
     F("catcher.shareOfLight", "all.x > 0.0 ? part.x", "all.x > 0.0 ? 1.02 * part.x", "the red light that is hidden is 2 % too much"),
