@@ -20,12 +20,13 @@ vec3 environmentDirection(vec2 uv) {
   return vec3(r.x * c + r.z * s, r.y, -r.x * s + r.z * c);
 }
 
-vec4 environmentTexel(ivec2 p, ivec2 size) { return uintBitsToFloat(readEnvironment(p.y * size.x + p.x)); }
+vec4 environmentTexel(ivec2 p, ivec2 size, int first) {
+  return uintBitsToFloat(readEnvironment(first + p.y * size.x + p.x));
+}
 
-/// Radiance and, relative to an even density over the map's area, the density at a place of the map: in texels, the
-/// middle of the first at 0.5, from -0.5 to half a texel beyond the width.
-vec4 environmentAt(vec2 place) {
-  ivec2 size = ivec2(frame.environment);
+/// A map whose texels lie from `first` on, at a place in texels: the middle of the first at 0.5, from -0.5 to half a
+/// texel beyond the width.
+vec4 mapAt(vec2 place, ivec2 size, int first) {
   vec2 position = place - vec2(0.5f);
   vec2 base = floor(position);
   vec2 f = position - base;
@@ -34,15 +35,25 @@ vec4 environmentAt(vec2 place) {
   int x1 = x0 + 1 == size.x ? 0 : x0 + 1;
   int y0 = clamp(int(base.y), 0, size.y - 1);
   int y1 = clamp(int(base.y) + 1, 0, size.y - 1);
-  vec4 top = mix(environmentTexel(ivec2(x0, y0), size), environmentTexel(ivec2(x1, y0), size), f.x);
-  vec4 bottom = mix(environmentTexel(ivec2(x0, y1), size), environmentTexel(ivec2(x1, y1), size), f.x);
+  vec4 top = mix(environmentTexel(ivec2(x0, y0), size, first), environmentTexel(ivec2(x1, y0), size, first), f.x);
+  vec4 bottom = mix(environmentTexel(ivec2(x0, y1), size, first), environmentTexel(ivec2(x1, y1), size, first), f.x);
   return mix(top, bottom, f.y);
 }
+
+/// Radiance and, relative to an even density over the map's area, the density at a place of the environment.
+vec4 environmentAt(vec2 place) { return mapAt(place, ivec2(frame.environment), 0); }
 
 /// The same of a direction.
 vec4 environmentAlong(vec3 direction) {
   if (!kEnvironment) return vec4(0.0f);
   return environmentAt(environmentCoordinates(direction) * vec2(ivec2(frame.environment)));
+}
+
+/// Radiance that camera rays see in place of the environment (kBackdrop).
+vec3 backdropAlong(vec3 direction) {
+  ivec2 lit = ivec2(frame.environment);
+  ivec2 size = ivec2(frame.part.z, frame.part.w);
+  return vec3(mapAt(environmentCoordinates(direction) * vec2(size), size, lit.x * lit.y));
 }
 
 /// Density over solid angle with which sampleEnvironment draws a direction, of what environmentAlong gives of it.

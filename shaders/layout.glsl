@@ -14,7 +14,9 @@ const uint kMaterialsBinding = 7u;     // kMaterialRows uvec4 a material
 const uint kTexelsBinding = 8u;        // 1 uvec2 a texel: RGBA as linear half floats
 const uint kEmittersBinding = 9u;      // kEmitterRows uvec4 an emitter
 const uint kLightsBinding = 10u;       // kLightRows vec4 a punctual light
-const uint kEnvironmentBinding = 11u;  // 1 vec4 a texel: radiance, density over the area of the map (mean 1)
+// 1 vec4 a texel: radiance, density over the area of the map (mean 1); behind them those of the backdrop, if there is
+// one that camera rays see in place of the map
+const uint kEnvironmentBinding = 11u;
 // 1 uvec4 a step: of the rows, then of each row (src/pack/inversion_table.h)
 const uint kEnvironmentInversionBinding = 12u;
 const uint kSceneBufferCount = 13u;
@@ -53,7 +55,10 @@ const int kFeatureDepth = 3;
 const int kFeatureGeometricNormal = 4;
 const int kFeatureRoughness = 5;
 const int kFeatureTexcoords = 6;
-const int kFeatureGuides = 7;
+const int kFeaturePosition = 7;
+const int kFeatureObject = 8;
+const int kFeatureMaterial = 9;
+const int kFeatureGuides = 10;
 
 // Film flags.
 const uint kPixelSuspended = 1u;  // the path of this pixel goes on in the next draw
@@ -133,7 +138,8 @@ const uint kMaterialDiffuseTransmission = kMaterialIridescence + 1u;  // colour,
 const uint kMaterialRows = kMaterialDiffuseTransmission + 1u;
 
 // Cells along each axis of the tables of energy and of sheen, which stand behind the materials and the transforms of
-// textures.
+// textures. Behind them all are the numbers of objects (kObjectNumbers), four a row: one a leaf slot, then one an
+// instance, whose numbers do not begin at 0.
 const uint kEnergyCells = 32u;
 
 // Material flags.
@@ -187,9 +193,12 @@ struct Frame {
   ivec4 tile;           // x, y (from the bottom), width, height
   ivec4 limits;         // bounces, roulette depth, step budget, leaf count
   // index of the first sample in the seed's sequence; bits of the largest indirect radiance; whether the tile goes on
-  // (wavefront)
+  // (wavefront); row of the numbers of objects among the materials
   ivec4 sampling;
-  ivec4 part;           // x, y (from the bottom) of the film's first pixel in the picture
+  // x, y (from the bottom) of the film's first pixel in the picture; width, height of the backdrop
+  ivec4 part;
+  vec4 worldOrigin;     // of local space, in world space, metres; w: height of the shadow catcher, local space
+  vec4 catcherLight;    // what reaches the shadow catcher from far away when nothing is in the way: irradiance
 };
 
 // What one draw reports.

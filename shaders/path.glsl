@@ -4,6 +4,9 @@
 /// Paths scatter, so that --bounces can end them.
 const bool kScatters = kGi || kReflections || kRefraction;
 
+/// What is drawn are numbers of parts of the scene, which have no mean: they are those of the pixel's middle.
+const bool kCountsParts = kFeature == kFeatureObject || kFeature == kFeatureMaterial;
+
 const uint kCameraDimensions = 0u;
 const uint kChannelDimension = 2u;  // one number a path
 const uint kAlphaDimensions = 0x40000000u;
@@ -76,8 +79,11 @@ uint keyOfPixel(ivec2 pixel) {
 Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   Path p;
   p.numbers = makeSampler(key, sampleIndex);
-  vec2 jitter = drawPair(p.numbers, kCameraDimensions);
-  vec2 place = vec2(inPicture(pixel)) + 0.5 + samplePixelFilter(kPixelFilter, jitter.x, jitter.y);
+  vec2 place = vec2(inPicture(pixel)) + 0.5;
+  if (!kCountsParts) {
+    vec2 jitter = drawPair(p.numbers, kCameraDimensions);
+    place += samplePixelFilter(kPixelFilter, jitter.x, jitter.y);
+  }
   vec2 point = place / vec2(frame.picture.xy) * 2.0 - 1.0;
   CameraRay ray = makeCameraRay(frame.cameraPosition.xyz, frame.cameraRight.xyz, frame.cameraUp.xyz,
                                 frame.cameraForward.xyz, frame.cameraPosition.w != 0.0, point.x, point.y);
@@ -89,6 +95,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   p.clear = 0;
   p.crossings = 0;
   p.cameraRay = true;
+  p.caught = false;
   p.oneChannel = false;
   p.alpha = 0.0;
   p.radiance = vec3(0.0);
@@ -133,14 +140,19 @@ void reportCut(float cut) {
   if (before + units < before) atomicAdd(progress.cutHigh, 1u);
 }
 
+/// What the camera sees where its ray meets nothing.
+vec3 seenBehind(vec3 direction) {
+  if (!kEnvironment || frame.background.w == 0.0) return frame.background.rgb;
+  if (kBackdrop) return backdropAlong(direction);
+  return environmentAlong(direction).rgb;
+}
+
 /// The path's ray has met nothing.
 Path meetSurroundings(Path p) {
   p.phase = kPhaseEnd;
   if (kFeature != kFeatureNone) return p;
   if (p.cameraRay) {
-    vec3 seen = frame.background.rgb;
-    if (kEnvironment && frame.background.w != 0.0) seen = environmentAlong(p.direction).rgb;
-    p.radiance += p.throughput * seen;
+    p.radiance += p.throughput * seenBehind(p.direction);
     return p;
   }
   if (!kEnvironment) return p;
@@ -166,6 +178,7 @@ int nextCrossing(inout Path p) {
 /// (docs/design/surfaces.md).
 bool passesThrough(uint flags, float alpha, Sampler numbers, int crossing) {
   if ((flags & kMaterialMask) != 0u) return alpha == 0.0;
+  if ((flags & kMaterialBlend) != 0u && kCountsParts) return alpha < 0.5;
   if ((flags & kMaterialBlend) != 0u) return hashFloat(numbers, kAlphaDimensions + uint(crossing)) >= alpha;
   return false;
 }

@@ -19,6 +19,7 @@ struct Path {
   Sampler numbers;
   bool oneChannel; // dispersion has left one of red, green and blue (kDispersion)
   bool cameraRay;  // nothing but alpha has touched the path yet
+  bool caught;     // it has met the shadow catcher (kShadowCatcher)
   float alpha;     // 1 once a camera ray has hit a surface, else 0
   vec3 radiance;
   vec3 throughput;
@@ -79,7 +80,7 @@ Stack loadStack(int r) {
 
 void savePath(Path p, int index) {
   int r = index * kPathRows;
-  uint flags = (p.cameraRay ? 1u : 0u) | (p.oneChannel ? 2u : 0u) | (p.alpha > 0.0 ? 4u : 0u);
+  uint flags = (p.cameraRay ? 1u : 0u) | (p.oneChannel ? 2u : 0u) | (p.alpha > 0.0 ? 4u : 0u) | (p.caught ? 8u : 0u);
   pathStates[r] = uvec4(uint(p.phase) | uint(p.after) << 4 | flags << 8, uint(p.lightSlot), uint(p.bounce),
                         uint(p.crossings));
   pathStates[r + 1] = uvec4(floatBitsToUint(p.radiance), uint(p.clear));
@@ -130,6 +131,7 @@ Path loadPath(int index) {
   p.cameraRay = (flags & 1u) != 0u;
   p.oneChannel = (flags & 2u) != 0u;
   p.alpha = (flags & 4u) != 0u ? 1.0 : 0.0;
+  p.caught = (flags & 8u) != 0u;
   p.lightSlot = int(a.y);
   p.bounce = int(a.z);
   p.crossings = int(a.w);

@@ -111,13 +111,26 @@ float depthOf(Surface s) {
   return dot(s.position - frame.cameraPosition.xyz, frame.cameraForward.xyz) * frame.cameraForward.w;
 }
 
+/// Of the glTF node that shows what was hit, from 1 on.
+float objectNumber(int slot, int instance) {
+  if (!kObjectNumbers) return 0.0;
+  bool shown = kInstances && instance >= 0;
+  int index = shown ? frame.limits.w * 2 + instance : slot;
+  uvec4 four = readMaterials(frame.sampling.w + index / 4);
+  int place = index % 4;
+  return float(place == 0 ? four.x : place == 1 ? four.y : place == 2 ? four.z : four.w);
+}
+
 /// What kFeature asks for of the point that a camera ray hits.
-vec3 featureAt(Surface s, vec3 baseColor, vec3 outgoing) {
+vec3 featureAt(Surface s, int slot, int instance, vec3 baseColor, vec3 outgoing) {
   if (kFeature == kFeatureAlbedo) return baseColor;
   if (kFeature == kFeatureNormal) return facingNormal(mappedNormal(s), outgoing);
   if (kFeature == kFeatureGeometricNormal) return s.geometricNormal;
   if (kFeature == kFeatureRoughness) return vec3(materialAt(s.material, baseColor, s.texcoords).roughness);
   if (kFeature == kFeatureTexcoords) return vec3(s.texcoords.xy, 0.0);
+  if (kFeature == kFeaturePosition) return frame.worldOrigin.xyz + frame.cameraForward.w * s.position;
+  if (kFeature == kFeatureObject) return vec3(objectNumber(slot, instance));
+  if (kFeature == kFeatureMaterial) return vec3(float(s.material) + 1.0);
   return vec3(depthOf(s));
 }
 
@@ -136,7 +149,7 @@ Path shade(Path p) {
     if (p.cameraRay) p.alpha = 1.0;
     if (kFeature == kFeatureGuides) return guideAt(p, s, base.rgb);
     if (kFeature != kFeatureNone) {
-      p.radiance = featureAt(s, base.rgb, -p.direction);
+      p.radiance = featureAt(s, p.hitSlot, p.hitInstance, base.rgb, -p.direction);
       p.phase = kPhaseEnd;
       return p;
     }

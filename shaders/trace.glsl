@@ -4,7 +4,7 @@
 layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frameBlock; };
 // The block once more as a variable: llvmpipe reads a uniform lane by lane, so each is read once a draw.
 Frame frame = Frame(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0),
-                    ivec4(0), ivec4(0), ivec4(0), ivec4(0), ivec4(0));
+                    ivec4(0), ivec4(0), ivec4(0), ivec4(0), ivec4(0), vec4(0.0), vec4(0.0));
 layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progress progress; };
 #include "read.glsl"
 #include "random.glsl"
@@ -37,6 +37,7 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "path_state.glsl"
 #include "path.glsl"
 #include "shade.glsl"
+#include "catcher.glsl"
 
 /// Each round of the loop is one ray of a path, its shading and its shadow ray, without the phases of a path that can
 /// be suspended.
@@ -104,7 +105,9 @@ PixelTrace traceDirect(PixelTrace t, PixelTask task, TreeFrame tree) {
     t.film.rays += 1u;
 
     // Step: shade it.
-    if (hit.slot < 0) {
+    if (kShadowCatcher && meetsCatcher(t.path, hit.slot < 0 ? kFarAway : hit.t)) {
+      t.path = meetCatcher(withHit(t.path, hit));
+    } else if (hit.slot < 0) {
       t.path = meetSurroundings(t.path);
     } else {
       t.path = withHit(t.path, hit);
@@ -127,6 +130,7 @@ PixelTrace traceDirect(PixelTrace t, PixelTask task, TreeFrame tree) {
     t.tracing = t.path.phase == kPhaseExtend;
     if (!t.tracing) {
       t.cut += cutThroughput(t.path);
+      if (kShadowCatcher) t.path = showShadow(t.path);
       t.film = addSample(t.film, t.path.radiance, t.path.alpha);
     }
   }
@@ -158,7 +162,9 @@ PixelTrace tracePhases(PixelTrace t, PixelTask task, TreeFrame tree) {
     if (kHeatmap) {
       if (t.path.phase == kPhaseShade) t.path.phase = kPhaseEnd;
     } else if (t.path.phase == kPhaseShade) {
-      if (t.path.hitSlot < 0) {
+      if (kShadowCatcher && meetsCatcher(t.path, t.path.hitSlot < 0 ? kFarAway : t.path.hitT)) {
+        t.path = meetCatcher(t.path);
+      } else if (t.path.hitSlot < 0) {
         t.path = meetSurroundings(t.path);
       } else {
         t.path = shade(t.path);
@@ -178,6 +184,7 @@ PixelTrace tracePhases(PixelTrace t, PixelTask task, TreeFrame tree) {
     // Step: the sample is complete.
     if (t.path.phase >= kPhaseEnd) {
       t.cut += cutThroughput(t.path);
+      if (kShadowCatcher) t.path = showShadow(t.path);
       if (kHeatmap) t.path.radiance = vec3(float(t.path.traversal.visits));
       if (kFeature == kFeatureGuides) {
         t.film = addGuides(t.film, t.path.radiance, t.path.contribution, t.path.shadowLimit, t.path.alpha);

@@ -30,6 +30,7 @@ std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& opt
   if (variant.feature != Feature::None) return "a layer of first hits";
   if (has(variant.stages, Stage::BvhHeatmap)) return "the heat map";
   if (!has(variant.stages, Stage::Gi)) return "a stage before global illumination";
+  if (variant.shadowCatcher) return "--shadow-catcher";
   if (variant.traversal == TraversalMethod::Literals) return "the scene is shader text";
   if (variant.traversal != TraversalMethod::FrontToBack) return "the tree is not walked front to back";
   if (options.dispatch == Dispatch::Fragment) return "--dispatch fragment";

@@ -133,7 +133,8 @@ void ViewTracer::adoptScene() {
   viewed.camera = loaded_->camera;
   viewed.cameras = loaded_->scene.cameras;
   viewed.bounds = loaded_->scene.bounds;
-  viewed.present = traitsOf(loaded_->scene, loaded_->environment.kind);
+  viewed.present =
+      traitsOf(loaded_->scene, loaded_->environment.kind, !loaded_->environment.backdrop.values.empty());
   viewed.description = result->stats.scene;
   viewed.defaultLight = result->stats.defaultLight;
   exchange_.deliver(std::move(viewed));

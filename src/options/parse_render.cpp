@@ -13,6 +13,7 @@
 #include "options/numbers.h"
 #include "options/old_spellings.h"
 #include "options/output_options.h"
+#include "options/surroundings_options.h"
 
 namespace fragtrace {
 
@@ -53,6 +54,7 @@ void checkFinite(const RenderOptions& o) {
   check("--checkpoint", o.checkpointSeconds);
   check("--clamp-indirect", o.clampIndirect);
   check("--hdri-rotation", o.hdriRotationDegrees);
+  check("--background-blur", o.backgroundBlur);
   const glm::vec3 background = o.backgroundColor.value_or(glm::vec3(0.0f));
   for (int i = 0; i < 3; ++i) check("--background-color", background[i]);
   if (glm::any(glm::lessThan(background, glm::vec3(0.0f)))) throw UsageError("--background-color: below 0");
@@ -182,24 +184,6 @@ void addPathOptions(CLI::App& app, RawRender& raw) {
       ->check(CLI::Range(1e-6, 1e30));
 }
 
-/// What lights the scene from outside, and what is seen there.
-void addSurroundingsOptions(CLI::App& app, RawRender& raw) {
-  RenderOptions& o = raw.options;
-  app.add_option("--hdri-file", raw.hdriFile, "equirectangular environment map: .hdr, .exr, .pfm")
-      ->type_name("FILE");
-  app.add_option("--hdri-rotation", o.hdriRotationDegrees,
-                 "rotation of the environment map about +Y, in degrees")
-      ->capture_default_str();
-  app.add_flag("--no-background", raw.noBackground,
-               "hide the environment map from the camera, and write alpha");
-  app.add_option("--background-color", raw.backgroundColor,
-                 "linear R,G,B that the camera sees where there is no surface, instead of the environment "
-                 "map; it lights nothing")
-      ->delimiter(',')
-      ->expected(3);
-  app.add_flag("--no-default-light", raw.noDefaultLight, "do not light a scene that has no light of its own");
-}
-
 /// What of the samples a picture shows.
 void addPictureOptions(CLI::App& app, RawRender& raw) {
   RenderOptions& o = raw.options;
@@ -270,7 +254,7 @@ StageSet stagesOf(const RawRender& raw) {
 
 /// Throws UsageError where the numbers of samples contradict each other.
 void settleSamples(const RawRender& raw, RenderOptions& o) {
-  const bool adaptive = o.noise > 0.0 || o.seconds > 0.0;
+  const bool adaptive = isAdaptive(o);
   if (raw.spp) o.spp = *raw.spp;
   if (adaptive && !raw.spp) o.spp = kMostSamples;
   // Two halves of two: one sample says nothing of its error.
@@ -294,12 +278,8 @@ RenderOptions finishRender(const RawRender& raw) {
   finishCamera(raw.camera, o);
   o.stages = stagesOf(raw);
   o.bounces = parseBounces(raw.bounces);
-  if (!raw.backgroundColor.empty())
-    o.backgroundColor = glm::vec3(raw.backgroundColor[0], raw.backgroundColor[1], raw.backgroundColor[2]);
-  o.hdriFile = raw.hdriFile;
-  o.background = !raw.noBackground;
+  finishSurroundings(raw, o);
   if (!raw.region.empty()) o.region = regionOf(raw.region);
-  o.defaultLight = !raw.noDefaultLight;
   o.pixelFilter = choose<PixelFilter>("--pixel-filter", raw.pixelFilter, kPixelFilterNames);
   o.toneMap = choose<ToneMap>("--tone-map", raw.toneMap, toneMapNames());
   o.traversal = choose<TraversalMethod>("--traversal", raw.traversal, kTraversalNames);

@@ -54,6 +54,7 @@ struct RawRender {
   std::string compensation = "on";
   std::string sampler = "sobol";
   std::string lightSampling = "nee";
+  std::string shadowCatcher;
   bool noBackground = false;
   bool noDefaultLight = false;
   bool anyOutput = false;  ///< pictures get their names later, so what any format holds may be asked for

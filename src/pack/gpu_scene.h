@@ -20,6 +20,7 @@ using Words = std::vector<uint32_t>;
 struct Environment {
   Surroundings kind = Surroundings::None;
   Image image;
+  Image backdrop{};  ///< equirectangular, seen by camera rays in place of the image; empty: there is none
 };
 
 /// The quantisation grid of the tree's boxes: position = origin + steps * cell, steps in 0..65535.
@@ -34,10 +35,13 @@ struct GpuScene {
   BoxGrid grid;
   uint32_t leafCount = 0;
   glm::ivec2 environmentSize{0};
+  glm::ivec2 backdropSize{0};
   float environmentChance = 0.0f;  ///< of a light sample in gi going to the environment
   uint32_t emitterCount = 0;
   uint32_t punctualLights = 0;
-  uint32_t energyTableRow = 0;  ///< where the energy table begins among the material rows
+  uint32_t energyTableRow = 0;       ///< where the energy table begins among the material rows
+  uint32_t objectRow = 0;            ///< and the numbers of objects
+  glm::vec3 upwardIrradiance{0.0f};  ///< by the environment, of a plane that faces up; for shadow catchers
   std::array<bool, layout::kSceneBufferCount> unchanged{};  ///< those that are as packed before: empty here
 
   size_t bytes() const;

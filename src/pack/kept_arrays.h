@@ -29,8 +29,11 @@ struct KeptArrays {
   PlacedTextures textures;
   struct KeptEnvironment {
     glm::ivec2 size{0};
+    glm::ivec2 backdropSize{0};
+    glm::vec3 upwardIrradiance{0.0f};
     double power = 0.0;
-    int draws = 0;  ///< EnvironmentDraws
+    int draws = 0;            ///< EnvironmentDraws
+    bool forCatcher = false;  ///< upwardIrradiance is known
   };
   std::optional<KeptEnvironment> environment;  ///< of the map; there is one a sequence
 };

@@ -22,6 +22,12 @@ struct PackedEnvironment {
       0.0;  ///< luminance that falls on a disk of unit radius from all around: pi * integral over directions
 };
 
+/// Irradiance of a plane that faces up (+Y) by all of an equirectangular map with R, G, B.
+glm::vec3 upwardIrradiance(const Image& image);
+
+/// Appends radiance and, in place of a density, 0.
+void appendBackdrop(const Image& image, Words& texels);
+
 /// An equirectangular map with R, G, B of at most 65,535 x 65,535 texels. Uses all processors.
 PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws);
 

@@ -11,6 +11,7 @@
 #include "pack/pack_faces.h"
 #include "pack/pack_instances.h"
 #include "pack/pack_lights.h"
+#include "pack/pack_objects.h"
 #include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
 #include "pack/sheen_albedo.h"
@@ -179,18 +180,31 @@ size_t GpuScene::geometryBytes() const {
 namespace {
 
 /// What the lights need to know of the packed map, which may stand on the device already.
-KeptArrays::KeptEnvironment packMap(const Environment& environment, EnvironmentDraws draws, KeptArrays* kept,
-                                    GpuScene& packed) {
+KeptArrays::KeptEnvironment packMap(const Environment& environment, const ShaderVariant& variant,
+                                    KeptArrays* kept, GpuScene& packed) {
+  const EnvironmentDraws draws = drawsOf(variant);
   const bool keeps = kept != nullptr && environment.kind == Surroundings::Map;
-  if (keeps && kept->environment && kept->environment->draws == int(draws)) {
+  const auto serves = [&](const KeptArrays::KeptEnvironment& packedBefore) {
+    return packedBefore.draws == int(draws) && packedBefore.forCatcher == variant.shadowCatcher &&
+           has(variant.traits, Trait::Backdrop) == (packedBefore.backdropSize.x > 0);
+  };
+  if (keeps && kept->environment && serves(*kept->environment)) {
     packed.unchanged[layout::kEnvironmentBinding] = true;
     packed.unchanged[layout::kEnvironmentInversionBinding] = true;
     return *kept->environment;
   }
   PackedEnvironment map = packEnvironment(environment.image, draws);
+  KeptArrays::KeptEnvironment result{map.size,  {0, 0},     glm::vec3(0.0f),
+                                     map.power, int(draws), variant.shadowCatcher};
+  if (has(variant.traits, Trait::Backdrop)) {
+    // A program that is forced to have one (bench variants) draws the map itself.
+    const Image& seen = environment.backdrop.values.empty() ? environment.image : environment.backdrop;
+    result.backdropSize = {seen.width, seen.height};
+    appendBackdrop(seen, map.texels);
+  }
+  if (variant.shadowCatcher) result.upwardIrradiance = upwardIrradiance(environment.image);
   packed.buffers[layout::kEnvironmentBinding] = std::move(map.texels);
   packed.buffers[layout::kEnvironmentInversionBinding] = std::move(map.inversion);
-  const KeptArrays::KeptEnvironment result{map.size, map.power, int(draws)};
   if (kept != nullptr) kept->environment = keeps ? std::optional(result) : std::nullopt;
   return result;
 }
@@ -231,8 +245,10 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
     packed.punctualLights = uint32_t(scene.lights.size());
   }
   if (has(traits, Trait::Environment)) {
-    const KeptArrays::KeptEnvironment surroundings = packMap(environment, drawsOf(variant), kept, packed);
+    const KeptArrays::KeptEnvironment surroundings = packMap(environment, variant, kept, packed);
     packed.environmentSize = surroundings.size;
+    packed.backdropSize = surroundings.backdropSize;
+    packed.upwardIrradiance = surroundings.upwardIrradiance;
     const double power = surroundings.power * radius * radius;
     if (has(traits, Trait::EnvironmentSampling)) {
       // Neither side is left out altogether: a dim one can still be the only light of a corner.
@@ -251,6 +267,8 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   if (has(variant.stages, Stage::EnergyCompensation)) appendEnergyTable(materials);
   static_assert(SheenAlbedoTable::kCells == layout::kEnergyCells);
   if (has(traits, Trait::Sheen)) appendCells(materials, sheenAlbedoTable().albedo);
+  packed.objectRow = uint32_t(materials.size() / 4);
+  if (has(traits, Trait::ObjectNumbers)) appendObjectNumbers(scene, bvh, materials);
   if (kept != nullptr && !kept->textures.empty()) {
     if (!textures.allKnown()) {  // one that no picture before has shown: all of them are placed anew
       kept->textures.clear();

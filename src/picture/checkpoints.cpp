@@ -63,7 +63,7 @@ void checkShape(const Checkpoint& c, const PictureJob& job, const DrawingPlan& p
   };
   check(c.part >= 0 && size_t(c.part) < plan.parts.size());
   const glm::ivec2 size = plan.parts[size_t(c.part)].size;
-  const bool adaptive = job.options.noise > 0.0 || job.options.seconds > 0.0;
+  const bool adaptive = isAdaptive(job.options);
   check(c.films.size() == (adaptive ? 2u : 1u) && c.looks.size() <= 2u);
   for (const FilmState& film : c.films) check(film.size == size);
   for (const FilmPixels& look : c.looks) check(look.size == size);

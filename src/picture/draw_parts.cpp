@@ -72,8 +72,6 @@ std::vector<double> measureFeatures(const PictureJob& job, Film& film, const Vie
   return seconds;
 }
 
-bool isAdaptive(const RenderOptions& options) { return options.noise > 0.0 || options.seconds > 0.0; }
-
 /// What layers will take: those of an adaptive picture have the fewest samples of any pixel, which is not yet
 /// known, but these at least.
 double secondsOfFeatures(std::span<const double> secondsPerSample, const RenderOptions& options) {

@@ -54,6 +54,7 @@ Image pictureOf(const Drawing& drawing, const RenderOptions& options, const Shad
 }
 
 int samplesOfLayer(const RenderOptions& options, Feature feature, int ofPicture) {
+  if (feature == Feature::Object || feature == Feature::Material) return std::min(ofPicture, 1);
   if (feature == Feature::Guides) return std::min(ofPicture, kFewLayerSamples);
   const bool asked = std::ranges::find(options.aovFeatures, feature) != options.aovFeatures.end();
   return asked ? ofPicture : std::min(ofPicture, kFewLayerSamples);

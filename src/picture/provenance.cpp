@@ -94,6 +94,7 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   json["background_color"] = nullptr;
   if (!seesEnvironment(options))
     json["background_color"] = numbers(glm::dvec3(options.backgroundColor.value_or(glm::vec3(0.0f))));
+  if (options.shadowCatcher) json["shadow_catcher_height"] = loaded.view.catcherHeight;
   json["camera_position"] = numbers(camera.position);
   json["camera_forward"] = numbers(camera.forward);
   json["camera_up"] = numbers(camera.up);

@@ -32,6 +32,9 @@ RenderOptions loadPart(const RenderOptions& options) {
   RenderOptions part;
   part.scene = options.scene;
   part.hdriFile = options.hdriFile;
+  part.studio = options.studio;
+  part.backgroundBlur = options.backgroundBlur;
+  part.shadowCatcher = options.shadowCatcher;
   part.defaultLight = options.defaultLight;
   part.selection = options.selection;
   part.instancing = options.instancing;

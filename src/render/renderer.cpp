@@ -74,6 +74,9 @@ void Renderer::describeScene(const GpuScene& scene) {
   frame_.lightChoice = glm::vec4(scene.environmentChance, float(scene.emitterCount),
                                  float(scene.energyTableRow), float(scene.punctualLights));
   frame_.limits = {0, 0, 0, int(scene.leafCount)};
+  frame_.catcherLight = glm::vec4(scene.upwardIrradiance, 0.0f);
+  frame_.sampling.w = int(scene.objectRow);
+  frame_.part = {0, 0, scene.backdropSize};
 }
 
 void Renderer::setFrame(const Film& film, const View& view) {
@@ -93,8 +96,13 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.picture = {placed.whole, 0, int(view.seed)};
   frame_.limits.x = view.bounces;
   frame_.limits.y = view.rouletteDepth;
-  frame_.sampling = {view.sampleOffset, std::bit_cast<int>(view.clampIndirect), 0, 0};
-  frame_.part = {placed.corner.x, placed.whole.y - placed.corner.y - film.size().y, 0, 0};
+  frame_.sampling.x = view.sampleOffset;
+  frame_.sampling.y = std::bit_cast<int>(view.clampIndirect);
+  frame_.sampling.z = 0;
+  frame_.part.x = placed.corner.x;
+  frame_.part.y = placed.whole.y - placed.corner.y - film.size().y;
+  const glm::dvec3& origin = view.space.origin;
+  frame_.worldOrigin = glm::vec4(glm::vec3(origin), float((view.catcherHeight - origin.y) / view.space.unit));
   film.bind();
   buffers_.bind();
   glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, film.size().x);

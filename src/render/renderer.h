@@ -23,7 +23,8 @@ struct View {
   LocalSpace space;             ///< of the scene
   double hdriRotation = 0.0;    ///< radians about +Y
   glm::vec3 background{0.0f};   ///< seen by camera rays that miss
-  bool showEnvironment = true;  ///< camera rays that miss see the environment map instead
+  bool showEnvironment = true;  ///< camera rays that miss see the environment map instead, or its backdrop
+  double catcherHeight = 0.0;   ///< Y of the shadow catcher in world space, when the variant has one
   int bounces = 16;
   int rouletteDepth = 6;
   uint32_t seed = 0;

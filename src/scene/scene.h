@@ -209,7 +209,8 @@ struct Sphere {
   float radius = 1.0f;  ///< local space
   glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
   uint32_t material = 0;
-  std::string node{};  ///< as in PrimitiveOrigin
+  std::string node{};      ///< as in PrimitiveOrigin
+  uint32_t nodeIndex = 0;  ///< as in PrimitiveOrigin
 };
 
 enum class LightType : uint8_t { Point, Spot, Directional };
@@ -254,6 +255,7 @@ struct Instance {
   glm::dmat4 toLocal{1.0};  ///< from the mesh's space into local space: affine, invertible
   uint32_t mesh = 0;        ///< index into Scene::sharedMeshes
   std::string node{};       ///< as in PrimitiveOrigin
+  uint32_t nodeIndex = 0;   ///< as in PrimitiveOrigin
 };
 
 /// Where triangles came from: one entry a (node, mesh primitive), in order of firstTriangle. Those of shared
@@ -263,6 +265,7 @@ struct PrimitiveOrigin {
   std::string mesh;
   uint32_t firstTriangle = 0;
   uint32_t triangleCount = 0;
+  uint32_t nodeIndex = 0;  ///< the node's place in the file
 };
 
 /// Vertex attributes, one entry a vertex; an array other than position is empty when no primitive needs it.

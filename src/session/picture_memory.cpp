@@ -19,7 +19,7 @@ uint64_t bytesOfFilm(const RenderOptions& options) {
   constexpr uint64_t kOne = 48 + 48 + sizeof(FilmPixel);
   constexpr uint64_t kWithLayers = kOne + 48 + sizeof(FilmPixel);
   constexpr uint64_t kAdaptive = kOne + 96 + 2 * sizeof(FilmPixel) + 2 * sizeof(double);
-  if (options.noise > 0.0 || options.seconds > 0.0) return kAdaptive;
+  if (isAdaptive(options)) return kAdaptive;
   return options.aovFeatures.empty() ? kOne : kWithLayers;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session/setup.h"
 
+#include <algorithm>
 #include <cmath>
 #include <future>
 
@@ -18,7 +19,9 @@
 #include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
 #include "process/parallel.h"
+#include "scene/blurred_map.h"
 #include "scene/fit.h"
+#include "scene/studio.h"
 #include "session/outputs.h"
 #include "session/picture_memory.h"
 
@@ -95,6 +98,9 @@ Environment makeEnvironment(const RenderOptions& options, std::future<LinearImag
     // Mirror balls and faces of cubes are square; there is one reading of an environment here.
     if (image.width == image.height && image.width > 1)
       warn(options, ": is square, and drawn as latitude and longitude: 360 degrees wide, 180 high", warnings);
+    if (options.backgroundBlur > 0.0) environment.backdrop = blurredMap(image, options.backgroundBlur);
+  } else if (options.studio) {
+    environment = {Surroundings::Map, studioLight(), studioBackdrop()};
   } else if (options.defaultLight && light != OwnLight::Enough) {
     environment.kind = Surroundings::DefaultLight;
     environment.image = {1, 1, {"R", "G", "B"}, {1.0f, 1.0f, 1.0f}, {}};
@@ -114,7 +120,7 @@ bool besideAllowed(const RenderOptions& options) {
 }  // namespace
 
 double pathsOf(const RenderOptions& options, glm::ivec2 size) {
-  const bool adaptive = options.noise > 0.0 || options.seconds > 0.0;
+  const bool adaptive = isAdaptive(options);
   return double(size.x) * size.y * (adaptive ? std::numeric_limits<double>::infinity() : options.spp);
 }
 
@@ -125,6 +131,7 @@ View makeView(const RenderOptions& options, const Scene& scene, const Camera& ca
   view.hdriRotation = glm::radians(options.hdriRotationDegrees);
   if (options.background) view.background = options.backgroundColor.value_or(glm::vec3(0.0f));
   view.showEnvironment = seesEnvironment(options);
+  view.catcherHeight = options.catcherHeight.value_or(scene.bounds.empty() ? 0.0 : scene.bounds.minimum.y);
   view.bounces = options.bounces;
   view.rouletteDepth = options.rouletteDepth;
   view.seed = options.seed;
@@ -166,6 +173,23 @@ GltfOptions gltfOptionsOf(const RenderOptions& options) {
   loading.instancing = walksTree(options) ? options.instancing : Instancing::Flatten;
   loading.limits = options.limits;
   return loading;
+}
+
+/// What a shadow catcher cannot do with the scene's lights.
+void checkCatcher(const RenderOptions& options, Scene& scene) {
+  constexpr size_t kMostLights = 1000;  // it asks each of them at every point
+  if (!options.shadowCatcher) return;
+  if (!has(options.stages, Stage::Gi)) {
+    scene.warnings.emplace_back("--shadow-catcher: only stage gi has it");
+    return;
+  }
+  if (scene.lights.size() > kMostLights)
+    throw UsageError("--shadow-catcher: the scene has " + std::to_string(scene.lights.size()) +
+                     " lights, at most " + std::to_string(kMostLights) + " can be caught");
+  const auto emits = [&](const auto& primitive) { return scene.materials[primitive.material].emissive(); };
+  if (std::ranges::any_of(scene.triangles, emits) || std::ranges::any_of(scene.spheres, emits))
+    scene.warnings.push_back(options.scene.string() +
+                             ": the light of emissive surfaces does not count for --shadow-catcher");
 }
 
 void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& stats) {
@@ -220,6 +244,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   if (!loaded.scene.images.empty()) startImageProcess();
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));
+  checkCatcher(options, loaded.scene);
   for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
   if (scene.triangles.empty() && scene.spheres.empty()) {
     say(options, "warning: " + options.scene.string() + ": no triangle and no sphere, nothing to draw");
@@ -236,7 +261,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   stats.bvh = bvhQuality(loaded.bvh);
   stats.bvhBuildMs = watch.lap();
   step("reading the environment", 0.9);
-  const bool isAsked = options.hdriFile.empty() && options.defaultLight;
+  const bool isAsked = !hasMap(options) && options.defaultLight;
   const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
   loaded.environment = before.environment ? std::move(*before.environment)
                                           : makeEnvironment(options, map, light, loaded.scene.warnings);

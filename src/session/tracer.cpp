@@ -74,7 +74,8 @@ uint64_t hashOf(const GpuScene& scene, std::array<uint64_t, layout::kSceneBuffer
 /// read.
 ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const RenderOptions& options,
                              Statistics& stats) {
-  const TraitSet present = traitsOf(loaded.scene, loaded.environment.kind);
+  const TraitSet present =
+      traitsOf(loaded.scene, loaded.environment.kind, !loaded.environment.backdrop.values.empty());
   const uint32_t depth = loaded.bvh.depth;
   const BufferReads undecided = options.bufferReads;  // what is packed does not depend on it
   tracer.variant = choosePictureVariant(options, present, loaded.environment.kind, depth, undecided);

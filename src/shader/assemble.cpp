@@ -77,6 +77,7 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
     text << "const uint kWaveUnit = " << std::max(variant.waveUnit, 0) << "u;\n";
   }
   constant("kClampIndirect", variant.clampIndirect);
+  constant("kShadowCatcher", variant.shadowCatcher);
   text << "const int kPixelFilter = " << int(variant.pixelFilter) << ";\n";
   text << "const int kFeature = " << int(variant.feature) << ";\n";
   text << "const int kStackSize = " << variant.stackSize << ";\n";

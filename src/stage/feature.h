@@ -20,7 +20,10 @@ enum class Feature : uint8_t {
   GeometricNormal,
   Roughness,
   Texcoords,
-  Guides  ///< what a filter tells surfaces apart by, all in one: kGuideChannels
+  Position,
+  Object,    ///< number of the glTF node, from 1 on
+  Material,  ///< number of the glTF material, from 1 on
+  Guides     ///< what a filter tells surfaces apart by, all in one: kGuideChannels
 };
 
 struct FeatureRow {
@@ -29,14 +32,17 @@ struct FeatureRow {
 };
 
 /// In the order of Feature.
-inline constexpr std::array<FeatureRow, 8> kFeatureRows{{{"", ""},
-                                                         {"albedo", "RGB"},
-                                                         {"normal", "XYZ"},
-                                                         {"depth", "Z"},
-                                                         {"geometric-normal", "XYZ"},
-                                                         {"roughness", "Y"},
-                                                         {"texcoords", "UV"},
-                                                         {"denoising", ""}}};
+inline constexpr std::array<FeatureRow, 11> kFeatureRows{{{"", ""},
+                                                          {"albedo", "RGB"},
+                                                          {"normal", "XYZ"},
+                                                          {"depth", "Z"},
+                                                          {"geometric-normal", "XYZ"},
+                                                          {"roughness", "Y"},
+                                                          {"texcoords", "UV"},
+                                                          {"position", "XYZ"},
+                                                          {"object", "Y"},
+                                                          {"material", "Y"},
+                                                          {"denoising", ""}}};
 
 inline const FeatureRow& rowOf(Feature feature) { return kFeatureRows[size_t(feature)]; }
 

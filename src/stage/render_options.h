@@ -88,11 +88,15 @@ struct RenderOptions {
       sceneOrigin;  ///< place that positions are rounded about; none: the focal point given
   std::filesystem::path hdriFile;
   double hdriRotationDegrees = 0.0;
+  double backgroundBlur = 0.0;  ///< of the environment map as the camera sees it: standard deviation, degrees
   double exposure = 0.0;
   std::optional<glm::vec3> backgroundColor;  ///< none: the environment map, black without one
   bool background = true;
   bool defaultLight = true;
-  Encoding encoding;  ///< of the output
+  bool studio = false;                  ///< the built-in environment (scene/studio.h)
+  bool shadowCatcher = false;           ///< a plane that shows nothing but shadows
+  std::optional<double> catcherHeight;  ///< its Y in world space, metres; none: the bottom of the scene
+  Encoding encoding;                    ///< of the output
   ToneMap toneMap = ToneMap::Neutral;
   PixelFilter pixelFilter = PixelFilter::Box;
   TraversalMethod traversal = TraversalMethod::Auto;
@@ -122,9 +126,15 @@ struct RenderOptions {
   bool operator==(const RenderOptions&) const = default;
 };
 
+/// Whether an environment map lights the scene, of a file or built in.
+inline bool hasMap(const RenderOptions& o) { return o.studio || !o.hdriFile.empty(); }
+
+/// Whether noise or time ends a render, which places samples where they help most.
+inline bool isAdaptive(const RenderOptions& o) { return o.noise > 0.0 || o.seconds > 0.0; }
+
 /// Whether camera rays that miss see the environment map.
 inline bool seesEnvironment(const RenderOptions& o) {
-  return o.background && !o.hdriFile.empty() && !o.backgroundColor;
+  return o.background && hasMap(o) && !o.backgroundColor;
 }
 
 /// Width / height of the picture that a scene without a camera is framed for; without --resolution it is

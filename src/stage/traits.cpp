@@ -292,6 +292,11 @@ std::span<const TraitRow> traitRows() {
        .absence = "no environment map",
        .stages = setOf({Stage::Phong}),
        .brings = setOf({Trait::Environment})},
+      {.trait = Trait::Backdrop,
+       .name = "backdrop",
+       .constant = "kBackdrop",
+       .absence = "no backdrop but the environment itself",
+       .needs = setOf({Trait::Environment})},
       {.trait = Trait::Instances,
        .name = "instances",
        .constant = "kInstances",
@@ -312,6 +317,10 @@ std::span<const TraitRow> traitRows() {
        [](const Material& m, const Coordinates&) {
          return m.roughnessFactor < 0.1f && (m.transmissive() || m.metallicFactor > 0.5f);
        }},
+      {.trait = Trait::ObjectNumbers,
+       .name = "object-numbers",
+       .constant = "kObjectNumbers",
+       .absence = "no layer of objects"},
   }};
   return rows;
 }

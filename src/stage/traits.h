@@ -54,10 +54,12 @@ enum class Trait : uint8_t {
   PunctualLights,
   Environment,
   EnvironmentSampling,
+  Backdrop,
   Instances,
   Creases,
   Slivers,
   SmoothSurfaces,
+  ObjectNumbers,
   Count
 };
 using TraitSet = std::bitset<size_t(Trait::Count)>;

@@ -79,7 +79,7 @@ void dropTraits(const StageSet& stages, Surroundings surroundings, TraitSet& tra
   if (gi && surroundings == Surroundings::DefaultLight) drop(traits, {Trait::EnvironmentSampling});
   const auto looksUp = [&](const TraitRow& row) { return readsTexcoords(row) && has(traits, row.trait); };
   if (std::ranges::none_of(traitRows(), looksUp)) drop(traits, {Trait::Texcoords, Trait::TextureTransforms});
-  drop(traits, {Trait::SmoothSurfaces});  // for guides of filters alone
+  drop(traits, {Trait::SmoothSurfaces, Trait::ObjectNumbers});  // for layers alone
 }
 
 /// Stages that change nothing in a scene of these traits, and traits that stages alone ask for.
@@ -111,7 +111,7 @@ bool hasOwnLight(const Scene& scene) {
          std::any_of(scene.spheres.begin(), scene.spheres.end(), emits);
 }
 
-TraitSet traitsOf(const Scene& scene, Surroundings surroundings) {
+TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop) {
   TraitSet traits;
   std::vector<bool> onTriangles(scene.materials.size(), false);
   std::vector<bool> onSpheres(scene.materials.size(), false);
@@ -140,6 +140,7 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings) {
   mark(Trait::PunctualLights, !scene.lights.empty());
   mark(Trait::Environment, surroundings != Surroundings::None);
   mark(Trait::EnvironmentSampling, surroundings != Surroundings::None);
+  mark(Trait::Backdrop, backdrop);
   mark(Trait::Instances, !scene.instances.empty());
   mark(Trait::Creases, !scene.insets.empty());
   mark(Trait::Slivers, hasSlivers(scene));
@@ -185,6 +186,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
 
   v.pixelFilter = options.pixelFilter;
   v.clampIndirect = has(v.stages, Stage::Gi) && options.clampIndirect > 0.0;
+  v.shadowCatcher = has(v.stages, Stage::Gi) && options.shadowCatcher;
   return v;
 }
 
@@ -233,6 +235,8 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
   if (roughnessTexture) keep(Trait::TextureTransforms);
   if (roughnessTexture || feature == Feature::Texcoords) keep(Trait::Texcoords);
   if (follows) keep(Trait::SmoothSurfaces);
+  if (feature == Feature::Object) v.traits.set(size_t(Trait::ObjectNumbers));
+  v.shadowCatcher = guides && has(options.stages, Stage::Gi) && options.shadowCatcher;
   v.feature = feature;
   return v;
 }
@@ -270,6 +274,7 @@ std::string variantName(const ShaderVariant& variant) {
     append(std::string(kPixelFilterNames[size_t(variant.pixelFilter)]) + "-filter");
   if (variant.feature != Feature::None) append(std::string(rowOf(variant.feature).name));
   if (variant.clampIndirect) append("clamp-indirect");
+  if (variant.shadowCatcher) append("shadow-catcher");
   append(std::string(kBufferReadsNames[size_t(variant.reads)]) + "-reads");
   append(std::string(kDispatchNames[size_t(variant.dispatch)]));
   if (variant.wavefront) append("wavefront");

@@ -22,6 +22,7 @@ struct ShaderVariant {
   PixelFilter pixelFilter = PixelFilter::Box;
   Feature feature = Feature::None;  ///< what is drawn in place of radiance
   bool clampIndirect = false;
+  bool shadowCatcher = false;
   bool wavefront = false;  ///< else the megakernel
   int waveUnit = -1;       ///< image unit through which it reads its states; -1: a storage buffer
   bool resumable =
@@ -31,7 +32,8 @@ struct ShaderVariant {
 
   auto key() const {
     return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, dispatch,
-                      pixelFilter, feature, clampIndirect, wavefront, waveUnit, resumable, literals);
+                      pixelFilter, feature, clampIndirect, shadowCatcher, wavefront, waveUnit, resumable,
+                      literals);
   }
   bool operator<(const ShaderVariant& other) const { return key() < other.key(); }
   bool operator==(const ShaderVariant& other) const { return key() == other.key(); }
@@ -40,8 +42,8 @@ struct ShaderVariant {
 /// What lights a scene from outside: an environment map, a constant default light, or nothing.
 enum class Surroundings : uint8_t { None, DefaultLight, Map };
 
-/// What the scene holds, before anything is asked for.
-TraitSet traitsOf(const Scene& scene, Surroundings surroundings);
+/// What the scene holds, before anything is asked for. backdrop: the surroundings have one of their own.
+TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop = false);
 
 /// Whether the scene has any light of its own: emission or punctual lights.
 bool hasOwnLight(const Scene& scene);

@@ -37,7 +37,10 @@ Drop takeDrop(const RenderOptions& shown, std::span<const std::filesystem::path>
     options.sceneOrigin.reset();
     options.selection = {};
   }
-  if (environment) options.hdriFile = *environment;
+  if (environment) {
+    options.hdriFile = *environment;
+    options.studio = false;
+  }
   if (scene || environment) drop.load = options;
   return drop;
 }

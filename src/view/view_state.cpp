@@ -232,6 +232,8 @@ void showScene(ViewState& state, ViewedScene scene) {
     side.scene = state.scene->options.scene;
     side.selection = state.scene->options.selection;
     side.hdriFile = state.scene->options.hdriFile;
+    side.studio = state.scene->options.studio;
+    side.backgroundBlur = state.scene->options.backgroundBlur;
     side.defaultLight = state.scene->options.defaultLight;
   }
   if (another) resetCamera(state);
@@ -271,6 +273,8 @@ void takeOptions(ViewState& state, const RenderOptions& options) {
     side.toneMap = options.toneMap;
     side.hdriRotationDegrees = options.hdriRotationDegrees;
     side.background = options.background;
+    side.shadowCatcher = options.shadowCatcher;
+    side.catcherHeight = options.catcherHeight;
     side.backgroundColor = options.backgroundColor;
   }
   state.sceneCamera = index.value_or(state.sceneCamera);
@@ -282,7 +286,8 @@ void takeOptions(ViewState& state, const RenderOptions& options) {
 
 bool sameScene(const RenderOptions& a, const RenderOptions& b) {
   return a.scene == b.scene && a.selection == b.selection && a.hdriFile == b.hdriFile &&
-         a.defaultLight == b.defaultLight && a.instancing == b.instancing && a.limits == b.limits;
+         a.studio == b.studio && a.backgroundBlur == b.backgroundBlur && a.defaultLight == b.defaultLight &&
+         a.instancing == b.instancing && a.limits == b.limits;
 }
 
 std::string whyGrey(const ViewState& state, Stage stage) {

@@ -122,6 +122,68 @@ class FirstHits(Case):
                         self.assertEqual(exr.values(channel), exr.values("albedo." + channel))
 
 
+class PartNumbers(Case):
+    """The layers position, object and material."""
+    NAMES = ["position.X", "position.Y", "position.Z", "object.Y", "material.Y", "depth.Z"]
+
+    def layers(self, scene, *options):
+        return self.picture(scene, "x.exr", "--aov", "position,object,material,depth", *options)
+
+    def test_positions_are_where_the_camera_looks(self):
+        width, height = 24, 16
+        view = View((0, 2.2, 5.5), (0, 0.7, 0), 42, width, height)
+        exr = self.layers("sphere-plane", "--resolution", f"{width},{height}", "--spp", 64)
+        for x, y in ((12, 15), (2, 13), (21, 14)):  # the ground
+            place = [view.mean(x, y, lambda d: view.eye[i] - 2.2 / d[1] * d[i]) for i in range(3)]
+            for seen, expected in zip(exr.pixel(x, y, *self.NAMES[:3]), place):
+                self.assertAlmostEqual(seen, expected, delta=0.02)
+        self.assertEqual(exr.pixel(12, 0, *self.NAMES), (0,) * 6)
+
+    def test_positions_are_metres_of_the_world(self):
+        """Of a scene far from the origin and of another size."""
+        gltf = json.loads((SCENES / "cornell-box.gltf").read_text())
+        before = self.layers("cornell-box", "--resolution", "8,8", "--spp", 1)
+        roots = gltf["scenes"][0]["nodes"]
+        gltf["nodes"].append({"children": roots, "translation": [1000, -200, 30], "scale": [100, 100, 100]})
+        gltf["scenes"][0]["nodes"] = [len(gltf["nodes"]) - 1]
+        path = self.folder / "moved.gltf"
+        path.write_text(json.dumps(gltf))
+        for buffer in gltf["buffers"]:
+            self.assertTrue(buffer["uri"].startswith("data:"))
+        moved = self.layers(str(path.with_suffix("")), "--resolution", "8,8", "--spp", 1)
+        for name, offset in zip(self.NAMES, (1000, -200, 30)):
+            for a, b, depth in zip(before.values(name), moved.values(name), before.values("depth.Z")):
+                self.assertAlmostEqual(b, 100 * a + offset if depth > 0 else 0, delta=2e-3)
+
+    def test_numbers_are_those_of_the_file_and_have_no_edges(self):
+        gltf = json.loads((SCENES / "cornell-box.gltf").read_text())
+        numbers = {i + 1: {p["material"] + 1 for p in gltf["meshes"][node["mesh"]]["primitives"]} for i, node in enumerate(gltf["nodes"]) if "mesh" in node}
+        shots = [self.layers("cornell-box", "--resolution", "40,40", "--spp", spp, "--seed", seed) for spp, seed in ((7, 1), (16, 2))]
+        for name in ("object.Y", "material.Y"):
+            self.assertEqual(shots[0].layers[name], shots[1].layers[name])
+        seen = set(zip(shots[0].values("object.Y"), shots[0].values("material.Y")))
+        self.assertGreater(len(seen), 4)
+        for node, material in seen - {(0, 0)}:
+            self.assertIn(material, numbers[node])
+        self.assertEqual({node for node, _ in seen} - {0}, set(numbers))
+
+    def test_instances_have_their_nodes(self):
+        """However they are kept."""
+        flat, shared = (self.layers(self.instances(), "--resolution", "32,16", "--instancing", kind, "--spp", 2) for kind in ("flatten", "share"))
+        self.assertEqual(flat.layers["object.Y"], shared.layers["object.Y"])
+        self.assertEqual(set(flat.values("object.Y")), {0, 1, 3, 4})
+
+    def instances(self):
+        gltf = json.loads((SCENES / "cornell-box.gltf").read_text())
+        gltf["nodes"] = [{"mesh": 0, "translation": [-3, 0, 0]}, {"extras": {}}, {"mesh": 0}, {"mesh": 0, "translation": [3, 0, 0]}]
+        gltf["scenes"] = [{"nodes": [0, 1, 2, 3]}]
+        for key in ("extensions", "extensionsUsed", "extensionsRequired", "cameras"):
+            gltf.pop(key, None)
+        path = self.folder / "instances.gltf"
+        path.write_text(json.dumps(gltf))
+        return str(path.with_suffix(""))
+
+
 class LayerFiles(Case):
     def test_names_and_order(self):
         every = self.picture("cornell-box", "x.exr", "--resolution", "8,8", "--spp", 4, "--aov",

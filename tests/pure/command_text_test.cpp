@@ -48,6 +48,13 @@ std::vector<std::function<void(RenderOptions&)>> changes() {
       [](RenderOptions& o) { o.hdriRotationDegrees = double(-0.3f); },
       [](RenderOptions& o) { o.backgroundColor = glm::vec3(0.1f, 0.2f, 1.0f / 3.0f); },
       [](RenderOptions& o) { o.background = false; },
+      [](RenderOptions& o) { o.studio = true; },
+      [](RenderOptions& o) { o.backgroundBlur = 2.5; },
+      [](RenderOptions& o) { o.shadowCatcher = true; },
+      [](RenderOptions& o) {
+        o.shadowCatcher = true;
+        o.catcherHeight = -0.1;
+      },
       [](RenderOptions& o) { o.defaultLight = false; },
       [](RenderOptions& o) { o.instancing = Instancing::Share; },
       [](RenderOptions& o) {
@@ -99,7 +106,8 @@ TEST(CommandText, EveryOptionReadsBackAsItself) {
     change(all);
   }
   all.scene = "a.gltf";
-  // An index excludes a name, a scale an angle.
+  // An index excludes a name, a scale an angle, a file what is built in.
+  all.studio = false;
   all.selection.camera.clear();
   all.camera.viewAngleDegrees.reset();
   check(all);

@@ -51,11 +51,11 @@ TEST(ForcedVariants, InGiAllTraitsTogetherAreAllThatCanBe) {
     // One variant is drawn once: these bring each other.
     const bool twin = f.name == "base-color-texture" || f.name == "normal-texture";
     EXPECT_EQ(f.whyNot.starts_with("comes with t"), twin) << f.name;
-    const bool forGuides = f.name == "smooth-surfaces";  // which is no stage of gi
-    EXPECT_EQ(f.whyNot.empty(), !twin && !forGuides) << f.name;
+    const bool forLayers = f.name == "smooth-surfaces" || f.name == "object-numbers";  // no stage of gi
+    EXPECT_EQ(f.whyNot.empty(), !twin && !forLayers) << f.name;
   }
   TraitSet most = named(all, "all traits").variant.traits;
-  EXPECT_TRUE(most.set(size_t(Trait::SmoothSurfaces)).all());
+  EXPECT_TRUE(most.set(size_t(Trait::SmoothSurfaces)).set(size_t(Trait::ObjectNumbers)).all());
   EXPECT_TRUE(has(named(all, "transmission").variant.stages, Stage::Refraction));
   EXPECT_TRUE(has(named(all, "metals").variant.stages, Stage::Reflections));
   EXPECT_TRUE(named(all, "environment-sampling").otherSamples);

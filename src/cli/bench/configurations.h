@@ -17,7 +17,7 @@ struct BenchConfiguration {
   std::string fullText;       ///< all options given, for it or for all, in alphabetical order
   bool samplesGiven = false;  ///< --spp is among them
 
-  bool adaptive() const { return render.noise > 0.0 || render.seconds > 0.0; }
+  bool adaptive() const { return isAdaptive(render); }
 };
 
 /// Options as the library parses them.

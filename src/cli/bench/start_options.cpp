@@ -26,7 +26,7 @@ BenchStartOptions finishBenchStart(const RawBenchStart& raw) {
   RawRender render = raw.render;
   render.output = "picture." + raw.format;
   options.render = finishRender(render);
-  if (options.render.noise > 0.0 || options.render.seconds > 0.0)
+  if (isAdaptive(options.render))
     throw UsageError("--noise and --time: a start ends with a number of samples; --spp says which");
   if (!options.render.statsFile.empty())
     throw UsageError("--stats: each start has its own; --json has them all");

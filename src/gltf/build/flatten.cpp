@@ -152,8 +152,8 @@ void appendPrimitive(const PrimitiveInstance& instance, const LocalSpace& space,
     if (mirrors) std::swap(triangle.vertex.y, triangle.vertex.z);
     scene.triangles.push_back(triangle);
   }
-  scene.origins.push_back(
-      {instance.node, instance.mesh, firstTriangle, uint32_t(instance.primitive->triangles.size())});
+  scene.origins.push_back({instance.node, instance.mesh, firstTriangle,
+                           uint32_t(instance.primitive->triangles.size()), instance.nodeIndex});
 }
 
 /// Appends the positions that triangles use, each once.
@@ -200,7 +200,7 @@ void appendShared(const MeshToShare& shared, Scene& scene) {
     const glm::dvec3 middle(place.world * glm::dvec4(space.origin, 1.0));
     glm::dmat4 toLocal(linear);
     toLocal[3] = glm::dvec4(scene.space.localOf(middle), 1.0);
-    scene.instances.push_back({toLocal, mesh, place.node});
+    scene.instances.push_back({toLocal, mesh, place.node, place.nodeIndex});
   }
 }
 

@@ -18,6 +18,7 @@ struct PrimitiveInstance {
   glm::dmat4 world{1.0};
   std::span<const glm::dmat4> joints;  ///< in place of `world` for a primitive with influences
   std::string node;
+  uint32_t nodeIndex = 0;
   std::string mesh;
   const std::vector<MeshPrimitive>* whole = nullptr;  ///< the mesh it is of; none: it is not to be shared
 };
@@ -27,6 +28,7 @@ struct MeshToShare {
   struct Place {
     glm::dmat4 world{1.0};
     std::string node;
+    uint32_t nodeIndex = 0;
   };
   const std::vector<MeshPrimitive>* mesh = nullptr;
   std::string name;

@@ -129,7 +129,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   for (const PlacedSphere& sphere : spheres) {
     scene.spheres.push_back({glm::vec3(scene.space.localOf(sphere.center)),
                              float(sphere.radius / scene.space.unit), glm::quat(sphere.rotation),
-                             sphere.material, sphere.node});
+                             sphere.material, sphere.node, sphere.nodeIndex});
   }
   for (const PlacedNode& node : nodes) {
     if (node.hidden) continue;

@@ -87,7 +87,8 @@ ShownMeshes showMeshes(Document& document, const std::vector<Material>& material
     for (const glm::dmat4& world : places) {
       for (const MeshPrimitive& primitive : decoded.primitives) {
         if (!primitive.triangles.empty())
-          shown.instances.push_back({&primitive, world, joints, nodeName, meshName, whole});
+          shown.instances.push_back(
+              {&primitive, world, joints, nodeName, uint32_t(node.index), meshName, whole});
       }
     }
   }

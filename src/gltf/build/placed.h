@@ -22,6 +22,7 @@ struct PlacedSphere {
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
   uint32_t material = 0;
   std::string node{};  ///< its name, or its JSON pointer
+  uint32_t nodeIndex = 0;
 };
 
 /// The node's KHR_implicit_shapes sphere (extras "shape" and "material"), which must not be scaled unevenly.

@@ -89,7 +89,7 @@ void part(std::vector<PrimitiveInstance> instances, MeshUses& uses, PlacedMeshes
         placed.shared.push_back({i.whole, i.mesh, {}});
         use.index = placed.shared.size();
       }
-      placed.shared[use.index - 1].places.push_back({i.world, std::move(i.node)});
+      placed.shared[use.index - 1].places.push_back({i.world, std::move(i.node), i.nodeIndex});
     }
   }
 }

@@ -44,6 +44,7 @@ std::optional<PlacedSphere> sphereAt(Document& document, const PlacedNode& node)
 
   PlacedSphere sphere;
   sphere.node = nameOrPlace(source.name, "nodes", node.index);
+  sphere.nodeIndex = uint32_t(node.index);
   const size_t materialCount = document.model.materials.size();
   const tinygltf::Value& material = memberOf(source.extras, "material");
   if (material.IsInt() &&

@@ -117,11 +117,11 @@ void drawLight(ViewState& state, Places& places) {
   ToneMap curve = o.toneMap;
   choose("##curve", toneMapNames(), curve);
   for (RenderOptions& side : state.sides) side.toneMap = curve;
-  const bool map = !o.hdriFile.empty();
+  const bool map = hasMap(o);
   label(places, "Environment");
   ImGui::BeginDisabled(!map);
   float degrees = float(o.hdriRotationDegrees);
-  if (ImGui::SliderFloat("##rotation", &degrees, -180.0f, 180.0f, map ? "%.0f degrees" : "no --hdri-file",
+  if (ImGui::SliderFloat("##rotation", &degrees, -180.0f, 180.0f, map ? "%.0f degrees" : "no environment map",
                          kBounded))
     for (RenderOptions& side : state.sides) side.hdriRotationDegrees = degrees;
   ImGui::EndDisabled();

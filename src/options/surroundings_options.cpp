@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "options/surroundings_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "errors.h"
+#include "scene/blurred_map.h"
+
+namespace fragtrace {
+
+namespace {
+
+void chooseCatcher(const std::string& text, RenderOptions& o) {
+  if (text.empty()) return;
+  o.shadowCatcher = true;
+  if (text == "bottom") return;
+  double height = 0.0;
+  if (!CLI::detail::lexical_cast(text, height) || !std::isfinite(height))
+    throw UsageError("--shadow-catcher: '" + text + "' is neither a height nor 'bottom'");
+  o.catcherHeight = height;
+}
+
+}  // namespace
+
+void addSurroundingsOptions(CLI::App& app, RawRender& raw) {
+  RenderOptions& o = raw.options;
+  app.add_option("--hdri-file", raw.hdriFile, "equirectangular environment map: .hdr, .exr, .pfm")
+      ->type_name("FILE");
+  app.add_flag(
+      "--studio", o.studio,
+      "light the scene by a built-in environment: a key, a fill and a rim light, as soft boxes that the "
+      "camera does not see, in front of a grey backdrop");
+  app.add_option("--hdri-rotation", o.hdriRotationDegrees,
+                 "rotation of the environment map about +Y, in degrees")
+      ->capture_default_str();
+  app.add_option(
+         "--background-blur", o.backgroundBlur,
+         "blur the environment map where the camera sees it directly: standard deviation in degrees; the "
+         "light stays the same")
+      ->check(CLI::Range(kLeastBlur, 90.0));
+  app.add_option(
+         "--shadow-catcher", raw.shadowCatcher,
+         "a horizontal plane below the scene that the camera sees nothing of but the shadow on it: its "
+         "height (Y) in metres, or 'bottom' of the scene")
+      ->type_name("HEIGHT");
+  app.add_flag("--no-background", raw.noBackground,
+               "hide the environment map from the camera, and write alpha");
+  app.add_option("--background-color", raw.backgroundColor,
+                 "linear R,G,B that the camera sees where there is no surface, instead of the environment "
+                 "map; it lights nothing")
+      ->delimiter(',')
+      ->expected(3);
+  app.add_flag("--no-default-light", raw.noDefaultLight, "do not light a scene that has no light of its own");
+}
+
+void finishSurroundings(const RawRender& raw, RenderOptions& o) {
+  if (!raw.backgroundColor.empty())
+    o.backgroundColor = glm::vec3(raw.backgroundColor[0], raw.backgroundColor[1], raw.backgroundColor[2]);
+  o.hdriFile = raw.hdriFile;
+  if (o.studio && !o.hdriFile.empty()) throw UsageError("--studio: there is an --hdri-file, too");
+  if (o.studio && o.backgroundBlur > 0.0)
+    throw UsageError("--background-blur: the backdrop of --studio has nothing to blur");
+  chooseCatcher(raw.shadowCatcher, o);
+  o.background = !raw.noBackground;
+  o.defaultLight = !raw.noDefaultLight;
+}
+
+}  // namespace fragtrace

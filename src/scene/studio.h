@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// The built-in environment: a key, a fill and a rim light as soft boxes in front of a grey gradient.
+#pragma once
+
+#include "image/image.h"
+
+namespace fragtrace {
+
+/// What lights the scene: an equirectangular map (docs/design/conventions.md) with R, G, B. The key stands
+/// left of a camera that looks along -Z, the fill right of it, the rim light behind the scene. A white
+/// diffuse surface has a radiance of about 0.75 towards that camera.
+Image studioLight();
+
+/// What the camera sees behind the scene: the gradient alone, one texel wide.
+Image studioBackdrop();
+
+}  // namespace fragtrace

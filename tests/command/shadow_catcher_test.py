@@ -1,0 +1,151 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The shadow catcher against a closed form and against ordinary renders of a white plane; means within 5 standard errors."""
+import json
+import math
+import struct
+
+from materials_test import quad
+from support import SCENES, SMALL, Case, main
+
+BLACK = {"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [0, 0, 0, 1]},
+         "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}
+WHITE = {"pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": BLACK["extensions"]}
+RADIUS, HEIGHT = 0.5, 0.8  # of the ball, and of its middle above the ground
+SIDE, HALF = 24, 1.8       # of the picture, from straight above: pixels, and half of what it shows
+FROM_ABOVE = ["--resolution", f"{SIDE},{SIDE}", "--camera-position", "0,9,0", "--camera-focal-point", "0,0,0", "--camera-view-up", "0,0,-1", "--camera-parallel-scale", str(HALF)]
+SEEDS = 8
+
+
+def place_of(x, y):
+    return [HALF * (2 * c / SIDE - 1) for c in (x, y)]
+
+
+def beside_the_ball():
+    """Pixels that see the ground alone."""
+    far = RADIUS + 2 * HALF / SIDE
+    return [(x, y) for x in range(SIDE) for y in range(SIDE) if math.hypot(*place_of(x + 0.5, y + 0.5)) > far]
+
+
+def mean_and_error(values):
+    mean = sum(values) / len(values)
+    return mean, math.sqrt(sum((v - mean)**2 for v in values) / (len(values) - 1) / len(values))
+
+
+class CatcherCase(Case):
+    def scene(self, name, nodes, materials, lights=()):
+        """Nodes beside those lights; shape 0 is the ball, mesh 0 the quad of quad()."""
+        gltf = quad(materials[0])
+        gltf["materials"] = materials
+        gltf["extensions"] = {"KHR_implicit_shapes": {"shapes": [{"type": "sphere", "sphere": {"radius": RADIUS}}]}}
+        if lights:
+            gltf["extensions"]["KHR_lights_punctual"] = {"lights": [light for _, light in lights]}
+        gltf["nodes"] = nodes + [node | {"extensions": {"KHR_lights_punctual": {"light": i}}} for i, (node, _) in enumerate(lights)]
+        gltf["scenes"] = [{"nodes": list(range(len(gltf["nodes"])))}]
+        for unused in ("cameras", "images", "textures"):
+            del gltf[unused]
+        path = self.folder / f"{name}.gltf"
+        path.write_text(json.dumps(gltf))
+        return str(path.with_suffix(""))
+
+    def ball(self, lights=()):
+        return self.scene("ball", [{"translation": [0, HEIGHT, 0], "extras": {"shape": 0, "material": 0}}], [BLACK], lights)
+
+    def near(self, means, expected):
+        """The mean of the seeds' means."""
+        mean, error = mean_and_error(means)
+        print(f"{self.id()}: {mean:.5f} +- {error:.5f}, expected {expected:.5f}")
+        self.assertLess(error, 2e-3)
+        self.assertAlmostEqual(mean, expected, delta=5 * error)
+
+
+class ShadowCatcher(CatcherCase):
+    def test_a_ball_hides_what_geometry_says(self):
+        """Under an even sky a ball with its middle at h hides h R^2 / d^3 of the light of a point at distance d."""
+        white = self.folder / "white.pfm"
+        white.write_bytes(b"PF\n4 2\n-1.0\n" + struct.pack("<24f", *24 * [1.0]))
+        scene, parts = self.ball(), 8
+
+        def hidden(x, y):
+            places = [place_of(x + (i + 0.5) / parts, y + (j + 0.5) / parts) for i in range(parts) for j in range(parts)]
+            return sum(HEIGHT * RADIUS**2 / (HEIGHT**2 + px * px + py * py)**1.5 for px, py in places) / parts**2
+
+        pixels = beside_the_ball()
+        near = [p for p in pixels if math.hypot(*place_of(p[0] + 0.5, p[1] + 0.5)) < 1]
+        for sky in ([], ["--hdri-file", white], ["--hdri-file", white, "--disable", "light-sampling"]):
+            shots = [self.picture(scene, "x.exr", *FROM_ABOVE, *sky, "--no-background", "--shadow-catcher", "0", "--spp", 64, "--seed", seed)
+                     for seed in range(SEEDS)]
+            self.assertEqual(max(max(map(abs, shots[0].layers[c][0])) for c in "RGB"), 0)
+            for part in (pixels, near):
+                self.near([sum(shot.layers["A"][y][x] for x, y in part) / len(part) for shot in shots],
+                          sum(hidden(x, y) for x, y in part) / len(part))
+
+    def test_what_is_half_there_casts_half_a_shadow(self):
+        """A sheet of alpha 0.5 over the camera."""
+        sheet = {"mesh": 0, "rotation": [-0.70710678, 0, 0, 0.70710678], "scale": [1e4, 1e4, 1e4], "translation": [0, 1, 0]}
+        half = BLACK | {"alphaMode": "BLEND", "doubleSided": True, "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 0.5]}}
+        scene = self.scene("sheet", [sheet], [half], [({"rotation": [-0.7071, 0, 0, 0.7071]}, {"type": "directional", "intensity": 2})])
+        exr = self.picture(scene, "x.exr", "--resolution", "16,16", "--camera-position", "0,0.5,0", "--camera-focal-point", "0,0,0", "--spp", 64,
+                           "--no-background", "--shadow-catcher", "0", "--hdri-file", SCENES / "sky.pfm")
+        mean, _ = mean_and_error(exr.values("A"))
+        self.assertAlmostEqual(mean, 0.5, delta=5 * math.sqrt(0.5 / (16 * 16 * 64)))
+
+    def test_nothing_else_changes(self):
+        """Where nothing is in the way the background has its bits, and surfaces are lit as without the catcher."""
+        options = ["--resolution", "24,24", "--spp", "4", "--studio"]
+        for traversal in (["--traversal", "iterative"], ["--traversal", "front-to-back"]):
+            plain = self.picture("sphere-plane", "a.exr", *options, *traversal, "--aov", "albedo")
+            caught = self.picture("sphere-plane", "b.exr", *options, *traversal, "--shadow-catcher", "bottom")
+            for y in range(24):
+                for x in range(24):
+                    if plain.pixel(x, y, "albedo.R")[0] > 0.54:
+                        self.assertEqual(plain.pixel(x, y, *"RGB"), caught.pixel(x, y, *"RGB"))
+            above = self.picture("sphere-plane", "c.exr", *options, *traversal, "--shadow-catcher", "20", "--camera-position", "0,30,0",
+                                 "--camera-focal-point", "0,0,9")
+            hidden = self.picture("sphere-plane", "d.exr", *options, *traversal, "--camera-position", "0,30,0", "--camera-focal-point", "0,0,9",
+                                  "--no-background", "--shadow-catcher", "20")
+            self.assertLess(max(above.values("R")), 0.35)
+            self.assertEqual(set(hidden.values("A")), {0})
+
+    def test_settings_statistics_and_refusals(self):
+        stats = self.folder / "s.json"
+        exr = self.picture("sphere-plane", "x.exr", "--resolution", "8,8", "--spp", "1", "--shadow-catcher", "-0.25", "--schedule", "wavefront", "--stats", stats)
+        settings = json.loads(exr.texts["fragtrace:settings"])
+        self.assertEqual((settings["shadow_catcher"], settings["shadow_catcher_height"]), (True, -0.25))
+        self.assertEqual(json.loads(stats.read_text())["schedule_reason"], "--shadow-catcher")
+        scene = ["render", SCENES / "sphere-plane.gltf", "-o", self.folder / "x.pfm"]
+        self.fails(2, *scene, "--shadow-catcher", "floor", says=["'floor'"])
+        self.fails(2, *scene, "--shadow-catcher", "nan", says=["--shadow-catcher"])
+        for told, options in (("emissive", []), ("stage gi", ["--stage", "shadows"])):
+            result = self.renders(SCENES / "cornell-box.gltf", "-o", self.folder / "x.pfm", *SMALL[:-1], "--shadow-catcher", "bottom", *options)
+            self.assertIn("warning: ", result.stderr)
+            self.assertIn(told, result.stderr)
+
+
+class CatcherAndPlane(CatcherCase):
+    def test_a_white_plane_with_and_without_the_ball(self):
+        """Under a sky, a sun, a point light and a spot: what the catcher shows of white, times the light of a plane without the ball, is
+        the light of the plane with it, channel by channel. The lights are so far away that they are even within a pixel."""
+        sun = {"rotation": [-0.6, 0.1, 0, 0.79]}, {"type": "directional", "intensity": 0.6, "color": [1, 0.5, 0.2]}
+        point = {"translation": [2, 5, 1]}, {"type": "point", "intensity": 20, "color": [0.2, 0.6, 1]}
+        spot = {"translation": [-3, 6, 0], "rotation": [-0.7071, 0, 0, 0.7071]}, {"type": "spot", "intensity": 30, "spot": {"outerConeAngle": 0.9}}
+        ball = {"translation": [0, HEIGHT, 0], "extras": {"shape": 0, "material": 1}}
+        ground = {"mesh": 0, "rotation": [-0.70710678, 0, 0, 0.70710678], "scale": [40, 40, 40]}
+        pixels = beside_the_ball()
+        for sky, lights, samples in ((["--hdri-file", SCENES / "sky.pfm", "--hdri-rotation", "50"], [], 64), ([], [sun], 16), ([], [point], 16), ([], [spot], 16),
+                                     (["--hdri-file", SCENES / "sun-sky.pfm"], [sun], 128)):
+            beside = self.scene("with", [ground, ball], [WHITE, BLACK], lights)
+            free = self.scene("without", [ground], [WHITE], lights)
+            ratios = [[], [], []]
+            for seed in range(SEEDS):
+                shots = [(self.ball(lights), ["--shadow-catcher", "0", "--background-color", "1,1,1"]), (beside, []), (free, [])]
+                caught, lit, unhidden = (self.picture(scene, "x.pfm", *FROM_ABOVE, *sky, "--spp", samples, "--seed", 3 * seed + i, *more)
+                                         for i, (scene, more) in enumerate(shots))
+                for c in range(3):
+                    ratios[c].append(sum(caught[y][x][c] * unhidden[y][x][c] for x, y in pixels) / sum(lit[y][x][c] for x, y in pixels))
+            for c in range(3):
+                self.near(ratios[c], 1)
+
+
+if __name__ == "__main__":
+    main()
