@@ -73,7 +73,7 @@ class ShadowCatcher(CatcherCase):
         pixels = beside_the_ball()
         near = [p for p in pixels if math.hypot(*place_of(p[0] + 0.5, p[1] + 0.5)) < 1]
         for sky in ([], ["--hdri-file", white], ["--hdri-file", white, "--disable", "light-sampling"]):
-            shots = [self.picture(scene, "x.exr", *FROM_ABOVE, *sky, "--no-background", "--shadow-catcher", "0", "--spp", 64, "--seed", seed)
+            shots = [self.picture(scene, "x.exr", *FROM_ABOVE, *sky, "--no-background", "--shadow-catcher", "0", "--spp", 256, "--seed", seed)
                      for seed in range(SEEDS)]
             self.assertEqual(max(max(map(abs, shots[0].layers[c][0])) for c in "RGB"), 0)
             for part in (pixels, near):
