@@ -55,8 +55,9 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
   if (options.quiet || (taken && reportsAsJson())) return;
   std::fprintf(taken ? stderr : stdout,
                "%s: %d x %d, %.4g samples per pixel in %.2f s (%.2f million paths/s)%s\n",
-               options.output.string().c_str(), stats.size.x, stats.size.y, samplesPerPixel(stats),
-               stats.times.renderMs / 1000.0, megaPathsPerSecond(stats), noise.c_str());
+               options.toStandardOutput ? "standard output" : options.output.string().c_str(), stats.size.x,
+               stats.size.y, samplesPerPixel(stats), stats.times.renderMs / 1000.0, megaPathsPerSecond(stats),
+               noise.c_str());
 }
 
 /// What becomes of a picture: it is written, written as far as it was drawn, or not at all.
@@ -232,6 +233,10 @@ int runSequence(const RenderOptions& options) {
       throw;  // it would be the same for every picture
     } catch (const ContextLost&) {
       throw;
+    } catch (const InputError& reason) {
+      if (sequence.turntable > 0 && !run.loaded) throw;  // likewise
+      reportError("picture " + std::to_string(frame.number) + ": " + reason.what());
+      ++failed;
     } catch (const std::exception& reason) {
       reportError("picture " + std::to_string(frame.number) + ": " + reason.what());
       ++failed;

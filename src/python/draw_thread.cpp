@@ -20,7 +20,7 @@ struct Queue {
   std::condition_variable changed;
   std::deque<std::shared_ptr<DrawJob>> jobs;
   std::shared_ptr<DrawJob> current;
-  bool stopping = false;
+  std::atomic<bool> stopping = false;
   pid_t process = 0;
 };
 
@@ -105,5 +105,7 @@ void stopDrawing() {
   if (q.current) q.current->interrupts = 2;
   q.changed.wait(lock, [&] { return q.jobs.empty() && !q.current; });
 }
+
+bool isDrawingStopped() { return queue().stopping; }
 
 }  // namespace fragtrace

@@ -37,5 +37,6 @@ std::shared_ptr<DrawJob> postJob(std::function<void(DrawJob&)> work);
 
 /// Interrupts all work and waits for its end; what is posted later is dropped. Before Python ends.
 void stopDrawing();
+bool isDrawingStopped();
 
 }  // namespace fragtrace

@@ -152,18 +152,39 @@ void releaseLater(std::shared_ptr<KeptScene> scene) {
   postJob([scene = std::move(scene)](DrawJob&) mutable { scene.reset(); });
 }
 
-RenderOptions optionsOfWords(std::vector<std::string> words) {
-  struct Raw {
-    RawRender render;
-    std::string config;
-  } raw;
+namespace {
+
+struct RawWords {
+  RawRender render;
+  std::string config;
+};
+
+void addWords(CLI::App& app, RawWords& raw) {
   raw.render.anyOutput = true;
-  CLI::App app("", "fragtrace.render");
   app.add_option("file", raw.render.scene)->required();
   addRenderOptions(app, raw.render);
   addOutputOptions(app, raw.render);
   addDenoiseOption(app, raw.render);
   addConfigOption(app, raw.config);
+}
+
+}  // namespace
+
+std::vector<std::string> optionNames() {
+  RawWords raw;
+  CLI::App app("", "fragtrace.render");
+  addWords(app, raw);
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back(name);
+  }
+  return names;
+}
+
+RenderOptions optionsOfWords(std::vector<std::string> words) {
+  RawWords raw;
+  CLI::App app("", "fragtrace.render");
+  addWords(app, raw);
   parseWords(app, withNumbersSettled(std::move(words)));
   RenderOptions options = finishConfigured(raw.render, raw.config, app);
   if (options.checkpointSeconds > 0.0 || options.resume)

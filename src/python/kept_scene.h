@@ -38,6 +38,9 @@ std::optional<DrawnPicture> drawKept(const std::shared_ptr<KeptScene>& scene, co
 /// Frees a scene, in the drawing thread.
 void releaseLater(std::shared_ptr<KeptScene> scene);
 
+/// The names of all options that optionsOfWords() reads, without dashes.
+std::vector<std::string> optionNames();
+
 /// The options of a render by the words of its command line, without its output. Throws UsageError,
 /// InputError.
 RenderOptions optionsOfWords(std::vector<std::string> words);

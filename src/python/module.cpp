@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <thread>
 
 #include "errors.h"
 #include "image/compare/difference.h"
@@ -72,6 +73,8 @@ void await(DrawJob& job, const nb::object& told) {
     {
       const nb::gil_scoped_release free;
       ended = job.wait(kLookMs);
+      // Python is ending, and ends threads that ask for the interpreter now, which C++ does not survive.
+      while (isDrawingStopped()) std::this_thread::sleep_for(std::chrono::seconds(1));
     }
     if (ended) break;
     if (PyErr_CheckSignals() != 0) {
@@ -162,13 +165,14 @@ nb::tuple readFile(const std::string& path) {
   Image image;
   {
     const nb::gil_scoped_release free;
-    image = readImage(path);
+    image = readStoredImage(path);
   }
   return pictureTuple(image);
 }
 
 /// As readFile(), and what the picture consists of.
 nb::tuple merge(const std::vector<std::string>& paths) {
+  if (paths.empty()) throw UsageError("merge: no parts");
   Part joined;
   {
     const nb::gil_scoped_release free;
@@ -194,6 +198,7 @@ NB_MODULE(_core, module) {
   nb::class_<SceneHandle>(module, "Scene")
       .def(nb::init<bool>())
       .def("draw", &SceneHandle::draw, nb::arg("words"), nb::arg("told").none());
+  module.def("option_names", &optionNames);
   module.def("read", &readFile);
   module.def("save", &save);
   module.def("merge", &merge);

@@ -101,9 +101,10 @@ void TextureTable::warnLost(int image, const std::string& reason) {
   const std::string file = document_.diagnostics.file() + ": ";
   const std::string& uri = document_.images.at(size_t(image)).uri;
   const bool isNamed = uri.empty() || isDataUri(uri) || reason.find(uri) != std::string::npos;
-  document_.diagnostics.warn("", (reason.starts_with(file) ? reason.substr(file.size()) : reason) +
-                                     (isNamed ? "" : " (" + uri + ")") +
-                                     "; materials do without it (--missing-textures warn)");
+  document_.diagnostics.warn(
+      "", (reason.starts_with(file) ? reason.substr(file.size()) : reason) +
+              (isNamed ? "" : " (" + uri + ")") +
+              "; it is drawn as docs/gltf.md says, base colour in magenta (--missing-textures warn)");
 }
 
 uint32_t TextureTable::useImage(int image) {

@@ -14,9 +14,10 @@ ERRORS = {2: _core.UsageError, 3: _core.InputError, 4: _core.ContextError}
 
 
 def read(path):
-    """A picture file as a Picture, or as Layers where an .exr holds more: linear values of .exr, .hdr and .pfm, sRGB-encoded values 0..1 of
+    """A picture file as a Picture, or as Layers where an .exr holds more (of a region, the region alone): linear values of .exr, .hdr and .pfm, sRGB-encoded values 0..1 of
     others. Raises InputError."""
-    return picture_of(*_core.read(os.fspath(path)))
+    picture = picture_of(*_core.read(os.fspath(path)))
+    return picture.layers if picture.layers.channels else picture
 
 
 def _color(picture):
@@ -38,10 +39,12 @@ def diff(picture, reference, metric="rmse"):
 def merge(paths):
     """Joins .exr files that hold other samples (sample_offset, seed) of one picture, each pixel weighted by its samples: as render() gives
     them. `messages` says what it consists of. Raises InputError."""
+    if isinstance(paths, (str, bytes, os.PathLike)):
+        raise _core.UsageError("merge: takes a list of files")
     channels, values, attributes, words = _core.merge([os.fspath(path) for path in paths])
-    made = picture_of(channels, values, attributes)
-    (made["color"] if isinstance(made, dict) else made).messages.append(words)
-    return made
+    picture = picture_of(channels, values, attributes)
+    picture.messages.append(words)
+    return picture
 
 
 def info(path):

@@ -34,19 +34,34 @@ class Picture(np.ndarray):
     """Linear colours (height, width, 4), float32: R, G, B, multiplied by A. What is calculated from it is a plain picture without
     statistics.
 
-    statistics: what `--stats` writes, as a dict; messages: what the command prints on stderr; attributes and numbers: what an .exr keeps
+    layers: all layers that the file would hold, as Layers, this picture among them; statistics: what `--stats` writes, as a dict; messages: what the command prints on stderr; attributes and numbers: what an .exr keeps
     beside pixels, as strings and as lists (worldToCamera, worldToNDC, chromaticities)."""
+
+    FACTS = ("statistics", "messages", "attributes", "numbers")
 
     def __array_finalize__(self, other):
         self.statistics = {}
         self.messages = []
         self.attributes = {}
         self.numbers = {}
+        self.layers = Layers(color=self)
 
-    def save(self, path, *, exposure=0.0, tone_map="neutral", half=False, png_depth=8):
+    def __array_wrap__(self, array, context=None, return_scalar=False):
+        return array[()] if array.ndim == 0 else super().__array_wrap__(array, context)
+
+    def __reduce__(self):
+        make, arguments, state = super().__reduce__()
+        return make, arguments, (state, {name: getattr(self, name) for name in self.FACTS})
+
+    def __setstate__(self, state):
+        super().__setstate__(state[0])
+        self.__dict__.update(state[1])
+
+    def save(self, path, *, exposure=None, tone_map=None, half=False, png_depth=8):
         """Writes .exr, .hdr, .pfm (linear) or .png, .jpg (as tonemap() shows it), whole or not at all. half: 16-bit floats in an .exr;
         png_depth: 8 or 16. Raises RenderError, and UsageError for what the format cannot hold."""
-        _save(path, {"": np.asarray(self)}, self, exposure, tone_map, half, png_depth)
+        planes = {"" if name == "color" else name: np.asarray(layer) for name, layer in self.layers.items()}
+        _save(path, {**planes, "": np.asarray(self)}, self, exposure, tone_map, half, png_depth, self.layers.channels)
 
     def _repr_png_(self):
         return _png(self)
@@ -57,6 +72,10 @@ class Layers(dict):
 
     statistics and messages are those of the picture."""
 
+    def __init__(self, *arguments, **layers):
+        super().__init__(*arguments, **layers)
+        self.channels = {}  # of each layer, their names in a file
+
     @property
     def statistics(self):
         return self["color"].statistics
@@ -65,10 +84,10 @@ class Layers(dict):
     def messages(self):
         return self["color"].messages
 
-    def save(self, path, *, exposure=0.0, tone_map="neutral", half=False, png_depth=8):
+    def save(self, path, *, exposure=None, tone_map=None, half=False, png_depth=8):
         """As Picture.save(); an .exr holds all layers."""
         planes = {"" if name == "color" else name: np.asarray(layer) for name, layer in self.items()}
-        _save(path, planes, self["color"], exposure, tone_map, half, png_depth, getattr(self, "channels", None))
+        _save(path, planes, self["color"], exposure, tone_map, half, png_depth, self.channels)
 
     def _repr_png_(self):
         return _png(self["color"])
@@ -77,7 +96,7 @@ class Layers(dict):
 def _png(picture):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "picture.png")
-        _save(path, {"": np.asarray(picture)}, None, 0.0, "neutral", False, 8)
+        _save(path, {"": np.asarray(picture)}, None, None, None, False, 8)
         with open(path, "rb") as file:
             return file.read()
 
@@ -91,13 +110,15 @@ def _save(path, planes, made, exposure, tone_map, half, png_depth, channels=None
             color, names = np.repeat(color, 3, axis=2), list(COLOR[:3])
         if not path.lower().endswith(".png"):
             color, names = color[:, :, :3], names[:3]  # over black: colour is multiplied by alpha
-        names, color, _ = _core.display(np.ascontiguousarray(color), names, float(exposure), tone_map)
+        names, color, _ = _core.display(np.ascontiguousarray(color), names, float(exposure or 0.0), tone_map or "neutral")
         attributes, numbers = {}, {}
+    elif exposure is not None or tone_map is not None:
+        raise _core.UsageError(f"{path}: holds linear values, which exposure and tone_map are not for")
     elif path.lower().endswith(".exr"):
         for name, layer in planes.items():
             if name:
-                values, own = _planes(layer)
-                own = (channels or {}).get(name, [f"{name}.{one}" for one in own])
+                values = np.ascontiguousarray(layer, dtype=np.float32).reshape(*np.shape(layer)[:2], -1)
+                own = (channels or {}).get(name) or [f"{name}.{i}" for i in range(values.shape[2])]
                 color, names = np.concatenate([color, values], axis=2), names + own
     clamped = _core.save(path, np.ascontiguousarray(color), names, attributes, numbers, half, png_depth)
     if clamped:
@@ -105,7 +126,7 @@ def _save(path, planes, made, exposure, tone_map, half, png_depth, channels=None
 
 
 def picture_of(channels, values, attributes):
-    """What _core gives, as a Picture, or Layers where there is more than colour."""
+    """What _core gives, as a Picture, with its layers."""
     index = {name: i for i, name in enumerate(channels)}
     height, width = values.shape[:2]
     if "R" not in index and "Y" in index:
@@ -118,8 +139,7 @@ def picture_of(channels, values, attributes):
                 color[:, :, i] = values[:, :, index[name]]
     picture = color.view(Picture)
     picture.attributes, picture.numbers = map(dict, attributes)
-    layers = Layers(color=picture)
-    layers.channels = {}
+    layers = picture.layers
     for name in channels:
         if name in COLOR or "." not in name:
             continue
@@ -127,4 +147,4 @@ def picture_of(channels, values, attributes):
     for layer, names in layers.channels.items():
         taken = values[:, :, [index[name] for name in names]]
         layers[layer] = np.ascontiguousarray(taken[:, :, 0] if len(names) == 1 else taken)
-    return layers if layers.channels else picture
+    return picture

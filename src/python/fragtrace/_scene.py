@@ -39,7 +39,7 @@ class _Bar:
 class Scene:
     """A glTF scene that stays loaded, with its textures and its compiled shader, so that a further picture costs its samples only.
 
-    path: a .gltf or .glb file. keywords: options of every picture of it, as render() takes them; those of Scene.render() come after them and
+    path: a .gltf or .glb file, which the first picture loads. keywords: options of every picture of it, as render() takes them; those of Scene.render() come after them and
     count more. What a picture needs otherwise (another stage, another animation time) is loaded or compiled again by itself.
 
     Positions are rounded about the focal point of the first picture, unless scene_origin says about what; so pictures of further views may
@@ -47,6 +47,7 @@ class Scene:
 
     def __init__(self, path, **keywords):
         self.path = os.fspath(path)
+        words_of(path, keywords)
         self.keywords = keywords
         self._core = _core.Scene(True)
 
@@ -78,6 +79,7 @@ def render(path, *, progress=None, **keywords):
 
 
 def _render(core, path, keywords, progress):
+    asked = keywords.get("aov")
     bar = _Bar(progress)
     try:
         channels, values, attributes, statistics, complete, said = core.draw(words_of(path, keywords), bar.told)
@@ -85,8 +87,7 @@ def _render(core, path, keywords, progress):
         bar.close()
     if not complete:
         raise _core.RenderError("the picture is not complete")
-    made = picture_of(channels, values, attributes)
-    picture = made["color"] if isinstance(made, dict) else made
+    picture = picture_of(channels, values, attributes)
     picture.statistics = json.loads(statistics)
     picture.messages = list(said)
-    return made
+    return picture.layers if asked else picture

@@ -1,10 +1,16 @@
 # SPDX-License-Identifier: MIT
 """Keywords as the words of a command line, which the program's own table of options reads: there is no second one here."""
+import difflib
 import os
 
 import numpy as np
 
+from fragtrace import _core
+
 SHORT = {"hdri": "hdri-file"}
+OF_FILES = ("exposure", "tone_map", "half", "png_depth")
+OF_COMMAND = ("output", "format", "checkpoint", "resume", "stats", "frames", "fps", "turntable", "continue", "quiet", "verbose")
+KNOWN = frozenset(_core.option_names())
 
 
 def spelled(value):
@@ -17,16 +23,32 @@ def spelled(value):
     return repr(value) if isinstance(value, float) else str(value)
 
 
+def option_of(keyword):
+    """The option that a keyword stands for. Raises UsageError."""
+    option = SHORT.get(keyword, keyword.replace("_", "-"))
+    if keyword in OF_FILES:
+        raise _core.UsageError(f"{keyword}: only files have it, so it is a keyword of save()")
+    if keyword in OF_COMMAND:
+        raise _core.UsageError(f"{keyword}: only the command `fragtrace render` has it; animation_time and camera_orbit draw single pictures")
+    if option not in KNOWN:
+        close = difflib.get_close_matches(option, KNOWN, 1)
+        raise _core.UsageError(f"{keyword}: no keyword of render()" + (f"; did you mean {close[0].replace('-', '_')}?" if close else ""))
+    return option
+
+
 def words_of(scene, keywords):
     """`None` and `False` leave an option out; `True` is a switch; sequences are separated by commas. A dict's members are options that
     begin with its name: camera={"position": (0, 1, 4)} is --camera-position 0,1,4."""
     path = os.fspath(scene)
     words = ["./" + path if path.startswith("-") else path]
     for name, value in keywords.items():
-        option = SHORT.get(name, name.replace("_", "-"))
         if isinstance(value, dict):
             words += words_of("", {f"{name}_{member}": one for member, one in value.items()})[1:]
-        elif name == "resolution" and not isinstance(value, str) and value is not None:
+            continue
+        option = option_of(name)
+        if name == "resolution" and not isinstance(value, str) and value is not None:
+            if np.shape(value) != (2,):
+                raise _core.UsageError(f"resolution: {value!r} is not (width, height)")
             words.append("--resolution=" + "x".join(spelled(side) for side in value))
         elif value is True:
             words.append("--" + option)
