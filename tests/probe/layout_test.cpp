@@ -30,7 +30,8 @@ const std::vector<Member> kFrameMembers = {
     MEMBER(Frame, "frameBlock", background),     MEMBER(Frame, "frameBlock", environment),
     MEMBER(Frame, "frameBlock", lightChoice),    MEMBER(Frame, "frameBlock", picture),
     MEMBER(Frame, "frameBlock", tile),           MEMBER(Frame, "frameBlock", limits),
-    MEMBER(Frame, "frameBlock", sampling),       MEMBER(Frame, "frameBlock", part)};
+    MEMBER(Frame, "frameBlock", sampling),       MEMBER(Frame, "frameBlock", part),
+    MEMBER(Frame, "frameBlock", worldOrigin),    MEMBER(Frame, "frameBlock", catcherLight)};
 const std::vector<Member> kProgressMembers = {
     MEMBER(Progress, "progress", unfinished), MEMBER(Progress, "progress", stuck),
     MEMBER(Progress, "progress", cutLow), MEMBER(Progress, "progress", cutHigh)};
