@@ -37,10 +37,8 @@ double nearestDepth(const Camera& camera, const std::vector<glm::dvec3>& points)
 std::vector<glm::dvec3> cloud(int count, const glm::dvec3& size, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
-  std::vector<glm::dvec3> points;
-  for (int i = 0; i < count; ++i)
-    points.push_back(glm::dvec3(100, -3, 7) +
-                     size * glm::dvec3(normal(random), normal(random), normal(random)));
+  std::vector<glm::dvec3> points(size_t(count), glm::dvec3(100, -3, 7));
+  for (glm::dvec3& point : points) point += size * glm::dvec3(normal(random), normal(random), normal(random));
   return points;
 }
 

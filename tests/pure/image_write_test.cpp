@@ -105,7 +105,7 @@ std::map<std::string, int> pixelTypes(const std::filesystem::path& path, const N
   std::map<std::string, int> types;
   for (const std::string& channel : channels) {
     const size_t at = text.find('\0' + channel + '\0');
-    if (at != std::string::npos) types[channel] = text[at + channel.size() + 2];
+    if (at != std::string::npos) types[channel] = uint8_t(text[at + channel.size() + 2]);
   }
   return types;
 }
