@@ -191,7 +191,7 @@ class FarmSlurm(Farm):
         self.assertTrue((self.folder / "x.exr").exists())
 
     def test_words_that_cannot_be_submitted(self):
-        for options, says in (("--partition=none", "sbatch failed"), ("--no-such-option", "sbatch takes no parts")):
+        for options, says in (("--partition=none", "sbatch failed"), ("--no-such-option", "sbatch failed")):
             process = self.script("farm_slurm", 2, *self.WORDS, SBATCH=options)
             self.assertIn(says, process.communicate(timeout=60)[1])
             self.assertEqual(process.returncode, 1)
