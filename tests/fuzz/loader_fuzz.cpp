@@ -16,6 +16,14 @@
 #include "bvh/two_level.h"
 #include "errors.h"
 #include "gltf/gltf.h"
+#include "image/image.h"
+
+namespace fragtrace {
+
+/// Pictures are decoded by another process (src/image/worker), which is not what this target tries.
+TexelImage decodeTexels(std::span<const uint8_t>, const std::string&) { return {}; }
+
+}  // namespace fragtrace
 
 namespace {
 
