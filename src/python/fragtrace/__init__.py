@@ -5,7 +5,7 @@
     picture = fragtrace.render("helmet.glb", spp=64, resolution=(640, 360))   # a NumPy array (height, width, 4)
     picture.save("helmet.png")
 
-Every option of the command `fragtrace render` is a keyword: --light-sampling is light_sampling=. Colours are linear, Rec. 709 primaries,
+Most options of the command `fragtrace render` are keywords: --sample-offset is sample_offset=. Colours are linear, Rec. 709 primaries,
 float32; the first row is the top."""
 from fragtrace._core import ContextError, InputError, RenderError, UsageError
 from fragtrace._files import diff, info, merge, read

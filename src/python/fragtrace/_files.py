@@ -14,8 +14,8 @@ ERRORS = {2: _core.UsageError, 3: _core.InputError, 4: _core.ContextError}
 
 
 def read(path):
-    """A picture file as a Picture, or as Layers where an .exr holds more (of a region, the region alone): linear values of .exr, .hdr and .pfm, sRGB-encoded values 0..1 of
-    others. Raises InputError."""
+    """A picture file as a Picture, or as Layers where an .exr holds more: linear values of .exr, .hdr and .pfm, sRGB-encoded values
+    0..1 of others. Of a file that holds a region, only the region. Raises InputError."""
     picture = picture_of(*_core.read(os.fspath(path)))
     return picture.layers if picture.layers.channels else picture
 

@@ -34,8 +34,8 @@ class Picture(np.ndarray):
     """Linear colours (height, width, 4), float32: R, G, B, multiplied by A. What is calculated from it is a plain picture without
     statistics.
 
-    layers: all layers that the file would hold, as Layers, this picture among them; statistics: what `--stats` writes, as a dict; messages: what the command prints on stderr; attributes and numbers: what an .exr keeps
-    beside pixels, as strings and as lists (worldToCamera, worldToNDC, chromaticities)."""
+    layers: all layers that the file would hold, as Layers, this picture among them; statistics: what `--stats` writes, as a dict;
+    messages: what the command prints on stderr; attributes and numbers: what an .exr keeps beside pixels, as strings and as lists (worldToCamera, worldToNDC, chromaticities)."""
 
     FACTS = ("statistics", "messages", "attributes", "numbers")
 

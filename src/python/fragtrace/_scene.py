@@ -39,8 +39,8 @@ class _Bar:
 class Scene:
     """A glTF scene that stays loaded, with its textures and its compiled shader, so that a further picture costs its samples only.
 
-    path: a .gltf or .glb file, which the first picture loads. keywords: options of every picture of it, as render() takes them; those of Scene.render() come after them and
-    count more. What a picture needs otherwise (another stage, another animation time) is loaded or compiled again by itself.
+    path: a .gltf or .glb file, which the first picture loads. keywords: options of every picture of it, as render() takes them; those of
+    Scene.render() come after them and count more. What a picture needs otherwise (another stage, another animation time) is loaded or compiled again by itself.
 
     Positions are rounded about the focal point of the first picture, unless scene_origin says about what; so pictures of further views may
     differ in their last bits from those of render(). May be used from several threads, whose pictures are drawn one after the other."""
