@@ -242,6 +242,15 @@ BsdfValue evaluateThrough(Bsdf b, vec3 outgoing, vec3 incoming, float chance) {
   return r;
 }
 
+/// Light that the base scatters without reflecting it, for `incoming` above the surface; oh: cosine between `outgoing`
+/// and the half vector.
+vec3 diffuseValue(Bsdf b, vec3 incoming, float oh) {
+  float lit = b.opaque * throughLayer(b, oh) * kInversePi * incoming.z;
+  if (kDiffuseTransmission) lit *= 1.0f - b.diffuseThrough;
+  if (kVertexNormals) lit *= terminatorFade(b.faceNormal, b.vertexNormal, incoming);
+  return lit * b.baseColor;
+}
+
 /// Of all that lies under sheen and clearcoat.
 BsdfValue evaluateBase(Bsdf b, vec3 outgoing, vec3 incoming) {
   BsdfValue r;
@@ -252,10 +261,7 @@ BsdfValue evaluateBase(Bsdf b, vec3 outgoing, vec3 incoming) {
   if (incoming.z > 0.0f) {
     vec3 h = normalize(outgoing + incoming);
     float oh = max(0.0f, dot(outgoing, h));
-    float lit = b.opaque * throughLayer(b, oh) * kInversePi * incoming.z;
-    if (kDiffuseTransmission) lit *= 1.0f - b.diffuseThrough;
-    if (kVertexNormals) lit *= terminatorFade(b.faceNormal, b.vertexNormal, incoming);
-    r.value = lit * b.baseColor;
+    r.value = diffuseValue(b, incoming, oh);
     r.density = chances.z * incoming.z * kInversePi;
     if (kSpecular && !b.mirrorLike) {
       float density = facetDensity(outgoing, h, b.alpha, b.stretch) / max(4.0f * oh, float(1e-12));

@@ -45,6 +45,7 @@ Path beginShadow(Path p) {
   p.radiance = vec3(0.0);
   p.cameraRay = false;
   p.caught = true;
+  p.part = vec3(1.0);
   Surface s;
   s.position = p.origin + t * p.direction;
   s.position.y = frame.worldOrigin.w;
@@ -121,5 +122,7 @@ Path showShadow(Path p) {
   if (!p.caught) return p;
   p.alpha = luminance(p.radiance);
   p.radiance = p.throughput * (vec3(1.0) - p.radiance);
+  // The background, with or without a shadow on it, is what the camera sees: emission.
+  if (kFeature == kFeatureDiffuse || kFeature == kFeatureSpecular) p.radiance = vec3(0.0);
   return p;
 }

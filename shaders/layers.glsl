@@ -78,6 +78,14 @@ BsdfValue evaluateBsdf(Bsdf b, vec3 outgoing, vec3 incoming) {
   return r;
 }
 
+/// What of evaluateBsdf() is diffuse light, reflected or passed through, seen under sheen and clearcoat.
+vec3 diffuseUnderLayers(Bsdf b, vec3 outgoing, vec3 incoming) {
+  vec3 value = vec3(0.0f);
+  if (kDiffuseTransmission && incoming.z < 0.0f) value = evaluateThrough(b, outgoing, incoming, 1.0f).value;
+  if (incoming.z > 0.0f) value = diffuseValue(b, incoming, max(0.0f, dot(outgoing, normalize(outgoing + incoming))));
+  return value * ((1.0f - coatShare(b, outgoing)) * underSheen(b, outgoing, incoming));
+}
+
 /// Draws from the clearcoat, in the sense of drawBase.
 BsdfSample drawCoat(Bsdf b, vec3 outgoing, float chance, float u, float v) {
   BsdfSample s;

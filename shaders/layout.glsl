@@ -58,7 +58,10 @@ const int kFeatureTexcoords = 6;
 const int kFeaturePosition = 7;
 const int kFeatureObject = 8;
 const int kFeatureMaterial = 9;
-const int kFeatureGuides = 10;
+const int kFeatureEmission = 10;
+const int kFeatureDiffuse = 11;
+const int kFeatureSpecular = 12;
+const int kFeatureGuides = 13;
 
 // Film flags.
 const uint kPixelSuspended = 1u;  // the path of this pixel goes on in the next draw

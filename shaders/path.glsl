@@ -4,6 +4,9 @@
 /// Paths scatter, so that --bounces can end them.
 const bool kScatters = kGi || kReflections || kRefraction;
 
+/// Radiance, or a part of it: paths are traced to their ends.
+const bool kDrawsLight = kFeature == kFeatureNone || kLightPart;
+
 /// What is drawn are numbers of parts of the scene, which have no mean: they are those of the pixel's middle.
 const bool kCountsParts = kFeature == kFeatureObject || kFeature == kFeatureMaterial;
 
@@ -100,6 +103,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   p.alpha = 0.0;
   p.radiance = vec3(0.0);
   p.throughput = vec3(1.0);
+  p.part = vec3(kFeature == kFeatureDiffuse || kFeature == kFeatureSpecular ? 0.0 : 1.0);
   p.compression = 1.0;
   p.density = 0.0;
   p.medium = kPrimitiveNone;
@@ -113,6 +117,12 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   p.hitWeights = vec2(0.0);
   p.traversal.steps = steps;
   return extend(p);
+}
+
+/// Adds light, or what of it belongs to the part that is drawn.
+Path addLight(Path p, vec3 light) {
+  p.radiance += kLightPart ? p.part * light : light;
+  return p;
 }
 
 /// Light that came over so many scatterings: one is direct light, more may be clamped, which is biased.
@@ -150,11 +160,8 @@ vec3 seenBehind(vec3 direction) {
 /// The path's ray has met nothing.
 Path meetSurroundings(Path p) {
   p.phase = kPhaseEnd;
-  if (kFeature != kFeatureNone) return p;
-  if (p.cameraRay) {
-    p.radiance += p.throughput * seenBehind(p.direction);
-    return p;
-  }
+  if (!kDrawsLight) return p;
+  if (p.cameraRay) return addLight(p, p.throughput * seenBehind(p.direction));
   if (!kEnvironment) return p;
   // Surroundings are outside of everything: who has left less than was entered has missed a face that touches another.
   if (kPassesLight) p.throughput *= p.compression;
@@ -163,8 +170,7 @@ Path meetSurroundings(Path p) {
   if (kGi && kEnvironmentSampling && p.density > 0.0) {
     weight = balanceWeight(p.density, frame.lightChoice.x * environmentDensity(seen, p.direction));
   }
-  p.radiance += clampIndirect(p.throughput * (weight * seen.rgb), p.bounce);
-  return p;
+  return addLight(p, clampIndirect(p.throughput * (weight * seen.rgb), p.bounce));
 }
 
 /// The number of a meeting with a surface that may let the path pass. One that stops it counts too: the rays that
@@ -208,7 +214,7 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
   p.bounce += 1;
   p.clear += clear ? 1 : 0;
   // Roulette begins in time even where it is not wanted: nothing else ends a ray that glass keeps inside.
-  if ((kGi || clear) && kFeature == kFeatureNone &&
+  if ((kGi || clear) && kDrawsLight &&
       p.bounce >= (clear ? min(frame.limits.y, kLatestRoulette) : frame.limits.y)) {
     float survival = min(maxComponent(p.throughput) * p.compression, clear ? kClearSurvival : 0.95);
     if (drawFloat(p.numbers, kBounceDimensions * uint(p.bounce) + kRouletteDimension) >= survival) return p;
@@ -246,11 +252,8 @@ vec3 emittedAt(Path p, Surface s, uint flags) {
 Path connect(Path p, Surface s, LightSample light, vec3 value) {
   if (maxComponent(value) <= 0.0) return p;
   value = clampIndirect(value, p.bounce + 1);
-  if (!kShadows) {
-    p.radiance += value;
-    return p;
-  }
-  p.contribution = value;
+  if (!kShadows) return addLight(p, value);
+  p.contribution = kLightPart ? p.part * value : value;
   p.shadowOrigin = offsetOrigin(s.position, s.positionError, s.geometricNormal, light.direction);
   p.shadowDirection = light.direction;
   // The light's own surface is kept out by a relative margin above the rounding of the point chosen on it.

@@ -32,6 +32,7 @@ struct Path {
   vec3 shadowOrigin;
   vec3 shadowDirection;
   float shadowLimit;
+  vec3 part;          // of the light that is still to come, how much belongs to the part that is drawn (kLightPart)
   vec3 contribution;  // added if the shadow ray meets nothing
   int hitSlot;        // what the ray has hit, or -1
   float hitT;         // since the last scattering
@@ -40,7 +41,10 @@ struct Path {
   Traversal traversal;
 };
 
-const int kPathRows = int(kInstances ? kTwoLevelPathStateRows : kPathStateRows);
+/// What is drawn is a part of the radiance.
+const bool kLightPart = kFeature == kFeatureEmission || kFeature == kFeatureDiffuse || kFeature == kFeatureSpecular;
+
+const int kPathRows = int(kInstances ? kTwoLevelPathStateRows : kPathStateRows) + (kLightPart ? 1 : 0);
 const int kInstanceRow = 11;  // in scenes of instances
 const int kStackRow = kInstances ? 12 : 11;
 
@@ -96,6 +100,7 @@ void savePath(Path p, int index) {
   pathStates[r + 10] = uvec4(floatBitsToUint(p.hitWeights), floatBitsToUint(t.weights));
   if (kInstances) pathStates[r + kInstanceRow] = uvec4(ivec4(p.hitInstance, t.instance, t.hitInstance, 0));
   if (!kIterative && !kLiterals) saveStack(t.stack, r + kStackRow);
+  if (kLightPart) pathStates[r + kPathRows - 1] = uvec4(floatBitsToUint(p.part), 0u);
 }
 
 /// Without `past` and `tie`, which lie with the path.
@@ -164,6 +169,7 @@ Path loadPath(int index) {
   p.tie = uintBitsToFloat(a.w);
   p.hitWeights = uintBitsToFloat(pathStates[r + 10].xy);
   p.hitInstance = kInstances ? int(pathStates[r + kInstanceRow].x) : -1;
+  p.part = kLightPart ? uintBitsToFloat(pathStates[r + kPathRows - 1].xyz) : vec3(1.0);
   p.traversal = loadTraversal(r);
   p.traversal.past = past;
   p.traversal.tie = p.phase == kPhaseExtend ? p.tie : 0.0;

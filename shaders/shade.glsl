@@ -27,6 +27,14 @@ Path disperse(Path p, SurfaceMaterial m, uint material) {
   return p;
 }
 
+/// How much of the light that a camera path's first surface scatters from `incoming` belongs to the part that is drawn.
+vec3 partScattered(Bsdf b, vec3 outgoing, vec3 incoming) {
+  vec3 all = evaluateBsdf(b, outgoing, incoming).value;
+  vec3 diffuse = diffuseUnderLayers(b, outgoing, incoming);
+  vec3 share = clamp(diffuse / max(all, vec3(1e-30)), vec3(0.0), vec3(1.0));
+  return kFeature == kFeatureDiffuse ? share : vec3(1.0) - share;
+}
+
 /// The path-traced material: one light sample, and one direction drawn from the BSDF.
 Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   if (kDispersion) {
@@ -53,9 +61,14 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
       bool environment = kEnvironmentSampling && light.distance == kFarAway;
       weight = environment ? balanceWeight(light.density, value.density) : misWeight(light.density, value.density);
     }
+    if (kLightPart && p.bounce == 0) p.part = partScattered(b, outgoing, incoming);
     p = connect(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
   }
   BsdfSample next = sampleBsdf(b, outgoing, choice, uv.x, uv.y);
+  if (kLightPart && p.bounce == 0) {
+    bool single = next.density == 0.0;
+    p.part = single ? vec3(kFeature == kFeatureSpecular ? 1.0 : 0.0) : partScattered(b, outgoing, next.incoming);
+  }
   vec3 direction = normalize(toWorld(around, next.incoming));
   if (kSpecular && next.density == 0.0) direction = ontoSide(direction, s.geometricNormal, next.transmitted);
   bool wrongSide = (dot(direction, s.geometricNormal) < 0.0) != next.transmitted;
@@ -148,7 +161,7 @@ Path shade(Path p) {
     }
     if (p.cameraRay) p.alpha = 1.0;
     if (kFeature == kFeatureGuides) return guideAt(p, s, base.rgb);
-    if (kFeature != kFeatureNone) {
+    if (!kDrawsLight) {
       p.radiance = featureAt(s, p.hitSlot, p.hitInstance, base.rgb, -p.direction);
       p.phase = kPhaseEnd;
       return p;
@@ -165,11 +178,15 @@ Path shade(Path p) {
       if (medium != kPrimitiveNone) p.throughput *= exp(-p.hitT * materialFloats(medium, kMaterialVolume).rgb);
     }
     if (!kPhong || (kUnlit && (flags & kMaterialUnlit) != 0u)) {
-      p.radiance += p.throughput * base.rgb;
+      p = addLight(p, p.throughput * base.rgb);
       p.phase = kPhaseEnd;
       return p;
     }
-    if (kEmission) p.radiance += clampIndirect(p.throughput * emittedAt(p, s, flags), p.bounce);
+    if (kEmission) p = addLight(p, clampIndirect(p.throughput * emittedAt(p, s, flags), p.bounce));
+    if (kFeature == kFeatureEmission) {
+      p.phase = kPhaseEnd;
+      return p;
+    }
     if (kScatters && limitedScatterings(p) > frame.limits.x) {
       p.phase = kPhaseCut;
       return p;

@@ -96,6 +96,9 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
   std::printf("%s\n", path.string().c_str());
   std::printf("  triangles   %zu (%zu emissive), vertices %zu, spheres %zu\n", s.triangles,
               s.emissiveTriangles, s.vertices, s.spheres);
+  if (s.points + s.lines > 0)
+    std::printf("  lines       %zu points, %zu line segments (as solids of --line-width pixels)\n", s.points,
+                s.lines);
   std::printf("  materials   %zu, textures %zu, images %zu (%.1f MB encoded)\n", s.materials, s.textures,
               s.images, double(s.imageBytes) / 1e6);
   std::printf("  lights      %zu point, %zu spot, %zu directional\n", s.pointLights, s.spotLights,

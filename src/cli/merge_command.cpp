@@ -57,7 +57,7 @@ RunCommand addMerge(CLI::App& app) {
   const auto raw = std::make_shared<Raw>();
   app.add_option(
          "parts", raw->options.parts,
-         ".exr files that render wrote with the same settings and other samples (--sample-offset, --seed)")
+         ".exr files of render, with the same settings and different samples (--sample-offset, --seed)")
       ->type_name("FILE")
       ->required();
   app.add_option("-o,--output", raw->options.output, "file to write, an .exr")->type_name("FILE")->required();

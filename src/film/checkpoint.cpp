@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "image/limits.h"
+#include "math/hash.h"
 
 namespace fragtrace {
 
@@ -19,14 +20,6 @@ constexpr std::string_view kMagic = "fragtrace checkpoint 1\n";
 template <typename Value>
 std::span<const uint8_t> bytesOf(const std::vector<Value>& values) {
   return {reinterpret_cast<const uint8_t*>(values.data()), values.size() * sizeof(Value)};
-}
-
-constexpr uint64_t kSumStart = 0xcbf29ce484222325u;
-
-/// FNV-1a: finds damage, not malice.
-uint64_t sumOf(std::span<const uint8_t> bytes, uint64_t sum) {
-  for (const uint8_t byte : bytes) sum = (sum ^ byte) * 0x100000001b3u;
-  return sum;
 }
 
 /// The rest of a file.
@@ -105,8 +98,7 @@ Checkpoint decode(Reader reader) {
   const auto text = reader.take(reader.takeNumberLine());
   const nlohmann::json json = nlohmann::json::parse(text.begin(), text.end());
   if (json.at("layout") != sizeof(FilmPixel)) throw std::runtime_error("it was written by another program");
-  if (json.at("sum") != sumOf(reader.rest(), kSumStart))
-    throw std::runtime_error("its data are damaged or incomplete");
+  if (json.at("sum") != hashOf(reader.rest())) throw std::runtime_error("its data are damaged or incomplete");
   Checkpoint c;
   c.job = json.at("job");
   c.statistics = json.at("statistics");
@@ -157,8 +149,8 @@ std::vector<uint8_t> encodeCheckpoint(const Checkpoint& c) {
   arrays.push_back(bytesOf(c.adaptive.samples));
   arrays.push_back(bytesOf(c.adaptive.targets));
 
-  uint64_t sum = kSumStart;
-  for (const auto& array : arrays) sum = sumOf(array, sum);
+  uint64_t sum = kHashStart;
+  for (const auto& array : arrays) sum = hashOf(array, sum);
   const std::string header = headerOf(c, sum).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   const std::string start = std::string(kMagic) + std::to_string(header.size()) + "\n" + header;
   size_t size = start.size();

@@ -26,6 +26,7 @@ RenderOptions programPart(const RenderOptions& options) {
   if (part.debugView == DebugView::Samples || part.debugView == DebugView::Variance)
     part.debugView = DebugView::None;  // drawn by the picture's own
   part.clampIndirect = part.clampIndirect > 0.0 ? 1.0 : 0.0;
+  part.aovFeatures.clear();
   if (has(part.stages, Stage::Gi) && part.debugView == DebugView::None) part.aovFeatures = {Feature::Guides};
   return part;
 }

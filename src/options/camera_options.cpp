@@ -84,12 +84,13 @@ void addCameraOptions(CLI::App& app, RawCamera& raw) {
   addVector("--camera-position", raw.position, "X,Y,Z of the camera in world space, in metres");
   app.add_option(
          "--camera-orbit", raw.orbit,
-         "AZIMUTH,ELEVATION or AZIMUTH,ELEVATION,ZOOM: look at the middle of the scene, or at "
-         "--camera-focal-point, from this direction in degrees; 0,0 is the front (+Z), azimuth goes to the "
-         "right and elevation up; at zoom 2 all is twice as large")
+         "look at the centre of the scene, or at --camera-focal-point, from AZIMUTH degrees to the right of "
+         "the "
+         "front (+Z) and ELEVATION degrees above it; ZOOM 2 shows everything twice as large (default 1)")
       ->delimiter(',')
       ->expected(2, 3)
       ->allow_extra_args(false)
+      ->option_text("AZIMUTH,ELEVATION[,ZOOM] Excludes: --camera-position")
       ->excludes("--camera-position");
   app.add_flag(
       "--fit", raw.fit,
@@ -102,10 +103,10 @@ void addCameraOptions(CLI::App& app, RawCamera& raw) {
   app.add_option("--camera-parallel-scale", raw.parallelScale,
                  "half of the picture's height in metres, of an orthographic camera")
       ->excludes(angle);
-  addVector(
-      "--scene-origin", raw.sceneOrigin,
-      "X,Y,Z of the point about which positions are rounded; by default the focal point, if given, else a "
-      "point near the camera");
+  addVector("--scene-origin", raw.sceneOrigin,
+            "X,Y,Z of the point near which positions are most accurate; by default the focal point, if "
+            "given, else a "
+            "point near the camera");
 }
 
 namespace {

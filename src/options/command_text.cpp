@@ -87,6 +87,7 @@ void appendScene(std::string& text, const RenderOptions& o) {
          !o.backgroundColor);
   if (!o.background) text += " --no-background";
   if (!o.defaultLight) text += " --no-default-light";
+  append(text, "--line-width", exactText(o.lineWidth), o.lineWidth == standard.lineWidth);
   appendChoice(text, "--instancing", kInstancingNames, o.instancing, standard.instancing);
   const InputLimits& limits = o.limits;
   append(text, "--memory-limit", std::to_string(limits.memoryBytes),

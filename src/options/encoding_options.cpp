@@ -11,8 +11,8 @@ namespace fragtrace {
 void addHalfOption(CLI::App& app, Encoding& encoding) {
   app.add_flag(
       "--half", encoding.half,
-      "store colours, normals and roughness of an .exr as 16-bit floats, which halves the file; depth, "
-      "variance, samples and texture coordinates keep 32 bits; values beyond 65504 are clamped");
+      "store the colours, normals and roughness of an .exr as 16-bit floats, for about half the file size; "
+      "all other layers keep 32 bits; values beyond 65504 are clamped");
 }
 
 void addPngDepthOption(CLI::App& app, Encoding& encoding) {

@@ -20,9 +20,9 @@ void addInputOptions(CLI::App& app, InputLimits& limits) {
   app.add_option_function<std::string>(
          "--missing-textures",
          [&limits](const std::string& choice) { limits.drawMissingTextures = choice == "warn"; },
-         "what happens when the picture of a texture cannot be read: error (the default) ends the program; "
-         "warn "
-         "says so and draws a magenta base colour, or the material without what the texture controls")
+         "what to do if the picture of a texture cannot be read: error (default) ends the program; warn "
+         "prints a "
+         "warning, and draws magenta in place of a base colour, and leaves out what other textures control")
       ->check(CLI::IsMember({"error", "warn"}));
   app.add_flag("--allow-external-files", limits.allowExternalFiles,
                "let the scene name files outside its folder");

@@ -34,8 +34,8 @@ void addOutputOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--format", raw.format,
                  "format of the picture that --output - writes to standard output: " + joined(kFormatNames));
   app.add_option("--progress", raw.progress,
-                 "how progress is told on stderr: a bar or lines (auto), one JSON object a line, messages "
-                 "included (json), or not at all (none)")
+                 "how progress is reported on stderr: as a bar or lines (auto), as one JSON object per line, "
+                 "messages included (json), or not at all (none)")
       ->capture_default_str();
 }
 
@@ -43,7 +43,7 @@ void chooseStandardOutput(const RawRender& raw, RenderOptions& o) {
   if (!raw.format.empty()) choose<int>("--format", raw.format, kFormatNames);
   if (raw.output != "-") {
     if (!raw.format.empty())
-      throw UsageError("--format: goes with --output -; a file's name tells its format");
+      throw UsageError("--format: needs --output -; a file has the format of its name");
     return;
   }
   const auto refuse = [](const std::string& why) { throw UsageError("--output -: " + why); };

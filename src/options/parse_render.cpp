@@ -80,6 +80,8 @@ void chooseLayers(const std::vector<std::string>& names, RenderOptions& o) {
       o.aovVariance = true;
     } else if (const Feature feature = Feature(index + 1);
                std::ranges::find(o.aovFeatures, feature) == o.aovFeatures.end()) {
+      if (isLightPart(feature) && !has(o.stages, Stage::Gi))
+        throw UsageError("--aov " + name + ": only stage gi has it");
       o.aovFeatures.push_back(feature);
       // All that a filter needs.
       if (feature == Feature::Guides) o.aovSamples = o.aovVariance = true;
@@ -188,6 +190,9 @@ void addPathOptions(CLI::App& app, RawRender& raw) {
 void addPictureOptions(CLI::App& app, RawRender& raw) {
   RenderOptions& o = raw.options;
   app.add_option("--pixel-filter", raw.pixelFilter, "pixel filter: " + joined(kPixelFilterNames))
+      ->capture_default_str();
+  app.add_option("--line-width", o.lineWidth, "width of points and lines in pixels of the picture")
+      ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
   app.add_option("--aov", raw.aov,
                  "extra layers to write into an .exr, separated by commas: " + joined(layerNames()))

@@ -39,10 +39,10 @@ void addSurroundingsOptions(CLI::App& app, RawRender& raw) {
          "blur the environment map where the camera sees it directly: standard deviation in degrees; the "
          "light stays the same")
       ->check(CLI::Range(kLeastBlur, 90.0));
-  app.add_option(
-         "--shadow-catcher", raw.shadowCatcher,
-         "a horizontal plane below the scene that the camera sees nothing of but the shadow on it: its "
-         "height (Y) in metres, or 'bottom' of the scene")
+  app.add_option("--shadow-catcher", raw.shadowCatcher,
+                 "draw the scene's shadow on a horizontal plane that is otherwise invisible: the plane's "
+                 "height (Y) in "
+                 "metres, or 'bottom' for the bottom of the scene")
       ->type_name("HEIGHT");
   app.add_flag("--no-background", raw.noBackground,
                "hide the environment map from the camera, and write alpha");

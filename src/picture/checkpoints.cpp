@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <stdexcept>
+#include <string_view>
 
 #include "errors.h"
 #include "image/files/whole_file.h"
 #include "image/format.h"
+#include "math/hash.h"
 #include "picture/draw_picture.h"
 #include "picture/provenance.h"
 #include "render/adaptive.h"
@@ -19,11 +22,8 @@ namespace fragtrace {
 
 namespace {
 
-/// FNV-1a.
-uint64_t hashOfText(const std::string& text) {
-  uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ uint8_t(c)) * 0x100000001b3u;
-  return hash;
+uint64_t hashOfText(std::string_view text) {
+  return hashOf(std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
 }
 
 bool isFile(const std::filesystem::path& path) {
@@ -43,7 +43,7 @@ bool isWholePicture(const RenderOptions& options) {
     return false;
   }
   if (picture.attributes.contains(kInterruptedAttribute)) return false;
-  if (!picture.attributes.contains("fragtrace:settings")) return true;
+  if (!picture.attributes.contains(kSettingsAttribute)) return true;
   const Provenance made = provenanceOf(picture, options.output);
   const auto check = [&](const char* option, int64_t there, int64_t asked) {
     if (there != asked)

@@ -16,7 +16,6 @@ namespace fragtrace {
 
 namespace {
 
-constexpr const char* kSettings = "fragtrace:settings";
 constexpr const char* kSeed = "fragtrace:seed";
 constexpr const char* kSampleOffset = "fragtrace:sampleOffset";
 constexpr const char* kSamples = "fragtrace:samples";
@@ -120,7 +119,7 @@ std::string differenceOf(const std::string& settings, const std::string& others)
 }
 
 void setProvenance(Image& image, const Provenance& provenance) {
-  image.attributes[kSettings] = provenance.settings;
+  image.attributes[kSettingsAttribute] = provenance.settings;
   image.attributes[kSeed] = std::to_string(provenance.seed);
   image.attributes[kSampleOffset] = std::to_string(provenance.sampleOffset);
   image.attributes[kSamples] = std::to_string(provenance.samples);
@@ -158,7 +157,7 @@ std::vector<SampleRange> joinedRanges(std::vector<SampleRange> ranges) {
 
 Provenance provenanceOf(const Image& image, const std::filesystem::path& path) {
   Provenance p;
-  p.settings = textOf(image, kSettings, path);
+  p.settings = textOf(image, kSettingsAttribute, path);
   p.seed = uint32_t(numberOf(image, kSeed, path));
   p.sampleOffset = numberOf(image, kSampleOffset, path);
   p.samples = numberOf(image, kSamples, path);

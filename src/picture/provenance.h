@@ -34,6 +34,7 @@ struct Provenance {
       {};  ///< in ascending order; none: the one that seed, offset and samples say
 };
 
+inline constexpr const char* kSettingsAttribute = "fragtrace:settings";
 /// Of an .exr whose render was interrupted: "1".
 inline constexpr const char* kInterruptedAttribute = "fragtrace:interrupted";
 

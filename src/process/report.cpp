@@ -43,13 +43,16 @@ void writeLine(const Json& object) {
   std::fflush(stderr);
 }
 
-void writeText(const Json& object, const std::string& text) {
+void writeText(const char* type, const std::string& words, const std::string& text) {
   Reporting& state = reporting();
   const std::lock_guard lock(state.mutex);
-  if (isJson)
-    writeLine(object);
-  else
+  if (!isJson) {
     std::fprintf(stderr, "fragtrace: %s\n", text.c_str());
+    return;
+  }
+  Json object = {{"type", type}, {"text", words}};
+  object.update(state.context);
+  writeLine(object);
 }
 
 }  // namespace
@@ -64,15 +67,14 @@ void reportAsJson(bool quiet) {
 bool reportsAsJson() { return isJson; }
 
 void reportMessage(const std::string& text) {
-  for (const std::string_view type : {"warning", "note"}) {
+  for (const char* type : {"warning", "note"}) {
     const std::string start = std::string(type) + ": ";
-    if (text.starts_with(start))
-      return writeText({{"type", type}, {"text", text.substr(start.size())}}, text);
+    if (text.starts_with(start)) return writeText(type, text.substr(start.size()), text);
   }
-  writeText({{"type", "message"}, {"text", text}}, text);
+  writeText("message", text, text);
 }
 
-void reportError(const std::string& text) { writeText({{"type", "error"}, {"text", text}}, text); }
+void reportError(const std::string& text) { writeText("error", text, text); }
 
 void setReportContext(const Json& members) {
   Reporting& state = reporting();

@@ -27,34 +27,6 @@ DrawingState& drawing() {
   return *theOne;
 }
 
-/// What of the options loadScene() looks at, but for what aim() does again.
-RenderOptions loadPart(const RenderOptions& options) {
-  RenderOptions part;
-  part.scene = options.scene;
-  part.hdriFile = options.hdriFile;
-  part.studio = options.studio;
-  part.backgroundBlur = options.backgroundBlur;
-  part.shadowCatcher = options.shadowCatcher;
-  part.defaultLight = options.defaultLight;
-  part.selection = options.selection;
-  part.instancing = options.instancing;
-  part.traversal = options.traversal;
-  part.stages = options.stages;
-  part.sceneOrigin = options.sceneOrigin;
-  part.limits = options.limits;
-  return part;
-}
-
-/// What makeTracer() looks at.
-RenderOptions tracerPart(const RenderOptions& options) {
-  RenderOptions part = programOptions(options);
-  part.aovFeatures = options.aovFeatures;
-  part.clampIndirect = options.clampIndirect;
-  part.background = options.background;
-  part.backgroundColor = options.backgroundColor;
-  return part;
-}
-
 /// The context is the process's: all scenes share it.
 Device& deviceFor(const RenderOptions& options, Statistics& stats) {
   DrawingState& state = drawing();
@@ -80,11 +52,21 @@ void forgetDevice() {
   state.device.context.reset();
 }
 
+/// What the scene is loaded for: points and lines get their size from the camera and the picture's.
+RenderOptions loadedFor(const RenderOptions& options, const LoadedScene& loaded) {
+  RenderOptions part = sceneOptions(options);
+  if (loaded.scene.strokes.empty()) return part;
+  part.camera = options.camera;
+  part.cameraIndex = options.cameraIndex;
+  part.resolution = options.resolution;
+  return part;
+}
+
 /// The scene as loaded and uploaded for these options; the statistics say what of that was to be done.
 Statistics prepare(KeptScene& kept, const RenderOptions& options) {
   Statistics stats;
-  const bool isLoaded = kept.loaded && kept.loadedFor == loadPart(options);
-  const bool isThere = isLoaded && kept.tracer && kept.tracedFor == tracerPart(options);
+  const bool isLoaded = kept.loaded && kept.loadedFor == loadedFor(options, *kept.loaded);
+  const bool isThere = isLoaded && kept.tracer && kept.tracedFor == programOptions(options);
   if (isLoaded) {
     stats = kept.prepared;
     stats.phases.clear();
@@ -98,7 +80,7 @@ Statistics prepare(KeptScene& kept, const RenderOptions& options) {
     kept.tracer.reset();
     kept.loaded.reset();
     kept.loaded = loadScene(options, stats, {}, FilmOf::Part);
-    kept.loadedFor = loadPart(options);
+    kept.loadedFor = loadedFor(options, *kept.loaded);
   }
   const Device& device = deviceFor(options, stats);
   if (isThere) {
@@ -108,7 +90,7 @@ Statistics prepare(KeptScene& kept, const RenderOptions& options) {
   kept.tracer.reset();
   stats.skipped.clear();
   kept.tracer = makeTracer(*device.context, *kept.loaded, options, stats, true);
-  kept.tracedFor = tracerPart(options);
+  kept.tracedFor = programOptions(options);
   if (!kept.isKept) releaseGeometry(*kept.loaded);
   kept.prepared = stats;
   return stats;

@@ -117,7 +117,8 @@ void Renderer::setFrame(const Film& film, const View& view) {
 
 void Renderer::bindPathStates() {
   const bool twoLevels = has(variant_.traits, Trait::Instances);
-  const uint32_t rows = twoLevels ? layout::kTwoLevelPathStateRows : layout::kPathStateRows;
+  const uint32_t rows = (twoLevels ? layout::kTwoLevelPathStateRows : layout::kPathStateRows) +
+                        (isLightPart(variant_.feature) ? 1 : 0);
   const int64_t count =
       variant_.wavefront ? int64_t(kMaxWaveLanes) * layout::kWaveLaneRows : int64_t(kMaxTilePixels) * rows;
   if (count > pathStateRows_) {

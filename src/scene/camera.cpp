@@ -7,12 +7,11 @@
 #include <glm/gtc/constants.hpp>
 
 #include "errors.h"
+#include "math/finite.h"
 #include "scene/parts.h"
 
 namespace fragtrace {
 namespace {
-
-bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 double radiusOf(const BoundsDouble& bounds) {
   const double radius = 0.5 * glm::length(bounds.extent());

@@ -10,6 +10,12 @@ SceneDescription describe(const Scene& scene) {
   result.triangles = scene.triangles.size();
   result.vertices = scene.vertices.position.size();
   result.spheres = scene.spheres.size();
+  for (const Strokes& strokes : scene.strokes) {
+    const auto points =
+        size_t(std::ranges::count_if(strokes.ends, [](const glm::uvec2& ends) { return ends.x == ends.y; }));
+    result.points += points;
+    result.lines += strokes.ends.size() - points;
+  }
   result.sharedMeshes = scene.sharedMeshes.size();
   result.sharedInstances = scene.instances.size();
   result.sharing = scene.sharing;

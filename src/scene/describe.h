@@ -16,6 +16,8 @@ struct SceneDescription {
   size_t triangles = 0;
   size_t vertices = 0;
   size_t spheres = 0;
+  size_t points = 0;
+  size_t lines = 0;      ///< segments
   size_t instances = 0;  ///< mesh primitives, counted once for each node that shows them
   size_t sharedMeshes = 0;
   size_t sharedInstances = 0;  ///< of shared meshes

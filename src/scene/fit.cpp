@@ -147,7 +147,13 @@ glm::dvec3 perspectivePlace(std::span<const glm::dvec3> points, const glm::dvec2
 }  // namespace
 
 std::vector<glm::dvec3> outlineOf(const Scene& scene) {
-  std::vector<glm::dvec3> points = verticesOf(scene, 0, flatTriangleCount(scene));
+  std::vector<glm::dvec3> points = verticesOf(scene, 0, flatTriangleCount(scene) - scene.strokeTriangles);
+  for (const Strokes& strokes : scene.strokes) {
+    for (const glm::uvec2& ends : strokes.ends) {
+      points.emplace_back(scene.vertices.position[ends.x]);
+      points.emplace_back(scene.vertices.position[ends.y]);
+    }
+  }
   for (glm::dvec3& point : points) point = scene.space.worldOf(point);
   appendInstances(scene, points);
   for (const Sphere& sphere : scene.spheres)

@@ -13,8 +13,8 @@ namespace fragtrace {
 /// How much of the picture's width or height a fitted scene takes.
 inline constexpr double kFitted = 0.95;
 
-/// Points in world space whose convex hull is that of all triangles and spheres; a little larger where
-/// spheres or very many instances are.
+/// Points in world space whose convex hull is that of all triangles, spheres, and strokes without their
+/// width; a little larger where spheres or very many instances are.
 std::vector<glm::dvec3> outlineOf(const Scene& scene);
 
 /// The same of what they sweep as they turn about the vertical axis, +Y, through `point`.

@@ -268,6 +268,17 @@ struct PrimitiveOrigin {
   uint32_t nodeIndex = 0;  ///< the node's place in the file
 };
 
+/// Points and line segments of one mesh primitive, as a node places it. They become triangles once a camera
+/// tells their size (scene/strokes.h).
+struct Strokes {
+  std::string node{};      ///< as in PrimitiveOrigin
+  std::string mesh{};      ///< as in PrimitiveOrigin
+  uint32_t nodeIndex = 0;  ///< as in PrimitiveOrigin
+  uint32_t material = 0;
+  bool lit = false;              ///< normals were given
+  std::vector<glm::uvec2> ends;  ///< vertices; twice the same: a point
+};
+
 /// Vertex attributes, one entry a vertex; an array other than position is empty when no primitive needs it.
 struct Vertices {
   std::vector<glm::vec3> position;  ///< local space
@@ -286,6 +297,8 @@ struct Scene {
   std::vector<Triangle> triangles;
   std::vector<uint32_t> insets;  ///< one a triangle, or none (creaseInsets of creases.h)
   std::vector<Sphere> spheres;
+  std::vector<Strokes> strokes;
+  uint32_t strokeTriangles = 0;     ///< what addStrokes() made of them: the last triangles in local space
   std::vector<Material> materials;  ///< never empty: the default material is appended when something needs it
   std::vector<Texture> textures;
   std::vector<EncodedImage> images;

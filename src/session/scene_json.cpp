@@ -14,6 +14,8 @@ nlohmann::ordered_json sceneJson(const SceneDescription& s) {
   json["triangles"] = s.triangles;
   json["vertices"] = s.vertices;
   json["spheres"] = s.spheres;
+  json["points"] = s.points;
+  json["lines"] = s.lines;
   json["instances"] = s.instances;
   json["instancing"] = {{"shared_meshes", s.sharedMeshes},
                         {"instances", s.sharedInstances},

@@ -21,6 +21,7 @@
 #include "process/parallel.h"
 #include "scene/blurred_map.h"
 #include "scene/fit.h"
+#include "scene/strokes.h"
 #include "scene/studio.h"
 #include "session/outputs.h"
 #include "session/picture_memory.h"
@@ -244,12 +245,13 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   if (!loaded.scene.images.empty()) startImageProcess();
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));
+  aim(loaded, options, film);
+  addStrokes(loaded.scene, loaded.camera, loaded.size.y, options.lineWidth);
   checkCatcher(options, loaded.scene);
   for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
   if (scene.triangles.empty() && scene.spheres.empty()) {
     say(options, "warning: " + options.scene.string() + ": no triangle and no sphere, nothing to draw");
   }
-  aim(loaded, options, film);
   stats.loadMs = watch.lap();
   step("building the tree", 0.5);
   PhaseTimer treeTimer("tree");

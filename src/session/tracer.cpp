@@ -6,6 +6,7 @@
 #include "errors.h"
 #include "gl/driver_choice.h"
 #include "gl/schedule.h"
+#include "math/hash.h"
 #include "pack/literals.h"
 #include "pack/pack_textures.h"
 #include "process/parallel.h"
@@ -20,7 +21,7 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
     variant.literals = largeFirst(loaded.scene, loaded.bvh, variant);
     return;
   }
-  if (variant.feature != Feature::None) return;
+  if (variant.feature != Feature::None && !isLightPart(variant.feature)) return;
   const bool asked = options.traversal == TraversalMethod::Literals;
   if (has(variant.stages, Stage::BvhHeatmap)) {
     if (asked) throw UsageError("--traversal literals: has no tree whose nodes the heat map could count");
@@ -55,19 +56,12 @@ Phase buildProgram(ProgramCache& programs, const ShaderVariant& variant) {
   return timer.end();
 }
 
-/// FNV-1a over the words of each array, and over these hashes; arrays that are unchanged have theirs.
-uint64_t hashOf(const GpuScene& scene, std::array<uint64_t, layout::kSceneBufferCount>& arrays) {
-  constexpr uint64_t kStart = 0xcbf29ce484222325u;
-  constexpr uint64_t kPrime = 0x100000001b3u;
-  uint64_t all = kStart;
+/// Over the words of each array, and over these hashes; arrays that are unchanged have theirs.
+uint64_t sceneHash(const GpuScene& scene, std::array<uint64_t, layout::kSceneBufferCount>& arrays) {
   for (size_t i = 0; i < arrays.size(); ++i) {
-    if (!scene.unchanged[i]) {
-      arrays[i] = kStart;
-      for (const uint32_t word : scene.buffers[i]) arrays[i] = (arrays[i] ^ word) * kPrime;
-    }
-    all = (all ^ arrays[i]) * kPrime;
+    if (!scene.unchanged[i]) arrays[i] = hashOf(scene.buffers[i]);
   }
-  return all;
+  return hashOf(arrays);
 }
 
 /// The variants that the options ask for, as far as the scene alone decides them. Returns what all of them
@@ -158,7 +152,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   const std::optional<Phase> ahead = buildAhead(programs, tracer.variant, loaded, options, context);
   GpuScene packed = packedLater.get();
   describe(stats, context, packed, packing);
-  if (withHash) tracer.sceneHash = hashOf(packed, tracer.arrayHashes);
+  if (withHash) tracer.sceneHash = sceneHash(packed, tracer.arrayHashes);
   const ReadChoice choice = chooseReads(options.bufferReads, context.software, packed, readLimits());
   tracer.reads = choice.reads;
   stats.readFallback = choice.fallback;
@@ -181,7 +175,7 @@ void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loa
   GpuScene packed =
       packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textureSide, &tracer.kept);
   describe(stats, context, packed, timer.end());
-  if (tracer.sceneHash != 0) tracer.sceneHash = hashOf(packed, tracer.arrayHashes);
+  if (tracer.sceneHash != 0) tracer.sceneHash = sceneHash(packed, tracer.arrayHashes);
   settleVariants(tracer, loaded, packed, options, context, stats);
   PhaseTimer uploading("upload");
   tracer.renderer->replaceScene(std::move(packed));

@@ -11,7 +11,7 @@
 
 namespace fragtrace {
 
-/// What a first hit is, beside its radiance.
+/// What a first hit is beside its radiance, and the parts of that.
 enum class Feature : uint8_t {
   None,
   Albedo,
@@ -23,6 +23,10 @@ enum class Feature : uint8_t {
   Position,
   Object,    ///< number of the glTF node, from 1 on
   Material,  ///< number of the glTF material, from 1 on
+  Emission,  ///< the parts of its radiance, which add up to it: what surfaces and surroundings send to the
+             ///< camera,
+  Diffuse,   ///< light that was scattered first by a diffuse surface,
+  Specular,  ///< and by all others
   Guides     ///< what a filter tells surfaces apart by, all in one: kGuideChannels
 };
 
@@ -32,7 +36,7 @@ struct FeatureRow {
 };
 
 /// In the order of Feature.
-inline constexpr std::array<FeatureRow, 11> kFeatureRows{{{"", ""},
+inline constexpr std::array<FeatureRow, 14> kFeatureRows{{{"", ""},
                                                           {"albedo", "RGB"},
                                                           {"normal", "XYZ"},
                                                           {"depth", "Z"},
@@ -42,9 +46,17 @@ inline constexpr std::array<FeatureRow, 11> kFeatureRows{{{"", ""},
                                                           {"position", "XYZ"},
                                                           {"object", "Y"},
                                                           {"material", "Y"},
+                                                          {"emission", "RGB"},
+                                                          {"diffuse", "RGB"},
+                                                          {"specular", "RGB"},
                                                           {"denoising", ""}}};
 
 inline const FeatureRow& rowOf(Feature feature) { return kFeatureRows[size_t(feature)]; }
+
+/// Whether it is light, for which paths are traced to their ends, and not a property of the first hit.
+inline bool isLightPart(Feature feature) {
+  return feature == Feature::Emission || feature == Feature::Diffuse || feature == Feature::Specular;
+}
 
 /// What a picture shows; all but None are colours as they are to be displayed, without exposure and tone
 /// curve.

@@ -29,8 +29,13 @@ RenderOptions withoutEffects(RenderOptions options, std::initializer_list<Effect
   return options;
 }
 
+RenderOptions sceneOptions(RenderOptions options) {
+  reset(options, [](const auto& row) { return row.renewal != Renewal::Scene; });
+  return options;
+}
+
 RenderOptions programOptions(RenderOptions options) {
-  reset(options, [](const auto& row) { return !row.program; });
+  reset(options, [](const auto& row) { return row.renewal == Renewal::None; });
   return options;
 }
 

@@ -96,6 +96,7 @@ struct RenderOptions {
   bool studio = false;                  ///< the built-in environment (scene/studio.h)
   bool shadowCatcher = false;           ///< a plane that shows nothing but shadows
   std::optional<double> catcherHeight;  ///< its Y in world space, metres; none: the bottom of the scene
+  double lineWidth = 2.0;               ///< of points and lines, pixels
   Encoding encoding;                    ///< of the output
   ToneMap toneMap = ToneMap::Neutral;
   PixelFilter pixelFilter = PixelFilter::Box;

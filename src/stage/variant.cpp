@@ -193,6 +193,11 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
 ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet& present,
                                    Surroundings surroundings, uint32_t treeDepth, BufferReads reads,
                                    Feature feature) {
+  if (isLightPart(feature)) {
+    ShaderVariant light = chooseVariant(options, present, surroundings, treeDepth, reads);
+    light.feature = feature;
+    return light;
+  }
   RenderOptions wanted = options;
   const bool guides = feature == Feature::Guides;
   const bool normals = feature == Feature::Normal || guides;

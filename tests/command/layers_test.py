@@ -4,6 +4,7 @@
 import json
 import math
 
+from materials_test import quad
 from support import SCENES, Case, main
 
 BOX = SCENES / "cornell-box.gltf"
@@ -120,6 +121,73 @@ class FirstHits(Case):
                     exr = self.layers(scene, 16, "--stage", "flat", "--resolution", "24,16", *options)
                     for channel in "RGB":
                         self.assertEqual(exr.values(channel), exr.values("albedo." + channel))
+
+
+class LightParts(Case):
+    """Emission, diffuse and specular light."""
+    ALL = ("emission", "diffuse", "specular")
+
+    def parts(self, scene, *options, size="24,16"):
+        return self.picture(scene, "x.exr", "--resolution", size, "--spp", 8, "--aov", ",".join(self.ALL), *options)
+
+    def names(self, layer):
+        return [f"{layer}.{c}" for c in "RGB"]
+
+    def total(self, exr, layer):
+        return sum(sum(exr.pixel(x, y, *self.names(layer))) for x in range(24) for y in range(16))
+
+    def test_they_add_up_to_the_picture(self):
+        for scene, options in (("coverage", ()), ("layered", ()), ("glass-sphere", ("--clamp-indirect", 0.2)), ("many-lights", ("--traversal", "bvh")),
+                               ("mesh-15743", ("--studio", "--shadow-catcher", "bottom"))):
+            with self.subTest(scene, options=options):
+                self.adds_up(self.parts(scene, *options), 24, 16, negative="--shadow-catcher" in options)
+
+    def adds_up(self, exr, width, height, negative=False):
+        """The estimate of a shadow may be darker than black: then parts may be negative."""
+        for x, y in ((x, y) for y in range(height) for x in range(width)):
+            for color, *part in zip(exr.pixel(x, y, "R", "G", "B"), *(exr.pixel(x, y, *self.names(layer)) for layer in self.ALL)):
+                self.assertAlmostEqual(sum(part), color, delta=2e-6 * (1 + max(map(abs, part))))
+                self.assertTrue(negative or min(part) >= 0, part)
+
+    def test_diffuse_light_is_what_a_black_base_lacks(self):
+        """Under an even sky; clearcoat, sheen and gloss do not depend on the colours of the base."""
+        def made(base, through):
+            path = self.folder / "plastic.gltf"
+            path.write_text(json.dumps(quad({
+                "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.5, "baseColorFactor": [*base, 1]}, "doubleSided": True,
+                "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.4},
+                               "KHR_materials_sheen": {"sheenColorFactor": [0.3, 0.2, 0.1], "sheenRoughnessFactor": 0.6},
+                               "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.4, "diffuseTransmissionColorFactor": through}}})))
+            return self.picture(str(path.with_suffix("")), "x.exr", "--resolution", "24,16", "--spp", 512, "--aov", "diffuse", "--camera-orbit", "70,0,3", "--disable", "energy-compensation")
+        whole, black = made([0.8, 0.6, 0.4], [0.3, 0.5, 0.7]), made([0, 0, 0], [0, 0, 0])
+        self.assertEqual(self.total(black, "diffuse"), 0)
+        for c in "RGB":
+            diffuse, *pictures = (sum(exr.pixel(x, y, name)[0] for x in range(24) for y in range(16))
+                                  for exr, name in ((whole, f"diffuse.{c}"), (whole, c), (black, c)))
+            self.assertAlmostEqual((pictures[0] - pictures[1]) / diffuse, 1, delta=0.005)
+
+    def test_paths_that_are_continued_in_the_next_draw_keep_their_part(self):
+        """A ray against 7,872 leaves in turn takes more steps than a draw allows."""
+        self.adds_up(self.parts("mesh-15743", "--traversal", "iterative", "--studio", size="6,4"), 6, 4)
+
+    def test_each_is_what_it_says(self):
+        matt = self.parts("corner-diffuse")
+        self.assertEqual(self.total(matt, "specular"), 0)
+        self.assertGreater(self.total(matt, "diffuse"), 1)
+        metal = self.folder / "metal.gltf"
+        metal.write_text(json.dumps(quad({"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 0.3}})))
+        mirror = self.parts(str(metal.with_suffix("")))
+        self.assertEqual(self.total(mirror, "diffuse"), 0)
+        self.assertGreater(self.total(mirror, "specular"), 1)
+        box = self.parts("cornell-box")
+        lamp = [(x, y) for y in range(16) for x in range(24) if max(box.pixel(x, y, *self.names("emission"))) > 0]
+        self.assertTrue(0 < len(lamp) < 40, lamp)
+        for x, y in lamp:
+            self.assertGreater(sum(box.pixel(x, y, *self.names("emission"))), 1)
+
+    def test_other_stages_lack_them(self):
+        for layer in self.ALL:
+            self.fails(2, "render", BOX, "-o", self.folder / "x.exr", "--stage", "phong", "--aov", layer, says=[f"--aov {layer}: only stage gi has it"])
 
 
 class PartNumbers(Case):

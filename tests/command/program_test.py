@@ -100,7 +100,7 @@ class StandardOutput(Case):
                             (("--format", "exr", "--resume"), "--resume"), (("--format", "exr", "--stats", "-"), "--stats"),
                             (("--format", "png", "--turntable", 3), "####"), (("--format", "png", "--aov", "samples"), ".exr")):
             self.fails(2, "render", BOX, "-o", "-", *SIZE, *words, says=[says], cwd=self.folder)
-        self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--format", "png", says=["--format: goes with --output -"])
+        self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--format", "png", says=["--format: needs --output -"])
 
     def test_a_terminal_is_refused(self):
         result = subprocess.run(["script", "-qec", f"'{FRAGTRACE}' render '{BOX}' -o - --format png", "/dev/null"], capture_output=True,

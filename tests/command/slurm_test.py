@@ -74,7 +74,7 @@ def parent(process):
 
 
 class FarmSlurm(Farm):
-    WORDS = ("render", BALL, "-o", "x.exr", "--quiet", "--resolution", "100,80", "--spp", 300, "--checkpoint", 0.2)
+    WORDS = ("render", BALL, "-o", "x.exr", "--quiet", "--resolution", "100,80", "--spp", 1500, "--checkpoint", 0.2)
 
     @classmethod
     def setUpClass(cls):
@@ -138,7 +138,7 @@ class FarmSlurm(Farm):
         self.assertFalse((self.folder / "x.exr.parts").exists())
         self.assertEqual({name: state.split()[0] for name, state in self.states().items()},
                          {name: "finished" for name in ("0000", "0001", "0002", "merge")})
-        self.assertIn("3 parts, 300 samples per pixel", (next(self.folder.glob("farm-*")) / "merge.log").read_text())
+        self.assertIn("3 parts, 1500 samples per pixel", (next(self.folder.glob("farm-*")) / "merge.log").read_text())
         return (self.folder / "x.exr").read_bytes()
 
     def unbroken(self):

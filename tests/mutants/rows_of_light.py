@@ -30,6 +30,8 @@ ROWS = [
     F("path.emittedAt", "vec3 radiance = emissionAt", "vec3 radiance = 1.02 * emissionAt", "lamps that are hit are 2 % too bright"),
     F("path.emittedAt coat", "radiance *= emissionUnderCoat", "radiance *= 1.02 * emissionUnderCoat", "coated lamps that are hit are 2 % too bright"),
     F("path.emittedAt density", "misWeight(p.density,", "misWeight(1.05 * p.density,", "the weight of lamps that are hit takes the ray's density 5 % too high"),
+    F("path.addLight", "p.part * light", "1.02 * p.part * light", "the parts of light are 2 % too bright"),
+    F("shade.partScattered", "vec3 share = clamp(diffuse", "vec3 share = clamp(0.98 * diffuse", "2 % of the diffuse part count as specular"),
     F("path.connect", "clampIndirect(value,", "clampIndirect(1.02 * value,", "chosen light is 2 % too bright"),
     F("path.connect limit", "float(0.9999)", "float(0.98)", "what is within 2 % of the way before a lamp casts no shadow"),
     F("shade.baseBsdf metal", "m.metallic : 0.0", "0.98 * m.metallic : 0.0", "2 % of the metal is not metal"),

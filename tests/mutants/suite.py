@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fault import callers_of
 
-COMMANDS = ("Means", "Sheets", "KnownLight", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising")
+COMMANDS = ("Means", "Sheets", "KnownLight", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising")
 # Where to look first, before there is any experience: scenes of picture tests, test files and groups by the beginning of a fault's name.
 LIKELY = {
     "path.": ("closed-furnace.gi", "command.KnownLight", "cornell-box.gi", "coverage.gi"),
@@ -30,6 +30,9 @@ LIKELY = {
     "shade.scatterGlass": ("water-cube-plain.refraction",),
     "shade.scatterMirror": ("sphere-plane-mirror.reflections",),
     "shade.featureAt": ("command.FirstHits",),
+    "shade.partScattered": ("command.LightParts",),
+    "path.addLight": ("command.LightParts",),
+    "layers.diffuseUnderLayers": ("command.LightParts",),
     "shade.depthOf": ("command.FirstHits",),
     "guides.": ("command.Denoising",),
     "lights.": ("command.KnownLight", "lights.gi", "cornell-box-direct.gi", "lights.shadows"),

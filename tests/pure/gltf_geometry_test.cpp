@@ -194,15 +194,34 @@ TEST(GltfGeometry, TextureCoordinatesAreKeptWhereTheMaterialReadsThem) {
   EXPECT_EQ(scene.materials.at(0).emissiveTexture.texcoord, 1u);
 }
 
-TEST(GltfGeometry, PointsAndLinesAreLeftOutWithOneWarning) {
+TEST(GltfGeometry, PointsAndLinesAreStrokesBetweenTheirVertices) {
+  using Ends = std::vector<glm::uvec2>;
+  const std::vector<Ends> expected = {
+      {{0, 0}, {1, 1}, {2, 2}}, {{0, 1}}, {{0, 1}, {1, 2}, {2, 0}}, {{0, 1}, {1, 2}}};
+  for (int mode = 0; mode < 4; ++mode) {
+    GltfBuilder builder;
+    builder.addTriangle();
+    builder.addTriangle()["mode"] = mode;
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.triangles.size(), 1u);
+    ASSERT_EQ(scene.strokes.size(), 1u);
+    EXPECT_FALSE(scene.strokes[0].lit);
+    EXPECT_EQ(scene.strokes[0].nodeIndex, 1u);
+    Ends ends = scene.strokes[0].ends;
+    for (glm::uvec2& pair : ends) pair -= glm::uvec2(3);  // behind the triangle's vertices
+    EXPECT_EQ(ends, expected[size_t(mode)]) << mode;
+    EXPECT_EQ(anyWarningHas(scene, "/meshes/1/primitives/0: vertices that make no whole line"), mode == 1);
+  }
+}
+
+TEST(GltfGeometry, PointsAndLinesAloneHaveBoundsAndKeepTheDefaultMaterial) {
   GltfBuilder builder;
-  builder.addTriangle();
-  builder.addTriangle()["mode"] = 0;
-  builder.addTriangle()["mode"] = 1;
+  builder.addTriangle()["mode"] = 3;
   const Scene scene = load(builder);
-  EXPECT_EQ(scene.triangles.size(), 1u);
-  EXPECT_EQ(scene.warnings.size(), 1u);
-  EXPECT_TRUE(anyWarningHas(scene, "/meshes/1/primitives/0: points and lines are left out"));
+  EXPECT_TRUE(scene.triangles.empty());
+  EXPECT_EQ(scene.materials.size(), 1u);
+  EXPECT_FALSE(scene.bounds.empty());
+  EXPECT_TRUE(scene.warnings.empty());
 }
 
 TEST(GltfGeometry, AMillionTrianglesKeepAllTheirVerticesAndFaces) {

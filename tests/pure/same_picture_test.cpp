@@ -31,6 +31,7 @@ TEST(SamePicture, DependsOnWhatIsShownAndFromWhere) {
       [](RenderOptions& o) { o.backgroundBlur = 1.0; },
       [](RenderOptions& o) { o.shadowCatcher = true; },
       [](RenderOptions& o) { o.catcherHeight = 1.0; },
+      [](RenderOptions& o) { o.lineWidth = 1.0; },
       [](RenderOptions& o) { o.backgroundColor = glm::vec3(1.0f); },
       [](RenderOptions& o) { o.stages.set(size_t(Stage::Schlick)); },
       [](RenderOptions& o) { o.pixelFilter = PixelFilter::Gaussian; },

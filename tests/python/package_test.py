@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: MIT
 """The Python package as it is installed, beside the command. usage: package_test.py FRAGTRACE SOURCE_FOLDER [unittest arguments]"""
 import _thread
+import base64
+import json
 import multiprocessing
 import os
 import pickle
+import struct
 import subprocess
 import sys
 import tempfile
@@ -259,6 +262,19 @@ class Sharing(Package):
                     np.testing.assert_array_equal(result, expected)
                 else:
                     self.assertIn("spawn", result)
+
+    def test_lines_have_the_width_of_each_view(self):
+        data = struct.pack("<6f", -1, 0, 0, 1, 1, 0)
+        path = self.folder / "line.gltf"
+        path.write_text(json.dumps({
+            "asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}],
+            "buffers": [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}],
+            "bufferViews": [{"buffer": 0, "byteLength": len(data)}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 1}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 2, "type": "VEC3", "min": [-1, 0, 0], "max": [1, 1, 0]}]}))
+        scene = fragtrace.Scene(path, **SMALL, scene_origin=(0, 0, 0))
+        for keywords in ({}, {"camera_orbit": (30, 10)}, {"camera_orbit": (30, 10, 4)}, {"resolution": (48, 32)}, {"line_width": 7}):
+            with self.subTest(str(keywords)):
+                np.testing.assert_array_equal(scene.render(**keywords), fragtrace.render(path, **{**SMALL, "scene_origin": (0, 0, 0), **keywords}))
 
     def test_scenes_come_and_go(self):
         for _ in range(20):

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/finite.h"
 #include "scene/tangents.h"
 
 namespace fragtrace {
@@ -118,8 +119,7 @@ void appendVertices(const Vertices& from, Placement& placement, const LocalSpace
   for (size_t i = 0; i < count; ++i) {
     const glm::vec3 position(space.localOf(placement.of(i).positionOf(from.position[i])));
     // The scene's size is that of its triangles; what none of them uses may be anywhere.
-    const bool isFinite = std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z);
-    to.position.push_back(isFinite ? position : glm::vec3(0.0f));
+    to.position.push_back(isFinite(position) ? position : glm::vec3(0.0f));
   }
   append(to.normal, from.normal, count, glm::vec3(0.0f));
   append(to.tangent, from.tangent, count, glm::vec4(0.0f));
@@ -141,11 +141,32 @@ void appendVertices(const Vertices& from, Placement& placement, const LocalSpace
   }
 }
 
+/// Calls use(vertex) for each corner of a triangle and end of a line.
+template <typename Use>
+void forEachCorner(const MeshPrimitive& primitive, const Use& use) {
+  for (const Triangle& triangle : primitive.triangles) {
+    for (int corner = 0; corner < 3; ++corner) use(triangle.vertex[corner]);
+  }
+  for (const glm::uvec2& ends : primitive.strokes.ends) {
+    use(ends.x);
+    use(ends.y);
+  }
+}
+
+void appendStrokes(const PrimitiveInstance& instance, uint32_t firstVertex, Scene& scene) {
+  Strokes& strokes = scene.strokes.emplace_back(instance.primitive->strokes);
+  strokes.node = instance.node;
+  strokes.mesh = instance.mesh;
+  strokes.nodeIndex = instance.nodeIndex;
+  for (glm::uvec2& ends : strokes.ends) ends += glm::uvec2(firstVertex);
+}
+
 void appendPrimitive(const PrimitiveInstance& instance, const LocalSpace& space, Scene& scene) {
   Placement placement(instance);
   const auto firstVertex = uint32_t(scene.vertices.position.size());
   const auto firstTriangle = uint32_t(scene.triangles.size());
   appendVertices(instance.primitive->vertices, placement, space, scene.vertices);
+  if (!instance.primitive->strokes.ends.empty()) return appendStrokes(instance, firstVertex, scene);
   for (Triangle triangle : instance.primitive->triangles) {
     const bool mirrors = placement.of(triangle.vertex.x).mirrors;
     triangle.vertex += glm::uvec3(firstVertex);
@@ -159,13 +180,10 @@ void appendPrimitive(const PrimitiveInstance& instance, const LocalSpace& space,
 /// Appends the positions that triangles use, each once.
 void appendUsed(const MeshPrimitive& primitive, std::vector<glm::vec3>& points) {
   std::vector<bool> isUsed(primitive.vertices.position.size(), false);
-  for (const Triangle& triangle : primitive.triangles) {
-    for (int corner = 0; corner < 3; ++corner) {
-      const uint32_t vertex = triangle.vertex[corner];
-      if (!isUsed[vertex]) points.push_back(primitive.vertices.position[vertex]);
-      isUsed[vertex] = true;
-    }
-  }
+  forEachCorner(primitive, [&](uint32_t vertex) {
+    if (!isUsed[vertex]) points.push_back(primitive.vertices.position[vertex]);
+    isUsed[vertex] = true;
+  });
 }
 
 bool contains(const BoundsDouble& box, const BoundsDouble& other) {
@@ -208,12 +226,8 @@ void appendShared(const MeshToShare& shared, Scene& scene) {
 
 BoundsDouble boundsOf(const std::vector<MeshPrimitive>& mesh) {
   Bounds box;
-  for (const MeshPrimitive& primitive : mesh) {
-    for (const Triangle& triangle : primitive.triangles) {
-      for (int corner = 0; corner < 3; ++corner)
-        box.include(primitive.vertices.position[triangle.vertex[corner]]);
-    }
-  }
+  for (const MeshPrimitive& primitive : mesh)
+    forEachCorner(primitive, [&](uint32_t vertex) { box.include(primitive.vertices.position[vertex]); });
   return {glm::dvec3(box.minimum), glm::dvec3(box.maximum)};
 }
 
@@ -232,12 +246,9 @@ BoundsDouble boundsOf(std::span<const PrimitiveInstance> instances, std::span<co
   BoundsDouble bounds;
   for (const PrimitiveInstance& instance : instances) {
     Placement placement(instance);
-    for (const Triangle& triangle : instance.primitive->triangles) {
-      for (int corner = 0; corner < 3; ++corner) {
-        const uint32_t vertex = triangle.vertex[corner];
-        bounds.include(placement.of(vertex).positionOf(instance.primitive->vertices.position[vertex]));
-      }
-    }
+    forEachCorner(*instance.primitive, [&](uint32_t vertex) {
+      bounds.include(placement.of(vertex).positionOf(instance.primitive->vertices.position[vertex]));
+    });
   }
   for (const MeshToShare& mesh : shared) {
     std::vector<glm::vec3> points;

@@ -35,18 +35,20 @@ struct MeshToShare {
   std::vector<Place> places;
 };
 
-/// Bounds of all triangles of a mesh in its own space; vertices that no triangle uses do not count.
+/// Bounds of all triangles, points and lines of a mesh in its own space; vertices that none uses do not
+/// count.
 BoundsDouble boundsOf(const std::vector<MeshPrimitive>& mesh);
 
 /// A box round what is in that box.
 BoundsDouble transformed(const BoundsDouble& box, const glm::dmat4& matrix);
 
-/// World bounds of all triangles; vertices that no triangle uses do not count.
+/// World bounds of all triangles, points and lines; vertices that none uses do not count.
 BoundsDouble boundsOf(std::span<const PrimitiveInstance> instances, std::span<const MeshToShare> shared);
 
-/// Appends all instances to the scene's vertices, triangles and origins, in scene.space, and behind them the
-/// shared meshes in spaces of their own, with their instances. A transform that mirrors turns the winding and
-/// the handedness of tangents round, so that front stays front. The totals must fit 32-bit indices.
+/// Appends all instances to the scene's vertices, triangles, origins and strokes, in scene.space, and behind
+/// them the shared meshes in spaces of their own, with their instances. A transform that mirrors turns the
+/// winding and the handedness of tangents round, so that front stays front. The totals must fit 32-bit
+/// indices.
 void flatten(std::span<const PrimitiveInstance> instances, std::span<const MeshToShare> shared, Scene& scene);
 
 }  // namespace fragtrace

@@ -15,6 +15,7 @@
 #include "gltf/build/sharing.h"
 #include "scene/camera.h"
 #include "scene/creases.h"
+#include "scene/strokes.h"
 
 namespace fragtrace {
 namespace {
@@ -26,6 +27,10 @@ void takeMeshes(Document& document, const PlacedMeshes& placed) {
   const auto count = [&](const MeshPrimitive& primitive) {
     vertexCount += primitive.vertices.position.size();
     triangleCount += primitive.triangles.size();
+    for (const glm::uvec2& ends : primitive.strokes.ends) {
+      vertexCount += kMostStrokeVertices;
+      triangleCount += ends.x == ends.y ? kTrianglesOfAPoint : kTrianglesOfALine;
+    }
   };
   for (const PrimitiveInstance& instance : placed.flat) count(*instance.primitive);
   for (const MeshToShare& shared : placed.shared) {
@@ -85,8 +90,8 @@ void recentre(const GltfOptions& options, const Diagnostics& diagnostics, Scene&
 void dropUnusedDefaultMaterial(Scene& scene) {
   const auto last = uint32_t(scene.materials.size() - 1);
   const auto usesLast = [last](const auto& part) { return part.material == last; };
-  if (last > 0 && std::none_of(scene.triangles.begin(), scene.triangles.end(), usesLast) &&
-      std::none_of(scene.spheres.begin(), scene.spheres.end(), usesLast)) {
+  if (last > 0 && std::ranges::none_of(scene.triangles, usesLast) &&
+      std::ranges::none_of(scene.spheres, usesLast) && std::ranges::none_of(scene.strokes, usesLast)) {
     scene.materials.pop_back();
   }
 }
@@ -125,7 +130,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   scene.bounds.include(boundsOf(spheres));
   recentre(options, document.diagnostics, scene);
   flatten(meshes.flat, meshes.shared, scene);
-  scene.insets = creaseInsets(scene);
+  if (scene.strokes.empty()) scene.insets = creaseInsets(scene);  // else addStrokes() does it
   for (const PlacedSphere& sphere : spheres) {
     scene.spheres.push_back({glm::vec3(scene.space.localOf(sphere.center)),
                              float(sphere.radius / scene.space.unit), glm::quat(sphere.rotation),

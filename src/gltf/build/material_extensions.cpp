@@ -27,6 +27,7 @@ void readIor(const MaterialPart& part, Material& m) {
 void readTransmission(const MaterialPart& part, Material& m) {
   m.transmissionFactor = part.factor("transmissionFactor", 0.0, 0.0f, 1.0f);
   m.transmissionTexture = part.texture("transmissionTexture");
+  if (m.transmissionTexture.lost) m.transmissionFactor = 0.0f;
 }
 
 void readVolume(const MaterialPart& part, Material& m) {
@@ -50,6 +51,7 @@ void readClearcoat(const MaterialPart& part, Material& m) {
   m.clearcoatRoughnessFactor = part.factor("clearcoatRoughnessFactor", 0.0, 0.0f, 1.0f);
   if (!m.clearcoated()) return;
   m.clearcoatTexture = part.texture("clearcoatTexture");
+  if (m.clearcoatTexture.lost) m.clearcoatFactor = 0.0f;
   m.clearcoatRoughnessTexture = part.texture("clearcoatRoughnessTexture");
   m.clearcoatNormalTexture = part.texture("clearcoatNormalTexture");
   const tinygltf::Value& normal = memberOf(part.object(), "clearcoatNormalTexture");
@@ -62,13 +64,16 @@ void readSheen(const MaterialPart& part, Material& m) {
   m.sheenRoughnessFactor = part.factor("sheenRoughnessFactor", 0.0, 0.0f, 1.0f);
   if (!m.hasSheen()) return;
   m.sheenColorTexture = part.texture("sheenColorTexture");
+  if (m.sheenColorTexture.lost) m.sheenColorFactor = glm::vec3(0.0f);
   m.sheenRoughnessTexture = part.texture("sheenRoughnessTexture");
 }
 
 void readAnisotropy(const MaterialPart& part, Material& m) {
   m.anisotropyStrength = part.factor("anisotropyStrength", 0.0, 0.0f, 1.0f);
   m.anisotropyRotation = float(std::fmod(numberOf(part.object(), "anisotropyRotation", 0.0), 2.0 * M_PI));
-  if (m.anisotropic()) m.anisotropyTexture = part.texture("anisotropyTexture");
+  if (!m.anisotropic()) return;
+  m.anisotropyTexture = part.texture("anisotropyTexture");
+  if (m.anisotropyTexture.lost) m.anisotropyStrength = 0.0f;
 }
 
 void readIridescence(const MaterialPart& part, Material& m) {
@@ -79,6 +84,7 @@ void readIridescence(const MaterialPart& part, Material& m) {
   m.iridescenceThicknessMaximum = part.factor("iridescenceThicknessMaximum", 400.0, 0.0f, kThickest);
   if (!m.iridescent()) return;
   m.iridescenceTexture = part.texture("iridescenceTexture");
+  if (m.iridescenceTexture.lost) m.iridescenceFactor = 0.0f;
   m.iridescenceThicknessTexture = part.texture("iridescenceThicknessTexture");
 }
 
@@ -87,7 +93,9 @@ void readDiffuseTransmission(const MaterialPart& part, Material& m) {
   m.diffuseTransmissionColorFactor = part.color("diffuseTransmissionColorFactor", kWhite, 1.0f);
   if (m.diffuseTransmissionFactor <= 0.0f) return;
   m.diffuseTransmissionTexture = part.texture("diffuseTransmissionTexture");
+  if (m.diffuseTransmissionTexture.lost) m.diffuseTransmissionFactor = 0.0f;
   m.diffuseTransmissionColorTexture = part.texture("diffuseTransmissionColorTexture");
+  if (m.diffuseTransmissionColorTexture.lost) m.diffuseTransmissionColorFactor = kMagenta;
 }
 
 void readDispersion(const MaterialPart& part, Material& m) {
@@ -108,6 +116,10 @@ void readSpecularGlossiness(const MaterialPart& part, Material& m) {
   m.ior = kInfiniteIor;
   m.specularColorFactor = part.color("specularFactor", kWhite, 1.0f);
   m.specularColorTexture = part.texture("specularGlossinessTexture");
+  if (m.specularColorTexture.lost) {
+    m.specularColorFactor = glm::vec3(0.04f);  // a dielectric's; its glossiness is lost, too
+    m.roughnessFactor = 1.0f;
+  }
 }
 
 struct ExtensionRow {

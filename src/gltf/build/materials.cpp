@@ -57,24 +57,12 @@ void readPerlinNormal(const MaterialPart& part, PerlinNormal& result) {
   result.octaves = int(part.factor("octaves", result.octaves, 1.0f, kMostOctaves));
 }
 
-/// Marks a material whose textures are lost: magenta where colours are, matt where it is unknown what is
-/// metal, and without every effect that a texture would have bounded.
+/// Marks a material whose textures are lost: magenta where colours are, and matt where it is unknown what is
+/// metal. Extensions leave out the effect that a lost texture would have bounded.
 void markLost(Material& m) {
-  constexpr float kOff = 0.0f;
-  if (m.baseColorTexture.lost) m.baseColorFactor = glm::vec4(1.0f, 0.0f, 1.0f, m.baseColorFactor.a);
-  if (m.metallicRoughnessTexture.lost) m.metallicFactor = kOff;
-  if (m.specularGlossiness && m.specularColorTexture.lost) {
-    m.specularColorFactor = glm::vec3(0.04f);  // a dielectric's; its glossiness is lost, too
-    m.roughnessFactor = 1.0f;
-  }
-  if (m.emissiveTexture.lost) m.emissiveFactor = glm::vec3(kOff);
-  if (m.transmissionTexture.lost) m.transmissionFactor = kOff;
-  if (m.clearcoatTexture.lost) m.clearcoatFactor = kOff;
-  if (m.sheenColorTexture.lost) m.sheenColorFactor = glm::vec3(kOff);
-  if (m.anisotropyTexture.lost) m.anisotropyStrength = kOff;
-  if (m.iridescenceTexture.lost) m.iridescenceFactor = kOff;
-  if (m.diffuseTransmissionTexture.lost) m.diffuseTransmissionFactor = kOff;
-  if (m.diffuseTransmissionColorTexture.lost) m.diffuseTransmissionColorFactor = glm::vec3(1.0f, 0.0f, 1.0f);
+  if (m.baseColorTexture.lost) m.baseColorFactor = glm::vec4(kMagenta, m.baseColorFactor.a);
+  if (m.metallicRoughnessTexture.lost) m.metallicFactor = 0.0f;
+  if (m.emissiveTexture.lost) m.emissiveFactor = glm::vec3(0.0f);
 }
 
 Material readMaterial(Document& document, TextureTable& textures, size_t index) {

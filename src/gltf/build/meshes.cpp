@@ -28,6 +28,8 @@ DecodedMesh decodeMesh(Document& document, const std::vector<Material>& material
   return decoded;
 }
 
+bool hasStrokes(const MeshPrimitive& primitive) { return !primitive.strokes.ends.empty(); }
+
 /// Drops the places where a mesh is so small that squares of its size underflow. A size of 0 is none of them:
 /// files hide meshes that way.
 void checkSizes(Document& document, const PlacedNode& node, const BoundsDouble& bounds,
@@ -83,10 +85,11 @@ ShownMeshes showMeshes(Document& document, const std::vector<Material>& material
     takeMemory(document, pointerTo("nodes", node.index),
                places.size() * decoded.primitives.size() *
                    (sizeof(PrimitiveInstance) + nodeName.size() + meshName.size()));
-    const std::vector<MeshPrimitive>* whole = source.skin < 0 ? &decoded.primitives : nullptr;
+    const bool mayShare = source.skin < 0 && std::ranges::none_of(decoded.primitives, hasStrokes);
+    const std::vector<MeshPrimitive>* whole = mayShare ? &decoded.primitives : nullptr;
     for (const glm::dmat4& world : places) {
       for (const MeshPrimitive& primitive : decoded.primitives) {
-        if (!primitive.triangles.empty())
+        if (!primitive.empty())
           shown.instances.push_back(
               {&primitive, world, joints, nodeName, uint32_t(node.index), meshName, whole});
       }

@@ -9,18 +9,11 @@
 
 #include "gltf/build/topology.h"
 #include "gltf/read/accessor.h"
+#include "math/finite.h"
 #include "scene/tangents.h"
 
 namespace fragtrace {
 namespace {
-
-template <glm::length_t components>
-bool isFinite(const glm::vec<components, float>& v) {
-  for (glm::length_t c = 0; c < components; ++c) {
-    if (!std::isfinite(v[c])) return false;
-  }
-  return true;
-}
 
 /// True for what can be normalised: not zero, not NaN, and neither so small nor so large that its square is
 /// not a number.
@@ -51,24 +44,25 @@ class PrimitiveReader {
     constexpr int kLastMode = TINYGLTF_MODE_TRIANGLE_FAN;
     if (source_.mode > kLastMode)
       diagnostics_.refuse(place_ + "/mode", std::to_string(source_.mode) + " is no mode");
-    const std::optional<Topology> topology = topologyOf(source_.mode);
-    if (!topology) {
-      diagnostics_.warn(place_, "points and lines are left out");
-      return {};
-    }
     if (accessorOf("POSITION") < 0) {
       // Where there is no attribute at all, the check of the document has said so.
       if (!source_.attributes.empty()) diagnostics_.warn(place_, "a primitive without POSITION is left out");
       return {};
     }
     readPositions();
-    readTriangles(*topology);
-    readNormals();
+    const std::vector<uint32_t> indices = readIndexList();
+    const std::optional<Topology> topology = topologyOf(source_.mode);
+    if (topology) {
+      readTriangles(*topology, indices);
+      readNormals();
+    } else {
+      readStrokes(indices);
+    }
     readTexcoords();
     readColors();
     if (pose_.jointCount > 0)
       result_.influences = readInfluences(document_, source_, pose_.jointCount, place_);
-    readTangents();
+    if (topology) readTangents();
     return std::move(result_);
   }
 
@@ -139,18 +133,31 @@ class PrimitiveReader {
     }
   }
 
-  void readTriangles(Topology topology) {
+  /// Those of the file, else all vertices.
+  std::vector<uint32_t> readIndexList() {
     const size_t vertexCount = result_.vertices.position.size();
     std::vector<uint32_t> indices;
-    if (source_.indices >= 0) {
-      constexpr uint64_t kBytesOfAnIndex = sizeof(uint32_t) + sizeof(Triangle);
-      takeMemory(document_, place_ + "/indices", kBytesOfAnIndex * accessorCount(document_, source_.indices));
-      indices = readIndices(document_, source_.indices, vertexCount, place_ + "/indices");
-      warnRestart(indices);
-    } else {
+    if (source_.indices < 0) {
       indices.resize(vertexCount);
       std::iota(indices.begin(), indices.end(), 0u);
+      return indices;
     }
+    constexpr uint64_t kBytesOfAnIndex = sizeof(uint32_t) + sizeof(Triangle);
+    takeMemory(document_, place_ + "/indices", kBytesOfAnIndex * accessorCount(document_, source_.indices));
+    indices = readIndices(document_, source_.indices, vertexCount, place_ + "/indices");
+    warnRestart(indices);
+    return indices;
+  }
+
+  void readStrokes(const std::vector<uint32_t>& indices) {
+    result_.strokes.material = materialIndex_;
+    result_.strokes.lit = accessorOf("NORMAL") >= 0;
+    result_.strokes.ends = strokesOf(source_.mode, indices);
+    if (result_.strokes.ends.empty() || (source_.mode == TINYGLTF_MODE_LINE && indices.size() % 2 != 0))
+      diagnostics_.warn(place_, "vertices that make no whole line are left out");
+  }
+
+  void readTriangles(Topology topology, const std::vector<uint32_t>& indices) {
     const std::vector<glm::uvec3> triangles = trianglesOf(topology, indices);
     if (triangles.empty() || (topology == Topology::List && indices.size() % 3 != 0)) {
       diagnostics_.warn(place_, "vertices that make no whole triangle are left out");

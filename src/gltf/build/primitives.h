@@ -10,12 +10,15 @@
 
 namespace fragtrace {
 
-/// A mesh primitive as a list of triangles in the mesh's own space. An attribute that the material does not
-/// need, or that is not given, is empty; all others have one entry a vertex.
+/// A mesh primitive as a list of triangles, or of points and lines, in the mesh's own space. An attribute
+/// that the material does not need, or that is not given, is empty; all others have one entry a vertex.
 struct MeshPrimitive {
   Vertices vertices;
   std::vector<Influence> influences;  ///< of joints, equally many a vertex; none: the mesh is not skinned
   std::vector<Triangle> triangles;
+  Strokes strokes;  ///< without a node
+
+  bool empty() const { return triangles.empty() && strokes.ends.empty(); }
 };
 
 /// How a mesh is shown. The default is as it stands in the file.
@@ -30,7 +33,7 @@ struct MeshPose {
   }
 };
 
-/// Decodes /meshes/MESH/primitives/PRIMITIVE with its morph targets applied; points, lines and primitives
+/// Decodes /meshes/MESH/primitives/PRIMITIVE with its morph targets applied; primitives
 /// without positions come out empty, with a warning. The last of `materials` is the default one. Throws
 /// InputError.
 MeshPrimitive decodePrimitive(Document& document, const std::vector<Material>& materials, int mesh,

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "bvh/two_level.h"
+#include "scene/strokes.h"
 
 namespace fragtrace {
 namespace {
@@ -123,9 +124,11 @@ PlacedMeshes chooseSharing(std::vector<PrimitiveInstance> instances, Instancing 
   SharingCost cost;
   uint64_t flatTriangles = 0;
   for (const PrimitiveInstance& i : instances) {
-    cost.flat += i.primitive->vertices.position.size() * kBytesOfAVertex +
-                 i.primitive->triangles.size() * kBytesOfATriangle;
-    flatTriangles += i.primitive->triangles.size();
+    const uint64_t strokes = i.primitive->strokes.ends.size();
+    const uint64_t triangles = i.primitive->triangles.size() + strokes * kTrianglesOfALine;
+    const uint64_t vertices = i.primitive->vertices.position.size() + strokes * kMostStrokeVertices;
+    cost.flat += vertices * kBytesOfAVertex + triangles * kBytesOfATriangle;
+    flatTriangles += triangles;
   }
   MeshUses uses = countUses(instances, materials);
 

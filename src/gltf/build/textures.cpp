@@ -116,7 +116,8 @@ uint32_t TextureTable::useImage(int image) {
     known = uint32_t(scene_.images.size());
     scene_.images.push_back(std::move(encoded));
   } catch (const InputError& error) {
-    if (!document_.drawMissingTextures) throw;
+    if (!document_.drawMissingTextures)
+      throw InputError(std::string(error.what()) + " (--missing-textures warn draws the scene without it)");
     warnLost(image, error.what());
     return kMissIndex;
   }

@@ -18,6 +18,18 @@ std::optional<Topology> topologyOf(int mode) {
   }
 }
 
+std::vector<glm::uvec2> strokesOf(int mode, std::span<const uint32_t> indices) {
+  std::vector<glm::uvec2> strokes;
+  if (mode == TINYGLTF_MODE_POINTS) {
+    for (const uint32_t index : indices) strokes.emplace_back(index, index);
+    return strokes;
+  }
+  const size_t step = mode == TINYGLTF_MODE_LINE ? 2 : 1;
+  for (size_t i = 0; i + 1 < indices.size(); i += step) strokes.emplace_back(indices[i], indices[i + 1]);
+  if (mode == TINYGLTF_MODE_LINE_LOOP && indices.size() > 2) strokes.emplace_back(indices.back(), indices[0]);
+  return strokes;
+}
+
 std::vector<glm::uvec3> trianglesOf(Topology topology, std::span<const uint32_t> indices) {
   std::vector<glm::uvec3> triangles;
   if (indices.size() < 3) return triangles;

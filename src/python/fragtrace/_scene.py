@@ -48,6 +48,8 @@ class Scene:
     def __init__(self, path, **keywords):
         self.path = os.fspath(path)
         words_of(path, keywords)
+        if not os.path.exists(self.path):
+            raise _core.InputError(f"{self.path}: cannot be opened: No such file or directory")
         self.keywords = keywords
         self._core = _core.Scene(True)
 

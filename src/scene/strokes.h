@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Points and lines as thin solids, whose size follows from the camera.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace fragtrace {
+
+/// Triangles of a solid for a point, and for a line segment.
+inline constexpr size_t kTrianglesOfAPoint = 12;
+inline constexpr size_t kTrianglesOfALine = 24;
+/// Vertices of the larger of them.
+inline constexpr size_t kMostStrokeVertices = 14;
+
+/// Appends a solid for each point and line segment of scene.strokes, as wide as `pixels` pixels of a picture
+/// of that height in pixels through the camera: a point is a double pyramid over a hexagon, a segment a
+/// hexagonal prism with pyramids at both ends; the hexagons have the area of the circle. The width of a
+/// segment goes from that of one end to that of the other. What lies behind the camera is as wide as at the
+/// same distance before it. Materials are as glTF 2.0 says (section 3.7.2.1): without textures of normals,
+/// and unlit where no normals were given. Sets scene.insets anew. Does nothing to a scene without strokes.
+void addStrokes(Scene& scene, const Camera& camera, int pictureHeight, double pixels);
+
+}  // namespace fragtrace
