@@ -112,7 +112,7 @@ const uint kMaterialSpecular = 3u;     // specular colour, specular factor
 const uint kMaterialVolume = 4u;       // absorption coefficient (1 / local space), whether there is any thickness
 // normal scale, occlusion strength, emitter density (1 / area in local space), flags
 const uint kMaterialMaps = 5u;
-const uint kMaterialPerlin = 6u;       // frequency, amplitude, octaves
+const uint kMaterialPerlin = 6u;       // frequency, amplitude, octaves; and the number of the glTF material, from 1
 const uint kMaterialTextures = 7u;     // then one row a texture slot
 const uint kSlotBaseColor = 0u;
 const uint kSlotMetallicRoughness = 1u;

@@ -143,7 +143,7 @@ vec3 featureAt(Surface s, int slot, int instance, vec3 baseColor, vec3 outgoing)
   if (kFeature == kFeatureTexcoords) return vec3(s.texcoords.xy, 0.0);
   if (kFeature == kFeaturePosition) return frame.worldOrigin.xyz + frame.cameraForward.w * s.position;
   if (kFeature == kFeatureObject) return vec3(objectNumber(slot, instance));
-  if (kFeature == kFeatureMaterial) return vec3(float(s.material) + 1.0);
+  if (kFeature == kFeatureMaterial) return vec3(materialFloats(s.material, kMaterialPerlin).w);
   return vec3(depthOf(s));
 }
 

@@ -155,11 +155,14 @@ Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const Sequ
   if (!first && turntable) return run.prepared;
   Statistics stats;
   SceneBefore before;
-  if (run.loaded && run.loaded->environment.kind == Surroundings::Map)
-    before.environment = std::move(run.loaded->environment);
+  Environment environment;
+  if (run.loaded && run.loaded->environment.kind == Surroundings::Map) {
+    environment = std::move(run.loaded->environment);
+    before.environment = &environment;
+  }
   if (run.tree) before.tree = &*run.tree;
   run.loaded.reset();
-  run.loaded = loadScene(drawn, stats, {}, FilmOf::Part, std::move(before));
+  run.loaded = loadScene(drawn, stats, {}, FilmOf::Part, before);
   if (!stats.treeRefitted) {
     run.tree.reset();
     if (!turntable && keepsTree(options, run.loaded->scene))

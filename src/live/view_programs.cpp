@@ -27,6 +27,7 @@ RenderOptions programPart(const RenderOptions& options) {
     part.debugView = DebugView::None;  // drawn by the picture's own
   part.clampIndirect = part.clampIndirect > 0.0 ? 1.0 : 0.0;
   part.aovFeatures.clear();
+  part.selection.camera.clear();
   if (has(part.stages, Stage::Gi) && part.debugView == DebugView::None) part.aovFeatures = {Feature::Guides};
   return part;
 }
@@ -54,6 +55,21 @@ std::shared_ptr<ViewProgram> ViewPrograms::of(const RenderOptions& options) {
     p = kept ? std::next(p) : programs_.erase(p);
   }
   return programs_.front();
+}
+
+void ViewPrograms::showPose(const RenderOptions& options) {
+  std::erase_if(programs_, [](const auto& p) { return p.use_count() == 1 || !p->error.empty(); });
+  treeOptions_ = options;
+  for (const std::shared_ptr<ViewProgram>& program : programs_) {
+    program->options.selection.animation = options.selection.animation;
+    program->options.selection.animationTime = options.selection.animationTime;
+    if (!sameTree(treeOptions_, program->options)) loaded_.bvh = buildTree(loaded_.scene, program->options);
+    treeOptions_ = program->options;
+    Statistics stats;
+    replaceScene(program->tracer, context_, loaded_, program->options, stats);
+    program->variant = stats.variant;
+    program->bytes = stats.sceneBytes;
+  }
 }
 
 std::shared_ptr<ViewProgram> ViewPrograms::make(const RenderOptions& part) {

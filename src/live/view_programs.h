@@ -29,6 +29,10 @@ class ViewPrograms {
   std::shared_ptr<ViewProgram> of(const RenderOptions& options);
   /// Makes all anew when they are asked for again.
   void forget() { programs_.clear(); }
+  /// The scene and its tree are those of another time of its animation, loaded with these options: programs
+  /// that somebody holds draw it from now on, all others are made anew when they are asked for again. Throws
+  /// as replaceScene().
+  void showPose(const RenderOptions& options);
 
  private:
   std::shared_ptr<ViewProgram> make(const RenderOptions& part);

@@ -124,6 +124,9 @@ void ViewTracer::adoptScene() {
   }
   sides_.clear();
   programs_.reset();
+  tree_.reset();
+  posedCamera_ = result->options.camera;
+  posedSize_ = result->scene->size;
   loaded_ = std::move(result->scene);
   loadedOptions_ = result->options;
   programs_ = std::make_unique<ViewPrograms>(*context_, *loaded_, loadedOptions_);
@@ -137,6 +140,8 @@ void ViewTracer::adoptScene() {
       traitsOf(loaded_->scene, loaded_->environment.kind, !loaded_->environment.backdrop.values.empty());
   viewed.description = result->stats.scene;
   viewed.defaultLight = result->stats.defaultLight;
+  viewed.animationNames = loaded_->scene.animationNames;
+  viewed.animationSeconds = loaded_->scene.animationSeconds;
   exchange_.deliver(std::move(viewed));
   if (!start_.watch) return;
   std::vector<std::filesystem::path> files = inputsOf(loadedOptions_);
@@ -165,11 +170,60 @@ void ViewTracer::rebuildPrograms() {
   }
 }
 
+/// Of a scene that moves: the shader's text holds none of it, since that would be compiled for each picture.
+RenderOptions asPosed(RenderOptions options) {
+  if (options.selection.animationTime && options.traversal == TraversalMethod::Auto)
+    options.traversal = TraversalMethod::FrontToBack;
+  return options;
+}
+
+bool ViewTracer::isPosed(const TraceRequest& request) const {
+  const RenderOptions& wanted = request.sides[0];
+  const SceneSelection& a = wanted.selection;
+  const SceneSelection& b = loadedOptions_.selection;
+  if (a.animation != b.animation || a.animationTime != b.animationTime) return false;
+  // Points and lines get their width from the camera.
+  return loaded_->scene.strokes.empty() || request.moving ||
+         (wanted.camera == posedCamera_ && request.size == posedSize_);
+}
+
+void ViewTracer::pose(const TraceRequest& request) {
+  const RenderOptions& wanted = request.sides[0];
+  loadedOptions_.selection.animation = wanted.selection.animation;
+  loadedOptions_.selection.animationTime = wanted.selection.animationTime;
+  posedCamera_ = wanted.camera;
+  posedSize_ = request.size;
+  RenderOptions options = asPosed(loadedOptions_);
+  options.sceneOrigin = loaded_->scene.space.origin;
+  options.camera = wanted.camera;
+  options.cameraIndex = wanted.cameraIndex;
+  options.resolution = request.size;
+  std::vector<std::string> repeated;
+  const SaidHere silence(repeated);  // it was said when the scene was loaded
+  try {
+    Statistics stats;
+    SceneBefore before;
+    if (loaded_->environment.kind == Surroundings::Map) before.environment = &loaded_->environment;
+    if (tree_) before.tree = &*tree_;
+    *loaded_ = loadScene(options, stats, {}, FilmOf::Picture, before);
+    if (!stats.treeRefitted && loaded_->scene.instances.empty())
+      tree_ = refittable(loaded_->bvh, loaded_->scene);
+    programs_->showPose(options);
+  } catch (const InputError& error) {
+    exchange_.tellError(error.what());  // what is shown stays
+  }
+}
+
 void ViewTracer::adopt(const TraceRequest& request) {
   request_ = request;
+  for (RenderOptions& side : request_.sides) side = asPosed(side);
+  if (!isPosed(request_)) {
+    pose(request_);
+    for (Side& side : sides_) side.stale = true;
+  }
   if (request.moving) keepMoving(resolution_, request.size);
   sides_.resize(request.sides.size());
-  for (size_t i = 0; i < sides_.size(); ++i) adoptSide(sides_[i], request.sides[i]);
+  for (size_t i = 0; i < sides_.size(); ++i) adoptSide(sides_[i], request_.sides[i]);
 }
 
 RenderOptions ViewTracer::withFilter(RenderOptions options) {

@@ -58,6 +58,11 @@ class ViewTracer {
   void watchFiles();
   void rebuildPrograms();
   void adopt(const TraceRequest& request);
+  /// Whether the scene stands as the request wants it.
+  bool isPosed(const TraceRequest& request) const;
+  /// Makes it so: at that time of its animation, with lines as wide as that camera wants. Why it cannot be,
+  /// the window is told.
+  void pose(const TraceRequest& request);
   /// With the filter that can be had; why not, the window is told.
   RenderOptions withFilter(RenderOptions options);
   void adoptSide(Side& side, const RenderOptions& options);
@@ -86,6 +91,9 @@ class ViewTracer {
   std::unique_ptr<DebugLog> driverLog_;
   std::unique_ptr<LoadedScene> loaded_;
   RenderOptions loadedOptions_;  ///< of the scene
+  CameraOverrides posedCamera_;  ///< that lines have their width of
+  glm::ivec2 posedSize_{0};
+  std::optional<RefittableTree> tree_;  ///< that was built last for a moving scene
   std::unique_ptr<ViewPrograms> programs_;
   std::optional<OidnLibrary> oidn_;  ///< opened later where a pasted command asks for it
   std::unique_ptr<ViewDenoiser> denoiser_;

@@ -25,7 +25,7 @@ void addOutputOptions(CLI::App& app, RawRender& raw) {
   app.add_option(
          "--checkpoint", raw.options.checkpointSeconds,
          "write the state of the render to OUTPUT.checkpoint each time this many seconds have passed, and "
-         "when it is interrupted; the finished picture removes the file")
+         "when it is interrupted; the file is removed once the picture is finished")
       ->check(CLI::Range(0.1, 1e7));
   app.add_flag(
       "--resume", raw.options.resume,

@@ -107,7 +107,7 @@ void appendMaterial(Words& words, const Material& m, double unit, double emitter
   appendRow(words, glm::vec3(m.normalScale, m.occlusionStrength, float(emitterDensity)), 0.0f);
   words.back() = materialFlags(m);
   appendRow(words, glm::vec4(m.perlinNormal.frequency, m.perlinNormal.amplitude,
-                             float(m.perlinNormal.octaves), 0.0f));
+                             float(m.perlinNormal.octaves), float(m.number)));
   for (uint32_t slot = 0; slot < layout::kSlotCount; ++slot) {
     const auto& [ref, curve] = kTextureRefs[slot];
     const TraitRow& row = *traitsOfSlots()[slot];

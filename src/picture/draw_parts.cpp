@@ -122,18 +122,19 @@ void addPart(Image& picture, Image part, const Region& place, const Region& all)
 
 }  // namespace
 
-void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film) {
+void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film, const std::string& layer) {
+  const std::string place = layer.empty() ? " pixels" : " pixels of the layer " + layer;
   if (film.budgetHits > 0) {
     throw RenderError("the driver ended loops early in " + std::to_string(film.budgetHits) +
                       " pixels (budget_hits); the picture would be wrong, so none is written");
   }
   if (film.emptyPixels > 0) {
-    say(options, "warning: stopped before the first sample of " + std::to_string(film.emptyPixels) +
-                     " pixels; they are black");
+    say(options, "warning: stopped before the first sample of " + std::to_string(film.emptyPixels) + place +
+                     "; they are black");
   }
   if (film.nonfinitePixels > 0) {
-    say(options, "warning: samples of " + std::to_string(film.nonfinitePixels) +
-                     " pixels were not finite and count as black (nonfinite_pixels)");
+    say(options, "warning: samples of " + std::to_string(film.nonfinitePixels) + place +
+                     " were not finite and count as black (nonfinite_pixels)");
   }
 }
 
@@ -306,7 +307,7 @@ void addFeatures(Image& picture, const PictureJob& job, const DrawingPlan& plan,
     }
     bar.clear();
     appendChannels(picture, layer, layer.channels);
-    sayWhatWentWrong(job.options, totals);
+    sayWhatWentWrong(job.options, totals, std::string(rowOf(variant.feature).name));
   }
 }
 

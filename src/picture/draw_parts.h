@@ -44,8 +44,8 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
 /// have, of an interrupted one a few, since somebody waits. Throws RenderError.
 void addFeatures(Image& picture, const PictureJob& job, const DrawingPlan& plan, Statistics& stats);
 
-/// Says what is odd about what was drawn. Throws RenderError when the driver ended loops early, which makes
-/// pictures wrong.
-void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film);
+/// Says what is odd about what was drawn: the picture, or that layer of it. Throws RenderError when the
+/// driver ended loops early, which makes pictures wrong.
+void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film, const std::string& layer = {});
 
 }  // namespace fragtrace

@@ -93,6 +93,7 @@ inline constexpr float kInfiniteIor = 1e6f;
 /// specification's.
 struct Material {
   std::string name;
+  uint32_t number = 0;  ///< of the glTF material, from 1; the default one comes after those of the file
   glm::vec4 baseColorFactor{1.0f};
   float metallicFactor = 1.0f;
   float roughnessFactor = 1.0f;

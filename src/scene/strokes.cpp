@@ -30,12 +30,33 @@ class StrokeSize {
     radius_ = rounder * 0.5 * pixels * 2.0 * halfHeight / pictureHeight;
   }
 
-  double at(const glm::dvec3& point) const {
+  /// Of a point: its solid covers as many pixels as the circle. Seen at an angle c to the axis it is longer
+  /// by 1 / cos c.
+  double atPoint(const glm::dvec3& point) const {
     if (!perspective_) return radius_;
-    // Of what lies beside or behind the camera the depth would be nothing.
-    constexpr double kLeastCosine = 0.25;
+    const double depth = std::abs(depthOf(point));
+    const double distance = glm::length(point - position_);
+    return distance > 0.0 ? radius_ * depth * std::sqrt(depth / distance) : 0.0;
+  }
+
+  /// Of a line along `axis`, unit: as wide as asked across the line, in the picture's plane.
+  double acrossLine(const glm::dvec3& point, const glm::dvec3& axis) const {
+    if (!perspective_) return radius_;
     const glm::dvec3 way = point - position_;
-    return radius_ * std::max(glm::dot(way, forward_), kLeastCosine * glm::length(way));
+    const double depth = depthOf(point);
+    const glm::dvec3 across = glm::cross(axis, way);
+    const double length = glm::length(across);
+    if (depth == 0.0 || length == 0.0) return radius_ * std::abs(depth);
+    // How far a step of that length goes in the plane at depth 1.
+    const glm::dvec3 step = across / length;
+    const double along = glm::dot(step, forward_);
+    const glm::dvec3 sideways = (step - along * forward_) - (way / depth - forward_) * along;
+    return radius_ * std::abs(depth) / std::max(glm::length(sideways), 1e-3);
+  }
+
+  /// Along the view's axis; negative behind a perspective camera.
+  double depthOf(const glm::dvec3& point) const {
+    return perspective_ ? glm::dot(point - position_, forward_) : 1.0;
   }
 
   /// Unit, to the camera.
@@ -52,10 +73,15 @@ class StrokeSize {
   double radius_ = 0.0;  ///< of a perspective camera: at depth 1
 };
 
-/// What the solid of a point or of a line is drawn with.
+/// What the solid of a point or of a line is drawn with. Without normals it shows the sum of base colour and
+/// emission (glTF 2.0, section 3.7.2.1); a texture of emission is left out then.
 Material strokeMaterial(const Material& given, bool lit) {
   Material m = given;
-  m.unlit = m.unlit || !lit;
+  if (!lit && !m.unlit) {
+    m.unlit = true;
+    if (!m.emissiveTexture.present())
+      m.baseColorFactor += glm::vec4(m.emissiveFactor * m.emissiveStrength, 0.0f);
+  }
   m.doubleSided = false;  // solids have no inside to be seen
   m.normalTexture = {};
   m.clearcoatNormalTexture = {};
@@ -65,6 +91,13 @@ Material strokeMaterial(const Material& given, bool lit) {
   return m;
 }
 
+/// Attributes: so far on the way from one vertex to another.
+struct Blend {
+  uint32_t from = 0;
+  uint32_t to = 0;
+  float part = 0.0f;
+};
+
 class StrokeBuilder {
  public:
   StrokeBuilder(Scene& scene, const StrokeSize& size) : scene_(scene), size_(size) {}
@@ -72,7 +105,7 @@ class StrokeBuilder {
   void add(const Strokes& strokes) {
     const size_t before = triangles_.size();
     material_ = materialOf(strokes);
-    for (const glm::uvec2& ends : strokes.ends) addSolid(ends.x, ends.y);
+    for (const glm::uvec2& ends : strokes.ends) ends.x == ends.y ? addPoint(ends.x) : addLine(ends.x, ends.y);
     origins_.push_back({strokes.node, strokes.mesh, flatTriangleCount(scene_) + uint32_t(before),
                         uint32_t(triangles_.size() - before), strokes.nodeIndex});
   }
@@ -101,26 +134,26 @@ class StrokeBuilder {
     return entry->second;
   }
 
-  /// A vertex at a place with all other attributes of one that is there.
-  uint32_t vertexLike(uint32_t like, const glm::dvec3& position) {
+  /// A vertex at a place, with attributes so far between those of two others.
+  uint32_t vertexBetween(const Blend& like, const glm::dvec3& position) {
     Vertices& v = scene_.vertices;
-    const auto repeat = [&](auto& attribute) {
-      if (!attribute.empty()) {
-        const auto value = attribute[like];
-        attribute.push_back(value);
-      }
+    const auto append = [&](auto& attribute) {
+      if (attribute.empty()) return;
+      const auto value = attribute[like.from];
+      const auto other = attribute[like.to];
+      attribute.push_back(like.part == 0.0f ? value : value + (other - value) * like.part);
     };
-    repeat(v.normal);
-    repeat(v.tangent);
-    repeat(v.texcoord0);
-    repeat(v.texcoord1);
-    repeat(v.color);
+    append(v.normal);
+    append(v.tangent);
+    append(v.texcoord0);
+    append(v.texcoord1);
+    append(v.color);
     v.position.emplace_back(position);
     return uint32_t(v.position.size() - 1);
   }
 
   /// The hexagon's corners, counter-clockwise seen from where `axis` points.
-  std::array<uint32_t, kSides> addRing(uint32_t like, const glm::dvec3& center, const glm::dvec3& axis,
+  std::array<uint32_t, kSides> addRing(const Blend& like, const glm::dvec3& center, const glm::dvec3& axis,
                                        double radius) {
     const glm::dvec3 side(anyPerpendicular(glm::vec3(axis)));
     const glm::dvec3 first = glm::normalize(side - glm::dot(side, axis) * axis);
@@ -129,32 +162,58 @@ class StrokeBuilder {
     for (int i = 0; i < kSides; ++i) {
       const double angle = glm::two_pi<double>() * i / kSides;
       ring[size_t(i)] =
-          vertexLike(like, center + radius * (std::cos(angle) * first + std::sin(angle) * second));
+          vertexBetween(like, center + radius * (std::cos(angle) * first + std::sin(angle) * second));
     }
     return ring;
   }
 
   void addTriangle(uint32_t a, uint32_t b, uint32_t c) { triangles_.push_back({{a, b, c}, material_, true}); }
 
-  void addSolid(uint32_t from, uint32_t to) {
+  void addPoint(uint32_t vertex) {
+    const glm::dvec3 place(scene_.vertices.position[vertex]);
+    const glm::dvec3 axis = size_.towardsCamera(place);
+    const double radius = size_.atPoint(place);
+    const Blend like{vertex, vertex, 0.0f};
+    const auto ring = addRing(like, place, axis, radius);
+    const uint32_t behind = vertexBetween(like, place - radius * axis);
+    const uint32_t before = vertexBetween(like, place + radius * axis);
+    for (size_t i = 0; i < kSides; ++i) {
+      const size_t next = (i + 1) % kSides;
+      addTriangle(behind, ring[next], ring[i]);
+      addTriangle(before, ring[i], ring[next]);
+    }
+  }
+
+  /// A line that passes the camera is two: its width is nothing where its depth is.
+  void addLine(uint32_t from, uint32_t to) {
     const glm::dvec3 a(scene_.vertices.position[from]);
     const glm::dvec3 b(scene_.vertices.position[to]);
     const double length = glm::length(b - a);
-    const bool isPoint = length == 0.0;
-    const glm::dvec3 axis = isPoint ? size_.towardsCamera(a) : (b - a) / length;
-    const double radiusA = size_.at(a);
-    const double radiusB = size_.at(b);
-    const auto ringA = addRing(from, a, axis, radiusA);
-    const auto ringB = isPoint ? ringA : addRing(to, b, axis, radiusB);
-    const uint32_t apexA = vertexLike(from, a - radiusA * axis);
-    const uint32_t apexB = vertexLike(to, b + radiusB * axis);
+    if (length == 0.0) return;
+    const double depthA = size_.depthOf(a);
+    const double depthB = size_.depthOf(b);
+    if (depthA * depthB >= 0.0) return addSegment({from, to, 0.0f}, {from, to, 1.0f}, a, b);
+    const double part = depthA / (depthA - depthB);
+    const glm::dvec3 between = a + part * (b - a);
+    addSegment({from, to, 0.0f}, {from, to, float(part)}, a, between);
+    addSegment({from, to, float(part)}, {from, to, 1.0f}, between, b);
+  }
+
+  void addSegment(const Blend& likeA, const Blend& likeB, const glm::dvec3& a, const glm::dvec3& b) {
+    const double length = glm::length(b - a);
+    if (length == 0.0) return;
+    const glm::dvec3 axis = (b - a) / length;
+    const double radiusA = size_.acrossLine(a, axis);
+    const double radiusB = size_.acrossLine(b, axis);
+    const auto ringA = addRing(likeA, a, axis, radiusA);
+    const auto ringB = addRing(likeB, b, axis, radiusB);
+    const uint32_t apexA = vertexBetween(likeA, a - radiusA * axis);
+    const uint32_t apexB = vertexBetween(likeB, b + radiusB * axis);
     for (size_t i = 0; i < kSides; ++i) {
       const size_t next = (i + 1) % kSides;
       addTriangle(apexA, ringA[next], ringA[i]);
-      if (!isPoint) {
-        addTriangle(ringA[i], ringA[next], ringB[next]);
-        addTriangle(ringA[i], ringB[next], ringB[i]);
-      }
+      addTriangle(ringA[i], ringA[next], ringB[next]);
+      addTriangle(ringA[i], ringB[next], ringB[i]);
       addTriangle(apexB, ringB[i], ringB[next]);
     }
   }
@@ -168,6 +227,13 @@ class StrokeBuilder {
 };
 
 }  // namespace
+
+size_t trianglesOf(const Strokes& strokes) {
+  size_t count = 0;
+  for (const glm::uvec2& ends : strokes.ends)
+    count += ends.x == ends.y ? kTrianglesOfAPoint : kTrianglesOfALine;
+  return count;
+}
 
 void addStrokes(Scene& scene, const Camera& camera, int pictureHeight, double pixels) {
   if (scene.strokes.empty()) return;

@@ -12,6 +12,9 @@ inline constexpr size_t kTrianglesOfALine = 24;
 /// Vertices of the larger of them.
 inline constexpr size_t kMostStrokeVertices = 14;
 
+/// What the solids of a list take; a line that passes the camera takes twice as much.
+size_t trianglesOf(const Strokes& strokes);
+
 /// Appends a solid for each point and line segment of scene.strokes, as wide as `pixels` pixels of a picture
 /// of that height in pixels through the camera: a point is a double pyramid over a hexagon, a segment a
 /// hexagonal prism with pyramids at both ends; the hexagons have the area of the circle. The width of a

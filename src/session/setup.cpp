@@ -250,7 +250,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   checkCatcher(options, loaded.scene);
   for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
   if (scene.triangles.empty() && scene.spheres.empty()) {
-    say(options, "warning: " + options.scene.string() + ": no triangle and no sphere, nothing to draw");
+    say(options,
+        "warning: " + options.scene.string() + ": no triangle, sphere, point or line: nothing to draw");
   }
   stats.loadMs = watch.lap();
   step("building the tree", 0.5);

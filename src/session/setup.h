@@ -32,10 +32,11 @@ using LoadProgress = std::function<void(const char* step, double fraction)>;
 /// Whether one film is to hold all of a picture, or only a part at a time (picture/picture_parts.h).
 enum class FilmOf : uint8_t { Picture, Part };
 
-/// What the scene of one picture of a sequence leaves to the next.
+/// What the scene of one picture of an animation leaves to the next; both may be none.
 struct SceneBefore {
-  std::optional<Environment> environment;  ///< the map of the options; it is moved into the next scene
-  const RefittableTree* tree = nullptr;    ///< may be none
+  Environment* environment =
+      nullptr;  ///< the map of the options; it is moved into the next scene, if there is one
+  const RefittableTree* tree = nullptr;
 };
 
 /// Loads scene and environment, chooses camera and size, builds the tree; fills in the statistics of that.

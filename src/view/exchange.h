@@ -68,6 +68,8 @@ struct ViewedScene {
   TraitSet present;
   SceneDescription description;
   bool defaultLight = false;
+  std::vector<std::string> animationNames;  ///< as in Scene
+  std::vector<std::optional<double>> animationSeconds;
 };
 
 /// How far loading has come.

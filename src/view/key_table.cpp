@@ -48,7 +48,7 @@ void addCamera(std::vector<Control>& rows) {
   for (int digit = 0; digit <= 9; ++digit)
     add(Press, '0' + digit, kControl, Action::SceneCamera, "the scene's camera of that number", digit);
   add(Press, 'N', 0, Action::NextCamera, "the scene's next camera", 1);
-  add(Press, 'N', kShift, Action::NextCamera, "the scene's camera before", -1);
+  add(Press, 'N', kShift, Action::NextCamera, "the scene's previous camera", -1);
   add(Press, 'C', kControl, Action::CopyCommand, "copy the command that renders this picture");
   add(Press, 'V', kControl, Action::PasteCommand, "take a copied command, or its camera options");
 }
@@ -86,6 +86,9 @@ void addPicture(std::vector<Control>& rows) {
   add(Drag, mouse::kRight, kShift, Action::RotateEnvironment, "rotate the environment");
   add(Press, 'J', 0, Action::ToggleBackground, "background on or off");
   add(Press, 'G', 0, Action::ToggleDenoise, "denoising on or off");
+  add(Press, key::kSpace, 0, Action::PlayAnimation, "play the animation, or pause it");
+  add(Press, 'P', 0, Action::NextAnimation, "the next animation", 1);
+  add(Press, 'P', kShift, Action::NextAnimation, "the previous animation", -1);
 }
 
 void addWindow(std::vector<Control>& rows) {
@@ -131,6 +134,8 @@ std::string codeName(const Control& control) {
     }
   }
   switch (control.code) {
+    case key::kSpace:
+      return "Space";
     case key::kEscape:
       return "Escape";
     case key::kEnter:

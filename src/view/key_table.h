@@ -44,6 +44,8 @@ enum class Action : uint8_t {
   RotateEnvironment,
   ToggleBackground,
   ToggleDenoise,
+  PlayAnimation,
+  NextAnimation,  ///< argument: +1 or -1
   // Window.
   Inspect,
   ToggleSplit,
@@ -71,6 +73,7 @@ inline constexpr int kControlModifier = 2;
 /// Codes of keys that are no printable character, as GLFW numbers them; printable ones are their capital in
 /// ASCII.
 namespace key {
+inline constexpr int kSpace = 32;
 inline constexpr int kEscape = 256;
 inline constexpr int kEnter = 257;
 inline constexpr int kTab = 258;

@@ -134,6 +134,15 @@ Denoise filterOf(const ViewState& state) {
   return chosen ? state.scene->options.denoise : Denoise::Variance;
 }
 
+/// From the beginning, where the end is shown.
+void playOrPause(ViewState& state) {
+  const int shown = shownAnimation(state);
+  if (shown < 0) return;
+  state.playback.playing = !state.playback.playing;
+  const double time = state.sides[0].selection.animationTime.value_or(0.0);
+  if (state.playback.playing && time >= animationLength(state)) showAnimation(state, shown, 0.0);
+}
+
 bool changePicture(ViewState& state, const Control& control, const Movement& m) {
   RenderOptions& o = state.options();
   switch (control.action) {
@@ -173,6 +182,14 @@ bool changePicture(ViewState& state, const Control& control, const Movement& m) 
     case Action::ToggleDenoise:
       o.denoise = o.denoise == Denoise::None ? filterOf(state) : Denoise::None;
       return true;
+    case Action::PlayAnimation:
+      playOrPause(state);
+      return true;
+    case Action::NextAnimation: {
+      const int count = state.scene ? int(state.scene->animationNames.size()) : 0;
+      if (count > 0) showAnimation(state, (shownAnimation(state) + control.argument + count) % count, 0.0);
+      return true;
+    }
     case Action::ToggleBackground:
       for (RenderOptions& side : state.sides) side.background = !side.background;
       return true;
@@ -226,6 +243,7 @@ Errand apply(ViewState& state, const Control& control, const Movement& movement)
 
 void showScene(ViewState& state, ViewedScene scene) {
   const bool another = !state.scene || state.scene->options.scene != scene.options.scene;
+  if (another) state.playback.playing = false;
   state.scene = std::move(scene);
   for (RenderOptions& side : state.sides) {
     if (side.scene.empty()) continue;

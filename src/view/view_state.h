@@ -11,6 +11,14 @@
 
 namespace fragtrace {
 
+/// How the scene's animation is shown. Clip and time are those of the sides' selection.
+struct Playback {
+  bool playing = false;
+  bool loops = true;
+  double speed = 1.0;
+  double at = -1.0;  ///< when it last went on, in seconds; negative: it did not play then
+};
+
 struct ViewState {
   std::array<RenderOptions, 2> sides;  ///< the second is that of the split view
   size_t active = 0;                   ///< the side that stages and settings are changed of
@@ -22,6 +30,7 @@ struct ViewState {
   CameraPose pose;
   bool posed = false;  ///< the camera is the pose; else what the options choose, to the last bit
   int sceneCamera = -1;
+  Playback playback;
 
   bool panel = true;
   bool figures = true;
@@ -57,6 +66,19 @@ struct Movement {
 
 /// Does what the control says, or returns what is left to be done.
 Errand apply(ViewState& state, const Control& control, const Movement& movement = {});
+
+/// Which of the scene's animations is shown or would be played, from 0; -1: it has none.
+int shownAnimation(const ViewState& state);
+
+/// Seconds that it takes; a second where the file does not say.
+double animationLength(const ViewState& state);
+
+/// Shows that animation at that time, in seconds; kept between 0 and its end.
+void showAnimation(ViewState& state, int animation, double seconds);
+
+/// Goes on with what plays, at a time in seconds: by what has passed since the last call, so that slow
+/// pictures are left out. At the end it begins again, or stops.
+void play(ViewState& state, double now);
 
 /// A new scene: its camera, until somebody moves.
 void showScene(ViewState& state, ViewedScene scene);

@@ -30,11 +30,17 @@ class Broken(Case):
         self.output.unlink()
         return picture, seconds
 
-    def broken(self, seconds, *options, scene=BALL, by=signal.SIGKILL):
+    def broken(self, seconds, *options, scene=BALL, by=signal.SIGKILL, written=False):
+        """After so long; `written`: once it has written a checkpoint of its own, since on a busy machine seconds would tell nothing of that."""
+        before = self.checkpoint.stat().st_mtime_ns if self.checkpoint.exists() else 0
         process = subprocess.Popen([FRAGTRACE, *self.arguments("--checkpoint", 0.1, *options, scene=scene)], stderr=subprocess.PIPE)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
+        deadline = time.monotonic() + 60
+        while written and process.poll() is None and time.monotonic() < deadline:
+            written = not (self.checkpoint.exists() and self.checkpoint.stat().st_mtime_ns > before)
+            time.sleep(0.005)
         try:
             process.wait(seconds)
         except subprocess.TimeoutExpired:
@@ -65,7 +71,9 @@ class Broken(Case):
         kept = 0
         for _ in range(kills // 2):
             for resume in ([], ["--resume"]):
-                self.broken(dice.uniform(0.2, 0.9) * seconds, *options, *resume, scene=scene)
+                written = dice.random() < 0.7
+                after = dice.uniform(0.0, 0.4) if written else dice.uniform(0.2, 0.9)
+                self.broken(after * seconds, *options, *resume, scene=scene, written=written)
                 kept += self.checkpoint.exists()
             self.assertEqual(self.resumed(*options, scene=scene), whole)
             self.output.unlink()

@@ -59,6 +59,12 @@ class Strokes(Case):
         scene = json.loads(stats.read_text())["scene"]
         self.assertEqual([scene[name] for name in ("points", "lines", "triangles")], [4, 0, 48])
 
+    def test_layers_name_the_material_of_the_file(self):
+        output = self.folder / "numbers.exr"
+        run("render", self.file(2), "-o", output, *STRAIGHT, "--line-width", "6", "--spp", "1", "--quiet", "--aov", "object,material")
+        layers = Exr(output).layers
+        self.assertEqual({(o, m) for a, b in zip(layers["object.Y"], layers["material.Y"]) for o, m in zip(a, b)}, {(0, 0), (1, 1)})
+
     def test_fit_and_regions_show_the_same_lines(self):
         path = self.file(2)
         options = ["--camera-orbit", "30,20", "--fit", "--resolution", "60,40", "--spp", "4", "--quiet", "--no-background"]

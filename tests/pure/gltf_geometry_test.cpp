@@ -214,6 +214,13 @@ TEST(GltfGeometry, PointsAndLinesAreStrokesBetweenTheirVertices) {
   }
 }
 
+TEST(GltfGeometry, PointsAndLinesThatAreScaledToAPointAreHidden) {
+  GltfBuilder builder;
+  builder.addTriangle()["mode"] = 0;
+  builder.root["nodes"][0]["scale"] = {0, 0, 0};
+  EXPECT_TRUE(load(builder).strokes.empty());
+}
+
 TEST(GltfGeometry, PointsAndLinesAloneHaveBoundsAndKeepTheDefaultMaterial) {
   GltfBuilder builder;
   builder.addTriangle()["mode"] = 3;

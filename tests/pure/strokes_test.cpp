@@ -85,7 +85,60 @@ TEST(Strokes, TheWidthFollowsTheDepthAlsoBehindTheCamera) {
     return volumeOf(scene);
   };
   EXPECT_NEAR(volume(-10.0f) / volume(0.0f), 8.0, 1e-4);
-  EXPECT_NEAR(volume(30.0f) / volume(0.0f), 1.0 / 8.0, 1e-4);  // a quarter of the distance of 20 m
+  EXPECT_NEAR(volume(30.0f) / volume(0.0f), 8.0, 1e-4);
+}
+
+/// Of the vertices that are ends of `scene`'s first line or round them: from the left to the right, in
+/// pixels.
+double shownWidth(const Scene& scene, size_t first, size_t count) {
+  double least = 1e9;
+  double most = -1e9;
+  for (size_t i = first; i < first + count; ++i) {
+    const glm::vec3& p = scene.vertices.position[i];
+    const double x = p.x / (10.0 - p.z) / 0.1 * 0.5 * kHeight;
+    least = std::min(least, x);
+    most = std::max(most, x);
+  }
+  return most - least;
+}
+
+TEST(Strokes, ALineIsAsWideAtTheEdgeOfAWideViewAsInItsMiddle) {
+  for (const float x : {0.0f, 5.0f, 20.0f}) {
+    Scene scene = sceneOf({{x, -1, 0}, {x, 1, 0}}, {{0, 1}});
+    addStrokes(scene, cameraAt10(true), kHeight, kPixels);
+    const double width = shownWidth(scene, 2, 6);
+    EXPECT_GT(width, 0.95 * kPixels) << x;
+    EXPECT_LT(width, 1.11 * kPixels) << x;
+  }
+}
+
+TEST(Strokes, ALineThatPassesTheCameraIsThinThere) {
+  Scene scene = sceneOf({{1, 0, 0}, {1, 0, 20}}, {{0, 1}});
+  scene.vertices.color = {{1, 0, 0, 1}, {0, 1, 0, 1}};
+  addStrokes(scene, cameraAt10(true), kHeight, kPixels);
+  EXPECT_EQ(scene.triangles.size(), 2 * kTrianglesOfALine);
+  for (size_t i = 2; i < scene.vertices.position.size(); ++i) {
+    const glm::vec3& p = scene.vertices.position[i];
+    EXPECT_LE(std::hypot(p.x - 1.0, p.y), 1.2 * kRadius * std::abs(p.z - 10.0) / 10.0 + 1e-5) << p.z;
+    EXPECT_NEAR(scene.vertices.color[i].g, std::clamp(p.z / 20.0, 0.0, 1.0), 0.02) << p.z;
+  }
+}
+
+TEST(Strokes, ALineWithoutLengthIsNothing) {
+  Scene scene = sceneOf({{1, 0, 0}, {1, 0, 0}}, {{0, 1}});
+  addStrokes(scene, cameraAt10(true), kHeight, kPixels);
+  EXPECT_TRUE(scene.triangles.empty());
+}
+
+TEST(Strokes, WithoutNormalsTheyShowBaseColourAndEmission) {
+  Scene scene = sceneOf({{0, 0, 0}}, {{0, 0}});
+  scene.materials[0].baseColorFactor = {0.5f, 0.0f, 0.0f, 1.0f};
+  scene.materials[0].emissiveFactor = {0.0f, 0.5f, 0.0f};
+  scene.materials[0].emissiveStrength = 4.0f;
+  scene.materials[0].number = 7;
+  addStrokes(scene, cameraAt10(true), kHeight, kPixels);
+  EXPECT_EQ(scene.materials[1].baseColorFactor, glm::vec4(0.5f, 2.0f, 0.0f, 1.0f));
+  EXPECT_EQ(scene.materials[1].number, 7u);
 }
 
 TEST(Strokes, AreUnlitWithoutNormalsAndNeverHaveNormalTextures) {

@@ -16,6 +16,8 @@ namespace {
 ViewedScene someScene() {
   ViewedScene scene;
   scene.options.scene = "some.gltf";
+  scene.animationNames = {"walk", "run"};
+  scene.animationSeconds = {2.0, std::nullopt};
   scene.bounds.include({-1.0, -1.0, -1.0});
   scene.bounds.include({1.0, 1.0, 1.0});
   Camera camera;
@@ -48,6 +50,7 @@ TEST(ViewState, EveryControlChangesTheStateOrIsAnErrand) {
     const bool changed = state.sides != before.sides || !(state.pose == before.pose) ||
                          state.panel != before.panel || state.figures != before.figures ||
                          state.sheet != before.sheet || state.treeBoxes != before.treeBoxes ||
+                         state.playback.playing != before.playback.playing ||
                          state.treeLevel != before.treeLevel || state.split != before.split;
     // Cameras that the scene does not have, and what stands as it is asked for.
     const bool maybeNot = control.action == Action::SceneCamera || control.action == Action::ResetCamera ||
@@ -56,6 +59,34 @@ TEST(ViewState, EveryControlChangesTheStateOrIsAnErrand) {
     EXPECT_TRUE(changed || errand != Errand::None || maybeNot) << controlName(control);
     EXPECT_FALSE(changed && errand != Errand::None) << controlName(control);
   }
+}
+
+TEST(ViewState, AnAnimationGoesOnByTheTimeThatPassesAndBeginsAgainOrStops) {
+  ViewState state = someState();
+  const auto time = [&] { return state.sides[1].selection.animationTime; };
+  play(state, 1.0);
+  EXPECT_FALSE(time());
+  press(state, Action::PlayAnimation);
+  play(state, 5.0);
+  EXPECT_EQ(time(), 0.0);
+  play(state, 5.5);
+  EXPECT_EQ(time(), 0.5);
+  state.playback.speed = 2.0;
+  play(state, 6.0);
+  EXPECT_EQ(time(), 1.5);
+  play(state, 6.5);
+  EXPECT_EQ(time(), 0.5);
+  EXPECT_TRUE(state.playback.playing);
+  state.playback.loops = false;
+  play(state, 9.0);
+  EXPECT_EQ(time(), 2.0);
+  EXPECT_FALSE(state.playback.playing);
+  press(state, Action::PlayAnimation);
+  EXPECT_EQ(time(), 0.0);
+  press(state, Action::NextAnimation, 1);
+  EXPECT_EQ(shownAnimation(state), 1);
+  EXPECT_EQ(animationLength(state), 1.0);
+  EXPECT_EQ(state.scene->options.selection, state.sides[0].selection);
 }
 
 TEST(ViewState, UntilSomebodyMovesTheCameraIsThatOfTheOptions) {

@@ -21,7 +21,7 @@ RunCommand addBenchStress(CLI::App& app);
 inline constexpr std::array kBenchRows{
     CommandRow{"error", "measure error against samples and time", addBenchError},
     CommandRow{"frame", "measure frame times of several settings in turn", addBenchFrame},
-    CommandRow{"report", "measure the frame times of the report that this program began with",
+    CommandRow{"report", "measure again the frame times of the report that this program is based on",
                addBenchReport},
     CommandRow{"variants", "measure what a smaller shader saves in a scene", addBenchVariants},
     CommandRow{"scale", "measure time and memory from 1 thousand to 10 million triangles", addBenchScale},

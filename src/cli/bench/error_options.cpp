@@ -21,8 +21,9 @@ constexpr const char* kDefaultSamples = "256";
 void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
   BenchErrorOptions& o = raw.options;
   app.add_option("file", raw.scene, "scene: a .gltf or .glb file")->type_name("FILE")->required();
-  app.add_option("--reference", o.reference,
-                 "reference picture; by default one of the first configuration with 64 times the samples")
+  app.add_option(
+         "--reference", o.reference,
+         "reference picture; by default one rendered with the first configuration and 64 times the samples")
       ->type_name("FILE");
   app.add_option("--repetitions", o.repetitions, "pictures per step, each with its own seed")
       ->check(wholeNumber(1, 1000))

@@ -18,11 +18,13 @@ void addBenchFrameOptions(CLI::App& app, RawBenchFrame& raw) {
       ->type_name("FILE");
   app.add_option("--json", o.json, "write all measurements to this file, one JSON line per setting")
       ->type_name("FILE");
-  app.add_option("--baseline", o.baseline,
-                 "file that --json wrote earlier; status 1 when a setting is slower than there by more than "
-                 "--tolerance")
+  app.add_option(
+         "--baseline", o.baseline,
+         "file that --json wrote earlier; status 1 when a setting is slower than in that file by more than "
+         "--tolerance")
       ->type_name("FILE");
-  app.add_option("--tolerance", o.tolerance, "allowed slowdown for --baseline, as a part of the earlier time")
+  app.add_option("--tolerance", o.tolerance,
+                 "allowed slowdown for --baseline, as a fraction of the earlier time")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   addConfigurationOptions(app, raw.configurations, "default");

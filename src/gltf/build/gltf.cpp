@@ -27,10 +27,8 @@ void takeMeshes(Document& document, const PlacedMeshes& placed) {
   const auto count = [&](const MeshPrimitive& primitive) {
     vertexCount += primitive.vertices.position.size();
     triangleCount += primitive.triangles.size();
-    for (const glm::uvec2& ends : primitive.strokes.ends) {
-      vertexCount += kMostStrokeVertices;
-      triangleCount += ends.x == ends.y ? kTrianglesOfAPoint : kTrianglesOfALine;
-    }
+    vertexCount += primitive.strokes.ends.size() * kMostStrokeVertices;
+    triangleCount += trianglesOf(primitive.strokes);
   };
   for (const PrimitiveInstance& instance : placed.flat) count(*instance.primitive);
   for (const MeshToShare& shared : placed.shared) {

@@ -88,9 +88,11 @@ void addMaterials(Document& document, Scene& scene) {
   TextureTable textures(document, scene);
   for (size_t i = 0; i < document.model.materials.size(); ++i) {
     scene.materials.push_back(readMaterial(document, textures, i));
+    scene.materials.back().number = uint32_t(scene.materials.size());
   }
   scene.materials.emplace_back();
   scene.materials.back().name = "default";
+  scene.materials.back().number = uint32_t(scene.materials.size());
 }
 
 }  // namespace fragtrace

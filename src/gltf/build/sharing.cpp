@@ -125,7 +125,7 @@ PlacedMeshes chooseSharing(std::vector<PrimitiveInstance> instances, Instancing 
   uint64_t flatTriangles = 0;
   for (const PrimitiveInstance& i : instances) {
     const uint64_t strokes = i.primitive->strokes.ends.size();
-    const uint64_t triangles = i.primitive->triangles.size() + strokes * kTrianglesOfALine;
+    const uint64_t triangles = i.primitive->triangles.size() + trianglesOf(i.primitive->strokes);
     const uint64_t vertices = i.primitive->vertices.position.size() + strokes * kMostStrokeVertices;
     cost.flat += vertices * kBytesOfAVertex + triangles * kBytesOfATriangle;
     flatTriangles += triangles;

@@ -182,6 +182,39 @@ Errand drawCamera(ViewState& state, Places& places) {
   return errand;
 }
 
+void drawAnimation(ViewState& state, Places& places) {
+  const int shown = shownAnimation(state);
+  const std::vector<std::string>& names = state.scene->animationNames;
+  const auto nameOf = [&](int i) {
+    const std::string& name = names[size_t(i)];
+    return std::to_string(i) + (name.empty() ? "" : ": " + shownText(name, kMostNameCharacters));
+  };
+  label(places, "Clip");
+  if (ImGui::BeginCombo("##clip", nameOf(shown).c_str())) {
+    for (int i = 0; i < int(names.size()); ++i) {
+      if (ImGui::Selectable(nameOf(i).c_str(), i == shown)) showAnimation(state, i, 0.0);
+    }
+    ImGui::EndCombo();
+  }
+  label(places, "Time");
+  float time = float(state.sides[0].selection.animationTime.value_or(0.0));
+  if (ImGui::SliderFloat("##time", &time, 0.0f, float(animationLength(state)), "%.2f s", kBounded)) {
+    state.playback.playing = false;
+    showAnimation(state, shown, time);
+  }
+  label(places, "Speed");
+  float speed = float(state.playback.speed);
+  if (ImGui::SliderFloat("##speed", &speed, 0.1f, 10.0f, "%.2f", kBoundedLogarithmic))
+    state.playback.speed = speed;
+  if (ImGui::Button(state.playback.playing ? "Pause" : "Play"))
+    apply(state, *controlOf(Action::PlayAnimation), {});
+  addItemPlace(places, "Play");
+  ImGui::SameLine();
+  ImGui::Checkbox("Loop", &state.playback.loops);
+  addItemPlace(places, "Loop");
+  dimAtEnd(keyOf(Action::PlayAnimation));
+}
+
 void drawCompare(ViewState& state, Places& places) {
   bool split = state.split;
   if (ImGui::Checkbox("Split view", &split)) apply(state, *controlOf(Action::ToggleSplit), {});
@@ -237,6 +270,8 @@ Errand drawPanel(ViewState& state, const OverlayLayout& layout, Places& places) 
                        ImGuiWindowFlags_NoNav)) {
     addWindowPlace(places, "panel");
     drawCompare(state, places);
+    if (shownAnimation(state) >= 0 && ImGui::CollapsingHeader("Animation", ImGuiTreeNodeFlags_DefaultOpen))
+      drawAnimation(state, places);
     if (ImGui::CollapsingHeader("Stages and switches", ImGuiTreeNodeFlags_DefaultOpen)) drawStages(state);
     if (ImGui::CollapsingHeader("Light and display", ImGuiTreeNodeFlags_DefaultOpen))
       drawLight(state, places);

@@ -89,6 +89,14 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["tone_map"] = toneMapNames()[size_t(state.sides[0].toneMap)];
   json["hdri_rotation"] = state.sides[0].hdriRotationDegrees;
   json["background"] = state.sides[0].background;
+  const int animation = shownAnimation(state);
+  json["animation"] = animation < 0 ? Json()
+                                    : Json{{"index", animation},
+                                           {"playing", state.playback.playing},
+                                           {"length", animationLength(state)}};
+  if (animation >= 0)
+    json["animation"]["time"] =
+        state.sides[0].selection.animationTime ? Json(*state.sides[0].selection.animationTime) : Json();
   json["load_step"] = facts.load.step;
   json["load_fraction"] = facts.load.fraction;
   json["error"] = facts.error;

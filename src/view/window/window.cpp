@@ -113,6 +113,7 @@ void Window::run() {
     const double begin = glfwGetTime();
     take();
     if (frames_ > 0 && !iconified()) draw();
+    play(state_, glfwGetTime());
     ask();
     writeStatus();
     const double ms = 1000.0 * (glfwGetTime() - begin);
@@ -125,7 +126,7 @@ void Window::wait() {
   double seconds = kLongestSleep;
   const double now = glfwGetTime();
   const auto atMost = [&](double limit) { seconds = std::clamp(limit, 0.0, seconds); };
-  if (input_.active()) atMost(kFrameSeconds);
+  if (input_.active() || state_.playback.playing) atMost(kFrameSeconds);
   if (askedMoving_) atMost(changed_ + kMovingSeconds - now);
   if (now >= fades_) frames_ = std::max(frames_, 1);
   atMost(fades_ - now);

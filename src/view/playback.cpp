@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The time of the scene's animation, as the viewer's controls set it.
+#include <algorithm>
+#include <cmath>
+
+#include "view/view_state.h"
+
+namespace fragtrace {
+
+int shownAnimation(const ViewState& state) {
+  if (!state.scene || state.scene->animationNames.empty()) return -1;
+  const std::string& wanted = state.sides[0].selection.animation;
+  if (wanted.empty()) return 0;
+  const std::vector<std::string>& names = state.scene->animationNames;
+  const auto named = std::ranges::find(names, wanted);
+  if (named != names.end()) return int(named - names.begin());
+  const bool isNumber = wanted.find_first_not_of("0123456789") == std::string::npos;
+  const size_t index = isNumber ? std::stoul(wanted) : 0;
+  return index < names.size() ? int(index) : 0;
+}
+
+double animationLength(const ViewState& state) {
+  const int shown = shownAnimation(state);
+  if (shown < 0) return 0.0;
+  const double seconds = state.scene->animationSeconds[size_t(shown)].value_or(1.0);
+  return seconds > 0.0 ? seconds : 1.0;
+}
+
+void showAnimation(ViewState& state, int animation, double seconds) {
+  if (!state.scene || animation < 0 || size_t(animation) >= state.scene->animationNames.size()) return;
+  for (RenderOptions& side : state.sides) side.selection.animation = std::to_string(animation);
+  const double time = std::clamp(seconds, 0.0, animationLength(state));
+  for (RenderOptions& side : state.sides) side.selection.animationTime = time;
+  state.scene->options.selection = state.sides[0].selection;
+  // A camera that frames the scene stays where it is while that moves.
+  state.posed = state.posed || state.scene->cameras.empty();
+}
+
+void play(ViewState& state, double now) {
+  Playback& playback = state.playback;
+  const double length = animationLength(state);
+  if (!playback.playing || length <= 0.0) {
+    playback.playing = false;
+    playback.at = -1.0;
+    return;
+  }
+  const double passed = playback.at < 0.0 ? 0.0 : now - playback.at;
+  playback.at = now;
+  double time = state.sides[0].selection.animationTime.value_or(0.0) + playback.speed * passed;
+  if (time > length) {
+    playback.playing = playback.loops;
+    time = playback.loops ? std::fmod(time, length) : length;
+  }
+  showAnimation(state, shownAnimation(state), time);
+}
+
+}  // namespace fragtrace

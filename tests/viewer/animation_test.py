@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Animations in the viewer: played, paused, dragged to a time, and drawn as `render --animation-time` draws them."""
+import base64
+import json
+import shlex
+import struct
+import subprocess
+
+from support import FRAGTRACE, Case, main, pixels_of
+from clipboard import clipboard_text
+
+SIZE = ["--resolution", "900,700"]
+FEW = [*SIZE, "--spp", "2"]
+
+
+def animated(folder, seconds=2.0):
+    """A square that moves along x in the first clip, and along y in the second."""
+    corners = struct.pack("<12f", -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0) + struct.pack("<6H", 0, 1, 2, 0, 2, 3)
+    keys = struct.pack("<2f", 0, seconds) + struct.pack("<12f", -1, 0, 0, 1, 0, 0, 0, -1, 0, 0, 1, 0)
+    data = corners + keys
+    views, at = [], 0
+    for size in (48, 12, 8, 24, 24):
+        views.append({"buffer": 0, "byteOffset": at, "byteLength": size})
+        at += size
+    accessor = [(0, 5126, 4, "VEC3", {"min": [-1, -1, 0], "max": [1, 1, 0]}), (1, 5123, 6, "SCALAR", {}),
+                (2, 5126, 2, "SCALAR", {"min": [0], "max": [seconds]}), (3, 5126, 2, "VEC3", {}), (4, 5126, 2, "VEC3", {})]
+    clip = [{"name": name, "samplers": [{"input": 2, "output": output}], "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}
+            for name, output in (("across", 3), ("up", 4))]
+    path = folder / "moving.gltf"
+    path.write_text(json.dumps({
+        "asset": {"version": "2.0"}, "buffers": [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}],
+        "bufferViews": views, "accessors": [{"bufferView": v, "componentType": c, "count": n, "type": t, **more} for v, c, n, t, more in accessor],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+        "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.3, 0.1, 1], "metallicFactor": 0}, "doubleSided": True}],
+        "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "animations": clip}))
+    return path
+
+
+class Animation(Case):
+    def playing(self, viewer, playing=True):
+        return viewer.until(lambda s: s["animation"]["playing"] == playing, f"playing: {playing}")["animation"]
+
+    def test_space_plays_and_pauses_and_the_picture_is_that_of_the_command(self):
+        viewer = self.view(animated(self.folder), *FEW)
+        first = viewer.status()
+        self.assertEqual(first["animation"], {"index": 0, "playing": False, "length": 2.0, "time": None})
+        viewer.key("space")
+        self.playing(viewer)
+        moved = viewer.until(lambda s: s["animation"]["time"] > 0.3 and s["answered"] >= first["answered"] + 3, "it moves")
+        self.assertLess(moved["animation"]["time"], 2.0)
+        viewer.key("space")
+        time = self.playing(viewer, False)["time"]
+        status = viewer.rest(lambda s: s["sides"][0]["samples"] == 2 and s["sides"][0]["width"] == 900)
+        self.assertEqual(status["animation"]["time"], time)
+        shown = pixels_of(viewer.press_for_file("F12", ".png"))
+        viewer.key("ctrl+c")
+        viewer.until(lambda s: any("copied" in m for m in s["messages"]), "copied")
+        words = shlex.split(clipboard_text(self.screen))
+        self.assertIn(f"{time:.17g}"[:6], words[words.index("--animation-time") + 1])
+        output = self.folder / "command.png"
+        words[words.index("--output") + 1] = str(output)
+        subprocess.run([FRAGTRACE, *words[1:], "--traversal", "front-to-back", "--quiet"], check=True, cwd=self.folder, timeout=300)
+        self.same(shown, pixels_of(output))
+        self.assertEqual(status["error"], "")
+        self.ends_well(viewer, viewer.close())
+
+    def test_at_the_end_it_begins_again_or_stops(self):
+        viewer = self.view(animated(self.folder, 0.5), *FEW)
+        viewer.click("Play")
+        seen = []
+        viewer.until(lambda s: seen.append(s["animation"]["time"] or 0) or any(b < a for a, b in zip(seen, seen[1:])), "it begins again")
+        viewer.click("Loop")
+        self.assertEqual(self.playing(viewer, False)["time"], 0.5)
+        viewer.key("space")
+        self.assertLess(self.playing(viewer)["time"], 0.5)
+        self.assertEqual(self.playing(viewer, False)["time"], 0.5)
+
+    def test_a_time_and_a_clip_can_be_chosen(self):
+        viewer = self.view(animated(self.folder), *FEW)
+        viewer.key("space")
+        self.playing(viewer)
+        viewer.click("Time")
+        chosen = self.playing(viewer, False)
+        self.assertAlmostEqual(chosen["time"], 1.0, delta=0.1)
+        before = viewer.rest()
+        viewer.key("p")
+        after = viewer.rest(lambda s: s["animation"]["index"] == 1)
+        self.assertEqual(after["animation"]["time"], 0)
+        self.assertGreater(after["answered"], before["answered"])
+        viewer.key("shift+p")
+        self.assertEqual(viewer.rest(lambda s: s["animation"]["index"] == 0)["animation"]["time"], 0)
+
+    def test_without_animations_nothing_plays(self):
+        viewer = self.view("furnace", *FEW)
+        self.assertIsNone(viewer.status()["animation"])
+        viewer.key("space", "p")
+        self.assertIsNone(viewer.rest()["animation"])
+
+
+if __name__ == "__main__":
+    main()
