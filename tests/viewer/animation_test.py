@@ -53,16 +53,37 @@ class Animation(Case):
         time = self.playing(viewer, False)["time"]
         status = viewer.rest(lambda s: s["sides"][0]["samples"] == 2 and s["sides"][0]["width"] == 900)
         self.assertEqual(status["animation"]["time"], time)
+        words = self.shows_the_copied_command(viewer)
+        self.assertIn(f"{time:.17g}"[:6], words[words.index("--animation-time") + 1])
+        self.assertEqual(status["error"], "")
+        self.ends_well(viewer, viewer.close())
+
+    def shows_the_copied_command(self, viewer):
+        """Bit by bit; the command's words."""
         shown = pixels_of(viewer.press_for_file("F12", ".png"))
         viewer.key("ctrl+c")
         viewer.until(lambda s: any("copied" in m for m in s["messages"]), "copied")
         words = shlex.split(clipboard_text(self.screen))
-        self.assertIn(f"{time:.17g}"[:6], words[words.index("--animation-time") + 1])
         output = self.folder / "command.png"
         words[words.index("--output") + 1] = str(output)
-        subprocess.run([FRAGTRACE, *words[1:], "--traversal", "front-to-back", "--quiet"], check=True, cwd=self.folder, timeout=300)
+        tree = [] if "--traversal" in words else ["--traversal", "front-to-back"]
+        subprocess.run([FRAGTRACE, *words[1:], *tree, "--quiet"], check=True, cwd=self.folder, timeout=300)
         self.same(shown, pixels_of(output))
-        self.assertEqual(status["error"], "")
+        return words
+
+    def test_lines_have_their_width_again_when_the_camera_rests(self):
+        path = animated(self.folder)
+        gltf = json.loads(path.read_text())
+        gltf["meshes"][0]["primitives"][0]["mode"] = 2
+        del gltf["animations"]
+        path.write_text(json.dumps(gltf))
+        viewer = self.view(path, *FEW, "--line-width", "6", "--traversal", "front-to-back")
+        before = viewer.status()
+        viewer.at(450, 350)
+        for _ in range(4):
+            viewer.xdotool("click", 4)
+        viewer.rest(lambda s: s["camera"] != before["camera"] and s["answered"] > before["answered"] and s["sides"][0]["width"] == 900)
+        self.shows_the_copied_command(viewer)
         self.ends_well(viewer, viewer.close())
 
     def test_at_the_end_it_begins_again_or_stops(self):
