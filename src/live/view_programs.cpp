@@ -69,6 +69,13 @@ void ViewPrograms::showPose(const RenderOptions& options) {
     replaceScene(program->tracer, context_, loaded_, program->options, stats);
     program->variant = stats.variant;
     program->bytes = stats.sceneBytes;
+    // A pose may need another program, as for a deeper tree.
+    Renderer& renderer = *program->tracer.renderer;
+    Film tiny(glm::ivec2{kTinyFilm});
+    if (renderer.knows(program->tracer.variant))
+      renderer.use(program->tracer.variant);
+    else
+      renderer.compile(program->tracer.variant, tiny, loaded_.view);
   }
 }
 

@@ -126,6 +126,7 @@ void ViewTracer::adoptScene() {
   programs_.reset();
   tree_.reset();
   posedCamera_ = result->options.camera;
+  posedCameraIndex_ = result->options.cameraIndex;
   posedSize_ = result->scene->size;
   loaded_ = std::move(result->scene);
   loadedOptions_ = result->options;
@@ -170,10 +171,10 @@ void ViewTracer::rebuildPrograms() {
   }
 }
 
-/// Of a scene that moves: the shader's text holds none of it, since that would be compiled for each picture.
-RenderOptions asPosed(RenderOptions options) {
-  if (options.selection.animationTime && options.traversal == TraversalMethod::Auto)
-    options.traversal = TraversalMethod::FrontToBack;
+/// Of a scene that is posed anew: the shader's text holds none of it, since that would be compiled each time.
+RenderOptions ViewTracer::asPosed(RenderOptions options) const {
+  const bool changes = options.selection.animationTime || !loaded_->scene.strokes.empty();
+  if (changes && options.traversal == TraversalMethod::Auto) options.traversal = TraversalMethod::FrontToBack;
   return options;
 }
 
@@ -184,7 +185,8 @@ bool ViewTracer::isPosed(const TraceRequest& request) const {
   if (a.animation != b.animation || a.animationTime != b.animationTime) return false;
   // Points and lines get their width from the camera.
   return loaded_->scene.strokes.empty() || request.moving ||
-         (wanted.camera == posedCamera_ && request.size == posedSize_);
+         (wanted.camera == posedCamera_ && wanted.cameraIndex == posedCameraIndex_ &&
+          request.size == posedSize_);
 }
 
 void ViewTracer::pose(const TraceRequest& request) {
@@ -192,6 +194,7 @@ void ViewTracer::pose(const TraceRequest& request) {
   loadedOptions_.selection.animation = wanted.selection.animation;
   loadedOptions_.selection.animationTime = wanted.selection.animationTime;
   posedCamera_ = wanted.camera;
+  posedCameraIndex_ = wanted.cameraIndex;
   posedSize_ = request.size;
   RenderOptions options = asPosed(loadedOptions_);
   options.sceneOrigin = loaded_->scene.space.origin;
@@ -209,7 +212,9 @@ void ViewTracer::pose(const TraceRequest& request) {
     if (!stats.treeRefitted && loaded_->scene.instances.empty())
       tree_ = refittable(loaded_->bvh, loaded_->scene);
     programs_->showPose(options);
-  } catch (const InputError& error) {
+  } catch (const ContextLost&) {
+    throw;
+  } catch (const std::exception& error) {
     exchange_.tellError(error.what());  // what is shown stays
   }
 }

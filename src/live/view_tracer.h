@@ -58,6 +58,8 @@ class ViewTracer {
   void watchFiles();
   void rebuildPrograms();
   void adopt(const TraceRequest& request);
+  /// The options as such a scene is drawn that is posed anew.
+  RenderOptions asPosed(RenderOptions options) const;
   /// Whether the scene stands as the request wants it.
   bool isPosed(const TraceRequest& request) const;
   /// Makes it so: at that time of its animation, with lines as wide as that camera wants. Why it cannot be,
@@ -92,6 +94,7 @@ class ViewTracer {
   std::unique_ptr<LoadedScene> loaded_;
   RenderOptions loadedOptions_;  ///< of the scene
   CameraOverrides posedCamera_;  ///< that lines have their width of
+  std::optional<int> posedCameraIndex_;
   glm::ivec2 posedSize_{0};
   std::optional<RefittableTree> tree_;  ///< that was built last for a moving scene
   std::unique_ptr<ViewPrograms> programs_;

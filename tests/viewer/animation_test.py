@@ -77,7 +77,7 @@ class Animation(Case):
         gltf["meshes"][0]["primitives"][0]["mode"] = 2
         del gltf["animations"]
         path.write_text(json.dumps(gltf))
-        viewer = self.view(path, *FEW, "--line-width", "6", "--traversal", "front-to-back")
+        viewer = self.view(path, *FEW, "--line-width", "6")
         before = viewer.status()
         viewer.at(450, 350)
         for _ in range(4):
