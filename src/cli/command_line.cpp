@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -35,12 +36,25 @@ std::vector<std::string> commandNames(const CLI::App& app) {
   return names;
 }
 
+/// A first word that is no command but a file is to be viewed; a file with the name of a command is ./NAME.
+std::vector<const char*> withView(const CLI::App& app, int argc, const char* const* argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  if (argc < 2 || argv[1][0] == '-') return words;
+  const std::vector<std::string> names = commandNames(app);
+  std::error_code error;
+  const bool isFile = std::filesystem::is_regular_file(argv[1], error);
+  if (isFile && std::ranges::find(names, argv[1]) == names.end()) words.insert(words.begin() + 1, "view");
+  return words;
+}
+
 /// The library would call an unknown command an argument too many, and a missing one a subcommand.
 void checkCommand(const CLI::App& app, std::optional<std::string> word) {
   const std::vector<std::string> names = commandNames(app);
   if (!word) throw UsageError(app.get_name() + " needs a command: " + joined(names) + "; --help says more");
   if (word->starts_with('-') || std::ranges::find(names, *word) != names.end()) return;
-  throw UsageError("'" + *word + "' is no command of " + app.get_name() + ": " + joined(names));
+  const bool atFirst = app.get_parent() == nullptr;
+  throw UsageError("'" + *word + "' is no command of " + app.get_name() +
+                   (atFirst ? ", and no file: " : ": ") + joined(names));
 }
 
 /// The command that was given.
@@ -92,11 +106,14 @@ bool asksForJson(std::span<const char* const> words) {
   return false;
 }
 
-int runCommandLine(int argc, const char* const* argv) {
+int runCommandLine(int givenCount, const char* const* given) {
   CLI::App app("A path tracer for glTF whose tracing runs in an OpenGL shader.", "fragtrace");
   hideOldSpellings(app);
   app.set_version_flag("--version", std::string("fragtrace ") + kVersionText);
   const RunCommand run = addCommands(app, kCommandRows);
+  const std::vector<const char*> words = withView(app, givenCount, given);
+  const int argc = int(words.size());
+  const char* const* argv = words.data();
   const auto word = [&](int i) { return i < argc ? std::optional<std::string>(argv[i]) : std::nullopt; };
   checkCommand(app, word(1));
   if (word(1) == "bench") checkCommand(*app.get_subcommand("bench"), word(2));

@@ -24,6 +24,22 @@ class Ends(Case):
         viewer = self.view("furnace", *FEW)
         self.ends_well(viewer, viewer.close())
 
+    def test_a_file_alone_is_viewed_and_a_command_stays_one(self):
+        status = self.folder / "status.json"
+        process = subprocess.Popen([FRAGTRACE, SCENES / "furnace.gltf", *FEW, "--status-file", status], env=self.screen.environment)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        for _ in range(600):
+            if status.exists() and json.loads(status.read_text())["state"] == "resting":
+                break
+            time.sleep(0.1)
+        self.assertEqual(json.loads(status.read_text())["state"], "resting")
+        (self.folder / "info").write_text("{}")
+        for word, says in (("info", "file is required"), ("./info", "info: "), ("nothing", "'nothing' is no command of fragtrace, and no file: render")):
+            result = subprocess.run([FRAGTRACE, word], capture_output=True, text=True, cwd=self.folder, env=self.screen.environment, timeout=60)
+            self.assertEqual(result.returncode, 3 if word == "./info" else 2, result.stderr)
+            self.assertIn(says, result.stderr)
+
     def test_without_a_display_it_is_4_and_says_so(self):
         environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
         for name in (None, ":987"):
