@@ -67,8 +67,8 @@ def readable(name):
 
 
 def kind_of(name):
-    """FILE, TEXT, INT, ... of '--output FILE REQUIRED'; '' for a switch."""
-    found = re.match(r"\S+ ([A-Z]+)", name)
+    """FILE, TEXT, INT, AZIMUTH,ELEVATION[,ZOOM], ... of '--output FILE REQUIRED'; '' for a switch."""
+    found = re.match(r"\S+ ([A-Z]+(?:\[?,[A-Z]+\]?)*)", name)
     return found[1] if found else ""
 
 
