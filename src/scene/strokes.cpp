@@ -16,6 +16,7 @@ namespace fragtrace {
 namespace {
 
 constexpr int kSides = 6;
+using Ring = std::array<uint32_t, kSides>;  // vertices
 
 /// Sizes of strokes, in local space.
 class StrokeSize {
@@ -153,12 +154,11 @@ class StrokeBuilder {
   }
 
   /// The hexagon's corners, counter-clockwise seen from where `axis` points.
-  std::array<uint32_t, kSides> addRing(const Blend& like, const glm::dvec3& center, const glm::dvec3& axis,
-                                       double radius) {
+  Ring addRing(const Blend& like, const glm::dvec3& center, const glm::dvec3& axis, double radius) {
     const glm::dvec3 side(anyPerpendicular(glm::vec3(axis)));
     const glm::dvec3 first = glm::normalize(side - glm::dot(side, axis) * axis);
     const glm::dvec3 second = glm::cross(axis, first);
-    std::array<uint32_t, kSides> ring{};
+    Ring ring{};
     for (int i = 0; i < kSides; ++i) {
       const double angle = glm::two_pi<double>() * i / kSides;
       ring[size_t(i)] =
@@ -169,6 +169,19 @@ class StrokeBuilder {
 
   void addTriangle(uint32_t a, uint32_t b, uint32_t c) { triangles_.push_back({{a, b, c}, material_, true}); }
 
+  /// Two pyramids, with a prism between them unless they share their ring.
+  void addSolid(uint32_t apexA, const Ring& ringA, const Ring& ringB, uint32_t apexB) {
+    for (size_t i = 0; i < kSides; ++i) {
+      const size_t next = (i + 1) % kSides;
+      addTriangle(apexA, ringA[next], ringA[i]);
+      if (ringA != ringB) {
+        addTriangle(ringA[i], ringA[next], ringB[next]);
+        addTriangle(ringA[i], ringB[next], ringB[i]);
+      }
+      addTriangle(apexB, ringB[i], ringB[next]);
+    }
+  }
+
   void addPoint(uint32_t vertex) {
     const glm::dvec3 place(scene_.vertices.position[vertex]);
     const glm::dvec3 axis = size_.towardsCamera(place);
@@ -177,11 +190,7 @@ class StrokeBuilder {
     const auto ring = addRing(like, place, axis, radius);
     const uint32_t behind = vertexBetween(like, place - radius * axis);
     const uint32_t before = vertexBetween(like, place + radius * axis);
-    for (size_t i = 0; i < kSides; ++i) {
-      const size_t next = (i + 1) % kSides;
-      addTriangle(behind, ring[next], ring[i]);
-      addTriangle(before, ring[i], ring[next]);
-    }
+    addSolid(behind, ring, ring, before);
   }
 
   /// A line that passes the camera is two: its width is nothing where its depth is.
@@ -209,13 +218,7 @@ class StrokeBuilder {
     const auto ringB = addRing(likeB, b, axis, radiusB);
     const uint32_t apexA = vertexBetween(likeA, a - radiusA * axis);
     const uint32_t apexB = vertexBetween(likeB, b + radiusB * axis);
-    for (size_t i = 0; i < kSides; ++i) {
-      const size_t next = (i + 1) % kSides;
-      addTriangle(apexA, ringA[next], ringA[i]);
-      addTriangle(ringA[i], ringA[next], ringB[next]);
-      addTriangle(ringA[i], ringB[next], ringB[i]);
-      addTriangle(apexB, ringB[i], ringB[next]);
-    }
+    addSolid(apexA, ringA, ringB, apexB);
   }
 
   Scene& scene_;
