@@ -161,14 +161,22 @@ class FarmSlurm(Farm):
         process = self.farm(3, *self.WORDS)
         worker = self.worker()
         node = self.states()["0001"].split()[-1].strip(")")
-        os.kill(worker, signal.SIGSTOP)
+        step = parent(parent(worker))  # slurmstepd
         for entry in Path("/proc").glob("[0-9]*"):
             words = (entry / "cmdline").read_bytes().split(b"\0")
             if words[0].endswith(b"slurmd") and node.encode() in words:
                 os.kill(int(entry.name), signal.SIGKILL)
-        os.kill(parent(parent(worker)), signal.SIGKILL)  # slurmstepd
+        os.kill(step, signal.SIGKILL)
+        # Stopped only now: the system hangs up on stopped processes whose group loses its last parent in the session.
+        self.wait(lambda: parent(parent(worker)) != step, "the step's end")
+        os.kill(worker, signal.SIGSTOP)
         # The renderer lives on, stopped, while Slurm begins the part elsewhere: the two must not write one file.
-        self.wait(lambda: "waits for an earlier run" in self.states()["0001"], "the second run", 120)
+        try:
+            self.wait(lambda: "waits for an earlier run" in self.states()["0001"], "the second run", 120)
+        except AssertionError as error:
+            stopped = Path(f"/proc/{worker}/status")
+            alive = stopped.read_text() if stopped.exists() else "it is gone"
+            raise AssertionError(f"{error}\n{self.states()}\nthe stopped worker: {alive}\n{self.logs()}") from None
         os.kill(worker, signal.SIGKILL)
         picture = self.finishes(process)
         self.daemon("slurmd", "-D", "-N", node)
