@@ -1,16 +1,31 @@
 // SPDX-License-Identifier: MIT
-// The window: left of the bar one displayed picture, right of it the other, whatever their resolutions.
+// The picture's part of the window: left of the bar one displayed picture, right of it the other, whatever their
+// resolutions; or how far two traced ones differ.
 layout(binding = 0) uniform sampler2D leftPicture;
 layout(binding = 1) uniform sampler2D rightPicture;
-layout(location = 0) uniform vec2 windowSize;  // pixels
-layout(location = 1) uniform float bar;        // pixels from the left
+layout(location = 0) uniform vec2 pictureSize;  // pixels
+layout(location = 1) uniform float bar;         // pixels from the left
+layout(location = 2) uniform float bottom;      // pixels of the window below the picture
+layout(location = 3) uniform vec3 part;         // of the pictures that is shown: its middle, and how large it is
+layout(location = 4) uniform float difference;  // factor of the difference of radiances; 0: pictures are shown
 
 layout(location = 0) out vec4 shown;
 
+// sRGB, IEC 61966-2-1.
+vec3 encoded(vec3 linear) {
+  return mix(1.055 * pow(max(linear, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055, 12.92 * linear,
+             lessThanEqual(linear, vec3(0.0031308)));
+}
+
 void main() {
   // Pictures have their first row at the top.
-  vec2 place = vec2(gl_FragCoord.x, windowSize.y - gl_FragCoord.y);
-  vec2 uv = place / windowSize;
+  vec2 place = vec2(gl_FragCoord.x, pictureSize.y - (gl_FragCoord.y - bottom));
+  vec2 uv = part.xy + (place / pictureSize - 0.5) * part.z;
+  if (difference > 0.0) {
+    vec3 apart = abs(texture(leftPicture, uv).rgb - texture(rightPicture, uv).rgb);
+    shown = vec4(encoded(clamp(apart * difference, 0.0, 1.0)), 1.0);
+    return;
+  }
   vec4 color = place.x >= bar ? texture(rightPicture, uv) : texture(leftPicture, uv);
   // Where nothing is, a checkerboard, as picture editors show it.
   ivec2 square = ivec2(place) >> 3;

@@ -16,14 +16,18 @@ struct Pick {
   uint32_t primitive = kMissIndex;  ///< of the scene: triangles first, then spheres
   uint32_t triangle = kMissIndex;   ///< its number in the mesh primitive; kMissIndex for a sphere
   uint32_t material = 0;
-  double distance = 0.0;   ///< from the camera, orthographic: from its plane; metres
-  glm::dvec3 point{0.0};   ///< world space
-  glm::dvec3 normal{0.0};  ///< geometric, unit, towards the camera
+  uint32_t instance = kMissIndex;  ///< of a shared mesh, that it belongs to
+  double distance = 0.0;           ///< from the camera, orthographic: from its plane; metres
+  glm::dvec3 point{0.0};           ///< world space
+  glm::dvec3 normal{0.0};          ///< geometric, unit, towards the camera
 };
 
 /// The surface nearest to the camera there, by the tree; nothing where there is none. Alpha is not looked at,
 /// and the back of single-sided surfaces is not there.
 std::optional<Pick> pickAt(const Scene& scene, const Bvh& bvh, const Projection& projection,
                            const glm::dvec2& place);
+
+/// The box in world space of all that the picked node draws of the picked mesh primitive, or of the sphere.
+BoundsDouble boundsOfPicked(const Scene& scene, const Pick& pick);
 
 }  // namespace fragtrace

@@ -193,7 +193,7 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
   if (sequence.turntable > 0) {
     const glm::dvec3 focalPoint = turningPoint(camera, options.camera, loaded.scene.bounds);
     loaded.camera = turnedCamera(camera, focalPoint, frame.turn);
-    loaded.view = makeView(options, loaded.scene, loaded.camera);
+    loaded.view = makeView(options, loaded, loaded.camera);
   }
   const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
   if (!options.treeLevel) releaseGeometry(loaded);

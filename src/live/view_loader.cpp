@@ -1,17 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "live/view_loader.h"
 
-#include "view/camera_controller.h"
-
 #include <atomic>
 #include <mutex>
 #include <thread>
+
+#include "pack/own_light.h"
+#include "view/camera_controller.h"
+#include "view/environments.h"
 
 namespace fragtrace {
 
 namespace {
 
 struct Cancelled {};
+
+/// Three quarters to the right of the front, as in photographs of products.
+constexpr Orbit kFirstView{.azimuthDegrees = 35.0, .elevationDegrees = 20.0};
+
+/// A scene without a camera is seen from the side and from above, where its shape shows best.
+void standAside(LoadedScene& loaded, RenderOptions& options) {
+  if (!loaded.scene.cameras.empty() || options.camera != CameraOverrides() || options.cameraIndex) return;
+  options.camera.orbit = kFirstView;
+  options.camera.fit = Fit::View;
+  aim(loaded, options, FilmOf::Picture);
+}
 
 }  // namespace
 
@@ -27,13 +40,19 @@ void SceneLoader::start(const RenderOptions& options) {
   ++*threads_;
   // Detached: a load that nobody waits for any more ends at its next step.
   std::thread([job = job_, threads = threads_, options, &exchange = exchange_] {
-    LoadResult result{options, nullptr, {}, nullptr};
+    LoadResult result;
+    result.options = options;
     const auto progress = [&](const char* step, double fraction) {
       if (job->cancelled) throw Cancelled();
       exchange.tellLoad({true, options.scene.filename().string(), step, fraction});
     };
     try {
       result.scene = std::make_unique<LoadedScene>(loadScene(options, result.stats, progress));
+      const bool known = !hasMap(options) && options.defaultLight != DefaultLight::None;
+      result.ownLight =
+          known ? !result.stats.defaultLight : ownLight(result.scene->scene) == OwnLight::Enough;
+      result.environments = environmentsNear(options);
+      standAside(*result.scene, result.options);
       // From now on it is told by its index, as others are that are chosen in the window.
       result.options.cameraIndex = result.scene->cameraIndex;
       result.options.selection.camera.clear();

@@ -18,6 +18,8 @@ struct LoadResult {
   std::unique_ptr<LoadedScene> scene;
   Statistics stats;
   std::exception_ptr error;
+  bool ownLight = true;                             ///< it needs no default light
+  std::vector<std::filesystem::path> environments;  ///< environmentsNear()
 };
 
 class SceneLoader {

@@ -93,7 +93,7 @@ void ViewTracer::publish(Side& side) {
   picture.image = std::move(*shown);
   if (has(side.program->tracer.variant.stages, Stage::BvhHeatmap)) picture.image = colorsOf(picture.image);
   picture.asItIs = showsColors(side.options);
-  picture.lines = treeLines(side.options, *loaded_, side.view.camera, request_.size);
+  picture.lines = linesOver(side);
   SideStatistics& s = picture.statistics;
   s.samples = side.samples;
   s.error = side.error;

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "errors.h"
-#include "live/pick_text.h"
 #include "picture/denoising.h"
 #include "session/outputs.h"
 
@@ -25,10 +24,22 @@ constexpr double kFilteredShare = 1.0;
 constexpr size_t kFrames = 64;        ///< whose times are summarised
 constexpr double kLongWait = 3600.0;  ///< seconds
 constexpr double kWatchSeconds = 0.25;
+/// Triangles of a scene that is previewed: with more, packing them twice takes longer than compiling.
+constexpr size_t kMostPreviewed = 300'000;
 constexpr int kMostLosses = 3;  ///< of the context, without a picture between them
 
 double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// A command that cannot be carried out ends the program; another file may be shown.
+void endIfHopeless(const std::exception_ptr& error, const std::filesystem::path& scene) {
+  std::error_code none;
+  try {
+    std::rethrow_exception(error);
+  } catch (const InputError&) {
+    if (!std::filesystem::exists(scene, none)) throw;
+  }
 }
 
 std::string whatFailed(const std::exception_ptr& error) {
@@ -48,7 +59,6 @@ ViewTracer::ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn
 
 void ViewTracer::run() {
   try {
-    loader_.start(start_.render);
     enterContext();
     bool working = false;
     for (;;) {
@@ -118,13 +128,14 @@ void ViewTracer::adoptScene() {
   if (!result) return;
   exchange_.tellLoad({});
   if (result->error) {
-    if (!loaded_) std::rethrow_exception(result->error);
+    if (!loaded_) endIfHopeless(result->error, result->options.scene);
     exchange_.tellError(whatFailed(result->error));
     return;
   }
   sides_.clear();
   programs_.reset();
   tree_.reset();
+  selected_ = {};
   posedCamera_ = result->options.camera;
   posedCameraIndex_ = result->options.cameraIndex;
   posedSize_ = result->scene->size;
@@ -140,7 +151,9 @@ void ViewTracer::adoptScene() {
   viewed.present =
       traitsOf(loaded_->scene, loaded_->environment.kind, !loaded_->environment.backdrop.values.empty());
   viewed.description = result->stats.scene;
-  viewed.defaultLight = result->stats.defaultLight;
+  viewed.defaultLight = !result->ownLight;
+  viewed.map = loaded_->environment.kind == Surroundings::Map;
+  viewed.environments = std::move(result->environments);
   viewed.animationNames = loaded_->scene.animationNames;
   viewed.animationSeconds = loaded_->scene.animationSeconds;
   exchange_.deliver(std::move(viewed));
@@ -196,6 +209,7 @@ void ViewTracer::pose(const TraceRequest& request) {
   posedCamera_ = wanted.camera;
   posedCameraIndex_ = wanted.cameraIndex;
   posedSize_ = request.size;
+  selected_ = {};  // it may be elsewhere now
   RenderOptions options = asPosed(loadedOptions_);
   options.sceneOrigin = loaded_->scene.space.origin;
   options.camera = wanted.camera;
@@ -256,13 +270,45 @@ void ViewTracer::adoptSide(Side& side, const RenderOptions& asked) {
   side.options = options;
   if (same && otherLook && !side.stale && side.samples > 0) publish(side);
   if (same) return;
+  if (!side.program && !programs_->has(options)) preview(side);
   const std::shared_ptr<ViewProgram> wanted = programFor(options);
   // The last good one keeps drawing.
   if (wanted->error.empty()) side.program = wanted;
+  side.view = viewOf(options);
+  side.stale = true;
+}
+
+View ViewTracer::viewOf(const RenderOptions& options) const {
   const Camera camera = chooseCamera(loaded_->scene.cameras, options.cameraIndex, options.camera,
                                      loaded_->scene.bounds, framedAspect(loadedOptions_));
-  side.view = makeView(options, loaded_->scene, camera);
-  side.stale = true;
+  return makeView(options, *loaded_, camera);
+}
+
+/// Shows what compiles soonest, so that the window is not empty while what the side draws is compiled.
+void ViewTracer::preview(Side& side) {
+  const RenderOptions wanted = side.options;
+  const bool quick = !has(wanted.stages, Stage::Shadows) && !has(wanted.stages, Stage::Gi);
+  if (quick || loaded_->scene.triangles.size() > kMostPreviewed) return;
+  RenderOptions& o = side.options;
+  o.stages = stagesUpTo(Stage::Phong);
+  o.denoise = Denoise::None;
+  o.debugView = DebugView::None;
+  o.clampIndirect = 0.0;
+  o.shadowCatcher = false;
+  const std::shared_ptr<ViewProgram> program = programFor(o);
+  if (program->error.empty()) {
+    side.program = program;
+    side.view = viewOf(o);
+    keepMoving(resolution_, request_.size);
+    fitFilm(side);
+    const auto goOn = [&](double) { return !exchange_.ending(); };
+    if (program->tracer.renderer->addSamples(*side.film, side.view, 0, 1, side.times, goOn)) {
+      side.samples = 1;
+      publish(side);
+    }
+  }
+  side = {};
+  side.options = wanted;
 }
 
 std::shared_ptr<ViewProgram> ViewTracer::programFor(const RenderOptions& options) {
@@ -347,23 +393,6 @@ bool ViewTracer::work() {
                                          : millisecondsSince(published_) > std::max(kPublishMs, pause);
   if (!settled || side->samples == count || due || resting(*side)) publish(*side);
   return true;
-}
-
-void ViewTracer::answer(const PickRequest& request) {
-  PickAnswer answer{request, false, {}, {}};
-  const Side* side = request.side < sides_.size() ? &sides_[request.side] : nullptr;
-  if (!side || !side->program) return;
-  const Projection projection = projectionOf(side->view.camera, double(request_.size.x) / request_.size.y);
-  const glm::dvec2 place(2.0 * request.place.x - 1.0, 1.0 - 2.0 * request.place.y);
-  const Scene& scene = loaded_->scene;
-  if (const std::optional<Pick> pick = pickAt(scene, loaded_->bvh, projection, place)) {
-    answer.hit = true;
-    answer.point = pick->point;
-    answer.lines = pickLines(scene, *pick);
-  } else {
-    answer.lines = {"nothing is there"};
-  }
-  exchange_.deliver(std::move(answer));
 }
 
 }  // namespace fragtrace

@@ -68,6 +68,8 @@ class ViewTracer {
   /// With the filter that can be had; why not, the window is told.
   RenderOptions withFilter(RenderOptions options);
   void adoptSide(Side& side, const RenderOptions& options);
+  void preview(Side& side);
+  View viewOf(const RenderOptions& options) const;
   std::shared_ptr<ViewProgram> programFor(const RenderOptions& options);
   /// A film of the size that is drawn at now; empty, if it was of another.
   void fitFilm(Side& side);
@@ -84,6 +86,9 @@ class ViewTracer {
   void publish(Side& side);
   void save(const SaveRequest& request);
   void answer(const PickRequest& request);
+  void select(const BoundsDouble& bounds);
+  /// Boxes of the tree and of what is selected.
+  std::vector<PictureLine> linesOver(const Side& side) const;
   void tellDriver();
 
   ViewOptions start_;
@@ -101,6 +106,7 @@ class ViewTracer {
   std::optional<OidnLibrary> oidn_;  ///< opened later where a pasted command asks for it
   std::unique_ptr<ViewDenoiser> denoiser_;
   TraceRequest request_;
+  BoundsDouble selected_;  ///< of what was picked last, world space; empty: nothing
   std::vector<Side> sides_;
   ResolutionController resolution_;
   std::vector<SaveRequest> saves_;

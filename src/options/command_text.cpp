@@ -86,7 +86,7 @@ void appendScene(std::string& text, const RenderOptions& o) {
   append(text, "--background-color", exactText(color.r) + "," + exactText(color.g) + "," + exactText(color.b),
          !o.backgroundColor);
   if (!o.background) text += " --no-background";
-  if (!o.defaultLight) text += " --no-default-light";
+  appendChoice(text, "--default-light", kDefaultLightNames, o.defaultLight, standard.defaultLight);
   append(text, "--line-width", exactText(o.lineWidth), o.lineWidth == standard.lineWidth);
   appendChoice(text, "--instancing", kInstancingNames, o.instancing, standard.instancing);
   const InputLimits& limits = o.limits;
@@ -122,7 +122,11 @@ RenderOptions parseCommand(const std::string& name, std::vector<std::string> wor
   RawView raw;
   raw.render.anyOutput = true;
   addViewOptions(app, raw);
-  if (name == "render") raw.render.denoise = "none";  // its default
+  if (name == "render") {  // its defaults
+    const RawRender standard;
+    raw.render.denoise = standard.denoise;
+    raw.render.defaultLight = standard.defaultLight;
+  }
   app.add_option("-o,--output", raw.render.output);
   addHalfOption(app, raw.render.options.encoding);
   addPngDepthOption(app, raw.render.options.encoding);

@@ -56,6 +56,7 @@ struct RawRender {
   std::string lightSampling = "nee";
   std::string shadowCatcher;
   bool noBackground = false;
+  std::string defaultLight = "white";
   bool noDefaultLight = false;
   bool anyOutput = false;  ///< pictures get their names later, so what any format holds may be asked for
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "errors.h"
+#include "options/choose.h"
 #include "scene/blurred_map.h"
 
 namespace fragtrace {
@@ -51,7 +52,11 @@ void addSurroundingsOptions(CLI::App& app, RawRender& raw) {
                  "map; it lights nothing")
       ->delimiter(',')
       ->expected(3);
-  app.add_flag("--no-default-light", raw.noDefaultLight, "do not light a scene that has no light of its own");
+  app.add_option("--default-light", raw.defaultLight,
+                 "what lights a scene that has no light of its own: " + joined(kDefaultLightNames) +
+                     "; white comes from all sides, and studio is the environment of --studio")
+      ->capture_default_str();
+  app.add_flag("--no-default-light", raw.noDefaultLight, "short for --default-light none");
 }
 
 void finishSurroundings(const RawRender& raw, RenderOptions& o) {
@@ -63,7 +68,9 @@ void finishSurroundings(const RawRender& raw, RenderOptions& o) {
     throw UsageError("--background-blur: the backdrop of --studio has nothing to blur");
   chooseCatcher(raw.shadowCatcher, o);
   o.background = !raw.noBackground;
-  o.defaultLight = !raw.noDefaultLight;
+  o.defaultLight = raw.noDefaultLight
+                       ? DefaultLight::None
+                       : choose<DefaultLight>("--default-light", raw.defaultLight, kDefaultLightNames);
 }
 
 }  // namespace fragtrace

@@ -18,9 +18,12 @@ constexpr int kMostWindowPixels = 16384;
 }  // namespace
 
 void addViewOptions(CLI::App& app, RawView& raw) {
-  app.add_option("file", raw.render.scene, "scene: a .gltf or .glb file")->type_name("FILE")->required();
+  app.add_option("file", raw.render.scene,
+                 "scene: a .gltf or .glb file; without one, the window waits for a file to be dropped on it")
+      ->type_name("FILE");
   addRenderOptions(app, raw.render);
   raw.render.denoise = "variance";
+  raw.render.defaultLight = "studio";
   addDenoiseOption(app, raw.render);
   const auto describe = [&](const char* name, const char* text) { app.get_option(name)->description(text); };
   describe("--spp", "samples per pixel after which the picture rests, by default without limit");
@@ -33,7 +36,9 @@ void addViewOptions(CLI::App& app, RawView& raw) {
       "--denoise",
       "filter that removes noise while the samples are few: none, variance, oidn, auto; it fades out between "
       "64 and 256 samples per pixel");
-  describe("--resolution", "WIDTH,HEIGHT of the window in pixels, by default 1280,720, at most 16384 each");
+  describe("--resolution",
+           "WIDTH,HEIGHT of the picture in pixels, at most 16384 each; by default the window has 1280,720");
+  app.get_option("--default-light")->default_str(raw.render.defaultLight);
   addConfigOption(app, raw.config);
   app.add_flag("--watch", raw.watch,
                "reload the scene or the shaders of --shader-folder when a file changes");
@@ -48,7 +53,7 @@ ViewOptions finishView(RawView& raw, CLI::App& command) {
   options.render = finishConfigured(raw.render, raw.config, command);
   const glm::ivec2 size = options.render.resolution.value_or(glm::ivec2(1));
   if (size.x > kMostWindowPixels || size.y > kMostWindowPixels)
-    throw UsageError("--resolution: a window has at most " + std::to_string(kMostWindowPixels) +
+    throw UsageError("--resolution: the viewer's picture has at most " + std::to_string(kMostWindowPixels) +
                      " pixels a side");
   if (!raw.render.spp) options.render.spp = kMostSamples - options.render.sampleOffset;
   if (options.render.noise <= 0.0) options.render.noise = kNoise;

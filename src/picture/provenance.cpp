@@ -80,6 +80,7 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   variant.wavefront = false;
   json["variant"] = variantName(variant);
   RenderOptions named = options;
+  named.studio = isInStudio(options, loaded);
   forEachOption(named, [&](const auto& row, const auto& value) {
     if (row.attribute == nullptr) return;
     using Value = std::remove_cvref_t<decltype(value)>;
@@ -91,7 +92,7 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
       throw std::logic_error(std::string(row.attribute) + " has no text");
   });
   json["background_color"] = nullptr;
-  if (!seesEnvironment(options))
+  if (!loaded.view.showEnvironment)
     json["background_color"] = numbers(glm::dvec3(options.backgroundColor.value_or(glm::vec3(0.0f))));
   if (options.shadowCatcher) json["shadow_catcher_height"] = loaded.view.catcherHeight;
   json["camera_position"] = numbers(camera.position);

@@ -100,9 +100,9 @@ Environment makeEnvironment(const RenderOptions& options, std::future<LinearImag
     if (image.width == image.height && image.width > 1)
       warn(options, ": is square, and drawn as latitude and longitude: 360 degrees wide, 180 high", warnings);
     if (options.backgroundBlur > 0.0) environment.backdrop = blurredMap(image, options.backgroundBlur);
-  } else if (options.studio) {
+  } else if (options.studio || (light != OwnLight::Enough && options.defaultLight == DefaultLight::Studio)) {
     environment = {Surroundings::Map, studioLight(), studioBackdrop()};
-  } else if (options.defaultLight && light != OwnLight::Enough) {
+  } else if (light != OwnLight::Enough && options.defaultLight == DefaultLight::White) {
     environment.kind = Surroundings::DefaultLight;
     environment.image = {1, 1, {"R", "G", "B"}, {1.0f, 1.0f, 1.0f}, {}};
   }
@@ -125,13 +125,15 @@ double pathsOf(const RenderOptions& options, glm::ivec2 size) {
   return double(size.x) * size.y * (adaptive ? std::numeric_limits<double>::infinity() : options.spp);
 }
 
-View makeView(const RenderOptions& options, const Scene& scene, const Camera& camera) {
+View makeView(const RenderOptions& options, const LoadedScene& loaded, const Camera& camera) {
+  const Scene& scene = loaded.scene;
   View view;
   view.camera = camera;
   view.space = scene.space;
   view.hdriRotation = glm::radians(options.hdriRotationDegrees);
   if (options.background) view.background = options.backgroundColor.value_or(glm::vec3(0.0f));
-  view.showEnvironment = seesEnvironment(options);
+  const bool map = loaded.environment.kind == Surroundings::Map;
+  view.showEnvironment = map && options.background && !options.backgroundColor;
   view.catcherHeight = options.catcherHeight.value_or(scene.bounds.empty() ? 0.0 : scene.bounds.minimum.y);
   view.bounces = options.bounces;
   view.rouletteDepth = options.rouletteDepth;
@@ -139,6 +141,10 @@ View makeView(const RenderOptions& options, const Scene& scene, const Camera& ca
   view.sampleOffset = options.sampleOffset;
   view.clampIndirect = float(options.clampIndirect);
   return view;
+}
+
+bool isInStudio(const RenderOptions& options, const LoadedScene& loaded) {
+  return loaded.environment.kind == Surroundings::Map && options.hdriFile.empty();
 }
 
 Bvh buildTree(const Scene& scene, const RenderOptions& options) {
@@ -197,8 +203,11 @@ void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& s
   stats.defaultLightReason = light == OwnLight::None
                                  ? "no light in the scene"
                                  : "the scene's emissive textures are too dim to light it";
-  say(options, stats.defaultLightReason +
-                   ": a white environment that the camera does not see lights it (--no-default-light)");
+  const bool studio = options.defaultLight == DefaultLight::Studio;
+  say(options,
+      stats.defaultLightReason +
+          (studio ? ": the built-in studio lights it (--default-light)"
+                  : ": a white environment that the camera does not see lights it (--default-light)"));
 }
 
 }  // namespace
@@ -213,7 +222,7 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
   checkDistance(loaded.camera, scene.space, options);
   loaded.region = chooseRegion(loaded.size, options);
   if (film == FilmOf::Picture) checkFilmMemory(options, loaded.region.size);
-  loaded.view = makeView(options, scene, loaded.camera);
+  loaded.view = makeView(options, loaded, loaded.camera);
 }
 
 LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress,
@@ -264,17 +273,18 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   stats.bvh = bvhQuality(loaded.bvh);
   stats.bvhBuildMs = watch.lap();
   step("reading the environment", 0.9);
-  const bool isAsked = !hasMap(options) && options.defaultLight;
+  const bool isAsked = !hasMap(options) && options.defaultLight != DefaultLight::None;
   const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
   loaded.environment = before.environment ? std::move(*before.environment)
                                           : makeEnvironment(options, map, light, loaded.scene.warnings);
+  loaded.view = makeView(options, loaded, loaded.camera);
   if (reads) stats.phases.push_back(reading);
   stats.scene = describe(scene);
   stats.warnings = scene.warnings;
   stats.size = loaded.region.size;
   stats.region = options.region;
   stats.loadMs += watch.lap();
-  stats.defaultLight = loaded.environment.kind == Surroundings::DefaultLight;
+  stats.defaultLight = light != OwnLight::Enough;
   if (stats.defaultLight) sayDefaultLight(options, light, stats);
   return loaded;
 }

@@ -55,7 +55,7 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film);
 double pathsOf(const RenderOptions& options, glm::ivec2 size);
 
 /// What of the options needs neither another program nor other buffers.
-View makeView(const RenderOptions& options, const Scene& scene, const Camera& camera);
+View makeView(const RenderOptions& options, const LoadedScene& loaded, const Camera& camera);
 
 /// The tree of the options' traversal. The iterative one needs none; where it is chosen for them, the largest
 /// triangles stand beside it when that pays.
@@ -63,6 +63,9 @@ Bvh buildTree(const Scene& scene, const RenderOptions& options);
 
 /// Whether buildTree() builds the same for both.
 bool sameTree(const RenderOptions& a, const RenderOptions& b);
+
+/// Whether the built-in environment lights it, asked for or by default.
+bool isInStudio(const RenderOptions& options, const LoadedScene& loaded);
 
 /// Frees what only packing needs: triangles, vertices, pictures, the tree. For front ends that pack once.
 void releaseGeometry(LoadedScene& loaded);

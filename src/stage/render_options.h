@@ -40,6 +40,10 @@ inline constexpr std::array<std::string_view, 3> kDispatchNames{"auto", "fragmen
 /// (shaders/wavefront.glsl).
 enum class Schedule : uint8_t { Auto, Megakernel, Wavefront };
 inline constexpr std::array<std::string_view, 3> kScheduleNames{"auto", "megakernel", "wavefront"};
+/// What lights a scene that has no light of its own: white from all sides, which the camera does not see, the
+/// built-in environment (scene/studio.h), or nothing.
+enum class DefaultLight : uint8_t { White, Studio, None };
+inline constexpr std::array<std::string_view, 3> kDefaultLightNames{"white", "studio", "none"};
 /// What takes the noise out of a finished picture (render/denoise.h, denoise/oidn.h). Auto: Open Image
 /// Denoise where it is installed, else the variance filter.
 enum class Denoise : uint8_t { None, Variance, Oidn, Auto };
@@ -92,7 +96,7 @@ struct RenderOptions {
   double exposure = 0.0;
   std::optional<glm::vec3> backgroundColor;  ///< none: the environment map, black without one
   bool background = true;
-  bool defaultLight = true;
+  DefaultLight defaultLight = DefaultLight::White;
   bool studio = false;                  ///< the built-in environment (scene/studio.h)
   bool shadowCatcher = false;           ///< a plane that shows nothing but shadows
   std::optional<double> catcherHeight;  ///< its Y in world space, metres; none: the bottom of the scene
@@ -132,11 +136,6 @@ inline bool hasMap(const RenderOptions& o) { return o.studio || !o.hdriFile.empt
 
 /// Whether noise or time ends a render, which places samples where they help most.
 inline bool isAdaptive(const RenderOptions& o) { return o.noise > 0.0 || o.seconds > 0.0; }
-
-/// Whether camera rays that miss see the environment map.
-inline bool seesEnvironment(const RenderOptions& o) {
-  return o.background && hasMap(o) && !o.backgroundColor;
-}
 
 /// Width / height of the picture that a scene without a camera is framed for; without --resolution it is
 /// wide, as good as square.

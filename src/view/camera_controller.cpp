@@ -134,6 +134,18 @@ CameraPose zoom(CameraPose pose, double amount) {
   return settled(pose, before);
 }
 
+CameraPose zoomAt(CameraPose pose, double amount, const glm::dvec2& place) {
+  const CameraPose before = pose;
+  const double halfHeight = halfHeightOf(pose);
+  const glm::dvec3 step = place.x * rightOf(pose) + place.y * pose.viewUp;
+  pose = zoom(pose, amount);
+  // What the middle has come nearer by, the place has been moved away by.
+  const glm::dvec3 shift = (halfHeight - halfHeightOf(pose)) * step;
+  pose.position += shift;
+  pose.focalPoint += shift;
+  return settled(pose, before);
+}
+
 CameraPose fly(CameraPose pose, const glm::dvec3& amount) {
   const CameraPose before = pose;
   const glm::dvec3 step =

@@ -67,8 +67,10 @@ struct ViewedScene {
   BoundsDouble bounds;
   TraitSet present;
   SceneDescription description;
-  bool defaultLight = false;
-  std::vector<std::string> animationNames;  ///< as in Scene
+  bool defaultLight = false;                        ///< it has no light of its own
+  bool map = false;                                 ///< an environment map lights it
+  std::vector<std::filesystem::path> environments;  ///< files near it that may
+  std::vector<std::string> animationNames;          ///< as in Scene
   std::vector<std::optional<double>> animationSeconds;
 };
 
@@ -93,6 +95,7 @@ struct PickRequest {
   size_t side = 0;
   glm::dvec2 place{0.0};  ///< parts of width and height, from the top left
   bool center = false;    ///< the camera is to be centred on it
+  bool clear = false;     ///< nothing is selected any more
 };
 
 struct PickAnswer {
@@ -100,6 +103,7 @@ struct PickAnswer {
   bool hit = false;
   glm::dvec3 point{0.0};           ///< world space
   std::vector<std::string> lines;  ///< what was hit, in words
+  BoundsDouble bounds;             ///< of its node's part of the scene, world space
 };
 
 /// What is new for the window since it asked last.

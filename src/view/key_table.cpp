@@ -23,7 +23,7 @@ void addCamera(std::vector<Control>& rows) {
   add(Drag, mouse::kMiddle, 0, Action::Pan, "move in the plane of the picture");
   add(Drag, mouse::kLeft, kControl, Action::Roll, "turn about the axis of the view");
   add(Drag, mouse::kRight, 0, Action::Zoom, "zoom");
-  add(Wheel, 0, 0, Action::Zoom, "zoom");
+  add(Wheel, 0, 0, Action::Zoom, "zoom, towards the cursor");
   add(DoubleClick, mouse::kLeft, 0, Action::CenterOn, "centre on the point under the cursor");
   add(Click, mouse::kMiddle, 0, Action::CenterOn, "centre on the point under the cursor");
   add(Hold, 'W', 0, Action::FlyForward, "fly forwards", 1);
@@ -32,7 +32,9 @@ void addCamera(std::vector<Control>& rows) {
   add(Hold, 'D', 0, Action::FlyRight, "fly to the right", 1);
   add(Hold, 'E', 0, Action::FlyUp, "fly up", 1);
   add(Hold, 'Q', 0, Action::FlyUp, "fly down", -1);
-  add(Press, 'F', 0, Action::FrameAll, "frame the whole scene");
+  add(HoldWheel, 0, 0, Action::FlySpeed, "fly faster or slower; Shift flies four times as fast");
+  add(Press, 'F', 0, Action::FrameAll, "frame what was clicked on, else the whole scene");
+  add(Press, 'F', kShift, Action::FrameAll, "frame the whole scene", 1);
   add(Press, key::kEnter, 0, Action::ResetCamera, "back to the first camera");
   add(Press, '1', 0, Action::StandardView, "from the front", int(StandardViewOf::Front));
   add(Press, '3', 0, Action::StandardView, "from the right", int(StandardViewOf::Right));
@@ -51,6 +53,9 @@ void addCamera(std::vector<Control>& rows) {
   add(Press, 'N', kShift, Action::NextCamera, "the scene's previous camera", -1);
   add(Press, 'C', kControl, Action::CopyCommand, "copy the command that renders this picture");
   add(Press, 'V', kControl, Action::PasteCommand, "take a copied command, or its camera options");
+  add(Press, 'Z', kControl, Action::Undo, "undo the latest change of camera or settings");
+  add(Press, 'Y', kControl, Action::Redo, "redo it");
+  add(Press, 'Z', kControl | kShift, Action::Redo, "redo it");
 }
 
 void addPicture(std::vector<Control>& rows) {
@@ -63,8 +68,10 @@ void addPicture(std::vector<Control>& rows) {
   int code = key::kF1;
   for (const StageRow& row : stageRows()) {
     if (row.stage == Stage::BvhHeatmap || row.stage == Stage::Watertight) continue;
+    // F11 alone is what desktops use it for.
+    const int modifiers = code == key::kF11 ? kShift : 0;
     if (row.stage != Stage::Flat)
-      add(Press, code, 0, Action::ToggleStage, std::string(row.label) + " on or off", int(row.stage));
+      add(Press, code, modifiers, Action::ToggleStage, std::string(row.label) + " on or off", int(row.stage));
     ++code;
   }
   code = key::kF1;
@@ -85,6 +92,7 @@ void addPicture(std::vector<Control>& rows) {
   add(Press, 'L', kShift, Action::Exposure, "darker by half a stop", -1);
   add(Drag, mouse::kRight, kShift, Action::RotateEnvironment, "rotate the environment");
   add(Press, 'J', 0, Action::ToggleBackground, "background on or off");
+  add(Press, 'K', 0, Action::ToggleGround, "ground that shows shadows alone on or off");
   add(Press, 'G', 0, Action::ToggleDenoise, "denoising on or off");
   add(Press, key::kSpace, 0, Action::PlayAnimation, "play the animation, or pause it");
   add(Press, 'P', 0, Action::NextAnimation, "the next animation", 1);
@@ -93,18 +101,30 @@ void addPicture(std::vector<Control>& rows) {
 
 void addWindow(std::vector<Control>& rows) {
   using enum Gesture;
-  const auto add = [&](Gesture gesture, int code, int modifiers, Action action, const char* sentence) {
-    rows.push_back({gesture, code, modifiers, action, 0, sentence});
+  const auto add = [&](Gesture gesture, int code, int modifiers, Action action, const char* sentence,
+                       int argument = 0) {
+    rows.push_back({gesture, code, modifiers, action, argument, sentence});
   };
-  add(Click, mouse::kLeft, 0, Action::Inspect, "say what is under the cursor");
+  add(Click, mouse::kLeft, 0, Action::Inspect, "select what is under the cursor, and say what it is");
   add(Press, 'C', 0, Action::ToggleSplit, "compare: split view on or off");
+  add(Press, 'R', 0, Action::FlipSides, "compare: the left side alone, then the right one");
+  add(Press, 'U', 0, Action::ToggleDifference, "compare: how far both sides differ");
+  add(Press, 'I', 0, Action::ShowBar, "compare: both sides and the bar again");
+  add(Wheel, 0, kControl, Action::Magnify, "enlarge the pixels about the cursor");
+  add(Press, '=', 0, Action::Magnify, "enlarge the pixels about the cursor", 1);
+  add(Press, '-', 0, Action::Magnify, "smaller pixels again", -1);
+  add(Drag, mouse::kMiddle, kControl, Action::MoveMagnifier, "move the enlarged picture");
   add(Press, key::kTab, 0, Action::TogglePanel, "panel on or off");
   add(Press, 'Z', 0, Action::ToggleHud, "figures on or off");
+  add(Press, key::kF11, 0, Action::Fullscreen, "full screen on or off");
   add(Press, 'H', 0, Action::ToggleSheet, "this sheet on or off");
+  add(Press, key::kF1, 0, Action::ToggleSheet, "this sheet on or off");
+  add(Press, '/', kShift, Action::ToggleSheet, "this sheet on or off");
   add(Press, key::kUp, 0, Action::Reload, "read scene and shaders again");
   add(Press, key::kF12, 0, Action::Screenshot, "write the picture as .png");
   add(Press, key::kF12, kShift, Action::WriteExr, "write the accumulated radiance as .exr");
-  add(Press, key::kEscape, 0, Action::Close, "close what is open: a list, the sheet, a load; else quit");
+  add(Press, key::kEscape, 0, Action::Close,
+      "close what is open: a list, the sheet, enlarged pixels, a load, full screen; else quit");
   add(Press, 'Q', kControl, Action::Quit, "quit");
 }
 
@@ -120,6 +140,8 @@ std::string codeName(const Control& control) {
   switch (control.gesture) {
     case Gesture::Wheel:
       return "Wheel";
+    case Gesture::HoldWheel:
+      return "Wheel while flying";
     case Gesture::Press:
     case Gesture::Hold:
       break;
@@ -183,11 +205,27 @@ const Control* controlOf(Action action, int argument) {
 }
 
 std::string controlName(const Control& control) {
+  if (control.code == '/' && control.modifiers == kShift) return "?";
   std::string name;
   if ((control.modifiers & kControl) != 0) name += "Ctrl+";
   if ((control.modifiers & kShift) != 0) name += "Shift+";
   return name + codeName(control);
 }
+
+namespace {
+
+/// "F2 to F7" where the codes follow each other, else "H, F1 or ?".
+std::string namesOf(std::span<const Control> rows) {
+  bool run = rows.size() > 2;
+  for (size_t i = 1; i < rows.size(); ++i) run = run && rows[i].code == rows[i - 1].code + 1;
+  std::string name = controlName(rows.front());
+  if (run) return name + " to " + controlName(rows.back());
+  for (size_t i = 1; i < rows.size(); ++i)
+    name += (i + 1 < rows.size() ? ", " : " or ") + controlName(rows[i]);
+  return name;
+}
+
+}  // namespace
 
 std::vector<SheetLine> sheetLines() {
   std::vector<SheetLine> lines;
@@ -195,9 +233,7 @@ std::vector<SheetLine> sheetLines() {
   for (size_t first = 0; first < rows.size();) {
     size_t last = first;
     while (last + 1 < rows.size() && rows[last + 1].sentence == rows[first].sentence) ++last;
-    std::string name = controlName(rows[first]);
-    if (last > first) name += (last > first + 1 ? " to " : " or ") + controlName(rows[last]);
-    lines.push_back({name, rows[first].sentence});
+    lines.push_back({namesOf(rows.subspan(first, last - first + 1)), rows[first].sentence});
     first = last + 1;
   }
   return lines;

@@ -22,7 +22,7 @@ enum class Action : uint8_t {
   FlyRight,  ///< argument: +1 right, -1 left
   FlyUp,
   FlyForward,
-  FrameAll,
+  FrameAll,  ///< argument: 1 the whole scene, whatever was clicked on
   ResetCamera,
   StandardView,  ///< argument: StandardViewOf
   Elevate,       ///< argument: quarter turns up
@@ -33,6 +33,9 @@ enum class Action : uint8_t {
   NextCamera,   ///< argument: +1 or -1
   CopyCommand,
   PasteCommand,
+  FlySpeed,
+  Undo,
+  Redo,
   // Picture.
   ToggleStage,  ///< argument: a Stage
   StagesUpTo,   ///< argument: a Stage
@@ -43,12 +46,19 @@ enum class Action : uint8_t {
   Exposure,
   RotateEnvironment,
   ToggleBackground,
+  ToggleGround,
   ToggleDenoise,
   PlayAnimation,
   NextAnimation,  ///< argument: +1 or -1
   // Window.
   Inspect,
   ToggleSplit,
+  FlipSides,
+  ToggleDifference,
+  ShowBar,
+  Magnify,  ///< argument: doublings, unless the wheel says which way
+  MoveMagnifier,
+  Fullscreen,
   TogglePanel,
   ToggleHud,
   ToggleSheet,
@@ -63,8 +73,8 @@ enum class Action : uint8_t {
 enum class StandardViewOf : uint8_t { Front, Right, Top, Isometric };
 
 /// How a control is used: a key pressed once (repeats count as presses) or held, a mouse button clicked or
-/// dragged, the wheel turned.
-enum class Gesture : uint8_t { Press, Hold, Click, DoubleClick, Drag, Wheel };
+/// dragged, the wheel turned, by itself or while a key is held.
+enum class Gesture : uint8_t { Press, Hold, Click, DoubleClick, Drag, Wheel, HoldWheel };
 
 /// Bits of Control::modifiers, as GLFW numbers them.
 inline constexpr int kShiftModifier = 1;
@@ -81,6 +91,7 @@ inline constexpr int kUp = 265;
 inline constexpr int kPageUp = 266;
 inline constexpr int kPageDown = 267;
 inline constexpr int kF1 = 290;
+inline constexpr int kF11 = 300;
 inline constexpr int kF12 = 301;
 inline constexpr int kKeypad0 = 320;
 inline constexpr int kKeypad9 = 329;

@@ -19,27 +19,52 @@ struct Playback {
   double at = -1.0;  ///< when it last went on, in seconds; negative: it did not play then
 };
 
+/// What the split view shows: both sides of the bar, one side alone, or how far they differ.
+enum class Comparison : uint8_t { Bar, Left, Right, Difference };
+inline constexpr std::array kComparisonNames{"bar", "left", "right", "difference"};
+
+/// The picture enlarged, without drawing it anew, so that its pixels can be told apart.
+struct Magnifier {
+  int steps = 0;           ///< each doubles; 0: pixel by pixel
+  glm::dvec2 center{0.5};  ///< the place of the picture in the middle: parts of width and height
+
+  bool operator==(const Magnifier&) const = default;
+};
+
 struct ViewState {
   std::array<RenderOptions, 2> sides;  ///< the second is that of the split view
   size_t active = 0;                   ///< the side that stages and settings are changed of
   bool split = false;
   double bar = 0.5;  ///< where the sides meet, as a part of the width
+  Comparison comparison = Comparison::Bar;
+  double differenceStops = 0.0;  ///< the difference is shown times 2^this
+  Magnifier magnifier;
 
   glm::ivec2 size{1280, 720};  ///< pixels of the picture
   std::optional<ViewedScene> scene;
+  BoundsDouble selected;  ///< of what was clicked on, world space; empty: nothing
   CameraPose pose;
   bool posed = false;  ///< the camera is the pose; else what the options choose, to the last bit
   int sceneCamera = -1;
   Playback playback;
 
+  double flySpeed = 1.0;
+
   bool panel = true;
-  bool figures = true;
+  float panelWidth = 0.0f;  ///< pixels at 96 dots an inch; 0: the standard width
+  bool figures = false;
   bool sheet = false;
+  std::optional<float> blur;  ///< of the backdrop, degrees, while its slider is held
+  std::array<char, 64> bookmarkName{};
+  std::array<char, 64> search{};  ///< what the sheet is searched for; ends with a 0
+  bool fullscreen = false;
   bool treeBoxes = false;
   int treeLevel = 4;
 
   RenderOptions& options() { return sides[active]; }
   const RenderOptions& options() const { return sides[active]; }
+  /// Where the bar stands: 1 where the left side alone is shown.
+  double shownBar() const;
 };
 
 /// What a control asks for that the state alone cannot do.
@@ -47,8 +72,19 @@ enum class Errand : uint8_t {
   None,
   CenterOn,
   Inspect,
+  Deselect,
   CopyCommand,
   PasteCommand,
+  Undo,
+  Redo,
+  ResetAll,
+  Fullscreen,
+  OpenFile,  ///< Task::file
+  Load,      ///< Task::load
+  CancelLoad,
+  AddBookmark,     ///< Task::text is its name
+  ShowBookmark,    ///< Task::index
+  RemoveBookmark,  ///< Task::index
   Reload,
   Screenshot,
   WriteExr,
@@ -56,12 +92,24 @@ enum class Errand : uint8_t {
   Quit
 };
 
+/// An errand, and what it is about.
+struct Task {
+  Errand errand = Errand::None;
+  glm::dvec2 place{0.0};  ///< of the cursor: parts of the picture's width and height, from the top left
+  std::filesystem::path file{};
+  std::optional<RenderOptions> load{};
+  size_t index = 0;
+  std::string text{};
+};
+
 /// How far a control was moved: a drag or the wheel, in parts of the picture's height (y downwards) or
-/// notches; a held key, in seconds.
+/// notches; a held key, in seconds. And where the cursor is: parts of the picture's width and height, from
+/// the top left.
 struct Movement {
   glm::dvec2 drag{0.0};
   double notches = 0.0;
   double seconds = 0.0;
+  glm::dvec2 place{0.5};
 };
 
 /// Does what the control says, or returns what is left to be done.
@@ -80,6 +128,12 @@ void showAnimation(ViewState& state, int animation, double seconds);
 /// pictures are left out. At the end it begins again, or stops.
 void play(ViewState& state, double now);
 
+/// Makes the options load the same scene and light as others: what one side has, both have.
+void takeScene(RenderOptions& side, const RenderOptions& from);
+
+/// The scene's first camera, or that of the options that it was loaded with.
+void resetCamera(ViewState& state);
+
 /// A new scene: its camera, until somebody moves.
 void showScene(ViewState& state, ViewedScene scene);
 
@@ -95,6 +149,16 @@ void takeOptions(ViewState& state, const RenderOptions& options);
 
 /// Whether both load the same scene and environment.
 bool sameScene(const RenderOptions& a, const RenderOptions& b);
+
+/// The place of the picture, parts of its width and height, that is shown at a place of the window's picture
+/// area.
+glm::dvec2 magnifiedPlace(const ViewState& state, const glm::dvec2& place);
+
+/// Which side is shown there.
+size_t sideAt(const ViewState& state, const glm::dvec2& place);
+
+/// All settings of both sides as the viewer was started with, and the scene's first camera.
+void resetAll(ViewState& state, const RenderOptions& start);
 
 /// Why a stage of the active side changes nothing; empty: it does.
 std::string whyGrey(const ViewState& state, Stage stage);

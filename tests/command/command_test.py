@@ -213,7 +213,7 @@ class Pictures(Case):
     def test_the_default_light_is_said_and_can_be_turned_off(self):
         options = ["--resolution", "16,16", "--spp", "1", "--stats", self.folder / "s.json"]
         result = self.renders(SCENES / "furnace.gltf", "-o", self.folder / "x.pfm", *options)
-        self.assertIn("--no-default-light", result.stderr)
+        self.assertIn("--default-light", result.stderr)
         stats = json.loads((self.folder / "s.json").read_text())
         self.assertTrue(stats["default_light"])
         self.assertEqual(stats["default_light_reason"], "no light in the scene")

@@ -42,6 +42,15 @@ class Studio(Case):
         plain = self.picture("sphere-plane", "y.exr", "--resolution", "16,16", "--spp", "1")
         self.assertEqual(json.loads(plain.texts["fragtrace:settings"])["studio"], False)
 
+    def test_it_lights_by_default_what_has_no_light_of_its_own(self):
+        few = ["--resolution", "24,16", "--spp", "4"]
+        for scene, option in (("furnace", "--studio"), ("cornell-box", None), ("furnace", "--no-default-light")):
+            asked = ["--default-light", "studio"] if option != "--no-default-light" else ["--default-light", "none"]
+            named = self.picture(scene, "named.pfm", *few, *([option] if option else []))
+            self.assertEqual(named, self.picture(scene, "default.pfm", *few, *asked), (scene, option))
+        by_default = self.picture("furnace", "x.exr", "--default-light", "studio", *few)
+        self.assertEqual(json.loads(by_default.texts["fragtrace:settings"])["studio"], True)
+
     def test_refusals(self):
         scene = ["render", SCENES / "furnace.gltf", "-o", self.folder / "x.pfm", "--studio"]
         self.fails(2, *scene, "--hdri-file", SCENES / "sky.pfm", says=["--studio"])

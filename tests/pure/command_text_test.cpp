@@ -55,7 +55,8 @@ std::vector<std::function<void(RenderOptions&)>> changes() {
         o.shadowCatcher = true;
         o.catcherHeight = -0.1;
       },
-      [](RenderOptions& o) { o.defaultLight = false; },
+      [](RenderOptions& o) { o.defaultLight = DefaultLight::None; },
+      [](RenderOptions& o) { o.defaultLight = DefaultLight::Studio; },
       [](RenderOptions& o) { o.instancing = Instancing::Share; },
       [](RenderOptions& o) {
         o.limits = {12345678, 512, true};

@@ -106,6 +106,7 @@ TEST(KeyTable, TheSheetNamesEveryControlOnce) {
     EXPECT_FALSE(line.name.empty());
   }
   EXPECT_EQ(merged, 2u);  // scene cameras, stages up to one
+  EXPECT_NE(sheetMarkdown().find("| H, F1 or ? | this sheet on or off |\n"), std::string::npos);
   EXPECT_EQ(sheetLines().front().name, "Left drag");
   EXPECT_NE(sheetMarkdown().find("| Ctrl+0 to Ctrl+9 | the scene's camera of that number |\n"),
             std::string::npos);

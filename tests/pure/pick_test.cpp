@@ -15,13 +15,13 @@ void expectNear(const glm::dvec3& a, const glm::dvec3& b) {
 /// Two squares of 2 x 2 m about the z axis, at z = 0 single-sided towards +z and, as seen from there, behind
 /// it at z = -3, of the other material, double-sided and facing -z; a sphere of radius 1 at (10, 0, 0). All
 /// about a place far away.
-struct Stage {
+struct PickedScene {
   glm::dvec3 place{1000.0, 2000.0, -500.0};
   Scene scene;
   Bvh bvh;
   Camera camera;
 
-  Stage() {
+  PickedScene() {
     scene.space.origin = place;
     scene.materials.resize(2);
     scene.materials[1].doubleSided = true;
@@ -49,7 +49,7 @@ struct Stage {
 };
 
 TEST(Pick, SaysWhatItIsAndWhere) {
-  const Stage stage;
+  const PickedScene stage;
   const auto pick = stage.at({0.1, -0.08});
   ASSERT_TRUE(pick);
   EXPECT_EQ(pick->node, "front node");
@@ -65,7 +65,7 @@ TEST(Pick, SaysWhatItIsAndWhere) {
 }
 
 TEST(Pick, CountsTrianglesFromTheFirstOfTheirMesh) {
-  Stage stage;
+  PickedScene stage;
   stage.camera.position = stage.place + glm::dvec3(0, 0, -1);
   for (const double y : {0.1, -0.1}) {
     const auto pick = stage.at({0.3, y});
@@ -77,8 +77,23 @@ TEST(Pick, CountsTrianglesFromTheFirstOfTheirMesh) {
   }
 }
 
+TEST(Pick, KnowsTheBoxOfWhatWasPicked) {
+  PickedScene stage;
+  const auto square = stage.at({0.1, -0.08});
+  ASSERT_TRUE(square);
+  const BoundsDouble box = boundsOfPicked(stage.scene, *square);
+  expectNear(box.minimum, stage.place + glm::dvec3(-1, -1, 0));
+  expectNear(box.maximum, stage.place + glm::dvec3(1, 1, 0));
+  stage.camera.position = stage.place + glm::dvec3(10, 0.6, 5);
+  const auto ball = stage.at({0, 0});
+  ASSERT_TRUE(ball);
+  const BoundsDouble round = boundsOfPicked(stage.scene, *ball);
+  expectNear(round.minimum, stage.place + glm::dvec3(9, -1, -1));
+  expectNear(round.maximum, stage.place + glm::dvec3(11, 1, 1));
+}
+
 TEST(Pick, SeesNoBacksOfSingleSidedSurfaces) {
-  Stage stage;
+  PickedScene stage;
   stage.camera.position = stage.place + glm::dvec3(0, 0, -2);
   stage.camera.forward = {0, 0, 1};
   EXPECT_FALSE(stage.at({0, 0}));
@@ -86,7 +101,7 @@ TEST(Pick, SeesNoBacksOfSingleSidedSurfaces) {
 }
 
 TEST(Pick, ASphereHasANodeAndNoTriangle) {
-  Stage stage;
+  PickedScene stage;
   stage.camera.position = stage.place + glm::dvec3(10, 0.6, 5);
   const auto pick = stage.at({0, 0});
   ASSERT_TRUE(pick);
@@ -98,7 +113,7 @@ TEST(Pick, ASphereHasANodeAndNoTriangle) {
 }
 
 TEST(Pick, AnOrthographicViewLooksStraightAhead) {
-  Stage stage;
+  PickedScene stage;
   stage.camera.perspective = false;
   stage.camera.halfHeight = 2.0;
   const auto pick = stage.at({0.2, 0.25}, 2.0);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -45,13 +46,18 @@ Errand press(ViewState& state, Action action, int argument = 0) {
 TEST(ViewState, EveryControlChangesTheStateOrIsAnErrand) {
   for (const Control& control : controls()) {
     ViewState state = someState();
+    press(state, Action::ToggleSplit);
+    press(state, Action::Magnify, 1);
+    press(state, Action::FlipSides);
     const ViewState before = state;
     const Errand errand = apply(state, control, {{0.1, 0.2}, 1.0, 0.1});
     const bool changed = state.sides != before.sides || !(state.pose == before.pose) ||
                          state.panel != before.panel || state.figures != before.figures ||
                          state.sheet != before.sheet || state.treeBoxes != before.treeBoxes ||
                          state.playback.playing != before.playback.playing ||
-                         state.treeLevel != before.treeLevel || state.split != before.split;
+                         state.treeLevel != before.treeLevel || state.split != before.split ||
+                         state.comparison != before.comparison || state.flySpeed != before.flySpeed ||
+                         !(state.magnifier == before.magnifier);
     // Cameras that the scene does not have, and what stands as it is asked for.
     const bool maybeNot = control.action == Action::SceneCamera || control.action == Action::ResetCamera ||
                           control.action == Action::StagesUpTo || control.action == Action::StandardView ||
@@ -164,6 +170,92 @@ TEST(ViewState, EscapeClosesTheSheetBeforeItQuits) {
   EXPECT_EQ(press(state, Action::Close), Errand::None);
   EXPECT_FALSE(state.sheet);
   EXPECT_EQ(press(state, Action::Close), Errand::Close);
+}
+
+TEST(ViewState, EscapeEndsTheMagnifierBeforeItQuits) {
+  ViewState state = someState();
+  apply(state, *controlOf(Action::Magnify), {.notches = 3.0, .place = {0.9, 0.1}});
+  EXPECT_EQ(state.magnifier.steps, 1);
+  EXPECT_EQ(press(state, Action::Close), Errand::None);
+  EXPECT_EQ(state.magnifier, Magnifier{});
+  EXPECT_EQ(press(state, Action::Close), Errand::Close);
+}
+
+TEST(ViewState, TheMagnifierKeepsWhatIsUnderTheCursorAndStaysInThePicture) {
+  ViewState state = someState();
+  const glm::dvec2 cursor(0.6, 0.3);
+  for (int i = 0; i < 10; ++i) {
+    const glm::dvec2 before = magnifiedPlace(state, cursor);
+    apply(state, *controlOf(Action::Magnify), {.notches = 1.0, .place = cursor});
+    EXPECT_NEAR(glm::distance(magnifiedPlace(state, cursor), before), 0.0, 1e-12);
+  }
+  EXPECT_EQ(state.magnifier.steps, 6);
+  for (int i = 0; i < 100; ++i) apply(state, *controlOf(Action::MoveMagnifier), {.drag = {-0.5, 0.5}});
+  EXPECT_NEAR(magnifiedPlace(state, {1.0, 0.0}).x, 1.0, 1e-12);
+  EXPECT_NEAR(magnifiedPlace(state, {1.0, 0.0}).y, 0.0, 1e-12);
+  for (int i = 0; i < 10; ++i) apply(state, *controlOf(Action::Magnify), {.notches = -1.0, .place = cursor});
+  EXPECT_EQ(state.magnifier, Magnifier{});
+}
+
+TEST(ViewState, OneSideAloneIsShownAndChosen) {
+  ViewState state = someState();
+  press(state, Action::FlipSides);
+  EXPECT_EQ(state.comparison, Comparison::Bar);  // there is one side
+  press(state, Action::ToggleSplit);
+  EXPECT_EQ(sideAt(state, {0.4, 0.5}), 0u);
+  EXPECT_EQ(sideAt(state, {0.6, 0.5}), 1u);
+  press(state, Action::FlipSides);
+  EXPECT_EQ(sideAt(state, {0.6, 0.5}), 0u);
+  EXPECT_EQ(state.active, 0u);
+  press(state, Action::FlipSides);
+  EXPECT_EQ(sideAt(state, {0.4, 0.5}), 1u);
+  EXPECT_EQ(state.active, 1u);
+  press(state, Action::ToggleDifference);
+  EXPECT_EQ(state.comparison, Comparison::Difference);
+  press(state, Action::ShowBar);
+  EXPECT_EQ(state.comparison, Comparison::Bar);
+}
+
+TEST(ViewState, TheWheelZoomsTowardsTheCursor) {
+  ViewState state = someState();
+  state.size = {800, 400};
+  state.pose.position = {0.0, 0.0, 5.0};
+  state.pose.focalPoint = {0.0, 0.0, 0.0};
+  // What is at this place of the focal point's plane stays there.
+  const double half = 5.0 * std::tan(0.5 * glm::radians(state.pose.viewAngleDegrees));
+  const glm::dvec3 point(2.0 * half * 0.5, half * 0.5, 0.0);
+  apply(state, *controlFor(Gesture::Wheel, 0, 0), {.notches = 2.0, .place = {0.75, 0.25}});
+  const glm::dvec3 seen = point - state.pose.position;
+  const double tangent = std::tan(0.5 * glm::radians(state.pose.viewAngleDegrees));
+  EXPECT_NEAR(seen.y / (-seen.z * tangent), 0.5, 1e-12);
+  EXPECT_NEAR(seen.x / (-seen.z * tangent * 2.0), 0.5, 1e-12);
+  EXPECT_LT(-seen.z, 4.0);
+}
+
+TEST(ViewState, WhatWasClickedOnIsFramedAndTheWholeSceneIfAskedFor) {
+  ViewState state = someState();
+  state.selected.include({0.5, 0.5, 0.5});
+  state.selected.include({0.7, 0.7, 0.7});
+  press(state, Action::FrameAll);
+  EXPECT_NEAR(state.pose.focalPoint.x, 0.6, 1e-12);
+  press(state, Action::FrameAll, 1);
+  EXPECT_NEAR(state.pose.focalPoint.x, 0.0, 1e-12);
+}
+
+TEST(ViewState, ResetAllIsTheStartOfTheSceneThatIsShown) {
+  ViewState state = someState();
+  RenderOptions start;
+  start.scene = "first.gltf";
+  start.exposure = 1.0;
+  press(state, Action::ToggleSplit);
+  press(state, Action::ToggleStage, int(Stage::Shadows));
+  apply(state, *controlOf(Action::Orbit), {.drag = {0.1, 0.0}});
+  resetAll(state, start);
+  EXPECT_EQ(state.sides[0].scene, "some.gltf");
+  EXPECT_EQ(state.sides[0].stages, start.stages);
+  EXPECT_EQ(state.sides[0].exposure, 1.0);
+  EXPECT_FALSE(state.split);
+  EXPECT_FALSE(state.posed);
 }
 
 TEST(ViewState, ExposureHasLimits) {

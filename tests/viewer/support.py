@@ -50,7 +50,8 @@ class Screen:
             number += byte
         os.close(read)
         self.name = ":" + number.decode().strip()
-        self.environment = {**os.environ, "DISPLAY": self.name}
+        self.folder = tempfile.TemporaryDirectory()
+        self.environment = {**os.environ, "DISPLAY": self.name, "XDG_STATE_HOME": self.folder.name}
         self.environment.pop("WAYLAND_DISPLAY", None)
         if dpi:
             self.call("xprop", "-root", "-f", "RESOURCE_MANAGER", "8s", "-set", "RESOURCE_MANAGER", f"Xft.dpi:\t{dpi}\n")
@@ -79,6 +80,7 @@ class Screen:
 
     def close(self):
         self.display.close()
+        self.folder.cleanup()
         for process in (self.manager, self.server):
             process.terminate()
             process.wait()
@@ -101,13 +103,15 @@ class Viewer:
     def __init__(self, screen, folder, scene, *options, wait=True):
         self.screen, self.folder = screen, Path(folder)
         self.status_file = self.folder / "status.json"
-        scene = scene if isinstance(scene, Path) else SCENES / (scene + ".gltf")
-        # Most tests compare what was drawn to the last bit; what the filter makes of it has tests of its own.
-        if "--denoise" not in options:
-            options += ("--denoise", "none")
+        scenes = [] if scene is None else [scene if isinstance(scene, Path) else SCENES / (scene + ".gltf")]
+        # Most tests compare what was drawn with `render`, to the last bit; what the viewer has by default has tests of its own.
+        for option, value in (("--denoise", "none"), ("--default-light", "white")):
+            if option not in options and f"no{option[1:]}" not in options:
+                options += (option, value)
+        environment = {**screen.environment, "XDG_STATE_HOME": str(self.folder / "state")}
         self.errors = open(self.folder / "stderr.txt", "w+")
-        self.process = subprocess.Popen([FRAGTRACE, "view", scene, "--status-file", self.status_file, *map(str, options)],
-                                        cwd=folder, env=screen.environment, stdout=subprocess.DEVNULL, stderr=self.errors)
+        self.process = subprocess.Popen([FRAGTRACE, "view", *scenes, "--status-file", self.status_file, *map(str, options)],
+                                        cwd=folder, env=environment, stdout=subprocess.DEVNULL, stderr=self.errors)
         if wait:
             self.window()
             self.rest()
@@ -174,6 +178,13 @@ class Viewer:
             self.at(*(round(a + (b - a) * i / steps) for a, b in zip(start, end)))
             time.sleep(0.01)
         self.xdotool("mouseup", button)
+
+    def picture(self):
+        """What the window shows in the picture's place: width, height and a list of (r, g, b)."""
+        status = self.status()
+        width, height, pixels = self.grab()
+        size = status["width"], status["height"]
+        return *size, [pixel for y in range(size[1]) for pixel in pixels[width * y:width * y + size[0]]]
 
     def grab(self):
         """What the window shows: width, height and a list of (r, g, b)."""

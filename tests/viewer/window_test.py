@@ -9,7 +9,7 @@ import sys
 import time
 from pathlib import Path
 
-from support import FRAGTRACE, SCENES, Case, main, pixels_of, read_png
+from support import FRAGTRACE, SCENES, Case, main, pixels_of, wait_for
 from xdnd import drop
 
 SIZE = ["--resolution", "320,240"]
@@ -35,9 +35,13 @@ class Ends(Case):
             time.sleep(0.1)
         self.assertEqual(json.loads(status.read_text())["state"], "resting")
         (self.folder / "info").write_text("{}")
-        for word, says in (("info", "file is required"), ("./info", "info: "), ("nothing", "'nothing' is no command of fragtrace, and no file: render")):
+        viewing = subprocess.Popen([FRAGTRACE, "./info", "--status-file", status], cwd=self.folder, env=self.screen.environment)
+        self.addCleanup(viewing.wait)
+        self.addCleanup(viewing.kill)
+        wait_for(lambda: "info: " in json.loads(status.read_text())["error"], 60, "the file is viewed")
+        for word, says in (("info", "file is required"), ("nothing", "'nothing' is no command of fragtrace, and no file: render")):
             result = subprocess.run([FRAGTRACE, word], capture_output=True, text=True, cwd=self.folder, env=self.screen.environment, timeout=60)
-            self.assertEqual(result.returncode, 3 if word == "./info" else 2, result.stderr)
+            self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(says, result.stderr)
 
     def test_without_a_display_it_is_4_and_says_so(self):
@@ -60,6 +64,24 @@ class Ends(Case):
         self.assertEqual(viewer.status()["state"], "failed")
         self.assertIn("none.gltf", viewer.status()["error"])
 
+    def test_a_file_that_is_no_scene_is_said_in_the_window_which_takes_another(self):
+        broken = self.folder / "broken.gltf"
+        broken.write_text("{")
+        viewer = self.view(broken, *FEW, wait=False)
+        viewer.window()
+        status = viewer.until(lambda s: s.get("error"), "the error")
+        self.assertEqual(status["state"], "empty")
+        self.assertIn("broken.gltf", status["error"])
+        viewer.key("Escape")
+        self.assertEqual(viewer.end(), 3)
+        self.assertIn("broken.gltf", viewer.stderr())
+        viewer = self.view(broken, *FEW, wait=False)
+        viewer.window()
+        viewer.until(lambda s: s.get("error"), "the error")
+        drop(self.screen, viewer.id, SCENES / "sphere-plane.gltf")
+        viewer.rest(lambda s: s["scene"].endswith("sphere-plane.gltf") and not s["error"], "the other scene")
+        self.ends_well(viewer, viewer.close())
+
     def test_what_cannot_be_is_2(self):
         for options in (["--spp", "0"], ["--nonsense"], ["-o", "x.png"], ["--camera-index", "7"],
                         ["--resolution", "60000,60000"]):
@@ -73,21 +95,50 @@ class Sizes(Case):
     def test_resizing_draws_at_the_new_size_and_minimising_draws_nothing(self):
         viewer = self.view("furnace", *FEW)
         viewer.xdotool("windowsize", "--sync", viewer.id, 400, 200)
-        status = viewer.rest(lambda s: (s["width"], s["height"]) == (400, 200), "resized")
-        self.assertEqual((status["sides"][0]["width"], status["sides"][0]["height"]), (400, 200))
+        status = viewer.rest(lambda s: (s["width"], s["height"]) == (400, 176), "resized")
+        self.assertEqual((status["sides"][0]["width"], status["sides"][0]["height"]), (400, 176))
         shown = viewer.press_for_file("F12", ".png")
-        self.same(pixels_of(shown), pixels_of(self.render("furnace", "--resolution", "400,200", "--spp", 2)))
+        self.same(pixels_of(shown), pixels_of(self.render("furnace", "--resolution", "400,176", "--spp", 2)))
 
         viewer.xdotool("windowminimize", "--sync", viewer.id)
         time.sleep(0.3)
         status = viewer.rest()
-        self.assertEqual((status["width"], status["height"]), (400, 200))
+        self.assertEqual((status["width"], status["height"]), (400, 176))
         viewer.xdotool("windowmap", "--sync", viewer.id)
         viewer.xdotool("windowactivate", "--sync", viewer.id)
         time.sleep(0.3)
         viewer.rest()
         self.assertGreater(len(set(viewer.grab()[2])), 1)
         self.ends_well(viewer, viewer.close())
+
+
+class Empty(Case):
+    def test_a_window_without_a_scene_takes_one_and_remembers_it(self):
+        viewer = self.view(None, *FEW, wait=False)
+        viewer.window()
+        status = viewer.until(lambda s: s["state"] == "empty" and "welcome" in s["places"], "the welcome")
+        self.assertNotIn("recent 0", status["places"])
+        for key in ("f", "c", "F12", "ctrl+c", "ctrl+v", "ctrl+z", "space", "Up", "u", "F2"):
+            viewer.key(key)
+        for name in ("sphere-plane", "furnace"):
+            drop(self.screen, viewer.id, SCENES / (name + ".gltf"))
+            viewer.rest(lambda s: s["scene"].endswith(name + ".gltf"), name)
+        self.assertNotIn("welcome", viewer.rest()["places"])
+        self.ends_well(viewer, viewer.close())
+        viewer = self.view(None, *FEW, wait=False)
+        viewer.window()
+        viewer.click("recent 1")
+        viewer.rest(lambda s: s["scene"] == str(SCENES / "sphere-plane.gltf"), "the file shown before")
+        self.ends_well(viewer, viewer.close())
+
+    def test_what_is_remembered_and_cannot_be_read_is_said_and_stays(self):
+        file = self.folder / "state/fragtrace/viewer.json"
+        file.parent.mkdir(parents=True)
+        file.write_text("{")
+        viewer = self.view("furnace", *FEW)
+        viewer.until(lambda s: any("viewer.json" in m for m in s["messages"]), "said")
+        self.ends_well(viewer, viewer.close())
+        self.assertEqual(file.read_text(), "{")
 
 
 class Files(Case):

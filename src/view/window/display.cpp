@@ -13,8 +13,11 @@ namespace {
 // As shaders/entry/display.frag and shaders/entry/window.frag have them.
 constexpr GLint kFactor = 0;
 constexpr GLint kToneMap = 1;
-constexpr GLint kWindowSize = 0;
+constexpr GLint kPictureSize = 0;
 constexpr GLint kBar = 1;
+constexpr GLint kBottom = 2;
+constexpr GLint kPart = 3;
+constexpr GLint kDifference = 4;
 
 }  // namespace
 
@@ -64,7 +67,7 @@ void Display::map(Side& side, const DisplaySide& settings) {
   side.fresh = true;
 }
 
-void Display::draw(glm::ivec2 framebuffer, const std::array<DisplaySide, 2>& sides, double bar) {
+void Display::draw(const DisplayView& view, const std::array<DisplaySide, 2>& sides) {
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_DEPTH_TEST);
@@ -75,26 +78,36 @@ void Display::draw(glm::ivec2 framebuffer, const std::array<DisplaySide, 2>& sid
     if (shows(i)) map(sides_[i], sides[i]);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glViewport(0, 0, framebuffer.x, framebuffer.y);
-  if (shows(0)) {
-    for (size_t i = 0; i < 2; ++i) {
-      const Side& side = shows(i) ? sides_[i] : sides_[0];
-      // Pixels of a picture that fits are shown as they are.
-      const GLint filter = side.size == framebuffer ? GL_NEAREST : GL_LINEAR;
-      glTextureParameteri(side.displayed.name(), GL_TEXTURE_MIN_FILTER, filter);
-      glTextureParameteri(side.displayed.name(), GL_TEXTURE_MAG_FILTER, filter);
-      glBindTextureUnit(GLuint(i), side.displayed.name());
-    }
-    glUseProgram(window_.name());
-    glUniform2f(kWindowSize, float(framebuffer.x), float(framebuffer.y));
-    glUniform1f(kBar, float(std::round(bar * framebuffer.x)));
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-  } else {
-    glClearColor(0.08f, 0.08f, 0.09f, 1.0f);
-    glClear(GL_COLOR_BUFFER_BIT);
-  }
+  glViewport(0, 0, view.framebuffer.x, view.framebuffer.y);
+  glClearColor(0.08f, 0.08f, 0.08f, 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT);
+  if (shows(0)) drawPictures(view);
   glBindVertexArray(0);
   glUseProgram(0);
+}
+
+void Display::drawPictures(const DisplayView& view) {
+  const glm::ivec2 picture = view.picture;
+  const bool difference = view.difference && shows(1);
+  for (size_t i = 0; i < 2; ++i) {
+    const Side& side = shows(i) ? sides_[i] : sides_[0];
+    const GlTexture& shown = difference ? side.traced : side.displayed;
+    // Pixels of a picture that fits, or is enlarged, are shown as they are.
+    const GLint filter = side.size == picture || view.magnifier.steps > 0 ? GL_NEAREST : GL_LINEAR;
+    glTextureParameteri(shown.name(), GL_TEXTURE_MIN_FILTER, filter);
+    glTextureParameteri(shown.name(), GL_TEXTURE_MAG_FILTER, filter);
+    glBindTextureUnit(GLuint(i), shown.name());
+  }
+  const int bottom = view.framebuffer.y - picture.y;
+  glViewport(0, bottom, picture.x, picture.y);
+  glUseProgram(window_.name());
+  glUniform2f(kPictureSize, float(picture.x), float(picture.y));
+  glUniform1f(kBar, float(std::round(view.bar * picture.x)));
+  glUniform1f(kBottom, float(bottom));
+  const glm::dvec2 center = view.magnifier.center;
+  glUniform3f(kPart, float(center.x), float(center.y), float(std::exp2(-view.magnifier.steps)));
+  glUniform1f(kDifference, difference ? float(std::exp2(view.differenceStops)) : 0.0f);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 }  // namespace fragtrace

@@ -7,7 +7,7 @@
 
 #include "gl/gl.h"
 #include "image/display/tone_map.h"
-#include "view/exchange.h"
+#include "view/view_state.h"
 
 namespace fragtrace {
 
@@ -18,6 +18,16 @@ struct DisplaySide {
   bool operator==(const DisplaySide&) const = default;
 };
 
+/// Where pictures stand, and which part of them.
+struct DisplayView {
+  glm::ivec2 framebuffer{1};
+  glm::ivec2 picture{1};  ///< its area, at the top left
+  double bar = 1.0;       ///< a part of its width; 1: the left side alone
+  Magnifier magnifier;
+  bool difference = false;  ///< of both sides' radiance, absolute, times 2^differenceStops
+  double differenceStops = 0.0;
+};
+
 class Display {
  public:
   /// Needs a current context; throws RenderError.
@@ -26,8 +36,8 @@ class Display {
   void take(const TracedPicture& picture);
   bool shows(size_t side) const { return sides_[side].size.x > 0; }
 
-  /// Fills a framebuffer of that size; the bar stands at this part of the width, 1: the left side alone.
-  void draw(glm::ivec2 framebuffer, const std::array<DisplaySide, 2>& sides, double bar);
+  /// Fills the picture's area, and clears the rest.
+  void draw(const DisplayView& view, const std::array<DisplaySide, 2>& sides);
 
  private:
   struct Side {
@@ -40,6 +50,7 @@ class Display {
     DisplaySide settings;  ///< shown like this
   };
   void map(Side& side, const DisplaySide& settings);
+  void drawPictures(const DisplayView& view);
 
   GlProgram mapping_;
   GlProgram window_;

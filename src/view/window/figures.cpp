@@ -12,8 +12,6 @@ namespace fragtrace {
 
 namespace {
 
-constexpr float kVariantWidth = 190.0f;  // pixels at 96 dots an inch
-
 std::string megabytes(size_t bytes) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f MB", double(bytes) / 1e6);
@@ -27,30 +25,6 @@ void row(const char* name, const char* format, Values... values) {
   ImGui::TextDisabled("%s", name);
   ImGui::TableNextColumn();
   ImGui::Text(format, values...);
-}
-
-/// The variant's parts, as many a line as fit.
-void drawVariant(const std::string& variant, float width) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TextDisabled("variant");
-  ImGui::TableNextColumn();
-  std::string line;
-  const auto flush = [&] {
-    if (!line.empty()) drawText(line, kMostLineCharacters);
-    line.clear();
-  };
-  for (size_t at = 0; at < variant.size();) {
-    const size_t end = std::min(variant.find('+', at), variant.size());
-    const std::string part = variant.substr(at, end - at);
-    std::string longer = line;
-    longer.append(line.empty() ? "" : " ").append(part);
-    const bool fits = line.empty() || ImGui::CalcTextSize(longer.c_str()).x <= width;
-    if (!fits) flush();
-    line = fits ? longer : part;
-    at = end + 1;
-  }
-  flush();
 }
 
 void drawCosts(const ViewState& state, const ViewFacts& facts, size_t side) {
@@ -72,7 +46,7 @@ void drawCosts(const ViewState& state, const ViewFacts& facts, size_t side) {
 
 /// Of the split view only what is compared. Returns where it ends.
 float drawSide(const ViewState& state, ViewFacts& facts, size_t side, ImVec2 place,
-               const OverlayLayout& layout) {
+               const WindowLayout& layout) {
   float end = place.y;
   const SideStatistics& s = facts.statistics[side];
   const std::string name = "figures" + std::to_string(side);
@@ -89,9 +63,7 @@ float drawSide(const ViewState& state, ViewFacts& facts, size_t side, ImVec2 pla
       row("error", "%.2f %%", 100.0 * s.error);
     else
       row("error", "%.2f %% (goal %.2f %%)", 100.0 * s.error, 100.0 * state.sides[side].noise);
-    if (layout.figures >= FigureDetail::Rows) drawCosts(state, facts, side);
-    if (layout.figures == FigureDetail::All && !state.split)
-      drawVariant(s.variant, kVariantWidth * layout.scale);
+    if (layout.figures == FigureDetail::All) drawCosts(state, facts, side);
     ImGui::EndTable();
     addWindowPlace(facts.places, name);
     end = ImGui::GetWindowPos().y + ImGui::GetWindowSize().y;
@@ -102,7 +74,7 @@ float drawSide(const ViewState& state, ViewFacts& facts, size_t side, ImVec2 pla
 
 }  // namespace
 
-void drawFigures(const ViewState& state, ViewFacts& facts, const OverlayLayout& layout) {
+void drawFigures(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
   if (layout.figures == FigureDetail::None) return;
   float top = layout.margin;
   for (size_t side = 0; side < (state.split ? 2u : 1u); ++side)

@@ -20,6 +20,7 @@ constexpr double kDoubleClickSeconds = 0.35;
 constexpr double kBarPixels = 8.0;        // either side of the bar that takes hold of it
 constexpr double kLongestFrame = 0.1;     // seconds that a held key counts at once
 constexpr double kFirstFrame = 1.0 / 60;  // and at first
+constexpr double kShiftFaster = 4.0;
 
 Input& inputOf(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
 
@@ -42,7 +43,9 @@ Input::Input(GLFWwindow* window) : window_(window) {
     inputOf(w).events_.push_back({Kind::Cursor, 0, 0, 0, {x, y}});
   });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
-    inputOf(w).events_.push_back({Kind::Wheel, 0, 0, 0, {x, y}});
+    const bool control = glfwGetKey(w, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
+                         glfwGetKey(w, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
+    inputOf(w).events_.push_back({Kind::Wheel, 0, 0, control ? kControlModifier : 0, {x, y}});
   });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
     for (int i = 0; i < count; ++i) inputOf(w).drops_.emplace_back(paths[i]);
@@ -62,13 +65,19 @@ Input::Input(GLFWwindow* window) : window_(window) {
 
 std::vector<std::filesystem::path> Input::takeDrops() { return std::exchange(drops_, {}); }
 
-glm::dvec2 Input::place() const {
+/// From the window's coordinates, which on some desktops are not pixels.
+glm::dvec2 Input::inPixels(const glm::dvec2& cursor) const {
   glm::ivec2 size(1);
+  glm::ivec2 pixels(1);
   glfwGetWindowSize(window_, &size.x, &size.y);
-  return cursor_ / glm::dvec2(glm::max(size, 1));
+  glfwGetFramebufferSize(window_, &pixels.x, &pixels.y);
+  return cursor * glm::dvec2(pixels) / glm::dvec2(glm::max(size, 1));
 }
 
-void Input::update(ViewState& state, float scale, const RunErrand& run) {
+glm::dvec2 Input::place() const { return inPixels(cursor_) / glm::dvec2(layout_.picture); }
+
+std::optional<glm::dvec2> Input::update(ViewState& state, const WindowLayout& layout, const RunTask& run) {
+  layout_ = layout;
   const ImGuiIO& io = ImGui::GetIO();
   for (const Event& event : std::exchange(events_, {})) {
     switch (event.kind) {
@@ -78,59 +87,86 @@ void Input::update(ViewState& state, float scale, const RunErrand& run) {
       case Kind::Button:
         if (event.action == GLFW_RELEASE)
           release(event, state, run);
-        else if (!io.WantCaptureMouse)
-          press(event, state, scale);
+        else if (!io.WantCaptureMouse || onEdge())
+          press(event, state);
         break;
       case Kind::Cursor:
         move(event, state);
         break;
       case Kind::Wheel:
-        if (const Control* control = controlFor(Gesture::Wheel, 0, 0); control && !io.WantCaptureMouse)
-          apply(state, *control, {.notches = event.value.y});
+        if (!io.WantCaptureMouse) wheel(event, state);
         break;
     }
   }
   const double now = glfwGetTime();
-  for (const Control* control : held_)
-    apply(state, *control, {.seconds = std::clamp(now - lastUpdate_, 0.0, kLongestFrame)});
+  const double passed = std::clamp(now - lastUpdate_, 0.0, kLongestFrame);
+  for (const Control* control : held_) apply(state, *control, {.seconds = hurry() * passed});
   lastUpdate_ = now;
   woken_ = false;
+  const glm::dvec2 at = place();
+  const bool inside =
+      glm::all(glm::greaterThanEqual(at, glm::dvec2(0.0))) && glm::all(glm::lessThan(at, glm::dvec2(1.0)));
+  return inside && !io.WantCaptureMouse ? std::optional(at) : std::nullopt;
 }
 
-void Input::key(const Event& event, ViewState& state, const RunErrand& run) {
+/// How much faster than its speed a camera flies.
+double Input::hurry() const {
+  const bool shift = glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ||
+                     glfwGetKey(window_, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
+  return shift ? kShiftFaster : 1.0;
+}
+
+void Input::wheel(const Event& event, ViewState& state) {
+  const int modifiers = event.modifiers;
+  const Control* control =
+      held_.empty() ? controlFor(Gesture::Wheel, 0, modifiers) : controlFor(Gesture::HoldWheel, 0, 0);
+  if (control) apply(state, *control, {.notches = event.value.y, .place = place()});
+}
+
+void Input::key(const Event& event, ViewState& state, const RunTask& run) {
   if (event.action == GLFW_RELEASE) {
     std::erase_if(held_, [&](const Control* c) { return c->code == event.code; });
     return;
   }
   const int modifiers = event.modifiers & (GLFW_MOD_SHIFT | GLFW_MOD_CONTROL);
-  const Control* hold = controlFor(Gesture::Hold, event.code, modifiers);
+  const Control* hold = controlFor(Gesture::Hold, event.code, modifiers & ~kShiftModifier);
   if (hold && event.action == GLFW_PRESS) {
     // The first moment counts, however soon the key is released.
-    apply(state, *hold, {.seconds = kFirstFrame});
+    apply(state, *hold, {.seconds = hurry() * kFirstFrame});
     lastUpdate_ = glfwGetTime();
     held_.push_back(hold);
   }
   const Control* control = controlFor(Gesture::Press, event.code, modifiers);
   if (!control || (event.action == GLFW_REPEAT && !repeats(control->action))) return;
   if (control->action == Action::Close && Interface::closePopup()) return;
-  const Errand errand = apply(state, *control, {});
+  const Errand errand = apply(state, *control, {.place = place()});
   if (errand != Errand::None) run({errand, place()});
 }
 
-void Input::press(const Event& event, const ViewState& state, float scale) {
-  if (button_.code >= 0) return;
-  button_ = {event.code, event.modifiers & (GLFW_MOD_SHIFT | GLFW_MOD_CONTROL), cursor_, false, false};
-  glm::ivec2 size(1);
-  glfwGetWindowSize(window_, &size.x, &size.y);
-  const double away = std::abs(cursor_.x - state.bar * size.x);
-  button_.bar = state.split && event.code == GLFW_MOUSE_BUTTON_LEFT && away <= kBarPixels * scale;
+/// Events are seen here in their order, and Dear ImGui sees where the cursor is at the end of them: so what
+/// is to be dragged quickly is held here.
+bool Input::onEdge() const {
+  const glm::dvec2 pixel = inPixels(cursor_);
+  return layout_.docked && pixel.y < layout_.picture.y &&
+         std::abs(pixel.x - layout_.picture.x) <= kEdgePixels * layout_.scale;
 }
 
-void Input::release(const Event& event, ViewState& state, const RunErrand& run) {
+void Input::press(const Event& event, const ViewState& state) {
+  if (button_.code >= 0) return;
+  button_ = {.code = event.code,
+             .modifiers = event.modifiers & (GLFW_MOD_SHIFT | GLFW_MOD_CONTROL),
+             .start = cursor_};
+  button_.edge = event.code == GLFW_MOUSE_BUTTON_LEFT && onEdge();
+  const double away = std::abs(place().x - state.bar) * layout_.picture.x;
+  button_.bar = state.split && state.comparison == Comparison::Bar && event.code == GLFW_MOUSE_BUTTON_LEFT &&
+                away <= kBarPixels * layout_.scale;
+}
+
+void Input::release(const Event& event, ViewState& state, const RunTask& run) {
   if (event.code != button_.code) return;
   const Button button = std::exchange(button_, {});
-  if (button.dragging || button.bar) return;
-  if (state.split) state.active = place().x >= state.bar ? 1 : 0;
+  if (button.dragging || button.bar || button.edge) return;
+  if (state.split && state.comparison == Comparison::Bar) state.active = sideAt(state, place());
   const double now = glfwGetTime();
   const bool twice = lastClickTime_ >= 0.0 && now - lastClickTime_ <= kDoubleClickSeconds &&
                      glm::length(cursor_ - lastClick_) <= 2.0 * kDragPixels;
@@ -146,11 +182,14 @@ void Input::release(const Event& event, ViewState& state, const RunErrand& run) 
 void Input::move(const Event& event, ViewState& state) {
   const glm::dvec2 from = std::exchange(cursor_, event.value);
   if (button_.code < 0) return;
-  glm::ivec2 size(1);
-  glfwGetWindowSize(window_, &size.x, &size.y);
-  size = glm::max(size, 1);
+  if (button_.edge) {
+    glm::ivec2 size(1);
+    glfwGetFramebufferSize(window_, &size.x, &size.y);
+    state.panelWidth = readablePanelWidth(float(size.x - inPixels(cursor_).x) / layout_.scale);
+    return;
+  }
   if (button_.bar) {
-    state.bar = std::clamp(cursor_.x / size.x, 0.02, 0.98);
+    state.bar = std::clamp(place().x, 0.02, 0.98);
     return;
   }
   const bool begins = !button_.dragging && glm::length(cursor_ - button_.start) > kDragPixels;
@@ -158,7 +197,7 @@ void Input::move(const Event& event, ViewState& state) {
   if (!button_.dragging) return;
   const Control* control = controlFor(Gesture::Drag, button_.code, button_.modifiers);
   const glm::dvec2 moved = cursor_ - (begins ? button_.start : from);
-  if (control) apply(state, *control, {.drag = moved / double(size.y)});
+  if (control) apply(state, *control, {.drag = inPixels(moved) / double(layout_.picture.y)});
 }
 
 }  // namespace fragtrace

@@ -4,21 +4,20 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "view/view_state.h"
+#include "view/window_layout.h"
 
 struct GLFWwindow;
 
 namespace fragtrace {
 
-/// An errand, and where the cursor was: parts of width and height, from the top left.
-struct PlacedErrand {
-  Errand errand = Errand::None;
-  glm::dvec2 place{0.0};
-};
+/// Either side of the edge between picture and panel, that takes hold of it; at 96 dots an inch.
+inline constexpr float kEdgePixels = 5.0f;
 
-using RunErrand = std::function<void(const PlacedErrand&)>;
+using RunTask = std::function<void(const Task&)>;
 
 class Input {
  public:
@@ -28,9 +27,9 @@ class Input {
   Input& operator=(const Input&) = delete;
 
   /// Applies what has happened since the last call, in its order, and gives `run` the errands among it; to be
-  /// called inside Dear ImGui's frame, which knows by then whether mouse and keys are its own. `scale`: as
-  /// for the panel.
-  void update(ViewState& state, float scale, const RunErrand& run);
+  /// called inside Dear ImGui's frame, which knows by then whether mouse and keys are its own. Returns where
+  /// the cursor is over the picture, parts of its width and height from the top left.
+  std::optional<glm::dvec2> update(ViewState& state, const WindowLayout& layout, const RunTask& run);
 
   /// Whether anything has happened since the last update().
   bool waiting() const { return !events_.empty() || woken_; }
@@ -52,14 +51,20 @@ class Input {
     int modifiers = 0;
     glm::dvec2 start{0.0};
     bool dragging = false;
-    bool bar = false;  ///< that of the split view is dragged
+    bool bar = false;   ///< that of the split view is dragged,
+    bool edge = false;  ///< that of the panel
   };
 
-  void key(const Event& event, ViewState& state, const RunErrand& run);
-  void press(const Event& event, const ViewState& state, float scale);
-  void release(const Event& event, ViewState& state, const RunErrand& run);
+  void key(const Event& event, ViewState& state, const RunTask& run);
+  void press(const Event& event, const ViewState& state);
+  void release(const Event& event, ViewState& state, const RunTask& run);
   void move(const Event& event, ViewState& state);
+  void wheel(const Event& event, ViewState& state);
+  double hurry() const;
+  bool onEdge() const;
+  /// Of the cursor, in parts of the picture.
   glm::dvec2 place() const;
+  glm::dvec2 inPixels(const glm::dvec2& cursor) const;
 
   GLFWwindow* window_;
   std::vector<Event> events_;
@@ -71,6 +76,7 @@ class Input {
   double lastClickTime_ = -1.0;  ///< seconds; negative: the next click is the first
   double lastUpdate_ = 0.0;
   bool woken_ = true;
+  WindowLayout layout_;  ///< of the latest update()
 };
 
 }  // namespace fragtrace

@@ -13,6 +13,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "view/window/theme.h"
+
 namespace fragtrace {
 
 namespace {
@@ -40,6 +42,10 @@ void loadFont(float scale) {
 
 }  // namespace
 
+float displayScale(const glm::vec2& contentScale) {
+  return std::clamp(std::max(contentScale.x, contentScale.y), 0.5f, 8.0f);
+}
+
 Interface::Interface(GLFWwindow* window) : window_(window) {
   ImGui::CreateContext();
   // Nothing is remembered behind the user's back.
@@ -56,21 +62,14 @@ Interface::~Interface() {
 }
 
 void Interface::fit() {
-  float x = 1.0f;
-  float y = 1.0f;
-  glfwGetWindowContentScale(window_, &x, &y);
-  const float scale = std::clamp(std::max(x, y), 0.5f, 8.0f);
+  glm::vec2 content(1.0f);
+  glfwGetWindowContentScale(window_, &content.x, &content.y);
+  const float scale = displayScale(content);
   if (scale == scale_) return;
   scale_ = scale;
   loadFont(scale);
   ImGui_ImplOpenGL3_DestroyFontsTexture();
-  ImGuiStyle style;
-  style.WindowRounding = 4.0f;
-  style.FrameRounding = 3.0f;
-  style.ScrollbarSize = 12.0f;
-  style.ItemSpacing = {7.0f, 4.0f};
-  style.FramePadding = {5.0f, 2.0f};
-  ImGui::StyleColorsDark(&style);
+  ImGuiStyle style = themeStyle();
   style.ScaleAllSizes(scale);
   ImGui::GetStyle() = style;
 }

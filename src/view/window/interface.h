@@ -2,9 +2,14 @@
 // Dear ImGui on a GLFW window: its life, its font, its size on displays of many dots an inch.
 #pragma once
 
+#include <glm/vec2.hpp>
+
 struct GLFWwindow;
 
 namespace fragtrace {
+
+/// How many pixels stand for one at 96 dots an inch, by what the desktop says of a display.
+float displayScale(const glm::vec2& contentScale);
 
 class Interface {
  public:

@@ -4,10 +4,16 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdio>
 
+#include "view/presets.h"
+#include "view/progress.h"
 #include "view/window/figures.h"
+#include "view/window/status_bar.h"
 #include "view/window/text.h"
+#include "view/window/theme.h"
 
 namespace fragtrace {
 
@@ -16,34 +22,67 @@ namespace {
 constexpr float kBarWidth = 2.0f;
 constexpr float kHandleRadius = 7.0f;
 constexpr float kProgressWidth = 320.0f;
-constexpr float kSheetWidth = 600.0f;
+constexpr float kSheetWidth = 980.0f;
+constexpr float kTwoColumns = 760.0f;
 /// A label that may be longer than its place.
 constexpr ImGuiWindowFlags kPageFlags = kLabelFlags & ~ImGuiWindowFlags_NoScrollbar;
 const ImVec4 kRed{0.55f, 0.08f, 0.06f, 0.94f};
 
-void drawBar(const ViewState& state, float scale) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float x = std::round(float(state.bar) * display.x);
+ImVec2 sizeOf(const WindowLayout& layout) { return {float(layout.picture.x), float(layout.picture.y)}; }
+
+void drawBar(const ViewState& state, const WindowLayout& layout) {
+  const ImVec2 picture = sizeOf(layout);
+  const float x = std::round(float(state.bar) * picture.x);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const ImU32 color = IM_COL32(255, 255, 255, 220);
-  list.AddLine({x, 0.0f}, {x, display.y}, color, kBarWidth * scale);
-  list.AddCircleFilled({x, 0.5f * display.y}, kHandleRadius * scale, color);
+  list.AddLine({x, 0.0f}, {x, picture.y}, color, kBarWidth * layout.scale);
+  list.AddCircleFilled({x, 0.5f * picture.y}, kHandleRadius * layout.scale, color);
 }
 
 /// Boxes of the tree, each side's within its part.
-void drawLines(const ViewState& state, const ViewFacts& facts) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float bar = state.split ? float(state.bar) * display.x : display.x;
+void drawLines(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout) {
+  const ImVec2 picture = sizeOf(layout);
+  const float bar = float(state.shownBar()) * picture.x;
+  const glm::dvec2 center = state.magnifier.center;
+  const double factor = std::exp2(state.magnifier.steps);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   for (size_t side = 0; side < (state.split ? 2u : 1u); ++side) {
-    list.PushClipRect({side == 0 ? 0.0f : bar, 0.0f}, {side == 0 ? bar : display.x, display.y});
+    list.PushClipRect({side == 0 ? 0.0f : bar, 0.0f}, {side == 0 ? bar : picture.x, picture.y});
     const auto at = [&](const glm::dvec2& place) {
-      return ImVec2(float(0.5 + 0.5 * place.x) * display.x, float(0.5 - 0.5 * place.y) * display.y);
+      const glm::dvec2 part = 0.5 + ((glm::dvec2(0.5) + glm::dvec2(0.5, -0.5) * place) - center) * factor;
+      return ImVec2(float(part.x) * picture.x, float(part.y) * picture.y);
     };
     for (const PictureLine& line : facts.lines[side])
       list.AddLine(at(line.from), at(line.to), IM_COL32(255, 194, 89, 255));
     list.PopClipRect();
   }
+}
+
+/// What each half of the split view is, at its top.
+void drawSideNames(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout) {
+  const ImVec2 picture = sizeOf(layout);
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const auto name = [&](const std::string& text, float right, bool chosen) {
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const float pad = 0.5f * layout.margin;
+    const ImVec2 corner{right - size.x - 2 * pad - layout.margin, layout.margin};
+    list.AddRectFilled(corner, {corner.x + size.x + 2 * pad, corner.y + size.y + 2 * pad},
+                       ImGui::GetColorU32(chosen ? kAccent : ImGui::GetStyleColorVec4(ImGuiCol_WindowBg)),
+                       3.0f * layout.scale);
+    list.AddText({corner.x + pad, corner.y + pad}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  };
+  const auto textOf = [&](size_t side) {
+    return std::string(side == 0 ? "A  " : "B  ") + presetName(state.sides[side].stages) + ", " +
+           samplesText(facts.statistics[side].samples);
+  };
+  const float bar = float(state.shownBar()) * picture.x;
+  if (state.comparison == Comparison::Difference) {
+    char text[64];
+    std::snprintf(text, sizeof text, "|A - B| x %g", std::exp2(state.differenceStops));
+    return name(text, picture.x, false);
+  }
+  if (bar > 0.0f) name(textOf(0), bar, state.active == 0);
+  if (bar < picture.x) name(textOf(1), picture.x, state.active == 1);
 }
 
 /// Left of what is said next.
@@ -69,10 +108,11 @@ void drawNewsLines(const ViewState& state, const ViewFacts& facts, double now) {
 }
 
 /// The latest news at the bottom left, the newest above.
-void drawNews(const ViewState& state, ViewFacts& facts, const OverlayLayout& layout, double now) {
+Errand drawNews(const ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now) {
   const bool seen = !std::isinf(secondsToFade(facts.messages, now));
-  if (facts.note.empty() && !seen && !facts.pick) return;
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  if (facts.note.empty() && !seen && !facts.pick) return Errand::None;
+  Errand errand = Errand::None;
+  const ImVec2 display = sizeOf(layout);
   ImGui::SetNextWindowPos({layout.margin, display.y - layout.margin}, ImGuiCond_Always, {0.0f, 1.0f});
   ImGui::SetNextWindowSizeConstraints({0, 0}, {layout.newsMost.x, layout.newsMost.y});
   ImGui::SetNextWindowBgAlpha(0.78f);
@@ -87,14 +127,15 @@ void drawNews(const ViewState& state, ViewFacts& facts, const OverlayLayout& lay
     addWindowPlace(facts.places, "news");
     if (close) {
       closeMessages(facts.messages);
-      facts.pick.reset();
+      if (facts.pick) errand = Errand::Deselect;
     }
   }
   ImGui::End();
+  return errand;
 }
 
-void drawError(ViewFacts& facts, const OverlayLayout& layout) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
+void drawError(ViewFacts& facts, const WindowLayout& layout) {
+  const ImVec2 display = sizeOf(layout);
   ImGui::SetNextWindowPos({0.5f * display.x, 0.25f * display.y}, ImGuiCond_Always, {0.5f, 0.0f});
   ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x - 2 * layout.margin, 0.6f * display.y});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, kRed);
@@ -109,57 +150,120 @@ void drawError(ViewFacts& facts, const OverlayLayout& layout) {
   ImGui::PopStyleColor();
 }
 
-bool drawLoading(const LoadStatus& load, const OverlayLayout& layout) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  bool cancel = false;
+Errand drawLoading(const LoadStatus& load, const WindowLayout& layout) {
+  const ImVec2 display = sizeOf(layout);
+  Errand errand = Errand::None;
   ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowBgAlpha(0.88f);
   if (ImGui::Begin("loading", nullptr, kLabelFlags)) {
     drawText("Loading " + shownText(load.name, kMostNameCharacters), kMostLineCharacters);
     const float width = std::min(kProgressWidth * layout.scale, display.x - 6 * layout.margin);
     ImGui::ProgressBar(float(load.fraction), {width, 0.0f}, load.step.c_str());
-    cancel = ImGui::Button("Cancel");
+    if (ImGui::Button("Cancel")) errand = Errand::CancelLoad;
   }
   ImGui::End();
-  return cancel;
+  return errand;
 }
 
-void drawSheet(ViewFacts& facts, const OverlayLayout& layout) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float height = display.y - 4 * layout.margin;
+/// What there is to do where nothing is shown: drop a file, or take one that was shown before.
+Task drawWelcome(ViewFacts& facts, const WindowLayout& layout) {
+  const ImVec2 display = sizeOf(layout);
+  Task task;
   ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({std::min(kSheetWidth * layout.scale, display.x - 2 * layout.margin), height});
-  ImGui::SetNextWindowFocus();
-  ImGui::SetNextWindowBgAlpha(1.0f);
-  if (ImGui::Begin("Keys and mouse", nullptr,
-                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                       ImGuiWindowFlags_NoSavedSettings) &&
-      ImGui::BeginTable("sheet", 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg)) {
-    for (const SheetLine& line : sheetLines()) {
-      ImGui::TableNextRow();
-      for (const std::string& text : {line.name, line.sentence}) {
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x - 2 * layout.margin, display.y - 2 * layout.margin});
+  if (ImGui::Begin("welcome", nullptr, kPageFlags)) {
+    addWindowPlace(facts.places, "welcome");
+    ImGui::TextUnformatted("Drop a model here");
+    ImGui::TextDisabled(".gltf or .glb; with it, or later, an environment: .hdr, .exr or .pfm");
+    if (!facts.remembered.recent.empty()) {
+      ImGui::Separator();
+      ImGui::TextDisabled("Shown before");
+    }
+    for (size_t i = 0; i < facts.remembered.recent.size(); ++i) {
+      const std::filesystem::path& file = facts.remembered.recent[i];
+      const std::string text =
+          shownText(file.filename().string(), kMostNameCharacters) + "##" + std::to_string(i);
+      if (ImGui::Selectable(text.c_str())) task = {.errand = Errand::OpenFile, .file = file};
+      addItemPlace(facts.places, "recent " + std::to_string(i));
+      if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s", shownText(file.string(), kMostLineCharacters).c_str());
+    }
+  }
+  ImGui::End();
+  return task;
+}
+
+/// Those lines of the sheet that hold the text, whatever its case.
+std::vector<SheetLine> foundLines(const std::string& text) {
+  const auto lower = [](std::string s) {
+    std::ranges::transform(s, s.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return s;
+  };
+  std::vector<SheetLine> found = sheetLines();
+  std::erase_if(found, [&](const SheetLine& line) {
+    return lower(line.name + " " + line.sentence).find(lower(text)) == std::string::npos;
+  });
+  return found;
+}
+
+/// Lines of the sheet below each other, in as many pairs of columns.
+void drawSheetLines(const std::vector<SheetLine>& lines, size_t columns) {
+  const size_t rows = (lines.size() + columns - 1) / columns;
+  if (!ImGui::BeginTable("sheet", int(2 * columns),
+                         ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg))
+    return;
+  for (size_t row = 0; row < rows; ++row) {
+    ImGui::TableNextRow();
+    for (size_t i = row; i < lines.size(); i += rows) {
+      for (const std::string& text : {lines[i].name, lines[i].sentence}) {
         ImGui::TableNextColumn();
         ImGui::PushTextWrapPos(0.0f);
         drawText(text, kMostLineCharacters);
         ImGui::PopTextWrapPos();
       }
     }
-    ImGui::EndTable();
+  }
+  ImGui::EndTable();
+}
+
+void drawSheet(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float height = display.y - 4 * layout.margin;
+  const float width = std::min(kSheetWidth * layout.scale, display.x - 2 * layout.margin);
+  ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::SetNextWindowFocus();
+  ImGui::SetNextWindowBgAlpha(1.0f);
+  if (ImGui::Begin("Keys and mouse", &state.sheet,
+                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                       ImGuiWindowFlags_NoSavedSettings)) {
     addWindowPlace(facts.places, "sheet");
+    ImGui::SetNextItemWidth(-1.0f);
+    ImGui::InputTextWithHint("##search", "Search", state.search.data(), state.search.size());
+    addItemPlace(facts.places, "Search");
+    const std::vector<SheetLine> lines = foundLines(state.search.data());
+    facts.sheetLines = lines.size();
+    if (lines.empty()) ImGui::TextDisabled("nothing of that name");
+    drawSheetLines(lines, width >= kTwoColumns * layout.scale ? 2 : 1);
   }
   ImGui::End();
 }
 
 }  // namespace
 
-bool drawOverlay(ViewState& state, ViewFacts& facts, const OverlayLayout& layout, double now) {
-  drawLines(state, facts);
-  if (state.split) drawBar(state, layout.scale);
+Task drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now) {
+  Task task;
+  drawLines(state, facts, layout);
+  if (state.split && state.comparison == Comparison::Bar) drawBar(state, layout);
+  if (state.split) drawSideNames(state, facts, layout);
   if (state.figures && state.scene) drawFigures(state, facts, layout);
-  drawNews(state, facts, layout, now);
+  task.errand = drawNews(state, facts, layout, now);
+  if (!state.scene && !facts.load.busy) task = drawWelcome(facts, layout);
   if (!facts.error.empty() && !facts.errorClosed) drawError(facts, layout);
-  if (state.sheet) drawSheet(facts, layout);
-  return facts.load.busy && drawLoading(facts.load, layout);
+  drawStatusBar(state, facts, layout);
+  if (state.sheet) drawSheet(state, facts, layout);
+  if (facts.load.busy && task.errand == Errand::None) task.errand = drawLoading(facts.load, layout);
+  return task;
 }
 
 }  // namespace fragtrace

@@ -6,9 +6,10 @@
 #include <string>
 
 #include "view/message_list.h"
-#include "view/overlay_layout.h"
+#include "view/remembered.h"
 #include "view/view_state.h"
 #include "view/window/places.h"
+#include "view/window_layout.h"
 
 namespace fragtrace {
 
@@ -17,6 +18,8 @@ struct ViewFacts {
   std::array<SideStatistics, 2> statistics;
   std::array<glm::ivec2, 2> pictureSize{};  ///< of the pictures shown; lower than the window's while moving
   std::array<std::vector<PictureLine>, 2> lines;
+  std::array<Image, 2> pictures;     ///< linear, as in TracedPicture
+  std::optional<glm::dvec2> cursor;  ///< over the picture: parts of its width and height, from the top left
   LoadStatus load;
   std::string note;
   std::string error;
@@ -24,12 +27,17 @@ struct ViewFacts {
   MessageList messages;
   std::optional<PickAnswer> pick;
   bool resting = false;
+  bool canUndo = false;
+  bool canRedo = false;
+  std::string status;  ///< what the status bar says
+  Remembered remembered;
+  size_t sheetLines = 0;          ///< of the sheet, that the search has found
   const char* focus = "picture";  ///< what keys go to (Interface::focus)
   Places places;                  ///< of the latest frame
 };
 
-/// Draws all of that into Dear ImGui's frame, `now` being seconds of the messages' clock; true: loading is to
-/// be cancelled.
-bool drawOverlay(ViewState& state, ViewFacts& facts, const OverlayLayout& layout, double now);
+/// Draws all of that into Dear ImGui's frame, `now` being seconds of the messages' clock. Returns what is
+/// left to be done.
+Task drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now);
 
 }  // namespace fragtrace

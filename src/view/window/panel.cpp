@@ -1,78 +1,45 @@
 // SPDX-License-Identifier: MIT
 #include "view/window/panel.h"
 
-#include <imgui.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <glm/gtc/type_ptr.hpp>
-#include <span>
+#include <cstdio>
 #include <string>
 
 #include "stage/same_picture.h"
+#include "view/presets.h"
+#include "view/window/panel_parts.h"
 #include "view/window/text.h"
+#include "view/window/theme.h"
 
 namespace fragtrace {
 
 namespace {
 
-constexpr float kLabelWidth = 0.42f;  // of the row, before its control
 constexpr int kMostBouncesShown = 64;
-constexpr float kMostColor = 1e4f;
-/// Typed values keep to the ends of their slider, too.
-constexpr ImGuiSliderFlags kBounded = ImGuiSliderFlags_AlwaysClamp;
-constexpr ImGuiSliderFlags kBoundedLogarithmic = kBounded | ImGuiSliderFlags_Logarithmic;
 
-/// In a dim colour at the right end of the line, or of a line of its own where that has no room.
-void dimAtEnd(const std::string& text) {
-  const float start = ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x;
-  const float room = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetStyle().ItemSpacing.x;
-  if (room <= start)
-    ImGui::SameLine(start);
-  else
-    ImGui::SetCursorPosX(start);
-  ImGui::TextDisabled("%s", text.c_str());
-}
-
-/// A label, and room for a control up to the end of the row.
-void label(Places& places, const char* text) {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(text);
-  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * kLabelWidth);
-  ImGui::SetNextItemWidth(-1.0f);
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  places[text] = {at.x, at.y, ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight()};
-}
-
-/// The next button on the same line, if that has room for it.
-void stayOnLineFor(const char* text) {
+void drawPresets(ViewState& state, Places& places) {
   const ImGuiStyle& style = ImGui::GetStyle();
-  const float width = ImGui::CalcTextSize(text).x + 2 * style.FramePadding.x;
-  const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-  if (ImGui::GetItemRectMax().x + style.ItemSpacing.x + width <= end) ImGui::SameLine();
-}
-
-template <typename Choice>
-void choose(const char* id, std::span<const std::string_view> names, Choice& choice) {
-  const std::string current(names[size_t(choice)]);
-  if (!ImGui::BeginCombo(id, current.c_str())) return;
-  for (size_t i = 0; i < names.size(); ++i) {
-    const std::string name(names[i]);
-    if (ImGui::Selectable(name.c_str(), i == size_t(choice))) choice = Choice(i);
+  const float count = float(kPresets.size());
+  const float width = (ImGui::GetContentRegionAvail().x - (count - 1) * style.ItemSpacing.x) / count;
+  for (const Preset& preset : kPresets) {
+    const bool chosen = isPreset(state.options().stages, preset);
+    if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, kAccent);
+    if (&preset != kPresets.data()) ImGui::SameLine();
+    if (ImGui::Button(preset.name, {width, 0.0f}))
+      apply(state, *controlOf(Action::StagesUpTo, int(preset.last)), {});
+    if (chosen) ImGui::PopStyleColor();
+    addItemPlace(places, preset.name);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", preset.sentence);
   }
-  ImGui::EndCombo();
 }
 
-std::string keyOf(Action action, int argument = 0) {
-  const Control* control = controlOf(action, argument);
-  return control ? controlName(*control) : std::string();
-}
-
-Errand button(const char* text, Errand errand) { return ImGui::Button(text) ? errand : Errand::None; }
-
-void drawStages(ViewState& state) {
+/// Those that build on each other, or the switches.
+void drawStages(ViewState& state, bool cumulative) {
   RenderOptions& o = state.options();
   for (const StageRow& row : stageRows()) {
+    if (row.cumulative != cumulative) continue;
     const std::string reason = row.stage == Stage::Flat ? "always on" : whyGrey(state, row.stage);
     bool on = has(o.stages, row.stage) && (reason.empty() || row.stage == Stage::Flat);
     ImGui::BeginDisabled(!reason.empty());
@@ -105,81 +72,6 @@ void drawSampling(ViewState& state, Places& places) {
     o.clampIndirect = clamp;
   label(places, "Traversal");
   choose("##traversal", kTraversalNames, o.traversal);
-}
-
-void drawLight(ViewState& state, Places& places) {
-  RenderOptions& o = state.sides[0];
-  label(places, "Exposure");
-  float exposure = float(o.exposure);
-  if (ImGui::SliderFloat("##exposure", &exposure, -8.0f, 8.0f, "%.1f EV", kBounded))
-    for (RenderOptions& side : state.sides) side.exposure = exposure;
-  label(places, "Tone map");
-  ToneMap curve = o.toneMap;
-  choose("##curve", toneMapNames(), curve);
-  for (RenderOptions& side : state.sides) side.toneMap = curve;
-  const bool map = hasMap(o);
-  label(places, "Environment");
-  ImGui::BeginDisabled(!map);
-  float degrees = float(o.hdriRotationDegrees);
-  if (ImGui::SliderFloat("##rotation", &degrees, -180.0f, 180.0f, map ? "%.0f degrees" : "no environment map",
-                         kBounded))
-    for (RenderOptions& side : state.sides) side.hdriRotationDegrees = degrees;
-  ImGui::EndDisabled();
-  label(places, "Background");
-  bool background = o.background;
-  if (ImGui::Checkbox("##background", &background))
-    for (RenderOptions& side : state.sides) side.background = background;
-  if (background && !map) {
-    ImGui::SameLine();
-    glm::vec3 color = o.backgroundColor.value_or(glm::vec3(0.0f));
-    if (ImGui::ColorEdit3("##color", glm::value_ptr(color),
-                          ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoInputs))
-      for (RenderOptions& side : state.sides)
-        side.backgroundColor = glm::clamp(color, glm::vec3(0.0f), glm::vec3(kMostColor));
-    addItemPlace(places, "Background colour");
-  }
-}
-
-Errand drawCamera(ViewState& state, Places& places) {
-  Errand errand = Errand::None;
-  const auto press = [&](const char* text, Action action) {
-    if (ImGui::Button(text)) apply(state, *controlOf(action), {});
-  };
-  label(places, "Projection");
-  if (ImGui::Button(state.pose.perspective ? "perspective" : "orthographic", ImVec2(-1, 0)))
-    apply(state, *controlOf(Action::OtherProjection), {});
-  if (state.pose.perspective) {
-    label(places, "View angle");
-    float degrees = float(state.pose.viewAngleDegrees);
-    if (ImGui::SliderFloat("##angle", &degrees, 1.0f, 170.0f, "%.1f degrees", kBounded)) {
-      state.pose.viewAngleDegrees = degrees;
-      state.posed = true;
-    }
-  }
-  if (state.scene && !state.scene->cameras.empty()) {
-    label(places, "Scene camera");
-    const auto& cameras = state.scene->cameras;
-    const auto nameOf = [&](int i) {
-      if (i < 0 || size_t(i) >= cameras.size()) return std::string("none");
-      const std::string& name = cameras[size_t(i)].name;
-      return std::to_string(i) + (name.empty() ? "" : ": " + shownText(name, kMostNameCharacters));
-    };
-    if (ImGui::BeginCombo("##camera", nameOf(state.sceneCamera).c_str())) {
-      for (int i = 0; i < int(cameras.size()); ++i) {
-        Control control{.action = Action::SceneCamera, .argument = i};
-        if (ImGui::Selectable(nameOf(i).c_str(), i == state.sceneCamera)) apply(state, control, {});
-      }
-      ImGui::EndCombo();
-    }
-  }
-  press("Frame all", Action::FrameAll);
-  stayOnLineFor("Reset");
-  press("Reset", Action::ResetCamera);
-  stayOnLineFor("Copy");
-  errand = std::max(errand, button("Copy", Errand::CopyCommand));
-  stayOnLineFor("Paste");
-  errand = std::max(errand, button("Paste", Errand::PasteCommand));
-  return errand;
 }
 
 void drawAnimation(ViewState& state, Places& places) {
@@ -230,16 +122,33 @@ void drawCompare(ViewState& state, Places& places) {
         "%s", reason.empty() ? "all of it up to 64 samples per pixel, nothing from 256 on" : reason.c_str());
   dimAtEnd(keyOf(Action::ToggleSplit) + ", " + keyOf(Action::ToggleDenoise));
   if (!state.split) return;
+  int comparison = int(state.comparison);
+  constexpr std::array kNames{"bar", "A", "B", "difference"};
+  for (int i = 0; i < int(kNames.size()); ++i) {
+    if (i > 0) ImGui::SameLine();
+    ImGui::RadioButton(kNames[size_t(i)], &comparison, i);
+    addItemPlace(places, std::string("compare ") + kNames[size_t(i)]);
+  }
+  state.comparison = Comparison(comparison);
+  if (state.comparison == Comparison::Difference) {
+    label(places, "Times");
+    float stops = float(state.differenceStops);
+    char factor[32];
+    std::snprintf(factor, sizeof factor, "%.3g", std::exp2(stops));
+    if (ImGui::SliderFloat("##stops", &stops, -8.0f, 16.0f, factor, kBounded)) state.differenceStops = stops;
+  }
   int active = int(state.active);
-  ImGui::TextUnformatted("Settings of the");
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("Settings of");
   ImGui::SameLine();
-  ImGui::RadioButton("left", &active, 0);
+  ImGui::RadioButton("A (left)", &active, 0);
   ImGui::SameLine();
-  ImGui::RadioButton("right side", &active, 1);
+  ImGui::RadioButton("B (right)", &active, 1);
   state.active = size_t(active);
 }
 
-void drawDebug(ViewState& state, Places& places) {
+void drawAdvanced(ViewState& state, ViewFacts& facts) {
+  Places& places = facts.places;
   RenderOptions& o = state.options();
   label(places, "Show");
   const std::string current(rowOf(o.debugView).label);
@@ -254,40 +163,86 @@ void drawDebug(ViewState& state, Places& places) {
   dimAtEnd(keyOf(Action::ToggleTreeBoxes));
   label(places, "Level");
   ImGui::SliderInt("##level", &state.treeLevel, 0, 31, "%d", kBounded);
+  bool figures = state.figures;
+  if (ImGui::Checkbox("Figures over the picture", &figures)) state.figures = figures;
+  addItemPlace(places, "Figures");
+  dimAtEnd(keyOf(Action::ToggleHud));
+  ImGui::TextDisabled("Features in the shader");
+  ImGui::PushTextWrapPos(0.0f);
+  std::string variant = facts.statistics[state.active].variant;
+  std::ranges::replace(variant, '+', ' ');
+  drawText(variant, kMostLineCharacters);
+  ImGui::PopTextWrapPos();
+}
+
+/// The left edge of a docked panel can be dragged (Input).
+void drawEdge(const WindowLayout& layout) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const bool near =
+      std::abs(mouse.x - float(layout.picture.x)) <= kEdgePixels * layout.scale && mouse.y < layout.panel.y;
+  if (near) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+}
+
+void drawButtons(Places& places, const ViewFacts& facts, Task& task) {
+  ImGui::Separator();
+  const auto next = [&](const char* text, Errand errand, bool enabled = true) {
+    stayOnLineFor(text);
+    ImGui::BeginDisabled(!enabled);
+    errandButton(places, text, errand, task);
+    ImGui::EndDisabled();
+  };
+  errandButton(places, "Screenshot", Errand::Screenshot, task);
+  next("Write .exr", Errand::WriteExr);
+  next("Reload", Errand::Reload);
+  next("Undo", Errand::Undo, facts.canUndo);
+  next("Redo", Errand::Redo, facts.canRedo);
+  next("Reset all", Errand::ResetAll);
+  next("Full screen", Errand::Fullscreen);
+  ImGui::TextDisabled("%s: all keys   %s: this panel", keyOf(Action::ToggleSheet).c_str(),
+                      keyOf(Action::TogglePanel).c_str());
 }
 
 }  // namespace
 
-Errand drawPanel(ViewState& state, const OverlayLayout& layout, Places& places) {
+Task drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
+  Places& places = facts.places;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({display.x - layout.panel.x - layout.margin, layout.margin});
-  ImGui::SetNextWindowSizeConstraints({layout.panel.x, 0.0f}, {layout.panel.x, layout.panel.y});
-  ImGui::SetNextWindowBgAlpha(0.88f);
-  Errand errand = Errand::None;
-  if (ImGui::Begin("Settings", nullptr,
-                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
-                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse |
-                       ImGuiWindowFlags_NoNav)) {
+  const float margin = layout.docked ? 0.0f : layout.margin;
+  ImGui::SetNextWindowPos({display.x - layout.panel.x - margin, margin});
+  if (layout.docked)
+    ImGui::SetNextWindowSize({layout.panel.x, layout.panel.y});
+  else
+    ImGui::SetNextWindowSizeConstraints({layout.panel.x, 0.0f}, {layout.panel.x, layout.panel.y});
+  ImGui::SetNextWindowBgAlpha(layout.docked ? 1.0f : 0.94f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, layout.docked ? 0.0f : ImGui::GetStyle().WindowRounding);
+  const ImGuiWindowFlags flags = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoNav |
+                                 ImGuiWindowFlags_NoResize |
+                                 (layout.docked ? 0 : ImGuiWindowFlags_AlwaysAutoResize);
+  Task task;
+  const auto part = [&](const Task& other) {
+    if (other.errand != Errand::None) task = other;
+  };
+  if (ImGui::Begin("Settings", nullptr, flags)) {
     addWindowPlace(places, "panel");
+    if (layout.docked) drawEdge(layout);
+    drawPresets(state, places);
     drawCompare(state, places);
-    if (shownAnimation(state) >= 0 && ImGui::CollapsingHeader("Animation", ImGuiTreeNodeFlags_DefaultOpen))
-      drawAnimation(state, places);
-    if (ImGui::CollapsingHeader("Stages and switches", ImGuiTreeNodeFlags_DefaultOpen)) drawStages(state);
-    if (ImGui::CollapsingHeader("Light and display", ImGuiTreeNodeFlags_DefaultOpen))
-      drawLight(state, places);
-    if (ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) errand = drawCamera(state, places);
-    if (ImGui::CollapsingHeader("Sampling")) drawSampling(state, places);
-    if (ImGui::CollapsingHeader("Debug views")) drawDebug(state, places);
-    errand = std::max(errand, button("Screenshot", Errand::Screenshot));
-    stayOnLineFor("Write .exr");
-    errand = std::max(errand, button("Write .exr", Errand::WriteExr));
-    stayOnLineFor("Reload");
-    errand = std::max(errand, button("Reload", Errand::Reload));
-    ImGui::TextDisabled("%s: all keys   %s: this panel", keyOf(Action::ToggleSheet).c_str(),
-                        keyOf(Action::TogglePanel).c_str());
+    const auto open = [](const char* name, bool first = true) {
+      return ImGui::CollapsingHeader(name, first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    };
+    if (shownAnimation(state) >= 0 && open("Animation")) drawAnimation(state, places);
+    if (open("Light and display")) part(drawLight(state, facts));
+    if (open("Camera")) part(drawCamera(state, facts));
+    if (open("Stages")) drawStages(state, true);
+    if (open("Switches", false)) drawStages(state, false);
+    if (open("Sampling", false)) drawSampling(state, places);
+    if (open("Advanced", false)) drawAdvanced(state, facts);
+    drawButtons(places, facts, task);
   }
   ImGui::End();
-  return errand;
+  ImGui::PopStyleVar();
+  return task;
 }
 
 }  // namespace fragtrace

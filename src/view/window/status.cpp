@@ -2,6 +2,7 @@
 #include "view/window/status.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "image/files/whole_file.h"
@@ -47,7 +48,8 @@ Json sideJson(const ViewState& state, const ViewFacts& facts, size_t side) {
 
 const char* stateName(const ViewState& state, const ViewFacts& facts, const WindowReport& report) {
   if (report.end) return report.end;
-  if (facts.load.busy || !state.scene) return "loading";
+  if (facts.load.busy) return "loading";
+  if (!state.scene) return "empty";
   if (!facts.note.empty()) return "compiling";
   const bool resting = facts.resting && report.seen == report.asked;
   return resting ? "resting" : "drawing";
@@ -80,8 +82,14 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["answered"] = report.answered;
   json["split"] = state.split;
   json["bar"] = state.bar;
+  json["comparison"] = kComparisonNames[size_t(state.comparison)];
+  json["magnified"] = std::exp2(state.magnifier.steps);
+  json["fullscreen"] = state.fullscreen;
+  json["fly_speed"] = state.flySpeed;
+  json["status"] = facts.status;
   json["panel"] = state.panel;
   json["sheet"] = state.sheet;
+  json["sheet_lines"] = facts.sheetLines;
   json["sides"] = Json::array();
   for (size_t i = 0; i < (state.split ? 2u : 1u); ++i) json["sides"].push_back(sideJson(state, facts, i));
   json["camera"] = report.camera;
@@ -105,6 +113,10 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["focus"] = facts.focus;
   json["places"] = facts.places;
   json["pick"] = facts.pick ? Json(facts.pick->lines) : Json();
+  const BoundsDouble& b = state.selected;
+  json["selected"] =
+      b.empty() ? Json()
+                : Json({b.minimum.x, b.minimum.y, b.minimum.z, b.maximum.x, b.maximum.y, b.maximum.z});
   json["gl_errors"] = report.glErrors;
   json["loop_ms"] = timesJson(report.times.loopMs);
   json["longest_loop_ms"] = report.times.longestLoopMs;

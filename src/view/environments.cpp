@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "view/environments.h"
+
+#include <algorithm>
+#include <set>
+
+#include "view/dropped_file.h"
+
+namespace fragtrace {
+
+std::vector<std::filesystem::path> environmentsNear(const RenderOptions& options) {
+  std::vector<std::filesystem::path> files;
+  std::set<std::filesystem::path> folders;
+  for (const std::filesystem::path& file : {options.scene, options.hdriFile}) {
+    std::error_code error;
+    const std::filesystem::path folder = file.parent_path().empty() ? "." : file.parent_path();
+    if (file.empty() || !folders.insert(std::filesystem::weakly_canonical(folder, error)).second) continue;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      if (kindOfDropped(entry->path()) == DroppedFile::Environment) files.push_back(entry->path());
+      if (files.size() >= kMostEnvironments) break;
+    }
+  }
+  std::ranges::sort(files, {}, [](const std::filesystem::path& file) { return file.filename(); });
+  return files;
+}
+
+std::vector<EnvironmentChoice> environmentChoices(const ViewedScene& scene) {
+  std::vector<EnvironmentChoice> choices;
+  if (scene.defaultLight) {
+    choices.push_back({.name = "None", .light = DefaultLight::None});
+    choices.push_back({.name = "White"});
+  } else {
+    choices.push_back({.name = "The scene's own light"});
+  }
+  choices.push_back({.name = "Studio", .studio = true});
+  for (const std::filesystem::path& file : scene.environments)
+    choices.push_back({.name = file.filename().string(), .file = file});
+  const std::filesystem::path& shown = scene.options.hdriFile;
+  if (!shown.empty() && std::ranges::find(scene.environments, shown) == scene.environments.end())
+    choices.push_back({.name = shown.filename().string(), .file = shown});
+  return choices;
+}
+
+size_t currentChoice(const ViewedScene& scene, const std::vector<EnvironmentChoice>& choices) {
+  const RenderOptions& o = scene.options;
+  const bool studio = o.studio || (scene.map && o.hdriFile.empty());
+  const auto lights = [&](const EnvironmentChoice& choice) {
+    if (!o.hdriFile.empty() || studio) return choice.file == o.hdriFile && choice.studio == studio;
+    return choice.file.empty() && !choice.studio && (!scene.defaultLight || choice.light == o.defaultLight);
+  };
+  const auto found = std::ranges::find_if(choices, lights);
+  return found == choices.end() ? 0 : size_t(found - choices.begin());
+}
+
+RenderOptions withEnvironment(RenderOptions options, const EnvironmentChoice& choice) {
+  options.hdriFile = choice.file;
+  options.studio = choice.studio;
+  options.defaultLight = choice.light;
+  if (choice.file.empty()) options.backgroundBlur = 0.0;
+  return options;
+}
+
+}  // namespace fragtrace

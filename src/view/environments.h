@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What can light a scene, as the viewer offers it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "view/exchange.h"
+
+namespace fragtrace {
+
+/// Environment maps beside the scene and beside the one that lights it now, by name; at most so many.
+inline constexpr size_t kMostEnvironments = 200;
+std::vector<std::filesystem::path> environmentsNear(const RenderOptions& options);
+
+struct EnvironmentChoice {
+  std::string name;
+  std::filesystem::path file{};  ///< of an environment map; empty: none
+  bool studio = false;
+  DefaultLight light = DefaultLight::White;  ///< where the scene has no light of its own
+
+  bool operator==(const EnvironmentChoice&) const = default;
+};
+
+/// The scene's own light or what stands for it, the studio, and all files.
+std::vector<EnvironmentChoice> environmentChoices(const ViewedScene& scene);
+
+/// The index of the one that lights the scene.
+size_t currentChoice(const ViewedScene& scene, const std::vector<EnvironmentChoice>& choices);
+
+/// The options with that light.
+RenderOptions withEnvironment(RenderOptions options, const EnvironmentChoice& choice);
+
+}  // namespace fragtrace

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "view/history.h"
+
+#include <utility>
+
+namespace fragtrace {
+
+namespace {
+
+/// The settings; what undo does not bring back is as in the scene.
+Settings settingsOf(const ViewState& state) {
+  Settings settings{state.sides, state.pose,   state.posed,     state.sceneCamera,
+                    state.split, state.active, state.treeBoxes, state.treeLevel};
+  for (RenderOptions& side : settings.sides) {
+    if (!side.scene.empty()) takeScene(side, state.scene ? state.scene->options : RenderOptions());
+    side.selection = {};
+  }
+  return settings;
+}
+
+void take(ViewState& state, const Settings& settings) {
+  const std::array<RenderOptions, 2> before = std::exchange(state.sides, settings.sides);
+  for (size_t i = 0; i < 2; ++i) {
+    if (!state.sides[i].scene.empty()) takeScene(state.sides[i], before[0]);
+  }
+  state.pose = settings.pose;
+  state.posed = settings.posed;
+  state.sceneCamera = settings.sceneCamera;
+  state.split = settings.split;
+  state.active = settings.active;
+  state.treeBoxes = settings.treeBoxes;
+  state.treeLevel = settings.treeLevel;
+}
+
+bool step(History& history, ViewState& state, std::deque<Settings>& from, std::deque<Settings>& to) {
+  record(history, state);
+  if (from.empty()) return false;
+  to.push_back(std::exchange(*history.now, from.back()));
+  from.pop_back();
+  take(state, *history.now);
+  return true;
+}
+
+}  // namespace
+
+void restart(History& history, const ViewState& state) { history = {{}, {}, settingsOf(state)}; }
+
+void record(History& history, const ViewState& state) {
+  Settings settings = settingsOf(state);
+  if (!history.now || settings == *history.now) {
+    history.now = std::move(settings);
+    return;
+  }
+  history.past.push_back(std::exchange(*history.now, std::move(settings)));
+  if (history.past.size() > kMostSteps) history.past.pop_front();
+  history.future.clear();
+}
+
+bool undo(History& history, ViewState& state) { return step(history, state, history.past, history.future); }
+
+bool redo(History& history, ViewState& state) { return step(history, state, history.future, history.past); }
+
+}  // namespace fragtrace

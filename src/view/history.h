@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Undo and redo of what the viewer's user has set.
+#pragma once
+
+#include <deque>
+
+#include "view/view_state.h"
+
+namespace fragtrace {
+
+/// What undo brings back: camera and settings of both sides, not the scene, its lighting files or its
+/// animation's time.
+struct Settings {
+  std::array<RenderOptions, 2> sides;
+  CameraPose pose;
+  bool posed = false;
+  int sceneCamera = -1;
+  bool split = false;
+  size_t active = 0;
+  bool treeBoxes = false;
+  int treeLevel = 0;
+
+  bool operator==(const Settings&) const = default;
+};
+
+/// At most so many steps back; older ones are forgotten.
+inline constexpr size_t kMostSteps = 200;
+
+struct History {
+  std::deque<Settings> past;  ///< the latest last
+  std::deque<Settings> future;
+  std::optional<Settings> now;
+};
+
+/// Forgets all steps: what was set before belongs to another scene.
+void restart(History& history, const ViewState& state);
+
+/// Remembers what has changed since the last call as one step; to be called while nothing is dragged or held.
+void record(History& history, const ViewState& state);
+
+/// Goes back one step, or forward again; false: there is none.
+bool undo(History& history, ViewState& state);
+bool redo(History& history, ViewState& state);
+
+}  // namespace fragtrace

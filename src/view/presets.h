@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Sets of stages with a name, for those who do not want to choose each.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "stage/stage.h"
+
+namespace fragtrace {
+
+struct Preset {
+  const char* name;
+  Stage last;  ///< it and all cumulative stages before it
+  const char* sentence;
+};
+
+inline constexpr std::array kPresets{
+    Preset{"Preview", Stage::Phong,
+           "Blinn-Phong shading without shadows: the fastest picture that shows the shape"},
+    Preset{"Phong", Stage::NormalMaps, "Blinn-Phong with shadows, mirrors, glass and normal maps: no noise"},
+    Preset{"Path traced", Stage::Gi, "physically based materials and light: noisy at first, then exact"}};
+
+/// Whether the cumulative stages are those of the preset; other switches do not matter.
+bool isPreset(const StageSet& stages, const Preset& preset);
+
+/// The preset's name, or that of the last stage that is on.
+std::string presetName(const StageSet& stages);
+
+}  // namespace fragtrace

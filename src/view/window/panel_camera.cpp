@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// The camera: projection, cameras of the scene, views with a name.
+#include "view/window/panel_parts.h"
+#include "view/window/text.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// A line for a new name, then one a view: go there, or forget it.
+void drawBookmarks(ViewState& state, ViewFacts& facts, Task& task) {
+  Places& places = facts.places;
+  const float button = ImGui::CalcTextSize("Keep view").x + 4 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetNextItemWidth(-button);
+  const bool typed =
+      ImGui::InputTextWithHint("##bookmark", "name of this view", state.bookmarkName.data(),
+                               state.bookmarkName.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  addItemPlace(places, "Bookmark name");
+  ImGui::SameLine();
+  const auto& all = facts.remembered.bookmarks;
+  const auto found = all.find(std::filesystem::absolute(state.scene->options.scene).string());
+  const size_t count = found == all.end() ? 0 : found->second.size();
+  if (ImGui::Button("Keep view", ImVec2(-1, 0)) || typed) {
+    const std::string name(state.bookmarkName.data());
+    task = {.errand = Errand::AddBookmark, .text = name.empty() ? "View " + std::to_string(count + 1) : name};
+    state.bookmarkName = {};
+  }
+  addItemPlace(places, "Keep view");
+  for (size_t i = 0; i < count; ++i) {
+    ImGui::PushID(int(i));
+    if (ImGui::SmallButton("x")) task = {.errand = Errand::RemoveBookmark, .index = i};
+    addItemPlace(places, "forget view " + std::to_string(i));
+    ImGui::SameLine();
+    const std::string name = shownText(found->second[i].name, kMostNameCharacters) + "##view";
+    if (ImGui::Selectable(name.c_str())) task = {.errand = Errand::ShowBookmark, .index = i};
+    addItemPlace(places, "view " + std::to_string(i));
+    ImGui::PopID();
+  }
+}
+
+}  // namespace
+
+Task drawCamera(ViewState& state, ViewFacts& facts) {
+  Places& places = facts.places;
+  Task task;
+  label(places, "Projection");
+  if (ImGui::Button(state.pose.perspective ? "perspective" : "orthographic", ImVec2(-1, 0)))
+    apply(state, *controlOf(Action::OtherProjection), {});
+  if (state.pose.perspective) {
+    label(places, "View angle");
+    float degrees = float(state.pose.viewAngleDegrees);
+    if (ImGui::SliderFloat("##angle", &degrees, 1.0f, 170.0f, "%.1f degrees", kBounded)) {
+      state.pose.viewAngleDegrees = degrees;
+      state.posed = true;
+    }
+  }
+  if (state.scene && !state.scene->cameras.empty()) {
+    label(places, "Scene camera");
+    const auto& cameras = state.scene->cameras;
+    const auto nameOf = [&](int i) {
+      if (i < 0 || size_t(i) >= cameras.size()) return std::string("none");
+      const std::string& name = cameras[size_t(i)].name;
+      return std::to_string(i) + (name.empty() ? "" : ": " + shownText(name, kMostNameCharacters));
+    };
+    if (ImGui::BeginCombo("##camera", nameOf(state.sceneCamera).c_str())) {
+      for (int i = 0; i < int(cameras.size()); ++i) {
+        Control control{.action = Action::SceneCamera, .argument = i};
+        if (ImGui::Selectable(nameOf(i).c_str(), i == state.sceneCamera)) apply(state, control, {});
+      }
+      ImGui::EndCombo();
+    }
+  }
+  controlButton(state, places, "Frame all", Action::FrameAll, 1);
+  stayOnLineFor("Reset view");
+  controlButton(state, places, "Reset view", Action::ResetCamera);
+  stayOnLineFor("Copy");
+  errandButton(places, "Copy", Errand::CopyCommand, task);
+  stayOnLineFor("Paste");
+  errandButton(places, "Paste", Errand::PasteCommand, task);
+  drawBookmarks(state, facts, task);
+  return task;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "view/window/panel_parts.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr float kLabelWidth = 0.42f;  // of the row, before its control
+
+}  // namespace
+
+void dimAtEnd(const std::string& text) {
+  const float start = ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x;
+  const float room = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetStyle().ItemSpacing.x;
+  if (room <= start)
+    ImGui::SameLine(start);
+  else
+    ImGui::SetCursorPosX(start);
+  ImGui::TextDisabled("%s", text.c_str());
+}
+
+void label(Places& places, const char* text) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * kLabelWidth);
+  ImGui::SetNextItemWidth(-1.0f);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  places[text] = {at.x, at.y, ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight()};
+}
+
+void stayOnLineFor(const char* text) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float width = ImGui::CalcTextSize(text).x + 2 * style.FramePadding.x;
+  const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  if (ImGui::GetItemRectMax().x + style.ItemSpacing.x + width <= end) ImGui::SameLine();
+}
+
+std::string keyOf(Action action, int argument) {
+  const Control* control = controlOf(action, argument);
+  return control ? controlName(*control) : std::string();
+}
+
+void controlButton(ViewState& state, Places& places, const char* text, Action action, int argument) {
+  if (ImGui::Button(text)) apply(state, *controlOf(action, argument), {});
+  addItemPlace(places, text);
+}
+
+void errandButton(Places& places, const char* text, Errand errand, Task& task) {
+  if (ImGui::Button(text)) task = {.errand = errand};
+  addItemPlace(places, text);
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Parts of the panel, and what they are made of.
+#pragma once
+
+#include <imgui.h>
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "view/window/overlay.h"
+
+namespace fragtrace {
+
+/// Typed values keep to the ends of their slider, too.
+inline constexpr ImGuiSliderFlags kBounded = ImGuiSliderFlags_AlwaysClamp;
+inline constexpr ImGuiSliderFlags kBoundedLogarithmic = kBounded | ImGuiSliderFlags_Logarithmic;
+
+/// In a dim colour at the right end of the line, or of a line of its own where that has no room.
+void dimAtEnd(const std::string& text);
+
+/// A label, and room for a control up to the end of the row, which has the label's place.
+void label(Places& places, const char* text);
+
+/// The next button on the same line, if that has room for it.
+void stayOnLineFor(const char* text);
+
+/// The key that does it.
+std::string keyOf(Action action, int argument = 0);
+
+/// A button that does what a control of the table does.
+void controlButton(ViewState& state, Places& places, const char* text, Action action, int argument = 0);
+
+/// A button for an errand: it takes the place of the task when it is pressed.
+void errandButton(Places& places, const char* text, Errand errand, Task& task);
+
+/// A list of names in the order of the values.
+template <typename Choice>
+void choose(const char* id, std::span<const std::string_view> names, Choice& choice) {
+  const std::string current(names[size_t(choice)]);
+  if (!ImGui::BeginCombo(id, current.c_str())) return;
+  for (size_t i = 0; i < names.size(); ++i) {
+    const std::string name(names[i]);
+    if (ImGui::Selectable(name.c_str(), i == size_t(choice))) choice = Choice(i);
+  }
+  ImGui::EndCombo();
+}
+
+// Each draws its part, changes the state, and returns what is left to be done.
+Task drawLight(ViewState& state, ViewFacts& facts);
+Task drawCamera(ViewState& state, ViewFacts& facts);
+
+}  // namespace fragtrace

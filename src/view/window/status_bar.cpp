@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "view/window/status_bar.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "view/progress.h"
+#include "view/window/text.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr float kProgressWidth = 150.0f;  // pixels at 96 dots an inch
+constexpr float kGap = 18.0f;
+
+template <typename... Values>
+std::string printed(const char* format, Values... values) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+/// One word for what the viewer does.
+std::string activity(const ViewState& state, const ViewFacts& facts, const ViewProgress& progress) {
+  if (facts.load.busy) return "loading";
+  if (!state.scene) return "no scene";
+  if (!facts.note.empty()) return facts.note;
+  if (facts.statistics[state.active].resting) return "finished";
+  return progress.seconds ? printed("%.0f %%", 100.0 * progress.fraction) : "drawing";
+}
+
+std::vector<std::string> progressTexts(const ViewState& state, const ViewFacts& facts,
+                                       const ViewProgress& progress) {
+  const size_t side = state.active;
+  const SideStatistics& s = facts.statistics[side];
+  const RenderOptions& o = state.sides[side];
+  std::vector<std::string> texts;
+  const std::string name = state.split ? (side == 0 ? "A: " : "B: ") : "";
+  texts.push_back(name + samplesText(s.samples) + " per pixel");
+  if (s.error >= 0.0) {
+    texts.push_back(o.noise > 0.0 ? printed("error %.2f %% of %.2f %%", 100.0 * s.error, 100.0 * o.noise)
+                                  : printed("error %.2f %%", 100.0 * s.error));
+  }
+  if (!s.resting && progress.seconds) texts.push_back(durationText(*progress.seconds) + " left");
+  const glm::ivec2 size = facts.pictureSize[side];
+  texts.push_back(size == state.size
+                      ? printed("%d x %d", size.x, size.y)
+                      : printed("%d x %d of %d x %d", size.x, size.y, state.size.x, state.size.y));
+  return texts;
+}
+
+/// The pixel under the cursor and what it holds: linear red, green and blue.
+std::string pixelText(const ViewState& state, const ViewFacts& facts) {
+  if (!facts.cursor) return "";
+  const Image& image = facts.pictures[sideAt(state, *facts.cursor)];
+  if (image.width <= 0 || image.height <= 0) return "";
+  const glm::dvec2 place = magnifiedPlace(state, *facts.cursor);
+  const glm::ivec2 size(image.width, image.height);
+  const glm::ivec2 pixel = glm::clamp(glm::ivec2(place * glm::dvec2(size)), glm::ivec2(0), size - 1);
+  const float* value = &image.values[(size_t(pixel.y) * image.width + pixel.x) * image.channelCount()];
+  return printed("%d, %d: %.4g %.4g %.4g", pixel.x, pixel.y, value[0], value[1], value[2]);
+}
+
+}  // namespace
+
+void drawStatusBar(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float top = float(layout.picture.y);
+  ImGui::SetNextWindowPos({0.0f, top});
+  ImGui::SetNextWindowSize({display.x, display.y - top});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(layout.margin, 0.0f));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1.0f, 1.0f));
+  if (ImGui::Begin("status", nullptr,
+                   (kLabelFlags & ~ImGuiWindowFlags_AlwaysAutoResize) | ImGuiWindowFlags_NoScrollWithMouse)) {
+    addWindowPlace(facts.places, "status");
+    const bool known = state.scene.has_value();
+    const ViewProgress progress =
+        known ? progressOf(facts.statistics[state.active], state.options(), state.split ? 0.5 : 1.0)
+              : ViewProgress{};
+    const float height = ImGui::GetTextLineHeight();
+    const float line = std::max(0.5f * (display.y - top - height), 0.0f);
+    ImGui::SetCursorPosY(line);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
+    const std::string word = activity(state, facts, progress);
+    ImGui::ProgressBar(float(facts.load.busy ? facts.load.fraction : progress.fraction),
+                       {kProgressWidth * layout.scale, height}, word.c_str());
+    ImGui::PopStyleVar();
+    float end = ImGui::GetItemRectMax().x;
+    const std::string pixel = known ? pixelText(state, facts) : "";
+    const float room = display.x - layout.margin -
+                       (pixel.empty() ? 0.0f : ImGui::CalcTextSize(pixel.c_str()).x + kGap * layout.scale);
+    facts.status = word;
+    if (known) {
+      for (const std::string& text : progressTexts(state, facts, progress)) {
+        const float width = ImGui::CalcTextSize(text.c_str()).x;
+        const float start = end + kGap * layout.scale;
+        if (start + width > room) break;
+        ImGui::SameLine(start);
+        ImGui::TextUnformatted(text.c_str());
+        facts.status += "; " + text;
+        end = start + width;
+      }
+    }
+    const float start = display.x - layout.margin - ImGui::CalcTextSize(pixel.c_str()).x;
+    if (!pixel.empty() && start > end) {
+      ImGui::SameLine(start);
+      ImGui::TextUnformatted(pixel.c_str());
+      facts.status += "; " + pixel;
+    }
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(3);
+}
+
+}  // namespace fragtrace

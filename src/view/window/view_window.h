@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// The window's thread: events in, requests to the tracing thread, its pictures onto the screen. It draws only
+// when something has changed, and sleeps otherwise.
+#pragma once
+
+#include "gl/debug_log.h"
+#include "view/history.h"
+#include "view/window.h"
+#include "view/window/display.h"
+#include "view/window/glfw_window.h"
+#include "view/window/input.h"
+#include "view/window/interface.h"
+#include "view/window/overlay.h"
+#include "view/window/status.h"
+
+namespace fragtrace {
+
+class Window {
+ public:
+  Window(const WindowStart& start, Exchange& exchange);
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+  ~Window() { exchange_.setWake({}); }
+  /// Until the window is closed. Throws what the tracing thread failed with, and InputError when the scene
+  /// that was asked for could never be shown.
+  void run();
+  /// The last of the status file: why the window is closed; empty: it was wanted.
+  void end(const std::string& failure);
+
+ private:
+  // window_loop.cpp
+  void open();
+  void wait();
+  void take();
+  void takeScene(ViewedScene scene);
+  void takePictures(std::vector<TracedPicture> pictures);
+  void takeState(const Delivery& news);
+  void ask();
+  void draw();
+  void writeStatus();
+  void say(const std::string& message);
+  bool iconified() const;
+
+  // window_tasks.cpp
+  void execute(const Task& task);
+  void executeOnScene(const Task& task);
+  void executeOnBookmark(const Task& task);
+  void load(RenderOptions options);
+  void cancelLoad();
+  void takeDrops();
+  void openFiles(const std::vector<std::filesystem::path>& files);
+  void save(const char* extension);
+  void copyCommand();
+  void pasteCommand();
+  void toggleFullscreen();
+  void takeText(const std::string& text, const std::string& otherwise);
+  void remember(const std::function<void(Remembered&)>& change);
+  RenderOptions shownOptions() const;
+
+  const WindowStart& start_;
+  Exchange& exchange_;
+  Glfw glfw_;
+  WindowHandle window_;
+  DebugLog driverLog_;
+  Input input_;
+  Interface interface_;
+  Display display_;
+  ViewState state_;
+  ViewFacts facts_;
+  History history_;
+  WindowReport report_;
+  RenderOptions wanted_;                 ///< of the scene that is shown, or being loaded
+  std::optional<RenderOptions> pasted_;  ///< to be taken once their scene is loaded
+  glm::ivec4 windowed_{0};               ///< place and size before the window filled the screen
+  std::string status_;
+  double statusTime_ = -1.0;
+  bool statusWaits_ = false;
+  int frames_ = 0;         ///< still to be drawn
+  double changed_ = -1.0;  ///< when the traced picture was last changed
+  double fades_ = 1e30;    ///< when a message is to be drawn paler
+  std::vector<RenderOptions> askedSides_;
+  glm::ivec2 askedSize_{0};
+  bool askedMoving_ = false;
+  std::deque<std::pair<uint64_t, double>> unanswered_;  ///< requests, and when they were made
+};
+
+}  // namespace fragtrace

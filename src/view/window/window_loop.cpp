@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+#include "view/window/view_window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "errors.h"
+#include "gl/gl.h"
+#include "view/shown_names.h"
+#include "view/window/panel.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr int kSettleFrames = 3;        // that Dear ImGui takes to come to rest after an event
+constexpr double kMovingSeconds = 0.2;  // after the last change, before full resolution
+constexpr double kFrameSeconds = 1.0 / 60;
+/// GLFW 3.3 on X11 sleeps on what another thread's glfwPostEmptyEvent() has read from the connection
+/// meanwhile; so an event is late by this at most. Ten looks a second are no load.
+constexpr double kLongestSleep = 0.1;
+constexpr double kStatusSeconds = 0.05;  // between two status files
+constexpr glm::ivec2 kWindowSize{1280, 720};
+
+float primaryScale(GLFWmonitor* monitor) {
+  glm::vec2 scale(1.0f);
+  if (monitor) glfwGetMonitorContentScale(monitor, &scale.x, &scale.y);
+  return displayScale(scale);
+}
+
+/// Whether the panel stands beside a picture of that size at first: where both fit on the screen.
+bool startsWithPanel(const RenderOptions& options) {
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  const float scale = primaryScale(monitor);
+  const glm::ivec2 picture = options.resolution.value_or(kWindowSize);
+  glm::ivec2 corner(0);
+  glm::ivec2 room(0);
+  if (monitor) glfwGetMonitorWorkarea(monitor, &corner.x, &corner.y, &room.x, &room.y);
+  const glm::ivec2 window = options.resolution ? windowFor(picture, scale, true) : picture;
+  return fitsPanel(glm::vec2(picture), scale) && glm::all(glm::lessThanEqual(window, room));
+}
+
+/// A given resolution is that of the picture; else the window has the standard size.
+glm::ivec2 startSize(const RenderOptions& options) {
+  if (!options.resolution) return kWindowSize;
+  return windowFor(*options.resolution, primaryScale(glfwGetPrimaryMonitor()), startsWithPanel(options));
+}
+
+}  // namespace
+
+Window::Window(const WindowStart& start, Exchange& exchange)
+    : start_(start),
+      exchange_(exchange),
+      window_(openWindow(startSize(start.options), windowTitle(start.options.scene))),
+      input_(window_.get()),
+      interface_(window_.get()),
+      frames_(kSettleFrames) {
+  state_.sides[0] = wanted_ = start.options;
+  state_.treeBoxes = start.options.treeLevel.has_value();
+  state_.treeLevel = start.options.treeLevel.value_or(state_.treeLevel);
+  state_.panel = startsWithPanel(start.options);
+  exchange_.setWake([] { glfwPostEmptyEvent(); });
+  try {
+    facts_.remembered = readRemembered(rememberedFile());
+  } catch (const std::exception& error) {
+    say(std::string("what the viewer remembers cannot be read: ") + error.what());
+  }
+  open();
+}
+
+/// The first load, for a picture as large as it will be.
+void Window::open() {
+  glm::ivec2 size(0);
+  glfwGetFramebufferSize(window_.get(), &size.x, &size.y);
+  state_.size = layoutOf(glm::vec2(size), interface_.scale(), {.panel = state_.panel}).picture;
+  if (start_.options.scene.empty()) return;
+  load(start_.options);
+  facts_.load = {true, start_.options.scene.filename().string(), "starting", 0.0};
+}
+
+void Window::run() {
+  while (!glfwWindowShouldClose(window_.get())) {
+    wait();
+    const double begin = glfwGetTime();
+    take();
+    if (frames_ > 0 && !iconified()) draw();
+    play(state_, glfwGetTime());
+    if (!input_.active() && !state_.playback.playing && state_.scene) record(history_, state_);
+    ask();
+    writeStatus();
+    const double ms = 1000.0 * (glfwGetTime() - begin);
+    keepTime(report_.times.loopMs, ms);
+    report_.times.longestLoopMs = std::max(report_.times.longestLoopMs, ms);
+  }
+  if (!state_.scene && !start_.options.scene.empty() && !facts_.error.empty()) throw InputError(facts_.error);
+}
+
+bool Window::iconified() const { return glfwGetWindowAttrib(window_.get(), GLFW_ICONIFIED) != 0; }
+
+void Window::wait() {
+  double seconds = kLongestSleep;
+  const double now = glfwGetTime();
+  const auto atMost = [&](double limit) { seconds = std::clamp(limit, 0.0, seconds); };
+  if (input_.active() || state_.playback.playing) atMost(kFrameSeconds);
+  if (askedMoving_) atMost(changed_ + kMovingSeconds - now);
+  if (now >= fades_) frames_ = std::max(frames_, 1);
+  atMost(fades_ - now);
+  if (statusWaits_) atMost(statusTime_ + kStatusSeconds - now);
+  if (frames_ > 0 && !iconified()) atMost(0.0);
+  if (seconds > 0.0)
+    glfwWaitEventsTimeout(seconds);
+  else
+    glfwPollEvents();
+  if (input_.waiting() || input_.active() || askedMoving_) frames_ = std::max(frames_, kSettleFrames);
+}
+
+void Window::say(const std::string& message) {
+  addMessage(facts_.messages, message, glfwGetTime());
+  frames_ = std::max(frames_, 1);
+}
+
+void Window::take() {
+  Delivery news = exchange_.take();
+  if (news.failure) std::rethrow_exception(news.failure);
+  if (news.scene) takeScene(std::move(*news.scene));
+  takePictures(std::move(news.pictures));
+  if (news.pick) {
+    if (news.pick->request.center && news.pick->hit) {
+      state_.pose = centerOn(state_.pose, news.pick->point);
+      state_.posed = true;
+    }
+    if (!news.pick->request.center) {
+      state_.selected = news.pick->bounds;
+      facts_.pick = std::move(news.pick);
+    }
+    frames_ = kSettleFrames;
+  }
+  for (const std::string& message : news.messages) say(message);
+  if (const std::string errors = takeGlfwErrors(); !errors.empty()) say("window: " + errors);
+  takeState(news);
+}
+
+void Window::takeScene(ViewedScene scene) {
+  const bool another = !state_.scene || !sameScene(state_.scene->options, scene.options);
+  showScene(state_, std::move(scene));
+  glfwSetWindowTitle(window_.get(), windowTitle(state_.scene->options.scene).c_str());
+  wanted_ = state_.scene->options;
+  if (pasted_ && sameScene(*pasted_, wanted_)) takeOptions(state_, *std::exchange(pasted_, {}));
+  if (another) {
+    restart(history_, state_);
+    remember([&](Remembered& r) { addRecent(r, wanted_.scene); });
+  }
+  askedSides_.clear();
+  facts_.pick.reset();
+  state_.selected = {};
+  frames_ = kSettleFrames;
+}
+
+void Window::takePictures(std::vector<TracedPicture> pictures) {
+  const double now = glfwGetTime();
+  for (TracedPicture& picture : pictures) {
+    display_.take(picture);
+    const size_t side = picture.side;
+    facts_.statistics[side] = picture.statistics;
+    facts_.pictureSize[side] = {picture.image.width, picture.image.height};
+    facts_.lines[side] = std::move(picture.lines);
+    facts_.pictures[side] = std::move(picture.image);
+    report_.answered = std::max(report_.answered, picture.request);
+    while (!unanswered_.empty() && unanswered_.front().first <= picture.request) {
+      keepTime(report_.times.answerMs, 1000.0 * (now - unanswered_.front().second));
+      unanswered_.pop_front();
+    }
+    frames_ = std::max(frames_, 1);
+  }
+}
+
+void Window::takeState(const Delivery& news) {
+  report_.seen = news.request;
+  const bool changed = news.load.busy != facts_.load.busy || news.load.step != facts_.load.step ||
+                       news.load.fraction != facts_.load.fraction || news.note != facts_.note ||
+                       news.error != facts_.error || news.resting != facts_.resting;
+  if (!changed || (!state_.scene && !news.load.busy && news.error.empty())) return;
+  facts_.load = news.load;
+  facts_.note = news.note;
+  if (news.error != facts_.error) facts_.errorClosed = false;
+  facts_.error = news.error;
+  if (!facts_.error.empty() && !facts_.load.busy && state_.scene) {
+    wanted_ = state_.scene->options;
+    pasted_.reset();
+  }
+  facts_.resting = news.resting;
+  frames_ = std::max(frames_, 2);
+}
+
+void Window::ask() {
+  if (!state_.scene || state_.size.x <= 0 || state_.size.y <= 0) return;
+  std::vector<RenderOptions> sides = tracedSides(state_);
+  bool other = sides.size() != askedSides_.size() || state_.size != askedSize_;
+  for (size_t i = 0; !other && i < sides.size(); ++i) other = !drawsTheSame(sides[i], askedSides_[i]);
+  const bool more = !other && sides != askedSides_;
+  const double now = glfwGetTime();
+  if (other) changed_ = now;
+  const bool moving = changed_ >= 0.0 && now - changed_ < kMovingSeconds;
+  if (!other && !more && moving == askedMoving_) return;
+  const uint64_t number = exchange_.ask(sides, state_.size, moving);
+  report_.asked = number;
+  if (other) unanswered_.emplace_back(number, now);
+  askedSides_ = std::move(sides);
+  askedSize_ = state_.size;
+  askedMoving_ = moving;
+  // What goes on moving is drawn again and again.
+  if (moving) frames_ = std::max(frames_, 1);
+}
+
+void Window::draw() {
+  glm::ivec2 size(0);
+  glfwGetFramebufferSize(window_.get(), &size.x, &size.y);
+  if (size.x <= 0 || size.y <= 0) return;
+  const bool panel = state_.panel && state_.scene;
+  const WindowLayout layout =
+      layoutOf(glm::vec2(size), interface_.scale(), {panel, state_.panelWidth, state_.split});
+  state_.size = layout.picture;
+  interface_.begin();
+  facts_.cursor = input_.update(state_, layout, [this](const Task& task) { execute(task); });
+  takeDrops();
+  facts_.places.clear();
+  facts_.canUndo = !history_.past.empty();
+  facts_.canRedo = !history_.future.empty();
+  const double now = glfwGetTime();
+  const Task said = drawOverlay(state_, facts_, layout, now);
+  fades_ = now + secondsToFade(facts_.messages, now);
+  if (panel) execute(drawPanel(state_, facts_, layout));
+  execute(said);
+  std::array<DisplaySide, 2> sides;
+  for (size_t i = 0; i < 2; ++i) sides[i] = {state_.sides[i].exposure, state_.sides[i].toneMap};
+  display_.draw({size, layout.picture, state_.shownBar(), state_.magnifier,
+                 state_.split && state_.comparison == Comparison::Difference, state_.differenceStops},
+                sides);
+  facts_.focus = Interface::focus();
+  interface_.end();
+  checkGl("drawing the window");
+  glfwSwapBuffers(window_.get());
+  for (const std::string& message : driverLog_.take()) {
+    report_.glErrors.push_back(message);
+    say("driver: " + message);
+  }
+  --frames_;
+}
+
+void Window::end(const std::string& failure) {
+  facts_.error = failure.empty() ? facts_.error : failure;
+  report_.end = failure.empty() ? "closed" : "failed";
+  statusTime_ = -1.0;
+  writeStatus();
+}
+
+void Window::writeStatus() {
+  if (start_.statusFile.empty()) return;
+  const double now = glfwGetTime();
+  statusWaits_ = statusTime_ >= 0.0 && now - statusTime_ < kStatusSeconds;
+  if (statusWaits_) return;
+  report_.camera = state_.scene ? start_.cameraText(shownOptions()) : "";
+  std::string text = statusText(state_, facts_, report_);
+  if (text == status_) return;
+  status_ = std::move(text);
+  statusTime_ = now;
+  writeStatusFile(start_.statusFile, status_);
+}
+
+}  // namespace fragtrace

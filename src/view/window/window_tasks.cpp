@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// What the window does beyond its state: files, clipboard, undo, bookmarks, the screen.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+
+#include "view/dropped_file.h"
+#include "view/shown_names.h"
+#include "view/window/view_window.h"
+
+namespace fragtrace {
+
+void Window::execute(const Task& task) {
+  switch (task.errand) {
+    case Errand::None:
+      return;
+    case Errand::OpenFile:
+      return openFiles({task.file});
+    case Errand::CancelLoad:
+      return cancelLoad();
+    case Errand::Fullscreen:
+      return toggleFullscreen();
+    case Errand::Close:
+      if (facts_.load.busy && state_.scene) return cancelLoad();
+      if (state_.fullscreen) return toggleFullscreen();
+      [[fallthrough]];
+    case Errand::Quit:
+      glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
+      return;
+    default:
+      if (state_.scene) executeOnScene(task);
+  }
+}
+
+void Window::executeOnScene(const Task& task) {
+  switch (task.errand) {
+    case Errand::CenterOn:
+    case Errand::Inspect: {
+      const glm::dvec2 place = magnifiedPlace(state_, task.place);
+      return exchange_.pick({sideAt(state_, task.place), place, task.errand == Errand::CenterOn});
+    }
+    case Errand::Deselect:
+      facts_.pick.reset();
+      state_.selected = {};
+      return exchange_.pick({.clear = true});
+    case Errand::CopyCommand:
+      return copyCommand();
+    case Errand::PasteCommand:
+      return pasteCommand();
+    case Errand::Undo:
+      if (!undo(history_, state_)) say("there is nothing to undo");
+      return;
+    case Errand::Redo:
+      if (!redo(history_, state_)) say("there is nothing to redo");
+      return;
+    case Errand::ResetAll:
+      return resetAll(state_, start_.options);
+    case Errand::Load:
+      return load(*task.load);
+    case Errand::Reload:
+      return load(state_.scene->options);
+    case Errand::AddBookmark:
+    case Errand::ShowBookmark:
+    case Errand::RemoveBookmark:
+      return executeOnBookmark(task);
+    case Errand::Screenshot:
+      return save(".png");
+    case Errand::WriteExr:
+      return save(".exr");
+    default:
+      return;
+  }
+}
+
+/// For a picture of the size that is shown.
+void Window::load(RenderOptions options) {
+  options.resolution = state_.size;
+  wanted_ = options;
+  pasted_.reset();
+  exchange_.load(options);
+}
+
+void Window::cancelLoad() {
+  exchange_.cancelLoad();
+  pasted_.reset();
+  if (state_.scene) wanted_ = state_.scene->options;
+}
+
+void Window::takeDrops() {
+  const std::vector<std::filesystem::path> files = input_.takeDrops();
+  if (!files.empty()) openFiles(files);
+}
+
+void Window::openFiles(const std::vector<std::filesystem::path>& files) {
+  const Drop drop = takeDrop(wanted_, files);
+  for (const std::string& sentence : drop.refused) say(sentence);
+  if (drop.load) load(*drop.load);
+}
+
+void Window::save(const char* extension) {
+  const RenderOptions& o = state_.options();
+  exchange_.save({freePictureName(o.scene, extension), state_.active, o.exposure, o.toneMap});
+}
+
+/// Of the active side, with all that its picture on the screen depends on.
+RenderOptions Window::shownOptions() const {
+  RenderOptions o = renderOptionsOf(state_, state_.active);
+  o.resolution = state_.size;
+  o.sceneOrigin = state_.scene->description.origin;
+  o.spp = std::max(facts_.statistics[state_.active].samples, 1);
+  // What lights the scene without need is not said.
+  if (!state_.scene->defaultLight && o.defaultLight == DefaultLight::Studio)
+    o.defaultLight = DefaultLight::White;
+  return o;
+}
+
+void Window::toggleFullscreen() {
+  GLFWwindow* window = window_.get();
+  if (state_.fullscreen) {
+    glfwSetWindowMonitor(window, nullptr, windowed_.x, windowed_.y, windowed_.z, windowed_.w, GLFW_DONT_CARE);
+  } else {
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+    if (!mode) return say("there is no screen to fill");
+    glfwGetWindowPos(window, &windowed_.x, &windowed_.y);
+    glfwGetWindowSize(window, &windowed_.z, &windowed_.w);
+    glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+  }
+  state_.fullscreen = !state_.fullscreen;
+}
+
+/// Reads what other viewers have remembered meanwhile, too.
+void Window::remember(const std::function<void(Remembered&)>& change) {
+  try {
+    const std::filesystem::path file = rememberedFile();
+    facts_.remembered = readRemembered(file);
+    change(facts_.remembered);
+    writeRemembered(file, facts_.remembered);
+  } catch (const std::exception& error) {
+    say(std::string("not remembered: ") + error.what());
+  }
+}
+
+void Window::executeOnBookmark(const Task& task) {
+  const std::string scene = std::filesystem::absolute(state_.scene->options.scene).string();
+  if (task.errand == Errand::ShowBookmark) {
+    const std::vector<Bookmark>& views = facts_.remembered.bookmarks[scene];
+    if (task.index < views.size()) takeText(views[task.index].camera, "cannot go there: ");
+    return;
+  }
+  remember([&](Remembered& remembered) {
+    std::vector<Bookmark>& views = remembered.bookmarks[scene];
+    if (task.errand == Errand::AddBookmark)
+      views.push_back({task.text, start_.cameraText(shownOptions())});
+    else if (task.index < views.size())
+      views.erase(views.begin() + std::ptrdiff_t(task.index));
+  });
+}
+
+void Window::copyCommand() {
+  RenderOptions o = shownOptions();
+  const bool layers = !o.aovFeatures.empty() || o.aovSamples || o.aovVariance;
+  o.output = freePictureName(o.scene, layers ? ".exr" : ".png");
+  glfwSetClipboardString(window_.get(), start_.commandText(o).c_str());
+  say("copied the command that renders this picture");
+}
+
+void Window::pasteCommand() {
+  const char* text = glfwGetClipboardString(window_.get());
+  // That the clipboard holds no text is no failure of the window.
+  if (!text) takeGlfwErrors();
+  takeText(text ? text : "", "cannot paste: ");
+}
+
+/// A command, or options of a camera.
+void Window::takeText(const std::string& text, const std::string& otherwise) {
+  try {
+    const RenderOptions options = start_.withCommandText(renderOptionsOf(state_, state_.active), text);
+    if (sameScene(options, state_.scene->options)) return takeOptions(state_, options);
+    load(options);
+    pasted_ = options;
+  } catch (const std::exception& error) {
+    say(otherwise + error.what());
+  }
+}
+
+}  // namespace fragtrace

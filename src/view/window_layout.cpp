@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "view/window_layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+namespace fragtrace {
+
+namespace {
+
+// At 96 dots an inch.
+constexpr float kMargin = 8.0f;
+constexpr float kPanelWidth = 352.0f;
+constexpr float kLeastPanel = 240.0f;
+constexpr float kMostPanel = 640.0f;
+constexpr float kStatusHeight = 24.0f;
+constexpr float kLeastPicture = 300.0f;   // beside the panel; where less is left, the panel covers it
+constexpr float kLeastRoom = 180.0f;      // that anything beside a panel over the picture needs
+constexpr float kLeastForPanel = 560.0f;  // of the picture's width
+constexpr float kNewsShare = 0.3f;        // of the picture's height,
+constexpr float kLeastNews = 60.0f;       // or this, up to half of it
+constexpr float kNewsWidth = 400.0f;      // or half of the picture's
+constexpr glm::vec2 kAllFigures{258.0f, 190.0f};
+constexpr glm::vec2 kBriefFigures{180.0f, 56.0f};
+constexpr float kSideRow = 20.0f;  // says which side it is
+
+bool fits(glm::vec2 size, glm::vec2 room) { return size.x <= room.x && size.y <= room.y; }
+
+float statusHeight(float scale) { return std::round(kStatusHeight * scale); }
+
+}  // namespace
+
+float readablePanelWidth(float wanted) { return std::clamp(wanted, kLeastPanel, kMostPanel); }
+
+WindowLayout layoutOf(glm::vec2 window, float scale, const LayoutWishes& wishes) {
+  WindowLayout layout;
+  layout.scale = scale;
+  layout.margin = kMargin * scale;
+  layout.statusHeight = std::min(statusHeight(scale), std::floor(0.25f * window.y));
+  const float wanted = readablePanelWidth(wishes.panelWidth > 0.0f ? wishes.panelWidth : kPanelWidth);
+  const float docked = std::round(wanted * scale);
+  layout.docked = wishes.panel && window.x - docked >= kLeastPicture * scale;
+  layout.picture = glm::ivec2(window.x - (layout.docked ? docked : 0.0f), window.y - layout.statusHeight);
+  layout.picture = glm::max(layout.picture, 1);
+  // Of the picture, at 96 dots an inch.
+  const glm::vec2 whole = glm::vec2(layout.picture) / scale;
+  const bool over = wishes.panel && !layout.docked;
+  const float width = std::max(std::min(wanted, whole.x - 2 * kMargin), 1.0f);
+  const float room = over ? whole.x - width - 3 * kMargin : whole.x - 2 * kMargin;
+  const bool beside = room >= kLeastRoom || !over;
+  const float lower = std::min(std::max(kNewsShare * whole.y, kLeastNews), 0.5f * whole.y);
+  const float upper = whole.y - lower - 2 * kMargin;
+  const float panelHeight = std::max(beside ? whole.y - 2 * kMargin : upper, 1.0f);
+  layout.panel =
+      layout.docked ? glm::vec2(docked, float(layout.picture.y)) : scale * glm::vec2(width, panelHeight);
+  glm::vec2 figures(room, wishes.split ? 0.5f * (upper - kMargin) : upper);
+  const glm::vec2 brief = kBriefFigures + glm::vec2(0.0f, wishes.split ? kSideRow : 0.0f);
+  layout.figures = fits(kAllFigures, figures) ? FigureDetail::All
+                   : fits(brief, figures)     ? FigureDetail::Brief
+                                              : FigureDetail::None;
+  layout.figuresMost = scale * glm::max(figures, glm::vec2(1.0f));
+  const float news = std::min(std::max(kNewsWidth, 0.5f * whole.x), beside ? room : whole.x - 2 * kMargin);
+  layout.newsMost = scale * glm::max(glm::vec2(news, lower - kMargin), glm::vec2(1.0f));
+  return layout;
+}
+
+glm::ivec2 windowFor(glm::ivec2 picture, float scale, bool panel) {
+  const float width = panel ? std::round(kPanelWidth * scale) : 0.0f;
+  return picture + glm::ivec2(width, statusHeight(scale));
+}
+
+bool fitsPanel(glm::vec2 picture, float scale) { return picture.x >= kLeastForPanel * scale; }
+
+}  // namespace fragtrace

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Where picture, panel, status bar, figures and news have room in a window, so that none covers another.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+
+namespace fragtrace {
+
+/// How much of the figures fits: nothing, samples and error, all rows.
+enum class FigureDetail : uint8_t { None, Brief, All };
+
+/// What a layout has to make room for.
+struct LayoutWishes {
+  bool panel = false;
+  float panelWidth = 0.0f;  ///< pixels at 96 dots an inch; 0: the standard width
+  bool split = false;       ///< both sides have figures
+};
+
+/// Lengths in pixels. The picture stands at the top left, the status bar below it as wide as the window, the
+/// panel beside it at the right.
+struct WindowLayout {
+  float scale = 1.0f;  ///< of a length at 96 dots an inch
+  float margin = 0.0f;
+  glm::ivec2 picture{0};
+  float statusHeight = 0.0f;
+  bool docked = false;  ///< there is a panel beside the picture; else, if any, it is over it at the top right
+  glm::vec2 panel{0.0f};  ///< its width, and the most of its height
+  FigureDetail figures = FigureDetail::All;
+  glm::vec2 figuresMost{0.0f};  ///< of one side; they stand at the picture's top left
+  glm::vec2 newsMost{0.0f};     ///< at the picture's bottom left
+};
+
+WindowLayout layoutOf(glm::vec2 window, float scale, const LayoutWishes& wishes);
+
+/// The window in which a picture of that size has its room.
+glm::ivec2 windowFor(glm::ivec2 picture, float scale, bool panel);
+
+/// Whether a picture is wide enough to begin with the panel open beside it.
+bool fitsPanel(glm::vec2 picture, float scale);
+
+/// A width of the panel that its controls can be read in, next to a wanted one; pixels at 96 dots an inch.
+float readablePanelWidth(float wanted);
+
+}  // namespace fragtrace

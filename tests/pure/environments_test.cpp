@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "view/environments.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "image_test_folder.h"
+
+namespace fragtrace {
+namespace {
+
+struct EnvironmentsFiles : ImageTestFolder {};
+
+TEST_F(EnvironmentsFiles, AreThoseBesideTheSceneAndBesideTheCurrentOne) {
+  std::filesystem::create_directories(folder / "skies");
+  for (const char* name : {"scene.gltf", "b.hdr", "a.EXR", "photo.png", "skies/c.pfm"})
+    std::ofstream(folder / name) << "x";
+  RenderOptions options;
+  options.scene = folder / "scene.gltf";
+  const auto names = [&] {
+    std::string text;
+    for (const auto& file : environmentsNear(options)) text += file.filename().string() + " ";
+    return text;
+  };
+  EXPECT_EQ(names(), "a.EXR b.hdr ");
+  options.hdriFile = folder / "skies/c.pfm";
+  EXPECT_EQ(names(), "a.EXR b.hdr c.pfm ");
+  options.hdriFile = folder / "b.hdr";
+  EXPECT_EQ(names(), "a.EXR b.hdr ");
+  options.scene = folder / "gone/scene.gltf";
+  options.hdriFile.clear();
+  EXPECT_EQ(names(), "");
+}
+
+TEST(Environments, EachChoiceIsTheCurrentOneOnceItIsTaken) {
+  for (const bool unlit : {false, true}) {
+    ViewedScene scene;
+    scene.defaultLight = unlit;
+    scene.environments = {"/maps/a.hdr", "/maps/b.hdr"};
+    scene.options.hdriFile = "/elsewhere/c.exr";
+    const std::vector<EnvironmentChoice> choices = environmentChoices(scene);
+    EXPECT_EQ(choices.size(), unlit ? 6u : 5u);
+    EXPECT_EQ(choices[currentChoice(scene, choices)].name, "c.exr");
+    for (const EnvironmentChoice& choice : choices) {
+      ViewedScene chosen = scene;
+      chosen.options = withEnvironment(scene.options, choice);
+      chosen.map = hasMap(chosen.options);
+      const std::vector<EnvironmentChoice> now = environmentChoices(chosen);
+      EXPECT_EQ(now[currentChoice(chosen, now)], choice) << choice.name;
+    }
+  }
+}
+
+TEST(Environments, TheStudioByDefaultIsTheStudio) {
+  ViewedScene scene;
+  scene.defaultLight = true;
+  scene.map = true;
+  scene.options.defaultLight = DefaultLight::Studio;
+  const std::vector<EnvironmentChoice> choices = environmentChoices(scene);
+  EXPECT_EQ(choices[currentChoice(scene, choices)].name, "Studio");
+}
+
+}  // namespace
+}  // namespace fragtrace

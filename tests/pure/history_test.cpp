@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "view/history.h"
+
+#include <gtest/gtest.h>
+
+namespace fragtrace {
+namespace {
+
+ViewState shownState() {
+  ViewState state;
+  ViewedScene scene;
+  scene.options.scene = "a.gltf";
+  scene.options.hdriFile = "sky.hdr";
+  scene.bounds.include({0.0, 0.0, 0.0});
+  scene.bounds.include({1.0, 1.0, 1.0});
+  state.sides[0].scene = "a.gltf";
+  showScene(state, scene);
+  return state;
+}
+
+TEST(History, GoesBackAndForth) {
+  ViewState state = shownState();
+  History history;
+  restart(history, state);
+  EXPECT_FALSE(undo(history, state));
+  for (int i = 1; i <= 3; ++i) {
+    state.sides[0].exposure = i;
+    record(history, state);
+    record(history, state);  // nothing has changed
+  }
+  EXPECT_TRUE(undo(history, state));
+  EXPECT_EQ(state.sides[0].exposure, 2.0);
+  EXPECT_TRUE(undo(history, state));
+  EXPECT_TRUE(redo(history, state));
+  EXPECT_EQ(state.sides[0].exposure, 2.0);
+  state.sides[0].exposure = 7.0;
+  record(history, state);
+  EXPECT_FALSE(redo(history, state));  // another way was taken
+  EXPECT_TRUE(undo(history, state));
+  EXPECT_EQ(state.sides[0].exposure, 2.0);
+}
+
+TEST(History, WhatWasNotRecordedIsAStepToo) {
+  ViewState state = shownState();
+  History history;
+  restart(history, state);
+  state.pose.viewAngleDegrees = 30.0;
+  EXPECT_TRUE(undo(history, state));
+  EXPECT_EQ(state.pose.viewAngleDegrees, 45.0);
+  EXPECT_TRUE(redo(history, state));
+  EXPECT_EQ(state.pose.viewAngleDegrees, 30.0);
+}
+
+TEST(History, SceneLightAndTimeStay) {
+  ViewState state = shownState();
+  History history;
+  restart(history, state);
+  apply(state, *controlOf(Action::ToggleSplit));
+  record(history, state);
+  for (RenderOptions& side : state.sides) side.selection.animationTime = 0.5;
+  record(history, state);
+  ASSERT_EQ(history.past.size(), 1u);
+  EXPECT_TRUE(undo(history, state));
+  EXPECT_FALSE(state.split);
+  EXPECT_EQ(state.sides[0].scene, "a.gltf");
+  EXPECT_EQ(state.sides[0].hdriFile, "sky.hdr");
+  EXPECT_EQ(state.sides[0].selection.animationTime, 0.5);
+  EXPECT_TRUE(redo(history, state));
+  EXPECT_EQ(state.sides[1].hdriFile, "sky.hdr");
+}
+
+TEST(History, OldStepsAreForgotten) {
+  ViewState state = shownState();
+  History history;
+  restart(history, state);
+  for (size_t i = 1; i <= 2 * kMostSteps; ++i) {
+    state.sides[0].exposure = double(i);
+    record(history, state);
+  }
+  size_t steps = 0;
+  while (undo(history, state)) ++steps;
+  EXPECT_EQ(steps, kMostSteps);
+}
+
+}  // namespace
+}  // namespace fragtrace

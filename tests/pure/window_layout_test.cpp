@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "view/window_layout.h"
+
+#include <gtest/gtest.h>
+
+namespace fragtrace {
+namespace {
+
+TEST(WindowLayout, NothingCoversAnything) {
+  for (const float scale : {1.0f, 1.25f, 2.0f, 4.0f}) {
+    for (const glm::vec2 window : {glm::vec2(160, 120), glm::vec2(480, 320), glm::vec2(640, 400),
+                                   glm::vec2(800, 600), glm::vec2(1280, 720), glm::vec2(3840, 2160)}) {
+      for (const bool panel : {false, true}) {
+        for (const bool split : {false, true}) {
+          const WindowLayout l = layoutOf(window, scale, {.panel = panel, .split = split});
+          SCOPED_TRACE(testing::Message()
+                       << window.x << " x " << window.y << " at " << scale << panel << split);
+          const glm::vec2 picture(l.picture);
+          EXPECT_LE(picture.y + l.statusHeight, window.y + 0.1f);
+          if (panel && l.docked) {
+            EXPECT_FLOAT_EQ(picture.x + l.panel.x, window.x);
+          }
+          const bool over = panel && !l.docked;
+          const float panelLeft = over ? picture.x - l.margin - l.panel.x : picture.x;
+          const float figures = l.figures == FigureDetail::None ? 0.0f : l.margin + l.figuresMost.x;
+          EXPECT_LE(figures, panelLeft + 0.1f);
+          const float newsTop = picture.y - l.margin - l.newsMost.y;
+          const bool newsBeside = l.margin + l.newsMost.x <= panelLeft + 0.1f;
+          if (over && l.panel.y > 1.0f) {
+            EXPECT_TRUE(newsBeside || l.margin + l.panel.y <= newsTop + 0.1f);
+          }
+          const float sides = split ? 2.0f : 1.0f;
+          if (l.figures != FigureDetail::None) {
+            EXPECT_LE(sides * (l.margin + l.figuresMost.y), newsTop + 0.1f);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(WindowLayout, APanelThatLeavesTooLittleStandsOverThePicture) {
+  const auto docked = [](glm::vec2 window, float scale) {
+    return layoutOf(window, scale, {.panel = true}).docked;
+  };
+  EXPECT_TRUE(docked({1280, 720}, 1.0f));
+  EXPECT_FALSE(docked({1280, 720}, 2.0f));
+  EXPECT_FALSE(docked({640, 400}, 1.0f));
+  EXPECT_EQ(layoutOf({640, 400}, 1.0f, {.panel = true}).picture, glm::ivec2(640, 376));
+}
+
+TEST(WindowLayout, APictureAskedForHasItsSize) {
+  for (const float scale : {1.0f, 1.5f, 2.0f}) {
+    for (const bool panel : {false, true}) {
+      const glm::ivec2 window = windowFor({1600, 700}, scale, panel);
+      EXPECT_EQ(layoutOf(glm::vec2(window), scale, {.panel = panel}).picture, glm::ivec2(1600, 700));
+    }
+  }
+  EXPECT_TRUE(fitsPanel({928, 696}, 1.0f));
+  EXPECT_FALSE(fitsPanel({928, 696}, 2.0f));
+}
+
+TEST(WindowLayout, ThePanelKeepsAReadableWidth) {
+  EXPECT_EQ(layoutOf({1280, 720}, 1.0f, {.panel = true, .panelWidth = 500.0f}).panel.x, 500.0f);
+  EXPECT_EQ(layoutOf({1280, 720}, 1.0f, {.panel = true, .panelWidth = 1.0f}).panel.x,
+            readablePanelWidth(1.0f));
+  EXPECT_GE(readablePanelWidth(1.0f), 200.0f);
+  EXPECT_LE(readablePanelWidth(1e9f), 640.0f);
+}
+
+TEST(WindowLayout, LengthsGrowWithTheScale) {
+  const WindowLayout one = layoutOf({1280, 720}, 1.0f, {.panel = true});
+  const WindowLayout two = layoutOf({2560, 1440}, 2.0f, {.panel = true});
+  EXPECT_EQ(two.panel, 2.0f * one.panel);
+  EXPECT_EQ(two.newsMost, 2.0f * one.newsMost);
+  EXPECT_EQ(two.figures, one.figures);
+}
+
+}  // namespace
+}  // namespace fragtrace

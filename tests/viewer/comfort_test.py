@@ -1,0 +1,274 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What makes the viewer pleasant: the first picture, the docked panel, undo, views with a name, comparison, enlarged pixels, help."""
+import shlex
+import subprocess
+import time
+
+from animation_test import animated
+from clipboard import clipboard_text
+from support import FRAGTRACE, SCENES, Case, main, pixels_of
+
+SIZE = ["--resolution", "160,120"]
+FEW = [*SIZE, "--spp", "4"]
+PANEL = ["--resolution", "640,700", "--spp", "1", "--stage", "flat"]
+
+
+def copied_command(case, viewer):
+    viewer.key("ctrl+c")
+    viewer.until(lambda s: any("copied" in m for m in s["messages"]), "copied")
+    return shlex.split(clipboard_text(case.screen))
+
+
+class FirstPicture(Case):
+    def test_a_model_alone_is_seen_from_the_side_in_the_studio_and_the_command_draws_the_same(self):
+        viewer = self.view(animated(self.folder), *FEW, "--default-light", "studio")
+        status = viewer.rest()
+        position = [float(v) for v in shlex.split(status["camera"])[1].split(",")]
+        self.assertGreater(position[0], 0)  # from the right,
+        self.assertGreater(position[1], 0)  # and from above
+        shown = pixels_of(viewer.press_for_file("F12", ".png"))
+        words = copied_command(self, viewer)
+        self.assertEqual(words[words.index("--default-light") + 1], "studio")
+        words[words.index("--output") + 1] = str(self.folder / "command.png")
+        subprocess.run([FRAGTRACE, *words[1:], "--quiet"], check=True, cwd=self.folder, timeout=300)
+        self.same(shown, pixels_of(self.folder / "command.png"))
+        self.ends_well(viewer, viewer.close())
+
+    def test_cameras_and_lights_of_the_file_stay(self):
+        viewer = self.view("lights", *FEW, "--default-light", "studio")
+        words = copied_command(self, viewer)
+        self.assertNotIn("--default-light", words)
+        self.same(pixels_of(viewer.press_for_file("F12", ".png")), pixels_of(self.render("lights", *SIZE, "--spp", 4)))
+        self.ends_well(viewer, viewer.close())
+
+
+class Panel(Case):
+    def test_the_picture_has_what_the_panel_leaves(self):
+        viewer = self.view("furnace", *PANEL)
+        status = viewer.rest(lambda s: "panel" in s["places"])
+        self.assertEqual((status["width"], status["height"]), (640, 700))
+        left, _, width, _ = status["places"]["panel"]
+        self.assertEqual(left, 640)
+        viewer.drag((left + 2, 300), (left - 100, 300))
+        status = viewer.rest(lambda s: s["places"]["panel"][2] == width + 100, "a wider panel")
+        self.assertEqual(status["width"], 540)
+        viewer.key("Tab")
+        viewer.rest(lambda s: s["width"] == 640 + width, "all of the window")
+        self.assertNotIn("panel", viewer.status()["places"])
+        self.ends_well(viewer, viewer.close())
+
+    def test_presets_and_the_status_bar(self):
+        viewer = self.view("furnace", *PANEL)
+        for name, last in (("Phong", "normal-maps"), ("Path traced", "gi"), ("Preview", "phong")):
+            viewer.click(name)
+            status = viewer.rest(lambda s: s["sides"][0]["stages"][-1] != "x" and last in s["sides"][0]["stages"], name)
+        self.assertNotIn("shadows", status["sides"][0]["stages"])
+        self.assertIn("finished; 1 sample per pixel", status["status"])
+        self.assertIn("640 x 700", status["status"])
+        viewer.at(320, 350)
+        status = viewer.until(lambda s: "320, 350: " in s["status"], "the pixel")
+        self.ends_well(viewer, viewer.close())
+
+    def test_an_environment_is_chosen(self):
+        viewer = self.view("furnace", *PANEL)
+        before = viewer.rest()
+        viewer.click("Environment")
+        viewer.until(lambda s: s["focus"] == "popup", "the list")
+        viewer.click("environment sky.pfm")
+        status = viewer.rest(lambda s: s["environment"].endswith("sky.pfm"), "chosen")
+        self.assertEqual(status["camera"], before["camera"])
+        self.ends_well(viewer, viewer.close())
+
+
+class Undo(Case):
+    def test_camera_and_settings_go_back_and_forth(self):
+        viewer = self.view("sphere-phong", *FEW)
+        first = viewer.rest()
+        viewer.drag((60, 60), (100, 75))
+        turned = viewer.rest(lambda s: s["camera"] != first["camera"])
+        viewer.key("F3")
+        viewer.rest(lambda s: "shadows" not in s["sides"][0]["stages"], "no shadows")
+        viewer.key("ctrl+z")
+        viewer.rest(lambda s: "shadows" in s["sides"][0]["stages"] and s["camera"] == turned["camera"], "shadows again")
+        viewer.key("ctrl+z")
+        viewer.rest(lambda s: s["camera"] == first["camera"], "the first view")
+        self.same(pixels_of(viewer.press_for_file("F12", ".png")), pixels_of(self.render("sphere-phong", *SIZE, "--spp", 4)))
+        viewer.key("ctrl+z")
+        viewer.until(lambda s: "nothing to undo" in s["messages"][-1], "no more")
+        viewer.key("ctrl+y")
+        viewer.rest(lambda s: s["camera"] == turned["camera"], "turned again")
+        viewer.key("ctrl+shift+z")
+        viewer.rest(lambda s: "shadows" not in s["sides"][0]["stages"], "no shadows again")
+        self.ends_well(viewer, viewer.close())
+
+    def test_views_with_a_name_are_kept(self):
+        options = ["--resolution", "640,800", "--spp", "1", "--stage", "flat"]
+        viewer = self.view("sphere-phong", *options)
+        viewer.click("Bookmark name")
+        viewer.until(lambda s: s["focus"] == "text", "a name")
+        viewer.xdotool("type", "left ear")
+        viewer.click("Keep view")
+        kept = viewer.until(lambda s: "view 0" in s["places"], "kept")["camera"]
+        self.assertIn("left ear", (self.folder / "state/fragtrace/viewer.json").read_text())
+        self.ends_well(viewer, viewer.close())
+        viewer = self.view("sphere-phong", *options)
+        viewer.drag((200, 300), (300, 350))
+        viewer.rest(lambda s: s["camera"] != kept, "moved")
+        viewer.click("view 0")
+        viewer.rest(lambda s: s["camera"] == kept, "back")
+        viewer.click("forget view 0")
+        viewer.until(lambda s: "view 0" not in s["places"], "forgotten")
+        self.assertNotIn("left ear", (self.folder / "state/fragtrace/viewer.json").read_text())
+        self.ends_well(viewer, viewer.close())
+
+
+class Compare(Case):
+    def test_one_side_the_other_and_their_difference(self):
+        viewer = self.view("plastics", *FEW, "--tone-map", "linear")
+        viewer.key("c")
+        viewer.rest(lambda s: len(s["sides"]) == 2 and all(side["samples"] == 4 for side in s["sides"]), "both")
+        viewer.key("u")
+        viewer.until(lambda s: s["comparison"] == "difference", "difference")
+        self.assertEqual(self.middle(viewer), [(0, 0, 0)] * 400)
+        viewer.key("r", "r")  # the right side is chosen with it
+        viewer.until(lambda s: s["comparison"] == "right", "the right side")
+        viewer.key("F9")
+        viewer.rest(lambda s: len(s["sides"]) == 2 and "energy-compensation" not in s["sides"][1]["stages"], "it differs")
+        pictures = {}
+        for name in ("left", "right"):
+            viewer.key("r")
+            viewer.until(lambda s: s["comparison"] == name, name)
+            pictures[name] = self.middle(viewer)
+        self.assertNotEqual(*pictures.values())
+        viewer.key("u")
+        viewer.until(lambda s: s["comparison"] == "difference", "difference")
+        self.assertTrue(any(pixel != (0, 0, 0) for pixel in self.middle(viewer)))
+        viewer.key("i")
+        viewer.until(lambda s: s["comparison"] == "bar", "the bar")
+        self.ends_well(viewer, viewer.close())
+
+    def middle(self, viewer):
+        """A part of the picture that nothing is written over."""
+        time.sleep(0.3)
+        width, _, pixels = viewer.picture()
+        return [pixels[width * y + x] for y in range(40, 60) for x in range(40, 60)]
+
+
+class Pixels(Case):
+    def test_they_are_enlarged_about_the_cursor(self):
+        viewer = self.view("plastics", *FEW)
+        time.sleep(0.3)
+        width, height, plain = viewer.picture()
+        viewer.at(80, 60)
+        for _ in range(3):
+            viewer.key("equal")
+        viewer.until(lambda s: s["magnified"] == 8, "8 times")
+        time.sleep(0.3)
+        _, _, large = viewer.picture()
+        for y in range(20, 100, 8):  # each pixel is a square of 8 by 8
+            for x in range(0, 160, 8):
+                self.assertEqual(large[width * y + x + 3], plain[width * (60 + (y - 60) // 8) + 80 + (x + 3 - 80) // 8], (x, y))
+        viewer.key("Escape")
+        viewer.until(lambda s: s["magnified"] == 1, "as before")
+        self.ends_well(viewer, viewer.close())
+
+
+class Wheel(Case):
+    def test_it_zooms_to_the_cursor_and_sets_the_speed_of_flight(self):
+        viewer = self.view("sphere-plane", *FEW)
+        before = viewer.rest()
+        viewer.at(100, 70)
+        viewer.xdotool("click", 4)
+        status = viewer.rest(lambda s: s["camera"] != before["camera"], "nearer")
+        self.assertIn("--camera-focal-point", status["camera"])
+        speed = status["fly_speed"]
+        viewer.xdotool("keydown", "w")
+        viewer.xdotool("click", 4)
+        viewer.until(lambda s: s["fly_speed"] > speed, "faster")
+        viewer.xdotool("keyup", "w")
+        self.ends_well(viewer, viewer.close())
+
+
+class Selection(Case):
+    AMBER = (255, 194, 89)
+
+    def amber(self, viewer, plain):
+        """Pixels of about that colour, which were another before: the edges of lines blend with what is behind."""
+        return sum(pixel != before and max(abs(a - b) for a, b in zip(pixel, self.AMBER)) < 60
+                   for pixel, before in zip(viewer.picture()[2], plain))
+
+    def test_what_was_clicked_on_is_boxed_and_framed(self):
+        viewer = self.view("plastics", "--resolution", "640,480", "--spp", "1", "--stage", "flat")
+        first = viewer.rest()
+        time.sleep(0.3)
+        plain = viewer.picture()[2]
+        self.assertIsNone(first["selected"])
+        viewer.at(60, 240)
+        viewer.xdotool("click", 1)
+        box = viewer.rest(lambda s: s["selected"], "selected")["selected"]
+        self.assertTrue(all(a < b for a, b in zip(box, box[3:])))
+        time.sleep(0.3)
+        self.assertGreater(self.amber(viewer, plain), 100)
+        viewer.key("f")
+        framed = viewer.rest(lambda s: s["camera"] != first["camera"], "framed")
+        self.assertEqual(framed["selected"], box)
+        words = shlex.split(framed["camera"])
+        focal = [float(v) for v in words[words.index("--camera-focal-point") + 1].split(",")]
+        for axis in range(3):
+            self.assertAlmostEqual(focal[axis], 0.5 * (box[axis] + box[axis + 3]), places=5)
+        viewer.key("shift+f")
+        viewer.rest(lambda s: s["camera"] != framed["camera"], "all of it")
+        viewer.click("close news")
+        viewer.rest(lambda s: s["selected"] is None, "nothing is selected")
+        time.sleep(0.3)
+        viewer.key("Return")
+        viewer.rest(lambda s: s["camera"] == first["camera"], "the first view")
+        time.sleep(0.3)
+        self.assertEqual(self.amber(viewer, plain), 0)
+        self.ends_well(viewer, viewer.close())
+
+
+class Preview(Case):
+    def test_a_quick_picture_comes_before_the_one_that_was_asked_for(self):
+        self.screen.environment["MESA_SHADER_CACHE_DISABLE"] = "true"  # or nothing takes long enough to be seen
+        self.addCleanup(self.screen.environment.pop, "MESA_SHADER_CACHE_DISABLE")
+        viewer = self.view("plastics", *FEW, wait=False)
+        viewer.window()
+        seen = []
+        viewer.until(lambda s: seen.append(tuple(side["variant"] for side in s.get("sides", []))) or s["state"] == "resting", "rest")
+        quick = [variants[0] for variants in seen if variants and variants[0]]
+        self.assertIn("phong", quick[0])
+        self.assertNotIn("gi", quick[0].split("+"))
+        self.assertIn("gi", quick[-1].split("+"))
+        self.same(pixels_of(viewer.press_for_file("F12", ".png")), pixels_of(self.render("plastics", *SIZE, "--spp", 4)))
+        self.ends_well(viewer, viewer.close())
+
+
+class Help(Case):
+    def test_the_sheet_is_searched_and_the_window_fills_the_screen(self):
+        viewer = self.view("furnace", "--resolution", "500,300", "--spp", "1")
+        for key in ("h", "F1", "question"):
+            viewer.key(key)
+            viewer.until(lambda s: s["sheet"], key)
+            viewer.key(key)
+            viewer.until(lambda s: not s["sheet"], f"{key} again")
+        viewer.key("h")
+        everything = viewer.until(lambda s: s["sheet_lines"] > 20, "all lines")["sheet_lines"]
+        viewer.click("Search")
+        viewer.until(lambda s: s["focus"] == "text", "a field to type in")
+        viewer.xdotool("type", "TONE")
+        viewer.until(lambda s: s["sheet_lines"] == 1, f"one of {everything} lines")
+        viewer.at(5, 5)
+        viewer.xdotool("click", 1)
+        viewer.key("Escape")
+        viewer.until(lambda s: not s["sheet"], "no sheet")
+        viewer.key("F11")
+        viewer.rest(lambda s: s["fullscreen"] and s["width"] == 1400, "all of the screen")
+        viewer.key("Escape")
+        viewer.rest(lambda s: not s["fullscreen"] and s["width"] == 500, "a window again")
+        self.ends_well(viewer, viewer.close())
+
+
+if __name__ == "__main__":
+    main()
