@@ -44,6 +44,13 @@ void checkGl(const char* where) {
   throw RenderError(message);
 }
 
+int64_t driverLimit(GLenum name) {
+  GLint64 value = 0;
+  glGetInteger64v(name, &value);
+  checkGl("asking for a limit of the driver");
+  return value;
+}
+
 GlBuffer makeBuffer() {
   GLuint name = 0;
   glCreateBuffers(1, &name);

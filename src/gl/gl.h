@@ -12,6 +12,9 @@ namespace fragtrace {
 /// Throws RenderError naming `where` and every pending OpenGL error; ContextLost if the context is.
 void checkGl(const char* where);
 
+/// A limit of the driver, such as GL_MAX_TEXTURE_SIZE. Throws as checkGl(): a lost context says 0.
+int64_t driverLimit(GLenum name);
+
 /// An OpenGL object's name, released by its owner; move-only.
 template <void (*Release)(GLuint)>
 class GlHandle {

@@ -13,12 +13,6 @@ bool hasTwoWords(uint32_t binding) { return binding == layout::kTexelsBinding; }
 
 int64_t texelBytes(uint32_t binding) { return hasTwoWords(binding) ? 8 : 16; }
 
-GLint64 limit(GLenum name) {
-  GLint64 value = 0;
-  glGetInteger64v(name, &value);
-  return value;
-}
-
 int64_t mostBytes(BufferReads reads, uint32_t binding, const ReadLimits& limits) {
   return reads == BufferReads::Ssbo ? limits.storageBytes : limits.texels * texelBytes(binding);
 }
@@ -45,8 +39,8 @@ std::string whatIsTooLarge(const GpuScene& scene, BufferReads reads, const ReadL
 }  // namespace
 
 ReadLimits readLimits() {
-  const ReadLimits limits{limit(GL_MAX_TEXTURE_BUFFER_SIZE), limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE),
-                          limit(GL_MAX_IMAGE_UNITS)};
+  const ReadLimits limits{driverLimit(GL_MAX_TEXTURE_BUFFER_SIZE), driverLimit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE),
+                          driverLimit(GL_MAX_IMAGE_UNITS)};
   checkGl("asking for the driver's limits");
   return limits;
 }

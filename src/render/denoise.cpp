@@ -214,8 +214,7 @@ VarianceFilter::VarianceFilter(const ShaderSource& source)
 
 std::optional<Image> VarianceFilter::filtered(const Image& noisy, const std::function<bool()>& goOn) const {
   const glm::ivec2 size(noisy.width, noisy.height);
-  GLint most = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  const int64_t most = driverLimit(GL_MAX_TEXTURE_SIZE);
   if (size.x > most || size.y > most) {
     throw RenderError("the picture is " + std::to_string(size.x) + " x " + std::to_string(size.y) +
                       " pixels, this driver filters at most " + std::to_string(most) + " a side");

@@ -18,11 +18,7 @@ constexpr const char* kLoading = "loading the film";
 
 }  // namespace
 
-int Film::mostSide() {
-  GLint most = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-  return most;
-}
+int Film::mostSide() { return int(driverLimit(GL_MAX_TEXTURE_SIZE)); }
 
 Film::Film(glm::ivec2 size) : size_(size) {
   const int most = mostSide();

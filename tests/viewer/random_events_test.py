@@ -50,7 +50,7 @@ class RandomEvents(Case):
         broken = self.folder / "broken.gltf"
         broken.write_text("{")
         self.drops = [*(SCENES / name for name in DROPS), moving, broken]
-        viewer = self.view("cornell-box", "--rendering-backend", "egl", "--resolution", "320,240", "--denoise", "variance", "--watch")
+        viewer = self.view("cornell-box", "--rendering-backend", "egl", "--resolution", "320,240", "--denoise", "variance", "--spp", "64", "--watch")
         acts = {self.press: 12, self.drag: 6, self.wheel: 3, self.click: 4, self.click_place: 6, self.drop: 2, self.resize: 1, self.lost: 0.3,
                 self.type: 1, self.breathe: 1}
         began = time.monotonic()
