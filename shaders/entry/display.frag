@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A traced picture as a display shows it: exposure, tone map and sRGB, as src/image/display/tone_map.cpp has them,
 // whose curves and sources these are. Coverage stays in alpha.
+#include "srgb.glsl"
+
 layout(binding = 0) uniform sampler2D traced;
 layout(location = 0) uniform float factor;  // 2^EV
 layout(location = 1) uniform int toneMap;   // in the order of ToneMap
@@ -50,11 +52,6 @@ vec3 mapped(vec3 color, int curve) {
   if (curve == 3) color = agx(color);
   if (curve == 4) color = neutral(color);
   return clamp(color, 0.0, 1.0);
-}
-
-vec3 encoded(vec3 linear) {
-  return mix(1.055 * pow(max(linear, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055, 12.92 * linear,
-             lessThanEqual(linear, vec3(0.0031308)));
 }
 
 void main() {

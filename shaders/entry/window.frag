@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The picture's part of the window: left of the bar one displayed picture, right of it the other, whatever their
 // resolutions; or how far two traced ones differ.
+#include "srgb.glsl"
+
 layout(binding = 0) uniform sampler2D leftPicture;
 layout(binding = 1) uniform sampler2D rightPicture;
 layout(location = 0) uniform vec2 pictureSize;  // pixels
@@ -10,12 +12,6 @@ layout(location = 3) uniform vec3 part;         // of the pictures that is shown
 layout(location = 4) uniform float difference;  // factor of the difference of radiances; 0: pictures are shown
 
 layout(location = 0) out vec4 shown;
-
-// sRGB, IEC 61966-2-1.
-vec3 encoded(vec3 linear) {
-  return mix(1.055 * pow(max(linear, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055, 12.92 * linear,
-             lessThanEqual(linear, vec3(0.0031308)));
-}
 
 void main() {
   // Pictures have their first row at the top.

@@ -132,7 +132,7 @@ class RandomEvents(Case):
         time.sleep(1)  # for a picture: the third loss without one between them ends the program, as it should
 
     def type(self, viewer):
-        viewer.xdotool("type", "--delay", 5, "".join(self.random.choices("abc 123.-é/", k=6)))
+        viewer.xdotool("type", "--delay", 5, "--", "".join(self.random.choices("abc 123.-é/", k=6)))
 
     def breathe(self, viewer):
         time.sleep(self.random.random() * 2)

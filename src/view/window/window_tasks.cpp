@@ -15,6 +15,10 @@ void Window::execute(const Task& task) {
   switch (task.errand) {
     case Errand::None:
       return;
+    case Errand::Reload:
+      // What could not be read may be mended by now.
+      if (state_.scene || !wanted_.scene.empty()) load(state_.scene ? state_.scene->options : wanted_);
+      return;
     case Errand::OpenFile:
       return openFiles({task.file});
     case Errand::CancelLoad:
@@ -58,8 +62,6 @@ void Window::executeOnScene(const Task& task) {
       return resetAll(state_, start_.options);
     case Errand::Load:
       return load(*task.load);
-    case Errand::Reload:
-      return load(state_.scene->options);
     case Errand::AddBookmark:
     case Errand::ShowBookmark:
     case Errand::RemoveBookmark:
