@@ -154,6 +154,8 @@ void ViewTracer::adoptScene() {
   viewed.defaultLight = !result->ownLight;
   viewed.map = loaded_->environment.kind == Surroundings::Map;
   viewed.environments = std::move(result->environments);
+  viewed.sceneNames = loaded_->scene.sceneNames;
+  viewed.materialVariants = loaded_->scene.materialVariants;
   viewed.animationNames = loaded_->scene.animationNames;
   viewed.animationSeconds = loaded_->scene.animationSeconds;
   exchange_.deliver(std::move(viewed));

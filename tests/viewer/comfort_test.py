@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """What makes the viewer pleasant: the first picture, the docked panel, undo, views with a name, comparison, enlarged pixels, help."""
+import json
 import shlex
 import subprocess
 import time
@@ -78,6 +79,32 @@ class Panel(Case):
         viewer.click("environment sky.pfm")
         status = viewer.rest(lambda s: s["environment"].endswith("sky.pfm"), "chosen")
         self.assertEqual(status["camera"], before["camera"])
+        self.ends_well(viewer, viewer.close())
+
+
+class Parts(Case):
+    def test_a_variant_and_a_scene_are_chosen(self):
+        path = animated(self.folder)
+        gltf = json.loads(path.read_text())
+        gltf["extensionsUsed"] = ["KHR_materials_variants"]
+        gltf["extensions"] = {"KHR_materials_variants": {"variants": [{"name": "red"}, {"name": "blue"}]}}
+        gltf["materials"].append({"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 1, 1]}})
+        gltf["meshes"][0]["primitives"][0]["extensions"] = {"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [1]}]}}
+        gltf["nodes"].append({"mesh": 0, "translation": [5, 0, 0]})
+        gltf["scenes"].append({"nodes": [1], "name": "aside"})
+        path.write_text(json.dumps(gltf))
+        viewer = self.view(path, *PANEL)
+        for name, down, option in (("Variant", 2, ["--material-variant", "1"]), ("Scene", 2, ["--scene", "1"])):
+            viewer.click(name)
+            viewer.until(lambda s: s["focus"] == "popup", "the list")
+            x, y, width, height = viewer.status()["places"][name]
+            viewer.at(round(x + 40), round(y + height + 8 + 20 * down + 8))
+            time.sleep(0.2)
+            viewer.xdotool("click", 1)
+            viewer.until(lambda s: s["focus"] == "picture", "chosen")
+            words = copied_command(self, viewer) if viewer.rest() else []
+            self.assertEqual(words[words.index(option[0]) + 1], option[1])
+            viewer.click("close news")
         self.ends_well(viewer, viewer.close())
 
 

@@ -232,6 +232,7 @@ Task drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
       return ImGui::CollapsingHeader(name, first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     };
     if (shownAnimation(state) >= 0 && open("Animation")) drawAnimation(state, places);
+    if (hasParts(state) && open("File")) part(drawParts(state, facts));
     if (open("Light and display")) part(drawLight(state, facts));
     if (open("Camera")) part(drawCamera(state, facts));
     if (open("Stages")) drawStages(state, true);

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Which of the file's scenes and material variants are shown.
+#include "view/window/panel_parts.h"
+#include "view/window/text.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// A list of parts of the file, after what stands for none of them. The one that was chosen, as the command
+/// line names it.
+std::optional<std::string> choosePart(const char* id, const char* none, const std::vector<std::string>& names,
+                                      const std::string& current) {
+  const auto nameOf = [&](size_t i) {
+    return std::to_string(i) + (names[i].empty() ? "" : ": " + shownText(names[i], kMostNameCharacters));
+  };
+  const auto isCurrent = [&](size_t i) {
+    return !current.empty() && (names[i] == current || std::to_string(i) == current);
+  };
+  std::string shown = none;
+  for (size_t i = names.size(); i-- > 0;) shown = isCurrent(i) ? nameOf(i) : shown;
+  std::optional<std::string> chosen;
+  if (!ImGui::BeginCombo(id, shown.c_str())) return chosen;
+  if (ImGui::Selectable(none, shown == none)) chosen = "";
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (ImGui::Selectable(nameOf(i).c_str(), isCurrent(i))) chosen = std::to_string(i);
+  }
+  ImGui::EndCombo();
+  return chosen;
+}
+
+}  // namespace
+
+bool hasParts(const ViewState& state) {
+  return state.scene->sceneNames.size() > 1 || !state.scene->materialVariants.empty();
+}
+
+Task drawParts(ViewState& state, ViewFacts& facts) {
+  const ViewedScene& scene = *state.scene;
+  Task task;
+  const auto choose = [&](const char* name, const char* id, const char* none,
+                          const std::vector<std::string>& names, std::string SceneSelection::* part) {
+    label(facts.places, name);
+    const std::string& current = scene.options.selection.*part;
+    const std::optional<std::string> chosen = choosePart(id, none, names, current);
+    if (!chosen || *chosen == current) return;
+    task.errand = Errand::Load;
+    task.load = scene.options;
+    task.load->selection.*part = *chosen;
+  };
+  if (scene.sceneNames.size() > 1)
+    choose("Scene", "##scene", "the file's own choice", scene.sceneNames, &SceneSelection::scene);
+  if (!scene.materialVariants.empty())
+    choose("Variant", "##variant", "none", scene.materialVariants, &SceneSelection::materialVariant);
+  return task;
+}
+
+}  // namespace fragtrace
