@@ -39,8 +39,8 @@ std::string whatIsTooLarge(const GpuScene& scene, BufferReads reads, const ReadL
 }  // namespace
 
 ReadLimits readLimits() {
-  const ReadLimits limits{driverLimit(GL_MAX_TEXTURE_BUFFER_SIZE), driverLimit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE),
-                          driverLimit(GL_MAX_IMAGE_UNITS)};
+  const ReadLimits limits{driverLimit(GL_MAX_TEXTURE_BUFFER_SIZE),
+                          driverLimit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE), driverLimit(GL_MAX_IMAGE_UNITS)};
   checkGl("asking for the driver's limits");
   return limits;
 }

@@ -69,7 +69,7 @@ class ViewTracer {
   RenderOptions withFilter(RenderOptions options);
   void adoptSide(Side& side, const RenderOptions& options);
   void preview(Side& side);
-  View viewOf(const RenderOptions& options) const;
+  View viewOf(const RenderOptions& options);
   std::shared_ptr<ViewProgram> programFor(const RenderOptions& options);
   /// A film of the size that is drawn at now; empty, if it was of another.
   void fitFilm(Side& side);

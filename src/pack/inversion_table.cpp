@@ -37,7 +37,7 @@ std::vector<uint64_t> numbersOf(std::span<const float> weights, double sum, uint
   for (size_t i = 0; i < weights.size(); ++i) {
     before += double(weights[i]);
     more += weights[i] > 0.0f ? 1 : 0;
-    numbers[i + 1] = uint64_t(int64_t(before * scale + 0.5)) + more;
+    numbers[i + 1] = uint64_t(int64_t(std::floor(before * scale + 0.5))) + more;
   }
   numbers.back() = count;
   return numbers;

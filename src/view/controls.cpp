@@ -37,6 +37,12 @@ glm::dvec2 fromMiddle(const ViewState& state, const Movement& m) {
   return {(2.0 * place.x - 1.0) * aspectRatio, 1.0 - 2.0 * place.y};
 }
 
+/// What was clicked on, or the whole scene.
+void frame(ViewState& state, bool selection) {
+  const BoundsDouble& bounds = selection ? state.selected : state.scene->bounds;
+  setPose(state, frameAll(state.pose, bounds, double(state.size.x) / state.size.y));
+}
+
 CameraPose standardView(const CameraPose& pose, StandardViewOf view) {
   switch (view) {
     case StandardViewOf::Front:
@@ -96,17 +102,14 @@ bool moveCamera(ViewState& state, const Control& control, const Movement& m) {
       setPose(state, fly(pose, {0, 0, fly_}));
       return true;
     case Action::FrameAll:
-      if (state.scene) {
-        const bool part = argument == 0 && !state.selected.empty();
-        const BoundsDouble& bounds = part ? state.selected : state.scene->bounds;
-        setPose(state, frameAll(pose, bounds, double(state.size.x) / state.size.y));
-      }
+      if (state.scene) frame(state, argument == 0 && !state.selected.empty());
       return true;
     case Action::ResetCamera:
       resetCamera(state);
       return true;
     case Action::StandardView:
       setPose(state, standardView(pose, StandardViewOf(control.argument)));
+      if (state.scene) frame(state, !state.selected.empty());
       return true;
     case Action::Elevate:
       setPose(state, orbit(pose, 0.0, 0.5 * kHalfTurn * argument));

@@ -70,7 +70,7 @@ struct ViewedScene {
   bool defaultLight = false;                        ///< it has no light of its own
   bool map = false;                                 ///< an environment map lights it
   std::vector<std::filesystem::path> environments;  ///< files near it that may
-  std::vector<std::string> sceneNames;  ///< as in Scene, as are the next three
+  std::vector<std::string> sceneNames;              ///< as in Scene, as are the next three
   std::vector<std::string> materialVariants;
   std::vector<std::string> animationNames;
   std::vector<std::optional<double>> animationSeconds;

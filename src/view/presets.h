@@ -18,7 +18,7 @@ struct Preset {
 inline constexpr std::array kPresets{
     Preset{"Preview", Stage::Phong,
            "Blinn-Phong shading without shadows: the fastest picture that shows the shape"},
-    Preset{"Phong", Stage::NormalMaps, "Blinn-Phong with shadows, mirrors, glass and normal maps: no noise"},
+    Preset{"Phong", Stage::NormalMaps, "Blinn-Phong with shadows, mirrors, glass and normal maps"},
     Preset{"Path traced", Stage::Gi, "physically based materials and light: noisy at first, then exact"}};
 
 /// Whether the cumulative stages are those of the preset; other switches do not matter.

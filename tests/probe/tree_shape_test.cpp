@@ -83,7 +83,7 @@ class TreeShapes : public GlProbe {
                      ? glm::dvec3(view_.background)
                      : glm::dvec3(scene_.materials[scene_.triangles[hit.primitive].material].baseColorFactor);
         }
-        const FilmPixel& p = film.pixels[size_t(y * size_.x + x)];
+        const FilmPixel& p = film.pixels[size_t(y) * size_t(size_.x) + size_t(x)];
         apart += glm::length(p.sum - sum);
       }
     }

@@ -125,8 +125,7 @@ TEST(DebugPicture, VisitsKeepTheirNumbers) {
 }
 
 TEST(DebugViews, RowsStandInTheirOrder) {
-  for (size_t i = 0; i < kDebugViewRows.size(); ++i) {
-    const DebugViewRow& row = kDebugViewRows[i];
+  for (const DebugViewRow& row : kDebugViewRows) {
     EXPECT_FALSE(row.label.empty());
     // A view of a layer has the layer's name.
     if (row.feature != Feature::None) {

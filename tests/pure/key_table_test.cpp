@@ -76,10 +76,12 @@ TEST(KeyTable, KeysAreThoseOfF3d) {
   EXPECT_EQ(does(Gesture::Drag, mouse::kRight, 0), int(Action::Zoom));
   EXPECT_EQ(does(Gesture::Drag, mouse::kRight, kShiftModifier), int(Action::RotateEnvironment));
   EXPECT_EQ(does(Gesture::Click, mouse::kMiddle, 0), int(Action::CenterOn));
-  for (const int digit : {'1', '3', '7', '9'})
+  for (const int digit : {int('1'), int('3'), int('7'), int('9')})
     EXPECT_EQ(does(Gesture::Press, digit, 0), int(Action::StandardView));
-  for (const int digit : {'2', '8'}) EXPECT_EQ(does(Gesture::Press, digit, 0), int(Action::Elevate));
-  for (const int digit : {'4', '6'}) EXPECT_EQ(does(Gesture::Press, digit, 0), int(Action::RollQuarter));
+  for (const int digit : {int('2'), int('8')})
+    EXPECT_EQ(does(Gesture::Press, digit, 0), int(Action::Elevate));
+  for (const int digit : {int('4'), int('6')})
+    EXPECT_EQ(does(Gesture::Press, digit, 0), int(Action::RollQuarter));
   EXPECT_EQ(does(Gesture::Press, '5', 0), int(Action::OtherProjection));
   EXPECT_EQ(does(Gesture::Press, key::kEnter, 0), int(Action::ResetCamera));
   EXPECT_EQ(does(Gesture::Press, 'H', 0), int(Action::ToggleSheet));

@@ -37,6 +37,7 @@ TEST(Summary, OneValueHasNoDeviationAndNoneAreZero) {
 TEST(LogLogSlope, IsTheExponentOfAPower) {
   const std::vector<double> xs{1, 2, 8, 100};
   std::vector<double> ys;
+  ys.reserve(xs.size());
   for (const double x : xs) ys.push_back(3 * std::pow(x, -0.5));
   EXPECT_NEAR(logLogSlope(xs, ys), -0.5, 1e-12);
 }

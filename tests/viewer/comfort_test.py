@@ -152,7 +152,7 @@ class Undo(Case):
 
 class Compare(Case):
     def test_one_side_the_other_and_their_difference(self):
-        viewer = self.view("plastics", *FEW, "--tone-map", "linear")
+        viewer = self.view("plastics", "--resolution", "640,480", "--spp", "4", "--tone-map", "linear")
         viewer.key("c")
         viewer.rest(lambda s: len(s["sides"]) == 2 and all(side["samples"] == 4 for side in s["sides"]), "both")
         viewer.key("u")
@@ -170,6 +170,8 @@ class Compare(Case):
         self.assertNotEqual(*pictures.values())
         viewer.key("u")
         viewer.until(lambda s: s["comparison"] == "difference", "difference")
+        viewer.at(50, 50)
+        viewer.until(lambda s: "|A - B| 50, 50: " in s["status"], "the difference under the cursor")
         self.assertTrue(any(pixel != (0, 0, 0) for pixel in self.middle(viewer)))
         viewer.key("i")
         viewer.until(lambda s: s["comparison"] == "bar", "the bar")
@@ -179,7 +181,7 @@ class Compare(Case):
         """A part of the picture that nothing is written over."""
         time.sleep(0.3)
         width, _, pixels = viewer.picture()
-        return [pixels[width * y + x] for y in range(40, 60) for x in range(40, 60)]
+        return [pixels[width * y + x] for y in range(230, 250) for x in range(90, 110)]  # of a ball
 
 
 class Pixels(Case):
@@ -290,10 +292,11 @@ class Help(Case):
         viewer.xdotool("click", 1)
         viewer.key("Escape")
         viewer.until(lambda s: not s["sheet"], "no sheet")
+        viewer.key("alt+c", "super+c")
         viewer.key("F11")
         viewer.rest(lambda s: s["fullscreen"] and s["width"] == 1400, "all of the screen")
         viewer.key("Escape")
-        viewer.rest(lambda s: not s["fullscreen"] and s["width"] == 500, "a window again")
+        self.assertFalse(viewer.rest(lambda s: not s["fullscreen"] and s["width"] == 500, "a window again")["split"])
         self.ends_well(viewer, viewer.close())
 
 

@@ -158,6 +158,8 @@ class Overlaps(Case):
         viewer.at(200, 300)
         viewer.xdotool("click", 1)  # what is said of it does not fade
         viewer.key("z")
+        viewer.xdotool("windowsize", "--sync", viewer.id, 1280, 720)
+        viewer.until(lambda s: s["places"].get("status", [0] * 4)[2] == 1280, "the size")
         self.everything(viewer, (1280, 720), ("figures0", "figures1"))
         self.assertEqual(self.panel_width, 352 * self.scale)
         viewer.xdotool("windowsize", "--sync", viewer.id, 480, 320)

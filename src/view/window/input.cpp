@@ -29,6 +29,14 @@ bool repeats(Action action) {
   return action == Action::Exposure || action == Action::Widen || action == Action::TreeLevel;
 }
 
+/// Keys change nothing that cannot be seen: no scene is shown, or the sheet covers it.
+bool isUsable(const ViewState& state, const Control& control) {
+  if (state.scene && !state.sheet) return true;
+  const Action a = control.action;
+  return a == Action::ToggleSheet || a == Action::Close || a == Action::Quit || a == Action::Fullscreen ||
+         (a == Action::Reload && !state.sheet);
+}
+
 }  // namespace
 
 Input::Input(GLFWwindow* window) : window_(window) {
@@ -128,16 +136,19 @@ void Input::key(const Event& event, ViewState& state, const RunTask& run) {
     std::erase_if(held_, [&](const Control* c) { return c->code == event.code; });
     return;
   }
+  // Shortcuts of the desktop.
+  if ((event.modifiers & (GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0) return;
   const int modifiers = event.modifiers & (GLFW_MOD_SHIFT | GLFW_MOD_CONTROL);
   const Control* hold = controlFor(Gesture::Hold, event.code, modifiers & ~kShiftModifier);
-  if (hold && event.action == GLFW_PRESS) {
+  if (hold && event.action == GLFW_PRESS && isUsable(state, *hold)) {
     // The first moment counts, however soon the key is released.
     apply(state, *hold, {.seconds = hurry() * kFirstFrame});
     lastUpdate_ = glfwGetTime();
     held_.push_back(hold);
   }
   const Control* control = controlFor(Gesture::Press, event.code, modifiers);
-  if (!control || (event.action == GLFW_REPEAT && !repeats(control->action))) return;
+  if (!control || !isUsable(state, *control)) return;
+  if (event.action == GLFW_REPEAT && !repeats(control->action)) return;
   if (control->action == Action::Close && Interface::closePopup()) return;
   const Errand errand = apply(state, *control, {.place = place()});
   if (errand != Errand::None) run({errand, place()});

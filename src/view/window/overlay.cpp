@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <ranges>
 
 #include "view/presets.h"
 #include "view/progress.h"
@@ -93,14 +94,15 @@ bool closeButton(Places& places, const std::string& name) {
   return pressed;
 }
 
-void drawNewsLines(const ViewState& state, const ViewFacts& facts, double now) {
+void drawNewsLines(const ViewFacts& facts, double now) {
   if (!facts.note.empty())
-    drawText(facts.note + (state.scene ? " (the last picture stays meanwhile)" : ""), kMostLineCharacters);
-  for (auto m = facts.messages.rbegin(); m != facts.messages.rend(); ++m) {
-    const float opacity = float(opacityOf(*m, now));
+    drawText(facts.note + (facts.pictureSize[0].x > 0 ? " (the last picture stays meanwhile)" : ""),
+             kMostLineCharacters);
+  for (const Message& message : std::views::reverse(facts.messages)) {
+    const float opacity = float(opacityOf(message, now));
     if (opacity <= 0.0f) continue;
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, opacity);
-    drawText(lineOf(*m), kMostLineCharacters);
+    drawText(lineOf(message), kMostLineCharacters);
     ImGui::PopStyleVar();
   }
   if (!facts.pick) return;
@@ -108,7 +110,7 @@ void drawNewsLines(const ViewState& state, const ViewFacts& facts, double now) {
 }
 
 /// The latest news at the bottom left, the newest above.
-Errand drawNews(const ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now) {
+Errand drawNews(ViewFacts& facts, const WindowLayout& layout, double now) {
   const bool seen = !std::isinf(secondsToFade(facts.messages, now));
   if (facts.note.empty() && !seen && !facts.pick) return Errand::None;
   Errand errand = Errand::None;
@@ -121,7 +123,7 @@ Errand drawNews(const ViewState& state, ViewFacts& facts, const WindowLayout& la
     const bool close = (seen || facts.pick) && closeButton(facts.places, "news");
     ImGui::BeginGroup();
     ImGui::PushTextWrapPos(layout.newsMost.x - style.WindowPadding.x - style.ScrollbarSize);
-    drawNewsLines(state, facts, now);
+    drawNewsLines(facts, now);
     ImGui::PopTextWrapPos();
     ImGui::EndGroup();
     addWindowPlace(facts.places, "news");
@@ -174,7 +176,7 @@ Task drawWelcome(ViewFacts& facts, const WindowLayout& layout) {
   if (ImGui::Begin("welcome", nullptr, kPageFlags)) {
     addWindowPlace(facts.places, "welcome");
     ImGui::TextUnformatted("Drop a model here");
-    ImGui::TextDisabled(".gltf or .glb; with it, or later, an environment: .hdr, .exr or .pfm");
+    ImGui::TextDisabled(".gltf or .glb; with it, or later, an environment: .hdr, .exr or .pfm. H: help");
     if (!facts.remembered.recent.empty()) {
       ImGui::Separator();
       ImGui::TextDisabled("Shown before");
@@ -257,7 +259,7 @@ Task drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout,
   if (state.split && state.comparison == Comparison::Bar) drawBar(state, layout);
   if (state.split) drawSideNames(state, facts, layout);
   if (state.figures && state.scene) drawFigures(state, facts, layout);
-  task.errand = drawNews(state, facts, layout, now);
+  task.errand = drawNews(facts, layout, now);
   if (!state.scene && !facts.load.busy) task = drawWelcome(facts, layout);
   if (!facts.error.empty() && !facts.errorClosed) drawError(facts, layout);
   drawStatusBar(state, facts, layout);

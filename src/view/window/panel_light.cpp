@@ -88,11 +88,14 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
         side.backgroundColor = glm::clamp(color, glm::vec3(0.0f), glm::vec3(kMostColor));
     addItemPlace(places, "Background colour");
   }
-  bool ground = o.shadowCatcher;
+  const bool paths = has(state.options().stages, Stage::Gi);
+  bool ground = o.shadowCatcher && paths;
+  ImGui::BeginDisabled(!paths);
   if (ImGui::Checkbox("Ground that shows shadows alone", &ground))
     apply(state, *controlOf(Action::ToggleGround), {});
+  ImGui::EndDisabled();
   addItemPlace(places, "Ground");
-  dimAtEnd(keyOf(Action::ToggleGround));
+  dimAtEnd(paths ? keyOf(Action::ToggleGround) : "only path traced");
   return task;
 }
 

@@ -39,7 +39,7 @@ Task drawParts(ViewState& state, ViewFacts& facts) {
   const ViewedScene& scene = *state.scene;
   Task task;
   const auto choose = [&](const char* name, const char* id, const char* none,
-                          const std::vector<std::string>& names, std::string SceneSelection::* part) {
+                          const std::vector<std::string>& names, std::string SceneSelection::*part) {
     label(facts.places, name);
     const std::string& current = scene.options.selection.*part;
     const std::optional<std::string> chosen = choosePart(id, none, names, current);

@@ -52,16 +52,30 @@ std::vector<std::string> progressTexts(const ViewState& state, const ViewFacts& 
   return texts;
 }
 
-/// The pixel under the cursor and what it holds: linear red, green and blue.
-std::string pixelText(const ViewState& state, const ViewFacts& facts) {
-  if (!facts.cursor) return "";
-  const Image& image = facts.pictures[sideAt(state, *facts.cursor)];
-  if (image.width <= 0 || image.height <= 0) return "";
-  const glm::dvec2 place = magnifiedPlace(state, *facts.cursor);
+/// What a side's picture holds at a place: linear red, green and blue.
+glm::dvec3 valueAt(const Image& image, const glm::dvec2& place) {
   const glm::ivec2 size(image.width, image.height);
   const glm::ivec2 pixel = glm::clamp(glm::ivec2(place * glm::dvec2(size)), glm::ivec2(0), size - 1);
-  const float* value = &image.values[(size_t(pixel.y) * image.width + pixel.x) * image.channelCount()];
-  return printed("%d, %d: %.4g %.4g %.4g", pixel.x, pixel.y, value[0], value[1], value[2]);
+  const float* value =
+      &image.values[(size_t(pixel.y) * size_t(size.x) + size_t(pixel.x)) * image.channelCount()];
+  return {value[0], value[1], value[2]};
+}
+
+/// The pixel under the cursor, of the picture at its full resolution, and what it holds.
+std::string pixelText(const ViewState& state, const ViewFacts& facts) {
+  if (!facts.cursor) return "";
+  const auto& pictures = facts.pictures;
+  const bool difference = state.split && state.comparison == Comparison::Difference;
+  const size_t side = difference ? 0 : sideAt(state, *facts.cursor);
+  if (pictures[side].width <= 0 || (difference && pictures[1].width <= 0)) return "";
+  // The middle of the pixel, since places of whole pixels are rounded.
+  const glm::dvec2 place = magnifiedPlace(state, *facts.cursor + 0.5 / glm::dvec2(state.size));
+  const glm::ivec2 pixel =
+      glm::clamp(glm::ivec2(place * glm::dvec2(state.size)), glm::ivec2(0), state.size - 1);
+  glm::dvec3 value = valueAt(pictures[side], place);
+  if (difference) value = glm::abs(value - valueAt(pictures[1], place));
+  const char* name = !state.split ? "" : difference ? "|A - B| " : side == 0 ? "A " : "B ";
+  return printed("%s%d, %d: %.4g %.4g %.4g", name, pixel.x, pixel.y, value.x, value.y, value.z);
 }
 
 }  // namespace
@@ -90,7 +104,8 @@ void drawStatusBar(const ViewState& state, ViewFacts& facts, const WindowLayout&
                        {kProgressWidth * layout.scale, height}, word.c_str());
     ImGui::PopStyleVar();
     float end = ImGui::GetItemRectMax().x;
-    const std::string pixel = known ? pixelText(state, facts) : "";
+    std::string pixel = known ? pixelText(state, facts) : "";
+    if (pixel.empty()) pixel = "H: help";
     const float room = display.x - layout.margin -
                        (pixel.empty() ? 0.0f : ImGui::CalcTextSize(pixel.c_str()).x + kGap * layout.scale);
     facts.status = word;

@@ -32,22 +32,35 @@ float primaryScale(GLFWmonitor* monitor) {
   return displayScale(scale);
 }
 
-/// Whether the panel stands beside a picture of that size at first: where both fit on the screen.
-bool startsWithPanel(const RenderOptions& options) {
+/// What a window can have of the screen; 0: not known.
+glm::ivec2 screenRoom() {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
-  const float scale = primaryScale(monitor);
-  const glm::ivec2 picture = options.resolution.value_or(kWindowSize);
   glm::ivec2 corner(0);
   glm::ivec2 room(0);
   if (monitor) glfwGetMonitorWorkarea(monitor, &corner.x, &corner.y, &room.x, &room.y);
-  const glm::ivec2 window = options.resolution ? windowFor(picture, scale, true) : picture;
-  return fitsPanel(glm::vec2(picture), scale) && glm::all(glm::lessThanEqual(window, room));
+  return room;
 }
 
-/// A given resolution is that of the picture; else the window has the standard size.
+/// The window without a given resolution: as large on every display, if that has room.
+glm::ivec2 standardSize(float scale) {
+  const glm::ivec2 room = screenRoom();
+  const glm::ivec2 wanted(glm::round(glm::vec2(kWindowSize) * std::max(scale, 1.0f)));
+  return room.x > 0 && room.y > 0 ? glm::min(wanted, glm::max(room, kWindowSize)) : kWindowSize;
+}
+
+/// Whether the panel stands beside the picture at first: where both fit on the screen.
+bool startsWithPanel(const RenderOptions& options) {
+  const float scale = primaryScale(glfwGetPrimaryMonitor());
+  if (!options.resolution) return layoutOf(glm::vec2(standardSize(scale)), scale, {.panel = true}).docked;
+  const bool fits = glm::all(glm::lessThanEqual(windowFor(*options.resolution, scale, true), screenRoom()));
+  return fits && fitsPanel(glm::vec2(*options.resolution), scale);
+}
+
+/// A given resolution is that of the picture.
 glm::ivec2 startSize(const RenderOptions& options) {
-  if (!options.resolution) return kWindowSize;
-  return windowFor(*options.resolution, primaryScale(glfwGetPrimaryMonitor()), startsWithPanel(options));
+  const float scale = primaryScale(glfwGetPrimaryMonitor());
+  if (!options.resolution) return standardSize(scale);
+  return windowFor(*options.resolution, scale, startsWithPanel(options));
 }
 
 }  // namespace
@@ -120,7 +133,7 @@ void Window::wait() {
 
 void Window::say(const std::string& message) {
   addMessage(facts_.messages, message, glfwGetTime());
-  frames_ = std::max(frames_, 1);
+  frames_ = std::max(frames_, kSettleFrames);
 }
 
 void Window::take() {

@@ -26,6 +26,10 @@ void Window::execute(const Task& task) {
     case Errand::Fullscreen:
       return toggleFullscreen();
     case Errand::Close:
+      if (!facts_.error.empty() && !facts_.errorClosed) {
+        facts_.errorClosed = true;
+        return;
+      }
       if (facts_.load.busy && state_.scene) return cancelLoad();
       if (state_.fullscreen) return toggleFullscreen();
       [[fallthrough]];
@@ -97,12 +101,18 @@ void Window::takeDrops() {
 void Window::openFiles(const std::vector<std::filesystem::path>& files) {
   const Drop drop = takeDrop(wanted_, files);
   for (const std::string& sentence : drop.refused) say(sentence);
-  if (drop.load) load(*drop.load);
+  if (!drop.load) return;
+  if (!drop.load->scene.empty()) return load(*drop.load);
+  wanted_ = *drop.load;
+  say(wanted_.hdriFile.filename().string() + " will light the model that is dropped next");
 }
 
 void Window::save(const char* extension) {
   const RenderOptions& o = state_.options();
-  exchange_.save({freePictureName(o.scene, extension), state_.active, o.exposure, o.toneMap});
+  const std::filesystem::path name = freePictureName(o.scene, extension);
+  const char* side = !state_.split ? "" : state_.active == 0 ? " of side A" : " of side B";
+  say("writing " + name.string() + side + " as soon as all of the picture is drawn");
+  exchange_.save({name, state_.active, o.exposure, o.toneMap});
 }
 
 /// Of the active side, with all that its picture on the screen depends on.
