@@ -158,7 +158,6 @@ __eglMustCastToProperFunctionPointerType eglGetProcAddress(const char* name) {
   WRAP(glEndQuery)
   WRAP(glFinish)
   WRAP(glGetInteger64v)
-  WRAP(glGetIntegerv)
   WRAP(glGetNamedBufferSubData)
   WRAP(glGetProgramInfoLog)
   WRAP(glGetQueryObjectui64v)

@@ -7,7 +7,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <ranges>
 
 #include "view/presets.h"
 #include "view/progress.h"
@@ -98,7 +97,8 @@ void drawNewsLines(const ViewFacts& facts, double now) {
   if (!facts.note.empty())
     drawText(facts.note + (facts.pictureSize[0].x > 0 ? " (the last picture stays meanwhile)" : ""),
              kMostLineCharacters);
-  for (const Message& message : std::views::reverse(facts.messages)) {
+  for (size_t i = facts.messages.size(); i-- > 0;) {
+    const Message& message = facts.messages[i];
     const float opacity = float(opacityOf(message, now));
     if (opacity <= 0.0f) continue;
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, opacity);

@@ -9,6 +9,7 @@
 
 #include "stage/same_picture.h"
 #include "view/presets.h"
+#include "view/window/input.h"
 #include "view/window/panel_parts.h"
 #include "view/window/text.h"
 #include "view/window/theme.h"
