@@ -46,6 +46,7 @@ std::vector<std::string> progressTexts(const ViewState& state, const ViewFacts& 
   }
   if (!s.resting && progress.seconds) texts.push_back(durationText(*progress.seconds) + " left");
   const glm::ivec2 size = facts.pictureSize[side];
+  if (size.x <= 0) return texts;  // there is no picture yet
   texts.push_back(size == state.size
                       ? printed("%d x %d", size.x, size.y)
                       : printed("%d x %d of %d x %d", size.x, size.y, state.size.x, state.size.y));
