@@ -78,10 +78,7 @@ void drawSampling(ViewState& state, Places& places) {
 void drawAnimation(ViewState& state, Places& places) {
   const int shown = shownAnimation(state);
   const std::vector<std::string>& names = state.scene->animationNames;
-  const auto nameOf = [&](int i) {
-    const std::string& name = names[size_t(i)];
-    return std::to_string(i) + (name.empty() ? "" : ": " + shownText(name, kMostNameCharacters));
-  };
+  const auto nameOf = [&](int i) { return partText(size_t(i), names[size_t(i)]); };
   label(places, "Clip");
   if (ImGui::BeginCombo("##clip", nameOf(shown).c_str())) {
     for (int i = 0; i < int(names.size()); ++i) {

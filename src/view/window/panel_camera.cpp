@@ -59,8 +59,7 @@ Task drawCamera(ViewState& state, ViewFacts& facts) {
     const auto& cameras = state.scene->cameras;
     const auto nameOf = [&](int i) {
       if (i < 0 || size_t(i) >= cameras.size()) return std::string("none");
-      const std::string& name = cameras[size_t(i)].name;
-      return std::to_string(i) + (name.empty() ? "" : ": " + shownText(name, kMostNameCharacters));
+      return partText(size_t(i), cameras[size_t(i)].name);
     };
     if (ImGui::BeginCombo("##camera", nameOf(state.sceneCamera).c_str())) {
       for (int i = 0; i < int(cameras.size()); ++i) {

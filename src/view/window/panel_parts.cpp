@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "view/window/panel_parts.h"
 
+#include "view/window/text.h"
+
 namespace fragtrace {
 
 namespace {
@@ -33,6 +35,10 @@ void stayOnLineFor(const char* text) {
   const float width = ImGui::CalcTextSize(text).x + 2 * style.FramePadding.x;
   const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
   if (ImGui::GetItemRectMax().x + style.ItemSpacing.x + width <= end) ImGui::SameLine();
+}
+
+std::string partText(size_t index, const std::string& name) {
+  return std::to_string(index) + (name.empty() ? "" : ": " + shownText(name, kMostNameCharacters));
 }
 
 std::string keyOf(Action action, int argument) {

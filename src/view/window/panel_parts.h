@@ -25,6 +25,9 @@ void label(Places& places, const char* text);
 /// The next button on the same line, if that has room for it.
 void stayOnLineFor(const char* text);
 
+/// A part of the file in a list: "2: name".
+std::string partText(size_t index, const std::string& name);
+
 /// The key that does it.
 std::string keyOf(Action action, int argument = 0);
 

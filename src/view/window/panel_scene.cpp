@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which of the file's scenes and material variants are shown.
 #include "view/window/panel_parts.h"
-#include "view/window/text.h"
 
 namespace fragtrace {
 
@@ -11,9 +10,7 @@ namespace {
 /// line names it.
 std::optional<std::string> choosePart(const char* id, const char* none, const std::vector<std::string>& names,
                                       const std::string& current) {
-  const auto nameOf = [&](size_t i) {
-    return std::to_string(i) + (names[i].empty() ? "" : ": " + shownText(names[i], kMostNameCharacters));
-  };
+  const auto nameOf = [&](size_t i) { return partText(i, names[i]); };
   const auto isCurrent = [&](size_t i) {
     return !current.empty() && (names[i] == current || std::to_string(i) == current);
   };
