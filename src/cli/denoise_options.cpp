@@ -56,7 +56,7 @@ void addDenoiseCommandOptions(CLI::App& app, RawDenoise& raw) {
       ->required();
   app.add_option("--denoise", raw.render.denoise,
                  "filter: " + joined(kFileFilterNames) +
-                     "; auto takes oidn where it is installed, else variance, which needs the layers of "
+                     "; auto uses oidn if it is installed, otherwise variance, which needs the layers of "
                      "--aov denoising")
       ->capture_default_str();
   addFileFilterOptions(app, raw.render);

@@ -63,7 +63,7 @@ RunCommand addDiff(CLI::App& app) {
       ->required();
   app.add_option("--metric", raw->metric, "error metric: rmse, mse, relmse, psnr, max, flip")
       ->capture_default_str();
-  app.add_option("--threshold", raw->options.threshold, "return status 1 when the error is worse than this");
+  app.add_option("--threshold", raw->options.threshold, "exit with status 1 if the error is worse than this");
   app.add_option("--outfile", raw->options.outfile,
                  "write a picture of the absolute differences, or of the FLIP error")
       ->type_name("FILE");

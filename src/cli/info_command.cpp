@@ -25,6 +25,7 @@ struct InfoOptions {
   InputLimits limits;
   Instancing instancing = Instancing::Auto;
   bool json = false;
+  bool nodes = false;
 };
 
 /// What a scene takes on the device by default, textures and lights left out.
@@ -91,6 +92,37 @@ void addParts(nlohmann::ordered_json& json, const Scene& scene) {
   json["material_variants"] = scene.materialVariants;
 }
 
+/// What a node holds, in words.
+std::vector<std::string> contentsOf(const SceneNode& node) {
+  std::vector<std::string> words;
+  if (node.mesh) words.emplace_back("mesh");
+  if (node.light) words.emplace_back("light");
+  if (node.camera) words.emplace_back("camera");
+  return words;
+}
+
+/// One line a node, below its parent and further in.
+void printNodes(const std::vector<SceneNode>& nodes) {
+  std::printf("  nodes       %zu\n", nodes.size());
+  for (const SceneNode& node : nodes) {
+    std::string notes = node.hidden ? ", hidden" : "";
+    for (const std::string& word : contentsOf(node)) notes += ", " + word;
+    std::printf("    %*s%u %s%s\n", 2 * node.depth, "", node.index, inQuotes(node.name).c_str(),
+                notes.c_str());
+  }
+}
+
+nlohmann::ordered_json nodesJson(const std::vector<SceneNode>& nodes) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const SceneNode& node : nodes)
+    json.push_back({{"index", node.index},
+                    {"name", node.name},
+                    {"depth", node.depth},
+                    {"hidden", node.hidden},
+                    {"contents", contentsOf(node)}});
+  return json;
+}
+
 void printText(const std::filesystem::path& path, const SceneDescription& s, const BvhQuality& bvh,
                double bytesPerTriangle, const TraitSet& traits) {
   std::printf("%s\n", path.string().c_str());
@@ -151,6 +183,7 @@ int inform(const InfoOptions& options) {
   if (!options.json) {
     printText(options.scene, description, bvh, bytesPerTriangle, traits);
     printAllParts(scene);
+    if (options.nodes) printNodes(scene.nodes);
     return 0;
   }
   nlohmann::ordered_json json;
@@ -170,6 +203,7 @@ int inform(const InfoOptions& options) {
   for (const Material& m : scene.materials) materials.push_back(m.name);
   json["material_names"] = materials;
   addParts(json, scene);
+  if (options.nodes) json["nodes"] = nodesJson(scene.nodes);
   json["warnings"] = scene.warnings;
   std::cout << jsonText(json);
   return 0;
@@ -198,6 +232,7 @@ RunCommand addInfo(CLI::App& app) {
   const auto raw = std::make_shared<Raw>();
   app.add_option("file", raw->options.scene, "scene: a .gltf or .glb file")->type_name("FILE")->required();
   app.add_flag("--json", raw->options.json, "print one JSON object");
+  app.add_flag("--nodes", raw->options.nodes, "also list the nodes of the scene");
   addSelectionOptions(app, raw->options.selection);
   app.add_option("--instancing", raw->instancing,
                  "whether copies of a mesh share its triangles: " + joined(kInstancingNames))

@@ -57,7 +57,7 @@ int statusOf(int argc, char** argv) {
   } catch (const std::system_error& error) {
     if (error.code() != std::errc::resource_unavailable_try_again) return fail(kFailed, error.what());
     return fail(kFailed,
-                "the system grants no further thread, perhaps for want of memory (ulimit -u, ulimit -v)");
+                "the system grants no further thread, perhaps because memory ran out (ulimit -u, ulimit -v)");
   } catch (const std::exception& error) {
     return fail(kFailed, error.what());
   }

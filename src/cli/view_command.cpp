@@ -9,6 +9,7 @@
 
 #include "cli/commands.h"
 #include "errors.h"
+#include "live/reference.h"
 #include "live/view_tracer.h"
 #include "options/camera_options.h"
 #include "options/command_text.h"
@@ -41,6 +42,10 @@ int runView(const ViewOptions& asked) {
   ViewOptions options = asked;
   const NamedOutput status{"--status-file", options.statusFile};
   checkOutputs({&status, 1}, inputsOf(options.render));
+  if (!options.reference.empty()) {
+    const Image reference = readReference(options.reference, options.render.limits.memoryBytes);
+    if (!options.render.resolution) options.render.resolution = glm::ivec2(reference.width, reference.height);
+  }
   const WindowLibrary& library = windowLibrary();
   std::optional<OidnLibrary> oidn = openDenoiser(options.render);
   Exchange exchange;
@@ -54,7 +59,8 @@ int runView(const ViewOptions& asked) {
     });
   };
   try {
-    library.run({options.render, options.statusFile, begin, cameraText, commandText, withCommandText},
+    library.run({options.render, options.statusFile, options.reference, begin, cameraText, commandText,
+                 withCommandText},
                 exchange);
   } catch (...) {
     exchange.quit();

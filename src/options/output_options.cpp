@@ -22,15 +22,13 @@ void addOutputOptions(CLI::App& app, RawRender& raw) {
       ->delimiter(',')
       ->expected(4)
       ->check(wholeNumber(0, 65536));
-  app.add_option(
-         "--checkpoint", raw.options.checkpointSeconds,
-         "write the state of the render to OUTPUT.checkpoint each time this many seconds have passed, and "
-         "when it is interrupted; the file is removed once the picture is finished")
+  app.add_option("--checkpoint", raw.options.checkpointSeconds,
+                 "write the state of the render to OUTPUT.checkpoint every this many seconds, and when the "
+                 "render is interrupted; the file is deleted when the picture is finished")
       ->check(CLI::Range(0.1, 1e7));
-  app.add_flag(
-      "--resume", raw.options.resume,
-      "continue from OUTPUT.checkpoint to the same picture; without that file begin anew, or do nothing "
-      "if the picture is finished");
+  app.add_flag("--resume", raw.options.resume,
+               "continue from OUTPUT.checkpoint; the result is the same picture; if there is no checkpoint, "
+               "start from the beginning, or do nothing if the picture is finished");
   app.add_option("--format", raw.format,
                  "format of the picture that --output - writes to standard output: " + joined(kFormatNames));
   app.add_option("--progress", raw.progress,

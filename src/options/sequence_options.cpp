@@ -49,13 +49,12 @@ void addSequenceOptions(CLI::App& app, RawSequence& raw) {
       "A:B or A:B:STEP: render pictures A to B of the animation (B included), each to --output "
       "with its number in place of ####");
   app.add_option("--fps", raw.fps,
-                 "frames per second: picture k of --frames is the animation at k / FPS seconds")
+                 "frames per second: picture k of --frames shows the animation at k / FPS seconds")
       ->check(CLI::Range(0.001, 1e6))
       ->capture_default_str();
-  app.add_option(
-         "--turntable", raw.turntable,
-         "render this many pictures, 0 to N - 1, from all around the focal point, each to --output with "
-         "its number in place of ####")
+  app.add_option("--turntable", raw.turntable,
+                 "render N pictures, numbers 0 to N - 1, from evenly spaced directions around the focal "
+                 "point, each to --output with its number in place of ####")
       ->check(wholeNumber(1, kMostFrame))
       ->excludes(frames);
   app.add_flag("--continue", raw.keep, "with --frames or --turntable: skip pictures that are there already");

@@ -39,7 +39,7 @@ void sayWhatWasCut(const RenderOptions& options, const Statistics& stats) {
   std::snprintf(share, sizeof share, "%.2g", cutShare(stats));
   say(options, "warning: --bounces " + std::to_string(options.bounces) +
                    " cut paths that could still carry " + share +
-                   " of the light (cut_share); more make the picture brighter");
+                   " of the light (cut_share); a larger value makes the picture brighter");
 }
 
 /// Whether every pixel has the same samples: neither adaptive nor interrupted.

@@ -20,9 +20,10 @@ constexpr std::string_view kSaid = kSaidOnTerminal.substr(1);
 constexpr std::string_view kSaidAsJson =
     "{\"type\":\"error\",\"text\":\"interrupted, nothing is written\"}\n{\"type\":\"done\",\"status\":130}\n";
 constexpr std::string_view kCrashed =
-    "fragtrace: a library or the driver crashed, perhaps for want of memory; nothing is written\n";
+    "fragtrace: a library or the driver crashed, perhaps because memory ran out; nothing is written\n";
 constexpr std::string_view kCrashedAsJson =
-    "{\"type\":\"error\",\"text\":\"a library or the driver crashed, perhaps for want of memory; nothing is "
+    "{\"type\":\"error\",\"text\":\"a library or the driver crashed, perhaps because memory ran out; nothing "
+    "is "
     "written\"}\n{\"type\":\"done\",\"status\":1}\n";
 constexpr int kCrashedStatus = 1;
 constexpr int kSameInterruptMs = 100;

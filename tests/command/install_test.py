@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""`cmake --install` gives a program that runs from anywhere; docs/options.md, man pages and completion are what --help says."""
+"""`cmake --install` gives a program that runs from anywhere; docs/options.md and options-bench.md, man pages and completion are what --help says."""
 import gzip
 import os
 import re

@@ -122,9 +122,10 @@ TEST(GltfSharing, WhatShinesOrIsScaledTooUnevenlyOrStandsThereOnceIsCopied) {
   shining.root["meshes"][0]["primitives"][0]["material"] = 0;
   const Scene copied = load(shining, sharing());
   EXPECT_EQ(copied.triangles.size(), 3u);
-  EXPECT_TRUE(anyWarningHas(copied,
-                            "nothing is shared: no mesh that may be shared stands in the scene often enough; "
-                            "always copied: emissive meshes (1)"));
+  EXPECT_TRUE(
+      anyWarningHas(copied,
+                    "nothing is shared: no mesh that can be shared appears often enough in the scene; "
+                    "always copied: emissive meshes (1)"));
 
   GltfBuilder uneven = threeTriangles();
   uneven.node(2)["scale"] = {1, 1, 1000};

@@ -19,11 +19,11 @@ RunCommand addBenchStress(CLI::App& app);
 
 /// In the order of --help.
 inline constexpr std::array kBenchRows{
-    CommandRow{"error", "measure error against samples and time", addBenchError},
+    CommandRow{"error", "measure error as a function of samples and time", addBenchError},
     CommandRow{"frame", "measure frame times of several settings in turn", addBenchFrame},
-    CommandRow{"report", "measure again the frame times of the report that this program is based on",
+    CommandRow{"report", "repeat the frame time measurements of the report on which this program is based",
                addBenchReport},
-    CommandRow{"variants", "measure what a smaller shader saves in a scene", addBenchVariants},
+    CommandRow{"variants", "measure how much time a smaller shader saves in a scene", addBenchVariants},
     CommandRow{"scale", "measure time and memory from 1 thousand to 10 million triangles", addBenchScale},
     CommandRow{"traversal", "measure rays per second without shading", addBenchTraversal},
     CommandRow{"start", "measure the steps from a cold start to a written picture", addBenchStart},

@@ -28,7 +28,7 @@ void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
   app.add_option("--repetitions", o.repetitions, "pictures per step, each with its own seed")
       ->check(wholeNumber(1, 1000))
       ->capture_default_str();
-  app.add_option("--goal", o.goal, "relative MSE for which times are compared")
+  app.add_option("--goal", o.goal, "relative MSE at which times are compared")
       ->check(CLI::Range(1e-12, 1e3))
       ->capture_default_str();
   app.add_option("--json", o.json, "write all measurements to this JSON file")->type_name("FILE");
@@ -41,7 +41,7 @@ void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
   app.get_option("--denoise")
       ->description(
           joined(kDenoiseNames) +
-          "; each picture is measured with the filter as well, against the time of rendering and filtering");
+          "; also measures each picture after filtering; its time then includes rendering and filtering");
 }
 
 BenchErrorOptions finishBenchError(const RawBenchError& raw, const CLI::App& app) {

@@ -13,8 +13,8 @@ void addBenchFrameOptions(CLI::App& app, RawBenchFrame& raw) {
   app.add_option("scenes", raw.scenes, "scenes: .gltf or .glb files")->type_name("FILE")->required();
   addTimingOptions(app, o.timing);
   app.add_option("--reference", o.reference,
-                 "picture that all settings must show; by default one drawn by the other traversal of the "
-                 "tree")
+                 "reference picture that all settings must match; by default one that is rendered with "
+                 "another traversal of the hierarchy")
       ->type_name("FILE");
   app.add_option("--json", o.json, "write all measurements to this file, one JSON line per setting")
       ->type_name("FILE");

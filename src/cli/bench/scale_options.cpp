@@ -46,7 +46,7 @@ void addBenchScaleOptions(CLI::App& app, RawBenchScale& raw) {
       ->check(wholeNumber(1, 1000))
       ->capture_default_str();
   app.add_option("--longest", o.longest,
-                 "leave out the iterative traversal where its frame takes more seconds than this")
+                 "skip the iterative traversal if its frame takes longer than this many seconds")
       ->check(CLI::Range(0.001, 1e6))
       ->capture_default_str();
   app.add_option("--json", o.json, "write all measurements to this file, one JSON line per size")

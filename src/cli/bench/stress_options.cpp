@@ -10,16 +10,16 @@ namespace fragtrace {
 
 void addBenchStressOptions(CLI::App& app, RawBenchStress& raw) {
   BenchStressOptions& o = raw.options;
-  app.add_flag("--quick", o.quick, "try about a hundredth of the cases");
+  app.add_flag("--quick", o.quick, "run about 1/100 of the cases");
   app.add_option("--rows", o.rows,
-                 "rows to try: those whose name contains one of these texts, separated by commas")
+                 "run only the rows whose name contains one of these strings, separated by commas")
       ->delimiter(',');
   app.add_option("--json", o.json, "write all results to this file, one JSON line per row")
       ->type_name("FILE");
   addDeviceOptions(app, raw.render);
   app.add_option("--schedule", raw.render.schedule,
-                 "what traces paths: " + joined(kScheduleNames) +
-                     "; auto takes the megakernel, because the pictures are small")
+                 "how paths are scheduled:  " + joined(kScheduleNames) +
+                     "; auto uses the megakernel, because the pictures are small")
       ->capture_default_str();
 }
 

@@ -31,16 +31,16 @@ void drawSamples(TimedSetting& s, int from, int to, RenderTimes& times) {
 }  // namespace
 
 void addTimingOptions(CLI::App& app, FrameTiming& timing) {
-  app.add_option("--rounds,--repetitions", timing.rounds, "rounds of timing; each times all settings in turn")
+  app.add_option("--rounds,--repetitions", timing.rounds,
+                 "number of timing rounds; every round measures all settings, one after another")
       ->check(wholeNumber(1, 100000))
       ->capture_default_str();
   app.add_option("--round-time", timing.roundSeconds, "seconds per round")
       ->check(CLI::Range(0.001, 3600.0))
       ->capture_default_str();
-  app.add_option(
-         "--samples-per-draw", timing.samplesPerDraw,
-         "maximum samples per draw; 1 draws each frame on its own, as a viewer does; by default as many as "
-         "draw in a short time")
+  app.add_option("--samples-per-draw", timing.samplesPerDraw,
+                 "maximum samples per draw; with 1, each frame is drawn on its own, as in a viewer; by "
+                 "default, the renderer chooses a number that takes a short time")
       ->check(wholeNumber(1, 1 << 20));
 }
 

@@ -13,7 +13,7 @@ void addBenchTraversalOptions(CLI::App& app, RawBenchTraversal& raw) {
   BenchTraversalOptions& o = raw.options;
   app.add_option("file", raw.render.scene, "scene: a .gltf or .glb file")->type_name("FILE")->required();
   app.add_option("--resolution", raw.render.camera.resolution,
-                 "WIDTH,HEIGHT of the field of rays, one ray per pixel")
+                 "WIDTH,HEIGHT of the grid of primary rays, one ray per pixel")
       ->delimiter(',')
       ->expected(2)
       ->check(wholeNumber(1, 4096));

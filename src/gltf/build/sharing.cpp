@@ -154,7 +154,7 @@ PlacedMeshes chooseSharing(std::vector<PrimitiveInstance> instances, Instancing 
   if (wanted == Instancing::Flatten) {
     placed.reason = "--instancing flatten";
   } else if (instanceCount == 0) {
-    placed.reason = "no mesh that may be shared stands in the scene often enough";
+    placed.reason = "no mesh that can be shared appears often enough in the scene";
   } else if (!fitsTwoLevels(flatTriangles + instanceCount, largest)) {
     placed.reason = "two trees would be deeper than the stack";
   } else if (wanted == Instancing::Share) {
