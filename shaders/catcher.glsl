@@ -21,7 +21,7 @@ bool meetsCatcher(Path p, float t) {
 
 /// Irradiance of the catcher by environment and punctual lights with nothing in the way.
 vec3 freeIrradiance(vec3 point) {
-  vec3 sum = frame.catcherLight.rgb;
+  vec3 sum = frame.catcherLight.rgb * frame.catcherLight.w;
   if (!kPunctualLights) return sum;
   int count = int(frame.lightChoice.w);
   for (int i = 0; i < count; ++i) {

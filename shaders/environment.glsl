@@ -41,7 +41,11 @@ vec4 mapAt(vec2 place, ivec2 size, int first) {
 }
 
 /// Radiance and, relative to an even density over the map's area, the density at a place of the environment.
-vec4 environmentAt(vec2 place) { return mapAt(place, ivec2(frame.environment), 0); }
+vec4 environmentAt(vec2 place) {
+  vec4 there = mapAt(place, ivec2(frame.environment), 0);
+  float intensity = frame.catcherLight.w;
+  return vec4(vec3(there) * intensity, there.w);
+}
 
 /// The same of a direction.
 vec4 environmentAlong(vec3 direction) {
@@ -53,7 +57,8 @@ vec4 environmentAlong(vec3 direction) {
 vec3 backdropAlong(vec3 direction) {
   ivec2 lit = ivec2(frame.environment);
   ivec2 size = ivec2(frame.part.z, frame.part.w);
-  return vec3(mapAt(environmentCoordinates(direction) * vec2(size), size, lit.x * lit.y));
+  float intensity = frame.catcherLight.w;
+  return vec3(mapAt(environmentCoordinates(direction) * vec2(size), size, lit.x * lit.y)) * intensity;
 }
 
 /// Density over solid angle with which sampleEnvironment draws a direction, of what environmentAlong gives of it.

@@ -201,7 +201,9 @@ struct Frame {
   // x, y (from the bottom) of the film's first pixel in the picture; width, height of the backdrop
   ivec4 part;
   vec4 worldOrigin;     // of local space, in world space, metres; w: height of the shadow catcher, local space
-  vec4 catcherLight;    // what reaches the shadow catcher from far away when nothing is in the way: irradiance
+  // irradiance of the shadow catcher by the environment when nothing is in the way; w: factor of the environment's
+  // radiance
+  vec4 catcherLight;
 };
 
 // What one draw reports.

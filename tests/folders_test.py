@@ -9,7 +9,7 @@ from pathlib import Path
 
 LAYERS = (".", "math", "process", "image", "image/display", "image/compare", "image/worker", "image/files", "denoise", "scene", "bvh", "gltf",
           "gltf/codecs/worker", "gltf/read", "gltf/check", "gltf/codecs", "gltf/build", "stage", "shader", "pack", "film", "bench", "gl", "render",
-          "stress", "view", "view/window", "options", "session", "picture", "python", "live", "cli/bench", "cli")
+          "stress", "view/picture", "view", "view/window", "options", "session", "picture", "python", "live", "cli/bench", "cli")
 MOST_FILES = 40  # in a folder: more is more than one concept
 
 

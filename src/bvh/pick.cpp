@@ -35,6 +35,7 @@ std::optional<Pick> pickAt(const Scene& scene, const Bvh& bvh, const Projection&
   if (hit.primitive >= triangles) {
     const Sphere& sphere = scene.spheres[hit.primitive - triangles];
     pick.node = sphere.node;
+    pick.nodeIndex = sphere.nodeIndex;
     pick.material = sphere.material;
     return pick;
   }
@@ -43,34 +44,12 @@ std::optional<Pick> pickAt(const Scene& scene, const Bvh& bvh, const Projection&
   const PrimitiveOrigin* found = originOf(scene, hit.primitive);
   if (found == nullptr) return pick;
   const PrimitiveOrigin& origin = *found;
-  pick.node = hit.instance == kMissIndex ? origin.node : scene.instances[hit.instance].node;
+  const bool shared = hit.instance != kMissIndex;
+  pick.node = shared ? scene.instances[hit.instance].node : origin.node;
+  pick.nodeIndex = shared ? scene.instances[hit.instance].nodeIndex : origin.nodeIndex;
   pick.mesh = origin.mesh;
   pick.triangle = hit.primitive - origin.firstTriangle;
   return pick;
-}
-
-BoundsDouble boundsOfPicked(const Scene& scene, const Pick& pick) {
-  BoundsDouble box;
-  const size_t triangles = scene.triangles.size();
-  if (pick.primitive >= triangles) {
-    const Sphere& sphere = scene.spheres[pick.primitive - triangles];
-    const glm::dvec3 center(sphere.center);
-    for (const double side : {-1.0, 1.0})
-      box.include(scene.space.worldOf(center + glm::dvec3(side * double(sphere.radius))));
-    return box;
-  }
-  const PrimitiveOrigin* origin = originOf(scene, pick.primitive);
-  const size_t first = origin ? origin->firstTriangle : pick.primitive;
-  const size_t count = origin ? origin->triangleCount : 1;
-  const bool shared = pick.instance != kMissIndex;
-  for (size_t i = first; i < std::min(first + count, triangles); ++i) {
-    for (int corner = 0; corner < 3; ++corner) {
-      glm::dvec3 point(scene.vertices.position[scene.triangles[i].vertex[corner]]);
-      if (shared) point = glm::dvec3(scene.instances[pick.instance].toLocal * glm::dvec4(point, 1.0));
-      box.include(scene.space.worldOf(point));
-    }
-  }
-  return box;
 }
 
 }  // namespace fragtrace

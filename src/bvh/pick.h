@@ -12,6 +12,7 @@ namespace fragtrace {
 
 struct Pick {
   std::string node;                 ///< its name, or its JSON pointer
+  uint32_t nodeIndex = 0;           ///< its place in the file
   std::string mesh;                 ///< the same; empty for a sphere
   uint32_t primitive = kMissIndex;  ///< of the scene: triangles first, then spheres
   uint32_t triangle = kMissIndex;   ///< its number in the mesh primitive; kMissIndex for a sphere
@@ -26,8 +27,5 @@ struct Pick {
 /// and the back of single-sided surfaces is not there.
 std::optional<Pick> pickAt(const Scene& scene, const Bvh& bvh, const Projection& projection,
                            const glm::dvec2& place);
-
-/// The box in world space of all that the picked node draws of the picked mesh primitive, or of the sphere.
-BoundsDouble boundsOfPicked(const Scene& scene, const Pick& pick);
 
 }  // namespace fragtrace

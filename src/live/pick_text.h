@@ -8,6 +8,10 @@
 
 namespace fragtrace {
 
+/// A material's values, a line each: those that the user sees first, and of the others those that are not the
+/// defaults.
+std::vector<std::string> materialLines(const Material& material);
+
 /// What was hit, in words, a line a fact: node, mesh, triangle, place, and the values of the material that
 /// are not the defaults.
 std::vector<std::string> pickLines(const Scene& scene, const Pick& pick);

@@ -9,7 +9,7 @@
 #include "denoise/oidn_library.h"
 #include "render/denoise.h"
 #include "session/tracer.h"
-#include "view/reproject.h"
+#include "view/picture/reproject.h"
 
 namespace fragtrace {
 

@@ -63,6 +63,7 @@ void ViewPrograms::showPose(const RenderOptions& options) {
   for (const std::shared_ptr<ViewProgram>& program : programs_) {
     program->options.selection.animation = options.selection.animation;
     program->options.selection.animationTime = options.selection.animationTime;
+    program->options.selection.hiddenNodes = options.selection.hiddenNodes;
     if (!sameTree(treeOptions_, program->options)) loaded_.bvh = buildTree(loaded_.scene, program->options);
     treeOptions_ = program->options;
     Statistics stats;

@@ -5,11 +5,13 @@
 #include "film/noise.h"
 #include "image/channels.h"
 #include "image/format.h"
+#include "live/reference.h"
 #include "live/view_tracer.h"
 #include "math/summary.h"
 #include "picture/denoising.h"
 #include "picture/picture_file.h"
 #include "picture/provenance.h"
+#include "view/picture/composite.h"
 
 namespace fragtrace {
 
@@ -121,10 +123,41 @@ void ViewTracer::publish(Side& side) {
   publishMs_ = sinceMs(start);
 }
 
+/// As the window shows it.
+Image ViewTracer::seenOf(Side& side) {
+  const FilmPixels pixels = side.film->read();
+  const bool seen = denoises(side) && side.shown.width == pixels.size.x && side.shown.height == pixels.size.y;
+  return seen ? side.shown : *shownOf(side, pixels, [] { return true; });
+}
+
+void ViewTracer::saveBoth(const SaveRequest& request) {
+  std::array<ComposedSide, 2> sides;
+  for (size_t i = 0; i < 2; ++i) {
+    if (i < sides_.size())
+      sides[i] = {seenOf(sides_[i]), showsColors(sides_[i].options)};
+    else if (reference_)
+      sides[i] = {*reference_, false};
+    else
+      return exchange_.tell("not written: there is one side alone");
+  }
+  RenderOptions options = sides_[0].options;
+  options.output = request.path;
+  options.exposure = 0.0;
+  options.toneMap = ToneMap::Linear;
+  options.debugView = DebugView::None;
+  writePicture(options,
+               composite(sides, request_.size,
+                         {request.bar, request.both == CompareMode::Difference, request.differenceStops,
+                          request.exposure, request.toneMap}),
+               {});
+  exchange_.tell("wrote " + request.path.string());
+}
+
 void ViewTracer::save(const SaveRequest& request) {
   Side& side = sides_[std::min(request.side, sides_.size() - 1)];
   if (!side.program) return exchange_.tell("not written: no picture is drawn");
   try {
+    if (request.both) return saveBoth(request);
     RenderOptions options = side.options;
     options.output = request.path;
     options.exposure = request.exposure;
@@ -134,11 +167,7 @@ void ViewTracer::save(const SaveRequest& request) {
     const bool exr = formatOfName(options.output) == ImageFormat::OpenExr;
     const Layers layers{!options.background, options.aovSamples, options.aovVariance};
     // A file of radiance is what its samples say, one for a display what is seen.
-    const bool seen =
-        denoises(side) && side.shown.width == pixels.size.x && side.shown.height == pixels.size.y;
-    Image image = exr    ? shownPicture(options, side.program->tracer.variant, pixels, layers)
-                  : seen ? side.shown
-                         : *shownOf(side, pixels, [] { return true; });
+    Image image = exr ? shownPicture(options, side.program->tracer.variant, pixels, layers) : seenOf(side);
     loaded_->camera = side.view.camera;
     loaded_->size = pixels.size;
     if (exr && options.debugView == DebugView::None)
@@ -148,6 +177,21 @@ void ViewTracer::save(const SaveRequest& request) {
     exchange_.tell("wrote " + request.path.string());
   } catch (const RenderError& error) {
     exchange_.tellError(error.what());
+  }
+}
+
+void ViewTracer::takeReference(const std::filesystem::path& path) {
+  reference_.reset();
+  if (path.empty()) return;
+  try {
+    TracedPicture picture;
+    picture.side = 1;
+    picture.file = path;
+    picture.image = readReference(path, start_.render.limits.memoryBytes);
+    reference_ = picture.image;
+    exchange_.deliver(std::move(picture));
+  } catch (const std::exception& error) {
+    exchange_.tell(error.what());
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "errors.h"
+#include "live/pick_text.h"
 #include "picture/denoising.h"
 #include "session/outputs.h"
 
@@ -51,7 +52,7 @@ std::string whatFailed(const std::exception_ptr& error) {
 }  // namespace
 
 ViewTracer::ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn, Exchange& exchange)
-    : start_(start), exchange_(exchange), loader_(exchange), oidn_(std::move(oidn)) {
+    : start_(start), exchange_(exchange), loader_(exchange), thumbnails_(exchange), oidn_(std::move(oidn)) {
   passOnWhatIsSaid([&exchange](const std::string& text) { exchange.tell(text); });
 }
 
@@ -79,6 +80,7 @@ void ViewTracer::run() {
     exchange_.fail(std::current_exception());
   }
   loader_.cancel();
+  thumbnails_.cancel();
   leaveContext();
 }
 
@@ -117,6 +119,8 @@ void ViewTracer::obey(Orders orders) {
   }
   if (orders.load) loader_.start(*orders.load);
   if (orders.request && loaded_) adopt(*orders.request);
+  if (!orders.thumbnails.empty()) thumbnails_.make(orders.thumbnails, start_.render.limits.memoryBytes);
+  if (orders.reference) takeReference(*orders.reference);
   for (SaveRequest& save : orders.saves) saves_.push_back(std::move(save));
   if (orders.pick && loaded_) answer(*orders.pick);
 }
@@ -152,6 +156,8 @@ void ViewTracer::adoptScene() {
   viewed.defaultLight = !result->ownLight;
   viewed.map = loaded_->environment.kind == Surroundings::Map;
   viewed.environments = std::move(result->environments);
+  viewed.nodes = loaded_->scene.nodes;
+  for (const Material& m : loaded_->scene.materials) viewed.materials.push_back({m.name, materialLines(m)});
   viewed.sceneNames = loaded_->scene.sceneNames;
   viewed.materialVariants = loaded_->scene.materialVariants;
   viewed.animationNames = loaded_->scene.animationNames;
@@ -186,7 +192,8 @@ void ViewTracer::rebuildPrograms() {
 
 /// Of a scene that is posed anew: the shader's text holds none of it, since that would be compiled each time.
 RenderOptions ViewTracer::asPosed(RenderOptions options) const {
-  const bool changes = options.selection.animationTime || !loaded_->scene.strokes.empty();
+  const SceneSelection& s = options.selection;
+  const bool changes = s.animationTime || !s.hiddenNodes.empty() || !loaded_->scene.strokes.empty();
   if (changes && options.traversal == TraversalMethod::Auto) options.traversal = TraversalMethod::FrontToBack;
   return options;
 }
@@ -195,7 +202,8 @@ bool ViewTracer::isPosed(const TraceRequest& request) const {
   const RenderOptions& wanted = request.sides[0];
   const SceneSelection& a = wanted.selection;
   const SceneSelection& b = loadedOptions_.selection;
-  if (a.animation != b.animation || a.animationTime != b.animationTime) return false;
+  if (a.animation != b.animation || a.animationTime != b.animationTime || a.hiddenNodes != b.hiddenNodes)
+    return false;
   // Points and lines get their width from the camera.
   return loaded_->scene.strokes.empty() || request.moving ||
          (wanted.camera == posedCamera_ && wanted.cameraIndex == posedCameraIndex_ &&
@@ -204,12 +212,13 @@ bool ViewTracer::isPosed(const TraceRequest& request) const {
 
 void ViewTracer::pose(const TraceRequest& request) {
   const RenderOptions& wanted = request.sides[0];
+  const bool sameNodes = loadedOptions_.selection.hiddenNodes == wanted.selection.hiddenNodes;
+  loadedOptions_.selection.hiddenNodes = wanted.selection.hiddenNodes;
   loadedOptions_.selection.animation = wanted.selection.animation;
   loadedOptions_.selection.animationTime = wanted.selection.animationTime;
   posedCamera_ = wanted.camera;
   posedCameraIndex_ = wanted.cameraIndex;
   posedSize_ = request.size;
-  selected_ = {};  // it may be elsewhere now
   RenderOptions options = asPosed(loadedOptions_);
   options.sceneOrigin = loaded_->scene.space.origin;
   options.camera = wanted.camera;
@@ -220,12 +229,16 @@ void ViewTracer::pose(const TraceRequest& request) {
   try {
     Statistics stats;
     SceneBefore before;
-    if (loaded_->environment.kind == Surroundings::Map) before.environment = &loaded_->environment;
-    if (tree_) before.tree = &*tree_;
+    // What lights a scene by default depends on what it shows.
+    if (loaded_->environment.kind == Surroundings::Map && (sameNodes || hasMap(loadedOptions_)))
+      before.environment = &loaded_->environment;
+    if (tree_ && sameNodes) before.tree = &*tree_;
     *loaded_ = loadScene(options, stats, {}, FilmOf::Picture, before);
     if (!stats.treeRefitted && loaded_->scene.instances.empty())
       tree_ = refittable(loaded_->bvh, loaded_->scene);
     programs_->showPose(options);
+    exchange_.tellBounds(loaded_->scene.bounds);
+    if (!selected_.nodes.empty()) selected_.bounds = boundsOfNodes(loaded_->scene, selected_.nodes);
   } catch (const ContextLost&) {
     throw;
   } catch (const std::exception& error) {

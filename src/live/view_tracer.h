@@ -5,8 +5,10 @@
 #include <chrono>
 #include <memory>
 
+#include "bvh/silhouette.h"
 #include "errors.h"
 #include "gl/debug_log.h"
+#include "live/thumbnails.h"
 #include "live/view_denoiser.h"
 #include "live/view_loader.h"
 #include "live/view_programs.h"
@@ -17,6 +19,12 @@
 #include "view/resolution_controller.h"
 
 namespace fragtrace {
+
+/// Nodes of the scene that is shown; none: nothing is selected.
+struct Selected {
+  NodeSet nodes;
+  BoundsDouble bounds;  ///< world space; empty: they draw nothing
+};
 
 class ViewTracer {
  public:
@@ -31,7 +39,7 @@ class ViewTracer {
   void run();
 
   /// Whether a thread still loads what nobody waits for any more.
-  bool loading() const { return loader_.busy(); }
+  bool loading() const { return loader_.busy() || thumbnails_.busy(); }
 
  private:
   struct Side {
@@ -84,16 +92,20 @@ class ViewTracer {
   /// What the side shows now; nothing when something more urgent waits.
   std::optional<Image> shownOf(Side& side, const FilmPixels& pixels, const std::function<bool()>& goOn);
   void publish(Side& side);
+  Image seenOf(Side& side);
   void save(const SaveRequest& request);
+  void saveBoth(const SaveRequest& request);
+  void takeReference(const std::filesystem::path& path);
   void answer(const PickRequest& request);
-  void select(const BoundsDouble& bounds);
-  /// Boxes of the tree and of what is selected.
+  void select(Selected selected);
+  /// Boxes of the tree, and the outline of what is selected.
   std::vector<PictureLine> linesOver(const Side& side) const;
   void tellDriver();
 
   ViewOptions start_;
   Exchange& exchange_;
   SceneLoader loader_;
+  ThumbnailMaker thumbnails_;
   std::unique_ptr<Context> context_;
   std::unique_ptr<DebugLog> driverLog_;
   std::unique_ptr<LoadedScene> loaded_;
@@ -106,13 +118,14 @@ class ViewTracer {
   std::optional<OidnLibrary> oidn_;  ///< opened later where a pasted command asks for it
   std::unique_ptr<ViewDenoiser> denoiser_;
   TraceRequest request_;
-  BoundsDouble selected_;  ///< of what was picked last, world space; empty: nothing
+  Selected selected_;  ///< what was picked last
   std::vector<Side> sides_;
   ResolutionController resolution_;
   std::vector<SaveRequest> saves_;
-  int losses_ = 0;                 ///< of the context since the latest publication
-  double publishMs_ = 0.0;         ///< what the latest publication took
-  double filterMsPerPixel_ = 0.0;  ///< in it, of layers and filter
+  std::optional<Image> reference_;  ///< that the window shows as side B
+  int losses_ = 0;                  ///< of the context since the latest publication
+  double publishMs_ = 0.0;          ///< what the latest publication took
+  double filterMsPerPixel_ = 0.0;   ///< in it, of layers and filter
   std::chrono::steady_clock::time_point published_;
   FileWatch sceneFiles_;
   FileWatch shaderFiles_;

@@ -76,8 +76,7 @@ void addCameraOptions(CLI::App& app, RawCamera& raw) {
       ->check(wholeNumber(1, 65536));
   CLI::Option* index = app.add_option("--camera-index", raw.index,
                                       "index of the scene's camera, from 0; by default the first camera, or "
-                                      "a view of the whole scene where "
-                                      "it has none")
+                                      "a view of the whole scene if the file has no camera")
                            ->check(wholeNumber(0, std::numeric_limits<int>::max()));
   app.add_option("--camera", raw.name, "name or index of the camera; `fragtrace info` lists the cameras")
       ->excludes(index);
@@ -92,10 +91,9 @@ void addCameraOptions(CLI::App& app, RawCamera& raw) {
       ->allow_extra_args(false)
       ->option_text("AZIMUTH,ELEVATION[,ZOOM] Excludes: --camera-position")
       ->excludes("--camera-position");
-  app.add_flag(
-      "--fit", raw.fit,
-      "move the camera, without turning it, until the scene fills the picture but for a narrow margin; with "
-      "--turntable one distance fits all pictures");
+  app.add_flag("--fit", raw.fit,
+               "move the camera, without turning it, until the scene fills the picture except for a narrow "
+               "margin; with --turntable, all pictures use the same distance");
   addVector("--camera-focal-point", raw.focalPoint, "X,Y,Z of the point that the camera looks at");
   addVector("--camera-view-up", raw.viewUp, "X,Y,Z of the direction that points up in the picture");
   CLI::Option* angle = app.add_option("--camera-view-angle", raw.viewAngleDegrees,
@@ -104,9 +102,8 @@ void addCameraOptions(CLI::App& app, RawCamera& raw) {
                  "half of the picture's height in metres, of an orthographic camera")
       ->excludes(angle);
   addVector("--scene-origin", raw.sceneOrigin,
-            "X,Y,Z of the point near which positions are most accurate; by default the focal point, if "
-            "given, else a "
-            "point near the camera");
+            "X,Y,Z of a point; positions near this point are the most accurate; by default the focal point "
+            "if it is given, otherwise a point near the camera");
 }
 
 namespace {

@@ -76,12 +76,14 @@ void appendScene(std::string& text, const RenderOptions& o) {
   if (s.animationTime) appendOption(text, "--animation-time", exactText(*s.animationTime));
   append(text, "--animation", s.animation, s.animation.empty());
   append(text, "--material-variant", s.materialVariant, s.materialVariant.empty());
+  for (const std::string& node : s.hiddenNodes) appendOption(text, "--hide", node);
   append(text, "--hdri-file", o.hdriFile.string(), o.hdriFile.empty());
   if (o.studio) text += " --studio";
   append(text, "--background-blur", exactText(o.backgroundBlur), o.backgroundBlur <= 0.0);
   if (o.shadowCatcher)
     appendOption(text, "--shadow-catcher", o.catcherHeight ? exactText(*o.catcherHeight) : "bottom");
   append(text, "--hdri-rotation", exactText(o.hdriRotationDegrees), o.hdriRotationDegrees == 0.0);
+  append(text, "--hdri-intensity", exactText(o.hdriIntensity), o.hdriIntensity == standard.hdriIntensity);
   const glm::dvec3 color(o.backgroundColor.value_or(glm::vec3(0.0f)));
   append(text, "--background-color", exactText(color.r) + "," + exactText(color.g) + "," + exactText(color.b),
          !o.backgroundColor);

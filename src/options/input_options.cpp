@@ -20,12 +20,12 @@ void addInputOptions(CLI::App& app, InputLimits& limits) {
   app.add_option_function<std::string>(
          "--missing-textures",
          [&limits](const std::string& choice) { limits.drawMissingTextures = choice == "warn"; },
-         "what to do if the picture of a texture cannot be read: error (default) ends the program; warn "
-         "prints a "
-         "warning, and draws magenta in place of a base colour, and leaves out what other textures control")
+         "what to do if the image of a texture cannot be read: error (default) ends the program; warn prints "
+         "a warning, replaces a missing base colour with magenta, and omits the effects of other missing "
+         "textures")
       ->check(CLI::IsMember({"error", "warn"}));
   app.add_flag("--allow-external-files", limits.allowExternalFiles,
-               "let the scene name files outside its folder");
+               "let the scene refer to files outside its folder");
 }
 
 void addSelectionOptions(CLI::App& app, SceneSelection& selection) {
@@ -39,13 +39,20 @@ void addSelectionOptions(CLI::App& app, SceneSelection& selection) {
       "SECONDS");
   app.add_option("--scene", selection.scene,
                  "name or index of the scene; by default the one that the file chooses");
-  app.add_option("--animation-time", selection.animationTime,
-                 "pose the scene as in its animation at this time, in seconds; by default it is not animated")
+  app.add_option(
+         "--animation-time", selection.animationTime,
+         "pose the scene at this time of its animation, in seconds; by default the scene is not animated")
       ->check(isTime);
   app.add_option("--animation", selection.animation,
                  "name or index of the animation for --animation-time; by default the first");
   app.add_option("--material-variant", selection.materialVariant,
                  "name or index of the material variant; `fragtrace info` lists the variants");
+  app.add_option(
+         "--hide", selection.hiddenNodes,
+         "name or index of a node to hide, together with everything below it; can be given several times; "
+         "`fragtrace info --nodes` lists the nodes")
+      ->type_name("NODE")
+      ->allow_extra_args(false);
 }
 
 }  // namespace fragtrace

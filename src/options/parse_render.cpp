@@ -54,6 +54,7 @@ void checkFinite(const RenderOptions& o) {
   check("--checkpoint", o.checkpointSeconds);
   check("--clamp-indirect", o.clampIndirect);
   check("--hdri-rotation", o.hdriRotationDegrees);
+  check("--hdri-intensity", o.hdriIntensity);
   check("--background-blur", o.backgroundBlur);
   const glm::vec3 background = o.backgroundColor.value_or(glm::vec3(0.0f));
   for (int i = 0; i < 3; ++i) check("--background-color", background[i]);
@@ -121,8 +122,9 @@ void addStageOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--stage", raw.stage,
                  "last stage: " + joined(stageNames(true)) + "; each stage includes those before it")
       ->capture_default_str();
-  app.add_option("--enable", raw.enable,
-                 "stages and switches to turn on as well, separated by commas: " + joined(stageNames(false)))
+  app.add_option(
+         "--enable", raw.enable,
+         "additional stages and switches to turn on, separated by commas:  " + joined(stageNames(false)))
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_option("--disable", raw.disable,
@@ -147,8 +149,9 @@ void addSampleOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--time", o.seconds,
                  "render for this many seconds, and place the samples where they help most")
       ->check(CLI::Range(0.01, 1e7));
-  app.add_option("--sample-offset", o.sampleOffset,
-                 "index of the first sample in the sequence of the seed, for renders in parts (see merge)")
+  app.add_option(
+         "--sample-offset", o.sampleOffset,
+         "index of the first sample in the sample sequence of this seed; for rendering in parts (see merge)")
       ->check(wholeNumber(0, kMostSamples))
       ->capture_default_str();
   app.add_option("--seed", o.seed, "seed of the sample points, 0 to 4294967295")
@@ -176,13 +179,12 @@ void addPathOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--bounces", raw.bounces, "maximum number of scattering events per path, or 'unlimited'")
       ->capture_default_str();
   app.add_option("--rr-depth", o.rouletteDepth,
-                 "number of the scattering event from which Russian roulette may end a path")
+                 "Russian roulette may end a path from this scattering event on")
       ->check(wholeNumber(1, std::numeric_limits<int>::max() / 4))
       ->capture_default_str();
-  app.add_option(
-         "--clamp-indirect", o.clampIndirect,
-         "maximum radiance that light after two or more scattering events adds to a sample; this removes "
-         "bright dots and darkens the picture")
+  app.add_option("--clamp-indirect", o.clampIndirect,
+                 "maximum radiance that indirect light (two or more scattering events) adds to a sample; "
+                 "this removes bright dots but darkens the picture")
       ->check(CLI::Range(1e-6, 1e30));
 }
 
@@ -219,17 +221,16 @@ void addTracingOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--instancing", raw.instancing,
                  "whether copies of a mesh share its triangles: " + joined(kInstancingNames))
       ->capture_default_str();
-  app.add_option("--rendering-backend", raw.backend, "how the OpenGL context is made: auto, egl, osmesa")
+  app.add_option("--rendering-backend", raw.backend, "how the OpenGL context is created: auto, egl, osmesa")
       ->capture_default_str();
   app.add_option("--buffer-reads", raw.reads, "how the shader reads the scene: " + joined(kBufferReadsNames))
       ->capture_default_str();
   app.add_option("--dispatch", raw.dispatch, "which shader stage runs the tracer: " + joined(kDispatchNames))
       ->capture_default_str();
-  app.add_option(
-         "--schedule", raw.schedule,
-         "whether a lane of the device traces one pixel at a time (megakernel) or many paths together "
-         "(wavefront): " +
-             joined(kScheduleNames))
+  app.add_option("--schedule", raw.schedule,
+                 "how paths are scheduled: each lane of the device traces one pixel at a time (megakernel), "
+                 "or the rays of many pixels are traced together (wavefront):  " +
+                     joined(kScheduleNames))
       ->capture_default_str();
 }
 
@@ -336,16 +337,14 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
 }
 
 void addDenoiseOption(CLI::App& app, RawRender& raw) {
-  app.add_option(
-         "--denoise", raw.denoise,
-         "filter that removes noise from the finished picture: " + joined(kDenoiseNames) +
-             "; auto takes oidn where it is installed, else variance; an .exr keeps the noisy colours "
-             "as noisy.R, noisy.G, noisy.B")
+  app.add_option("--denoise", raw.denoise,
+                 "filter that removes noise from the finished picture: " + joined(kDenoiseNames) +
+                     "; auto uses oidn if it is installed, otherwise variance; an .exr keeps the noisy "
+                     "colours as noisy.R, noisy.G, noisy.B")
       ->capture_default_str();
-  app.add_option(
-         "--oidn-library", raw.oidnLibrary,
-         "library file of Open Image Denoise 2.x; by default that of FRAGTRACE_OIDN_LIBRARY, else where the "
-         "system or pip (pyoidn) installs it")
+  app.add_option("--oidn-library", raw.oidnLibrary,
+                 "library file of Open Image Denoise 2.x; by default the file that FRAGTRACE_OIDN_LIBRARY "
+                 "names, otherwise the library installed by the system or by pip (pyoidn)")
       ->type_name("FILE");
 }
 

@@ -12,6 +12,8 @@ namespace fragtrace {
 
 namespace {
 
+constexpr double kMostIntensity = 1e6;
+
 void chooseCatcher(const std::string& text, RenderOptions& o) {
   if (text.empty()) return;
   o.shadowCatcher = true;
@@ -30,10 +32,15 @@ void addSurroundingsOptions(CLI::App& app, RawRender& raw) {
       ->type_name("FILE");
   app.add_flag(
       "--studio", o.studio,
-      "light the scene by a built-in environment: a key, a fill and a rim light, as soft boxes that the "
+      "light the scene with a built-in environment: a key, a fill and a rim light, as soft boxes that the "
       "camera does not see, in front of a grey backdrop");
   app.add_option("--hdri-rotation", o.hdriRotationDegrees,
                  "rotation of the environment map about +Y, in degrees")
+      ->capture_default_str();
+  app.add_option("--hdri-intensity", o.hdriIntensity,
+                 "multiply the light of the environment by this factor: of a map, of the studio, or of what "
+                 "lights a scene by default")
+      ->check(CLI::Range(0.0, kMostIntensity))
       ->capture_default_str();
   app.add_option(
          "--background-blur", o.backgroundBlur,

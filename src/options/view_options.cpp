@@ -26,12 +26,11 @@ void addViewOptions(CLI::App& app, RawView& raw) {
   raw.render.defaultLight = "studio";
   addDenoiseOption(app, raw.render);
   const auto describe = [&](const char* name, const char* text) { app.get_option(name)->description(text); };
-  describe("--spp", "samples per pixel after which the picture rests, by default without limit");
-  describe(
-      "--noise",
-      "the picture rests once 95 % of the pixels have an estimated relative error below this, by default "
-      "0.005");
-  describe("--time", "seconds of rendering after which the picture rests");
+  describe("--spp", "samples per pixel after which rendering stops; by default without limit");
+  describe("--noise",
+           "rendering stops once 95 % of the pixels have an estimated relative error below this, by default "
+           "0.005");
+  describe("--time", "seconds of rendering after which rendering stops");
   describe(
       "--denoise",
       "filter that removes noise while the samples are few: none, variance, oidn, auto; it fades out between "
@@ -40,6 +39,10 @@ void addViewOptions(CLI::App& app, RawView& raw) {
            "WIDTH,HEIGHT of the picture in pixels, at most 16384 each; by default the window has 1280,720");
   app.get_option("--default-light")->default_str(raw.render.defaultLight);
   addConfigOption(app, raw.config);
+  app.add_option("--reference", raw.reference,
+                 "picture to compare with: a linear .exr, .hdr or .pfm that is shown as side B of the split "
+                 "view; without --resolution, the picture of the scene has the size of this one")
+      ->type_name("FILE");
   app.add_flag("--watch", raw.watch,
                "reload the scene or the shaders of --shader-folder when a file changes");
   app.add_option("--status-file", raw.statusFile,
@@ -59,6 +62,7 @@ ViewOptions finishView(RawView& raw, CLI::App& command) {
   if (options.render.noise <= 0.0) options.render.noise = kNoise;
   options.watch = raw.watch;
   options.statusFile = raw.statusFile;
+  options.reference = raw.reference;
   return options;
 }
 

@@ -9,12 +9,14 @@ struct ViewOptions {
   RenderOptions render;  ///< what is shown at first
   bool watch = false;    ///< reload when the scene's files or the shaders change
   std::filesystem::path statusFile;
+  std::filesystem::path reference;  ///< a picture that is shown as side B; empty: none
 };
 
 struct RawView {
   RawRender render;
   std::string config;
   std::string statusFile;
+  std::string reference;
   bool watch = false;
 };
 

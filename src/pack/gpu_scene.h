@@ -29,6 +29,17 @@ struct BoxGrid {
   glm::vec3 cell{1.0f};
 };
 
+/// What light samples in gi choose between, in one unit of power.
+struct LightShare {
+  bool samplesEnvironment = false;
+  double environment = 0.0;  ///< at an intensity of 1
+  double emitters = 0.0;
+  bool anyEmitters = false;
+};
+
+/// The probability that a light sample goes to the environment, whose radiance is multiplied by `intensity`.
+float environmentChance(const LightShare& share, double intensity);
+
 struct GpuScene {
   std::array<Words, layout::kSceneBufferCount>
       buffers;  ///< by binding; empty when the variant never reads it
@@ -36,7 +47,7 @@ struct GpuScene {
   uint32_t leafCount = 0;
   glm::ivec2 environmentSize{0};
   glm::ivec2 backdropSize{0};
-  float environmentChance = 0.0f;  ///< of a light sample in gi going to the environment
+  LightShare lightShare;
   uint32_t emitterCount = 0;
   uint32_t punctualLights = 0;
   uint32_t energyTableRow = 0;       ///< where the energy table begins among the material rows

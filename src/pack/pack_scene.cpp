@@ -161,6 +161,15 @@ std::vector<glm::vec3> meanRadiance(const Scene& scene, const TraitSet& traits, 
 
 }  // namespace
 
+float environmentChance(const LightShare& share, double intensity) {
+  if (!share.samplesEnvironment) return 0.0f;
+  if (!share.anyEmitters) return 1.0f;
+  const double power = share.environment * intensity;
+  const double all = power + share.emitters;
+  // Neither side is left out altogether: a dim one can still be the only light of a corner.
+  return float(std::clamp(all > 0.0 ? power / all : 0.5, 0.1, 0.9));
+}
+
 size_t GpuScene::bytes() const {
   size_t words = 0;
   for (const Words& buffer : buffers) words += buffer.size();
@@ -249,12 +258,8 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
     packed.environmentSize = surroundings.size;
     packed.backdropSize = surroundings.backdropSize;
     packed.upwardIrradiance = surroundings.upwardIrradiance;
-    const double power = surroundings.power * radius * radius;
-    if (has(traits, Trait::EnvironmentSampling)) {
-      // Neither side is left out altogether: a dim one can still be the only light of a corner.
-      const double share = power + emitters.power > 0.0 ? power / (power + emitters.power) : 0.5;
-      packed.environmentChance = emitters.count == 0 ? 1.0f : float(std::clamp(share, 0.1, 0.9));
-    }
+    packed.lightShare = {has(traits, Trait::EnvironmentSampling), surroundings.power * radius * radius,
+                         emitters.power, emitters.count > 0};
   }
 
   Words& materials = packed.buffers[kMaterialsBinding];

@@ -71,8 +71,9 @@ void Renderer::describeScene(const GpuScene& scene) {
   frame_.gridOrigin = glm::vec4(scene.grid.origin, 0.0f);
   frame_.gridCell = glm::vec4(scene.grid.cell, 0.0f);
   frame_.environment = glm::vec4(scene.environmentSize, 1.0f, 0.0f);
-  frame_.lightChoice = glm::vec4(scene.environmentChance, float(scene.emitterCount),
-                                 float(scene.energyTableRow), float(scene.punctualLights));
+  lightShare_ = scene.lightShare;
+  frame_.lightChoice =
+      glm::vec4(0.0f, float(scene.emitterCount), float(scene.energyTableRow), float(scene.punctualLights));
   frame_.limits = {0, 0, 0, int(scene.leafCount)};
   frame_.catcherLight = glm::vec4(scene.upwardIrradiance, 0.0f);
   frame_.sampling.w = int(scene.objectRow);
@@ -93,6 +94,8 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.background = glm::vec4(view.background, view.showEnvironment ? 1.0f : 0.0f);
   frame_.environment.z = float(std::cos(view.hdriRotation));
   frame_.environment.w = float(std::sin(view.hdriRotation));
+  frame_.catcherLight.w = float(view.hdriIntensity);
+  frame_.lightChoice.x = environmentChance(lightShare_, view.hdriIntensity);
   frame_.picture = {placed.whole, 0, int(view.seed)};
   frame_.limits.x = view.bounces;
   frame_.limits.y = view.rouletteDepth;

@@ -22,6 +22,7 @@ struct View {
   Camera camera;                ///< world space
   LocalSpace space;             ///< of the scene
   double hdriRotation = 0.0;    ///< radians about +Y
+  double hdriIntensity = 1.0;   ///< factor of the environment's radiance
   glm::vec3 background{0.0f};   ///< seen by camera rays that miss
   bool showEnvironment = true;  ///< camera rays that miss see the environment map instead, or its backdrop
   double catcherHeight = 0.0;   ///< Y of the shadow catcher in world space, when the variant has one
@@ -126,6 +127,7 @@ class Renderer {
   ShaderVariant variant_;                ///< the same, or resumable
   std::map<ShaderVariant, Pace> paces_;  ///< of those that are not used now
   layout::Frame frame_{};
+  LightShare lightShare_;
   GlBuffer frameBuffer_;
   GlBuffer progressBuffer_;
   GlBuffer pathStates_;

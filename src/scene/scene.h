@@ -280,6 +280,18 @@ struct Strokes {
   std::vector<glm::uvec2> ends;  ///< vertices; twice the same: a point
 };
 
+/// A node of the scene that is shown.
+struct SceneNode {
+  std::string name;           ///< or its JSON pointer
+  uint32_t index = 0;         ///< its place in the file
+  int depth = 0;              ///< ancestors
+  bool hidden = false;        ///< it or an ancestor, by the file or by the user
+  bool hiddenInFile = false;  ///< by the file alone
+  bool mesh = false;          ///< or a sphere
+  bool light = false;
+  bool camera = false;
+};
+
 /// Vertex attributes, one entry a vertex; an array other than position is empty when no primitive needs it.
 struct Vertices {
   std::vector<glm::vec3> position;  ///< local space
@@ -306,6 +318,7 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Camera> cameras;  ///< in the order of the scene's node traversal; positions in world space
   std::vector<PrimitiveOrigin> origins;
+  std::vector<SceneNode> nodes;          ///< parents before what is below them
   std::vector<SharedMesh> sharedMeshes;  ///< their triangles and vertices stand behind all others
   std::vector<Instance> instances;
   std::string sharing;  ///< why meshes are shared or are not, in a few words

@@ -3,16 +3,19 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace fragtrace {
 
 /// What of a file is shown. A part is named by its name or, where none has that name, by its index.
 struct SceneSelection {
-  std::string scene{};                    ///< empty: the file's default scene
-  std::string animation{};                ///< empty: the first one; only with a time
-  std::optional<double> animationTime{};  ///< seconds; none: the pose that the file stands in
-  std::string camera{};                   ///< of the scene's; empty: the one of an index, or the first
-  std::string materialVariant{};          ///< empty: the materials that the file shows by default
+  std::string scene{};                     ///< empty: the file's default scene
+  std::string animation{};                 ///< empty: the first one; only with a time
+  std::optional<double> animationTime{};   ///< seconds; none: the pose that the file stands in
+  std::string camera{};                    ///< of the scene's; empty: the one of an index, or the first
+  std::string materialVariant{};           ///< empty: the materials that the file shows by default
+  std::vector<std::string> hiddenNodes{};  ///< by name (all that have it), JSON pointer or index; not drawn,
+                                           ///< nor what is below them
 
   bool operator==(const SceneSelection&) const = default;
 };

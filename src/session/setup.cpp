@@ -131,6 +131,7 @@ View makeView(const RenderOptions& options, const LoadedScene& loaded, const Cam
   view.camera = camera;
   view.space = scene.space;
   view.hdriRotation = glm::radians(options.hdriRotationDegrees);
+  view.hdriIntensity = options.hdriIntensity;
   if (options.background) view.background = options.backgroundColor.value_or(glm::vec3(0.0f));
   const bool map = loaded.environment.kind == Surroundings::Map;
   view.showEnvironment = map && options.background && !options.backgroundColor;

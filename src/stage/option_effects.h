@@ -58,6 +58,7 @@ inline constexpr std::tuple kOptionRows{
     OptionRow{&RenderOptions::sceneOrigin, Effect::Way, Renewal::Scene},
     OptionRow{&RenderOptions::hdriFile, Effect::Picture, Renewal::Scene, "hdri"},
     OptionRow{&RenderOptions::hdriRotationDegrees, Effect::Picture, Renewal::None, "hdri_rotation"},
+    OptionRow{&RenderOptions::hdriIntensity, Effect::Picture, Renewal::None, "hdri_intensity"},
     OptionRow{&RenderOptions::backgroundBlur, Effect::Picture, Renewal::Scene, "background_blur"},
     OptionRow{&RenderOptions::studio, Effect::Picture, Renewal::Scene, "studio"},
     OptionRow{&RenderOptions::shadowCatcher, Effect::Picture, Renewal::Scene, "shadow_catcher"},

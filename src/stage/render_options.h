@@ -92,6 +92,7 @@ struct RenderOptions {
       sceneOrigin;  ///< place that positions are rounded about; none: the focal point given
   std::filesystem::path hdriFile;
   double hdriRotationDegrees = 0.0;
+  double hdriIntensity = 1.0;   ///< that the environment's radiance is multiplied by
   double backgroundBlur = 0.0;  ///< of the environment map as the camera sees it: standard deviation, degrees
   double exposure = 0.0;
   std::optional<glm::vec3> backgroundColor;  ///< none: the environment map, black without one

@@ -227,16 +227,16 @@ bool changeWindow(ViewState& state, const Control& control, const Movement& m) {
       return true;
     case Action::FlipSides:
       if (!state.split) return true;
-      state.comparison = state.comparison == Comparison::Left ? Comparison::Right : Comparison::Left;
-      state.active = state.comparison == Comparison::Left ? 0 : 1;
+      state.comparison = state.comparison == CompareMode::Left ? CompareMode::Right : CompareMode::Left;
+      state.active = state.comparison == CompareMode::Left || !state.reference.empty() ? 0 : 1;
       return true;
     case Action::ToggleDifference:
       if (!state.split) return true;
       state.comparison =
-          state.comparison == Comparison::Difference ? Comparison::Bar : Comparison::Difference;
+          state.comparison == CompareMode::Difference ? CompareMode::Bar : CompareMode::Difference;
       return true;
     case Action::ShowBar:
-      state.comparison = Comparison::Bar;
+      state.comparison = CompareMode::Bar;
       return true;
     case Action::Magnify:
       magnify(state, m.notches > 0.0 ? 1 : m.notches < 0.0 ? -1 : control.argument, m.place);
@@ -267,7 +267,14 @@ bool changeWindow(ViewState& state, const Control& control, const Movement& m) {
 
 }  // namespace
 
+bool isUsable(const ViewState& state, Action action) {
+  if (state.scene && !state.sheet) return true;
+  return action == Action::ToggleSheet || action == Action::Close || action == Action::Quit ||
+         action == Action::Fullscreen || (action == Action::Reload && !state.sheet);
+}
+
 Errand apply(ViewState& state, const Control& control, const Movement& movement) {
+  if (!isUsable(state, control.action)) return Errand::None;
   if (moveCamera(state, control, movement) || changePicture(state, control, movement) ||
       changeWindow(state, control, movement))
     return Errand::None;

@@ -6,9 +6,23 @@
 
 namespace fragtrace {
 
-DroppedFile kindOfDropped(const std::filesystem::path& path) {
+namespace {
+
+std::string extensionOf(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return extension;
+}
+
+}  // namespace
+
+bool mayBeReference(const std::filesystem::path& path) {
+  const std::string extension = extensionOf(path);
+  return extension == ".exr" || extension == ".pfm";
+}
+
+DroppedFile kindOfDropped(const std::filesystem::path& path) {
+  const std::string extension = extensionOf(path);
   if (extension == ".gltf" || extension == ".glb") return DroppedFile::Scene;
   if (extension == ".hdr" || extension == ".exr" || extension == ".pfm") return DroppedFile::Environment;
   return DroppedFile::Unknown;

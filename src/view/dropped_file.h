@@ -18,6 +18,9 @@ enum class DroppedFile : uint8_t { Scene, Environment, Unknown };
 /// By its extension, in any case: .gltf and .glb are scenes, .hdr, .exr and .pfm environments.
 DroppedFile kindOfDropped(const std::filesystem::path& path);
 
+/// Whether it is a picture to compare with, where pictures are compared: an .exr or .pfm.
+bool mayBeReference(const std::filesystem::path& path);
+
 /// What files dropped together ask for.
 struct Drop {
   std::optional<RenderOptions> load;  ///< none: nothing of it can be loaded

@@ -75,6 +75,14 @@ void Exchange::pick(PickRequest request) {
   order([&](Orders& o) { o.pick = request; });
 }
 
+void Exchange::makeThumbnails(std::vector<std::filesystem::path> environments) {
+  order([&](Orders& o) { o.thumbnails = std::move(environments); });
+}
+
+void Exchange::compareWith(std::filesystem::path reference) {
+  order([&](Orders& o) { o.reference = std::move(reference); });
+}
+
 void Exchange::quit() {
   order([this](Orders& o) { o.quit = ending_ = true; });
 }
@@ -97,7 +105,7 @@ Orders Exchange::wait(double seconds) {
   std::unique_lock lock(mutex_);
   const auto anything = [this] {
     return orders_.request || orders_.load || orders_.cancelLoad || !orders_.saves.empty() || orders_.pick ||
-           orders_.quit || nudged_;
+           orders_.reference || !orders_.thumbnails.empty() || orders_.quit || nudged_;
   };
   ordered_.wait_for(lock, std::chrono::duration<double>(seconds), anything);
   nudged_ = false;
@@ -127,12 +135,21 @@ void Exchange::deliver(TracedPicture picture) {
 void Exchange::deliver(ViewedScene scene) {
   inform([&](Delivery& d) {
     d.scene = std::move(scene);
-    d.pictures.clear();
+    d.bounds.reset();
+    std::erase_if(d.pictures, [](const TracedPicture& picture) { return picture.file.empty(); });
   });
 }
 
 void Exchange::deliver(PickAnswer answer) {
   inform([&](Delivery& d) { d.pick = std::move(answer); });
+}
+
+void Exchange::deliver(EnvironmentThumbnail thumbnail) {
+  inform([&](Delivery& d) { d.thumbnails.push_back(std::move(thumbnail)); });
+}
+
+void Exchange::tellBounds(const BoundsDouble& bounds) {
+  inform([&](Delivery& d) { d.bounds = bounds; });
 }
 
 void Exchange::tellLoad(LoadStatus status) {

@@ -3,6 +3,7 @@
 // other.
 #pragma once
 
+#include <array>
 #include <condition_variable>
 #include <exception>
 #include <functional>
@@ -18,6 +19,10 @@
 #include "stage/traits.h"
 
 namespace fragtrace {
+
+/// What the split view shows: both sides of the bar, one side alone, or how far they differ.
+enum class CompareMode : uint8_t { Bar, Left, Right, Difference };
+inline constexpr std::array kComparisonNames{"bar", "left", "right", "difference"};
 
 /// What the window wants to show.
 struct TraceRequest {
@@ -55,8 +60,15 @@ struct TracedPicture {
   uint64_t request = 0;  ///< the latest that it answers
   Image image;          ///< linear R, G, B, and A where camera rays may see nothing; the first row at the top
   bool asItIs = false;  ///< colours of a debug view: neither exposure nor tone map
+  std::filesystem::path file{};    ///< that the picture was read from; empty: it was traced
   std::vector<PictureLine> lines;  ///< over it: boxes of the tree
   SideStatistics statistics;
+};
+
+/// A material's name, and its values in words.
+struct ViewedMaterial {
+  std::string name;
+  std::vector<std::string> lines;
 };
 
 /// The scene that is drawn, as far as the window knows it.
@@ -70,7 +82,9 @@ struct ViewedScene {
   bool defaultLight = false;                        ///< it has no light of its own
   bool map = false;                                 ///< an environment map lights it
   std::vector<std::filesystem::path> environments;  ///< files near it that may
-  std::vector<std::string> sceneNames;              ///< as in Scene, as are the next three
+  std::vector<SceneNode> nodes;                     ///< as when it was loaded
+  std::vector<ViewedMaterial> materials;
+  std::vector<std::string> sceneNames;  ///< as in Scene, as are the next three
   std::vector<std::string> materialVariants;
   std::vector<std::string> animationNames;
   std::vector<std::optional<double>> animationSeconds;
@@ -84,10 +98,13 @@ struct LoadStatus {
   double fraction = 0.0;
 };
 
-/// A file to be made of what a side has accumulated: linear, or as a display shows it.
+/// A file to be made of what a side has accumulated, linear or as a display shows it, or of both sides.
 struct SaveRequest {
   std::filesystem::path path;
   size_t side = 0;
+  std::optional<CompareMode> both{};  ///< Bar or Difference, of both sides as they are shown; none: one side
+  double bar = 0.5;                   ///< a part of the width
+  double differenceStops = 0.0;
   double exposure = 0.0;
   ToneMap toneMap = ToneMap::Neutral;
 };
@@ -95,9 +112,10 @@ struct SaveRequest {
 /// What is at a place of the picture?
 struct PickRequest {
   size_t side = 0;
-  glm::dvec2 place{0.0};  ///< parts of width and height, from the top left
-  bool center = false;    ///< the camera is to be centred on it
-  bool clear = false;     ///< nothing is selected any more
+  glm::dvec2 place{0.0};           ///< parts of width and height, from the top left
+  bool center = false;             ///< the camera is to be centred on it
+  bool clear = false;              ///< nothing is selected any more
+  std::optional<uint32_t> node{};  ///< this one and what is below it, rather than a place (SceneNode::index)
 };
 
 struct PickAnswer {
@@ -105,7 +123,14 @@ struct PickAnswer {
   bool hit = false;
   glm::dvec3 point{0.0};           ///< world space
   std::vector<std::string> lines;  ///< what was hit, in words
-  BoundsDouble bounds;             ///< of its node's part of the scene, world space
+  BoundsDouble bounds;             ///< of what its node draws, world space
+  std::optional<uint32_t> node;    ///< that was selected
+};
+
+/// A small picture of an environment.
+struct EnvironmentThumbnail {
+  std::filesystem::path file;  ///< empty: the studio
+  Image image;                 ///< as a display shows it: R, G, B, 0..1; without pixels: it cannot be read
 };
 
 /// What is new for the window since it asked last.
@@ -113,6 +138,8 @@ struct Delivery {
   std::vector<TracedPicture> pictures;  ///< at most one a side
   std::optional<ViewedScene> scene;     ///< a new one
   std::optional<PickAnswer> pick;
+  std::optional<BoundsDouble> bounds;  ///< of the scene as it is posed now
+  std::vector<EnvironmentThumbnail> thumbnails;
   LoadStatus load;
   uint64_t request = 0;               ///< the latest that the tracing thread has seen
   bool resting = false;               ///< it has nothing to do
@@ -128,7 +155,10 @@ struct Orders {
   std::optional<RenderOptions> load;
   bool cancelLoad = false;
   std::vector<SaveRequest> saves;
+  std::optional<std::filesystem::path>
+      reference;  ///< to be read, and delivered as side B; empty: none any more
   std::optional<PickRequest> pick;
+  std::vector<std::filesystem::path> thumbnails;  ///< environments, of which pictures are wanted
   bool quit = false;
 };
 
@@ -143,6 +173,8 @@ class Exchange {
   void cancelLoad();
   void save(SaveRequest request);
   void pick(PickRequest request);
+  void makeThumbnails(std::vector<std::filesystem::path> environments);
+  void compareWith(std::filesystem::path reference);
   void quit();
   Delivery take();
 
@@ -155,6 +187,8 @@ class Exchange {
   void deliver(TracedPicture picture);
   void deliver(ViewedScene scene);
   void deliver(PickAnswer answer);
+  void deliver(EnvironmentThumbnail thumbnail);
+  void tellBounds(const BoundsDouble& bounds);
   void tellLoad(LoadStatus status);
   void tellState(uint64_t request, bool resting);
   void tellNote(std::string note);

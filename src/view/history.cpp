@@ -13,7 +13,9 @@ Settings settingsOf(const ViewState& state) {
                     state.split, state.active, state.treeBoxes, state.treeLevel};
   for (RenderOptions& side : settings.sides) {
     if (!side.scene.empty()) takeScene(side, state.scene ? state.scene->options : RenderOptions());
+    const std::vector<std::string> hidden = side.selection.hiddenNodes;
     side.selection = {};
+    side.selection.hiddenNodes = hidden;
   }
   return settings;
 }
@@ -22,7 +24,9 @@ void take(ViewState& state, const Settings& settings) {
   const std::array<RenderOptions, 2> before = std::exchange(state.sides, settings.sides);
   for (size_t i = 0; i < 2; ++i) {
     if (!state.sides[i].scene.empty()) takeScene(state.sides[i], before[0]);
+    state.sides[i].selection.hiddenNodes = settings.sides[i].selection.hiddenNodes;
   }
+  if (state.scene) state.scene->options.selection = state.sides[0].selection;
   state.pose = settings.pose;
   state.posed = settings.posed;
   state.sceneCamera = settings.sceneCamera;

@@ -33,7 +33,8 @@ void addCamera(std::vector<Control>& rows) {
   add(Hold, 'E', 0, Action::FlyUp, "fly up", 1);
   add(Hold, 'Q', 0, Action::FlyUp, "fly down", -1);
   add(HoldWheel, 0, 0, Action::FlySpeed, "fly faster or slower; Shift flies four times as fast");
-  add(Press, 'F', 0, Action::FrameAll, "frame what was clicked on, else the whole scene");
+  add(Press, 'F', 0, Action::FrameAll,
+      "frame the selected object, or the whole scene if nothing is selected");
   add(Press, 'F', kShift, Action::FrameAll, "frame the whole scene", 1);
   add(Press, key::kEnter, 0, Action::ResetCamera, "back to the first camera");
   add(Press, '1', 0, Action::StandardView, "from the front", int(StandardViewOf::Front));
@@ -52,7 +53,7 @@ void addCamera(std::vector<Control>& rows) {
   add(Press, 'N', 0, Action::NextCamera, "the scene's next camera", 1);
   add(Press, 'N', kShift, Action::NextCamera, "the scene's previous camera", -1);
   add(Press, 'C', kControl, Action::CopyCommand, "copy the command that renders this picture");
-  add(Press, 'V', kControl, Action::PasteCommand, "take a copied command, or its camera options");
+  add(Press, 'V', kControl, Action::PasteCommand, "paste a copied command or camera options");
   add(Press, 'Z', kControl, Action::Undo, "undo the latest change of camera or settings");
   add(Press, 'Y', kControl, Action::Redo, "redo it");
   add(Press, 'Z', kControl | kShift, Action::Redo, "redo it");
@@ -83,16 +84,16 @@ void addPicture(std::vector<Control>& rows) {
   add(Press, 'X', 0, Action::ToggleStage, "node heat map on or off", int(Stage::BvhHeatmap));
   add(Press, 'M', 0, Action::ToggleStage, "watertight triangle test on or off", int(Stage::Watertight));
   add(Press, 'V', 0, Action::NextDebugView, "the next debug view", 1);
-  add(Press, 'V', kShift, Action::NextDebugView, "the debug view before", -1);
+  add(Press, 'V', kShift, Action::NextDebugView, "the previous debug view", -1);
   add(Press, 'B', 0, Action::ToggleTreeBoxes, "boxes of the tree on or off");
   add(Press, ']', 0, Action::TreeLevel, "boxes of the next level", 1);
-  add(Press, '[', 0, Action::TreeLevel, "boxes of the level before", -1);
+  add(Press, '[', 0, Action::TreeLevel, "boxes of the previous level", -1);
   add(Press, 'T', 0, Action::NextToneMap, "the next tone map");
   add(Press, 'L', 0, Action::Exposure, "brighter by half a stop", 1);
   add(Press, 'L', kShift, Action::Exposure, "darker by half a stop", -1);
   add(Drag, mouse::kRight, kShift, Action::RotateEnvironment, "rotate the environment");
   add(Press, 'J', 0, Action::ToggleBackground, "background on or off");
-  add(Press, 'K', 0, Action::ToggleGround, "ground that shows shadows alone on or off");
+  add(Press, 'K', 0, Action::ToggleGround, "shadow catcher on or off");
   add(Press, 'G', 0, Action::ToggleDenoise, "denoising on or off");
   add(Press, key::kSpace, 0, Action::PlayAnimation, "play the animation, or pause it");
   add(Press, 'P', 0, Action::NextAnimation, "the next animation", 1);
@@ -108,12 +109,12 @@ void addWindow(std::vector<Control>& rows) {
   add(Click, mouse::kLeft, 0, Action::Inspect, "select what is under the cursor, and say what it is");
   add(Press, 'C', 0, Action::ToggleSplit, "compare: split view on or off");
   add(Press, 'R', 0, Action::FlipSides, "compare: the left side alone, then the right one");
-  add(Press, 'U', 0, Action::ToggleDifference, "compare: how far both sides differ");
-  add(Press, 'I', 0, Action::ShowBar, "compare: both sides and the bar again");
-  add(Wheel, 0, kControl, Action::Magnify, "enlarge the pixels about the cursor");
-  add(Press, '=', 0, Action::Magnify, "enlarge the pixels about the cursor", 1);
-  add(Press, '-', 0, Action::Magnify, "smaller pixels again", -1);
-  add(Drag, mouse::kMiddle, kControl, Action::MoveMagnifier, "move the enlarged picture");
+  add(Press, 'U', 0, Action::ToggleDifference, "compare: the difference between the two sides");
+  add(Press, 'I', 0, Action::ShowBar, "compare: back to both sides and the bar");
+  add(Wheel, 0, kControl, Action::Magnify, "magnify the pixels around the cursor");
+  add(Press, '=', 0, Action::Magnify, "magnify the pixels around the cursor", 1);
+  add(Press, '-', 0, Action::Magnify, "reduce the magnification", -1);
+  add(Drag, mouse::kMiddle, kControl, Action::MoveMagnifier, "move the magnified picture");
   add(Press, key::kTab, 0, Action::TogglePanel, "panel on or off");
   add(Press, 'Z', 0, Action::ToggleHud, "figures on or off");
   add(Press, key::kF11, 0, Action::Fullscreen, "full screen on or off");
@@ -124,7 +125,7 @@ void addWindow(std::vector<Control>& rows) {
   add(Press, key::kF12, 0, Action::Screenshot, "write the picture as .png");
   add(Press, key::kF12, kShift, Action::WriteExr, "write the accumulated radiance as .exr");
   add(Press, key::kEscape, 0, Action::Close,
-      "close what is open: a list, the sheet, enlarged pixels, a load, full screen; else quit");
+      "close what is open: a list, the sheet, magnified pixels, a load, full screen; else quit");
   add(Press, 'Q', kControl, Action::Quit, "quit");
 }
 

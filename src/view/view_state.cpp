@@ -20,8 +20,8 @@ void resetCamera(ViewState& state) {
 }
 
 double ViewState::shownBar() const {
-  if (!split || comparison == Comparison::Left || comparison == Comparison::Difference) return 1.0;
-  return comparison == Comparison::Right ? 0.0 : bar;
+  if (!split || comparison == CompareMode::Left || comparison == CompareMode::Difference) return 1.0;
+  return comparison == CompareMode::Right ? 0.0 : bar;
 }
 
 glm::dvec2 magnifiedPlace(const ViewState& state, const glm::dvec2& place) {
@@ -63,7 +63,7 @@ RenderOptions renderOptionsOf(const ViewState& state, size_t side) {
 
 std::vector<RenderOptions> tracedSides(const ViewState& state) {
   std::vector<RenderOptions> sides;
-  for (size_t i = 0; i < (state.split ? 2u : 1u); ++i) {
+  for (size_t i = 0; i < state.tracedCount(); ++i) {
     sides.push_back(renderOptionsOf(state, i));
     sides.back().resolution.reset();
   }
@@ -84,6 +84,7 @@ void takeOptions(ViewState& state, const RenderOptions& options) {
     side.exposure = options.exposure;
     side.toneMap = options.toneMap;
     side.hdriRotationDegrees = options.hdriRotationDegrees;
+    side.hdriIntensity = options.hdriIntensity;
     side.background = options.background;
     side.shadowCatcher = options.shadowCatcher;
     side.catcherHeight = options.catcherHeight;
@@ -109,7 +110,7 @@ void resetAll(ViewState& state, const RenderOptions& start) {
   }
   state.split = false;
   state.active = 0;
-  state.comparison = Comparison::Bar;
+  state.comparison = CompareMode::Bar;
   state.magnifier = {};
   state.treeBoxes = start.treeLevel.has_value();
   resetCamera(state);

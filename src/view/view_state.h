@@ -19,10 +19,6 @@ struct Playback {
   double at = -1.0;  ///< when it last went on, in seconds; negative: it did not play then
 };
 
-/// What the split view shows: both sides of the bar, one side alone, or how far they differ.
-enum class Comparison : uint8_t { Bar, Left, Right, Difference };
-inline constexpr std::array kComparisonNames{"bar", "left", "right", "difference"};
-
 /// The picture enlarged, without drawing it anew, so that its pixels can be told apart.
 struct Magnifier {
   int steps = 0;           ///< each doubles; 0: pixel by pixel
@@ -35,14 +31,16 @@ struct ViewState {
   std::array<RenderOptions, 2> sides;  ///< the second is that of the split view
   size_t active = 0;                   ///< the side that stages and settings are changed of
   bool split = false;
-  double bar = 0.5;  ///< where the sides meet, as a part of the width
-  Comparison comparison = Comparison::Bar;
+  std::filesystem::path reference;  ///< a picture that is side B; empty: B is traced
+  double bar = 0.5;                 ///< where the sides meet, as a part of the width
+  CompareMode comparison = CompareMode::Bar;
   double differenceStops = 0.0;  ///< the difference is shown times 2^this
   Magnifier magnifier;
 
   glm::ivec2 size{1280, 720};  ///< pixels of the picture
   std::optional<ViewedScene> scene;
-  BoundsDouble selected;  ///< of what was clicked on, world space; empty: nothing
+  BoundsDouble selected;                 ///< of what was clicked on, world space; empty: nothing
+  std::optional<uint32_t> selectedNode;  ///< that it is (SceneNode::index)
   CameraPose pose;
   bool posed = false;  ///< the camera is the pose; else what the options choose, to the last bit
   int sceneCamera = -1;
@@ -63,6 +61,8 @@ struct ViewState {
 
   RenderOptions& options() { return sides[active]; }
   const RenderOptions& options() const { return sides[active]; }
+  /// Sides that are traced: 2 where the split view compares two of them, rather than one and a file.
+  size_t tracedCount() const { return split && reference.empty() ? 2 : 1; }
   /// Where the bar stands: 1 where the left side alone is shown.
   double shownBar() const;
 };
@@ -72,6 +72,7 @@ enum class Errand : uint8_t {
   None,
   CenterOn,
   Inspect,
+  SelectNode,  ///< Task::index, as SceneNode::index
   Deselect,
   CopyCommand,
   PasteCommand,
@@ -79,8 +80,9 @@ enum class Errand : uint8_t {
   Redo,
   ResetAll,
   Fullscreen,
-  OpenFile,  ///< Task::file
-  Load,      ///< Task::load
+  OpenFile,       ///< Task::file
+  DropReference,  ///< side B is traced again
+  Load,           ///< Task::load
   CancelLoad,
   AddBookmark,     ///< Task::text is its name
   ShowBookmark,    ///< Task::index
@@ -112,7 +114,10 @@ struct Movement {
   glm::dvec2 place{0.5};
 };
 
-/// Does what the control says, or returns what is left to be done.
+/// Controls change nothing that cannot be seen: no scene is shown, or the sheet covers it.
+bool isUsable(const ViewState& state, Action action);
+
+/// Does what the control says, if that is usable, or returns what is left to be done.
 Errand apply(ViewState& state, const Control& control, const Movement& movement = {});
 
 /// Which of the scene's animations is shown or would be played, from 0; -1: it has none.
@@ -127,6 +132,12 @@ void showAnimation(ViewState& state, int animation, double seconds);
 /// Goes on with what plays, at a time in seconds: by what has passed since the last call, so that slow
 /// pictures are left out. At the end it begins again, or stops.
 void play(ViewState& state, double now);
+
+/// Whether the user hides the scene's node (an index into ViewedScene::nodes) itself.
+bool isHidden(const ViewState& state, size_t node);
+
+/// Hides it with all that is below it, or shows it again, on both sides. Others of its name stay as they are.
+void hideNode(ViewState& state, size_t node, bool hidden);
 
 /// Makes the options load the same scene and light as others: what one side has, both have.
 void takeScene(RenderOptions& side, const RenderOptions& from);

@@ -14,6 +14,7 @@ namespace fragtrace {
 struct WindowStart {
   RenderOptions options;
   std::filesystem::path statusFile;  ///< see docs/viewer.md; empty: none
+  std::filesystem::path reference;   ///< a picture to compare with; empty: none
   std::function<void()> opened;      ///< called once the window is there
   // Options as text of the command line, and back (cli/camera_options.h, cli/command_text.h).
   std::function<std::string(const RenderOptions&)> cameraText;

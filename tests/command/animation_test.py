@@ -176,6 +176,18 @@ class Selections(Case):
         self.assertEqual(found["scene_names"], [""])
         self.assertEqual(found["material_variants"], [])
 
+    def test_nodes_are_listed_and_hidden(self):
+        scene = SCENES / "plastics.gltf"
+        text = run("info", scene, "--nodes").stdout
+        self.assertIn('    1 "lamp", mesh\n', text)
+        found = json.loads(run("info", scene, "--nodes", "--json", "--hide", "lamp", "--hide", "7").stdout)
+        self.assertEqual([node["name"] for node in found["nodes"] if node["hidden"]], ["lamp", "sphere-3"])
+        self.assertEqual(found["scene"]["spheres"], 3)
+        self.assertNotIn("nodes", json.loads(run("info", scene, "--json").stdout))
+        result = run("info", scene, "--hide", "nothere")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn('--hide: "nothere" is no node of the file, which has 8', result.stderr)
+
     def test_a_file_without_animations_is_drawn_with_a_warning(self):
         result = run("info", SCENES / "cornell-box.gltf", "--animation-time", "1")
         self.assertEqual(result.returncode, 0)

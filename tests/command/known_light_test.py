@@ -100,6 +100,27 @@ class KnownLight(Case):
     def test_a_sky(self):
         self.near(self.mean([], [], "--hdri-file", SCENES / "sky.pfm", spp=64), self.sky(), 5e-4)
 
+    def test_the_intensity_of_a_sky(self):
+        """Beside a lamp that light samples are shared with, by the power that the factor leaves."""
+        sky = ["--hdri-file", SCENES / "sky.pfm", "--hdri-intensity"]
+        self.near(self.mean([], [], *sky, "3", spp=64), 3 * self.sky(), 5e-4)
+        place, half, radiance = (0.2, -0.3, 0.8), 0.15, 4
+        lamp = self.mean([(place, half, radiance)], [], "--no-default-light", spp=256) * math.pi
+        with_sky = [self.mean([(place, half, radiance)], [], *sky, str(factor), spp=256) * math.pi - lamp for factor in (0.1, 1)]
+        self.assertAlmostEqual(with_sky[0] / with_sky[1], 0.1, delta=2e-3)
+
+    def test_twice_the_intensity_doubles_every_value(self):
+        """As the camera sees it, too, blurred or not; for shadows on the catcher it makes no difference."""
+        for scene, *options in (["environment-diffuse", "--hdri-file", SCENES / "sky.pfm"],
+                                ["environment-diffuse", "--hdri-file", SCENES / "sky.pfm", "--background-blur", "10"],
+                                ["furnace", "--studio"], ["furnace"]):
+            once, twice = (self.picture(scene, f"{factor}.pfm", "--resolution", "32,24", "--spp", "2", "--hdri-intensity", factor, *options)
+                           for factor in ("1", "2"))
+            self.assertEqual([[tuple(2 * value for value in pixel) for pixel in row] for row in once], twice, scene)
+        options = ["--studio", "--shadow-catcher", "bottom", "--no-background", "--resolution", "32,24", "--spp", "2"]
+        once, twice = (self.picture("environment-diffuse", f"{factor}.pfm", "--hdri-intensity", factor, *options) for factor in ("1", "2"))
+        self.assertEqual([[tuple(2 * value for value in pixel) for pixel in row] for row in once], twice)
+
     def test_a_sky_and_punctual_lights(self):
         point, reach, spot, inner, outer = (0.5, 0.3, 0.9), 2.5, (-0.4, -0.2, 1.0), 0.3, 0.7
         lights = [({}, {"type": "directional", "intensity": 0.5}),

@@ -92,7 +92,7 @@ ROWS = [
     F("environment.environmentDirection", "0.5f * uv.y", "0.5f * uv.y + float(0.0015)", "directions of the environment are drawn a tenth of a texel too low"),
     F("environment.environmentTexel", "return uintBitsToFloat", "return float(1.02) * uintBitsToFloat", "texels of the environment are 2 % too bright"),
     F("environment.mapAt", "place - vec2(0.5f)", "place - vec2(0.4f)", "the environment is shifted by a tenth of a texel"),
-    F("environment.environmentAt", "return mapAt", "return float(1.02) * mapAt", "the environment is 2 % too bright and drawn as if it were"),
+    F("environment.environmentAt", "vec3(there) * intensity", "vec3(there) * (float(1.02) * intensity)", "the environment is 2 % too bright and drawn as if it were"),
     F("environment.backdropAlong", "return vec3(mapAt", "return float(1.02) * vec3(mapAt", "the backdrop is 2 % too bright"),
     F("environment.environmentAlong", "return environmentAt", "return float(1.02) * environmentAt", "the environment along a ray is 2 % too bright"),
     F("environment.environmentDensity", "along.w /", "float(1.05) * along.w /", "the density of the environment is 5 % too high"),

@@ -46,6 +46,10 @@ std::vector<std::function<void(RenderOptions&)>> changes() {
       [](RenderOptions& o) { o.selection.camera = "the side"; },
       [](RenderOptions& o) { o.hdriFile = "the sky/noon.hdr"; },
       [](RenderOptions& o) { o.hdriRotationDegrees = double(-0.3f); },
+      [](RenderOptions& o) {
+        o.selection.hiddenNodes = {"a node", "7", "/nodes/3"};
+      },
+      [](RenderOptions& o) { o.hdriIntensity = double(0.3f); },
       [](RenderOptions& o) { o.backgroundColor = glm::vec3(0.1f, 0.2f, 1.0f / 3.0f); },
       [](RenderOptions& o) { o.background = false; },
       [](RenderOptions& o) { o.studio = true; },

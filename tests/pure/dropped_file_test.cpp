@@ -32,6 +32,11 @@ TEST(Drop, ASceneAndAnEnvironmentAreBothTaken) {
   }
 }
 
+TEST(Drop, APictureOfLinearRadianceMayBeAReference) {
+  for (const char* name : {"a.exr", "b.PFM"}) EXPECT_TRUE(mayBeReference(name)) << name;
+  for (const char* name : {"a.hdr", "b.png", "c.glb", "exr"}) EXPECT_FALSE(mayBeReference(name)) << name;
+}
+
 TEST(Drop, WhatIsNotTakenIsSaid) {
   const std::vector<std::filesystem::path> files{"a.glb", "x.png", "b.glb"};
   const Drop drop = takeDrop({}, files);

@@ -2,6 +2,8 @@
 // KHR_node_visibility, and its animation.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "gltf_builder.h"
 
 namespace fragtrace::gltf_test {
@@ -37,6 +39,42 @@ TEST(GltfVisibility, AHiddenNodeHidesAllBelowItButCameras) {
     EXPECT_EQ(scene.cameras.size(), 1u);
     EXPECT_TRUE(scene.warnings.empty());
   }
+}
+
+TEST(GltfVisibility, TheUserHidesByNamePointerOrIndex) {
+  for (const char* name : {"parent", "/nodes/1", "1"}) {
+    GltfBuilder builder = family();
+    builder.node(1)["name"] = "parent";
+    GltfOptions options;
+    options.selection.hiddenNodes = {name};
+    const Scene scene = load(builder, options);
+    EXPECT_EQ(scene.triangles.size(), 1u) << name;
+    EXPECT_TRUE(scene.lights.empty());
+    EXPECT_EQ(scene.cameras.size(), 1u);
+  }
+  GltfBuilder builder = family();
+  GltfOptions options;
+  options.selection.hiddenNodes = {"5"};
+  EXPECT_THROW(load(builder, options), UsageError);
+}
+
+TEST(GltfVisibility, NodesAreListedWithWhatTheyHold) {
+  GltfBuilder builder = family();
+  builder.node(2)["name"] = "beside";
+  builder.node(2)["extensions"] = visibility(false);
+  GltfOptions options;
+  options.selection.hiddenNodes = {"/nodes/1"};
+  const std::vector<SceneNode> nodes = load(builder, options).nodes;
+  ASSERT_EQ(nodes.size(), 5u);
+  const auto one = [&](uint32_t index) { return *std::ranges::find(nodes, index, &SceneNode::index); };
+  EXPECT_EQ(one(1).depth, 0);
+  EXPECT_EQ(one(0).depth, 1);
+  EXPECT_TRUE(one(0).hidden && !one(0).hiddenInFile && one(0).mesh);
+  EXPECT_TRUE(one(2).hidden && one(2).hiddenInFile);
+  EXPECT_TRUE(one(3).light && !one(3).mesh);
+  EXPECT_TRUE(one(4).camera);
+  EXPECT_EQ(one(2).name, "beside");
+  EXPECT_EQ(one(4).name, "/nodes/4");
 }
 
 TEST(GltfVisibility, OneThatIsShownOrSaysNothingIsDrawn) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/reproject.h"
+#include "view/picture/reproject.h"
 
 #include <gtest/gtest.h>
 

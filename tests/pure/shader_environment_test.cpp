@@ -52,6 +52,7 @@ class Surrounded {
  private:
   static layout::Frame frameOf(const Image& image, double rotation) {
     layout::Frame frame{};
+    frame.catcherLight.w = 1.0f;
     frame.environment = glm::vec4(float(image.width), float(image.height), float(std::cos(rotation)),
                                   float(std::sin(rotation)));
     return frame;

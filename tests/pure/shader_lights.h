@@ -159,8 +159,9 @@ class Lit {
   static layout::Frame frameOf(const GpuScene& packed) {
     layout::Frame frame{};
     frame.environment = glm::vec4(glm::vec2(packed.environmentSize), 1.0f, 0.0f);
-    frame.lightChoice =
-        glm::vec4(packed.environmentChance, float(packed.emitterCount), 0.0f, float(packed.punctualLights));
+    frame.catcherLight.w = 1.0f;
+    frame.lightChoice = glm::vec4(environmentChance(packed.lightShare, 1.0), float(packed.emitterCount), 0.0f,
+                                  float(packed.punctualLights));
     return frame;
   }
 

@@ -43,6 +43,35 @@ Errand press(ViewState& state, Action action, int argument = 0) {
   return control ? apply(state, *control) : Errand::None;
 }
 
+TEST(ViewState, NothingChangesThatCannotBeSeen) {
+  for (const bool sheet : {false, true}) {
+    ViewState state = sheet ? someState() : ViewState();
+    state.sheet = sheet;
+    const ViewState before = state;
+    for (const Action action :
+         {Action::Orbit, Action::Zoom, Action::ToggleStage, Action::Magnify, Action::ToggleSplit})
+      for (const Control& control : controls()) {
+        if (control.action == action) EXPECT_EQ(apply(state, control, {{0.1, 0.2}, 1.0, 0.1}), Errand::None);
+      }
+    EXPECT_TRUE(state.pose == before.pose && state.sides == before.sides &&
+                state.magnifier == before.magnifier);
+    EXPECT_FALSE(state.split);
+    EXPECT_TRUE(isUsable(state, Action::Quit));
+  }
+}
+
+TEST(ViewState, AReferenceIsSideB) {
+  ViewState state = someState();
+  press(state, Action::ToggleSplit);
+  EXPECT_EQ(tracedSides(state).size(), 2u);
+  state.reference = "reference.exr";
+  EXPECT_EQ(tracedSides(state).size(), 1u);
+  press(state, Action::FlipSides);
+  press(state, Action::FlipSides);
+  EXPECT_EQ(state.comparison, CompareMode::Right);
+  EXPECT_EQ(state.active, 0u);  // there are no settings of a file
+}
+
 TEST(ViewState, EveryControlChangesTheStateOrIsAnErrand) {
   for (const Control& control : controls()) {
     ViewState state = someState();
@@ -200,7 +229,7 @@ TEST(ViewState, TheMagnifierKeepsWhatIsUnderTheCursorAndStaysInThePicture) {
 TEST(ViewState, OneSideAloneIsShownAndChosen) {
   ViewState state = someState();
   press(state, Action::FlipSides);
-  EXPECT_EQ(state.comparison, Comparison::Bar);  // there is one side
+  EXPECT_EQ(state.comparison, CompareMode::Bar);  // there is one side
   press(state, Action::ToggleSplit);
   EXPECT_EQ(sideAt(state, {0.4, 0.5}), 0u);
   EXPECT_EQ(sideAt(state, {0.6, 0.5}), 1u);
@@ -211,9 +240,9 @@ TEST(ViewState, OneSideAloneIsShownAndChosen) {
   EXPECT_EQ(sideAt(state, {0.4, 0.5}), 1u);
   EXPECT_EQ(state.active, 1u);
   press(state, Action::ToggleDifference);
-  EXPECT_EQ(state.comparison, Comparison::Difference);
+  EXPECT_EQ(state.comparison, CompareMode::Difference);
   press(state, Action::ShowBar);
-  EXPECT_EQ(state.comparison, Comparison::Bar);
+  EXPECT_EQ(state.comparison, CompareMode::Bar);
 }
 
 TEST(ViewState, TheWheelZoomsTowardsTheCursor) {

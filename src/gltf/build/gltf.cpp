@@ -94,6 +94,18 @@ void dropUnusedDefaultMaterial(Scene& scene) {
   }
 }
 
+std::vector<SceneNode> namedNodes(const Document& document, const std::vector<PlacedNode>& placed) {
+  std::vector<SceneNode> nodes;
+  nodes.reserve(placed.size());
+  for (const PlacedNode& node : placed) {
+    const tinygltf::Node& source = document.model.nodes[size_t(node.index)];
+    nodes.push_back({nameOrPlace(source.name, "nodes", node.index), uint32_t(node.index), node.depth,
+                     node.hidden, node.hiddenInFile, source.mesh >= 0 || source.extras.Has("shape"),
+                     source.extensions.contains("KHR_lights_punctual"), source.camera >= 0});
+  }
+  return nodes;
+}
+
 Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) {
   Document document = readDocument(path, options);
   Scene scene;
@@ -105,7 +117,8 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   addMaterials(document, scene);
 
   // What nodes place, in world space.
-  const std::vector<PlacedNode> nodes = placeNodes(document);
+  const std::vector<PlacedNode> nodes = placeNodes(document, options.selection.hiddenNodes);
+  scene.nodes = namedNodes(document, nodes);
   ShownMeshes shown = showMeshes(document, scene.materials, nodes);
   document.model.buffers.clear();
   std::vector<PlacedSphere> spheres;

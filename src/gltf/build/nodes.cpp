@@ -2,9 +2,13 @@
 #include "gltf/build/nodes.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
+
+#include "errors.h"
+#include "scene/parts.h"
 
 namespace fragtrace {
 namespace {
@@ -104,6 +108,28 @@ bool hidesItself(const tinygltf::Node& node) {
   return !extension->second.Get("visible").Get<bool>();
 }
 
+/// By node: whether the user hides it.
+std::vector<bool> chosenByUser(const Document& document, const std::vector<std::string>& toHide) {
+  const auto& nodes = document.model.nodes;
+  std::vector<bool> chosen(nodes.size(), false);
+  for (const std::string& wanted : toHide) {
+    bool found = false;
+    for (size_t i = 0; i < nodes.size(); ++i) {
+      if (nodes[i].name != wanted && pointerTo("nodes", i) != wanted) continue;
+      chosen[i] = found = true;
+    }
+    if (found) continue;
+    size_t index = 0;
+    const char* end = wanted.data() + wanted.size();
+    const auto parsed = std::from_chars(wanted.data(), end, index);
+    if (parsed.ec != std::errc{} || parsed.ptr != end || index >= nodes.size())
+      throw UsageError("--hide: " + inQuotes(wanted) + " is no node of the file, which has " +
+                       std::to_string(nodes.size()) + "; `fragtrace info --nodes` lists them");
+    chosen[index] = true;
+  }
+  return chosen;
+}
+
 /// A scale of 0, which may well be meant.
 bool flattensAll(const glm::dmat4& matrix) { return glm::dmat3(matrix) == glm::dmat3(0.0); }
 
@@ -119,16 +145,19 @@ bool isMultiplicable(const glm::dmat4& matrix) {
   return true;
 }
 
-std::vector<PlacedNode> placeNodes(const Document& document) {
+std::vector<PlacedNode> placeNodes(const Document& document, const std::vector<std::string>& toHide) {
   const std::vector<int> roots = rootsOf(document, parentsOf(document));
+  const std::vector<bool> chosen = chosenByUser(document, toHide);
   std::vector<PlacedNode> placed;
-  std::vector<PlacedNode> waiting;  // the last one is next; world and hidden are the parent's until then
-  const auto await = [&waiting](const std::vector<int>& nodes, const glm::dmat4& parent, bool hidden) {
+  std::vector<PlacedNode>
+      waiting;  // the last one is next; all but index and depth is the parent's until then
+  const auto await = [&waiting](const std::vector<int>& nodes, const PlacedNode& parent, int depth) {
     const auto first = std::ptrdiff_t(waiting.size());
-    for (const int node : nodes) waiting.push_back({node, parent, hidden});
+    for (const int node : nodes)
+      waiting.push_back({node, parent.world, parent.hidden, parent.hiddenInFile, depth});
     std::reverse(waiting.begin() + first, waiting.end());
   };
-  await(roots, glm::dmat4(1.0), false);
+  await(roots, {}, 0);
   while (!waiting.empty()) {
     PlacedNode node = waiting.back();
     waiting.pop_back();
@@ -140,9 +169,10 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
     if (!isMultiplicable(node.world)) document.diagnostics.refuse(place, "its world transform overflows");
     if (flattensAll(node.world) && !flattensAll(parent) && !flattensAll(local))
       document.diagnostics.refuse(place, "its world transform underflows");
-    node.hidden = node.hidden || hidesItself(source);
+    node.hiddenInFile = node.hiddenInFile || hidesItself(source);
+    node.hidden = node.hidden || node.hiddenInFile || chosen[size_t(node.index)];
     placed.push_back(node);
-    await(source.children, node.world, node.hidden);
+    await(source.children, node, node.depth + 1);
   }
   return placed;
 }

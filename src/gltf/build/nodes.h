@@ -16,13 +16,17 @@ inline constexpr double kSmallest = 1e-75;
 struct PlacedNode {
   int index = 0;
   glm::dmat4 world{1.0};  ///< affine: the last row is 0, 0, 0, 1
-  bool hidden = false;  ///< it or an ancestor (KHR_node_visibility): its mesh, sphere and light are not there
+  bool hidden = false;    ///< it or an ancestor (KHR_node_visibility, or the user's choice): its mesh, sphere
+                        ///< and light are not there
+  bool hiddenInFile = false;  ///< the same without the user's choice
+  int depth = 0;              ///< ancestors
 };
 
 /// The nodes of the default scene (else of scene 0, else of the whole file), parents before children, in file
-/// order. Throws InputError for a loop, a node with two parents, and a transform that is not affine or not
-/// finite.
-std::vector<PlacedNode> placeNodes(const Document& document);
+/// order; those that the user hides, by SceneSelection::hiddenNodes, too. Throws InputError for a loop, a
+/// node with two parents, and a transform that is not affine or not finite, and UsageError for a node to hide
+/// that is not in the file.
+std::vector<PlacedNode> placeNodes(const Document& document, const std::vector<std::string>& toHide);
 
 /// Finite, and so are the products of four of its numbers.
 bool isMultiplicable(const glm::dmat4& matrix);

@@ -76,8 +76,9 @@ float drawSide(const ViewState& state, ViewFacts& facts, size_t side, ImVec2 pla
 
 void drawFigures(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
   if (layout.figures == FigureDetail::None) return;
-  float top = layout.margin;
-  for (size_t side = 0; side < (state.split ? 2u : 1u); ++side)
+  // Below the names of the sides.
+  float top = layout.margin + (state.split ? ImGui::GetFontSize() + 2.0f * layout.margin : 0.0f);
+  for (size_t side = 0; side < state.tracedCount(); ++side)
     top = drawSide(state, facts, side, {layout.margin, top}, layout) + layout.margin;
 }
 

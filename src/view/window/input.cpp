@@ -29,14 +29,6 @@ bool repeats(Action action) {
   return action == Action::Exposure || action == Action::Widen || action == Action::TreeLevel;
 }
 
-/// Keys change nothing that cannot be seen: no scene is shown, or the sheet covers it.
-bool isUsable(const ViewState& state, const Control& control) {
-  if (state.scene && !state.sheet) return true;
-  const Action a = control.action;
-  return a == Action::ToggleSheet || a == Action::Close || a == Action::Quit || a == Action::Fullscreen ||
-         (a == Action::Reload && !state.sheet);
-}
-
 }  // namespace
 
 Input::Input(GLFWwindow* window) : window_(window) {
@@ -140,14 +132,14 @@ void Input::key(const Event& event, ViewState& state, const RunTask& run) {
   if ((event.modifiers & (GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0) return;
   const int modifiers = event.modifiers & (GLFW_MOD_SHIFT | GLFW_MOD_CONTROL);
   const Control* hold = controlFor(Gesture::Hold, event.code, modifiers & ~kShiftModifier);
-  if (hold && event.action == GLFW_PRESS && isUsable(state, *hold)) {
+  if (hold && event.action == GLFW_PRESS && isUsable(state, hold->action)) {
     // The first moment counts, however soon the key is released.
     apply(state, *hold, {.seconds = hurry() * kFirstFrame});
     lastUpdate_ = glfwGetTime();
     held_.push_back(hold);
   }
   const Control* control = controlFor(Gesture::Press, event.code, modifiers);
-  if (!control || !isUsable(state, *control)) return;
+  if (!control || !isUsable(state, control->action)) return;
   if (event.action == GLFW_REPEAT && !repeats(control->action)) return;
   if (control->action == Action::Close && Interface::closePopup()) return;
   const Errand errand = apply(state, *control, {.place = place()});
@@ -169,7 +161,7 @@ void Input::press(const Event& event, const ViewState& state) {
              .start = cursor_};
   button_.edge = event.code == GLFW_MOUSE_BUTTON_LEFT && onEdge();
   const double away = std::abs(place().x - state.bar) * layout_.picture.x;
-  button_.bar = state.split && state.comparison == Comparison::Bar && event.code == GLFW_MOUSE_BUTTON_LEFT &&
+  button_.bar = state.split && state.comparison == CompareMode::Bar && event.code == GLFW_MOUSE_BUTTON_LEFT &&
                 away <= kBarPixels * layout_.scale;
 }
 
@@ -177,7 +169,7 @@ void Input::release(const Event& event, ViewState& state, const RunTask& run) {
   if (event.code != button_.code) return;
   const Button button = std::exchange(button_, {});
   if (button.dragging || button.bar || button.edge) return;
-  if (state.split && state.comparison == Comparison::Bar) state.active = sideAt(state, place());
+  if (state.tracedCount() == 2 && state.comparison == CompareMode::Bar) state.active = sideAt(state, place());
   const double now = glfwGetTime();
   const bool twice = lastClickTime_ >= 0.0 && now - lastClickTime_ <= kDoubleClickSeconds &&
                      glm::length(cursor_ - lastClick_) <= 2.0 * kDragPixels;

@@ -72,11 +72,13 @@ void drawSideNames(const ViewState& state, const ViewFacts& facts, const WindowL
     list.AddText({corner.x + pad, corner.y + pad}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
   };
   const auto textOf = [&](size_t side) {
+    if (side == 1 && !state.reference.empty())
+      return "B  " + shownText(state.reference.filename().string(), kMostNameCharacters);
     return std::string(side == 0 ? "A  " : "B  ") + presetName(state.sides[side].stages) + ", " +
            samplesText(facts.statistics[side].samples);
   };
   const float bar = float(state.shownBar()) * picture.x;
-  if (state.comparison == Comparison::Difference) {
+  if (state.comparison == CompareMode::Difference) {
     char text[64];
     std::snprintf(text, sizeof text, "|A - B| x %g", std::exp2(state.differenceStops));
     return name(text, picture.x, false);
@@ -256,7 +258,7 @@ void drawSheet(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
 Task drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now) {
   Task task;
   drawLines(state, facts, layout);
-  if (state.split && state.comparison == Comparison::Bar) drawBar(state, layout);
+  if (state.split && state.comparison == CompareMode::Bar) drawBar(state, layout);
   if (state.split) drawSideNames(state, facts, layout);
   if (state.figures && state.scene) drawFigures(state, facts, layout);
   task.errand = drawNews(facts, layout, now);

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
+#include <map>
 #include <string>
 
 #include "view/message_list.h"
+#include "view/picture/histogram.h"
 #include "view/remembered.h"
 #include "view/view_state.h"
 #include "view/window/places.h"
@@ -13,12 +16,24 @@
 
 namespace fragtrace {
 
+/// The histogram that was drawn last, and of what.
+struct ShownHistogram {
+  Histogram histogram;
+  uint64_t picture = 0;
+  size_t side = 0;
+  double exposure = 0.0;
+};
+
 /// What the window knows beside the state that its user sets.
 struct ViewFacts {
   std::array<SideStatistics, 2> statistics;
   std::array<glm::ivec2, 2> pictureSize{};  ///< of the pictures shown; lower than the window's while moving
   std::array<std::vector<PictureLine>, 2> lines;
-  std::array<Image, 2> pictures;     ///< linear, as in TracedPicture
+  std::array<Image, 2> pictures;            ///< linear, as in TracedPicture
+  std::array<uint64_t, 2> pictureNumber{};  ///< counts these
+  ShownHistogram histogram;
+  std::map<std::filesystem::path, unsigned> thumbnails;  ///< textures, of environments; empty: the studio
+  bool wantsThumbnails = false;                          ///< the list of environments is open
   std::optional<glm::dvec2> cursor;  ///< over the picture: parts of its width and height, from the top left
   LoadStatus load;
   std::string note;

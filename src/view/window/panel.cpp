@@ -105,7 +105,26 @@ void drawAnimation(ViewState& state, Places& places) {
   dimAtEnd(keyOf(Action::PlayAnimation));
 }
 
-void drawCompare(ViewState& state, Places& places) {
+/// Which side the settings are of; or the file that side B is.
+void drawSides(ViewState& state, Places& places, Task& task) {
+  if (!state.reference.empty()) {
+    if (ImGui::SmallButton("x")) task = {.errand = Errand::DropReference};
+    addItemPlace(places, "close reference");
+    ImGui::SameLine();
+    ImGui::Text("B: %s", shownText(state.reference.filename().string(), kMostNameCharacters).c_str());
+    return;
+  }
+  int active = int(state.active);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("Settings of");
+  ImGui::SameLine();
+  ImGui::RadioButton("A (left)", &active, 0);
+  ImGui::SameLine();
+  ImGui::RadioButton("B (right)", &active, 1);
+  state.active = size_t(active);
+}
+
+void drawCompare(ViewState& state, Places& places, Task& task) {
   bool split = state.split;
   if (ImGui::Checkbox("Split view", &split)) apply(state, *controlOf(Action::ToggleSplit), {});
   stayOnLineFor("[ ] Denoise");
@@ -127,22 +146,15 @@ void drawCompare(ViewState& state, Places& places) {
     ImGui::RadioButton(kNames[size_t(i)], &comparison, i);
     addItemPlace(places, std::string("compare ") + kNames[size_t(i)]);
   }
-  state.comparison = Comparison(comparison);
-  if (state.comparison == Comparison::Difference) {
+  state.comparison = CompareMode(comparison);
+  if (state.comparison == CompareMode::Difference) {
     label(places, "Times");
     float stops = float(state.differenceStops);
     char factor[32];
     std::snprintf(factor, sizeof factor, "%.3g", std::exp2(stops));
     if (ImGui::SliderFloat("##stops", &stops, -8.0f, 16.0f, factor, kBounded)) state.differenceStops = stops;
   }
-  int active = int(state.active);
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("Settings of");
-  ImGui::SameLine();
-  ImGui::RadioButton("A (left)", &active, 0);
-  ImGui::SameLine();
-  ImGui::RadioButton("B (right)", &active, 1);
-  state.active = size_t(active);
+  drawSides(state, places, task);
 }
 
 void drawAdvanced(ViewState& state, ViewFacts& facts) {
@@ -225,13 +237,17 @@ Task drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
     addWindowPlace(places, "panel");
     if (layout.docked) drawEdge(layout);
     drawPresets(state, places);
-    drawCompare(state, places);
-    const auto open = [](const char* name, bool first = true) {
-      return ImGui::CollapsingHeader(name, first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    drawCompare(state, places, task);
+    const auto open = [&](const char* name, bool first = true) {
+      const bool shown = ImGui::CollapsingHeader(name, first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+      addItemPlace(places, std::string("section ") + name);
+      return shown;
     };
     if (shownAnimation(state) >= 0 && open("Animation")) drawAnimation(state, places);
     if (hasParts(state) && open("File")) part(drawParts(state, facts));
+    if (open("Scene", false)) part(drawTree(state, facts));
     if (open("Light and display")) part(drawLight(state, facts));
+    if (open("Histogram", false)) drawHistogram(state, facts);
     if (open("Camera")) part(drawCamera(state, facts));
     if (open("Stages")) drawStages(state, true);
     if (open("Switches", false)) drawStages(state, false);

@@ -13,18 +13,36 @@ namespace fragtrace {
 namespace {
 
 constexpr float kMostColor = 1e4f;
-constexpr float kMostBlur = 30.0f;  // degrees; the command line takes more
+constexpr float kMostIntensity = 100.0f;  // the command line takes more
+constexpr float kMostBlur = 30.0f;        // degrees; the command line takes more
+
+/// Twice as wide as high; room for it where there is none, or not yet.
+void drawThumbnail(const ViewFacts& facts, const EnvironmentChoice& choice, float height) {
+  const ImVec2 size(2.0f * height, height);
+  const bool map = choice.studio || !choice.file.empty();
+  const auto found = map ? facts.thumbnails.find(choice.file) : facts.thumbnails.end();
+  if (found == facts.thumbnails.end())
+    ImGui::Dummy(size);
+  else
+    ImGui::Image(ImTextureID(intptr_t(found->second)), size);
+}
 
 /// A list of what can light the scene; what was chosen, with which it is to be loaded again.
-std::optional<RenderOptions> chooseEnvironment(const ViewedScene& scene, Places& places) {
+std::optional<RenderOptions> chooseEnvironment(const ViewedScene& scene, ViewFacts& facts) {
+  Places& places = facts.places;
   std::optional<RenderOptions> chosen;
   const std::vector<EnvironmentChoice> choices = environmentChoices(scene);
   const size_t current = currentChoice(scene, choices);
   if (!ImGui::BeginCombo("##environment", shownText(choices[current].name, kMostNameCharacters).c_str()))
     return chosen;
+  facts.wantsThumbnails = true;
+  const float height = 1.6f * ImGui::GetFontSize();
   for (size_t i = 0; i < choices.size(); ++i) {
     ImGui::PushID(int(i));
-    if (ImGui::Selectable(shownText(choices[i].name, kMostNameCharacters).c_str(), i == current))
+    drawThumbnail(facts, choices[i], height);
+    ImGui::SameLine();
+    const std::string name = shownText(choices[i].name, kMostNameCharacters);
+    if (ImGui::Selectable(name.c_str(), i == current, 0, ImVec2(0.0f, height)))
       chosen = withEnvironment(scene.options, choices[i]);
     addItemPlace(places, "environment " + choices[i].name);
     ImGui::PopID();
@@ -49,7 +67,7 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
   for (RenderOptions& side : state.sides) side.toneMap = curve;
   const bool map = state.scene->map;
   label(places, "Environment");
-  if (const std::optional<RenderOptions> other = chooseEnvironment(*state.scene, places)) {
+  if (const std::optional<RenderOptions> other = chooseEnvironment(*state.scene, facts)) {
     task.errand = Errand::Load;
     task.load = other;
   }
@@ -60,6 +78,10 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
                          kBounded))
     for (RenderOptions& side : state.sides) side.hdriRotationDegrees = degrees;
   ImGui::EndDisabled();
+  label(places, "Intensity");
+  float intensity = float(o.hdriIntensity);
+  if (ImGui::SliderFloat("##intensity", &intensity, 0.0f, kMostIntensity, "%.2f", kBoundedLogarithmic))
+    for (RenderOptions& side : state.sides) side.hdriIntensity = intensity;
   if (!state.scene->options.hdriFile.empty()) {
     label(places, "Blur");
     const double blur = state.scene->options.backgroundBlur;
@@ -91,8 +113,7 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
   const bool paths = has(state.options().stages, Stage::Gi);
   bool ground = o.shadowCatcher && paths;
   ImGui::BeginDisabled(!paths);
-  if (ImGui::Checkbox("Ground that shows shadows alone", &ground))
-    apply(state, *controlOf(Action::ToggleGround), {});
+  if (ImGui::Checkbox("Shadow catcher", &ground)) apply(state, *controlOf(Action::ToggleGround), {});
   ImGui::EndDisabled();
   addItemPlace(places, "Ground");
   dimAtEnd(paths ? keyOf(Action::ToggleGround) : "only path traced");

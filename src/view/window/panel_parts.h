@@ -52,7 +52,11 @@ void choose(const char* id, std::span<const std::string_view> names, Choice& cho
 // Each draws its part, changes the state, and returns what is left to be done.
 Task drawLight(ViewState& state, ViewFacts& facts);
 Task drawCamera(ViewState& state, ViewFacts& facts);
+Task drawTree(ViewState& state, ViewFacts& facts);
 Task drawParts(ViewState& state, ViewFacts& facts);
+
+/// Of the active side's picture.
+void drawHistogram(const ViewState& state, ViewFacts& facts);
 
 /// Whether the file has scenes or material variants to choose from.
 bool hasParts(const ViewState& state);

@@ -91,11 +91,15 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["sheet"] = state.sheet;
   json["sheet_lines"] = facts.sheetLines;
   json["sides"] = Json::array();
-  for (size_t i = 0; i < (state.split ? 2u : 1u); ++i) json["sides"].push_back(sideJson(state, facts, i));
+  for (size_t i = 0; i < state.tracedCount(); ++i) json["sides"].push_back(sideJson(state, facts, i));
   json["camera"] = report.camera;
   json["exposure"] = state.sides[0].exposure;
   json["tone_map"] = toneMapNames()[size_t(state.sides[0].toneMap)];
+  json["thumbnails"] = facts.thumbnails.size();
+  json["reference"] = state.reference.string();
+  json["hidden"] = state.sides[0].selection.hiddenNodes;
   json["hdri_rotation"] = state.sides[0].hdriRotationDegrees;
+  json["hdri_intensity"] = state.sides[0].hdriIntensity;
   json["background"] = state.sides[0].background;
   const int animation = shownAnimation(state);
   json["animation"] = animation < 0 ? Json()

@@ -66,7 +66,7 @@ glm::dvec3 valueAt(const Image& image, const glm::dvec2& place) {
 std::string pixelText(const ViewState& state, const ViewFacts& facts) {
   if (!facts.cursor) return "";
   const auto& pictures = facts.pictures;
-  const bool difference = state.split && state.comparison == Comparison::Difference;
+  const bool difference = state.split && state.comparison == CompareMode::Difference;
   const size_t side = difference ? 0 : sideAt(state, *facts.cursor);
   if (pictures[side].width <= 0 || (difference && pictures[1].width <= 0)) return "";
   // The middle of the pixel, since places of whole pixels are rounded.
@@ -94,7 +94,7 @@ void drawStatusBar(const ViewState& state, ViewFacts& facts, const WindowLayout&
     addWindowPlace(facts.places, "status");
     const bool known = state.scene.has_value();
     const ViewProgress progress =
-        known ? progressOf(facts.statistics[state.active], state.options(), state.split ? 0.5 : 1.0)
+        known ? progressOf(facts.statistics[state.active], state.options(), 1.0 / double(state.tracedCount()))
               : ViewProgress{};
     const float height = ImGui::GetTextLineHeight();
     const float line = std::max(0.5f * (display.y - top - height), 0.0f);

@@ -3,6 +3,9 @@
 // when something has changed, and sleeps otherwise.
 #pragma once
 
+#include <map>
+#include <set>
+
 #include "gl/debug_log.h"
 #include "view/history.h"
 #include "view/window.h"
@@ -32,8 +35,11 @@ class Window {
   void open();
   void wait();
   void take();
-  void takeScene(ViewedScene scene);
+  void adoptScene(ViewedScene scene);
   void takePictures(std::vector<TracedPicture> pictures);
+  void takeReference(const TracedPicture& picture);
+  void takeThumbnail(const EnvironmentThumbnail& thumbnail);
+  void askForThumbnails();
   void takeState(const Delivery& news);
   void ask();
   void draw();
@@ -65,6 +71,8 @@ class Window {
   Input input_;
   Interface interface_;
   Display display_;
+  std::map<std::filesystem::path, GlTexture> thumbnails_;
+  std::set<std::filesystem::path> askedThumbnails_;
   ViewState state_;
   ViewFacts facts_;
   History history_;

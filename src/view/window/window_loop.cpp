@@ -90,6 +90,7 @@ void Window::open() {
   glm::ivec2 size(0);
   glfwGetFramebufferSize(window_.get(), &size.x, &size.y);
   state_.size = layoutOf(glm::vec2(size), interface_.scale(), {.panel = state_.panel}).picture;
+  if (!start_.reference.empty()) exchange_.compareWith(start_.reference);
   if (start_.options.scene.empty()) return;
   load(start_.options);
   facts_.load = {true, start_.options.scene.filename().string(), "starting", 0.0};
@@ -139,8 +140,10 @@ void Window::say(const std::string& message) {
 void Window::take() {
   Delivery news = exchange_.take();
   if (news.failure) std::rethrow_exception(news.failure);
-  if (news.scene) takeScene(std::move(*news.scene));
+  if (news.scene) adoptScene(std::move(*news.scene));
   takePictures(std::move(news.pictures));
+  if (news.bounds && state_.scene) state_.scene->bounds = *news.bounds;
+  for (const EnvironmentThumbnail& thumbnail : news.thumbnails) takeThumbnail(thumbnail);
   if (news.pick) {
     if (news.pick->request.center && news.pick->hit) {
       state_.pose = centerOn(state_.pose, news.pick->point);
@@ -148,6 +151,7 @@ void Window::take() {
     }
     if (!news.pick->request.center) {
       state_.selected = news.pick->bounds;
+      state_.selectedNode = news.pick->node;
       facts_.pick = std::move(news.pick);
     }
     frames_ = kSettleFrames;
@@ -157,7 +161,7 @@ void Window::take() {
   takeState(news);
 }
 
-void Window::takeScene(ViewedScene scene) {
+void Window::adoptScene(ViewedScene scene) {
   const bool another = !state_.scene || !sameScene(state_.scene->options, scene.options);
   showScene(state_, std::move(scene));
   glfwSetWindowTitle(window_.get(), windowTitle(state_.scene->options.scene).c_str());
@@ -170,18 +174,24 @@ void Window::takeScene(ViewedScene scene) {
   askedSides_.clear();
   facts_.pick.reset();
   state_.selected = {};
+  state_.selectedNode.reset();
   frames_ = kSettleFrames;
 }
 
 void Window::takePictures(std::vector<TracedPicture> pictures) {
   const double now = glfwGetTime();
   for (TracedPicture& picture : pictures) {
-    display_.take(picture);
     const size_t side = picture.side;
+    if (!picture.file.empty())
+      takeReference(picture);
+    else if (side == 1 && !state_.reference.empty())
+      continue;  // it was on its way when the reference took its place
+    display_.take(picture);
     facts_.statistics[side] = picture.statistics;
     facts_.pictureSize[side] = {picture.image.width, picture.image.height};
     facts_.lines[side] = std::move(picture.lines);
     facts_.pictures[side] = std::move(picture.image);
+    ++facts_.pictureNumber[side];
     report_.answered = std::max(report_.answered, picture.request);
     while (!unanswered_.empty() && unanswered_.front().first <= picture.request) {
       keepTime(report_.times.answerMs, 1000.0 * (now - unanswered_.front().second));
@@ -189,6 +199,44 @@ void Window::takePictures(std::vector<TracedPicture> pictures) {
     }
     frames_ = std::max(frames_, 1);
   }
+}
+
+void Window::takeThumbnail(const EnvironmentThumbnail& thumbnail) {
+  const Image& image = thumbnail.image;
+  if (image.values.empty()) return;
+  GlTexture texture = makeTexture(GL_TEXTURE_2D);
+  glTextureStorage2D(texture.name(), 1, GL_RGBA8, image.width, image.height);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, image.width, image.height, GL_RGB, GL_FLOAT,
+                      image.values.data());
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  checkGl("uploading a thumbnail");
+  facts_.thumbnails[thumbnail.file] = texture.name();
+  thumbnails_[thumbnail.file] = std::move(texture);
+  frames_ = std::max(frames_, 1);
+}
+
+/// Once for each environment that the list offers.
+void Window::askForThumbnails() {
+  if (!std::exchange(facts_.wantsThumbnails, false) || !state_.scene) return;
+  std::vector<std::filesystem::path> wanted = state_.scene->environments;
+  wanted.emplace_back();
+  if (!state_.scene->options.hdriFile.empty()) wanted.push_back(state_.scene->options.hdriFile);
+  std::erase_if(wanted, [&](const auto& file) { return !askedThumbnails_.insert(file).second; });
+  if (!wanted.empty()) exchange_.makeThumbnails(std::move(wanted));
+}
+
+/// It is side B from now on.
+void Window::takeReference(const TracedPicture& picture) {
+  state_.reference = picture.file;
+  state_.split = true;
+  state_.active = 0;
+  if (state_.sides[1].scene.empty()) state_.sides[1] = state_.sides[0];
+  const Image& image = picture.image;
+  if (glm::ivec2(image.width, image.height) == state_.size) return;
+  say(picture.file.filename().string() + " has " + std::to_string(image.width) + " x " +
+      std::to_string(image.height) + " pixels, the picture " + std::to_string(state_.size.x) + " x " +
+      std::to_string(state_.size.y) + ": it is scaled to compare");
 }
 
 void Window::takeState(const Delivery& news) {
@@ -248,10 +296,11 @@ void Window::draw() {
   fades_ = now + secondsToFade(facts_.messages, now);
   if (panel) execute(drawPanel(state_, facts_, layout));
   execute(said);
+  askForThumbnails();
   std::array<DisplaySide, 2> sides;
   for (size_t i = 0; i < 2; ++i) sides[i] = {state_.sides[i].exposure, state_.sides[i].toneMap};
   display_.draw({size, layout.picture, state_.shownBar(), state_.magnifier,
-                 state_.split && state_.comparison == Comparison::Difference, state_.differenceStops},
+                 state_.split && state_.comparison == CompareMode::Difference, state_.differenceStops},
                 sides);
   facts_.focus = Interface::focus();
   interface_.end();

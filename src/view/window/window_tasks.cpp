@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "image/image.h"
 #include "view/dropped_file.h"
 #include "view/shown_names.h"
 #include "view/window/view_window.h"
@@ -17,12 +18,16 @@ void Window::execute(const Task& task) {
       return;
     case Errand::Reload:
       // What could not be read may be mended by now.
+      if (!state_.reference.empty()) exchange_.compareWith(state_.reference);
       if (state_.scene || !wanted_.scene.empty()) load(state_.scene ? state_.scene->options : wanted_);
       return;
     case Errand::OpenFile:
       return openFiles({task.file});
     case Errand::CancelLoad:
       return cancelLoad();
+    case Errand::DropReference:
+      state_.reference.clear();
+      return exchange_.compareWith({});
     case Errand::Fullscreen:
       return toggleFullscreen();
     case Errand::Close:
@@ -48,9 +53,12 @@ void Window::executeOnScene(const Task& task) {
       const glm::dvec2 place = magnifiedPlace(state_, task.place);
       return exchange_.pick({sideAt(state_, task.place), place, task.errand == Errand::CenterOn});
     }
+    case Errand::SelectNode:
+      return exchange_.pick({.node = uint32_t(task.index)});
     case Errand::Deselect:
       facts_.pick.reset();
       state_.selected = {};
+      state_.selectedNode.reset();
       return exchange_.pick({.clear = true});
     case Errand::CopyCommand:
       return copyCommand();
@@ -99,7 +107,15 @@ void Window::takeDrops() {
 }
 
 void Window::openFiles(const std::vector<std::filesystem::path>& files) {
-  const Drop drop = takeDrop(wanted_, files);
+  std::vector<std::filesystem::path> toLoad;
+  for (const std::filesystem::path& file : files) {
+    if (state_.split && mayBeReference(file))
+      exchange_.compareWith(file);
+    else
+      toLoad.push_back(file);
+  }
+  if (toLoad.empty()) return;
+  const Drop drop = takeDrop(wanted_, toLoad);
   for (const std::string& sentence : drop.refused) say(sentence);
   if (!drop.load) return;
   if (!drop.load->scene.empty()) return load(*drop.load);
@@ -110,9 +126,20 @@ void Window::openFiles(const std::vector<std::filesystem::path>& files) {
 void Window::save(const char* extension) {
   const RenderOptions& o = state_.options();
   const std::filesystem::path name = freePictureName(o.scene, extension);
-  const char* side = !state_.split ? "" : state_.active == 0 ? " of side A" : " of side B";
+  // A file for a display is what is seen, one of radiance what the active side's samples say.
+  const bool seen = isDisplayFormat(name);
+  const bool both = state_.split && seen;
+  const char* side = !state_.split || both ? "" : state_.active == 0 ? " of side A" : " of side B";
   say("writing " + name.string() + side + " as soon as all of the picture is drawn");
-  exchange_.save({name, state_.active, o.exposure, o.toneMap});
+  SaveRequest request;
+  request.path = name;
+  request.side = state_.active;
+  if (both) request.both = state_.comparison;
+  request.bar = state_.shownBar();
+  request.differenceStops = state_.differenceStops;
+  request.exposure = o.exposure;
+  request.toneMap = o.toneMap;
+  exchange_.save(std::move(request));
 }
 
 /// Of the active side, with all that its picture on the screen depends on.

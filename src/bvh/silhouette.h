@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// What nodes of the file draw, taken together: its box, and its outline in a picture.
+#pragma once
+
+#include <vector>
+
+#include "bvh/tree_boxes.h"
+#include "scene/projection.h"
+
+namespace fragtrace {
+
+/// By its place in the file (SceneNode::index): whether a node is meant.
+using NodeSet = std::vector<bool>;
+
+/// The node, and all that is below it; nothing where the scene has no such node.
+NodeSet nodesBelow(const Scene& scene, uint32_t node);
+
+/// The box of what they draw, in world space.
+BoundsDouble boundsOfNodes(const Scene& scene, const NodeSet& nodes);
+
+/// The outline of what they draw in a picture of that size, through whatever is in front of it, as lines
+/// along the edges of pixels. Nothing where it covers no middle of a pixel, where all of it is behind the
+/// camera, and where the nodes have more triangles than can be looked at while a camera moves.
+std::vector<PictureLine> outlineOfNodes(const Scene& scene, const NodeSet& nodes,
+                                        const Projection& projection, glm::ivec2 size);
+
+}  // namespace fragtrace

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Which nodes of the scene the viewer's user has hidden.
+#include <algorithm>
+
+#include "view/view_state.h"
+
+namespace fragtrace {
+
+namespace {
+
+std::string pointerOf(const SceneNode& node) { return "/nodes/" + std::to_string(node.index); }
+
+bool isNamed(const SceneNode& node, const std::string& wanted) {
+  return wanted == node.name || wanted == pointerOf(node) || wanted == std::to_string(node.index);
+}
+
+/// The name, where no other node has it; else its JSON pointer.
+std::string nameOf(const std::vector<SceneNode>& nodes, const SceneNode& node) {
+  return std::ranges::count(nodes, node.name, &SceneNode::name) == 1 ? node.name : pointerOf(node);
+}
+
+}  // namespace
+
+bool isHidden(const ViewState& state, size_t node) {
+  const std::vector<std::string>& hidden = state.sides[0].selection.hiddenNodes;
+  return std::ranges::any_of(
+      hidden, [&](const std::string& wanted) { return isNamed(state.scene->nodes[node], wanted); });
+}
+
+void hideNode(ViewState& state, size_t node, bool hidden) {
+  const std::vector<SceneNode>& nodes = state.scene->nodes;
+  std::vector<std::string> names;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (i == node ? hidden : isHidden(state, i)) names.push_back(nameOf(nodes, nodes[i]));
+  }
+  for (RenderOptions& side : state.sides) side.selection.hiddenNodes = names;
+  state.scene->options.selection = state.sides[0].selection;
+  // A camera that frames the scene stays where it is.
+  state.posed = state.posed || state.scene->cameras.empty();
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// The scene's nodes, which can be selected and hidden, and its materials.
+#include <algorithm>
+
+#include "view/window/panel_parts.h"
+#include "view/window/text.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr float kMostRows = 12.0f;
+constexpr int kDepthOpen = 2;  ///< rows above are open at first
+
+/// In brackets what is to be known of a node beside its name.
+std::string notesOf(const SceneNode& node) {
+  std::string notes;
+  if (node.light) notes += notes.empty() ? "light" : ", light";
+  if (node.camera) notes += notes.empty() ? "camera" : ", camera";
+  if (node.hiddenInFile) notes += notes.empty() ? "hidden in the file" : ", hidden in the file";
+  return notes.empty() ? "" : "  (" + notes + ")";
+}
+
+/// A row: whether it is shown, and its name, which selects it. Returns whether what is below it is shown.
+bool drawNode(ViewState& state, Places& places, size_t i, bool parentShown, Task& task) {
+  const std::vector<SceneNode>& nodes = state.scene->nodes;
+  const SceneNode& node = nodes[i];
+  const bool leaf = i + 1 == nodes.size() || nodes[i + 1].depth <= node.depth;
+  ImGui::PushID(int(i));
+  bool shown = !isHidden(state, i) && !node.hiddenInFile;
+  ImGui::BeginDisabled(node.hiddenInFile || !parentShown);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
+  if (ImGui::Checkbox("##shown", &shown)) hideNode(state, i, !shown);
+  ImGui::PopStyleVar();
+  ImGui::EndDisabled();
+  addItemPlace(places, "show " + node.name);
+  ImGui::SameLine();
+  const bool selected = state.selectedNode == node.index;
+  const bool open =
+      ImGui::TreeNodeEx("##node",
+                        ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_NoTreePushOnOpen |
+                            (leaf ? ImGuiTreeNodeFlags_Leaf : 0) |
+                            (node.depth < kDepthOpen ? ImGuiTreeNodeFlags_DefaultOpen : 0) |
+                            (selected ? ImGuiTreeNodeFlags_Selected : 0),
+                        "%s%s", shownText(node.name, kMostNameCharacters).c_str(), notesOf(node).c_str());
+  if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen())
+    task = {.errand = Errand::SelectNode, .index = node.index};
+  addItemPlace(places, "node " + node.name);
+  ImGui::PopID();
+  return open;
+}
+
+void drawNodes(ViewState& state, Places& places, Task& task) {
+  const std::vector<SceneNode>& nodes = state.scene->nodes;
+  const float indent = ImGui::GetStyle().IndentSpacing;
+  int deepest = nodes.empty() ? 0 : nodes[0].depth;  // of the rows that are open
+  std::vector<bool> hiddenAt;                        // by depth, of the rows above
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const int depth = nodes[i].depth;
+    if (depth > deepest) continue;
+    hiddenAt.resize(size_t(depth));
+    const bool parentShown = std::ranges::none_of(hiddenAt, [](bool hidden) { return hidden; });
+    hiddenAt.push_back(isHidden(state, i));
+    const float in = indent * float(depth);
+    if (in > 0.0f) ImGui::Indent(in);
+    // Rows that are scrolled away take their room alone.
+    const float height = ImGui::GetTextLineHeight();
+    const ImVec2 row = ImGui::GetCursorScreenPos();
+    const bool seen = ImGui::IsRectVisible(row, ImVec2(row.x + 1.0f, row.y + height));
+    bool open = false;
+    if (seen) {
+      open = drawNode(state, places, i, parentShown, task);
+    } else {
+      ImGui::PushID(int(i));
+      open = ImGui::GetStateStorage()->GetInt(ImGui::GetID("##node"), depth < kDepthOpen ? 1 : 0) != 0;
+      ImGui::PopID();
+      ImGui::Dummy(ImVec2(1.0f, height));
+    }
+    if (in > 0.0f) ImGui::Unindent(in);
+    deepest = open ? depth + 1 : depth;
+  }
+}
+
+void drawMaterials(const ViewState& state, Places& places) {
+  const std::vector<ViewedMaterial>& materials = state.scene->materials;
+  for (size_t i = 0; i < materials.size(); ++i) {
+    const ViewedMaterial& material = materials[i];
+    ImGui::PushID(int(i));
+    const std::string name = partText(i, material.name);
+    const bool open = ImGui::TreeNodeEx("##material", 0, "%s", shownText(name, kMostNameCharacters).c_str());
+    addItemPlace(places, "material " + std::to_string(i));
+    if (open) {
+      for (const std::string& line : material.lines) ImGui::TextUnformatted(line.c_str());
+      ImGui::TreePop();
+    }
+    ImGui::PopID();
+  }
+}
+
+/// As high as its rows, up to the most.
+bool beginList(const char* id, size_t rows) {
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  return ImGui::BeginChild(id, ImVec2(0.0f, line * std::min(float(rows) + 0.5f, kMostRows)), false,
+                           ImGuiWindowFlags_HorizontalScrollbar);
+}
+
+}  // namespace
+
+Task drawTree(ViewState& state, ViewFacts& facts) {
+  Task task;
+  if (beginList("nodes", state.scene->nodes.size())) drawNodes(state, facts.places, task);
+  ImGui::EndChild();
+  const size_t count = state.scene->materials.size();
+  const bool open =
+      ImGui::TreeNodeEx("##materials", ImGuiTreeNodeFlags_NoTreePushOnOpen, "Materials (%d)", int(count));
+  addItemPlace(facts.places, "materials");
+  if (!open) return task;
+  if (beginList("materials", size_t(kMostRows))) drawMaterials(state, facts.places);
+  ImGui::EndChild();
+  return task;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Nodes that the viewer's user hides.
+#include <gtest/gtest.h>
+
+#include "view/history.h"
+#include "view/view_state.h"
+
+namespace fragtrace {
+namespace {
+
+ViewState withNodes() {
+  ViewState state;
+  ViewedScene scene;
+  scene.options.scene = "a.gltf";
+  scene.nodes = {{"root", 4, 0}, {"twin", 1, 1}, {"twin", 2, 1}, {"/nodes/3", 3, 0}};
+  state.sides[0].scene = "a.gltf";
+  showScene(state, scene);
+  return state;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(Visibility, NodesAreHiddenByTheirNameWhereThatIsTheirsAlone) {
+  ViewState state = withNodes();
+  apply(state, *controlOf(Action::ToggleSplit));
+  hideNode(state, 0, true);
+  hideNode(state, 2, true);
+  hideNode(state, 3, true);
+  for (const RenderOptions& side : state.sides)
+    EXPECT_EQ(side.selection.hiddenNodes, (Names{"root", "/nodes/2", "/nodes/3"}));
+  EXPECT_EQ(state.scene->options.selection.hiddenNodes.size(), 3u);
+  EXPECT_FALSE(isHidden(state, 1));
+  EXPECT_TRUE(isHidden(state, 2));
+  hideNode(state, 2, false);
+  EXPECT_EQ(state.sides[0].selection.hiddenNodes, (Names{"root", "/nodes/3"}));
+  EXPECT_TRUE(state.posed);  // the camera stays, whatever is left to frame
+}
+
+TEST(Visibility, AnotherOfTheSameNameStaysHidden) {
+  ViewState state = withNodes();
+  state.sides[0].selection.hiddenNodes = {"twin"};
+  EXPECT_TRUE(isHidden(state, 1) && isHidden(state, 2));
+  hideNode(state, 1, false);
+  EXPECT_EQ(state.sides[0].selection.hiddenNodes, Names{"/nodes/2"});
+}
+
+TEST(Visibility, IsUndone) {
+  ViewState state = withNodes();
+  History history;
+  restart(history, state);
+  hideNode(state, 0, true);
+  record(history, state);
+  EXPECT_TRUE(undo(history, state));
+  EXPECT_TRUE(state.sides[0].selection.hiddenNodes.empty());
+  EXPECT_TRUE(state.scene->options.selection.hiddenNodes.empty());
+  EXPECT_TRUE(redo(history, state));
+  EXPECT_TRUE(isHidden(state, 0));
+}
+
+}  // namespace
+}  // namespace fragtrace

@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The scene's parts in the panel, and a picture from a file beside the one that is traced."""
+import shutil
+import subprocess
+
+from comfort_test import copied_command
+from support import FRAGTRACE, SCENES, Case, main, pixels_of
+from xdnd import drop
+
+PANEL = ["--resolution", "640,700", "--spp", "1", "--stage", "flat"]
+SIZE = ["--resolution", "160,120"]
+
+
+class Tree(Case):
+    def test_a_node_is_selected_hidden_and_shown_again(self):
+        viewer = self.view("plastics", *PANEL)
+        first = viewer.rest()
+        whole = pixels_of(viewer.press_for_file("F12", ".png"))
+        nodes = subprocess.run([FRAGTRACE, "info", SCENES / "plastics.gltf", "--nodes"], capture_output=True, text=True, check=True).stdout
+        name = next(line.split('"')[1] for line in nodes.splitlines() if line.endswith(", mesh"))
+        viewer.click("section Scene")
+        viewer.click(f"node {name}")
+        box = viewer.rest(lambda s: s["selected"], "selected")["selected"]
+        self.assertTrue(all(a <= b for a, b in zip(box, box[3:])))
+        viewer.click(f"show {name}")
+        hidden = viewer.rest(lambda s: s["hidden"], "hidden")
+        self.assertEqual(len(hidden["hidden"]), 1)
+        self.assertEqual(hidden["camera"], first["camera"])
+        without = pixels_of(viewer.press_for_file("F12", ".png"))
+        self.assertGreater(sum(a != b for a, b in zip(whole, without)), 1000)
+        words = copied_command(self, viewer)
+        self.assertEqual(words[words.index("--hide") + 1], hidden["hidden"][0])
+        words[words.index("--output") + 1] = str(self.folder / "command.png")
+        subprocess.run([FRAGTRACE, *words[1:], "--quiet"], check=True, cwd=self.folder, timeout=300)
+        self.same(without, pixels_of(self.folder / "command.png"))
+        viewer.key("ctrl+z")
+        viewer.rest(lambda s: not s["hidden"], "shown again")
+        self.same(whole, pixels_of(viewer.press_for_file("F12", ".png")))
+        viewer.key("ctrl+y")
+        viewer.rest(lambda s: s["hidden"], "hidden again")
+        self.ends_well(viewer, viewer.close())
+
+    def test_materials_histogram_and_intensity(self):
+        viewer = self.view("plastics", *PANEL)
+        viewer.rest()
+        viewer.click("section Scene")
+        viewer.click("materials")
+        viewer.click("material 0")
+        viewer.click("section Scene")
+        viewer.until(lambda s: "material 0" not in s["places"], "closed")
+        viewer.click("section Histogram")
+        viewer.until(lambda s: "histogram" in s["places"], "a histogram")
+        x, y, width, height = viewer.status()["places"]["Intensity"]
+        middle = round(y + height / 2)
+        viewer.drag((round(x + 0.5 * width), middle), (round(x + 0.8 * width), middle))
+        self.assertNotEqual(viewer.rest(lambda s: s["hdri_intensity"] != 1, "another intensity")["hdri_intensity"], 1)
+        words = copied_command(self, viewer)
+        self.assertIn("--hdri-intensity", words)
+        self.ends_well(viewer, viewer.close())
+
+
+class Reference(Case):
+    def reference(self, name, *options):
+        return self.render("furnace", *SIZE, "--spp", 1, *options, name=name)
+
+    def test_a_file_is_side_b(self):
+        reference = self.reference("reference.exr")
+        scene = self.folder / "scene.gltf"
+        shutil.copy(SCENES / "furnace.gltf", scene)
+        viewer = self.view(scene, "--spp", "4", "--reference", reference)
+        status = viewer.rest(lambda s: s["reference"], "the reference")
+        self.assertTrue(status["split"])
+        self.assertEqual((status["width"], status["height"]), (160, 120))
+        self.assertEqual(len(status["sides"]), 1)
+        composite = pixels_of(viewer.press_for_file("F12", ".png"))
+        left = pixels_of(self.render(scene, *SIZE, "--spp", 4))
+        right = pixels_of(self.reference("right.png"))
+        rows = [(left if x < 80 else right)[160 * y + x] for y in range(120) for x in range(160)]
+        self.same(composite, rows)
+        viewer.key("u")
+        viewer.rest(lambda s: s["comparison"] == "difference", "difference")
+        apart = pixels_of(viewer.press_for_file("F12", ".png"))
+        self.assertNotEqual(apart, composite)
+        viewer.key("i")
+        # What is dropped while two sides are shown takes its place.
+        drop(self.screen, viewer.id, self.reference("other.pfm", "--exposure", 0))
+        viewer.rest(lambda s: s["reference"].endswith("other.pfm"), "the other one")
+        self.assertEqual(viewer.status()["environment"], "")
+        self.ends_well(viewer, viewer.close())
+
+    def test_it_can_be_closed_and_must_be_linear(self):
+        viewer = self.view("furnace", "--resolution", "640,700", "--spp", "1", "--stage", "flat", "--reference", self.reference("reference.pfm"))
+        status = viewer.rest(lambda s: s["reference"], "the reference")
+        self.assertTrue(any("scaled" in m for m in status["messages"]), status["messages"])
+        viewer.click("close reference")
+        status = viewer.rest(lambda s: not s["reference"] and len(s["sides"]) == 2, "side B is traced")
+        self.ends_well(viewer, viewer.close())
+        picture = self.reference("display.png")
+        result = subprocess.run([FRAGTRACE, "view", SCENES / "furnace.gltf", "--reference", picture], capture_output=True, text=True)
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("display.png", result.stderr)
+
+
+if __name__ == "__main__":
+    main()
