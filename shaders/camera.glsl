@@ -14,3 +14,28 @@ CameraRay makeCameraRay(vec3 position, vec3 right, vec3 up, vec3 forward, bool o
   r.direction = orthographic ? forward : normalize(forward + offset);
   return r;
 }
+
+/// A point of the aperture of radius 1, uniform by area: a disk, or with three blades or more a regular polygon with a
+/// corner at the top.
+vec2 sampleAperture(float u, float v, int blades) {
+  if (blades < 3) return sampleDisk(u, v);
+  float turns = u * float(blades);
+  float blade = min(floor(turns), float(blades - 1));
+  vec2 a = unitCircle(blade / float(blades));
+  vec2 b = unitCircle((blade + 1.0f) / float(blades));
+  float side = turns - blade;
+  float outward = sqrt(v);
+  return vec2(outward * (a.y + side * (b.y - a.y)), outward * (a.x + side * (b.x - a.x)));
+}
+
+/// The ray of a pinhole camera, as a thin lens bends it: from a point of the lens, in units of length along right and
+/// up, to the point that the ray meets on the plane in focus, at a distance along forward (Cook, Porter and Carpenter,
+/// Distributed Ray Tracing, 1984).
+CameraRay throughLens(CameraRay ray, vec3 right, vec3 up, vec3 forward, vec2 lens, float focus) {
+  vec3 sharp = ray.direction * (focus / dot(ray.direction, forward));
+  vec3 offset = lens.x * normalize(right) + lens.y * normalize(up);
+  CameraRay r;
+  r.origin = ray.origin + offset;
+  r.direction = normalize(sharp - offset);
+  return r;
+}

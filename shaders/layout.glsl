@@ -204,6 +204,7 @@ struct Frame {
   // irradiance of the shadow catcher by the environment when nothing is in the way; w: factor of the environment's
   // radiance
   vec4 catcherLight;
+  vec4 lens;            // of the camera, local space: radius, distance in focus along the view; blades
 };
 
 // What one draw reports.

@@ -12,6 +12,7 @@ const bool kCountsParts = kFeature == kFeatureObject || kFeature == kFeatureMate
 
 const uint kCameraDimensions = 0u;
 const uint kChannelDimension = 2u;  // one number a path
+const uint kLensDimensions = 4u;
 const uint kAlphaDimensions = 0x40000000u;
 const uint kBounceDimensions = 16u;  // a bounce uses 16 dimensions from 16 (bounce + 1) on
 const uint kLobeDimension = 0u;
@@ -90,6 +91,11 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   vec2 point = place / vec2(frame.picture.xy) * 2.0 - 1.0;
   CameraRay ray = makeCameraRay(frame.cameraPosition.xyz, frame.cameraRight.xyz, frame.cameraUp.xyz,
                                 frame.cameraForward.xyz, frame.cameraPosition.w != 0.0, point.x, point.y);
+  if (kLens && !kCountsParts && frame.lens.x > 0.0) {
+    vec2 uv = drawPair(p.numbers, kLensDimensions);
+    vec2 lens = frame.lens.x * sampleAperture(uv.x, uv.y, int(frame.lens.z));
+    ray = throughLens(ray, frame.cameraRight.xyz, frame.cameraUp.xyz, frame.cameraForward.xyz, lens, frame.lens.y);
+  }
   p.after = kPhaseEnd;
   p.origin = ray.origin;
   p.direction = ray.direction;

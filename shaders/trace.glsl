@@ -4,7 +4,8 @@
 layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frameBlock; };
 // The block once more as a variable: llvmpipe reads a uniform lane by lane, so each is read once a draw.
 Frame frame = Frame(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0),
-                    ivec4(0), ivec4(0), ivec4(0), ivec4(0), ivec4(0), vec4(0.0), vec4(0.0));
+                    ivec4(0), ivec4(0), ivec4(0), ivec4(0), ivec4(0), vec4(0.0), vec4(0.0),
+                    vec4(0.0));
 layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progress progress; };
 #include "read.glsl"
 #include "random.glsl"

@@ -101,6 +101,20 @@ void addCameraOptions(CLI::App& app, RawCamera& raw) {
   app.add_option("--camera-parallel-scale", raw.parallelScale,
                  "half of the picture's height in metres, of an orthographic camera")
       ->excludes(angle);
+  app.add_option(
+         "--f-stop", raw.lens.fStop,
+         "blur what is out of focus, as a lens of this f-number does on a sensor 24 mm high, for example "
+         "2.8; needs a perspective camera")
+      ->check(CLI::Range(1e-6, 1e6));
+  app.add_option(
+         "--focus-distance", raw.lens.focusDistance,
+         "distance in metres, along the view, at which --f-stop is sharp; by default that of the focal "
+         "point")
+      ->check(CLI::Range(1e-9, 1e30));
+  app.add_option("--aperture-blades", raw.lens.blades,
+                 "number of straight edges of the aperture of --f-stop, from 3; 0 is a round one")
+      ->check(wholeNumber(0, 64))
+      ->capture_default_str();
   addVector("--scene-origin", raw.sceneOrigin,
             "X,Y,Z of a point; positions near this point are the most accurate; by default the focal point "
             "if it is given, otherwise a point near the camera");
@@ -132,6 +146,17 @@ void finishCamera(const RawCamera& raw, RenderOptions& options) {
   options.camera.viewAngleDegrees = raw.viewAngleDegrees;
   options.camera.parallelScale = raw.parallelScale;
   if (!raw.orbit.empty()) options.camera.orbit = orbitOf(raw.orbit);
+  options.lens = raw.lens;
+  const LensOptions& lens = options.lens;
+  if (lens.blades == 1 || lens.blades == 2) throw UsageError("--aperture-blades: neither 0 nor 3 or more");
+  if (!lens.fStop && (lens.focusDistance || lens.blades > 0))
+    throw UsageError(std::string(lens.focusDistance ? "--focus-distance" : "--aperture-blades") +
+                     ": goes with --f-stop");
+  for (const std::optional<double>& value : {lens.fStop, lens.focusDistance}) {
+    if (value && !std::isfinite(*value)) throw UsageError("--f-stop, --focus-distance: not a finite number");
+  }
+  if (lens.fStop && raw.parallelScale)
+    throw UsageError("--f-stop: an orthographic camera has no lens (--camera-parallel-scale)");
   options.camera.fit = raw.fit ? Fit::View : Fit::None;
   options.sceneOrigin = placeOf("--scene-origin", raw.sceneOrigin);
   if (options.camera.viewUp && *options.camera.viewUp == glm::dvec3(0.0))
@@ -154,6 +179,9 @@ std::string cameraText(const RenderOptions& options) {
   append(text, "--camera-view-up", options.camera.viewUp);
   append(text, "--camera-view-angle", options.camera.viewAngleDegrees);
   append(text, "--camera-parallel-scale", options.camera.parallelScale);
+  append(text, "--f-stop", options.lens.fStop);
+  append(text, "--focus-distance", options.lens.focusDistance);
+  if (options.lens.blades > 0) appendOption(text, "--aperture-blades", std::to_string(options.lens.blades));
   append(text, "--scene-origin", options.sceneOrigin);
   if (options.resolution) {
     appendOption(text, "--resolution",

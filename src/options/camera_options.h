@@ -27,6 +27,7 @@ struct RawCamera {
   std::optional<double> viewAngleDegrees;
   std::optional<double> parallelScale;
   std::vector<double> sceneOrigin;
+  LensOptions lens;
   bool fit = false;
 };
 

@@ -95,6 +95,11 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   if (!loaded.view.showEnvironment)
     json["background_color"] = numbers(glm::dvec3(options.backgroundColor.value_or(glm::vec3(0.0f))));
   if (options.shadowCatcher) json["shadow_catcher_height"] = loaded.view.catcherHeight;
+  if (options.lens.fStop) {
+    json["lens_radius"] = loaded.view.lens.radius;
+    json["focus_distance"] = loaded.view.lens.focusDistance;
+    json["aperture_blades"] = options.lens.blades;
+  }
   json["camera_position"] = numbers(camera.position);
   json["camera_forward"] = numbers(camera.forward);
   json["camera_up"] = numbers(camera.up);

@@ -94,6 +94,8 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.background = glm::vec4(view.background, view.showEnvironment ? 1.0f : 0.0f);
   frame_.environment.z = float(std::cos(view.hdriRotation));
   frame_.environment.w = float(std::sin(view.hdriRotation));
+  frame_.lens = glm::vec4(float(view.lens.radius / view.space.unit),
+                          float(view.lens.focusDistance / view.space.unit), float(view.lens.blades), 0.0f);
   frame_.catcherLight.w = float(view.hdriIntensity);
   frame_.lightChoice.x = environmentChance(lightShare_, view.hdriIntensity);
   frame_.picture = {placed.whole, 0, int(view.seed)};

@@ -17,10 +17,18 @@
 
 namespace fragtrace {
 
+/// A thin lens.
+struct Lens {
+  double radius = 0.0;         ///< metres; 0: a pinhole
+  double focusDistance = 1.0;  ///< along the view, metres
+  int blades = 0;              ///< of a polygonal aperture; 0: a round one
+};
+
 /// What can change from picture to picture without touching program or buffers.
 struct View {
   Camera camera;                ///< world space
   LocalSpace space;             ///< of the scene
+  Lens lens;                    ///< when the variant has one
   double hdriRotation = 0.0;    ///< radians about +Y
   double hdriIntensity = 1.0;   ///< factor of the environment's radiance
   glm::vec3 background{0.0f};   ///< seen by camera rays that miss

@@ -125,10 +125,30 @@ double pathsOf(const RenderOptions& options, glm::ivec2 size) {
   return double(size.x) * size.y * (adaptive ? std::numeric_limits<double>::infinity() : options.spp);
 }
 
+namespace {
+
+/// Height of the sensor that f-numbers refer to, metres: that of 35 mm film.
+constexpr double kSensorHeight = 0.024;
+
+Lens lensOf(const RenderOptions& options, const Camera& camera, const BoundsDouble& bounds) {
+  Lens lens;
+  if (!options.lens.fStop || !camera.perspective) return lens;
+  const double focalLength = 0.5 * kSensorHeight / std::tan(0.5 * camera.fovY);
+  lens.radius = 0.5 * focalLength / *options.lens.fStop;
+  const glm::dvec3 focalPoint = options.camera.focalPoint.value_or(focalPointOf(camera, bounds));
+  lens.focusDistance =
+      options.lens.focusDistance.value_or(glm::dot(focalPoint - camera.position, camera.forward));
+  lens.blades = options.lens.blades;
+  return lens;
+}
+
+}  // namespace
+
 View makeView(const RenderOptions& options, const LoadedScene& loaded, const Camera& camera) {
   const Scene& scene = loaded.scene;
   View view;
   view.camera = camera;
+  view.lens = lensOf(options, camera, scene.bounds);
   view.space = scene.space;
   view.hdriRotation = glm::radians(options.hdriRotationDegrees);
   view.hdriIntensity = options.hdriIntensity;
@@ -220,6 +240,8 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
       chooseCamera(scene.cameras, loaded.cameraIndex, options.camera, scene.bounds, framedAspect(options));
   loaded.size = chooseSize(loaded.camera, options);
   if (options.camera.fit != Fit::None) loaded.camera = fitCamera(loaded.camera, scene, options, loaded.size);
+  if (options.lens.fStop && !loaded.camera.perspective)
+    throw UsageError("--f-stop: the camera is orthographic, and has no lens");
   checkDistance(loaded.camera, scene.space, options);
   loaded.region = chooseRegion(loaded.size, options);
   if (film == FilmOf::Picture) checkFilmMemory(options, loaded.region.size);

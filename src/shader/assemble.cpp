@@ -78,6 +78,7 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
   }
   constant("kClampIndirect", variant.clampIndirect);
   constant("kShadowCatcher", variant.shadowCatcher);
+  constant("kLens", variant.lens);
   text << "const int kPixelFilter = " << int(variant.pixelFilter) << ";\n";
   text << "const int kFeature = " << int(variant.feature) << ";\n";
   text << "const int kStackSize = " << variant.stackSize << ";\n";

@@ -14,7 +14,7 @@ using glm::vec4;
 
 #include "layout.glsl"
 
-static_assert(sizeof(Frame) == 16 * 16);
+static_assert(sizeof(Frame) == 17 * 16);
 static_assert(offsetof(Frame, gridOrigin) == 4 * 16);
 static_assert(offsetof(Frame, picture) == 9 * 16);
 static_assert(sizeof(Progress) == 16);

@@ -55,6 +55,7 @@ inline constexpr std::tuple kOptionRows{
     OptionRow{&RenderOptions::seconds, Effect::Count},
     OptionRow{&RenderOptions::cameraIndex, Effect::View},
     OptionRow{&RenderOptions::camera, Effect::View},
+    OptionRow{&RenderOptions::lens, Effect::Picture, Renewal::Program},
     OptionRow{&RenderOptions::sceneOrigin, Effect::Way, Renewal::Scene},
     OptionRow{&RenderOptions::hdriFile, Effect::Picture, Renewal::Scene, "hdri"},
     OptionRow{&RenderOptions::hdriRotationDegrees, Effect::Picture, Renewal::None, "hdri_rotation"},

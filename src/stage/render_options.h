@@ -70,6 +70,15 @@ struct SequenceOptions {
 
 inline constexpr int kUnlimitedBounces = std::numeric_limits<int>::max() - 1;
 
+/// Depth of field of perspective cameras.
+struct LensOptions {
+  std::optional<double> fStop;          ///< none: a pinhole
+  std::optional<double> focusDistance;  ///< along the view, metres; none: to the focal point
+  int blades = 0;                       ///< of the aperture; 0: it is round
+
+  bool operator==(const LensOptions&) const = default;
+};
+
 struct RenderOptions {
   std::filesystem::path scene;
   std::filesystem::path output;
@@ -88,6 +97,7 @@ struct RenderOptions {
   double checkpointSeconds = 0.0;  ///< between two checkpoints; 0: none is written
   std::optional<int> cameraIndex;
   CameraOverrides camera;
+  LensOptions lens;
   std::optional<glm::dvec3>
       sceneOrigin;  ///< place that positions are rounded about; none: the focal point given
   std::filesystem::path hdriFile;

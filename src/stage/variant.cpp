@@ -185,6 +185,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   if (v.traversal == TraversalMethod::Iterative) v.stackSize = 8;
 
   v.pixelFilter = options.pixelFilter;
+  v.lens = options.lens.fStop.has_value();
   v.clampIndirect = has(v.stages, Stage::Gi) && options.clampIndirect > 0.0;
   v.shadowCatcher = has(v.stages, Stage::Gi) && options.shadowCatcher;
   return v;
@@ -280,6 +281,7 @@ std::string variantName(const ShaderVariant& variant) {
   if (variant.feature != Feature::None) append(std::string(rowOf(variant.feature).name));
   if (variant.clampIndirect) append("clamp-indirect");
   if (variant.shadowCatcher) append("shadow-catcher");
+  if (variant.lens) append("lens");
   append(std::string(kBufferReadsNames[size_t(variant.reads)]) + "-reads");
   append(std::string(kDispatchNames[size_t(variant.dispatch)]));
   if (variant.wavefront) append("wavefront");

@@ -23,6 +23,7 @@ struct ShaderVariant {
   Feature feature = Feature::None;  ///< what is drawn in place of radiance
   bool clampIndirect = false;
   bool shadowCatcher = false;
+  bool lens = false;       ///< else a pinhole
   bool wavefront = false;  ///< else the megakernel
   int waveUnit = -1;       ///< image unit through which it reads its states; -1: a storage buffer
   bool resumable =
@@ -32,7 +33,7 @@ struct ShaderVariant {
 
   auto key() const {
     return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, dispatch,
-                      pixelFilter, feature, clampIndirect, shadowCatcher, wavefront, waveUnit, resumable,
+                      pixelFilter, feature, clampIndirect, shadowCatcher, lens, wavefront, waveUnit, resumable,
                       literals);
   }
   bool operator<(const ShaderVariant& other) const { return key() < other.key(); }

@@ -2,6 +2,7 @@
 // shaders/camera.glsl
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "glsl.h"
@@ -9,6 +10,7 @@
 namespace fragtrace {
 namespace {
 
+using glm::dvec2;
 using glm::dvec3;
 using glsl_double::makeCameraRay;
 
@@ -72,6 +74,55 @@ TEST(ShaderCamera, FloatRaysAreWithinAMillionthOfARadian) {
                                                glm::vec3(kForward), false, x, 0.75f);
     EXPECT_LT(angleBetween(dvec3(ray.direction), perspective(x, 0.75)), 2e-7);
     EXPECT_NEAR(glm::length(ray.direction), 1.0f, 2e-7f);
+  }
+}
+
+/// Mean of the points, and of their squared distances from the middle.
+struct Moments {
+  dvec2 mean{0.0};
+  double square = 0.0;
+  double most = 0.0;
+};
+
+Moments momentsOf(int blades) {
+  constexpr int kSteps = 400;
+  Moments m;
+  for (int i = 0; i < kSteps * kSteps; ++i) {
+    const dvec2 p =
+        glsl_double::sampleAperture((i % kSteps + 0.5) / kSteps, (i / kSteps + 0.5) / kSteps, blades);
+    m.mean += p / double(kSteps * kSteps);
+    m.square += glm::dot(p, p) / double(kSteps * kSteps);
+    m.most = std::max(m.most, glm::length(p));
+  }
+  return m;
+}
+
+TEST(ShaderCamera, AperturesAreFilledEvenly) {
+  EXPECT_NEAR(momentsOf(0).square, 0.5, 1e-4);
+  for (const int blades : {3, 4, 6, 9}) {
+    const Moments m = momentsOf(blades);
+    EXPECT_LE(glm::length(m.mean), 1e-4) << blades;
+    // The polar moment of a regular polygon over its area.
+    EXPECT_NEAR(m.square, 1.0 / 3.0 + std::cos(2.0 * M_PI / blades) / 6.0, 1e-4) << blades;
+    EXPECT_LE(m.most, 1.0 + 1e-12);
+    EXPECT_GE(m.most, 0.99);
+  }
+  // A corner at the top.
+  const dvec2 top = glsl_double::sampleAperture(0.0, 1.0, 5);
+  EXPECT_LE(glm::distance(top, dvec2(0.0, 1.0)), 1e-12);
+}
+
+TEST(ShaderCamera, ALensIsSharpInOnePlane) {
+  const dvec3 right(2, 0, 0);
+  const dvec3 up(0, 1, 0);
+  const dvec3 forward(0, 0, -1);
+  const auto pinhole = makeCameraRay(kPosition, right, up, forward, false, 0.3, -0.7);
+  const dvec3 sharp = kPosition + dvec3(0.6, -0.7, -1.0) * 4.0;
+  for (const dvec2 lens : {dvec2(0.0), dvec2(0.2, 0.0), dvec2(-0.1, 0.3)}) {
+    const auto ray = glsl_double::throughLens(pinhole, right, up, forward, lens, 4.0);
+    EXPECT_LE(glm::distance(ray.origin, kPosition + dvec3(lens, 0.0)), 1e-12);
+    EXPECT_NEAR(glm::length(ray.direction), 1.0, 1e-12);
+    EXPECT_LE(glm::length(glm::cross(sharp - ray.origin, ray.direction)), 1e-12);
   }
 }
 

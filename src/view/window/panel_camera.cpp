@@ -38,6 +38,24 @@ void drawBookmarks(ViewState& state, ViewFacts& facts, Task& task) {
   }
 }
 
+/// Depth of field: sharp at the focal point, unless the command line says where.
+void drawLens(ViewState& state, Places& places) {
+  constexpr double kFirstStop = 2.8;
+  LensOptions lens = state.sides[0].lens;
+  bool blurred = lens.fStop.has_value();
+  if (ImGui::Checkbox("Depth of field", &blurred)) lens.fStop = blurred ? std::optional(kFirstStop) : std::nullopt;
+  addItemPlace(places, "Depth of field");
+  if (lens.fStop) {
+    label(places, "F-stop");
+    float stop = float(*lens.fStop);
+    if (ImGui::SliderFloat("##stop", &stop, 0.05f, 32.0f, "f / %.2f", kBoundedLogarithmic)) lens.fStop = stop;
+    label(places, "Blades");
+    if (ImGui::SliderInt("##blades", &lens.blades, 2, 12, lens.blades < 3 ? "round" : "%d", kBounded))
+      lens.blades = lens.blades < 3 ? 0 : lens.blades;
+  }
+  for (RenderOptions& side : state.sides) side.lens = lens;
+}
+
 }  // namespace
 
 Task drawCamera(ViewState& state, ViewFacts& facts) {
@@ -54,6 +72,7 @@ Task drawCamera(ViewState& state, ViewFacts& facts) {
       state.posed = true;
     }
   }
+  if (state.pose.perspective) drawLens(state, places);
   if (state.scene && !state.scene->cameras.empty()) {
     label(places, "Scene camera");
     const auto& cameras = state.scene->cameras;
