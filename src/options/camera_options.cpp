@@ -155,8 +155,6 @@ void finishCamera(const RawCamera& raw, RenderOptions& options) {
   for (const std::optional<double>& value : {lens.fStop, lens.focusDistance}) {
     if (value && !std::isfinite(*value)) throw UsageError("--f-stop, --focus-distance: not a finite number");
   }
-  if (lens.fStop && raw.parallelScale)
-    throw UsageError("--f-stop: an orthographic camera has no lens (--camera-parallel-scale)");
   options.camera.fit = raw.fit ? Fit::View : Fit::None;
   options.sceneOrigin = placeOf("--scene-origin", raw.sceneOrigin);
   if (options.camera.viewUp && *options.camera.viewUp == glm::dvec3(0.0))

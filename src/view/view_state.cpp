@@ -57,6 +57,7 @@ RenderOptions renderOptionsOf(const ViewState& state, size_t side) {
     o.cameraIndex.reset();
     o.camera = overridesOf(state.pose);
   }
+  if (!state.pose.perspective) o.lens = {};
   o.treeLevel = state.treeBoxes ? std::optional<int>(state.treeLevel) : std::nullopt;
   return o;
 }

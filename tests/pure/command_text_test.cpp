@@ -50,7 +50,9 @@ std::vector<std::function<void(RenderOptions&)>> changes() {
         o.selection.hiddenNodes = {"a node", "7", "/nodes/3"};
       },
       [](RenderOptions& o) { o.lens.fStop = double(0.1f); },
-      [](RenderOptions& o) { o.lens = {2.8, double(0.7f), 5}; },
+      [](RenderOptions& o) {
+        o.lens = {2.8, double(0.7f), 5};
+      },
       [](RenderOptions& o) { o.hdriIntensity = double(0.3f); },
       [](RenderOptions& o) { o.backgroundColor = glm::vec3(0.1f, 0.2f, 1.0f / 3.0f); },
       [](RenderOptions& o) { o.background = false; },

@@ -294,5 +294,16 @@ TEST(ShaderLights, BeforeGlobalIlluminationEverySlotIsALightOfItsOwn) {
   }
 }
 
+TEST(LightShare, FollowsTheIntensityOfTheEnvironment) {
+  EXPECT_EQ(environmentChance({.samplesEnvironment = false}, 1.0), 0.0f);
+  EXPECT_EQ(environmentChance({.samplesEnvironment = true, .environment = 0.0}, 1.0), 1.0f);
+  const LightShare both{true, 1.0, 3.0, true};
+  EXPECT_EQ(environmentChance(both, 1.0), 0.25f);
+  EXPECT_EQ(environmentChance(both, 3.0), 0.5f);
+  EXPECT_EQ(environmentChance(both, 0.0), 0.1f);
+  EXPECT_EQ(environmentChance(both, 1e6), 0.9f);
+  EXPECT_EQ(environmentChance({true, 0.0, 0.0, true}, 1.0), 0.5f);
+}
+
 }  // namespace
 }  // namespace fragtrace

@@ -60,6 +60,14 @@ TEST(ViewState, NothingChangesThatCannotBeSeen) {
   }
 }
 
+TEST(ViewState, AnOrthographicViewHasNoLens) {
+  ViewState state = someState();
+  for (RenderOptions& side : state.sides) side.lens.fStop = 2.8;
+  EXPECT_TRUE(tracedSides(state)[0].lens.fStop);
+  press(state, Action::OtherProjection);
+  EXPECT_FALSE(tracedSides(state)[0].lens.fStop);
+}
+
 TEST(ViewState, AReferenceIsSideB) {
   ViewState state = someState();
   press(state, Action::ToggleSplit);
@@ -151,6 +159,7 @@ TEST(ViewState, OnlyWhatIsTracedIsDrawnAnew) {
                               Action::ToggleSheet, Action::ToggleTreeBoxes}) {
     press(state, action, action == Action::Exposure ? 1 : 0);
   }
+  press(state, Action::ToggleSheet);
   EXPECT_NE(state.sides[0].exposure, before.exposure);
   EXPECT_TRUE(drawsTheSame(tracedSides(state)[0], before));
   press(state, Action::ToggleStage, int(Stage::Shadows));
