@@ -11,6 +11,7 @@
 #include "view/presets.h"
 #include "view/progress.h"
 #include "view/window/figures.h"
+#include "view/window/pixel_values.h"
 #include "view/window/status_bar.h"
 #include "view/window/text.h"
 #include "view/window/theme.h"
@@ -258,6 +259,7 @@ void drawSheet(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
 Task drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout, double now) {
   Task task;
   drawLines(state, facts, layout);
+  drawPixelValues(state, facts, layout);
   if (state.split && state.comparison == CompareMode::Bar) drawBar(state, layout);
   if (state.split) drawSideNames(state, facts, layout);
   if (state.figures && state.scene) drawFigures(state, facts, layout);

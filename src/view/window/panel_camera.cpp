@@ -43,7 +43,8 @@ void drawLens(ViewState& state, Places& places) {
   constexpr double kFirstStop = 2.8;
   LensOptions lens = state.sides[0].lens;
   bool blurred = lens.fStop.has_value();
-  if (ImGui::Checkbox("Depth of field", &blurred)) lens.fStop = blurred ? std::optional(kFirstStop) : std::nullopt;
+  if (ImGui::Checkbox("Depth of field", &blurred))
+    lens.fStop = blurred ? std::optional(kFirstStop) : std::nullopt;
   addItemPlace(places, "Depth of field");
   if (lens.fStop) {
     label(places, "F-stop");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "view/picture/pixel_value.h"
 #include "view/progress.h"
 #include "view/window/text.h"
 
@@ -53,15 +54,6 @@ std::vector<std::string> progressTexts(const ViewState& state, const ViewFacts& 
   return texts;
 }
 
-/// What a side's picture holds at a place: linear red, green and blue.
-glm::dvec3 valueAt(const Image& image, const glm::dvec2& place) {
-  const glm::ivec2 size(image.width, image.height);
-  const glm::ivec2 pixel = glm::clamp(glm::ivec2(place * glm::dvec2(size)), glm::ivec2(0), size - 1);
-  const float* value =
-      &image.values[(size_t(pixel.y) * size_t(size.x) + size_t(pixel.x)) * image.channelCount()];
-  return {value[0], value[1], value[2]};
-}
-
 /// The pixel under the cursor, of the picture at its full resolution, and what it holds.
 std::string pixelText(const ViewState& state, const ViewFacts& facts) {
   if (!facts.cursor) return "";
@@ -73,8 +65,8 @@ std::string pixelText(const ViewState& state, const ViewFacts& facts) {
   const glm::dvec2 place = magnifiedPlace(state, *facts.cursor + 0.5 / glm::dvec2(state.size));
   const glm::ivec2 pixel =
       glm::clamp(glm::ivec2(place * glm::dvec2(state.size)), glm::ivec2(0), state.size - 1);
-  glm::dvec3 value = valueAt(pictures[side], place);
-  if (difference) value = glm::abs(value - valueAt(pictures[1], place));
+  glm::dvec3 value = radianceAt(pictures[side], place);
+  if (difference) value = glm::abs(value - radianceAt(pictures[1], place));
   const char* name = !state.split ? "" : difference ? "|A - B| " : side == 0 ? "A " : "B ";
   return printed("%s%d, %d: %.4g %.4g %.4g", name, pixel.x, pixel.y, value.x, value.y, value.z);
 }

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "view/window/pixel_values.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "view/picture/pixel_value.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr float kLines = 3.0f;  // red, green, blue
+constexpr std::array<ImU32, 3> kValueColors{IM_COL32(255, 150, 150, 255), IM_COL32(150, 240, 150, 255),
+                                            IM_COL32(170, 190, 255, 255)};
+
+/// Three lines in the middle of a pixel, on a dark ground.
+void drawValue(ImDrawList& list, ImVec2 middle, const glm::dvec3& value) {
+  const float line = ImGui::GetFontSize();
+  std::array<std::array<char, 16>, 3> texts{};
+  float width = 0.0f;
+  for (size_t c = 0; c < 3; ++c) {
+    std::snprintf(texts[c].data(), texts[c].size(), "%.3g", value[int(c)]);
+    width = std::max(width, ImGui::CalcTextSize(texts[c].data()).x);
+  }
+  const ImVec2 corner(std::round(middle.x - 0.5f * width), std::round(middle.y - 0.5f * kLines * line));
+  list.AddRectFilled({corner.x - 2.0f, corner.y}, {corner.x + width + 2.0f, corner.y + kLines * line},
+                     IM_COL32(0, 0, 0, 150));
+  for (size_t c = 0; c < 3; ++c)
+    list.AddText({corner.x, corner.y + float(c) * line}, kValueColors[c], texts[c].data());
+}
+
+}  // namespace
+
+void drawPixelValues(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout) {
+  const double factor = std::exp2(state.magnifier.steps);
+  if (factor < double((kLines + 1.0f) * ImGui::GetFontSize())) return;
+  const bool difference = state.split && state.comparison == CompareMode::Difference;
+  const glm::dvec2 size(layout.picture);
+  // In parts of the picture, from its top left.
+  const glm::dvec2 corner = magnifiedPlace(state, glm::dvec2(0.0));
+  const glm::ivec2 first(corner * size);
+  const glm::ivec2 last((corner + 1.0 / factor) * size);
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.PushClipRect({0.0f, 0.0f}, {float(size.x), float(size.y)});
+  for (int y = first.y; y <= std::min(last.y, layout.picture.y - 1); ++y) {
+    for (int x = first.x; x <= std::min(last.x, layout.picture.x - 1); ++x) {
+      const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / size;
+      const glm::dvec2 shown = (place - corner) * factor;
+      const size_t side = difference ? 0 : sideAt(state, shown);
+      const Image& picture = facts.pictures[side];
+      if (picture.width <= 0 || (difference && facts.pictures[1].width <= 0)) continue;
+      glm::dvec3 value = radianceAt(picture, place);
+      if (difference) value = glm::abs(value - radianceAt(facts.pictures[1], place));
+      drawValue(list, ImVec2(float(shown.x * size.x), float(shown.y * size.y)), value);
+    }
+  }
+  list.PopClipRect();
+}
+
+}  // namespace fragtrace
