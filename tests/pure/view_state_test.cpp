@@ -227,8 +227,8 @@ TEST(ViewState, TheMagnifierKeepsWhatIsUnderTheCursorAndStaysInThePicture) {
     apply(state, *controlOf(Action::Magnify), {.notches = 1.0, .place = cursor});
     EXPECT_NEAR(glm::distance(magnifiedPlace(state, cursor), before), 0.0, 1e-12);
   }
-  EXPECT_EQ(state.magnifier.steps, 6);
-  for (int i = 0; i < 100; ++i) apply(state, *controlOf(Action::MoveMagnifier), {.drag = {-0.5, 0.5}});
+  EXPECT_EQ(state.magnifier.steps, 7);
+  for (int i = 0; i < 200; ++i) apply(state, *controlOf(Action::MoveMagnifier), {.drag = {-0.5, 0.5}});
   EXPECT_NEAR(magnifiedPlace(state, {1.0, 0.0}).x, 1.0, 1e-12);
   EXPECT_NEAR(magnifiedPlace(state, {1.0, 0.0}).y, 0.0, 1e-12);
   for (int i = 0; i < 10; ++i) apply(state, *controlOf(Action::Magnify), {.notches = -1.0, .place = cursor});
