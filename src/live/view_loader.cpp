@@ -39,7 +39,7 @@ void SceneLoader::start(const RenderOptions& options) {
   job_ = std::make_shared<Job>();
   ++*threads_;
   // Detached: a load that nobody waits for any more ends at its next step.
-  std::thread([job = job_, threads = threads_, options, &exchange = exchange_] {
+  std::thread([job = job_, threads = threads_, options, asRendered = asRendered_, &exchange = exchange_] {
     LoadResult result;
     result.options = options;
     const auto progress = [&](const char* step, double fraction) {
@@ -52,7 +52,7 @@ void SceneLoader::start(const RenderOptions& options) {
       result.ownLight =
           known ? !result.stats.defaultLight : ownLight(result.scene->scene) == OwnLight::Enough;
       result.environments = environmentsNear(options);
-      standAside(*result.scene, result.options);
+      if (!asRendered) standAside(*result.scene, result.options);
       // From now on it is told by its index, as others are that are chosen in the window.
       result.options.cameraIndex = result.scene->cameraIndex;
       result.options.selection.camera.clear();

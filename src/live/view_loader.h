@@ -24,7 +24,8 @@ struct LoadResult {
 
 class SceneLoader {
  public:
-  explicit SceneLoader(Exchange& exchange) : exchange_(exchange) {}
+  /// With `asRendered`, a scene without a camera is seen as `render` sees it.
+  SceneLoader(Exchange& exchange, bool asRendered) : exchange_(exchange), asRendered_(asRendered) {}
 
   /// Begins; what was being loaded before is dropped.
   void start(const RenderOptions& options);
@@ -37,6 +38,7 @@ class SceneLoader {
  private:
   struct Job;
   Exchange& exchange_;
+  bool asRendered_;
   std::shared_ptr<Job> job_;
   std::shared_ptr<std::atomic<int>> threads_ = std::make_shared<std::atomic<int>>(0);
 };

@@ -22,7 +22,8 @@ void ViewTracer::answer(const PickRequest& request) {
     choose(*request.node, nodesBelow(scene, *request.node));
     const auto node = std::ranges::find(scene.nodes, *request.node, &SceneNode::index);
     if (node != scene.nodes.end()) answer.lines = {"node " + node->name};
-    if (answer.bounds.empty()) answer.lines.emplace_back("it draws nothing");
+    const bool hidden = node != scene.nodes.end() && node->hidden;
+    if (answer.bounds.empty()) answer.lines.emplace_back(hidden ? "it is hidden" : "it draws nothing");
   } else {
     if (!side || !side->program) return;
     const Projection projection = projectionOf(side->view.camera, double(request_.size.x) / request_.size.y);

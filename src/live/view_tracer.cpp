@@ -52,7 +52,11 @@ std::string whatFailed(const std::exception_ptr& error) {
 }  // namespace
 
 ViewTracer::ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn, Exchange& exchange)
-    : start_(start), exchange_(exchange), loader_(exchange), thumbnails_(exchange), oidn_(std::move(oidn)) {
+    : start_(start),
+      exchange_(exchange),
+      loader_(exchange, !start.reference.empty()),
+      thumbnails_(exchange),
+      oidn_(std::move(oidn)) {
   passOnWhatIsSaid([&exchange](const std::string& text) { exchange.tell(text); });
 }
 
@@ -224,6 +228,7 @@ void ViewTracer::pose(const TraceRequest& request) {
   options.camera = wanted.camera;
   options.cameraIndex = wanted.cameraIndex;
   options.resolution = request.size;
+  if (!sameNodes) exchange_.tellNote("updating the scene");
   std::vector<std::string> repeated;
   const SaidHere silence(repeated);  // it was said when the scene was loaded
   try {
@@ -244,6 +249,7 @@ void ViewTracer::pose(const TraceRequest& request) {
   } catch (const std::exception& error) {
     exchange_.tellError(error.what());  // what is shown stays
   }
+  if (!sameNodes) exchange_.tellNote({});
 }
 
 void ViewTracer::adopt(const TraceRequest& request) {

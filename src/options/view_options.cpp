@@ -53,6 +53,9 @@ void addViewOptions(CLI::App& app, RawView& raw) {
 ViewOptions finishView(RawView& raw, CLI::App& command) {
   ViewOptions options;
   raw.render.anyOutput = true;
+  // Compared with what `render` draws, the scene is lit as there.
+  if (!raw.reference.empty() && command.get_option("--default-light")->empty())
+    raw.render.defaultLight = "white";
   options.render = finishConfigured(raw.render, raw.config, command);
   const glm::ivec2 size = options.render.resolution.value_or(glm::ivec2(1));
   if (size.x > kMostWindowPixels || size.y > kMostWindowPixels)

@@ -57,6 +57,9 @@ class Tree(Case):
         self.assertNotEqual(viewer.rest(lambda s: s["hdri_intensity"] != 1, "another intensity")["hdri_intensity"], 1)
         words = copied_command(self, viewer)
         self.assertIn("--hdri-intensity", words)
+        # The whole drag is one step.
+        viewer.key("ctrl+z")
+        viewer.rest(lambda s: s["hdri_intensity"] == 1, "as before the drag")
         self.ends_well(viewer, viewer.close())
 
 

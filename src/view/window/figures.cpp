@@ -55,7 +55,7 @@ float drawSide(const ViewState& state, ViewFacts& facts, size_t side, ImVec2 pla
   ImGui::SetNextWindowBgAlpha(0.62f);
   if (ImGui::Begin(name.c_str(), nullptr, kLabelFlags | ImGuiWindowFlags_NoInputs) &&
       ImGui::BeginTable("rows", 2, ImGuiTableFlags_SizingFixedFit)) {
-    if (state.split) row("side", "%s", side == 0 ? "left" : "right");
+    if (state.split) row("side", "%s", side == 0 ? "A" : "B");
     row("samples", "%d, %.1f s%s", s.samples, s.seconds, s.resting ? ", done" : "");
     if (s.error < 0.0)
       row("error", "not yet known");

@@ -86,6 +86,8 @@ void Interface::end() {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
+bool Interface::holding() { return ImGui::IsAnyItemActive(); }
+
 const char* Interface::focus() {
   if (ImGui::GetIO().WantTextInput) return "text";
   return ImGui::GetCurrentContext()->OpenPopupStack.Size > 0 ? "popup" : "picture";

@@ -26,6 +26,9 @@ class Interface {
   /// Closes the list, or picker of colours, that was opened last; false: none is open.
   static bool closePopup();
 
+  /// Whether a slider or button is held, or a text edited.
+  static bool holding();
+
   /// What keys go to: "text" that is edited, a "popup", or the "picture".
   static const char* focus();
 

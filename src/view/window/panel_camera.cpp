@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The camera: projection, cameras of the scene, views with a name.
+#include <algorithm>
+#include <cmath>
+
 #include "view/window/panel_parts.h"
 #include "view/window/text.h"
 
 namespace fragtrace {
 
 namespace {
+
+constexpr double kLeastStop = 0.001;  // what the panel offers
+constexpr double kMostStop = 32.0;
 
 /// A line for a new name, then one a view: go there, or forget it.
 void drawBookmarks(ViewState& state, ViewFacts& facts, Task& task) {
@@ -38,18 +44,28 @@ void drawBookmarks(ViewState& state, ViewFacts& facts, Task& task) {
   }
 }
 
+/// An f-number whose blur can be seen, whatever the size of the scene.
+double firstStop(const CameraPose& pose) {
+  constexpr double kRadius = 0.02;       // of the distance to the focal point
+  constexpr double kHalfSensor = 0.012;  // metres (docs/design/conventions.md)
+  const double focalLength = kHalfSensor / std::tan(glm::radians(0.5 * pose.viewAngleDegrees));
+  const double distance = glm::distance(pose.position, pose.focalPoint);
+  return std::clamp(focalLength / (2.0 * kRadius * distance), kLeastStop, kMostStop);
+}
+
 /// Depth of field: sharp at the focal point, unless the command line says where.
 void drawLens(ViewState& state, Places& places) {
-  constexpr double kFirstStop = 2.8;
   LensOptions lens = state.sides[0].lens;
   bool blurred = lens.fStop.has_value();
   if (ImGui::Checkbox("Depth of field", &blurred))
-    lens.fStop = blurred ? std::optional(kFirstStop) : std::nullopt;
+    lens.fStop = blurred ? std::optional(firstStop(state.pose)) : std::nullopt;
   addItemPlace(places, "Depth of field");
   if (lens.fStop) {
     label(places, "F-stop");
     float stop = float(*lens.fStop);
-    if (ImGui::SliderFloat("##stop", &stop, 0.05f, 32.0f, "f / %.2f", kBoundedLogarithmic)) lens.fStop = stop;
+    if (ImGui::SliderFloat("##stop", &stop, float(kLeastStop), float(kMostStop), "f / %.3g",
+                           kBoundedLogarithmic))
+      lens.fStop = stop;
     label(places, "Blades");
     if (ImGui::SliderInt("##blades", &lens.blades, 2, 12, lens.blades < 3 ? "round" : "%d", kBounded))
       lens.blades = lens.blades < 3 ? 0 : lens.blades;

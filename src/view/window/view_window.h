@@ -38,6 +38,7 @@ class Window {
   void adoptScene(ViewedScene scene);
   void takePictures(std::vector<TracedPicture> pictures);
   void takeReference(const TracedPicture& picture);
+  void compareSizes();
   void takeThumbnail(const EnvironmentThumbnail& thumbnail);
   void askForThumbnails();
   void takeState(const Delivery& news);
@@ -83,9 +84,10 @@ class Window {
   std::string status_;
   double statusTime_ = -1.0;
   bool statusWaits_ = false;
-  int frames_ = 0;         ///< still to be drawn
-  double changed_ = -1.0;  ///< when the traced picture was last changed
-  double fades_ = 1e30;    ///< when a message is to be drawn paler
+  bool newReference_ = false;  ///< its size is not yet compared with the picture's
+  int frames_ = 0;             ///< still to be drawn
+  double changed_ = -1.0;      ///< when the traced picture was last changed
+  double fades_ = 1e30;        ///< when a message is to be drawn paler
   std::vector<RenderOptions> askedSides_;
   glm::ivec2 askedSize_{0};
   bool askedMoving_ = false;

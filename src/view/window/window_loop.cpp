@@ -103,7 +103,8 @@ void Window::run() {
     take();
     if (frames_ > 0 && !iconified()) draw();
     play(state_, glfwGetTime());
-    if (!input_.active() && !state_.playback.playing && state_.scene) record(history_, state_);
+    const bool held = input_.active() || Interface::holding();
+    if (!held && !state_.playback.playing && state_.scene) record(history_, state_);
     ask();
     writeStatus();
     const double ms = 1000.0 * (glfwGetTime() - begin);
@@ -199,6 +200,7 @@ void Window::takePictures(std::vector<TracedPicture> pictures) {
     }
     frames_ = std::max(frames_, 1);
   }
+  compareSizes();
 }
 
 void Window::takeThumbnail(const EnvironmentThumbnail& thumbnail) {
@@ -232,11 +234,18 @@ void Window::takeReference(const TracedPicture& picture) {
   state_.split = true;
   state_.active = 0;
   if (state_.sides[1].scene.empty()) state_.sides[1] = state_.sides[0];
-  const Image& image = picture.image;
-  if (glm::ivec2(image.width, image.height) == state_.size) return;
-  say(picture.file.filename().string() + " has " + std::to_string(image.width) + " x " +
-      std::to_string(image.height) + " pixels, the picture " + std::to_string(state_.size.x) + " x " +
-      std::to_string(state_.size.y) + ": it is scaled to compare");
+  newReference_ = true;
+}
+
+/// Once the picture of the scene has its size.
+void Window::compareSizes() {
+  const glm::ivec2 size = facts_.pictureSize[1];
+  if (!newReference_ || state_.reference.empty() || facts_.pictureSize[0] != state_.size) return;
+  newReference_ = false;
+  if (size == state_.size) return;
+  const auto text = [](glm::ivec2 s) { return std::to_string(s.x) + " x " + std::to_string(s.y); };
+  say(state_.reference.filename().string() + " has " + text(size) + " pixels, the picture " +
+      text(state_.size) + ": it is scaled to compare");
 }
 
 void Window::takeState(const Delivery& news) {

@@ -130,7 +130,7 @@ void Window::save(const char* extension) {
   const bool seen = isDisplayFormat(name);
   const bool both = state_.split && seen;
   const char* side = !state_.split || both ? "" : state_.active == 0 ? " of side A" : " of side B";
-  say("writing " + name.string() + side + " as soon as all of the picture is drawn");
+  if (!facts_.resting) say("writing " + name.string() + side + " as soon as all of the picture is drawn");
   SaveRequest request;
   request.path = name;
   request.side = state_.active;
