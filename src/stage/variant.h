@@ -33,8 +33,8 @@ struct ShaderVariant {
 
   auto key() const {
     return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, dispatch,
-                      pixelFilter, feature, clampIndirect, shadowCatcher, lens, wavefront, waveUnit, resumable,
-                      literals);
+                      pixelFilter, feature, clampIndirect, shadowCatcher, lens, wavefront, waveUnit,
+                      resumable, literals);
   }
   bool operator<(const ShaderVariant& other) const { return key() < other.key(); }
   bool operator==(const ShaderVariant& other) const { return key() == other.key(); }

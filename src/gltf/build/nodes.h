@@ -17,7 +17,7 @@ struct PlacedNode {
   int index = 0;
   glm::dmat4 world{1.0};  ///< affine: the last row is 0, 0, 0, 1
   bool hidden = false;    ///< it or an ancestor (KHR_node_visibility, or the user's choice): its mesh, sphere
-                        ///< and light are not there
+                          ///< and light are not there
   bool hiddenInFile = false;  ///< the same without the user's choice
   int depth = 0;              ///< ancestors
 };

@@ -233,9 +233,10 @@ void drawSheetLines(const std::vector<SheetLine>& lines, size_t columns) {
 
 void drawSheet(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float height = display.y - 4 * layout.margin;
+  // Above the status bar.
+  const float height = float(layout.picture.y) - 2 * layout.margin;
   const float width = std::min(kSheetWidth * layout.scale, display.x - 2 * layout.margin);
-  ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowPos({0.5f * display.x, layout.margin}, ImGuiCond_Always, {0.5f, 0.0f});
   ImGui::SetNextWindowSize({width, height});
   ImGui::SetNextWindowFocus();
   ImGui::SetNextWindowBgAlpha(1.0f);
