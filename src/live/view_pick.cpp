@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the viewer's tracing thread knows of a place of the picture, and of what was selected there.
+#include <algorithm>
+
 #include "live/pick_text.h"
 #include "live/view_tracer.h"
 #include "picture/picture_file.h"
