@@ -124,7 +124,7 @@ void addStageOptions(CLI::App& app, RawRender& raw) {
       ->capture_default_str();
   app.add_option(
          "--enable", raw.enable,
-         "additional stages and switches to turn on, separated by commas:  " + joined(stageNames(false)))
+         "additional stages and switches to turn on, separated by commas: " + joined(stageNames(false)))
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_option("--disable", raw.disable,
@@ -229,7 +229,7 @@ void addTracingOptions(CLI::App& app, RawRender& raw) {
       ->capture_default_str();
   app.add_option("--schedule", raw.schedule,
                  "how paths are scheduled: each lane of the device traces one pixel at a time (megakernel), "
-                 "or the rays of many pixels are traced together (wavefront):  " +
+                 "or the rays of many pixels are traced together (wavefront): " +
                      joined(kScheduleNames))
       ->capture_default_str();
 }

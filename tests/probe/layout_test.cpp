@@ -23,15 +23,23 @@ struct Member {
 
 #define MEMBER(type, block, member) \
   Member { block "." #member, offsetof(layout::type, member) }
-const std::vector<Member> kFrameMembers = {
-    MEMBER(Frame, "frameBlock", cameraPosition), MEMBER(Frame, "frameBlock", cameraRight),
-    MEMBER(Frame, "frameBlock", cameraUp),       MEMBER(Frame, "frameBlock", cameraForward),
-    MEMBER(Frame, "frameBlock", gridOrigin),     MEMBER(Frame, "frameBlock", gridCell),
-    MEMBER(Frame, "frameBlock", background),     MEMBER(Frame, "frameBlock", environment),
-    MEMBER(Frame, "frameBlock", lightChoice),    MEMBER(Frame, "frameBlock", picture),
-    MEMBER(Frame, "frameBlock", tile),           MEMBER(Frame, "frameBlock", limits),
-    MEMBER(Frame, "frameBlock", sampling),       MEMBER(Frame, "frameBlock", part),
-    MEMBER(Frame, "frameBlock", worldOrigin),    MEMBER(Frame, "frameBlock", catcherLight)};
+const std::vector<Member> kFrameMembers = {MEMBER(Frame, "frameBlock", cameraPosition),
+                                           MEMBER(Frame, "frameBlock", cameraRight),
+                                           MEMBER(Frame, "frameBlock", cameraUp),
+                                           MEMBER(Frame, "frameBlock", cameraForward),
+                                           MEMBER(Frame, "frameBlock", gridOrigin),
+                                           MEMBER(Frame, "frameBlock", gridCell),
+                                           MEMBER(Frame, "frameBlock", background),
+                                           MEMBER(Frame, "frameBlock", environment),
+                                           MEMBER(Frame, "frameBlock", lightChoice),
+                                           MEMBER(Frame, "frameBlock", picture),
+                                           MEMBER(Frame, "frameBlock", tile),
+                                           MEMBER(Frame, "frameBlock", limits),
+                                           MEMBER(Frame, "frameBlock", sampling),
+                                           MEMBER(Frame, "frameBlock", part),
+                                           MEMBER(Frame, "frameBlock", worldOrigin),
+                                           MEMBER(Frame, "frameBlock", catcherLight),
+                                           MEMBER(Frame, "frameBlock", lens)};
 const std::vector<Member> kProgressMembers = {
     MEMBER(Progress, "progress", unfinished), MEMBER(Progress, "progress", stuck),
     MEMBER(Progress, "progress", cutLow), MEMBER(Progress, "progress", cutHigh)};

@@ -49,6 +49,7 @@ class Pictures(Package):
                 ("cornell-box.gltf", (), {}),
                 ("coverage.gltf", ("--stage", "phong", "--seed", 3), {"stage": "phong", "seed": 3}),
                 ("plastics.gltf", ("--hdri-file", SCENES / "sky.pfm", "--hdri-rotation", -30.5), {"hdri": SCENES / "sky.pfm", "hdri_rotation": -30.5}),
+                ("plastics.gltf", ("--hide", "lamp", "--hide", "sphere-3", "--hdri-intensity", 2), {"hide": ("lamp", "sphere-3"), "hdri_intensity": 2}),
                 ("plastics.gltf", ("--studio", "--shadow-catcher", 0.1), {"studio": True, "shadow_catcher": 0.1}),
                 ("layered.gltf", ("--camera-position", "-1,2,5", "--camera-focal-point", "0,0.5,0"),
                  {"camera": {"position": (-1, 2, 5), "focal_point": np.array([0, 0.5, 0])}}),

@@ -18,7 +18,7 @@ void addBenchStressOptions(CLI::App& app, RawBenchStress& raw) {
       ->type_name("FILE");
   addDeviceOptions(app, raw.render);
   app.add_option("--schedule", raw.render.schedule,
-                 "how paths are scheduled:  " + joined(kScheduleNames) +
+                 "how paths are scheduled: " + joined(kScheduleNames) +
                      "; auto uses the megakernel, because the pictures are small")
       ->capture_default_str();
 }
