@@ -88,8 +88,8 @@ Moments momentsOf(int blades) {
   constexpr int kSteps = 400;
   Moments m;
   for (int i = 0; i < kSteps * kSteps; ++i) {
-    const dvec2 p =
-        glsl_double::sampleAperture((i % kSteps + 0.5) / kSteps, (i / kSteps + 0.5) / kSteps, blades);
+    const int row = i / kSteps;
+    const dvec2 p = glsl_double::sampleAperture((i % kSteps + 0.5) / kSteps, (row + 0.5) / kSteps, blades);
     m.mean += p / double(kSteps * kSteps);
     m.square += glm::dot(p, p) / double(kSteps * kSteps);
     m.most = std::max(m.most, glm::length(p));

@@ -24,7 +24,8 @@ void drawThumbnail(const ViewFacts& facts, const EnvironmentChoice& choice, floa
   if (found == facts.thumbnails.end())
     ImGui::Dummy(size);
   else
-    ImGui::Image(ImTextureID(intptr_t(found->second)), size);
+    // Dear ImGui's pointer is a texture's name to its part for OpenGL.
+    ImGui::Image(ImTextureID(intptr_t(found->second)), size);  // NOLINT(performance-no-int-to-ptr)
 }
 
 /// A list of what can light the scene; what was chosen, with which it is to be loaded again.
