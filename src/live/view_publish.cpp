@@ -133,6 +133,8 @@ Image ViewTracer::seenOf(Side& side) {
 void ViewTracer::saveBoth(const SaveRequest& request) {
   std::array<ComposedSide, 2> sides;
   for (size_t i = 0; i < 2; ++i) {
+    if (i < sides_.size() && !sides_[i].program)
+      return exchange_.tell("not written: one of the sides draws no picture");
     if (i < sides_.size())
       sides[i] = {seenOf(sides_[i]), showsColors(sides_[i].options)};
     else if (reference_)

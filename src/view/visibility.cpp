@@ -10,8 +10,10 @@ namespace {
 
 std::string pointerOf(const SceneNode& node) { return "/nodes/" + std::to_string(node.index); }
 
-bool isNamed(const SceneNode& node, const std::string& wanted) {
-  return wanted == node.name || wanted == pointerOf(node) || wanted == std::to_string(node.index);
+/// As loading takes it: an index only where no node has that name.
+bool isNamed(const std::vector<SceneNode>& nodes, const SceneNode& node, const std::string& wanted) {
+  if (wanted == node.name || wanted == pointerOf(node)) return true;
+  return wanted == std::to_string(node.index) && std::ranges::count(nodes, wanted, &SceneNode::name) == 0;
 }
 
 /// The name, where no other node has it; else its JSON pointer.
@@ -22,9 +24,9 @@ std::string nameOf(const std::vector<SceneNode>& nodes, const SceneNode& node) {
 }  // namespace
 
 bool isHidden(const ViewState& state, size_t node) {
-  const std::vector<std::string>& hidden = state.sides[0].selection.hiddenNodes;
-  return std::ranges::any_of(
-      hidden, [&](const std::string& wanted) { return isNamed(state.scene->nodes[node], wanted); });
+  const std::vector<SceneNode>& nodes = state.scene->nodes;
+  return std::ranges::any_of(state.sides[0].selection.hiddenNodes,
+                             [&](const std::string& wanted) { return isNamed(nodes, nodes[node], wanted); });
 }
 
 void hideNode(ViewState& state, size_t node, bool hidden) {

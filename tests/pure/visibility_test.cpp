@@ -44,6 +44,15 @@ TEST(Visibility, AnotherOfTheSameNameStaysHidden) {
   EXPECT_EQ(state.sides[0].selection.hiddenNodes, Names{"/nodes/2"});
 }
 
+TEST(Visibility, AnIndexIsOneOnlyWhereNoNodeHasThatName) {
+  ViewState state = withNodes();
+  state.sides[0].selection.hiddenNodes = {"2"};
+  EXPECT_TRUE(isHidden(state, 2));
+  state.scene->nodes[0].name = "2";
+  EXPECT_TRUE(isHidden(state, 0));
+  EXPECT_FALSE(isHidden(state, 2));
+}
+
 TEST(Visibility, IsUndone) {
   ViewState state = withNodes();
   History history;
