@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <span>
 
 namespace fragtrace {
 
@@ -19,13 +20,36 @@ constexpr int kSphereRings = 16;
 
 bool isIn(const NodeSet& nodes, uint32_t node) { return node < nodes.size() && nodes[node]; }
 
-/// The triangles of a range, through a matrix, in world space.
+/// Triangles that a node draws; through a matrix, if they are shared.
+struct Part {
+  size_t firstTriangle = 0;
+  size_t triangleCount = 0;
+  const glm::dmat4* toLocal = nullptr;
+};
+
+std::vector<Part> partsOf(const Scene& scene, const NodeSet& nodes) {
+  std::vector<Part> parts;
+  const uint32_t flat = flatTriangleCount(scene);
+  for (const PrimitiveOrigin& origin : scene.origins) {
+    if (origin.firstTriangle < flat && isIn(nodes, origin.nodeIndex))
+      parts.push_back({origin.firstTriangle, origin.triangleCount, nullptr});
+  }
+  for (const Instance& instance : scene.instances) {
+    const SharedMesh& mesh = scene.sharedMeshes[instance.mesh];
+    if (isIn(nodes, instance.nodeIndex))
+      parts.push_back({mesh.firstTriangle, mesh.triangleCount, &instance.toLocal});
+  }
+  return parts;
+}
+
+/// In world space.
 template <typename Use>
-void useTriangles(const Scene& scene, size_t first, size_t count, const glm::dmat4* toLocal, const Use& use) {
-  for (size_t i = first; i < std::min(first + count, scene.triangles.size()); ++i) {
+void useTriangles(const Scene& scene, const Part& part, const Use& use) {
+  const size_t end = std::min(part.firstTriangle + part.triangleCount, scene.triangles.size());
+  for (size_t i = part.firstTriangle; i < end; ++i) {
     Corners corners = cornersOf<glm::dvec3>(scene, scene.triangles[i]);
     for (glm::dvec3& corner : corners) {
-      if (toLocal != nullptr) corner = glm::dvec3(*toLocal * glm::dvec4(corner, 1.0));
+      if (part.toLocal != nullptr) corner = glm::dvec3(*part.toLocal * glm::dvec4(corner, 1.0));
       corner = scene.space.worldOf(corner);
     }
     use(corners);
@@ -51,30 +75,11 @@ void useSphere(const Scene& scene, const Sphere& sphere, const Use& use) {
 }
 
 template <typename Use>
-void useAll(const Scene& scene, const NodeSet& nodes, const Use& use) {
-  const uint32_t flat = flatTriangleCount(scene);
-  for (const PrimitiveOrigin& origin : scene.origins) {
-    if (origin.firstTriangle < flat && isIn(nodes, origin.nodeIndex))
-      useTriangles(scene, origin.firstTriangle, origin.triangleCount, nullptr, use);
-  }
-  for (const Instance& instance : scene.instances) {
-    const SharedMesh& mesh = scene.sharedMeshes[instance.mesh];
-    if (isIn(nodes, instance.nodeIndex))
-      useTriangles(scene, mesh.firstTriangle, mesh.triangleCount, &instance.toLocal, use);
-  }
+void useAll(const Scene& scene, const NodeSet& nodes, std::span<const Part> parts, const Use& use) {
+  for (const Part& part : parts) useTriangles(scene, part, use);
   for (const Sphere& sphere : scene.spheres) {
     if (isIn(nodes, sphere.nodeIndex)) useSphere(scene, sphere, use);
   }
-}
-
-size_t countTriangles(const Scene& scene, const NodeSet& nodes) {
-  size_t count = 0;
-  const uint32_t flat = flatTriangleCount(scene);
-  for (const PrimitiveOrigin& origin : scene.origins)
-    count += origin.firstTriangle < flat && isIn(nodes, origin.nodeIndex) ? origin.triangleCount : 0;
-  for (const Instance& instance : scene.instances)
-    count += isIn(nodes, instance.nodeIndex) ? scene.sharedMeshes[instance.mesh].triangleCount : 0;
-  return count;
 }
 
 /// Which middles of pixels are covered.
@@ -120,11 +125,11 @@ class Coverage {
 };
 
 /// The triangle as its place in the picture, in pixels from the top left, cut off at the camera.
-std::vector<glm::dvec2> placeOfTriangle(const Corners& corners, const Projection& projection,
-                                        glm::ivec2 size) {
+void placeTriangle(const Corners& corners, const Projection& projection, glm::ivec2 size,
+                   std::vector<glm::dvec2>& polygon) {
   std::array<glm::dvec3, 3> points;
   for (size_t i = 0; i < 3; ++i) points[i] = projected(projection, corners[i]);
-  std::vector<glm::dvec2> polygon;
+  polygon.clear();
   const auto add = [&](const glm::dvec3& p) {
     polygon.emplace_back(glm::dvec2(0.5 + 0.5 * p.x / p.z, 0.5 - 0.5 * p.y / p.z) * glm::dvec2(size));
   };
@@ -135,7 +140,6 @@ std::vector<glm::dvec2> placeOfTriangle(const Corners& corners, const Projection
     if (before) add(a);
     if (before != (b.z >= kNearestOutlined)) add(glm::mix(a, b, (kNearestOutlined - a.z) / (b.z - a.z)));
   }
-  return polygon;
 }
 
 /// Runs of edges between covered and other pixels: along x where `across` is 0, along y where it is 1.
@@ -175,7 +179,7 @@ NodeSet nodesBelow(const Scene& scene, uint32_t node) {
 
 BoundsDouble boundsOfNodes(const Scene& scene, const NodeSet& nodes) {
   BoundsDouble box;
-  useAll(scene, nodes, [&](const Corners& corners) {
+  useAll(scene, nodes, partsOf(scene, nodes), [&](const Corners& corners) {
     for (const glm::dvec3& corner : corners) box.include(corner);
   });
   return box;
@@ -183,10 +187,16 @@ BoundsDouble boundsOfNodes(const Scene& scene, const NodeSet& nodes) {
 
 std::vector<PictureLine> outlineOfNodes(const Scene& scene, const NodeSet& nodes,
                                         const Projection& projection, glm::ivec2 size) {
-  if (countTriangles(scene, nodes) > kMostOutlined) return {};
+  const std::vector<Part> parts = partsOf(scene, nodes);
+  size_t count = 0;
+  for (const Part& part : parts) count += part.triangleCount;
+  if (count > kMostOutlined) return {};
   Coverage coverage(size);
-  useAll(scene, nodes,
-         [&](const Corners& corners) { coverage.fill(placeOfTriangle(corners, projection, size)); });
+  std::vector<glm::dvec2> polygon;
+  useAll(scene, nodes, parts, [&](const Corners& corners) {
+    placeTriangle(corners, projection, size, polygon);
+    coverage.fill(polygon);
+  });
   std::vector<PictureLine> lines;
   addEdges(coverage, size, 0, lines);
   addEdges(coverage, size, 1, lines);

@@ -54,13 +54,16 @@ void ViewTracer::select(Selected selected) {
   }
 }
 
-std::vector<PictureLine> ViewTracer::linesOver(const Side& side) const {
+std::vector<PictureLine> ViewTracer::linesOver(const Side& side) {
   std::vector<PictureLine> lines = treeLines(side.options, *loaded_, side.view.camera, request_.size);
   if (selected_.bounds.empty()) return lines;
   const LocalSpace& space = loaded_->scene.space;
   const Projection projection = projectionOf(side.view.camera, double(request_.size.x) / request_.size.y);
-  std::vector<PictureLine> around =
-      outlineOfNodes(loaded_->scene, selected_.nodes, projection, request_.size);
+  if (selected_.outlined != std::pair(projection, request_.size)) {
+    selected_.outline = outlineOfNodes(loaded_->scene, selected_.nodes, projection, request_.size);
+    selected_.outlined = {projection, request_.size};
+  }
+  std::vector<PictureLine> around = selected_.outline;
   if (around.empty()) {
     Bounds box;
     box.include(glm::vec3(space.localOf(selected_.bounds.minimum)));

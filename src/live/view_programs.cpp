@@ -61,9 +61,7 @@ void ViewPrograms::showPose(const RenderOptions& options) {
   std::erase_if(programs_, [](const auto& p) { return p.use_count() == 1 || !p->error.empty(); });
   treeOptions_ = options;
   for (const std::shared_ptr<ViewProgram>& program : programs_) {
-    program->options.selection.animation = options.selection.animation;
-    program->options.selection.animationTime = options.selection.animationTime;
-    program->options.selection.hiddenNodes = options.selection.hiddenNodes;
+    takePose(program->options.selection, options.selection);
     if (!sameTree(treeOptions_, program->options)) loaded_.bvh = buildTree(loaded_.scene, program->options);
     treeOptions_ = program->options;
     Statistics stats;

@@ -133,14 +133,13 @@ Image ViewTracer::seenOf(Side& side) {
 void ViewTracer::saveBoth(const SaveRequest& request) {
   std::array<ComposedSide, 2> sides;
   for (size_t i = 0; i < 2; ++i) {
-    if (i < sides_.size() && !sides_[i].program)
-      return exchange_.tell("not written: one of the sides draws no picture");
-    if (i < sides_.size())
+    if (i < sides_.size()) {
+      if (!sides_[i].program) return exchange_.tell("not written: one of the sides draws no picture");
       sides[i] = {seenOf(sides_[i]), showsColors(sides_[i].options)};
-    else if (reference_)
+    } else {
+      if (!reference_) return exchange_.tell("not written: there is one side alone");
       sides[i] = {*reference_, false};
-    else
-      return exchange_.tell("not written: there is one side alone");
+    }
   }
   RenderOptions options = sides_[0].options;
   options.output = request.path;

@@ -204,10 +204,7 @@ RenderOptions ViewTracer::asPosed(RenderOptions options) const {
 
 bool ViewTracer::isPosed(const TraceRequest& request) const {
   const RenderOptions& wanted = request.sides[0];
-  const SceneSelection& a = wanted.selection;
-  const SceneSelection& b = loadedOptions_.selection;
-  if (a.animation != b.animation || a.animationTime != b.animationTime || a.hiddenNodes != b.hiddenNodes)
-    return false;
+  if (!samePose(wanted.selection, loadedOptions_.selection)) return false;
   // Points and lines get their width from the camera.
   return loaded_->scene.strokes.empty() || request.moving ||
          (wanted.camera == posedCamera_ && wanted.cameraIndex == posedCameraIndex_ &&
@@ -217,9 +214,7 @@ bool ViewTracer::isPosed(const TraceRequest& request) const {
 void ViewTracer::pose(const TraceRequest& request) {
   const RenderOptions& wanted = request.sides[0];
   const bool sameNodes = loadedOptions_.selection.hiddenNodes == wanted.selection.hiddenNodes;
-  loadedOptions_.selection.hiddenNodes = wanted.selection.hiddenNodes;
-  loadedOptions_.selection.animation = wanted.selection.animation;
-  loadedOptions_.selection.animationTime = wanted.selection.animationTime;
+  takePose(loadedOptions_.selection, wanted.selection);
   posedCamera_ = wanted.camera;
   posedCameraIndex_ = wanted.cameraIndex;
   posedSize_ = request.size;
@@ -243,6 +238,7 @@ void ViewTracer::pose(const TraceRequest& request) {
       tree_ = refittable(loaded_->bvh, loaded_->scene);
     programs_->showPose(options);
     exchange_.tellBounds(loaded_->scene.bounds);
+    selected_.outlined.reset();
     if (!selected_.nodes.empty()) selected_.bounds = boundsOfNodes(loaded_->scene, selected_.nodes);
   } catch (const ContextLost&) {
     throw;

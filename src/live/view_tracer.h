@@ -24,6 +24,8 @@ namespace fragtrace {
 struct Selected {
   NodeSet nodes;
   BoundsDouble bounds;  ///< world space; empty: they draw nothing
+  std::vector<PictureLine> outline{};
+  std::optional<std::pair<Projection, glm::ivec2>> outlined{};  ///< the view and size that it was made for
 };
 
 class ViewTracer {
@@ -99,7 +101,7 @@ class ViewTracer {
   void answer(const PickRequest& request);
   void select(Selected selected);
   /// Boxes of the tree, and the outline of what is selected.
-  std::vector<PictureLine> linesOver(const Side& side) const;
+  std::vector<PictureLine> linesOver(const Side& side);
   void tellDriver();
 
   ViewOptions start_;

@@ -133,6 +133,11 @@ Camera withOverrides(Camera camera, const CameraOverrides& overrides, const Boun
   return camera;
 }
 
+double focalLengthOf(double viewAngle) {
+  constexpr double kSensorHeight = 0.024;
+  return 0.5 * kSensorHeight / std::tan(0.5 * viewAngle);
+}
+
 Camera zoomed(Camera camera, double zoom) {
   camera.fovY = 2.0 * std::atan(std::tan(0.5 * camera.fovY) / zoom);
   camera.halfHeight /= zoom;

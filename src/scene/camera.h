@@ -59,6 +59,9 @@ glm::dvec3 recentringPoint(const std::optional<glm::dvec3>& camera, const Bounds
 /// the angle is not between 0 and 180 degrees, the scale is not above 0, or both are given.
 Camera withOverrides(Camera camera, const CameraOverrides& overrides, const BoundsDouble& bounds = {});
 
+/// Of a lens that sees a vertical angle (radians) on a sensor of 35 mm film, 24 mm high; metres.
+double focalLengthOf(double viewAngle);
+
 /// A camera with a narrower lens, so that what is in the middle of its picture is so many times as large.
 Camera zoomed(Camera camera, double zoom);
 

@@ -17,6 +17,8 @@ struct Projection {
   glm::dvec3 up{0.0, 1.0, 0.0};     ///< half of its height
   glm::dvec3 forward{0.0, 0.0, -1.0};
   bool perspective = true;
+
+  bool operator==(const Projection&) const = default;
 };
 
 /// Of a picture of that width / height.

@@ -20,4 +20,15 @@ struct SceneSelection {
   bool operator==(const SceneSelection&) const = default;
 };
 
+/// Whether both show the same nodes at the same time of the same animation.
+inline bool samePose(const SceneSelection& a, const SceneSelection& b) {
+  return a.animation == b.animation && a.animationTime == b.animationTime && a.hiddenNodes == b.hiddenNodes;
+}
+
+inline void takePose(SceneSelection& selection, const SceneSelection& from) {
+  selection.animation = from.animation;
+  selection.animationTime = from.animationTime;
+  selection.hiddenNodes = from.hiddenNodes;
+}
+
 }  // namespace fragtrace

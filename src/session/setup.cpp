@@ -127,14 +127,10 @@ double pathsOf(const RenderOptions& options, glm::ivec2 size) {
 
 namespace {
 
-/// Height of the sensor that f-numbers refer to, metres: that of 35 mm film.
-constexpr double kSensorHeight = 0.024;
-
 Lens lensOf(const RenderOptions& options, const Camera& camera, const BoundsDouble& bounds) {
   Lens lens;
   if (!options.lens.fStop || !camera.perspective) return lens;
-  const double focalLength = 0.5 * kSensorHeight / std::tan(0.5 * camera.fovY);
-  lens.radius = 0.5 * focalLength / *options.lens.fStop;
+  lens.radius = 0.5 * focalLengthOf(camera.fovY) / *options.lens.fStop;
   const glm::dvec3 focalPoint = options.camera.focalPoint.value_or(focalPointOf(camera, bounds));
   lens.focusDistance =
       options.lens.focusDistance.value_or(glm::dot(focalPoint - camera.position, camera.forward));

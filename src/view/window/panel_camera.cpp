@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The camera: projection, cameras of the scene, views with a name.
 #include <algorithm>
-#include <cmath>
 
 #include "view/window/panel_parts.h"
 #include "view/window/text.h"
@@ -46,9 +45,8 @@ void drawBookmarks(ViewState& state, ViewFacts& facts, Task& task) {
 
 /// An f-number whose blur can be seen, whatever the size of the scene.
 double firstStop(const CameraPose& pose) {
-  constexpr double kRadius = 0.02;       // of the distance to the focal point
-  constexpr double kHalfSensor = 0.012;  // metres (docs/design/conventions.md)
-  const double focalLength = kHalfSensor / std::tan(glm::radians(0.5 * pose.viewAngleDegrees));
+  constexpr double kRadius = 0.02;  // of the distance to the focal point
+  const double focalLength = focalLengthOf(glm::radians(pose.viewAngleDegrees));
   const double distance = glm::distance(pose.position, pose.focalPoint);
   return std::clamp(focalLength / (2.0 * kRadius * distance), kLeastStop, kMostStop);
 }
