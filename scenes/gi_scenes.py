@@ -104,6 +104,20 @@ def thin_glass(gltf):
                rotation=rotation_about((0, 1, 0), -15))
 
 
+@scene("vitrine")
+def vitrine(gltf):
+    """Clay in a box of thin glass on a plinth, under a lamp of 4 cm outside that only ways through the glass lead to."""
+    place_quad(gltf, "ground", ground(3, 3), gltf.add_lambert("ground", (0.5, 0.48, 0.42)))
+    place_faces(gltf, "plinth", box_faces((-0.7, 0, -0.7), (0.7, 0.3, 0.7)), gltf.add_lambert("plinth", (0.35, 0.3, 0.28)), translation=[0, 0.001, 0])
+    gltf.add_sphere("clay", 0.4, gltf.add_lambert("clay", (0.75, 0.5, 0.35)), translation=[-0.1, 0.702, -0.05])
+    gltf.add_sphere("pearl", 0.13, gltf.add_lambert("pearl", (0.8, 0.8, 0.78)), translation=[0.35, 0.432, 0.35])
+    clear = glass(gltf, "clear", (0.97, 0.99, 0.98))
+    for name, face in zip("abcde", box_faces((-0.6, 0.302, -0.6), (0.6, 1.3, 0.6))):
+        place_quad(gltf, "glass-" + name, face, clear)
+    place_backed_lamp(gltf, 0.02, (4000, 3700, 3300), [-1.2, 2.8, 1.1])
+    gltf.add_camera("camera", (0.9, 1.5, 3), (0, 0.7, 0), 28)
+
+
 # Textures, emitters, coverage
 
 def layers_texel(x, y):
@@ -127,7 +141,6 @@ def mapped_layers(gltf):
     place_quad(gltf, "pane", corners, pane, uvs=QUAD_UVS, translation=[-0.7, 0, 0.5], rotation=rotation_about((0, 1, 0), 15))
     # It leans back, so that it mirrors the sky; from the ground behind it its back is seen.
     place_quad(gltf, "panel", corners, panel, uvs=QUAD_UVS, translation=[0.7, 0.02, 0.5], rotation=rotation_about((1, 0, 0), -40))
-
 
 
 @scene("sun-sky")

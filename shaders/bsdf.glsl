@@ -14,6 +14,7 @@ struct Bsdf {
   float alpha;     // GGX width, roughness squared
   bool mirrorLike; // so smooth that its specular lobes are single directions
   bool solid;      // glass bounds a volume, else thin-walled
+  float glassLost;  // of the light on rough glass, what facets lose and scatteredGlass() gives back
   float eta;       // index behind the surface over the index before it
   vec3 faceNormal;    // of the flat triangle
   vec3 vertexNormal;  // interpolated, before any map (both kVertexNormals)
@@ -188,8 +189,33 @@ vec4 lobeChances(Bsdf b, float cosine) {
   return vec4(glass, (1.0f - glass) * share, rest * (1.0f - below), rest * below);
 }
 
-/// Value and density of the rough glass in one direction.
-BsdfValue evaluateGlass(Bsdf b, vec3 outgoing, vec3 incoming) {
+/// Mean reflectance of a boundary over cosine-weighted directions, by the fits of Kulla and Conty (see compensate).
+float averageDielectric(float eta) {
+  if (eta >= 1.0f) return (eta - 1.0f) / (float(4.08567) + float(1.00071) * eta);
+  return float(0.997118) + eta * (float(0.1014) - eta * (float(0.965241) + float(0.130607) * eta));
+}
+
+/// Of the light that facets of the glass lose, the share that comes back on the side of `outgoing`.
+float scatteredBack(Bsdf b) {
+  float eta = b.solid ? b.eta : max(b.eta, 1.0f / b.eta);
+  float single = clamp(averageDielectric(eta), 0.0f, 1.0f);
+  return b.solid ? single : thinReflectance(single);
+}
+
+/// Light that is scattered more than once between the facets of rough glass: as diffuse light, back and through as much
+/// as a boundary reflects and transmits on average.
+BsdfValue scatteredGlass(Bsdf b, vec3 outgoing, vec3 incoming) {
+  bool transmitted = incoming.z < 0.0f;
+  float back = scatteredBack(b);
+  vec3 tint = transmitted ? b.baseColor : glassTint(b, outgoing.z);
+  BsdfValue r;
+  r.density = b.glassLost * (transmitted ? 1.0f - back : back) * abs(incoming.z) * kInversePi;
+  r.value = tint * (transmitted && b.solid ? r.density / (b.eta * b.eta) : r.density);
+  return r;
+}
+
+/// Value and density of the facets of rough glass in one direction.
+BsdfValue evaluateFacets(Bsdf b, vec3 outgoing, vec3 incoming) {
   BsdfValue none;
   none.value = vec3(0.0f);
   none.density = 0.0f;
@@ -228,6 +254,18 @@ BsdfValue evaluateGlass(Bsdf b, vec3 outgoing, vec3 incoming) {
   }
   r.density = share * density * jacobian;
   r.value = tint * (r.density * ratio);
+  // What masking takes is drawn elsewhere then (drawBase).
+  if (b.glassLost > 0.0f) r.density *= ratio;
+  return r;
+}
+
+/// Of all of the rough glass.
+BsdfValue evaluateGlass(Bsdf b, vec3 outgoing, vec3 incoming) {
+  BsdfValue r = evaluateFacets(b, outgoing, incoming);
+  if (!kCompensation || b.glassLost <= 0.0f) return r;
+  BsdfValue again = scatteredGlass(b, outgoing, incoming);
+  r.value = r.value + again.value;
+  r.density += again.density;
   return r;
 }
 
@@ -274,7 +312,7 @@ BsdfValue evaluateBase(Bsdf b, vec3 outgoing, vec3 incoming) {
       r.density = r.density + chances.y * density;
     }
   }
-  if (kTransmission && !isSmoothGlass(b)) {
+  if (kRoughGlass && !isSmoothGlass(b)) {
     BsdfValue g = evaluateGlass(b, outgoing, incoming);
     r.value = r.value + b.glass * g.value;
     r.density = r.density + chances.x * g.density;
@@ -300,6 +338,21 @@ BsdfSample sampleSmoothGlass(Bsdf b, vec3 outgoing, float choice) {
 /// The density of a sample whose direction is drawn, but not weighed yet.
 const float kUnweighed = float(-1.0);
 
+const float kLowBits = float(4096.0);  // times this, a uniform number leaves a fraction that is one of its own
+
+/// Draws from scatteredGlass().
+BsdfSample drawScattered(Bsdf b, float u, float v) {
+  float back = scatteredBack(b);
+  BsdfSample s;
+  s.transmitted = u >= back;
+  u = s.transmitted ? (u - back) / max(1.0f - back, float(1e-12)) : u / max(back, float(1e-12));
+  s.incoming = sampleCosineHemisphere(clamp(u, 0.0f, float(0.99999994)), v);
+  s.incoming.z = (s.transmitted ? -1.0f : 1.0f) * max(s.incoming.z, float(1e-6));
+  s.weight = vec3(0.0f);
+  s.density = kUnweighed;
+  return s;
+}
+
 /// Draws from what lies under sheen and clearcoat: a direction to be weighed, a single one with its weight, or a lost
 /// one of weight 0.
 BsdfSample drawBase(Bsdf b, vec3 outgoing, float choice, float u, float v) {
@@ -314,7 +367,7 @@ BsdfSample drawBase(Bsdf b, vec3 outgoing, float choice, float u, float v) {
   float first = glass ? 0.0f : specular ? chances.x : chances.x + chances.y;
   float width = glass ? chances.x : specular ? chances.y : chances.z + chances.w;
   if (kSpecular || kTransmission) u = clamp((u - first) / max(width, float(1e-12)), 0.0f, float(0.99999994));
-  if (glass && isSmoothGlass(b)) return sampleSmoothGlass(b, outgoing, choice);
+  if (glass && (!kRoughGlass || isSmoothGlass(b))) return sampleSmoothGlass(b, outgoing, choice);
   if (specular && b.mirrorLike) {
     s.incoming = vec3(-outgoing.x, -outgoing.y, outgoing.z);
     s.weight = opaqueFresnel(b, outgoing.z) / chances.y;
@@ -333,8 +386,14 @@ BsdfSample drawBase(Bsdf b, vec3 outgoing, float choice, float u, float v) {
       s.incoming = b.solid ? refractThrough(outgoing, h, b.eta) : vec3(s.incoming.x, s.incoming.y, -s.incoming.z);
       s.transmitted = true;
     }
-    // Facets can send light to the wrong side of the surface; that share is lost (single scattering).
-    if (s.transmitted == (s.incoming.z > 0.0f)) return s;
+    // Facets can send light to the wrong side of the surface; that share is lost (single scattering), but for glass.
+    bool lost = s.transmitted == (s.incoming.z > 0.0f);
+    if (glass && kCompensation && b.glassLost > 0.0f) {
+      vec3 mirrored = vec3(s.incoming.x, s.incoming.y, abs(s.incoming.z));
+      lost = lost || fract(choice * kLowBits) >= facetShadowing(outgoing, mirrored, b.alpha, b.stretch);
+      if (lost) return drawScattered(b, fract(u * kLowBits), fract(v * kLowBits));
+    }
+    if (lost) return s;
   }
   s.density = kUnweighed;
   return s;

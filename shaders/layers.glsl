@@ -86,6 +86,13 @@ vec3 diffuseUnderLayers(Bsdf b, vec3 outgoing, vec3 incoming) {
   return value * ((1.0f - coatShare(b, outgoing)) * underSheen(b, outgoing, incoming));
 }
 
+/// Weight of the light that a smooth thin wall lets straight through, as often as sampleBsdf draws that direction.
+vec3 straightThrough(Bsdf b, vec3 outgoing) {
+  if (!kTransmission || b.solid || !isSmoothGlass(b)) return vec3(0.0f);
+  vec3 weight = (b.glass * (1.0f - glassFresnel(b, outgoing.z))) * b.baseColor;
+  return weight * ((1.0f - coatShare(b, outgoing)) * underSheen(b, outgoing, -outgoing));
+}
+
 /// Draws from the clearcoat, in the sense of drawBase.
 BsdfSample drawCoat(Bsdf b, vec3 outgoing, float chance, float u, float v) {
   BsdfSample s;

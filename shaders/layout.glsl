@@ -109,7 +109,7 @@ const uint kMaterialBaseColor = 0u;    // base colour factor
 const uint kMaterialEmission = 1u;     // radiance, alpha cutoff
 const uint kMaterialSurface = 2u;      // metallic, roughness, index of refraction, transmission
 const uint kMaterialSpecular = 3u;     // specular colour, specular factor
-const uint kMaterialVolume = 4u;       // absorption coefficient (1 / local space), whether there is any thickness
+const uint kMaterialVolume = 4u;       // absorption coefficient (1 / local space), 1 + table of rough glass or 0: thin
 // normal scale, occlusion strength, emitter density (1 / area in local space), flags
 const uint kMaterialMaps = 5u;
 const uint kMaterialPerlin = 6u;       // frequency, amplitude, octaves; and the number of the glTF material, from 1

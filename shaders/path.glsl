@@ -102,6 +102,8 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   p.tie = 0.0;
   p.bounce = 0;
   p.clear = 0;
+  p.walls = 0;
+  p.throughWalls = false;
   p.crossings = 0;
   p.cameraRay = true;
   p.caught = false;
@@ -141,6 +143,17 @@ vec3 clampIndirect(vec3 light, int scatterings) {
 /// dozens.
 int limitedScatterings(Path p) { return kTransmission ? p.bounce - p.clear : p.bounce; }
 
+/// Those that --clamp-indirect counts: what is seen straight through thin walls is as direct as without them.
+int countedScatterings(Path p) { return kThinGlass ? p.bounce - p.walls : p.bounce; }
+
+/// Whether the shadow ray of a light sample passes thin walls: where the path itself could go there, and go on behind
+/// them. Inside of a solid it does not, since paths there lose light from wall to wall.
+bool passesWalls(Path p, Surface s, SurfaceMaterial m, vec3 direction) {
+  bool crosses = m.solid && dot(direction, s.geometricNormal) < 0.0;
+  bool inside = crosses ? s.front : p.medium != kPrimitiveNone;
+  return !inside && limitedScatterings(p) < frame.limits.x;
+}
+
 /// What a path that --bounces has ended could still have carried: luminance of its throughput, as seen from outside all
 /// glass.
 float cutThroughput(Path p) {
@@ -176,7 +189,7 @@ Path meetSurroundings(Path p) {
   if (kGi && kEnvironmentSampling && p.density > 0.0) {
     weight = balanceWeight(p.density, frame.lightChoice.x * environmentDensity(seen, p.direction));
   }
-  return addLight(p, clampIndirect(p.throughput * (weight * seen.rgb), p.bounce));
+  return addLight(p, clampIndirect(p.throughput * (weight * seen.rgb), countedScatterings(p)));
 }
 
 /// The number of a meeting with a surface that may let the path pass. One that stops it counts too: the rays that
@@ -227,6 +240,12 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
     p.throughput /= survival;
   }
   p.cameraRay = false;
+  // Straight through a thin wall the path keeps its ray, and the density that light sampling shares with it.
+  if (kThinGlass && clear && transmitted && !m.solid && p.medium == kPrimitiveNone) {
+    p.walls += 1;
+    p.after = kPhasePass;
+    return p;
+  }
   p.density = density;
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, direction);
   p.direction = direction;
@@ -241,6 +260,11 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
 Path proceed(Path p) {
   p.phase = p.after;
   if (p.phase == kPhaseExtend) p = extend(p);
+  if (kThinGlass && p.phase == kPhasePass) {
+    p.phase = kPhaseExtend;
+    p.lightSlot = 0;
+    p = tracePast(p, kFarAway, p.hitT, p.hitSlot);
+  }
   return p;
 }
 
@@ -257,13 +281,20 @@ vec3 emittedAt(Path p, Surface s, uint flags) {
 /// Sets up the shadow ray of a light sample that would add `value`; without shadows it is added at once.
 Path connect(Path p, Surface s, LightSample light, vec3 value) {
   if (maxComponent(value) <= 0.0) return p;
-  value = clampIndirect(value, p.bounce + 1);
+  value = clampIndirect(value, countedScatterings(p) + 1);
   if (!kShadows) return addLight(p, value);
   p.contribution = kLightPart ? p.part * value : value;
   p.shadowOrigin = offsetOrigin(s.position, s.positionError, s.geometricNormal, light.direction);
   p.shadowDirection = light.direction;
-  // The light's own surface is kept out by a relative margin above the rounding of the point chosen on it.
-  p.shadowLimit = light.distance < kFarAway ? light.distance * float(0.9999) : kFarAway;
+  p.shadowLimit = kFarAway;
+  if (light.distance < kFarAway) {
+    // The ray begins beside the point, and is aimed anew: near a light, a parallel one would end behind it.
+    vec3 towards = light.distance * light.direction - (p.shadowOrigin - s.position);
+    float distance = length(towards);
+    p.shadowDirection = distance > 0.0 ? towards / distance : light.direction;
+    // The light's own surface is kept out by a relative margin above the rounding of the point chosen on it.
+    p.shadowLimit = distance * float(0.9999);
+  }
   p.phase = kPhaseShadow;
   return traceAnew(p, p.shadowLimit);
 }

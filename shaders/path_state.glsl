@@ -7,6 +7,8 @@ const int kPhaseShadow = 2;  // the shadow ray of that slot is being traced
 const int kPhaseEnd = 3;     // the sample is complete
 const int kPhaseCut = 4;     // so it is, because the path has scattered as often as it may
 
+const int kPhasePass = 6;    // of `after` alone: the ray goes on behind the thin wall that it has met
+
 const float kTie = 9.5367431640625e-7;  // 2^-20: 16 roundings of a distance
 
 struct Path {
@@ -15,11 +17,13 @@ struct Path {
   int lightSlot;
   int bounce;      // scatterings so far
   int clear;       // of these, at smooth glass (kTransmission)
+  int walls;       // of these, straight through thin walls (kThinGlass)
   int crossings;   // meetings with surfaces, where there is alpha; see nextCrossing
   Sampler numbers;
   bool oneChannel; // dispersion has left one of red, green and blue (kDispersion)
   bool cameraRay;  // nothing but alpha has touched the path yet
   bool caught;     // it has met the shadow catcher (kShadowCatcher)
+  bool throughWalls;  // the shadow ray passes thin walls (kThinGlass)
   float alpha;     // 1 once a camera ray has hit a surface, else 0
   vec3 radiance;
   vec3 throughput;
@@ -82,12 +86,22 @@ Stack loadStack(int r) {
   return s;
 }
 
+/// Both counts in a word: roulette ends a path long before either is 65,535.
+uint clearOf(Path p) { return uint(p.clear) | (kThinGlass ? uint(p.walls) << 16 : 0u); }
+
+Path withClear(Path p, uint word) {
+  p.clear = int(kThinGlass ? word & 0xffffu : word);
+  p.walls = int(kThinGlass ? word >> 16 : 0u);
+  return p;
+}
+
 void savePath(Path p, int index) {
   int r = index * kPathRows;
-  uint flags = (p.cameraRay ? 1u : 0u) | (p.oneChannel ? 2u : 0u) | (p.alpha > 0.0 ? 4u : 0u) | (p.caught ? 8u : 0u);
+  uint flags = (p.cameraRay ? 1u : 0u) | (p.oneChannel ? 2u : 0u) | (p.alpha > 0.0 ? 4u : 0u) | (p.caught ? 8u : 0u) |
+               (p.throughWalls ? 16u : 0u);
   pathStates[r] = uvec4(uint(p.phase) | uint(p.after) << 4 | flags << 8, uint(p.lightSlot), uint(p.bounce),
                         uint(p.crossings));
-  pathStates[r + 1] = uvec4(floatBitsToUint(p.radiance), uint(p.clear));
+  pathStates[r + 1] = uvec4(floatBitsToUint(p.radiance), clearOf(p));
   pathStates[r + 2] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.compression));
   pathStates[r + 3] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.density));
   pathStates[r + 4] = uvec4(floatBitsToUint(p.direction), floatBitsToUint(p.traversal.past));
@@ -137,12 +151,13 @@ Path loadPath(int index) {
   p.oneChannel = (flags & 2u) != 0u;
   p.alpha = (flags & 4u) != 0u ? 1.0 : 0.0;
   p.caught = (flags & 8u) != 0u;
+  p.throughWalls = (flags & 16u) != 0u;
   p.lightSlot = int(a.y);
   p.bounce = int(a.z);
   p.crossings = int(a.w);
   a = pathStates[r + 1];
   p.radiance = uintBitsToFloat(a.xyz);
-  p.clear = int(a.w);
+  p = withClear(p, a.w);
   vec4 f = uintBitsToFloat(pathStates[r + 2]);
   p.throughput = f.xyz;
   p.compression = f.w;

@@ -13,8 +13,18 @@ Bsdf baseBsdf(SurfaceMaterial m, bool front) {
   b.alpha = m.roughness * m.roughness;
   b.mirrorLike = b.alpha < kMirrorAlpha;
   b.solid = m.solid;
+  b.glassLost = 0.0;
   b.eta = front ? m.ior : 1.0 / m.ior;
   return b;
+}
+
+/// Of the light on the rough glass of a surface, what single scattering loses, seen at `cosine`. A thin wall spreads light
+/// both ways as a mirror of its roughness does.
+float glassLostAt(Bsdf b, Surface s, float cosine) {
+  if (!kCompensation || b.glass <= 0.0 || isSmoothGlass(b)) return 0.0;
+  if (!b.solid) return ggxLoss(cosine, b.alpha);
+  int table = int(materialFloats(s.material, kMaterialVolume).w) - 1;
+  return max(0.0, 1.0 - glassAlbedo(table, s.front, cosine, b.alpha));
 }
 
 /// A path that meets dispersive glass goes on for one of red, green and blue, which stands for all three.
@@ -47,6 +57,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   b.faceNormal = toFrame(around, s.geometricNormal);
   b.vertexNormal = toFrame(around, s.shadingNormal);
   vec3 outgoing = toFrame(around, -p.direction);
+  if (kRoughGlass) b.glassLost = glassLostAt(b, s, outgoing.z);
   uint dimension = kBounceDimensions * uint(p.bounce + 1);
   // The numbers of this bounce are drawn before it is counted.
   float choice = kPassesLight ? pathRandom(p, kLobeDimension) : 0.0;
@@ -62,6 +73,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
       weight = environment ? balanceWeight(light.density, value.density) : misWeight(light.density, value.density);
     }
     if (kLightPart && p.bounce == 0) p.part = partScattered(b, outgoing, incoming);
+    if (kThinGlass) p.throughWalls = passesWalls(p, s, m, light.direction);
     p = connect(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
   }
   BsdfSample next = sampleBsdf(b, outgoing, choice, uv.x, uv.y);
@@ -110,6 +122,7 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
     if (kVertexNormals) diffuse *= terminatorFade(s.geometricNormal, s.shadingNormal, light.direction);
     vec3 value = phongValue(diffuse, f0, phongExponent(m.roughness), normal, outgoing, light.direction);
     bool above = dot(light.direction, s.geometricNormal) > 0.0;
+    if (kThinGlass) p.throughWalls = passesWalls(p, s, m, light.direction);
     p = connect(p, s, light, above ? p.throughput * light.irradiance * value : vec3(0.0));
   }
   p.lightSlot += 1;
@@ -117,6 +130,23 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   if (p.lightSlot < lights) return p;
   float gloss = 1.0 - m.roughness;
   return scatterMirror(p, s, m, normal, gloss * gloss);
+}
+
+/// The shading normal as seen from `outgoing`.
+vec3 normalFacing(Surface s, vec3 outgoing) {
+  vec3 normal = facingNormal(mappedNormal(s), outgoing);
+  return kGi && kSpecular ? reflectingNormal(normal, s.geometricNormal, outgoing) : normal;
+}
+
+/// What of the light on a shadow ray a surface lets straight through: the weight with which a path along it would pass.
+vec3 lightThrough(Surface s, vec3 baseColor, vec3 direction) {
+  SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
+  if (m.solid || m.transmission * (1.0 - m.metallic) <= 0.0) return vec3(0.0);
+  Bsdf b = baseBsdf(m, s.front);
+  vec3 anisotropy = kAnisotropy ? anisotropyAt(s.material, s.texcoords) : vec3(0.0);
+  Frame3 around = frameAround(normalFacing(s, -direction));
+  if (kGi) b = addLayers(b, s, around, -direction, anisotropy.z);
+  return straightThrough(b, toFrame(around, -direction));
 }
 
 /// Metres along the view axis.
@@ -182,7 +212,7 @@ Path shade(Path p) {
       p.phase = kPhaseEnd;
       return p;
     }
-    if (kEmission) p = addLight(p, clampIndirect(p.throughput * emittedAt(p, s, flags), p.bounce));
+    if (kEmission) p = addLight(p, clampIndirect(p.throughput * emittedAt(p, s, flags), countedScatterings(p)));
     if (kFeature == kFeatureEmission) {
       p.phase = kPhaseEnd;
       return p;
@@ -193,8 +223,7 @@ Path shade(Path p) {
     }
   }
   SurfaceMaterial m = materialAt(s.material, base.rgb, s.texcoords);
-  vec3 normal = facingNormal(mappedNormal(s), -p.direction);
-  if (kGi && kSpecular) normal = reflectingNormal(normal, s.geometricNormal, -p.direction);
+  vec3 normal = normalFacing(s, -p.direction);
   if (kGi) p = shadeGlobal(p, s, m, normal);
   if (!kGi) p = shadeLocal(p, s, m, normal);
   if (p.phase != kPhaseShadow) p = proceed(p);
@@ -204,13 +233,17 @@ Path shade(Path p) {
 /// The shadow ray is traced. One that met a surface with alpha may go on behind it; else the light slot is settled.
 Path settleShadow(Path p) {
   int slot = p.traversal.slot;
-  if (kAlpha && slot >= 0) {
+  if (kPassing && slot >= 0) {
     Surface s = surfaceAt(slot, p.traversal.hitInstance, p.shadowOrigin, p.shadowDirection, p.traversal.t,
                           p.traversal.weights);
     uint flags = materialFlags(s.material);
-    float alpha = alphaAt(s.material, flags, baseColorAt(s.material, s.texcoords, s.color).a);
-    if (passesThrough(flags, alpha, p.numbers, nextCrossing(p))) {
+    vec4 base = baseColorAt(s.material, s.texcoords, s.color);
+    if (kAlpha && passesThrough(flags, alphaAt(s.material, flags, base.a), p.numbers, nextCrossing(p))) {
       return tracePast(p, p.shadowLimit, p.traversal.t, slot);
+    }
+    if (kThinGlass && p.throughWalls) {
+      p.contribution *= lightThrough(s, base.rgb, p.shadowDirection);
+      if (maxComponent(p.contribution) > 0.0) return tracePast(p, p.shadowLimit, p.traversal.t, slot);
     }
   }
   if (slot < 0) p.radiance += p.contribution;

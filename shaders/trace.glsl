@@ -42,7 +42,7 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 
 /// Each round of the loop is one ray of a path, its shading and its shadow ray, without the phases of a path that can
 /// be suspended.
-const bool kDirect = kGi && !kAlpha && !kResumable && kFeature == kFeatureNone;
+const bool kDirect = kGi && !kPassing && !kResumable && kFeature == kFeatureNone;
 
 Traversal beginTraversal(float limit, bool wanted, int steps) {
   Traversal t = startTraversal(limit, frame.limits.w);
@@ -175,7 +175,7 @@ PixelTrace tracePhases(PixelTrace t, PixelTask task, TreeFrame tree) {
     // Step: is the light seen?
     if (kShadows && t.path.phase == kPhaseShadow) {
       t.path.traversal = traverse(t.path.shadowOrigin, t.path.shadowDirection, t.path.shadowLimit, t.path.traversal,
-                                  tree, task.budget, !kAlpha);
+                                  tree, task.budget, !kPassing);
       if (t.path.traversal.node == kTraversalDone) {
         t.film.rays += 1u;
         t.path = settleShadow(t.path);

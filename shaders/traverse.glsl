@@ -14,7 +14,7 @@ struct Traversal {
   // other way
   float tie;
   int visits; // nodes and leaves visited, counted for the heat map only
-  float past;     // kAlpha: only hits behind this distance count,
+  float past;     // kPassing: only hits behind this distance count,
   int pastSlot;   // and those at it in later slots: what the ray has passed through lies there
   Stack stack;
 };
@@ -46,7 +46,7 @@ Traversal startTraversal(float limit, int leafCount) {
 /// Whether a hit at distance t is nearer than what the traversal has. Where a ray passes through surfaces, all hits
 /// along it have one order, by distance and slot, so that it meets each once, however close they lie.
 bool isNearer(Traversal s, float t, int slot) {
-  if (!kAlpha) return t > 0.0f && t < s.t;
+  if (!kPassing) return t > 0.0f && t < s.t;
   return liesBehind(t, s.past, slot > s.pastSlot) && (t < s.t || (t == s.t && slot < s.slot));
 }
 
@@ -82,7 +82,7 @@ PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear sh
   }
   if (kSpheres) {
     bool inside = !kCulling || (word & kPrimitiveCull) == 0u;
-    float t = intersectSphere(origin, direction, v0, v1.x, inside, kAlpha ? s.past : 0.0f, kAlpha && slot > s.pastSlot);
+    float t = intersectSphere(origin, direction, v0, v1.x, inside, kPassing ? s.past : 0.0f, kPassing && slot > s.pastSlot);
     bool isSphere = (word & kPrimitiveSphere) != 0u && word != kPrimitiveNone;
     r.t = isSphere ? t : (kTriangles ? r.t : -1.0f);
   }
@@ -189,7 +189,7 @@ TreeRay treeRayOf(Traversal s, vec3 origin, vec3 direction, TreeFrame tree) {
   } else {
     r = makeTreeRay(origin, direction, 0.0f, tree.origin, tree.cell);
   }
-  if (kAlpha) r.from = max(0.0f, s.past - roundingOf(s.past, tree) - r.start);
+  if (kPassing) r.from = max(0.0f, s.past - roundingOf(s.past, tree) - r.start);
   return r;
 }
 
@@ -212,7 +212,7 @@ Traversal stepNode(Traversal s, TreeRay ray, float rayLimit, TreeFrame tree, boo
   NodePair n = loadNode(there ? s.node : 0);
   float limit = kFrontToBack ? s.t : rayLimit;
   // What was passed through must not come before what lies at it.
-  if (kAlpha) limit += roundingOf(limit, tree);
+  if (kPassing) limit += roundingOf(limit, tree);
   if (kInstances) limit -= ray.start;
   vec3 a0 = n.low0 * ray.scale + ray.bias;
   vec3 b0 = n.high0 * ray.scale + ray.bias;

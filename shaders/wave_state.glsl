@@ -3,7 +3,7 @@
 
 const int kPhaseNone = 5;  // no path: the pixel's next one is to begin
 /// Rows of a path: all, or those before the ones of alpha.
-const int kWavePathRows = int(kAlpha ? kWaveRows : kWaveRows - kWaveAlphaRows);
+const int kWavePathRows = int(kPassing ? kWaveRows : kWaveRows - kWaveAlphaRows);
 const bool kShadowRows = kShadows || kPassesLight || kInstances;
 
 /// A path between two rounds, and the rays that its sample has traced so far.
@@ -14,7 +14,7 @@ struct WavePath {
 
 // Rows: 0 origin, tie; 1 direction, medium; 2 distance, slot, weights of the hit; 3 throughput, density; 4 radiance,
 // flags; 5 sample, rays, scatterings; with kShadowRows 6 shadow ray, limit; 7 its direction, compression; 8
-// contribution, instance of the hit; with kAlpha 9 distance, slot, weights of the shadow ray's hit; 10 what the ray and
+// contribution, instance of the hit; with kPassing 9 distance, slot, weights of the shadow ray's hit; 10 what the ray and
 // the shadow ray have passed through; 11 crossings, instance of the shadow ray's hit.
 const int kRowHit = 2;
 const int kRowFlags = 4;
@@ -40,7 +40,7 @@ void saveFirst(Path p, Traversal t, int row) {
   pathStates[row + kRowFlags] = uvec4(0u, 0u, 0u, uint(kPhaseExtend) | 16u);
   pathStates[row + 5] = uvec4(p.numbers.index, 0u, 0u, 0u);
   if (kShadowRows) pathStates[row + kRowContribution] = uvec4(0u, 0u, 0u, uint(-1));
-  if (kAlpha) {
+  if (kPassing) {
     pathStates[row + kRowPast] = uvec4(floatBitsToUint(t.past), uint(t.pastSlot), 0u, 0u);
     pathStates[row + kRowCrossings] = uvec4(0u);
   }
@@ -48,19 +48,20 @@ void saveFirst(Path p, Traversal t, int row) {
 
 void saveWave(WavePath w, Traversal t, int row) {
   Path p = w.path;
-  uint flags = uint(p.phase) | (p.cameraRay ? 16u : 0u) | (p.oneChannel ? 32u : 0u) | (p.alpha > 0.0 ? 64u : 0u);
+  uint flags = uint(p.phase) | (p.cameraRay ? 16u : 0u) | (p.oneChannel ? 32u : 0u) | (p.alpha > 0.0 ? 64u : 0u) |
+               (p.throughWalls ? 128u : 0u);
   pathStates[row] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.tie));
   pathStates[row + 1] = uvec4(floatBitsToUint(p.direction), p.medium);
   pathStates[row + kRowHit] = uvec4(floatBitsToUint(t.t), uint(t.slot), floatBitsToUint(t.weights));
   pathStates[row + 3] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.density));
   pathStates[row + kRowFlags] = uvec4(floatBitsToUint(p.radiance), flags);
-  pathStates[row + 5] = uvec4(p.numbers.index, uint(w.rays), uint(p.bounce), uint(p.clear));
+  pathStates[row + 5] = uvec4(p.numbers.index, uint(w.rays), uint(p.bounce), clearOf(p));
   if (kShadowRows) {
     pathStates[row + kRowShadow] = uvec4(floatBitsToUint(p.shadowOrigin), floatBitsToUint(p.shadowLimit));
     pathStates[row + kRowShadow + 1] = uvec4(floatBitsToUint(p.shadowDirection), floatBitsToUint(p.compression));
     pathStates[row + kRowContribution] = uvec4(floatBitsToUint(p.contribution), uint(-1));
   }
-  if (kAlpha) {
+  if (kPassing) {
     Traversal none = startTraversal(0.0, 0);
     pathStates[row + kRowPast] = uvec4(floatBitsToUint(t.past), uint(t.pastSlot), floatBitsToUint(none.past),
                                        uint(none.pastSlot));
@@ -87,6 +88,7 @@ WavePath loadWave(int row, uint key) {
   p.cameraRay = (a.w & 16u) != 0u;
   p.oneChannel = (a.w & 32u) != 0u;
   p.alpha = (a.w & 64u) != 0u ? 1.0 : 0.0;
+  p.throughWalls = (a.w & 128u) != 0u;
   // Nothing has changed what a camera ray carries.
   f = uintBitsToFloat(readWave(row + 3));
   p.throughput = p.cameraRay ? vec3(1.0) : f.xyz;
@@ -95,7 +97,7 @@ WavePath loadWave(int row, uint key) {
   p.numbers = makeSampler(key, a.x);
   w.rays = int(a.y);
   p.bounce = int(a.z);
-  p.clear = int(a.w);
+  p = withClear(p, a.w);
   p.shadowOrigin = vec3(0.0);
   p.shadowLimit = 0.0;
   p.shadowDirection = vec3(0.0, 0.0, 1.0);
@@ -110,7 +112,7 @@ WavePath loadWave(int row, uint key) {
   }
   p.after = kPhaseEnd;
   p.lightSlot = 0;
-  p.crossings = kAlpha ? int(readWave(row + kRowCrossings).x) : 0;
+  p.crossings = kPassing ? int(readWave(row + kRowCrossings).x) : 0;
   p.traversal = startTraversal(kFarAway, frame.limits.w);
   w.path = p;
   return w;

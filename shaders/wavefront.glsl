@@ -68,16 +68,16 @@ Traversal beginExtension(Path p, TreeFrame tree) {
 
 /// Shadow rays end at any hit, unless light may pass what they hit.
 Traversal beginShadow(Path p, TreeFrame tree) {
-  return beginRay(p.shadowOrigin, p.shadowDirection, p.shadowLimit, p.traversal, !kAlpha, tree);
+  return beginRay(p.shadowOrigin, p.shadowDirection, p.shadowLimit, p.traversal, !kPassing, tree);
 }
 
 /// Notes what a shadow ray has met before the tree, and whether it is to be traced. Where light may pass what it has
 /// met, it is done when that was asked, in the next round.
 Wave sendShadow(Wave v, uint bit, int row, Traversal t) {
-  bool done = t.node == kTraversalDone && !(kAlpha && t.slot >= 0);
+  bool done = t.node == kTraversalDone && !(kPassing && t.slot >= 0);
   v.shadows |= done ? 0u : bit;
   v.blocked |= done && t.slot >= 0 ? bit : 0u;
-  if (kAlpha) {
+  if (kPassing) {
     pathStates[row + kRowShadowHit] = uvec4(floatBitsToUint(t.t), uint(t.slot), floatBitsToUint(t.weights));
     pathStates[row + kRowPast].zw = uvec2(floatBitsToUint(t.past), uint(t.pastSlot));
   }
@@ -112,6 +112,7 @@ Wave passShadows(Wave v, uint left, TreeFrame tree) {
     p.phase = kPhaseShadow;
     p = settleShadow(p);
     pathStates[row + kRowCrossings].x = uint(p.crossings);
+    if (kThinGlass) pathStates[row + kRowContribution].xyz = floatBitsToUint(p.contribution);
     if (p.phase == kPhaseShadow) {
       uint bit = 1u << k;
       pathStates[row + 5].y += 1u;
@@ -207,7 +208,7 @@ Wave settleRay(Wave v, Traversal t, int current, bool isShadow) {
   v.blocked |= isShadow && met ? bit : 0u;
   v.hits |= !isShadow && met ? bit : 0u;
   v.misses |= !isShadow && !met ? bit : 0u;
-  if (kAlpha || !isShadow) {
+  if (kPassing || !isShadow) {
     uvec4 hit = uvec4(floatBitsToUint(t.t), uint(t.slot), floatBitsToUint(t.weights));
     pathStates[row + (isShadow ? kRowShadowHit : kRowHit)] = hit;
     if (kInstances && !isShadow) pathStates[row + kRowContribution].w = uint(t.hitInstance);
@@ -238,15 +239,15 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
       limit = isShadow ? a.w : kFarAway;
       t = beginTraversal(limit, true, 0);
       if (kCreases) t.tie = isShadow ? 0.0 : a.w;
-      if (kAlpha) {
+      if (kPassing) {
         uvec4 past = readWave(row + kRowPast);
         t.past = uintBitsToFloat(isShadow ? past.z : past.x);
         t.pastSlot = int(isShadow ? past.w : past.y);
       }
       if (kLargeFirst) {
         // A shadow ray that has met something before the tree comes here only where that may let light pass.
-        uvec4 known = readWave(row + (kAlpha && isShadow ? kRowShadowHit : kRowHit));
-        bool use = kAlpha || !isShadow;
+        uvec4 known = readWave(row + (kPassing && isShadow ? kRowShadowHit : kRowHit));
+        bool use = kPassing || !isShadow;
         t.t = use ? uintBitsToFloat(known.x) : t.t;
         t.slot = use ? int(known.y) : -1;
         if (kWeights) t.weights = use ? uintBitsToFloat(known.zw) : vec2(0.0);
@@ -267,7 +268,7 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
       ray = treeRayOf(t, origin, direction, tree);
       atLeaf = false;
     }
-    if (atLeaf) t = meetLeaf(t, ray, isShadow && !kAlpha);
+    if (atLeaf) t = meetLeaf(t, ray, isShadow && !kPassing);
     v.steps += 1;
     if (t.node == kTraversalDone) v = settleRay(v, t, current, isShadow);
   }
@@ -318,7 +319,7 @@ void traceWave(ivec2 lane) {
   // A round begins only where half of the budget is left, so that only rays that are longer than that are lost.
   while ((v.hits | v.misses) != 0u && v.steps < budget / 2) {
     settleStates();
-    if (kAlpha) v = passShadows(v, v.blocked, tree);
+    if (kPassing) v = passShadows(v, v.blocked, tree);
     uint later = v.shadows;
     uint hits = v.hits & ~later;
     v.hits &= later;

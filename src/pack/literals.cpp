@@ -81,7 +81,7 @@ constexpr double kRaysAPath = 7.0;
 Joining joiningFor(bool weights) { return weights ? Joining::Parallelograms : Joining::ConvexQuadrilaterals; }
 
 LiteralOptions optionsOf(const ShaderVariant& variant, bool whole) {
-  return {.weights = keepsWeights(variant), .whole = whole, .passing = has(variant.traits, Trait::Alpha)};
+  return {.weights = keepsWeights(variant), .whole = whole, .passing = passesSurfaces(variant)};
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "pack/ggx_energy.h"
+#include "pack/glass_energy.h"
 #include "pack/gpu_scene.h"
 #include "pack/kept_arrays.h"
 #include "pack/pack_environment.h"
@@ -96,14 +97,14 @@ void appendLayers(Words& words, const Material& m) {
   appendRow(words, m.diffuseTransmissionColorFactor, m.diffuseTransmissionFactor);
 }
 
-void appendMaterial(Words& words, const Material& m, double unit, double emitterDensity,
+void appendMaterial(Words& words, const Material& m, double unit, double emitterDensity, size_t glassTable,
                     const TraitSet& traits, TexturePacker& textures) {
   const size_t first = words.size();
   appendRow(words, m.baseColorFactor);
   appendRow(words, m.emissiveFactor * m.emissiveStrength, m.alphaCutoff);
   appendRow(words, glm::vec4(m.metallicFactor, m.roughnessFactor, m.ior, m.transmissionFactor));
   appendRow(words, m.specularColorFactor, m.specularFactor);
-  appendRow(words, absorption(m, unit), m.thicknessFactor > 0.0f ? 1.0f : 0.0f);
+  appendRow(words, absorption(m, unit), m.thicknessFactor > 0.0f ? 1.0f + float(glassTable) : 0.0f);
   appendRow(words, glm::vec3(m.normalScale, m.occlusionStrength, float(emitterDensity)), 0.0f);
   words.back() = materialFlags(m);
   appendRow(words, glm::vec4(m.perlinNormal.frequency, m.perlinNormal.amplitude,
@@ -140,6 +141,23 @@ void appendEnergyTable(Words& words) {
   for (size_t j = 0; j < kGgxEnergyCells; ++j) {
     appendRow(words, {table.averageLoss[j], table.averageLoss[j + 1], 0.0f, 0.0f});
   }
+}
+
+/// Of solids, each once: those that get a table.
+std::vector<float> indicesOfRoughGlass(const Scene& scene, const ShaderVariant& variant) {
+  std::vector<float> indices;
+  if (!has(variant.traits, Trait::RoughGlass) || !has(variant.stages, Stage::EnergyCompensation)) return indices;
+  const TraitRow& row = traitRows()[size_t(Trait::RoughGlass)];
+  for (const Material& m : scene.materials) {
+    if (m.thicknessFactor > 0.0f && isOfMaterial(row, m, Coordinates{}) && std::ranges::find(indices, m.ior) == indices.end())
+      indices.push_back(m.ior);
+  }
+  return indices;
+}
+
+size_t tableOf(const std::vector<float>& indices, const Material& m) {
+  const auto found = std::ranges::find(indices, m.ior);
+  return found == indices.end() ? 0 : size_t(found - indices.begin());
 }
 
 EnvironmentDraws drawsOf(const ShaderVariant& variant) {
@@ -262,16 +280,22 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
                          emitters.power, emitters.count > 0};
   }
 
+  const std::vector<float> glass = indicesOfRoughGlass(scene, variant);
   Words& materials = packed.buffers[kMaterialsBinding];
   for (size_t i = 0; i < scene.materials.size(); ++i) {
-    appendMaterial(materials, scene.materials[i], scene.space.unit, emitters.materialDensity[i], traits,
-                   textures);
+    appendMaterial(materials, scene.materials[i], scene.space.unit, emitters.materialDensity[i],
+                   tableOf(glass, scene.materials[i]), traits, textures);
   }
   textures.appendTransforms(materials);
   packed.energyTableRow = uint32_t(materials.size() / 4);
   if (has(variant.stages, Stage::EnergyCompensation)) appendEnergyTable(materials);
   static_assert(SheenAlbedoTable::kCells == layout::kEnergyCells);
   if (has(traits, Trait::Sheen)) appendCells(materials, sheenAlbedoTable().albedo);
+  for (const float ior : glass) {
+    const GlassAlbedoTable& table = glassAlbedoTable(ior);
+    appendCells(materials, table.outside);
+    appendCells(materials, table.inside);
+  }
   packed.objectRow = uint32_t(materials.size() / 4);
   if (has(traits, Trait::ObjectNumbers)) appendObjectNumbers(scene, bvh, materials);
   if (kept != nullptr && !kept->textures.empty()) {

@@ -69,6 +69,7 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
   }
   for (const TraitRow& row : traitRows()) constant(row.constant, has(variant.traits, row.trait));
   constant("kWeights", keepsWeights(variant));
+  constant("kPassing", passesSurfaces(variant));
   constant("kIterative", variant.traversal == TraversalMethod::Iterative);
   constant("kFrontToBack", variant.traversal == TraversalMethod::FrontToBack);
   constant("kResumable", variant.resumable);

@@ -28,6 +28,22 @@ bool dielectricReflects(const Material& m) {
          glm::any(glm::greaterThan(m.specularColorFactor, glm::vec3(0.0f)));
 }
 
+constexpr float kMirrorAlpha = 0.001f;  // of shaders/bsdf.glsl
+
+bool isRoughInPlaces(const Material& m) {
+  return m.metallicRoughnessTexture.present() || m.specularGlossiness;
+}
+
+/// Light goes straight through such a wall, at least in places.
+bool mayBeClearWall(const Material& m) {
+  return m.thicknessFactor <= 0.0f &&
+         (isRoughInPlaces(m) || m.roughnessFactor * m.roughnessFactor < kMirrorAlpha);
+}
+
+bool mayBeRough(const Material& m) {
+  return isRoughInPlaces(m) || m.anisotropic() || m.roughnessFactor * m.roughnessFactor >= kMirrorAlpha;
+}
+
 }  // namespace
 
 std::span<const TraitRow> traitRows() {
@@ -249,6 +265,22 @@ std::span<const TraitRow> traitRows() {
        .absence = "no transmissive material",
        .stages = setOf({Stage::Refraction}),
        .ofMaterial = [](const Material& m, const Coordinates&) { return m.transmissive(); }},
+      {.trait = Trait::ThinGlass,
+       .name = "thin-glass",
+       .constant = "kThinGlass",
+       .absence = "no smooth transmissive wall without thickness",
+       .stages = setOf({Stage::Refraction, Stage::Shadows}),
+       .needs = setOf({Trait::Transmission}),
+       .ofMaterial = [](const Material& m,
+                        const Coordinates&) { return m.transmissive() && mayBeClearWall(m); }},
+      {.trait = Trait::RoughGlass,
+       .name = "rough-glass",
+       .constant = "kRoughGlass",
+       .absence = "no rough transmissive surface",
+       .stages = setOf({Stage::Refraction, Stage::Gi}),
+       .needs = setOf({Trait::Transmission}),
+       .ofMaterial =
+           [](const Material& m, const Coordinates&) { return m.transmissive() && mayBeRough(m); }},
       {.trait = Trait::Absorption,
        .name = "absorption",
        .constant = "kAbsorption",

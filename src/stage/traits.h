@@ -47,6 +47,8 @@ enum class Trait : uint8_t {
   Specular,
   Metals,
   Transmission,
+  ThinGlass,
+  RoughGlass,
   Absorption,
   Unlit,
   Emission,

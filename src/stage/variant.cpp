@@ -94,6 +94,8 @@ void dropIdle(ShaderVariant& v) {
     off(Stage::Refraction);
     off(Stage::Schlick);
   }
+  // Its light would be looked for by shadow rays.
+  if (!stage(Stage::Shadows)) drop(v.traits, {Trait::ThinGlass});
   if (!hasNormalMaps(v.traits)) off(Stage::NormalMaps);
   if (!has(v.traits, Trait::Triangles)) off(Stage::Watertight);
   const bool leavesSurfaces = stage(Stage::Gi) || stage(Stage::Shadows) || stage(Stage::Reflections) ||
@@ -261,6 +263,10 @@ bool keepsWeights(const ShaderVariant& variant) {
   const TraitSet& traits = variant.traits;
   return has(traits, Trait::VertexNormals) || has(traits, Trait::Texcoords) || has(traits, Trait::Tangents) ||
          has(traits, Trait::VertexColors) || has(traits, Trait::Creases);
+}
+
+bool passesSurfaces(const ShaderVariant& variant) {
+  return has(variant.traits, Trait::Alpha) || has(variant.traits, Trait::ThinGlass);
 }
 
 std::string variantName(const ShaderVariant& variant) {

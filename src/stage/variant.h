@@ -66,6 +66,9 @@ ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet&
 /// Whether hits keep their barycentric weights: only vertex attributes need them.
 bool keepsWeights(const ShaderVariant& variant);
 
+/// Whether rays may go on behind what they meet: through holes, and straight through thin walls.
+bool passesSurfaces(const ShaderVariant& variant);
+
 /// The variant by name: what is on, separated by "+", for the statistics.
 std::string variantName(const ShaderVariant& variant);
 

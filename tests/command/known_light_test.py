@@ -62,12 +62,12 @@ def from_sky(rows, parts=6):
 
 
 class KnownLight(Case):
-    def mean(self, lamps, lights, *options, spp):
-        """Mean of red over the ground, under quads (place, half width, radiance) that face down and punctual lights (node, light)."""
+    def mean(self, lamps, lights, *options, spp, ground_size=3):
+        """Mean of red over the ground (half its width), under quads (place, half width, radiance) that face down and punctual lights (node, light)."""
         ground = {"pbrMetallicRoughness": MATT, "extensions": SPECULAR}
         gltf = quad(ground)
         primitive = gltf["meshes"][0]["primitives"][0]
-        gltf["nodes"][0]["scale"] = [3, 3, 1]
+        gltf["nodes"][0]["scale"] = [ground_size, ground_size, 1]
         for place, half, radiance in lamps:
             gltf["materials"].append({"pbrMetallicRoughness": MATT | {"baseColorFactor": [0, 0, 0, 1]}, "emissiveFactor": [1, 1, 1],
                                       "extensions": SPECULAR | {"KHR_materials_emissive_strength": {"emissiveStrength": radiance}}})
@@ -96,6 +96,14 @@ class KnownLight(Case):
         self.near(self.mean(lamps, [], spp=256), expected, 1e-3)
         # Before gi there is ambient light of 0.03 / pi, as below.
         self.near(self.mean(lamps, [], "--stage", "shadows", spp=256), expected + 0.03 * math.pi, 1e-3)
+
+    def test_a_lamp_near_a_vast_ground(self):
+        """Its rays begin off it by more than a ten-thousandth of the way to the lamp."""
+        place, half, radiance = (0.4, -0.2, 3.0), 1.2, 2.0
+        corners = [(place[0] + half * x, place[1] + half * y, place[2]) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+        expected = over_ground(lambda x, y: radiance * from_lamp(x, y, corners))
+        for size in (400, 4000):
+            self.near(self.mean([(place, half, radiance)], [], "--bounces", 0, spp=64, ground_size=size), expected, 2e-3)
 
     def test_a_sky(self):
         self.near(self.mean([], [], "--hdri-file", SCENES / "sky.pfm", spp=64), self.sky(), 5e-4)
@@ -174,15 +182,36 @@ class KnownLight(Case):
         picture = self.in_white(quad({"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 1}}), "--resolution", "16,16", "--spp", 1024)
         self.near(sum(pixel[0] for row in picture[4:12] for pixel in row[4:12]) / 8**2 / math.pi, 1, 5e-3)
 
-    def test_a_camera_inside_of_glass(self):
-        """In white surroundings radiance is compressed by the square of the index."""
-        gltf = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+    def test_rough_glass_in_white_surroundings(self):
+        """Solids and thin walls of white glass cannot be told from the sky; without what facets lose given back they are darker."""
+        for ior, roughness, *thickness in ((1.1, 0.6, 1), (1.5, 0.1, 1), (1.5, 0.5, 1), (1.5, 1, 1), (2.4, 0.3, 1), (2.4, 1, 1), (1.5, 0.8)):
+            gltf = self.glass_sphere({"roughnessFactor": roughness}, *thickness)
+            gltf["materials"][0]["extensions"]["KHR_materials_ior"] = {"ior": ior}
+            gltf["nodes"][1] |= {"translation": [0, 0, 3]}
+            options = ["--resolution", "24,24", "--spp", 256, "--rr-depth", 50]
+            picture = self.in_white(gltf, *options)
+            inner = [pixel[0] for row in picture[6:18] for pixel in row[6:18]]
+            rim = [pixel[0] for row in picture for pixel in row]
+            for name, seen in (("inner", inner), ("all", rim)):
+                print(f"index {ior}, roughness {roughness}, {thickness}, {name}: {sum(seen) / len(seen) - 1:+.3%}")
+                self.assertAlmostEqual(sum(seen) / len(seen), 1, delta=0.01)
+            if roughness == 1:
+                darker = self.in_white(gltf, *options, "--disable", "energy-compensation")
+                self.assertLess(sum(pixel[0] for row in darker[6:18] for pixel in row[6:18]) / len(inner), 0.9)
+
+    def glass_sphere(self, surface, *thickness):
+        """A sphere of radius 1 about a camera."""
+        volume = {"KHR_materials_volume": {"thicknessFactor": thickness[0]}} if thickness else {}
+        return {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
                 "nodes": [{"extras": {"shape": 0, "material": 0}}, {"camera": 0}],
                 "extensions": {"KHR_implicit_shapes": {"shapes": [{"type": "sphere", "sphere": {"radius": 1}}]}},
                 "cameras": [{"type": "perspective", "perspective": {"yfov": 0.9, "znear": 0.1}}],
-                "materials": [{"pbrMetallicRoughness": MATT | {"roughnessFactor": 0}, "extensions": {
-                    "KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 1}}}]}
-        picture = self.in_white(gltf, "--resolution", "16,16", "--spp", 64)
+                "materials": [{"pbrMetallicRoughness": MATT | {"roughnessFactor": 0} | surface, "extensions": {
+                    "KHR_materials_transmission": {"transmissionFactor": 1}} | volume}]}
+
+    def test_a_camera_inside_of_glass(self):
+        """In white surroundings radiance is compressed by the square of the index."""
+        picture = self.in_white(self.glass_sphere({}, 1), "--resolution", "16,16", "--spp", 64)
         self.near(sum(pixel[0] for row in picture for pixel in row) / 16**2 / math.pi, 2.25, 1e-3)
 
     def in_white(self, gltf, *options):

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fault import callers_of
 
-COMMANDS = ("Means", "Sheets", "KnownLight", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising")
+COMMANDS = ("Means", "Sheets", "KnownLight", "ThinGlass", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising")
 # Where to look first, before there is any experience: scenes of picture tests, test files and groups by the beginning of a fault's name.
 LIKELY = {
     "path.": ("closed-furnace.gi", "command.KnownLight", "cornell-box.gi", "coverage.gi"),
@@ -22,6 +22,13 @@ LIKELY = {
     "shade.shade flat": ("sphere-textured.flat",),
     "shade.shade absorption": ("command.KnownSurfaces", "water-cube-plain.gi", "water-cube-plain.refraction"),
     "shade.shade camera": ("command.KnownLight",),
+    "shade.settleShadow wall": ("command.ThinGlass",),
+    "shade.lightThrough": ("command.ThinGlass",),
+    "shade.glassLostAt": ("command.KnownLight",),
+    "path.scatter straight": ("command.ThinGlass",),
+    "path.passesWalls": ("command.ThinGlass",),
+    "layers.straightThrough": ("command.ThinGlass",),
+    "energy.glassAlbedo": ("command.KnownLight",),
     "shade.settleShadow": ("command.Sheets", "coverage.gi"),
     "shade.disperse": ("command.Materials",),
     "shade.baseBsdf": ("command.KnownSurfaces", "rough-metals.gi", "rough-glass.gi", "thin-glass.gi", "lobes.gi", "plastics.gi"),

@@ -43,7 +43,8 @@ inline bool kVertexNormals = false;
 inline bool kInstances = false;
 inline bool kCreases = false;
 inline bool kSlivers = false;
-inline bool kAlpha = false;
+inline bool kPassing = false;
+inline bool kRoughGlass = true;
 inline int kStackSize = 32;
 
 inline std::span<const uint32_t> nodes;

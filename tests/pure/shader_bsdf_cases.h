@@ -35,6 +35,7 @@ inline Bsdf makeBsdf(double metallic, double transmission, double roughness, dou
   b.solid = solid;
   b.eta = front ? ior : 1.0 / ior;
   b.stretch = 1.0;
+  b.glassLost = 0.0;
   b.film = b.diffuseThrough = b.coat = 0.0;
   b.filmIndex = 1.3;
   b.filmThickness = 0.0;
@@ -61,6 +62,7 @@ inline glsl_float::Bsdf toFloat(const Bsdf& b) {
   f.eta = float(b.eta);
   f.between = vec3(b.between);
   f.stretch = float(b.stretch);
+  f.glassLost = float(b.glassLost);
   f.film = float(b.film);
   f.filmIndex = float(b.filmIndex);
   f.filmThickness = float(b.filmThickness);

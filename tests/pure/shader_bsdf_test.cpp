@@ -53,6 +53,28 @@ TEST(ShaderBsdf, SamplesOfGlassFollowTheirDensity) {
   }
 }
 
+/// Of the light on the glass of a material, what its facets lose.
+double lostByFacets(const Bsdf& mixed, double elevation) {
+  Bsdf b = mixed;
+  b.glass = 1.0;
+  b.metal = b.opaque = 0.0;
+  b.glassLost = 1e-12;  // its density is that of what is kept then
+  const dvec3 outgoing = atElevation(elevation);
+  return 1.0 -
+         total(integrateBins([&](const dvec3& i) { return glsl_double::evaluateBsdf(b, outgoing, i).density; }));
+}
+
+TEST(ShaderBsdf, SamplesOfGlassThatLosesNothingFollowTheirDensity) {
+  const With compensation(glsl_variant::kCompensation, true);
+  for (Case c : glassCases()) {
+    for (double z : kElevations) {
+      c.bsdf.glassLost = lostByFacets(c.bsdf, z);
+      EXPECT_GT(c.bsdf.glassLost, 1e-4) << c.name;
+      expectSamplesFollowTheDensity(c, z, glassCases().size() * kElevations.size());
+    }
+  }
+}
+
 TEST(ShaderBsdf, SamplesOfGlassFollowTheirDensityWithSchlick) {
   const With schlick(glsl_variant::kSchlick, true);
   for (const Case& c : glassCases()) {

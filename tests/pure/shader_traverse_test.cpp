@@ -60,7 +60,7 @@ std::vector<Outcome> allHits(const PackedTree& p, const Ray& ray) {
 }
 
 TEST(ShaderTraverse, ARayThatPassesThroughMeetsEveryHitOnce) {
-  const With alpha(glsl_variant::kAlpha, true);
+  const With passing(glsl_variant::kPassing, true);
   size_t ties = 0;
   size_t pairs = 0;
   // Their distances round by more than their boxes are padded.
