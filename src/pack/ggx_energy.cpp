@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
-#include <glm/gtc/constants.hpp>
+
+#include "pack/visible_normals.h"
 
 namespace fragtrace {
 
@@ -12,37 +13,15 @@ namespace {
 
 constexpr int kQuadrature = 24;  // samples along each axis of the unit square
 
-double lambda(const glm::dvec3& v, double alpha) {
-  const double tangentSquared = (v.x * v.x + v.y * v.y) / std::max(v.z * v.z, 1e-30);
-  return 0.5 * (std::sqrt(1.0 + alpha * alpha * tangentSquared) - 1.0);
-}
-
-/// Albedo under single scattering: the mean of G2 / G1 over visible normals (Dupuy and Benyoub, 2023, for the
-/// sampling).
+/// Albedo under single scattering: the mean of G2 / G1 over visible normals.
 double albedo(double cosine, double alpha) {
   if (alpha <= 0.0) return 1.0;
-  const double mu = std::max(cosine, 1e-4);
-  const glm::dvec3 outgoing(std::sqrt(1.0 - mu * mu), 0.0, mu);
-  const glm::dvec3 stretched = glm::normalize(glm::dvec3(alpha * outgoing.x, 0.0, outgoing.z));
-  const double lambdaOut = lambda(outgoing, alpha);
-  double sum = 0.0;
-  for (int a = 0; a < kQuadrature; ++a) {
-    // The integrand is even in phi, so half of the circle does.
-    const double phi = glm::pi<double>() * (a + 0.5) / kQuadrature;
-    // Each column is shifted by another golden part of a step: the value falls to 0 where light would go
-    // below the horizon, and seen from above that edge would lie between two rows of a plain grid for all
-    // phi.
-    const double shift = glm::fract((a + 0.5) * 0.6180339887498949);
-    for (int b = 0; b < kQuadrature; ++b) {
-      const double z = (1.0 - (b + shift) / kQuadrature) * (1.0 + stretched.z) - stretched.z;
-      const double sine = std::sqrt(std::max(0.0, 1.0 - z * z));
-      const glm::dvec3 cap = glm::dvec3(sine * std::cos(phi), sine * std::sin(phi), z) + stretched;
-      const glm::dvec3 h = glm::normalize(glm::dvec3(alpha * cap.x, alpha * cap.y, std::max(cap.z, 1e-12)));
-      const glm::dvec3 incoming = 2.0 * glm::dot(outgoing, h) * h - outgoing;
-      if (incoming.z > 0.0) sum += (1.0 + lambdaOut) / (1.0 + lambdaOut + lambda(incoming, alpha));
-    }
-  }
-  return sum / (kQuadrature * kQuadrature);
+  return meanOverVisibleNormals(
+      cosine, alpha, kQuadrature, [alpha](const glm::dvec3& outgoing, const glm::dvec3& h) {
+        const glm::dvec3 incoming = 2.0 * glm::dot(outgoing, h) * h - outgoing;
+        const double before = 1.0 + smithLambda(outgoing, alpha);
+        return incoming.z > 0.0 ? before / (before + smithLambda(incoming, alpha)) : 0.0;
+      });
 }
 
 GgxEnergyTable makeTable() {

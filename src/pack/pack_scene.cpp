@@ -146,10 +146,12 @@ void appendEnergyTable(Words& words) {
 /// Of solids, each once: those that get a table.
 std::vector<float> indicesOfRoughGlass(const Scene& scene, const ShaderVariant& variant) {
   std::vector<float> indices;
-  if (!has(variant.traits, Trait::RoughGlass) || !has(variant.stages, Stage::EnergyCompensation)) return indices;
+  if (!has(variant.traits, Trait::RoughGlass) || !has(variant.stages, Stage::EnergyCompensation))
+    return indices;
   const TraitRow& row = traitRows()[size_t(Trait::RoughGlass)];
   for (const Material& m : scene.materials) {
-    if (m.thicknessFactor > 0.0f && isOfMaterial(row, m, Coordinates{}) && std::ranges::find(indices, m.ior) == indices.end())
+    if (m.thicknessFactor > 0.0f && isOfMaterial(row, m, Coordinates{}) &&
+        std::ranges::find(indices, m.ior) == indices.end())
       indices.push_back(m.ior);
   }
   return indices;

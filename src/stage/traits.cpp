@@ -279,8 +279,7 @@ std::span<const TraitRow> traitRows() {
        .absence = "no rough transmissive surface",
        .stages = setOf({Stage::Refraction, Stage::Gi}),
        .needs = setOf({Trait::Transmission}),
-       .ofMaterial =
-           [](const Material& m, const Coordinates&) { return m.transmissive() && mayBeRough(m); }},
+       .ofMaterial = [](const Material& m, const Coordinates&) { return m.transmissive() && mayBeRough(m); }},
       {.trait = Trait::Absorption,
        .name = "absorption",
        .constant = "kAbsorption",

@@ -35,20 +35,21 @@ double inTable(const std::vector<float>& nodes, double cosine, double alpha) {
   const int j = std::min(int(y), kGgxEnergyCells - 1);
   const float* low = nodes.data() + size_t(j) * GgxEnergyTable::kNodes + size_t(i);
   const float* high = low + GgxEnergyTable::kNodes;
-  return glm::mix(glm::mix(double(low[0]), double(low[1]), x - i), glm::mix(double(high[0]), double(high[1]), x - i),
-                  y - j);
+  return glm::mix(glm::mix(double(low[0]), double(low[1]), x - i),
+                  glm::mix(double(high[0]), double(high[1]), x - i), y - j);
 }
 
 TEST(GlassEnergy, RoughWhiteGlassOfAnyIndexStaysWithinAPercentOfWhite) {
   const glsl_variant::With compensation(glsl_variant::kCompensation, true);
-  for (double ior : {1.1, 1.33, 1.5, 1.9, 2.4}) {
+  for (double ior : {1.1, 1.5, 2.4}) {
     const GlassAlbedoTable& table = glassAlbedoTable(ior);
     for (bool front : {true, false}) {
-      for (double roughness : {0.1, 0.2, 0.35, 0.5, 0.7, 0.85, 1.0}) {
-        for (double cosine : {0.05, 0.1, 0.2, 0.4, 0.7, 1.0}) {
+      for (double roughness : {0.1, 0.35, 0.7, 1.0}) {
+        for (double cosine : {0.05, 0.2, 0.5, 1.0}) {
           const double single = inTable(front ? table.outside : table.inside, cosine, roughness * roughness);
           EXPECT_NEAR(glassAlbedoOf(roughness, ior, true, front, cosine, 1.0 - single), 1.0, 0.01)
-              << "index " << ior << ", front " << front << ", roughness " << roughness << ", cosine " << cosine;
+              << "index " << ior << ", front " << front << ", roughness " << roughness << ", cosine "
+              << cosine;
         }
       }
     }

@@ -60,8 +60,8 @@ double lostByFacets(const Bsdf& mixed, double elevation) {
   b.metal = b.opaque = 0.0;
   b.glassLost = 1e-12;  // its density is that of what is kept then
   const dvec3 outgoing = atElevation(elevation);
-  return 1.0 -
-         total(integrateBins([&](const dvec3& i) { return glsl_double::evaluateBsdf(b, outgoing, i).density; }));
+  return 1.0 - total(integrateBins(
+                   [&](const dvec3& i) { return glsl_double::evaluateBsdf(b, outgoing, i).density; }));
 }
 
 TEST(ShaderBsdf, SamplesOfGlassThatLosesNothingFollowTheirDensity) {
