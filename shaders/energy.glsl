@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Tables behind the materials: the energy that single scattering loses between GGX facets (src/pack/ggx_energy.cpp),
-// the albedo of sheen (src/pack/sheen_albedo.cpp) and that of rough glass (src/pack/glass_energy.cpp). Each has one row a cell with the values at its corners, over the
-// roots of cosine and alpha; the first goes on with one row a cell of the average loss.
+// the albedo of sheen (src/pack/sheen_albedo.cpp) and that of rough glass (src/pack/glass_energy.cpp). Each has one
+// row a cell with the values at its corners, over the roots of cosine and alpha; the first goes on with one row a
+// cell of the average loss.
 
 const int kEnergyRows = int(kEnergyCells * kEnergyCells + kEnergyCells);
 
@@ -29,8 +30,8 @@ float ggxAverageLoss(float alpha) {
   return mix(ends.x, ends.y, y - float(j));
 }
 
-/// What rough solid glass gives back under single scattering, seen at `cosine` from before its front or behind it. Tables
-/// of all indices follow the other ones, two each.
+/// What rough solid glass gives back under single scattering, seen at `cosine` from before its front or behind it.
+/// Tables of all indices follow the other ones, two each.
 float glassAlbedo(int table, bool front, float cosine, float alpha) {
   const int rows = int(kEnergyCells * kEnergyCells);
   int first = kEnergyRows + (kSheen ? rows : 0) + (2 * table + (front ? 0 : 1)) * rows;

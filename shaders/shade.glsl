@@ -18,8 +18,8 @@ Bsdf baseBsdf(SurfaceMaterial m, bool front) {
   return b;
 }
 
-/// Of the light on the rough glass of a surface, what single scattering loses, seen at `cosine`. A thin wall spreads light
-/// both ways as a mirror of its roughness does.
+/// Of the light on the rough glass of a surface, what single scattering loses, seen at `cosine`. A thin wall spreads
+/// light both ways as a mirror of its roughness does.
 float glassLostAt(Bsdf b, Surface s, float cosine) {
   if (!kCompensation || b.glass <= 0.0 || isSmoothGlass(b)) return 0.0;
   if (!b.solid) return ggxLoss(cosine, b.alpha);

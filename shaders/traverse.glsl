@@ -82,7 +82,8 @@ PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear sh
   }
   if (kSpheres) {
     bool inside = !kCulling || (word & kPrimitiveCull) == 0u;
-    float t = intersectSphere(origin, direction, v0, v1.x, inside, kPassing ? s.past : 0.0f, kPassing && slot > s.pastSlot);
+    float past = kPassing ? s.past : 0.0f;
+    float t = intersectSphere(origin, direction, v0, v1.x, inside, past, kPassing && slot > s.pastSlot);
     bool isSphere = (word & kPrimitiveSphere) != 0u && word != kPrimitiveNone;
     r.t = isSphere ? t : (kTriangles ? r.t : -1.0f);
   }

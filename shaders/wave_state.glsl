@@ -14,8 +14,8 @@ struct WavePath {
 
 // Rows: 0 origin, tie; 1 direction, medium; 2 distance, slot, weights of the hit; 3 throughput, density; 4 radiance,
 // flags; 5 sample, rays, scatterings; with kShadowRows 6 shadow ray, limit; 7 its direction, compression; 8
-// contribution, instance of the hit; with kPassing 9 distance, slot, weights of the shadow ray's hit; 10 what the ray and
-// the shadow ray have passed through; 11 crossings, instance of the shadow ray's hit.
+// contribution, instance of the hit; with kPassing 9 distance, slot, weights of the shadow ray's hit; 10 what the ray
+// and the shadow ray have passed through; 11 crossings, instance of the shadow ray's hit.
 const int kRowHit = 2;
 const int kRowFlags = 4;
 const int kRowShadow = 6;
