@@ -51,7 +51,9 @@ TEST(ViewState, NothingChangesThatCannotBeSeen) {
     for (const Action action :
          {Action::Orbit, Action::Zoom, Action::ToggleStage, Action::Magnify, Action::ToggleSplit})
       for (const Control& control : controls()) {
-        if (control.action == action) EXPECT_EQ(apply(state, control, {{0.1, 0.2}, 1.0, 0.1}), Errand::None);
+        if (control.action == action) {
+          EXPECT_EQ(apply(state, control, {{0.1, 0.2}, 1.0, 0.1}), Errand::None);
+        }
       }
     EXPECT_TRUE(state.pose == before.pose && state.sides == before.sides &&
                 state.magnifier == before.magnifier);
