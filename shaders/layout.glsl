@@ -37,7 +37,7 @@ const uint kTwoLevelPathStateRows = 24u;  // where there are instances
 // Of the wavefront: a lane has this many pixels of a column of its tile, each with the state of its path, and a row of
 // its own before them.
 const uint kWaveSlots = 32u;
-const uint kWaveRows = 12u;  // at most: scenes without alpha leave the last ones out
+const uint kWaveRows = 12u;  // at most: scenes that let no ray pass leave the last ones out
 const uint kWaveAlphaRows = 3u;
 const uint kWaveLaneRows = kWaveSlots * kWaveRows + 1u;
 

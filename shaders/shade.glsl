@@ -22,6 +22,8 @@ Bsdf baseBsdf(SurfaceMaterial m, bool front) {
 /// light both ways as a mirror of its roughness does.
 float glassLostAt(Bsdf b, Surface s, float cosine) {
   if (!kCompensation || b.glass <= 0.0 || isSmoothGlass(b)) return 0.0;
+  // What these change is in no table: samples would not follow their density.
+  if (kAnisotropy || kIridescence || kGlassSpecular || kSchlick || kDispersion) return 0.0;
   if (!b.solid) return ggxLoss(cosine, b.alpha);
   int table = int(materialFloats(s.material, kMaterialVolume).w) - 1;
   return max(0.0, 1.0 - glassAlbedo(table, s.front, cosine, b.alpha));
@@ -142,6 +144,7 @@ vec3 normalFacing(Surface s, vec3 outgoing) {
 vec3 lightThrough(Surface s, vec3 baseColor, vec3 direction) {
   SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
   if (m.solid || m.transmission * (1.0 - m.metallic) <= 0.0) return vec3(0.0);
+  if (kUnlit && (materialFlags(s.material) & kMaterialUnlit) != 0u) return vec3(0.0);
   Bsdf b = baseBsdf(m, s.front);
   vec3 anisotropy = kAnisotropy ? anisotropyAt(s.material, s.texcoords) : vec3(0.0);
   Frame3 around = frameAround(normalFacing(s, -direction));

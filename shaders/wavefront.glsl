@@ -319,7 +319,10 @@ void traceWave(ivec2 lane) {
   // A round begins only where half of the budget is left, so that only rays that are longer than that are lost.
   while ((v.hits | v.misses) != 0u && v.steps < budget / 2) {
     settleStates();
-    if (kPassing) v = passShadows(v, v.blocked, tree);
+    if (kPassing) {
+      v = passShadows(v, v.blocked, tree);
+      settleStates();
+    }
     uint later = v.shadows;
     uint hits = v.hits & ~later;
     v.hits &= later;

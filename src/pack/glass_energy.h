@@ -13,7 +13,7 @@ struct GlassAlbedoTable {
 };
 
 /// What a boundary of that index (above 0) reflects and transmits together, of white light from everywhere,
-/// by quadrature over visible normals; within 0.005 of the integral (tests/pure/glass_energy_test.cpp). Made
+/// by quadrature over visible normals; within 0.01 of the integral (tests/pure/glass_energy_test.cpp). Made
 /// when it is first asked for, and kept.
 const GlassAlbedoTable& glassAlbedoTable(double ior);
 
