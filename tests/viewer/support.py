@@ -198,7 +198,11 @@ class Viewer:
         """Presses a key that writes a file, and waits for it."""
         before = set(self.folder.glob("*" + extension))
         self.key(key)
-        return wait_for(lambda: next(iter(set(self.folder.glob("*" + extension)) - before), None), 60, f"no {extension} by {key}")
+        new = lambda: next(iter(set(self.folder.glob("*" + extension)) - before), None)
+        try:
+            return wait_for(new, 60, f"no {extension} by {key}")
+        except AssertionError as error:
+            raise AssertionError(f"{error}\n{json.dumps(self.status(), indent=1)}\n{self.stderr()}") from None
 
     def message(self, kind, data, target=None):
         display = self.screen.display
