@@ -129,8 +129,12 @@ class Viewer:
             assert self.process.poll() is None, f"ended with {self.process.returncode}: {self.stderr()}"
             status = self.status()
             return status if condition(status) else None
+        return self.wait(check, seconds, what)
+
+    def wait(self, condition, seconds, what):
+        """As wait_for; an error tells what the viewer says of itself."""
         try:
-            return wait_for(check, seconds, what)
+            return wait_for(condition, seconds, what)
         except AssertionError as error:
             raise AssertionError(f"{error}\n{json.dumps(self.status(), indent=1)}\n{self.stderr()}") from None
 
@@ -198,11 +202,7 @@ class Viewer:
         """Presses a key that writes a file, and waits for it."""
         before = set(self.folder.glob("*" + extension))
         self.key(key)
-        new = lambda: next(iter(set(self.folder.glob("*" + extension)) - before), None)
-        try:
-            return wait_for(new, 60, f"no {extension} by {key}")
-        except AssertionError as error:
-            raise AssertionError(f"{error}\n{json.dumps(self.status(), indent=1)}\n{self.stderr()}") from None
+        return self.wait(lambda: next(iter(set(self.folder.glob("*" + extension)) - before), None), 60, f"no {extension} by {key}")
 
     def message(self, kind, data, target=None):
         display = self.screen.display
