@@ -21,9 +21,7 @@ Bsdf baseBsdf(SurfaceMaterial m, bool front) {
 /// Of the light on the rough glass of a surface, what single scattering loses, seen at `cosine`. A thin wall spreads
 /// light both ways as a mirror of its roughness does.
 float glassLostAt(Bsdf b, Surface s, float cosine) {
-  if (!kCompensation || b.glass <= 0.0 || isSmoothGlass(b)) return 0.0;
-  // What these change is in no table: samples would not follow their density.
-  if (kAnisotropy || kIridescence || kGlassSpecular || kSchlick || kDispersion) return 0.0;
+  if (b.glass <= 0.0 || isSmoothGlass(b)) return 0.0;
   if (!b.solid) return ggxLoss(cosine, b.alpha);
   int table = int(materialFloats(s.material, kMaterialVolume).w) - 1;
   return max(0.0, 1.0 - glassAlbedo(table, s.front, cosine, b.alpha));
@@ -59,7 +57,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   b.faceNormal = toFrame(around, s.geometricNormal);
   b.vertexNormal = toFrame(around, s.shadingNormal);
   vec3 outgoing = toFrame(around, -p.direction);
-  if (kRoughGlass) b.glassLost = glassLostAt(b, s, outgoing.z);
+  if (kGlassTables) b.glassLost = glassLostAt(b, s, outgoing.z);
   uint dimension = kBounceDimensions * uint(p.bounce + 1);
   // The numbers of this bounce are drawn before it is counted.
   float choice = kPassesLight ? pathRandom(p, kLobeDimension) : 0.0;

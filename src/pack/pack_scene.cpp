@@ -17,6 +17,7 @@
 #include "pack/pack_tree.h"
 #include "pack/sheen_albedo.h"
 #include "pack/words.h"
+#include "stage/glass_tables.h"
 
 namespace fragtrace {
 
@@ -146,8 +147,7 @@ void appendEnergyTable(Words& words) {
 /// Of solids, each once: those that get a table.
 std::vector<float> indicesOfRoughGlass(const Scene& scene, const ShaderVariant& variant) {
   std::vector<float> indices;
-  if (!has(variant.traits, Trait::RoughGlass) || !has(variant.stages, Stage::EnergyCompensation))
-    return indices;
+  if (!usesGlassTables(variant)) return indices;
   const TraitRow& row = traitRows()[size_t(Trait::RoughGlass)];
   for (const Material& m : scene.materials) {
     if (m.thicknessFactor > 0.0f && isOfMaterial(row, m, Coordinates{}) &&

@@ -9,6 +9,7 @@
 #include "errors.h"
 #include "shader/embedded.h"
 #include "shader/live_text.h"
+#include "stage/glass_tables.h"
 
 namespace fragtrace {
 
@@ -69,6 +70,7 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
   }
   for (const TraitRow& row : traitRows()) constant(row.constant, has(variant.traits, row.trait));
   constant("kWeights", keepsWeights(variant));
+  constant("kGlassTables", usesGlassTables(variant));
   constant("kPassing", passesSurfaces(variant));
   constant("kIterative", variant.traversal == TraversalMethod::Iterative);
   constant("kFrontToBack", variant.traversal == TraversalMethod::FrontToBack);
