@@ -309,7 +309,8 @@ bool ViewTracer::work() {
   for (Side& s : sides_) {
     if (!resting(s) && (!side || s.samples < side->samples)) side = &s;
   }
-  if (!side) return false;
+  // A film of the next finer step may hold its frame already: one more turn then goes on to the step after.
+  if (!side) return !request_.moving && resolution_.step > 0;
   Renderer& renderer = *side->program->tracer.renderer;
   const glm::ivec2 size = side->film->size();
   const double frameMs = renderer.msPerSample() * size.x * size.y;

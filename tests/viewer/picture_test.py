@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """What the window shows and writes is what `render` draws: every toggle, camera, size and tone map."""
 import shlex
+import signal
 import time
 
 from support import Case, largest_difference, main, pixels_of, read_png
@@ -98,6 +99,36 @@ class Camera(Case):
         shown = viewer.press_for_file("F12", ".png")
         camera = viewer.rest(lambda s: s["asked"] > asked, "rest after a drag")["camera"]
         self.same(pixels_of(shown), pixels_of(self.render("plastics", "--spp", 1, *shlex.split(camera))))
+        self.ends_well(viewer, viewer.close())
+
+    def test_a_last_moving_frame_that_took_long_does_not_leave_a_coarse_picture(self):
+        quick = self.view("plastics", "--resolution", "640,480", "--spp", "1")
+        ms = quick.status()["sides"][0]["frame_ms"]
+        quick.close()
+        # Where frames of a third of the size are quick enough to move by, those of half the size are not, and long ones change the step by one.
+        scale = min((600 / ms) ** 0.5, 1.8)
+        viewer = self.view("plastics", "--resolution", f"{round(640 * scale)},{round(480 * scale)}", "--spp", "1")
+        size = viewer.status()["width"]
+        for i in range(8):
+            asked = viewer.status()["asked"]
+            viewer.at(300, 200)
+            viewer.xdotool("mousedown", 1)
+            viewer.at(320 + i, 220)
+            time.sleep(0.015 * i)
+            viewer.process.send_signal(signal.SIGSTOP)  # during the frame, in one of these drags
+            time.sleep(0.5)
+            viewer.process.send_signal(signal.SIGCONT)
+            viewer.xdotool("mouseup", 1)
+            status = viewer.rest(lambda s, before=asked: s["asked"] > before, "rest after a drag")
+            self.assertEqual(status["sides"][0]["width"], size)
+        self.ends_well(viewer, viewer.close())
+
+    def test_a_picture_is_of_the_camera_when_its_key_was_pressed(self):
+        viewer = self.view("plastics", "--resolution", "320,240", "--spp", "1")
+        viewer.keys_at_once("3", "F12")
+        status = viewer.rest(lambda s: any("wrote" in m for m in s["messages"]), "a picture")
+        shown = next(self.folder.glob("*.png"))
+        self.same(pixels_of(shown), pixels_of(self.render("plastics", "--spp", 1, *shlex.split(status["camera"]))))
         self.ends_well(viewer, viewer.close())
 
 

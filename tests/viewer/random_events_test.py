@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """The viewer under random events: keys, mouse, drops, sizes, reloads, lost contexts. It must stay, without an error of OpenGL.
 
-FRAGTRACE_RANDOM_SECONDS and FRAGTRACE_RANDOM_SEED say how long and which; FRAGTRACE_RANDOM_LOG names a file for the memory that is
-used over time. With AddressSanitizer: build with -DFRAGTRACE_SANITIZE=ON -DFRAGTRACE_SANITIZE_ALL=ON.
+FRAGTRACE_RANDOM_SECONDS and FRAGTRACE_RANDOM_SEED say how long and which; FRAGTRACE_RANDOM_LOG names a file for the memory over time:
+resident, and in use on the heap. With AddressSanitizer: build with -DFRAGTRACE_SANITIZE=ON -DFRAGTRACE_SANITIZE_ALL=ON.
 """
 import os
 import random
@@ -42,7 +42,8 @@ class RandomEvents(Case):
         paths = [str(FRAGTRACE.parent / "failing_egl"), os.environ.get("LD_LIBRARY_PATH")]
         self.screen.environment.update({
             "FRAGTRACE_REAL_EGL": re.search(r"libEGL\.so\.1 .*=> (\S+)", libraries).group(1),
-            "FRAGTRACE_FAIL_WHEN": str(self.lose), "LD_LIBRARY_PATH": ":".join(filter(None, paths))})
+            "FRAGTRACE_FAIL_WHEN": str(self.lose), "FRAGTRACE_HEAP_LOG": str(self.folder / "heap"),
+            "LD_LIBRARY_PATH": ":".join(filter(None, paths))})
 
     def test_nothing_ends_it(self):
         self.random = random.Random(SEED)
@@ -64,17 +65,20 @@ class RandomEvents(Case):
             done += 1
             self.assertIsNone(viewer.process.poll(), f"ended with {viewer.process.returncode} after {done} events of seed {SEED}: {viewer.stderr()}")
             if not memory or time.monotonic() - began >= memory[-1][0] + 10:
-                memory.append((time.monotonic() - began, resident_megabytes(viewer.process.pid)))
+                memory.append((time.monotonic() - began, resident_megabytes(viewer.process.pid), int((self.folder / "heap").read_text().split()[-1])))
                 for picture in [*self.folder.glob("*.png"), *self.folder.glob("*.exr")]:
                     picture.unlink()
-                self.log(f"{memory[-1][0]:.0f} s, {done} events, {memory[-1][1]:.0f} MB, {viewer.status().get('state')}")
+                self.log(f"{memory[-1][0]:.0f} s, {done} events, {memory[-1][1]:.0f} MB resident, {memory[-1][2]} MB in use, {viewer.status().get('state')}")
         self.assertEqual(viewer.status()["gl_errors"], [])
         self.assertNotIn("Sanitizer", viewer.stderr())
-        print(f"{done} events in {time.monotonic() - began:.0f} s; memory " + ", ".join(f"{m:.0f}" for _, m in memory[:: max(1, len(memory) // 12)]))
-        settled = [m for t, m in memory if t >= 600]
-        if len(settled) >= 40:
-            half = len(settled) // 2
-            self.assertLess(statistics.median(settled[half:]), MOST_GROWTH * statistics.median(settled[:half]), "memory grows")
+        every = max(1, len(memory) // 12)
+        print(f"{done} events in {time.monotonic() - began:.0f} s; MB resident/in use " + ", ".join(f"{r:.0f}/{u}" for _, r, u in memory[::every]))
+        settled = [m for m in memory if m[0] >= 600]
+        half = len(settled) // 2
+        for kind, what in ((1, "resident"), (2, "in use")):
+            if half >= 20:
+                first, last = (statistics.median(m[kind] for m in part) for part in (settled[:half], settled[half:]))
+                self.assertLess(last, MOST_GROWTH * first, f"memory {what} grows")
         self.assertEqual(viewer.close(), 0, viewer.stderr())
         self.assertNotIn("Sanitizer", viewer.stderr())
 

@@ -47,6 +47,8 @@ void Window::execute(const Task& task) {
 }
 
 void Window::executeOnScene(const Task& task) {
+  // What is written or picked is of the view as it is now: that may have changed in this turn of the loop.
+  ask();
   switch (task.errand) {
     case Errand::CenterOn:
     case Errand::Inspect: {
