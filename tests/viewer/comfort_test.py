@@ -6,6 +6,8 @@ import shlex
 import subprocess
 import time
 
+from Xlib import X
+
 from animation_test import animated
 from clipboard import clipboard_text
 from support import FRAGTRACE, SCENES, Case, main, pixels_of
@@ -297,6 +299,16 @@ class Help(Case):
         viewer.key("alt+c", "super+c")
         viewer.key("F11")
         viewer.rest(lambda s: s["fullscreen"] and s["width"] == 1400, "all of the screen")
+        other = self.screen.display.screen().root.create_window(0, 0, 50, 50, 0, self.screen.display.screen().root_depth)
+        other.map()
+        self.screen.display.sync()
+        self.screen.call("xdotool", "windowfocus", "--sync", other.id)
+        time.sleep(0.5)
+        window = self.screen.display.create_resource_object("window", viewer.id)
+        self.assertEqual(window.get_attributes().map_state, X.IsViewable, "without the keyboard it went away")
+        other.destroy()
+        self.screen.display.sync()
+        viewer.xdotool("windowactivate", "--sync", viewer.id)
         viewer.key("Escape")
         self.assertFalse(viewer.rest(lambda s: not s["fullscreen"] and s["width"] == 500, "a window again")["split"])
         self.ends_well(viewer, viewer.close())

@@ -55,7 +55,7 @@ class RandomEvents(Case):
         acts = {self.press: 12, self.drag: 6, self.wheel: 3, self.click: 4, self.click_place: 6, self.drop: 2, self.resize: 1, self.lost: 0.3,
                 self.type: 1, self.breathe: 1}
         began = time.monotonic()
-        memory, done = [], 0
+        memory, done, asked, alive = [], 0, None, began
         while time.monotonic() - began < SECONDS:
             act = self.random.choices(list(acts), list(acts.values()))[0]
             try:
@@ -63,6 +63,9 @@ class RandomEvents(Case):
             except subprocess.CalledProcessError:
                 time.sleep(1)  # without a window; whether the viewer has ended is seen below
             done += 1
+            if viewer.status().get("asked") != asked:
+                asked, alive = viewer.status().get("asked"), time.monotonic()
+            self.assertLess(time.monotonic() - alive, 180, f"it no longer answers after {done} events of seed {SEED}")
             self.assertIsNone(viewer.process.poll(), f"ended with {viewer.process.returncode} after {done} events of seed {SEED}: {viewer.stderr()}")
             if not memory or time.monotonic() - began >= memory[-1][0] + 10:
                 memory.append((time.monotonic() - began, resident_megabytes(viewer.process.pid), int((self.folder / "heap").read_text().split()[-1])))

@@ -46,6 +46,8 @@ WindowHandle openWindow(glm::ivec2 size, const std::string& title) {
 #ifndef NDEBUG
   glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
 #endif
+  // Full screen, it stays when another window gets the keyboard, as on a second screen.
+  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   WindowHandle window(glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr));
