@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Makes the charts and tables of docs/design/accuracy.md: error against time in four kinds of scene.
+"""Makes the charts and tables of docs/design/accuracy.md: error against time in six scenes.
 
 usage: error_charts.py FRAGTRACE ASSETS_FOLDER OUTPUT_FOLDER [NAME ...]
 Run on a quiet machine, from the repository's root. Writes OUTPUT/error-NAME.svg and .json, prints the tables.
@@ -18,6 +18,8 @@ RUNS = {
                     "--configs", "default,random,bsdf,schlick,adaptive"],
     "boom-box": [*BOOM_BOX, "--spp", "256", "--configs", "default,random,bsdf,no-compensation,adaptive"],
     "many-lights": ["scenes/many-lights.gltf", "--spp", "256", "--configs", "default,random,bsdf,no-compensation,adaptive"],
+    "corridor": ["scenes/corridor.gltf", "--spp", "64", "--configs", "default,power-lights"],
+    "city": ["scenes/city.gltf", "--spp", "256", "--configs", "default,power-lights"],
 }
 
 

@@ -56,7 +56,7 @@ Path beginShadow(Path p) {
   vec2 uv = drawPair(p.numbers, dimension + kDirectionDimension);
   p.phase = kPhaseExtend;
   if (lightSlotCount() > 0) {
-    LightSample light = lightOfSlot(0, s.position, p.numbers, dimension + kLightDimension);
+    LightSample light = lightOfSlot(0, s.position, kNoNormal, p.numbers, dimension + kLightDimension);
     float cosine = max(light.direction.y, 0.0);
     // Emissive triangles are part of the scene that casts the shadow: what they give is not counted.
     bool counts = light.density <= 0.0 || light.distance == kFarAway;

@@ -173,6 +173,19 @@ const uint kEmitterRows = 4u;
 const uint kEmitterPunctual = 0x80000000u;     // else the leaf slot of an emissive triangle; below it the light's index
 const uint kEmitterDoubleSided = 0x80000000u;  // beside the material
 
+// Behind the emitters, where they are chosen by a tree (src/pack/light_tree.h): its nodes, the root first; their
+// parents, four a row; the leaves of emissive triangles, four a row, one a leaf slot of the scene. Node rows: middle,
+// intensity; axis as three 10-bit numbers, cosine of the spread as a 16-bit number and, above it, the thickness along
+// the axis in parts of the radius, radius or -1 for what shines everywhere, first child or kLightLeaf and the emitter,
+// with flags.
+const uint kLightNodeRows = 2u;
+const uint kLightLeaf = 0x80000000u;
+const uint kLightBothSides = 0x40000000u;
+const uint kLightSharp = 0x20000000u;  // nothing shines beyond the spread; else up to a right angle more
+const uint kLightIndex = 0x1fffffffu;
+const uint kNoLightNode = 0xffffffffu;
+const uint kNoNormal = 0xffffffu;  // in place of a normal as two 12-bit numbers of an octahedron
+
 // Light rows: intensity + type, position + range, direction + spot scale, spot offset.
 const uint kLightRows = 4u;
 const float kLightPoint = 0.0f;

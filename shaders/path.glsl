@@ -114,6 +114,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   p.part = vec3(kFeature == kFeatureDiffuse || kFeature == kFeatureSpecular ? 0.0 : 1.0);
   p.compression = 1.0;
   p.density = 0.0;
+  p.normal = kNoNormal;
   p.medium = kPrimitiveNone;
   p.shadowOrigin = vec3(0.0);
   p.shadowDirection = vec3(0.0, 0.0, 1.0);
@@ -214,6 +215,13 @@ float alphaAt(uint material, uint flags, float alpha) {
   return clamp(alpha, 0.0, 1.0);
 }
 
+/// The normal by which the light tree chooses lights for a surface: none where light comes through.
+uint normalOfLight(Surface s, SurfaceMaterial m) {
+  if (!kLightTree || m.transmission > 0.0) return kNoNormal;
+  if (kDiffuseTransmission && materialFloats(s.material, kMaterialDiffuseTransmission).w > 0.0) return kNoNormal;
+  return packNormal(s.geometricNormal);
+}
+
 /// Settles where the path goes on from the surface, once its shadow ray is done; weight multiplies the throughput, and
 /// zero ends the path.
 Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool transmitted, SurfaceMaterial m) {
@@ -247,6 +255,7 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
     return p;
   }
   p.density = density;
+  p.normal = normalOfLight(s, m);
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, direction);
   p.direction = direction;
   // Where two faces meet sharply, which of them a ray hits first is a matter of rounding: one that has left a front is
@@ -275,7 +284,9 @@ vec3 emittedAt(Path p, Surface s, uint flags) {
   vec3 radiance = emissionAt(s.material, s.texcoords);
   if (kClearcoat) radiance *= emissionUnderCoat(s.material, s.texcoords, cosine);
   if (!kGi || !kEmissiveTriangles || !s.emitter || p.density <= 0.0) return radiance;
-  return radiance * misWeight(p.density, emitterDensity(s.material, p.hitT, cosine));
+  float density = kLightTree ? treeDensity(p.hitSlot, p.origin, p.normal, p.hitT, cosine)
+                             : emitterDensity(s.material, p.hitT, cosine);
+  return radiance * misWeight(p.density, density);
 }
 
 /// Sets up the shadow ray of a light sample that would add `value`; without shadows it is added at once.

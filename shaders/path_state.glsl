@@ -29,6 +29,7 @@ struct Path {
   vec3 throughput;
   float compression;  // undoes the radiance compression inside glass
   float density;        // of the last scattering over solid angle; 0: a single direction or the camera
+  uint normal;          // of the surface that it left, as light sampling took it (kLightTree)
   uint medium;          // material of the solid the ray is inside of, or kPrimitiveNone
   vec3 origin;
   vec3 direction;
@@ -99,8 +100,8 @@ void savePath(Path p, int index) {
   int r = index * kPathRows;
   uint flags = (p.cameraRay ? 1u : 0u) | (p.oneChannel ? 2u : 0u) | (p.alpha > 0.0 ? 4u : 0u) | (p.caught ? 8u : 0u) |
                (p.throughWalls ? 16u : 0u);
-  pathStates[r] = uvec4(uint(p.phase) | uint(p.after) << 4 | flags << 8, uint(p.lightSlot), uint(p.bounce),
-                        uint(p.crossings));
+  uint slot = uint(p.lightSlot) | (kLightTree ? p.normal << 8 : 0u);
+  pathStates[r] = uvec4(uint(p.phase) | uint(p.after) << 4 | flags << 8, slot, uint(p.bounce), uint(p.crossings));
   pathStates[r + 1] = uvec4(floatBitsToUint(p.radiance), clearOf(p));
   pathStates[r + 2] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.compression));
   pathStates[r + 3] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.density));
@@ -152,7 +153,8 @@ Path loadPath(int index) {
   p.alpha = (flags & 4u) != 0u ? 1.0 : 0.0;
   p.caught = (flags & 8u) != 0u;
   p.throughWalls = (flags & 16u) != 0u;
-  p.lightSlot = int(a.y);
+  p.lightSlot = int(kLightTree ? a.y & 0xffu : a.y);
+  p.normal = kLightTree ? a.y >> 8 : kNoNormal;
   p.bounce = int(a.z);
   p.crossings = int(a.w);
   a = pathStates[r + 1];

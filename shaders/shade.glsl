@@ -63,7 +63,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   float choice = kPassesLight ? pathRandom(p, kLobeDimension) : 0.0;
   vec2 uv = drawPair(p.numbers, dimension + kDirectionDimension);
   if (lightSlotCount() > 0) {
-    LightSample light = lightOfSlot(0, s.position, p.numbers, dimension + kLightDimension);
+    LightSample light = lightOfSlot(0, s.position, normalOfLight(s, m), p.numbers, dimension + kLightDimension);
     vec3 incoming = toFrame(around, light.direction);
     bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (incoming.z > 0.0);
     BsdfValue value = evaluateBsdf(b, outgoing, incoming);
@@ -117,7 +117,7 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   int lights = lightSlotCount();
   if (p.lightSlot < lights) {
     uint dimension = kBounceDimensions * uint(p.bounce + 1);
-    LightSample light = lightOfSlot(p.lightSlot, s.position, p.numbers, dimension + kLightDimension);
+    LightSample light = lightOfSlot(p.lightSlot, s.position, kNoNormal, p.numbers, dimension + kLightDimension);
     vec3 diffuse = (1.0 - m.metallic) * m.baseColor;
     if (kVertexNormals) diffuse *= terminatorFade(s.geometricNormal, s.shadingNormal, light.direction);
     vec3 value = phongValue(diffuse, f0, phongExponent(m.roughness), normal, outgoing, light.direction);

@@ -37,7 +37,7 @@ void saveFirst(Path p, Traversal t, int row) {
   pathStates[row] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.tie));
   pathStates[row + 1] = uvec4(floatBitsToUint(p.direction), p.medium);
   pathStates[row + kRowHit] = uvec4(floatBitsToUint(t.t), uint(t.slot), floatBitsToUint(t.weights));
-  pathStates[row + kRowFlags] = uvec4(0u, 0u, 0u, uint(kPhaseExtend) | 16u);
+  pathStates[row + kRowFlags] = uvec4(0u, 0u, 0u, uint(kPhaseExtend) | 16u | kNoNormal << 8);
   pathStates[row + 5] = uvec4(p.numbers.index, 0u, 0u, 0u);
   if (kShadowRows) pathStates[row + kRowContribution] = uvec4(0u, 0u, 0u, uint(-1));
   if (kPassing) {
@@ -49,7 +49,7 @@ void saveFirst(Path p, Traversal t, int row) {
 void saveWave(WavePath w, Traversal t, int row) {
   Path p = w.path;
   uint flags = uint(p.phase) | (p.cameraRay ? 16u : 0u) | (p.oneChannel ? 32u : 0u) | (p.alpha > 0.0 ? 64u : 0u) |
-               (p.throughWalls ? 128u : 0u);
+               (p.throughWalls ? 128u : 0u) | (kLightTree ? p.normal << 8 : 0u);
   pathStates[row] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.tie));
   pathStates[row + 1] = uvec4(floatBitsToUint(p.direction), p.medium);
   pathStates[row + kRowHit] = uvec4(floatBitsToUint(t.t), uint(t.slot), floatBitsToUint(t.weights));
@@ -89,6 +89,7 @@ WavePath loadWave(int row, uint key) {
   p.oneChannel = (a.w & 32u) != 0u;
   p.alpha = (a.w & 64u) != 0u ? 1.0 : 0.0;
   p.throughWalls = (a.w & 128u) != 0u;
+  p.normal = kLightTree ? a.w >> 8 : kNoNormal;
   // Nothing has changed what a camera ray carries.
   f = uintBitsToFloat(readWave(row + 3));
   p.throughput = p.cameraRay ? vec3(1.0) : f.xyz;

@@ -186,6 +186,12 @@ void addPathOptions(CLI::App& app, RawRender& raw) {
                  "maximum radiance that indirect light (two or more scattering events) adds to a sample; "
                  "this removes bright dots but darkens the picture")
       ->check(CLI::Range(1e-6, 1e30));
+  app.add_option(
+         "--light-selection", raw.lightSelection,
+         "how global illumination chooses a light to sample: by what it may send to the point (tree), "
+         "by its power, or all alike: " +
+             joined(kLightSelectionNames))
+      ->capture_default_str();
 }
 
 /// What of the samples a picture shows.
@@ -286,6 +292,7 @@ RenderOptions finishRender(const RawRender& raw) {
   o.bounces = parseBounces(raw.bounces);
   finishSurroundings(raw, o);
   if (!raw.region.empty()) o.region = regionOf(raw.region);
+  o.lightSelection = choose<LightSelection>("--light-selection", raw.lightSelection, kLightSelectionNames);
   o.pixelFilter = choose<PixelFilter>("--pixel-filter", raw.pixelFilter, kPixelFilterNames);
   o.toneMap = choose<ToneMap>("--tone-map", raw.toneMap, toneMapNames());
   o.traversal = choose<TraversalMethod>("--traversal", raw.traversal, kTraversalNames);

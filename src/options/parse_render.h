@@ -34,6 +34,7 @@ struct RawRender {
   std::vector<double> backgroundColor;
   std::vector<int> region;
   std::string hdriFile;
+  std::string lightSelection = "auto";
   std::string pixelFilter = "box";
   std::string toneMap = "neutral";
   std::string traversal = "auto";

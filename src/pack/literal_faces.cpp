@@ -79,7 +79,8 @@ std::optional<LiteralFace> joined(const LiteralFace& a, const LiteralFace& b, Jo
 
 }  // namespace
 
-LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, Joining joining) {
+LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, Joining joining,
+                        bool emissiveApart) {
   LiteralMesh mesh;
   std::vector<uint32_t> materials;
   for (uint32_t leaf = firstLeaf; leaf < bvh.leaves.size(); ++leaf) {
@@ -93,8 +94,9 @@ LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, 
         face.corner[size_t(i)] = pointIndex(mesh.points, scene.vertices.position[t.vertex[i]]);
       face.culled = !m.doubleSided && !m.passesLight();
       face.slot = leaf * 2 + side;
+      const bool alone = joining == Joining::None || (emissiveApart && m.emissive());
       bool taken = false;
-      for (size_t i = 0; joining != Joining::None && !taken && i < mesh.faces.size(); ++i) {
+      for (size_t i = 0; !alone && !taken && i < mesh.faces.size(); ++i) {
         if (mesh.faces[i].quad || materials[i] != t.material) continue;
         const std::optional<LiteralFace> quad = joined(mesh.faces[i], face, joining, mesh.points);
         if (quad) mesh.faces[i] = *quad;

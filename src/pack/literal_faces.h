@@ -32,7 +32,8 @@ struct LiteralMesh {
 /// What two triangles of the same plane, material and sides may be joined to.
 enum class Joining : uint8_t { None, Parallelograms, ConvexQuadrilaterals };
 
-/// The triangles in the leaves from firstLeaf on.
-LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, Joining joining);
+/// The triangles in the leaves from firstLeaf on. emissiveApart: those that emit light are not joined.
+LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, Joining joining,
+                        bool emissiveApart = false);
 
 }  // namespace fragtrace

@@ -80,6 +80,9 @@ constexpr double kRaysAPath = 7.0;
 /// Barycentric weights are told of both triangles of a parallelogram alike.
 Joining joiningFor(bool weights) { return weights ? Joining::Parallelograms : Joining::ConvexQuadrilaterals; }
 
+/// The light tree tells the triangles of a lamp apart.
+bool partsLamps(const ShaderVariant& variant) { return has(variant.traits, Trait::LightTree); }
+
 LiteralOptions optionsOf(const ShaderVariant& variant, bool whole) {
   return {.weights = keepsWeights(variant), .whole = whole, .passing = passesSurfaces(variant)};
 }
@@ -118,8 +121,8 @@ bool paysBeside(const Bvh& tree, const Bvh& beside) {
 
 std::string largeFirst(const Scene& scene, const Bvh& bvh, const ShaderVariant& variant) {
   const bool weights = keepsWeights(variant);
-  const LiteralMesh mesh =
-      literalMesh(scene, bvh, uint32_t(bvh.leaves.size()) - bvh.besideTree, joiningFor(weights));
+  const LiteralMesh mesh = literalMesh(scene, bvh, uint32_t(bvh.leaves.size()) - bvh.besideTree,
+                                       joiningFor(weights), partsLamps(variant));
   return "const bool kLiterals = false;\nconst bool kLargeFirst = true;\n" +
          literalTraversal(mesh, optionsOf(variant, false)) + kNoRows;
 }
@@ -127,7 +130,7 @@ std::string largeFirst(const Scene& scene, const Bvh& bvh, const ShaderVariant& 
 std::string literalScene(const Scene& scene, const Bvh& bvh, const GpuScene& packed,
                          const ShaderVariant& variant) {
   const bool weights = keepsWeights(variant);
-  const LiteralMesh mesh = literalMesh(scene, bvh, 0, joiningFor(weights));
+  const LiteralMesh mesh = literalMesh(scene, bvh, 0, joiningFor(weights), partsLamps(variant));
   const size_t slots = bvh.leaves.size() * 2;
   std::vector<bool> used(slots, false);
   for (const LiteralFace& face : mesh.faces) {

@@ -10,6 +10,7 @@
 
 #include "math/luminance.h"
 #include "pack/inversion_table.h"
+#include "pack/light_tree.h"
 #include "pack/words.h"
 
 namespace fragtrace {
@@ -97,6 +98,29 @@ void orderInSpace(std::vector<Emitter>& emitters) {
                    [](const Emitter& a, const Emitter& b) { return a.order < b.order; });
 }
 
+LightBounds boundsOf(const Emitter& e, const Scene& scene, std::span<const glm::vec3> materialRadiance,
+                     bool alike) {
+  if (alike) return {.intensity = 1.0, .everywhere = true};
+  if (e.triangle == kMissIndex) return boundsOfLight(scene.lights[e.kind & ~layout::kEmitterPunctual]);
+  const Triangle& t = scene.triangles[e.triangle];
+  return boundsOfTriangle(cornersOf<glm::dvec3>(scene, t),
+                          luminance(glm::dvec3(materialRadiance[t.material])),
+                          scene.materials[t.material].doubleSided);
+}
+
+/// The nodes, and the leaf of each slot.
+void appendTree(Words& words, std::span<const Emitter> emitters, std::span<const LightBounds> bounds,
+                size_t slotCount) {
+  const std::vector<LightNode> nodes = buildLightTree(bounds);
+  appendLightNodes(words, nodes);
+  const size_t first = words.size();
+  words.resize(first + (slotCount + 3) / 4 * 4, layout::kNoLightNode);
+  for (uint32_t i = 0; i < nodes.size(); ++i) {
+    const bool triangle = nodes[i].light != kMissIndex && emitters[nodes[i].light].triangle != kMissIndex;
+    if (triangle) words[first + emitters[nodes[i].light].kind] = i;
+  }
+}
+
 }  // namespace
 
 double triangleArea(const Scene& scene, const Triangle& t) {
@@ -105,7 +129,9 @@ double triangleArea(const Scene& scene, const Triangle& t) {
 }
 
 PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> materialRadiance,
-                            std::span<const uint32_t> slots, double radius, const TraitSet& traits) {
+                            std::span<const uint32_t> slots, size_t slotCount, double radius,
+                            const ShaderVariant& variant) {
+  const TraitSet& traits = variant.traits;
   PackedEmitters packed;
   packed.materialDensity.assign(scene.materials.size(), 0.0);
   std::vector<Emitter> emitters;
@@ -129,6 +155,13 @@ PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> mater
     packed.entries.back() = emitters[i].kind;
   }
   packed.count = uint32_t(emitters.size());
+  if (has(traits, Trait::LightTree)) {
+    std::vector<LightBounds> bounds;
+    bounds.reserve(emitters.size());
+    for (const Emitter& e : emitters)
+      bounds.push_back(boundsOf(e, scene, materialRadiance, variant.uniformLights));
+    appendTree(packed.entries, emitters, bounds, slotCount);
+  }
   for (size_t m = 0; m < scene.materials.size() && packed.power > 0.0; ++m) {
     packed.materialDensity[m] = luminance(glm::dvec3(materialRadiance[m])) * kPi / packed.power;
   }

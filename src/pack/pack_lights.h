@@ -5,7 +5,7 @@
 
 namespace fragtrace {
 
-/// Emissive triangles and punctual lights, drawn by power.
+/// Emissive triangles and punctual lights, drawn by power or by a tree.
 struct PackedEmitters {
   Words entries;  ///< layout.glsl: emitters
   uint32_t count = 0;
@@ -13,10 +13,11 @@ struct PackedEmitters {
   std::vector<double> materialDensity;  ///< by material: probability per square metre of its triangles
 };
 
-/// materialRadiance: mean radiance of each material's surface; slots: leaf slot of each triangle; radius: of
-/// the scene.
+/// materialRadiance: mean radiance of each material's surface; slots: leaf slot of each triangle; slotCount:
+/// of the tree; radius: of the scene.
 PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> materialRadiance,
-                            std::span<const uint32_t> slots, double radius, const TraitSet& traits);
+                            std::span<const uint32_t> slots, size_t slotCount, double radius,
+                            const ShaderVariant& variant);
 
 /// Punctual lights, kLightRows vec4 each.
 Words packLights(const Scene& scene);

@@ -266,7 +266,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   const std::vector<glm::vec3> radiance = meanRadiance(scene, traits, textures);
   std::vector<uint32_t> slots;
   if (has(traits, Trait::EmissiveTriangles)) slots = leafSlots(scene, bvh);
-  PackedEmitters emitters = packEmitters(scene, radiance, slots, radius, traits);
+  PackedEmitters emitters = packEmitters(scene, radiance, slots, bvh.leaves.size() * 2, radius, variant);
   packed.emitterCount = emitters.count;
   packed.buffers[kEmittersBinding] = std::move(emitters.entries);
   if (has(traits, Trait::PunctualLights)) {

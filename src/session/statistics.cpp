@@ -85,6 +85,10 @@ std::string statisticsText(const Statistics& s) {
         {"rounds", s.adaptive->rounds}};
   }
   if (s.clampIndirect > 0.0) json["clamp_indirect"] = s.clampIndirect;
+  if (!s.lightSelection.empty()) {
+    json["light_selection"] = s.lightSelection;
+    json["light_selection_reason"] = s.lightSelectionReason;
+  }
   if (s.featureMs > 0.0) json["feature_ms"] = s.featureMs;
   if (s.denoise) json["denoise"] = denoiseJson(*s.denoise);
   json["width"] = s.size.x;

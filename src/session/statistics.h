@@ -58,6 +58,8 @@ struct Statistics {
   bool defaultLight = false;
   std::string defaultLightReason;
   double clampIndirect = 0.0;  ///< 0: not clamped
+  std::string lightSelection;  ///< how lights are chosen; empty: there is none to choose
+  std::string lightSelectionReason;
   bool complete = true;
   bool quickCompilation = false;  ///< the driver was told not to optimise
   std::string variant;

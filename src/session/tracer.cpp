@@ -2,6 +2,8 @@
 #include "session/tracer.h"
 
 #include <future>
+#include <iomanip>
+#include <sstream>
 
 #include "errors.h"
 #include "gl/driver_choice.h"
@@ -10,6 +12,7 @@
 #include "pack/literals.h"
 #include "pack/pack_textures.h"
 #include "process/parallel.h"
+#include "scene/light_spread.h"
 #include "session/outputs.h"
 #include "session/say.h"
 
@@ -64,6 +67,20 @@ uint64_t sceneHash(const GpuScene& scene, std::array<uint64_t, layout::kSceneBuf
   return hashOf(arrays);
 }
 
+void describeLightSelection(const ShaderVariant& variant, const Scene& scene, LightSelection wanted,
+                            Statistics& stats) {
+  const bool chooses =
+      has(variant.traits, Trait::EmissiveTriangles) || has(variant.traits, Trait::PunctualLights);
+  if (!chooses || !has(variant.stages, Stage::Gi)) return;
+  const bool tree = has(variant.traits, Trait::LightTree);
+  stats.lightSelection = variant.uniformLights ? "uniform" : tree ? "tree" : "power";
+  stats.lightSelectionReason = "--light-selection";
+  if (wanted != LightSelection::Auto) return;
+  std::ostringstream gain;
+  gain << std::setprecision(3) << gainByPlace(scene);
+  stats.lightSelectionReason = "chosen by place, light samples vary " + gain.str() + " times less";
+}
+
 /// The variants that the options ask for, as far as the scene alone decides them. Returns what all of them
 /// read.
 ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const RenderOptions& options,
@@ -80,6 +97,7 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
         chooseFeatureVariant(options, present, loaded.environment.kind, depth, undecided, feature));
     everything.traits |= tracer.features.back().traits;
   }
+  describeLightSelection(tracer.variant, loaded.scene, options.lightSelection, stats);
   if (tracer.variant.clampIndirect) stats.clampIndirect = options.clampIndirect;
   for (const StageRow& row : stageRows()) {
     const std::string reason = has(options.stages, row.stage) ? whyOff(row.stage, present) : "";

@@ -8,7 +8,7 @@ namespace fragtrace {
 namespace {
 
 bool choosesLights(Trait trait) {
-  return trait == Trait::EmissiveTriangles || trait == Trait::PunctualLights ||
+  return trait == Trait::EmissiveTriangles || trait == Trait::PunctualLights || trait == Trait::LightTree ||
          trait == Trait::EnvironmentSampling;
 }
 

@@ -51,6 +51,7 @@ inline constexpr std::tuple kOptionRows{
     OptionRow{&RenderOptions::bounces, Effect::Picture, Renewal::None, "bounces"},
     OptionRow{&RenderOptions::rouletteDepth, Effect::Noise, Renewal::None, "rr_depth"},
     OptionRow{&RenderOptions::clampIndirect, Effect::Picture, Renewal::Program, "clamp_indirect"},
+    OptionRow{&RenderOptions::lightSelection, Effect::Noise, Renewal::Program},
     OptionRow{&RenderOptions::noise, Effect::Count},
     OptionRow{&RenderOptions::seconds, Effect::Count},
     OptionRow{&RenderOptions::cameraIndex, Effect::View},

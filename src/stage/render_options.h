@@ -40,6 +40,10 @@ inline constexpr std::array<std::string_view, 3> kDispatchNames{"auto", "fragmen
 /// (shaders/wavefront.glsl).
 enum class Schedule : uint8_t { Auto, Megakernel, Wavefront };
 inline constexpr std::array<std::string_view, 3> kScheduleNames{"auto", "megakernel", "wavefront"};
+/// How light samples of gi choose a light: by what it may send to the point (pack/light_tree.h), by its
+/// power, or all alike.
+enum class LightSelection : uint8_t { Auto, Tree, Power, Uniform };
+inline constexpr std::array<std::string_view, 4> kLightSelectionNames{"auto", "tree", "power", "uniform"};
 /// What lights a scene that has no light of its own: white from all sides, which the camera does not see, the
 /// built-in environment (scene/studio.h), or nothing.
 enum class DefaultLight : uint8_t { White, Studio, None };
@@ -91,9 +95,10 @@ struct RenderOptions {
   int bounces = 16;       ///< kUnlimitedBounces: no limit
   int rouletteDepth = 6;  ///< roulette from this scattering on, the first being 1
   double clampIndirect =
-      0.0;               ///< largest radiance that a path of two scatterings or more may add; 0: no limit
-  double noise = 0.0;    ///< relative error to reach, adaptively; 0: spp samples in every pixel
-  double seconds = 0.0;  ///< time to spend, adaptively; 0: no limit
+      0.0;  ///< largest radiance that a path of two scatterings or more may add; 0: no limit
+  LightSelection lightSelection = LightSelection::Auto;
+  double noise = 0.0;              ///< relative error to reach, adaptively; 0: spp samples in every pixel
+  double seconds = 0.0;            ///< time to spend, adaptively; 0: no limit
   double checkpointSeconds = 0.0;  ///< between two checkpoints; 0: none is written
   std::optional<int> cameraIndex;
   CameraOverrides camera;

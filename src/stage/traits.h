@@ -54,6 +54,7 @@ enum class Trait : uint8_t {
   Emission,
   EmissiveTriangles,
   PunctualLights,
+  LightTree,
   Environment,
   EnvironmentSampling,
   Backdrop,

@@ -6,6 +6,7 @@
 
 #include "bvh/bvh.h"
 #include "scene/hit_error.h"
+#include "scene/light_spread.h"
 
 namespace fragtrace {
 
@@ -96,6 +97,8 @@ void dropIdle(ShaderVariant& v) {
   }
   // Its light would be looked for by shadow rays.
   if (!stage(Stage::Shadows)) drop(v.traits, {Trait::ThinGlass});
+  if (!has(v.traits, Trait::EmissiveTriangles) && !has(v.traits, Trait::PunctualLights))
+    drop(v.traits, {Trait::LightTree});
   if (!hasNormalMaps(v.traits)) off(Stage::NormalMaps);
   if (!has(v.traits, Trait::Triangles)) off(Stage::Watertight);
   const bool leavesSurfaces = stage(Stage::Gi) || stage(Stage::Shadows) || stage(Stage::Reflections) ||
@@ -140,6 +143,7 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop) 
   mark(Trait::Texcoords, !scene.vertices.texcoord0.empty() || !scene.vertices.texcoord1.empty());
   mark(Trait::EmissiveTriangles, emissiveTriangles);
   mark(Trait::PunctualLights, !scene.lights.empty());
+  mark(Trait::LightTree, gainByPlace(scene) >= kLeastGainByPlace);
   mark(Trait::Environment, surroundings != Surroundings::None);
   mark(Trait::EnvironmentSampling, surroundings != Surroundings::None);
   mark(Trait::Backdrop, backdrop);
@@ -170,6 +174,8 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   v.stages = options.stages;
   v.traits = present;
   v.reads = reads;
+  if (options.lightSelection != LightSelection::Auto)
+    v.traits.set(size_t(Trait::LightTree), options.lightSelection != LightSelection::Power);
   dropStages(v.stages);
   dropTraits(v.stages, surroundings, v.traits);
   dropIdle(v);
@@ -186,6 +192,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   }
   if (v.traversal == TraversalMethod::Iterative) v.stackSize = 8;
 
+  v.uniformLights = has(v.traits, Trait::LightTree) && options.lightSelection == LightSelection::Uniform;
   v.pixelFilter = options.pixelFilter;
   v.lens = options.lens.fStop.has_value();
   v.clampIndirect = has(v.stages, Stage::Gi) && options.clampIndirect > 0.0;
@@ -285,6 +292,7 @@ std::string variantName(const ShaderVariant& variant) {
   if (variant.pixelFilter != PixelFilter::Box)
     append(std::string(kPixelFilterNames[size_t(variant.pixelFilter)]) + "-filter");
   if (variant.feature != Feature::None) append(std::string(rowOf(variant.feature).name));
+  if (variant.uniformLights) append("uniform-lights");
   if (variant.clampIndirect) append("clamp-indirect");
   if (variant.shadowCatcher) append("shadow-catcher");
   if (variant.lens) append("lens");

@@ -21,6 +21,7 @@ struct ShaderVariant {
   Dispatch dispatch = Dispatch::Fragment;
   PixelFilter pixelFilter = PixelFilter::Box;
   Feature feature = Feature::None;  ///< what is drawn in place of radiance
+  bool uniformLights = false;       ///< the light tree chooses all lights alike
   bool clampIndirect = false;
   bool shadowCatcher = false;
   bool lens = false;       ///< else a pinhole
@@ -33,8 +34,8 @@ struct ShaderVariant {
 
   auto key() const {
     return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, dispatch,
-                      pixelFilter, feature, clampIndirect, shadowCatcher, lens, wavefront, waveUnit,
-                      resumable, literals);
+                      pixelFilter, feature, uniformLights, clampIndirect, shadowCatcher, lens, wavefront,
+                      waveUnit, resumable, literals);
   }
   bool operator<(const ShaderVariant& other) const { return key() < other.key(); }
   bool operator==(const ShaderVariant& other) const { return key() == other.key(); }

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fault import callers_of
 
-COMMANDS = ("Means", "Sheets", "KnownLight", "ThinGlass", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising")
+COMMANDS = ("Means", "Sheets", "KnownLight", "ThinGlass", "LightTree", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising")
 # Where to look first, before there is any experience: scenes of picture tests, test files and groups by the beginning of a fault's name.
 LIKELY = {
     "path.": ("closed-furnace.gi", "command.KnownLight", "cornell-box.gi", "coverage.gi"),
@@ -42,6 +42,13 @@ LIKELY = {
     "layers.diffuseUnderLayers": ("command.LightParts",),
     "shade.depthOf": ("command.FirstHits",),
     "guides.": ("command.Denoising",),
+    "lights.treeDensity": ("pure.light_tree_test",),
+    "lights.lightWord": ("pure.light_tree_test",),
+    "lights.lightNodeFrom": ("pure.light_tree_test", "command.LightTree"),
+    "lights.shareOf": ("pure.light_tree_test", "command.LightTree"),
+    "lights.emitterByTree": ("pure.light_tree_test", "command.LightTree"),
+    "lights.lightByTree": ("command.LightTree",),
+    "path.normalOfLight": ("command.LightTree",),
     "lights.": ("command.KnownLight", "lights.gi", "cornell-box-direct.gi", "lights.shadows"),
     "environment.": ("command.KnownLight", "environment-rotated.gi", "sun-sky.gi", "pure.shader_environment_test"),
     "material.": ("command.KnownSurfaces", "command.TextureFactors", "plastics.gi", "lights.gi", "command.Materials"),

@@ -12,6 +12,7 @@ inline bool kEnvironment = true;
 inline bool kEnvironmentSampling = true;
 inline bool kPunctualLights = true;
 inline bool kEmissiveTriangles = true;
+inline bool kLightTree = false;
 inline bool kEmissionTexture = false;
 inline bool kClearcoatTexture = false;
 inline bool kTexcoords = false;

@@ -91,11 +91,11 @@ inline Image dimMap() {
 /// A scene as the shader reads it, until the end of the scope.
 class Lit {
  public:
-  explicit Lit(const Scene& from, bool environment = false)
+  explicit Lit(const Scene& from, bool environment = false, LightSelection lights = LightSelection::Power)
       : scene(from),
         bvh(buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()))),
         packed(packScene(scene, bvh, {Surroundings::Map, environment ? dimMap() : Image{}},
-                         variantOf(scene, environment))),
+                         variantOf(scene, environment, lights))),
         leaves_(glsl_variant::leaves, packed.buffers[layout::kLeavesBinding]),
         faces_(glsl_variant::faces, packed.buffers[layout::kFacesBinding]),
         materials_(glsl_variant::materials, packed.buffers[layout::kMaterialsBinding]),
@@ -105,7 +105,8 @@ class Lit {
         inversion_(glsl_variant::environmentInversion, packed.buffers[layout::kEnvironmentInversionBinding]),
         frame_(glsl_variant::frame, frameOf(packed)),
         punctual_(glsl_variant::kPunctualLights, !scene.lights.empty()),
-        surrounded_(glsl_variant::kEnvironmentSampling, environment) {}
+        surrounded_(glsl_variant::kEnvironmentSampling, environment),
+        tree_(glsl_variant::kLightTree, lights != LightSelection::Power) {}
 
   double areaOf(size_t triangle) const {
     const auto [a, b, c] = cornersOf<dvec3>(scene, scene.triangles[triangle]);
@@ -147,12 +148,14 @@ class Lit {
   GpuScene packed;
 
  private:
-  static ShaderVariant variantOf(const Scene& scene, bool environment) {
+  static ShaderVariant variantOf(const Scene& scene, bool environment, LightSelection lights) {
     ShaderVariant v;
     v.traits.set(size_t(Trait::Emission)).set(size_t(Trait::EmissiveTriangles));
     v.traits.set(size_t(Trait::PunctualLights), !scene.lights.empty());
     v.traits.set(size_t(Trait::Environment), environment);
     v.traits.set(size_t(Trait::EnvironmentSampling), environment);
+    v.traits.set(size_t(Trait::LightTree), lights != LightSelection::Power);
+    v.uniformLights = lights == LightSelection::Uniform;
     return v;
   }
   /// As src/render/renderer.cpp fills it.
@@ -176,6 +179,7 @@ class Lit {
   With<layout::Frame> frame_;
   With<bool> punctual_;
   With<bool> surrounded_;
+  With<bool> tree_;
 };
 
 /// Solid angle of a triangle seen from the origin (Van Oosterom and Strackee, 1983).

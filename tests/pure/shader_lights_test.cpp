@@ -267,7 +267,7 @@ TEST(ShaderLights, OneSampleOfAllLightsAndTheEnvironmentIsUnbiased) {
   Estimate estimate;
   for (uint32_t k = 0; k < kSamples; ++k) {
     const auto numbers = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
-    estimate.add(luminanceOf(glsl_double::lightOfSlot(0, kOrigin, numbers, 5).irradiance));
+    estimate.add(luminanceOf(glsl_double::lightOfSlot(0, kOrigin, layout::kNoNormal, numbers, 5).irradiance));
   }
   const double exact = trianglesAtOrigin(lit) + punctualsAtOrigin(lit) + environmentAllAround();
   EXPECT_LE(estimate.error(), 0.01 * exact);
@@ -287,7 +287,8 @@ TEST(ShaderLights, BeforeGlobalIlluminationEverySlotIsALightOfItsOwn) {
     Estimate estimate;
     for (uint32_t k = 0; k < kSamples; ++k) {
       const auto numbers = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
-      estimate.add(luminanceOf(glsl_double::lightOfSlot(slot, kOrigin, numbers, 5).irradiance));
+      estimate.add(
+          luminanceOf(glsl_double::lightOfSlot(slot, kOrigin, layout::kNoNormal, numbers, 5).irradiance));
     }
     EXPECT_LE(std::abs(estimate.mean() - expected[slot]), kLimit * estimate.error() + 3e-5 * expected[slot])
         << "slot " << slot;

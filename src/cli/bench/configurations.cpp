@@ -19,12 +19,13 @@ struct NamedConfiguration {
 };
 
 /// What the questions "what does it cost, what does it bring?" are asked of most.
-constexpr std::array<NamedConfiguration, 9> kNamedConfigurations = {{
+constexpr std::array<NamedConfiguration, 10> kNamedConfigurations = {{
     {"default", ""},
     {"baseline", "--disable light-sampling,sobol"},
     {"random", "--disable sobol"},
     {"bsdf", "--disable light-sampling"},
     {"adaptive", "--noise 0.02 --spp 65536"},
+    {"power-lights", "--light-selection power"},
     {"schlick", "--enable schlick"},
     {"no-compensation", "--disable energy-compensation"},
     {"clamped", "--clamp-indirect 10"},

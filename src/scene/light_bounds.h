@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Where lights are and which way they shine, and what they send to a point at most (Conty Estevez and Kulla,
+// Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018; Pharr, Jakob and Humphreys,
+// Physically Based Rendering, 4th edition, 12.6.3).
+#pragma once
+
+#include <array>
+
+#include "scene/scene.h"
+
+namespace fragtrace {
+
+/// Where lights are and which way they shine, in local space. Their intensity falls with the cosine of the
+/// angle beyond `spread` of the axis, and is 0 from `spread` + `falloff` on (radians).
+struct LightBounds {
+  glm::dvec3 low{0.0};
+  glm::dvec3 high{0.0};
+  double intensity = 0.0;  ///< largest, luminous; all of them together
+  glm::dvec3 axis{0.0, 0.0, 1.0};
+  double spread = 0.0;
+  double falloff = 0.0;     ///< 0 or a right angle
+  bool bothSides = false;   ///< they shine along the reversed axis alike
+  bool everywhere = false;  ///< `intensity` is the irradiance at any point; nothing else counts
+};
+
+/// Half of the diagonal of their box.
+double radiusOf(const LightBounds& lights);
+/// Half of the box along the axis.
+double thicknessOf(const LightBounds& lights);
+
+/// The bounds of both.
+LightBounds unite(const LightBounds& a, const LightBounds& b);
+
+/// About what the lights send to a point, in units of irradiance: 0 only where none of them can shine. As
+/// lightNodeFrom of shaders/lights.glsl has it.
+double importanceOf(const LightBounds& lights, const glm::dvec3& point);
+
+LightBounds boundsOfTriangle(const std::array<glm::dvec3, 3>& corners, double radiance, bool bothSides);
+LightBounds boundsOfLight(const Light& light);
+
+}  // namespace fragtrace

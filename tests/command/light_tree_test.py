@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Lights that are chosen by a tree, by power and all alike: white matt ground under 49 lamps of powers from 1 to 100, point lights and
+spots, whose irradiance is a closed form: none of them hides another. Means of 8 seeds lie within 5 standard errors."""
+import json
+import math
+import statistics
+
+from known_light_test import MATT, SPECULAR, from_lamp, over_ground
+from materials_test import quad
+from support import Case, main
+
+SELECTIONS = ("tree", "power", "uniform")
+SEEDS = range(1, 9)
+WIDE = 12  # half of the width of the ground; the camera sees the middle of it, 2 m wide
+LAMPS = [((1.5 * (i - 3) + 0.1 * j, 1.5 * (j - 3), 1.2), 0.06 + 0.01 * ((i + 2 * j) % 5), 100**(((5 * i + 3 * j) % 8) / 7))
+         for i in range(7) for j in range(7)]
+POINTS = [((0.4 - 1.1 * k, 0.7 * k - 0.9, 0.5 + 0.15 * k), 0.2 + 0.3 * k) for k in range(4)]
+SPOTS = [((-0.8 + 0.9 * k, 0.5 - 0.6 * k, 1.1), 0.6, 0.2 + 0.1 * k, 0.5 + 0.1 * k) for k in range(3)]
+
+
+def irradiance(x, y):
+    total = 0.0
+    for (px, py, pz), half, radiance in LAMPS:
+        total += radiance * from_lamp(x, y, [(px + half * a, py + half * b, pz) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+    for place, intensity in POINTS:
+        total += intensity * place[2] / math.dist(place, (x, y, 0))**3
+    for place, intensity, inner, outer in SPOTS:
+        distance = math.dist(place, (x, y, 0))
+        cosine = place[2] / distance
+        cone = (cosine - math.cos(outer)) / (math.cos(inner) - math.cos(outer))
+        total += intensity * min(max(cone, 0), 1)**2 * cosine / distance**2
+    return total
+
+
+class LightTree(Case):
+    def scene(self):
+        gltf = quad({"pbrMetallicRoughness": MATT, "extensions": SPECULAR})
+        gltf["nodes"][0]["scale"] = [WIDE, WIDE, 1]
+        primitive = gltf["meshes"][0]["primitives"][0]
+        for place, half, radiance in LAMPS:
+            gltf["materials"].append({"pbrMetallicRoughness": MATT | {"baseColorFactor": [0, 0, 0, 1]}, "emissiveFactor": [1, 1, 1],
+                                      "extensions": SPECULAR | {"KHR_materials_emissive_strength": {"emissiveStrength": radiance}}})
+            gltf["nodes"].append({"mesh": len(gltf["meshes"]), "translation": place, "rotation": [1, 0, 0, 0], "scale": [half, half, 1]})
+            gltf["meshes"].append({"primitives": [dict(primitive, material=len(gltf["materials"]) - 1)]})
+        lights, places = [], []
+        for place, intensity in POINTS:
+            lights.append({"type": "point", "intensity": intensity})
+            places.append({"translation": place})
+        for place, intensity, inner, outer in SPOTS:
+            lights.append({"type": "spot", "intensity": intensity, "spot": {"innerConeAngle": inner, "outerConeAngle": outer}})
+            places.append({"translation": place})
+        gltf["nodes"] += [place | {"extensions": {"KHR_lights_punctual": {"light": i}}} for i, place in enumerate(places)]
+        gltf["extensions"] = {"KHR_lights_punctual": {"lights": lights}}
+        gltf["scenes"] = [{"nodes": list(range(len(gltf["nodes"])))}]
+        path = self.folder / "lamps.gltf"
+        path.write_text(json.dumps(gltf))
+        return str(path.with_suffix(""))
+
+    def means(self, scene, *options, spp=32):
+        pictures = [self.picture(scene, "x.pfm", "--resolution", "48,48", "--spp", spp, "--seed", seed, "--bounces", 1, *options) for seed in SEEDS]
+        return [statistics.fmean(pixel[0] for row in picture for pixel in row) for picture in pictures]
+
+    def assert_mean(self, seen, wanted, what):
+        error = statistics.stdev(seen) / math.sqrt(len(seen))
+        ratio = statistics.fmean(seen) / wanted
+        print(f"{what}: {ratio - 1:+.4%}, standard error {error / wanted:.4%}")
+        # Beside it, what the sum over the ground is off by.
+        self.assertLess(abs(ratio - 1), 5 * error / wanted + 1e-4, what)
+        return error / wanted
+
+    def test_all_of_them_have_the_same_mean(self):
+        scene = self.scene()
+        expected = over_ground(irradiance) / math.pi
+        errors = {name: self.assert_mean(self.means(scene, "--light-selection", name), expected, name) for name in SELECTIONS}
+        self.assertLess(errors["tree"], 0.002)
+
+    def test_the_tree_knows_which_lamps_are_near(self):
+        """The variance of a pixel is lower than by power, by what the lamps that are far away no longer take."""
+        scene = self.scene()
+        noise = {}
+        for name in SELECTIONS:
+            a, b = (self.picture(scene, "x.pfm", "--resolution", "48,48", "--spp", 4, "--seed", seed, "--light-selection", name) for seed in (1, 2))
+            noise[name] = statistics.fmean((p[0] - q[0])**2 for r, s in zip(a, b) for p, q in zip(r, s))
+        print({name: round(value / noise["power"], 3) for name, value in noise.items()})
+        self.assertLess(noise["tree"], 0.4 * noise["power"])
+
+    def test_statistics_say_what_was_chosen_and_why(self):
+        def chosen(scene, *options):
+            self.picture(scene, "x.pfm", "--spp", 1, "--resolution", "8,8", "--stats", self.folder / "stats.json", *options)
+            stats = json.loads((self.folder / "stats.json").read_text())
+            return stats.get("light_selection"), stats.get("light_selection_reason"), "light-tree" in stats["variant"].split("+")
+        scene = self.scene()
+        name, reason, tree = chosen(scene)
+        self.assertEqual((name, tree), ("tree", True))
+        self.assertRegex(reason, r"^chosen by place, light samples vary [\d.]+ times less$")
+        for name in SELECTIONS:
+            self.assertEqual(chosen(scene, "--light-selection", name), (name, "--light-selection", name != "power"))
+        # One lamp, of two triangles: nothing to choose from afar.
+        self.assertEqual(chosen("cornell-box")[0], "power")
+        self.assertEqual(chosen(scene, "--stage", "shadows")[0], None)
+
+    def test_schedules_draw_the_same_bits(self):
+        for scene, options in ((self.scene(), []), ("many-lights", ["--light-selection", "tree"]), ("lights", ["--light-selection", "uniform"])):
+            a, b = (self.picture(scene, "x.pfm", "--resolution", "40,30", "--spp", 3, "--schedule", schedule, *options)
+                    for schedule in ("megakernel", "wavefront"))
+            self.assertEqual(a, b, scene)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+// The tree over lights: what src/pack builds of it, and what shaders/lights.glsl chooses by it.
+#include "pack/light_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "shader_lights.h"
+
+namespace fragtrace {
+namespace {
+
+constexpr double kLimit = 4.5;  // standard errors: a chance of 7e-6 a comparison
+
+const dvec3 kOrigin(0.0);
+
+/// Of all kinds, over a box of 20 x 4 x 4 m, powers over four powers of ten, some of them at one place.
+std::vector<LightBounds> randomLights(Draw& draw, int count) {
+  std::vector<LightBounds> lights;
+  for (int i = 0; i < count; ++i) {
+    const dvec3 place = i % 17 == 0 ? dvec3(1.0) : dvec3(10.0, 2.0, 2.0) * draw.inCube(1.0);
+    const double power = std::pow(10.0, draw.between(-2.0, 2.0));
+    const dvec3 axis = glm::normalize(draw.inCube(1.0));
+    if (i % 3 == 0) {
+      const dvec3 a = place + 0.1 * draw.inCube(1.0);
+      lights.push_back(boundsOfTriangle({place, a, place + 0.1 * draw.inCube(1.0)}, power, i % 2 == 0));
+      continue;
+    }
+    Light light;
+    light.type = i % 50 == 1 ? LightType::Directional : i % 3 == 1 ? LightType::Spot : LightType::Point;
+    light.intensity = vec3(float(power));
+    light.position = vec3(place);
+    light.direction = vec3(axis);
+    light.outerConeAngle = float(draw.between(0.05, 1.5));
+    lights.push_back(boundsOfLight(light));
+  }
+  return lights;
+}
+
+TEST(LightTree, HoldsEachLightOnceAndLeadsBackToTheRoot) {
+  Draw draw(601);
+  for (const int count : {1, 2, 3, 7, 300, 2000}) {
+    const std::vector<LightBounds> lights = randomLights(draw, count);
+    const std::vector<LightNode> nodes = buildLightTree(lights);
+    ASSERT_EQ(nodes.size(), 2 * lights.size() - 1);
+    std::vector<int> held(lights.size());
+    int deepest = 0;
+    for (uint32_t i = 0; i < nodes.size(); ++i) {
+      if (nodes[i].light == kMissIndex) {
+        EXPECT_EQ(nodes[i].child % 2, 1u);  // the shader finds siblings by it
+        EXPECT_EQ(nodes[nodes[i].child].parent, i);
+        EXPECT_EQ(nodes[nodes[i].child + 1].parent, i);
+        continue;
+      }
+      ++held[nodes[i].light];
+      int depth = 0;
+      for (uint32_t at = i; at != 0; at = nodes[at].parent) ++depth;
+      deepest = std::max(deepest, depth);
+    }
+    EXPECT_EQ(std::ranges::count(held, 1), count);
+    EXPECT_LE(deepest, 40);
+  }
+  EXPECT_TRUE(buildLightTree({}).empty());
+}
+
+TEST(LightTree, ANodeShinesWhereverALightBelowItDoes) {
+  Draw draw(607);
+  const std::vector<LightNode> nodes = buildLightTree(randomLights(draw, 400));
+  int dark = 0;
+  for (int k = 0; k < 300; ++k) {
+    const dvec3 point = dvec3(12.0, 4.0, 4.0) * draw.inCube(1.0);
+    for (const LightNode& leaf : nodes) {
+      if (leaf.light == kMissIndex) continue;
+      if (importanceOf(leaf.bounds, point) <= 1e-9) continue;
+      for (uint32_t at = leaf.parent; at != kMissIndex; at = nodes[at].parent)
+        ASSERT_GT(importanceOf(nodes[at].bounds, point), 0.0);
+    }
+    for (const LightNode& node : nodes)
+      dark += node.light == kMissIndex && importanceOf(node.bounds, point) <= 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(dark, 100);  // what bounds cannot tell is never left out
+}
+
+/// 120 triangles in a row before the origin, and the punctual lights.
+Scene rowScene() {
+  Scene scene = octantScene();
+  scene.lights = threeLights();
+  Draw draw(613);
+  for (int i = 0; i < 120; ++i) {
+    const dvec3 place(0.25 * i - 15.0, 2.0 + draw.unit(), draw.between(-1.0, 1.0));
+    const auto first = uint32_t(scene.vertices.position.size());
+    for (int c = 0; c < 3; ++c) scene.vertices.position.emplace_back(place + 0.1 * draw.inCube(1.0));
+    Triangle t;
+    t.vertex = {first, first + 1, first + 2};
+    t.material = uint32_t(i) % 2;
+    scene.triangles.push_back(t);
+  }
+  for (const vec3& p : scene.vertices.position) scene.bounds.include(dvec3(p));
+  return scene;
+}
+
+TEST(LightTree, TheShaderChoosesWithTheChancesItTells) {
+  const Lit lit(rowScene(), false, LightSelection::Tree);
+  Draw draw(617);
+  constexpr uint32_t kSteps = 1 << 15;
+  for (int k = 0; k < 20; ++k) {
+    const dvec3 point = dvec3(14.0, 1.0, 1.0) * draw.inCube(1.0);
+    const uint32_t normal =
+        k % 2 == 0 ? layout::kNoNormal : glsl_double::packNormal(glm::normalize(draw.inCube(1.0)));
+    const auto to = glsl_double::receiverOf(point, normal);
+    std::map<int, double> chances;
+    std::map<int, double> chosen;
+    double lost = 0.0;  // where bounds promised light that is not there
+    for (uint32_t i = 0; i < kSteps; ++i) {
+      const auto emitter = glsl_double::emitterByTree(to, i << 17 | 1u << 16);
+      if (emitter.chance <= 0.0) {
+        lost += 1.0 / kSteps;
+        continue;
+      }
+      chances[emitter.index] = emitter.chance;
+      chosen[emitter.index] += 1.0 / kSteps;
+    }
+    double sum = 0.0;
+    for (const auto& [emitter, chance] : chances) {
+      sum += chance;
+      EXPECT_NEAR(chosen[emitter], chance, 2.0 / kSteps);
+    }
+    // Those left out are rarer than a step.
+    EXPECT_NEAR(sum, 1.0 - lost, 40.0 / kSteps);
+    if (normal == layout::kNoNormal) {
+      EXPECT_LT(lost, 0.2);
+    }
+    const auto rounded = glsl_float::emitterByTree(glsl_float::receiverOf(vec3(point), normal), 1u << 31);
+    const auto exact = glsl_double::emitterByTree(to, 1u << 31);
+    if (rounded.index == exact.index) {
+      EXPECT_NEAR(rounded.chance, exact.chance, 2e-3 * exact.chance);
+    }
+  }
+}
+
+TEST(LightTree, NormalsAreKeptNearly) {
+  Draw draw(631);
+  for (int k = 0; k < 20000; ++k) {
+    const dvec3 n = k < 6 ? dvec3(k / 2 == 0, k / 2 == 1, k / 2 == 2) * (k % 2 ? 1.0 : -1.0)
+                          : glm::normalize(draw.inCube(1.0));
+    const uint32_t bits = glsl_float::packNormal(vec3(n));
+    ASSERT_LT(bits, layout::kNoNormal);
+    ASSERT_LE(glm::distance(dvec3(glsl_float::unpackNormal(bits)), n), 8e-3);
+  }
+}
+
+TEST(LightTree, WhatShinesOnASurfaceIsNeverLeftOut) {
+  const Lit lit(rowScene(), false, LightSelection::Tree);
+  const std::vector<uint32_t> slots = leafSlots(lit.scene, lit.bvh);
+  Draw draw(641);
+  int shone = 0;
+  for (int k = 0; k < 300; ++k) {
+    const dvec3 point = dvec3(16.0, 3.0, 2.0) * draw.inCube(1.0);
+    const dvec3 normal = glm::normalize(draw.inCube(1.0));
+    for (size_t i = 0; i < lit.scene.triangles.size(); ++i) {
+      if (!lit.shines(i)) continue;
+      const auto [a, b, c] = cornersOf<dvec3>(lit.scene, lit.scene.triangles[i]);
+      const dvec3 towards = (a + b + c) / 3.0 - point;
+      const double cosine = -glm::dot(lit.normalOf(i), glm::normalize(towards));
+      const bool faces = lit.scene.triangles[i].material == 0 ? std::abs(cosine) > 1e-3 : cosine > 1e-3;
+      if (!faces || glm::dot(normal, towards) <= 0.0) continue;
+      ++shone;
+      ASSERT_GT(glsl_float::treeDensity(int(slots[i]), vec3(point), glsl_float::packNormal(vec3(normal)),
+                                        1.0f, 1.0f),
+                0.0f);
+    }
+  }
+  EXPECT_GT(shone, 5000);
+}
+
+TEST(LightTree, DensityOfASampleIsThatOfTheRayThatFindsIt) {
+  for (const LightSelection selection : {LightSelection::Tree, LightSelection::Uniform}) {
+    const Lit lit(rowScene(), true, selection);
+    const std::vector<uint32_t> slots = leafSlots(lit.scene, lit.bvh);
+    const double share = 1.0 - glsl_variant::frame.lightChoice.x;
+    Draw draw(619);
+    int found = 0;
+    for (int k = 0; k < 20000; ++k) {
+      const dvec3 point = draw.inCube(1.0);
+      const uvec2 bits{uint32_t(draw.engine()), uint32_t(draw.engine())};
+      const uint32_t normal =
+          k % 2 == 0 ? layout::kNoNormal : glsl_double::packNormal(glm::normalize(draw.inCube(1.0)));
+      const auto s = glsl_double::lightByTree(share, point, normal, uint32_t(draw.engine()), bits);
+      if (s.density <= 0.0) continue;
+      const auto place = lit.placeOf(point + s.direction * s.distance);
+      if (!place) continue;  // of two triangles at one place
+      ++found;
+      const double cosine = std::abs(glm::dot(lit.normalOf(place->triangle), s.direction));
+      EXPECT_NEAR(glsl_double::treeDensity(int(slots[place->triangle]), point, normal, s.distance, cosine),
+                  s.density,
+                  2e-4 * s.density);  // seen edge-on, edges of single precision tell
+      EXPECT_LE(glm::distance(s.irradiance * s.density, lit.radianceOf(place->triangle)),
+                1e-5 * glm::length(lit.radianceOf(place->triangle)));
+    }
+    EXPECT_GT(found, 5000);
+    // What is no light has no density.
+    EXPECT_EQ(glsl_double::treeDensity(int(slots[7]), kOrigin, layout::kNoNormal, 1.0, 1.0), 0.0);
+  }
+}
+
+TEST(LightTree, OneSampleOfAllLightsAndTheEnvironmentIsUnbiased) {
+  constexpr uint32_t kSamples = 1 << 17;
+  const With independent(glsl_variant::kSobol, false);
+  Scene scene = octantScene();
+  scene.lights = threeLights();
+  for (const vec3& p : scene.vertices.position) scene.bounds.include(dvec3(p));
+  double byPower = 0.0;
+  for (const LightSelection selection :
+       {LightSelection::Power, LightSelection::Tree, LightSelection::Uniform}) {
+    const Lit lit(scene, true, selection);
+    Estimate estimate;
+    for (uint32_t k = 0; k < kSamples; ++k) {
+      const auto numbers = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
+      estimate.add(
+          luminanceOf(glsl_double::lightOfSlot(0, kOrigin, layout::kNoNormal, numbers, 5).irradiance));
+    }
+    // That light samples by power have the right mean is a test of its own (ShaderLights).
+    if (selection == LightSelection::Power) byPower = estimate.mean();
+    EXPECT_LE(estimate.error(), 0.01 * byPower);
+    EXPECT_LE(std::abs(estimate.mean() - byPower), kLimit * M_SQRT2 * estimate.error());
+  }
+}
+
+}  // namespace
+}  // namespace fragtrace
