@@ -5,7 +5,6 @@ import json
 import re
 import signal
 import subprocess
-import time
 
 from support import FRAGTRACE, SCENES, Case, Exr, main, run
 
@@ -234,10 +233,12 @@ class UnevenParts(Parts):
     def test_an_interrupted_part(self):
         first, other = self.part("first.exr", 0, 4, size="100,100"), self.folder / "other.exr"
         process = subprocess.Popen([FRAGTRACE, "render", BOX, "-o", other, "--resolution", "100,100", "--spp", "1000000",
-                                    "--sample-offset", "4", "--quiet"])
+                                    "--sample-offset", "4", "--progress", "json"], stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
-        time.sleep(2)
+        while json.loads(process.stderr.readline()).get("samples", 0) == 0:
+            pass  # a file is written once there are samples
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(20), 130)
         exr = Exr(other)
