@@ -7,15 +7,15 @@ namespace fragtrace {
 
 namespace {
 
-/// The settings; what undo does not bring back is as in the scene.
+/// The settings, without what undo does not bring back.
 Settings settingsOf(const ViewState& state) {
   Settings settings{state.sides, state.pose,   state.posed,     state.sceneCamera,
                     state.split, state.active, state.treeBoxes, state.treeLevel};
   for (RenderOptions& side : settings.sides) {
-    if (!side.scene.empty()) takeScene(side, state.scene ? state.scene->options : RenderOptions());
-    const std::vector<std::string> hidden = side.selection.hiddenNodes;
-    side.selection = {};
-    side.selection.hiddenNodes = hidden;
+    RenderOptions bare;
+    bare.scene = side.scene;
+    bare.selection.hiddenNodes = side.selection.hiddenNodes;
+    takeScene(side, bare);
   }
   return settings;
 }

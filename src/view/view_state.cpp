@@ -104,7 +104,11 @@ bool sameScene(const RenderOptions& a, const RenderOptions& b) {
          a.instancing == b.instancing && a.limits == b.limits;
 }
 
-void resetAll(ViewState& state, const RenderOptions& start) {
+bool sameNodes(const RenderOptions& a, const RenderOptions& b) {
+  return a.scene == b.scene && a.selection.scene == b.selection.scene;
+}
+
+RenderOptions resetAll(ViewState& state, const RenderOptions& start) {
   for (RenderOptions& side : state.sides) {
     const RenderOptions before = std::exchange(side, start);
     takeScene(side, before);
@@ -114,7 +118,14 @@ void resetAll(ViewState& state, const RenderOptions& start) {
   state.comparison = CompareMode::Bar;
   state.magnifier = {};
   state.treeBoxes = start.treeLevel.has_value();
+  state.playback.playing = false;
   resetCamera(state);
+  RenderOptions wanted = state.scene ? state.scene->options : start;
+  const std::filesystem::path scene = wanted.scene;
+  takeScene(wanted, start);
+  if (scene != start.scene) wanted.selection = {};
+  wanted.scene = scene;
+  return wanted;
 }
 
 std::string whyGrey(const ViewState& state, Stage stage) {

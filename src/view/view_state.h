@@ -161,6 +161,9 @@ void takeOptions(ViewState& state, const RenderOptions& options);
 /// Whether both load the same scene and environment.
 bool sameScene(const RenderOptions& a, const RenderOptions& b);
 
+/// Whether nodes and cameras of one are those of the other: steps of undo fit both.
+bool sameNodes(const RenderOptions& a, const RenderOptions& b);
+
 /// The place of the picture, parts of its width and height, that is shown at a place of the window's picture
 /// area.
 glm::dvec2 magnifiedPlace(const ViewState& state, const glm::dvec2& place);
@@ -168,8 +171,10 @@ glm::dvec2 magnifiedPlace(const ViewState& state, const glm::dvec2& place);
 /// Which side is shown there.
 size_t sideAt(const ViewState& state, const glm::dvec2& place);
 
-/// All settings of both sides as the viewer was started with, and the scene's first camera.
-void resetAll(ViewState& state, const RenderOptions& start);
+/// All settings of both sides as the viewer was started with, and the scene's first camera. Returns what the
+/// scene is to be loaded with then: the light of the start, and if it is the scene of the start, its
+/// selection.
+RenderOptions resetAll(ViewState& state, const RenderOptions& start);
 
 /// Why a stage of the active side changes nothing; empty: it does.
 std::string whyGrey(const ViewState& state, Stage stage);

@@ -16,6 +16,8 @@
 #include <cstring>
 #include <mutex>
 
+#include "heap_log.h"
+
 namespace {
 
 const char* setting(const char* name) {
@@ -46,6 +48,7 @@ Faults& faults() {
 bool allowed(const char* name) {
   Faults& f = faults();
   const std::lock_guard lock(f.mutex);
+  logHeap();
   if (*f.when && std::remove(f.when) == 0) f.lost = true;
   if (f.lost) return false;
   const bool builds = std::strcmp(name, "glCompileShader") == 0 || std::strcmp(name, "glLinkProgram") == 0;

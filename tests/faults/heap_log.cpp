@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Part of the failing libEGL: FRAGTRACE_HEAP_LOG names a file that gets, every ten seconds, the megabytes of
-// the heap that are in use. The resident memory also holds what the allocator keeps: AddressSanitizer's
-// quarantine, free lists, pages not given back.
-#include <malloc.h>
-#include <unistd.h>
+#include "heap_log.h"
 
+#include <malloc.h>
+
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <thread>
 
 extern "C" __attribute__((weak)) size_t __sanitizer_get_current_allocated_bytes();
 
@@ -19,17 +17,17 @@ size_t bytesInUse() {
   return info.uordblks + info.hblkhd;
 }
 
-[[maybe_unused]] const bool logging = [] {
-  const char* name = std::getenv("FRAGTRACE_HEAP_LOG");
-  FILE* file = name ? std::fopen(name, "a") : nullptr;
-  if (!file) return false;
-  std::thread([file] {
-    for (;; sleep(10)) {
-      std::fprintf(file, "%zu\n", bytesInUse() >> 20);
-      std::fflush(file);
-    }
-  }).detach();
-  return true;
-}();
-
 }  // namespace
+
+void logHeap() {
+  using Clock = std::chrono::steady_clock;
+  constexpr auto kInterval = std::chrono::seconds(5);
+  static const char* const name = std::getenv("FRAGTRACE_HEAP_LOG");
+  static Clock::time_point written;
+  if (!name || Clock::now() - written < kInterval) return;
+  written = Clock::now();
+  if (FILE* file = std::fopen(name, "a")) {
+    std::fprintf(file, "%zu\n", bytesInUse() >> 20);
+    std::fclose(file);
+  }
+}

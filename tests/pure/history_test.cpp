@@ -69,6 +69,31 @@ TEST(History, SceneLightAndTimeStay) {
   EXPECT_EQ(state.sides[1].hdriFile, "sky.hdr");
 }
 
+TEST(History, StepsFitTheSceneUnderAnotherLight) {
+  ViewState state = shownState();
+  History history;
+  restart(history, state);
+  state.sides[0].exposure = 2.0;
+  record(history, state);
+  // As the loaded scene comes back with it.
+  for (RenderOptions& side : state.sides) {
+    if (side.scene.empty()) continue;
+    side.hdriFile = "other.hdr";
+    side.backgroundBlur = 5.0;
+    side.selection.materialVariant = "red";
+  }
+  record(history, state);
+  ASSERT_EQ(history.past.size(), 1u);
+  EXPECT_TRUE(undo(history, state));
+  EXPECT_EQ(state.sides[0].exposure, 0.0);
+  EXPECT_EQ(state.sides[0].hdriFile, "other.hdr");
+  EXPECT_EQ(state.sides[0].selection.materialVariant, "red");
+  EXPECT_TRUE(sameNodes(state.sides[0], shownState().sides[0]));
+  RenderOptions other = state.sides[0];
+  other.selection.scene = "second";
+  EXPECT_FALSE(sameNodes(other, state.sides[0]));
+}
+
 TEST(History, OldStepsAreForgotten) {
   ViewState state = shownState();
   History history;

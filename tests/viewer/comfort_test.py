@@ -11,6 +11,7 @@ from Xlib import X
 from animation_test import animated
 from clipboard import clipboard_text
 from support import FRAGTRACE, SCENES, Case, main, pixels_of
+from xdnd import drop
 
 SIZE = ["--resolution", "160,120"]
 FEW = [*SIZE, "--spp", "4"]
@@ -131,6 +132,19 @@ class Undo(Case):
         viewer.rest(lambda s: s["camera"] == turned["camera"], "turned again")
         viewer.key("ctrl+shift+z")
         viewer.rest(lambda s: "shadows" not in s["sides"][0]["stages"], "no shadows again")
+        self.ends_well(viewer, viewer.close())
+
+    def test_reset_all_takes_back_what_is_loaded_too(self):
+        viewer = self.view("sphere-phong", "--resolution", "640,920", "--spp", "1", "--stage", "flat")
+        drop(self.screen, viewer.id, SCENES / "sky.pfm")
+        viewer.rest(lambda s: s["environment"].endswith("sky.pfm"), "an environment")
+        viewer.key("l")
+        viewer.rest(lambda s: s["exposure"] > 0, "brighter")
+        viewer.click("Reset all")
+        status = viewer.rest(lambda s: s["environment"] == "", "the light of the start")
+        self.assertEqual(status["exposure"], 0)
+        viewer.key("ctrl+z")
+        viewer.rest(lambda s: s["exposure"] > 0, "undone")
         self.ends_well(viewer, viewer.close())
 
     def test_views_with_a_name_are_kept(self):

@@ -142,6 +142,34 @@ class Empty(Case):
         viewer.rest(lambda s: s["scene"] == str(SCENES / "sphere-plane.gltf"), "the file shown before")
         self.ends_well(viewer, viewer.close())
 
+    def test_a_broken_environment_keeps_no_model_from_being_shown(self):
+        broken = self.folder / "broken.pfm"
+        broken.write_bytes(b"PF\n64 32\n-1.0\n")
+        viewer = self.view(None, *FEW, wait=False)
+        viewer.window()
+        viewer.until(lambda s: s["state"] == "empty", "the welcome")
+        drop(self.screen, viewer.id, broken)
+        viewer.until(lambda s: any("will light" in m for m in s["messages"]), "an environment waits")
+        drop(self.screen, viewer.id, SCENES / "furnace.gltf")
+        viewer.until(lambda s: any("is left out" in m for m in s["messages"]) and "broken.pfm" in s["error"], "it is told")
+        drop(self.screen, viewer.id, SCENES / "furnace.gltf")
+        self.assertEqual(viewer.rest(lambda s: s["scene"].endswith("furnace.gltf"), "a model")["environment"], "")
+        self.ends_well(viewer, viewer.close())
+
+    def test_an_environment_after_a_broken_model_waits_for_the_next(self):
+        broken = self.folder / "broken.gltf"
+        broken.write_text("{")
+        viewer = self.view(None, *FEW, wait=False)
+        viewer.window()
+        viewer.until(lambda s: s["state"] == "empty", "the welcome")
+        drop(self.screen, viewer.id, broken)
+        viewer.until(lambda s: "broken.gltf" in s["error"], "an error")
+        drop(self.screen, viewer.id, SCENES / "sky.pfm")
+        viewer.until(lambda s: any("sky.pfm will light" in m for m in s["messages"]), "an environment waits")
+        drop(self.screen, viewer.id, SCENES / "furnace.gltf")
+        self.assertTrue(viewer.rest(lambda s: s["scene"].endswith("furnace.gltf"), "a model")["environment"].endswith("sky.pfm"))
+        self.ends_well(viewer, viewer.close())
+
     def test_what_is_remembered_and_cannot_be_read_is_said_and_stays(self):
         file = self.folder / "state/fragtrace/viewer.json"
         file.parent.mkdir(parents=True)

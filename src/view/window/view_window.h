@@ -42,6 +42,7 @@ class Window {
   void takeThumbnail(const EnvironmentThumbnail& thumbnail);
   void askForThumbnails();
   void takeState(const Delivery& news);
+  void forgetBrokenEnvironment();
   void ask();
   void draw();
   void writeStatus();

@@ -122,7 +122,7 @@ void Window::wait() {
   const auto atMost = [&](double limit) { seconds = std::clamp(limit, 0.0, seconds); };
   if (input_.active() || state_.playback.playing) atMost(kFrameSeconds);
   if (askedMoving_) atMost(changed_ + kMovingSeconds - now);
-  if (now >= fades_) frames_ = std::max(frames_, 1);
+  if (now >= fades_) frames_ = std::max(frames_, 2);  // the box of messages fits them one frame later
   atMost(fades_ - now);
   if (statusWaits_) atMost(statusTime_ + kStatusSeconds - now);
   if (frames_ > 0 && !iconified()) atMost(0.0);
@@ -164,12 +164,13 @@ void Window::take() {
 
 void Window::adoptScene(ViewedScene scene) {
   const bool another = !state_.scene || !sameScene(state_.scene->options, scene.options);
+  const bool otherNodes = !state_.scene || !sameNodes(state_.scene->options, scene.options);
   showScene(state_, std::move(scene));
   glfwSetWindowTitle(window_.get(), windowTitle(state_.scene->options.scene).c_str());
   wanted_ = state_.scene->options;
   if (pasted_ && sameScene(*pasted_, wanted_)) takeOptions(state_, *std::exchange(pasted_, {}));
+  if (otherNodes) restart(history_, state_);
   if (another) {
-    restart(history_, state_);
     remember([&](Remembered& r) { addRecent(r, wanted_.scene); });
   }
   askedSides_.clear();
@@ -262,8 +263,17 @@ void Window::takeState(const Delivery& news) {
     wanted_ = state_.scene->options;
     pasted_.reset();
   }
+  if (!facts_.error.empty() && !facts_.load.busy && !state_.scene) forgetBrokenEnvironment();
   facts_.resting = news.resting;
   frames_ = std::max(frames_, 2);
+}
+
+/// One that was dropped before a model would keep every model from being shown.
+void Window::forgetBrokenEnvironment() {
+  const std::string file = wanted_.hdriFile.string();
+  if (file.empty() || facts_.error.find(file) == std::string::npos) return;
+  wanted_.hdriFile.clear();
+  say(std::filesystem::path(file).filename().string() + " is left out from now on");
 }
 
 void Window::ask() {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "errors.h"
 #include "image/image.h"
 #include "view/dropped_file.h"
 #include "view/shown_names.h"
@@ -73,7 +74,10 @@ void Window::executeOnScene(const Task& task) {
       if (!redo(history_, state_)) say("there is nothing to redo");
       return;
     case Errand::ResetAll:
-      return resetAll(state_, start_.options);
+      if (const RenderOptions wanted = resetAll(state_, start_.options);
+          !sameScene(wanted, state_.scene->options))
+        load(wanted);
+      return;
     case Errand::Load:
       return load(*task.load);
     case Errand::AddBookmark:
@@ -120,7 +124,9 @@ void Window::openFiles(const std::vector<std::filesystem::path>& files) {
   const Drop drop = takeDrop(wanted_, toLoad);
   for (const std::string& sentence : drop.refused) say(sentence);
   if (!drop.load) return;
-  if (!drop.load->scene.empty()) return load(*drop.load);
+  const bool hasScene =
+      std::ranges::any_of(toLoad, [](const auto& file) { return kindOfDropped(file) == DroppedFile::Scene; });
+  if (hasScene || state_.scene || facts_.load.busy) return load(*drop.load);
   wanted_ = *drop.load;
   say(wanted_.hdriFile.filename().string() + " will light the model that is dropped next");
 }
@@ -218,6 +224,7 @@ void Window::pasteCommand() {
 void Window::takeText(const std::string& text, const std::string& otherwise) {
   try {
     const RenderOptions options = start_.withCommandText(renderOptionsOf(state_, state_.active), text);
+    if (options.scene.empty()) throw UsageError("it names no scene");
     if (sameScene(options, state_.scene->options)) return takeOptions(state_, options);
     load(options);
     pasted_ = options;
