@@ -111,25 +111,28 @@ int emitterAt(uint bits) {
   return low;
 }
 
+/// A light sample of an emitter that was chosen with `chance`; u and v choose the point on an emissive triangle.
+LightSample lightOfEmitter(int emitter, float chance, vec3 point, float u, float v, bool onlyTriangles) {
+  uint kind = emitterRow(emitter, 3).w;
+  bool punctual = kPunctualLights && (kind & kEmitterPunctual) != 0u;
+  LightSample s = noLight();
+  if (chance <= 0.0f) return s;
+  if (punctual && !onlyTriangles) {
+    s = punctualLight(int(kind & ~kEmitterPunctual), point);
+    s.irradiance /= chance;
+  }
+  if (kEmissiveTriangles && !punctual) s = triangleLight(emitter, chance, point, u, v);
+  return s;
+}
+
 /// An emitter drawn by power; onlyTriangles drops punctual lights, which the caller visits one by one.
 LightSample emitterLight(float chance, vec3 point, uvec2 bits, bool onlyTriangles) {
   int emitter = emitterAt(bits.x);
   uvec4 entry = emitterRow(emitter, 0);
-  uint kind = emitterRow(emitter, 3).w;
   float share = uintBitsToFloat(entry.w);
-  bool punctual = kPunctualLights && (kind & kEmitterPunctual) != 0u;
-  LightSample s = noLight();
-  if (share <= 0.0f) return s;
-  if (punctual && !onlyTriangles) {
-    s = punctualLight(int(kind & ~kEmitterPunctual), point);
-    s.irradiance /= chance * share;
-  }
-  if (kEmissiveTriangles && !punctual) {
-    // Where among its own numbers the bits lie.
-    float u = min(float(entry.z - bits.x) / (share * 4294967296.0f), float(0.99999994));
-    s = triangleLight(emitter, chance * share, point, u, unitFloat(bits.y));
-  }
-  return s;
+  // Where among its own numbers the bits lie.
+  float u = min(float(entry.z - bits.x) / (share * 4294967296.0f), float(0.99999994));
+  return lightOfEmitter(emitter, chance * share, point, u, unitFloat(bits.y), onlyTriangles);
 }
 
 /// Bits of the part of all numbers that begins at `first` and is 1 / `stretch` of them, as bits of their own.
@@ -261,17 +264,7 @@ ChosenEmitter emitterByTree(Receiver to, uint bits) {
 /// A light sample by the tree; `bits` choose the point on an emissive triangle.
 LightSample lightByTree(float chance, vec3 point, uint normal, uint choice, uvec2 bits) {
   ChosenEmitter chosen = emitterByTree(receiverOf(point, normal), choice);
-  LightSample s = noLight();
-  if (chosen.chance <= 0.0f) return s;
-  uint kind = emitterRow(chosen.index, 3).w;
-  bool punctual = kPunctualLights && (kind & kEmitterPunctual) != 0u;
-  if (punctual) {
-    s = punctualLight(int(kind & ~kEmitterPunctual), point);
-    s.irradiance /= chance * chosen.chance;
-  }
-  if (kEmissiveTriangles && !punctual)
-    s = triangleLight(chosen.index, chance * chosen.chance, point, unitFloat(bits.x), unitFloat(bits.y));
-  return s;
+  return lightOfEmitter(chosen.index, chance * chosen.chance, point, unitFloat(bits.x), unitFloat(bits.y), false);
 }
 
 /// Density over solid angle with which the tree chooses, from a point, the place that its ray hit on an emissive

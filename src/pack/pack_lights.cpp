@@ -29,20 +29,6 @@ void appendEdges(Words& words, const Scene& scene, const Triangle& t) {
   appendRow(words, v2 - v0, 0.0f);
 }
 
-/// Luminous power of a punctual light; a directional one shines through the scene's cross-section.
-double lightPower(const Light& light, double radius) {
-  const double intensity = luminance(glm::dvec3(light.intensity));
-  switch (light.type) {
-    case LightType::Directional:
-      return intensity * kPi * radius * radius;
-    case LightType::Spot:
-      return intensity * 2.0 * kPi * (1.0 - std::cos(double(light.outerConeAngle)));
-    case LightType::Point:
-      break;
-  }
-  return intensity * 4.0 * kPi;
-}
-
 struct Emitter {
   double power = 0.0;  // luminous
   glm::dvec3 position{0.0};
@@ -67,7 +53,7 @@ void appendEmissive(std::vector<Emitter>& emitters, const Scene& scene,
 
 void appendPunctual(std::vector<Emitter>& emitters, std::span<const Light> lights, double radius) {
   for (size_t i = 0; i < lights.size(); ++i) {
-    emitters.push_back({lightPower(lights[i], radius), glm::dvec3(lights[i].position),
+    emitters.push_back({powerOf(boundsOfLight(lights[i]), radius), glm::dvec3(lights[i].position),
                         layout::kEmitterPunctual | uint32_t(i)});
   }
 }

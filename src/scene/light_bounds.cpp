@@ -76,6 +76,13 @@ double importanceOf(const LightBounds& lights, const glm::dvec3& point) {
   return lights.intensity * std::cos(std::max(beyond, 0.0)) / (most * most);
 }
 
+double powerOf(const LightBounds& lights, double radius) {
+  if (lights.everywhere) return lights.intensity * kPi * radius * radius;
+  // A surface's falls with the cosine.
+  if (lights.spread <= 0.0) return lights.intensity * kPi;
+  return lights.intensity * 2.0 * kPi * (1.0 - std::cos(lights.spread));
+}
+
 LightBounds boundsOfTriangle(const std::array<glm::dvec3, 3>& corners, double radiance, bool bothSides) {
   const auto& [a, b, c] = corners;
   const glm::dvec3 normal = glm::cross(b - a, c - a);

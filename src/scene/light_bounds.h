@@ -35,6 +35,9 @@ LightBounds unite(const LightBounds& a, const LightBounds& b);
 /// lightNodeFrom of shaders/lights.glsl has it.
 double importanceOf(const LightBounds& lights, const glm::dvec3& point);
 
+/// Luminous power; what shines everywhere does so through the cross-section of a scene of that radius.
+double powerOf(const LightBounds& lights, double radius);
+
 LightBounds boundsOfTriangle(const std::array<glm::dvec3, 3>& corners, double radiance, bool bothSides);
 LightBounds boundsOfLight(const Light& light);
 

@@ -56,12 +56,6 @@ std::vector<glm::dvec3> samplePlaces(const Scene& scene) {
   return places;
 }
 
-/// What the power of lights is measured by: directional ones shine through the scene's cross-section.
-double shareOfPower(const LightBounds& light, double radius) {
-  if (light.everywhere) return light.intensity * radius * radius;
-  return light.intensity * (light.spread > 0.0 ? 2.0 * (1.0 - std::cos(light.spread)) : 1.0);
-}
-
 }  // namespace
 
 double gainByPlace(const Scene& scene) {
@@ -69,7 +63,7 @@ double gainByPlace(const Scene& scene) {
   if (lights.size() < 2) return 1.0;
   const double radius = 0.5 * glm::length(scene.bounds.maximum - scene.bounds.minimum) / scene.space.unit;
   double power = 0.0;
-  for (const LightBounds& light : lights) power += shareOfPower(light, radius);
+  for (const LightBounds& light : lights) power += powerOf(light, radius);
   double byPower = 0.0;
   double byPlace = 0.0;
   for (const glm::dvec3& place : samplePlaces(scene)) {
@@ -77,7 +71,7 @@ double gainByPlace(const Scene& scene) {
     double moment = 0.0;
     for (const LightBounds& light : lights) {
       const double sent = importanceOf(light, place);
-      const double own = shareOfPower(light, radius);
+      const double own = powerOf(light, radius);
       sum += sent;
       if (own > 0.0) moment += sent * sent / own;
     }
