@@ -184,7 +184,7 @@ const uint kLightBothSides = 0x40000000u;
 const uint kLightSharp = 0x20000000u;  // nothing shines beyond the spread; else up to a right angle more
 const uint kLightIndex = 0x1fffffffu;
 const uint kNoLightNode = 0xffffffffu;
-const uint kNoNormal = 0xffffffu;  // in place of a normal as two 12-bit numbers of an octahedron
+const uint kNoNormal = 0xffffffu;  // in place of a normal as three 8-bit numbers (packNormal)
 
 // Light rows: intensity + type, position + range, direction + spot scale, spot offset.
 const uint kLightRows = 4u;

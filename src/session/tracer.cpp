@@ -69,9 +69,7 @@ uint64_t sceneHash(const GpuScene& scene, std::array<uint64_t, layout::kSceneBuf
 
 void describeLightSelection(const ShaderVariant& variant, const Scene& scene, LightSelection wanted,
                             Statistics& stats) {
-  const bool chooses =
-      has(variant.traits, Trait::EmissiveTriangles) || has(variant.traits, Trait::PunctualLights);
-  if (!chooses || !has(variant.stages, Stage::Gi)) return;
+  if (!hasLamps(variant.traits) || !has(variant.stages, Stage::Gi)) return;
   const bool tree = has(variant.traits, Trait::LightTree);
   stats.lightSelection = variant.uniformLights ? "uniform" : tree ? "tree" : "power";
   stats.lightSelectionReason = "--light-selection";

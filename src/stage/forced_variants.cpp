@@ -23,11 +23,9 @@ std::vector<ForcedVariant> forcedVariants(const RenderOptions& options, const Tr
     return chooseVariant(options, traits, map ? Surroundings::Map : surroundings, treeDepth, reads);
   };
   const auto canChooseLights = [&](const ShaderVariant& v) {
-    const bool samples = has(v.traits, Trait::EmissiveTriangles) || has(v.traits, Trait::PunctualLights);
-    const bool any = has(own.traits, Trait::EmissiveTriangles) || has(own.traits, Trait::PunctualLights);
     // In gi an environment takes all light samples where there is nothing else.
     const bool environment = has(v.stages, Stage::Gi) && has(v.traits, Trait::EnvironmentSampling);
-    return !samples || any || environment;
+    return !hasLamps(v.traits) || hasLamps(own.traits) || environment;
   };
 
   std::vector<ForcedVariant> forced;

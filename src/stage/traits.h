@@ -93,6 +93,11 @@ std::span<const TraitRow> traitRows();
 bool isOfMaterial(const TraitRow& row, const Material& material, const Coordinates& coordinates);
 bool readsTexcoords(const TraitRow& row);
 
+/// Whether there are lamps that light samples choose among: emissive triangles or punctual lights.
+inline bool hasLamps(const TraitSet& traits) {
+  return traits[size_t(Trait::EmissiveTriangles)] || traits[size_t(Trait::PunctualLights)];
+}
+
 /// The row that lists the texture; std::logic_error where none does.
 const TraitRow& traitOfTexture(TextureRef Material::*texture);
 

@@ -97,8 +97,7 @@ void dropIdle(ShaderVariant& v) {
   }
   // Its light would be looked for by shadow rays.
   if (!stage(Stage::Shadows)) drop(v.traits, {Trait::ThinGlass});
-  if (!has(v.traits, Trait::EmissiveTriangles) && !has(v.traits, Trait::PunctualLights))
-    drop(v.traits, {Trait::LightTree});
+  if (!hasLamps(v.traits)) drop(v.traits, {Trait::LightTree});
   if (!hasNormalMaps(v.traits)) off(Stage::NormalMaps);
   if (!has(v.traits, Trait::Triangles)) off(Stage::Watertight);
   const bool leavesSurfaces = stage(Stage::Gi) || stage(Stage::Shadows) || stage(Stage::Reflections) ||
