@@ -13,7 +13,19 @@ FilmPixel loadFilm(ivec2 pixel) {
 }
 
 void storeFilm(ivec2 pixel, FilmPixel f) {
-  imageStore(filmSum, pixel, vec4(f.sum, f.alpha));
-  imageStore(filmCompensation, pixel, vec4(f.compensation, f.m2));
+  if (!kLightPaths) {
+    imageStore(filmSum, pixel, vec4(f.sum, f.alpha));
+    imageStore(filmCompensation, pixel, vec4(f.compensation, f.m2));
+  }
   imageStore(filmCounts, pixel, uvec4(f.samples, f.rays, f.nonfinite, f.flags));
+}
+
+/// Of light paths the film is a record, a texel a path: a pixel counts those of its row of texels.
+ivec2 recordOf(ivec2 pixel, uint path) { return ivec2(pixel.x * frame.picture.z + int(path), pixel.y); }
+
+/// What a light path sends the camera, and where in the picture that is seen.
+void storeRecord(ivec2 texel, vec3 light, vec2 place) {
+  bool whole = !isNonfinite(light.x) && !isNonfinite(light.y) && !isNonfinite(light.z);
+  imageStore(filmSum, texel, vec4(whole ? light : vec3(0.0), place.x));
+  imageStore(filmCompensation, texel, vec4(place.y, 0.0, 0.0, 0.0));
 }

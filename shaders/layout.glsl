@@ -151,6 +151,9 @@ const uint kMaterialBlend = 2u;
 const uint kMaterialDoubleSided = 4u;
 const uint kMaterialUnlit = 8u;
 const uint kMaterialSpecularGlossiness = 16u;
+const uint kMaterialCaster = 32u;  // its single directions make caustics that light paths draw (src/scene/casters.h)
+
+const int kMostCasters = 16;  // balls round what makes caustics
 
 // Texture slot row: first texel, width | height << 16, flags, row of its transform among the materials or 0. A
 // transform is two rows of a matrix.

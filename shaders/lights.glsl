@@ -22,6 +22,18 @@ LightSample makeLight(vec3 direction, float distance, vec3 irradiance, float den
 
 LightSample noLight() { return makeLight(vec3(0.0f, 0.0f, 1.0f), kFarAway, vec3(0.0f), 0.0f); }
 
+/// What the range of a punctual light (0: none) leaves at a squared distance, and a spot's cone, of its axis and scale,
+/// in a direction (KHR_lights_punctual).
+float rangeWindow(float squared, float range) {
+  float ratio = range > 0.0f ? squared / (range * range) : 0.0f;
+  return clamp(1.0f - ratio * ratio, 0.0f, 1.0f);
+}
+
+float spotFalloff(vec4 axis, float offset, vec3 direction) {
+  float falloff = clamp(dot(direction, vec3(axis)) * axis.w + offset, 0.0f, 1.0f);
+  return falloff * falloff;
+}
+
 /// One punctual light seen from a point (KHR_lights_punctual).
 LightSample punctualLight(int index, vec3 point) {
   int row = index * int(kLightRows);
@@ -35,15 +47,8 @@ LightSample punctualLight(int index, vec3 point) {
   if (squared <= 0.0f) return noLight();
   float distance = sqrt(squared);
   vec3 direction = towards / distance;
-  float window = 1.0f;
-  if (place.w > 0.0f) {
-    float ratio = squared / (place.w * place.w);
-    window = clamp(1.0f - ratio * ratio, 0.0f, 1.0f);
-  }
-  if (intensity.w == kLightSpot) {
-    float falloff = clamp(dot(-direction, vec3(axis)) * axis.w + spotOffset, 0.0f, 1.0f);
-    window *= falloff * falloff;
-  }
+  float window = rangeWindow(squared, place.w);
+  if (intensity.w == kLightSpot) window *= spotFalloff(axis, spotOffset, -direction);
   return makeLight(direction, distance, vec3(intensity) * (window / squared), 0.0f);
 }
 
@@ -55,6 +60,19 @@ float emitterDensity(uint material, float distance, float cosine) {
 
 uvec4 emitterRow(int emitter, int row) {
   return kLiterals ? literalEmitter(emitter, row) : readEmitters(emitter * int(kEmitterRows) + row);
+}
+
+/// What a point of an emissive triangle in a leaf slot, of these barycentric weights, sends out at `cosine`.
+vec3 emittedFrom(uint material, int slot, vec2 weights, float cosine) {
+  vec4 texcoords = vec4(0.0f);
+  if ((kEmissionTexture || kClearcoatTexture) && kTexcoords) {
+    uvec4 place = faceRow(slot, 1);
+    texcoords = interpolate(readTexcoordsAt(int(place.y)), readTexcoordsAt(int(place.z)), readTexcoordsAt(int(place.w)),
+                            weights);
+  }
+  vec3 radiance = emissionAt(material, texcoords);
+  if (kClearcoat) radiance = radiance * emissionUnderCoat(material, texcoords, cosine);
+  return radiance;
 }
 
 /// A point on the triangle of an emitter, chosen with `chance`.
@@ -74,16 +92,8 @@ LightSample triangleLight(int emitter, float chance, vec3 point, float u, float 
   float cosine = -0.5f * inverseArea * dot(cross(e1, e2), direction);
   if ((corner.w & kEmitterDoubleSided) != 0u) cosine = abs(cosine);
   if (cosine <= 0.0f) return noLight();
-  vec4 texcoords = vec4(0.0f);
-  if ((kEmissionTexture || kClearcoatTexture) && kTexcoords) {
-    uvec4 place = faceRow(int(edge2.w), 1);
-    texcoords = interpolate(readTexcoordsAt(int(place.y)), readTexcoordsAt(int(place.z)), readTexcoordsAt(int(place.w)),
-                            w);
-  }
   float density = chance * inverseArea * squared / cosine;
-  uint material = corner.w & kFaceMaterialMask;
-  vec3 radiance = emissionAt(material, texcoords);
-  if (kClearcoat) radiance = radiance * emissionUnderCoat(material, texcoords, cosine);
+  vec3 radiance = emittedFrom(corner.w & kFaceMaterialMask, int(edge2.w), w, cosine);
   return makeLight(direction, distance, radiance / density, density);
 }
 

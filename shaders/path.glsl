@@ -27,6 +27,14 @@ const uint kGlassDimension = 12u;
 const float kClearSurvival = 0.99;
 const int kLatestRoulette = 1000;
 
+/// Of light paths; those of their bounces are those of camera paths.
+const uint kAimDimensions = 0u;     // to 1
+const uint kLampPointDimensions = 4u;  // to 5
+const uint kLampDimension = 6u;
+const uint kCasterDimension = 7u;
+const uint kSplatDimension = 8u;    // of a bounce
+const uint kSplatLensDimensions = 9u;  // of a bounce, to 10
+
 TreeFrame treeFrame() { return TreeFrame(frame.gridOrigin.xyz, frame.gridCell.xyz, frame.limits.w); }
 
 float pathRandom(Path p, uint offset) {
@@ -57,6 +65,7 @@ Path traceAnew(Path p, float limit) {
 Path tracePast(Path p, float limit, float t, int slot) {
   p = traceAnew(p, limit);
   if (kCreases && p.phase == kPhaseExtend) p.traversal.tie = p.tie;
+  if (kLightPaths && p.phase == kPhaseExtend) p.traversal.both = true;
   p.traversal.past = t;
   p.traversal.pastSlot = slot;
   return p;
@@ -68,6 +77,7 @@ Path extend(Path p) {
   p.lightSlot = 0;
   p = traceAnew(p, kFarAway);
   if (kCreases) p.traversal.tie = p.tie;
+  if (kLightPaths) p.traversal.both = true;
   return p;
 }
 
@@ -80,30 +90,20 @@ uint keyOfPixel(ivec2 pixel) {
   return pixelKey(uint(place.x), uint(frame.picture.y - 1 - place.y), uint(frame.picture.w));
 }
 
-Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
+/// A path that begins with a ray.
+Path pathAlong(vec3 origin, vec3 direction, Sampler numbers, int steps) {
   Path p;
-  p.numbers = makeSampler(key, sampleIndex);
-  vec2 place = vec2(inPicture(pixel)) + 0.5;
-  if (!kCountsParts) {
-    vec2 jitter = drawPair(p.numbers, kCameraDimensions);
-    place += samplePixelFilter(kPixelFilter, jitter.x, jitter.y);
-  }
-  vec2 point = place / vec2(frame.picture.xy) * 2.0 - 1.0;
-  CameraRay ray = makeCameraRay(frame.cameraPosition.xyz, frame.cameraRight.xyz, frame.cameraUp.xyz,
-                                frame.cameraForward.xyz, frame.cameraPosition.w != 0.0, point.x, point.y);
-  if (kLens && !kCountsParts && frame.lens.x > 0.0) {
-    vec2 uv = drawPair(p.numbers, kLensDimensions);
-    vec2 lens = frame.lens.x * sampleAperture(uv.x, uv.y, int(frame.lens.z));
-    ray = throughLens(ray, frame.cameraRight.xyz, frame.cameraUp.xyz, frame.cameraForward.xyz, lens, frame.lens.y);
-  }
+  p.numbers = numbers;
   p.after = kPhaseEnd;
-  p.origin = ray.origin;
-  p.direction = ray.direction;
+  p.origin = origin;
+  p.direction = direction;
   p.tie = 0.0;
   p.bounce = 0;
   p.clear = 0;
   p.walls = 0;
   p.throughWalls = false;
+  p.chain = kChainNone;
+  p.clearFirst = false;
   p.crossings = 0;
   p.cameraRay = true;
   p.caught = false;
@@ -126,6 +126,24 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   p.hitWeights = vec2(0.0);
   p.traversal.steps = steps;
   return extend(p);
+}
+
+Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
+  Sampler numbers = makeSampler(key, sampleIndex);
+  vec2 place = vec2(inPicture(pixel)) + 0.5;
+  if (!kCountsParts) {
+    vec2 jitter = drawPair(numbers, kCameraDimensions);
+    place += samplePixelFilter(kPixelFilter, jitter.x, jitter.y);
+  }
+  vec2 point = place / vec2(frame.picture.xy) * 2.0 - 1.0;
+  CameraRay ray = makeCameraRay(frame.cameraPosition.xyz, frame.cameraRight.xyz, frame.cameraUp.xyz,
+                                frame.cameraForward.xyz, frame.cameraPosition.w != 0.0, point.x, point.y);
+  if (kLens && !kCountsParts && frame.lens.x > 0.0) {
+    vec2 uv = drawPair(numbers, kLensDimensions);
+    vec2 lens = frame.lens.x * sampleAperture(uv.x, uv.y, int(frame.lens.z));
+    ray = throughLens(ray, frame.cameraRight.xyz, frame.cameraUp.xyz, frame.cameraForward.xyz, lens, frame.lens.y);
+  }
+  return pathAlong(ray.origin, ray.direction, numbers, steps);
 }
 
 /// Adds light, or what of it belongs to the part that is drawn.
@@ -180,7 +198,7 @@ vec3 seenBehind(vec3 direction) {
 /// The path's ray has met nothing.
 Path meetSurroundings(Path p) {
   p.phase = kPhaseEnd;
-  if (!kDrawsLight) return p;
+  if (!kDrawsLight || kLightPaths) return p;
   if (p.cameraRay) return addLight(p, p.throughput * seenBehind(p.direction));
   if (!kEnvironment) return p;
   // Surroundings are outside of everything: who has left less than was entered has missed a face that touches another.
@@ -222,6 +240,14 @@ uint normalOfLight(Surface s, SurfaceMaterial m) {
   return packNormal(s.geometricNormal);
 }
 
+/// What a scattering makes of Path.chain; `wall`: straight through a thin wall.
+int nextChain(Path p, uint material, bool single, bool wall) {
+  if (p.bounce == 1) return single ? kChainNone : kChainRough;
+  if (wall) return p.chain;
+  bool goesOn = single && p.chain != kChainNone && (materialFlags(material) & kMaterialCaster) != 0u;
+  return goesOn ? kChainSingle : kChainNone;
+}
+
 /// Settles where the path goes on from the surface, once its shadow ray is done; weight multiplies the throughput, and
 /// zero ends the path.
 Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool transmitted, SurfaceMaterial m) {
@@ -248,8 +274,10 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
     p.throughput /= survival;
   }
   p.cameraRay = false;
+  bool wall = kThinGlass && clear && transmitted && !m.solid && p.medium == kPrimitiveNone;
+  if (kCaustics) p.chain = nextChain(p, s.material, density == 0.0, wall);
   // Straight through a thin wall the path keeps its ray, and the density that light sampling shares with it.
-  if (kThinGlass && clear && transmitted && !m.solid && p.medium == kPrimitiveNone) {
+  if (wall) {
     p.walls += 1;
     p.after = kPhasePass;
     return p;
@@ -280,6 +308,9 @@ Path proceed(Path p) {
 /// Emission of the point hit, weighted against light sampling.
 vec3 emittedAt(Path p, Surface s, uint flags) {
   if (!s.front && (flags & kMaterialDoubleSided) == 0u) return vec3(0.0);
+  // Light paths bring it.
+  bool sampled = kEmissiveTriangles && s.emitter && materialFloats(s.material, kMaterialMaps).z > 0.0;
+  if (kCaustics && sampled && p.chain == kChainSingle) return vec3(0.0);
   float cosine = abs(dot(s.geometricNormal, p.direction));
   vec3 radiance = emissionAt(s.material, s.texcoords);
   if (kClearcoat) radiance *= emissionUnderCoat(s.material, s.texcoords, cosine);

@@ -11,6 +11,11 @@ const int kPhasePass = 6;    // of `after` alone: the ray goes on behind the thi
 
 const float kTie = 9.5367431640625e-7;  // 2^-20: 16 roundings of a distance
 
+// Of camera paths whose light light paths bring (shaders/caustics/):
+const int kChainNone = 0;
+const int kChainRough = 1;   // scattered by a rough surface first, and only straight through thin walls since
+const int kChainSingle = 2;  // and by casters of caustics since, each a single direction
+
 struct Path {
   int phase;
   int after;       // the phase that follows once the shadow ray is settled
@@ -24,6 +29,8 @@ struct Path {
   bool cameraRay;  // nothing but alpha has touched the path yet
   bool caught;     // it has met the shadow catcher (kShadowCatcher)
   bool throughWalls;  // the shadow ray passes thin walls (kThinGlass)
+  int chain;          // how far it is one whose end light paths find, kChain* (kCaustics)
+  bool clearFirst;    // of a light path: it has met smooth glass first (kLightPaths)
   float alpha;     // 1 once a camera ray has hit a surface, else 0
   vec3 radiance;
   vec3 throughput;
@@ -37,7 +44,9 @@ struct Path {
   vec3 shadowOrigin;
   vec3 shadowDirection;
   float shadowLimit;
-  vec3 part;          // of the light that is still to come, how much belongs to the part that is drawn (kLightPart)
+  // of the light that is still to come, how much belongs to the part that is drawn (kLightPart); of a light path, where
+  // in the picture the camera sees its end (kLightPaths)
+  vec3 part;
   vec3 contribution;  // added if the shadow ray meets nothing
   int hitSlot;        // what the ray has hit, or -1
   float hitT;         // since the last scattering
@@ -49,7 +58,10 @@ struct Path {
 /// What is drawn is a part of the radiance.
 const bool kLightPart = kFeature == kFeatureEmission || kFeature == kFeatureDiffuse || kFeature == kFeatureSpecular;
 
-const int kPathRows = int(kInstances ? kTwoLevelPathStateRows : kPathStateRows) + (kLightPart ? 1 : 0);
+/// Path.part is kept from draw to draw.
+const bool kPartRow = kLightPart || kLightPaths;
+
+const int kPathRows = int(kInstances ? kTwoLevelPathStateRows : kPathStateRows) + (kPartRow ? 1 : 0);
 const int kInstanceRow = 11;  // in scenes of instances
 const int kStackRow = kInstances ? 12 : 11;
 
@@ -99,7 +111,8 @@ Path withClear(Path p, uint word) {
 void savePath(Path p, int index) {
   int r = index * kPathRows;
   uint flags = (p.cameraRay ? 1u : 0u) | (p.oneChannel ? 2u : 0u) | (p.alpha > 0.0 ? 4u : 0u) | (p.caught ? 8u : 0u) |
-               (p.throughWalls ? 16u : 0u);
+               (p.throughWalls ? 16u : 0u) | (kCaustics ? uint(p.chain) << 5 : 0u) |
+               (kLightPaths && p.clearFirst ? 128u : 0u);
   uint slot = uint(p.lightSlot) | (kLightTree ? p.normal << 8 : 0u);
   pathStates[r] = uvec4(uint(p.phase) | uint(p.after) << 4 | flags << 8, slot, uint(p.bounce), uint(p.crossings));
   pathStates[r + 1] = uvec4(floatBitsToUint(p.radiance), clearOf(p));
@@ -115,7 +128,7 @@ void savePath(Path p, int index) {
   pathStates[r + 10] = uvec4(floatBitsToUint(p.hitWeights), floatBitsToUint(t.weights));
   if (kInstances) pathStates[r + kInstanceRow] = uvec4(ivec4(p.hitInstance, t.instance, t.hitInstance, 0));
   if (!kIterative && !kLiterals) saveStack(t.stack, r + kStackRow);
-  if (kLightPart) pathStates[r + kPathRows - 1] = uvec4(floatBitsToUint(p.part), 0u);
+  if (kPartRow) pathStates[r + kPathRows - 1] = uvec4(floatBitsToUint(p.part), 0u);
 }
 
 /// Without `past` and `tie`, which lie with the path.
@@ -136,6 +149,7 @@ Traversal loadTraversal(int r) {
     t.hitInstance = shown.z;
   }
   t.steps = 0;
+  t.both = false;
   t.stack = emptyStack();
   if (!kIterative && !kLiterals) t.stack = loadStack(r + kStackRow);
   return t;
@@ -153,6 +167,8 @@ Path loadPath(int index) {
   p.alpha = (flags & 4u) != 0u ? 1.0 : 0.0;
   p.caught = (flags & 8u) != 0u;
   p.throughWalls = (flags & 16u) != 0u;
+  p.chain = int(kCaustics ? flags >> 5 & 3u : 0u);
+  p.clearFirst = kLightPaths && (flags & 128u) != 0u;
   p.lightSlot = int(kLightTree ? a.y & 0xffu : a.y);
   p.normal = kLightTree ? a.y >> 8 : kNoNormal;
   p.bounce = int(a.z);
@@ -186,9 +202,10 @@ Path loadPath(int index) {
   p.tie = uintBitsToFloat(a.w);
   p.hitWeights = uintBitsToFloat(pathStates[r + 10].xy);
   p.hitInstance = kInstances ? int(pathStates[r + kInstanceRow].x) : -1;
-  p.part = kLightPart ? uintBitsToFloat(pathStates[r + kPathRows - 1].xyz) : vec3(1.0);
+  p.part = kPartRow ? uintBitsToFloat(pathStates[r + kPathRows - 1].xyz) : vec3(1.0);
   p.traversal = loadTraversal(r);
   p.traversal.past = past;
+  p.traversal.both = kLightPaths && p.phase == kPhaseExtend;
   p.traversal.tie = p.phase == kPhaseExtend ? p.tie : 0.0;
   return p;
 }

@@ -23,6 +23,9 @@ vec2 blackmanHarris(float t) {
   return vec2(density, integral) / float(0.35875);
 }
 
+/// No filter reaches farther from the middle of its pixel, in pixels.
+const float kFilterReach = float(2.0);
+
 /// Undoes the integral by five steps of Newton's method, which leave 2e-6 pixels.
 float sampleBlackmanHarris(float u) {
   float low = min(u, 1.0f - u);
@@ -45,4 +48,21 @@ vec2 samplePixelFilter(int filterKind, float u, float v) {
   }
   if (filterKind == kBlackmanHarrisFilter) return vec2(sampleBlackmanHarris(u), sampleBlackmanHarris(v));
   return vec2(u - 0.5f, v - 0.5f);
+}
+
+/// The density of the filter at a place from the middle of its pixel, in pixels.
+float pixelFilterDensity(int filterKind, vec2 offset) {
+  if (filterKind == kGaussianFilter) {
+    const float most = float(0.99966453737209749);
+    float squared = dot(offset, offset) / (kGaussianDeviation * kGaussianDeviation);
+    float scale = 1.0f / (2.0f * kPi * kGaussianDeviation * kGaussianDeviation * most);
+    return squared < 16.0f ? scale * exp(-0.5f * squared) : 0.0f;
+  }
+  if (filterKind == kBlackmanHarrisFilter) {
+    vec2 t = offset / kBlackmanHarrisWidth + vec2(0.5f);
+    bool inside = t.x > 0.0f && t.x < 1.0f && t.y > 0.0f && t.y < 1.0f;
+    float density = blackmanHarris(t.x).x * blackmanHarris(t.y).x / (kBlackmanHarrisWidth * kBlackmanHarrisWidth);
+    return inside ? density : 0.0f;
+  }
+  return abs(offset.x) <= 0.5f && abs(offset.y) <= 0.5f ? 1.0f : 0.0f;
 }

@@ -45,19 +45,35 @@ vec3 partScattered(Bsdf b, vec3 outgoing, vec3 incoming) {
   return kFeature == kFeatureDiffuse ? share : vec3(1.0) - share;
 }
 
+/// The BSDF at a point of a surface as seen from a direction, in its frame.
+struct Scattering {
+  Bsdf b;
+  Frame3 around;
+  vec3 outgoing;
+};
+
+Scattering scatteringAt(Surface s, SurfaceMaterial m, vec3 normal, vec3 outgoing) {
+  Scattering at;
+  vec3 anisotropy = kAnisotropy ? anisotropyAt(s.material, s.texcoords) : vec3(0.0);
+  at.around = kAnisotropy ? frameAlong(s, normal, anisotropy.xy) : frameAround(normal);
+  at.b = compensate(addLayers(baseBsdf(m, s.front), s, at.around, outgoing, anisotropy.z));
+  at.b.faceNormal = toFrame(at.around, s.geometricNormal);
+  at.b.vertexNormal = toFrame(at.around, s.shadingNormal);
+  at.outgoing = toFrame(at.around, outgoing);
+  if (kGlassTables) at.b.glassLost = glassLostAt(at.b, s, at.outgoing.z);
+  return at;
+}
+
 /// The path-traced material: one light sample, and one direction drawn from the BSDF.
 Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   if (kDispersion) {
     p = disperse(p, m, s.material);
     if (m.solid) m.ior = dispersedIor(p, s.material);
   }
-  vec3 anisotropy = kAnisotropy ? anisotropyAt(s.material, s.texcoords) : vec3(0.0);
-  Frame3 around = kAnisotropy ? frameAlong(s, normal, anisotropy.xy) : frameAround(normal);
-  Bsdf b = compensate(addLayers(baseBsdf(m, s.front), s, around, -p.direction, anisotropy.z));
-  b.faceNormal = toFrame(around, s.geometricNormal);
-  b.vertexNormal = toFrame(around, s.shadingNormal);
-  vec3 outgoing = toFrame(around, -p.direction);
-  if (kGlassTables) b.glassLost = glassLostAt(b, s, outgoing.z);
+  Scattering at = scatteringAt(s, m, normal, -p.direction);
+  Frame3 around = at.around;
+  Bsdf b = at.b;
+  vec3 outgoing = at.outgoing;
   uint dimension = kBounceDimensions * uint(p.bounce + 1);
   // The numbers of this bounce are drawn before it is counted.
   float choice = kPassesLight ? pathRandom(p, kLobeDimension) : 0.0;
@@ -179,6 +195,7 @@ vec3 featureAt(Surface s, int slot, int instance, vec3 baseColor, vec3 outgoing)
 }
 
 #include "guides.glsl"
+#include "caustics/light_path.glsl"
 
 /// One step at the point hit. The first visit also settles alpha, absorption and emission.
 Path shade(Path p) {
@@ -208,6 +225,7 @@ Path shade(Path p) {
       uint medium = leaving ? s.material : p.medium;
       if (medium != kPrimitiveNone) p.throughput *= exp(-p.hitT * materialFloats(medium, kMaterialVolume).rgb);
     }
+    if (kLightPaths) return lightPathAt(p, s, flags, base.rgb);
     if (!kPhong || (kUnlit && (flags & kMaterialUnlit) != 0u)) {
       p = addLight(p, p.throughput * base.rgb);
       p.phase = kPhaseEnd;

@@ -37,6 +37,7 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "film.glsl"
 #include "path_state.glsl"
 #include "path.glsl"
+#include "caustics/emit.glsl"
 #include "shade.glsl"
 #include "catcher.glsl"
 
@@ -76,7 +77,9 @@ struct PixelTask {
 
 PixelTrace beginSample(PixelTrace t, PixelTask task) {
   t.raysBefore = t.film.rays;
-  t.path = startPath(task.pixel, task.key, t.film.samples + uint(frame.sampling.x), t.path.traversal.steps);
+  uint index = t.film.samples + uint(frame.sampling.x);
+  if (kLightPaths) t.path = startLightPath(recordOf(task.pixel, t.film.samples), t.path.traversal.steps);
+  if (!kLightPaths) t.path = startPath(task.pixel, task.key, index, t.path.traversal.steps);
   t.tracing = true;
   return t;
 }
@@ -90,16 +93,36 @@ Path withHit(Path p, Traversal hit) {
   return p;
 }
 
+PixelTrace endSample(PixelTrace t, PixelTask task) {
+  t.cut += cutThroughput(t.path);
+  if (kShadowCatcher) t.path = showShadow(t.path);
+  if (kLightPaths) {
+    storeRecord(recordOf(task.pixel, t.film.samples), t.path.radiance, t.path.part.xy);
+    t.film.samples += 1u;
+  } else if (kFeature == kFeatureGuides) {
+    t.film = addGuides(t.film, t.path.radiance, t.path.contribution, t.path.shadowLimit, t.path.alpha);
+  } else {
+    t.film = addSample(t.film, t.path.radiance, t.path.alpha);
+  }
+  return t;
+}
+
 /// Whole rays only: a traversal that the budget ends begins its sample anew in the next draw.
 PixelTrace traceDirect(PixelTrace t, PixelTask task, TreeFrame tree) {
   while (t.path.traversal.steps < task.budget) {
     if (!t.tracing) {
       if (t.film.samples >= task.wanted) break;
       t = beginSample(t, task);
+      if (kLightPaths && t.path.phase == kPhaseEnd) {
+        t = endSample(t, task);
+        t.tracing = false;
+        continue;
+      }
     }
     // Step: find what the ray hits.
     Traversal hit = beginTraversal(kFarAway, true, t.path.traversal.steps + 1);
     if (kCreases) hit.tie = t.path.tie;
+    if (kLightPaths) hit.both = true;
     hit = traverse(t.path.origin, t.path.direction, kFarAway, hit, tree, task.budget, false);
     t.path.traversal.steps = hit.steps;
     if (hit.node != kTraversalDone) break;
@@ -129,11 +152,7 @@ PixelTrace traceDirect(PixelTrace t, PixelTask task, TreeFrame tree) {
       t.path.phase = waiting ? t.path.after : t.path.phase;
     }
     t.tracing = t.path.phase == kPhaseExtend;
-    if (!t.tracing) {
-      t.cut += cutThroughput(t.path);
-      if (kShadowCatcher) t.path = showShadow(t.path);
-      t.film = addSample(t.film, t.path.radiance, t.path.alpha);
-    }
+    if (!t.tracing) t = endSample(t, task);
   }
   return t;
 }
@@ -184,14 +203,8 @@ PixelTrace tracePhases(PixelTrace t, PixelTask task, TreeFrame tree) {
 
     // Step: the sample is complete.
     if (t.path.phase >= kPhaseEnd) {
-      t.cut += cutThroughput(t.path);
-      if (kShadowCatcher) t.path = showShadow(t.path);
       if (kHeatmap) t.path.radiance = vec3(float(t.path.traversal.visits));
-      if (kFeature == kFeatureGuides) {
-        t.film = addGuides(t.film, t.path.radiance, t.path.contribution, t.path.shadowLimit, t.path.alpha);
-      } else {
-        t.film = addSample(t.film, t.path.radiance, t.path.alpha);
-      }
+      t = endSample(t, task);
       t.tracing = false;
     }
   }

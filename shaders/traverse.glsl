@@ -13,6 +13,7 @@ struct Traversal {
   // kCreases: part of t by which hits on front faces count as nearer, those on back faces as farther; negative: the
   // other way
   float tie;
+  bool both;  // kLightPaths: single-sided surfaces have their backs, too
   int visits; // nodes and leaves visited, counted for the heat map only
   float past;     // kPassing: only hits behind this distance count,
   int pastSlot;   // and those at it in later slots: what the ray has passed through lies there
@@ -36,6 +37,7 @@ Traversal startTraversal(float limit, int leafCount) {
   s.hitInstance = -1;
   s.steps = 0;
   s.tie = 0.0f;
+  s.both = false;
   s.visits = 0;
   s.past = 0.0f;
   s.pastSlot = 0x7fffffff;
@@ -75,13 +77,13 @@ PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear sh
       h.t = distanceToPlane(origin, direction, shear, v0, v1, v2, vec3(uintBitsToFloat(readFaces(row))),
                             uintBitsToFloat(readFaces(row + 1).x), h.t);
     }
-    bool there = !kCulling || h.front || (word & kPrimitiveCull) == 0u;
+    bool there = !kCulling || h.front || (kLightPaths && s.both) || (word & kPrimitiveCull) == 0u;
     r.t = h.hit && there ? h.t : -1.0f;
     if (kCreases) r.t -= r.t * (h.front ? s.tie : -s.tie);
     if (kWeights) r.weights = vec2(h.weight1, h.weight2);
   }
   if (kSpheres) {
-    bool inside = !kCulling || (word & kPrimitiveCull) == 0u;
+    bool inside = !kCulling || (kLightPaths && s.both) || (word & kPrimitiveCull) == 0u;
     float past = kPassing ? s.past : 0.0f;
     float t = intersectSphere(origin, direction, v0, v1.x, inside, past, kPassing && slot > s.pastSlot);
     bool isSphere = (word & kPrimitiveSphere) != 0u && word != kPrimitiveNone;

@@ -46,6 +46,15 @@ void saveFirst(Path p, Traversal t, int row) {
   }
 }
 
+/// And how far it is a chain, which has no room among the flags.
+uint bounceOf(Path p) { return uint(p.bounce) | (kCaustics ? uint(p.chain) << 30 : 0u); }
+
+Path withBounce(Path p, uint word) {
+  p.bounce = int(kCaustics ? word & 0x3fffffffu : word);
+  p.chain = int(kCaustics ? word >> 30 : 0u);
+  return p;
+}
+
 void saveWave(WavePath w, Traversal t, int row) {
   Path p = w.path;
   uint flags = uint(p.phase) | (p.cameraRay ? 16u : 0u) | (p.oneChannel ? 32u : 0u) | (p.alpha > 0.0 ? 64u : 0u) |
@@ -55,7 +64,7 @@ void saveWave(WavePath w, Traversal t, int row) {
   pathStates[row + kRowHit] = uvec4(floatBitsToUint(t.t), uint(t.slot), floatBitsToUint(t.weights));
   pathStates[row + 3] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.density));
   pathStates[row + kRowFlags] = uvec4(floatBitsToUint(p.radiance), flags);
-  pathStates[row + 5] = uvec4(p.numbers.index, uint(w.rays), uint(p.bounce), clearOf(p));
+  pathStates[row + 5] = uvec4(p.numbers.index, uint(w.rays), bounceOf(p), clearOf(p));
   if (kShadowRows) {
     pathStates[row + kRowShadow] = uvec4(floatBitsToUint(p.shadowOrigin), floatBitsToUint(p.shadowLimit));
     pathStates[row + kRowShadow + 1] = uvec4(floatBitsToUint(p.shadowDirection), floatBitsToUint(p.compression));
@@ -97,7 +106,7 @@ WavePath loadWave(int row, uint key) {
   a = readWave(row + 5);
   p.numbers = makeSampler(key, a.x);
   w.rays = int(a.y);
-  p.bounce = int(a.z);
+  p = withBounce(p, a.z);
   p = withClear(p, a.w);
   p.shadowOrigin = vec3(0.0);
   p.shadowLimit = 0.0;

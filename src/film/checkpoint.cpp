@@ -15,7 +15,7 @@ namespace fragtrace {
 
 namespace {
 
-constexpr std::string_view kMagic = "fragtrace checkpoint 1\n";
+constexpr std::string_view kMagic = "fragtrace checkpoint 2\n";
 
 template <typename Value>
 std::span<const uint8_t> bytesOf(const std::vector<Value>& values) {
@@ -80,7 +80,11 @@ nlohmann::json headerOf(const Checkpoint& c, uint64_t sum) {
   json["part"] = c.part;
   json["films"] = nlohmann::json::array();
   for (const FilmState& film : c.films)
-    json["films"].push_back({{"size", sizeJson(film.size)}, {"cut", film.cut}});
+    json["films"].push_back({{"size", sizeJson(film.size)},
+                             {"cut", film.cut},
+                             {"splats", !film.splats.empty()},
+                             {"light_paths", film.lightPaths},
+                             {"light_passes", film.lightPasses}});
   json["looks"] = nlohmann::json::array();
   for (const FilmPixels& look : c.looks)
     json["looks"].push_back({{"size", sizeJson(look.size)}, {"cut", look.cut}});
@@ -111,6 +115,9 @@ Checkpoint decode(Reader reader) {
     state.sum = reader.takeValues<float>(count);
     state.compensation = reader.takeValues<float>(count);
     state.counts = reader.takeValues<uint32_t>(count);
+    if (film.at("splats")) state.splats = reader.takeValues<float>(count);
+    state.lightPaths = film.at("light_paths");
+    state.lightPasses = film.at("light_passes");
     c.films.push_back(std::move(state));
   }
   for (const nlohmann::json& look : json.at("looks")) {
@@ -143,6 +150,7 @@ std::vector<uint8_t> encodeCheckpoint(const Checkpoint& c) {
     arrays.push_back(bytesOf(film.sum));
     arrays.push_back(bytesOf(film.compensation));
     arrays.push_back(bytesOf(film.counts));
+    arrays.push_back(bytesOf(film.splats));
   }
   for (const FilmPixels& look : c.looks) arrays.push_back(bytesOf(look.pixels));
   arrays.push_back(bytesOf(c.picture.values));

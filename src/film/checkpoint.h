@@ -19,7 +19,10 @@ struct FilmState {
   std::vector<float> sum;
   std::vector<float> compensation;
   std::vector<uint32_t> counts;
-  double cut = 0.0;  ///< as in FilmPixels
+  double cut = 0.0;             ///< as in FilmPixels
+  std::vector<float> splats{};  ///< of light paths, and their squares; empty: there are none
+  uint64_t lightPaths = 0;
+  int lightPasses = 0;  ///< that these are of
 };
 
 /// How far adaptive sampling is: of each block of pixels the samples of a half before the round under way,

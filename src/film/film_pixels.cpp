@@ -10,6 +10,7 @@ namespace fragtrace {
 FilmTotals totalsOf(const FilmPixels& film) {
   FilmTotals totals;
   totals.cut = film.cut;
+  totals.lightPaths = film.lightPaths;
   if (!film.pixels.empty()) totals.fewestSamples = film.pixels.front().samples;
   for (const FilmPixel& p : film.pixels) {
     totals.samples += p.samples;
@@ -27,6 +28,7 @@ FilmTotals totalsOf(const FilmPixels& film) {
 FilmPixels pooled(const FilmPixels& a, const FilmPixels& b) {
   FilmPixels result = a;
   result.cut += b.cut;
+  result.lightPaths += b.lightPaths;
   for (size_t i = 0; i < result.pixels.size(); ++i) {
     FilmPixel& p = result.pixels[i];
     const FilmPixel& q = b.pixels[i];

@@ -32,7 +32,8 @@ struct FilmPixel {
 struct FilmPixels {
   glm::ivec2 size{0};
   std::vector<FilmPixel> pixels;
-  double cut = 0.0;  ///< luminance of the throughput that --bounces cut, over all paths
+  double cut = 0.0;         ///< luminance of the throughput that --bounces cut, over all paths
+  uint64_t lightPaths = 0;  ///< whose light is in the sums
 };
 
 /// What the film counted, over all pixels.
@@ -44,6 +45,7 @@ struct FilmTotals {
   uint64_t nonfinitePixels = 0;
   uint64_t budgetHits = 0;  ///< pixels in which a loop was ended by the driver: the picture is wrong
   double cut = 0.0;         ///< as in FilmPixels
+  uint64_t lightPaths = 0;  ///< as in FilmPixels
   uint32_t fewestSamples = 0;
   uint32_t mostSamples = 0;
 };

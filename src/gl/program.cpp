@@ -67,6 +67,15 @@ const GlProgram& ProgramCache::tracer(const ShaderVariant& variant) {
   return tracers_.emplace(variant, std::move(program)).first->second;
 }
 
+const GlProgram& ProgramCache::splatter(const ShaderVariant& variant) {
+  const auto found = splatters_.find(variant.pixelFilter);
+  if (found != splatters_.end()) return found->second;
+  GlProgram program = buildProgram(assembleShader(source_, "entry/splat.vert", variant),
+                                   assembleShader(source_, "entry/splat.frag", variant));
+  checkGl("building the program of splats");
+  return splatters_.emplace(variant.pixelFilter, std::move(program)).first->second;
+}
+
 ShaderSource shaderSource(const std::filesystem::path& folder) {
   return {folder, GLAD_GL_ARB_shading_language_include != 0};
 }

@@ -19,10 +19,13 @@ class ProgramCache {
  public:
   explicit ProgramCache(ShaderSource source) : source_(std::move(source)) {}
   const GlProgram& tracer(const ShaderVariant& variant);
+  /// Adds light paths to a film through the pixel filter of the variant.
+  const GlProgram& splatter(const ShaderVariant& variant);
 
  private:
   ShaderSource source_;
   std::map<ShaderVariant, GlProgram> tracers_;
+  std::map<PixelFilter, GlProgram> splatters_;
 };
 
 /// What this driver's compiler understands; needs a current context.

@@ -90,6 +90,17 @@ void chooseLayers(const std::vector<std::string>& names, RenderOptions& o) {
   }
 }
 
+/// What light paths cannot do, which auto leaves to paths from the camera.
+void checkCaustics(const RenderOptions& o) {
+  if (o.caustics != Caustics::On) return;
+  if (o.clampIndirect > 0.0)
+    throw UsageError("--caustics on: light paths cannot be clamped (--clamp-indirect)");
+  if (o.shadowCatcher)
+    throw UsageError("--caustics on: a shadow catcher shows no caustics (--shadow-catcher)");
+  if (std::ranges::any_of(o.aovFeatures, isLightPart))
+    throw UsageError("--caustics on: emission, diffuse and specular (--aov) would not add up to the picture");
+}
+
 /// X, Y, width, height.
 Region regionOf(const std::vector<int>& numbers) {
   const Region region{{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
@@ -192,6 +203,11 @@ void addPathOptions(CLI::App& app, RawRender& raw) {
          "by its power, or all alike: " +
              joined(kLightSelectionNames))
       ->capture_default_str();
+  app.add_option("--caustics", raw.caustics,
+                 "trace paths from lamps to smooth glass and metal for the light that these throw on rough "
+                 "surfaces; auto does where there are both: " +
+                     joined(kCausticsNames))
+      ->capture_default_str();
 }
 
 /// What of the samples a picture shows.
@@ -293,6 +309,7 @@ RenderOptions finishRender(const RawRender& raw) {
   finishSurroundings(raw, o);
   if (!raw.region.empty()) o.region = regionOf(raw.region);
   o.lightSelection = choose<LightSelection>("--light-selection", raw.lightSelection, kLightSelectionNames);
+  o.caustics = choose<Caustics>("--caustics", raw.caustics, kCausticsNames);
   o.pixelFilter = choose<PixelFilter>("--pixel-filter", raw.pixelFilter, kPixelFilterNames);
   o.toneMap = choose<ToneMap>("--tone-map", raw.toneMap, toneMapNames());
   o.traversal = choose<TraversalMethod>("--traversal", raw.traversal, kTraversalNames);
@@ -305,6 +322,7 @@ RenderOptions finishRender(const RawRender& raw) {
   o.statsFile = raw.statsFile;
   o.shaderFolder = raw.shaderFolder;
   chooseLayers(raw.aov, o);
+  checkCaustics(o);
   if (!raw.aov.empty() && !raw.anyOutput && formatOfName(o.output) != ImageFormat::OpenExr) {
     throw UsageError("--aov: only .exr files hold more layers");
   }

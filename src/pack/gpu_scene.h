@@ -50,6 +50,7 @@ struct GpuScene {
   LightShare lightShare;
   uint32_t emitterCount = 0;
   uint32_t punctualLights = 0;
+  std::vector<glm::vec4> casters{};  ///< of caustics: balls, middle and radius in local space
   uint32_t energyTableRow = 0;       ///< where the energy table begins among the material rows
   uint32_t objectRow = 0;            ///< and the numbers of objects
   glm::vec3 upwardIrradiance{0.0f};  ///< by the environment, of a plane that faces up; for shadow catchers

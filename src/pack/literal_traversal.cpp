@@ -76,6 +76,7 @@ class TraversalText {
       : mesh_(mesh),
         weights_(options.weights),
         passing_(options.passing),
+        caustics_(options.caustics),
         single_(singleAxis()),
         size_(size()) {}
 
@@ -266,7 +267,14 @@ class TraversalText {
     const bool sliver = isSliverFace(f);
     if (f.culled) {
       // All edges zero make t zero, too, but for the plane's.
-      body_ += "  hit = " + positive + (sliver ? "sum > 0.0" : "t > 0.0") + ";\n";
+      const std::string front = positive + (sliver ? "sum > 0.0" : "t > 0.0");
+      if (caustics_) {
+        // Light paths may ask for backs (Traversal.both of shaders/traverse.glsl).
+        body_ += "  hit = " + front + " || (kLightPaths && s.both && (" + negative + "sum < 0.0));\n";
+        body_ += "  t = sum < 0.0 ? -t : t;\n  sum = abs(sum);\n  hit = hit && t > 0.0;\n";
+      } else {
+        body_ += "  hit = " + front + ";\n";
+      }
     } else {
       body_ += "  hit = (" + positive + "sum > 0.0) || (" + negative + "sum < 0.0);\n";
       body_ += "  t = sum < 0.0 ? -t : t;\n  sum = abs(sum);\n";
@@ -328,6 +336,7 @@ class TraversalText {
   const LiteralMesh& mesh_;
   bool weights_;
   bool passing_;
+  bool caustics_;
   int single_;
   double size_;  // of the mesh, metres
   std::map<std::string, std::string> variables_;

@@ -84,7 +84,10 @@ Joining joiningFor(bool weights) { return weights ? Joining::Parallelograms : Jo
 bool partsLamps(const ShaderVariant& variant) { return has(variant.traits, Trait::LightTree); }
 
 LiteralOptions optionsOf(const ShaderVariant& variant, bool whole) {
-  return {.weights = keepsWeights(variant), .whole = whole, .passing = passesSurfaces(variant)};
+  return {.weights = keepsWeights(variant),
+          .whole = whole,
+          .passing = passesSurfaces(variant),
+          .caustics = has(variant.traits, Trait::Caustics)};
 }
 
 }  // namespace

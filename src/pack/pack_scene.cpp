@@ -17,6 +17,7 @@
 #include "pack/pack_tree.h"
 #include "pack/sheen_albedo.h"
 #include "pack/words.h"
+#include "scene/casters.h"
 #include "stage/glass_tables.h"
 
 namespace fragtrace {
@@ -71,6 +72,7 @@ uint32_t materialFlags(const Material& m) {
   if (m.alphaMode == AlphaMode::Blend) flags |= layout::kMaterialBlend;
   if (m.doubleSided) flags |= layout::kMaterialDoubleSided;
   if (m.unlit) flags |= layout::kMaterialUnlit;
+  if (castsCaustics(m)) flags |= layout::kMaterialCaster;
   if (m.specularGlossiness) flags |= layout::kMaterialSpecularGlossiness;
   return flags;
 }
@@ -268,6 +270,10 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   if (has(traits, Trait::EmissiveTriangles)) slots = leafSlots(scene, bvh);
   PackedEmitters emitters = packEmitters(scene, radiance, slots, bvh.leaves.size() * 2, radius, variant);
   packed.emitterCount = emitters.count;
+  if (has(traits, Trait::Caustics)) {
+    for (const Ball& ball : casterBalls(scene, kMostCasters))
+      packed.casters.emplace_back(ball.middle, ball.radius);
+  }
   packed.buffers[kEmittersBinding] = std::move(emitters.entries);
   if (has(traits, Trait::PunctualLights)) {
     packed.buffers[kLightsBinding] = packLights(scene);

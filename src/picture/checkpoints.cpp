@@ -65,7 +65,10 @@ void checkShape(const Checkpoint& c, const PictureJob& job, const DrawingPlan& p
   const glm::ivec2 size = plan.parts[size_t(c.part)].size;
   const bool adaptive = isAdaptive(job.options);
   check(c.films.size() == (adaptive ? 2u : 1u) && c.looks.size() <= 2u);
-  for (const FilmState& film : c.films) check(film.size == size);
+  for (const FilmState& film : c.films) {
+    check(film.size == size);
+    check(film.lightPasses >= 0 && film.lightPasses <= job.options.spp);
+  }
   for (const FilmPixels& look : c.looks) check(look.size == size);
   check(c.adaptive.samples.size() == (adaptive ? AdaptiveRun::blocksOf(size) : 0u));
   for (const std::vector<int32_t>& counts : {c.adaptive.samples, c.adaptive.targets})
@@ -76,13 +79,13 @@ void checkShape(const Checkpoint& c, const PictureJob& job, const DrawingPlan& p
 }
 
 nlohmann::json totalsJson(const FilmTotals& t) {
-  return {t.samples,    t.rays, t.hitPixels,     t.emptyPixels, t.nonfinitePixels,
-          t.budgetHits, t.cut,  t.fewestSamples, t.mostSamples};
+  return {t.samples,    t.rays, t.hitPixels,  t.emptyPixels,   t.nonfinitePixels,
+          t.budgetHits, t.cut,  t.lightPaths, t.fewestSamples, t.mostSamples};
 }
 
 FilmTotals totalsIn(const nlohmann::json& json) {
   return {json.at(0), json.at(1), json.at(2), json.at(3), json.at(4),
-          json.at(5), json.at(6), json.at(7), json.at(8)};
+          json.at(5), json.at(6), json.at(7), json.at(8), json.at(9)};
 }
 
 }  // namespace

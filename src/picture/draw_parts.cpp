@@ -101,6 +101,7 @@ void add(FilmTotals& totals, const FilmTotals& part, bool first) {
   totals.nonfinitePixels += part.nonfinitePixels;
   totals.budgetHits += part.budgetHits;
   totals.cut += part.cut;
+  totals.lightPaths += part.lightPaths;
 }
 
 /// An image of all parts with the channels of one of them, black so far.

@@ -36,6 +36,9 @@ void Film::clear() {
   const float zero[4] = {};
   const GLuint none[4] = {};
   cut_ = 0.0;
+  lightPaths_ = 0;
+  lightPasses_ = 0;
+  if (splats_.name() != 0) glClearTexImage(splats_.name(), 0, GL_RGBA, GL_FLOAT, zero);
   glClearTexImage(sum_.name(), 0, GL_RGBA, GL_FLOAT, zero);
   glClearTexImage(compensation_.name(), 0, GL_RGBA, GL_FLOAT, zero);
   glClearTexImage(counts_.name(), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, none);
@@ -49,6 +52,39 @@ void Film::bind() const {
   glBindImageTexture(layout::kFilmCountsBinding, counts_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32UI);
 }
 
+void Film::bindTextures() const {
+  glBindTextureUnit(0, sum_.name());
+  glBindTextureUnit(1, compensation_.name());
+}
+
+const GlTexture& Film::splats() {
+  if (splats_.name() == 0) {
+    const float zero[4] = {};
+    splats_ = makePictureTexture(GL_RGBA32F, size_);
+    glClearTexImage(splats_.name(), 0, GL_RGBA, GL_FLOAT, zero);
+    checkGl("making room for light paths");
+  }
+  return splats_;
+}
+
+/// Every pixel gets the mean of all light paths, as if each of its samples had brought it.
+void Film::addSplats(FilmPixels& film) const {
+  if (lightPaths_ == 0) return;
+  const auto splats = readPictureTexture<float>(splats_, GL_RGBA, 4, GL_FLOAT, size_, kReading);
+  const double paths = double(lightPaths_);
+  for (size_t p = 0; p < film.pixels.size(); ++p) {
+    FilmPixel& pixel = film.pixels[p];
+    const double samples = pixel.samples;
+    const glm::dvec3 mean = glm::dvec3(splats[p * 4], splats[p * 4 + 1], splats[p * 4 + 2]) / paths;
+    const double value = luminance(mean);
+    // Of the mean of independent paths, most of which bring nothing.
+    const double variance =
+        std::max(0.0, splats[p * 4 + 3] / paths - value * value) / std::max(paths - 1.0, 1.0);
+    pixel.sum += samples * mean;
+    pixel.m2 += variance * samples * std::max(samples - 1.0, 0.0);
+  }
+}
+
 FilmPixels Film::read() const {
   FilmPixels film = readCounts();
   const auto sum = readPictureTexture<float>(sum_, GL_RGBA, 4, GL_FLOAT, size_, kReading);
@@ -60,13 +96,20 @@ FilmPixels Film::read() const {
     pixel.alpha = sum[i + 3];
     pixel.m2 = compensation[i + 3];
   }
+  addSplats(film);
   return film;
 }
 
 FilmState Film::save() const {
-  return {size_, readPictureTexture<float>(sum_, GL_RGBA, 4, GL_FLOAT, size_, kReading),
+  return {size_,
+          readPictureTexture<float>(sum_, GL_RGBA, 4, GL_FLOAT, size_, kReading),
           readPictureTexture<float>(compensation_, GL_RGBA, 4, GL_FLOAT, size_, kReading),
-          readPictureTexture<uint32_t>(counts_, GL_RGBA_INTEGER, 4, GL_UNSIGNED_INT, size_, kReading), cut_};
+          readPictureTexture<uint32_t>(counts_, GL_RGBA_INTEGER, 4, GL_UNSIGNED_INT, size_, kReading),
+          cut_,
+          lightPaths_ > 0 ? readPictureTexture<float>(splats_, GL_RGBA, 4, GL_FLOAT, size_, kReading)
+                          : std::vector<float>(),
+          lightPaths_,
+          lightPasses_};
 }
 
 void Film::load(const FilmState& state) {
@@ -77,6 +120,10 @@ void Film::load(const FilmState& state) {
   writePictureTexture(compensation_, GL_RGBA, 4, GL_FLOAT, size_, state.compensation, kLoading);
   writePictureTexture(counts_, GL_RGBA_INTEGER, 4, GL_UNSIGNED_INT, size_, counts, kLoading);
   cut_ = state.cut;
+  if (!state.splats.empty())
+    writePictureTexture(splats(), GL_RGBA, 4, GL_FLOAT, size_, state.splats, kLoading);
+  lightPaths_ = state.lightPaths;
+  lightPasses_ = state.lightPasses;
 }
 
 FilmPixels Film::readCounts() const {
@@ -85,6 +132,7 @@ FilmPixels Film::readCounts() const {
   FilmPixels film;
   film.size = size_;
   film.cut = cut_;
+  film.lightPaths = lightPaths_;
   film.pixels.resize(size_t(size_.x) * size_t(size_.y));
   for (size_t p = 0; p < film.pixels.size(); ++p) {
     FilmPixel& pixel = film.pixels[p];

@@ -7,7 +7,7 @@
 
 namespace fragtrace {
 
-/// Sum, compensation and counts of every pixel on the device (shaders/film.glsl).
+/// Sum, compensation and counts of every pixel on the device (shaders/film.glsl), and what light paths add.
 class Film {
  public:
   explicit Film(glm::ivec2 size);
@@ -31,6 +31,17 @@ class Film {
   };
   Guides readGuides() const;
 
+  /// Makes room for light paths, and is where these add their light and its square.
+  const GlTexture& splats();
+  /// The passes of light paths that have been added: as many as there are samples per pixel, once they are
+  /// all there.
+  int lightPasses() const { return lightPasses_; }
+  void countLightPaths(uint64_t paths) { lightPaths_ += paths; }
+  void endLightPass() { ++lightPasses_; }
+  uint64_t lightPaths() const { return lightPaths_; }
+  /// Sum and compensation as textures 0 and 1.
+  void bindTextures() const;
+
   /// Adds to FilmPixels::cut, which is kept on the host.
   void addCut(double cut) { cut_ += cut; }
 
@@ -40,12 +51,16 @@ class Film {
 
  private:
   FilmPixels readCounts() const;
+  void addSplats(FilmPixels& film) const;
 
   glm::ivec2 size_;
   GlTexture sum_;
   GlTexture compensation_;
   GlTexture counts_;
   double cut_ = 0.0;
+  GlTexture splats_;  ///< none where no light path has been added
+  uint64_t lightPaths_ = 0;
+  int lightPasses_ = 0;
 };
 
 }  // namespace fragtrace

@@ -72,6 +72,7 @@ void Renderer::describeScene(const GpuScene& scene) {
   frame_.gridCell = glm::vec4(scene.grid.cell, 0.0f);
   frame_.environment = glm::vec4(scene.environmentSize, 1.0f, 0.0f);
   lightShare_ = scene.lightShare;
+  casters_ = scene.casters;
   frame_.lightChoice =
       glm::vec4(0.0f, float(scene.emitterCount), float(scene.energyTableRow), float(scene.punctualLights));
   frame_.limits = {0, 0, 0, int(scene.leafCount)};
@@ -178,7 +179,8 @@ layout::Progress Renderer::draw() {
   }
   if (timer_.name() != 0) glEndQuery(GL_TIME_ELAPSED);
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
-                  GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+                  GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
+                  GL_TEXTURE_FETCH_BARRIER_BIT);
   glFinish();
   if (timer_.name() != 0) {
     GLuint64 nanoseconds = 0;
@@ -220,6 +222,7 @@ double Renderer::compile(const ShaderVariant& variant, Film& film, const View& v
   asked_ = variant_ = variant;
   setFrame(film, view);
   drawTile(film, {0, 0}, glm::min(film.size(), glm::ivec2(kTinyTile)), 1, [] { return true; });
+  compileLightPaths(film, view);
   film.clear();
   mostSamplesPerDraw_ = 1;
   msPerSample_ = 0.0;
@@ -274,6 +277,15 @@ bool Renderer::addSamples(Film& film, const View& view, int from, int to, Render
     times.frameMs.insert(times.frameMs.end(), size_t(plan.samples), roundMs / plan.samples);
     done += plan.samples;
     adaptPace(plan.samples);
+    const auto lightStart = Clock::now();
+    const bool lit = addLightPaths(film, view, done, [&] { return progress(pixelSamplesDone / total); });
+    const double lightMs = milliseconds(lightStart, Clock::now());
+    times.renderMs += lightMs;
+    for (int i = 0; i < plan.samples; ++i) *(times.frameMs.rbegin() + i) += lightMs / plan.samples;
+    if (!lit) {
+      times.drawMs += drawnMs_ - drawnBefore;
+      return false;
+    }
   }
   times.drawMs += drawnMs_ - drawnBefore;
   progress(1.0);
@@ -306,6 +318,10 @@ bool Renderer::addSamples(Film& film, const View& view, std::span<const Work> pa
       adaptPace(samples);
     }
   }
+  int most = 0;
+  for (const Work& w : parts) most = std::max(most, w.to);
+  if (complete)
+    complete = addLightPaths(film, view, most, [&] { return progress(pixelSamplesDone / total); });
   times.renderMs += milliseconds(start, Clock::now());
   times.drawMs += drawnMs_ - drawnBefore;
   return complete;

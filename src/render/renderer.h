@@ -24,6 +24,9 @@ struct Lens {
   int blades = 0;              ///< of a polygonal aperture; 0: a round one
 };
 
+/// Whether this driver can add points to a film of 32-bit floats, as caustics are drawn.
+bool canSplat();
+
 /// What can change from picture to picture without touching program or buffers.
 struct View {
   Camera camera;                ///< world space
@@ -119,6 +122,13 @@ class Renderer {
   /// Advances a tile to `target` samples in as many draws as its step budget takes; false when stopped.
   bool drawTile(Film& film, glm::ivec2 corner, glm::ivec2 tile, int target,
                 const std::function<bool()>& goOn);
+  /// Brings the film's light paths up to so many passes, where its picture has any; false when stopped.
+  bool addLightPaths(Film& film, const View& view, int passes, const std::function<bool()>& goOn);
+  void compileLightPaths(Film& film, const View& view);
+  bool addLightPass(Film& film, const View& view, const std::function<bool()>& goOn);
+  void setCasters();
+  /// What the records hold, through the pixel filter.
+  void splat(Film& film, const View& view);
   /// More samples a draw as long as the step budget takes them.
   void adaptPace(int samples);
 
@@ -136,6 +146,9 @@ class Renderer {
   std::map<ShaderVariant, Pace> paces_;  ///< of those that are not used now
   layout::Frame frame_{};
   LightShare lightShare_;
+  std::vector<glm::vec4> casters_;    ///< as in GpuScene
+  std::optional<Film> lightRecords_;  ///< one light path a pixel (addSplat of film_pixel.glsl)
+  GlFramebuffer splatTarget_;
   GlBuffer frameBuffer_;
   GlBuffer progressBuffer_;
   GlBuffer pathStates_;

@@ -152,6 +152,9 @@ struct Material {
   bool transmissive() const { return transmissionFactor > 0.0f; }
   /// Light of any kind goes through, so that the back is there.
   bool passesLight() const { return transmissive() || diffuseTransmissionFactor > 0.0f; }
+  /// As smooth as the roughness factor alone makes it, it sends light on in single directions (kMirrorAlpha
+  /// of shaders/bsdf.glsl).
+  bool mirrorLike() const { return roughnessFactor * roughnessFactor < 0.001f; }
   bool clearcoated() const { return clearcoatFactor > 0.0f; }
   bool hasSheen() const { return sheenColorFactor != glm::vec3(0.0f); }
   bool anisotropic() const { return anisotropyStrength > 0.0f; }

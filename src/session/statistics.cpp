@@ -89,6 +89,9 @@ std::string statisticsText(const Statistics& s) {
     json["light_selection"] = s.lightSelection;
     json["light_selection_reason"] = s.lightSelectionReason;
   }
+  if (!s.caustics.empty()) {
+    json["caustics"] = {{"light_paths", s.film.lightPaths}, {"casters", s.casters}, {"reason", s.caustics}};
+  }
   if (s.featureMs > 0.0) json["feature_ms"] = s.featureMs;
   if (s.denoise) json["denoise"] = denoiseJson(*s.denoise);
   json["width"] = s.size.x;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session/tracer.h"
 
+#include <algorithm>
 #include <future>
 #include <iomanip>
 #include <sstream>
@@ -79,12 +80,36 @@ void describeLightSelection(const ShaderVariant& variant, const Scene& scene, Li
   stats.lightSelectionReason = "chosen by place, light samples vary " + gain.str() + " times less";
 }
 
+/// Why light paths are traced for the picture, or are not.
+std::string whyCaustics(const ShaderVariant& variant, const TraitSet& present, const RenderOptions& options) {
+  if (has(variant.traits, Trait::Caustics)) {
+    return options.caustics == Caustics::On ? "--caustics" : "there are lamps, and smooth glass or metal";
+  }
+  if (options.caustics == Caustics::Off) return "--caustics";
+  if (!has(present, Trait::Caustics)) return traitRows()[size_t(Trait::Caustics)].absence;
+  if (options.clampIndirect > 0.0) return "--clamp-indirect";
+  if (options.shadowCatcher) return "--shadow-catcher";
+  if (std::ranges::any_of(options.aovFeatures, isLightPart)) return "--aov has parts of the light";
+  return "a stage that they need is off";
+}
+
+/// The options as this driver can draw such a scene; says what it cannot.
+RenderOptions asDrawn(const RenderOptions& options, const TraitSet& present) {
+  if (options.caustics == Caustics::Off || !has(present, Trait::Caustics) || canSplat()) return options;
+  say(options,
+      "warning: this driver cannot add points to 32-bit floats: caustics are left to paths from the camera");
+  RenderOptions able = options;
+  able.caustics = Caustics::Off;
+  return able;
+}
+
 /// The variants that the options ask for, as far as the scene alone decides them. Returns what all of them
 /// read.
-ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const RenderOptions& options,
+ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const RenderOptions& asked,
                              Statistics& stats) {
   const TraitSet present =
       traitsOf(loaded.scene, loaded.environment.kind, !loaded.environment.backdrop.values.empty());
+  const RenderOptions options = asDrawn(asked, present);
   const uint32_t depth = loaded.bvh.depth;
   const BufferReads undecided = options.bufferReads;  // what is packed does not depend on it
   tracer.variant = choosePictureVariant(options, present, loaded.environment.kind, depth, undecided);
@@ -96,6 +121,7 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
     everything.traits |= tracer.features.back().traits;
   }
   describeLightSelection(tracer.variant, loaded.scene, options.lightSelection, stats);
+  if (has(tracer.variant.stages, Stage::Gi)) stats.caustics = whyCaustics(tracer.variant, present, options);
   if (tracer.variant.clampIndirect) stats.clampIndirect = options.clampIndirect;
   for (const StageRow& row : stageRows()) {
     const std::string reason = has(options.stages, row.stage) ? whyOff(row.stage, present) : "";
@@ -123,6 +149,7 @@ void describe(Statistics& stats, const Context& context, const GpuScene& packed,
   stats.glVersion = context.version;
   stats.phases.push_back(packing);
   stats.packMs = packing.end - packing.begin;
+  stats.casters = packed.casters.size();
   stats.sceneBytes = packed.bytes();
   stats.geometryBytes = packed.geometryBytes();
 }

@@ -82,6 +82,7 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
   constant("kClampIndirect", variant.clampIndirect);
   constant("kShadowCatcher", variant.shadowCatcher);
   constant("kLens", variant.lens);
+  constant("kLightPaths", variant.lightPaths);
   text << "const int kPixelFilter = " << int(variant.pixelFilter) << ";\n";
   text << "const int kFeature = " << int(variant.feature) << ";\n";
   text << "const int kStackSize = " << variant.stackSize << ";\n";

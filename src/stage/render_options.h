@@ -44,6 +44,10 @@ inline constexpr std::array<std::string_view, 3> kScheduleNames{"auto", "megaker
 /// power, or all alike.
 enum class LightSelection : uint8_t { Auto, Tree, Power, Uniform };
 inline constexpr std::array<std::string_view, 4> kLightSelectionNames{"auto", "tree", "power", "uniform"};
+/// Whether light paths bring the caustics of lamps (shaders/caustics/); auto: where there are lamps and
+/// casters.
+enum class Caustics : uint8_t { Auto, On, Off };
+inline constexpr std::array<std::string_view, 3> kCausticsNames{"auto", "on", "off"};
 /// What lights a scene that has no light of its own: white from all sides, which the camera does not see, the
 /// built-in environment (scene/studio.h), or nothing.
 enum class DefaultLight : uint8_t { White, Studio, None };
@@ -97,6 +101,7 @@ struct RenderOptions {
   double clampIndirect =
       0.0;  ///< largest radiance that a path of two scatterings or more may add; 0: no limit
   LightSelection lightSelection = LightSelection::Auto;
+  Caustics caustics = Caustics::Auto;
   double noise = 0.0;              ///< relative error to reach, adaptively; 0: spp samples in every pixel
   double seconds = 0.0;            ///< time to spend, adaptively; 0: no limit
   double checkpointSeconds = 0.0;  ///< between two checkpoints; 0: none is written

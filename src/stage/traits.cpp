@@ -28,21 +28,16 @@ bool dielectricReflects(const Material& m) {
          glm::any(glm::greaterThan(m.specularColorFactor, glm::vec3(0.0f)));
 }
 
-constexpr float kMirrorAlpha = 0.001f;  // of shaders/bsdf.glsl
-
 bool isRoughInPlaces(const Material& m) {
   return m.metallicRoughnessTexture.present() || m.specularGlossiness;
 }
 
 /// Light goes straight through such a wall, at least in places.
 bool mayBeClearWall(const Material& m) {
-  return m.thicknessFactor <= 0.0f &&
-         (isRoughInPlaces(m) || m.roughnessFactor * m.roughnessFactor < kMirrorAlpha);
+  return m.thicknessFactor <= 0.0f && (isRoughInPlaces(m) || m.mirrorLike());
 }
 
-bool mayBeRough(const Material& m) {
-  return isRoughInPlaces(m) || m.anisotropic() || m.roughnessFactor * m.roughnessFactor >= kMirrorAlpha;
-}
+bool mayBeRough(const Material& m) { return isRoughInPlaces(m) || m.anisotropic() || !m.mirrorLike(); }
 
 }  // namespace
 
@@ -318,6 +313,12 @@ std::span<const TraitRow> traitRows() {
        .constant = "kLightTree",
        .absence = "no lights far apart",
        .stages = setOf({Stage::Gi})},
+      {.trait = Trait::Caustics,
+       .name = "caustics",
+       .constant = "kCaustics",
+       .absence = "no lamp with smooth glass or metal",
+       .stages = setOf({Stage::Gi, Stage::Shadows}),
+       .needs = setOf({Trait::Specular})},
       {.trait = Trait::Environment,
        .name = "environment",
        .constant = "kEnvironment",

@@ -55,6 +55,7 @@ enum class Trait : uint8_t {
   EmissiveTriangles,
   PunctualLights,
   LightTree,
+  Caustics,
   Environment,
   EnvironmentSampling,
   Backdrop,

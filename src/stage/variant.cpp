@@ -5,6 +5,7 @@
 #include <array>
 
 #include "bvh/bvh.h"
+#include "scene/casters.h"
 #include "scene/hit_error.h"
 #include "scene/light_spread.h"
 
@@ -97,7 +98,7 @@ void dropIdle(ShaderVariant& v) {
   }
   // Its light would be looked for by shadow rays.
   if (!stage(Stage::Shadows)) drop(v.traits, {Trait::ThinGlass});
-  if (!hasLamps(v.traits)) drop(v.traits, {Trait::LightTree});
+  if (!hasLamps(v.traits)) drop(v.traits, {Trait::LightTree, Trait::Caustics});
   if (!hasNormalMaps(v.traits)) off(Stage::NormalMaps);
   if (!has(v.traits, Trait::Triangles)) off(Stage::Watertight);
   const bool leavesSurfaces = stage(Stage::Gi) || stage(Stage::Shadows) || stage(Stage::Reflections) ||
@@ -129,7 +130,9 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop) 
   const Coordinates ofVertices{.texcoord0 = !scene.vertices.texcoord0.empty(),
                                .tangents = !scene.vertices.tangent.empty()};
   for (const Sphere& s : scene.spheres) onSpheres[s.material] = true;
+  bool anyCaster = false;
   for (size_t i = 0; i < scene.materials.size(); ++i) {
+    anyCaster = anyCaster || ((onTriangles[i] || onSpheres[i]) && castsCaustics(scene.materials[i]));
     if (onTriangles[i]) addMaterialTraits(scene.materials[i], ofVertices, traits);
     if (onSpheres[i]) addMaterialTraits(scene.materials[i], Coordinates{}, traits);
   }
@@ -143,6 +146,7 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop) 
   mark(Trait::EmissiveTriangles, emissiveTriangles);
   mark(Trait::PunctualLights, !scene.lights.empty());
   mark(Trait::LightTree, gainByPlace(scene) >= kLeastGainByPlace);
+  mark(Trait::Caustics, (emissiveTriangles || !scene.lights.empty()) && anyCaster);
   mark(Trait::Environment, surroundings != Surroundings::None);
   mark(Trait::EnvironmentSampling, surroundings != Surroundings::None);
   mark(Trait::Backdrop, backdrop);
@@ -175,6 +179,10 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   v.reads = reads;
   if (options.lightSelection != LightSelection::Auto)
     v.traits.set(size_t(Trait::LightTree), options.lightSelection != LightSelection::Power);
+  // Limits, catchers and parts know paths from the camera alone.
+  if (options.caustics == Caustics::Off || options.clampIndirect > 0.0 || options.shadowCatcher ||
+      std::ranges::any_of(options.aovFeatures, isLightPart))
+    v.traits.reset(size_t(Trait::Caustics));
   dropStages(v.stages);
   dropTraits(v.stages, surroundings, v.traits);
   dropIdle(v);
@@ -205,6 +213,7 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
   if (isLightPart(feature)) {
     ShaderVariant light = chooseVariant(options, present, surroundings, treeDepth, reads);
     light.feature = feature;
+    light.traits.reset(size_t(Trait::Caustics));
     return light;
   }
   RenderOptions wanted = options;
@@ -265,6 +274,15 @@ ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet&
   return chooseVariant(wanted, present, surroundings, treeDepth, reads);
 }
 
+std::optional<ShaderVariant> lightPathVariant(const ShaderVariant& variant) {
+  if (!has(variant.traits, Trait::Caustics)) return std::nullopt;
+  ShaderVariant light = variant;
+  light.lightPaths = true;
+  light.wavefront = false;
+  light.waveUnit = -1;
+  return light;
+}
+
 bool keepsWeights(const ShaderVariant& variant) {
   const TraitSet& traits = variant.traits;
   return has(traits, Trait::VertexNormals) || has(traits, Trait::Texcoords) || has(traits, Trait::Tangents) ||
@@ -295,6 +313,7 @@ std::string variantName(const ShaderVariant& variant) {
   if (variant.clampIndirect) append("clamp-indirect");
   if (variant.shadowCatcher) append("shadow-catcher");
   if (variant.lens) append("lens");
+  if (variant.lightPaths) append("light-paths");
   append(std::string(kBufferReadsNames[size_t(variant.reads)]) + "-reads");
   append(std::string(kDispatchNames[size_t(variant.dispatch)]));
   if (variant.wavefront) append("wavefront");

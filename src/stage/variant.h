@@ -2,6 +2,7 @@
 // The shader variant: what was asked for, cut down to what the scene holds.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <tuple>
 
@@ -24,9 +25,10 @@ struct ShaderVariant {
   bool uniformLights = false;       ///< the light tree chooses all lights alike
   bool clampIndirect = false;
   bool shadowCatcher = false;
-  bool lens = false;       ///< else a pinhole
-  bool wavefront = false;  ///< else the megakernel
-  int waveUnit = -1;       ///< image unit through which it reads its states; -1: a storage buffer
+  bool lens = false;        ///< else a pinhole
+  bool lightPaths = false;  ///< light paths are traced in place of camera paths (shaders/caustics/)
+  bool wavefront = false;   ///< else the megakernel
+  int waveUnit = -1;        ///< image unit through which it reads its states; -1: a storage buffer
   bool resumable =
       false;  ///< paths can be suspended from draw to draw; only needed by those longer than a draw
 
@@ -34,8 +36,8 @@ struct ShaderVariant {
 
   auto key() const {
     return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, dispatch,
-                      pixelFilter, feature, uniformLights, clampIndirect, shadowCatcher, lens, wavefront,
-                      waveUnit, resumable, literals);
+                      pixelFilter, feature, uniformLights, clampIndirect, shadowCatcher, lens, lightPaths,
+                      wavefront, waveUnit, resumable, literals);
   }
   bool operator<(const ShaderVariant& other) const { return key() < other.key(); }
   bool operator==(const ShaderVariant& other) const { return key() == other.key(); }
@@ -63,6 +65,9 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
 /// The variant that draws what the picture shows: radiance, or what the options' debug view needs.
 ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet& present,
                                    Surroundings surroundings, uint32_t treeDepth, BufferReads reads);
+
+/// The variant that traces the light paths of such a picture, if it has any.
+std::optional<ShaderVariant> lightPathVariant(const ShaderVariant& variant);
 
 /// Whether hits keep their barycentric weights: only vertex attributes need them.
 bool keepsWeights(const ShaderVariant& variant);

@@ -19,15 +19,16 @@ def real_egl():
 
 
 class Failing(Case):
+    scene = "sphere-textured"  # with a tree, textures and several lights
     options = ()
 
     def drawn(self, **faults):
-        """`render` of a scene with a tree, textures and several lights, over a file that is there."""
+        """`render` over a file that is there."""
         self.path = self.folder / "picture.pfm"
         self.path.write_bytes(OLD)
         settings = {f"FRAGTRACE_{name.upper()}": str(value) for name, value in faults.items()}
         paths = ":".join(filter(None, [str(STAND_IN), os.environ.get("LD_LIBRARY_PATH")]))
-        return run("render", SCENES / "sphere-textured.gltf", "-o", self.path, "--resolution", "16,16", "--spp", "2", "--quiet", *self.options,
+        return run("render", SCENES / f"{self.scene}.gltf", "-o", self.path, "--resolution", "16,16", "--spp", "2", "--quiet", *self.options,
                    "--rendering-backend", "egl", timeout=60,
                    env={**os.environ, **settings, "LD_LIBRARY_PATH": paths, "FRAGTRACE_REAL_EGL": real_egl()})
 
@@ -76,6 +77,10 @@ class FailingDriver(Failing):
     def test_a_filter_that_fails_is_seen(self):
         self.options = ("--denoise", "variance")
         self.fail_each("memory", 3, ("glNamedFramebufferTexture", "glNamedFramebufferDrawBuffers", "glUniform1i", "glUniform2i"))
+
+    def test_light_paths_that_fail_are_seen(self):
+        self.scene = "caustics"
+        self.fail_each("memory", 1, ("glGetInternalformativ", "glGetFloatv", "glProgramUniform4fv", "glProgramUniform2f", "glBlendFunc", "glDisable"))
 
     def test_every_function_that_is_called_can_fail(self):
         called = set()

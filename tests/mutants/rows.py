@@ -7,11 +7,11 @@ from fault import functions_of, put_in
 ROWS = rows_of_light.ROWS + rows_of_surfaces.ROWS
 
 COVERED = ("path", "shade", "lights", "environment", "material", "material_layers", "texture", "layers", "surface", "film", "film_pixel", "camera", "bsdf",
-           "ggx", "sheen", "iridescence", "fresnel", "phong", "sampling", "pixel_filter", "energy")
+           "ggx", "sheen", "iridescence", "fresnel", "phong", "sampling", "pixel_filter", "energy", "caustics/emit", "caustics/light_path")
 # Types that hold none of these.
 PLAIN = ("void", "bool", "int", "uint", "uvec4")
 # Functions that only pass on what others return, or say nothing of light.
-WITHOUT = {"path.treeFrame", "path.pathRandom", "path.traceAnew", "path.extend", "path.proceed", "lights.noLight", "sampling.toWorld", "sampling.toFrame",
+WITHOUT = {"path.treeFrame", "path.pathRandom", "path.traceAnew", "path.extend", "path.proceed", "lights.noLight", "caustics/emit.noEmission", "sampling.toWorld", "sampling.toFrame",
            "sampling.maxComponent", "energy.ggxLoss"}
 
 
@@ -20,7 +20,7 @@ def check(shaders):
     wrong = []
     names = [row.name for row in ROWS]
     wrong += [f"{name}: two rows have this name" for name in sorted(set(names)) if names.count(name) > 1]
-    texts = {path.name: path.read_text() for path in shaders.glob("*.glsl")}
+    texts = {str(path.relative_to(shaders)): path.read_text() for path in shaders.rglob("*.glsl")}
     for row in ROWS:
         try:
             put_in(row, texts[row.file])

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fault import callers_of
 
-COMMANDS = ("Means", "Sheets", "KnownLight", "ThinGlass", "LightTree", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising")
+COMMANDS = ("Means", "Sheets", "KnownLight", "ThinGlass", "LightTree", "Caustics", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising")
 # Where to look first, before there is any experience: scenes of picture tests, test files and groups by the beginning of a fault's name.
 LIKELY = {
     "path.": ("closed-furnace.gi", "command.KnownLight", "cornell-box.gi", "coverage.gi"),
@@ -49,6 +49,10 @@ LIKELY = {
     "lights.emitterByTree": ("pure.light_tree_test", "command.LightTree"),
     "lights.lightByTree": ("command.LightTree",),
     "path.normalOfLight": ("command.LightTree",),
+    "caustics/": ("command.Caustics",),
+    "film.storeRecord": ("command.Caustics",),
+    "pixel_filter.pixelFilterDensity": ("command.Caustics",),
+    "lights.emittedFrom": ("command.KnownLight",),
     "lights.": ("command.KnownLight", "lights.gi", "cornell-box-direct.gi", "lights.shadows"),
     "environment.": ("command.KnownLight", "environment-rotated.gi", "sun-sky.gi", "pure.shader_environment_test"),
     "material.": ("command.KnownSurfaces", "command.TextureFactors", "plastics.gi", "lights.gi", "command.Materials"),

@@ -100,6 +100,18 @@ TEST(ShaderPixelFilter, SamplesFollowTheDensityOfTheFilter) {
   }
 }
 
+TEST(ShaderPixelFilter, DensityIsTheFilters) {
+  for (int filter : kFilters) {
+    Draw draw(71);
+    for (int i = 0; i < 20000; ++i) {
+      const dvec2 p(draw.between(-2.2, 2.2), draw.between(-2.2, 2.2));
+      EXPECT_NEAR(glsl_double::pixelFilterDensity(filter, p), densityOf(filter, p),
+                  2e-3 * densityOf(filter, p) + 1e-6)
+          << "filter " << filter << " at " << p.x << ", " << p.y;
+    }
+  }
+}
+
 /// Means of x, y, x^2, y^2 and x y over midpoints of a lattice.
 struct Moments {
   dvec2 mean{0.0};

@@ -16,7 +16,7 @@ using nlohmann::json;
 constexpr std::string_view kExt = "EXT_meshopt_compression";
 constexpr std::string_view kKhr = "KHR_meshopt_compression";
 
-const json* extensionOf(const json& object, std::string_view name) {
+const json* viewExtension(const json& object, std::string_view name) {
   const auto extensions = object.find("extensions");
   if (extensions == object.end() || !extensions->is_object()) return nullptr;
   const auto extension = extensions->find(std::string(name));
@@ -30,8 +30,8 @@ struct Meshopt {
 };
 
 Meshopt meshoptOf(const json& object) {
-  const json* khr = extensionOf(object, kKhr);
-  return khr != nullptr ? Meshopt{kKhr, khr} : Meshopt{kExt, extensionOf(object, kExt)};
+  const json* khr = viewExtension(object, kKhr);
+  return khr != nullptr ? Meshopt{kKhr, khr} : Meshopt{kExt, viewExtension(object, kExt)};
 }
 
 std::optional<Codec> codecNamed(const std::string& mode) {
@@ -118,7 +118,7 @@ void decompressViews(json& root, Buffers& buffers, CodecProcess& codecs, Documen
     const auto [name, extension] = meshoptOf(view);
     if (extension == nullptr) continue;
     const std::string place = pointerTo("bufferViews", i, "extensions", name);
-    if (name == kKhr && extensionOf(view, kExt) != nullptr)
+    if (name == kKhr && viewExtension(view, kExt) != nullptr)
       diagnostics.refuse(place, "excludes " + std::string(kExt) + ", which stands beside it");
     if (!codecs.available()) {
       if (buffers[view["buffer"].get<size_t>()].empty())

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// Light paths (kLightPaths): a lamp, scatterings by casters of caustics, each in a single direction, a rough surface,
+// the camera. Camera paths leave exactly these out (Path.chain). Particles carry flux, so that radiance compressed by
+// glass and shading normals weigh otherwise than on camera paths (Veach, Robust Monte Carlo Methods for Light Transport
+// Simulation, 1997, section 5.3).
+
+/// The camera as seen from a point.
+struct SeenFrom {
+  vec3 direction;  // towards it
+  float distance;
+  vec2 place;        // of the point in the picture, in pixels; y from the bottom
+  float importance;  // of the radiance it sends there, a unit of its area seen from there; 0: the camera does not see it
+};
+
+/// lens: point of the aperture, in local space along right and up. The film is the plane in focus as seen from there
+/// (throughLens of camera.glsl).
+SeenFrom cameraFrom(vec3 point, vec2 lens) {
+  vec3 right = frame.cameraRight.xyz;
+  vec3 up = frame.cameraUp.xyz;
+  vec3 forward = frame.cameraForward.xyz;
+  float focus = kLens && frame.lens.x > 0.0 ? frame.lens.y : 1.0;
+  vec3 offset = lens.x * normalize(right) + lens.y * normalize(up);
+  float pixelArea = 4.0 * length(right) * length(up) / (float(frame.picture.x) * float(frame.picture.y));
+  SeenFrom c;
+  vec3 onFilm;  // in units of right and up
+  if (frame.cameraPosition.w != 0.0) {
+    // It has no lens.
+    onFilm = point - frame.cameraPosition.xyz;
+    c.distance = dot(onFilm, forward);
+    c.direction = -forward;
+    c.importance = c.distance > 0.0 ? 1.0 / pixelArea : 0.0;
+  } else {
+    vec3 from = point - (frame.cameraPosition.xyz + offset);
+    c.distance = length(from);
+    vec3 away = from / max(c.distance, 1e-30);
+    float cosine = dot(away, forward);
+    c.direction = -away;
+    onFilm = (offset + away * (focus / max(cosine, 1e-9))) / focus;
+    c.importance = cosine > 1e-9 ? 1.0 / (pixelArea * cosine * cosine * cosine * c.distance * c.distance) : 0.0;
+  }
+  vec2 place = vec2(dot(onFilm, right) / dot(right, right), dot(onFilm, up) / dot(up, up));
+  c.place = (0.5 * place + 0.5) * vec2(frame.picture.xy);
+  bool inside = all(greaterThan(c.place, vec2(-kFilterReach))) &&
+                all(lessThan(c.place, vec2(frame.picture.xy) + kFilterReach));
+  if (!inside) c.importance = 0.0;
+  return c;
+}
+
+/// Whether --bounces lets a camera path go the same way back.
+bool withinBounces(Path p) {
+  int most = kTransmission && p.clearFirst ? frame.limits.x : frame.limits.x + 1;
+  return 1 + limitedScatterings(p) <= most;
+}
+
+/// Sends what the camera sees of the path at a rough surface, `times` as much, on its way.
+Path splat(Path p, Surface s, SurfaceMaterial m, float times) {
+  p.phase = kPhaseEnd;
+  vec2 lens = vec2(0.0);
+  if (kLens && frame.lens.x > 0.0) {
+    vec2 uv = drawPair(p.numbers, kBounceDimensions * uint(p.bounce + 1) + kSplatLensDimensions);
+    lens = frame.lens.x * sampleAperture(uv.x, uv.y, int(frame.lens.z));
+  }
+  SeenFrom camera = cameraFrom(s.position, lens);
+  if (camera.importance <= 0.0 || !withinBounces(p)) return p;
+  // The surface as the camera sees it.
+  bool through = dot(camera.direction, s.geometricNormal) < 0.0;
+  uint medium = through && m.solid ? (s.front ? s.material : kPrimitiveNone) : p.medium;
+  if (through) {
+    s.front = !s.front;
+    s.geometricNormal = -s.geometricNormal;
+    s.shadingNormal = -s.shadingNormal;
+  }
+  Scattering at = scatteringAt(s, m, normalFacing(s, camera.direction), camera.direction);
+  vec3 incoming = toFrame(at.around, -p.direction);
+  bool sameSide = (dot(p.direction, s.geometricNormal) < 0.0) == (incoming.z > 0.0);
+  if (!sameSide) return p;
+  vec3 value = evaluateBsdf(at.b, at.outgoing, incoming).value;
+  float arriving = max(abs(dot(p.direction, s.geometricNormal)), 1e-9);
+  float leaving = abs(dot(camera.direction, s.geometricNormal));
+  vec3 light = p.contribution * p.throughput * value * (times * p.compression * camera.importance * leaving / arriving);
+  if (kAbsorption && medium != kPrimitiveNone) {
+    light *= exp(-camera.distance * materialFloats(medium, kMaterialVolume).rgb);
+  }
+  if (!(maxComponent(light) > 0.0)) return p;
+  p.contribution = light;
+  p.part = vec3(camera.place, 0.0);
+  // From the camera, since single-sided surfaces stop light one way only.
+  vec3 target = offsetOrigin(s.position, s.positionError, s.geometricNormal, camera.direction);
+  p.shadowOrigin = s.position + camera.distance * camera.direction;
+  vec3 towards = target - p.shadowOrigin;
+  float distance = length(towards);
+  p.shadowDirection = distance > 0.0 ? towards / distance : -camera.direction;
+  p.shadowLimit = distance * float(0.99999);
+  p.throughWalls = false;
+  p.after = kPhaseEnd;
+  p.phase = kPhaseShadow;
+  return traceAnew(p, p.shadowLimit);
+}
+
+/// Whether the back of a surface is not there.
+bool isSingleSided(uint material, uint flags) {
+  bool passes = materialFloats(material, kMaterialSurface).w > 0.0 ||
+                (kDiffuseTransmission && materialFloats(material, kMaterialDiffuseTransmission).w > 0.0);
+  return kCulling && (flags & kMaterialDoubleSided) == 0u && !passes;
+}
+
+/// Goes on behind the surface, as if it were not there.
+Path passOn(Path p, Surface s, float times) {
+  p.throughput *= times;
+  p.density += p.hitT;
+  p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
+  if (kCreases) p.tie = s.front ? -kTie : kTie;
+  return extend(p);
+}
+
+/// Of the light paths that a single-sided surface could scatter, the part that goes on behind it.
+const float kPassedOn = 0.125;
+
+/// One step of a light path. Camera paths go the other way: what single-sided surfaces show them, the front, stops
+/// their light, and they pass the back. So a light path that meets the back ends, and one that meets the front is
+/// scattered there and passes, too, of which chance takes one.
+Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
+  p.phase = kPhaseEnd;
+  if (kUnlit && (flags & kMaterialUnlit) != 0u) return p;
+  bool caster = (flags & kMaterialCaster) != 0u;
+  bool scattered = p.bounce > p.walls;
+  if (isSingleSided(s.material, flags)) {
+    if (!s.front) return p;
+    if (!caster && !scattered) return passOn(p, s, 1.0);
+    float chance = hashFloat(p.numbers, kAlphaDimensions + uint(nextCrossing(p)));
+    if (chance < kPassedOn) return passOn(p, s, 1.0 / kPassedOn);
+    p.throughput /= 1.0 - kPassedOn;
+  }
+  if (p.bounce == 0) {
+    float travelled = p.density + p.hitT;
+    p.contribution *= rangeWindow(travelled * travelled, p.shadowLimit);
+  }
+  SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
+  if (kDispersion) {
+    p = disperse(p, m, s.material);
+    if (m.solid) m.ior = dispersedIor(p, s.material);
+  }
+  Scattering at = scatteringAt(s, m, normalFacing(s, -p.direction), -p.direction);
+
+  // Step: what the surface may do to the path. Where it may scatter both ways, chance decides.
+  bool glass = kTransmission && at.b.glass > 0.0;
+  bool wall = kThinGlass && glass && !m.solid && isSmoothGlass(at.b) && p.medium == kPrimitiveNone;
+  vec4 chances = lobeChances(at.b, at.outgoing.z);
+  bool rough = !(caster || wall) || !at.b.mirrorLike || chances.z + chances.w > 0.0;
+  float splats = !rough || !scattered ? 0.0 : caster || wall ? 0.5 : 1.0;
+  if (splats > 0.0 && pathRandom(p, kSplatDimension) < splats) return splat(p, s, m, 1.0 / splats);
+  if (!caster && !wall) return p;
+
+  // Step: on, in a single direction.
+  float choice = pathRandom(p, kLobeDimension);
+  vec2 uv = drawPair(p.numbers, kBounceDimensions * uint(p.bounce + 1) + kDirectionDimension);
+  BsdfSample next = sampleBsdf(at.b, at.outgoing, choice, uv.x, uv.y);
+  bool straight = wall && next.transmitted;
+  if (next.density != 0.0 || !(caster || straight)) return p;
+  vec3 direction = ontoSide(normalize(toWorld(at.around, next.incoming)), s.geometricNormal, next.transmitted);
+  // Where normals are bent, flux turns otherwise than radiance (Veach, section 5.3).
+  float before = abs(dot(p.direction, s.geometricNormal)) * abs(next.incoming.z);
+  float after = abs(dot(direction, s.geometricNormal)) * abs(at.outgoing.z);
+  vec3 weight = next.weight * (after / max(before, 1e-9) / (1.0 - splats));
+  if (p.bounce == 0) p.clearFirst = glass;
+  return proceed(scatter(p, s, direction, weight, 0.0, next.transmitted, m));
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// What one light path adds to one pixel, and the square of its luminance.
+#include "sampling.glsl"
+#include "pixel_filter.glsl"
+#include "luminance.glsl"
+
+layout(location = 0) flat in vec3 light;
+layout(location = 1) flat in vec2 place;
+
+layout(location = 0) out vec4 added;
+
+void main() {
+  // The point's pixel is the one that it lies in, whatever a rounded distance says of a filter as wide as that.
+  float density = kPixelFilter == kBoxFilter ? 1.0 : pixelFilterDensity(kPixelFilter, gl_FragCoord.xy - place);
+  vec3 own = density * light;
+  float value = luminance(own);
+  added = vec4(own, value * value);
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// A point for each light path, over the pixels that its pixel filter reaches.
+#include "sampling.glsl"
+#include "pixel_filter.glsl"
+
+layout(binding = 0) uniform sampler2D lights;  // light, x of where it is seen in the picture
+layout(binding = 1) uniform sampler2D places;  // y
+layout(location = 0) uniform vec2 corner;  // of the film's first pixel, in the picture
+layout(location = 1) uniform vec2 size;    // of the viewport, whose margin of so many pixels keeps points that lie
+layout(location = 2) uniform float margin;  // beside the film
+
+layout(location = 0) flat out vec3 light;
+layout(location = 1) flat out vec2 place;  // in the film, pixels
+
+void main() {
+  int width = textureSize(lights, 0).x;
+  ivec2 texel = ivec2(gl_VertexID % width, gl_VertexID / width);
+  vec4 first = texelFetch(lights, texel, 0);
+  light = first.rgb;
+  place = vec2(first.a, texelFetch(places, texel, 0).r) - corner;
+  bool shown = max(light.r, max(light.g, light.b)) > 0.0;
+  // The middle of its pixel, so that no rounding decides which pixels it covers.
+  vec2 middle = floor(place) + 0.5 + margin;
+  gl_Position = shown ? vec4(2.0 * middle / size - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+  gl_PointSize = kPixelFilter == kBoxFilter ? 1.0 : kPixelFilter == kGaussianFilter ? 5.0 : 3.0;
+}

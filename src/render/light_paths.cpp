@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// The part of the renderer that draws caustics: passes of light paths.
+#include "render/renderer.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// Light paths of a draw, a side. The same for every picture and driver, so that sums have the same bits.
+constexpr int kRecordSide = 256;
+/// Of these, so many are drawn by a lane one after the other, so that none waits for the longest path of the
+/// others.
+constexpr int kSoftwarePathsPerLane = 16;
+/// Pixels of the picture that a pass has a light path for: caustics are less noisy than the rest with fewer.
+constexpr int kPixelsPerPath = 4;
+constexpr float kMargin = 4.0f;  // pixels about the film; filters reach 2
+
+}  // namespace
+
+bool canSplat() {
+  GLint blends = GL_NONE;
+  glGetInternalformativ(GL_TEXTURE_2D, GL_RGBA32F, GL_FRAMEBUFFER_BLEND, 1, &blends);
+  GLfloat sizes[2] = {1.0f, 1.0f};
+  glGetFloatv(GL_POINT_SIZE_RANGE, sizes);
+  checkGl("asking what can be blended");
+  return blends == GL_FULL_SUPPORT && sizes[1] >= 5.0f;
+}
+
+void Renderer::compileLightPaths(Film& film, const View& view) {
+  const std::optional<ShaderVariant> light = lightPathVariant(variant_);
+  if (!light) return;
+  const ShaderVariant camera = variant_;
+  if (!lightRecords_) lightRecords_.emplace(glm::ivec2(kRecordSide));
+  variant_ = *light;
+  setFrame(*lightRecords_, view);
+  setCasters();
+  drawTile(*lightRecords_, {0, 0}, glm::ivec2(8), 1, [] { return true; });
+  splat(film, view);
+  variant_ = camera;
+}
+
+void Renderer::setCasters() {
+  const GLuint program = programs_.tracer(variant_).name();
+  glProgramUniform4fv(program, 0, GLsizei(casters_.size()), casters_.empty() ? nullptr : &casters_[0].x);
+  glProgramUniform1i(program, GLint(layout::kMostCasters), int(casters_.size()));
+}
+
+bool Renderer::addLightPaths(Film& film, const View& view, int passes, const std::function<bool()>& goOn) {
+  if (film.lightPasses() >= passes) return true;
+  const std::optional<ShaderVariant> light = lightPathVariant(variant_);
+  if (!light) return true;
+  const ShaderVariant camera = variant_;
+  bool complete = true;
+  while (complete && film.lightPasses() < passes) {
+    variant_ = *light;
+    complete = addLightPass(film, view, goOn);
+    film.endLightPass();
+  }
+  variant_ = camera;
+  setFrame(film, view);
+  return complete;
+}
+
+bool Renderer::addLightPass(Film& film, const View& view, const std::function<bool()>& goOn) {
+  const glm::ivec2 whole = view.placement ? view.placement->whole : film.size();
+  if (!lightRecords_) lightRecords_.emplace(glm::ivec2(kRecordSide));
+  View seen = view;
+  seen.placement = Placement{{0, 0}, whole};
+  seen.sampleOffset = view.sampleOffset + film.lightPasses();
+  const glm::ivec2 paths(whole.x, (whole.y + kPixelsPerPath - 1) / kPixelsPerPath);
+  for (int y = 0; y < paths.y; y += kRecordSide) {
+    for (int x = 0; x < paths.x; x += kRecordSide) {
+      const glm::ivec2 tile = glm::min(glm::ivec2(kRecordSide), paths - glm::ivec2(x, y));
+      lightRecords_->clear();
+      setFrame(*lightRecords_, seen);
+      setCasters();
+      frame_.part.x = x;
+      frame_.part.y = y;
+      const int perLane = software_ ? kSoftwarePathsPerLane : 1;
+      const glm::ivec2 lanes((tile.x + perLane - 1) / perLane, tile.y);
+      if (!drawTile(*lightRecords_, {0, 0}, lanes, perLane, goOn)) return false;
+      splat(film, view);
+      film.countLightPaths(uint64_t(tile.x) * uint64_t(tile.y));
+    }
+  }
+  return true;
+}
+
+void Renderer::splat(Film& film, const View& view) {
+  const glm::ivec2 size = film.size();
+  const Placement placed = view.placement.value_or(Placement{{0, 0}, size});
+  const GLuint program = programs_.splatter(variant_).name();
+  if (splatTarget_.name() == 0) splatTarget_ = makeFramebuffer();
+  glNamedFramebufferTexture(splatTarget_.name(), GL_COLOR_ATTACHMENT0, film.splats().name(), 0);
+  glBindFramebuffer(GL_FRAMEBUFFER, splatTarget_.name());
+  const glm::vec2 viewport = glm::vec2(size) + 2.0f * kMargin;
+  glViewport(-int(kMargin), -int(kMargin), int(viewport.x), int(viewport.y));
+  glProgramUniform2f(program, 0, float(placed.corner.x), float(placed.whole.y - placed.corner.y - size.y));
+  glProgramUniform2f(program, 1, viewport.x, viewport.y);
+  glProgramUniform1f(program, 2, kMargin);
+  lightRecords_->bindTextures();
+  glUseProgram(program);
+  glEnable(GL_PROGRAM_POINT_SIZE);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  glDrawArrays(GL_POINTS, 0, kRecordSide * kRecordSide);
+  glDisable(GL_BLEND);
+  glDisable(GL_PROGRAM_POINT_SIZE);
+  glNamedFramebufferTexture(splatTarget_.name(), GL_COLOR_ATTACHMENT0, 0, 0);
+  glFinish();
+  checkGl("adding light paths to the film");
+}
+
+}  // namespace fragtrace

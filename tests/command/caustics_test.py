@@ -1,0 +1,269 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""--caustics: light that lamps send by way of smooth metal and glass onto matt ground, against closed forms: that of a mirror is what
+the mirrored lamp sends, that of a slab of glass follows from Snell and Fresnel. Means of 6 seeds lie within 6 standard errors
+(5 degrees of freedom: one of 500 would not)."""
+import json
+import math
+import statistics
+import struct
+from pathlib import Path
+
+from known_light_test import MATT, SPECULAR, from_lamp, over_ground
+from materials_test import data_uri, quad
+from support import SCENES, Case, luminances, main, run
+
+SEEDS = range(1, 7)
+WIDE = 2.5    # half of the width of ground and mirror
+MIRROR = 1.5  # the mirror stands at x = -MIRROR
+POINT = (0.5, 0.2, 1.2)
+INTENSITY = 3.0
+CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+LAMP = ((0.3, -0.2, 1.4), 0.35, 6.0)   # middle, half of its width, radiance
+SUN = (0.9, 2.0)                       # angle to the vertical, irradiance
+CONE = (0.5, 1.1)                      # of the spot
+BACK = [-math.sqrt(0.5), 0, 0, math.sqrt(0.5)]
+TURN = [0, math.sqrt(0.5), 0, math.sqrt(0.5)]  # +z to +x
+OVER = [1, 0, 0, 0]                            # +z to -z
+SMALL = ("--resolution", "32,32")
+
+
+def from_point(place, x, y):
+    return place[2] / math.dist(place, (x, y, 0))**3
+
+
+def mirrored(place):
+    return (-2 * MIRROR - place[0], *place[1:])
+
+
+def reflectance(cosine, eta):
+    """Fresnel's, of unpolarised light that enters what is eta times as dense."""
+    inside = math.sqrt(1 - (1 - cosine * cosine) / eta**2)
+    s, p = (cosine - eta * inside) / (cosine + eta * inside), (eta * cosine - inside) / (eta * cosine + inside)
+    return (s * s + p * p) / 2
+
+
+def through_slab(light, air, thick, eta):
+    """Irradiance, a function of the distance from below a point light: what a slab lets through after 0, 2, 4, ... reflections in it."""
+    def landed(sine, turns):
+        """How far away a ray lands."""
+        return air * sine / math.sqrt(1 - sine**2) + turns * thick * sine / math.sqrt(eta**2 - sine**2)
+
+    def irradiance(r):
+        total = 0.0
+        for turns in (1, 3, 5, 7):
+            low, high = 0.0, 1 - 1e-9
+            for _ in range(60):
+                middle = (low + high) / 2
+                low, high = (middle, high) if landed(middle, turns) < r else (low, middle)
+            cosine = math.sqrt(1 - low**2)
+            # A ring of angles, d(solid angle) = 2 pi sine / cosine d(sine), lands on a ring of the ground.
+            step = 1e-5
+            grows = (landed(low + step, turns) - landed(max(low - step, 0), turns)) / (low + step - max(low - step, 0))
+            lost = reflectance(cosine, eta)
+            total += light * (1 - lost)**2 * lost**(turns - 1) * (low / r if r > 1e-6 else 1 / grows) / (cosine * grows)
+        return total
+    return irradiance
+
+
+class Caustics(Case):
+    def scene(self, name, *things, lights=(), ground=WIDE):
+        """Matt ground and quads of half a width of 1, each with a material, and what its node says."""
+        gltf = quad({"pbrMetallicRoughness": MATT, "extensions": SPECULAR})
+        gltf["nodes"][0]["scale"] = [ground, ground, 1]
+        primitive = gltf["meshes"][0]["primitives"][0]
+        for material, place in things:
+            gltf["materials"].append(material)
+            gltf["nodes"].append({"mesh": len(gltf["meshes"]), **place})
+            gltf["meshes"].append({"primitives": [dict(primitive, material=len(gltf["materials"]) - 1)]})
+        gltf["extensions"] = {"KHR_lights_punctual": {"lights": [light for light, _ in lights]}}
+        gltf["nodes"] += [place | {"extensions": {"KHR_lights_punctual": {"light": i}}} for i, (_, place) in enumerate(lights)]
+        gltf["scenes"] = [{"nodes": list(range(len(gltf["nodes"])))}]
+        path = self.folder / f"{name}.gltf"
+        path.write_text(json.dumps(gltf))
+        return str(path.with_suffix(""))
+
+    @staticmethod
+    def mirror():
+        return ({"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 0}},
+                {"translation": [-MIRROR, 0, 0], "rotation": TURN, "scale": [WIDE, WIDE, 1]})
+
+    @staticmethod
+    def lamp():
+        middle, half, radiance = LAMP
+        return ({"pbrMetallicRoughness": MATT | {"baseColorFactor": [0, 0, 0, 1]}, "emissiveFactor": [1, 1, 1],
+                 "extensions": SPECULAR | {"KHR_materials_emissive_strength": {"emissiveStrength": radiance}}},
+                {"translation": middle, "rotation": OVER, "scale": [half, half, 1]})
+
+    def seen(self, scene, *options, spp=32, bounces=1):
+        return [statistics.fmean(luminances(self.picture(scene, "x.pfm", *SMALL, "--spp", spp, "--seed", seed, "--bounces", bounces, *options)))
+                for seed in SEEDS]
+
+    def assert_mean(self, seen, wanted, what, beside=1e-4):
+        """beside: what the sum over the ground is off by."""
+        error = statistics.stdev(seen) / math.sqrt(len(seen))
+        ratio = statistics.fmean(seen) / wanted
+        print(f"{what}: {ratio - 1:+.4%}, standard error {error / wanted:.4%}")
+        self.assertLess(abs(ratio - 1), 6 * error / wanted + beside, what)
+        self.assertLess(error / wanted, 0.005, what)
+
+    def assert_alike(self, scene, what, from_camera, with_light, bounces=1):
+        """Camera paths alone, of so many samples, and light paths beside them bring the same; returns what."""
+        camera = self.seen(scene, "--caustics", "off", spp=from_camera, bounces=bounces)
+        light = self.seen(scene, spp=with_light, bounces=bounces)
+        mean = statistics.fmean(camera)
+        error = math.sqrt((statistics.variance(camera) + statistics.variance(light)) / len(SEEDS)) / mean
+        difference = statistics.fmean(light) / mean - 1
+        print(f"{what}: {difference:+.4%}, standard error {error:.4%}")
+        self.assertLess(abs(difference), 6 * error)
+        self.assertLess(error, 0.004)
+        return statistics.fmean(light)
+
+    def point_and_mirror(self):
+        return self.scene("point", self.mirror(), lights=[({"type": "point", "intensity": INTENSITY}, {"translation": POINT})])
+
+    def test_a_mirror_shows_the_ground_a_second_lamp(self):
+        scene = self.point_and_mirror()
+        direct = INTENSITY / math.pi * over_ground(lambda x, y: from_point(POINT, x, y))
+        both = direct + INTENSITY / math.pi * over_ground(lambda x, y: from_point(mirrored(POINT), x, y))
+        self.assert_mean(self.seen(scene), both, "point")
+        self.assert_mean(self.seen(scene, "--caustics", "off", spp=4), direct, "point, from the camera alone")
+        self.assert_mean(self.seen(scene, spp=4, bounces=0), direct, "point, one scattering less")
+
+    def test_every_filter_and_camera_weighs_alike(self):
+        scene = self.point_and_mirror()
+
+        def light(x, y):
+            return INTENSITY / math.pi * (from_point(POINT, x, y) + from_point(mirrored(POINT), x, y))
+        for kind in ("gaussian", "blackman-harris"):
+            # Beside the picture's edges the filter sees what the mean leaves out.
+            self.assert_mean(self.seen(scene, "--pixel-filter", kind), over_ground(light), kind, 1e-3)
+        self.assert_mean(self.seen(scene, "--camera-parallel-scale", 2.2 * math.tan(0.45)), over_ground(light), "orthographic")
+
+    def test_a_lens_blurs_caustics_as_all_else(self):
+        """Columns of the picture of a small mirror's light, far out of focus, with light paths and without."""
+        (material, place), columns = self.mirror(), {}
+        scene = self.scene("patch", (material, place | {"translation": [-MIRROR, 0, 0.8], "scale": [0.25, 0.4, 1]}), self.lamp())
+        for caustics, spp in (("on", 16), ("off", 48)):
+            pictures = [self.picture(scene, "x.pfm", *SMALL, "--spp", spp, "--seed", seed, "--bounces", 1, "--caustics", caustics,
+                                     "--f-stop", "0.05", "--focus-distance", "1.2") for seed in SEEDS]
+            columns[caustics] = [[statistics.fmean(row[x][0] for row in picture) for picture in pictures] for x in range(len(pictures[0][0]))]
+        squares = [(statistics.fmean(a) - statistics.fmean(b))**2 * len(SEEDS) / (statistics.variance(a) + statistics.variance(b))
+                   for a, b in zip(columns["on"], columns["off"])]
+        # 10 / 8 on average, of t's distribution; the standard error of the mean is about 0.4.
+        print(f"columns: {statistics.fmean(squares):.2f}")
+        self.assertLess(statistics.fmean(squares), 10 / 8 + 4 * 0.4)
+
+    def test_a_spot_and_the_sun(self):
+        aim = {"translation": POINT, "rotation": [0, -math.sin(math.pi / 8), 0, math.cos(math.pi / 8)]}
+        axis = (math.sin(math.pi / 4), 0, -math.cos(math.pi / 4))  # of a spot that is turned towards the mirror
+        spot = {"type": "spot", "intensity": INTENSITY, "spot": {"innerConeAngle": CONE[0], "outerConeAngle": CONE[1]}}
+
+        def cone(place, axis, x, y):
+            distance = math.dist(place, (x, y, 0))
+            cosine = (axis[0] * (x - place[0]) - axis[1] * place[1] - axis[2] * place[2]) / distance
+            part = (cosine - math.cos(CONE[1])) / (math.cos(CONE[0]) - math.cos(CONE[1]))
+            return min(max(part, 0), 1)**2 * from_point(place, x, y)
+
+        def from_spot(x, y):
+            return cone(POINT, (-axis[0], 0, axis[2]), x, y) + cone(mirrored(POINT), axis, x, y)
+        aim["rotation"] = [0, math.sin(math.pi / 8), 0, math.cos(math.pi / 8)]
+        scene = self.scene("spot", self.mirror(), lights=[(spot, aim)])
+        self.assert_mean(self.seen(scene), INTENSITY / math.pi * over_ground(from_spot), "spot", 1e-3)
+        angle, irradiance = SUN
+        sun = {"type": "directional", "intensity": irradiance}
+        scene = self.scene("sun", self.mirror(), lights=[(sun, {"rotation": [0, math.sin(angle / 2), 0, math.cos(angle / 2)]})])
+        self.assert_mean(self.seen(scene, spp=64), 2 * irradiance * math.cos(angle) / math.pi, "sun")
+
+    def test_an_area_lamp_with_light_paths_and_without(self):
+        scene = self.scene("lamp", self.mirror(), self.lamp())
+        (mx, my, mz), half, radiance = LAMP
+        corners = [(mx + half * a, my + half * b, mz) for a, b in CORNERS]
+        expected = radiance / math.pi * over_ground(
+            lambda x, y: from_lamp(x, y, corners) + from_lamp(x, y, [mirrored(c) for c in corners]))
+        self.assert_mean(self.seen(scene), expected, "lamp")
+        self.assert_mean(self.seen(scene, "--caustics", "off", spp=48), expected, "lamp, from the camera alone")
+
+    def test_a_slab_of_glass_and_the_reflections_in_it(self):
+        slab = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0},
+                "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.8},
+                               "KHR_materials_volume": {"thicknessFactor": 1}}}
+        faces = [(slab, {"translation": [0, 0, z], "rotation": turned, "scale": [0.9, 0.9, 1]}) for z, turned in ((2.8, [0, 0, 0, 1]), (2.4, OVER))]
+        scene = self.scene("slab", *faces, lights=[({"type": "point", "intensity": INTENSITY}, {"translation": [0, 0, 4.5]})], ground=1.2)
+        irradiance = through_slab(INTENSITY, 4.1, 0.4, 1.8)
+        expected = over_ground(lambda x, y: irradiance(math.hypot(x, y))) / math.pi
+        self.assert_mean(self.seen(scene, spp=96), expected, "slab")
+        self.assertEqual(max(self.seen(scene, "--caustics", "off", spp=1)), 0)
+        self.assertEqual(max(self.seen(scene, spp=1, bounces=0)), 0)
+
+    def test_single_sided_surfaces_stop_light_as_on_paths_from_the_camera(self):
+        """A screen between lamp and mirror: paths from the mirror to the lamp pass its back, and are stopped by its front."""
+        screen = {"pbrMetallicRoughness": MATT | {"baseColorFactor": [0, 0, 0, 1]}, "extensions": SPECULAR}
+        means = []
+        for way, rotation in (("back", TURN), ("front", [0, -TURN[1], 0, TURN[3]])):
+            node = {"translation": [-1.2, 0, 0.85], "rotation": rotation, "scale": [0.25, 0.6, 1]}
+            scene = self.scene(way, self.mirror(), self.lamp(), (screen, node))
+            means.append(self.assert_alike(scene, way, 64, 40))
+        self.assertGreater(means[0], 1.02 * means[1])
+
+    def test_bent_mirrors_that_are_rough_in_part(self):
+        """Two that face each other: light paths go from one to the other, and normals bend what they carry."""
+        half = {"pbrMetallicRoughness": {"baseColorFactor": [0.9, 0.8, 0.7, 1], "metallicFactor": 0.6, "roughnessFactor": 0}}
+        walls = [(half, {"translation": [x, 0, 0], "rotation": [0, y, 0, TURN[3]], "scale": [WIDE, WIDE, 1]})
+                 for x, y in ((-MIRROR, TURN[1]), (MIRROR, -TURN[1]))]
+        path = self.scene("bent", *walls, self.lamp())
+        gltf = json.loads(Path(f"{path}.gltf").read_text())
+        normals = b"".join(struct.pack("<3f", 0.35 * x, 0.35 * y, (1 - 2 * 0.35**2)**0.5) for x, y in CORNERS)
+        gltf["accessors"].append({"bufferView": len(gltf["bufferViews"]), "componentType": 5126, "count": 4, "type": "VEC3"})
+        gltf["bufferViews"].append({"buffer": 1, "byteLength": len(normals)})
+        gltf["buffers"].append({"byteLength": len(normals), "uri": data_uri("application/octet-stream", normals)})
+        for mesh in gltf["meshes"][1:3]:
+            mesh["primitives"][0]["attributes"] = {"POSITION": 0, "NORMAL": len(gltf["accessors"]) - 1}
+        Path(f"{path}.gltf").write_text(json.dumps(gltf))
+        self.assert_alike(path, "bent", 96, 48, bounces=5)
+
+    def test_the_noise_is_what_the_variance_says(self):
+        """Of independent numbers, over pixels and 24 seeds; a standard error of about 2 %."""
+        scene = self.scene("lamp", self.mirror(), self.lamp())
+        means, told = [], []
+        for seed in range(12):
+            exr = self.picture(scene, "x.exr", *SMALL, "--spp", 16, "--seed", seed, "--disable", "sobol", "--aov", "variance")
+            means.append(exr.luminances())
+            told.append(exr.values("variance.Y"))
+        seen = statistics.fmean(statistics.variance(values) for values in zip(*means))
+        said = statistics.fmean(statistics.fmean(values) for values in told)
+        print(f"variance: seen {seen:.3e}, said {said:.3e}, ratio {seen / said:.3f}")
+        self.assertLess(abs(seen / said - 1), 0.08)
+
+    def test_every_schedule_draws_the_same(self):
+        scene = str(SCENES / "caustics")
+        size = ("--resolution", "64,48", "--spp", 4)
+        first = self.picture(scene, "a.pfm", *size, "--schedule", "megakernel", "--dispatch", "fragment")
+        self.assertEqual(first, self.picture(scene, "b.pfm", *size, "--schedule", "wavefront"))
+        self.assertEqual(first, self.picture(scene, "c.pfm", *size, "--schedule", "megakernel", "--dispatch", "compute"))
+
+    def test_a_region_is_what_the_whole_shows_there(self):
+        scene = str(SCENES / "caustics")
+        size = ("--resolution", "64,48", "--spp", 4, "--pixel-filter", "gaussian")
+        whole = self.picture(scene, "a.pfm", *size)
+        part = self.picture(scene, "b.pfm", *size, "--region", "10,20,30,17")
+        self.assertEqual([row[10:40] for row in whole[20:37]], part)
+
+    def test_what_is_said(self):
+        def told(scene, *options):
+            path = self.folder / "stats.json"
+            self.renders(SCENES / f"{scene}.gltf", "-o", self.folder / "x.png", "--resolution", "16,16", "--spp", 3, "--stats", path, *options)
+            return json.loads(path.read_text())["caustics"]
+        drawn = told("caustics")
+        self.assertEqual(drawn["light_paths"], 3 * 16 * 4)
+        self.assertGreater(drawn["casters"], 1)
+        self.assertEqual(told("caustics", "--caustics", "off"), {"light_paths": 0, "casters": 0, "reason": "--caustics"})
+        self.assertIn("no lamp", told("cornell-box")["reason"])
+        for other in (("--clamp-indirect", "1"), ("--shadow-catcher", "0"), ("--aov", "diffuse")):
+            refused = run("render", SCENES / "caustics.gltf", "-o", self.folder / "x.exr", "--caustics", "on", *other)
+            self.assertEqual(refused.returncode, 2, refused.stderr)
+            self.assertIn("--caustics on", refused.stderr)
+
+
+if __name__ == "__main__":
+    main()
