@@ -9,7 +9,7 @@ struct SeenFrom {
   vec3 direction;  // towards it
   float distance;
   vec2 place;        // of the point in the picture, in pixels; y from the bottom
-  float importance;  // of the radiance it sends there, a unit of its area seen from there; 0: the camera does not see it
+  float importance;  // of the light it sends there, a unit of its area seen from there; 0: it is not seen
 };
 
 /// lens: point of the aperture, in local space along right and up. The film is the plane in focus as seen from there

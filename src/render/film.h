@@ -38,7 +38,6 @@ class Film {
   int lightPasses() const { return lightPasses_; }
   void countLightPaths(uint64_t paths) { lightPaths_ += paths; }
   void endLightPass() { ++lightPasses_; }
-  uint64_t lightPaths() const { return lightPaths_; }
   /// Sum and compensation as textures 0 and 1.
   void bindTextures() const;
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The part of the renderer that draws caustics: passes of light paths.
+#include <algorithm>
+
 #include "render/renderer.h"
 
 namespace fragtrace {
@@ -13,7 +15,7 @@ constexpr int kRecordSide = 256;
 constexpr int kSoftwarePathsPerLane = 16;
 /// Pixels of the picture that a pass has a light path for: caustics are less noisy than the rest with fewer.
 constexpr int kPixelsPerPath = 4;
-constexpr float kMargin = 4.0f;  // pixels about the film; filters reach 2
+constexpr int kMargin = 4;  // pixels about the film; filters reach 2
 
 }  // namespace
 
@@ -93,11 +95,13 @@ void Renderer::splat(Film& film, const View& view) {
   if (splatTarget_.name() == 0) splatTarget_ = makeFramebuffer();
   glNamedFramebufferTexture(splatTarget_.name(), GL_COLOR_ATTACHMENT0, film.splats().name(), 0);
   glBindFramebuffer(GL_FRAMEBUFFER, splatTarget_.name());
-  const glm::vec2 viewport = glm::vec2(size) + 2.0f * kMargin;
-  glViewport(-int(kMargin), -int(kMargin), int(viewport.x), int(viewport.y));
+  // Where no viewport is larger than the film, points beside it are lost.
+  const int margin = std::max(size.x, size.y) + 2 * kMargin <= Film::mostSide() ? kMargin : 0;
+  const glm::ivec2 viewport = size + 2 * margin;
+  glViewport(-margin, -margin, viewport.x, viewport.y);
   glProgramUniform2f(program, 0, float(placed.corner.x), float(placed.whole.y - placed.corner.y - size.y));
-  glProgramUniform2f(program, 1, viewport.x, viewport.y);
-  glProgramUniform1f(program, 2, kMargin);
+  glProgramUniform2f(program, 1, float(viewport.x), float(viewport.y));
+  glProgramUniform1f(program, 2, float(margin));
   lightRecords_->bindTextures();
   glUseProgram(program);
   glEnable(GL_PROGRAM_POINT_SIZE);

@@ -147,7 +147,7 @@ class Renderer {
   layout::Frame frame_{};
   LightShare lightShare_;
   std::vector<glm::vec4> casters_;    ///< as in GpuScene
-  std::optional<Film> lightRecords_;  ///< one light path a pixel (addSplat of film_pixel.glsl)
+  std::optional<Film> lightRecords_;  ///< a texel a light path (storeRecord of film.glsl)
   GlFramebuffer splatTarget_;
   GlBuffer frameBuffer_;
   GlBuffer progressBuffer_;

@@ -50,6 +50,8 @@ LIKELY = {
     "lights.lightByTree": ("command.LightTree",),
     "path.normalOfLight": ("command.LightTree",),
     "caustics/": ("command.Caustics",),
+    "path.nextChain": ("command.Caustics",),
+    "film.recordOf": ("command.Caustics",),
     "film.storeRecord": ("command.Caustics",),
     "pixel_filter.pixelFilterDensity": ("command.Caustics",),
     "lights.emittedFrom": ("command.KnownLight",),
