@@ -10,7 +10,7 @@ from Xlib import X
 
 from animation_test import animated
 from clipboard import clipboard_text
-from support import FRAGTRACE, SCENES, Case, main, pixels_of
+from support import FRAGTRACE, SCENES, Case, main, pixels_of, wait_for
 from xdnd import drop
 
 SIZE = ["--resolution", "160,120"]
@@ -316,6 +316,7 @@ class Help(Case):
         other = self.screen.display.screen().root.create_window(0, 0, 50, 50, 0, self.screen.display.screen().root_depth)
         other.map()
         self.screen.display.sync()
+        wait_for(lambda: other.get_attributes().map_state == X.IsViewable, 20, "the other window")
         self.screen.call("xdotool", "windowfocus", "--sync", other.id)
         time.sleep(0.5)
         window = self.screen.display.create_resource_object("window", viewer.id)

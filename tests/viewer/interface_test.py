@@ -178,15 +178,22 @@ class Overlaps(Case):
         viewer.key("c")
 
     def check(self, viewer, size, names):
-        viewer.until(lambda s: all(n in s["places"] for n in names), names)
-        time.sleep(0.2)  # windows take a few frames to find their size
-        places = {n: p for n, p in viewer.status()["places"].items() if n in ("panel", "figures0", "figures1", "news", "status")}
+        kinds = ("panel", "figures0", "figures1", "news", "status")
+
+        def apart(a, b):
+            return a[0] + a[2] <= b[0] or b[0] + b[2] <= a[0] or a[1] + a[3] <= b[1] or b[1] + b[3] <= a[1]
+
+        def settled(s):
+            own = [s["places"][n] for n in kinds if n in s["places"]]
+            return all(n in s["places"] for n in names) and all(a is b or apart(a, b) for a in own for b in own)
+        time.sleep(0.2)  # windows take a few frames to find their size, and more on a busy machine
+        viewer.until(settled, f"{names}, apart", 10)
+        places = {n: p for n, p in viewer.status()["places"].items() if n in kinds}
         for name, (x, y, width, height) in places.items():
             self.assertTrue(x >= 0 and y >= 0 and x + width <= size[0] and y + height <= size[1], (name, places, size))
             self.assertGreater(height, 15 * self.scale, places)  # a line
-            for other, (u, v, w, h) in places.items():
-                apart = x + width <= u or u + w <= x or y + height <= v or v + h <= y
-                self.assertTrue(name == other or apart, (name, other, places, size))
+            for other, place in places.items():
+                self.assertTrue(name == other or apart((x, y, width, height), place), (name, other, places, size))
         return places
 
 
