@@ -10,6 +10,7 @@ const int kBlackmanHarrisFilter = 2;
 /// Harris.
 const float kGaussianDeviation = float(0.5);
 const float kBlackmanHarrisWidth = float(3.0);
+const float kGaussianKept = float(0.99966453737209749);  // 1 - exp(-4^2 / 2), within the cut
 
 /// Density of the window over its width 0..1 and its integral from 0 (Harris, On the Use of Windows for Harmonic
 /// Analysis, 1978: four terms, 92 dB), both over the window's area.
@@ -41,8 +42,7 @@ float sampleBlackmanHarris(float u) {
 vec2 samplePixelFilter(int filterKind, float u, float v) {
   if (filterKind == kGaussianFilter) {
     // Box and Muller's polar form, the radius cut off.
-    const float most = float(0.99966453737209749);  // 1 - exp(-4^2 / 2)
-    float radius = kGaussianDeviation * sqrt(max(0.0f, -2.0f * log(1.0f - most * u)));
+    float radius = kGaussianDeviation * sqrt(max(0.0f, -2.0f * log(1.0f - kGaussianKept * u)));
     vec2 around = unitCircle(v);
     return vec2(radius * around.x, radius * around.y);
   }
@@ -53,9 +53,8 @@ vec2 samplePixelFilter(int filterKind, float u, float v) {
 /// The density of the filter at a place from the middle of its pixel, in pixels.
 float pixelFilterDensity(int filterKind, vec2 offset) {
   if (filterKind == kGaussianFilter) {
-    const float most = float(0.99966453737209749);
     float squared = dot(offset, offset) / (kGaussianDeviation * kGaussianDeviation);
-    float scale = 1.0f / (2.0f * kPi * kGaussianDeviation * kGaussianDeviation * most);
+    float scale = 1.0f / (2.0f * kPi * kGaussianDeviation * kGaussianDeviation * kGaussianKept);
     return squared < 16.0f ? scale * exp(-0.5f * squared) : 0.0f;
   }
   if (filterKind == kBlackmanHarrisFilter) {

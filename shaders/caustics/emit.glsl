@@ -3,7 +3,7 @@
 // casters, so that no path that meets one first is left out.
 
 layout(location = 0) uniform vec4 casters[kMostCasters];  // local space: middle, radius
-layout(location = 16) uniform int casterCount;
+layout(location = kMostCasters) uniform int casterCount;
 
 /// A ray of light. flux: watts over the density with which it was drawn; zero where there is none.
 struct Emission {

@@ -83,8 +83,7 @@ nlohmann::json headerOf(const Checkpoint& c, uint64_t sum) {
     json["films"].push_back({{"size", sizeJson(film.size)},
                              {"cut", film.cut},
                              {"splats", !film.splats.empty()},
-                             {"light_paths", film.lightPaths},
-                             {"light_passes", film.lightPasses}});
+                             {"light_paths", film.lightPaths}});
   json["looks"] = nlohmann::json::array();
   for (const FilmPixels& look : c.looks)
     json["looks"].push_back({{"size", sizeJson(look.size)}, {"cut", look.cut}});
@@ -117,7 +116,6 @@ Checkpoint decode(Reader reader) {
     state.counts = reader.takeValues<uint32_t>(count);
     if (film.at("splats")) state.splats = reader.takeValues<float>(count);
     state.lightPaths = film.at("light_paths");
-    state.lightPasses = film.at("light_passes");
     c.films.push_back(std::move(state));
   }
   for (const nlohmann::json& look : json.at("looks")) {

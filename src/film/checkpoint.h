@@ -22,7 +22,6 @@ struct FilmState {
   double cut = 0.0;             ///< as in FilmPixels
   std::vector<float> splats{};  ///< of light paths, and their squares; empty: there are none
   uint64_t lightPaths = 0;
-  int lightPasses = 0;  ///< that these are of
 };
 
 /// How far adaptive sampling is: of each block of pixels the samples of a half before the round under way,

@@ -37,7 +37,6 @@ void Film::clear() {
   const GLuint none[4] = {};
   cut_ = 0.0;
   lightPaths_ = 0;
-  lightPasses_ = 0;
   if (splats_.name() != 0) glClearTexImage(splats_.name(), 0, GL_RGBA, GL_FLOAT, zero);
   glClearTexImage(sum_.name(), 0, GL_RGBA, GL_FLOAT, zero);
   glClearTexImage(compensation_.name(), 0, GL_RGBA, GL_FLOAT, zero);
@@ -108,8 +107,7 @@ FilmState Film::save() const {
           cut_,
           lightPaths_ > 0 ? readPictureTexture<float>(splats_, GL_RGBA, 4, GL_FLOAT, size_, kReading)
                           : std::vector<float>(),
-          lightPaths_,
-          lightPasses_};
+          lightPaths_};
 }
 
 void Film::load(const FilmState& state) {
@@ -123,7 +121,6 @@ void Film::load(const FilmState& state) {
   if (!state.splats.empty())
     writePictureTexture(splats(), GL_RGBA, 4, GL_FLOAT, size_, state.splats, kLoading);
   lightPaths_ = state.lightPaths;
-  lightPasses_ = state.lightPasses;
 }
 
 FilmPixels Film::readCounts() const {

@@ -33,11 +33,9 @@ class Film {
 
   /// Makes room for light paths, and is where these add their light and its square.
   const GlTexture& splats();
-  /// The passes of light paths that have been added: as many as there are samples per pixel, once they are
-  /// all there.
-  int lightPasses() const { return lightPasses_; }
+  /// Light paths that have been added.
+  uint64_t lightPaths() const { return lightPaths_; }
   void countLightPaths(uint64_t paths) { lightPaths_ += paths; }
-  void endLightPass() { ++lightPasses_; }
   /// Sum and compensation as textures 0 and 1.
   void bindTextures() const;
 
@@ -59,7 +57,6 @@ class Film {
   double cut_ = 0.0;
   GlTexture splats_;  ///< none where no light path has been added
   uint64_t lightPaths_ = 0;
-  int lightPasses_ = 0;
 };
 
 }  // namespace fragtrace

@@ -48,43 +48,47 @@ void Renderer::setCasters() {
 }
 
 bool Renderer::addLightPaths(Film& film, const View& view, int passes, const std::function<bool()>& goOn) {
-  if (film.lightPasses() >= passes) return true;
   const std::optional<ShaderVariant> light = lightPathVariant(variant_);
   if (!light) return true;
+  const glm::ivec2 whole = view.placement ? view.placement->whole : film.size();
+  const glm::ivec2 paths(whole.x, (whole.y + kPixelsPerPath - 1) / kPixelsPerPath);
+  const uint64_t perPass = uint64_t(paths.x) * uint64_t(paths.y);
+  if (film.lightPaths() >= perPass * uint64_t(passes)) return true;
   const ShaderVariant camera = variant_;
+  variant_ = *light;
+  setCasters();
+  View seen = view;
+  seen.placement = Placement{{0, 0}, whole};
   bool complete = true;
-  while (complete && film.lightPasses() < passes) {
-    variant_ = *light;
-    complete = addLightPass(film, view, goOn);
-    film.endLightPass();
+  while (complete && film.lightPaths() < perPass * uint64_t(passes)) {
+    const uint64_t pass = film.lightPaths() / perPass;
+    seen.sampleOffset = view.sampleOffset + int(pass);
+    uint64_t before = pass * perPass;  // paths of the tiles before this one
+    for (int y = 0; complete && y < paths.y; y += kRecordSide) {
+      for (int x = 0; complete && x < paths.x; x += kRecordSide) {
+        const glm::ivec2 tile = glm::min(glm::ivec2(kRecordSide), paths - glm::ivec2(x, y));
+        // Tiles of a pass that was stopped are there already.
+        if (before >= film.lightPaths()) complete = addLightTile(film, view, seen, {x, y}, tile, goOn);
+        before += uint64_t(tile.x) * uint64_t(tile.y);
+      }
+    }
   }
   variant_ = camera;
   setFrame(film, view);
   return complete;
 }
 
-bool Renderer::addLightPass(Film& film, const View& view, const std::function<bool()>& goOn) {
-  const glm::ivec2 whole = view.placement ? view.placement->whole : film.size();
-  if (!lightRecords_) lightRecords_.emplace(glm::ivec2(kRecordSide));
-  View seen = view;
-  seen.placement = Placement{{0, 0}, whole};
-  seen.sampleOffset = view.sampleOffset + film.lightPasses();
-  const glm::ivec2 paths(whole.x, (whole.y + kPixelsPerPath - 1) / kPixelsPerPath);
-  for (int y = 0; y < paths.y; y += kRecordSide) {
-    for (int x = 0; x < paths.x; x += kRecordSide) {
-      const glm::ivec2 tile = glm::min(glm::ivec2(kRecordSide), paths - glm::ivec2(x, y));
-      lightRecords_->clear();
-      setFrame(*lightRecords_, seen);
-      setCasters();
-      frame_.part.x = x;
-      frame_.part.y = y;
-      const int perLane = software_ ? kSoftwarePathsPerLane : 1;
-      const glm::ivec2 lanes((tile.x + perLane - 1) / perLane, tile.y);
-      if (!drawTile(*lightRecords_, {0, 0}, lanes, perLane, goOn)) return false;
-      splat(film, view);
-      film.countLightPaths(uint64_t(tile.x) * uint64_t(tile.y));
-    }
-  }
+bool Renderer::addLightTile(Film& film, const View& view, const View& seen, glm::ivec2 corner,
+                            glm::ivec2 tile, const std::function<bool()>& goOn) {
+  lightRecords_->clear();
+  setFrame(*lightRecords_, seen);
+  frame_.part.x = corner.x;
+  frame_.part.y = corner.y;
+  const int perLane = software_ ? kSoftwarePathsPerLane : 1;
+  const glm::ivec2 lanes((tile.x + perLane - 1) / perLane, tile.y);
+  if (!drawTile(*lightRecords_, {0, 0}, lanes, perLane, goOn)) return false;
+  splat(film, view);
+  film.countLightPaths(uint64_t(tile.x) * uint64_t(tile.y));
   return true;
 }
 

@@ -124,7 +124,7 @@ void Renderer::setFrame(const Film& film, const View& view) {
 void Renderer::bindPathStates() {
   const bool twoLevels = has(variant_.traits, Trait::Instances);
   const uint32_t rows = (twoLevels ? layout::kTwoLevelPathStateRows : layout::kPathStateRows) +
-                        (isLightPart(variant_.feature) ? 1 : 0);
+                        (isLightPart(variant_.feature) || variant_.lightPaths ? 1 : 0);
   const int64_t count =
       variant_.wavefront ? int64_t(kMaxWaveLanes) * layout::kWaveLaneRows : int64_t(kMaxTilePixels) * rows;
   if (count > pathStateRows_) {
@@ -149,6 +149,7 @@ void Renderer::makeResumable() {
   variant_.resumable = true;
   variant_.wavefront = false;
   variant_.waveUnit = -1;
+  if (variant_.lightPaths) setCasters();
   bindPathStates();
   glUseProgram(programs_.tracer(variant_).name());
 }

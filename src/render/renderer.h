@@ -125,7 +125,9 @@ class Renderer {
   /// Brings the film's light paths up to so many passes, where its picture has any; false when stopped.
   bool addLightPaths(Film& film, const View& view, int passes, const std::function<bool()>& goOn);
   void compileLightPaths(Film& film, const View& view);
-  bool addLightPass(Film& film, const View& view, const std::function<bool()>& goOn);
+  /// A tile of a pass; `seen`: the view of the whole picture, whose sample is the pass.
+  bool addLightTile(Film& film, const View& view, const View& seen, glm::ivec2 corner, glm::ivec2 tile,
+                    const std::function<bool()>& goOn);
   void setCasters();
   /// What the records hold, through the pixel filter.
   void splat(Film& film, const View& view);
