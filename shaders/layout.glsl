@@ -191,6 +191,7 @@ const uint kNoNormal = 0xffffffu;  // in place of a normal as three 8-bit number
 
 // Light rows: intensity + type, position + range, direction + spot scale, spot offset.
 const uint kLightRows = 4u;
+const uint kLightCandidates = 4u;  // of which a light sample is one (reuse/candidates.glsl)
 const float kLightPoint = 0.0f;
 const float kLightSpot = 1.0f;
 const float kLightDirectional = 2.0f;

@@ -304,28 +304,43 @@ int lightSlotCount() {
   return count + (kEmissiveTriangles ? 1 : 0) + (kEnvironmentSampling ? 1 : 0);
 }
 
+/// What draws a light of global illumination: numbers that choose it (kLightTree), and a point or direction.
+struct LightNumbers {
+  uint choice;
+  uvec2 bits;
+};
+
+LightNumbers lightNumbers(Sampler numbers, uint dimension) {
+  LightNumbers n;
+  n.choice = kLightTree ? drawBits(numbers, dimension) : 0u;
+  n.bits = drawPairBits(numbers, dimension + 1u);
+  return n;
+}
+
+/// The light sample of global illumination that these numbers draw.
+LightSample lightFrom(LightNumbers n, vec3 point, uint normal) {
+  bool emitters = kPunctualLights || kEmissiveTriangles;
+  uvec2 bits = n.bits;
+  float chance = frame.lightChoice.x;
+  LightSample s = noLight();
+  bool environment = kEnvironmentSampling;
+  if (kEnvironmentSampling && emitters) {
+    // The choice takes its part of the number, so that each side gets points that are stratified together.
+    uint border = uint(chance * 4294967040.0f);
+    environment = bits.x < border;
+    bits.x = environment ? stretchBits(bits.x, 0u, 1.0f / chance)
+                         : stretchBits(bits.x, border, 1.0f / (1.0f - chance));
+  }
+  if (kEnvironmentSampling && environment) s = environmentLight(chance, bits);
+  if (emitters && !environment && kLightTree) s = lightByTree(1.0f - chance, point, normal, n.choice, bits);
+  if (emitters && !environment && !kLightTree) s = emitterLight(1.0f - chance, point, bits, false);
+  return s;
+}
+
 /// The light sample of one slot; uses four dimensions from `dimension` on. normal: of the surface, where it takes light
 /// from one side alone (Receiver).
 LightSample lightOfSlot(int slot, vec3 point, uint normal, Sampler numbers, uint dimension) {
-  bool emitters = kPunctualLights || kEmissiveTriangles;
-  if (kGi) {
-    uvec2 bits = drawPairBits(numbers, dimension + 1u);
-    float chance = frame.lightChoice.x;
-    LightSample s = noLight();
-    bool environment = kEnvironmentSampling;
-    if (kEnvironmentSampling && emitters) {
-      // The choice takes its part of the number, so that each side gets points that are stratified together.
-      uint border = uint(chance * 4294967040.0f);
-      environment = bits.x < border;
-      bits.x = environment ? stretchBits(bits.x, 0u, 1.0f / chance)
-                           : stretchBits(bits.x, border, 1.0f / (1.0f - chance));
-    }
-    if (kEnvironmentSampling && environment) s = environmentLight(chance, bits);
-    if (emitters && !environment && kLightTree)
-      s = lightByTree(1.0f - chance, point, normal, drawBits(numbers, dimension), bits);
-    if (emitters && !environment && !kLightTree) s = emitterLight(1.0f - chance, point, bits, false);
-    return s;
-  }
+  if (kGi) return lightFrom(lightNumbers(numbers, dimension), point, normal);
   int punctual = kPunctualLights ? int(frame.lightChoice.w) : 0;
   LightSample s = noLight();
   if (kPunctualLights && slot < punctual) s = punctualLight(slot, point);

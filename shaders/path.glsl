@@ -233,10 +233,15 @@ float alphaAt(uint material, uint flags, float alpha) {
   return clamp(alpha, 0.0, 1.0);
 }
 
+/// Whether light may come through the surface.
+bool takesLightFromBehind(Surface s, SurfaceMaterial m) {
+  if (m.transmission > 0.0) return true;
+  return kDiffuseTransmission && materialFloats(s.material, kMaterialDiffuseTransmission).w > 0.0;
+}
+
 /// The normal by which the light tree chooses lights for a surface: none where light comes through.
 uint normalOfLight(Surface s, SurfaceMaterial m) {
-  if (!kLightTree || m.transmission > 0.0) return kNoNormal;
-  if (kDiffuseTransmission && materialFloats(s.material, kMaterialDiffuseTransmission).w > 0.0) return kNoNormal;
+  if (!kLightTree || takesLightFromBehind(s, m)) return kNoNormal;
   return packNormal(s.geometricNormal);
 }
 

@@ -64,6 +64,13 @@ Scattering scatteringAt(Surface s, SurfaceMaterial m, vec3 normal, vec3 outgoing
   return at;
 }
 
+/// The light sample of a scattering.
+LightSample lightAt(Surface s, SurfaceMaterial m, Sampler numbers, uint dimension) {
+  uint normal = normalOfLight(s, m);
+  if (!kCandidates) return lightOfSlot(0, s.position, normal, numbers, dimension);
+  return lightOfCandidates(s.position, s.geometricNormal, takesLightFromBehind(s, m), normal, numbers, dimension);
+}
+
 /// The path-traced material: one light sample, and one direction drawn from the BSDF.
 Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   if (kDispersion) {
@@ -79,7 +86,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   float choice = kPassesLight ? pathRandom(p, kLobeDimension) : 0.0;
   vec2 uv = drawPair(p.numbers, dimension + kDirectionDimension);
   if (lightSlotCount() > 0) {
-    LightSample light = lightOfSlot(0, s.position, normalOfLight(s, m), p.numbers, dimension + kLightDimension);
+    LightSample light = lightAt(s, m, p.numbers, dimension + kLightDimension);
     vec3 incoming = toFrame(around, light.direction);
     bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (incoming.z > 0.0);
     BsdfValue value = evaluateBsdf(b, outgoing, incoming);

@@ -37,6 +37,7 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "film.glsl"
 #include "path_state.glsl"
 #include "path.glsl"
+#include "reuse/candidates.glsl"
 #include "caustics/emit.glsl"
 #include "shade.glsl"
 #include "catcher.glsl"
@@ -137,12 +138,12 @@ PixelTrace traceDirect(PixelTrace t, PixelTask task, TreeFrame tree) {
       t.path = withHit(t.path, hit);
       t.path = shade(t.path);
     }
-    t.path.traversal.steps = hit.steps;
+    t.path.traversal.steps = hit.steps + kCandidateSteps;
 
     // Step: is the light seen? Literals are tested for lanes without a shadow ray, too: a branch would save nothing.
     if (kShadows) {
       bool waiting = t.path.phase == kPhaseShadow;
-      Traversal shadow = beginTraversal(t.path.shadowLimit, waiting, hit.steps);
+      Traversal shadow = beginTraversal(t.path.shadowLimit, waiting, t.path.traversal.steps);
       shadow =
           traverse(t.path.shadowOrigin, t.path.shadowDirection, t.path.shadowLimit, shadow, tree, task.budget, true);
       t.path.traversal.steps = shadow.steps;
@@ -189,6 +190,7 @@ PixelTrace tracePhases(PixelTrace t, PixelTask task, TreeFrame tree) {
       } else {
         t.path = shade(t.path);
       }
+      t.path.traversal.steps += kCandidateSteps;
     }
 
     // Step: is the light seen?

@@ -129,8 +129,9 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
     int k = findLSB(left);
     uint bit = 1u << k;
     int row = rowOf(v, k);
-    // searches in tables of lights are not counted: they take one or two iterations, and lanes shade together
-    v.steps += 1;
+    // Searches in tables of lights are not counted, but for candidates: they take one or two iterations, and lanes
+    // shade together.
+    v.steps += 1 + kCandidateIterations;
     WavePath w = takeUp(v, k);
     w.rays += 1;
     Path p = shade(w.path);

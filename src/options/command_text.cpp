@@ -67,6 +67,7 @@ void appendSampling(std::string& text, const RenderOptions& o) {
   append(text, "--rr-depth", std::to_string(o.rouletteDepth), o.rouletteDepth == standard.rouletteDepth);
   append(text, "--clamp-indirect", exactText(o.clampIndirect), o.clampIndirect <= 0.0);
   appendChoice(text, "--light-selection", kLightSelectionNames, o.lightSelection, standard.lightSelection);
+  appendChoice(text, "--light-reuse", kLightReuseNames, o.lightReuse, standard.lightReuse);
   appendChoice(text, "--caustics", kCausticsNames, o.caustics, standard.caustics);
   appendChoice(text, "--pixel-filter", kPixelFilterNames, o.pixelFilter, standard.pixelFilter);
 }

@@ -203,6 +203,11 @@ void addPathOptions(CLI::App& app, RawRender& raw) {
          "by its power, or all alike: " +
              joined(kLightSelectionNames))
       ->capture_default_str();
+  app.add_option("--light-reuse", raw.lightReuse,
+                 "how global illumination takes the light sample of a point: one alone (none), or one of "
+                 "four by the light that they may bring (candidates): " +
+                     joined(kLightReuseNames))
+      ->capture_default_str();
   app.add_option("--caustics", raw.caustics,
                  "trace paths from lamps to smooth glass and metal for the light that these throw on rough "
                  "surfaces; auto does where there are both: " +
@@ -309,6 +314,7 @@ RenderOptions finishRender(const RawRender& raw) {
   finishSurroundings(raw, o);
   if (!raw.region.empty()) o.region = regionOf(raw.region);
   o.lightSelection = choose<LightSelection>("--light-selection", raw.lightSelection, kLightSelectionNames);
+  o.lightReuse = choose<LightReuse>("--light-reuse", raw.lightReuse, kLightReuseNames);
   o.caustics = choose<Caustics>("--caustics", raw.caustics, kCausticsNames);
   o.pixelFilter = choose<PixelFilter>("--pixel-filter", raw.pixelFilter, kPixelFilterNames);
   o.toneMap = choose<ToneMap>("--tone-map", raw.toneMap, toneMapNames());

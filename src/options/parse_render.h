@@ -35,6 +35,7 @@ struct RawRender {
   std::vector<int> region;
   std::string hdriFile;
   std::string lightSelection = "auto";
+  std::string lightReuse = "none";
   std::string caustics = "auto";
   std::string pixelFilter = "box";
   std::string toneMap = "neutral";

@@ -89,6 +89,7 @@ std::string statisticsText(const Statistics& s) {
     json["light_selection"] = s.lightSelection;
     json["light_selection_reason"] = s.lightSelectionReason;
   }
+  if (!s.lightReuse.empty()) json["light_reuse"] = s.lightReuse;
   if (!s.caustics.empty()) {
     json["caustics"] = {{"light_paths", s.film.lightPaths}, {"casters", s.casters}, {"reason", s.caustics}};
   }

@@ -121,6 +121,8 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
     everything.traits |= tracer.features.back().traits;
   }
   describeLightSelection(tracer.variant, loaded.scene, options.lightSelection, stats);
+  if (has(tracer.variant.stages, Stage::Gi))
+    stats.lightReuse = tracer.variant.lightCandidates ? "candidates" : "none";
   if (has(tracer.variant.stages, Stage::Gi)) stats.caustics = whyCaustics(tracer.variant, present, options);
   if (tracer.variant.clampIndirect) stats.clampIndirect = options.clampIndirect;
   for (const StageRow& row : stageRows()) {

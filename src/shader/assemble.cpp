@@ -79,6 +79,7 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
     constant("kWaveImage", variant.waveUnit >= 0);
     text << "const uint kWaveUnit = " << std::max(variant.waveUnit, 0) << "u;\n";
   }
+  constant("kCandidates", variant.lightCandidates);
   constant("kClampIndirect", variant.clampIndirect);
   constant("kShadowCatcher", variant.shadowCatcher);
   constant("kLens", variant.lens);

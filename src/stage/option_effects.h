@@ -52,6 +52,7 @@ inline constexpr std::tuple kOptionRows{
     OptionRow{&RenderOptions::rouletteDepth, Effect::Noise, Renewal::None, "rr_depth"},
     OptionRow{&RenderOptions::clampIndirect, Effect::Picture, Renewal::Program, "clamp_indirect"},
     OptionRow{&RenderOptions::lightSelection, Effect::Noise, Renewal::Program},
+    OptionRow{&RenderOptions::lightReuse, Effect::Noise, Renewal::Program},
     OptionRow{&RenderOptions::caustics, Effect::Picture, Renewal::Program},
     OptionRow{&RenderOptions::noise, Effect::Count},
     OptionRow{&RenderOptions::seconds, Effect::Count},

@@ -44,6 +44,9 @@ inline constexpr std::array<std::string_view, 3> kScheduleNames{"auto", "megaker
 /// power, or all alike.
 enum class LightSelection : uint8_t { Auto, Tree, Power, Uniform };
 inline constexpr std::array<std::string_view, 4> kLightSelectionNames{"auto", "tree", "power", "uniform"};
+/// Of how many light samples a scattering takes one (shaders/reuse/): of one, or of several candidates.
+enum class LightReuse : uint8_t { None, Candidates };
+inline constexpr std::array<std::string_view, 2> kLightReuseNames{"none", "candidates"};
 /// Whether light paths bring the caustics of lamps (shaders/caustics/); auto: where there are lamps and
 /// casters.
 enum class Caustics : uint8_t { Auto, On, Off };
@@ -101,6 +104,7 @@ struct RenderOptions {
   double clampIndirect =
       0.0;  ///< largest radiance that a path of two scatterings or more may add; 0: no limit
   LightSelection lightSelection = LightSelection::Auto;
+  LightReuse lightReuse = LightReuse::None;
   Caustics caustics = Caustics::Auto;
   double noise = 0.0;              ///< relative error to reach, adaptively; 0: spp samples in every pixel
   double seconds = 0.0;            ///< time to spend, adaptively; 0: no limit

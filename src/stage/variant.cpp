@@ -200,6 +200,8 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   if (v.traversal == TraversalMethod::Iterative) v.stackSize = 8;
 
   v.uniformLights = has(v.traits, Trait::LightTree) && options.lightSelection == LightSelection::Uniform;
+  v.lightCandidates =
+      has(v.stages, Stage::Gi) && hasLight(v.traits) && options.lightReuse == LightReuse::Candidates;
   v.pixelFilter = options.pixelFilter;
   v.lens = options.lens.fStop.has_value();
   v.clampIndirect = has(v.stages, Stage::Gi) && options.clampIndirect > 0.0;
@@ -310,6 +312,7 @@ std::string variantName(const ShaderVariant& variant) {
     append(std::string(kPixelFilterNames[size_t(variant.pixelFilter)]) + "-filter");
   if (variant.feature != Feature::None) append(std::string(rowOf(variant.feature).name));
   if (variant.uniformLights) append("uniform-lights");
+  if (variant.lightCandidates) append("light-candidates");
   if (variant.clampIndirect) append("clamp-indirect");
   if (variant.shadowCatcher) append("shadow-catcher");
   if (variant.lens) append("lens");

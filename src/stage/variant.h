@@ -23,6 +23,7 @@ struct ShaderVariant {
   PixelFilter pixelFilter = PixelFilter::Box;
   Feature feature = Feature::None;  ///< what is drawn in place of radiance
   bool uniformLights = false;       ///< the light tree chooses all lights alike
+  bool lightCandidates = false;     ///< a light sample is one of several (shaders/reuse/candidates.glsl)
   bool clampIndirect = false;
   bool shadowCatcher = false;
   bool lens = false;        ///< else a pinhole
@@ -36,8 +37,8 @@ struct ShaderVariant {
 
   auto key() const {
     return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, dispatch,
-                      pixelFilter, feature, uniformLights, clampIndirect, shadowCatcher, lens, lightPaths,
-                      wavefront, waveUnit, resumable, literals);
+                      pixelFilter, feature, uniformLights, lightCandidates, clampIndirect, shadowCatcher,
+                      lens, lightPaths, wavefront, waveUnit, resumable, literals);
   }
   bool operator<(const ShaderVariant& other) const { return key() < other.key(); }
   bool operator==(const ShaderVariant& other) const { return key() == other.key(); }

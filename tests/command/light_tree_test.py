@@ -8,7 +8,7 @@ import statistics
 
 from known_light_test import MATT, SPECULAR, from_lamp, over_ground
 from materials_test import quad
-from support import Case, main
+from support import SCENES, Case, main
 
 SELECTIONS = ("tree", "power", "uniform")
 SEEDS = range(1, 9)
@@ -75,6 +75,34 @@ class LightTree(Case):
         errors = {name: self.assert_mean(self.means(scene, "--light-selection", name), expected, name) for name in SELECTIONS}
         self.assertLess(errors["tree"], 0.002)
 
+    def test_a_light_sample_of_several_candidates_has_the_same_mean(self):
+        scene = self.scene()
+        expected = over_ground(irradiance) / math.pi
+        for name in ("tree", "power"):
+            self.assert_mean(self.means(scene, "--light-selection", name, "--light-reuse", "candidates"), expected, f"candidates by {name}")
+
+    def test_candidates_in_every_block_of_a_picture(self):
+        """1,000 independent passes of one sample, with candidates and without: in blocks of 8 x 8 pixels the means differ as their
+        variances say; 24 blocks, chance 1e-5 each way."""
+        self.assert_blocks_alike("many-lights")
+        self.assert_blocks_alike("rough-glass", "--hdri-file", SCENES / "sun-sky.pfm")
+
+    def assert_blocks_alike(self, scene, *options):
+        size = ("--resolution", "48,32", "--spp", 1000, "--disable", "sobol", "--aov", "variance", *options)
+        pictures = [self.picture(str(SCENES / scene), f"{name}.exr", *size, "--light-reuse", name, "--seed", seed)
+                    for seed, name in enumerate(("none", "candidates"))]
+        (means, others), (noise, less) = ([picture.luminances() for picture in pictures], [picture.values("variance.Y") for picture in pictures])
+        squares = []
+        for top in range(0, 32, 8):
+            for left in range(0, 48, 8):
+                block = [48 * y + x for y in range(top, top + 8) for x in range(left, left + 8)]
+                difference = sum(means[i] - others[i] for i in block)
+                squares.append(difference**2 / sum(noise[i] + less[i] for i in block))
+        mean = statistics.fmean(squares)
+        print(f"{scene}: blocks: mean z^2 {mean:.3f}, largest {max(squares):.1f}")
+        self.assertLess(mean, 2.75, scene)
+        self.assertGreater(mean, 0.195, scene)
+
     def test_the_tree_knows_which_lamps_are_near(self):
         """The variance of a pixel is lower than by power, by what the lamps that are far away no longer take."""
         scene = self.scene()
@@ -96,12 +124,17 @@ class LightTree(Case):
         self.assertRegex(reason, r"^chosen by place, light samples vary [\d.]+ times less$")
         for name in SELECTIONS:
             self.assertEqual(chosen(scene, "--light-selection", name), (name, "--light-selection", name != "power"))
+        for name in ("none", "candidates"):
+            self.picture(scene, "x.pfm", "--spp", 1, "--resolution", "8,8", "--stats", self.folder / "stats.json", "--light-reuse", name)
+            stats = json.loads((self.folder / "stats.json").read_text())
+            self.assertEqual((stats["light_reuse"], "light-candidates" in stats["variant"].split("+")), (name, name == "candidates"))
         # One lamp, of two triangles: nothing to choose from afar.
         self.assertEqual(chosen("cornell-box")[0], "power")
         self.assertEqual(chosen(scene, "--stage", "shadows")[0], None)
 
     def test_schedules_draw_the_same_bits(self):
-        for scene, options in ((self.scene(), []), ("many-lights", ["--light-selection", "tree"]), ("lights", ["--light-selection", "uniform"])):
+        for scene, options in ((self.scene(), []), ("many-lights", ["--light-selection", "tree"]), ("lights", ["--light-selection", "uniform"]),
+                               ("many-lights", ["--light-reuse", "candidates"]), ("lights", ["--light-reuse", "candidates"])):
             a, b = (self.picture(scene, "x.pfm", "--resolution", "40,30", "--spp", 3, "--schedule", schedule, *options)
                     for schedule in ("megakernel", "wavefront"))
             self.assertEqual(a, b, scene)

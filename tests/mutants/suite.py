@@ -11,6 +11,9 @@ from fault import callers_of
 COMMANDS = ("Means", "Sheets", "KnownLight", "ThinGlass", "LightTree", "Caustics", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising")
 # Where to look first, before there is any experience: scenes of picture tests, test files and groups by the beginning of a fault's name.
 LIKELY = {
+    "reuse/candidates.": ("pure.light_tree_test", "command.LightTree"),
+    "shade.lightAt": ("command.LightTree",),
+    "path.takesLightFromBehind": ("command.LightTree",),
     "path.": ("closed-furnace.gi", "command.KnownLight", "cornell-box.gi", "coverage.gi"),
     "path.scatter": ("closed-furnace-roulette.gi", "closed-furnace.gi", "command.KnownLight", "glass-sphere.gi"),
     "path.alphaAt": ("command.Sheets", "coverage.gi"),

@@ -13,6 +13,7 @@ inline bool kEnvironmentSampling = true;
 inline bool kPunctualLights = true;
 inline bool kEmissiveTriangles = true;
 inline bool kLightTree = false;
+inline bool kCandidates = false;
 inline bool kEmissionTexture = false;
 inline bool kClearcoatTexture = false;
 inline bool kTexcoords = false;

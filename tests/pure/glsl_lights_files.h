@@ -26,4 +26,5 @@ inline vec4 interpolate(vec4 a, vec4 b, vec4 c, vec2 weights) {
 // clang-format off
 #include "environment.glsl"
 #include "lights.glsl"
+#include "reuse/candidates.glsl"
 // clang-format on

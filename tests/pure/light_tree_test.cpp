@@ -227,5 +227,59 @@ TEST(LightTree, OneSampleOfAllLightsAndTheEnvironmentIsUnbiased) {
   }
 }
 
+/// What all lights bring to a surface at the origin, by one light sample or by one of several candidates.
+Estimate lightOnSurface(const dvec3& normal, bool through, bool candidates, bool tree) {
+  constexpr uint32_t kSamples = 1 << 17;
+  const uint32_t packed = tree && !through ? glsl_double::packNormal(normal) : layout::kNoNormal;
+  Estimate estimate;
+  for (uint32_t k = 0; k < kSamples; ++k) {
+    const auto numbers = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
+    const auto s = candidates ? glsl_double::lightOfCandidates(kOrigin, normal, through, packed, numbers, 5)
+                              : glsl_double::lightOfSlot(0, kOrigin, packed, numbers, 5);
+    const double cosine = glm::dot(s.direction, normal);
+    // From behind light comes through as red glass lets it.
+    estimate.add(luminanceOf(s.irradiance) * (cosine > 0.0 ? cosine : through ? -0.3 * cosine : 0.0));
+  }
+  return estimate;
+}
+
+TEST(LightCandidates, OneOfSeveralBringsWhatOneAloneDoesWithLessNoise) {
+  const With independent(glsl_variant::kSobol, false);
+  Scene scene = octantScene();
+  scene.lights = threeLights();
+  for (const vec3& p : scene.vertices.position) scene.bounds.include(dvec3(p));
+  for (const LightSelection selection : {LightSelection::Power, LightSelection::Tree}) {
+    const Lit lit(scene, true, selection);
+    const bool tree = selection == LightSelection::Tree;
+    for (const bool through : {false, true}) {
+      const dvec3 normal = glm::normalize(dvec3(0.3, 0.8, -0.5));
+      const Estimate one = lightOnSurface(normal, through, false, tree);
+      const Estimate several = lightOnSurface(normal, through, true, tree);
+      EXPECT_LE(one.error(), 0.01 * one.mean());
+      EXPECT_LE(several.error(), 0.7 * one.error());
+      EXPECT_LE(std::abs(several.mean() - one.mean()), kLimit * std::hypot(one.error(), several.error()));
+    }
+  }
+}
+
+TEST(LightCandidates, EachAloneIsUniform) {
+  constexpr int kParts = 8;
+  for (int index = 0; index < int(layout::kLightCandidates); ++index) {
+    std::array<int, kParts * kParts> cells{};
+    Draw draw(653 + uint64_t(index));
+    constexpr int kDraws = 1 << 14;
+    for (int k = 0; k < kDraws; ++k) {
+      glsl_double::LightNumbers first;
+      first.choice = uint32_t(draw.engine());
+      first.bits = {uint32_t(draw.engine()), uint32_t(draw.engine())};
+      const auto n = glsl_double::shifted(first, index);
+      ++cells[(n.bits.x >> 29) * kParts + (n.bits.y >> 29)];
+    }
+    double squared = 0.0;
+    for (const int count : cells) squared += std::pow(count - kDraws / 64.0, 2) / (kDraws / 64.0);
+    EXPECT_LT(squared, 125.0);  // 63 degrees of freedom, chance 1e-5
+  }
+}
+
 }  // namespace
 }  // namespace fragtrace

@@ -19,13 +19,14 @@ struct NamedConfiguration {
 };
 
 /// What the questions "what does it cost, what does it bring?" are asked of most.
-constexpr std::array<NamedConfiguration, 11> kNamedConfigurations = {{
+constexpr std::array<NamedConfiguration, 12> kNamedConfigurations = {{
     {"default", ""},
     {"baseline", "--disable light-sampling,sobol"},
     {"random", "--disable sobol"},
     {"bsdf", "--disable light-sampling"},
     {"adaptive", "--noise 0.02 --spp 65536"},
     {"power-lights", "--light-selection power"},
+    {"light-candidates", "--light-reuse candidates"},
     {"no-caustics", "--caustics off"},
     {"schlick", "--enable schlick"},
     {"no-compensation", "--disable energy-compensation"},
