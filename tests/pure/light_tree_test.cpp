@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 
 #include "shader_lights.h"
 
@@ -172,6 +173,60 @@ TEST(LightTree, WhatShinesOnASurfaceIsNeverLeftOut) {
     }
   }
   EXPECT_GT(shone, 5000);
+}
+
+/// Lights of the scene that some number chooses.
+std::set<uint32_t> lightsWithin(const glsl_float::Receiver& to) {
+  std::set<uint32_t> found;
+  std::vector<uint32_t> open{glsl_float::readEmitters(glsl_float::lightNodes() + 1).w};
+  while (!open.empty()) {
+    const uint32_t child = open.back();
+    open.pop_back();
+    const int index = int(child & layout::kLightIndex);
+    if ((child & layout::kLightLeaf) != 0u) {
+      const uint32_t kind = glsl_float::emitterRow(index, 3).w;
+      if ((kind & layout::kEmitterPunctual) != 0u) found.insert(kind & ~layout::kEmitterPunctual);
+      continue;
+    }
+    for (const int i : {index, index + 1}) {
+      const auto node = glsl_float::lightNodeFrom(i, to);
+      if (node.importance > 0.0f) open.push_back(node.child);
+    }
+  }
+  return found;
+}
+
+TEST(LightTree, ASpotIsChosenWhereverItShines) {
+  Scene scene = octantScene();
+  Draw draw(659);
+  // Groups of spots that look the same way, so that nodes keep a narrow cone and are seen from beside it.
+  for (int i = 0; i < 48; ++i) {
+    Light spot;
+    spot.type = LightType::Spot;
+    spot.intensity = vec3(1.0f);
+    spot.position = dvec3(6.0 * (i / 8) - 15.0, 0.0, 0.0) + draw.inCube(1.0);
+    spot.direction = glm::normalize(dvec3(0.1 * (i / 8), -1.0, 0.2) + 0.05 * draw.inCube(1.0));
+    spot.innerConeAngle = 0.1f;
+    spot.outerConeAngle = 0.2f;
+    scene.lights.push_back(spot);
+  }
+  for (const vec3& p : scene.vertices.position) scene.bounds.include(dvec3(p));
+  const Lit lit(scene, false, LightSelection::Tree);
+  int shone = 0;
+  int dark = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const dvec3 point = dvec3(0.0, -3.0, 0.0) + dvec3(18.0, 3.0, 3.0) * draw.inCube(1.0);
+    const auto within = lightsWithin(glsl_float::receiverOf(vec3(point), layout::kNoNormal));
+    for (uint32_t i = 0; i < lit.scene.lights.size(); ++i) {
+      const bool shines =
+          luminanceOf(dvec3(glsl_float::punctualLight(int(i), vec3(point)).irradiance)) > 1e-6;
+      shone += shines ? 1 : 0;
+      dark += within.contains(i) ? 0 : 1;
+      ASSERT_TRUE(!shines || within.contains(i));
+    }
+  }
+  EXPECT_GT(shone, 1000);
+  EXPECT_GT(dark, 40000);  // and most are left out where they do not shine
 }
 
 TEST(LightTree, DensityOfASampleIsThatOfTheRayThatFindsIt) {
