@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Makes the charts and tables of docs/design/accuracy.md: error against time in six scenes.
+"""Makes the charts and tables of docs/design/accuracy.md: error against time in seven scenes.
 
 usage: error_charts.py FRAGTRACE ASSETS_FOLDER OUTPUT_FOLDER [NAME ...]
 Run on a quiet machine, from the repository's root. Writes OUTPUT/error-NAME.svg and .json, prints the tables.
@@ -13,13 +13,15 @@ from pathlib import Path
 BOOM_BOX = ["{assets}/scenes/BoomBoxWithAxes/BoomBoxWithAxes.gltf", "--hdri-file", "{assets}/env/lightroom_14b.hdr"]
 RUNS = {
     "cornell-box": ["scenes/cornell-box.gltf", "--reference", "tests/reference/cornell-box.gi.exr", "--spp", "1024",
-                    "--configs", "default,random,bsdf,baseline,adaptive"],
+                    "--configs", "default,random,bsdf,baseline,adaptive,light-candidates,light-spatial"],
     "rough-glass": ["scenes/rough-glass.gltf", "--hdri-file", "scenes/sky.pfm", "--spp", "256",
-                    "--configs", "default,random,bsdf,schlick,adaptive"],
+                    "--configs", "default,random,bsdf,schlick,adaptive,no-compensation"],
     "boom-box": [*BOOM_BOX, "--spp", "256", "--configs", "default,random,bsdf,no-compensation,adaptive"],
-    "many-lights": ["scenes/many-lights.gltf", "--spp", "256", "--configs", "default,random,bsdf,no-compensation,adaptive"],
-    "corridor": ["scenes/corridor.gltf", "--spp", "64", "--configs", "default,power-lights"],
-    "city": ["scenes/city.gltf", "--spp", "256", "--configs", "default,power-lights"],
+    "many-lights": ["scenes/many-lights.gltf", "--spp", "256",
+                    "--configs", "default,random,bsdf,no-compensation,adaptive,power-lights,light-candidates,light-spatial"],
+    "corridor": ["scenes/corridor.gltf", "--spp", "64", "--configs", "default,power-lights,light-candidates,light-spatial"],
+    "city": ["scenes/city.gltf", "--spp", "256", "--configs", "default,power-lights,light-candidates,light-spatial"],
+    "caustics": ["scenes/caustics.gltf", "--spp", "256", "--configs", "default,no-caustics"],
 }
 
 

@@ -192,6 +192,14 @@ const uint kNoNormal = 0xffffffu;  // in place of a normal as three 8-bit number
 // Light rows: intensity + type, position + range, direction + spot scale, spot offset.
 const uint kLightRows = 4u;
 const uint kLightCandidates = 4u;  // of which a light sample is one (reuse/candidates.glsl)
+// Spatial reuse (reuse/reservoir.glsl): neighbours of a pixel that take part, and how far away they are, pixels; what
+// is kept of the numbers that draw a direction of the environment, as a number of 24 bits; the first of its two texture
+// units, behind those of the scene buffers.
+const uint kReuseNeighbours = 4u;
+const float kReuseRadius = 16.0f;
+const uint kReservoirBits = 0xffffff00u;
+const uint kReservoirUnit = 256u;
+const uint kReservoirTextures = kSceneBufferCount;
 const float kLightPoint = 0.0f;
 const float kLightSpot = 1.0f;
 const float kLightDirectional = 2.0f;

@@ -135,14 +135,41 @@ LightSample lightOfEmitter(int emitter, float chance, vec3 point, float u, float
   return s;
 }
 
-/// An emitter drawn by power; onlyTriangles drops punctual lights, which the caller visits one by one.
-LightSample emitterLight(float chance, vec3 point, uvec2 bits, bool onlyTriangles) {
+/// Which point or direction of the lights is sampled.
+struct LightChoice {
+  int emitter;   // kFromEnvironment: the environment
+  float chance;  // of the emitter or the environment; 0: no light reaches the point
+  uvec2 bits;    // a direction of the environment
+  float u;       // a point on an emissive triangle
+  float v;
+};
+
+const int kFromEnvironment = -1;
+
+LightChoice makeChoice(int emitter, float chance, uvec2 bits, float u, float v) {
+  LightChoice c;
+  c.emitter = emitter;
+  c.chance = chance;
+  c.bits = bits;
+  c.u = u;
+  c.v = v;
+  return c;
+}
+
+/// An emitter drawn by power, with `chance` that any is.
+LightChoice emitterByPower(float chance, uvec2 bits) {
   int emitter = emitterAt(bits.x);
   uvec4 entry = emitterRow(emitter, 0);
   float share = uintBitsToFloat(entry.w);
   // Where among its own numbers the bits lie.
   float u = min(float(entry.z - bits.x) / (share * 4294967296.0f), float(0.99999994));
-  return lightOfEmitter(emitter, chance * share, point, u, unitFloat(bits.y), onlyTriangles);
+  return makeChoice(emitter, chance * share, bits, u, unitFloat(bits.y));
+}
+
+/// A light sample by power; onlyTriangles drops punctual lights, which the caller visits one by one.
+LightSample emitterLight(float chance, vec3 point, uvec2 bits, bool onlyTriangles) {
+  LightChoice c = emitterByPower(chance, bits);
+  return lightOfEmitter(c.emitter, c.chance, point, c.u, c.v, onlyTriangles);
 }
 
 /// Bits of the part of all numbers that begins at `first` and is 1 / `stretch` of them, as bits of their own.
@@ -245,36 +272,22 @@ float shareOf(LightNode node, LightNode sibling) {
   return node.importance > 0.0f ? node.importance / (node.importance + sibling.importance) : 0.0f;
 }
 
-struct ChosenEmitter {
-  int index;
-  float chance;  // 0: no light reaches the point
-};
-
-/// The emitter that bits draw by the tree.
-ChosenEmitter emitterByTree(Receiver to, uint bits) {
+/// The emitter that `choice` draws by the tree, with `chance` that any is.
+LightChoice emitterByTree(float chance, Receiver to, uint choice, uvec2 bits) {
   uint child = readEmitters(lightNodes() + 1).w;
-  float chance = 1.0f;
-  while ((child & kLightLeaf) == 0u && chance > 0.0f) {
+  float own = 1.0f;
+  while ((child & kLightLeaf) == 0u && own > 0.0f) {
     int index = int(child & kLightIndex);
     LightNode first = lightNodeFrom(index, to);
     LightNode second = lightNodeFrom(index + 1, to);
     float share = shareOf(first, second);
     uint border = uint(share * 4294967040.0f);
-    bool taken = bits < border || second.importance <= 0.0f;
-    bits = taken ? stretchBits(bits, 0u, 1.0f / share) : stretchBits(bits, border, 1.0f / (1.0f - share));
-    chance *= taken ? share : shareOf(second, first);
+    bool taken = choice < border || second.importance <= 0.0f;
+    choice = taken ? stretchBits(choice, 0u, 1.0f / share) : stretchBits(choice, border, 1.0f / (1.0f - share));
+    own *= taken ? share : shareOf(second, first);
     child = taken ? first.child : second.child;
   }
-  ChosenEmitter chosen;
-  chosen.index = int(child & kLightIndex);
-  chosen.chance = chance;
-  return chosen;
-}
-
-/// A light sample by the tree; `bits` choose the point on an emissive triangle.
-LightSample lightByTree(float chance, vec3 point, uint normal, uint choice, uvec2 bits) {
-  ChosenEmitter chosen = emitterByTree(receiverOf(point, normal), choice);
-  return lightOfEmitter(chosen.index, chance * chosen.chance, point, unitFloat(bits.x), unitFloat(bits.y), false);
+  return makeChoice(int(child & kLightIndex), chance * own, bits, unitFloat(bits.x), unitFloat(bits.y));
 }
 
 /// Density over solid angle with which the tree chooses, from a point, the place that its ray hit on an emissive
@@ -294,6 +307,16 @@ float treeDensity(int slot, vec3 point, uint normal, float distance, float cosin
     if (node > 0) own = lightNodeFrom(node, to);
   }
   return density * distance * distance / max(cosine, float(1e-7));
+}
+
+/// The chance that a point's light sample is one of an emitter or, kFromEnvironment, of the environment; 1 for what no
+/// ray can find.
+float chanceOfLight(int emitter, vec3 point, uint normal) {
+  if (emitter == kFromEnvironment) return frame.lightChoice.x;
+  uint kind = emitterRow(emitter, 3).w;
+  if (kPunctualLights && (kind & kEmitterPunctual) != 0u) return 1.0f;
+  if (!kLightTree) return uintBitsToFloat(emitterRow(emitter, 0).w) * (1.0f - frame.lightChoice.x);
+  return treeDensity(int(kind), point, normal, 1.0f, 1.0f) / uintBitsToFloat(emitterRow(emitter, 2).w);
 }
 
 /// How many light samples each shaded point takes: one with global illumination; else each punctual light, one point of
@@ -317,24 +340,37 @@ LightNumbers lightNumbers(Sampler numbers, uint dimension) {
   return n;
 }
 
-/// The light sample of global illumination that these numbers draw.
-LightSample lightFrom(LightNumbers n, vec3 point, uint normal) {
+/// What these numbers choose for a point of global illumination.
+LightChoice chooseLight(LightNumbers n, vec3 point, uint normal) {
   bool emitters = kPunctualLights || kEmissiveTriangles;
-  uvec2 bits = n.bits;
   float chance = frame.lightChoice.x;
-  LightSample s = noLight();
+  LightChoice c = makeChoice(kFromEnvironment, chance, n.bits, 0.0f, 0.0f);
   bool environment = kEnvironmentSampling;
   if (kEnvironmentSampling && emitters) {
     // The choice takes its part of the number, so that each side gets points that are stratified together.
     uint border = uint(chance * 4294967040.0f);
-    environment = bits.x < border;
-    bits.x = environment ? stretchBits(bits.x, 0u, 1.0f / chance)
-                         : stretchBits(bits.x, border, 1.0f / (1.0f - chance));
+    environment = c.bits.x < border;
+    c.bits.x = environment ? stretchBits(c.bits.x, 0u, 1.0f / chance)
+                           : stretchBits(c.bits.x, border, 1.0f / (1.0f - chance));
   }
-  if (kEnvironmentSampling && environment) s = environmentLight(chance, bits);
-  if (emitters && !environment && kLightTree) s = lightByTree(1.0f - chance, point, normal, n.choice, bits);
-  if (emitters && !environment && !kLightTree) s = emitterLight(1.0f - chance, point, bits, false);
+  if (emitters && !environment && kLightTree)
+    c = emitterByTree(1.0f - chance, receiverOf(point, normal), n.choice, c.bits);
+  if (emitters && !environment && !kLightTree) c = emitterByPower(1.0f - chance, c.bits);
+  return c;
+}
+
+/// The light sample of a choice.
+LightSample lightOfChoice(LightChoice c, vec3 point) {
+  bool emitters = kPunctualLights || kEmissiveTriangles;
+  LightSample s = noLight();
+  if (kEnvironmentSampling && c.emitter == kFromEnvironment) s = environmentLight(c.chance, c.bits);
+  if (emitters && c.emitter != kFromEnvironment) s = lightOfEmitter(c.emitter, c.chance, point, c.u, c.v, false);
   return s;
+}
+
+/// The light sample of global illumination that these numbers draw.
+LightSample lightFrom(LightNumbers n, vec3 point, uint normal) {
+  return lightOfChoice(chooseLight(n, point, normal), point);
 }
 
 /// The light sample of one slot; uses four dimensions from `dimension` on. normal: of the surface, where it takes light

@@ -19,6 +19,7 @@ const uint kLobeDimension = 0u;
 const uint kDirectionDimension = 1u;
 const uint kRouletteDimension = 3u;
 const uint kLightDimension = 4u;  // to 7
+const uint kReuseDimension = 8u;  // to 10
 const uint kGlassDimension = 12u;
 
 /// The most that roulette lets a path at smooth glass survive by, and the scattering from which on it always decides.
@@ -93,6 +94,7 @@ uint keyOfPixel(ivec2 pixel) {
 /// A path that begins with a ray.
 Path pathAlong(vec3 origin, vec3 direction, Sampler numbers, int steps) {
   Path p;
+  p.pixel = ivec2(0);
   p.numbers = numbers;
   p.after = kPhaseEnd;
   p.origin = origin;
@@ -143,7 +145,9 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
     vec2 lens = frame.lens.x * sampleAperture(uv.x, uv.y, int(frame.lens.z));
     ray = throughLens(ray, frame.cameraRight.xyz, frame.cameraUp.xyz, frame.cameraForward.xyz, lens, frame.lens.y);
   }
-  return pathAlong(ray.origin, ray.direction, numbers, steps);
+  Path p = pathAlong(ray.origin, ray.direction, numbers, steps);
+  p.pixel = pixel;
+  return p;
 }
 
 /// Adds light, or what of it belongs to the part that is drawn.

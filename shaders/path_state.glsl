@@ -24,6 +24,7 @@ struct Path {
   int clear;       // of these, at smooth glass (kTransmission)
   int walls;       // of these, straight through thin walls (kThinGlass)
   int crossings;   // meetings with surfaces, where there is alpha; see nextCrossing
+  ivec2 pixel;     // of the film (kLightRecords, kNeighbours)
   Sampler numbers;
   bool oneChannel; // dispersion has left one of red, green and blue (kDispersion)
   bool cameraRay;  // nothing but alpha has touched the path yet
@@ -196,6 +197,7 @@ Path loadPath(int index) {
   p.hitSlot = int(a.w);
   a = pathStates[r + 8];
   p.hitT = uintBitsToFloat(a.x);
+  p.pixel = ivec2(0);
   p.numbers.key = a.y;
   p.numbers.index = a.z;
   p.numbers.reversed = reverseBits(a.z);

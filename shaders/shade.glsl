@@ -65,10 +65,15 @@ Scattering scatteringAt(Surface s, SurfaceMaterial m, vec3 normal, vec3 outgoing
 }
 
 /// The light sample of a scattering.
-LightSample lightAt(Surface s, SurfaceMaterial m, Sampler numbers, uint dimension) {
+LightSample lightAt(Path p, Surface s, SurfaceMaterial m) {
   uint normal = normalOfLight(s, m);
-  if (!kCandidates) return lightOfSlot(0, s.position, normal, numbers, dimension);
-  return lightOfCandidates(s.position, s.geometricNormal, takesLightFromBehind(s, m), normal, numbers, dimension);
+  uint dimension = kBounceDimensions * uint(p.bounce + 1) + kLightDimension;
+  if (kNeighbours && p.bounce == 0) {
+    Reservoir own = reservoirAt(p.pixel);
+    if (own.known) return lightOfNeighbours(p, own, s.position, normal);
+  }
+  if (!kCandidates) return lightOfSlot(0, s.position, normal, p.numbers, dimension);
+  return lightOfCandidates(s.position, s.geometricNormal, takesLightFromBehind(s, m), normal, p.numbers, dimension);
 }
 
 /// The path-traced material: one light sample, and one direction drawn from the BSDF.
@@ -86,7 +91,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   float choice = kPassesLight ? pathRandom(p, kLobeDimension) : 0.0;
   vec2 uv = drawPair(p.numbers, dimension + kDirectionDimension);
   if (lightSlotCount() > 0) {
-    LightSample light = lightAt(s, m, p.numbers, dimension + kLightDimension);
+    LightSample light = lightAt(p, s, m);
     vec3 incoming = toFrame(around, light.direction);
     bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (incoming.z > 0.0);
     BsdfValue value = evaluateBsdf(b, outgoing, incoming);
@@ -249,6 +254,7 @@ Path shade(Path p) {
     }
   }
   SurfaceMaterial m = materialAt(s.material, base.rgb, s.texcoords);
+  if (kLightRecords) return keepLight(p, s, m);
   vec3 normal = normalFacing(s, -p.direction);
   if (kGi) p = shadeGlobal(p, s, m, normal);
   if (!kGi) p = shadeLocal(p, s, m, normal);

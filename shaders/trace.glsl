@@ -38,6 +38,8 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "path_state.glsl"
 #include "path.glsl"
 #include "reuse/candidates.glsl"
+#include "reuse/reservoir.glsl"
+#include "reuse/neighbours.glsl"
 #include "caustics/emit.glsl"
 #include "shade.glsl"
 #include "catcher.glsl"
@@ -99,6 +101,8 @@ PixelTrace endSample(PixelTrace t, PixelTask task) {
   if (kShadowCatcher) t.path = showShadow(t.path);
   if (kLightPaths) {
     storeRecord(recordOf(task.pixel, t.film.samples), t.path.radiance, t.path.part.xy);
+    t.film.samples += 1u;
+  } else if (kLightRecords) {
     t.film.samples += 1u;
   } else if (kFeature == kFeatureGuides) {
     t.film = addGuides(t.film, t.path.radiance, t.path.contribution, t.path.shadowLimit, t.path.alpha);
@@ -251,6 +255,7 @@ void tracePixel(ivec2 pixel) {
   t.path.phase = kPhaseEnd;
   t.path.traversal.steps = 0;
   if (kResumable && (t.film.flags & kPixelSuspended) != 0u) t.path = loadPath(state);
+  t.path.pixel = pixel;
   t.film.flags &= ~kPixelSuspended;
   t.tracing = t.path.phase != kPhaseEnd;
 

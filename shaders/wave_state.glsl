@@ -104,6 +104,7 @@ WavePath loadWave(int row, uint key) {
   p.throughput = p.cameraRay ? vec3(1.0) : f.xyz;
   p.density = p.cameraRay ? 0.0 : f.w;
   a = readWave(row + 5);
+  p.pixel = ivec2(0);
   p.numbers = makeSampler(key, a.x);
   w.rays = int(a.y);
   p = withBounce(p, a.z);

@@ -134,6 +134,7 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
     v.steps += 1 + kCandidateIterations;
     WavePath w = takeUp(v, k);
     w.rays += 1;
+    w.path.pixel = v.corner + ivec2(0, k);
     Path p = shade(w.path);
     v.cut += cutThroughput(p);
     bool shadow = kShadows && p.phase == kPhaseShadow;

@@ -3,8 +3,9 @@
 // Importance Resampling for Global Illumination, 2005).
 
 /// Loop iterations that a scattering takes more, at most, and steps of the megakernel's budget, which stand for three
-/// each.
-const int kCandidateIterations = kCandidates ? int(kLightCandidates) * (kLightTree ? 16 : 8) : 0;
+/// each. With neighbours: these, and the way from a leaf of the light tree to its root.
+const int kCandidateIterations = (kCandidates ? int(kLightCandidates) * (kLightTree ? 16 : 8) : 0) +
+                                 (kNeighbours ? int(kReuseNeighbours) + (kLightTree ? 24 : 0) : 0);
 const int kCandidateSteps = kCandidateIterations / 3;
 
 /// The numbers of candidate `index`: those of the first one shifted, each dimension by its own part of the whole, so
@@ -16,39 +17,60 @@ LightNumbers shifted(LightNumbers n, int index) {
   return n;
 }
 
-/// What a light sample may bring to a surface of this normal: a guess that is never zero where the BSDF is not.
-/// through: the surface takes light from behind, too.
+/// What a light sample may bring to a surface of this normal, which may be a rounded one (unpackNormal): a guess that
+/// is never zero where the BSDF is not. through: the surface takes light from behind, too.
 float candidateWeight(LightSample s, vec3 normal, bool through) {
   float cosine = dot(s.direction, normal);
   if (through) cosine = abs(cosine);
   // A shading normal may see more of a light than the surface does.
-  return cosine > 0.0f ? luminance(s.irradiance) * (cosine + 0.1f) : 0.0f;
+  return cosine > float(-0.01) ? luminance(s.irradiance) * (max(cosine, 0.0f) + float(0.1)) : 0.0f;
 }
 
-/// One of the candidates, chosen by what they may bring, and weighted by the mean of these over its own; normal: of the
-/// surface, packedNormal as lightFrom takes it. Uses four dimensions from `dimension` on.
-LightSample lightOfCandidates(vec3 point, vec3 normal, bool through, uint packedNormal, Sampler numbers,
-                              uint dimension) {
+/// A number in [0, 1) has chosen what has this share, if it is less: what is left of it chooses again.
+float numberLeft(float number, float share) {
+  float left = number < share ? number / share : (number - share) / (1.0f - share);
+  return min(left, float(0.99999994));
+}
+
+/// One of the candidates of a surface, chosen by what they may bring.
+struct Candidate {
+  LightChoice light;
+  LightSample lit;  // the same
+  float own;        // what it may bring; 0: no candidate brings light
+  float sum;        // what all may
+};
+
+/// normal: of the surface, packedNormal as lightFrom takes it. Uses four dimensions from `dimension` on.
+Candidate chooseCandidate(vec3 point, vec3 normal, bool through, uint packedNormal, Sampler numbers, uint dimension) {
   LightNumbers first = lightNumbers(numbers, dimension);
   float left = drawFloat(numbers, dimension + 3u);
-  LightSample chosen = noLight();
-  float own = 0.0f;
-  float sum = 0.0f;
+  Candidate c;
+  c.light = makeChoice(kFromEnvironment, 0.0f, uvec2(0u), 0.0f, 0.0f);
+  c.lit = noLight();
+  c.own = 0.0f;
+  c.sum = 0.0f;
   for (int i = 0; i < int(kLightCandidates); ++i) {
-    LightSample s = lightFrom(shifted(first, i), point, packedNormal);
+    LightChoice light = chooseLight(shifted(first, i), point, packedNormal);
+    if (kLightRecords) light.bits &= uvec2(kReservoirBits);
+    LightSample s = lightOfChoice(light, point);
     float weight = candidateWeight(s, normal, through);
     if (!(weight > 0.0f)) continue;
-    sum += weight;
-    // The number that is left chooses again, within the part that its last choice left of it.
-    float share = weight / sum;
-    bool taken = left < share;
-    left = taken ? left / share : (left - share) / (1.0f - share);
-    left = min(left, float(0.99999994));
-    if (taken) {
-      chosen = s;
-      own = weight;
+    c.sum += weight;
+    float share = weight / c.sum;
+    if (left < share) {
+      c.light = light;
+      c.lit = s;
+      c.own = weight;
     }
+    left = numberLeft(left, share);
   }
-  if (own > 0.0f) chosen.irradiance *= sum / (float(kLightCandidates) * own);
-  return chosen;
+  return c;
+}
+
+/// The light sample of the chosen candidate, weighted by the mean of what all may bring over its own part.
+LightSample lightOfCandidates(vec3 point, vec3 normal, bool through, uint packedNormal, Sampler numbers,
+                              uint dimension) {
+  Candidate c = chooseCandidate(point, normal, through, packedNormal, numbers, dimension);
+  if (c.own > 0.0f) c.lit.irradiance *= c.sum / (float(kLightCandidates) * c.own);
+  return c.lit;
 }

@@ -101,6 +101,18 @@ void checkCaustics(const RenderOptions& o) {
     throw UsageError("--caustics on: emission, diffuse and specular (--aov) would not add up to the picture");
 }
 
+/// Pixels take light samples of others in the same pass of the whole picture, so that their errors are alike.
+void checkLightReuse(const RenderOptions& o) {
+  if (o.lightReuse != LightReuse::Spatial) return;
+  const std::string refused = "--light-reuse spatial: ";
+  if (o.region) throw UsageError(refused + "pixels need those about them (--region)");
+  if (isAdaptive(o)) throw UsageError(refused + "all pixels get as many samples (--noise, --time)");
+  if (o.denoise != Denoise::None)
+    throw UsageError(refused + "a filter takes what pixels share for the picture (--denoise)");
+  if (std::ranges::any_of(o.aovFeatures, isLightPart))
+    throw UsageError(refused + "emission, diffuse and specular (--aov) would not add up to the picture");
+}
+
 /// X, Y, width, height.
 Region regionOf(const std::vector<int>& numbers) {
   const Region region{{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
@@ -203,10 +215,12 @@ void addPathOptions(CLI::App& app, RawRender& raw) {
          "by its power, or all alike: " +
              joined(kLightSelectionNames))
       ->capture_default_str();
-  app.add_option("--light-reuse", raw.lightReuse,
-                 "how global illumination takes the light sample of a point: one alone (none), or one of "
-                 "four by the light that they may bring (candidates): " +
-                     joined(kLightReuseNames))
+  app.add_option(
+         "--light-reuse", raw.lightReuse,
+         "how global illumination takes the light sample of a point: one alone (none), one of four by "
+         "the light that they may bring (candidates), or, for what the camera sees, one of those "
+         "of pixels nearby (spatial): " +
+             joined(kLightReuseNames))
       ->capture_default_str();
   app.add_option("--caustics", raw.caustics,
                  "trace paths from lamps to smooth glass and metal for the light that these throw on rough "
@@ -340,6 +354,7 @@ RenderOptions finishRender(const RawRender& raw) {
   o.debugView = debugViewNamed(raw.debugView);
   if (o.debugView == DebugView::Visits) o.stages.set(size_t(Stage::BvhHeatmap));
   settleSamples(raw, o);
+  checkLightReuse(o);
   checkFinite(o);
   return o;
 }

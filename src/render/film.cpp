@@ -51,9 +51,9 @@ void Film::bind() const {
   glBindImageTexture(layout::kFilmCountsBinding, counts_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32UI);
 }
 
-void Film::bindTextures() const {
-  glBindTextureUnit(0, sum_.name());
-  glBindTextureUnit(1, compensation_.name());
+void Film::bindTextures(GLuint first) const {
+  glBindTextureUnit(first, sum_.name());
+  glBindTextureUnit(first + 1, compensation_.name());
 }
 
 const GlTexture& Film::splats() {

@@ -36,8 +36,8 @@ class Film {
   /// Light paths that have been added.
   uint64_t lightPaths() const { return lightPaths_; }
   void countLightPaths(uint64_t paths) { lightPaths_ += paths; }
-  /// Sum and compensation as textures 0 and 1.
-  void bindTextures() const;
+  /// Sum and compensation as two textures, the first on this unit.
+  void bindTextures(GLuint first) const;
 
   /// Adds to FilmPixels::cut, which is kept on the host.
   void addCut(double cut) { cut_ += cut; }

@@ -32,11 +32,11 @@ void Renderer::compileLightPaths(Film& film, const View& view) {
   const std::optional<ShaderVariant> light = lightPathVariant(variant_);
   if (!light) return;
   const ShaderVariant camera = variant_;
-  if (!lightRecords_) lightRecords_.emplace(glm::ivec2(kRecordSide));
+  if (!lightPathFilm_) lightPathFilm_.emplace(glm::ivec2(kRecordSide));
   variant_ = *light;
-  setFrame(*lightRecords_, view);
+  setFrame(*lightPathFilm_, view);
   setCasters();
-  drawTile(*lightRecords_, {0, 0}, glm::ivec2(8), 1, [] { return true; });
+  drawTile(*lightPathFilm_, {0, 0}, glm::ivec2(8), 1, [] { return true; });
   splat(film, view);
   variant_ = camera;
 }
@@ -80,13 +80,13 @@ bool Renderer::addLightPaths(Film& film, const View& view, int passes, const std
 
 bool Renderer::addLightTile(Film& film, const View& view, const View& seen, glm::ivec2 corner,
                             glm::ivec2 tile, const std::function<bool()>& goOn) {
-  lightRecords_->clear();
-  setFrame(*lightRecords_, seen);
+  lightPathFilm_->clear();
+  setFrame(*lightPathFilm_, seen);
   frame_.part.x = corner.x;
   frame_.part.y = corner.y;
   const int perLane = software_ ? kSoftwarePathsPerLane : 1;
   const glm::ivec2 lanes((tile.x + perLane - 1) / perLane, tile.y);
-  if (!drawTile(*lightRecords_, {0, 0}, lanes, perLane, goOn)) return false;
+  if (!drawTile(*lightPathFilm_, {0, 0}, lanes, perLane, goOn)) return false;
   splat(film, view);
   film.countLightPaths(uint64_t(tile.x) * uint64_t(tile.y));
   return true;
@@ -106,7 +106,7 @@ void Renderer::splat(Film& film, const View& view) {
   glProgramUniform2f(program, 0, float(placed.corner.x), float(placed.whole.y - placed.corner.y - size.y));
   glProgramUniform2f(program, 1, float(viewport.x), float(viewport.y));
   glProgramUniform1f(program, 2, float(margin));
-  lightRecords_->bindTextures();
+  lightPathFilm_->bindTextures(0);
   glUseProgram(program);
   glEnable(GL_PROGRAM_POINT_SIZE);
   glEnable(GL_BLEND);

@@ -222,6 +222,7 @@ double Renderer::compile(const ShaderVariant& variant, Film& film, const View& v
   paces_[asked_] = {variant_, msPerSample_, mostSamplesPerDraw_};
   asked_ = variant_ = variant;
   setFrame(film, view);
+  keepLight(film, view, 0, [] { return true; });
   drawTile(film, {0, 0}, glm::min(film.size(), glm::ivec2(kTinyTile)), 1, [] { return true; });
   compileLightPaths(film, view);
   film.clear();
@@ -251,10 +252,17 @@ bool Renderer::addSamples(Film& film, const View& view, int from, int to, Render
   const double total = double(film.size().x) * film.size().y * (to - from);
   double pixelSamplesDone = 0.0;
   for (int done = from; done < to;) {
-    const DrawPlan plan =
-        variant_.wavefront ? planWaves(film.size(), done, to - done)
-                           : planDraws(film.size(), to - done, mostSamplesPerDraw_, msPerSample_, targetMs_);
+    // Pixels take light samples of others in the same sample, which are kept for one at a time.
+    const int left = variant_.neighbours ? 1 : to - done;
+    const DrawPlan plan = variant_.wavefront
+                              ? planWaves(film.size(), done, left)
+                              : planDraws(film.size(), left, mostSamplesPerDraw_, msPerSample_, targetMs_);
     const auto roundStart = Clock::now();
+    if (!keepLight(film, view, done, [&] { return progress(pixelSamplesDone / total); })) {
+      times.renderMs += milliseconds(roundStart, Clock::now());
+      times.drawMs += drawnMs_ - drawnBefore;
+      return false;
+    }
     double tileMs = 0.0;
     for (int y = 0; y < film.size().y; y += plan.tile.y) {
       for (int x = 0; x < film.size().x; x += plan.tile.x) {

@@ -128,6 +128,9 @@ class Renderer {
   /// A tile of a pass; `seen`: the view of the whole picture, whose sample is the pass.
   bool addLightTile(Film& film, const View& view, const View& seen, glm::ivec2 corner, glm::ivec2 tile,
                     const std::function<bool()>& goOn);
+  /// Keeps the light samples of all pixels in their sample `index`, where the picture's pixels take those of
+  /// others; false when stopped.
+  bool keepLight(const Film& film, const View& view, int index, const std::function<bool()>& goOn);
   void setCasters();
   /// What the records hold, through the pixel filter.
   void splat(Film& film, const View& view);
@@ -148,8 +151,9 @@ class Renderer {
   std::map<ShaderVariant, Pace> paces_;  ///< of those that are not used now
   layout::Frame frame_{};
   LightShare lightShare_;
-  std::vector<glm::vec4> casters_;    ///< as in GpuScene
-  std::optional<Film> lightRecords_;  ///< a texel a light path (storeRecord of film.glsl)
+  std::vector<glm::vec4> casters_;     ///< as in GpuScene
+  std::optional<Film> lightPathFilm_;  ///< a texel a light path (storeRecord of film.glsl)
+  std::optional<Film> reservoirs_;  ///< of the film's pixels in this sample (shaders/reuse/neighbours.glsl)
   GlFramebuffer splatTarget_;
   GlBuffer frameBuffer_;
   GlBuffer progressBuffer_;

@@ -122,7 +122,9 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
   }
   describeLightSelection(tracer.variant, loaded.scene, options.lightSelection, stats);
   if (has(tracer.variant.stages, Stage::Gi))
-    stats.lightReuse = tracer.variant.lightCandidates ? "candidates" : "none";
+    stats.lightReuse = tracer.variant.neighbours        ? "spatial"
+                       : tracer.variant.lightCandidates ? "candidates"
+                                                        : "none";
   if (has(tracer.variant.stages, Stage::Gi)) stats.caustics = whyCaustics(tracer.variant, present, options);
   if (tracer.variant.clampIndirect) stats.clampIndirect = options.clampIndirect;
   for (const StageRow& row : stageRows()) {

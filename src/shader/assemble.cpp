@@ -80,6 +80,8 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
     text << "const uint kWaveUnit = " << std::max(variant.waveUnit, 0) << "u;\n";
   }
   constant("kCandidates", variant.lightCandidates);
+  constant("kLightRecords", variant.lightRecords);
+  constant("kNeighbours", variant.neighbours);
   constant("kClampIndirect", variant.clampIndirect);
   constant("kShadowCatcher", variant.shadowCatcher);
   constant("kLens", variant.lens);

@@ -44,9 +44,10 @@ inline constexpr std::array<std::string_view, 3> kScheduleNames{"auto", "megaker
 /// power, or all alike.
 enum class LightSelection : uint8_t { Auto, Tree, Power, Uniform };
 inline constexpr std::array<std::string_view, 4> kLightSelectionNames{"auto", "tree", "power", "uniform"};
-/// Of how many light samples a scattering takes one (shaders/reuse/): of one, or of several candidates.
-enum class LightReuse : uint8_t { None, Candidates };
-inline constexpr std::array<std::string_view, 2> kLightReuseNames{"none", "candidates"};
+/// Of how many light samples a scattering takes one (shaders/reuse/): of one, of several candidates, or, at
+/// what the camera sees, of those of the pixel and of others near it.
+enum class LightReuse : uint8_t { None, Candidates, Spatial };
+inline constexpr std::array<std::string_view, 3> kLightReuseNames{"none", "candidates", "spatial"};
 /// Whether light paths bring the caustics of lamps (shaders/caustics/); auto: where there are lamps and
 /// casters.
 enum class Caustics : uint8_t { Auto, On, Off };

@@ -200,8 +200,9 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   if (v.traversal == TraversalMethod::Iterative) v.stackSize = 8;
 
   v.uniformLights = has(v.traits, Trait::LightTree) && options.lightSelection == LightSelection::Uniform;
-  v.lightCandidates =
-      has(v.stages, Stage::Gi) && hasLight(v.traits) && options.lightReuse == LightReuse::Candidates;
+  const bool drawsLight = has(v.stages, Stage::Gi) && hasLight(v.traits);
+  v.lightCandidates = drawsLight && options.lightReuse == LightReuse::Candidates;
+  v.neighbours = drawsLight && options.lightReuse == LightReuse::Spatial;
   v.pixelFilter = options.pixelFilter;
   v.lens = options.lens.fStop.has_value();
   v.clampIndirect = has(v.stages, Stage::Gi) && options.clampIndirect > 0.0;
@@ -216,6 +217,7 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
     ShaderVariant light = chooseVariant(options, present, surroundings, treeDepth, reads);
     light.feature = feature;
     light.traits.reset(size_t(Trait::Caustics));
+    light.neighbours = false;
     return light;
   }
   RenderOptions wanted = options;
@@ -280,9 +282,21 @@ std::optional<ShaderVariant> lightPathVariant(const ShaderVariant& variant) {
   if (!has(variant.traits, Trait::Caustics)) return std::nullopt;
   ShaderVariant light = variant;
   light.lightPaths = true;
+  light.neighbours = false;
   light.wavefront = false;
   light.waveUnit = -1;
   return light;
+}
+
+std::optional<ShaderVariant> lightRecordVariant(const ShaderVariant& variant) {
+  if (!variant.neighbours) return std::nullopt;
+  ShaderVariant records = variant;
+  records.neighbours = false;
+  records.lightRecords = true;
+  records.traits.reset(size_t(Trait::Caustics));
+  records.wavefront = false;
+  records.waveUnit = -1;
+  return records;
 }
 
 bool keepsWeights(const ShaderVariant& variant) {
@@ -313,6 +327,8 @@ std::string variantName(const ShaderVariant& variant) {
   if (variant.feature != Feature::None) append(std::string(rowOf(variant.feature).name));
   if (variant.uniformLights) append("uniform-lights");
   if (variant.lightCandidates) append("light-candidates");
+  if (variant.lightRecords) append("light-records");
+  if (variant.neighbours) append("neighbours");
   if (variant.clampIndirect) append("clamp-indirect");
   if (variant.shadowCatcher) append("shadow-catcher");
   if (variant.lens) append("lens");

@@ -24,6 +24,8 @@ struct ShaderVariant {
   Feature feature = Feature::None;  ///< what is drawn in place of radiance
   bool uniformLights = false;       ///< the light tree chooses all lights alike
   bool lightCandidates = false;     ///< a light sample is one of several (shaders/reuse/candidates.glsl)
+  bool lightRecords = false;        ///< light samples of first hits are kept (shaders/reuse/neighbours.glsl)
+  bool neighbours = false;          ///< pixels take such light samples of others near them
   bool clampIndirect = false;
   bool shadowCatcher = false;
   bool lens = false;        ///< else a pinhole
@@ -37,8 +39,9 @@ struct ShaderVariant {
 
   auto key() const {
     return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, dispatch,
-                      pixelFilter, feature, uniformLights, lightCandidates, clampIndirect, shadowCatcher,
-                      lens, lightPaths, wavefront, waveUnit, resumable, literals);
+                      pixelFilter, feature, uniformLights, lightCandidates, lightRecords, neighbours,
+                      clampIndirect, shadowCatcher, lens, lightPaths, wavefront, waveUnit, resumable,
+                      literals);
   }
   bool operator<(const ShaderVariant& other) const { return key() < other.key(); }
   bool operator==(const ShaderVariant& other) const { return key() == other.key(); }
@@ -69,6 +72,9 @@ ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet&
 
 /// The variant that traces the light paths of such a picture, if it has any.
 std::optional<ShaderVariant> lightPathVariant(const ShaderVariant& variant);
+
+/// The variant that keeps the light samples that such a picture's pixels take of others, if they do.
+std::optional<ShaderVariant> lightRecordVariant(const ShaderVariant& variant);
 
 /// Whether hits keep their barycentric weights: only vertex attributes need them.
 bool keepsWeights(const ShaderVariant& variant);

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Lights that are chosen by a tree, by power and all alike: white matt ground under 49 lamps of powers from 1 to 100, point lights and
 spots, whose irradiance is a closed form: none of them hides another. Means of 8 seeds lie within 5 standard errors."""
+import itertools
 import json
 import math
 import statistics
@@ -75,11 +76,12 @@ class LightTree(Case):
         errors = {name: self.assert_mean(self.means(scene, "--light-selection", name), expected, name) for name in SELECTIONS}
         self.assertLess(errors["tree"], 0.002)
 
-    def test_a_light_sample_of_several_candidates_has_the_same_mean(self):
+    def test_a_light_sample_of_several_has_the_same_mean(self):
         scene = self.scene()
         expected = over_ground(irradiance) / math.pi
         for name in ("tree", "power"):
-            self.assert_mean(self.means(scene, "--light-selection", name, "--light-reuse", "candidates"), expected, f"candidates by {name}")
+            for reuse in ("candidates", "spatial"):
+                self.assert_mean(self.means(scene, "--light-selection", name, "--light-reuse", reuse), expected, f"{reuse} by {name}")
 
     def test_candidates_in_every_block_of_a_picture(self):
         """1,000 independent passes of one sample, with candidates and without: in blocks of 8 x 8 pixels the means differ as their
@@ -103,6 +105,26 @@ class LightTree(Case):
         self.assertLess(mean, 2.75, scene)
         self.assertGreater(mean, 0.195, scene)
 
+    def test_neighbours_in_every_block_of_a_picture(self):
+        """1,000 independent passes of one sample in 10 parts, with neighbours and without. Pixels near each other err alike, so that the sum of z^2 over
+        blocks of 8 x 8 is compared with those of all signs that the parts' differences could have had: among the largest 1 % of 512 by a chance of 1 %."""
+        self.assert_parts_alike("many-lights")
+        self.assert_parts_alike("rough-glass", "--hdri-file", SCENES / "sun-sky.pfm")
+
+    def assert_parts_alike(self, scene, *options):
+        def blocks(name, seed):
+            picture = self.picture(str(SCENES / scene), "x.exr", "--resolution", "48,32", "--spp", 100, "--disable", "sobol", "--light-reuse", name, "--seed", seed, *options)
+            y = picture.luminances()
+            return [sum(y[48 * (top + i) + left + j] for i in range(8) for j in range(8)) for top in range(0, 32, 8) for left in range(0, 48, 8)]
+        parts = [[a - b for a, b in zip(blocks("none", seed), blocks("spatial", 100 + seed))] for seed in range(10)]
+        squares = [sum(part[k]**2 for part in parts) for k in range(24)]
+        def sum_of(signs):
+            return sum(sum(sign * part[k] for sign, part in zip(signs, parts))**2 / squares[k] for k in range(24))
+        seen = sum_of([1] * 10)
+        larger = sum(sum_of((1,) + signs) >= seen for signs in itertools.product((1, -1), repeat=9))
+        print(f"{scene}: neighbours: mean z^2 {seen / 24:.3f}, {larger} of 512 are as large")
+        self.assertGreater(larger, 5, scene)
+
     def test_the_tree_knows_which_lamps_are_near(self):
         """The variance of a pixel is lower than by power, by what the lamps that are far away no longer take."""
         scene = self.scene()
@@ -124,20 +146,37 @@ class LightTree(Case):
         self.assertRegex(reason, r"^chosen by place, light samples vary [\d.]+ times less$")
         for name in SELECTIONS:
             self.assertEqual(chosen(scene, "--light-selection", name), (name, "--light-selection", name != "power"))
-        for name in ("none", "candidates"):
+        for name, part in (("none", set()), ("candidates", {"light-candidates"}), ("spatial", {"neighbours"})):
             self.picture(scene, "x.pfm", "--spp", 1, "--resolution", "8,8", "--stats", self.folder / "stats.json", "--light-reuse", name)
             stats = json.loads((self.folder / "stats.json").read_text())
-            self.assertEqual((stats["light_reuse"], "light-candidates" in stats["variant"].split("+")), (name, name == "candidates"))
+            self.assertEqual((stats["light_reuse"], {"light-candidates", "neighbours"} & set(stats["variant"].split("+"))), (name, part))
         # One lamp, of two triangles: nothing to choose from afar.
         self.assertEqual(chosen("cornell-box")[0], "power")
         self.assertEqual(chosen(scene, "--stage", "shadows")[0], None)
 
     def test_schedules_draw_the_same_bits(self):
         for scene, options in ((self.scene(), []), ("many-lights", ["--light-selection", "tree"]), ("lights", ["--light-selection", "uniform"]),
-                               ("many-lights", ["--light-reuse", "candidates"]), ("lights", ["--light-reuse", "candidates"])):
+                               ("many-lights", ["--light-reuse", "candidates"]), ("lights", ["--light-reuse", "candidates"]),
+                               ("many-lights", ["--light-reuse", "spatial"]), ("lights", ["--light-reuse", "spatial", "--dispatch", "compute"])):
             a, b = (self.picture(scene, "x.pfm", "--resolution", "40,30", "--spp", 3, "--schedule", schedule, *options)
                     for schedule in ("megakernel", "wavefront"))
             self.assertEqual(a, b, scene)
+
+    def test_neighbours_are_of_the_same_pass_of_the_whole_picture(self):
+        for options, why in ((["--region", "0,0,4,4"], "pixels need those about them"), (["--noise", 0.1], "as many samples"),
+                             (["--time", 1], "as many samples"), (["--denoise", "variance"], "for the picture"), (["--aov", "diffuse"], "add up")):
+            self.fails(2, "render", SCENES / "many-lights.gltf", "-o", self.folder / "x.exr", "--light-reuse", "spatial", *options,
+                       says=("--light-reuse spatial: ", why))
+
+    def test_a_picture_is_the_sum_of_its_passes(self):
+        """Passes do not know each other: two that are drawn apart are those that are drawn together."""
+        options = ("--resolution", "24,16", "--light-reuse", "spatial")
+        both = self.picture("many-lights", "x.pfm", "--spp", 2, *options)
+        first, second = (self.picture("many-lights", "x.pfm", "--spp", 1, "--sample-offset", i, *options) for i in (0, 1))
+        for row, a, b in zip(both, first, second):
+            for pixel, p, q in zip(row, a, b):
+                for c, x, y in zip(pixel, p, q):
+                    self.assertAlmostEqual(c, (x + y) / 2, delta=1e-6 + 1e-6 * abs(c))
 
 
 if __name__ == "__main__":

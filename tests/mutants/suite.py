@@ -11,7 +11,8 @@ from fault import callers_of
 COMMANDS = ("Means", "Sheets", "KnownLight", "ThinGlass", "LightTree", "Caustics", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising")
 # Where to look first, before there is any experience: scenes of picture tests, test files and groups by the beginning of a fault's name.
 LIKELY = {
-    "reuse/candidates.": ("pure.light_tree_test", "command.LightTree"),
+    "reuse/neighbours.": ("command.LightTree",),
+    "reuse/": ("pure.light_tree_test", "command.LightTree"),
     "shade.lightAt": ("command.LightTree",),
     "path.takesLightFromBehind": ("command.LightTree",),
     "path.": ("closed-furnace.gi", "command.KnownLight", "cornell-box.gi", "coverage.gi"),
@@ -50,7 +51,7 @@ LIKELY = {
     "lights.lightNodeFrom": ("pure.light_tree_test", "command.LightTree"),
     "lights.shareOf": ("pure.light_tree_test", "command.LightTree"),
     "lights.emitterByTree": ("pure.light_tree_test", "command.LightTree"),
-    "lights.lightByTree": ("command.LightTree",),
+    "lights.chanceOfLight": ("pure.light_tree_test",),
     "path.normalOfLight": ("command.LightTree",),
     "caustics/": ("command.Caustics",),
     "path.nextChain": ("command.Caustics",),

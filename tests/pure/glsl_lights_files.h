@@ -27,4 +27,5 @@ inline vec4 interpolate(vec4 a, vec4 b, vec4 c, vec2 weights) {
 #include "environment.glsl"
 #include "lights.glsl"
 #include "reuse/candidates.glsl"
+#include "reuse/reservoir.glsl"
 // clang-format on

@@ -114,13 +114,13 @@ TEST(LightTree, TheShaderChoosesWithTheChancesItTells) {
     std::map<int, double> chosen;
     double lost = 0.0;  // where bounds promised light that is not there
     for (uint32_t i = 0; i < kSteps; ++i) {
-      const auto emitter = glsl_double::emitterByTree(to, i << 17 | 1u << 16);
+      const auto emitter = glsl_double::emitterByTree(1.0, to, i << 17 | 1u << 16, uvec2(0u));
       if (emitter.chance <= 0.0) {
         lost += 1.0 / kSteps;
         continue;
       }
-      chances[emitter.index] = emitter.chance;
-      chosen[emitter.index] += 1.0 / kSteps;
+      chances[emitter.emitter] = emitter.chance;
+      chosen[emitter.emitter] += 1.0 / kSteps;
     }
     double sum = 0.0;
     for (const auto& [emitter, chance] : chances) {
@@ -132,9 +132,10 @@ TEST(LightTree, TheShaderChoosesWithTheChancesItTells) {
     if (normal == layout::kNoNormal) {
       EXPECT_LT(lost, 0.2);
     }
-    const auto rounded = glsl_float::emitterByTree(glsl_float::receiverOf(vec3(point), normal), 1u << 31);
-    const auto exact = glsl_double::emitterByTree(to, 1u << 31);
-    if (rounded.index == exact.index) {
+    const auto rounded =
+        glsl_float::emitterByTree(1.0f, glsl_float::receiverOf(vec3(point), normal), 1u << 31, uvec2(0u));
+    const auto exact = glsl_double::emitterByTree(1.0, to, 1u << 31, uvec2(0u));
+    if (rounded.emitter == exact.emitter) {
       EXPECT_NEAR(rounded.chance, exact.chance, 2e-3 * exact.chance);
     }
   }
@@ -204,8 +205,9 @@ TEST(LightTree, ASpotIsChosenWhereverItShines) {
     Light spot;
     spot.type = LightType::Spot;
     spot.intensity = vec3(1.0f);
-    spot.position = dvec3(6.0 * (i / 8) - 15.0, 0.0, 0.0) + draw.inCube(1.0);
-    spot.direction = glm::normalize(dvec3(0.1 * (i / 8), -1.0, 0.2) + 0.05 * draw.inCube(1.0));
+    const int column = i / 8;
+    spot.position = dvec3(6.0 * column - 15.0, 0.0, 0.0) + draw.inCube(1.0);
+    spot.direction = glm::normalize(dvec3(0.1 * column, -1.0, 0.2) + 0.05 * draw.inCube(1.0));
     spot.innerConeAngle = 0.1f;
     spot.outerConeAngle = 0.2f;
     scene.lights.push_back(spot);
@@ -241,7 +243,10 @@ TEST(LightTree, DensityOfASampleIsThatOfTheRayThatFindsIt) {
       const uvec2 bits{uint32_t(draw.engine()), uint32_t(draw.engine())};
       const uint32_t normal =
           k % 2 == 0 ? layout::kNoNormal : glsl_double::packNormal(glm::normalize(draw.inCube(1.0)));
-      const auto s = glsl_double::lightByTree(share, point, normal, uint32_t(draw.engine()), bits);
+      const auto s =
+          glsl_double::lightOfChoice(glsl_double::emitterByTree(share, glsl_double::receiverOf(point, normal),
+                                                                uint32_t(draw.engine()), bits),
+                                     point);
       if (s.density <= 0.0) continue;
       const auto place = lit.placeOf(point + s.direction * s.distance);
       if (!place) continue;  // of two triangles at one place
@@ -282,18 +287,66 @@ TEST(LightTree, OneSampleOfAllLightsAndTheEnvironmentIsUnbiased) {
   }
 }
 
-/// What all lights bring to a surface at the origin, by one light sample or by one of several candidates.
-Estimate lightOnSurface(const dvec3& normal, bool through, bool candidates, bool tree) {
+/// A surface that takes light from one side, or from both.
+struct LitPlace {
+  dvec3 point = kOrigin;
+  dvec3 normal{0.0, 0.0, 1.0};
+  bool through = false;
+
+  uint32_t packed() const { return glsl_double::packNormal(normal); }
+  /// As a light sample takes it.
+  uint32_t receiver(bool tree) const { return tree && !through ? packed() : uint32_t(layout::kNoNormal); }
+};
+
+auto reservoirOn(const LitPlace& place, bool tree, const glsl_double::Sampler& numbers) {
+  glsl_double::LitSurface on;
+  on.point = place.point;
+  on.normal = place.packed();
+  on.through = place.through;
+  return glsl_double::makeReservoir(on, place.receiver(tree), numbers, 5);
+}
+
+/// One of the light samples of the place and of four others, some of which are not there, each kept in
+/// texels.
+auto reusedLight(const LitPlace& place, bool tree, uint32_t k) {
+  const With records(glsl_variant::kLightRecords, true);
+  const auto kept = [](const auto& r) {
+    return glsl_double::reservoirOf(glsl_double::firstTexel(r), glsl_double::secondTexel(r));
+  };
+  const auto own =
+      kept(reservoirOn(place, tree, glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k)));
+  const double target = own.weight > 0.0 ? glsl_double::targetOf(own.light, own.surface) : 0.0;
+  Draw draw(k);
+  auto reuse = glsl_double::beginReuse(draw.unit());
+  for (uint32_t i = 0; i < layout::kReuseNeighbours; ++i) {
+    LitPlace other = place;
+    other.point += 0.2 * draw.inCube(1.0);
+    other.normal = glm::normalize(place.normal + draw.inCube(1.0));
+    auto near = kept(reservoirOn(other, tree, glsl_double::makeSampler(glsl_double::pixelKey(i, 19, 23), k)));
+    near.known = draw.unit() < 0.8;
+    reuse = glsl_double::addNeighbour(reuse, own, target, near);
+  }
+  return glsl_double::endReuse(reuse, own, target, place.point, place.receiver(tree));
+}
+
+/// What all lights bring to a surface, but for what rays of a density of 0.3 are to find: by one light
+/// sample, or by one of several.
+Estimate lightOnSurface(const LitPlace& place, LightReuse by, bool tree) {
   constexpr uint32_t kSamples = 1 << 17;
-  const uint32_t packed = tree && !through ? glsl_double::packNormal(normal) : layout::kNoNormal;
   Estimate estimate;
   for (uint32_t k = 0; k < kSamples; ++k) {
     const auto numbers = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
-    const auto s = candidates ? glsl_double::lightOfCandidates(kOrigin, normal, through, packed, numbers, 5)
-                              : glsl_double::lightOfSlot(0, kOrigin, packed, numbers, 5);
-    const double cosine = glm::dot(s.direction, normal);
+    const uint32_t packed = place.receiver(tree);
+    const auto s =
+        by == LightReuse::Spatial ? reusedLight(place, tree, k)
+        : by == LightReuse::Candidates
+            ? glsl_double::lightOfCandidates(place.point, place.normal, place.through, packed, numbers, 5)
+            : glsl_double::lightOfSlot(0, place.point, packed, numbers, 5);
+    const double cosine = glm::dot(s.direction, place.normal);
+    const double weight = s.density > 0.0 ? s.density / (s.density + 0.3) : 1.0;
     // From behind light comes through as red glass lets it.
-    estimate.add(luminanceOf(s.irradiance) * (cosine > 0.0 ? cosine : through ? -0.3 * cosine : 0.0));
+    const double part = cosine > 0.0 ? cosine : place.through ? -0.3 * cosine : 0.0;
+    estimate.add(luminanceOf(s.irradiance) * part * weight);
   }
   return estimate;
 }
@@ -307,12 +360,14 @@ TEST(LightCandidates, OneOfSeveralBringsWhatOneAloneDoesWithLessNoise) {
     const Lit lit(scene, true, selection);
     const bool tree = selection == LightSelection::Tree;
     for (const bool through : {false, true}) {
-      const dvec3 normal = glm::normalize(dvec3(0.3, 0.8, -0.5));
-      const Estimate one = lightOnSurface(normal, through, false, tree);
-      const Estimate several = lightOnSurface(normal, through, true, tree);
+      const LitPlace place{kOrigin, glm::normalize(dvec3(0.3, 0.8, -0.5)), through};
+      const Estimate one = lightOnSurface(place, LightReuse::None, tree);
       EXPECT_LE(one.error(), 0.01 * one.mean());
-      EXPECT_LE(several.error(), 0.7 * one.error());
-      EXPECT_LE(std::abs(several.mean() - one.mean()), kLimit * std::hypot(one.error(), several.error()));
+      for (const LightReuse by : {LightReuse::Candidates, LightReuse::Spatial}) {
+        const Estimate several = lightOnSurface(place, by, tree);
+        EXPECT_LE(several.error(), 0.8 * one.error());
+        EXPECT_LE(std::abs(several.mean() - one.mean()), kLimit * std::hypot(one.error(), several.error()));
+      }
     }
   }
 }

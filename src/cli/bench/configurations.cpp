@@ -19,7 +19,7 @@ struct NamedConfiguration {
 };
 
 /// What the questions "what does it cost, what does it bring?" are asked of most.
-constexpr std::array<NamedConfiguration, 12> kNamedConfigurations = {{
+constexpr std::array<NamedConfiguration, 13> kNamedConfigurations = {{
     {"default", ""},
     {"baseline", "--disable light-sampling,sobol"},
     {"random", "--disable sobol"},
@@ -27,6 +27,7 @@ constexpr std::array<NamedConfiguration, 12> kNamedConfigurations = {{
     {"adaptive", "--noise 0.02 --spp 65536"},
     {"power-lights", "--light-selection power"},
     {"light-candidates", "--light-reuse candidates"},
+    {"light-spatial", "--light-reuse spatial"},
     {"no-caustics", "--caustics off"},
     {"schlick", "--enable schlick"},
     {"no-compensation", "--disable energy-compensation"},

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Spatial reuse: a first program keeps what each pixel's light sample is (kLightRecords), a second one lets pixels take
+// those of others near them (kNeighbours).
+
+layout(binding = kReservoirTextures) uniform sampler2D reservoirSurfaces;
+layout(binding = kReservoirTextures + 1u) uniform sampler2D reservoirLights;
+
+Reservoir reservoirAt(ivec2 pixel) {
+  return reservoirOf(texelFetch(reservoirSurfaces, pixel, 0), texelFetch(reservoirLights, pixel, 0));
+}
+
+void storeReservoir(ivec2 pixel, Reservoir r) {
+  imageStore(filmSum, pixel, firstTexel(r));
+  imageStore(filmCompensation, pixel, secondTexel(r));
+}
+
+/// Keeps the light sample of the first surface of a camera path, which ends there.
+Path keepLight(Path p, Surface s, SurfaceMaterial m) {
+  p.phase = kPhaseEnd;
+  if (p.bounce > 0 || lightSlotCount() == 0) return p;
+  LitSurface on = LitSurface(s.position, packNormal(s.geometricNormal), takesLightFromBehind(s, m));
+  storeReservoir(p.pixel, makeReservoir(on, normalOfLight(s, m), p.numbers, kBounceDimensions + kLightDimension));
+  return p;
+}
+
+/// Where neighbour `index` is: one in each of as many sectors of a disc that is turned by chance.
+ivec2 neighbourOf(ivec2 pixel, int index, vec2 uv) {
+  float angle = 2.0 * kPi * (float(index) + uv.x) / float(kReuseNeighbours);
+  float radius = kReuseRadius * sqrt(fract(uv.y + float(index) * 0.61803399));
+  return pixel + ivec2(floor(radius * vec2(cos(angle), sin(angle)) + 0.5));
+}
+
+/// The light sample of the pixel's first surface, one of its own and its neighbours'. own: what the first program kept
+/// of it.
+LightSample lightOfNeighbours(Path p, Reservoir own, vec3 point, uint normal) {
+  vec2 uv = drawPair(p.numbers, kBounceDimensions + kReuseDimension);
+  Reuse reuse = beginReuse(drawFloat(p.numbers, kBounceDimensions + kReuseDimension + 2u));
+  float ownTarget = own.weight > 0.0 ? targetOf(own.light, own.surface) : 0.0;
+  ivec2 size = textureSize(reservoirSurfaces, 0);
+  for (int i = 0; i < int(kReuseNeighbours); ++i) {
+    ivec2 there = neighbourOf(p.pixel, i, uv);
+    Reservoir near = reservoirAt(clamp(there, ivec2(0), size - 1));
+    near.known = near.known && there == clamp(there, ivec2(0), size - 1);
+    reuse = addNeighbour(reuse, own, ownTarget, near);
+  }
+  return endReuse(reuse, own, ownTarget, point, normal);
+}
