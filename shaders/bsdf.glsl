@@ -141,14 +141,12 @@ vec3 manyScatterings(vec3 fresnel, float averageLoss) {
 Bsdf compensate(Bsdf b) {
   b.between = vec3(0.0f);
   if (!kCompensation || b.mirrorLike) return b;
-  float averageLoss = ggxAverageLoss(b.alpha);
+  float averageLoss = ggxAverageLoss(b.alpha * facetMean(b.stretch));
   if (averageLoss <= 0.0f) return b;
   vec3 color = b.opaque * manyScatterings(averageFresnel(b.dielectricF0, b.dielectricF90), averageLoss);
   if (kMetals) color = color + b.metal * manyScatterings(averageFresnel(b.baseColor, 1.0f), averageLoss);
   b.between = color * (kInversePi / averageLoss);
-  // Stretched facets are in no table: of what isotropic ones of the same area would lose, so much is given back that
-  // nothing is gained.
-  if (kAnisotropy) b.between = b.between / (b.stretch * b.stretch);
+  if (kAnisotropy) b.between = b.between * facetsGiveBack(b.stretch);
   return b;
 }
 
@@ -177,7 +175,7 @@ vec4 lobeChances(Bsdf b, float cosine) {
   float layer = b.opaque * max(throughLayer(b, cosine), float(0.001));
   float diffuse = layer * reflected;
   if (kDiffuseTransmission) through *= layer;
-  if (kCompensation) diffuse = diffuse + maxComponent(b.between) * kPi * ggxLoss(cosine, b.alpha);
+  if (kCompensation) diffuse = diffuse + maxComponent(b.between) * kPi * ggxLoss(cosine, b.alpha * facetMean(b.stretch));
   float below = throughChance(b, diffuse, through);
   diffuse = kDiffuseTransmission ? diffuse + through : diffuse;
   float sum = specular + diffuse;
@@ -306,7 +304,7 @@ BsdfValue evaluateBase(Bsdf b, vec3 outgoing, vec3 incoming) {
       float ratio = facetShadowing(outgoing, incoming, b.alpha, b.stretch);
       r.value = r.value + (density * ratio) * opaqueFresnel(b, oh);
       if (kCompensation) {
-        float lost = ggxLoss(outgoing.z, b.alpha) * ggxLoss(incoming.z, b.alpha);
+        float lost = facetLoss(outgoing, b.alpha, b.stretch) * facetLoss(incoming, b.alpha, b.stretch);
         r.value = r.value + (lost * incoming.z) * b.between;
       }
       r.density = r.density + chances.y * density;

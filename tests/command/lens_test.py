@@ -3,6 +3,7 @@
 """--f-stop: how wide a small lamp is blurred, and how much light stays, against the thin lens equation."""
 import json
 import math
+import statistics
 
 from materials_test import quad
 from support import SCENES, Case, main
@@ -52,6 +53,42 @@ class Lens(Case):
         *_, square = self.moments(self.lamp())
         *_, same = self.moments(self.lamp("--f-stop", 0.05))  # the focal point is on the lamp
         self.assertAlmostEqual(same, square, delta=0.02)
+
+    def test_the_depth_of_a_blurred_edge_is_the_mean_of_what_the_lens_sees(self):
+        """A half-plane 3 m away hides a wall 4 m away, which is in focus: how much of the lens sees it is a segment of the aperture's disc."""
+        gltf = quad({})
+        gltf["nodes"] = [{"mesh": 0, "scale": [4, 4, 1]}, {"mesh": 0, "scale": [4, 4, 1], "translation": [-4, 0, 1]}]
+        gltf["scenes"] = [{"nodes": [0, 1]}]
+        path = self.folder / "edge.gltf"
+        path.write_text(json.dumps(gltf))
+        stop = 0.02
+        radius = 0.5 * 0.012 / math.tan(math.radians(ANGLE / 2)) / stop
+        def part_hidden(x):
+            """Of the lens, where the wall is seen x from the axis: its rays are 3 / 4 x + 1 / 4 of the lens at the edge."""
+            at = min(max(-3 * x / radius, -1), 1)
+            return 0.5 + (at * math.sqrt(1 - at * at) + math.asin(at)) / math.pi
+        rows = self.picture(str(path.with_suffix("")), "x.exr", "--resolution", f"{SIDE},{SIDE}", "--spp", 64, "--camera-position", f"0,0,{DISTANCE}", "--camera-focal-point",
+                            "0,0,0", "--camera-view-angle", ANGLE, "--f-stop", stop, "--stage", "flat", "--aov", "depth")
+        depth = rows.values("depth.Z")
+        pixel = 2 * math.tan(math.radians(ANGLE / 2)) * DISTANCE / SIDE
+        seen = [statistics.fmean(depth[y * SIDE + x] for y in range(SIDE)) for x in range(SIDE)]
+        wanted = []
+        for x in range(SIDE):
+            places = [(x + (k + 0.5) / 64 - SIDE / 2) * pixel for k in range(64)]
+            wanted.append(DISTANCE - statistics.fmean(map(part_hidden, places)))
+        self.assertGreater(sum(3.01 < depth < 3.99 for depth in wanted), 3)
+        self.assertLess(max(abs(a - b) for a, b in zip(seen, wanted)), 0.02)
+
+    def test_a_filter_keeps_what_is_out_of_focus(self):
+        """Filtered, a picture that is out of focus has less error than before."""
+        def picture(spp, seed, *options):
+            rows = self.picture(str(SCENES / "cornell-box"), "x.pfm", "--resolution", "64,64", "--spp", spp, "--seed", seed, "--f-stop", 0.02, "--focus-distance", 1.5, *options)
+            return [value for row in rows for pixel in row for value in pixel]
+        truth = picture(2048, 9)
+        error = lambda picture: sum((a - b)**2 / (b + 0.01)**2 for a, b in zip(picture, truth))
+        plain, filtered = error(picture(16, 1)), error(picture(16, 1, "--denoise", "variance"))
+        print(f"out of focus, filtered: {plain / filtered:.1f} times less squared error")
+        self.assertLess(2 * filtered, plain)
 
     def test_a_wide_pinhole_is_no_lens(self):
         """At a huge f-number the picture is that of the pinhole, but for rounding."""

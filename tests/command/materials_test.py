@@ -134,6 +134,7 @@ class Materials(Case):
             white(**lambertian, diffuse_transmission={"diffuseTransmissionFactor": 1}, volume={"thicknessFactor": 1}),
             white(**solid, dispersion={"dispersion": 5}),
             white(1, 0.3),
+            white(1, 0.9, anisotropy={"anisotropyStrength": 1}),
         ]
         count, size = len(materials), 16
         gltf = self.spheres(materials)

@@ -113,7 +113,7 @@ ROWS = [
     F("reuse/candidates.chooseCandidate", "c.sum += weight", "c.sum += float(1.02) * weight", "light of candidates is 2 % too bright"),
     F("lights.makeChoice", "c.u = u;", "c.u = float(0.98) * u;", "the far 2 % of lamps are never chosen"),
     F("lights.emitterLight", "lightOfEmitter(c.emitter, c.chance,", "lightOfEmitter(c.emitter, float(0.98) * c.chance,", "lamps are 2 % too bright before gi"),
-    F("lights.lightFrom", "chooseLight(n, point, normal), point)", "chooseLight(n, point, normal), float(1.01) * point)", "light samples are those of points beside the surface"),
+    F("lights.lightFrom", "chooseLight(n, point, normal), point)", "chooseLight(n, point, normal), float(1.05) * point)", "light samples are those of points beside the surface"),
     F("lights.lightOfChoice", "lightOfEmitter(c.emitter, c.chance,", "lightOfEmitter(c.emitter, float(0.98) * c.chance,", "lamps are 2 % too bright"),
     F("lights.chanceOfLight environment", "return frame.lightChoice.x;", "return float(1.0);", "reused light of the environment takes its density too high"),
     F("lights.chanceOfLight power", "emitterRow(emitter, 0).w) *", "emitterRow(emitter, 0).w) * float(1.3) *", "reused light of lamps takes its density 30 % too high"),
