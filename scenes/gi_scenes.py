@@ -141,6 +141,24 @@ def caustics(gltf):
     gltf.add_camera("camera", (0.2, 1.9, 3.6), (0, 0.25, 0), 34)
 
 
+@scene("caustic-ground")
+def caustic_ground(gltf):
+    """Dark ground, lit by way of a ball of glass and a hollow mirror that the camera does not see. So dark that what it throws back at them is nothing:
+    paths from a point light that meet it twice are found by no one but tracers of all light paths, as the reference's is."""
+    place_quad(gltf, "ground", ground(1.4, 1), gltf.add_lambert("ground", (0.01, 0.01, 0.01)))
+    gltf.add_sphere("ball", 0.35, glass(gltf, "clear", thicknessFactor=1), translation=[-0.9, 0.5, 0])
+    mirror = gltf.add_material("mirror", (1, 1, 1), metallic=1, roughness=0, doubleSided=True)
+    faces = []
+    for k in range(12):
+        (ax, ay), (bx, by) = ((0.8 + 0.5 * math.cos(t), 0.5 + 0.5 * math.sin(t)) for t in (0.15 * (k + i - 6) for i in (0, 1)))
+        faces.append(quad((ax, ay, -0.4), (bx - ax, by - ay, 0), (0, 0, 0.8)))
+    place_faces(gltf, "hollow", faces, mirror)
+    gltf.add_light("behind", "point", 300, (1, 0.9, 0.8), (-1.7, 1.1, 0.2))
+    gltf.add_light("above", "point", 60, (0.7, 0.8, 1), (0.3, 0.8, -0.3))
+    place_backed_lamp(gltf, 0.1, (6000, 7000, 6000), [-1.2, 1.7, -0.3])
+    gltf.add_camera("camera", (0.2, 3, 0.3), (0.2, 0, 0), 30)
+
+
 # Textures, emitters, coverage
 
 def layers_texel(x, y):

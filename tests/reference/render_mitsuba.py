@@ -197,7 +197,11 @@ def write_ply(path, mesh):
         np.savetxt(file, np.insert(np.arange(len(corners)).reshape(-1, 3), 0, 3, 1), "%d")
 
 
-def punctual(light):
+def punctual(light, traced):
+    """traced: a light that rays can start at; Mitsuba's own, which has no range."""
+    if traced:
+        assert light.kind == "point" and np.isinf(light.range)
+        return {"type": "point", "position": light.position.tolist(), "intensity": rgb(light.radiant)}
     if light.kind == "directional":
         return {"type": "directional", "direction": light.direction.tolist(), "irradiance": rgb(light.radiant)}
     return {"type": "punctual", "position": light.position.tolist(), "direction": light.direction.tolist(),
@@ -260,6 +264,8 @@ def described(scene, entry, scratch):
         integrator = "volpath"
     if any(np.isfinite(m.attenuation_distance) for m in materials):
         integrator = "volpathmis"
+    integrator = entry.get("integrator", integrator)
+    traced = integrator == "ptracer"  # paths from the lamps; the camera sees no smooth surface
     camera = scene.cameras[0]
     result = {
         "type": "scene",
@@ -269,7 +275,7 @@ def described(scene, entry, scratch):
                    "to_world": mi.ScalarTransform4f(camera.to_world @ np.diag([-1.0, 1, -1, 1])),
                    "film": {"type": "hdrfilm", "width": width, "height": height, "rfilter": {"type": "box"},
                             "pixel_format": "rgb", "component_format": "float32"},
-                   "sampler": {"type": "stratified", "sample_count": pass_samples(entry)}}}
+                   "sampler": {"type": "independent" if traced else "stratified", "sample_count": pass_samples(entry)}}}
     for i, mesh in enumerate(scene.meshes):
         path = scratch / ("mesh%d.ply" % i)
         write_ply(path, mesh)
@@ -280,7 +286,7 @@ def described(scene, entry, scratch):
         place = mi.ScalarTransform4f().translate(sphere.center.tolist()).rotate([1, 0, 0], -90).scale([sphere.radius] * 3)
         result["sphere%d" % i] = {"type": "sphere", "to_world": place, **surface(sphere.material, compensated)}
     for i, light in enumerate(scene.lights):
-        result["light%d" % i] = punctual(light)
+        result["light%d" % i] = punctual(light, traced)
     return result
 
 
