@@ -153,6 +153,35 @@ class ThinGlass(Case):
             print(f"{options}: {seen / wanted - 1:+.4%}")
             self.assertAlmostEqual(seen / wanted, 1, delta=2e-3)
 
+    def test_glass_that_lies_on_the_ground(self):
+        """A pane, and a slab that bends light: both let through what two parallel interfaces do, and the rest comes back. What the ground sends up is b:
+        b = albedo (through + (1 - through) b) of the mean over the hemisphere."""
+        albedo, steps, place = 0.5, 4096, (3.3, -1.7, 5.1)
+        angles = [math.pi / 2 * (i + 0.5) / steps for i in range(steps)]
+        through = sum(2 * math.sin(a) * math.cos(a) * passed(math.cos(a)) for a in angles) * math.pi / 2 / steps
+        ground = albedo * through / (1 - albedo * (1 - through))
+        wanted = over_ground(lambda x, y: 1 - (1 - ground) * passed(2.2 / math.sqrt(x * x + y * y + 2.2**2)))
+        sky = self.folder / "white.pfm"
+        sky.write_bytes(b"PF\n4 2\n-1.0\n" + b"\0\0\x80\x3f" * 24)
+        for thickness, heights, wide in ((0, [0], WIDE), (1, [0.5, 0], WIDE), (1, [0.5, 0], 300)):
+            gltf = quad({"pbrMetallicRoughness": MATT | {"baseColorFactor": [albedo] * 3 + [1]}, "extensions": SPECULAR})
+            gltf["materials"].append({"pbrMetallicRoughness": MATT | {"roughnessFactor": 0},
+                                      "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
+                                                     "KHR_materials_volume": {"thicknessFactor": thickness}}})
+            gltf["nodes"][0]["scale"] = [WIDE, WIDE, 1]
+            gltf["meshes"].append({"primitives": [dict(gltf["meshes"][0]["primitives"][0], material=1)]})
+            gltf["nodes"] += [{"mesh": 1, "scale": [wide, wide, 1], "translation": [0, 0, z]} | ({"rotation": [1, 0, 0, 0]} if thickness and not z else {})
+                              for z in heights]
+            for turned in ({}, {"rotation": [0.18, 0.36, -0.27, 0.875], "translation": place}):
+                gltf["nodes"].append({"children": list(range(len(heights) + 2))} | turned)
+                gltf["scenes"] = [{"nodes": [len(gltf["nodes"]) - 1]}]
+                path = self.folder / "lying.gltf"
+                path.write_text(json.dumps(gltf))
+                seen = self.channel(self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", "32,32", "--spp", 256, "--hdri-file", sky))
+                gltf["nodes"].pop()
+                print(f"thickness {thickness}, {wide} wide, {turned}: {seen / wanted - 1:+.4%}")
+                self.assertAlmostEqual(seen / wanted, 1, delta=3e-3)
+
 
 if __name__ == "__main__":
     main()

@@ -361,7 +361,8 @@ TEST(LightCandidates, OneOfSeveralBringsWhatOneAloneDoesWithLessNoise) {
     const bool tree = selection == LightSelection::Tree;
     const dvec3 front = glm::normalize(dvec3(0.3, 0.8, -0.5));
     // The last one gets most of its light from behind.
-    for (const LitPlace& place : {LitPlace{kOrigin, front}, {kOrigin, front, true}, {kOrigin, -front, true}}) {
+    for (const LitPlace& place :
+         {LitPlace{kOrigin, front}, {kOrigin, front, true}, {kOrigin, -front, true}}) {
       const Estimate one = lightOnSurface(place, LightReuse::None, tree);
       EXPECT_LE(one.error(), 0.01 * one.mean());
       for (const LightReuse by : {LightReuse::Candidates, LightReuse::Spatial}) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <new>
 
+#include "bvh/contacts.h"
 #include "errors.h"
 #include "gltf/build/flatten.h"
 #include "gltf/build/materials.h"
@@ -141,6 +142,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   scene.bounds.include(boundsOf(spheres));
   recentre(options, document.diagnostics, scene);
   flatten(meshes.flat, meshes.shared, scene);
+  partFromGlass(scene);
   if (scene.strokes.empty()) scene.insets = creaseInsets(scene);  // else addStrokes() does it
   for (const PlacedSphere& sphere : spheres) {
     scene.spheres.push_back({glm::vec3(scene.space.localOf(sphere.center)),

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "bvh/contacts.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "bvh/bvh.h"
+#include "scene/hit_error.h"
+
+namespace fragtrace {
+
+namespace {
+
+using glm::dvec3;
+
+/// How far apart such faces are to be, in bounds of what rounding does to hit points: an offset is 1 to 1.25
+/// of them, and from either face the other one must still be in front.
+constexpr double kGap = 4.0;
+
+/// Faces whose normals are less parallel meet in a line at most.
+constexpr double kParallel = 0.99;
+
+struct Face {
+  std::array<dvec3, 3> corners;
+  dvec3 normal{0.0};  // unit; zero where there is no area
+  double error = 0.0;
+};
+
+Face faceOf(const Scene& scene, uint32_t triangle) {
+  const Triangle& t = scene.triangles[triangle];
+  Face face{cornersOf<dvec3>(scene, t), {}, hitPointError(cornersOf(scene, t))};
+  const auto& [a, b, c] = face.corners;
+  const dvec3 across = glm::cross(b - a, c - a);
+  const double length = glm::length(across);
+  if (length > 0.0) face.normal = across / length;
+  return face;
+}
+
+/// Whether the two cover the same place, seen along their common normal: no edge parts them, by more than
+/// `least`.
+bool overlap(const Face& a, const Face& b, double least) {
+  for (const Face* of : {&a, &b}) {
+    for (size_t i = 0; i < 3; ++i) {
+      const dvec3 across = glm::cross(of->normal, of->corners[(i + 1) % 3] - of->corners[i]);
+      const double length = glm::length(across);
+      if (!(length > 0.0)) return false;
+      const auto reach = [&](const Face& face) {
+        const auto along = [&](size_t corner) { return glm::dot(across, face.corners[corner]) / length; };
+        return std::minmax({along(0), along(1), along(2)});
+      };
+      const auto [lowA, highA] = reach(a);
+      const auto [lowB, highB] = reach(b);
+      if (!(std::min(highA, highB) - std::max(lowA, lowB) > least)) return false;
+    }
+  }
+  return true;
+}
+
+/// The greatest distance of corners from a plane.
+double apart(const Face& plane, const Face& from) {
+  double most = 0.0;
+  for (const dvec3& c : from.corners)
+    most = std::max(most, std::abs(glm::dot(plane.normal, c - plane.corners[0])));
+  return most;
+}
+
+/// How an opaque face is to be moved.
+struct Move {
+  dvec3 direction{0.0};
+  double by = 0.0;
+};
+
+/// Off the glass, where the two touch.
+Move moveOff(const Face& glass, bool solid, const Face& opaque) {
+  const double gap = kGap * std::max(glass.error, opaque.error);
+  if (!(std::abs(glm::dot(glass.normal, opaque.normal)) > kParallel)) return {};
+  // Of a small face and a large one that is nearly parallel, the plane of the large one tells.
+  const bool byGlass = apart(glass, opaque) <= gap;
+  if (!byGlass && !(apart(opaque, glass) <= gap)) return {};
+  if (!overlap(glass, opaque, gap)) return {};
+  const dvec3 direction = solid ? glass.normal : -opaque.normal;
+  const dvec3 step = opaque.corners[0] - glass.corners[0];
+  const dvec3& normal = byGlass ? glass.normal : opaque.normal;
+  const double now = glm::dot(normal, step) * glm::dot(normal, direction);
+  return {direction, gap - now};
+}
+
+/// What is in the way of a box, of the primitives of a tree.
+template <typename Meet>
+void meetAll(const Bvh& bvh, const Bounds& box, const Meet& meet) {
+  const auto meets = [&](const Bounds& b) {
+    return glm::all(glm::lessThanEqual(b.minimum, box.maximum)) &&
+           glm::all(glm::lessThanEqual(box.minimum, b.maximum));
+  };
+  std::vector<uint32_t> open{0};
+  while (!open.empty()) {
+    const BvhNode& node = bvh.nodes[open.back()];
+    open.pop_back();
+    // A root of one leaf has it twice.
+    const size_t sides = node.child[0] == node.child[1] ? 1 : 2;
+    for (size_t side = 0; side < sides; ++side) {
+      if (!meets(node.bounds[side])) continue;
+      if ((node.child[side] & kBvhLeafBit) == 0) {
+        open.push_back(node.child[side]);
+        continue;
+      }
+      for (const uint32_t primitive : bvh.leaves[node.child[side] & ~kBvhLeafBit].primitive)
+        if (primitive != kMissIndex) meet(primitive);
+    }
+  }
+}
+
+/// By place, so that faces that meet stay together.
+class Moves {
+ public:
+  /// Lets the place go at least so far in this direction.
+  void add(const glm::vec3& place, const Move& move) {
+    dvec3& sum = moves_[keyOf(place)];
+    sum += std::max(0.0, move.by - glm::dot(sum, move.direction)) * move.direction;
+  }
+  bool empty() const { return moves_.empty(); }
+  glm::vec3 moved(const glm::vec3& place) const {
+    const auto found = moves_.find(keyOf(place));
+    return found == moves_.end() ? place : glm::vec3(dvec3(place) + found->second);
+  }
+
+ private:
+  using Key = std::array<float, 3>;
+  static Key keyOf(const glm::vec3& place) { return {place.x + 0.0f, place.y + 0.0f, place.z + 0.0f}; }
+  std::map<Key, dvec3> moves_;
+};
+
+std::vector<uint32_t> trianglesOf(const Scene& scene, bool glass) {
+  std::vector<uint32_t> found;
+  for (uint32_t i = 0; i < flatTriangleCount(scene); ++i)
+    if (scene.materials[scene.triangles[i].material].passesLight() == glass) found.push_back(i);
+  return found;
+}
+
+}  // namespace
+
+size_t partFromGlass(Scene& scene) {
+  if (std::ranges::none_of(scene.materials, &Material::passesLight)) return 0;
+  const std::vector<uint32_t> glass = trianglesOf(scene, true);
+  const std::vector<uint32_t> opaque = trianglesOf(scene, false);
+  if (glass.empty() || opaque.empty()) return 0;
+  std::vector<Bounds> boxes;
+  boxes.reserve(glass.size());
+  for (const uint32_t i : glass) boxes.push_back(triangleBounds(scene, i));
+  const Bvh bvh = buildBvh(std::move(boxes), uint32_t(glass.size()));
+  Moves moves;
+  size_t count = 0;
+  for (const uint32_t i : opaque) {
+    const Face face = faceOf(scene, i);
+    Bounds around = triangleBounds(scene, i);
+    const auto reach = float(kGap * face.error);
+    around.minimum -= reach;
+    around.maximum += reach;
+    bool touches = false;
+    meetAll(bvh, around, [&](uint32_t primitive) {
+      const uint32_t other = glass[primitive];
+      const Material& material = scene.materials[scene.triangles[other].material];
+      const Move move = moveOff(faceOf(scene, other), material.thicknessFactor > 0.0f, face);
+      if (!(move.by > 0.0)) return;
+      touches = true;
+      for (int c = 0; c < 3; ++c) moves.add(scene.vertices.position[scene.triangles[i].vertex[c]], move);
+    });
+    count += touches ? 1 : 0;
+  }
+  if (moves.empty()) return 0;
+  std::vector<bool> done(scene.vertices.position.size(), false);
+  for (const uint32_t i : opaque) {
+    for (int c = 0; c < 3; ++c) {
+      const uint32_t vertex = scene.triangles[i].vertex[c];
+      if (done[vertex]) continue;
+      done[vertex] = true;
+      glm::vec3& place = scene.vertices.position[vertex];
+      place = moves.moved(place);
+    }
+  }
+  return count;
+}
+
+}  // namespace fragtrace
