@@ -5,6 +5,8 @@
 layout(location = 0) uniform vec4 casters[kMostCasters];  // local space: middle, radius
 layout(location = kMostCasters) uniform int casterCount;
 
+#include "caustics/aim.glsl"
+
 /// A ray of light. flux: watts over the density with which it was drawn; zero where there is none.
 struct Emission {
   vec3 origin;
@@ -20,90 +22,6 @@ Emission noEmission() {
   e.flux = vec3(0.0f);
   e.range = 0.0f;
   return e;
-}
-
-/// A ray towards a caster, and its density: over solid angle, or over the area across parallel rays. 0: there is none.
-struct Aim {
-  vec3 origin;
-  vec3 direction;
-  float density;
-};
-
-/// 1 less the cosine of half the angle under which a ball is seen: its solid angle over 2 pi. All of the sphere from
-/// inside.
-float spreadOf(vec4 ball, vec3 point) {
-  vec3 towards = vec3(ball) - point;
-  float part = ball.w * ball.w / max(dot(towards, towards), float(1e-30));
-  return part < 1.0f ? part / (1.0f + sqrt(1.0f - part)) : 2.0f;
-}
-
-/// The same, and 0 for a ball that lies behind the plane of a lamp that shines to one side; normal zero: to all.
-float seenSpread(int caster, vec3 point, vec3 normal) {
-  vec4 ball = casters[caster];
-  bool behind = dot(normal, normal) > 0.0f && dot(normal, vec3(ball) - point) <= -ball.w;
-  return behind ? 0.0f : spreadOf(ball, point);
-}
-
-/// From a point to a caster chosen by its solid angle: uniform over the cone of its ball.
-Aim aimFrom(vec3 point, vec3 normal, float choice, vec2 uv) {
-  Aim a;
-  a.origin = point;
-  a.direction = vec3(0.0f, 0.0f, 1.0f);
-  a.density = 0.0f;
-  float sum = 0.0f;
-  for (int i = 0; i < casterCount; ++i) sum += seenSpread(i, point, normal);
-  if (sum <= 0.0f) return a;
-  float left = choice * sum;
-  int chosen = -1;
-  float spread = 0.0f;
-  for (int i = 0; i < casterCount; ++i) {
-    float own = seenSpread(i, point, normal);
-    bool here = own > 0.0f && left >= 0.0f;
-    chosen = here ? i : chosen;
-    spread = here ? own : spread;
-    left -= own;
-  }
-  float down = uv.x * spread;
-  vec2 around = unitCircle(uv.y) * sqrt(max(0.0f, down * (2.0f - down)));
-  vec3 towards = vec3(casters[chosen]) - point;
-  vec3 axis = dot(towards, towards) > 0.0f ? normalize(towards) : vec3(0.0f, 0.0f, 1.0f);
-  a.direction = normalize(toWorld(frameAround(axis), vec3(around, 1.0f - down)));
-  // Every cone that holds the direction could have drawn it.
-  float cones = 0.0f;
-  for (int i = 0; i < casterCount; ++i) {
-    float own = seenSpread(i, point, normal);
-    vec3 apart = normalize(vec3(casters[i]) - point) - a.direction;
-    bool holds = i == chosen || own >= 2.0f || dot(apart, apart) <= 2.0f * own;
-    cones += own > 0.0f && holds ? 1.0f : 0.0f;
-  }
-  a.density = cones / (2.0f * kPi * sum);
-  return a;
-}
-
-/// Along a direction, from outside of the scene, through the disk of a caster chosen by its area.
-Aim aimAlong(vec3 direction, float choice, vec2 uv) {
-  float sum = 0.0f;
-  for (int i = 0; i < casterCount; ++i) sum += casters[i].w * casters[i].w;
-  float left = choice * sum;
-  int chosen = 0;
-  for (int i = 0; i < casterCount; ++i) {
-    chosen = left >= 0.0f ? i : chosen;
-    left -= casters[i].w * casters[i].w;
-  }
-  Frame3 around = frameAround(direction);
-  vec2 disk = casters[chosen].w * sampleDisk(uv.x, uv.y);
-  vec3 point = vec3(casters[chosen]) + disk.x * around.tangent + disk.y * around.bitangent;
-  float disks = 0.0f;
-  for (int i = 0; i < casterCount; ++i) {
-    vec3 apart = point - vec3(casters[i]);
-    apart -= dot(apart, direction) * direction;
-    disks += i == chosen || dot(apart, apart) <= casters[i].w * casters[i].w ? 1.0f : 0.0f;
-  }
-  Aim a;
-  a.origin = point - 131072.0f * length(vec3(frame.gridCell)) * direction;  // two diagonals of the scene's box
-  a.direction = direction;
-  a.density = disks / (kPi * max(sum, float(1e-30)));
-  return a;
 }
 
 Emission triangleEmission(int emitter, float share, float choice, vec2 uv, vec2 aim) {

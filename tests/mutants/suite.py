@@ -53,6 +53,7 @@ LIKELY = {
     "lights.emitterByTree": ("pure.light_tree_test", "command.LightTree"),
     "lights.chanceOfLight": ("pure.light_tree_test",),
     "path.normalOfLight": ("command.LightTree",),
+    "caustics/aim.": ("pure.shader_light_paths_test",),
     "caustics/": ("caustic-ground.gi", "command.Caustics"),
     "path.nextChain": ("command.Caustics",),
     "film.recordOf": ("command.Caustics",),

@@ -21,6 +21,8 @@ inline bool kClearcoatTexture = false;
 inline bool kTexcoords = false;
 
 inline layout::Frame frame{};
+inline std::vector<glm::vec4> casters;
+inline int casterCount = 0;
 inline std::span<const uint32_t> texcoords;
 inline std::span<const uint32_t> materials;
 inline std::span<const uint32_t> emitters;

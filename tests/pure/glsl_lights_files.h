@@ -28,4 +28,5 @@ inline vec4 interpolate(vec4 a, vec4 b, vec4 c, vec2 weights) {
 #include "lights.glsl"
 #include "reuse/candidates.glsl"
 #include "reuse/reservoir.glsl"
+#include "caustics/aim.glsl"
 // clang-format on
