@@ -245,8 +245,8 @@ bool takesLightFromBehind(Surface s, SurfaceMaterial m) {
 
 /// The normal by which the light tree chooses lights for a surface: none where light comes through.
 uint normalOfLight(Surface s, SurfaceMaterial m) {
-  if (!kLightTree || takesLightFromBehind(s, m)) return kNoNormal;
-  return packNormal(s.geometricNormal);
+  if (kLightTree && !takesLightFromBehind(s, m)) return packNormal(s.geometricNormal);
+  return kNoNormal;
 }
 
 /// What a scattering makes of Path.chain; `wall`: straight through a thin wall.

@@ -72,8 +72,11 @@ LightSample lightAt(Path p, Surface s, SurfaceMaterial m) {
     Reservoir own = reservoirAt(p.pixel);
     if (own.known) return lightOfNeighbours(p, own, s.position, normal);
   }
-  if (!kCandidates) return lightOfSlot(0, s.position, normal, p.numbers, dimension);
-  return lightOfCandidates(s.position, s.geometricNormal, takesLightFromBehind(s, m), normal, p.numbers, dimension);
+  if (kCandidates) {
+    bool through = takesLightFromBehind(s, m);
+    return lightOfCandidates(s.position, s.geometricNormal, through, normal, p.numbers, dimension);
+  }
+  return lightOfSlot(0, s.position, normal, p.numbers, dimension);
 }
 
 /// The path-traced material: one light sample, and one direction drawn from the BSDF.
