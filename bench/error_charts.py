@@ -21,7 +21,7 @@ RUNS = {
                     "--configs", "default,random,bsdf,no-compensation,adaptive,power-lights,light-candidates,light-spatial"],
     "corridor": ["scenes/corridor.gltf", "--spp", "64", "--configs", "default,power-lights,light-candidates,light-spatial"],
     "city": ["scenes/city.gltf", "--spp", "256", "--configs", "default,power-lights,light-candidates,light-spatial"],
-    "caustic-ground": ["scenes/caustic-ground.gltf", "--spp", "1024", "--configs", "default,no-caustics"],
+    "caustic-ground": ["scenes/caustic-ground.gltf", "--spp", "128", "--configs", "default,no-caustics"],
 }
 
 
