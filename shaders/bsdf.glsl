@@ -175,7 +175,9 @@ vec4 lobeChances(Bsdf b, float cosine) {
   float layer = b.opaque * max(throughLayer(b, cosine), float(0.001));
   float diffuse = layer * reflected;
   if (kDiffuseTransmission) through *= layer;
-  if (kCompensation) diffuse = diffuse + maxComponent(b.between) * kPi * ggxLoss(cosine, b.alpha * facetMean(b.stretch));
+  if (kCompensation) {
+    diffuse = diffuse + maxComponent(b.between) * kPi * ggxLoss(cosine, b.alpha * facetMean(b.stretch));
+  }
   float below = throughChance(b, diffuse, through);
   diffuse = kDiffuseTransmission ? diffuse + through : diffuse;
   float sum = specular + diffuse;

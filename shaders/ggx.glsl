@@ -70,8 +70,9 @@ float facetMean(float stretch) {
   return kAnisotropy ? sqrt(0.5f * (stretch * stretch + 1.0f / (stretch * stretch))) : 1.0f;
 }
 
-/// 1 - albedo of facets that reflect all, seen from a direction: that of isotropic facets of the mean width, seen at the
-/// angle at which these mask as much (Heitz 2014, section 5.3: masking is that of a stretched direction). Within 0.04.
+/// 1 - albedo of facets that reflect all, seen from a direction: that of isotropic facets of the mean width, seen at
+/// the angle at which these mask as much (Heitz 2014, section 5.3: masking is that of a stretched direction). Within
+/// 0.04.
 float facetLoss(vec3 v, float alpha, float stretch) {
   if (!kAnisotropy) return ggxLoss(v.z, alpha);
   float mean = facetMean(stretch);
