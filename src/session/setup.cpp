@@ -127,13 +127,17 @@ double pathsOf(const RenderOptions& options, glm::ivec2 size) {
 
 namespace {
 
-Lens lensOf(const RenderOptions& options, const Camera& camera, const BoundsDouble& bounds) {
+Lens lensOf(const RenderOptions& options, const Camera& camera, const BoundsDouble& bounds,
+            const LocalSpace& space) {
   Lens lens;
   if (!options.lens.fStop || !camera.perspective) return lens;
   lens.radius = 0.5 * focalLengthOf(camera.fovY) / *options.lens.fStop;
   const glm::dvec3 focalPoint = options.camera.focalPoint.value_or(focalPointOf(camera, bounds));
   lens.focusDistance =
       options.lens.focusDistance.value_or(glm::dot(focalPoint - camera.position, camera.forward));
+  // Beyond, rays are parallel, and the squares of longer ones are no floats.
+  constexpr double kParallel = 0x1p50;  // local space
+  lens.focusDistance = std::min(lens.focusDistance, kParallel * space.unit);
   lens.blades = options.lens.blades;
   return lens;
 }
@@ -144,7 +148,7 @@ View makeView(const RenderOptions& options, const LoadedScene& loaded, const Cam
   const Scene& scene = loaded.scene;
   View view;
   view.camera = camera;
-  view.lens = lensOf(options, camera, scene.bounds);
+  view.lens = lensOf(options, camera, scene.bounds, scene.space);
   view.space = scene.space;
   view.hdriRotation = glm::radians(options.hdriRotationDegrees);
   view.hdriIntensity = options.hdriIntensity;

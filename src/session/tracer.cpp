@@ -77,7 +77,9 @@ void describeLightSelection(const ShaderVariant& variant, const Scene& scene, Li
   if (wanted != LightSelection::Auto) return;
   std::ostringstream gain;
   gain << std::setprecision(3) << gainByPlace(scene);
-  stats.lightSelectionReason = "chosen by place, light samples vary " + gain.str() + " times less";
+  stats.lightSelectionReason =
+      tree ? "chosen by place, light samples vary " + gain.str() + " times less"
+           : "chosen by place, light samples would vary only " + gain.str() + " times less";
 }
 
 /// Why light paths are traced for the picture, or are not.
@@ -103,6 +105,20 @@ RenderOptions asDrawn(const RenderOptions& options, const TraitSet& present) {
   return able;
 }
 
+/// Says what was asked for and changes nothing.
+void warnOfNoEffect(const ShaderVariant& variant, const RenderOptions& options, Statistics& stats) {
+  const auto warn = [&](const std::string& text) {
+    stats.warnings.push_back(text);
+    say(options, "warning: " + text);
+  };
+  const bool global = has(variant.stages, Stage::Gi);
+  if (options.caustics == Caustics::On && !has(variant.traits, Trait::Caustics))
+    warn("--caustics on: no light paths: " + (global ? stats.caustics : "only stage gi has them"));
+  if (options.lightReuse != LightReuse::None && !variant.neighbours && !variant.lightCandidates)
+    warn(std::string("--light-reuse: ") +
+         (global ? "no light of this scene is sampled" : "only stage gi samples one light of many"));
+}
+
 /// The variants that the options ask for, as far as the scene alone decides them. Returns what all of them
 /// read.
 ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const RenderOptions& asked,
@@ -126,6 +142,7 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
                        : tracer.variant.lightCandidates ? "candidates"
                                                         : "none";
   if (has(tracer.variant.stages, Stage::Gi)) stats.caustics = whyCaustics(tracer.variant, present, options);
+  warnOfNoEffect(tracer.variant, options, stats);
   if (tracer.variant.clampIndirect) stats.clampIndirect = options.clampIndirect;
   for (const StageRow& row : stageRows()) {
     const std::string reason = has(options.stages, row.stage) ? whyOff(row.stage, present) : "";

@@ -244,6 +244,13 @@ class Caustics(Case):
         self.assertEqual(max(self.seen(scene, "--caustics", "off", spp=1)), 0)
         self.assertEqual(max(self.seen(scene, spp=1, bounces=0)), 0)
 
+    def test_a_request_without_effect_is_told(self):
+        for scene, options, why in (("caustics", ["--stage", "shadows"], "only stage gi has them"), ("rough-glass", [], "no lamp with smooth glass or metal")):
+            told = run("render", SCENES / f"{scene}.gltf", "-o", self.folder / "x.pfm", "--resolution", "8,8", "--spp", 1, "--caustics", "on",
+                       "--light-reuse", "candidates", *options).stderr
+            self.assertIn(f"--caustics on: no light paths: {why}", told)
+            self.assertIn("--light-reuse: ", told)
+
     def test_single_sided_surfaces_stop_light_as_on_paths_from_the_camera(self):
         """A screen between lamp and mirror: paths from the mirror to the lamp pass its back, and are stopped by its front."""
         screen = {"pbrMetallicRoughness": MATT | {"baseColorFactor": [0, 0, 0, 1]}, "extensions": SPECULAR}

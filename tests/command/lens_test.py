@@ -90,6 +90,14 @@ class Lens(Case):
         print(f"out of focus, filtered: {plain / filtered:.1f} times less squared error")
         self.assertLess(2 * filtered, plain)
 
+    def test_a_focus_beyond_all_distances(self):
+        """As far as the option goes, rays through the lens are parallel: the same picture as at a million metres."""
+        near, far = (self.picture(str(SCENES / "cornell-box"), "x.pfm", "--resolution", "32,32", "--spp", 4, "--f-stop", 1, "--focus-distance", distance)
+                     for distance in ("1e6", "1e30"))
+        values = [[value for row in rows for pixel in row for value in pixel] for rows in (near, far)]
+        self.assertGreater(statistics.fmean(values[0]), 0.05)
+        self.assertLess(statistics.fmean(abs(a - b) for a, b in zip(*values)), 0.02 * statistics.fmean(values[0]))
+
     def test_a_wide_pinhole_is_no_lens(self):
         """At a huge f-number the picture is that of the pinhole, but for rounding."""
         plain, stopped = self.lamp(), self.lamp("--f-stop", "1e6")
