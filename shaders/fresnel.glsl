@@ -53,3 +53,13 @@ vec3 mirrorDirection(vec3 outgoing, vec3 normal) { return 2.0f * dot(outgoing, n
 
 /// Reflectance of two parallel interfaces, all reflections between them counted.
 float thinReflectance(float single) { return 2.0f * single / (1.0f + single); }
+
+/// Mean of Schlick's reflectance over cosine-weighted directions.
+vec3 averageFresnel(vec3 f0, float f90) { return f0 + (vec3(f90) - f0) / float(21.0); }
+
+/// Mean reflectance of a boundary over cosine-weighted directions, by the fits of Kulla and Conty (Revisiting
+/// Physically Based Shading at Imageworks, 2017).
+float averageDielectric(float eta) {
+  if (eta >= 1.0f) return (eta - 1.0f) / (float(4.08567) + float(1.00071) * eta);
+  return float(0.997118) + eta * (float(0.1014) - eta * (float(0.965241) + float(0.130607) * eta));
+}

@@ -70,17 +70,6 @@ float facetMean(float stretch) {
   return kAnisotropy ? sqrt(0.5f * (stretch * stretch + 1.0f / (stretch * stretch))) : 1.0f;
 }
 
-/// 1 - albedo of facets that reflect all, seen from a direction: that of isotropic facets of the mean width, seen at
-/// the angle at which these mask as much (Heitz 2014, section 5.3: masking is that of a stretched direction). Within
-/// 0.04.
-float facetLoss(vec3 v, float alpha, float stretch) {
-  if (!kAnisotropy) return ggxLoss(v.z, alpha);
-  float mean = facetMean(stretch);
-  vec3 along = alongFacets(v, stretch) / mean;
-  float cosine = v.z / sqrt(along.x * along.x + along.y * along.y + v.z * v.z);
-  return ggxLoss(cosine, alpha * mean);
-}
-
 /// How much of it is given back (stretch >= 1), so that nowhere more than 1 % is gained.
 float facetsGiveBack(float stretch) {
   float fourth = stretch * stretch * stretch * stretch;

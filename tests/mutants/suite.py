@@ -81,7 +81,7 @@ LIKELY = {
     "energy.": ("command.KnownLight", "rough-metals-compensated.gi", "command.Materials", "mapped-layers.gi"),
     "bsdf.scaledGlass": ("pure.shader_iridescence_test",),
     "bsdf.glassTint": ("pure.shader_iridescence_test",),
-    "bsdf.averageFresnel": ("pure.shader_bsdf_random_test",),
+    "fresnel.averageFresnel": ("pure.shader_bsdf_random_test",),
     "bsdf.": ("command.KnownLight", "pure.shader_bsdf_test", "command.KnownSurfaces", "rough-glass.gi", "thin-glass.gi", "lobes.gi", "pure.shader_layers_test"),
     "layers.drawCoat place": ("pure.shader_facets_test",),
     "ggx.sample": ("pure.shader_facets_test",),
