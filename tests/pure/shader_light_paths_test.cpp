@@ -69,7 +69,7 @@ double chanceOf(const Draws& draws, const Density& density, double area) {
   constexpr double kSide = kCells * kParts;
   for (int y = 0; y < kCells * kParts; ++y) {
     for (int x = 0; x < kCells * kParts; ++x)
-      expected[size_t(y / kParts * kCells + x / kParts)] +=
+      expected[size_t(y / kParts) * kCells + size_t(x / kParts)] +=
           kSamples * density(dvec2(x + 0.5, y + 0.5) / kSide) * area / (kSide * kSide);
   }
   return chiSquareChance(expected, counted);
