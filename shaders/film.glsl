@@ -20,8 +20,8 @@ void storeFilm(ivec2 pixel, FilmPixel f) {
   imageStore(filmCounts, pixel, uvec4(f.samples, f.rays, f.nonfinite, f.flags));
 }
 
-/// Of light paths the film is a record, a texel a path: a pixel counts those of its row of texels.
-ivec2 recordOf(ivec2 pixel, uint path) { return ivec2(pixel.x * frame.picture.z + int(path), pixel.y); }
+/// Of light paths the film is a record, a texel a path: a pixel counts those of its part of a column of texels.
+ivec2 recordOf(ivec2 pixel, uint path) { return ivec2(pixel.x, pixel.y * frame.picture.z + int(path)); }
 
 /// What a light path sends the camera, and where in the picture that is seen.
 void storeRecord(ivec2 texel, vec3 light, vec2 place) {

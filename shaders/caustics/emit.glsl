@@ -86,14 +86,12 @@ Emission drawEmission(Sampler numbers) {
 }
 
 /// A light path. Until it is seen by the camera, `contribution` is its flux and `shadowLimit` the range of its light.
-/// A pass has Sobol points of its own, and as many rows of paths as its height asks for, each as wide as the picture;
-/// those beside it bring nothing.
+/// A pass has Sobol points of its own, and as many rows of paths as its height asks for, each as wide as the picture.
 Path startLightPath(ivec2 record, int steps) {
   ivec2 place = inPicture(record);
   uint index = uint(place.y * frame.picture.x + place.x);
   Sampler numbers = makeSampler(pixelKey(uint(frame.sampling.x), 0xfffffffeu, uint(frame.picture.w)), index);
   Emission e = drawEmission(numbers);
-  if (place.x >= frame.picture.x) e.flux = vec3(0.0);
   Path p = pathAlong(e.origin, e.direction, numbers, steps);
   p.cameraRay = false;
   p.contribution = e.flux;

@@ -8,12 +8,12 @@ layout(binding = 1) uniform sampler2D places;  // y
 layout(location = 0) uniform vec2 corner;  // of the film's first pixel, in the picture
 layout(location = 1) uniform vec2 size;    // of the viewport, whose margin of so many pixels keeps points that lie
 layout(location = 2) uniform float margin;  // beside the film
+layout(location = 3) uniform int width;     // of the tile of light paths
 
 layout(location = 0) flat out vec3 light;
 layout(location = 1) flat out vec2 place;  // in the film, pixels
 
 void main() {
-  int width = textureSize(lights, 0).x;
   ivec2 texel = ivec2(gl_VertexID % width, gl_VertexID / width);
   vec4 first = texelFetch(lights, texel, 0);
   light = first.rgb;

@@ -112,7 +112,7 @@ void addCameraOptions(CLI::App& app, RawCamera& raw) {
          "point")
       ->check(CLI::Range(1e-9, 1e30));
   app.add_option("--aperture-blades", raw.lens.blades,
-                 "number of straight edges of the aperture of --f-stop, from 3; 0 is a round one")
+                 "number of straight edges of the aperture of --f-stop, from 3 to 64; 0 is a round one")
       ->check(wholeNumber(0, 64))
       ->capture_default_str();
   addVector("--scene-origin", raw.sceneOrigin,

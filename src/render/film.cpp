@@ -34,14 +34,18 @@ Film::Film(glm::ivec2 size) : size_(size) {
 
 void Film::clear() {
   const float zero[4] = {};
-  const GLuint none[4] = {};
   cut_ = 0.0;
   lightPaths_ = 0;
   if (splats_.name() != 0) glClearTexImage(splats_.name(), 0, GL_RGBA, GL_FLOAT, zero);
   glClearTexImage(sum_.name(), 0, GL_RGBA, GL_FLOAT, zero);
   glClearTexImage(compensation_.name(), 0, GL_RGBA, GL_FLOAT, zero);
-  glClearTexImage(counts_.name(), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, none);
+  clearCounts();
   checkGl("clearing the film");
+}
+
+void Film::clearCounts() {
+  const GLuint none[4] = {};
+  glClearTexImage(counts_.name(), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, none);
 }
 
 void Film::bind() const {

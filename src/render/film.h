@@ -14,6 +14,8 @@ class Film {
   /// Of the pixels that this driver's films can have a side.
   static int mostSide();
   void clear();
+  /// The counts alone, where all else is written anew before it is read.
+  void clearCounts();
   void bind() const;
   glm::ivec2 size() const { return size_; }
 

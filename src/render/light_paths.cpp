@@ -10,12 +10,15 @@ namespace {
 
 /// Light paths of a draw, a side. The same for every picture and driver, so that sums have the same bits.
 constexpr int kRecordSide = 256;
-/// Of these, so many are drawn by a lane one after the other, so that none waits for the longest path of the
-/// others.
+/// Of a column of these, at most so many are drawn by a lane one after the other, so that none waits for the
+/// longest path of the others. A row of lanes is as wide as the tile, since llvmpipe's threads share squares
+/// of 64 pixels, and rows are even, since it draws two at a time.
 constexpr int kSoftwarePathsPerLane = 16;
 /// Pixels of the picture that a pass has a light path for: caustics are less noisy than the rest with fewer.
 constexpr int kPixelsPerPath = 4;
 constexpr int kMargin = 4;  // pixels about the film; filters reach 2
+
+int partsOf(int whole, int part) { return (whole + part - 1) / part; }
 
 }  // namespace
 
@@ -37,7 +40,7 @@ void Renderer::compileLightPaths(Film& film, const View& view) {
   setFrame(*lightPathFilm_, view);
   setCasters();
   drawTile(*lightPathFilm_, {0, 0}, glm::ivec2(8), 1, [] { return true; });
-  splat(film, view);
+  splat(film, view, glm::ivec2(1));
   variant_ = camera;
 }
 
@@ -51,7 +54,7 @@ bool Renderer::addLightPaths(Film& film, const View& view, int passes, const std
   const std::optional<ShaderVariant> light = lightPathVariant(variant_);
   if (!light) return true;
   const glm::ivec2 whole = view.placement ? view.placement->whole : film.size();
-  const glm::ivec2 paths(whole.x, (whole.y + kPixelsPerPath - 1) / kPixelsPerPath);
+  const glm::ivec2 paths(whole.x, partsOf(whole.y, kPixelsPerPath));
   const uint64_t perPass = uint64_t(paths.x) * uint64_t(paths.y);
   if (film.lightPaths() >= perPass * uint64_t(passes)) return true;
   const ShaderVariant camera = variant_;
@@ -80,19 +83,18 @@ bool Renderer::addLightPaths(Film& film, const View& view, int passes, const std
 
 bool Renderer::addLightTile(Film& film, const View& view, const View& seen, glm::ivec2 corner,
                             glm::ivec2 tile, const std::function<bool()>& goOn) {
-  lightPathFilm_->clear();
+  lightPathFilm_->clearCounts();
   setFrame(*lightPathFilm_, seen);
   frame_.part.x = corner.x;
   frame_.part.y = corner.y;
-  const int perLane = software_ ? kSoftwarePathsPerLane : 1;
-  const glm::ivec2 lanes((tile.x + perLane - 1) / perLane, tile.y);
-  if (!drawTile(*lightPathFilm_, {0, 0}, lanes, perLane, goOn)) return false;
-  splat(film, view);
+  const int rows = software_ ? 2 * partsOf(tile.y, 2 * kSoftwarePathsPerLane) : tile.y;
+  if (!drawTile(*lightPathFilm_, {0, 0}, {tile.x, rows}, partsOf(tile.y, rows), goOn)) return false;
+  splat(film, view, tile);
   film.countLightPaths(uint64_t(tile.x) * uint64_t(tile.y));
   return true;
 }
 
-void Renderer::splat(Film& film, const View& view) {
+void Renderer::splat(Film& film, const View& view, glm::ivec2 tile) {
   const glm::ivec2 size = film.size();
   const Placement placed = view.placement.value_or(Placement{{0, 0}, size});
   const GLuint program = programs_.splatter(variant_).name();
@@ -106,12 +108,13 @@ void Renderer::splat(Film& film, const View& view) {
   glProgramUniform2f(program, 0, float(placed.corner.x), float(placed.whole.y - placed.corner.y - size.y));
   glProgramUniform2f(program, 1, float(viewport.x), float(viewport.y));
   glProgramUniform1f(program, 2, float(margin));
+  glProgramUniform1i(program, 3, tile.x);
   lightPathFilm_->bindTextures(0);
   glUseProgram(program);
   glEnable(GL_PROGRAM_POINT_SIZE);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE);
-  glDrawArrays(GL_POINTS, 0, kRecordSide * kRecordSide);
+  glDrawArrays(GL_POINTS, 0, tile.x * tile.y);
   glDisable(GL_BLEND);
   glDisable(GL_PROGRAM_POINT_SIZE);
   glNamedFramebufferTexture(splatTarget_.name(), GL_COLOR_ATTACHMENT0, 0, 0);

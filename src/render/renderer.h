@@ -132,8 +132,8 @@ class Renderer {
   /// others; false when stopped.
   bool keepLight(const Film& film, const View& view, int index, const std::function<bool()>& goOn);
   void setCasters();
-  /// What the records hold, through the pixel filter.
-  void splat(Film& film, const View& view);
+  /// What a tile of the records holds, through the pixel filter.
+  void splat(Film& film, const View& view, glm::ivec2 tile);
   /// More samples a draw as long as the step budget takes them.
   void adaptPace(int samples);
 

@@ -244,6 +244,33 @@ class Caustics(Case):
         self.assertEqual(max(self.seen(scene, "--caustics", "off", spp=1)), 0)
         self.assertEqual(max(self.seen(scene, spp=1, bounces=0)), 0)
 
+    def test_all_light_of_a_lamp_beside_a_ball_of_glass_reaches_the_walls(self):
+        """Those of a closed dark room, each seen on its own, from between ball and wall: 4 pi times the intensity, of which the ball turns
+        aside 29 %."""
+        half, radius, away, intensity, albedo = 1.5, 0.5, 0.55, 2.0, 1e-5
+        turns = {(0, 0, -1): [0, 0, 0, 1], (0, 0, 1): OVER, (-1, 0, 0): TURN, (1, 0, 0): [0, -TURN[1], 0, TURN[3]],
+                 (0, -1, 0): BACK, (0, 1, 0): [math.sqrt(0.5), 0, 0, math.sqrt(0.5)]}
+        dark = {"pbrMetallicRoughness": MATT | {"baseColorFactor": [albedo, albedo, albedo, 1]}, "extensions": SPECULAR}
+        walls = [(dark, {"translation": [half * n for n in side], "rotation": turn, "scale": [half, half, 1]}) for side, turn in turns.items()]
+        direction = [away * n / math.sqrt(14) for n in (1, 2, 3)]
+        path = self.scene("room", *walls, lights=[({"type": "point", "intensity": intensity}, {"translation": direction})])
+        gltf = json.loads(Path(f"{path}.gltf").read_text())
+        glass = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0},
+                 "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 1}}}
+        gltf["materials"].append(glass)
+        gltf["extensions"]["KHR_implicit_shapes"] = {"shapes": [{"type": "sphere", "sphere": {"radius": radius}}]}
+        gltf["nodes"][0] = {"extras": {"shape": 0, "material": len(gltf["materials"]) - 1}}  # for the ground
+        Path(f"{path}.gltf").write_text(json.dumps(gltf))
+
+        def flux(seed, side):
+            camera = [0.7 * n for n in side]
+            up = (1, 0, 0) if side[1] else (0, 1, 0)
+            picture = self.picture(path, "x.pfm", "--resolution", "24,24", "--spp", 64, "--seed", seed, "--bounces", 1, "--camera-parallel-scale", half,
+                                   *(f"--camera-{name}={','.join(map(str, place))}" for name, place in
+                                     (("position", camera), ("focal-point", [half * n for n in side]), ("view-up", up))))
+            return statistics.fmean(luminances(picture)) * math.pi / albedo * (2 * half)**2
+        self.assert_mean([sum(flux(seed, side) for side in turns) for seed in SEEDS], 4 * math.pi * intensity, "room")
+
     def test_a_request_without_effect_is_told(self):
         for scene, options, why in (("caustics", ["--stage", "shadows"], "only stage gi has them"), ("rough-glass", [], "no lamp with smooth glass or metal")):
             told = run("render", SCENES / f"{scene}.gltf", "-o", self.folder / "x.pfm", "--resolution", "8,8", "--spp", 1, "--caustics", "on",

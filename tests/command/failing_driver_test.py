@@ -20,7 +20,7 @@ def real_egl():
 
 class Failing(Case):
     scene = "sphere-textured"  # with a tree, textures and several lights
-    options = ()
+    options = ("--quiet",)
 
     def drawn(self, **faults):
         """`render` over a file that is there."""
@@ -28,7 +28,7 @@ class Failing(Case):
         self.path.write_bytes(OLD)
         settings = {f"FRAGTRACE_{name.upper()}": str(value) for name, value in faults.items()}
         paths = ":".join(filter(None, [str(STAND_IN), os.environ.get("LD_LIBRARY_PATH")]))
-        return run("render", SCENES / f"{self.scene}.gltf", "-o", self.path, "--resolution", "16,16", "--spp", "2", "--quiet", *self.options,
+        return run("render", SCENES / f"{self.scene}.gltf", "-o", self.path, "--resolution", "16,16", "--spp", "2", *self.options,
                    "--rendering-backend", "egl", timeout=60,
                    env={**os.environ, **settings, "LD_LIBRARY_PATH": paths, "FRAGTRACE_REAL_EGL": real_egl()})
 
@@ -75,12 +75,22 @@ class FailingDriver(Failing):
         self.fail_each("build", 1)
 
     def test_a_filter_that_fails_is_seen(self):
-        self.options = ("--denoise", "variance")
+        self.options = ("--quiet", "--denoise", "variance")
         self.fail_each("memory", 3, ("glNamedFramebufferTexture", "glNamedFramebufferDrawBuffers", "glUniform1i", "glUniform2i"))
 
     def test_light_paths_that_fail_are_seen(self):
         self.scene = "caustics"
         self.fail_each("memory", 1, ("glGetInternalformativ", "glGetFloatv", "glProgramUniform4fv", "glProgramUniform2f", "glBlendFunc", "glDisable"))
+
+    def test_where_nothing_can_be_blended_camera_paths_bring_caustics(self):
+        self.scene, self.options = "caustics", ()
+        left = self.drawn(fail_kind="blend")
+        self.assertEqual(left.returncode, 0, left.stderr)
+        self.assertIn("warning: this driver cannot add points to 32-bit floats", left.stderr)
+        drawn = self.path.read_bytes()
+        self.options = ("--caustics", "off")
+        self.assertNotIn("warning", self.drawn().stderr)
+        self.assertEqual(drawn, self.path.read_bytes())
 
     def test_every_function_that_is_called_can_fail(self):
         called = set()
@@ -88,7 +98,7 @@ class FailingDriver(Failing):
             for path in (SOURCES / folder).glob("*.*"):
                 called |= set(re.findall(r"\b(gl[A-Z]\w*)\(", path.read_text()))
         stand_in = Path(__file__).parent.parent / "faults/failing_egl.cpp"
-        wrapped = set(re.findall(r"WRAP(?:_STATUS)?\((gl\w+)\)", stand_in.read_text()))
+        wrapped = set(re.findall(r"WRAP(?:_STATUS|_FORMAT)?\((gl\w+)\)", stand_in.read_text()))
         self.assertEqual(called - {"glGetError"}, wrapped)
 
 

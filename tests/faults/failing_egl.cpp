@@ -5,6 +5,7 @@
 //   FRAGTRACE_FAIL_KIND  memory: it does nothing and gives GL_OUT_OF_MEMORY
 //                        build: it is the glCompileShader or glLinkProgram of that number that fails
 //                        lost: the context is lost from then on, until another one is made
+//                        blend: none fails, but no format can be blended
 //   FRAGTRACE_FAIL_WHEN  a file: once it is there it is removed, and the context is lost
 //   FRAGTRACE_FAIL_LOG   a file that gets the name of each call, a line each
 #include <EGL/egl.h>
@@ -106,6 +107,14 @@ void failingStatus(GLuint object, GLenum what, GLint* value) {
   if (f.notBuilt && (what == GL_COMPILE_STATUS || what == GL_LINK_STATUS)) *value = GL_FALSE;
 }
 
+/// What a driver that cannot blend says.
+template <const char* Name, typename Function>
+void failingFormat(GLenum target, GLenum format, GLenum what, GLsizei size, GLint* value) {
+  Wrapped<Name, Function>::call(target, format, what, size, value);
+  const bool blends = std::strcmp(setting("FRAGTRACE_FAIL_KIND"), "blend") != 0;
+  if (!blends && what == GL_FRAMEBUFFER_BLEND) *value = GL_NONE;
+}
+
 template <typename Function>
 Function realEgl(const char* name) {
   return reinterpret_cast<Function>(dlsym(faults().real, name));
@@ -122,6 +131,7 @@ Function realEgl(const char* name) {
   }
 #define WRAP(function) WRAP_BY(function, Wrapped<kName, Function>::call)
 #define WRAP_STATUS(function) WRAP_BY(function, failingStatus<kName, Function>)
+#define WRAP_FORMAT(function) WRAP_BY(function, failingFormat<kName, Function>)
 
 extern "C" {
 
@@ -131,6 +141,7 @@ __eglMustCastToProperFunctionPointerType eglGetProcAddress(const char* name) {
   if (std::strcmp(name, "glGetError") == 0) return reinterpret_cast<Pointer>(&failingGetError);
   WRAP_STATUS(glGetShaderiv)
   WRAP_STATUS(glGetProgramiv)
+  WRAP_FORMAT(glGetInternalformativ)
   WRAP(glAttachShader)
   WRAP(glBeginQuery)
   WRAP(glBindBufferBase)
@@ -164,7 +175,6 @@ __eglMustCastToProperFunctionPointerType eglGetProcAddress(const char* name) {
   WRAP(glFinish)
   WRAP(glGetFloatv)
   WRAP(glGetInteger64v)
-  WRAP(glGetInternalformativ)
   WRAP(glGetNamedBufferSubData)
   WRAP(glGetProgramInfoLog)
   WRAP(glGetQueryObjectui64v)

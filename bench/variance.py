@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""How many times sooner one way of drawing a scene reaches an error than another, by variance x CPU seconds.
+
+usage: variance.py SCENE [--before "OPTIONS"] [--now "OPTIONS"] [--before-program FRAGTRACE] [--program FRAGTRACE]
+                   [--resolution W,H] [--spp BEFORE,NOW] [--seeds N] [--without NODE,...] [--rough]
+Each seed is drawn both ways in turn, on one processor; only the time of drawing counts, without start and compilation. The variance of a pixel is that of its
+luminance between the seeds; the relative one is divided by luminance^2 + (a tenth of the picture's mean)^2. Both are means over the picture or,
+with --rough, over the pixels in which the camera sees a roughness of at least 0.25 first. --without: nodes of the scene's roots that are left out.
+The lines say how many times less variance, time, and the product of both; `means` is the ratio of the mean pictures, which is 1 where both ways are right.
+"""
+import argparse
+import array
+import json
+import os
+import shlex
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+LUMINANCE = (0.2126, 0.7152, 0.0722)
+ROUGH = 0.25
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description="variance x CPU seconds of two ways to draw a scene")
+    parser.add_argument("scene", type=Path)
+    parser.add_argument("--before", default="", help="options of render, in quotes")
+    parser.add_argument("--now", default="")
+    parser.add_argument("--before-program", type=Path, help="an older fragtrace (default: that of --program)")
+    parser.add_argument("--program", type=Path, default=REPOSITORY / "build/fragtrace")
+    parser.add_argument("--resolution", default="240,180")
+    parser.add_argument("--spp", default="16,16", help="samples per pixel before and now")
+    parser.add_argument("--seeds", type=int, default=4, help="2 or more (default: 4)")
+    parser.add_argument("--without", default="")
+    parser.add_argument("--rough", action="store_true")
+    options = parser.parse_args()
+    options.before_program = options.before_program or options.program
+    if options.seeds < 2:
+        parser.error("--seeds: 2 or more")
+    return options
+
+
+def values(path):
+    """Of a .pfm, and how many a pixel has."""
+    with open(path, "rb") as file:
+        kind = file.readline().split()[0]
+        file.readline()
+        if float(file.readline()) > 0:
+            raise ValueError(f"{path}: big-endian")
+        found = array.array("f", file.read())
+    return found, 3 if kind == b"PF" else 1
+
+
+def luminance(path):
+    found, channels = values(path)
+    return [sum(w * x for w, x in zip(LUMINANCE, found[i:i + 3])) for i in range(0, len(found), channels)]
+
+
+def render(options, program, more, picture):
+    """Milliseconds that drawing took."""
+    told = picture.with_suffix(".json")
+    subprocess.run([program.resolve(), "render", options.scene.resolve(), "-o", picture, "--stats", told, "--quiet", "--resolution", options.resolution, *more],
+                   check=True, env={**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"}, preexec_fn=lambda: os.sched_setaffinity(0, {min(os.sched_getaffinity(0))}))
+    return json.loads(told.read_text())["render_ms"]
+
+
+def less(scene, without, folder):
+    """A copy of a .gltf in which these roots are left out."""
+    document = json.loads(scene.read_text())
+    numbers = {n for n, node in enumerate(document["nodes"]) if node.get("name") in without}
+    if len(numbers) != len(without):
+        raise SystemExit(f"{scene}: not all of {', '.join(without)} are names of nodes")
+    for one in document["scenes"]:
+        one["nodes"] = [n for n in one["nodes"] if n not in numbers]
+    for buffer in document.get("buffers", []):
+        if "uri" in buffer:
+            shutil.copy(scene.parent / buffer["uri"], folder)
+    (folder / scene.name).write_text(json.dumps(document))
+    return folder / scene.name
+
+
+def part(options, folder):
+    """The numbers of the pixels that count."""
+    view = folder / "view.pfm"
+    if options.rough:
+        render(options, options.program, ["--debug-view", "roughness", "--spp", "1"], view)
+        return [i for i, rough in enumerate(luminance(view)) if rough >= ROUGH]
+    return None
+
+
+def variances(pictures, chosen):
+    """Relative and absolute, as means over the chosen pixels, and the mean of their luminance."""
+    whole = statistics.fmean(statistics.fmean(p) for p in pictures)
+    relative, absolute, mean = 0.0, 0.0, 0.0
+    for i in chosen:
+        seen = [p[i] for p in pictures]
+        middle = statistics.fmean(seen)
+        variance = statistics.variance(seen, middle)
+        absolute += variance
+        relative += variance / (middle * middle + 0.01 * whole * whole)
+        mean += middle
+    return relative / len(chosen), absolute / len(chosen), mean / len(chosen)
+
+
+def main():
+    options = arguments()
+    ways = [(options.before_program, options.before), (options.program, options.now)]
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        if options.without:
+            options.scene = less(options.scene, options.without.split(","), folder)
+        chosen = part(options, folder)
+        pictures, times = ([], []), ([], [])
+        for seed in range(options.seeds):
+            for way, ((program, more), spp) in enumerate(zip(ways, options.spp.split(","))):
+                picture = folder / "picture.pfm"
+                times[way].append(render(options, program, ["--seed", str(seed), "--spp", spp, *shlex.split(more)], picture))
+                pictures[way].append(luminance(picture))
+    chosen = chosen if chosen is not None else range(len(pictures[0][0]))
+    before, now = (variances(p, chosen) for p in pictures)
+    time = statistics.median(times[0]) / statistics.median(times[1])
+    relative, absolute = before[0] / now[0], before[1] / now[1]
+    print(f"{options.scene.stem}: {len(chosen)} pixels; before {statistics.median(times[0]) / 1000:.2f} s, now {statistics.median(times[1]) / 1000:.2f} s")
+    print(f"relative variance {relative:.3g} times less (now {now[0]:.3g}), with time {relative * time:.3g}; "
+          f"absolute {absolute:.3g} (now {now[1]:.3g}), with time {absolute * time:.3g}; means {now[2] / before[2]:.4f}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
