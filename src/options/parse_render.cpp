@@ -104,13 +104,13 @@ void checkCaustics(const RenderOptions& o) {
 /// Pixels take light samples of others in the same pass of the whole picture, so that their errors are alike.
 void checkLightReuse(const RenderOptions& o) {
   if (o.lightReuse != LightReuse::Spatial) return;
-  const std::string refused = "--light-reuse spatial: ";
-  if (o.region) throw UsageError(refused + "pixels need those about them (--region)");
-  if (isAdaptive(o)) throw UsageError(refused + "all pixels get as many samples (--noise, --time)");
+  const std::string refused = "--light-reuse spatial: not with ";
+  if (o.region) throw UsageError(refused + "--region: pixels take light from others");
+  if (isAdaptive(o)) throw UsageError(refused + "--noise, --time: all pixels need as many samples");
   if (o.denoise != Denoise::None)
-    throw UsageError(refused + "a filter takes what pixels share for the picture (--denoise)");
+    throw UsageError(refused + "--denoise: a filter takes what pixels share for the picture");
   if (std::ranges::any_of(o.aovFeatures, isLightPart))
-    throw UsageError(refused + "emission, diffuse and specular (--aov) would not add up to the picture");
+    throw UsageError(refused + "emission, diffuse, specular (--aov): they would not add up to the picture");
 }
 
 /// X, Y, width, height.
@@ -199,7 +199,8 @@ void addOldSpellings(CLI::App& app, RawRender& raw) {
 /// What a path does.
 void addPathOptions(CLI::App& app, RawRender& raw) {
   RenderOptions& o = raw.options;
-  app.add_option("--bounces", raw.bounces, "maximum number of scattering events per path, or 'unlimited'")
+  app.add_option("--bounces", raw.bounces,
+                 "maximum number of scattering events per path, not counting smooth glass, or 'unlimited'")
       ->capture_default_str();
   app.add_option("--rr-depth", o.rouletteDepth,
                  "Russian roulette may end a path from this scattering event on")

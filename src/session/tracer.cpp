@@ -75,11 +75,13 @@ void describeLightSelection(const ShaderVariant& variant, const Scene& scene, Li
   stats.lightSelection = variant.uniformLights ? "uniform" : tree ? "tree" : "power";
   stats.lightSelectionReason = "--light-selection";
   if (wanted != LightSelection::Auto) return;
-  std::ostringstream gain;
-  gain << std::setprecision(3) << gainByPlace(scene);
-  stats.lightSelectionReason =
-      tree ? "chosen by place, light samples vary " + gain.str() + " times less"
-           : "chosen by place, light samples would vary only " + gain.str() + " times less";
+  const double gain = gainByPlace(scene);
+  std::ostringstream times;
+  times << std::setprecision(3) << gain << " times less";
+  stats.lightSelectionReason = tree ? "chosen by place, light samples vary " + times.str()
+                               : gain < 1.005
+                                   ? "chosen by place, light samples would vary as much"
+                                   : "chosen by place, light samples would vary only " + times.str();
 }
 
 /// Why light paths are traced for the picture, or are not.
@@ -105,8 +107,17 @@ RenderOptions asDrawn(const RenderOptions& options, const TraitSet& present) {
   return able;
 }
 
-/// Says what was asked for and changes nothing.
-void warnOfNoEffect(const ShaderVariant& variant, const RenderOptions& options, Statistics& stats) {
+/// Whether light paths, which the scene has, give way to another option.
+bool lightPathsGiveWay(const ShaderVariant& variant, const TraitSet& present, const RenderOptions& options) {
+  const bool excluded = options.clampIndirect > 0.0 || options.shadowCatcher ||
+                        std::ranges::any_of(options.aovFeatures, isLightPart);
+  return options.caustics == Caustics::Auto && excluded && has(present, Trait::Caustics) &&
+         has(variant.stages, Stage::Gi) && has(variant.stages, Stage::Shadows);
+}
+
+/// Says what was asked for and changes nothing, and what gives way to it.
+void warnOfNoEffect(const ShaderVariant& variant, const TraitSet& present, const RenderOptions& options,
+                    Statistics& stats) {
   const auto warn = [&](const std::string& text) {
     stats.warnings.push_back(text);
     say(options, "warning: " + text);
@@ -114,6 +125,12 @@ void warnOfNoEffect(const ShaderVariant& variant, const RenderOptions& options, 
   const bool global = has(variant.stages, Stage::Gi);
   if (options.caustics == Caustics::On && !has(variant.traits, Trait::Caustics))
     warn("--caustics on: no light paths: " + (global ? stats.caustics : "only stage gi has them"));
+  if (lightPathsGiveWay(variant, present, options))
+    warn("no light paths for caustics (" + stats.caustics +
+         "): paths from the camera find fewer of them, and none of point, spot and directional lights");
+  if (options.lightSelection != LightSelection::Auto && stats.lightSelection.empty())
+    warn(std::string("--light-selection: ") +
+         (global ? "no lamp in the scene" : "only stage gi samples one light of many"));
   if (options.lightReuse != LightReuse::None && !variant.neighbours && !variant.lightCandidates)
     warn(std::string("--light-reuse: ") +
          (global ? "no light of this scene is sampled" : "only stage gi samples one light of many"));
@@ -142,7 +159,7 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
                        : tracer.variant.lightCandidates ? "candidates"
                                                         : "none";
   if (has(tracer.variant.stages, Stage::Gi)) stats.caustics = whyCaustics(tracer.variant, present, options);
-  warnOfNoEffect(tracer.variant, options, stats);
+  warnOfNoEffect(tracer.variant, present, options, stats);
   if (tracer.variant.clampIndirect) stats.clampIndirect = options.clampIndirect;
   for (const StageRow& row : stageRows()) {
     const std::string reason = has(options.stages, row.stage) ? whyOff(row.stage, present) : "";

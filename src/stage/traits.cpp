@@ -316,7 +316,7 @@ std::span<const TraitRow> traitRows() {
       {.trait = Trait::Caustics,
        .name = "caustics",
        .constant = "kCaustics",
-       .absence = "no lamp with smooth glass or metal",
+       .absence = "no lamp, or no smooth glass or metal",
        .stages = setOf({Stage::Gi, Stage::Shadows}),
        .needs = setOf({Trait::Specular})},
       {.trait = Trait::Environment,

@@ -145,8 +145,11 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop) 
   mark(Trait::Texcoords, !scene.vertices.texcoord0.empty() || !scene.vertices.texcoord1.empty());
   mark(Trait::EmissiveTriangles, emissiveTriangles);
   mark(Trait::PunctualLights, !scene.lights.empty());
-  mark(Trait::LightTree, gainByPlace(scene) >= kLeastGainByPlace);
-  mark(Trait::Caustics, (emissiveTriangles || !scene.lights.empty()) && anyCaster);
+  // What has no light of its own to speak of is lit by default.
+  const bool lamps =
+      surroundings != Surroundings::DefaultLight && (emissiveTriangles || !scene.lights.empty());
+  mark(Trait::LightTree, lamps && gainByPlace(scene) >= kLeastGainByPlace);
+  mark(Trait::Caustics, lamps && anyCaster);
   mark(Trait::Environment, surroundings != Surroundings::None);
   mark(Trait::EnvironmentSampling, surroundings != Surroundings::None);
   mark(Trait::Backdrop, backdrop);

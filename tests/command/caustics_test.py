@@ -272,11 +272,21 @@ class Caustics(Case):
         self.assert_mean([sum(flux(seed, side) for side in turns) for seed in SEEDS], 4 * math.pi * intensity, "room")
 
     def test_a_request_without_effect_is_told(self):
-        for scene, options, why in (("caustics", ["--stage", "shadows"], "only stage gi has them"), ("rough-glass", [], "no lamp with smooth glass or metal")):
+        for scene, options, why in (("caustics", ["--stage", "shadows"], "only stage gi has them"), ("rough-glass", [], "no lamp, or no smooth glass or metal")):
             told = run("render", SCENES / f"{scene}.gltf", "-o", self.folder / "x.pfm", "--resolution", "8,8", "--spp", 1, "--caustics", "on",
                        "--light-reuse", "candidates", *options).stderr
             self.assertIn(f"--caustics on: no light paths: {why}", told)
             self.assertIn("--light-reuse: ", told)
+
+    def test_what_light_paths_give_way_to_is_told(self):
+        for name, options in (("clamp-indirect", [10]), ("shadow-catcher", [0]), ("aov", ["diffuse"])):
+            path = self.folder / "stats.json"
+            told = run("render", SCENES / "caustics.gltf", "-o", self.folder / "x.exr", "--resolution", "8,8", "--spp", 1, f"--{name}", *options,
+                       "--stats", path).stderr
+            self.assertIn(f"warning: no light paths for caustics (--{name}", told)
+            self.assertIn(f"(--{name}", "".join(json.loads(path.read_text())["warnings"]))
+        told = run("render", SCENES / "cornell-box.gltf", "-o", self.folder / "x.exr", "--resolution", "8,8", "--spp", 1, "--clamp-indirect", 10).stderr
+        self.assertNotIn("light paths", told)
 
     def test_single_sided_surfaces_stop_light_as_on_paths_from_the_camera(self):
         """A screen between lamp and mirror: paths from the mirror to the lamp pass its back, and are stopped by its front."""

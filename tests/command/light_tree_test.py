@@ -163,10 +163,12 @@ class LightTree(Case):
             self.assertEqual(a, b, scene)
 
     def test_neighbours_are_of_the_same_pass_of_the_whole_picture(self):
-        for options, why in ((["--region", "0,0,4,4"], "pixels need those about them"), (["--noise", 0.1], "as many samples"),
+        for options, why in ((["--region", "0,0,4,4"], "pixels take light from others"), (["--noise", 0.1], "as many samples"),
                              (["--time", 1], "as many samples"), (["--denoise", "variance"], "for the picture"), (["--aov", "diffuse"], "add up")):
             self.fails(2, "render", SCENES / "many-lights.gltf", "-o", self.folder / "x.exr", "--light-reuse", "spatial", *options,
                        says=("--light-reuse spatial: ", why))
+        self.fails(2, "render", SCENES / "many-lights.gltf", "-o", self.folder / "x.exr", "--light-reuse", "spatial", "--resolution", "400,300",
+                   "--memory-limit", "16MB", says=("--light-reuse spatial: ", "400 x 300 pixels", "in parts"))
 
     def test_a_picture_is_the_sum_of_its_passes(self):
         """Passes do not know each other: two that are drawn apart are those that are drawn together."""
