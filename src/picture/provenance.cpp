@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <tuple>
 #include <type_traits>
@@ -107,6 +108,27 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+namespace {
+
+/// Of the features in a variant's name, those that another lacks.
+std::string featuresOfOneAlone(const std::string& variant, const std::string& other) {
+  const std::string all = "+" + other + "+";
+  std::istringstream features(variant);
+  std::string text;
+  for (std::string feature; std::getline(features, feature, '+');) {
+    if (all.find("+" + feature + "+") == std::string::npos) text += (text.empty() ? "" : "+") + feature;
+  }
+  return text.empty() ? "none" : text;
+}
+
+/// Two values of one setting; of the shader's variants what they do not share.
+std::string bothValues(const std::string& key, const nlohmann::json& a, const nlohmann::json& b) {
+  if (key != "variant" || !a.is_string() || !b.is_string()) return a.dump() + " and " + b.dump();
+  return featuresOfOneAlone(a, b) + " and " + featuresOfOneAlone(b, a);
+}
+
+}  // namespace
+
 std::string differenceOf(const std::string& settings, const std::string& others) {
   const auto a = nlohmann::json::parse(settings, nullptr, false);
   const auto b = nlohmann::json::parse(others, nullptr, false);
@@ -115,8 +137,8 @@ std::string differenceOf(const std::string& settings, const std::string& others)
   for (const auto& [key, value] : a.items()) {
     const auto other = b.find(key);
     if (other != b.end() && *other == value) continue;
-    text += (text.empty() ? "" : ", ") + key + " " + value.dump() + " and " +
-            (other == b.end() ? "none" : other->dump());
+    text += (text.empty() ? "" : ", ") + key + " " +
+            (other == b.end() ? value.dump() + " and none" : bothValues(key, value, *other));
   }
   for (const auto& [key, value] : b.items()) {
     if (!a.contains(key)) text += (text.empty() ? "" : ", ") + key + " none and " + value.dump();

@@ -16,6 +16,7 @@
 #include "scene/light_spread.h"
 #include "session/outputs.h"
 #include "session/say.h"
+#include "stage/glass_tables.h"
 
 namespace fragtrace {
 
@@ -165,6 +166,10 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
     const std::string reason = has(options.stages, row.stage) ? whyOff(row.stage, present) : "";
     if (!reason.empty()) stats.skipped.push_back(std::string(row.name) + ": " + reason);
   }
+  const bool compensates = has(tracer.variant.stages, Stage::EnergyCompensation);
+  if (compensates && has(tracer.variant.traits, Trait::RoughGlass) && !usesGlassTables(tracer.variant))
+    stats.skipped.emplace_back(
+        "energy-compensation of rough glass: the scene or --enable schlick changes what its facets reflect");
   return everything;
 }
 

@@ -199,6 +199,13 @@ class KnownLight(Case):
                 darker = self.in_white(gltf, *options, "--disable", "energy-compensation")
                 self.assertLess(sum(pixel[0] for row in darker[6:18] for pixel in row[6:18]) / len(inner), 0.9)
 
+    def test_rough_glass_that_is_not_compensated_is_told(self):
+        told = self.folder / "stats.json"
+        for options, wanted in (([], False), (["--enable", "schlick"], True), (["--disable", "energy-compensation"], False)):
+            self.renders(SCENES / "rough-glass.gltf", "-o", self.folder / "x.pfm", "--resolution", "8,8", "--spp", 1, "--stats", told, *options)
+            skipped = json.loads(told.read_text())["skipped"]
+            self.assertEqual(any(text.startswith("energy-compensation of rough glass") for text in skipped), wanted, options)
+
     def glass_sphere(self, surface, *thickness):
         """A sphere of radius 1 about a camera."""
         volume = {"KHR_materials_volume": {"thicknessFactor": thickness[0]}} if thickness else {}

@@ -129,6 +129,10 @@ class RefusedMerges(Parts):
                 other = self.part("other.exr", 4, 4, *options)
                 self.refuses(other, self.first, other, "settings")
 
+    def test_of_shaders_only_what_differs_is_named(self):
+        other = self.part("other.exr", 4, 4, "--light-reuse", "candidates")
+        self.refuses(other, self.first, other, "variant none and light-candidates")
+
     def test_another_scene_even_of_the_same_name(self):
         scene = json.loads(BOX.read_text())
         scene["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = [0.1, 0.2, 0.3, 1]
