@@ -69,19 +69,20 @@ uint64_t sceneHash(const GpuScene& scene, std::array<uint64_t, layout::kSceneBuf
   return hashOf(arrays);
 }
 
-void describeLightSelection(const ShaderVariant& variant, const Scene& scene, LightSelection wanted,
+void describeLightSelection(const ShaderVariant& variant, const LoadedScene& loaded, LightSelection wanted,
                             Statistics& stats) {
   if (!hasLamps(variant.traits) || !has(variant.stages, Stage::Gi)) return;
   const bool tree = has(variant.traits, Trait::LightTree);
   stats.lightSelection = variant.uniformLights ? "uniform" : tree ? "tree" : "power";
   stats.lightSelectionReason = "--light-selection";
   if (wanted != LightSelection::Auto) return;
-  const double gain = gainByPlace(scene);
+  const double gain = gainByPlace(loaded.scene);
   std::ostringstream times;
   times << std::setprecision(3) << gain << " times less";
-  stats.lightSelectionReason = tree ? "chosen by place, light samples vary " + times.str()
-                               : gain < 1.005
-                                   ? "chosen by place, light samples would vary as much"
+  stats.lightSelectionReason = tree           ? "chosen by place, light samples vary " + times.str()
+                               : gain < 1.005 ? "chosen by place, light samples would vary as much"
+                               : loaded.environment.kind == Surroundings::DefaultLight
+                                   ? "the scene is lit by default, not by its lamps"
                                    : "chosen by place, light samples would vary only " + times.str();
 }
 
@@ -154,7 +155,7 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
         chooseFeatureVariant(options, present, loaded.environment.kind, depth, undecided, feature));
     everything.traits |= tracer.features.back().traits;
   }
-  describeLightSelection(tracer.variant, loaded.scene, options.lightSelection, stats);
+  describeLightSelection(tracer.variant, loaded, options.lightSelection, stats);
   if (has(tracer.variant.stages, Stage::Gi))
     stats.lightReuse = tracer.variant.neighbours        ? "spatial"
                        : tracer.variant.lightCandidates ? "candidates"
