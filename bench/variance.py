@@ -6,12 +6,11 @@ usage: variance.py SCENE [--before "OPTIONS"] [--now "OPTIONS"] [--before-progra
                    [--resolution W,H] [--spp BEFORE,NOW] [--seeds N] [--reference TIMES] [--without NODE,...] [--rough] [--part X,Y,W,H]
 Each seed is drawn both ways in turn, on one processor; only the time of drawing counts, without start and compilation. The variance of a pixel is that of its
 luminance between the seeds. The relative one is divided by luminance^2 + (a tenth of the picture's mean)^2 of a reference: it is drawn as now with --reference
-times as many samples, since seeds that miss light must not be measured by their own mean. Both are means over the picture; with --rough, also over the pixels in
-which the camera sees a roughness of at least 0.25 first; with --part, also over a rectangle of pixels from the upper left. --without leaves out nodes of the scene's roots. The lines say how many times less variance, and variance x time; `means` is
-the ratio of the mean pictures, which is 1 where both ways are right.
+times as many samples, since seeds that miss light must not be measured by their own mean. Both are means over the picture; with --rough, also over the pixels
+in which the camera sees a roughness of at least 0.25 first; with --part, also over a rectangle of pixels from the upper left. --without leaves out nodes of the
+scene's roots. The lines say how many times less variance, and variance x time; `means` is the ratio of the mean pictures, which is 1 where both ways are right.
 """
 import argparse
-import array
 import json
 import os
 import shlex
@@ -23,6 +22,10 @@ import tempfile
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(REPOSITORY / "bench/peers"))
+
+from pictures import read_pfm  # noqa: E402
+
 LUMINANCE = (0.2126, 0.7152, 0.0722)
 ROUGH = 0.25
 
@@ -48,20 +51,9 @@ def arguments():
     return options
 
 
-def values(path):
-    """Of a .pfm, and how many a pixel has."""
-    with open(path, "rb") as file:
-        kind = file.readline().split()[0]
-        file.readline()
-        if float(file.readline()) > 0:
-            raise ValueError(f"{path}: big-endian")
-        found = array.array("f", file.read())
-    return found, 3 if kind == b"PF" else 1
-
-
 def luminance(path):
-    found, channels = values(path)
-    return [sum(w * x for w, x in zip(LUMINANCE, found[i:i + 3])) for i in range(0, len(found), channels)]
+    _, values = read_pfm(path)
+    return [sum(w * x for w, x in zip(LUMINANCE, values[i:i + 3])) for i in range(0, len(values), 3)]
 
 
 def render(options, program, more, picture):

@@ -93,10 +93,8 @@ std::string whyCaustics(const ShaderVariant& variant, const TraitSet& present, c
   }
   if (options.caustics == Caustics::Off) return "--caustics";
   if (!has(present, Trait::Caustics)) return traitRows()[size_t(Trait::Caustics)].absence;
-  if (options.clampIndirect > 0.0) return "--clamp-indirect";
-  if (options.shadowCatcher) return "--shadow-catcher";
-  if (std::ranges::any_of(options.aovFeatures, isLightPart)) return "--aov has parts of the light";
-  return "a stage that they need is off";
+  const std::string excluded = whyNoLightPaths(options);
+  return excluded.empty() ? "a stage that they need is off" : excluded;
 }
 
 /// The options as this driver can draw such a scene; says what it cannot.
@@ -111,10 +109,9 @@ RenderOptions asDrawn(const RenderOptions& options, const TraitSet& present) {
 
 /// Whether light paths, which the scene has, give way to another option.
 bool lightPathsGiveWay(const ShaderVariant& variant, const TraitSet& present, const RenderOptions& options) {
-  const bool excluded = options.clampIndirect > 0.0 || options.shadowCatcher ||
-                        std::ranges::any_of(options.aovFeatures, isLightPart);
-  return options.caustics == Caustics::Auto && excluded && has(present, Trait::Caustics) &&
-         has(variant.stages, Stage::Gi) && has(variant.stages, Stage::Shadows);
+  return options.caustics == Caustics::Auto && !whyNoLightPaths(options).empty() &&
+         has(present, Trait::Caustics) && has(variant.stages, Stage::Gi) &&
+         has(variant.stages, Stage::Shadows);
 }
 
 /// Says what was asked for and changes nothing, and what gives way to it.

@@ -174,6 +174,14 @@ std::string whyBlank(DebugView view, const TraitSet& present) {
   return view == DebugView::Texcoords && !coordinates ? traitRows()[size_t(Trait::Texcoords)].absence : "";
 }
 
+std::string whyNoLightPaths(const RenderOptions& options) {
+  // Limits, catchers and parts know paths from the camera alone.
+  if (options.clampIndirect > 0.0) return "--clamp-indirect";
+  if (options.shadowCatcher) return "--shadow-catcher";
+  if (std::ranges::any_of(options.aovFeatures, isLightPart)) return "--aov has parts of the light";
+  return {};
+}
+
 ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& present, Surroundings surroundings,
                             uint32_t treeDepth, BufferReads reads) {
   ShaderVariant v;
@@ -182,9 +190,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   v.reads = reads;
   if (options.lightSelection != LightSelection::Auto)
     v.traits.set(size_t(Trait::LightTree), options.lightSelection != LightSelection::Power);
-  // Limits, catchers and parts know paths from the camera alone.
-  if (options.caustics == Caustics::Off || options.clampIndirect > 0.0 || options.shadowCatcher ||
-      std::ranges::any_of(options.aovFeatures, isLightPart))
+  if (options.caustics == Caustics::Off || !whyNoLightPaths(options).empty())
     v.traits.reset(size_t(Trait::Caustics));
   dropStages(v.stages);
   dropTraits(v.stages, surroundings, v.traits);

@@ -88,6 +88,9 @@ std::string variantName(const ShaderVariant& variant);
 /// Why a stage or switch that was asked for is off in this variant; empty when it is on.
 std::string whyOff(Stage stage, const TraitSet& present);
 
+/// The option that light paths cannot go with; empty when there is none.
+std::string whyNoLightPaths(const RenderOptions& options);
+
 /// Why there is nothing to see in a debug view of this scene; empty when there is.
 std::string whyBlank(DebugView view, const TraitSet& present);
 
