@@ -230,7 +230,8 @@ BsdfValue evaluateFacets(Bsdf b, vec3 outgoing, vec3 incoming) {
   h = h.z < 0.0f ? -h : h;
   float oh = dot(outgoing, h);
   float ih = dot(image, h);
-  if (oh <= 0.0f || (bends ? ih >= 0.0f : ih <= 0.0f)) return none;
+  float denominator = oh + b.eta * ih;
+  if (oh <= 0.0f || (bends ? ih >= 0.0f || denominator == 0.0f : ih <= 0.0f)) return none;
   float fresnel = glassFresnel(b, oh);
   float density = facetDensity(outgoing, h, b.alpha, b.stretch);
   // The masking ratio turns the density of the visible normals into the value (both have D G1(o) / o.z).
@@ -246,8 +247,6 @@ BsdfValue evaluateFacets(Bsdf b, vec3 outgoing, vec3 incoming) {
     if (bends) {
       // Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007, equations 17 and 21, times 1 /
       // eta^2 since radiance is compressed by the denser side.
-      float denominator = oh + b.eta * ih;
-      if (denominator == 0.0f) return none;
       jacobian = b.eta * b.eta * abs(ih) / (denominator * denominator);
       tint = tint / (b.eta * b.eta);
     }
@@ -378,6 +377,8 @@ BsdfSample drawBase(Bsdf b, vec3 outgoing, float choice, float u, float v) {
     s.incoming.z = -s.incoming.z;
     s.transmitted = true;
   }
+  bool lost = false;
+  bool drawnAgain = kCompensation && glass && b.glassLost > 0.0f;  // where it is lost
   if (specular || glass) {
     vec3 h = sampleFacet(outgoing, b.alpha, b.stretch, u, v);
     float oh = dot(outgoing, h);
@@ -387,14 +388,13 @@ BsdfSample drawBase(Bsdf b, vec3 outgoing, float choice, float u, float v) {
       s.transmitted = true;
     }
     // Facets can send light to the wrong side of the surface; that share is lost (single scattering), but for glass.
-    bool lost = s.transmitted == (s.incoming.z > 0.0f);
-    if (glass && kCompensation && b.glassLost > 0.0f) {
+    lost = s.transmitted == (s.incoming.z > 0.0f);
+    if (kCompensation && drawnAgain) {
       vec3 mirrored = vec3(s.incoming.x, s.incoming.y, abs(s.incoming.z));
       lost = lost || fract(choice * kLowBits) >= facetShadowing(outgoing, mirrored, b.alpha, b.stretch);
-      if (lost) return drawScattered(b, fract(u * kLowBits), fract(v * kLowBits));
     }
-    if (lost) return s;
   }
-  s.density = kUnweighed;
+  if (kCompensation && lost && drawnAgain) return drawScattered(b, fract(u * kLowBits), fract(v * kLowBits));
+  if (!lost) s.density = kUnweighed;
   return s;
 }

@@ -82,14 +82,16 @@ Path beginShadow(Path p) {
 Path endShadow(Path p) {
   p.phase = kPhaseEnd;
   if (p.hitSlot < 0) return p;
+  bool passes = false;
   if (kAlpha) {
     Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights);
     uint flags = materialFlags(s.material);
     float alpha = alphaAt(s.material, flags, baseColorAt(s.material, s.texcoords, s.color).a);
-    if (passesThrough(flags, alpha, p.numbers, nextCrossing(p))) {
-      p.phase = kPhaseExtend;
-      return tracePast(p, kFarAway, p.hitT, p.hitSlot);
-    }
+    passes = passesThrough(flags, alpha, p.numbers, nextCrossing(p));
+  }
+  if (kAlpha && passes) {
+    p.phase = kPhaseExtend;
+    return tracePast(p, kFarAway, p.hitT, p.hitSlot);
   }
   vec4 hidden = environmentAlong(p.direction);
   float weight = 1.0;

@@ -30,12 +30,9 @@ float fresnelDielectric(float cosine, float eta) {
 float schlickDielectric(float cosine, float eta) {
   float root = (eta - 1.0f) / (eta + 1.0f);
   float f0 = root * root;
-  float used = cosine;
-  if (eta < 1.0f) {
-    float squared = refractedSquared(cosine, eta);
-    if (squared < 0.0f) return 1.0f;
-    used = sqrt(squared) / eta;
-  }
+  float squared = refractedSquared(cosine, eta);
+  if (squared < 0.0f) return 1.0f;
+  float used = eta < 1.0f ? sqrt(squared) / eta : cosine;
   float m = 1.0f - used;
   float m2 = m * m;
   return f0 + (1.0f - f0) * (m2 * m2 * m);

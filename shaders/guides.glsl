@@ -17,13 +17,12 @@ Path guideAt(Path p, Surface s, vec3 baseColor) {
   vec3 tint = kPassesLight ? p.throughput * p.compression : p.throughput;
   p.radiance = tint;
   p.phase = kPhaseEnd;
-  if (kSmoothSurfaces && p.bounce < kGuideScatterings) {
-    SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
-    if (m.roughness * m.roughness < kGuideAlpha) {
-      if (kRefraction && m.transmission * (1.0 - m.metallic) > 0.5) return proceed(scatterGlass(p, s, m, normal, 0.5));
-      if (kReflections && m.metallic > 0.5) return proceed(scatterMirror(p, s, m, normal, 1.0));
-    }
-  }
+  SurfaceMaterial m;
+  if (kSmoothSurfaces) m = materialAt(s.material, baseColor, s.texcoords);
+  bool follows = kSmoothSurfaces && p.bounce < kGuideScatterings && m.roughness * m.roughness < kGuideAlpha;
+  bool refracts = kRefraction && follows && m.transmission * (1.0 - m.metallic) > 0.5;
+  if (kRefraction && refracts) return proceed(scatterGlass(p, s, m, normal, 0.5));
+  if (kReflections && follows && m.metallic > 0.5) return proceed(scatterMirror(p, s, m, normal, 1.0));
   p.radiance = tint * baseColor;
   return p;
 }

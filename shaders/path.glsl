@@ -276,12 +276,12 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
   p.bounce += 1;
   p.clear += clear ? 1 : 0;
   // Roulette begins in time even where it is not wanted: nothing else ends a ray that glass keeps inside.
-  if ((kGi || clear) && kDrawsLight &&
-      p.bounce >= (clear ? min(frame.limits.y, kLatestRoulette) : frame.limits.y)) {
-    float survival = min(maxComponent(p.throughput) * p.compression, clear ? kClearSurvival : 0.95);
-    if (drawFloat(p.numbers, kBounceDimensions * uint(p.bounce) + kRouletteDimension) >= survival) return p;
-    p.throughput /= survival;
-  }
+  bool roulette = (kGi || clear) && kDrawsLight &&
+                  p.bounce >= (clear ? min(frame.limits.y, kLatestRoulette) : frame.limits.y);
+  float survival = min(maxComponent(p.throughput) * p.compression, clear ? kClearSurvival : 0.95);
+  uint rouletteDimension = kBounceDimensions * uint(p.bounce) + kRouletteDimension;
+  if (roulette && drawFloat(p.numbers, rouletteDimension) >= survival) return p;
+  if (roulette) p.throughput /= survival;
   p.cameraRay = false;
   bool wall = kThinGlass && clear && transmitted && !m.solid && p.medium == kPrimitiveNone;
   if (kCaustics) p.chain = nextChain(p, s.material, density == 0.0, wall);

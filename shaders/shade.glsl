@@ -68,9 +68,8 @@ Scattering scatteringAt(Surface s, SurfaceMaterial m, vec3 normal, vec3 outgoing
 LightSample lightAt(Path p, Surface s, SurfaceMaterial m) {
   uint normal = normalOfLight(s, m);
   uint dimension = kBounceDimensions * uint(p.bounce + 1) + kLightDimension;
-  if (kNeighbours && p.bounce == 0) {
-    Reservoir own = reservoirAt(p.pixel);
-    if (own.known) return lightOfNeighbours(p, own, s.position, normal);
+  if (kNeighbours && p.bounce == 0 && reservoirAt(p.pixel).known) {
+    return lightOfNeighbours(p, reservoirAt(p.pixel), s.position, normal);
   }
   if (kCandidates) {
     bool through = takesLightFromBehind(s, m);
@@ -217,44 +216,43 @@ Path shade(Path p) {
   Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights);
   uint flags = materialFlags(s.material);
   vec4 base = baseColorAt(s.material, s.texcoords, s.color);
-  if (p.lightSlot == 0) {
-    if (kAlpha && passesThrough(flags, alphaAt(s.material, flags, base.a), p.numbers, nextCrossing(p))) {
-      p.phase = kPhaseExtend;
-      return tracePast(p, kFarAway, p.hitT, p.hitSlot);
-    }
-    if (p.cameraRay) p.alpha = 1.0;
-    if (kFeature == kFeatureGuides) return guideAt(p, s, base.rgb);
-    if (!kDrawsLight) {
-      p.radiance = featureAt(s, p.hitSlot, p.hitInstance, base.rgb, -p.direction);
-      p.phase = kPhaseEnd;
-      return p;
-    }
-    // A camera that sees the back of a solid first stands inside.
-    if (kPassesLight && p.cameraRay && !s.front && materialFloats(s.material, kMaterialVolume).w > 0.0) {
-      float ior = dispersedIor(p, s.material);
-      p.compression = ior * ior;
-    }
-    if (kAbsorption) {
-      // A back face of a solid says what the segment went through even if the camera stands inside.
-      bool leaving = !s.front && materialFloats(s.material, kMaterialVolume).w > 0.0;
-      uint medium = leaving ? s.material : p.medium;
-      if (medium != kPrimitiveNone) p.throughput *= exp(-p.hitT * materialFloats(medium, kMaterialVolume).rgb);
-    }
-    if (kLightPaths) return lightPathAt(p, s, flags, base.rgb);
-    if (!kPhong || (kUnlit && (flags & kMaterialUnlit) != 0u)) {
-      p = addLight(p, p.throughput * base.rgb);
-      p.phase = kPhaseEnd;
-      return p;
-    }
-    if (kEmission) p = addLight(p, clampIndirect(p.throughput * emittedAt(p, s, flags), countedScatterings(p)));
-    if (kFeature == kFeatureEmission) {
-      p.phase = kPhaseEnd;
-      return p;
-    }
-    if (kScatters && limitedScatterings(p) > frame.limits.x) {
-      p.phase = kPhaseCut;
-      return p;
-    }
+  bool first = p.lightSlot == 0;
+  if (kAlpha && first && passesThrough(flags, alphaAt(s.material, flags, base.a), p.numbers, nextCrossing(p))) {
+    p.phase = kPhaseExtend;
+    return tracePast(p, kFarAway, p.hitT, p.hitSlot);
+  }
+  if (p.cameraRay) p.alpha = 1.0;
+  if (kFeature == kFeatureGuides) return guideAt(p, s, base.rgb);
+  if (!kDrawsLight) {
+    p.radiance = featureAt(s, p.hitSlot, p.hitInstance, base.rgb, -p.direction);
+    p.phase = kPhaseEnd;
+    return p;
+  }
+  // A camera that sees the back of a solid first stands inside.
+  if (kPassesLight && first && p.cameraRay && !s.front && materialFloats(s.material, kMaterialVolume).w > 0.0) {
+    float ior = dispersedIor(p, s.material);
+    p.compression = ior * ior;
+  }
+  if (kAbsorption && first) {
+    // A back face of a solid says what the segment went through even if the camera stands inside.
+    bool leaving = !s.front && materialFloats(s.material, kMaterialVolume).w > 0.0;
+    uint medium = leaving ? s.material : p.medium;
+    if (medium != kPrimitiveNone) p.throughput *= exp(-p.hitT * materialFloats(medium, kMaterialVolume).rgb);
+  }
+  if (kLightPaths) return lightPathAt(p, s, flags, base.rgb);
+  if (!kPhong || (kUnlit && (flags & kMaterialUnlit) != 0u)) {
+    p = addLight(p, p.throughput * base.rgb);
+    p.phase = kPhaseEnd;
+    return p;
+  }
+  if (kEmission && first) p = addLight(p, clampIndirect(p.throughput * emittedAt(p, s, flags), countedScatterings(p)));
+  if (kFeature == kFeatureEmission) {
+    p.phase = kPhaseEnd;
+    return p;
+  }
+  if (kScatters && first && limitedScatterings(p) > frame.limits.x) {
+    p.phase = kPhaseCut;
+    return p;
   }
   SurfaceMaterial m = materialAt(s.material, base.rgb, s.texcoords);
   if (kLightRecords) return keepLight(p, s, m);
@@ -268,19 +266,19 @@ Path shade(Path p) {
 /// The shadow ray is traced. One that met a surface with alpha may go on behind it; else the light slot is settled.
 Path settleShadow(Path p) {
   int slot = p.traversal.slot;
+  bool passes = false;
   if (kPassing && slot >= 0) {
     Surface s = surfaceAt(slot, p.traversal.hitInstance, p.shadowOrigin, p.shadowDirection, p.traversal.t,
                           p.traversal.weights);
     uint flags = materialFlags(s.material);
     vec4 base = baseColorAt(s.material, s.texcoords, s.color);
-    if (kAlpha && passesThrough(flags, alphaAt(s.material, flags, base.a), p.numbers, nextCrossing(p))) {
-      return tracePast(p, p.shadowLimit, p.traversal.t, slot);
-    }
-    if (kThinGlass && p.throughWalls) {
+    passes = kAlpha && passesThrough(flags, alphaAt(s.material, flags, base.a), p.numbers, nextCrossing(p));
+    if (kThinGlass && p.throughWalls && !passes) {
       p.contribution *= lightThrough(s, base.rgb, p.shadowDirection);
-      if (maxComponent(p.contribution) > 0.0) return tracePast(p, p.shadowLimit, p.traversal.t, slot);
+      passes = maxComponent(p.contribution) > 0.0;
     }
   }
+  if (kPassing && passes) return tracePast(p, p.shadowLimit, p.traversal.t, slot);
   if (slot < 0) p.radiance += p.contribution;
   return proceed(p);
 }

@@ -124,13 +124,13 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   if (kUnlit && (flags & kMaterialUnlit) != 0u) return p;
   bool caster = (flags & kMaterialCaster) != 0u;
   bool scattered = p.bounce > p.walls;
-  if (isSingleSided(s.material, flags)) {
-    if (!s.front) return p;
-    if (!caster && !scattered) return passOn(p, s, 1.0);
-    float chance = hashFloat(p.numbers, kAlphaDimensions + uint(nextCrossing(p)));
-    if (chance < kPassedOn) return passOn(p, s, 1.0 / kPassedOn);
-    p.throughput /= 1.0 - kPassedOn;
-  }
+  bool singleSided = isSingleSided(s.material, flags);
+  if (singleSided && !s.front) return p;
+  bool mayScatter = caster || scattered;
+  bool passes = singleSided &&
+                (!mayScatter || hashFloat(p.numbers, kAlphaDimensions + uint(nextCrossing(p))) < kPassedOn);
+  if (passes) return passOn(p, s, mayScatter ? 1.0 / kPassedOn : 1.0);
+  if (singleSided) p.throughput /= 1.0 - kPassedOn;
   if (p.bounce == 0) {
     float travelled = p.density + p.hitT;
     p.contribution *= rangeWindow(travelled * travelled, p.shadowLimit);
