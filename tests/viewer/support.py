@@ -19,8 +19,9 @@ from Xlib.protocol import event
 
 FRAGTRACE = Path(sys.argv[1]).resolve()
 SCENES = Path(sys.argv[2]).resolve() / "scenes"
-sys.path.insert(0, str(SCENES))
+sys.path[:0] = [str(SCENES), str(Path(__file__).resolve().parent.parent)]
 from picture_files import read_png  # noqa: E402, F401
+from skips import main  # noqa: E402, F401
 
 
 def pixels_of(path):
@@ -100,7 +101,7 @@ def wait_for(condition, seconds, what):
 class Viewer:
     """A running `fragtrace view`; its folder is where it writes."""
 
-    def __init__(self, screen, folder, scene, *options, wait=True):
+    def __init__(self, screen, folder, scene, *options, wait=True, environment=None):
         self.screen, self.folder = screen, Path(folder)
         self.status_file = self.folder / "status.json"
         scenes = [] if scene is None else [scene if isinstance(scene, Path) else SCENES / (scene + ".gltf")]
@@ -108,7 +109,7 @@ class Viewer:
         for option, value in (("--denoise", "none"), ("--default-light", "white")):
             if option not in options and f"no{option[1:]}" not in options:
                 options += (option, value)
-        environment = {**screen.environment, "XDG_STATE_HOME": str(self.folder / "state")}
+        environment = {**(environment or screen.environment), "XDG_STATE_HOME": str(self.folder / "state")}
         self.errors = open(self.folder / "stderr.txt", "w+")
         self.process = subprocess.Popen([FRAGTRACE, "view", *scenes, "--status-file", self.status_file, *map(str, options)],
                                         cwd=folder, env=environment, stdout=subprocess.DEVNULL, stderr=self.errors)
@@ -270,7 +271,3 @@ class Case(unittest.TestCase):
         scene = scene if isinstance(scene, Path) else SCENES / (scene + ".gltf")
         subprocess.run([FRAGTRACE, "render", scene, "-o", path, "--quiet", *map(str, options)], check=True, timeout=300)
         return path
-
-
-def main():
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -4,11 +4,13 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <cstdlib>
 #include <mutex>
 #include <stdexcept>
 #include <utility>
 
 #include "gl/gl.h"
+#include "view/window/wayland.h"
 
 namespace fragtrace {
 
@@ -32,7 +34,14 @@ Glfw::Glfw() {
     const std::lock_guard lock(errors.mutex);
     errors.text += (errors.text.empty() ? "" : "; ") + std::string(text);
   });
-  if (!glfwInit()) throw std::runtime_error(takeGlfwErrors());
+  std::string noWayland;
+#ifdef GLFW_PLATFORM  // from GLFW 3.4 on, which tries Wayland first
+  noWayland = whyNoWayland();
+  if (!noWayland.empty()) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
+  if (glfwInit()) return;
+  const bool told = std::getenv("WAYLAND_DISPLAY") != nullptr && !noWayland.empty();
+  throw std::runtime_error(takeGlfwErrors() + (told ? "; Wayland: " + noWayland : ""));
 }
 
 Glfw::~Glfw() { glfwTerminate(); }

@@ -88,6 +88,14 @@ void Interface::end() {
 
 bool Interface::holding() { return ImGui::IsAnyItemActive(); }
 
+bool Interface::waiting() {
+#if IMGUI_VERSION_NUM >= 18700
+  return ImGui::GetCurrentContext()->InputEventsQueue.Size > 0;
+#else
+  return false;
+#endif
+}
+
 const char* Interface::focus() {
   if (ImGui::GetIO().WantTextInput) return "text";
   return ImGui::GetCurrentContext()->OpenPopupStack.Size > 0 ? "popup" : "picture";

@@ -117,6 +117,7 @@ void Window::run() {
 bool Window::iconified() const { return glfwGetWindowAttrib(window_.get(), GLFW_ICONIFIED) != 0; }
 
 void Window::wait() {
+  if (Interface::waiting()) frames_ = std::max(frames_, kSettleFrames);
   double seconds = kLongestSleep;
   const double now = glfwGetTime();
   const auto atMost = [&](double limit) { seconds = std::clamp(limit, 0.0, seconds); };
