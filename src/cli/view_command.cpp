@@ -7,8 +7,10 @@
 #include <memory>
 #include <thread>
 
+#include "advice.h"
 #include "cli/commands.h"
 #include "errors.h"
+#include "gl/driver_choice.h"
 #include "live/reference.h"
 #include "live/view_tracer.h"
 #include "options/camera_options.h"
@@ -24,8 +26,6 @@ namespace fragtrace {
 namespace {
 
 constexpr const char* kLibraryName = "libfragtrace_window.so";
-/// Those of Debian 12 that render does without.
-constexpr const char* kPackages = "libglfw3 libgl1 fonts-dejavu-core";
 /// How long the end of the program may wait for the driver, which cannot be interrupted while it compiles.
 constexpr std::chrono::seconds kPatience{1};
 
@@ -33,8 +33,7 @@ const WindowLibrary& windowLibrary() {
   const Plugin plugin = openPlugin(kLibraryName, kWindowLibraryEntry);
   if (plugin.entry == nullptr)
     throw ContextError(std::string("no window: ") + kLibraryName + " cannot be opened (" + plugin.error +
-                       ")" +
-                       (plugin.found ? std::string("; on Debian 12: apt-get install ") + kPackages : ""));
+                       ")" + (plugin.found ? std::string("; ") + kWindowAdvice : ""));
   return *reinterpret_cast<WindowLibraryEntry>(plugin.entry)();
 }
 
@@ -47,6 +46,7 @@ int runView(const ViewOptions& asked) {
     if (!options.render.resolution) options.render.resolution = glm::ivec2(reference.width, reference.height);
   }
   const WindowLibrary& library = windowLibrary();
+  setVectorWidth(options.render.vectorWidth);  // the window's context is the first
   std::optional<OidnLibrary> oidn = openDenoiser(options.render);
   Exchange exchange;
   ViewTracer tracer(options, std::move(oidn), exchange);

@@ -2,6 +2,7 @@
 #include "gl/context.h"
 
 #include "errors.h"
+#include "gl/driver_choice.h"
 #include "gl/gl.h"
 
 namespace fragtrace {
@@ -25,7 +26,8 @@ bool loadFunctions(Context& context, GetProcAddress getProcAddress, std::string&
   return true;
 }
 
-std::unique_ptr<Context> makeContext(Backend backend) {
+std::unique_ptr<Context> makeContext(Backend backend, VectorWidth width) {
+  setVectorWidth(width);
   std::string tried;
   std::unique_ptr<Context> context;
   if (backend != Backend::OsMesa) context = makeEglContext(tried);

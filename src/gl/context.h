@@ -23,9 +23,9 @@ class Context {
   bool software = false;  ///< a rasteriser on the processor
 };
 
-/// Makes a context: a GPU through EGL, else software EGL, else OSMesa; or only what `backend` names. Throws
-/// ContextError saying what was tried and why each failed.
-std::unique_ptr<Context> makeContext(Backend backend);
+/// Makes a context: a GPU through EGL, else software EGL, else OSMesa; or only what `backend` names. `width`
+/// holds for the process (setVectorWidth). Throws ContextError saying what was tried and why each failed.
+std::unique_ptr<Context> makeContext(Backend backend, VectorWidth width = VectorWidth::Auto);
 
 /// The two ways, each null on failure with the reasons appended to `tried`.
 std::unique_ptr<Context> makeEglContext(std::string& tried);

@@ -4,8 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <string>
 
 namespace fragtrace {
+
+bool hasAvx512() {
+#ifdef __x86_64__
+  return __builtin_cpu_supports("avx512f") != 0;
+#else
+  return false;
+#endif
+}
 
 Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals) {
   if (wanted != Dispatch::Auto) return wanted;
@@ -15,6 +24,25 @@ Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals) 
   const bool fewRasterisers = std::ranges::any_of(
       kDataCentre, [&](std::string_view name) { return context.renderer.find(name) != std::string::npos; });
   return fewRasterisers ? Dispatch::Compute : Dispatch::Fragment;
+}
+
+VectorWidth chooseVectorWidth(VectorWidth wanted, const VectorWork& work) {
+  if (wanted != VectorWidth::Auto) return wanted;
+  // Compilation takes up to 0.8 s longer, and a path 0.06 to 0.35 us less.
+  constexpr double kFewestPaths = 4e6;
+  const bool wide = work.avx512 && !work.hasTextures && work.paths >= kFewestPaths;
+  return wide ? VectorWidth::Bits512 : VectorWidth::Auto;
+}
+
+void setVectorWidth(VectorWidth width) {
+  if (width == VectorWidth::Auto) return;
+  ::setenv("LP_NATIVE_VECTOR_WIDTH", std::string(kVectorWidthNames[size_t(width)]).c_str(), 0);
+}
+
+int vectorWidthOf(const std::string& renderer) {
+  const size_t end = renderer.find(" bits)");
+  const size_t begin = end == std::string::npos ? end : renderer.rfind(' ', end - 1);
+  return begin == std::string::npos ? 0 : std::atoi(renderer.c_str() + begin);
 }
 
 bool preferQuickCompilation(double paths) {

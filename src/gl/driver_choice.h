@@ -12,6 +12,28 @@ namespace fragtrace {
 /// there has not been measured (docs/design/gpu.md).
 Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals);
 
+/// Whether the processor has vectors of 512 bits.
+bool hasAvx512();
+
+/// What tells which width of vectors pays.
+struct VectorWork {
+  double paths = 0.0;        ///< camera paths that the process will take
+  bool hasTextures = false;  ///< the scene has some
+  bool avx512 = hasAvx512();
+};
+
+/// What was asked for; for Auto 512 bits where that pays (docs/design/drivers.md), else Auto, the driver's
+/// own choice.
+VectorWidth chooseVectorWidth(VectorWidth wanted, const VectorWork& work);
+
+/// Tells Mesa's software driver the width, for all contexts of the process; has to come before the first.
+/// Auto leaves it to the driver, and what LP_NATIVE_VECTOR_WIDTH says already stays. Pictures are the same
+/// bits.
+void setVectorWidth(VectorWidth width);
+
+/// The width that the driver computes with, by GL_RENDERER; 0: it does not say.
+int vectorWidthOf(const std::string& renderer);
+
 /// Tells llvmpipe not to optimise what it compiles, if that saves more time than drawing so many paths then
 /// takes longer (docs/design/benchmarks.md); pictures are the same bits. For processes that draw once: it
 /// holds for all of their contexts, and has to come before the first. What GALLIVM_PERF says already stays.

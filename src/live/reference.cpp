@@ -2,6 +2,7 @@
 #include "live/reference.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "errors.h"
 #include "image/channels.h"

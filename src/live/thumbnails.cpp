@@ -2,6 +2,7 @@
 #include "live/thumbnails.h"
 
 #include <thread>
+#include <utility>
 
 #include "scene/studio.h"
 #include "view/picture/thumbnail.h"

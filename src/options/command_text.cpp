@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <utility>
 
 #include "errors.h"
 #include "options/camera_options.h"
@@ -113,9 +114,10 @@ void appendPicture(std::string& text, const RenderOptions& o) {
   append(text, "--debug-view", std::string(rowOf(o.debugView).name), o.debugView == DebugView::None);
   if (o.treeLevel) appendOption(text, "--tree-level", std::to_string(*o.treeLevel));
   appendChoice(text, "--traversal", kTraversalNames, o.traversal, standard.traversal);
-  appendChoice(text, "--rendering-backend", std::array{"auto", "egl", "osmesa"}, o.backend, standard.backend);
+  appendChoice(text, "--rendering-backend", kBackendNames, o.backend, standard.backend);
   appendChoice(text, "--buffer-reads", kBufferReadsNames, o.bufferReads, standard.bufferReads);
   appendChoice(text, "--dispatch", kDispatchNames, o.dispatch, standard.dispatch);
+  appendChoice(text, "--vector-width", kVectorWidthNames, o.vectorWidth, standard.vectorWidth);
   appendChoice(text, "--schedule", kScheduleNames, o.schedule, standard.schedule);
   append(text, "--shader-folder", o.shaderFolder.string(), o.shaderFolder.empty());
 }

@@ -9,6 +9,7 @@
 #include "image/format.h"
 #include "image/image.h"
 #include "options/choose.h"
+#include "options/device_options.h"
 #include "options/input_options.h"
 #include "options/numbers.h"
 #include "options/old_spellings.h"
@@ -256,26 +257,6 @@ void addPictureOptions(CLI::App& app, RawRender& raw) {
       ->capture_default_str();
 }
 
-/// How, not what, is traced.
-void addTracingOptions(CLI::App& app, RawRender& raw) {
-  app.add_option("--traversal", raw.traversal, "how rays find triangles: " + joined(kTraversalNames))
-      ->capture_default_str();
-  app.add_option("--instancing", raw.instancing,
-                 "whether copies of a mesh share its triangles: " + joined(kInstancingNames))
-      ->capture_default_str();
-  app.add_option("--rendering-backend", raw.backend, "how the OpenGL context is created: auto, egl, osmesa")
-      ->capture_default_str();
-  app.add_option("--buffer-reads", raw.reads, "how the shader reads the scene: " + joined(kBufferReadsNames))
-      ->capture_default_str();
-  app.add_option("--dispatch", raw.dispatch, "which shader stage runs the tracer: " + joined(kDispatchNames))
-      ->capture_default_str();
-  app.add_option("--schedule", raw.schedule,
-                 "how paths are scheduled: each lane of the device traces one pixel at a time (megakernel), "
-                 "or the rays of many pixels are traced together (wavefront): " +
-                     joined(kScheduleNames))
-      ->capture_default_str();
-}
-
 void switchStages(const std::vector<std::string>& on, const std::vector<std::string>& off, StageSet& stages) {
   for (const std::string& name : on) stages.set(size_t(stageNamed("--enable", name)));
   for (const std::string& name : off) stages.reset(size_t(stageNamed("--disable", name)));
@@ -335,10 +316,10 @@ RenderOptions finishRender(const RawRender& raw) {
   o.toneMap = choose<ToneMap>("--tone-map", raw.toneMap, toneMapNames());
   o.traversal = choose<TraversalMethod>("--traversal", raw.traversal, kTraversalNames);
   o.instancing = choose<Instancing>("--instancing", raw.instancing, kInstancingNames);
-  o.backend =
-      choose<Backend>("--rendering-backend", raw.backend, std::vector<std::string>{"auto", "egl", "osmesa"});
+  o.backend = choose<Backend>("--rendering-backend", raw.backend, kBackendNames);
   o.bufferReads = choose<BufferReads>("--buffer-reads", raw.reads, kBufferReadsNames);
   o.dispatch = choose<Dispatch>("--dispatch", raw.dispatch, kDispatchNames);
+  o.vectorWidth = choose<VectorWidth>("--vector-width", raw.vectorWidth, kVectorWidthNames);
   o.schedule = choose<Schedule>("--schedule", raw.schedule, kScheduleNames);
   o.statsFile = raw.statsFile;
   o.shaderFolder = raw.shaderFolder;

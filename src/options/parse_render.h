@@ -44,6 +44,7 @@ struct RawRender {
   std::string backend = "auto";
   std::string reads = "auto";
   std::string dispatch = "auto";
+  std::string vectorWidth = "auto";
   std::string schedule = "auto";
   std::string statsFile;
   std::string shaderFolder;

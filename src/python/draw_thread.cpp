@@ -6,6 +6,7 @@
 #include <deque>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "session/interrupt.h"
 #include "session/say.h"

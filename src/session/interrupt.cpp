@@ -2,6 +2,7 @@
 #include "session/interrupt.h"
 
 #include <unistd.h>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <ctime>

@@ -120,6 +120,7 @@ std::string statisticsText(const Statistics& s) {
   json["backend"] = s.backend;
   json["gl_renderer"] = s.glRenderer;
   json["gl_version"] = s.glVersion;
+  if (s.vectorWidth > 0) json["vector_width"] = s.vectorWidth;
   json["warnings"] = s.warnings;
   json["clock_ms"] = s.clockMs;
   json["clock_cpu_ms"] = s.clockCpuMs;

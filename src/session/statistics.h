@@ -71,6 +71,7 @@ struct Statistics {
   std::string backend;
   std::string glRenderer;
   std::string glVersion;
+  int vectorWidth = 0;               ///< bits of the vectors that software computes with; 0: not known
   std::vector<std::string> skipped;  ///< "refraction: no transmissive material", ...
   std::vector<std::string> warnings;
   double clockMs = steadyMilliseconds();     ///< when the command began

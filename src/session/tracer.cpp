@@ -188,6 +188,7 @@ void describe(Statistics& stats, const Context& context, const GpuScene& packed,
   stats.backend = context.backend;
   stats.glRenderer = context.renderer;
   stats.glVersion = context.version;
+  stats.vectorWidth = vectorWidthOf(context.renderer);
   stats.phases.push_back(packing);
   stats.packMs = packing.end - packing.begin;
   stats.casters = packed.casters.size();

@@ -2,6 +2,7 @@
 #include "stage/forced_variants.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace fragtrace {
 

@@ -80,6 +80,7 @@ inline constexpr std::tuple kOptionRows{
     OptionRow{&RenderOptions::backend, Effect::Way, Renewal::Program},
     OptionRow{&RenderOptions::bufferReads, Effect::Way, Renewal::Program},
     OptionRow{&RenderOptions::dispatch, Effect::Way, Renewal::Program},
+    OptionRow{&RenderOptions::vectorWidth, Effect::Way},
     OptionRow{&RenderOptions::schedule, Effect::Way, Renewal::Program},
     OptionRow{&RenderOptions::aovSamples, Effect::Layers},
     OptionRow{&RenderOptions::aovVariance, Effect::Layers},

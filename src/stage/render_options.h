@@ -29,6 +29,7 @@ enum class TraversalMethod : uint8_t { Auto, Iterative, Bvh, FrontToBack, Litera
 inline constexpr std::array<std::string_view, 5> kTraversalNames{"auto", "iterative", "bvh", "front-to-back",
                                                                  "literals"};
 enum class Backend : uint8_t { Auto, Egl, OsMesa };
+inline constexpr std::array<std::string_view, 3> kBackendNames{"auto", "egl", "osmesa"};
 /// How the shader reads the scene: storage buffers, image buffers, texel buffers; the same buffers, bound
 /// otherwise.
 enum class BufferReads : uint8_t { Auto, Ssbo, Image, Texel };
@@ -36,6 +37,11 @@ inline constexpr std::array<std::string_view, 4> kBufferReadsNames{"auto", "ssbo
 /// Which stage of the pipeline runs the tracer: one fragment or one compute invocation a pixel.
 enum class Dispatch : uint8_t { Auto, Fragment, Compute };
 inline constexpr std::array<std::string_view, 3> kDispatchNames{"auto", "fragment", "compute"};
+/// Bits of the vectors that Mesa's software driver computes with, and so how many invocations run in
+/// lockstep: 8 or 16. Auto: as chooseVectorWidth() (gl/driver_choice.h) has it in `render`, else as the
+/// driver has it.
+enum class VectorWidth : uint8_t { Auto, Bits256, Bits512 };
+inline constexpr std::array<std::string_view, 3> kVectorWidthNames{"auto", "256", "512"};
 /// How paths share the lanes of a draw: one pixel a lane, or many, whose rays are traced together
 /// (shaders/wavefront.glsl).
 enum class Schedule : uint8_t { Auto, Megakernel, Wavefront };
@@ -135,6 +141,7 @@ struct RenderOptions {
   Backend backend = Backend::Auto;
   BufferReads bufferReads = BufferReads::Auto;
   Dispatch dispatch = Dispatch::Auto;
+  VectorWidth vectorWidth = VectorWidth::Auto;
   Schedule schedule = Schedule::Auto;
   bool aovSamples = false;  ///< more layers of .exr files
   bool aovVariance = false;

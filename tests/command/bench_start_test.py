@@ -81,5 +81,30 @@ class QuickCompilation(Case):
         self.assertFalse(self.picture(BOX, "--resolution", "8,8", "--time", "0.1", "--stage", "flat")[1])
 
 
+class VectorWidth(Case):
+    """Of Mesa's software driver."""
+
+    def setUp(self):
+        super().setUp()
+        if self.width("furnace", "--stage", "flat") is None:
+            self.skipTest("the driver names no width of vectors")
+
+    def width(self, scene, *options, **environment):
+        stats = self.folder / "s.json"
+        self.renders(SCENES / (scene + ".gltf"), *TINY, "--quiet", "-o", self.folder / "x.pfm", "--stats", stats, *options, env={**os.environ, **environment})
+        return json.loads(stats.read_text()).get("vector_width")
+
+    def test_each_width_draws_the_same_bits_and_is_told(self):
+        for scene in ("cornell-box", "lobes"):
+            pictures = []
+            for width in (256, 512):
+                self.assertEqual(self.width(scene, "--vector-width", width), width)
+                pictures.append((self.folder / "x.pfm").read_bytes())
+            self.assertEqual(*pictures, scene)
+
+    def test_what_the_environment_says_stays(self):
+        self.assertEqual(self.width("furnace", "--vector-width", 512, LP_NATIVE_VECTOR_WIDTH="256"), 256)
+
+
 if __name__ == "__main__":
     main()

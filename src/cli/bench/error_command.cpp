@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `fragtrace bench error`: how far pictures are from the reference, against the samples and the seconds
 // spent.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -310,7 +311,8 @@ int runBenchError(const BenchErrorOptions& options) {
     for (const std::filesystem::path& input : inputsOf(configuration.render)) inputs.push_back(input);
   }
   checkOutputs(outputsOf(options), inputs);
-  const auto context = makeContext(options.configurations.front().render.backend);
+  const RenderOptions& first = options.configurations.front().render;
+  const auto context = makeContext(first.backend, first.vectorWidth);
   const ErrorReport report = measure(options, *context);
   countInterrupts();  // what is measured is written whole
   std::fputs(errorTable(report).c_str(), stdout);

@@ -62,7 +62,7 @@ int runBenchFrame(const BenchFrameOptions& options) {
   const std::vector<BaselineEntry> baseline = readBaseline(options.baseline);
   std::optional<ReferencePicture> reference;
   if (!options.reference.empty()) reference = readReference(options.reference);
-  const auto context = makeContext(options.first().backend);
+  const auto context = makeContext(options.first().backend, options.first().vectorWidth);
   const BenchMachine machine = describeMachine(*context);
   const std::vector<FrameSetting> measured = measure(options, *context, reference);
   countInterrupts();  // what is measured is written whole

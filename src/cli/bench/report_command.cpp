@@ -47,7 +47,7 @@ int runBenchReport(const BenchReportOptions& options) {
     for (const std::filesystem::path& input : inputsOf(row.configuration.render)) inputs.push_back(input);
   }
   checkOutputs(outputsOf(options), inputs);
-  const auto context = makeContext(options.first().backend);
+  const auto context = makeContext(options.first().backend, options.first().vectorWidth);
   const BenchMachine machine = describeMachine(*context);
   std::vector<TimedSetting> settings = settingsOf(options, *context);
   measureInTurn(settings, options.first().quiet);

@@ -244,7 +244,7 @@ ScaleReport measure(const BenchScaleOptions& options, const Context& context) {
 int runBenchScale(const BenchScaleOptions& options) {
   const std::vector<NamedOutput> outputs{{"--json", options.json}, {"--chart", options.chart}};
   checkOutputs(outputs, {});
-  const auto context = makeContext(options.render.backend);
+  const auto context = makeContext(options.render.backend, options.render.vectorWidth);
   const ScaleReport report = measure(options, *context);
   countInterrupts();  // what is measured is written whole
   std::fputs(scaleTable(report).c_str(), stdout);

@@ -68,7 +68,7 @@ int runBenchStress(const BenchStressOptions& options) {
   const std::vector<NamedOutput> outputs{{"--json", options.json}};
   checkOutputs(outputs, {});
   const std::vector<StressRow> rows = chosenRows(options);
-  const auto context = makeContext(options.render.backend);
+  const auto context = makeContext(options.render.backend, options.render.vectorWidth);
   const StressReport report = measure(options, rows, *context);
   countInterrupts();  // what was found is written whole
   std::fputs(stressTable(report).c_str(), stdout);

@@ -145,7 +145,7 @@ TraversalReport measure(const BenchTraversalOptions& options, const Context& con
 int runBenchTraversal(const BenchTraversalOptions& options) {
   const std::vector<NamedOutput> outputs{{"--json", options.json}, {"--rays", options.rays}};
   checkOutputs(outputs, inputsOf(options.render));
-  const auto context = makeContext(options.render.backend);
+  const auto context = makeContext(options.render.backend, options.render.vectorWidth);
   const TraversalReport report = measure(options, *context);
   countInterrupts();  // what is measured is written whole
   std::fputs(traversalTable(report).c_str(), stdout);

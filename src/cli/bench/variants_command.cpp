@@ -84,7 +84,7 @@ int runBenchVariants(const BenchVariantsOptions& options) {
     for (const std::filesystem::path& input : inputsOf(scene.render)) inputs.push_back(input);
   }
   checkOutputs(outputsOf(options), inputs);
-  const auto context = makeContext(options.first().backend);
+  const auto context = makeContext(options.first().backend, options.first().vectorWidth);
   const BenchMachine machine = describeMachine(*context);
   std::string table;
   std::string json;
