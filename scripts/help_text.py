@@ -59,11 +59,11 @@ def commands(program, words=()):
 
 
 def readable(name):
-    """'--time FLOAT:FLOAT in [0.01 - 1e+07]' as option, values, default."""
+    """'--time FLOAT:FLOAT in [0.01 - 1e+07]' as option, values, default. CLI11 2.1 writes defaults as 'INT=64', 2.4 as 'INT [64]'."""
     option, _, kind = name.partition(" ")
-    default = re.search(r"=(\S*)", kind)
     limits = re.search(r" in \[(\S+) - (\S+)\]", kind)
-    return option, f"{limits[1]} to {limits[2]}" if limits else "", default[1] if default else ""
+    default = re.search(r"=(\S*)| \[(\S*)\]", kind.replace(limits[0], "") if limits else kind)
+    return option, f"{limits[1]} to {limits[2]}" if limits else "", (default[1] or default[2] or "") if default else ""
 
 
 def kind_of(name):

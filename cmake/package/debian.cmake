@@ -7,7 +7,13 @@ install(CODE "execute_process(COMMAND ${Python3_EXECUTABLE} ${package}/debian_ch
 install(FILES ${written}/changelog.gz ${package}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT debian EXCLUDE_FROM_ALL)
 
 set(CPACK_PACKAGE_NAME fragtrace)
-set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+# For the release that it is made on: "0.2.0+deb13". Where there is no such number, the version alone.
+cmake_host_system_information(RESULT release QUERY DISTRIB_INFO)
+set(release_suffix)
+if(release_VERSION_ID)
+  string(REPLACE "debian" "deb" release_suffix "+${release_ID}${release_VERSION_ID}")
+endif()
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION}${release_suffix})
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL Unspecified debian)
@@ -32,4 +38,7 @@ set(CPACK_FRAGTRACE_BUILD ${CMAKE_BINARY_DIR})
 # OpenGL is opened at run time: by EGL with Mesa's software driver, or by OSMesa.
 set(CPACK_FRAGTRACE_DEPENDS "libegl1 | libosmesa6, libgl1-mesa-dri | libosmesa6")
 set(CPACK_FRAGTRACE_RECOMMENDS "libosmesa6, libgl1, fonts-dejavu-core")
+if(glfw3_VERSION VERSION_GREATER_EQUAL 3.4)  # a title bar on Wayland
+  string(APPEND CPACK_FRAGTRACE_RECOMMENDS ", libdecor-0-plugin-1-gtk | libdecor-0-plugin-1-cairo")
+endif()
 include(CPack)

@@ -2,7 +2,9 @@
 // Random numbers of measurements, the same on every machine.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>
 #include <random>

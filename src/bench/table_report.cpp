@@ -2,6 +2,7 @@
 #include "bench/table_report.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bench/chart.h"
 #include "bench/formatted.h"

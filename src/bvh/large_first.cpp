@@ -2,6 +2,7 @@
 #include "bvh/large_first.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bvh/split.h"
 

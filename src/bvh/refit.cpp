@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bvh/refit.h"
 
+#include <utility>
+
 namespace fragtrace {
 
 namespace {

@@ -4,6 +4,7 @@
 #include <EGL/eglext.h>
 
 #include <array>
+#include <cstdio>
 #include <cstring>
 #include <vector>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OSMesa: Mesa's software rasteriser without any window system.
-#include <GL/osmesa.h>
-
+// OSMesa: Mesa's software rasteriser without any window system. Mesa 25.1 and later have neither the library
+// nor its header, so the part of the interface that is used stands here (Mesa 3D, OSMesa interface 11.2).
 #include <array>
 
 #include "gl/context.h"
@@ -11,11 +10,24 @@ namespace fragtrace {
 
 namespace {
 
+using OsMesaHandle = struct OsMesaContextStruct*;
+
+/// Names and values of context attributes.
+constexpr int kFormat = 0x22;
+constexpr int kRgba = 0x1908;
+constexpr int kDepthBits = 0x30;
+constexpr int kProfile = 0x33;
+constexpr int kCoreProfile = 0x34;
+constexpr int kMajorVersion = 0x36;
+constexpr int kMinorVersion = 0x37;
+/// The type of a surface's components, GL_UNSIGNED_BYTE.
+constexpr unsigned kUnsignedByte = 0x1401;
+
 struct OsMesaFunctions {
-  decltype(&OSMesaCreateContextAttribs) createContext = nullptr;
-  decltype(&OSMesaDestroyContext) destroyContext = nullptr;
-  decltype(&OSMesaMakeCurrent) makeCurrent = nullptr;
-  decltype(&OSMesaGetProcAddress) getProcAddress = nullptr;
+  OsMesaHandle (*createContext)(const int* attributes, OsMesaHandle shared) = nullptr;
+  void (*destroyContext)(OsMesaHandle) = nullptr;
+  unsigned char (*makeCurrent)(OsMesaHandle, void* pixels, unsigned type, int width, int height) = nullptr;
+  GetProcAddress getProcAddress = nullptr;
 
   bool load(const DynamicLibrary& library) {
     return library.find("OSMesaCreateContextAttribs", createContext) &&
@@ -29,21 +41,21 @@ constexpr int kSurfaceSize = 4;  // pixels; the tracer writes to images, never t
 
 class HeadlessOsMesa : public Context {
  public:
-  HeadlessOsMesa(const OsMesaFunctions& functions, OSMesaContext context)
+  HeadlessOsMesa(const OsMesaFunctions& functions, OsMesaHandle context)
       : osMesa_(functions), context_(context) {
     backend = "osmesa";
   }
   ~HeadlessOsMesa() override {
-    osMesa_.makeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+    osMesa_.makeCurrent(nullptr, nullptr, kUnsignedByte, 0, 0);
     osMesa_.destroyContext(context_);
   }
   bool makeCurrent() {
-    return osMesa_.makeCurrent(context_, surface_.data(), GL_UNSIGNED_BYTE, kSurfaceSize, kSurfaceSize) != 0;
+    return osMesa_.makeCurrent(context_, surface_.data(), kUnsignedByte, kSurfaceSize, kSurfaceSize) != 0;
   }
 
  private:
   OsMesaFunctions osMesa_;
-  OSMesaContext context_;
+  OsMesaHandle context_;
   std::array<unsigned char, size_t(kSurfaceSize) * kSurfaceSize * 4> surface_{};
 };
 
@@ -58,18 +70,9 @@ std::unique_ptr<Context> makeOsMesaContext(std::string& tried) {
   if (!library.loaded()) return fail(library.error());
   OsMesaFunctions functions;
   if (!functions.load(library)) return fail("the library lacks OSMesaCreateContextAttribs");
-  const int wish[] = {OSMESA_FORMAT,
-                      OSMESA_RGBA,
-                      OSMESA_DEPTH_BITS,
-                      0,
-                      OSMESA_PROFILE,
-                      OSMESA_CORE_PROFILE,
-                      OSMESA_CONTEXT_MAJOR_VERSION,
-                      4,
-                      OSMESA_CONTEXT_MINOR_VERSION,
-                      5,
-                      0};
-  OSMesaContext native = functions.createContext(wish, nullptr);
+  const int wish[] = {kFormat,       kRgba, kDepthBits,    0, kProfile, kCoreProfile,
+                      kMajorVersion, 4,     kMinorVersion, 5, 0};
+  OsMesaHandle native = functions.createContext(wish, nullptr);
   if (!native) return fail("no OpenGL 4.5 core context");
   auto context = std::make_unique<HeadlessOsMesa>(functions, native);
   if (!context->makeCurrent()) return fail("OSMesaMakeCurrent failed");

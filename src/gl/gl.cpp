@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gl/gl.h"
 
+#include <cstdint>
+
 #include "errors.h"
 
 namespace fragtrace {

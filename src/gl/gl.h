@@ -4,6 +4,7 @@
 
 #include <glad/gl.h>
 
+#include <cstdint>
 #include <string>
 #include <utility>
 

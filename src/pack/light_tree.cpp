@@ -8,6 +8,7 @@
 #include <glm/gtx/component_wise.hpp>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "shader/layout.h"
 

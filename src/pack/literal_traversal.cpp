@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "pack/pack_faces.h"
 #include "scene/hit_error.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pack/pack_faces.h"
 
+#include <cmath>
+
 #include "errors.h"
 #include "pack/words.h"
 #include "scene/hit_error.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pack/pack_instances.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "math/norm.h"

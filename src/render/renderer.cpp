@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "render/renderer.h"
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cmath>

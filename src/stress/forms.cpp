@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numeric>
+#include <utility>
 
 #include "bench/dice.h"
 

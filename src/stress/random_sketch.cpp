@@ -3,6 +3,7 @@
 
 #include <array>
 #include <glm/gtc/matrix_transform.hpp>
+#include <utility>
 
 namespace fragtrace {
 

@@ -2,6 +2,7 @@
 #include "stress/stored_png.h"
 
 #include <cassert>
+#include <cstdint>
 #include <string_view>
 
 namespace fragtrace {

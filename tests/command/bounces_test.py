@@ -7,10 +7,9 @@ import statistics
 import unittest
 from pathlib import Path
 
-from support import SCENES, Case, Exr, main, read_pfm
+from support import BACKENDS, SCENES, Case, Exr, main, read_pfm
 
 ASSETS = Path(os.environ.get("FRAGTRACE_ASSETS", "/work/shared/assets"))
-BACKENDS = "egl", "osmesa"
 
 
 def nested_glass(count, index):

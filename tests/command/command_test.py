@@ -9,7 +9,7 @@ import struct
 import subprocess
 import time
 
-from support import FRAGTRACE, SCENES, SMALL, Case, main, read_pfm, run
+from support import BACKENDS, FRAGTRACE, SCENES, SMALL, Case, main, read_pfm, run
 
 
 class ExitStatuses(Case):
@@ -288,7 +288,7 @@ class DriverLimits(Case):
         return paths
 
     def test_iterative_over_63k_triangles(self):
-        for backend in ("egl", "osmesa"):
+        for backend in BACKENDS:
             self.compare("mesh-62975.gltf", backend, "iterative", "16", "12,12")
 
     def test_iterative_with_shadow_rays(self):
@@ -296,7 +296,7 @@ class DriverLimits(Case):
 
     def test_trees_with_thousands_of_samples(self):
         for traversal in ("bvh", "front-to-back"):
-            for backend in ("egl", "osmesa"):
+            for backend in BACKENDS:
                 self.compare("mesh-62975.gltf", backend, traversal, "4000", "8,8")
 
 

@@ -74,10 +74,10 @@ class Codecs(Case):
         for make in (meshopt, draco):
             result = run("info", self.write(make(True)), env={**os.environ, "FRAGTRACE_LIBRARY_PATH": str(self.folder)})
             self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertIn("the uncompressed data are taken: its libraries are not installed (on Debian 12: apt-get install", result.stderr)
+            self.assertIn("the uncompressed data are taken: its libraries are not installed (on Debian", result.stderr)
 
     def test_codecs_that_crash_loop_or_end_are_named(self):
-        for script, says in (("kill -SEGV $$", "signal 11"), ("exit 7", "status 7"), ("exit 127", "apt-get install libdraco7"), ("while :; do :; done", "out of time")):
+        for script, says in (("kill -SEGV $$", "signal 11"), ("exit 7", "status 7"), ("exit 127", "apt-get install libdraco"), ("while :; do :; done", "out of time")):
             stand_in = self.folder / "fragtrace_codecs"
             stand_in.write_text("#!/bin/sh\n" + script)
             stand_in.chmod(0o755)

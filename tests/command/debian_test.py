@@ -1,27 +1,24 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The Debian package, installed by apt in a fresh Debian 12 (debootstrap) and used there by an ordinary user, without a compiler; and
-Python's wheel, installed by pip in another one.
+"""The Debian package, installed by apt in a fresh Debian of this release and used there by an ordinary user, without a compiler; Python's
+wheel, installed by pip in another one; and all of that, with all tests, made in a fresh Debian of the other release.
 
-Needs root, the network and debootstrap; skipped without them. The fresh Debian and the packages that apt has fetched stay in BUILD/debian.
+Skipped where a fresh Debian cannot be made (debian.py).
 """
 import base64
 import json
-import os
 import re
 import shutil
 import subprocess
 import tempfile
 import unittest
-import urllib.request
 from pathlib import Path
 
+from debian import KEPT, RELEASES, Debian, own_release, why_not
 from support import FRAGTRACE, SCENES, Case, main, run
 
 BUILD = FRAGTRACE.parent
-KEPT = BUILD / "debian"
-RELEASE = "bookworm"
-TOOLS = ("debootstrap", "dpkg-shlibdeps", "cpack", "unshare", "chroot")
+ROOT = SCENES.parent
 RENDER = ["--resolution", "64,64", "--spp", "8", "--quiet"]
 # One triangle, by draco_encoder -qp 0 -cl 0.
 DRACO = "RFJBQ08CAgEAAAABAwEAAQIBAQAJAwAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAA=="
@@ -39,70 +36,6 @@ exit 1
 """
 
 
-def mirror():
-    """Where this machine's apt takes Debian from."""
-    lists = [Path("/etc/apt/sources.list"), *Path("/etc/apt/sources.list.d").glob("*")]
-    found = re.findall(r"^(?:deb|URIs:)\s(?:.*\s)?(https?://\S+/debian)/?(?:\s|$)", "\n".join(p.read_text() for p in lists if p.is_file()), re.MULTILINE)
-    return found[0] if found else "http://deb.debian.org/debian"
-
-
-def why_not():
-    """What is missing for these tests, or ''."""
-    missing = [tool for tool in TOOLS if not shutil.which(tool)]
-    if os.geteuid() != 0:
-        return "needs root"
-    if missing:
-        return "not installed: " + ", ".join(missing)
-    try:
-        urllib.request.urlopen(f"{mirror()}/dists/{RELEASE}/Release", timeout=20).close()
-    except OSError as error:
-        return f"{mirror()} cannot be reached: {error}"
-    return ""
-
-
-class Debian:
-    """A Debian of its own below a temporary folder."""
-
-    def __init__(self, folder):
-        self.root = Path(folder) / "root"
-        subprocess.run(["cp", "-a", "--reflink=auto", fresh_debian(), self.root], check=True)
-        (KEPT / "archives/partial").mkdir(parents=True, exist_ok=True)
-        for name in ("resolv.conf", "hosts"):
-            shutil.copy(Path("/etc") / name, self.root / "etc" / name)
-        proxies = subprocess.run(["apt-config", "dump"], capture_output=True, text=True, check=True).stdout
-        (self.root / "etc/apt/apt.conf.d/proxy").write_text("".join(line + "\n" for line in proxies.splitlines() if re.match(r"Acquire::https?::Proxy", line)))
-        (self.root / "usr/sbin/policy-rc.d").write_text("#!/bin/sh\nexit 101\n")
-        (self.root / "usr/sbin/policy-rc.d").chmod(0o755)
-        self.run("apt-get update && useradd --create-home --shell /bin/bash painter")
-        self.home = self.root / "home/painter"
-        shutil.copy(SCENES / "cornell-box.gltf", self.home / "box.gltf")
-        (self.home / "draco.gltf").write_text(json.dumps(draco_scene()))
-
-    def run(self, script, user="root"):
-        """What bash makes of the script there, in the user's home folder. All its processes and mounts end with it."""
-        proxies = [f"{name}={os.environ[name]}" for name in ("http_proxy", "https_proxy", "no_proxy") if name in os.environ]
-        home = "/root" if user == "root" else f"/home/{user}"
-        outside = ('mount -t proc proc "$0/proc" && mount -t tmpfs tmpfs "$0/dev/shm" && mount --bind "$1" "$0/var/cache/apt/archives" && '
-                   'root=$0 user=$2 && shift 2 && exec chroot --userspec="$user" "$root" "$@"')
-        return subprocess.run(["unshare", "--mount", "--propagation", "private", "--pid", "--fork", "--kill-child",
-                               "sh", "-c", outside, self.root, KEPT / "archives", user, "env", "-i", *proxies, f"HOME={home}", "LC_ALL=C.UTF-8",
-                               "DEBIAN_FRONTEND=noninteractive", "PATH=/usr/sbin:/usr/bin:/sbin:/bin", "bash", "-c", f"cd {home}\n{script}"],
-                              capture_output=True, text=True, timeout=1800, check=False)
-
-    def install(self, *packages):
-        return self.run("apt-get install --yes " + " ".join(packages))
-
-
-def fresh_debian():
-    base = KEPT / "base"
-    if not (base / "finished").exists():
-        shutil.rmtree(base, ignore_errors=True)
-        base.mkdir(parents=True)
-        subprocess.run(["debootstrap", "--variant=minbase", RELEASE, base, mirror()], check=True, stdout=subprocess.DEVNULL)
-        (base / "finished").touch()
-    return base
-
-
 def draco_scene():
     data = base64.b64decode(DRACO)
     extension = {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}
@@ -115,28 +48,38 @@ def draco_scene():
             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "extensions": extension}]}]}
 
 
-class DebianPackage(Case):
+class InDebian(Case):
+    """Needs fresh systems of `release`, and has a folder for them."""
+    release = own_release()
+
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        reason = why_not()
+        reason = why_not(cls.release)
         if reason:
             raise unittest.SkipTest(reason)
-        KEPT.mkdir(exist_ok=True)
+        KEPT.mkdir(parents=True, exist_ok=True)
         cls.place = Path(cls.enterClassContext(tempfile.TemporaryDirectory(dir=KEPT)))
-        subprocess.run(["cpack", "-G", "DEB", "--config", BUILD / "CPackConfig.cmake", "-B", cls.place], check=True, capture_output=True)
-        cls.package = next(cls.place.glob("fragtrace_*_amd64.deb"))
 
-    def setUp(self):
-        super().setUp()
-        folder = tempfile.mkdtemp(dir=self.place)
-        self.addCleanup(shutil.rmtree, folder)
-        self.debian = Debian(folder)
-        shutil.copy(self.package, self.debian.root / "root/fragtrace.deb")
+    def fresh(self):
+        """One with two scenes in the user's home folder."""
+        debian = Debian(self.enterContext(tempfile.TemporaryDirectory(dir=self.place)), self.release)
+        shutil.copy(SCENES / "cornell-box.gltf", debian.home / "box.gltf")
+        (debian.home / "draco.gltf").write_text(json.dumps(draco_scene()))
+        return debian
 
     def does(self, result):
         self.assertEqual(result.returncode, 0, result.stdout[-2000:] + result.stderr[-2000:])
         return result.stdout
+
+
+class PackageChecks:
+    """Of `package`, a file for `release`; mixed into a case InDebian."""
+
+    def setUp(self):
+        super().setUp()
+        self.debian = self.fresh()
+        shutil.copy(self.package, self.debian.root / "root/fragtrace.deb")
 
     def draws(self, *options):
         """The Cornell box, as the program that was built here draws it."""
@@ -169,6 +112,7 @@ class DebianPackage(Case):
         self.assertEqual(self.debian.run("type gcc g++ cc c++ clang", "painter").stdout, "")
         self.draws("--rendering-backend", "egl")
         self.draws("--rendering-backend", "osmesa")
+        self.assertIn(f"+deb{RELEASES.index(self.release) + 12}", self.does(self.debian.run("dpkg-query -W fragtrace")))
         self.assertIn("triangles   1 ", self.does(self.debian.run("fragtrace info draco.gltf", "painter")))
         self.assertEqual(self.completes("fragtrace", "ren"), ["render"])
         self.assertEqual(self.completes("fragtrace", "render", "--trav"), ["--traversal"])
@@ -189,47 +133,85 @@ class DebianPackage(Case):
         self.shows()
 
 
-class WheelInDebian(Case):
-    """All that the machine brings is Python and OpenGL."""
+class DebianPackage(PackageChecks, InDebian):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        subprocess.run(["cpack", "-G", "DEB", "--config", BUILD / "CPackConfig.cmake", "-B", cls.place], check=True, capture_output=True)
+        cls.package = next(cls.place.glob("fragtrace_*_amd64.deb"))
 
-    def setUp(self):
-        super().setUp()
-        reason = why_not()
-        if reason:
-            self.skipTest(reason)
-        KEPT.mkdir(exist_ok=True)
-        folder = self.enterContext(tempfile.TemporaryDirectory(dir=KEPT))
-        subprocess.run([SCENES.parent / "scripts/package", "wheel"], check=True, capture_output=True)
-        self.debian = Debian(folder)
-        certificates = Path(os.environ.get("PIP_CERT", "/etc/ssl/certs/ca-certificates.crt"))
-        shutil.copy(certificates, self.debian.root / "etc/certificates.crt")
-        home = self.debian.home
-        for wheel in (SCENES.parent / "dist").glob("fragtrace-*.whl"):
-            shutil.copy(wheel, home)
-        (home / "docs").mkdir()
-        (home / "scenes").mkdir()
-        shutil.copy(SCENES.parent / "docs/notebook.ipynb", home / "docs")
-        shutil.copy(SCENES / "cornell-box.gltf", home / "scenes")
-        self.does("apt-get install --yes --no-install-recommends python3-venv libegl1 libosmesa6 libgl1-mesa-dri; chown -R painter: /home/painter")
 
-    def does(self, script, user="root"):
-        result = self.debian.run(script, user)
-        self.assertEqual(result.returncode, 0, result.stdout[-2000:] + result.stderr[-2000:])
-        return result.stdout
+class WheelChecks:
+    """Of `wheel`; all that the machine brings is Python and OpenGL."""
 
     def test_it_draws_and_the_notebook_runs(self):
-        self.assertEqual(self.debian.run("type gcc g++ cc c++ clang", "painter").stdout, "")
-        self.does("python3 -m venv there && there/bin/pip install --cert /etc/certificates.crt fragtrace-*.whl nbclient ipykernel", "painter")
+        debian = self.fresh()
+        shutil.copy(self.wheel, debian.home)
+        (debian.home / "docs").mkdir()
+        (debian.home / "scenes").mkdir()
+        shutil.copy(ROOT / "docs/notebook.ipynb", debian.home / "docs")
+        shutil.copy(SCENES / "cornell-box.gltf", debian.home / "scenes")
+        self.does(debian.run("apt-get install --yes --no-install-recommends python3-venv libegl1 libosmesa6 libgl1-mesa-dri; chown -R painter: /home/painter"))
+        self.assertEqual(debian.run("type gcc g++ cc c++ clang", "painter").stdout, "")
+        self.does(debian.run("python3 -m venv there && there/bin/pip install fragtrace-*.whl nbclient ipykernel", "painter"))
         own = self.folder / "own.exr"
         self.renders(SCENES / "cornell-box.gltf", *RENDER, "-o", own)
         for backend in ("egl", "osmesa"):
-            self.does(f"there/bin/python -c \"import fragtrace; fragtrace.render('box.gltf', resolution=(64, 64), spp=8, "
-                      f"rendering_backend='{backend}').save('box.exr')\"", "painter")
-            result = run("diff", self.debian.home / "box.exr", own, "--metric", "max", "--threshold", "0.001")
+            self.does(debian.run(f"there/bin/python -c \"import fragtrace; fragtrace.render('box.gltf', resolution=(64, 64), spp=8, "
+                                 f"rendering_backend='{backend}').save('box.exr')\"", "painter"))
+            result = run("diff", debian.home / "box.exr", own, "--metric", "max", "--threshold", "0.001")
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        self.does("there/bin/fragtrace render box.gltf -o command.png --spp 1 --resolution 16,16", "painter")
-        self.does("cd docs && ../there/bin/python -c \"import nbformat, nbclient; "
-                  "nbclient.NotebookClient(nbformat.read('notebook.ipynb', 4), timeout=900).execute()\"", "painter")
+        self.does(debian.run("there/bin/fragtrace render box.gltf -o command.png --spp 1 --resolution 16,16", "painter"))
+        self.does(debian.run("cd docs && ../there/bin/python -c \"import nbformat, nbclient; "
+                             "nbclient.NotebookClient(nbformat.read('notebook.ipynb', 4), timeout=900).execute()\"", "painter"))
+
+
+class WheelInDebian(WheelChecks, InDebian):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        subprocess.run([ROOT / "scripts/package", "wheel"], check=True, capture_output=True)
+        cls.wheel = next((ROOT / "dist").glob("fragtrace-*.whl"))
+
+
+class OtherRelease(PackageChecks, WheelChecks, InDebian):
+    """What a newcomer does on the other release, from a clean clone: the two commands, the packages, and what else draws there."""
+    release = next((name for name in RELEASES if name != own_release()), "")
+    clone = "/home/painter/fragtrace"
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.builder = Debian(cls.place / "builder", cls.release)
+        clone = cls.builder.root / cls.clone[1:]
+        files = subprocess.run(["git", "ls-files", "-z", "-co", "--exclude-standard"], cwd=ROOT, check=True, capture_output=True).stdout
+        clone.mkdir()
+        subprocess.run(["cp", "--parents", "-t", clone, *filter(None, files.decode().split("\0"))], cwd=ROOT, check=True)
+        for command in ("scripts/run", "scripts/test", "scripts/package"):
+            result = cls.builder.run(f"cd {cls.clone} && {command}", timeout=5400)
+            print(command, result.stdout[-6000:], result.stderr[-3000:], sep="\n")
+            if result.returncode != 0:
+                raise AssertionError(f"{command} failed on {cls.release}")
+        cls.package = next((clone / "dist").glob("*.deb"))
+        cls.wheel = next((clone / "dist").glob("*.whl"))
+
+    def pictures(self, driver, environment=""):
+        """All reference pictures by EGL, with that driver."""
+        box = "build/fragtrace render scenes/cornell-box.gltf --spp 1 --quiet -o /tmp/box.pfm --stats -"
+        self.assertIn(driver, self.does(self.builder.run(f"cd {self.clone} && {environment} {box}")))
+        self.does(self.builder.run(f"cd {self.clone} && {environment} ctest --test-dir build -j 2 -R '^picture.*egl$'", timeout=5400))
+
+    def test_newer_mesa_draws_the_references(self):
+        if self.release != "trixie":
+            self.skipTest("only Debian 13 has a newer Mesa in its backports")
+        source = "deb http://deb.debian.org/debian trixie-backports main"
+        self.does(self.builder.run(f"echo '{source}' > /etc/apt/sources.list.d/backports.list && apt-get update && "
+                                   "apt-get install --yes --no-install-recommends -t trixie-backports libgl1-mesa-dri libegl-mesa0 mesa-vulkan-drivers"))
+        self.pictures("Mesa 26")
+
+    def test_zink_draws_the_references(self):
+        self.does(self.builder.install("--no-install-recommends", "mesa-vulkan-drivers"))
+        self.pictures("zink", "LIBGL_ALWAYS_SOFTWARE=1 MESA_LOADER_DRIVER_OVERRIDE=zink")
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import random
 import struct
 
 from materials_test import data_uri, png
-from support import SCENES, Case, main
+from support import BACKENDS, SCENES, Case, main
 
 COLUMNS, ROWS = 16, 12
 LENGTHS = (0, 1e-38, 1e-20, 1, 1, 1, 1e18, 3e38)  # of normals
@@ -103,7 +103,7 @@ class ExtremesAtLength(Extremes):
 
     def test_path_tracing(self):
         for seed in range(10, 30):
-            self.check(seed, 256, "--rendering-backend", ("egl", "osmesa")[seed % 2])
+            self.check(seed, 256, "--rendering-backend", BACKENDS[seed % len(BACKENDS)])
 
     def test_the_stages_before(self):
         for seed in range(30, 36):

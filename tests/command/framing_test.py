@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 from materials_test import quad
-from support import Case, Exr, main, run
+from support import BACKENDS, Case, Exr, main, run
 
 ASSETS = Path(os.environ.get("FRAGTRACE_ASSETS", "/work/shared/assets")) / "scenes"
 
@@ -40,7 +40,7 @@ class Framing(FramingCase):
     def test_no_pixel_of_the_edge_shows_the_object(self):
         for scale in ((3, 1, 1), (1, 3, 1), (1, 1, 1)):
             for size in ("20,40", "40,20", "24,96"):
-                for backend in ("egl", "osmesa") if size == "20,40" else ("egl",):
+                for backend in BACKENDS if size == "20,40" else ("egl",):
                     alphas, said = self.alphas(self.write(scale), "--resolution", size, "--rendering-backend", backend)
                     self.assert_inside(alphas)
                     self.assertNotIn("shows nothing", said)

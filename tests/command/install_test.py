@@ -112,6 +112,17 @@ class HelpFiles(Case):
                 if re.search(r"\bfile\b|folder of|\.(exr|gltf)\b", text) and kind_of(name) == "TEXT":
                     self.assertTrue(choices(name, text, one.options) or "--output" in text or text.startswith("name or index"), f"{one.words} {name}")
 
+    def test_defaults_stand_in_the_page(self):
+        page = gzip.decompress((self.written() / "man/fragtrace-render.1.gz").read_bytes()).decode()
+        for default in ("default gi", "default 24", "default auto"):
+            self.assertTrue(default in page, default)
+        self.assertGreater(page.count("default "), 30)
+
+    def test_both_spellings_of_a_default_are_read(self):
+        for entry, default in (("--spp INT=64", "64"), ("--spp INT [64]", "64"), ("--x INT:INT in [1 - 9]=4", "4"), ("--x INT:INT in [1 - 9] [4]", "4"),
+                               ("--x INT:INT in [1 - 9]", ""), ("--orbit AZIMUTH,ELEVATION[,ZOOM]", ""), ("--o TEXT REQUIRED", "")):
+            self.assertEqual(readable(entry)[2], default, entry)
+
     def test_each_command_has_a_page_with_all_options(self):
         folder = self.written() / "man"
         self.assertEqual(len(list(folder.iterdir())), len(self.found))

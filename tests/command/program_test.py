@@ -4,6 +4,8 @@
 import json
 import signal
 import subprocess
+import unittest
+from pathlib import Path
 
 from support import FRAGTRACE, SCENES, Case, main, run
 
@@ -102,6 +104,7 @@ class StandardOutput(Case):
             self.fails(2, "render", BOX, "-o", "-", *SIZE, *words, says=[says], cwd=self.folder)
         self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--format", "png", says=["--format: needs --output -"])
 
+    @unittest.skipUnless(Path("/dev/pts").is_mount(), "/dev/pts is not there")
     def test_a_terminal_is_refused(self):
         result = subprocess.run(["script", "-qec", f"'{FRAGTRACE}' render '{BOX}' -o - --format png", "/dev/null"], capture_output=True,
                                 text=True, stdin=subprocess.DEVNULL, timeout=60)

@@ -4,7 +4,7 @@
 import json
 import shutil
 
-from support import SCENES, Case, main, run
+from support import BACKENDS, SCENES, Case, main, run
 
 SHADERS = SCENES.parent / "shaders"
 
@@ -43,7 +43,7 @@ class StressRows(Stress):
 
 class StressAll(Stress):
     def test_no_row_is_over_its_limit(self):
-        self.within_limits(("egl", "megakernel"), ("osmesa", "wavefront"))
+        self.within_limits(("egl", "megakernel"), (BACKENDS[-1], "wavefront"))
 
     def within_limits(self, *settings):
         for backend, schedule in settings:
@@ -60,7 +60,7 @@ class StressAll(Stress):
 
 class StressSchedules(StressAll):
     def test_no_row_is_over_its_limit(self):
-        self.within_limits(("egl", "wavefront"), ("osmesa", "megakernel"))
+        self.within_limits(("egl", "wavefront"), (BACKENDS[-1], "megakernel"))
 
 
 class StressMutations(Stress):

@@ -2,6 +2,7 @@
 // One picture test: renders through the real command line and compares with a reference EXR, noise taken into
 // account. usage: picture_test NAME BACKEND FRAGTRACE SOURCE_FOLDER OUTPUT_FOLDER [OPTION...]
 // The options go to `render`. References may be .pfm, too (bench/gpu/pack).
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +12,7 @@
 
 #include "image/compare/difference.h"
 #include "image/image.h"
+#include "osmesa.h"
 
 namespace {
 
@@ -98,6 +100,10 @@ Image readReference(const std::filesystem::path& folder, const std::string& name
 int run(std::span<char*> argv) {
   const std::string name = argv[1];
   const std::string backend = argv[2];
+  if (backend == "osmesa" && !fragtrace::hasOsMesa()) {
+    std::printf("skipped: libOSMesa is not installed\n");
+    return fragtrace::kSkipped;
+  }
   const std::filesystem::path source = argv[4];
   const std::filesystem::path folder = argv[5];
   const std::filesystem::path references = source / "tests/reference";

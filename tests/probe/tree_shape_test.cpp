@@ -3,6 +3,7 @@
 // cut into draws.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <exception>
 
+#include "osmesa.h"
 #include "stress/likeness.h"
 #include "stress/random_sketch.h"
 
@@ -25,7 +26,12 @@ Form formOf(uint32_t seed, const char* name) {
 
 int run(const char* backend, uint32_t first, uint32_t count, const char* form) {
   constexpr double kMostOtherHits = 1e-3;
-  const auto context = makeContext(std::strcmp(backend, "osmesa") == 0 ? Backend::OsMesa : Backend::Egl);
+  const bool osMesa = std::strcmp(backend, "osmesa") == 0;
+  if (osMesa && !hasOsMesa()) {
+    std::printf("skipped: libOSMesa is not installed\n");
+    return kSkipped;
+  }
+  const auto context = makeContext(osMesa ? Backend::OsMesa : Backend::Egl);
   const bool verbose = count == 1;
   size_t wrong = 0;
   size_t pixels = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "render/draw_plan.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace fragtrace {

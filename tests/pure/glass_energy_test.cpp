@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pack/glass_energy.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "pack/ggx_energy.h"

@@ -75,7 +75,12 @@ TEST(GltfMeshopt, FiltersAreUndone) {
   std::vector<int8_t> octahedral(4 * count);
   meshopt_encodeFilterOct(octahedral.data(), count, 4, 8, normals.data());
   std::vector<uint32_t> exponential(3 * count);
+#if MESHOPTIMIZER_VERSION >= 200
+  meshopt_encodeFilterExp(exponential.data(), count, 12, 15, grid.positions.data(),
+                          meshopt_EncodeExpSharedVector);
+#else
   meshopt_encodeFilterExp(exponential.data(), count, 12, 15, grid.positions.data());
+#endif
 
   GltfBuilder builder = meshoptGrid(grid);
   builder.root.erase("buffers");

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Containers, URIs, pictures, extensions, and what is said of files that cannot be loaded.
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"

@@ -2,6 +2,8 @@
 // Which meshes the scene holds once, and that they stand where their copies would.
 #include "gltf/build/sharing.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "bvh/pick.h"

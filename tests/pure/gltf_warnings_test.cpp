@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One fault is one warning, which says what was done.
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"

@@ -2,6 +2,8 @@
 // The double-precision tracer, and the comparisons of what was measured with it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "bench/ball_scene.h"
 #include "bench/hit_check.h"
 #include "bench/ray_sets.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bvh/pick.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace fragtrace {

@@ -3,6 +3,7 @@
 // rounding. The oracle is the same text in double precision.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "bench/ray_attacks.h"

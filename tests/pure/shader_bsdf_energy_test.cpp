@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // shaders/bsdf.glsl: values against formulas written down a second time, reciprocity and energy.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "shader_bsdf_cases.h"

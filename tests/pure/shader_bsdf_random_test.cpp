@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // shaders/bsdf.glsl over random materials and directions, with and without compensation, exact and Schlick's
 // Fresnel: reciprocity, energy, and densities that add up to one with what is lost.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "shader_bsdf_cases.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // shaders/bsdf.glsl: samples drawn in float against the density in double, single directions, float against
 // double.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "shader_bsdf_cases.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Where faces meet in narrow creases: rays that leave one start in front of the others, and rays that arrive
 // meet the one in front.
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include <glm/gtc/constants.hpp>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Two levels: the double-precision tracer against every triangle of every instance, the shader against it,
 // and rays that leave an instance.
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "bvh/exact_tracer.h"

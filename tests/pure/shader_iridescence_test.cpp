@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // shaders/iridescence.glsl against the integral over wave numbers, and glass whose reflection has a colour.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "shader_layers_cases.h"

@@ -2,6 +2,8 @@
 // What extensions of materials make of a Bsdf, for their tests.
 #pragma once
 
+#include <algorithm>
+
 #include "shader_bsdf_cases.h"
 
 namespace fragtrace {

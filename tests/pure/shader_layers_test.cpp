@@ -3,6 +3,7 @@
 // layers.glsl: sampling, energy, reciprocity, and values by formulas written down a second time.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "shader_layers_cases.h"

@@ -3,8 +3,10 @@
 // shader's files.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bvh/bvh.h"

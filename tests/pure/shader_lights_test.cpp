@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // shaders/lights.glsl over a scene as src/pack packs it: which emitters are chosen, where on them, and with
 // what density.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "shader_lights.h"

@@ -2,6 +2,7 @@
 // shaders/random.glsl: every pair of path and dimension is a number of its own, uniform in [0, 1).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_set>
 #include <vector>

@@ -2,6 +2,7 @@
 // shaders/sampling.glsl and the visible normals of shaders/ggx.glsl, drawn in float, against their densities.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

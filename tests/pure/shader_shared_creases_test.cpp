@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Narrow creases of meshes that instances show: rays that leave one start in front of its other face.
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "pack/pack_faces.h"

@@ -2,6 +2,8 @@
 // Meshes that instances share, and places for them.
 #pragma once
 
+#include <utility>
+
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 

@@ -4,6 +4,7 @@
 // density. FRAGTRACE_SWEEP: inputs a lobe.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <functional>
 #include <sstream>

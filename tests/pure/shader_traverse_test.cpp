@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // shaders/traverse.glsl over trees as they are built and packed: float against double, double against every
 // primitive.
+#include <algorithm>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "shader_scenes.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pack/sheen_albedo.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "shader_bsdf_cases.h"

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "bvh/silhouette.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "bvh/bvh.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bench/table_report.h"
 
+#include <utility>
+
 #include <gtest/gtest.h>
 
 namespace fragtrace {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bvh_triangles.h"
 #include "image/display/lines.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/gtx/norm.hpp>
 #include <numeric>
+#include <utility>
 
 #include "gltf/build/topology.h"
 #include "gltf/read/accessor.h"

@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <utility>
 
 #include "gltf/build/animation.h"
 #include "gltf/check/extensions.h"
@@ -130,10 +131,11 @@ void emptyUnknownAccessors(json& root, Diagnostics& diagnostics) {
   json& accessors = arrayIn(root, "accessors");
   for (size_t i = 0; i < accessors.size(); ++i) {
     json& accessor = accessors[i];
-    const bool isKnown = std::find(kTypes.begin(), kTypes.end(), accessor["type"]) != kTypes.end() &&
-                         std::find(kComponentTypes.begin(), kComponentTypes.end(),
-                                   accessor["componentType"]) != kComponentTypes.end();
-    if (isKnown) continue;
+    const bool knowsType =
+        std::ranges::any_of(kTypes, [&](std::string_view type) { return accessor["type"] == type; });
+    const bool knowsComponents =
+        std::ranges::any_of(kComponentTypes, [&](int type) { return accessor["componentType"] == type; });
+    if (knowsType && knowsComponents) continue;
     diagnostics.warn(pointerTo("accessors", i), "has a type that glTF does not know, and is taken as empty");
     accessor = {{"type", "SCALAR"}, {"componentType", kComponentTypes.back()}, {"count", 0}};
   }
@@ -198,6 +200,27 @@ bool takeBuffer(std::vector<unsigned char>* bytes, std::string*, const std::stri
   return true;
 }
 
+/// Our memory in place of files. tinygltf 2.9 has one member more than 2.8, and takes none of them where one
+/// is null.
+template <typename Callbacks = tinygltf::FsCallbacks>
+Callbacks readFromMemory(Buffers& buffers) {
+  Callbacks callbacks{};
+  callbacks.FileExists = fileExists;
+  callbacks.ExpandFilePath = keepPath;
+  callbacks.ReadWholeFile = takeBuffer;
+  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+  };
+  if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+    callbacks.GetFileSizeInBytes = [](size_t* size, std::string*, const std::string&, void*) {
+      *size = 0;  // it is compared with a limit of tinygltf's; ours have been checked
+      return true;
+    };
+  }
+  callbacks.user_data = &buffers;
+  return callbacks;
+}
+
 bool leaveImage(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
                 void*) {
   return true;
@@ -233,7 +256,7 @@ tinygltf::Model parseModel(json& root, Buffers& buffers, const Diagnostics& diag
   const std::string text = root.dump();
   if (text.size() > std::numeric_limits<int32_t>::max()) diagnostics.refuse("", "the JSON is too large");
   tinygltf::TinyGLTF parser;
-  parser.SetFsCallbacks({fileExists, keepPath, takeBuffer, nullptr, &buffers});
+  parser.SetFsCallbacks(readFromMemory(buffers));
   parser.SetImageLoader(leaveImage, nullptr);
   tinygltf::Model model;
   std::string error;

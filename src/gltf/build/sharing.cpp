@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "bvh/two_level.h"
 #include "scene/strokes.h"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gltf/read/uri.h"
 #include "gltf/read/value.h"

@@ -6,11 +6,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "advice.h"
+
 namespace fragtrace {
 namespace {
-
-constexpr const char* kMissing =
-    "its libraries are not installed (on Debian 12: apt-get install libdraco7 libmeshoptimizer2d)";
 
 /// Of Draco data that hold nothing: an answer to it, which is a refusal, proves that the process works.
 CodecRequest emptyRequest() {
@@ -64,8 +63,9 @@ std::unique_ptr<SharedMemory> CodecProcess::exchange(CodecRequest request, std::
       !awaitReply(*child_, asMessage(reply), patienceMs)) {
     const std::string end = endChild(*child_);
     child_.reset();
-    throw std::runtime_error(end == kLibraryMissing ? kMissing
-                                                    : "the library that decodes it failed: " + end);
+    throw std::runtime_error(end == kLibraryMissing
+                                 ? "its libraries are not installed (" + std::string(kCodecAdvice) + ")"
+                                 : "the library that decodes it failed: " + end);
   }
   return memory;
 }

@@ -2,6 +2,7 @@
 // KHR_draco_mesh_compression.
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "gltf/codecs/compression.h"
 #include "gltf/read/component_types.h"

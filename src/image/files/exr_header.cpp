@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "image/files/exr_header.h"
 
+#include <algorithm>
 #include <cstring>
 #include <optional>
 #include <stdexcept>

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "advice.h"
 #include "image/channels.h"
 #include "image/worker/messages.h"
 #include "process/child.h"
@@ -66,7 +67,6 @@ class Service {
 
  private:
   static constexpr const char* kProcessName = "fragtrace_imageio";
-  static constexpr const char* kPackage = "libopenimageio2.4";
 
   void start(const std::lock_guard<std::mutex>&) {
     if (child_) return;
@@ -88,8 +88,8 @@ class Service {
     const std::string end = endChild(*child_);
     child_.reset();
     if (end == kLibraryMissing)
-      throw std::runtime_error("the image library is not installed (on Debian 12: apt-get install " +
-                               std::string(kPackage) + "); .pfm files need none");
+      throw std::runtime_error("the image library is not installed (" + std::string(kPictureAdvice) +
+                               "); .pfm files need none");
     throw std::runtime_error(end == kOutOfTime ? "it takes longer to decode than its size is given: " +
                                                      std::to_string(limits.cpuSeconds) + " s"
                                                : "the image library failed: " + end);
