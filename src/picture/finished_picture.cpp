@@ -71,6 +71,12 @@ void sayWhatIsChosen(const RenderOptions& options, const Context& context, const
   }
   if (options.schedule == Schedule::Wavefront && !stats.scheduleReason.empty())
     say(options, "warning: --schedule wavefront: the megakernel draws: " + stats.scheduleReason);
+  const std::string width(kVectorWidthNames[size_t(options.vectorWidth)]);
+  if (options.vectorWidth != VectorWidth::Auto && width != std::to_string(stats.vectorWidth))
+    say(options, "warning: --vector-width " + width + " changes nothing: " +
+                     (stats.vectorWidth == 0
+                          ? "the driver is not Mesa's software driver"
+                          : "this process computes with " + std::to_string(stats.vectorWidth) + " bits"));
   if (tracer.variant.clampIndirect) say(options, "indirect light is clamped (--clamp-indirect): biased");
 }
 

@@ -104,6 +104,8 @@ class VectorWidth(Case):
 
     def test_what_the_environment_says_stays(self):
         self.assertEqual(self.width("furnace", "--vector-width", 512, LP_NATIVE_VECTOR_WIDTH="256"), 256)
+        result = self.renders(BOX, *TINY, "--vector-width", 512, "-o", self.folder / "x.pfm", env={**os.environ, "LP_NATIVE_VECTOR_WIDTH": "256"})
+        self.assertIn("--vector-width 512 changes nothing: this process computes with 256 bits", result.stderr)
 
 
 if __name__ == "__main__":

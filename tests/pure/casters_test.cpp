@@ -74,9 +74,12 @@ TEST(Casters, AllLieInBalls) {
     const std::vector<Ball> balls = casterBalls(scene, kMost);
     EXPECT_LE(balls.size(), kMost);
     // Many fill their box: the balls round parts of it would be larger together.
-    if (places <= 5) EXPECT_EQ(balls.size(), places);
+    if (places <= 5) {
+      EXPECT_EQ(balls.size(), places);
+    }
     for (const Sphere& s : scene.spheres) {
-      if (s.material == 0) EXPECT_TRUE(inside(balls, s.center, s.radius));
+      if (s.material != 0) continue;
+      EXPECT_TRUE(inside(balls, s.center, s.radius));
     }
     for (const glm::vec3& p : scene.vertices.position) EXPECT_TRUE(inside(balls, p, 0.0f));
   }

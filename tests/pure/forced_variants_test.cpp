@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace fragtrace {
 namespace {
@@ -15,7 +16,7 @@ std::vector<ForcedVariant> forcedOf(Stage stage, const TraitSet& present,
   return forcedVariants(options, present, surroundings, 10, BufferReads::Image);
 }
 
-const ForcedVariant& named(const std::vector<ForcedVariant>& all, const std::string& name) {
+const ForcedVariant& named(const std::vector<ForcedVariant>& all, std::string_view name) {
   const auto found = std::ranges::find(all, name, &ForcedVariant::name);
   EXPECT_NE(found, all.end()) << name;
   return *found;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string_view>
 
 #include "bench/scale_report.h"
 #include "bench/traversal_report.h"
@@ -34,7 +35,7 @@ ScaleReport someReport() {
   return report;
 }
 
-const Growth& growthNamed(const std::vector<Growth>& all, const std::string& name) {
+const Growth& growthNamed(const std::vector<Growth>& all, std::string_view name) {
   for (const Growth& g : all) {
     if (g.name == name) return g;
   }
