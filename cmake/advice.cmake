@@ -30,6 +30,10 @@ function(install_advice variable)  # install_advice(VARIABLE LIBRARY_FILE... [PA
   set(${variable} ${text} PARENT_SCOPE)
 endfunction()
 
+if(EXISTS /etc/debian_version)
+  install_advice(packages PACKAGES libegl1 libegl-mesa0 libgl1-mesa-dri libglx-mesa0)
+  set(FRAGTRACE_DRIVER_ADVICE "; Mesa's software driver: ${packages}")
+endif()
 find_library(MESHOPTIMIZER_LIBRARY meshoptimizer REQUIRED)
 install_advice(FRAGTRACE_CODEC_ADVICE ${DRACO_LIBRARY} ${MESHOPTIMIZER_LIBRARY})
 if(FRAGTRACE_PYTHON)

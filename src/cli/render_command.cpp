@@ -100,11 +100,6 @@ nlohmann::ordered_json eventContext(const RenderOptions& options) {
   return {{"output", options.toStandardOutput ? "-" : options.output.string()}};
 }
 
-/// Of so many pictures.
-VectorWork workOf(const RenderOptions& options, const LoadedScene& loaded, double pictures) {
-  return {pictures * pathsOf(options, loaded.region.size), !loaded.scene.textures.empty()};
-}
-
 int runRender(const RenderOptions& asked) {
   setReportContext(eventContext(asked));
   checkOutputs(outputsOf(asked), inputsOf(asked));
@@ -120,7 +115,7 @@ int runRender(const RenderOptions& asked) {
   LoadedScene loaded = loadScene(drawn, stats, {}, FilmOf::Part);
 
   // Step: the shader variant, and the arrays that it reads.
-  openContext(options, workOf(options, loaded, 1), device, stats);
+  openContext(options, pathsOf(options, loaded.region.size), device, stats);
   const Tracer tracer = makeTracer(*device.context, loaded, drawn, stats);
   const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
   releaseGeometry(loaded);
@@ -176,7 +171,7 @@ Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const Sequ
   if (first) {
     if (!turntable && run.loaded->scene.animationNames.empty())
       throw UsageError("--frames: " + options.scene.string() + " has no animation");
-    openContext(options, workOf(options, *run.loaded, frameCount(sequence)), run.device, stats);
+    openContext(options, frameCount(sequence) * pathsOf(options, run.loaded->region.size), run.device, stats);
     run.tracer = makeTracer(*run.device.context, *run.loaded, drawn, stats);
     run.prepared = stats;
     run.prepared.phases.clear();

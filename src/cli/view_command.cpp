@@ -6,11 +6,11 @@
 #include <future>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "advice.h"
 #include "cli/commands.h"
 #include "errors.h"
-#include "gl/driver_choice.h"
 #include "live/reference.h"
 #include "live/view_tracer.h"
 #include "options/camera_options.h"
@@ -19,6 +19,7 @@
 #include "picture/denoising.h"
 #include "process/plugin.h"
 #include "session/outputs.h"
+#include "session/say.h"
 #include "view/window.h"
 
 namespace fragtrace {
@@ -39,6 +40,9 @@ const WindowLibrary& windowLibrary() {
 
 int runView(const ViewOptions& asked) {
   ViewOptions options = asked;
+  if (std::exchange(options.render.vectorWidth, VectorWidth::Auto) == VectorWidth::Bits512)
+    say(options.render,
+        "warning: --vector-width 512 is left out: Mesa crashes when it draws windows with it");
   const NamedOutput status{"--status-file", options.statusFile};
   checkOutputs({&status, 1}, inputsOf(options.render));
   if (!options.reference.empty()) {
@@ -46,7 +50,6 @@ int runView(const ViewOptions& asked) {
     if (!options.render.resolution) options.render.resolution = glm::ivec2(reference.width, reference.height);
   }
   const WindowLibrary& library = windowLibrary();
-  setVectorWidth(options.render.vectorWidth);  // the window's context is the first
   std::optional<OidnLibrary> oidn = openDenoiser(options.render);
   Exchange exchange;
   ViewTracer tracer(options, std::move(oidn), exchange);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gl/context.h"
 
+#include "advice.h"
 #include "errors.h"
 #include "gl/driver_choice.h"
 #include "gl/gl.h"
@@ -34,7 +35,7 @@ std::unique_ptr<Context> makeContext(Backend backend, VectorWidth width) {
   if (!context && backend != Backend::Egl) context = makeOsMesaContext(tried);
   if (!context) {
     if (tried.ends_with("; ")) tried.resize(tried.size() - 2);
-    throw ContextError("no OpenGL 4.5 context; tried " + tried);
+    throw ContextError("no OpenGL 4.5 context; tried " + tried + kDriverAdvice);
   }
   return context;
 }

@@ -12,23 +12,8 @@ namespace fragtrace {
 /// there has not been measured (docs/design/gpu.md).
 Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals);
 
-/// Whether the processor has vectors of 512 bits.
-bool hasAvx512();
-
-/// What tells which width of vectors pays.
-struct VectorWork {
-  double paths = 0.0;        ///< camera paths that the process will take
-  bool hasTextures = false;  ///< the scene has some
-  bool avx512 = hasAvx512();
-};
-
-/// What was asked for; for Auto 512 bits where that pays (docs/design/drivers.md), else Auto, the driver's
-/// own choice.
-VectorWidth chooseVectorWidth(VectorWidth wanted, const VectorWork& work);
-
 /// Tells Mesa's software driver the width, for all contexts of the process; has to come before the first.
-/// Auto leaves it to the driver, and what LP_NATIVE_VECTOR_WIDTH says already stays. Pictures are the same
-/// bits.
+/// Auto leaves it as it is. Pictures are the same bits.
 void setVectorWidth(VectorWidth width);
 
 /// The width that the driver computes with, by GL_RENDERER; 0: it does not say.

@@ -14,14 +14,14 @@ class DynamicLibrary {
  public:
   explicit DynamicLibrary(std::initializer_list<const char*> names) {
     for (const char* name : names) {
-      if (!handle_) handle_ = dlopen(name, RTLD_NOW | RTLD_LOCAL);
-    }
-    if (!handle_) {
+      if (handle_) break;
+      handle_ = dlopen(name, RTLD_NOW | RTLD_LOCAL);
       const char* reason = dlerror();
-      error_ = reason ? reason : "cannot be opened";
+      if (error_.empty()) error_ = reason ? reason : "cannot be opened";
     }
   }
   bool loaded() const { return handle_ != nullptr; }
+  /// Why the first of the names could not be opened.
   const std::string& error() const { return error_; }
 
   /// Sets function to the symbol of that name; false when there is none.

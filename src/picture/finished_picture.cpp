@@ -93,10 +93,10 @@ void sayDriverLog(const RenderOptions& options, Device& device) {
 
 }  // namespace
 
-void openContext(const RenderOptions& options, const VectorWork& work, Device& device, Statistics& stats) {
-  const bool quick = preferQuickCompilation(work.paths);
+void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats) {
+  const bool quick = preferQuickCompilation(paths);
   PhaseTimer timer("context");
-  device.context = makeContext(options.backend, chooseVectorWidth(options.vectorWidth, work));
+  device.context = makeContext(options.backend, options.vectorWidth);
   device.driverLog.emplace();
   stats.phases.push_back(timer.end());
   stats.quickCompilation = quick && device.context->software;

@@ -9,7 +9,6 @@
 #include "denoise/oidn_library.h"
 #include "gl/context.h"
 #include "gl/debug_log.h"
-#include "gl/driver_choice.h"
 #include "picture/checkpoints.h"
 #include "picture/draw_parts.h"
 
@@ -22,8 +21,8 @@ struct Device {
   std::optional<OidnLibrary> oidn;
 };
 
-/// For the work that the process will do. Throws ContextError.
-void openContext(const RenderOptions& options, const VectorWork& work, Device& device, Statistics& stats);
+/// For so many camera paths in all. Throws ContextError.
+void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats);
 
 /// Draws the picture's samples, and says what is odd about them. `plan` is what its layers need later.
 /// Nothing when the thread was interrupted more than `most` times. Throws what planDrawing() and

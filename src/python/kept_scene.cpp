@@ -31,8 +31,8 @@ DrawingState& drawing() {
 Device& deviceFor(const RenderOptions& options, Statistics& stats) {
   DrawingState& state = drawing();
   // The driver's compiler is told once how hard to try, and nobody knows what is drawn later.
-  constexpr VectorWork kAnything{std::numeric_limits<double>::infinity(), true};
-  if (!state.device.context) openContext(options, kAnything, state.device, stats);
+  constexpr double kManyPaths = std::numeric_limits<double>::infinity();
+  if (!state.device.context) openContext(options, kManyPaths, state.device, stats);
   const std::string& name = state.device.context->backend;
   const bool other = (options.backend == Backend::Egl && name != "egl") ||
                      (options.backend == Backend::OsMesa && name != "osmesa");

@@ -38,8 +38,8 @@ inline constexpr std::array<std::string_view, 4> kBufferReadsNames{"auto", "ssbo
 enum class Dispatch : uint8_t { Auto, Fragment, Compute };
 inline constexpr std::array<std::string_view, 3> kDispatchNames{"auto", "fragment", "compute"};
 /// Bits of the vectors that Mesa's software driver computes with, and so how many invocations run in
-/// lockstep: 8 or 16. Auto: as chooseVectorWidth() (gl/driver_choice.h) has it in `render`, else as the
-/// driver has it.
+/// lockstep: 8 or 16. Auto: as the driver has it, 256 today. Mesa 22.3 to 26.1 crash on some shaders with 512
+/// (docs/design/drivers.md).
 enum class VectorWidth : uint8_t { Auto, Bits256, Bits512 };
 inline constexpr std::array<std::string_view, 3> kVectorWidthNames{"auto", "256", "512"};
 /// How paths share the lanes of a draw: one pixel a lane, or many, whose rays are traced together

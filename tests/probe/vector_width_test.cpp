@@ -1,29 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The width of llvmpipe's vectors that `auto` chooses.
+// The width of llvmpipe's vectors, as the driver tells it.
 #include <gtest/gtest.h>
-
-#include <limits>
 
 #include "gl/driver_choice.h"
 
 namespace fragtrace {
 namespace {
-
-constexpr double kMany = std::numeric_limits<double>::infinity();
-
-TEST(VectorWidth, IsWideWhereThatPays) {
-  EXPECT_EQ(chooseVectorWidth(VectorWidth::Auto, {kMany, false, true}), VectorWidth::Bits512);
-  EXPECT_EQ(chooseVectorWidth(VectorWidth::Auto, {1e6, false, true}), VectorWidth::Auto)
-      << "compilation takes longer";
-  EXPECT_EQ(chooseVectorWidth(VectorWidth::Auto, {kMany, true, true}), VectorWidth::Auto)
-      << "textures are read";
-  EXPECT_EQ(chooseVectorWidth(VectorWidth::Auto, {kMany, false, false}), VectorWidth::Auto) << "no AVX-512";
-}
-
-TEST(VectorWidth, IsWhatWasAskedFor) {
-  for (const VectorWidth wanted : {VectorWidth::Bits256, VectorWidth::Bits512})
-    EXPECT_EQ(chooseVectorWidth(wanted, {0.0, true, false}), wanted);
-}
 
 TEST(VectorWidth, IsReadFromTheRenderersName) {
   EXPECT_EQ(vectorWidthOf("llvmpipe (LLVM 15.0.6, 256 bits)"), 256);

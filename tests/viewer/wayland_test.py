@@ -6,6 +6,7 @@ GLFW has Wayland from 3.4 on, which Debian 13 has; with an older one these tests
 """
 import ctypes
 import shutil
+import socket
 import subprocess
 import tempfile
 import unittest
@@ -37,6 +38,7 @@ class Wayland(Case):
                                    env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.addCleanup(process.wait)
         self.addCleanup(process.terminate)
+        self.weston = process
         wait_for((Path(runtime.name) / "tests").exists, 30, "no socket of weston")
         environment["WAYLAND_DISPLAY"] = "tests"
         del environment["DISPLAY"]
@@ -48,12 +50,15 @@ class Wayland(Case):
         self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
         return result.stderr
 
-    def test_it_draws_takes_keys_and_ends(self):
-        environment = self.compositor("x11")
-        viewer = Viewer(self.screen, self.folder, "sphere-plane", *FEW, wait=False, environment=environment)
+    def viewer(self):
+        viewer = Viewer(self.screen, self.folder, "sphere-plane", *FEW, wait=False, environment=self.compositor("x11"))
         self.addCleanup(viewer.errors.close)
         self.addCleanup(viewer.process.wait)
         self.addCleanup(viewer.process.kill)
+        return viewer
+
+    def test_it_draws_takes_keys_and_ends(self):
+        viewer = self.viewer()
         status = viewer.rest()
         self.assertEqual((status["width"], status["height"]), (320, 240))
         libraries = Path(f"/proc/{viewer.process.pid}/maps").read_text()
@@ -65,12 +70,25 @@ class Wayland(Case):
         self.ends_well(viewer, viewer.end())
         self.assertEqual(viewer.stderr(), "")
 
+    def test_a_compositor_that_ends_is_4_and_said(self):
+        viewer = self.viewer()
+        viewer.rest()
+        self.weston.kill()
+        self.assertEqual(viewer.end(), 4, viewer.stderr())
+        self.assertIn("the display is gone", viewer.stderr())
+
     def test_a_compositor_without_a_seat_is_4_and_says_so(self):
         self.assertIn("no seat", self.ends(self.compositor("headless")))
 
-    def test_a_compositor_that_does_not_answer_is_4_and_says_so(self):
+    def test_what_is_no_compositor_is_4_and_says_so(self):
         environment = {key: value for key, value in self.screen.environment.items() if key not in ("DISPLAY", "XDG_RUNTIME_DIR")}
-        self.assertIn("does not answer", self.ends({**environment, "WAYLAND_DISPLAY": "nowhere"}))
+        silent = self.folder / "silent"
+        listener = socket.socket(socket.AF_UNIX)
+        self.addCleanup(listener.close)
+        listener.bind(str(silent))
+        listener.listen()
+        for name, says in (("nowhere", "XDG_RUNTIME_DIR is not set"), (self.folder / "nowhere", "no compositor"), (silent, "does not answer")):
+            self.assertIn(says, self.ends({**environment, "WAYLAND_DISPLAY": str(name)}))
 
 
 if __name__ == "__main__":

@@ -57,6 +57,18 @@ class Ends(Case):
             self.assertIn("no window", result.stderr)
             self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
 
+    def test_without_libgl_it_is_4_and_names_the_packages(self):
+        (self.folder / "libGL.so.1").write_text("no library")
+        result = subprocess.run([FRAGTRACE, "view", SCENES / "furnace.gltf"], capture_output=True, text=True, timeout=60,
+                                env={**self.screen.environment, "LD_LIBRARY_PATH": str(self.folder)})
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertRegex(result.stderr, r"^fragtrace: no window: .*libGL\.so\.1: .*libgl1.*\n$")
+
+    def test_vectors_of_512_bits_are_left_out(self):
+        viewer = self.view("furnace", *FEW, "--vector-width", "512")
+        self.assertIn("--vector-width 512 is left out", viewer.stderr())
+        self.ends_well(viewer, viewer.close())
+
     def test_a_scene_that_cannot_be_read_is_3(self):
         viewer = self.view(self.folder / "none.gltf", *FEW, wait=False)
         self.assertEqual(viewer.end(60), 3)

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "advice.h"
+#include "gl/dynamic_library.h"
 #include "gl/gl.h"
 #include "view/window/wayland.h"
 
@@ -34,6 +36,10 @@ Glfw::Glfw() {
     const std::lock_guard lock(errors.mutex);
     errors.text += (errors.text.empty() ? "" : "; ") + std::string(text);
   });
+  // Dear ImGui's loader prints a line and crashes without it, even where the window has OpenGL by another
+  // library.
+  const DynamicLibrary openGl({"libGL.so.1"});
+  if (!openGl.loaded()) throw std::runtime_error(openGl.error() + "; " + kWindowAdvice);
   std::string noWayland;
 #ifdef GLFW_PLATFORM  // from GLFW 3.4 on, which tries Wayland first
   noWayland = whyNoWayland();
@@ -45,6 +51,14 @@ Glfw::Glfw() {
 }
 
 Glfw::~Glfw() { glfwTerminate(); }
+
+bool displayIsGone() {
+#ifdef GLFW_PLATFORM
+  return glfwGetPlatform() == GLFW_PLATFORM_WAYLAND && !whyNoWayland().empty();
+#else
+  return false;
+#endif
+}
 
 void CloseWindow::operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
 
@@ -60,7 +74,7 @@ WindowHandle openWindow(glm::ivec2 size, const std::string& title) {
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   WindowHandle window(glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr));
-  if (!window) throw std::runtime_error(takeGlfwErrors());
+  if (!window) throw std::runtime_error(takeGlfwErrors() + kDriverAdvice);
   glfwMakeContextCurrent(window.get());
   if (gladLoadGL(glfwGetProcAddress) < GLAD_MAKE_VERSION(4, 5))
     throw std::runtime_error("the display's OpenGL is older than 4.5");

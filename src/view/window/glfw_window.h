@@ -23,6 +23,10 @@ struct CloseWindow {
 };
 using WindowHandle = std::unique_ptr<GLFWwindow, CloseWindow>;
 
+/// Whether the compositor has ended, on which GLFW closes all windows. An X server that ends takes the
+/// process with it.
+bool displayIsGone();
+
 /// Throws std::runtime_error.
 WindowHandle openWindow(glm::ivec2 size, const std::string& title);
 

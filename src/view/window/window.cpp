@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "errors.h"
+#include "view/window/glfw_window.h"
 #include "view/window/view_window.h"
 
 namespace fragtrace {
@@ -37,6 +38,7 @@ void runWindow(const WindowStart& start, Exchange& exchange) {
   start.opened();
   try {
     window->run();
+    if (displayIsGone()) throw ContextError("the display is gone");
   } catch (const std::exception& error) {
     writeFailure([&] { window->end(error.what()); });
     throw;
