@@ -89,7 +89,7 @@ void ViewTracer::run() {
 }
 
 void ViewTracer::enterContext() {
-  context_ = makeContext(start_.render.backend, start_.render.vectorWidth);
+  context_ = makeContext(start_.render.backend);
   driverLog_ = std::make_unique<DebugLog>();
   denoiser_ = std::make_unique<ViewDenoiser>(start_.render.shaderFolder, oidn_);
 }
