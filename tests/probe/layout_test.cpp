@@ -58,6 +58,7 @@ class Layout : public GlProbe {
  protected:
   void SetUp() override {
     GlProbe::SetUp();
+    if (IsSkipped()) return;
     // Everything on, so that every buffer is read.
     ShaderVariant variant;
     variant.stages = stagesUpTo(Stage::Gi);
