@@ -42,7 +42,8 @@ def rows():
 def spirv(kind, text, folder):
     """The binary without debug names, or the text where glslangValidator refuses it."""
     source, binary = folder / f"text.{KINDS[kind]}", folder / "text.spv"
-    source.write_text(text)
+    # glslangValidator has no names of files in #line (GL_ARB_shading_language_include).
+    source.write_text(re.sub(r'^(#line \d+) ".*"$', r"\1", text, flags=re.MULTILINE))
     binary.unlink(missing_ok=True)
     subprocess.run(["glslangValidator", "-G", "-g0", "--amb", "--aml", "-o", binary, source], capture_output=True, check=False)
     return binary.read_bytes() if binary.exists() else text.encode()
