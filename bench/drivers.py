@@ -12,17 +12,13 @@ import json
 import os
 import shlex
 import statistics
-import struct
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-
-def pixels(path):
-    kind, size, _, body = path.read_bytes().split(b"\n", 3)
-    width, height = map(int, size.split())
-    return struct.unpack(f"<{width * height * (3 if kind == b'PF' else 1)}f", body)
+sys.path.insert(0, str(Path(__file__).resolve().parent / "peers"))
+from pictures import read_pfm  # noqa: E402
 
 
 def difference(picture, first):
@@ -39,7 +35,7 @@ def draw(command, scene, options, folder):
     subprocess.run([*shlex.split(command), "render", scene, *options, "--quiet", "-o", picture, "--stats", stats], check=True,
                    env={**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"})
     told = json.loads(stats.read_text())
-    return told["mpaths_per_s"], told["compile_ms"], pixels(picture), f"{told['gl_renderer']}, {told['gl_version']}"
+    return told["mpaths_per_s"], told["compile_ms"], read_pfm(picture)[1], f"{told['gl_renderer']}, {told['gl_version']}"
 
 
 def main():

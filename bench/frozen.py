@@ -9,15 +9,15 @@ shaders differs, their texts are left in DIR for diff. Debug names are not compa
 import argparse
 import json
 import os
-import re
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
+from shader_texts import FILE_ENDINGS, captured
+
 ROOT = Path(__file__).resolve().parent.parent
 ASSETS = Path(os.environ.get("FRAGTRACE_ASSETS", "/work/shared/assets")) / "scenes"
-KINDS = {"vertex": "vert", "fragment": "frag", "compute": "comp"}
 STAGES = ("flat", "phong", "shadows", "reflections", "refraction", "normal-maps")
 MANY = ("cornell-box", "coverage", "glass-sphere", "plastics", "thin-glass", "many-lights", "caustics", "sphere-textured", "water-cube", "lobes")
 OF_MANY = (*(["--stage", stage] for stage in STAGES), ["--dispatch", "compute", "--schedule", "megakernel"], ["--shadow-catcher", "bottom"],
@@ -41,9 +41,8 @@ def rows():
 
 def spirv(kind, text, folder):
     """The binary without debug names, or the text where glslangValidator refuses it."""
-    source, binary = folder / f"text.{KINDS[kind]}", folder / "text.spv"
-    # glslangValidator has no names of files in #line (GL_ARB_shading_language_include).
-    source.write_text(re.sub(r'^(#line \d+) ".*"$', r"\1", text, flags=re.MULTILINE))
+    source, binary = folder / f"text.{FILE_ENDINGS[kind]}", folder / "text.spv"
+    source.write_text(text)
     binary.unlink(missing_ok=True)
     subprocess.run(["glslangValidator", "-G", "-g0", "--amb", "--aml", "-o", binary, source], capture_output=True, check=False)
     return binary.read_bytes() if binary.exists() else text.encode()
@@ -52,13 +51,11 @@ def spirv(kind, text, folder):
 def draw(program, scene, options, folder):
     """The picture, the texts by kind, the keys of the statistics, and what was said."""
     shutil.rmtree(folder, ignore_errors=True)
-    captured = folder / "captured"
-    captured.mkdir(parents=True)
+    capture = folder / "capture"
+    capture.mkdir(parents=True)
     result = subprocess.run([program, "render", scene, *options, "--quiet", "--resolution", "48,48", "--spp", "8", "-o", folder / "x.pfm", "--stats",
-                             folder / "s.json"], capture_output=True, text=True, check=False, env={**os.environ, "MESA_SHADER_CAPTURE_PATH": str(captured)})
-    texts = set()
-    for file in captured.iterdir():
-        texts |= set(re.findall(r"^\[(\w+) shader\]\n(.*?)(?=^\[|\Z)", file.read_text(), re.MULTILINE | re.DOTALL))
+                             folder / "s.json"], capture_output=True, text=True, check=False, env={**os.environ, "MESA_SHADER_CAPTURE_PATH": str(capture)})
+    texts = captured(capture)
     if result.returncode != 0:
         return None, texts, set(), (result.returncode, result.stderr)
     return (folder / "x.pfm").read_bytes(), texts, set(json.loads((folder / "s.json").read_text())), (0, result.stderr)

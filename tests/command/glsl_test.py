@@ -3,31 +3,28 @@
 """Each text that the picture tests hand to the driver is right by another compiler, too: glslangValidator. Mesa writes them where MESA_SHADER_CAPTURE_PATH says."""
 import json
 import os
-import re
 import shutil
 import subprocess
+import sys
 import unittest
 
 from support import FRAGTRACE, SCENES, Case, main
 
 REFERENCES = SCENES.parent / "tests/reference/references.json"
-KINDS = {"vertex": "vert", "fragment": "frag", "compute": "comp"}
+sys.path.insert(0, str(SCENES.parent / "bench"))
+from shader_texts import FILE_ENDINGS, captured  # noqa: E402
 
 
 @unittest.skipUnless(shutil.which("glslangValidator"), "glslangValidator is not installed")
 class GlslangValidator(Case):
-    def captured(self, reference, schedule):
+    def texts_of(self, reference, schedule):
         """The texts of a reference's picture: kind and text."""
         folder = self.folder / "captured"
         folder.mkdir()
         subprocess.run([FRAGTRACE, "render", SCENES / (reference["scene"] + ".gltf"), "--stage", reference["stage"], *reference["options"], "--quiet",
-                        "--resolution", "8,8", "--spp", "1", "--schedule", schedule, "-o", self.folder / "x.pfm"], check=True,
+                        "--resolution", "8,8", "--spp", "1", "--schedule", schedule, "-o", self.folder / "x.pfm"], check=True, cwd=SCENES.parent,
                        env={**os.environ, "MESA_SHADER_CAPTURE_PATH": str(folder)})
-        texts = set()
-        for file in folder.iterdir():
-            for kind, text in re.findall(r"^\[(\w+) shader\]\n(.*?)(?=^\[|\Z)", file.read_text(), re.MULTILINE | re.DOTALL):
-                # glslangValidator has no names of files in #line (GL_ARB_shading_language_include).
-                texts.add((kind, re.sub(r'^(#line \d+) ".*"$', r"\1", text, flags=re.MULTILINE).rstrip("\n") + "\n"))
+        texts = captured(folder)
         shutil.rmtree(folder)
         return texts
 
@@ -35,12 +32,12 @@ class GlslangValidator(Case):
         texts = set()
         for reference in json.loads(REFERENCES.read_text())["references"]:
             for schedule in ("megakernel", "wavefront"):
-                found = self.captured(reference, schedule)
+                found = self.texts_of(reference, schedule)
                 self.assertTrue(found, reference["name"])
                 texts |= found
         self.assertGreater(len(texts), 50)
         for kind, text in texts:
-            file = self.folder / ("text." + KINDS[kind])
+            file = self.folder / ("text." + FILE_ENDINGS[kind])
             file.write_text(text)
             result = subprocess.run(["glslangValidator", file], capture_output=True, text=True, check=False)
             self.assertEqual(result.returncode, 0, result.stdout + "\n".join(f"{i + 1} {line}" for i, line in enumerate(text.splitlines())))

@@ -23,7 +23,7 @@ struct CloseWindow {
 };
 using WindowHandle = std::unique_ptr<GLFWwindow, CloseWindow>;
 
-/// Whether the compositor has ended, on which GLFW closes all windows. An X server that ends takes the
+/// True once the compositor has ended, on which GLFW closes all windows. An X server that ends takes the
 /// process with it.
 bool displayIsGone();
 

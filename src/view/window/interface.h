@@ -29,8 +29,8 @@ class Interface {
   /// Whether a slider or button is held, or a text edited.
   static bool holding();
 
-  /// Whether events are left for the next frame: from Dear ImGui 1.87 on, a frame takes only one change of a
-  /// key or button.
+  /// True while events are left for the next frame: from Dear ImGui 1.87 on, a frame takes only one change of
+  /// a key or button.
   static bool waiting();
 
   /// What keys go to: "text" that is edited, a "popup", or the "picture".

@@ -47,7 +47,7 @@ struct WaylandLibrary {
   }
 };
 
-/// Whether the compositor sends something within a few seconds.
+/// Waits a few seconds for the compositor to send something.
 bool answers(const WaylandLibrary& wayland, Proxy display) {
   constexpr int kPatienceMs = 3000;
   pollfd waited{wayland.descriptor(display), POLLIN, 0};

@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: MIT
+"""The texts that a program hands to Mesa, which writes them into the folder that MESA_SHADER_CAPTURE_PATH names."""
+import re
+
+FILE_ENDINGS = {"vertex": "vert", "fragment": "frag", "compute": "comp"}  # by kind, as glslangValidator wants them
+
+
+def captured(folder):
+    """Kind and text of each. Without the names of files in #line (GL_ARB_shading_language_include), which glslangValidator does not know."""
+    texts = set()
+    for file in folder.iterdir():
+        for kind, text in re.findall(r"^\[(\w+) shader\]\n(.*?)(?=^\[|\Z)", file.read_text(), re.MULTILINE | re.DOTALL):
+            texts.add((kind, re.sub(r'^(#line \d+) ".*"$', r"\1", text, flags=re.MULTILINE).rstrip("\n") + "\n"))
+    return texts
