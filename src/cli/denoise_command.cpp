@@ -28,7 +28,7 @@ Image writable(const Image& picture, const std::filesystem::path& path) {
 
 int runDenoise(const DenoiseOptions& asked) {
   RenderOptions options = asked.render;
-  checkOutputs(std::array{NamedOutput{"--output", options.output}}, std::array{asked.picture});
+  checkOutputs(std::array{NamedOutput{"--output", options.output.file}}, std::array{asked.picture});
   const std::optional<OidnLibrary> oidn = openDenoiser(options);
   const LinearImage read = readLinearImage(asked.picture, options.limits.memoryBytes);
   // What such files encode is as a display shows it, which is not what the filters are made for.
@@ -38,10 +38,10 @@ int runDenoise(const DenoiseOptions& asked) {
   DenoiseStatistics stats;
   Image result = denoisedFile(drawn, asked.picture, options, oidn, stats);
   result.placement = drawn.placement;
-  writePicture(options, writable(result, options.output), {});
-  if (!options.quiet) {
-    std::printf("%s: %d x %d, %s in %.2f s\n", options.output.string().c_str(), result.width, result.height,
-                stats.filter.c_str(), (stats.filterMs + stats.compileMs) / 1000.0);
+  writePicture(options, writable(result, options.output.file), {});
+  if (!options.output.quiet) {
+    std::printf("%s: %d x %d, %s in %.2f s\n", options.output.file.string().c_str(), result.width,
+                result.height, stats.filter.c_str(), (stats.filterMs + stats.compileMs) / 1000.0);
   }
   return 0;
 }

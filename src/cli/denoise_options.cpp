@@ -39,8 +39,8 @@ void addFileFilterOptions(CLI::App& app, RawRender& raw) {
                  "or 2GiB")
       ->transform(memorySize(kLeastMemoryBytes))
       ->type_name("SIZE");
-  app.add_flag("--quiet", raw.options.quiet, "print errors only");
-  app.add_flag("--verbose", raw.options.verbose, "print the choices that the program makes");
+  app.add_flag("--quiet", raw.options.output.quiet, "print errors only");
+  app.add_flag("--verbose", raw.options.output.verbose, "print the choices that the program makes");
 }
 
 void addDenoiseCommandOptions(CLI::App& app, RawDenoise& raw) {
@@ -60,18 +60,18 @@ void addDenoiseCommandOptions(CLI::App& app, RawDenoise& raw) {
                      "--aov denoising")
       ->capture_default_str();
   addFileFilterOptions(app, raw.render);
-  app.add_option("--exposure", raw.render.options.exposure, describedByRender("--exposure"))
+  app.add_option("--exposure", raw.render.options.output.exposure, describedByRender("--exposure"))
       ->capture_default_str();
   app.add_option("--tone-map", raw.render.toneMap, describedByRender("--tone-map"))->capture_default_str();
-  addHalfOption(app, raw.render.options.encoding);
-  addPngDepthOption(app, raw.render.options.encoding);
+  addHalfOption(app, raw.render.options.output.encoding);
+  addPngDepthOption(app, raw.render.options.output.encoding);
 }
 
 DenoiseOptions finishDenoise(const RawDenoise& raw) {
   if (std::ranges::find(kFileFilterNames, raw.render.denoise) == kFileFilterNames.end())
     throw UsageError("--denoise: '" + raw.render.denoise + "' is none of " + joined(kFileFilterNames));
   const RenderOptions render = finishRender(raw.render);
-  checkEncoding(render.encoding, render.output);
+  checkEncoding(render.output.encoding, render.output.file);
   return {raw.picture, render};
 }
 

@@ -34,14 +34,14 @@ int runMerge(const MergeOptions& options) {
   for (const std::filesystem::path& path : options.parts) parts.push_back(readPart(path));
   const Part joined = joinedParts(std::move(parts));
   Image result = joined.image;
-  if (filter.denoise != Denoise::None) {
+  if (filter.output.denoise != Denoise::None) {
     DenoiseStatistics stats;
     result = denoisedFile(result, options.parts.front(), filter, oidn, stats);
     result.placement = joined.image.placement;
   }
-  filter.output = options.output;
-  sayClamped(filter, writeImage(options.output, result, filter.encoding));
-  if (!filter.quiet)
+  filter.output.file = options.output;
+  sayClamped(filter, writeImage(options.output, result, filter.output.encoding));
+  if (!filter.output.quiet)
     std::printf("%s: %s\n", options.output.string().c_str(),
                 describeParts(options.parts.size(), joined).c_str());
   return 0;
@@ -64,7 +64,7 @@ RunCommand addMerge(CLI::App& app) {
   app.add_option("--denoise", raw->filter.denoise,
                  "filter that removes noise from the merged picture: " + joined(kDenoiseNames))
       ->capture_default_str();
-  addHalfOption(app, raw->filter.options.encoding);
+  addHalfOption(app, raw->filter.options.output.encoding);
   addFileFilterOptions(app, raw->filter);
   return [raw] {
     MergeOptions options = raw->options;

@@ -51,13 +51,13 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
                           {"samples", samplesPerPixel(stats)},
                           {"complete", stats.complete}});
   // Standard output is the statistics' or the picture's alone.
-  const bool taken = isStandardOutput(options.statsFile) || options.toStandardOutput;
-  if (options.quiet || (taken && reportsAsJson())) return;
+  const bool taken = isStandardOutput(options.output.statsFile) || options.output.toStandardOutput;
+  if (options.output.quiet || (taken && reportsAsJson())) return;
   std::fprintf(taken ? stderr : stdout,
                "%s: %d x %d, %.4g samples per pixel in %.2f s (%.2f million paths/s)%s\n",
-               options.toStandardOutput ? "standard output" : options.output.string().c_str(), stats.size.x,
-               stats.size.y, samplesPerPixel(stats), stats.times.renderMs / 1000.0, megaPathsPerSecond(stats),
-               noise.c_str());
+               options.output.toStandardOutput ? "standard output" : options.output.file.string().c_str(),
+               stats.size.x, stats.size.y, samplesPerPixel(stats), stats.times.renderMs / 1000.0,
+               megaPathsPerSecond(stats), noise.c_str());
 }
 
 /// What becomes of a picture: it is written, written as far as it was drawn, or not at all.
@@ -90,14 +90,14 @@ Outcome drawAndWrite(const PictureJob& job, const std::vector<PictureLine>& boxe
     throw RenderError(rescuePicture(options, *drawn, error.what()));
   }
   if (stats.complete) keeper.remove();
-  if (!options.statsFile.empty()) replaceText(options.statsFile, statisticsText(stats));
+  if (!options.output.statsFile.empty()) replaceText(options.output.statsFile, statisticsText(stats));
   sayWhatWasDone(options, stats);
   return stats.complete ? Outcome::Complete : Outcome::Partial;
 }
 
 /// Of the events of a picture: its file, and which of a sequence it is.
 nlohmann::ordered_json eventContext(const RenderOptions& options) {
-  return {{"output", options.toStandardOutput ? "-" : options.output.string()}};
+  return {{"output", options.output.toStandardOutput ? "-" : options.output.file.string()}};
 }
 
 int runRender(const RenderOptions& asked) {
@@ -110,7 +110,7 @@ int runRender(const RenderOptions& asked) {
   Statistics stats;
 
   // Step: load. The image library opens meanwhile, in its own process, when the output needs it.
-  if (options.output.extension() != ".pfm") startImageProcess();
+  if (options.output.file.extension() != ".pfm") startImageProcess();
   const RenderOptions drawn = withGuides(options);
   LoadedScene loaded = loadScene(drawn, stats, {}, FilmOf::Part);
 
@@ -143,7 +143,7 @@ struct SequenceRun {
 bool keepsTree(const RenderOptions& options, const Scene& scene) {
   constexpr size_t kLeastTriangles = 4096;
   return !holdsLayers(options) && !keepsCheckpoint(options) && !has(options.stages, Stage::BvhHeatmap) &&
-         options.debugView == DebugView::None && scene.triangles.size() >= kLeastTriangles;
+         options.output.debugView == DebugView::None && scene.triangles.size() >= kLeastTriangles;
 }
 
 /// The scene as the picture shows it, on the device. A turntable loads it once; else the environment stays.
@@ -191,12 +191,12 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
   LoadedScene& loaded = *run.loaded;
   const Camera camera = loaded.camera;
   if (sequence.turntable > 0) {
-    const glm::dvec3 focalPoint = turningPoint(camera, options.camera, loaded.scene.bounds);
+    const glm::dvec3 focalPoint = turningPoint(camera, options.camera.overrides, loaded.scene.bounds);
     loaded.camera = turnedCamera(camera, focalPoint, frame.turn);
     loaded.view = makeView(options, loaded, loaded.camera);
   }
   const std::vector<PictureLine> boxes = treeLines(options, loaded, loaded.camera, loaded.size);
-  if (!options.treeLevel) releaseGeometry(loaded);
+  if (!options.output.treeLevel) releaseGeometry(loaded);
   const Outcome outcome = drawAndWrite({options, loaded, run.tracer, false}, boxes, run.device, stats);
   loaded.camera = camera;
   return outcome;
@@ -211,13 +211,13 @@ bool isWhole(const std::filesystem::path& path) {
 
 /// All pictures that are wanted; one that fails is said, and the others are drawn. Returns the status.
 int runSequence(const RenderOptions& options) {
-  const SequenceOptions& sequence = *options.sequence;
+  const SequenceOptions& sequence = *options.output.sequence;
   SequenceRun run;
   RenderOptions settled = options;
   run.device.oidn = openDenoiser(settled);
   passOnWhatIsSaid([](const std::string&) {});  // what all of them say, once
   countInterrupts();
-  if (options.output.extension() != ".pfm") startImageProcess();
+  if (options.output.file.extension() != ".pfm") startImageProcess();
   const RenderOptions firstOptions = frameOf(settled, 0).options;
   checkOutputs(outputsOf(firstOptions), inputsOf(firstOptions));  // a wrong folder would be wrong for all
   const int count = frameCount(sequence);
@@ -226,7 +226,7 @@ int runSequence(const RenderOptions& options) {
   int skipped = 0;
   for (int i = 0; i < count && interrupts() == 0; ++i) {
     const SequenceFrame frame = frameOf(settled, i);
-    if (sequence.keep && isWhole(frame.options.output)) {
+    if (sequence.keep && isWhole(frame.options.output.file)) {
       ++skipped;
       continue;
     }
@@ -270,21 +270,21 @@ RunCommand addRender(CLI::App& app) {
                  "standard output (--format), and nothing else goes there; required")
       ->type_name("FILE");
   addRenderOptions(app, raw->render);
-  addHalfOption(app, raw->render.options.encoding);
-  addPngDepthOption(app, raw->render.options.encoding);
+  addHalfOption(app, raw->render.options.output.encoding);
+  addPngDepthOption(app, raw->render.options.output.encoding);
   addOutputOptions(app, raw->render);
   addSequenceOptions(app, raw->sequence);
   addDenoiseOption(app, raw->render);
   addConfigOption(app, raw->config);
   return [raw, &app] {
     RenderOptions options = finishConfigured(raw->render, raw->config, app);
-    if (options.output.empty()) throw UsageError("--output is required; --help says more");
-    checkEncoding(options.encoding, options.output);
+    if (options.output.file.empty()) throw UsageError("--output is required; --help says more");
+    checkEncoding(options.output.encoding, options.output.file);
     finishSequence(raw->sequence, options);
-    if (options.progress == ProgressForm::Json) reportAsJson(options.quiet);
-    if (options.toStandardOutput && isatty(STDOUT_FILENO) != 0)
+    if (options.output.progress == ProgressForm::Json) reportAsJson(options.output.quiet);
+    if (options.output.toStandardOutput && isatty(STDOUT_FILENO) != 0)
       throw UsageError("--output -: standard output is a terminal; send it to a file or a program");
-    return options.sequence ? runSequence(options) : runRender(options);
+    return options.output.sequence ? runSequence(options) : runRender(options);
   };
 }
 

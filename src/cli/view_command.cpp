@@ -40,14 +40,15 @@ const WindowLibrary& windowLibrary() {
 
 int runView(const ViewOptions& asked) {
   ViewOptions options = asked;
-  if (std::exchange(options.render.vectorWidth, VectorWidth::Auto) == VectorWidth::Bits512)
+  if (std::exchange(options.render.device.vectorWidth, VectorWidth::Auto) == VectorWidth::Bits512)
     say(options.render,
         "warning: --vector-width 512 is left out: Mesa crashes when it draws windows with it");
   const NamedOutput status{"--status-file", options.statusFile};
   checkOutputs({&status, 1}, inputsOf(options.render));
   if (!options.reference.empty()) {
     const Image reference = readReference(options.reference, options.render.limits.memoryBytes);
-    if (!options.render.resolution) options.render.resolution = glm::ivec2(reference.width, reference.height);
+    if (!options.render.camera.resolution)
+      options.render.camera.resolution = glm::ivec2(reference.width, reference.height);
   }
   const WindowLibrary& library = windowLibrary();
   std::optional<OidnLibrary> oidn = openDenoiser(options.render);

@@ -26,15 +26,15 @@ constexpr size_t kSmallTree = 512;
 /// Why the megakernel draws; empty when the wavefront does.
 std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& options,
                           const ScheduleWork& work) {
-  if (options.schedule == Schedule::Megakernel) return "--schedule";
+  if (options.device.schedule == Schedule::Megakernel) return "--schedule";
   if (variant.feature != Feature::None) return "a layer of first hits";
   if (has(variant.stages, Stage::BvhHeatmap)) return "the heat map";
   if (!has(variant.stages, Stage::Gi)) return "a stage before global illumination";
   if (variant.shadowCatcher) return "--shadow-catcher";
   if (variant.traversal == TraversalMethod::Literals) return "the scene is shader text";
   if (variant.traversal != TraversalMethod::FrontToBack) return "the tree is not walked front to back";
-  if (options.dispatch == Dispatch::Fragment) return "--dispatch fragment";
-  if (options.schedule == Schedule::Wavefront) return "";
+  if (options.device.dispatch == Dispatch::Fragment) return "--dispatch fragment";
+  if (options.device.schedule == Schedule::Wavefront) return "";
   if (!work.software) return "a GPU: not measured";
   if (work.nodes < kSmallTree) return "a small tree";
   return work.paths < kFewPaths ? "few paths" : "";

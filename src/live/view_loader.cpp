@@ -20,9 +20,10 @@ constexpr Orbit kFirstView{.azimuthDegrees = 35.0, .elevationDegrees = 20.0};
 
 /// A scene without a camera is seen from the side and from above, where its shape shows best.
 void standAside(LoadedScene& loaded, RenderOptions& options) {
-  if (!loaded.scene.cameras.empty() || options.camera != CameraOverrides() || options.cameraIndex) return;
-  options.camera.orbit = kFirstView;
-  options.camera.fit = Fit::View;
+  if (!loaded.scene.cameras.empty() || options.camera.overrides != CameraOverrides() || options.camera.index)
+    return;
+  options.camera.overrides.orbit = kFirstView;
+  options.camera.overrides.fit = Fit::View;
   aim(loaded, options, FilmOf::Picture);
 }
 
@@ -48,17 +49,18 @@ void SceneLoader::start(const RenderOptions& options) {
     };
     try {
       result.scene = std::make_unique<LoadedScene>(loadScene(options, result.stats, progress));
-      const bool known = !hasMap(options) && options.defaultLight != DefaultLight::None;
+      const bool known = !hasMap(options) && options.light.defaultLight != DefaultLight::None;
       result.ownLight =
           known ? !result.stats.defaultLight : ownLight(result.scene->scene) == OwnLight::Enough;
       result.environments = environmentsNear(options);
       if (!asRendered) standAside(*result.scene, result.options);
       // From now on it is told by its index, as others are that are chosen in the window.
-      result.options.cameraIndex = result.scene->cameraIndex;
+      result.options.camera.index = result.scene->cameraIndex;
       result.options.selection.camera.clear();
       // So is a camera that was placed by the scene's vertices.
-      if (result.options.camera.fit != Fit::None)
-        result.options.camera = overridesOf(poseOf(result.scene->camera, result.scene->scene.bounds));
+      if (result.options.camera.overrides.fit != Fit::None)
+        result.options.camera.overrides =
+            overridesOf(poseOf(result.scene->camera, result.scene->scene.bounds));
       progress("packing", 0.9);
     } catch (const Cancelled&) {
       result.scene.reset();

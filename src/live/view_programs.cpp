@@ -23,12 +23,13 @@ constexpr int kTinyFilm = 8;  // pixels a side
 /// What of the options decides which program draws, and what it reads.
 RenderOptions programPart(const RenderOptions& options) {
   RenderOptions part = programOptions(options);
-  if (part.debugView == DebugView::Samples || part.debugView == DebugView::Variance)
-    part.debugView = DebugView::None;  // drawn by the picture's own
-  part.clampIndirect = part.clampIndirect > 0.0 ? 1.0 : 0.0;
-  part.aovFeatures.clear();
+  if (part.output.debugView == DebugView::Samples || part.output.debugView == DebugView::Variance)
+    part.output.debugView = DebugView::None;  // drawn by the picture's own
+  part.sampling.clampIndirect = part.sampling.clampIndirect > 0.0 ? 1.0 : 0.0;
+  part.output.aovFeatures.clear();
   part.selection.camera.clear();
-  if (has(part.stages, Stage::Gi) && part.debugView == DebugView::None) part.aovFeatures = {Feature::Guides};
+  if (has(part.stages, Stage::Gi) && part.output.debugView == DebugView::None)
+    part.output.aovFeatures = {Feature::Guides};
   return part;
 }
 

@@ -43,7 +43,7 @@ Image colorsOf(const Image& image) {
 void ViewTracer::estimate(Side& side, const FilmPixels& pixels) {
   if (side.samples < kLeastForError || side.samples < kErrorStep * side.errorAt) return;
   const std::vector<double> errors = relativeErrors(pixels, independentVariance(pixels));
-  side.error = distanceTo(side.options.noise, pixels, errors).error;
+  side.error = distanceTo(side.options.sampling.noise, pixels, errors).error;
   side.errorAt = side.samples;
 }
 
@@ -51,14 +51,14 @@ bool ViewTracer::denoises(const Side& side) { return whyNotDenoised(side.options
 
 bool ViewTracer::denoisesByOidn(const Side& side) const {
   const bool still = !request_.moving && resolution_.step == 0;
-  return denoises(side) && oidn_ && side.options.denoise == Denoise::Oidn && still &&
+  return denoises(side) && oidn_ && side.options.output.denoise == Denoise::Oidn && still &&
          side.samples >= kFewestForOidn;
 }
 
 std::optional<Image> ViewTracer::shownOf(Side& side, const FilmPixels& pixels,
                                          const std::function<bool()>& goOn) {
   const ShaderVariant& variant = side.program->tracer.variant;
-  const bool alpha = !side.options.background;
+  const bool alpha = !side.options.light.background;
   if (!denoises(side)) return shownPicture(side.options, variant, pixels, {alpha});
   const auto start = Clock::now();
   const Image drawn = shownPicture(side.options, variant, pixels, {true, true, true});
@@ -142,10 +142,10 @@ void ViewTracer::saveBoth(const SaveRequest& request) {
     }
   }
   RenderOptions options = sides_[0].options;
-  options.output = request.path;
-  options.exposure = 0.0;
-  options.toneMap = ToneMap::Linear;
-  options.debugView = DebugView::None;
+  options.output.file = request.path;
+  options.output.exposure = 0.0;
+  options.output.toneMap = ToneMap::Linear;
+  options.output.debugView = DebugView::None;
   writePicture(options,
                composite(sides, request_.size,
                          {request.bar, request.both == CompareMode::Difference, request.differenceStops,
@@ -160,20 +160,21 @@ void ViewTracer::save(const SaveRequest& request) {
   try {
     if (request.both) return saveBoth(request);
     RenderOptions options = side.options;
-    options.output = request.path;
-    options.exposure = request.exposure;
-    options.toneMap = request.toneMap;
+    options.output.file = request.path;
+    options.output.exposure = request.exposure;
+    options.output.toneMap = request.toneMap;
     const FilmPixels pixels = side.film->read();
     const FilmTotals totals = totalsOf(pixels);
-    const bool exr = formatOfName(options.output) == ImageFormat::OpenExr;
-    const Layers layers{!options.background, options.aovSamples, options.aovVariance};
+    const bool exr = formatOfName(options.output.file) == ImageFormat::OpenExr;
+    const Layers layers{!options.light.background, options.output.aovSamples, options.output.aovVariance};
     // A file of radiance is what its samples say, one for a display what is seen.
     Image image = exr ? shownPicture(options, side.program->tracer.variant, pixels, layers) : seenOf(side);
     loaded_->camera = side.view.camera;
     loaded_->size = pixels.size;
-    if (exr && options.debugView == DebugView::None)
-      setProvenance(image, {settingsText(options, *loaded_, side.program->tracer), options.seed,
-                            options.sampleOffset, side.samples, totals.fewestSamples == totals.mostSamples});
+    if (exr && options.output.debugView == DebugView::None)
+      setProvenance(
+          image, {settingsText(options, *loaded_, side.program->tracer), options.sampling.seed,
+                  options.sampling.sampleOffset, side.samples, totals.fewestSamples == totals.mostSamples});
     writePicture(options, image, treeLines(options, *loaded_, side.view.camera, pixels.size));
     exchange_.tell("wrote " + request.path.string());
   } catch (const RenderError& error) {

@@ -14,14 +14,14 @@ constexpr size_t kMostPreviewed = 300'000;
 }  // namespace
 
 RenderOptions ViewTracer::withFilter(RenderOptions options) {
-  const bool wanted = options.denoise == Denoise::Oidn || options.denoise == Denoise::Auto;
-  if (wanted && oidn_) options.denoise = Denoise::Oidn;
+  const bool wanted = options.output.denoise == Denoise::Oidn || options.output.denoise == Denoise::Auto;
+  if (wanted && oidn_) options.output.denoise = Denoise::Oidn;
   if (!wanted || oidn_) return options;
   try {
     oidn_ = openDenoiser(options);
   } catch (const UsageError& error) {
     exchange_.tellError(error.what());
-    options.denoise = Denoise::Variance;
+    options.output.denoise = Denoise::Variance;
   }
   return options;
 }
@@ -29,8 +29,8 @@ RenderOptions ViewTracer::withFilter(RenderOptions options) {
 void ViewTracer::adoptSide(Side& side, const RenderOptions& asked) {
   const RenderOptions options = withFilter(asked);
   const bool same = side.program && drawsTheSame(side.options, options);
-  const bool otherLook =
-      side.options.treeLevel != options.treeLevel || side.options.denoise != options.denoise;
+  const bool otherLook = side.options.output.treeLevel != options.output.treeLevel ||
+                         side.options.output.denoise != options.output.denoise;
   if (differInCameraAlone(side.options, options))
     side.memory.turn();
   else if (!same)
@@ -50,8 +50,8 @@ void ViewTracer::adoptSide(Side& side, const RenderOptions& asked) {
 View ViewTracer::viewOf(const RenderOptions& options) {
   Camera camera = loaded_->camera;
   try {
-    camera = chooseCamera(loaded_->scene.cameras, options.cameraIndex, options.camera, loaded_->scene.bounds,
-                          framedAspect(loadedOptions_));
+    camera = chooseCamera(loaded_->scene.cameras, options.camera.index, options.camera.overrides,
+                          loaded_->scene.bounds, framedAspect(loadedOptions_));
   } catch (const UsageError& error) {
     exchange_.tellError(error.what());
   }
@@ -65,10 +65,10 @@ void ViewTracer::preview(Side& side) {
   if (quick || loaded_->scene.triangles.size() > kMostPreviewed) return;
   RenderOptions& o = side.options;
   o.stages = stagesUpTo(Stage::Phong);
-  o.denoise = Denoise::None;
-  o.debugView = DebugView::None;
-  o.clampIndirect = 0.0;
-  o.shadowCatcher = false;
+  o.output.denoise = Denoise::None;
+  o.output.debugView = DebugView::None;
+  o.sampling.clampIndirect = 0.0;
+  o.light.shadowCatcher = false;
   const std::shared_ptr<ViewProgram> program = programFor(o);
   if (program->error.empty()) {
     side.program = program;

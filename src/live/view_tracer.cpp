@@ -89,9 +89,9 @@ void ViewTracer::run() {
 }
 
 void ViewTracer::enterContext() {
-  context_ = makeContext(start_.render.backend);
+  context_ = makeContext(start_.render.device.backend);
   driverLog_ = std::make_unique<DebugLog>();
-  denoiser_ = std::make_unique<ViewDenoiser>(start_.render.shaderFolder, oidn_);
+  denoiser_ = std::make_unique<ViewDenoiser>(start_.render.device.shaderFolder, oidn_);
 }
 
 /// What was in the context is made anew in another one.
@@ -142,8 +142,8 @@ void ViewTracer::adoptScene() {
   programs_.reset();
   tree_.reset();
   selected_ = {};
-  posedCamera_ = result->options.camera;
-  posedCameraIndex_ = result->options.cameraIndex;
+  posedCamera_ = result->options.camera.overrides;
+  posedCameraIndex_ = result->options.camera.index;
   posedSize_ = result->scene->size;
   loaded_ = std::move(result->scene);
   loadedOptions_ = result->options;
@@ -172,7 +172,7 @@ void ViewTracer::adoptScene() {
   for (const auto& file : inputsOf(loaded_->scene)) files.push_back(file);
   for (const auto& file : filesIn(loadedOptions_.scene.parent_path(), ".bin")) files.push_back(file);
   sceneFiles_ = FileWatch(files);
-  shaderFiles_ = FileWatch(filesUnder(start_.render.shaderFolder));
+  shaderFiles_ = FileWatch(filesUnder(start_.render.device.shaderFolder));
 }
 
 void ViewTracer::watchFiles() {
@@ -185,7 +185,7 @@ void ViewTracer::watchFiles() {
 /// The shaders have changed; what cannot be compiled now stays as it was.
 void ViewTracer::rebuildPrograms() {
   programs_->forget();
-  denoiser_ = std::make_unique<ViewDenoiser>(start_.render.shaderFolder, oidn_);
+  denoiser_ = std::make_unique<ViewDenoiser>(start_.render.device.shaderFolder, oidn_);
   for (Side& side : sides_) {
     const std::shared_ptr<ViewProgram> wanted = programFor(side.options);
     if (!wanted->error.empty()) return;
@@ -198,7 +198,8 @@ void ViewTracer::rebuildPrograms() {
 RenderOptions ViewTracer::asPosed(RenderOptions options) const {
   const SceneSelection& s = options.selection;
   const bool changes = s.animationTime || !s.hiddenNodes.empty() || !loaded_->scene.strokes.empty();
-  if (changes && options.traversal == TraversalMethod::Auto) options.traversal = TraversalMethod::FrontToBack;
+  if (changes && options.device.traversal == TraversalMethod::Auto)
+    options.device.traversal = TraversalMethod::FrontToBack;
   return options;
 }
 
@@ -207,7 +208,7 @@ bool ViewTracer::isPosed(const TraceRequest& request) const {
   if (!samePose(wanted.selection, loadedOptions_.selection)) return false;
   // Points and lines get their width from the camera.
   return loaded_->scene.strokes.empty() || request.moving ||
-         (wanted.camera == posedCamera_ && wanted.cameraIndex == posedCameraIndex_ &&
+         (wanted.camera.overrides == posedCamera_ && wanted.camera.index == posedCameraIndex_ &&
           request.size == posedSize_);
 }
 
@@ -215,14 +216,14 @@ void ViewTracer::pose(const TraceRequest& request) {
   const RenderOptions& wanted = request.sides[0];
   const bool sameNodes = loadedOptions_.selection.hiddenNodes == wanted.selection.hiddenNodes;
   takePose(loadedOptions_.selection, wanted.selection);
-  posedCamera_ = wanted.camera;
-  posedCameraIndex_ = wanted.cameraIndex;
+  posedCamera_ = wanted.camera.overrides;
+  posedCameraIndex_ = wanted.camera.index;
   posedSize_ = request.size;
   RenderOptions options = asPosed(loadedOptions_);
-  options.sceneOrigin = loaded_->scene.space.origin;
-  options.camera = wanted.camera;
-  options.cameraIndex = wanted.cameraIndex;
-  options.resolution = request.size;
+  options.camera.sceneOrigin = loaded_->scene.space.origin;
+  options.camera.overrides = wanted.camera.overrides;
+  options.camera.index = wanted.camera.index;
+  options.camera.resolution = request.size;
   if (!sameNodes) exchange_.tellNote("updating the scene");
   std::vector<std::string> repeated;
   const SaidHere silence(repeated);  // it was said when the scene was loaded
@@ -284,8 +285,9 @@ bool ViewTracer::resting(const Side& side) const {
   if (!side.program) return true;
   if (side.stale || side.samples == 0) return false;
   const RenderOptions& o = side.options;
-  const bool converged = o.noise > 0.0 && side.error >= 0.0 && side.error <= o.noise;
-  return converged || side.samples >= o.spp || (o.seconds > 0.0 && side.times.renderMs >= 1000.0 * o.seconds);
+  const bool converged = o.sampling.noise > 0.0 && side.error >= 0.0 && side.error <= o.sampling.noise;
+  return converged || side.samples >= o.sampling.spp ||
+         (o.sampling.seconds > 0.0 && side.times.renderMs >= 1000.0 * o.sampling.seconds);
 }
 
 bool ViewTracer::work() {
@@ -315,7 +317,7 @@ bool ViewTracer::work() {
   const glm::ivec2 size = side->film->size();
   const double frameMs = renderer.msPerSample() * size.x * size.y;
   const double affordable = frameMs > 0.0 ? kRoundMs / frameMs : 1.0;
-  const int most = std::max(1, std::min(side->samples, side->options.spp - side->samples));
+  const int most = std::max(1, std::min(side->samples, side->options.sampling.spp - side->samples));
   const int count = settled ? int(std::clamp(affordable, 1.0, double(most))) : 1;
   const double before = side->times.renderMs;
   // A frame of a moving picture is short, and worth its end: else nothing would be seen before the hand

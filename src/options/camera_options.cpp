@@ -137,17 +137,17 @@ Orbit orbitOf(const std::vector<double>& values) {
 }  // namespace
 
 void finishCamera(const RawCamera& raw, RenderOptions& options) {
-  if (!raw.resolution.empty()) options.resolution = glm::ivec2(raw.resolution[0], raw.resolution[1]);
-  options.cameraIndex = raw.index;
+  if (!raw.resolution.empty()) options.camera.resolution = glm::ivec2(raw.resolution[0], raw.resolution[1]);
+  options.camera.index = raw.index;
   options.selection.camera = raw.name;
-  options.camera.position = placeOf("--camera-position", raw.position);
-  options.camera.focalPoint = placeOf("--camera-focal-point", raw.focalPoint);
-  options.camera.viewUp = vectorOf("--camera-view-up", raw.viewUp);
-  options.camera.viewAngleDegrees = raw.viewAngleDegrees;
-  options.camera.parallelScale = raw.parallelScale;
-  if (!raw.orbit.empty()) options.camera.orbit = orbitOf(raw.orbit);
-  options.lens = raw.lens;
-  const LensOptions& lens = options.lens;
+  options.camera.overrides.position = placeOf("--camera-position", raw.position);
+  options.camera.overrides.focalPoint = placeOf("--camera-focal-point", raw.focalPoint);
+  options.camera.overrides.viewUp = vectorOf("--camera-view-up", raw.viewUp);
+  options.camera.overrides.viewAngleDegrees = raw.viewAngleDegrees;
+  options.camera.overrides.parallelScale = raw.parallelScale;
+  if (!raw.orbit.empty()) options.camera.overrides.orbit = orbitOf(raw.orbit);
+  options.camera.lens = raw.lens;
+  const LensOptions& lens = options.camera.lens;
   if (lens.blades == 1 || lens.blades == 2) throw UsageError("--aperture-blades: neither 0 nor 3 or more");
   if (!lens.fStop && (lens.focusDistance || lens.blades > 0))
     throw UsageError(std::string(lens.focusDistance ? "--focus-distance" : "--aperture-blades") +
@@ -155,35 +155,37 @@ void finishCamera(const RawCamera& raw, RenderOptions& options) {
   for (const std::optional<double>& value : {lens.fStop, lens.focusDistance}) {
     if (value && !std::isfinite(*value)) throw UsageError("--f-stop, --focus-distance: not a finite number");
   }
-  options.camera.fit = raw.fit ? Fit::View : Fit::None;
-  options.sceneOrigin = placeOf("--scene-origin", raw.sceneOrigin);
-  if (options.camera.viewUp && *options.camera.viewUp == glm::dvec3(0.0))
+  options.camera.overrides.fit = raw.fit ? Fit::View : Fit::None;
+  options.camera.sceneOrigin = placeOf("--scene-origin", raw.sceneOrigin);
+  if (options.camera.overrides.viewUp && *options.camera.overrides.viewUp == glm::dvec3(0.0))
     throw UsageError("--camera-view-up: is zero");
 }
 
 std::string cameraText(const RenderOptions& options) {
   std::string text;
-  if (!options.cameraIndex && !options.selection.camera.empty())
+  if (!options.camera.index && !options.selection.camera.empty())
     appendOption(text, "--camera", options.selection.camera);
-  if (options.cameraIndex) appendOption(text, "--camera-index", std::to_string(*options.cameraIndex));
-  append(text, "--camera-position", options.camera.position);
-  if (const auto& orbit = options.camera.orbit) {
+  if (options.camera.index) appendOption(text, "--camera-index", std::to_string(*options.camera.index));
+  append(text, "--camera-position", options.camera.overrides.position);
+  if (const auto& orbit = options.camera.overrides.orbit) {
     appendOption(text, "--camera-orbit",
                  exactText(orbit->azimuthDegrees) + "," + exactText(orbit->elevationDegrees) +
                      (orbit->zoom == 1.0 ? "" : "," + exactText(orbit->zoom)));
   }
-  if (options.camera.fit != Fit::None) text += text.empty() ? "--fit" : " --fit";
-  append(text, "--camera-focal-point", options.camera.focalPoint);
-  append(text, "--camera-view-up", options.camera.viewUp);
-  append(text, "--camera-view-angle", options.camera.viewAngleDegrees);
-  append(text, "--camera-parallel-scale", options.camera.parallelScale);
-  append(text, "--f-stop", options.lens.fStop);
-  append(text, "--focus-distance", options.lens.focusDistance);
-  if (options.lens.blades > 0) appendOption(text, "--aperture-blades", std::to_string(options.lens.blades));
-  append(text, "--scene-origin", options.sceneOrigin);
-  if (options.resolution) {
-    appendOption(text, "--resolution",
-                 std::to_string(options.resolution->x) + "," + std::to_string(options.resolution->y));
+  if (options.camera.overrides.fit != Fit::None) text += text.empty() ? "--fit" : " --fit";
+  append(text, "--camera-focal-point", options.camera.overrides.focalPoint);
+  append(text, "--camera-view-up", options.camera.overrides.viewUp);
+  append(text, "--camera-view-angle", options.camera.overrides.viewAngleDegrees);
+  append(text, "--camera-parallel-scale", options.camera.overrides.parallelScale);
+  append(text, "--f-stop", options.camera.lens.fStop);
+  append(text, "--focus-distance", options.camera.lens.focusDistance);
+  if (options.camera.lens.blades > 0)
+    appendOption(text, "--aperture-blades", std::to_string(options.camera.lens.blades));
+  append(text, "--scene-origin", options.camera.sceneOrigin);
+  if (options.camera.resolution) {
+    appendOption(
+        text, "--resolution",
+        std::to_string(options.camera.resolution->x) + "," + std::to_string(options.camera.resolution->y));
   }
   return text;
 }

@@ -52,25 +52,28 @@ std::string stagesText(const StageSet& stages) {
 std::string layersText(const RenderOptions& o) {
   std::string names;
   const auto add = [&](std::string_view name) { names += (names.empty() ? "" : ",") + std::string(name); };
-  for (const Feature feature : o.aovFeatures) add(rowOf(feature).name);
-  if (o.aovSamples) add("samples");
-  if (o.aovVariance) add("variance");
+  for (const Feature feature : o.output.aovFeatures) add(rowOf(feature).name);
+  if (o.output.aovSamples) add("samples");
+  if (o.output.aovVariance) add("variance");
   return names;
 }
 
 void appendSampling(std::string& text, const RenderOptions& o) {
   const RenderOptions standard;
-  appendOption(text, "--spp", std::to_string(o.spp));
-  append(text, "--sample-offset", std::to_string(o.sampleOffset), o.sampleOffset == standard.sampleOffset);
-  append(text, "--seed", std::to_string(o.seed), o.seed == standard.seed);
-  append(text, "--bounces", o.bounces == kUnlimitedBounces ? "unlimited" : std::to_string(o.bounces),
-         o.bounces == standard.bounces);
-  append(text, "--rr-depth", std::to_string(o.rouletteDepth), o.rouletteDepth == standard.rouletteDepth);
-  append(text, "--clamp-indirect", exactText(o.clampIndirect), o.clampIndirect <= 0.0);
-  appendChoice(text, "--light-selection", kLightSelectionNames, o.lightSelection, standard.lightSelection);
-  appendChoice(text, "--light-reuse", kLightReuseNames, o.lightReuse, standard.lightReuse);
-  appendChoice(text, "--caustics", kCausticsNames, o.caustics, standard.caustics);
-  appendChoice(text, "--pixel-filter", kPixelFilterNames, o.pixelFilter, standard.pixelFilter);
+  appendOption(text, "--spp", std::to_string(o.sampling.spp));
+  append(text, "--sample-offset", std::to_string(o.sampling.sampleOffset),
+         o.sampling.sampleOffset == standard.sampling.sampleOffset);
+  append(text, "--seed", std::to_string(o.sampling.seed), o.sampling.seed == standard.sampling.seed);
+  append(text, "--bounces",
+         o.sampling.bounces == kUnlimitedBounces ? "unlimited" : std::to_string(o.sampling.bounces),
+         o.sampling.bounces == standard.sampling.bounces);
+  append(text, "--rr-depth", std::to_string(o.sampling.rouletteDepth),
+         o.sampling.rouletteDepth == standard.sampling.rouletteDepth);
+  append(text, "--clamp-indirect", exactText(o.sampling.clampIndirect), o.sampling.clampIndirect <= 0.0);
+  appendChoice(text, "--light-selection", kLightSelectionNames, o.light.selection, standard.light.selection);
+  appendChoice(text, "--light-reuse", kLightReuseNames, o.light.reuse, standard.light.reuse);
+  appendChoice(text, "--caustics", kCausticsNames, o.light.caustics, standard.light.caustics);
+  appendChoice(text, "--pixel-filter", kPixelFilterNames, o.camera.pixelFilter, standard.camera.pixelFilter);
 }
 
 void appendScene(std::string& text, const RenderOptions& o) {
@@ -81,20 +84,24 @@ void appendScene(std::string& text, const RenderOptions& o) {
   append(text, "--animation", s.animation, s.animation.empty());
   append(text, "--material-variant", s.materialVariant, s.materialVariant.empty());
   for (const std::string& node : s.hiddenNodes) appendOption(text, "--hide", node);
-  append(text, "--hdri-file", o.hdriFile.string(), o.hdriFile.empty());
-  if (o.studio) text += " --studio";
-  append(text, "--background-blur", exactText(o.backgroundBlur), o.backgroundBlur <= 0.0);
-  if (o.shadowCatcher)
-    appendOption(text, "--shadow-catcher", o.catcherHeight ? exactText(*o.catcherHeight) : "bottom");
-  append(text, "--hdri-rotation", exactText(o.hdriRotationDegrees), o.hdriRotationDegrees == 0.0);
-  append(text, "--hdri-intensity", exactText(o.hdriIntensity), o.hdriIntensity == standard.hdriIntensity);
-  const glm::dvec3 color(o.backgroundColor.value_or(glm::vec3(0.0f)));
+  append(text, "--hdri-file", o.light.hdriFile.string(), o.light.hdriFile.empty());
+  if (o.light.studio) text += " --studio";
+  append(text, "--background-blur", exactText(o.light.backgroundBlur), o.light.backgroundBlur <= 0.0);
+  if (o.light.shadowCatcher)
+    appendOption(text, "--shadow-catcher",
+                 o.light.catcherHeight ? exactText(*o.light.catcherHeight) : "bottom");
+  append(text, "--hdri-rotation", exactText(o.light.hdriRotationDegrees), o.light.hdriRotationDegrees == 0.0);
+  append(text, "--hdri-intensity", exactText(o.light.hdriIntensity),
+         o.light.hdriIntensity == standard.light.hdriIntensity);
+  const glm::dvec3 color(o.light.backgroundColor.value_or(glm::vec3(0.0f)));
   append(text, "--background-color", exactText(color.r) + "," + exactText(color.g) + "," + exactText(color.b),
-         !o.backgroundColor);
-  if (!o.background) text += " --no-background";
-  appendChoice(text, "--default-light", kDefaultLightNames, o.defaultLight, standard.defaultLight);
-  append(text, "--line-width", exactText(o.lineWidth), o.lineWidth == standard.lineWidth);
-  appendChoice(text, "--instancing", kInstancingNames, o.instancing, standard.instancing);
+         !o.light.backgroundColor);
+  if (!o.light.background) text += " --no-background";
+  appendChoice(text, "--default-light", kDefaultLightNames, o.light.defaultLight,
+               standard.light.defaultLight);
+  append(text, "--line-width", exactText(o.camera.lineWidth),
+         o.camera.lineWidth == standard.camera.lineWidth);
+  appendChoice(text, "--instancing", kInstancingNames, o.device.instancing, standard.device.instancing);
   const InputLimits& limits = o.limits;
   append(text, "--memory-limit", std::to_string(limits.memoryBytes),
          limits.memoryBytes == standard.limits.memoryBytes);
@@ -106,20 +113,21 @@ void appendScene(std::string& text, const RenderOptions& o) {
 
 void appendPicture(std::string& text, const RenderOptions& o) {
   const RenderOptions standard;
-  append(text, "--exposure", exactText(o.exposure), o.exposure == 0.0);
-  appendChoice(text, "--tone-map", toneMapNames(), o.toneMap, standard.toneMap);
+  append(text, "--exposure", exactText(o.output.exposure), o.output.exposure == 0.0);
+  appendChoice(text, "--tone-map", toneMapNames(), o.output.toneMap, standard.output.toneMap);
   append(text, "--aov", layersText(o), layersText(o).empty());
-  appendChoice(text, "--denoise", kDenoiseNames, o.denoise, standard.denoise);
-  append(text, "--oidn-library", o.oidnLibrary.string(), o.oidnLibrary.empty());
-  append(text, "--debug-view", std::string(rowOf(o.debugView).name), o.debugView == DebugView::None);
-  if (o.treeLevel) appendOption(text, "--tree-level", std::to_string(*o.treeLevel));
-  appendChoice(text, "--traversal", kTraversalNames, o.traversal, standard.traversal);
-  appendChoice(text, "--rendering-backend", kBackendNames, o.backend, standard.backend);
-  appendChoice(text, "--buffer-reads", kBufferReadsNames, o.bufferReads, standard.bufferReads);
-  appendChoice(text, "--dispatch", kDispatchNames, o.dispatch, standard.dispatch);
-  appendChoice(text, "--vector-width", kVectorWidthNames, o.vectorWidth, standard.vectorWidth);
-  appendChoice(text, "--schedule", kScheduleNames, o.schedule, standard.schedule);
-  append(text, "--shader-folder", o.shaderFolder.string(), o.shaderFolder.empty());
+  appendChoice(text, "--denoise", kDenoiseNames, o.output.denoise, standard.output.denoise);
+  append(text, "--oidn-library", o.output.oidnLibrary.string(), o.output.oidnLibrary.empty());
+  append(text, "--debug-view", std::string(rowOf(o.output.debugView).name),
+         o.output.debugView == DebugView::None);
+  if (o.output.treeLevel) appendOption(text, "--tree-level", std::to_string(*o.output.treeLevel));
+  appendChoice(text, "--traversal", kTraversalNames, o.device.traversal, standard.device.traversal);
+  appendChoice(text, "--rendering-backend", kBackendNames, o.device.backend, standard.device.backend);
+  appendChoice(text, "--buffer-reads", kBufferReadsNames, o.device.bufferReads, standard.device.bufferReads);
+  appendChoice(text, "--dispatch", kDispatchNames, o.device.dispatch, standard.device.dispatch);
+  appendChoice(text, "--vector-width", kVectorWidthNames, o.device.vectorWidth, standard.device.vectorWidth);
+  appendChoice(text, "--schedule", kScheduleNames, o.device.schedule, standard.device.schedule);
+  append(text, "--shader-folder", o.device.shaderFolder.string(), o.device.shaderFolder.empty());
 }
 
 /// What follows "render" or "view".
@@ -135,8 +143,8 @@ RenderOptions parseCommand(const std::string& name, std::vector<std::string> wor
     raw.render.defaultLight = standard.defaultLight;
   }
   app.add_option("-o,--output", raw.render.output);
-  addHalfOption(app, raw.render.options.encoding);
-  addPngDepthOption(app, raw.render.options.encoding);
+  addHalfOption(app, raw.render.options.output.encoding);
+  addPngDepthOption(app, raw.render.options.output.encoding);
   parseWords(app, std::move(words));
   return finishConfigured(raw.render, raw.config, app);
 }
@@ -147,10 +155,10 @@ std::string commandText(const RenderOptions& options) {
   std::string text = "fragtrace render";
   const std::string scene = options.scene.string();
   text += " " + quoted(scene.starts_with('-') ? "./" + scene : scene);
-  append(text, "--output", options.output.string(), options.output.empty());
-  if (options.encoding.half) text += " --half";
-  append(text, "--png-depth", std::to_string(options.encoding.pngBits),
-         options.encoding.pngBits == Encoding().pngBits);
+  append(text, "--output", options.output.file.string(), options.output.file.empty());
+  if (options.output.encoding.half) text += " --half";
+  append(text, "--png-depth", std::to_string(options.output.encoding.pngBits),
+         options.output.encoding.pngBits == Encoding().pngBits);
   for (const std::string& part : {cameraText(options), stagesText(options.stages)})
     text += (part.empty() ? "" : " ") + part;
   appendSampling(text, options);
@@ -168,18 +176,18 @@ RenderOptions withCommandText(const RenderOptions& current, const std::string& t
                       (words[1] == "render" || words[1] == "view");
   if (!isOurs) throw UsageError("this is no command of fragtrace: " + text);
   RenderOptions options = parseCommand(words[1], {words.begin() + 2, words.end()});
-  options.output = current.output;
-  options.toStandardOutput = current.toStandardOutput;
-  options.progress = current.progress;
-  options.resolution = current.resolution;
-  options.spp = current.spp;
-  options.noise = current.noise;
-  options.seconds = current.seconds;
-  options.backend = current.backend;
-  options.statsFile = current.statsFile;
-  options.shaderFolder = current.shaderFolder;
-  options.quiet = current.quiet;
-  options.verbose = current.verbose;
+  options.output.file = current.output.file;
+  options.output.toStandardOutput = current.output.toStandardOutput;
+  options.output.progress = current.output.progress;
+  options.camera.resolution = current.camera.resolution;
+  options.sampling.spp = current.sampling.spp;
+  options.sampling.noise = current.sampling.noise;
+  options.sampling.seconds = current.sampling.seconds;
+  options.device.backend = current.device.backend;
+  options.output.statsFile = current.output.statsFile;
+  options.device.shaderFolder = current.device.shaderFolder;
+  options.output.quiet = current.output.quiet;
+  options.output.verbose = current.output.verbose;
   return options;
 }
 

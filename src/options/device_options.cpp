@@ -43,7 +43,7 @@ void addDeviceOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--buffer-reads", raw.reads, described("--buffer-reads"))->capture_default_str();
   app.add_option("--vector-width", raw.vectorWidth, described("--vector-width"))->capture_default_str();
   app.add_option("--shader-folder", raw.shaderFolder, described("--shader-folder"))->type_name("FOLDER");
-  app.add_flag("--quiet", raw.options.quiet, described("--quiet"));
+  app.add_flag("--quiet", raw.options.output.quiet, described("--quiet"));
 }
 
 }  // namespace fragtrace

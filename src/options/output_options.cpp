@@ -22,11 +22,11 @@ void addOutputOptions(CLI::App& app, RawRender& raw) {
       ->delimiter(',')
       ->expected(4)
       ->check(wholeNumber(0, 65536));
-  app.add_option("--checkpoint", raw.options.checkpointSeconds,
+  app.add_option("--checkpoint", raw.options.output.checkpointSeconds,
                  "write the state of the render to OUTPUT.checkpoint every this many seconds, and when the "
                  "render is interrupted; the file is deleted when the picture is finished")
       ->check(CLI::Range(0.1, 1e7));
-  app.add_flag("--resume", raw.options.resume,
+  app.add_flag("--resume", raw.options.output.resume,
                "continue from OUTPUT.checkpoint; the result is the same picture; if there is no checkpoint, "
                "start from the beginning, or do nothing if the picture is finished");
   app.add_option("--format", raw.format,
@@ -46,11 +46,11 @@ void chooseStandardOutput(const RawRender& raw, RenderOptions& o) {
   }
   const auto refuse = [](const std::string& why) { throw UsageError("--output -: " + why); };
   if (raw.format.empty()) refuse("needs --format, one of " + joined(kFormatNames));
-  if (o.checkpointSeconds > 0.0 || o.resume) refuse("--checkpoint and --resume need a file");
+  if (o.output.checkpointSeconds > 0.0 || o.output.resume) refuse("--checkpoint and --resume need a file");
   if (raw.statsFile == "-")
     refuse("standard output takes the picture or the statistics (--stats -), not both");
-  o.toStandardOutput = true;
-  o.output = "standard output." + raw.format;
+  o.output.toStandardOutput = true;
+  o.output.file = "standard output." + raw.format;
 }
 
 }  // namespace fragtrace

@@ -48,16 +48,16 @@ void checkFinite(const RenderOptions& o) {
   const auto check = [](const char* option, double value) {
     if (!std::isfinite(value)) throw UsageError(std::string(option) + ": not a finite number");
   };
-  check("--exposure", o.exposure);
+  check("--exposure", o.output.exposure);
   // The library's ranges let NaN pass.
-  check("--noise", o.noise);
-  check("--time", o.seconds);
-  check("--checkpoint", o.checkpointSeconds);
-  check("--clamp-indirect", o.clampIndirect);
-  check("--hdri-rotation", o.hdriRotationDegrees);
-  check("--hdri-intensity", o.hdriIntensity);
-  check("--background-blur", o.backgroundBlur);
-  const glm::vec3 background = o.backgroundColor.value_or(glm::vec3(0.0f));
+  check("--noise", o.sampling.noise);
+  check("--time", o.sampling.seconds);
+  check("--checkpoint", o.output.checkpointSeconds);
+  check("--clamp-indirect", o.sampling.clampIndirect);
+  check("--hdri-rotation", o.light.hdriRotationDegrees);
+  check("--hdri-intensity", o.light.hdriIntensity);
+  check("--background-blur", o.light.backgroundBlur);
+  const glm::vec3 background = o.light.backgroundColor.value_or(glm::vec3(0.0f));
   for (int i = 0; i < 3; ++i) check("--background-color", background[i]);
   if (glm::any(glm::lessThan(background, glm::vec3(0.0f)))) throw UsageError("--background-color: below 0");
 }
@@ -77,40 +77,40 @@ void chooseLayers(const std::vector<std::string>& names, RenderOptions& o) {
   for (const std::string& name : names) {
     const auto index = choose<size_t>("--aov", name, known);
     if (name == "samples") {
-      o.aovSamples = true;
+      o.output.aovSamples = true;
     } else if (name == "variance") {
-      o.aovVariance = true;
+      o.output.aovVariance = true;
     } else if (const Feature feature = Feature(index + 1);
-               std::ranges::find(o.aovFeatures, feature) == o.aovFeatures.end()) {
+               std::ranges::find(o.output.aovFeatures, feature) == o.output.aovFeatures.end()) {
       if (isLightPart(feature) && !has(o.stages, Stage::Gi))
         throw UsageError("--aov " + name + ": only stage gi has it");
-      o.aovFeatures.push_back(feature);
+      o.output.aovFeatures.push_back(feature);
       // All that a filter needs.
-      if (feature == Feature::Guides) o.aovSamples = o.aovVariance = true;
+      if (feature == Feature::Guides) o.output.aovSamples = o.output.aovVariance = true;
     }
   }
 }
 
 /// What light paths cannot do, which auto leaves to paths from the camera.
 void checkCaustics(const RenderOptions& o) {
-  if (o.caustics != Caustics::On) return;
-  if (o.clampIndirect > 0.0)
+  if (o.light.caustics != Caustics::On) return;
+  if (o.sampling.clampIndirect > 0.0)
     throw UsageError("--caustics on: light paths cannot be clamped (--clamp-indirect)");
-  if (o.shadowCatcher)
+  if (o.light.shadowCatcher)
     throw UsageError("--caustics on: a shadow catcher shows no caustics (--shadow-catcher)");
-  if (std::ranges::any_of(o.aovFeatures, isLightPart))
+  if (std::ranges::any_of(o.output.aovFeatures, isLightPart))
     throw UsageError("--caustics on: emission, diffuse and specular (--aov) would not add up to the picture");
 }
 
 /// Pixels take light samples of others in the same pass of the whole picture, so that their errors are alike.
 void checkLightReuse(const RenderOptions& o) {
-  if (o.lightReuse != LightReuse::Spatial) return;
+  if (o.light.reuse != LightReuse::Spatial) return;
   const std::string refused = "--light-reuse spatial: not with ";
-  if (o.region) throw UsageError(refused + "--region: pixels take light from others");
+  if (o.camera.region) throw UsageError(refused + "--region: pixels take light from others");
   if (isAdaptive(o)) throw UsageError(refused + "--noise, --time: all pixels need as many samples");
-  if (o.denoise != Denoise::None)
+  if (o.output.denoise != Denoise::None)
     throw UsageError(refused + "--denoise: a filter takes what pixels share for the picture");
-  if (std::ranges::any_of(o.aovFeatures, isLightPart))
+  if (std::ranges::any_of(o.output.aovFeatures, isLightPart))
     throw UsageError(refused + "emission, diffuse, specular (--aov): they would not add up to the picture");
 }
 
@@ -166,19 +166,19 @@ void addSampleOptions(CLI::App& app, RawRender& raw) {
          "default without limit")
       ->check(wholeNumber(1, kMostSamples));
   app.add_option(
-         "--noise", o.noise,
+         "--noise", o.sampling.noise,
          "render until 95 % of the pixels that can be noisy have an estimated relative error below this, for "
          "example 0.01")
       ->check(CLI::Range(1e-5, 1.0));
-  app.add_option("--time", o.seconds,
+  app.add_option("--time", o.sampling.seconds,
                  "render for this many seconds, and place the samples where they help most")
       ->check(CLI::Range(0.01, 1e7));
   app.add_option(
-         "--sample-offset", o.sampleOffset,
+         "--sample-offset", o.sampling.sampleOffset,
          "index of the first sample in the sample sequence of this seed; for rendering in parts (see merge)")
       ->check(wholeNumber(0, kMostSamples))
       ->capture_default_str();
-  app.add_option("--seed", o.seed, "seed of the sample points, 0 to 4294967295")
+  app.add_option("--seed", o.sampling.seed, "seed of the sample points, 0 to 4294967295")
       ->check(wholeNumber(0, std::numeric_limits<uint32_t>::max()))
       ->capture_default_str();
 }
@@ -203,11 +203,11 @@ void addPathOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--bounces", raw.bounces,
                  "maximum number of scattering events per path, not counting smooth glass, or 'unlimited'")
       ->capture_default_str();
-  app.add_option("--rr-depth", o.rouletteDepth,
+  app.add_option("--rr-depth", o.sampling.rouletteDepth,
                  "Russian roulette may end a path from this scattering event on")
       ->check(wholeNumber(1, std::numeric_limits<int>::max() / 4))
       ->capture_default_str();
-  app.add_option("--clamp-indirect", o.clampIndirect,
+  app.add_option("--clamp-indirect", o.sampling.clampIndirect,
                  "maximum radiance that indirect light (two or more scattering events) adds to a sample; "
                  "this removes bright dots but darkens the picture")
       ->check(CLI::Range(1e-6, 1e30));
@@ -236,7 +236,7 @@ void addPictureOptions(CLI::App& app, RawRender& raw) {
   RenderOptions& o = raw.options;
   app.add_option("--pixel-filter", raw.pixelFilter, "pixel filter: " + joined(kPixelFilterNames))
       ->capture_default_str();
-  app.add_option("--line-width", o.lineWidth, "width of points and lines in pixels of the picture")
+  app.add_option("--line-width", o.camera.lineWidth, "width of points and lines in pixels of the picture")
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
   app.add_option("--aov", raw.aov,
@@ -247,10 +247,10 @@ void addPictureOptions(CLI::App& app, RawRender& raw) {
                  "show this instead of the picture: " + joined(namedDebugViews()))
       ->capture_default_str();
   app.add_option(
-         "--tree-level", o.treeLevel,
+         "--tree-level", o.output.treeLevel,
          "draw the boxes of this level of the bounding-volume hierarchy over a .png or .jpg; 0 is the root")
       ->check(wholeNumber(0, int(kMaxBvhDepth)));
-  app.add_option("--exposure", o.exposure, "exposure in stops (EV), for .png and .jpg")
+  app.add_option("--exposure", o.output.exposure, "exposure in stops (EV), for .png and .jpg")
       ->capture_default_str();
   app.add_option("--tone-map", raw.toneMap,
                  "tone curve of .png and .jpg: linear, reinhard, aces, agx, neutral")
@@ -284,13 +284,13 @@ StageSet stagesOf(const RawRender& raw) {
 /// Throws UsageError where the numbers of samples contradict each other.
 void settleSamples(const RawRender& raw, RenderOptions& o) {
   const bool adaptive = isAdaptive(o);
-  if (raw.spp) o.spp = *raw.spp;
-  if (adaptive && !raw.spp) o.spp = kMostSamples;
+  if (raw.spp) o.sampling.spp = *raw.spp;
+  if (adaptive && !raw.spp) o.sampling.spp = kMostSamples;
   // Two halves of two: one sample says nothing of its error.
-  if (adaptive && o.sampleOffset > 0)
+  if (adaptive && o.sampling.sampleOffset > 0)
     throw UsageError("--sample-offset: adaptive pictures (--noise, --time) are no parts of a render");
-  if (adaptive && o.spp < 4) throw UsageError("--spp: --noise and --time need at least 4");
-  if (int64_t(o.sampleOffset) + o.spp > kMostSamples && !adaptive)
+  if (adaptive && o.sampling.spp < 4) throw UsageError("--spp: --noise and --time need at least 4");
+  if (int64_t(o.sampling.sampleOffset) + o.sampling.spp > kMostSamples && !adaptive)
     throw UsageError("--sample-offset: with --spp it goes beyond sample " + std::to_string(kMostSamples));
 }
 
@@ -299,42 +299,42 @@ void settleSamples(const RawRender& raw, RenderOptions& o) {
 RenderOptions finishRender(const RawRender& raw) {
   RenderOptions o = raw.options;
   o.scene = raw.scene;
-  o.output = raw.output;
+  o.output.file = raw.output;
   chooseStandardOutput(raw, o);
-  if (!raw.output.empty() && !isWritableImageName(o.output)) {
+  if (!raw.output.empty() && !isWritableImageName(o.output.file)) {
     throw UsageError("--output: '" + raw.output + "' ends in none of .png, .jpg, .exr, .hdr, .pfm");
   }
   finishCamera(raw.camera, o);
   o.stages = stagesOf(raw);
-  o.bounces = parseBounces(raw.bounces);
+  o.sampling.bounces = parseBounces(raw.bounces);
   finishSurroundings(raw, o);
-  if (!raw.region.empty()) o.region = regionOf(raw.region);
-  o.lightSelection = choose<LightSelection>("--light-selection", raw.lightSelection, kLightSelectionNames);
-  o.lightReuse = choose<LightReuse>("--light-reuse", raw.lightReuse, kLightReuseNames);
-  o.caustics = choose<Caustics>("--caustics", raw.caustics, kCausticsNames);
-  o.pixelFilter = choose<PixelFilter>("--pixel-filter", raw.pixelFilter, kPixelFilterNames);
-  o.toneMap = choose<ToneMap>("--tone-map", raw.toneMap, toneMapNames());
-  o.traversal = choose<TraversalMethod>("--traversal", raw.traversal, kTraversalNames);
-  o.instancing = choose<Instancing>("--instancing", raw.instancing, kInstancingNames);
-  o.backend = choose<Backend>("--rendering-backend", raw.backend, kBackendNames);
-  o.bufferReads = choose<BufferReads>("--buffer-reads", raw.reads, kBufferReadsNames);
-  o.dispatch = choose<Dispatch>("--dispatch", raw.dispatch, kDispatchNames);
-  o.vectorWidth = choose<VectorWidth>("--vector-width", raw.vectorWidth, kVectorWidthNames);
-  o.schedule = choose<Schedule>("--schedule", raw.schedule, kScheduleNames);
-  o.statsFile = raw.statsFile;
-  o.shaderFolder = raw.shaderFolder;
+  if (!raw.region.empty()) o.camera.region = regionOf(raw.region);
+  o.light.selection = choose<LightSelection>("--light-selection", raw.lightSelection, kLightSelectionNames);
+  o.light.reuse = choose<LightReuse>("--light-reuse", raw.lightReuse, kLightReuseNames);
+  o.light.caustics = choose<Caustics>("--caustics", raw.caustics, kCausticsNames);
+  o.camera.pixelFilter = choose<PixelFilter>("--pixel-filter", raw.pixelFilter, kPixelFilterNames);
+  o.output.toneMap = choose<ToneMap>("--tone-map", raw.toneMap, toneMapNames());
+  o.device.traversal = choose<TraversalMethod>("--traversal", raw.traversal, kTraversalNames);
+  o.device.instancing = choose<Instancing>("--instancing", raw.instancing, kInstancingNames);
+  o.device.backend = choose<Backend>("--rendering-backend", raw.backend, kBackendNames);
+  o.device.bufferReads = choose<BufferReads>("--buffer-reads", raw.reads, kBufferReadsNames);
+  o.device.dispatch = choose<Dispatch>("--dispatch", raw.dispatch, kDispatchNames);
+  o.device.vectorWidth = choose<VectorWidth>("--vector-width", raw.vectorWidth, kVectorWidthNames);
+  o.device.schedule = choose<Schedule>("--schedule", raw.schedule, kScheduleNames);
+  o.output.statsFile = raw.statsFile;
+  o.device.shaderFolder = raw.shaderFolder;
   chooseLayers(raw.aov, o);
   checkCaustics(o);
-  if (!raw.aov.empty() && !raw.anyOutput && formatOfName(o.output) != ImageFormat::OpenExr) {
+  if (!raw.aov.empty() && !raw.anyOutput && formatOfName(o.output.file) != ImageFormat::OpenExr) {
     throw UsageError("--aov: only .exr files hold more layers");
   }
-  if (o.treeLevel && !raw.output.empty() && !isDisplayFormat(o.output))
+  if (o.output.treeLevel && !raw.output.empty() && !isDisplayFormat(o.output.file))
     throw UsageError("--tree-level: boxes are drawn over a .png or .jpg only");
-  o.progress = choose<ProgressForm>("--progress", raw.progress, kProgressNames);
-  o.denoise = choose<Denoise>("--denoise", raw.denoise, kDenoiseNames);
-  o.oidnLibrary = raw.oidnLibrary;
-  o.debugView = debugViewNamed(raw.debugView);
-  if (o.debugView == DebugView::Visits) o.stages.set(size_t(Stage::BvhHeatmap));
+  o.output.progress = choose<ProgressForm>("--progress", raw.progress, kProgressNames);
+  o.output.denoise = choose<Denoise>("--denoise", raw.denoise, kDenoiseNames);
+  o.output.oidnLibrary = raw.oidnLibrary;
+  o.output.debugView = debugViewNamed(raw.debugView);
+  if (o.output.debugView == DebugView::Visits) o.stages.set(size_t(Stage::BvhHeatmap));
   settleSamples(raw, o);
   checkLightReuse(o);
   checkFinite(o);
@@ -360,8 +360,9 @@ void addRenderOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--shader-folder", raw.shaderFolder,
                  "read the shaders from this folder instead of the built-in ones")
       ->type_name("FOLDER");
-  app.add_flag("--quiet", o.quiet, "print errors only; benchmarks still print their tables");
-  app.add_flag("--verbose", o.verbose, "print the choices that the program makes, and times and sizes");
+  app.add_flag("--quiet", o.output.quiet, "print errors only; benchmarks still print their tables");
+  app.add_flag("--verbose", o.output.verbose,
+               "print the choices that the program makes, and times and sizes");
 }
 
 void addDenoiseOption(CLI::App& app, RawRender& raw) {

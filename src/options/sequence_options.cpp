@@ -61,7 +61,7 @@ void addSequenceOptions(CLI::App& app, RawSequence& raw) {
 }
 
 void finishSequence(const RawSequence& raw, RenderOptions& options) {
-  const bool isNumbered = options.output.filename().string().find('#') != std::string::npos;
+  const bool isNumbered = options.output.file.filename().string().find('#') != std::string::npos;
   const bool asked = !raw.frames.empty() || raw.turntable > 0;
   if (!asked) {
     if (raw.keep) throw UsageError("--continue: goes with --frames or --turntable");
@@ -79,18 +79,19 @@ void finishSequence(const RawSequence& raw, RenderOptions& options) {
   const char* option = raw.turntable > 0 ? "--turntable" : "--frames";
   const auto refuse = [&](const std::string& why) { throw UsageError(std::string(option) + ": " + why); };
   if (!isNumbered) refuse("the name of --output needs #### where the number of the picture goes");
-  if (!options.statsFile.empty() && options.statsFile.filename().string().find('#') == std::string::npos)
+  if (!options.output.statsFile.empty() &&
+      options.output.statsFile.filename().string().find('#') == std::string::npos)
     refuse("the name of --stats needs #### where the number of the picture goes");
   if (options.selection.animationTime && raw.turntable == 0)
     refuse("--animation-time is of a single picture");
-  if (options.camera.fit != Fit::None && raw.turntable == 0)
+  if (options.camera.overrides.fit != Fit::None && raw.turntable == 0)
     refuse(
         "--fit would place another camera for each picture; --camera-orbit or --camera-position place one");
-  if (options.checkpointSeconds > 0.0 || options.resume)
+  if (options.output.checkpointSeconds > 0.0 || options.output.resume)
     refuse("--checkpoint and --resume are of a single picture; --continue goes on with a sequence");
-  if (options.traversal == TraversalMethod::Literals)
+  if (options.device.traversal == TraversalMethod::Literals)
     refuse("--traversal literals would compile a shader for each picture");
-  options.sequence = sequence;
+  options.output.sequence = sequence;
 }
 
 }  // namespace fragtrace

@@ -16,12 +16,12 @@ constexpr double kMostIntensity = 1e6;
 
 void chooseCatcher(const std::string& text, RenderOptions& o) {
   if (text.empty()) return;
-  o.shadowCatcher = true;
+  o.light.shadowCatcher = true;
   if (text == "bottom") return;
   double height = 0.0;
   if (!CLI::detail::lexical_cast(text, height) || !std::isfinite(height))
     throw UsageError("--shadow-catcher: '" + text + "' is neither a height nor 'bottom'");
-  o.catcherHeight = height;
+  o.light.catcherHeight = height;
 }
 
 }  // namespace
@@ -31,19 +31,19 @@ void addSurroundingsOptions(CLI::App& app, RawRender& raw) {
   app.add_option("--hdri-file", raw.hdriFile, "equirectangular environment map: .hdr, .exr, .pfm")
       ->type_name("FILE");
   app.add_flag(
-      "--studio", o.studio,
+      "--studio", o.light.studio,
       "light the scene with a built-in environment: a key, a fill and a rim light, as soft boxes that the "
       "camera does not see, in front of a grey backdrop");
-  app.add_option("--hdri-rotation", o.hdriRotationDegrees,
+  app.add_option("--hdri-rotation", o.light.hdriRotationDegrees,
                  "rotation of the environment map about +Y, in degrees")
       ->capture_default_str();
-  app.add_option("--hdri-intensity", o.hdriIntensity,
+  app.add_option("--hdri-intensity", o.light.hdriIntensity,
                  "multiply the light of the environment by this factor: of a map, of the studio, or of what "
                  "lights a scene by default")
       ->check(CLI::Range(0.0, kMostIntensity))
       ->capture_default_str();
   app.add_option(
-         "--background-blur", o.backgroundBlur,
+         "--background-blur", o.light.backgroundBlur,
          "blur the environment map where the camera sees it directly: standard deviation in degrees; the "
          "light stays the same")
       ->check(CLI::Range(kLeastBlur, 90.0));
@@ -68,16 +68,17 @@ void addSurroundingsOptions(CLI::App& app, RawRender& raw) {
 
 void finishSurroundings(const RawRender& raw, RenderOptions& o) {
   if (!raw.backgroundColor.empty())
-    o.backgroundColor = glm::vec3(raw.backgroundColor[0], raw.backgroundColor[1], raw.backgroundColor[2]);
-  o.hdriFile = raw.hdriFile;
-  if (o.studio && !o.hdriFile.empty()) throw UsageError("--studio: there is an --hdri-file, too");
-  if (o.studio && o.backgroundBlur > 0.0)
+    o.light.backgroundColor =
+        glm::vec3(raw.backgroundColor[0], raw.backgroundColor[1], raw.backgroundColor[2]);
+  o.light.hdriFile = raw.hdriFile;
+  if (o.light.studio && !o.light.hdriFile.empty()) throw UsageError("--studio: there is an --hdri-file, too");
+  if (o.light.studio && o.light.backgroundBlur > 0.0)
     throw UsageError("--background-blur: the backdrop of --studio has nothing to blur");
   chooseCatcher(raw.shadowCatcher, o);
-  o.background = !raw.noBackground;
-  o.defaultLight = raw.noDefaultLight
-                       ? DefaultLight::None
-                       : choose<DefaultLight>("--default-light", raw.defaultLight, kDefaultLightNames);
+  o.light.background = !raw.noBackground;
+  o.light.defaultLight = raw.noDefaultLight
+                             ? DefaultLight::None
+                             : choose<DefaultLight>("--default-light", raw.defaultLight, kDefaultLightNames);
 }
 
 }  // namespace fragtrace

@@ -57,12 +57,12 @@ ViewOptions finishView(RawView& raw, CLI::App& command) {
   if (!raw.reference.empty() && command.get_option("--default-light")->empty())
     raw.render.defaultLight = "white";
   options.render = finishConfigured(raw.render, raw.config, command);
-  const glm::ivec2 size = options.render.resolution.value_or(glm::ivec2(1));
+  const glm::ivec2 size = options.render.camera.resolution.value_or(glm::ivec2(1));
   if (size.x > kMostWindowPixels || size.y > kMostWindowPixels)
     throw UsageError("--resolution: the viewer's picture has at most " + std::to_string(kMostWindowPixels) +
                      " pixels a side");
-  if (!raw.render.spp) options.render.spp = kMostSamples - options.render.sampleOffset;
-  if (options.render.noise <= 0.0) options.render.noise = kNoise;
+  if (!raw.render.spp) options.render.sampling.spp = kMostSamples - options.render.sampling.sampleOffset;
+  if (options.render.sampling.noise <= 0.0) options.render.sampling.noise = kNoise;
   options.watch = raw.watch;
   options.statusFile = raw.statusFile;
   options.reference = raw.reference;

@@ -37,21 +37,21 @@ bool isFile(const std::filesystem::path& path) {
 bool isWholePicture(const RenderOptions& options) {
   Image picture;
   try {
-    picture = readStoredImage(options.output, options.limits.memoryBytes);
+    picture = readStoredImage(options.output.file, options.limits.memoryBytes);
   } catch (const InputError&) {
-    say(options, options.output.string() + " is no whole picture: it is drawn anew");
+    say(options, options.output.file.string() + " is no whole picture: it is drawn anew");
     return false;
   }
   if (picture.attributes.contains(kInterruptedAttribute)) return false;
   if (!picture.attributes.contains(kSettingsAttribute)) return true;
-  const Provenance made = provenanceOf(picture, options.output);
+  const Provenance made = provenanceOf(picture, options.output.file);
   const auto check = [&](const char* option, int64_t there, int64_t asked) {
     if (there != asked)
-      throw UsageError("--resume: " + options.output.string() + " is finished with " + option + " " +
+      throw UsageError("--resume: " + options.output.file.string() + " is finished with " + option + " " +
                        std::to_string(there) + ", not " + std::to_string(asked));
   };
-  check("--seed", made.seed, options.seed);
-  if (made.uniform) check("--spp", made.samples, options.spp);
+  check("--seed", made.seed, options.sampling.seed);
+  if (made.uniform) check("--spp", made.samples, options.sampling.spp);
   return true;
 }
 
@@ -59,7 +59,7 @@ bool isWholePicture(const RenderOptions& options) {
 void checkShape(const Checkpoint& c, const PictureJob& job, const DrawingPlan& plan) {
   const auto check = [&](bool right) {
     if (!right)
-      throw InputError(checkpointOf(job.options.output).string() + ": does not fit its own settings");
+      throw InputError(checkpointOf(job.options.output.file).string() + ": does not fit its own settings");
   };
   check(c.part >= 0 && size_t(c.part) < plan.parts.size());
   const glm::ivec2 size = plan.parts[size_t(c.part)].size;
@@ -72,7 +72,7 @@ void checkShape(const Checkpoint& c, const PictureJob& job, const DrawingPlan& p
   for (const FilmPixels& look : c.looks) check(look.size == size);
   check(c.adaptive.samples.size() == (adaptive ? AdaptiveRun::blocksOf(size) : 0u));
   for (const std::vector<int32_t>& counts : {c.adaptive.samples, c.adaptive.targets})
-    check(std::ranges::all_of(counts, [&](int32_t n) { return n >= 0 && n <= job.options.spp; }));
+    check(std::ranges::all_of(counts, [&](int32_t n) { return n >= 0 && n <= job.options.sampling.spp; }));
   const bool first = c.part == 0;
   check(first == c.picture.values.empty());
   check(first || glm::ivec2(c.picture.width, c.picture.height) == job.loaded.region.size);
@@ -123,12 +123,12 @@ std::string jobText(const PictureJob& job, const DrawingPlan& plan) {
                 static_cast<unsigned long long>(
                     hashOfText(variantName(job.tracer.variant) + job.tracer.variant.literals)));
   json["shader (--traversal, --schedule, --dispatch, --buffer-reads)"] = shader;
-  json["shader_folder"] = options.shaderFolder.string();
-  json["seed"] = options.seed;
-  json["sample_offset"] = options.sampleOffset;
-  json["spp"] = options.spp;
-  json["noise"] = options.noise;
-  json["time"] = options.seconds;
+  json["shader_folder"] = options.device.shaderFolder.string();
+  json["seed"] = options.sampling.seed;
+  json["sample_offset"] = options.sampling.sampleOffset;
+  json["spp"] = options.sampling.spp;
+  json["noise"] = options.sampling.noise;
+  json["time"] = options.sampling.seconds;
   json["--denoise or --aov denoising"] = looksOnTheWay(options);
   for (const Region& part : plan.parts)
     json["parts"].push_back({part.corner.x, part.corner.y, part.size.x, part.size.y});
@@ -136,8 +136,8 @@ std::string jobText(const PictureJob& job, const DrawingPlan& plan) {
 }
 
 std::optional<Checkpoint> readCheckpoint(const PictureJob& job, const DrawingPlan& plan) {
-  if (!job.options.resume) return std::nullopt;
-  const std::filesystem::path path = checkpointOf(job.options.output);
+  if (!job.options.output.resume) return std::nullopt;
+  const std::filesystem::path path = checkpointOf(job.options.output.file);
   if (!isFile(path)) {
     say(job.options, "there is no " + path.string() + ": the picture begins anew");
     return std::nullopt;
@@ -157,23 +157,23 @@ std::optional<Checkpoint> readCheckpoint(const PictureJob& job, const DrawingPla
 }
 
 bool isFinished(const RenderOptions& options) {
-  const std::filesystem::path checkpoint = checkpointOf(options.output);
+  const std::filesystem::path checkpoint = checkpointOf(options.output.file);
   if (isFile(checkpoint)) {
-    if (!options.resume)
+    if (!options.output.resume)
       say(options, "warning: " + checkpoint.string() + " is not used without --resume" +
-                       (options.checkpointSeconds > 0.0 ? ", and will be replaced" : ""));
+                       (options.output.checkpointSeconds > 0.0 ? ", and will be replaced" : ""));
     return false;
   }
-  const bool there = isFile(options.output) && isFile(options.scene);
-  if (!options.resume || !there || !isWholePicture(options)) return false;
-  say(options, options.output.string() + " is finished: there is no checkpoint beside it");
+  const bool there = isFile(options.output.file) && isFile(options.scene);
+  if (!options.output.resume || !there || !isWholePicture(options)) return false;
+  say(options, options.output.file.string() + " is finished: there is no checkpoint beside it");
   return true;
 }
 
 CheckpointKeeper::CheckpointKeeper(const RenderOptions& options)
     : options_(options),
-      path_(checkpointOf(options.output)),
-      period_(options.checkpointSeconds),
+      path_(checkpointOf(options.output.file)),
+      period_(options.output.checkpointSeconds),
       kept_(keepsCheckpoint(options)),
       last_(steadyMilliseconds()) {}
 

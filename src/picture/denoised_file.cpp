@@ -35,7 +35,7 @@ void checkVarianceLayers(const Image& layers, const std::filesystem::path& name)
 std::optional<Image> byVariance(const Image& layers, const std::filesystem::path& name,
                                 const RenderOptions& options, DenoiseStatistics& stats) {
   checkVarianceLayers(layers, name);
-  const auto context = makeContext(options.backend, options.vectorWidth);
+  const auto context = makeContext(options.device.backend, options.device.vectorWidth);
   return filtered(layers, options, std::nullopt, stats);
 }
 

@@ -26,36 +26,36 @@ std::vector<std::string> noisyNames() { return {"noisy.R", "noisy.G", "noisy.B"}
 
 /// Whether the channel is there for the filter alone.
 bool isForTheFilter(const std::string& channel, const RenderOptions& options) {
-  if (channel == "samples.Y") return !options.aovSamples;
-  if (channel == "variance.Y") return !options.aovVariance;
+  if (channel == "samples.Y") return !options.output.aovSamples;
+  if (channel == "variance.Y") return !options.output.aovVariance;
   return channel.starts_with("denoising.") && !hasGuides(options);
 }
 
 }  // namespace
 
 bool hasGuides(const RenderOptions& options) {
-  return std::ranges::find(options.aovFeatures, Feature::Guides) != options.aovFeatures.end();
+  return std::ranges::find(options.output.aovFeatures, Feature::Guides) != options.output.aovFeatures.end();
 }
 
 std::string whyNotDenoised(const RenderOptions& options) {
-  if (options.denoise == Denoise::None) return "--denoise";
+  if (options.output.denoise == Denoise::None) return "--denoise";
   return whyWithoutNoise(options);
 }
 
 std::optional<OidnLibrary> openDenoiser(RenderOptions& options) {
   if (!whyNotDenoised(options).empty()) return std::nullopt;
-  if (options.denoise != Denoise::Oidn && options.denoise != Denoise::Auto) return std::nullopt;
+  if (options.output.denoise != Denoise::Oidn && options.output.denoise != Denoise::Auto) return std::nullopt;
   try {
-    OidnLibrary library = openOidn(options.oidnLibrary);
-    options.denoise = Denoise::Oidn;
+    OidnLibrary library = openOidn(options.output.oidnLibrary);
+    options.output.denoise = Denoise::Oidn;
     return library;
   } catch (const UsageError& error) {
-    if (options.denoise == Denoise::Oidn) throw;
-    options.denoise = Denoise::Variance;
+    if (options.output.denoise == Denoise::Oidn) throw;
+    options.output.denoise = Denoise::Variance;
     const std::string text = std::string("--denoise auto: the variance filter: ") + error.what();
-    if (namesOidn(options.oidnLibrary))
+    if (namesOidn(options.output.oidnLibrary))
       say(options, "warning: " + text);
-    else if (options.verbose)
+    else if (options.output.verbose)
       say(options, text);
   }
   return std::nullopt;
@@ -64,20 +64,21 @@ std::optional<OidnLibrary> openDenoiser(RenderOptions& options) {
 RenderOptions withGuides(const RenderOptions& options) {
   RenderOptions drawn = options;
   if (!whyNotDenoised(options).empty()) return drawn;
-  if (options.denoise == Denoise::Variance) drawn.aovSamples = drawn.aovVariance = true;
-  if (!hasGuides(options)) drawn.aovFeatures.push_back(Feature::Guides);
+  if (options.output.denoise == Denoise::Variance) drawn.output.aovSamples = drawn.output.aovVariance = true;
+  if (!hasGuides(options)) drawn.output.aovFeatures.push_back(Feature::Guides);
   return drawn;
 }
 
 PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn) {
   if (!oidn) {
     const double start = steadyMilliseconds();
-    const auto filter = std::make_shared<const VarianceFilter>(shaderSource(options.shaderFolder));
+    const auto filter = std::make_shared<const VarianceFilter>(shaderSource(options.device.shaderFolder));
     return {std::string(kVarianceFilter), steadyMilliseconds() - start,
             [filter](const Image& picture) { return filter->filtered(picture); }};
   }
   const auto apply = [library = *oidn, memory = options.limits.memoryBytes,
-                      quiet = options.quiet || options.progress == ProgressForm::None](const Image& picture) {
+                      quiet = options.output.quiet ||
+                              options.output.progress == ProgressForm::None](const Image& picture) {
     ProgressBar bar("denoising", quiet);
     const int before = interrupts();
     std::optional<Image> result = denoisedByOidn(picture, library, memory, [&](double fraction) {
@@ -116,7 +117,7 @@ void keepNoisy(Image& picture, const Image& noisy, const std::string& filter) {
 
 void denoise(Image& picture, const RenderOptions& options, const std::optional<OidnLibrary>& oidn,
              Statistics& stats) {
-  if (options.denoise == Denoise::None) return;
+  if (options.output.denoise == Denoise::None) return;
   stats.denoise.emplace().skipped = whyNotDenoised(options);
   if (!stats.denoise->skipped.empty()) {
     say(options, "the picture is not filtered: " + stats.denoise->skipped);

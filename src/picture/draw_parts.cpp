@@ -22,8 +22,8 @@ namespace {
 
 /// A sequence has no bars, but its pictures' progress is told to other programs.
 bool hidesProgress(const PictureJob& job) {
-  const ProgressForm form = job.options.progress;
-  return job.options.quiet || form == ProgressForm::None ||
+  const ProgressForm form = job.options.output.progress;
+  return job.options.output.quiet || form == ProgressForm::None ||
          (!job.showsProgress && form != ProgressForm::Json);
 }
 
@@ -76,7 +76,8 @@ std::vector<double> measureFeatures(const PictureJob& job, Film& film, const Vie
 /// known, but these at least.
 double secondsOfFeatures(std::span<const double> secondsPerSample, const RenderOptions& options) {
   constexpr int kLeastAdaptive = 64;
-  const int samples = isAdaptive(options) ? std::min(options.spp, kLeastAdaptive) : options.spp;
+  const int samples =
+      isAdaptive(options) ? std::min(options.sampling.spp, kLeastAdaptive) : options.sampling.spp;
   return samples * std::accumulate(secondsPerSample.begin(), secondsPerSample.end(), 0.0);
 }
 
@@ -181,19 +182,20 @@ struct PartRun {
 Drawing drawAdaptively(const PartRun& part, glm::ivec2 size) {
   const RenderOptions& options = part.job.options;
   // What a part leaves of its time is no other's, which would have less noise than the rest.
-  const double seconds = options.seconds * part.share.own;
+  const double seconds = options.sampling.seconds * part.share.own;
   AdaptiveRun run(size);
   if (part.from != nullptr) {
     for (size_t half : {0, 1}) run.films[half].load(part.from->films[half]);
     run.state = part.from->adaptive;
   }
   const auto keep = [&] { part.keep({run.films[0].save(), run.films[1].save()}, {}, run.state); };
-  AdaptivePicture picture =
-      renderAdaptively(*part.job.tracer.renderer, run, part.view, {options.noise, seconds, options.spp},
-                       part.stats.times, part.keeping(keep));
+  AdaptivePicture picture = renderAdaptively(*part.job.tracer.renderer, run, part.view,
+                                             {options.sampling.noise, seconds, options.sampling.spp},
+                                             part.stats.times, part.keeping(keep));
   part.stats.complete = !picture.stopped;
-  const AdaptiveStatistics own{options.noise,  options.seconds, picture.error, picture.share,
-                               picture.rounds, picture.known,   picture.black};
+  const AdaptiveStatistics own{options.sampling.noise, options.sampling.seconds, picture.error,
+                               picture.share,          picture.rounds,           picture.known,
+                               picture.black};
   part.stats.adaptive = part.stats.adaptive ? joined(*part.stats.adaptive, own) : own;
   return {std::move(picture.pixels), std::move(picture.variance), {}};
 }
@@ -205,8 +207,8 @@ Drawing drawEvenly(const PartRun& part, Film film) {
     const FilmState& state = part.from->films.front();
     sampled.film.load(state);
     sampled.looks = part.from->looks;
-    sampled.fewest =
-        int(std::min<uint32_t>(totalsOf(sampled.film.read()).fewestSamples, uint32_t(part.job.options.spp)));
+    sampled.fewest = int(std::min<uint32_t>(totalsOf(sampled.film.read()).fewestSamples,
+                                            uint32_t(part.job.options.sampling.spp)));
   }
   const auto keep = [&] { part.keep({sampled.film.save()}, sampled.looks, {}); };
   Drawing drawing;
@@ -217,7 +219,7 @@ Drawing drawEvenly(const PartRun& part, Film film) {
 
 /// Without the numbers of samples, where nobody has asked for them and all are the same.
 Image withoutNeedlessCounts(Image picture, const RenderOptions& options, const Statistics& stats) {
-  const bool needed = stats.adaptive || !stats.complete || withGuides(options).aovSamples;
+  const bool needed = stats.adaptive || !stats.complete || withGuides(options).output.aovSamples;
   if (needed || !findChannel(picture, "samples.Y")) return picture;
   std::vector<std::string> channels = picture.channels;
   std::erase(channels, "samples.Y");
@@ -235,7 +237,7 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
   // merge needs the samples of each pixel where these differ.
   const bool keepsCounts = holdsLayers(options) && !showsColors(options);
   ProgressBar bar("rendering", hidesProgress(job),
-                  isAdaptive(options) ? std::nullopt : std::optional(options.spp));
+                  isAdaptive(options) ? std::nullopt : std::optional(options.sampling.spp));
   Image picture;
   size_t i = 0;
   if (from) {

@@ -14,27 +14,27 @@ namespace fragtrace {
 bool looksOnTheWay(const RenderOptions& options) {
   constexpr int kFewest = 4;
   const RenderOptions drawn = withGuides(options);
-  return drawn.aovVariance && hasGuides(drawn) && options.spp >= kFewest;
+  return drawn.output.aovVariance && hasGuides(drawn) && options.sampling.spp >= kFewest;
 }
 
 bool drawAllSamples(Renderer& renderer, SampledFilm& sampled, const RenderOptions& options, const View& view,
                     RenderTimes& times, const Renderer::Progress& progress, Drawing& drawing) {
   const bool looks = looksOnTheWay(options);
   std::vector<int> steps;
-  if (looks) steps = {options.spp / 4, options.spp / 2};
-  steps.push_back(options.spp);
+  if (looks) steps = {options.sampling.spp / 4, options.sampling.spp / 2};
+  steps.push_back(options.sampling.spp);
   int from = sampled.fewest;
   for (size_t step = sampled.looks.size(); step < steps.size(); ++step) {
     const int to = steps[step];
     const auto partly = [&](double fraction) {
-      return progress((from + fraction * (to - from)) / options.spp);
+      return progress((from + fraction * (to - from)) / options.sampling.spp);
     };
     if (!renderer.addSamples(sampled.film, view, from, to, times, partly)) {
       drawing.pixels = sampled.film.read();
       return false;
     }
     from = to;
-    if (to < options.spp) sampled.looks.push_back(sampled.film.read());
+    if (to < options.sampling.spp) sampled.looks.push_back(sampled.film.read());
   }
   drawing.pixels = sampled.film.read();
   if (looks) drawing.observed = observedVariance(sampled.looks[0], sampled.looks[1], drawing.pixels);
@@ -44,9 +44,10 @@ bool drawAllSamples(Renderer& renderer, SampledFilm& sampled, const RenderOption
 Image pictureOf(const Drawing& drawing, const RenderOptions& options, const ShaderVariant& variant,
                 bool withSamples) {
   const RenderOptions drawn = withGuides(options);
-  Image picture = shownPicture(options, variant, drawing.pixels,
-                               {!options.background, drawn.aovSamples || withSamples, drawn.aovVariance},
-                               drawing.variance);
+  Image picture = shownPicture(
+      options, variant, drawing.pixels,
+      {!options.light.background, drawn.output.aovSamples || withSamples, drawn.output.aovVariance},
+      drawing.variance);
   if (drawing.observed.empty()) return picture;
   const auto observed = [&](size_t i) { return drawing.observed[i]; };
   appendChannels(picture, imageOfNumbers(drawing.pixels.size, observed), {kObservedChannel});
@@ -56,7 +57,8 @@ Image pictureOf(const Drawing& drawing, const RenderOptions& options, const Shad
 int samplesOfLayer(const RenderOptions& options, Feature feature, int ofPicture) {
   if (feature == Feature::Object || feature == Feature::Material) return std::min(ofPicture, 1);
   if (feature == Feature::Guides) return std::min(ofPicture, kFewLayerSamples);
-  const bool asked = std::ranges::find(options.aovFeatures, feature) != options.aovFeatures.end();
+  const bool asked =
+      std::ranges::find(options.output.aovFeatures, feature) != options.output.aovFeatures.end();
   return asked ? ofPicture : std::min(ofPicture, kFewLayerSamples);
 }
 

@@ -22,10 +22,10 @@ namespace {
 /// back.
 void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, const ShaderVariant& variant,
                       const Statistics& stats) {
-  const bool chosen = !loaded.scene.cameras.empty() || options.camera != CameraOverrides();
+  const bool chosen = !loaded.scene.cameras.empty() || options.camera.overrides != CameraOverrides();
   const bool nothing = stats.scene.triangles == 0 && stats.scene.spheres == 0;
   const bool seen = stats.film.hitPixels > 0 || stats.film.samples == 0;
-  if (chosen || options.region || nothing || seen || has(variant.stages, Stage::BvhHeatmap)) return;
+  if (chosen || options.camera.region || nothing || seen || has(variant.stages, Stage::BvhHeatmap)) return;
   say(options,
       "warning: the default view shows nothing of the scene; --camera-position and --camera-focal-point "
       "choose another");
@@ -37,7 +37,7 @@ void sayWhatWasCut(const RenderOptions& options, const Statistics& stats) {
   if (cutShare(stats) <= kNoticed) return;
   char share[32];
   std::snprintf(share, sizeof share, "%.2g", cutShare(stats));
-  say(options, "warning: --bounces " + std::to_string(options.bounces) +
+  say(options, "warning: --bounces " + std::to_string(options.sampling.bounces) +
                    " cut paths that could still carry " + share +
                    " of the light (cut_share); a larger value makes the picture brighter");
 }
@@ -50,29 +50,30 @@ bool isUniform(const Statistics& stats) {
 /// An .exr says how it was made, as merge needs it.
 void setProvenanceOf(Image& picture, const RenderOptions& options, const LoadedScene& loaded,
                      const Tracer& tracer, const Statistics& stats) {
-  if (!holdsLayers(options) || options.debugView != DebugView::None) return;
-  Provenance made{settingsText(options, loaded, tracer), options.seed, options.sampleOffset,
+  if (!holdsLayers(options) || options.output.debugView != DebugView::None) return;
+  Provenance made{settingsText(options, loaded, tracer), options.sampling.seed, options.sampling.sampleOffset,
                   std::llround(samplesPerPixel(stats)), isUniform(stats)};
   const int64_t most = stats.film.mostSamples;
   if (stats.adaptive)
-    made.ranges = joinedRanges({{options.seed, 0, most}, {seedOfOtherHalf(options.seed), 0, most}});
+    made.ranges =
+        joinedRanges({{options.sampling.seed, 0, most}, {seedOfOtherHalf(options.sampling.seed), 0, most}});
   else if (!made.uniform)
-    made.ranges = {{options.seed, options.sampleOffset, most}};
+    made.ranges = {{options.sampling.seed, options.sampling.sampleOffset, most}};
   setProvenance(picture, made);
   if (!stats.complete) picture.attributes[kInterruptedAttribute] = "1";
 }
 
 void sayWhatIsChosen(const RenderOptions& options, const Context& context, const Tracer& tracer,
                      const Statistics& stats) {
-  if (options.verbose) {
+  if (options.output.verbose) {
     say(options, "OpenGL " + context.version + " on " + context.renderer + " (" + context.backend + ")");
     say(options, "variant " + stats.variant);
     for (const std::string& line : stats.skipped) say(options, "skipped " + line);
   }
-  if (options.schedule == Schedule::Wavefront && !stats.scheduleReason.empty())
+  if (options.device.schedule == Schedule::Wavefront && !stats.scheduleReason.empty())
     say(options, "warning: --schedule wavefront: the megakernel draws: " + stats.scheduleReason);
-  const std::string width(kVectorWidthNames[size_t(options.vectorWidth)]);
-  if (options.vectorWidth != VectorWidth::Auto && width != std::to_string(stats.vectorWidth))
+  const std::string width(kVectorWidthNames[size_t(options.device.vectorWidth)]);
+  if (options.device.vectorWidth != VectorWidth::Auto && width != std::to_string(stats.vectorWidth))
     say(options, "warning: --vector-width " + width + " changes nothing: " +
                      (stats.vectorWidth == 0
                           ? "the driver is not Mesa's software driver"
@@ -82,9 +83,10 @@ void sayWhatIsChosen(const RenderOptions& options, const Context& context, const
 
 /// Throws RenderError when the driver left out samples without a word.
 void checkSamples(const RenderOptions& options, const Statistics& stats) {
-  if (!stats.complete || stats.adaptive || stats.film.fewestSamples >= unsigned(options.spp)) return;
+  if (!stats.complete || stats.adaptive || stats.film.fewestSamples >= unsigned(options.sampling.spp)) return;
   throw RenderError("the driver drew " + std::to_string(stats.film.fewestSamples) + " of " +
-                    std::to_string(options.spp) + " samples and reported no error; no picture is written");
+                    std::to_string(options.sampling.spp) +
+                    " samples and reported no error; no picture is written");
 }
 
 void sayDriverLog(const RenderOptions& options, Device& device) {
@@ -96,7 +98,7 @@ void sayDriverLog(const RenderOptions& options, Device& device) {
 void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats) {
   const bool quick = preferQuickCompilation(paths);
   PhaseTimer timer("context");
-  device.context = makeContext(options.backend, options.vectorWidth);
+  device.context = makeContext(options.device.backend, options.device.vectorWidth);
   device.driverLog.emplace();
   stats.phases.push_back(timer.end());
   stats.quickCompilation = quick && device.context->software;
@@ -109,7 +111,7 @@ std::optional<Image> drawSamples(const PictureJob& job, DrawingPlan& plan, Devic
   PhaseTimer drawTimer("draw");
   Image picture = drawPicture(job, plan, stats, keeper);
   stats.phases.push_back(drawTimer.end());
-  stats.spp = options.spp;
+  stats.spp = options.sampling.spp;
   sayDriverLog(options, device);
   if (interrupts() > most) return std::nullopt;
   sayWhatWentWrong(options, stats.film);
@@ -121,7 +123,7 @@ std::optional<Image> drawSamples(const PictureJob& job, DrawingPlan& plan, Devic
 bool finishPicture(Image& picture, const PictureJob& job, const DrawingPlan& plan, Device& device, int most,
                    Statistics& stats) {
   RenderOptions options = job.options;
-  if (!isUniform(stats)) options.aovSamples = true;  // merge needs them
+  if (!isUniform(stats)) options.output.aovSamples = true;  // merge needs them
   addFeatures(picture, {options, job.loaded, job.tracer, job.showsProgress, job.told}, plan, stats);
   denoise(picture, options, device.oidn, stats);
   sayDriverLog(options, device);
@@ -137,7 +139,7 @@ void sayHowItEnded(const RenderOptions& options, const Statistics& stats) {
   sayWhatWasCut(options, stats);
   if (stats.adaptive && stats.adaptive->black) {
     say(options, "warning: the picture is black, so nothing is known of its noise");
-  } else if (stats.complete && options.noise > 0.0 && stats.adaptive->share < 0.95) {
+  } else if (stats.complete && options.sampling.noise > 0.0 && stats.adaptive->share < 0.95) {
     say(options, "warning: --spp or --time ended the render before the noise asked for");
   }
 }

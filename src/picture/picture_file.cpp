@@ -45,7 +45,7 @@ std::string lostInPfm(const RenderOptions& options, const Image& linear) {
   std::string lost;
   for (const std::string& layer : layers) lost += (lost.empty() ? "" : ", ") + layer;
   const auto add = [&](const char* more) { lost += (lost.empty() ? "" : " and ") + std::string(more); };
-  if (isDisplayFormat(options.output)) add("what only a display has (exposure, tone curve, boxes)");
+  if (isDisplayFormat(options.output.file)) add("what only a display has (exposure, tone curve, boxes)");
   if (!linear.attributes.empty()) add("what merge needs");
   return lost;
 }
@@ -53,34 +53,35 @@ std::string lostInPfm(const RenderOptions& options, const Image& linear) {
 }  // namespace
 
 bool showsColors(const RenderOptions& options) {
-  return has(options.stages, Stage::BvhHeatmap) || options.debugView != DebugView::None;
+  return has(options.stages, Stage::BvhHeatmap) || options.output.debugView != DebugView::None;
 }
 
 Image shownPicture(const RenderOptions& options, const ShaderVariant& variant, const FilmPixels& pixels,
                    const Layers& layers, std::span<const double> variance) {
   Image picture = imageOf(pixels, layers, variance);
   if (has(variant.stages, Stage::BvhHeatmap)) return paintHeatmap(picture);
-  if (options.debugView != DebugView::None)
-    replaceColor(picture, debugPicture(options.debugView, pixels, variance));
+  if (options.output.debugView != DebugView::None)
+    replaceColor(picture, debugPicture(options.output.debugView, pixels, variance));
   return picture;
 }
 
 std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedScene& loaded,
                                    const Camera& camera, glm::ivec2 size) {
-  if (!options.treeLevel) return {};
-  const std::vector<Bounds> boxes = boxesAtLevel(loaded.bvh, uint32_t(*options.treeLevel));
-  if (boxes.empty()) say(options, "warning: the tree has no level " + std::to_string(*options.treeLevel));
+  if (!options.output.treeLevel) return {};
+  const std::vector<Bounds> boxes = boxesAtLevel(loaded.bvh, uint32_t(*options.output.treeLevel));
+  if (boxes.empty())
+    say(options, "warning: the tree has no level " + std::to_string(*options.output.treeLevel));
   return boxEdges(boxes, projectionOf(camera, double(size.x) / size.y), loaded.scene.space);
 }
 
 void checkPictureWritable(const RenderOptions& options, glm::ivec2 size) {
-  checkImageWritable(options.output, size.x, size.y, channelsOf(options), options.encoding,
-                     !options.toStandardOutput);
+  checkImageWritable(options.output.file, size.x, size.y, channelsOf(options), options.output.encoding,
+                     !options.output.toStandardOutput);
 }
 
 std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason) {
-  if (options.toStandardOutput || formatOfName(options.output) == ImageFormat::Pfm) return reason;
-  const std::filesystem::path path = rescuePath(options.output);
+  if (options.output.toStandardOutput || formatOfName(options.output.file) == ImageFormat::Pfm) return reason;
+  const std::filesystem::path path = rescuePath(options.output.file);
   try {
     writeImage(path, linear);
   } catch (const std::exception& error) {
@@ -93,25 +94,26 @@ std::string rescuePicture(const RenderOptions& options, const Image& linear, con
 
 void sayClamped(const RenderOptions& options, size_t values) {
   if (values == 0) return;
-  say(options, "warning: " + options.output.string() + ": " + std::to_string(values) +
+  say(options, "warning: " + options.output.file.string() + ": " + std::to_string(values) +
                    " values are beyond 65504, the largest 16-bit float, and clamped to it (--half)");
 }
 
 namespace {
 
 void writeOut(const RenderOptions& options, const Image& image) {
-  const auto write = options.toStandardOutput ? printImage : writeImage;
-  sayClamped(options, write(options.output, image, options.encoding));
+  const auto write = options.output.toStandardOutput ? printImage : writeImage;
+  sayClamped(options, write(options.output.file, image, options.output.encoding));
 }
 
 }  // namespace
 
 void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> lines) {
-  if (!isDisplayFormat(options.output)) return writeOut(options, linear);
+  if (!isDisplayFormat(options.output.file)) return writeOut(options, linear);
   const bool colors = showsColors(options);
-  const bool keepsAlpha = formatOfName(options.output) == ImageFormat::Png;
-  Image display = toDisplay(keepsAlpha ? linear : withoutAlpha(linear), colors ? 0.0 : options.exposure,
-                            colors ? ToneMap::Linear : options.toneMap);
+  const bool keepsAlpha = formatOfName(options.output.file) == ImageFormat::Png;
+  Image display =
+      toDisplay(keepsAlpha ? linear : withoutAlpha(linear), colors ? 0.0 : options.output.exposure,
+                colors ? ToneMap::Linear : options.output.toneMap);
   drawLines(display, lines, linear.placement.value_or(Placement{{0, 0}, {linear.width, linear.height}}));
   writeOut(options, display);
 }

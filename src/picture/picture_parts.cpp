@@ -33,12 +33,12 @@ std::vector<Region> partsOf(const RenderOptions& options, const LoadedScene& loa
     throw UsageError("a picture of " + what +
                      " has to be drawn in parts here, and the scale of a debug view needs the whole; "
                      "--resolution or --region makes it smaller");
-  if (parts.size() > 1 && options.lightReuse == LightReuse::Spatial)
+  if (parts.size() > 1 && options.light.reuse == LightReuse::Spatial)
     throw UsageError(
         "--light-reuse spatial: a picture of " + what +
         " has to be drawn in parts here (--memory-limit), and pixels take light from those about "
         "them; --resolution makes it smaller");
-  if (std::max(size.x, size.y) > mostSide && options.denoise == Denoise::Variance)
+  if (std::max(size.x, size.y) > mostSide && options.output.denoise == Denoise::Variance)
     throw UsageError("--denoise variance: this driver filters at most " + std::to_string(mostSide) +
                      " pixels a side, and the picture has " + what);
   return parts;

@@ -67,9 +67,9 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   json["scene_hash"] = hash;
   json["width"] = loaded.size.x;
   json["height"] = loaded.size.y;
-  if (options.region)
-    json["region"] = {options.region->corner.x, options.region->corner.y, options.region->size.x,
-                      options.region->size.y};
+  if (options.camera.region)
+    json["region"] = {options.camera.region->corner.x, options.camera.region->corner.y,
+                      options.camera.region->size.x, options.camera.region->size.y};
   // How rays find triangles, which depends on the number of samples, changes rounding alone; how buffers are
   // read, and by which stage of the pipeline, nothing.
   ShaderVariant variant = tracer.variant;
@@ -81,7 +81,7 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   variant.wavefront = false;
   json["variant"] = variantName(variant);
   RenderOptions named = options;
-  named.studio = isInStudio(options, loaded);
+  named.light.studio = isInStudio(options, loaded);
   forEachOption(named, [&](const auto& row, const auto& value) {
     if (row.attribute == nullptr) return;
     using Value = std::remove_cvref_t<decltype(value)>;
@@ -94,12 +94,12 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   });
   json["background_color"] = nullptr;
   if (!loaded.view.showEnvironment)
-    json["background_color"] = numbers(glm::dvec3(options.backgroundColor.value_or(glm::vec3(0.0f))));
-  if (options.shadowCatcher) json["shadow_catcher_height"] = loaded.view.catcherHeight;
-  if (options.lens.fStop) {
+    json["background_color"] = numbers(glm::dvec3(options.light.backgroundColor.value_or(glm::vec3(0.0f))));
+  if (options.light.shadowCatcher) json["shadow_catcher_height"] = loaded.view.catcherHeight;
+  if (options.camera.lens.fStop) {
     json["lens_radius"] = loaded.view.lens.radius;
     json["focus_distance"] = loaded.view.lens.focusDistance;
-    json["aperture_blades"] = options.lens.blades;
+    json["aperture_blades"] = options.camera.lens.blades;
   }
   json["camera_position"] = numbers(camera.position);
   json["camera_forward"] = numbers(camera.forward);

@@ -25,18 +25,20 @@ int frameCount(const SequenceOptions& sequence) {
 }
 
 SequenceFrame frameOf(const RenderOptions& options, int index) {
-  const SequenceOptions& sequence = *options.sequence;
+  const SequenceOptions& sequence = *options.output.sequence;
   SequenceFrame frame{sequence.first + index * sequence.step, options, 0.0};
-  frame.options.output = numberedName(options.output, frame.number);
-  if (!options.statsFile.empty()) frame.options.statsFile = numberedName(options.statsFile, frame.number);
+  frame.options.output.file = numberedName(options.output.file, frame.number);
+  if (!options.output.statsFile.empty())
+    frame.options.output.statsFile = numberedName(options.output.statsFile, frame.number);
   if (sequence.turntable > 0) {
     frame.turn = 2.0 * glm::pi<double>() * frame.number / sequence.turntable;
-    if (options.camera.fit != Fit::None) frame.options.camera.fit = Fit::AllAround;
+    if (options.camera.overrides.fit != Fit::None) frame.options.camera.overrides.fit = Fit::AllAround;
   } else {
     frame.options.selection.animationTime = frame.number / sequence.fps;
   }
-  if (options.traversal == TraversalMethod::Auto) frame.options.traversal = TraversalMethod::FrontToBack;
-  frame.options.sequence.reset();
+  if (options.device.traversal == TraversalMethod::Auto)
+    frame.options.device.traversal = TraversalMethod::FrontToBack;
+  frame.options.output.sequence.reset();
   return frame;
 }
 

@@ -34,8 +34,8 @@ Device& deviceFor(const RenderOptions& options, Statistics& stats) {
   constexpr double kManyPaths = std::numeric_limits<double>::infinity();
   if (!state.device.context) openContext(options, kManyPaths, state.device, stats);
   const std::string& name = state.device.context->backend;
-  const bool other = (options.backend == Backend::Egl && name != "egl") ||
-                     (options.backend == Backend::OsMesa && name != "osmesa");
+  const bool other = (options.device.backend == Backend::Egl && name != "egl") ||
+                     (options.device.backend == Backend::OsMesa && name != "osmesa");
   if (other)
     throw UsageError("--rendering-backend: this process draws by " + name +
                      " already; another needs another process");
@@ -56,9 +56,9 @@ void forgetDevice() {
 RenderOptions loadedFor(const RenderOptions& options, const LoadedScene& loaded) {
   RenderOptions part = sceneOptions(options);
   if (loaded.scene.strokes.empty()) return part;
-  part.camera = options.camera;
-  part.cameraIndex = options.cameraIndex;
-  part.resolution = options.resolution;
+  part.camera.overrides = options.camera.overrides;
+  part.camera.index = options.camera.index;
+  part.camera.resolution = options.camera.resolution;
   return part;
 }
 
@@ -75,7 +75,7 @@ Statistics prepare(KeptScene& kept, const RenderOptions& options) {
     stats.loadMs = stats.bvhBuildMs = 0.0;
     aim(*kept.loaded, options, FilmOf::Part);
     stats.size = kept.loaded->region.size;
-    stats.region = options.region;
+    stats.region = options.camera.region;
   } else {
     kept.tracer.reset();
     kept.loaded.reset();
@@ -169,11 +169,11 @@ RenderOptions optionsOfWords(std::vector<std::string> words) {
   addWords(app, raw);
   parseWords(app, withNumbersSettled(std::move(words)));
   RenderOptions options = finishConfigured(raw.render, raw.config, app);
-  if (options.checkpointSeconds > 0.0 || options.resume)
+  if (options.output.checkpointSeconds > 0.0 || options.output.resume)
     throw UsageError("--checkpoint: needs a file, so the command `fragtrace render`");
-  if (options.treeLevel)
+  if (options.output.treeLevel)
     throw UsageError("--tree-level: is drawn over files, so needs the command `fragtrace render`");
-  if (!options.statsFile.empty()) throw UsageError("--stats: the picture has its statistics with it");
+  if (!options.output.statsFile.empty()) throw UsageError("--stats: the picture has its statistics with it");
   return options;
 }
 

@@ -50,7 +50,7 @@ void replaceText(const std::filesystem::path& path, const std::string& text) {
 }
 
 std::vector<std::filesystem::path> inputsOf(const RenderOptions& options) {
-  return {options.scene, options.hdriFile};
+  return {options.scene, options.light.hdriFile};
 }
 
 std::vector<std::filesystem::path> inputsOf(const Scene& scene) {
@@ -60,7 +60,7 @@ std::vector<std::filesystem::path> inputsOf(const Scene& scene) {
 }
 
 bool holdsLayers(const RenderOptions& options) {
-  return options.output.empty() || formatOfName(options.output) == ImageFormat::OpenExr;
+  return options.output.file.empty() || formatOfName(options.output.file) == ImageFormat::OpenExr;
 }
 
 std::filesystem::path checkpointOf(const std::filesystem::path& output) {
@@ -68,13 +68,13 @@ std::filesystem::path checkpointOf(const std::filesystem::path& output) {
 }
 
 bool keepsCheckpoint(const RenderOptions& options) {
-  return options.checkpointSeconds > 0.0 || options.resume;
+  return options.output.checkpointSeconds > 0.0 || options.output.resume;
 }
 
 std::vector<NamedOutput> outputsOf(const RenderOptions& options) {
-  std::vector<NamedOutput> outputs = {{"--stats", options.statsFile, true}};
-  if (!options.toStandardOutput) outputs.push_back({"--output", options.output});
-  if (keepsCheckpoint(options)) outputs.push_back({"--checkpoint", checkpointOf(options.output)});
+  std::vector<NamedOutput> outputs = {{"--stats", options.output.statsFile, true}};
+  if (!options.output.toStandardOutput) outputs.push_back({"--output", options.output.file});
+  if (keepsCheckpoint(options)) outputs.push_back({"--checkpoint", checkpointOf(options.output.file)});
   return outputs;
 }
 

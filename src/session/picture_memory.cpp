@@ -20,14 +20,14 @@ uint64_t bytesOfFilm(const RenderOptions& options) {
   constexpr uint64_t kWithLayers = kOne + 48 + sizeof(FilmPixel);
   constexpr uint64_t kAdaptive = kOne + 96 + 2 * sizeof(FilmPixel) + 2 * sizeof(double);
   if (isAdaptive(options)) return kAdaptive;
-  return options.aovFeatures.empty() ? kOne : kWithLayers;
+  return options.output.aovFeatures.empty() ? kOne : kWithLayers;
 }
 
 /// A pixel of what is filtered. Textures, what two of them are made of, the film as it was on the way, the
 /// picture with its layers twice, and the colours.
 uint64_t bytesOfFilter(const RenderOptions& options) {
   constexpr uint64_t kDenoised = 7 * 16 + 20 + 20 + 2 * sizeof(FilmPixel) + 8 + 2 * 14 * 4 + 12;
-  return options.denoise == Denoise::None ? 0 : kDenoised;
+  return options.output.denoise == Denoise::None ? 0 : kDenoised;
 }
 
 /// A pixel of a picture that is drawn in parts: the picture, and what encoding makes of it.
@@ -48,11 +48,11 @@ uint64_t pixelsOf(glm::ivec2 size) { return uint64_t(size.x) * uint64_t(size.y);
 }  // namespace
 
 size_t channelsOf(const RenderOptions& options) {
-  size_t channels =
-      3 + size_t(!options.background) + size_t(options.aovSamples) + size_t(options.aovVariance);
-  for (const Feature feature : options.aovFeatures)
+  size_t channels = 3 + size_t(!options.light.background) + size_t(options.output.aovSamples) +
+                    size_t(options.output.aovVariance);
+  for (const Feature feature : options.output.aovFeatures)
     channels += feature == Feature::Guides ? kGuideChannels.size() + 1 : rowOf(feature).channels.size();
-  if (options.denoise != Denoise::None) channels += 3;  // the noisy picture
+  if (options.output.denoise != Denoise::None) channels += 3;  // the noisy picture
   return channels;
 }
 

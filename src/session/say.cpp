@@ -34,7 +34,7 @@ void say(const RenderOptions& options, const std::string& text) {
   Listening& state = listening();
   const std::lock_guard lock(state.mutex);
   const bool fresh = !state.listener || state.said.insert(text).second;
-  if (!options.quiet && fresh) reportMessage(text);
+  if (!options.output.quiet && fresh) reportMessage(text);
   if (state.listener) state.listener(text);
 }
 

@@ -38,7 +38,8 @@ void checkDistance(const Camera& camera, const LocalSpace& space, const RenderOp
   if (!(std::max(glm::length(camera.position - space.origin), size) <= kFarthest * space.unit)) {
     const std::string reason =
         "the camera is too far away for a scene of this size, or sees too much of its surroundings";
-    if (options.camera.position || options.camera.parallelScale || options.sceneOrigin)
+    if (options.camera.overrides.position || options.camera.overrides.parallelScale ||
+        options.camera.sceneOrigin)
       throw UsageError(reason);
     throw InputError(options.scene.string() + ": " + reason);
   }
@@ -47,20 +48,21 @@ void checkDistance(const Camera& camera, const LocalSpace& space, const RenderOp
 /// The camera as --fit moves it, then zoomed as --camera-orbit says.
 Camera fitCamera(const Camera& camera, const Scene& scene, const RenderOptions& options, glm::ivec2 size) {
   std::vector<glm::dvec3> points = outlineOf(scene);
-  if (options.camera.fit == Fit::AllAround)
-    points = sweptAbout(turningPoint(camera, options.camera, scene.bounds), points);
-  return zoomed(fitted(camera, points, double(size.x) / size.y), options.camera.orbit.value_or(Orbit()).zoom);
+  if (options.camera.overrides.fit == Fit::AllAround)
+    points = sweptAbout(turningPoint(camera, options.camera.overrides, scene.bounds), points);
+  return zoomed(fitted(camera, points, double(size.x) / size.y),
+                options.camera.overrides.orbit.value_or(Orbit()).zoom);
 }
 
 glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options) {
-  if (options.resolution) return *options.resolution;
+  if (options.camera.resolution) return *options.camera.resolution;
   if (camera.aspectRatio <= 0.0) return {1280, 720};
   return {std::clamp(int(std::lround(720.0 * camera.aspectRatio)), 1, 16384), 720};
 }
 
 /// The region asked for, else all of the picture.
 Region chooseRegion(glm::ivec2 size, const RenderOptions& options) {
-  const Region region = options.region.value_or(Region{{0, 0}, size});
+  const Region region = options.camera.region.value_or(Region{{0, 0}, size});
   if (glm::all(glm::lessThanEqual(region.size, size - region.corner))) return region;
   const auto text = [](glm::ivec2 v, const char* between) {
     return std::to_string(v.x) + between + std::to_string(v.y);
@@ -80,7 +82,7 @@ void checkFinite(const Image& image, const std::filesystem::path& path) {
 }
 
 void warn(const RenderOptions& options, const std::string& what, std::vector<std::string>& warnings) {
-  warnings.push_back(options.hdriFile.string() + what);
+  warnings.push_back(options.light.hdriFile.string() + what);
   say(options, "warning: " + warnings.back());
 }
 
@@ -92,17 +94,19 @@ Environment makeEnvironment(const RenderOptions& options, std::future<LinearImag
     environment.kind = Surroundings::Map;
     environment.image = std::move(read.image);
     const Image& image = environment.image;
-    if (image.channelCount() < 3) throw InputError(options.hdriFile.string() + ": has no colour");
-    checkFinite(image, options.hdriFile);
+    if (image.channelCount() < 3) throw InputError(options.light.hdriFile.string() + ": has no colour");
+    checkFinite(image, options.light.hdriFile);
     if (read.wasEncoded)
       warn(options, ": holds no light above 1, so no sun and no lamp; an .hdr, .exr or .pfm does", warnings);
     // Mirror balls and faces of cubes are square; there is one reading of an environment here.
     if (image.width == image.height && image.width > 1)
       warn(options, ": is square, and drawn as latitude and longitude: 360 degrees wide, 180 high", warnings);
-    if (options.backgroundBlur > 0.0) environment.backdrop = blurredMap(image, options.backgroundBlur);
-  } else if (options.studio || (light != OwnLight::Enough && options.defaultLight == DefaultLight::Studio)) {
+    if (options.light.backgroundBlur > 0.0)
+      environment.backdrop = blurredMap(image, options.light.backgroundBlur);
+  } else if (options.light.studio ||
+             (light != OwnLight::Enough && options.light.defaultLight == DefaultLight::Studio)) {
     environment = {Surroundings::Map, studioLight(), studioBackdrop()};
-  } else if (light != OwnLight::Enough && options.defaultLight == DefaultLight::White) {
+  } else if (light != OwnLight::Enough && options.light.defaultLight == DefaultLight::White) {
     environment.kind = Surroundings::DefaultLight;
     environment.image = {1, 1, {"R", "G", "B"}, {1.0f, 1.0f, 1.0f}, {}};
   }
@@ -111,18 +115,20 @@ Environment makeEnvironment(const RenderOptions& options, std::future<LinearImag
 
 /// Only trees hold instances.
 bool walksTree(const RenderOptions& options) {
-  return options.traversal != TraversalMethod::Iterative && options.traversal != TraversalMethod::Literals;
+  return options.device.traversal != TraversalMethod::Iterative &&
+         options.device.traversal != TraversalMethod::Literals;
 }
 
 bool besideAllowed(const RenderOptions& options) {
-  return options.traversal == TraversalMethod::Auto && !has(options.stages, Stage::BvhHeatmap);
+  return options.device.traversal == TraversalMethod::Auto && !has(options.stages, Stage::BvhHeatmap);
 }
 
 }  // namespace
 
 double pathsOf(const RenderOptions& options, glm::ivec2 size) {
   const bool adaptive = isAdaptive(options);
-  return double(size.x) * size.y * (adaptive ? std::numeric_limits<double>::infinity() : options.spp);
+  return double(size.x) * size.y *
+         (adaptive ? std::numeric_limits<double>::infinity() : options.sampling.spp);
 }
 
 namespace {
@@ -130,15 +136,15 @@ namespace {
 Lens lensOf(const RenderOptions& options, const Camera& camera, const BoundsDouble& bounds,
             const LocalSpace& space) {
   Lens lens;
-  if (!options.lens.fStop || !camera.perspective) return lens;
-  lens.radius = 0.5 * focalLengthOf(camera.fovY) / *options.lens.fStop;
-  const glm::dvec3 focalPoint = options.camera.focalPoint.value_or(focalPointOf(camera, bounds));
+  if (!options.camera.lens.fStop || !camera.perspective) return lens;
+  lens.radius = 0.5 * focalLengthOf(camera.fovY) / *options.camera.lens.fStop;
+  const glm::dvec3 focalPoint = options.camera.overrides.focalPoint.value_or(focalPointOf(camera, bounds));
   lens.focusDistance =
-      options.lens.focusDistance.value_or(glm::dot(focalPoint - camera.position, camera.forward));
+      options.camera.lens.focusDistance.value_or(glm::dot(focalPoint - camera.position, camera.forward));
   // Beyond, rays are parallel, and the squares of longer ones are no floats.
   constexpr double kParallel = 0x1p50;  // local space
   lens.focusDistance = std::min(lens.focusDistance, kParallel * space.unit);
-  lens.blades = options.lens.blades;
+  lens.blades = options.camera.lens.blades;
   return lens;
 }
 
@@ -150,22 +156,23 @@ View makeView(const RenderOptions& options, const LoadedScene& loaded, const Cam
   view.camera = camera;
   view.lens = lensOf(options, camera, scene.bounds, scene.space);
   view.space = scene.space;
-  view.hdriRotation = glm::radians(options.hdriRotationDegrees);
-  view.hdriIntensity = options.hdriIntensity;
-  if (options.background) view.background = options.backgroundColor.value_or(glm::vec3(0.0f));
+  view.hdriRotation = glm::radians(options.light.hdriRotationDegrees);
+  view.hdriIntensity = options.light.hdriIntensity;
+  if (options.light.background) view.background = options.light.backgroundColor.value_or(glm::vec3(0.0f));
   const bool map = loaded.environment.kind == Surroundings::Map;
-  view.showEnvironment = map && options.background && !options.backgroundColor;
-  view.catcherHeight = options.catcherHeight.value_or(scene.bounds.empty() ? 0.0 : scene.bounds.minimum.y);
-  view.bounces = options.bounces;
-  view.rouletteDepth = options.rouletteDepth;
-  view.seed = options.seed;
-  view.sampleOffset = options.sampleOffset;
-  view.clampIndirect = float(options.clampIndirect);
+  view.showEnvironment = map && options.light.background && !options.light.backgroundColor;
+  view.catcherHeight =
+      options.light.catcherHeight.value_or(scene.bounds.empty() ? 0.0 : scene.bounds.minimum.y);
+  view.bounces = options.sampling.bounces;
+  view.rouletteDepth = options.sampling.rouletteDepth;
+  view.seed = options.sampling.seed;
+  view.sampleOffset = options.sampling.sampleOffset;
+  view.clampIndirect = float(options.sampling.clampIndirect);
   return view;
 }
 
 bool isInStudio(const RenderOptions& options, const LoadedScene& loaded) {
-  return loaded.environment.kind == Surroundings::Map && options.hdriFile.empty();
+  return loaded.environment.kind == Surroundings::Map && options.light.hdriFile.empty();
 }
 
 Bvh buildTree(const Scene& scene, const RenderOptions& options) {
@@ -174,7 +181,7 @@ Bvh buildTree(const Scene& scene, const RenderOptions& options) {
       throw UsageError("--traversal: only trees hold the meshes that this scene shares");
     return buildSceneBvh(scene);
   }
-  if (options.traversal == TraversalMethod::Iterative) return listLeaves(scene);
+  if (options.device.traversal == TraversalMethod::Iterative) return listLeaves(scene);
   std::vector<Bounds> bounds = primitiveBounds(scene);
   const uint32_t triangles = uint32_t(scene.triangles.size());
   std::vector<uint32_t> large;
@@ -186,7 +193,9 @@ Bvh buildTree(const Scene& scene, const RenderOptions& options) {
 }
 
 bool sameTree(const RenderOptions& a, const RenderOptions& b) {
-  const auto iterative = [](const RenderOptions& o) { return o.traversal == TraversalMethod::Iterative; };
+  const auto iterative = [](const RenderOptions& o) {
+    return o.device.traversal == TraversalMethod::Iterative;
+  };
   return iterative(a) == iterative(b) && besideAllowed(a) == besideAllowed(b);
 }
 
@@ -194,11 +203,12 @@ namespace {
 
 GltfOptions gltfOptionsOf(const RenderOptions& options) {
   GltfOptions loading;
-  loading.recenterOn = options.sceneOrigin ? options.sceneOrigin : options.camera.focalPoint;
-  loading.cameraPosition = options.camera.position;
-  loading.cameraIndex = options.cameraIndex.value_or(0);
+  loading.recenterOn =
+      options.camera.sceneOrigin ? options.camera.sceneOrigin : options.camera.overrides.focalPoint;
+  loading.cameraPosition = options.camera.overrides.position;
+  loading.cameraIndex = options.camera.index.value_or(0);
   loading.selection = options.selection;
-  loading.instancing = walksTree(options) ? options.instancing : Instancing::Flatten;
+  loading.instancing = walksTree(options) ? options.device.instancing : Instancing::Flatten;
   loading.limits = options.limits;
   return loading;
 }
@@ -206,7 +216,7 @@ GltfOptions gltfOptionsOf(const RenderOptions& options) {
 /// What a shadow catcher cannot do with the scene's lights.
 void checkCatcher(const RenderOptions& options, Scene& scene) {
   constexpr size_t kMostLights = 1000;  // it asks each of them at every point
-  if (!options.shadowCatcher) return;
+  if (!options.light.shadowCatcher) return;
   if (!has(options.stages, Stage::Gi)) {
     scene.warnings.emplace_back("--shadow-catcher: only stage gi has it");
     return;
@@ -224,7 +234,7 @@ void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& s
   stats.defaultLightReason = light == OwnLight::None
                                  ? "no light in the scene"
                                  : "the scene's emissive textures are too dim to light it";
-  const bool studio = options.defaultLight == DefaultLight::Studio;
+  const bool studio = options.light.defaultLight == DefaultLight::Studio;
   say(options,
       stats.defaultLightReason +
           (studio ? ": the built-in studio lights it (--default-light)"
@@ -235,12 +245,13 @@ void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& s
 
 void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
   const Scene& scene = loaded.scene;
-  loaded.cameraIndex = cameraIndexOf(options.cameraIndex, options.selection.camera, scene.cameras);
-  loaded.camera =
-      chooseCamera(scene.cameras, loaded.cameraIndex, options.camera, scene.bounds, framedAspect(options));
+  loaded.cameraIndex = cameraIndexOf(options.camera.index, options.selection.camera, scene.cameras);
+  loaded.camera = chooseCamera(scene.cameras, loaded.cameraIndex, options.camera.overrides, scene.bounds,
+                               framedAspect(options));
   loaded.size = chooseSize(loaded.camera, options);
-  if (options.camera.fit != Fit::None) loaded.camera = fitCamera(loaded.camera, scene, options, loaded.size);
-  if (options.lens.fStop && !loaded.camera.perspective)
+  if (options.camera.overrides.fit != Fit::None)
+    loaded.camera = fitCamera(loaded.camera, scene, options, loaded.size);
+  if (options.camera.lens.fStop && !loaded.camera.perspective)
     throw UsageError("--f-stop: the camera is orthographic, and has no lens");
   checkDistance(loaded.camera, scene.space, options);
   loaded.region = chooseRegion(loaded.size, options);
@@ -259,11 +270,11 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   // The environment is decoded in another process, so it is read meanwhile.
   Phase reading;  // outlives the thread that sets it
   std::future<LinearImage> map;
-  const bool reads = !options.hdriFile.empty() && !before.environment;
+  const bool reads = !options.light.hdriFile.empty() && !before.environment;
   if (reads) {
     map = std::async(kThreadIfGranted, [&] {
       PhaseTimer timer("environment", "second");
-      LinearImage image = readLinearImage(options.hdriFile, options.limits.memoryBytes);
+      LinearImage image = readLinearImage(options.light.hdriFile, options.limits.memoryBytes);
       image.image = wholeOf(std::move(image.image));
       reading = timer.end();
       return image;
@@ -272,13 +283,13 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   PhaseTimer sceneTimer("scene");
   loaded.scene = loadGltf(options.scene, gltfOptionsOf(options));
   stats.phases.push_back(sceneTimer.end());
-  if (options.instancing == Instancing::Share && !walksTree(options))
+  if (options.device.instancing == Instancing::Share && !walksTree(options))
     loaded.scene.warnings.emplace_back("--instancing share: only trees hold shared meshes; all are copied");
   if (!loaded.scene.images.empty()) startImageProcess();
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));
   aim(loaded, options, film);
-  addStrokes(loaded.scene, loaded.camera, loaded.size.y, options.lineWidth);
+  addStrokes(loaded.scene, loaded.camera, loaded.size.y, options.camera.lineWidth);
   checkCatcher(options, loaded.scene);
   for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
   if (scene.triangles.empty() && scene.spheres.empty()) {
@@ -296,7 +307,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   stats.bvh = bvhQuality(loaded.bvh);
   stats.bvhBuildMs = watch.lap();
   step("reading the environment", 0.9);
-  const bool isAsked = !hasMap(options) && options.defaultLight != DefaultLight::None;
+  const bool isAsked = !hasMap(options) && options.light.defaultLight != DefaultLight::None;
   const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
   loaded.environment = before.environment ? std::move(*before.environment)
                                           : makeEnvironment(options, map, light, loaded.scene.warnings);
@@ -305,7 +316,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   stats.scene = describe(scene);
   stats.warnings = scene.warnings;
   stats.size = loaded.region.size;
-  stats.region = options.region;
+  stats.region = options.camera.region;
   stats.loadMs += watch.lap();
   stats.defaultLight = light != OwnLight::Enough;
   if (stats.defaultLight) sayDefaultLight(options, light, stats);

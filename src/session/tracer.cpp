@@ -27,14 +27,14 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
     return;
   }
   if (variant.feature != Feature::None && !isLightPart(variant.feature)) return;
-  const bool asked = options.traversal == TraversalMethod::Literals;
+  const bool asked = options.device.traversal == TraversalMethod::Literals;
   if (has(variant.stages, Stage::BvhHeatmap)) {
     if (asked) throw UsageError("--traversal literals: has no tree whose nodes the heat map could count");
     return;
   }
-  if (!asked && options.traversal != TraversalMethod::Auto) return;
+  if (!asked && options.device.traversal != TraversalMethod::Auto) return;
   // Who asks for the wavefront gets it, which needs a tree.
-  if (!asked && options.schedule == Schedule::Wavefront && has(variant.stages, Stage::Gi)) return;
+  if (!asked && options.device.schedule == Schedule::Wavefront && has(variant.stages, Stage::Gi)) return;
   const std::string reason = asked ? whyNoLiterals(loaded.scene, packed) : "";
   if (!reason.empty()) throw UsageError("--traversal literals: " + reason);
   if (!asked && !paysAsLiterals(loaded.scene, loaded.bvh, packed, pathsOf(options, loaded.size))) return;
@@ -50,7 +50,7 @@ std::string settleVariant(ShaderVariant& variant, const LoadedScene& loaded, con
   useLiterals(loaded, packed, options, variant);
   variant.reads = reads;
   variant.dispatch =
-      chooseDispatch(options.dispatch, context, variant.traversal == TraversalMethod::Literals);
+      chooseDispatch(options.device.dispatch, context, variant.traversal == TraversalMethod::Literals);
   return chooseSchedule(variant, options,
                         {context.software, pathsOf(options, loaded.size), loaded.bvh.nodes.size()});
 }
@@ -89,9 +89,10 @@ void describeLightSelection(const ShaderVariant& variant, const LoadedScene& loa
 /// Why light paths are traced for the picture, or are not.
 std::string whyCaustics(const ShaderVariant& variant, const TraitSet& present, const RenderOptions& options) {
   if (has(variant.traits, Trait::Caustics)) {
-    return options.caustics == Caustics::On ? "--caustics" : "there are lamps, and smooth glass or metal";
+    return options.light.caustics == Caustics::On ? "--caustics"
+                                                  : "there are lamps, and smooth glass or metal";
   }
-  if (options.caustics == Caustics::Off) return "--caustics";
+  if (options.light.caustics == Caustics::Off) return "--caustics";
   if (!has(present, Trait::Caustics)) return traitRows()[size_t(Trait::Caustics)].absence;
   const std::string excluded = whyNoLightPaths(options);
   return excluded.empty() ? "a stage that they need is off" : excluded;
@@ -99,17 +100,17 @@ std::string whyCaustics(const ShaderVariant& variant, const TraitSet& present, c
 
 /// The options as this driver can draw such a scene; says what it cannot.
 RenderOptions asDrawn(const RenderOptions& options, const TraitSet& present) {
-  if (options.caustics == Caustics::Off || !has(present, Trait::Caustics) || canSplat()) return options;
+  if (options.light.caustics == Caustics::Off || !has(present, Trait::Caustics) || canSplat()) return options;
   say(options,
       "warning: this driver cannot add points to 32-bit floats: caustics are left to paths from the camera");
   RenderOptions able = options;
-  able.caustics = Caustics::Off;
+  able.light.caustics = Caustics::Off;
   return able;
 }
 
 /// Whether light paths, which the scene has, give way to another option.
 bool lightPathsGiveWay(const ShaderVariant& variant, const TraitSet& present, const RenderOptions& options) {
-  return options.caustics == Caustics::Auto && !whyNoLightPaths(options).empty() &&
+  return options.light.caustics == Caustics::Auto && !whyNoLightPaths(options).empty() &&
          has(present, Trait::Caustics) && has(variant.stages, Stage::Gi) &&
          has(variant.stages, Stage::Shadows);
 }
@@ -122,15 +123,15 @@ void warnOfNoEffect(const ShaderVariant& variant, const TraitSet& present, const
     say(options, "warning: " + text);
   };
   const bool global = has(variant.stages, Stage::Gi);
-  if (options.caustics == Caustics::On && !has(variant.traits, Trait::Caustics))
+  if (options.light.caustics == Caustics::On && !has(variant.traits, Trait::Caustics))
     warn("--caustics on: no light paths: " + (global ? stats.caustics : "only stage gi has them"));
   if (lightPathsGiveWay(variant, present, options))
     warn("no light paths for caustics (" + stats.caustics +
          "): paths from the camera find fewer of them, and none of point, spot and directional lights");
-  if (options.lightSelection != LightSelection::Auto && stats.lightSelection.empty())
+  if (options.light.selection != LightSelection::Auto && stats.lightSelection.empty())
     warn(std::string("--light-selection: ") +
          (global ? "no lamp in the scene" : "only stage gi samples one light of many"));
-  if (options.lightReuse != LightReuse::None && !variant.neighbours && !variant.lightCandidates)
+  if (options.light.reuse != LightReuse::None && !variant.neighbours && !variant.lightCandidates)
     warn(std::string("--light-reuse: ") +
          (global ? "no light of this scene is sampled" : "only stage gi samples one light of many"));
 }
@@ -143,23 +144,23 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
       traitsOf(loaded.scene, loaded.environment.kind, !loaded.environment.backdrop.values.empty());
   const RenderOptions options = asDrawn(asked, present);
   const uint32_t depth = loaded.bvh.depth;
-  const BufferReads undecided = options.bufferReads;  // what is packed does not depend on it
+  const BufferReads undecided = options.device.bufferReads;  // what is packed does not depend on it
   tracer.variant = choosePictureVariant(options, present, loaded.environment.kind, depth, undecided);
   ShaderVariant everything = tracer.variant;
   tracer.features.clear();
-  for (const Feature feature : options.aovFeatures) {
+  for (const Feature feature : options.output.aovFeatures) {
     tracer.features.push_back(
         chooseFeatureVariant(options, present, loaded.environment.kind, depth, undecided, feature));
     everything.traits |= tracer.features.back().traits;
   }
-  describeLightSelection(tracer.variant, loaded, options.lightSelection, stats);
+  describeLightSelection(tracer.variant, loaded, options.light.selection, stats);
   if (has(tracer.variant.stages, Stage::Gi))
     stats.lightReuse = tracer.variant.neighbours        ? "spatial"
                        : tracer.variant.lightCandidates ? "candidates"
                                                         : "none";
   if (has(tracer.variant.stages, Stage::Gi)) stats.caustics = whyCaustics(tracer.variant, present, options);
   warnOfNoEffect(tracer.variant, present, options, stats);
-  if (tracer.variant.clampIndirect) stats.clampIndirect = options.clampIndirect;
+  if (tracer.variant.clampIndirect) stats.clampIndirect = options.sampling.clampIndirect;
   for (const StageRow& row : stageRows()) {
     const std::string reason = has(options.stages, row.stage) ? whyOff(row.stage, present) : "";
     if (!reason.empty()) stats.skipped.push_back(std::string(row.name) + ": " + reason);
@@ -178,7 +179,7 @@ void settleVariants(Tracer& tracer, const LoadedScene& loaded, const GpuScene& p
   for (ShaderVariant& feature : tracer.features) {
     useLiterals(loaded, packed, options, feature);
     feature.reads = tracer.reads;
-    feature.dispatch = chooseDispatch(options.dispatch, context, false);
+    feature.dispatch = chooseDispatch(options.device.dispatch, context, false);
   }
   stats.variant = variantName(tracer.variant);
 }
@@ -200,11 +201,12 @@ void describe(Statistics& stats, const Context& context, const GpuScene& packed,
 /// text. Where buffers turn out too large for the fastest reads, another one is built later.
 std::optional<Phase> buildAhead(ProgramCache& programs, ShaderVariant variant, const LoadedScene& loaded,
                                 const RenderOptions& options, const Context& context) {
-  const bool asked = options.traversal == TraversalMethod::Literals;
+  const bool asked = options.device.traversal == TraversalMethod::Literals;
   const bool large = loaded.scene.triangles.size() > kLeastBesideLarge;
   if (asked || !large) return std::nullopt;
   const GpuScene unknown;
-  const BufferReads reads = chooseReads(options.bufferReads, context.software, unknown, readLimits()).reads;
+  const BufferReads reads =
+      chooseReads(options.device.bufferReads, context.software, unknown, readLimits()).reads;
   settleVariant(variant, loaded, unknown, options, context, reads);
   return buildProgram(programs, variant);
 }
@@ -220,12 +222,13 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
                   Statistics& stats, bool withHash) {
   Tracer tracer;
   const ShaderVariant everything = chooseVariants(tracer, loaded, options, stats);
-  tracer.textureSide = textureSideWithin(loaded.scene, mostTexelBytes(options.bufferReads, readLimits()));
+  tracer.textureSide =
+      textureSideWithin(loaded.scene, mostTexelBytes(options.device.bufferReads, readLimits()));
   if (tracer.textureSide < kLargestTextureSide) {
     say(options, "warning: the textures are larger than what this driver reads; those wider or higher than " +
                      std::to_string(tracer.textureSide) + " pixels are scaled down");
   }
-  ProgramCache programs(shaderSource(options.shaderFolder));
+  ProgramCache programs(shaderSource(options.device.shaderFolder));
   Phase packing;  // outlives the thread that sets it
   std::future<GpuScene> packedLater = std::async(kThreadIfGranted, [&] {
     PhaseTimer timer("pack", "second");
@@ -238,7 +241,7 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   GpuScene packed = packedLater.get();
   describe(stats, context, packed, packing);
   if (withHash) tracer.sceneHash = sceneHash(packed, tracer.arrayHashes);
-  const ReadChoice choice = chooseReads(options.bufferReads, context.software, packed, readLimits());
+  const ReadChoice choice = chooseReads(options.device.bufferReads, context.software, packed, readLimits());
   tracer.reads = choice.reads;
   stats.readFallback = choice.fallback;
   settleVariants(tracer, loaded, packed, options, context, stats);

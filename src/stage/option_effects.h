@@ -31,79 +31,259 @@ struct OptionRow {
 template <typename Member>
 OptionRow(Member, Effect, Renewal = Renewal::None, const char* = nullptr) -> OptionRow<Member>;
 
-namespace limit {
-inline uint64_t& memoryBytes(RenderOptions& o) { return o.limits.memoryBytes; }
-inline bool& allowExternalFiles(RenderOptions& o) { return o.limits.allowExternalFiles; }
-inline int& textureSide(RenderOptions& o) { return o.limits.textureSide; }
-inline bool& drawMissingTextures(RenderOptions& o) { return o.limits.drawMissingTextures; }
-}  // namespace limit
-
 /// A member without a row counts as Effect::Picture and Renewal::Scene: what is forgotten here costs time,
 /// never a wrong picture. Stages have their effects in stageRows().
-inline constexpr std::tuple kOptionRows{
-    OptionRow{&RenderOptions::scene, Effect::Picture, Renewal::Scene},
-    OptionRow{&RenderOptions::output, Effect::Report},
-    OptionRow{&RenderOptions::resolution, Effect::Picture},
-    OptionRow{&RenderOptions::region, Effect::Picture},
-    OptionRow{&RenderOptions::spp, Effect::Count},
-    OptionRow{&RenderOptions::sampleOffset, Effect::Noise},
-    OptionRow{&RenderOptions::seed, Effect::Noise},
-    OptionRow{&RenderOptions::bounces, Effect::Picture, Renewal::None, "bounces"},
-    OptionRow{&RenderOptions::rouletteDepth, Effect::Noise, Renewal::None, "rr_depth"},
-    OptionRow{&RenderOptions::clampIndirect, Effect::Picture, Renewal::Program, "clamp_indirect"},
-    OptionRow{&RenderOptions::lightSelection, Effect::Noise, Renewal::Program},
-    OptionRow{&RenderOptions::lightReuse, Effect::Noise, Renewal::Program},
-    OptionRow{&RenderOptions::caustics, Effect::Picture, Renewal::Program},
-    OptionRow{&RenderOptions::noise, Effect::Count},
-    OptionRow{&RenderOptions::seconds, Effect::Count},
-    OptionRow{&RenderOptions::cameraIndex, Effect::View},
-    OptionRow{&RenderOptions::camera, Effect::View},
-    OptionRow{&RenderOptions::lens, Effect::Picture, Renewal::Program},
-    OptionRow{&RenderOptions::sceneOrigin, Effect::Way, Renewal::Scene},
-    OptionRow{&RenderOptions::hdriFile, Effect::Picture, Renewal::Scene, "hdri"},
-    OptionRow{&RenderOptions::hdriRotationDegrees, Effect::Picture, Renewal::None, "hdri_rotation"},
-    OptionRow{&RenderOptions::hdriIntensity, Effect::Picture, Renewal::None, "hdri_intensity"},
-    OptionRow{&RenderOptions::backgroundBlur, Effect::Picture, Renewal::Scene, "background_blur"},
-    OptionRow{&RenderOptions::studio, Effect::Picture, Renewal::Scene, "studio"},
-    OptionRow{&RenderOptions::shadowCatcher, Effect::Picture, Renewal::Scene, "shadow_catcher"},
-    OptionRow{&RenderOptions::catcherHeight, Effect::Picture},
-    OptionRow{&RenderOptions::lineWidth, Effect::Picture, Renewal::Scene},
-    OptionRow{&RenderOptions::exposure, Effect::Display},
-    OptionRow{&RenderOptions::backgroundColor, Effect::Picture},
-    OptionRow{&RenderOptions::background, Effect::Picture, Renewal::None, "background"},
-    OptionRow{&RenderOptions::defaultLight, Effect::Picture, Renewal::Scene},
-    OptionRow{&RenderOptions::toneMap, Effect::Display},
-    OptionRow{&RenderOptions::encoding, Effect::Display},
-    OptionRow{&RenderOptions::pixelFilter, Effect::Picture, Renewal::Program},
-    OptionRow{&RenderOptions::traversal, Effect::Way, Renewal::Scene},
-    OptionRow{&RenderOptions::instancing, Effect::Way, Renewal::Scene},
-    OptionRow{&RenderOptions::backend, Effect::Way, Renewal::Program},
-    OptionRow{&RenderOptions::bufferReads, Effect::Way, Renewal::Program},
-    OptionRow{&RenderOptions::dispatch, Effect::Way, Renewal::Program},
-    OptionRow{&RenderOptions::vectorWidth, Effect::Way},
-    OptionRow{&RenderOptions::schedule, Effect::Way, Renewal::Program},
-    OptionRow{&RenderOptions::aovSamples, Effect::Layers},
-    OptionRow{&RenderOptions::aovVariance, Effect::Layers},
-    OptionRow{&RenderOptions::aovFeatures, Effect::Layers, Renewal::Program},
-    OptionRow{&RenderOptions::denoise, Effect::Display},
-    OptionRow{&RenderOptions::debugView, Effect::Picture, Renewal::Program},
-    OptionRow{&RenderOptions::treeLevel, Effect::Display},
-    OptionRow{&RenderOptions::checkpointSeconds, Effect::Report},
-    OptionRow{&RenderOptions::resume, Effect::Report},
-    OptionRow{&RenderOptions::sequence, Effect::View},
-    OptionRow{&RenderOptions::statsFile, Effect::Report},
-    OptionRow{&RenderOptions::shaderFolder, Effect::Way, Renewal::Program},
-    OptionRow{&RenderOptions::oidnLibrary, Effect::Display},
-    OptionRow{&RenderOptions::selection, Effect::Picture, Renewal::Scene},
-    OptionRow{&limit::memoryBytes, Effect::Report, Renewal::Scene},
-    OptionRow{&limit::allowExternalFiles, Effect::Report, Renewal::Scene},
-    OptionRow{&limit::textureSide, Effect::Picture, Renewal::Scene},
-    OptionRow{&limit::drawMissingTextures, Effect::Picture, Renewal::Scene},
-    OptionRow{&RenderOptions::quiet, Effect::Report, Renewal::Program},
-    OptionRow{&RenderOptions::verbose, Effect::Report},
-    OptionRow{&RenderOptions::progress, Effect::Report},
-    OptionRow{&RenderOptions::toStandardOutput, Effect::Report},
-};
+inline constexpr std::tuple kOptionRows{OptionRow{[](auto& o) -> auto& {return o.scene;
+}  // namespace fragtrace
+, Effect::Picture, Renewal::Scene
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.file;
+}
+, Effect::Report
+}
+, OptionRow{[](auto& o) -> auto& {return o.camera.resolution;
+}
+, Effect::Picture
+}
+, OptionRow{[](auto& o) -> auto& {return o.camera.region;
+}
+, Effect::Picture
+}
+, OptionRow{[](auto& o) -> auto& {return o.sampling.spp;
+}
+, Effect::Count
+}
+, OptionRow{[](auto& o) -> auto& {return o.sampling.sampleOffset;
+}
+, Effect::Noise
+}
+, OptionRow{[](auto& o) -> auto& {return o.sampling.seed;
+}
+, Effect::Noise
+}
+, OptionRow{[](auto& o) -> auto& {return o.sampling.bounces;
+}
+, Effect::Picture, Renewal::None, "bounces"
+}
+, OptionRow{[](auto& o) -> auto& {return o.sampling.rouletteDepth;
+}
+, Effect::Noise, Renewal::None, "rr_depth"
+}
+, OptionRow{[](auto& o) -> auto& {return o.sampling.clampIndirect;
+}
+, Effect::Picture, Renewal::Program, "clamp_indirect"
+}
+, OptionRow{[](auto& o) -> auto& {return o.light.selection;
+}
+, Effect::Noise, Renewal::Program
+}
+, OptionRow{[](auto& o) -> auto& {return o.light.reuse;
+}
+, Effect::Noise, Renewal::Program
+}
+, OptionRow{[](auto& o) -> auto& {return o.light.caustics;
+}
+, Effect::Picture, Renewal::Program
+}
+, OptionRow{[](auto& o) -> auto& {return o.sampling.noise;
+}
+, Effect::Count
+}
+, OptionRow{[](auto& o) -> auto& {return o.sampling.seconds;
+}
+, Effect::Count
+}
+, OptionRow{[](auto& o) -> auto& {return o.camera.index;
+}
+, Effect::View
+}
+, OptionRow{[](auto& o) -> auto& {return o.camera.overrides;
+}
+, Effect::View
+}
+, OptionRow{[](auto& o) -> auto& {return o.camera.lens;
+}
+, Effect::Picture, Renewal::Program
+}
+, OptionRow{[](auto& o) -> auto& {return o.camera.sceneOrigin;
+}
+, Effect::Way, Renewal::Scene
+}
+, OptionRow{[](auto& o) -> auto& {return o.light.hdriFile;
+}
+, Effect::Picture, Renewal::Scene, "hdri"
+}
+, OptionRow{[](auto& o) -> auto& {return o.light.hdriRotationDegrees;
+}
+, Effect::Picture, Renewal::None, "hdri_rotation"
+}
+, OptionRow{[](auto& o) -> auto& {return o.light.hdriIntensity;
+}
+, Effect::Picture, Renewal::None, "hdri_intensity"
+}
+, OptionRow{[](auto& o) -> auto& {return o.light.backgroundBlur;
+}
+, Effect::Picture, Renewal::Scene, "background_blur"
+}
+, OptionRow{[](auto& o) -> auto& {return o.light.studio;
+}
+, Effect::Picture, Renewal::Scene, "studio"
+}
+, OptionRow{[](auto& o) -> auto& {return o.light.shadowCatcher;
+}
+, Effect::Picture, Renewal::Scene, "shadow_catcher"
+}
+, OptionRow{[](auto& o) -> auto& {return o.light.catcherHeight;
+}
+, Effect::Picture
+}
+, OptionRow{[](auto& o) -> auto& {return o.camera.lineWidth;
+}
+, Effect::Picture, Renewal::Scene
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.exposure;
+}
+, Effect::Display
+}
+, OptionRow{[](auto& o) -> auto& {return o.light.backgroundColor;
+}
+, Effect::Picture
+}
+, OptionRow{[](auto& o) -> auto& {return o.light.background;
+}
+, Effect::Picture, Renewal::None, "background"
+}
+, OptionRow{[](auto& o) -> auto& {return o.light.defaultLight;
+}
+, Effect::Picture, Renewal::Scene
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.toneMap;
+}
+, Effect::Display
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.encoding;
+}
+, Effect::Display
+}
+, OptionRow{[](auto& o) -> auto& {return o.camera.pixelFilter;
+}
+, Effect::Picture, Renewal::Program
+}
+, OptionRow{[](auto& o) -> auto& {return o.device.traversal;
+}
+, Effect::Way, Renewal::Scene
+}
+, OptionRow{[](auto& o) -> auto& {return o.device.instancing;
+}
+, Effect::Way, Renewal::Scene
+}
+, OptionRow{[](auto& o) -> auto& {return o.device.backend;
+}
+, Effect::Way, Renewal::Program
+}
+, OptionRow{[](auto& o) -> auto& {return o.device.bufferReads;
+}
+, Effect::Way, Renewal::Program
+}
+, OptionRow{[](auto& o) -> auto& {return o.device.dispatch;
+}
+, Effect::Way, Renewal::Program
+}
+, OptionRow{[](auto& o) -> auto& {return o.device.vectorWidth;
+}
+, Effect::Way
+}
+, OptionRow{[](auto& o) -> auto& {return o.device.schedule;
+}
+, Effect::Way, Renewal::Program
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.aovSamples;
+}
+, Effect::Layers
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.aovVariance;
+}
+, Effect::Layers
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.aovFeatures;
+}
+, Effect::Layers, Renewal::Program
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.denoise;
+}
+, Effect::Display
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.debugView;
+}
+, Effect::Picture, Renewal::Program
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.treeLevel;
+}
+, Effect::Display
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.checkpointSeconds;
+}
+, Effect::Report
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.resume;
+}
+, Effect::Report
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.sequence;
+}
+, Effect::View
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.statsFile;
+}
+, Effect::Report
+}
+, OptionRow{[](auto& o) -> auto& {return o.device.shaderFolder;
+}
+, Effect::Way, Renewal::Program
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.oidnLibrary;
+}
+, Effect::Display
+}
+, OptionRow{[](auto& o) -> auto& {return o.selection;
+}
+, Effect::Picture, Renewal::Scene
+}
+, OptionRow{[](auto& o) -> auto& {return o.limits.memoryBytes;
+}
+, Effect::Report, Renewal::Scene
+}
+, OptionRow{[](auto& o) -> auto& {return o.limits.allowExternalFiles;
+}
+, Effect::Report, Renewal::Scene
+}
+, OptionRow{[](auto& o) -> auto& {return o.limits.textureSide;
+}
+, Effect::Picture, Renewal::Scene
+}
+, OptionRow{[](auto& o) -> auto& {return o.limits.drawMissingTextures;
+}
+, Effect::Picture, Renewal::Scene
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.quiet;
+}
+, Effect::Report, Renewal::Program
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.verbose;
+}
+, Effect::Report
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.progress;
+}
+, Effect::Report
+}
+, OptionRow{[](auto& o) -> auto& {return o.output.toStandardOutput;
+}
+, Effect::Report
+}
+,
+}
+;
 
 /// Calls use(row, reference to the member) for each row.
 template <typename Use>

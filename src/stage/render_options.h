@@ -86,8 +86,6 @@ struct SequenceOptions {
   bool operator==(const SequenceOptions&) const = default;
 };
 
-inline constexpr int kUnlimitedBounces = std::numeric_limits<int>::max() - 1;
-
 /// Depth of field of perspective cameras.
 struct LensOptions {
   std::optional<double> fStop;          ///< none: a pinhole
@@ -97,45 +95,83 @@ struct LensOptions {
   bool operator==(const LensOptions&) const = default;
 };
 
-struct RenderOptions {
-  std::filesystem::path scene;
-  std::filesystem::path output;
+/// From where a scene is seen, and what a pixel is.
+struct CameraOptions {
   std::optional<glm::ivec2> resolution;
   std::optional<Region> region;  ///< of the picture, that is drawn; none: all of it
-  StageSet stages = stagesUpTo(Stage::Gi);
-  int spp = 64;
-  int sampleOffset = 0;  ///< index of the first sample in the seed's sequence
-  uint32_t seed = 0;
-  int bounces = 16;       ///< kUnlimitedBounces: no limit
-  int rouletteDepth = 6;  ///< roulette from this scattering on, the first being 1
-  double clampIndirect =
-      0.0;  ///< largest radiance that a path of two scatterings or more may add; 0: no limit
-  LightSelection lightSelection = LightSelection::Auto;
-  LightReuse lightReuse = LightReuse::None;
-  Caustics caustics = Caustics::Auto;
-  double noise = 0.0;              ///< relative error to reach, adaptively; 0: spp samples in every pixel
-  double seconds = 0.0;            ///< time to spend, adaptively; 0: no limit
-  double checkpointSeconds = 0.0;  ///< between two checkpoints; 0: none is written
-  std::optional<int> cameraIndex;
-  CameraOverrides camera;
+  std::optional<int> index;
+  CameraOverrides overrides;
   LensOptions lens;
   std::optional<glm::dvec3>
       sceneOrigin;  ///< place that positions are rounded about; none: the focal point given
+  PixelFilter pixelFilter = PixelFilter::Box;
+  double lineWidth = 2.0;  ///< of points and lines, pixels
+
+  bool operator==(const CameraOptions&) const = default;
+};
+
+inline constexpr int kUnlimitedBounces = std::numeric_limits<int>::max() - 1;
+
+/// How many paths, and how long they are.
+struct SamplingOptions {
+  int spp = 64;
+  int sampleOffset = 0;  ///< index of the first sample in the seed's sequence
+  uint32_t seed = 0;
+  int bounces = 16;            ///< kUnlimitedBounces: no limit
+  int rouletteDepth = 6;       ///< roulette from this scattering on, the first being 1
+  double clampIndirect = 0.0;  ///< largest radiance that two scatterings or more may add; 0: no limit
+  double noise = 0.0;          ///< relative error to reach, adaptively; 0: spp samples in every pixel
+  double seconds = 0.0;        ///< time to spend, adaptively; 0: no limit
+
+  bool operator==(const SamplingOptions&) const = default;
+};
+
+/// What lights a scene, how its light is sampled, and what is around it.
+struct LightOptions {
+  LightSelection selection = LightSelection::Auto;
+  LightReuse reuse = LightReuse::None;
+  Caustics caustics = Caustics::Auto;
   std::filesystem::path hdriFile;
   double hdriRotationDegrees = 0.0;
   double hdriIntensity = 1.0;   ///< that the environment's radiance is multiplied by
   double backgroundBlur = 0.0;  ///< of the environment map as the camera sees it: standard deviation, degrees
-  double exposure = 0.0;
   std::optional<glm::vec3> backgroundColor;  ///< none: the environment map, black without one
   bool background = true;
   DefaultLight defaultLight = DefaultLight::White;
   bool studio = false;                  ///< the built-in environment (scene/studio.h)
   bool shadowCatcher = false;           ///< a plane that shows nothing but shadows
   std::optional<double> catcherHeight;  ///< its Y in world space, metres; none: the bottom of the scene
-  double lineWidth = 2.0;               ///< of points and lines, pixels
-  Encoding encoding;                    ///< of the output
+
+  bool operator==(const LightOptions&) const = default;
+};
+
+/// The files that are written, what they show, and what is said meanwhile.
+struct OutputOptions {
+  std::filesystem::path file;
+  bool toStandardOutput = false;  ///< the picture; `file` then tells its format and what messages call it
+  Encoding encoding;
+  double exposure = 0.0;  ///< stops
   ToneMap toneMap = ToneMap::Neutral;
-  PixelFilter pixelFilter = PixelFilter::Box;
+  bool aovSamples = false;  ///< more layers of .exr files
+  bool aovVariance = false;
+  std::vector<Feature> aovFeatures;
+  Denoise denoise = Denoise::None;
+  std::filesystem::path oidnLibrary;  ///< file of Open Image Denoise; none: it is looked for
+  DebugView debugView = DebugView::None;
+  std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
+  std::optional<SequenceOptions> sequence;
+  double checkpointSeconds = 0.0;  ///< between two checkpoints; 0: none is written
+  bool resume = false;             ///< go on from the checkpoint beside the output
+  std::filesystem::path statsFile;
+  ProgressForm progress = ProgressForm::Auto;
+  bool quiet = false;
+  bool verbose = false;
+
+  bool operator==(const OutputOptions&) const = default;
+};
+
+/// How the same picture is traced: its time and rounding alone.
+struct DeviceOptions {
   TraversalMethod traversal = TraversalMethod::Auto;
   Instancing instancing = Instancing::Auto;
   Backend backend = Backend::Auto;
@@ -143,37 +179,36 @@ struct RenderOptions {
   Dispatch dispatch = Dispatch::Auto;
   VectorWidth vectorWidth = VectorWidth::Auto;
   Schedule schedule = Schedule::Auto;
-  bool aovSamples = false;  ///< more layers of .exr files
-  bool aovVariance = false;
-  std::vector<Feature> aovFeatures;
-  Denoise denoise = Denoise::None;
-  ProgressForm progress = ProgressForm::Auto;
-  DebugView debugView = DebugView::None;
-  std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
-  std::optional<SequenceOptions> sequence;
-  std::filesystem::path statsFile;
   std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
-  std::filesystem::path oidnLibrary;   ///< file of Open Image Denoise; none: it is looked for
+
+  bool operator==(const DeviceOptions&) const = default;
+};
+
+struct RenderOptions {
+  std::filesystem::path scene;
   SceneSelection selection;
   InputLimits limits;
-  bool resume = false;            ///< go on from the checkpoint beside the output
-  bool toStandardOutput = false;  ///< the picture; `output` then tells its format and what messages call it
-  bool quiet = false;
-  bool verbose = false;
+  StageSet stages = stagesUpTo(Stage::Gi);
+  CameraOptions camera;
+  SamplingOptions sampling;
+  LightOptions light;
+  OutputOptions output;
+  DeviceOptions device;
 
   bool operator==(const RenderOptions&) const = default;
 };
 
 /// Whether an environment map lights the scene, of a file or built in.
-inline bool hasMap(const RenderOptions& o) { return o.studio || !o.hdriFile.empty(); }
+inline bool hasMap(const RenderOptions& o) { return o.light.studio || !o.light.hdriFile.empty(); }
 
 /// Whether noise or time ends a render, which places samples where they help most.
-inline bool isAdaptive(const RenderOptions& o) { return o.noise > 0.0 || o.seconds > 0.0; }
+inline bool isAdaptive(const RenderOptions& o) { return o.sampling.noise > 0.0 || o.sampling.seconds > 0.0; }
 
 /// Width / height of the picture that a scene without a camera is framed for; without --resolution it is
 /// wide, as good as square.
 inline double framedAspect(const RenderOptions& options) {
-  return options.resolution ? double(options.resolution->x) / options.resolution->y : 1.0;
+  const std::optional<glm::ivec2>& resolution = options.camera.resolution;
+  return resolution ? double(resolution->x) / resolution->y : 1.0;
 }
 
 }  // namespace fragtrace

@@ -12,7 +12,7 @@ RenderOptions sampledPart(const RenderOptions& options) {
   RenderOptions part =
       withoutEffects(options, {Effect::Report, Effect::Way, Effect::Layers, Effect::Count, Effect::Display});
   // The heat map shows the way through the tree.
-  if (has(options.stages, Stage::BvhHeatmap)) part.traversal = options.traversal;
+  if (has(options.stages, Stage::BvhHeatmap)) part.device.traversal = options.device.traversal;
   return part;
 }
 
@@ -31,7 +31,7 @@ bool drawSameSamples(const RenderOptions& a, const RenderOptions& b) {
 
 std::string whyWithoutNoise(const RenderOptions& options) {
   if (!has(options.stages, Stage::Gi)) return "stages before gi have no noise but at edges";
-  if (options.debugView != DebugView::None || has(options.stages, Stage::BvhHeatmap))
+  if (options.output.debugView != DebugView::None || has(options.stages, Stage::BvhHeatmap))
     return "a debug view shows what was drawn";
   return "";
 }

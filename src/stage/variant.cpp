@@ -176,9 +176,9 @@ std::string whyBlank(DebugView view, const TraitSet& present) {
 
 std::string whyNoLightPaths(const RenderOptions& options) {
   // Limits, catchers and parts know paths from the camera alone.
-  if (options.clampIndirect > 0.0) return "--clamp-indirect";
-  if (options.shadowCatcher) return "--shadow-catcher";
-  if (std::ranges::any_of(options.aovFeatures, isLightPart)) return "--aov has parts of the light";
+  if (options.sampling.clampIndirect > 0.0) return "--clamp-indirect";
+  if (options.light.shadowCatcher) return "--shadow-catcher";
+  if (std::ranges::any_of(options.output.aovFeatures, isLightPart)) return "--aov has parts of the light";
   return {};
 }
 
@@ -188,9 +188,9 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   v.stages = options.stages;
   v.traits = present;
   v.reads = reads;
-  if (options.lightSelection != LightSelection::Auto)
-    v.traits.set(size_t(Trait::LightTree), options.lightSelection != LightSelection::Power);
-  if (options.caustics == Caustics::Off || !whyNoLightPaths(options).empty())
+  if (options.light.selection != LightSelection::Auto)
+    v.traits.set(size_t(Trait::LightTree), options.light.selection != LightSelection::Power);
+  if (options.light.caustics == Caustics::Off || !whyNoLightPaths(options).empty())
     v.traits.reset(size_t(Trait::Caustics));
   dropStages(v.stages);
   dropTraits(v.stages, surroundings, v.traits);
@@ -198,9 +198,9 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
 
   // Step: how rays find triangles.
   // Literals need the packed scene; who has it puts them in (useLiterals of src/session/setup.cpp).
-  const bool named =
-      options.traversal != TraversalMethod::Auto && options.traversal != TraversalMethod::Literals;
-  v.traversal = named ? options.traversal : TraversalMethod::FrontToBack;
+  const bool named = options.device.traversal != TraversalMethod::Auto &&
+                     options.device.traversal != TraversalMethod::Literals;
+  v.traversal = named ? options.device.traversal : TraversalMethod::FrontToBack;
   if (v.traversal == TraversalMethod::Iterative) drop(v.traits, {Trait::Instances});
   v.stackSize = treeDepth <= kMaxBvhDepth ? int(kMaxBvhDepth) : int(kMaxTwoLevelDepth);
   for (int size : {24, 20, 16, 12, 8}) {
@@ -208,14 +208,14 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   }
   if (v.traversal == TraversalMethod::Iterative) v.stackSize = 8;
 
-  v.uniformLights = has(v.traits, Trait::LightTree) && options.lightSelection == LightSelection::Uniform;
+  v.uniformLights = has(v.traits, Trait::LightTree) && options.light.selection == LightSelection::Uniform;
   const bool drawsLight = has(v.stages, Stage::Gi) && hasLight(v.traits);
-  v.lightCandidates = drawsLight && options.lightReuse == LightReuse::Candidates;
-  v.neighbours = drawsLight && options.lightReuse == LightReuse::Spatial;
-  v.pixelFilter = options.pixelFilter;
-  v.lens = options.lens.fStop.has_value();
-  v.clampIndirect = has(v.stages, Stage::Gi) && options.clampIndirect > 0.0;
-  v.shadowCatcher = has(v.stages, Stage::Gi) && options.shadowCatcher;
+  v.lightCandidates = drawsLight && options.light.reuse == LightReuse::Candidates;
+  v.neighbours = drawsLight && options.light.reuse == LightReuse::Spatial;
+  v.pixelFilter = options.camera.pixelFilter;
+  v.lens = options.camera.lens.fStop.has_value();
+  v.clampIndirect = has(v.stages, Stage::Gi) && options.sampling.clampIndirect > 0.0;
+  v.shadowCatcher = has(v.stages, Stage::Gi) && options.light.shadowCatcher;
   return v;
 }
 
@@ -272,18 +272,18 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
   if (roughnessTexture || feature == Feature::Texcoords) keep(Trait::Texcoords);
   if (follows) keep(Trait::SmoothSurfaces);
   if (feature == Feature::Object) v.traits.set(size_t(Trait::ObjectNumbers));
-  v.shadowCatcher = guides && has(options.stages, Stage::Gi) && options.shadowCatcher;
+  v.shadowCatcher = guides && has(options.stages, Stage::Gi) && options.light.shadowCatcher;
   v.feature = feature;
   return v;
 }
 
 ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet& present,
                                    Surroundings surroundings, uint32_t treeDepth, BufferReads reads) {
-  const Feature feature = rowOf(options.debugView).feature;
+  const Feature feature = rowOf(options.output.debugView).feature;
   if (feature != Feature::None)
     return chooseFeatureVariant(options, present, surroundings, treeDepth, reads, feature);
   RenderOptions wanted = options;
-  if (options.debugView == DebugView::Visits) wanted.stages.set(size_t(Stage::BvhHeatmap));
+  if (options.output.debugView == DebugView::Visits) wanted.stages.set(size_t(Stage::BvhHeatmap));
   return chooseVariant(wanted, present, surroundings, treeDepth, reads);
 }
 

@@ -24,7 +24,7 @@ RenderOptions optionsOf(const StressSetting& setting, Stage stage) {
   RenderOptions options;
   options.stages = stagesUpTo(stage);
   options.stages.set(size_t(Stage::Watertight), setting.watertight);
-  options.schedule = setting.schedule;
+  options.device.schedule = setting.schedule;
   return options;
 }
 
@@ -32,13 +32,13 @@ StressPicture::StressPicture(const StressSetting& setting, Scene scene, const En
                              const RenderOptions& options)
     : setting_(setting) {
   scene.insets = creaseInsets(scene);
-  const bool iterative = options.traversal == TraversalMethod::Iterative;
+  const bool iterative = options.device.traversal == TraversalMethod::Iterative;
   const Bvh bvh = iterative ? listLeaves(scene) : buildSceneBvh(scene);
   variant_ = chooseVariant(options, traitsOf(scene, environment.kind), environment.kind, bvh.depth,
                            BufferReads::Auto);
   GpuScene packed = packScene(scene, bvh, environment, variant_);
-  if (options.traversal == TraversalMethod::Literals) {
-    variant_.traversal = options.traversal;
+  if (options.device.traversal == TraversalMethod::Literals) {
+    variant_.traversal = options.device.traversal;
     variant_.literals = literalScene(scene, bvh, packed, variant_);
   }
   variant_.reads = chooseReads(BufferReads::Auto, setting.context.software, packed, readLimits()).reads;

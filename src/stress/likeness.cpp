@@ -59,8 +59,9 @@ struct Pair {
       : sketch(randomSketch(seed)),
         other(inForm(sketch, form, seed)),
         a(drawingOf(context, sketch, options)),
-        b(drawingOf(context, other, withSeed(options, sameNumbers(form) ? options.seed : options.seed + 1))) {
-  }
+        b(drawingOf(
+            context, other,
+            withSeed(options, sameNumbers(form) ? options.sampling.seed : options.sampling.seed + 1))) {}
 
   void compareHits(Likeness& l, const SceneDrawing::GoOn& goOn) {
     const FilmPixels before = a.depth(goOn);
@@ -75,18 +76,18 @@ struct Pair {
   }
 
   static RenderOptions withSeed(RenderOptions options, uint32_t seed) {
-    options.seed = seed;
+    options.sampling.seed = seed;
     return options;
   }
 };
 
 RenderOptions optionsOf(int side) {
   RenderOptions options;
-  options.spp = 64;
-  options.bounces = 6;
-  options.seed = 1;
-  options.resolution = glm::ivec2(side);
-  options.traversal = TraversalMethod::FrontToBack;
+  options.sampling.spp = 64;
+  options.sampling.bounces = 6;
+  options.sampling.seed = 1;
+  options.camera.resolution = glm::ivec2(side);
+  options.device.traversal = TraversalMethod::FrontToBack;
   // Independent samples tell their noise.
   options.stages.reset(size_t(Stage::Sobol));
   return options;
@@ -108,7 +109,7 @@ Likeness likenessOf(const Context& context, uint32_t seed, Form form, Schedule s
   l.seed = seed;
   l.form = form;
   RenderOptions options = optionsOf(24);
-  options.schedule = schedule;
+  options.device.schedule = schedule;
   Pair pair(context, seed, form, options);
   const FilmPixels a = pair.a.picture(goOn);
   const FilmPixels b = pair.b.picture(goOn);

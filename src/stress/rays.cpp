@@ -31,7 +31,7 @@ ShaderVariant variantOf(const StressSetting& setting, const Scene& scene, Traver
   RenderOptions options;
   options.stages = stagesUpTo(Stage::Flat);
   options.stages.set(size_t(Stage::Watertight), setting.watertight);
-  options.traversal = method;
+  options.device.traversal = method;
   return chooseVariant(options, traitsOf(scene, Surroundings::None), Surroundings::None, depth,
                        BufferReads::Auto);
 }

@@ -49,29 +49,30 @@ SceneDrawing::SceneDrawing(const Context& context, const Scene& scene, const Ren
                            const Environment& environment, double environmentTurn)
     : options_(options) {
   const TraitSet present = traitsOf(scene, environment.kind);
-  const bool iterative = options.traversal == TraversalMethod::Iterative;
+  const bool iterative = options.device.traversal == TraversalMethod::Iterative;
   const Bvh bvh =
       iterative ? listLeaves(scene) : buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
-  picture_ = chooseVariant(options, present, environment.kind, bvh.depth, options.bufferReads);
-  depth_ = chooseFeatureVariant(options, present, environment.kind, bvh.depth, options.bufferReads,
+  picture_ = chooseVariant(options, present, environment.kind, bvh.depth, options.device.bufferReads);
+  depth_ = chooseFeatureVariant(options, present, environment.kind, bvh.depth, options.device.bufferReads,
                                 Feature::Depth);
   ShaderVariant everything = picture_;
   everything.traits |= depth_.traits;
   GpuScene packed = packScene(scene, bvh, environment, everything);
-  picture_.reads = chooseReads(options.bufferReads, context.software, packed, readLimits()).reads;
+  picture_.reads = chooseReads(options.device.bufferReads, context.software, packed, readLimits()).reads;
   depth_.reads = picture_.reads;
   chooseSchedule(picture_, options, {});
-  renderer_ = std::make_unique<Renderer>(context, std::move(packed), picture_.reads, options.shaderFolder);
+  renderer_ =
+      std::make_unique<Renderer>(context, std::move(packed), picture_.reads, options.device.shaderFolder);
   view_.camera = scene.cameras.empty() ? frameScene(scene.bounds) : scene.cameras.front();
   view_.space = scene.space;
-  view_.background = options.backgroundColor.value_or(glm::vec3(0.0f));
+  view_.background = options.light.backgroundColor.value_or(glm::vec3(0.0f));
   view_.showEnvironment = environment.kind == Surroundings::Map;
   view_.hdriRotation = environmentTurn;
-  view_.bounces = options.bounces;
+  view_.bounces = options.sampling.bounces;
 }
 
 FilmPixels SceneDrawing::draw(const ShaderVariant& variant, int samples, uint32_t seed, const GoOn& goOn) {
-  Film film(options_.resolution.value_or(glm::ivec2(64)));
+  Film film(options_.camera.resolution.value_or(glm::ivec2(64)));
   view_.seed = seed;
   renderer_->compile(variant, film, view_);
   RenderTimes times;
@@ -83,7 +84,7 @@ FilmPixels SceneDrawing::draw(const ShaderVariant& variant, int samples, uint32_
 }
 
 FilmPixels SceneDrawing::picture(const GoOn& goOn) {
-  return draw(picture_, options_.spp, options_.seed, goOn);
+  return draw(picture_, options_.sampling.spp, options_.sampling.seed, goOn);
 }
 
 FilmPixels SceneDrawing::depth(const GoOn& goOn) { return draw(depth_, 1, 0, goOn); }

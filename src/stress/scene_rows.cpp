@@ -20,10 +20,10 @@ namespace {
 RenderOptions flatOptions(const StressSetting& setting, glm::ivec2 size, int spp) {
   RenderOptions options;
   options.stages = stagesUpTo(Stage::Flat);
-  options.traversal = TraversalMethod::FrontToBack;
-  options.resolution = size;
-  options.spp = spp;
-  options.shaderFolder = setting.shaderFolder;
+  options.device.traversal = TraversalMethod::FrontToBack;
+  options.camera.resolution = size;
+  options.sampling.spp = spp;
+  options.device.shaderFolder = setting.shaderFolder;
   return options;
 }
 
@@ -105,10 +105,10 @@ StressOutcome drawNoNumbers(const StressSetting& setting) {
   constexpr std::array kBad{std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity,
                             std::numeric_limits<float>::max()};
   RenderOptions options;
-  options.spp = 2;
-  options.resolution = glm::ivec2(16);
-  options.traversal = TraversalMethod::FrontToBack;
-  options.shaderFolder = setting.shaderFolder;
+  options.sampling.spp = 2;
+  options.camera.resolution = glm::ivec2(16);
+  options.device.traversal = TraversalMethod::FrontToBack;
+  options.device.shaderFolder = setting.shaderFolder;
   StressOutcome outcome;
   for (uint32_t seed = 0; seed < scenes; ++seed) {
     Dice dice(seed);
@@ -131,14 +131,15 @@ StressOutcome drawNoNumbers(const StressSetting& setting) {
 
 StressOutcome addThirds(const StressSetting& setting) {
   RenderOptions options = flatOptions(setting, {2, 2}, setting.quick ? 1 << 20 : 1 << 24);
-  options.backgroundColor = glm::vec3(1.0f / 3.0f);
+  options.light.backgroundColor = glm::vec3(1.0f / 3.0f);
   const FilmPixels film =
       SceneDrawing(setting.context, sceneWithoutTriangles(), options).picture(setting.goOn);
   StressOutcome outcome;
   for (const FilmPixel& p : film.pixels) {
     for (int c = 0; c < 3; ++c) {
       ++outcome.cases;
-      outcome.failures += !(std::abs(p.mean()[c] - 1.0 / 3.0) <= 1e-6) || p.samples != uint32_t(options.spp);
+      outcome.failures +=
+          !(std::abs(p.mean()[c] - 1.0 / 3.0) <= 1e-6) || p.samples != uint32_t(options.sampling.spp);
     }
   }
   return outcome;

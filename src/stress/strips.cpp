@@ -169,7 +169,7 @@ void addSkin(Prism& box, const Skin& skin, bool first, bool flipped) {
 /// Counts light inside.
 void scatterIn(const StressSetting& setting, const Prism& prism, bool literals, StressOutcome& outcome) {
   RenderOptions options = optionsOf(setting, Stage::Gi);
-  if (literals) options.traversal = TraversalMethod::Literals;
+  if (literals) options.device.traversal = TraversalMethod::Literals;
   StressPicture picture(setting, prism.scene, whiteWorld(1e4f), options);
   View view;
   view.camera.position = prism.inside;

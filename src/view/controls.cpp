@@ -61,8 +61,8 @@ void chooseSceneCamera(ViewState& state, int index) {
   if (!state.scene || index < 0 || size_t(index) >= state.scene->cameras.size()) return;
   state.sceneCamera = index;
   for (RenderOptions& o : state.sides) {
-    o.cameraIndex = index;
-    o.camera = {};
+    o.camera.index = index;
+    o.camera.overrides = {};
   }
   state.pose = poseOf(state.scene->cameras[size_t(index)], state.scene->bounds);
   state.posed = false;
@@ -136,8 +136,8 @@ bool moveCamera(ViewState& state, const Control& control, const Movement& m) {
 
 /// The one that the viewer was started with.
 Denoise filterOf(const ViewState& state) {
-  const bool chosen = state.scene && state.scene->options.denoise != Denoise::None;
-  return chosen ? state.scene->options.denoise : Denoise::Variance;
+  const bool chosen = state.scene && state.scene->options.output.denoise != Denoise::None;
+  return chosen ? state.scene->options.output.denoise : Denoise::Variance;
 }
 
 /// From the beginning, where the end is shown.
@@ -162,7 +162,7 @@ bool changePicture(ViewState& state, const Control& control, const Movement& m) 
       return true;
     case Action::NextDebugView: {
       const int count = int(kDebugViewRows.size());
-      o.debugView = DebugView((int(o.debugView) + control.argument + count) % count);
+      o.output.debugView = DebugView((int(o.output.debugView) + control.argument + count) % count);
       return true;
     }
     case Action::ToggleTreeBoxes:
@@ -173,20 +173,20 @@ bool changePicture(ViewState& state, const Control& control, const Movement& m) 
       return true;
     case Action::NextToneMap:
       for (RenderOptions& side : state.sides)
-        side.toneMap = ToneMap((int(side.toneMap) + 1) % int(toneMapNames().size()));
+        side.output.toneMap = ToneMap((int(side.output.toneMap) + 1) % int(toneMapNames().size()));
       return true;
     case Action::Exposure:
       for (RenderOptions& side : state.sides)
-        side.exposure =
-            std::clamp(side.exposure + kExposureStep * control.argument, -kMostExposure, kMostExposure);
+        side.output.exposure = std::clamp(side.output.exposure + kExposureStep * control.argument,
+                                          -kMostExposure, kMostExposure);
       return true;
     case Action::RotateEnvironment:
       for (RenderOptions& side : state.sides)
-        side.hdriRotationDegrees =
-            std::remainder(side.hdriRotationDegrees + kDegreesPerHeight * m.drag.x, 360.0);
+        side.light.hdriRotationDegrees =
+            std::remainder(side.light.hdriRotationDegrees + kDegreesPerHeight * m.drag.x, 360.0);
       return true;
     case Action::ToggleDenoise:
-      o.denoise = o.denoise == Denoise::None ? filterOf(state) : Denoise::None;
+      o.output.denoise = o.output.denoise == Denoise::None ? filterOf(state) : Denoise::None;
       return true;
     case Action::PlayAnimation:
       playOrPause(state);
@@ -197,10 +197,10 @@ bool changePicture(ViewState& state, const Control& control, const Movement& m) 
       return true;
     }
     case Action::ToggleGround:
-      for (RenderOptions& side : state.sides) side.shadowCatcher = !side.shadowCatcher;
+      for (RenderOptions& side : state.sides) side.light.shadowCatcher = !side.light.shadowCatcher;
       return true;
     case Action::ToggleBackground:
-      for (RenderOptions& side : state.sides) side.background = !side.background;
+      for (RenderOptions& side : state.sides) side.light.background = !side.light.background;
       return true;
     default:
       return false;

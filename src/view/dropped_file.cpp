@@ -46,14 +46,14 @@ Drop takeDrop(const RenderOptions& shown, std::span<const std::filesystem::path>
   }
   if (scene) {
     options.scene = *scene;
-    options.camera = {};
-    options.cameraIndex.reset();
-    options.sceneOrigin.reset();
+    options.camera.overrides = {};
+    options.camera.index.reset();
+    options.camera.sceneOrigin.reset();
     options.selection = {};
   }
   if (environment) {
-    options.hdriFile = *environment;
-    options.studio = false;
+    options.light.hdriFile = *environment;
+    options.light.studio = false;
   }
   if (scene || environment) drop.load = options;
   return drop;

@@ -11,7 +11,7 @@ namespace fragtrace {
 std::vector<std::filesystem::path> environmentsNear(const RenderOptions& options) {
   std::vector<std::filesystem::path> files;
   std::set<std::filesystem::path> folders;
-  for (const std::filesystem::path& file : {options.scene, options.hdriFile}) {
+  for (const std::filesystem::path& file : {options.scene, options.light.hdriFile}) {
     std::error_code error;
     const std::filesystem::path folder = file.parent_path().empty() ? "." : file.parent_path();
     if (file.empty() || !folders.insert(std::filesystem::weakly_canonical(folder, error)).second) continue;
@@ -36,7 +36,7 @@ std::vector<EnvironmentChoice> environmentChoices(const ViewedScene& scene) {
   choices.push_back({.name = "Studio", .studio = true});
   for (const std::filesystem::path& file : scene.environments)
     choices.push_back({.name = file.filename().string(), .file = file});
-  const std::filesystem::path& shown = scene.options.hdriFile;
+  const std::filesystem::path& shown = scene.options.light.hdriFile;
   if (!shown.empty() && std::ranges::find(scene.environments, shown) == scene.environments.end())
     choices.push_back({.name = shown.filename().string(), .file = shown});
   return choices;
@@ -44,20 +44,22 @@ std::vector<EnvironmentChoice> environmentChoices(const ViewedScene& scene) {
 
 size_t currentChoice(const ViewedScene& scene, const std::vector<EnvironmentChoice>& choices) {
   const RenderOptions& o = scene.options;
-  const bool studio = o.studio || (scene.map && o.hdriFile.empty());
+  const bool studio = o.light.studio || (scene.map && o.light.hdriFile.empty());
   const auto lights = [&](const EnvironmentChoice& choice) {
-    if (!o.hdriFile.empty() || studio) return choice.file == o.hdriFile && choice.studio == studio;
-    return choice.file.empty() && !choice.studio && (!scene.defaultLight || choice.light == o.defaultLight);
+    if (!o.light.hdriFile.empty() || studio)
+      return choice.file == o.light.hdriFile && choice.studio == studio;
+    return choice.file.empty() && !choice.studio &&
+           (!scene.defaultLight || choice.light == o.light.defaultLight);
   };
   const auto found = std::ranges::find_if(choices, lights);
   return found == choices.end() ? 0 : size_t(found - choices.begin());
 }
 
 RenderOptions withEnvironment(RenderOptions options, const EnvironmentChoice& choice) {
-  options.hdriFile = choice.file;
-  options.studio = choice.studio;
-  options.defaultLight = choice.light;
-  if (choice.file.empty()) options.backgroundBlur = 0.0;
+  options.light.hdriFile = choice.file;
+  options.light.studio = choice.studio;
+  options.light.defaultLight = choice.light;
+  if (choice.file.empty()) options.light.backgroundBlur = 0.0;
   return options;
 }
 

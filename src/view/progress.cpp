@@ -22,10 +22,10 @@ ViewProgress progressOf(const SideStatistics& side, const RenderOptions& options
     progress.fraction = std::max(progress.fraction, std::clamp(fraction, 0.0, 1.0));
     known = true;
   };
-  if (options.spp < kNoSampleGoal) goal(double(side.samples) / options.spp);
-  if (options.seconds > 0.0) goal(side.seconds / options.seconds);
-  if (options.noise > 0.0 && side.error > 0.0) {
-    const double ratio = options.noise / side.error;
+  if (options.sampling.spp < kNoSampleGoal) goal(double(side.samples) / options.sampling.spp);
+  if (options.sampling.seconds > 0.0) goal(side.seconds / options.sampling.seconds);
+  if (options.sampling.noise > 0.0 && side.error > 0.0) {
+    const double ratio = options.sampling.noise / side.error;
     goal(ratio * ratio);
   }
   if (!known || progress.fraction <= 0.0) return progress;

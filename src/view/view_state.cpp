@@ -11,10 +11,10 @@ namespace fragtrace {
 void resetCamera(ViewState& state) {
   if (!state.scene) return;
   for (RenderOptions& o : state.sides) {
-    o.cameraIndex = state.scene->options.cameraIndex;
-    o.camera = state.scene->options.camera;
+    o.camera.index = state.scene->options.camera.index;
+    o.camera.overrides = state.scene->options.camera.overrides;
   }
-  state.sceneCamera = state.scene->options.cameraIndex.value_or(state.scene->cameras.empty() ? -1 : 0);
+  state.sceneCamera = state.scene->options.camera.index.value_or(state.scene->cameras.empty() ? -1 : 0);
   state.pose = poseOf(state.scene->camera, state.scene->bounds);
   state.posed = false;
 }
@@ -35,10 +35,10 @@ size_t sideAt(const ViewState& state, const glm::dvec2& place) {
 void takeScene(RenderOptions& side, const RenderOptions& from) {
   side.scene = from.scene;
   side.selection = from.selection;
-  side.hdriFile = from.hdriFile;
-  side.studio = from.studio;
-  side.backgroundBlur = from.backgroundBlur;
-  side.defaultLight = from.defaultLight;
+  side.light.hdriFile = from.light.hdriFile;
+  side.light.studio = from.light.studio;
+  side.light.backgroundBlur = from.light.backgroundBlur;
+  side.light.defaultLight = from.light.defaultLight;
 }
 
 void showScene(ViewState& state, ViewedScene scene) {
@@ -54,11 +54,11 @@ void showScene(ViewState& state, ViewedScene scene) {
 RenderOptions renderOptionsOf(const ViewState& state, size_t side) {
   RenderOptions o = state.sides[side];
   if (state.posed) {
-    o.cameraIndex.reset();
-    o.camera = overridesOf(state.pose);
+    o.camera.index.reset();
+    o.camera.overrides = overridesOf(state.pose);
   }
-  if (!state.pose.perspective) o.lens = {};
-  o.treeLevel = state.treeBoxes ? std::optional<int>(state.treeLevel) : std::nullopt;
+  if (!state.pose.perspective) o.camera.lens = {};
+  o.output.treeLevel = state.treeBoxes ? std::optional<int>(state.treeLevel) : std::nullopt;
   return o;
 }
 
@@ -66,7 +66,7 @@ std::vector<RenderOptions> tracedSides(const ViewState& state) {
   std::vector<RenderOptions> sides;
   for (size_t i = 0; i < state.tracedCount(); ++i) {
     sides.push_back(renderOptionsOf(state, i));
-    sides.back().resolution.reset();
+    sides.back().camera.resolution.reset();
   }
   return sides;
 }
@@ -74,34 +74,35 @@ std::vector<RenderOptions> tracedSides(const ViewState& state) {
 void takeOptions(ViewState& state, const RenderOptions& options) {
   if (!state.scene) return;
   const std::optional<int> index =
-      cameraIndexOf(options.cameraIndex, options.selection.camera, state.scene->cameras);
-  const Camera camera = chooseCamera(state.scene->cameras, index, options.camera, state.scene->bounds,
-                                     framedAspect(state.scene->options));
+      cameraIndexOf(options.camera.index, options.selection.camera, state.scene->cameras);
+  const Camera camera = chooseCamera(state.scene->cameras, index, options.camera.overrides,
+                                     state.scene->bounds, framedAspect(state.scene->options));
   state.options() = options;
   for (RenderOptions& side : state.sides) {
-    side.cameraIndex = index;
+    side.camera.index = index;
     side.selection.camera = options.selection.camera;
-    side.camera = options.camera;
-    side.exposure = options.exposure;
-    side.toneMap = options.toneMap;
-    side.hdriRotationDegrees = options.hdriRotationDegrees;
-    side.hdriIntensity = options.hdriIntensity;
-    side.background = options.background;
-    side.shadowCatcher = options.shadowCatcher;
-    side.catcherHeight = options.catcherHeight;
-    side.backgroundColor = options.backgroundColor;
+    side.camera.overrides = options.camera.overrides;
+    side.output.exposure = options.output.exposure;
+    side.output.toneMap = options.output.toneMap;
+    side.light.hdriRotationDegrees = options.light.hdriRotationDegrees;
+    side.light.hdriIntensity = options.light.hdriIntensity;
+    side.light.background = options.light.background;
+    side.light.shadowCatcher = options.light.shadowCatcher;
+    side.light.catcherHeight = options.light.catcherHeight;
+    side.light.backgroundColor = options.light.backgroundColor;
   }
   state.sceneCamera = index.value_or(state.sceneCamera);
-  state.treeBoxes = options.treeLevel.has_value();
-  state.treeLevel = options.treeLevel.value_or(state.treeLevel);
+  state.treeBoxes = options.output.treeLevel.has_value();
+  state.treeLevel = options.output.treeLevel.value_or(state.treeLevel);
   state.pose = poseOf(camera, state.scene->bounds);
   state.posed = false;
 }
 
 bool sameScene(const RenderOptions& a, const RenderOptions& b) {
-  return a.scene == b.scene && a.selection == b.selection && a.hdriFile == b.hdriFile &&
-         a.studio == b.studio && a.backgroundBlur == b.backgroundBlur && a.defaultLight == b.defaultLight &&
-         a.instancing == b.instancing && a.limits == b.limits;
+  return a.scene == b.scene && a.selection == b.selection && a.light.hdriFile == b.light.hdriFile &&
+         a.light.studio == b.light.studio && a.light.backgroundBlur == b.light.backgroundBlur &&
+         a.light.defaultLight == b.light.defaultLight && a.device.instancing == b.device.instancing &&
+         a.limits == b.limits;
 }
 
 bool sameNodes(const RenderOptions& a, const RenderOptions& b) {
@@ -117,7 +118,7 @@ RenderOptions resetAll(ViewState& state, const RenderOptions& start) {
   state.active = 0;
   state.comparison = CompareMode::Bar;
   state.magnifier = {};
-  state.treeBoxes = start.treeLevel.has_value();
+  state.treeBoxes = start.output.treeLevel.has_value();
   state.playback.playing = false;
   resetCamera(state);
   RenderOptions wanted = state.scene ? state.scene->options : start;

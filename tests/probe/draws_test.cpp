@@ -38,9 +38,9 @@ class Draws : public GlProbe {
 
   void open(const std::string& name, const RenderOptions& options) {
     GltfOptions loading;
-    loading.instancing = options.instancing;
+    loading.instancing = options.device.instancing;
     const Scene scene = loadGltf(std::filesystem::path(FRAGTRACE_SCENES) / name, loading);
-    const bool iterative = options.traversal == TraversalMethod::Iterative;
+    const bool iterative = options.device.traversal == TraversalMethod::Iterative;
     const Bvh bvh = iterative ? listLeaves(scene) : buildSceneBvh(scene);
     const Environment surroundings;
     variant_ = chooseVariant(options, traitsOf(scene, surroundings.kind), surroundings.kind, bvh.depth,
@@ -217,7 +217,7 @@ TEST_P(Draws, PathsThatAreSuspendedInGlass) {
 TEST_P(Draws, PathsThatAreSuspendedInAnInstance) {
   constexpr int kMany = 700;
   RenderOptions options;
-  options.instancing = Instancing::Share;
+  options.device.instancing = Instancing::Share;
   size_ = {16, 12};
   open("transforms.gltf", options);
   ASSERT_TRUE(has(variant_.traits, Trait::Instances));
@@ -230,7 +230,7 @@ TEST_P(Draws, PathsThatAreSuspendedInAnInstance) {
 TEST_P(Draws, PathsThatAreSuspended) {
   RenderOptions options;
   options.stages = stagesUpTo(Stage::Flat);
-  options.traversal = TraversalMethod::Iterative;
+  options.device.traversal = TraversalMethod::Iterative;
   size_ = {40, 30};
   open("mesh-15743.gltf", options);
   const FilmPixels expected = drawn([&](Film& film) { add(film, 0, 3); });

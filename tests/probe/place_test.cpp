@@ -14,10 +14,10 @@ namespace {
 
 RenderOptions optionsOf(int spp) {
   RenderOptions options;
-  options.spp = spp;
-  options.bounces = 4;
-  options.resolution = glm::ivec2(32);
-  options.traversal = TraversalMethod::FrontToBack;
+  options.sampling.spp = spp;
+  options.sampling.bounces = 4;
+  options.camera.resolution = glm::ivec2(32);
+  options.device.traversal = TraversalMethod::FrontToBack;
   return options;
 }
 

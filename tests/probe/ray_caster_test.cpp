@@ -29,7 +29,7 @@ TEST_P(RayCasting, FindsWhatDoublePrecisionFinds) {
     for (const TraversalMethod method : {TraversalMethod::Bvh, TraversalMethod::FrontToBack}) {
       RenderOptions options;
       options.stages = stagesUpTo(Stage::Flat);
-      options.traversal = method;
+      options.device.traversal = method;
       const ShaderVariant variant =
           chooseVariant(options, traitsOf(scene, Surroundings::None), Surroundings::None, bvh.depth, reads);
       RayCaster caster(context(), packScene(scene, bvh, {}, variant), variant, size);

@@ -28,7 +28,7 @@ class TreeShapes : public GlProbe {
     bvh_ = buildBvh(primitiveBounds(scene_), uint32_t(scene_.triangles.size()));
     RenderOptions options;
     options.stages = stagesUpTo(Stage::Flat);
-    options.traversal = TraversalMethod::FrontToBack;
+    options.device.traversal = TraversalMethod::FrontToBack;
     variant_ = chooseVariant(options, traitsOf(scene_, Surroundings::None), Surroundings::None, bvh_.depth,
                              BufferReads::Image);
     renderer_ =

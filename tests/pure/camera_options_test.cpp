@@ -15,16 +15,16 @@ namespace {
 /// Options as the viewer has them after a movement.
 RenderOptions optionsOf(const CameraPose& pose) {
   RenderOptions options;
-  options.camera = overridesOf(pose);
+  options.camera.overrides = overridesOf(pose);
   return options;
 }
 
 TEST(CameraText, SaysWhatIsSet) {
   RenderOptions options;
   EXPECT_EQ(cameraText(options), "");
-  options.cameraIndex = 2;
-  options.camera.position = glm::dvec3(-0.5, 0.1, 1e-7);
-  options.resolution = glm::ivec2(640, 480);
+  options.camera.index = 2;
+  options.camera.overrides.position = glm::dvec3(-0.5, 0.1, 1e-7);
+  options.camera.resolution = glm::ivec2(640, 480);
   EXPECT_EQ(cameraText(options), "--camera-index 2 --camera-position -0.5,0.1,1e-07 --resolution 640,480");
 }
 
@@ -49,34 +49,34 @@ TEST(CameraText, ReadsBackAsItselfBitForBit) {
     RenderOptions options = optionsOf(
         {.position = vector(), .focalPoint = vector(), .viewUp = vector(), .perspective = i % 2 == 0});
     if (i % 2 == 0)
-      options.camera.viewAngleDegrees = std::abs(number());
+      options.camera.overrides.viewAngleDegrees = std::abs(number());
     else
-      options.camera.parallelScale = std::abs(number());
-    options.sceneOrigin = vector();
-    if (i % 3 == 0) options.cameraIndex = i;
+      options.camera.overrides.parallelScale = std::abs(number());
+    options.camera.sceneOrigin = vector();
+    if (i % 3 == 0) options.camera.index = i;
     if (i % 5 == 0) {
-      options.camera.position.reset();
-      options.camera.orbit = Orbit{number(), i % 90 - 45.0, i % 10 == 0 ? 1.0 : 0.5 + i};
-      options.camera.fit = i % 4 == 0 ? Fit::View : Fit::None;
+      options.camera.overrides.position.reset();
+      options.camera.overrides.orbit = Orbit{number(), i % 90 - 45.0, i % 10 == 0 ? 1.0 : 0.5 + i};
+      options.camera.overrides.fit = i % 4 == 0 ? Fit::View : Fit::None;
     }
     const RenderOptions read = withCameraText(RenderOptions(), cameraText(options));
-    ASSERT_EQ(read.camera, options.camera) << cameraText(options);
-    ASSERT_EQ(read.sceneOrigin, options.sceneOrigin);
-    ASSERT_EQ(read.cameraIndex, options.cameraIndex);
+    ASSERT_EQ(read.camera.overrides, options.camera.overrides) << cameraText(options);
+    ASSERT_EQ(read.camera.sceneOrigin, options.camera.sceneOrigin);
+    ASSERT_EQ(read.camera.index, options.camera.index);
   }
 }
 
 TEST(CameraText, LeavesTheOtherOptionsAlone) {
   RenderOptions options = optionsOf({});
-  options.spp = 5;
-  options.cameraIndex = 1;
-  options.resolution = glm::ivec2(64, 48);
+  options.sampling.spp = 5;
+  options.camera.index = 1;
+  options.camera.resolution = glm::ivec2(64, 48);
   const RenderOptions read = withCameraText(options, "--camera-position -.5,0,3");
-  EXPECT_EQ(read.spp, 5);
-  EXPECT_EQ(read.resolution, glm::ivec2(64, 48));
-  EXPECT_FALSE(read.cameraIndex);
-  EXPECT_EQ(read.camera.position, glm::dvec3(-0.5, 0, 3));
-  EXPECT_FALSE(read.camera.focalPoint);
+  EXPECT_EQ(read.sampling.spp, 5);
+  EXPECT_EQ(read.camera.resolution, glm::ivec2(64, 48));
+  EXPECT_FALSE(read.camera.index);
+  EXPECT_EQ(read.camera.overrides.position, glm::dvec3(-0.5, 0, 3));
+  EXPECT_FALSE(read.camera.overrides.focalPoint);
 }
 
 TEST(CameraText, WhatIsNoCameraIsRefused) {

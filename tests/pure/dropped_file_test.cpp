@@ -18,16 +18,16 @@ TEST(DroppedFile, IsToldByItsExtension) {
 TEST(Drop, ASceneAndAnEnvironmentAreBothTaken) {
   RenderOptions shown;
   shown.scene = "old.gltf";
-  shown.cameraIndex = 3;
-  shown.exposure = 1.0;
+  shown.camera.index = 3;
+  shown.output.exposure = 1.0;
   for (const std::vector<std::filesystem::path>& files :
        {std::vector<std::filesystem::path>{"a.glb", "b.hdr"}, {"b.hdr", "a.glb"}}) {
     const Drop drop = takeDrop(shown, files);
     ASSERT_TRUE(drop.load);
     EXPECT_EQ(drop.load->scene, "a.glb");
-    EXPECT_EQ(drop.load->hdriFile, "b.hdr");
-    EXPECT_FALSE(drop.load->cameraIndex);
-    EXPECT_EQ(drop.load->exposure, 1.0);
+    EXPECT_EQ(drop.load->light.hdriFile, "b.hdr");
+    EXPECT_FALSE(drop.load->camera.index);
+    EXPECT_EQ(drop.load->output.exposure, 1.0);
     EXPECT_TRUE(drop.refused.empty());
   }
 }

@@ -24,12 +24,12 @@ TEST_F(EnvironmentsFiles, AreThoseBesideTheSceneAndBesideTheCurrentOne) {
     return text;
   };
   EXPECT_EQ(names(), "a.EXR b.hdr ");
-  options.hdriFile = folder / "skies/c.pfm";
+  options.light.hdriFile = folder / "skies/c.pfm";
   EXPECT_EQ(names(), "a.EXR b.hdr c.pfm ");
-  options.hdriFile = folder / "b.hdr";
+  options.light.hdriFile = folder / "b.hdr";
   EXPECT_EQ(names(), "a.EXR b.hdr ");
   options.scene = folder / "gone/scene.gltf";
-  options.hdriFile.clear();
+  options.light.hdriFile.clear();
   EXPECT_EQ(names(), "");
 }
 
@@ -38,7 +38,7 @@ TEST(Environments, EachChoiceIsTheCurrentOneOnceItIsTaken) {
     ViewedScene scene;
     scene.defaultLight = unlit;
     scene.environments = {"/maps/a.hdr", "/maps/b.hdr"};
-    scene.options.hdriFile = "/elsewhere/c.exr";
+    scene.options.light.hdriFile = "/elsewhere/c.exr";
     const std::vector<EnvironmentChoice> choices = environmentChoices(scene);
     EXPECT_EQ(choices.size(), unlit ? 6u : 5u);
     EXPECT_EQ(choices[currentChoice(scene, choices)].name, "c.exr");
@@ -56,7 +56,7 @@ TEST(Environments, TheStudioByDefaultIsTheStudio) {
   ViewedScene scene;
   scene.defaultLight = true;
   scene.map = true;
-  scene.options.defaultLight = DefaultLight::Studio;
+  scene.options.light.defaultLight = DefaultLight::Studio;
   const std::vector<EnvironmentChoice> choices = environmentChoices(scene);
   EXPECT_EQ(choices[currentChoice(scene, choices)].name, "Studio");
 }

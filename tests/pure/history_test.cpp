@@ -10,7 +10,7 @@ ViewState shownState() {
   ViewState state;
   ViewedScene scene;
   scene.options.scene = "a.gltf";
-  scene.options.hdriFile = "sky.hdr";
+  scene.options.light.hdriFile = "sky.hdr";
   scene.bounds.include({0.0, 0.0, 0.0});
   scene.bounds.include({1.0, 1.0, 1.0});
   state.sides[0].scene = "a.gltf";
@@ -24,20 +24,20 @@ TEST(History, GoesBackAndForth) {
   restart(history, state);
   EXPECT_FALSE(undo(history, state));
   for (int i = 1; i <= 3; ++i) {
-    state.sides[0].exposure = i;
+    state.sides[0].output.exposure = i;
     record(history, state);
     record(history, state);  // nothing has changed
   }
   EXPECT_TRUE(undo(history, state));
-  EXPECT_EQ(state.sides[0].exposure, 2.0);
+  EXPECT_EQ(state.sides[0].output.exposure, 2.0);
   EXPECT_TRUE(undo(history, state));
   EXPECT_TRUE(redo(history, state));
-  EXPECT_EQ(state.sides[0].exposure, 2.0);
-  state.sides[0].exposure = 7.0;
+  EXPECT_EQ(state.sides[0].output.exposure, 2.0);
+  state.sides[0].output.exposure = 7.0;
   record(history, state);
   EXPECT_FALSE(redo(history, state));  // another way was taken
   EXPECT_TRUE(undo(history, state));
-  EXPECT_EQ(state.sides[0].exposure, 2.0);
+  EXPECT_EQ(state.sides[0].output.exposure, 2.0);
 }
 
 TEST(History, WhatWasNotRecordedIsAStepToo) {
@@ -63,30 +63,30 @@ TEST(History, SceneLightAndTimeStay) {
   EXPECT_TRUE(undo(history, state));
   EXPECT_FALSE(state.split);
   EXPECT_EQ(state.sides[0].scene, "a.gltf");
-  EXPECT_EQ(state.sides[0].hdriFile, "sky.hdr");
+  EXPECT_EQ(state.sides[0].light.hdriFile, "sky.hdr");
   EXPECT_EQ(state.sides[0].selection.animationTime, 0.5);
   EXPECT_TRUE(redo(history, state));
-  EXPECT_EQ(state.sides[1].hdriFile, "sky.hdr");
+  EXPECT_EQ(state.sides[1].light.hdriFile, "sky.hdr");
 }
 
 TEST(History, StepsFitTheSceneUnderAnotherLight) {
   ViewState state = shownState();
   History history;
   restart(history, state);
-  state.sides[0].exposure = 2.0;
+  state.sides[0].output.exposure = 2.0;
   record(history, state);
   // As the loaded scene comes back with it.
   for (RenderOptions& side : state.sides) {
     if (side.scene.empty()) continue;
-    side.hdriFile = "other.hdr";
-    side.backgroundBlur = 5.0;
+    side.light.hdriFile = "other.hdr";
+    side.light.backgroundBlur = 5.0;
     side.selection.materialVariant = "red";
   }
   record(history, state);
   ASSERT_EQ(history.past.size(), 1u);
   EXPECT_TRUE(undo(history, state));
-  EXPECT_EQ(state.sides[0].exposure, 0.0);
-  EXPECT_EQ(state.sides[0].hdriFile, "other.hdr");
+  EXPECT_EQ(state.sides[0].output.exposure, 0.0);
+  EXPECT_EQ(state.sides[0].light.hdriFile, "other.hdr");
   EXPECT_EQ(state.sides[0].selection.materialVariant, "red");
   EXPECT_TRUE(sameNodes(state.sides[0], shownState().sides[0]));
   RenderOptions other = state.sides[0];
@@ -99,7 +99,7 @@ TEST(History, OldStepsAreForgotten) {
   History history;
   restart(history, state);
   for (size_t i = 1; i <= 2 * kMostSteps; ++i) {
-    state.sides[0].exposure = double(i);
+    state.sides[0].output.exposure = double(i);
     record(history, state);
   }
   size_t steps = 0;

@@ -8,8 +8,8 @@ namespace {
 
 TEST(ViewProgress, IsThatOfTheNearestGoal) {
   RenderOptions options;
-  options.spp = 100;
-  options.noise = 0.01;
+  options.sampling.spp = 100;
+  options.sampling.noise = 0.01;
   SideStatistics side;
   EXPECT_EQ(progressOf(side, options, 1.0).fraction, 0.0);
   EXPECT_FALSE(progressOf(side, options, 1.0).seconds);
@@ -19,10 +19,10 @@ TEST(ViewProgress, IsThatOfTheNearestGoal) {
   EXPECT_DOUBLE_EQ(progressOf(side, options, 1.0).fraction, 0.5);
   EXPECT_DOUBLE_EQ(*progressOf(side, options, 1.0).seconds, 5.0);
   EXPECT_DOUBLE_EQ(*progressOf(side, options, 0.5).seconds, 10.0);
-  options.spp = 1 << 29;
+  options.sampling.spp = 1 << 29;
   EXPECT_DOUBLE_EQ(progressOf(side, options, 1.0).fraction, 0.25);
   EXPECT_DOUBLE_EQ(*progressOf(side, options, 1.0).seconds, 15.0);
-  options.seconds = 6.0;
+  options.sampling.seconds = 6.0;
   EXPECT_DOUBLE_EQ(*progressOf(side, options, 1.0).seconds, 1.0);
   side.resting = true;
   EXPECT_EQ(progressOf(side, options, 1.0).fraction, 1.0);
@@ -30,8 +30,8 @@ TEST(ViewProgress, IsThatOfTheNearestGoal) {
 
 TEST(ViewProgress, IsNotToldWhereTheErrorIsNotKnown) {
   RenderOptions options;
-  options.spp = 1 << 29;
-  options.noise = 0.01;
+  options.sampling.spp = 1 << 29;
+  options.sampling.noise = 0.01;
   SideStatistics side;
   side.samples = 8;
   side.seconds = 1.0;

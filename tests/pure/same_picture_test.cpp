@@ -24,17 +24,17 @@ TEST(SamePicture, DependsOnWhatIsShownAndFromWhere) {
       [](RenderOptions& o) { o.selection.scene = "1"; },
       [](RenderOptions& o) { o.selection.materialVariant = "red"; },
       [](RenderOptions& o) { o.limits.textureSide = 16; },
-      [](RenderOptions& o) { o.camera.parallelScale = 2.0; },
-      [](RenderOptions& o) { o.bounces = 1; },
-      [](RenderOptions& o) { o.hdriFile = "sky.pfm"; },
-      [](RenderOptions& o) { o.studio = true; },
-      [](RenderOptions& o) { o.backgroundBlur = 1.0; },
-      [](RenderOptions& o) { o.shadowCatcher = true; },
-      [](RenderOptions& o) { o.catcherHeight = 1.0; },
-      [](RenderOptions& o) { o.lineWidth = 1.0; },
-      [](RenderOptions& o) { o.backgroundColor = glm::vec3(1.0f); },
+      [](RenderOptions& o) { o.camera.overrides.parallelScale = 2.0; },
+      [](RenderOptions& o) { o.sampling.bounces = 1; },
+      [](RenderOptions& o) { o.light.hdriFile = "sky.pfm"; },
+      [](RenderOptions& o) { o.light.studio = true; },
+      [](RenderOptions& o) { o.light.backgroundBlur = 1.0; },
+      [](RenderOptions& o) { o.light.shadowCatcher = true; },
+      [](RenderOptions& o) { o.light.catcherHeight = 1.0; },
+      [](RenderOptions& o) { o.camera.lineWidth = 1.0; },
+      [](RenderOptions& o) { o.light.backgroundColor = glm::vec3(1.0f); },
       [](RenderOptions& o) { o.stages.set(size_t(Stage::Schlick)); },
-      [](RenderOptions& o) { o.pixelFilter = PixelFilter::Gaussian; },
+      [](RenderOptions& o) { o.camera.pixelFilter = PixelFilter::Gaussian; },
   };
   for (size_t i = 0; i < changes.size(); ++i) {
     EXPECT_FALSE(showSame(RenderOptions(), changed(changes[i]))) << i;
@@ -45,9 +45,9 @@ TEST(SamePicture, DependsOnWhatIsShownAndFromWhere) {
 
 TEST(SamePicture, DoesNotDependOnTheSamples) {
   const std::vector<Change> changes = {
-      [](RenderOptions& o) { o.seed = 7; },
-      [](RenderOptions& o) { o.sampleOffset = 64; },
-      [](RenderOptions& o) { o.rouletteDepth = 1; },
+      [](RenderOptions& o) { o.sampling.seed = 7; },
+      [](RenderOptions& o) { o.sampling.sampleOffset = 64; },
+      [](RenderOptions& o) { o.sampling.rouletteDepth = 1; },
       [](RenderOptions& o) { o.stages.reset(size_t(Stage::Sobol)); },
       [](RenderOptions& o) { o.stages.reset(size_t(Stage::LightSampling)); },
   };
@@ -59,14 +59,14 @@ TEST(SamePicture, DoesNotDependOnTheSamples) {
 
 TEST(SamePicture, DoesNotDependOnHowItIsTracedOrWritten) {
   const std::vector<Change> changes = {
-      [](RenderOptions& o) { o.traversal = TraversalMethod::Bvh; },
-      [](RenderOptions& o) { o.dispatch = Dispatch::Compute; },
-      [](RenderOptions& o) { o.spp = 1; },
-      [](RenderOptions& o) { o.noise = 0.1; },
-      [](RenderOptions& o) { o.output = "x.png"; },
-      [](RenderOptions& o) { o.exposure = 1.0; },
-      [](RenderOptions& o) { o.encoding.half = true; },
-      [](RenderOptions& o) { o.aovSamples = true; },
+      [](RenderOptions& o) { o.device.traversal = TraversalMethod::Bvh; },
+      [](RenderOptions& o) { o.device.dispatch = Dispatch::Compute; },
+      [](RenderOptions& o) { o.sampling.spp = 1; },
+      [](RenderOptions& o) { o.sampling.noise = 0.1; },
+      [](RenderOptions& o) { o.output.file = "x.png"; },
+      [](RenderOptions& o) { o.output.exposure = 1.0; },
+      [](RenderOptions& o) { o.output.encoding.half = true; },
+      [](RenderOptions& o) { o.output.aovSamples = true; },
       [](RenderOptions& o) { o.stages.reset(size_t(Stage::Watertight)); },
       [](RenderOptions& o) { o.limits.memoryBytes = 1 << 30; },
   };
@@ -77,9 +77,9 @@ TEST(SamePicture, DoesNotDependOnHowItIsTracedOrWritten) {
 TEST(SamePicture, OfTheHeatMapIsTheWayThroughTheTree) {
   RenderOptions bvh;
   bvh.stages.set(size_t(Stage::BvhHeatmap));
-  bvh.traversal = TraversalMethod::Bvh;
+  bvh.device.traversal = TraversalMethod::Bvh;
   RenderOptions other = bvh;
-  other.traversal = TraversalMethod::FrontToBack;
+  other.device.traversal = TraversalMethod::FrontToBack;
   EXPECT_FALSE(showSame(bvh, other));
 }
 

@@ -123,7 +123,7 @@ TEST(ShaderText, EachFileIsPutInOnce) {
 
 ShaderVariant pictureOf(DebugView view, const TraitSet& present) {
   RenderOptions options;
-  options.debugView = view;
+  options.output.debugView = view;
   return choosePictureVariant(options, present, Surroundings::Map, 10, BufferReads::Image);
 }
 

@@ -64,10 +64,10 @@ TEST(ViewState, NothingChangesThatCannotBeSeen) {
 
 TEST(ViewState, AnOrthographicViewHasNoLens) {
   ViewState state = someState();
-  for (RenderOptions& side : state.sides) side.lens.fStop = 2.8;
-  EXPECT_TRUE(tracedSides(state)[0].lens.fStop);
+  for (RenderOptions& side : state.sides) side.camera.lens.fStop = 2.8;
+  EXPECT_TRUE(tracedSides(state)[0].camera.lens.fStop);
   press(state, Action::OtherProjection);
-  EXPECT_FALSE(tracedSides(state)[0].lens.fStop);
+  EXPECT_FALSE(tracedSides(state)[0].camera.lens.fStop);
 }
 
 TEST(ViewState, AReferenceIsSideB) {
@@ -136,22 +136,22 @@ TEST(ViewState, AnAnimationGoesOnByTheTimeThatPassesAndBeginsAgainOrStops) {
 
 TEST(ViewState, UntilSomebodyMovesTheCameraIsThatOfTheOptions) {
   ViewState state = someState();
-  EXPECT_EQ(tracedSides(state)[0].camera, CameraOverrides{});
+  EXPECT_EQ(tracedSides(state)[0].camera.overrides, CameraOverrides{});
   EXPECT_TRUE(drawsTheSame(tracedSides(state)[0], state.sides[0]));
   apply(state, *controlOf(Action::Orbit), {.drag = {0.1, 0.0}});
-  EXPECT_EQ(tracedSides(state)[0].camera, overridesOf(state.pose));
+  EXPECT_EQ(tracedSides(state)[0].camera.overrides, overridesOf(state.pose));
   press(state, Action::ResetCamera);
-  EXPECT_EQ(tracedSides(state)[0].camera, CameraOverrides{});
+  EXPECT_EQ(tracedSides(state)[0].camera.overrides, CameraOverrides{});
 }
 
 TEST(ViewState, TheSceneCamerasAreThereByNumber) {
   ViewState state = someState();
   press(state, Action::SceneCamera, 1);
-  EXPECT_EQ(tracedSides(state)[0].cameraIndex, 1);
+  EXPECT_EQ(tracedSides(state)[0].camera.index, 1);
   press(state, Action::SceneCamera, 7);
-  EXPECT_EQ(tracedSides(state)[0].cameraIndex, 1);
+  EXPECT_EQ(tracedSides(state)[0].camera.index, 1);
   press(state, Action::NextCamera, 1);
-  EXPECT_EQ(tracedSides(state)[0].cameraIndex, 0);
+  EXPECT_EQ(tracedSides(state)[0].camera.index, 0);
 }
 
 TEST(ViewState, OnlyWhatIsTracedIsDrawnAnew) {
@@ -162,7 +162,7 @@ TEST(ViewState, OnlyWhatIsTracedIsDrawnAnew) {
     press(state, action, action == Action::Exposure ? 1 : 0);
   }
   press(state, Action::ToggleSheet);
-  EXPECT_NE(state.sides[0].exposure, before.exposure);
+  EXPECT_NE(state.sides[0].output.exposure, before.output.exposure);
   EXPECT_TRUE(drawsTheSame(tracedSides(state)[0], before));
   press(state, Action::ToggleStage, int(Stage::Shadows));
   EXPECT_FALSE(drawsTheSame(tracedSides(state)[0], before));
@@ -178,7 +178,7 @@ TEST(ViewState, TheSplitViewBeginsWithTwoOfTheSameAndTogglesTheActiveOne) {
   EXPECT_TRUE(has(state.sides[0].stages, Stage::Shadows));
   EXPECT_FALSE(has(state.sides[1].stages, Stage::Shadows));
   apply(state, *controlOf(Action::Orbit), {.drag = {0.1, 0.0}});
-  EXPECT_EQ(tracedSides(state)[0].camera, tracedSides(state)[1].camera);
+  EXPECT_EQ(tracedSides(state)[0].camera.overrides, tracedSides(state)[1].camera.overrides);
   press(state, Action::ToggleSplit);
   EXPECT_EQ(tracedSides(state).size(), 1u);
   EXPECT_EQ(state.active, 0u);
@@ -286,14 +286,14 @@ TEST(ViewState, ResetAllIsTheStartOfTheSceneThatIsShown) {
   ViewState state = someState();
   RenderOptions start;
   start.scene = "first.gltf";
-  start.exposure = 1.0;
+  start.output.exposure = 1.0;
   press(state, Action::ToggleSplit);
   press(state, Action::ToggleStage, int(Stage::Shadows));
   apply(state, *controlOf(Action::Orbit), {.drag = {0.1, 0.0}});
   resetAll(state, start);
   EXPECT_EQ(state.sides[0].scene, "some.gltf");
   EXPECT_EQ(state.sides[0].stages, start.stages);
-  EXPECT_EQ(state.sides[0].exposure, 1.0);
+  EXPECT_EQ(state.sides[0].output.exposure, 1.0);
   EXPECT_FALSE(state.split);
   EXPECT_FALSE(state.posed);
 }
@@ -301,9 +301,9 @@ TEST(ViewState, ResetAllIsTheStartOfTheSceneThatIsShown) {
 TEST(ViewState, ExposureHasLimits) {
   ViewState state = someState();
   for (int i = 0; i < 1000; ++i) press(state, Action::Exposure, 1);
-  EXPECT_EQ(state.sides[0].exposure, 32.0);
+  EXPECT_EQ(state.sides[0].output.exposure, 32.0);
   for (int i = 0; i < 1000; ++i) press(state, Action::Exposure, -1);
-  EXPECT_EQ(state.sides[0].exposure, -32.0);
+  EXPECT_EQ(state.sides[0].output.exposure, -32.0);
 }
 
 TEST(ViewState, PastedOptionsAreThoseOfTheActiveSideAndTheCameraOfBoth) {
@@ -311,27 +311,27 @@ TEST(ViewState, PastedOptionsAreThoseOfTheActiveSideAndTheCameraOfBoth) {
   press(state, Action::ToggleSplit);
   state.active = 1;
   RenderOptions pasted = renderOptionsOf(state, 1);
-  pasted.bounces = 2;
-  pasted.exposure = 1.5;
-  pasted.cameraIndex = 1;
-  pasted.treeLevel = 7;
+  pasted.sampling.bounces = 2;
+  pasted.output.exposure = 1.5;
+  pasted.camera.index = 1;
+  pasted.output.treeLevel = 7;
   takeOptions(state, pasted);
-  EXPECT_EQ(state.sides[1].bounces, 2);
-  EXPECT_EQ(state.sides[0].bounces, RenderOptions().bounces);
-  EXPECT_EQ(state.sides[0].exposure, 1.5);
-  EXPECT_EQ(tracedSides(state)[0].cameraIndex, 1);
+  EXPECT_EQ(state.sides[1].sampling.bounces, 2);
+  EXPECT_EQ(state.sides[0].sampling.bounces, RenderOptions().sampling.bounces);
+  EXPECT_EQ(state.sides[0].output.exposure, 1.5);
+  EXPECT_EQ(tracedSides(state)[0].camera.index, 1);
   EXPECT_EQ(state.pose.position, glm::dvec3(5.0, 0.0, 5.0));
-  EXPECT_EQ(tracedSides(state)[0].treeLevel, 7);
+  EXPECT_EQ(tracedSides(state)[0].output.treeLevel, 7);
 }
 
 TEST(ViewState, ACameraThatIsNotThereChangesNothing) {
   ViewState state = someState();
   RenderOptions pasted = renderOptionsOf(state, 0);
-  pasted.cameraIndex = 7;
-  pasted.bounces = 2;
+  pasted.camera.index = 7;
+  pasted.sampling.bounces = 2;
   EXPECT_THROW(takeOptions(state, pasted), UsageError);
-  EXPECT_FALSE(tracedSides(state)[0].cameraIndex);
-  EXPECT_EQ(state.sides[0].bounces, RenderOptions().bounces);
+  EXPECT_FALSE(tracedSides(state)[0].camera.index);
+  EXPECT_EQ(state.sides[0].sampling.bounces, RenderOptions().sampling.bounces);
 }
 
 TEST(ViewerDocument, HoldsTheTableOfAllControls) {

@@ -56,7 +56,7 @@ struct Judge {
 
   ErrorSample judge(const Image& picture, double samples, double seconds) const {
     const Difference difference = compare(picture, reference);
-    const Image shown = toDisplay(picture, options.exposure, options.toneMap);
+    const Image shown = toDisplay(picture, options.output.exposure, options.output.toneMap);
     return {samples, seconds, difference.mse, difference.relmse, flipError(shown, display).mean};
   }
 };
@@ -66,7 +66,7 @@ std::vector<ErrorSample> measureSteps(Contender& c, const View& view, const Judg
   Film film(c.loaded.size);
   std::vector<ErrorSample> steps;
   RenderTimes times;
-  const int most = c.configuration.render.spp;
+  const int most = c.configuration.render.sampling.spp;
   for (int done = 0, next = 1; done < most; next *= 2) {
     next = std::min(next, most);
     c.tracer.renderer->addSamples(film, view, done, next, times);
@@ -98,7 +98,7 @@ ErrorSample finish(Contender& c, const View& view, const Judge& judge, const Dra
 /// sequence.
 Draw drawWhole(Contender& c, const View& view, int samples, double& compileMs) {
   RenderOptions options = c.configuration.render;
-  options.spp = samples;
+  options.sampling.spp = samples;
   SampledFilm sampled{Film(c.loaded.size), {}, 0};
   compileMs += c.tracer.renderer->compile(c.tracer.variant, sampled.film, view);
   Draw draw;
@@ -122,7 +122,7 @@ double warmUpFilter(Contender& c, const View& view, const Judge& judge) {
 /// Filtered pictures of 1, 2, 4, ... samples.
 std::vector<ErrorSample> measureFiltered(Contender& c, const View& view, const Judge& judge) {
   std::vector<ErrorSample> steps;
-  const int most = c.configuration.render.spp;
+  const int most = c.configuration.render.sampling.spp;
   for (int done = 0, next = 1; done < most; next *= 2) {
     done = std::min(next, most);
     double compileMs = 0.0;  // had been done
@@ -140,8 +140,9 @@ std::vector<ErrorSample> measureAdaptive(Contender& c, const View& view, const J
   for (int i = kAdaptiveSteps - 1; i >= 0; --i) {
     const RenderOptions& options = c.configuration.render;
     RenderTimes times;
-    const double part = options.noise > 0.0 ? 1.0 : std::exp2(-i);
-    const AdaptiveGoal goal{options.noise * std::exp2(i), options.seconds * part, options.spp};
+    const double part = options.sampling.noise > 0.0 ? 1.0 : std::exp2(-i);
+    const AdaptiveGoal goal{options.sampling.noise * std::exp2(i), options.sampling.seconds * part,
+                            options.sampling.spp};
     AdaptiveRun run(c.loaded.size);
     AdaptivePicture picture = renderAdaptively(*c.tracer.renderer, run, view, goal, times);
     const double pixels = double(c.loaded.size.x) * c.loaded.size.y;
@@ -205,7 +206,7 @@ Contender makeContender(const BenchConfiguration& configuration, const Context& 
   BenchConfiguration settled = configuration;
   const std::optional<OidnLibrary> oidn = openDenoiser(settled.render);
   RenderOptions wanted = settled.render;
-  wanted.quiet = wanted.quiet || quiet;
+  wanted.output.quiet = wanted.output.quiet || quiet;
   wanted = withGuides(wanted);
   LoadedScene loaded = loadScene(wanted, stats);
   Tracer tracer = makeTracer(context, loaded, wanted, stats);
@@ -213,8 +214,8 @@ Contender makeContender(const BenchConfiguration& configuration, const Context& 
   made.curve.name = configuration.name;
   made.curve.options = configuration.text;
   made.curve.variant = stats.variant;
-  if (wanted.denoise != Denoise::None) {
-    wanted.quiet = true;  // no bar within that of the benchmark
+  if (wanted.output.denoise != Denoise::None) {
+    wanted.output.quiet = true;  // no bar within that of the benchmark
     made.filter = makeFilter(wanted, oidn);
     made.filtered.name = made.curve.name;
     made.filtered.filter = made.filter->name;
@@ -269,7 +270,7 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
   for (const BenchConfiguration& configuration : options.configurations) {
     const bool saidBefore = !contenders.empty();  // warnings are said once
     contenders.push_back(makeContender(configuration, context, saidBefore));
-    if (!configuration.adaptive()) most = std::max(most, configuration.render.spp);
+    if (!configuration.adaptive()) most = std::max(most, configuration.render.sampling.spp);
     checkOutputs(outputsOf(options), inputsOf(contenders.back().loaded.scene));
     checkSize(options, contenders.front().loaded.size, configuration, contenders.back().loaded.size);
   }
@@ -286,12 +287,12 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
                                options.configurations.front().name + "' with another seed"
                          : options.reference.filename().string();
   const Image reference = options.reference.empty()
-                              ? makeReference(contenders.front(), referenceSamples, first.quiet)
+                              ? makeReference(contenders.front(), referenceSamples, first.output.quiet)
                               : readGivenReference(options, size);
-  const Judge judge{reference, toDisplay(reference, first.exposure, first.toneMap), first};
+  const Judge judge{reference, toDisplay(reference, first.output.exposure, first.output.toneMap), first};
 
   // Step: repetitions outermost, so that a machine that slows down does so for all.
-  ProgressBar bar("measuring", first.quiet);
+  ProgressBar bar("measuring", first.output.quiet);
   double done = 0.0;
   for (int r = 0; r < options.repetitions; ++r) {
     for (Contender& c : contenders) {
@@ -312,7 +313,7 @@ int runBenchError(const BenchErrorOptions& options) {
   }
   checkOutputs(outputsOf(options), inputs);
   const RenderOptions& first = options.configurations.front().render;
-  const auto context = makeContext(first.backend, first.vectorWidth);
+  const auto context = makeContext(first.device.backend, first.device.vectorWidth);
   const ErrorReport report = measure(options, *context);
   countInterrupts();  // what is measured is written whole
   std::fputs(errorTable(report).c_str(), stdout);

@@ -50,8 +50,8 @@ BenchErrorOptions finishBenchError(const RawBenchError& raw, const CLI::App& app
                                             {"default", "random", "baseline"}, kDefaultSamples);
   const auto denoise = choose<Denoise>("--denoise", raw.configurations.shared.denoise, kDenoiseNames);
   for (BenchConfiguration& c : options.configurations) {
-    c.render.denoise = denoise;
-    c.render.oidnLibrary = raw.configurations.shared.oidnLibrary;
+    c.render.output.denoise = denoise;
+    c.render.output.oidnLibrary = raw.configurations.shared.oidnLibrary;
     if (denoise == Denoise::None) continue;
     const std::string reason = whyNotDenoised(c.render);
     if (!reason.empty()) throw UsageError("configuration '" + c.name + "': --denoise: " + reason);

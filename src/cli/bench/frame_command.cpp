@@ -35,7 +35,7 @@ std::vector<FrameSetting> measure(const BenchFrameOptions& options, const Contex
     std::vector<TimedSetting> settings;
     for (const BenchConfiguration& configuration : configurations) {
       BenchConfiguration wanted = configuration;
-      wanted.render.quiet = wanted.render.quiet || !settings.empty();  // warnings are said once
+      wanted.render.output.quiet = wanted.render.output.quiet || !settings.empty();  // warnings are said once
       settings.push_back(makeSetting(context, wanted, options.timing));
       checkOutputs(outputsOf(options), inputsOf(settings.back().loaded->scene));
       if (reference) checkSize(*reference, settings.back());
@@ -44,8 +44,8 @@ std::vector<FrameSetting> measure(const BenchFrameOptions& options, const Contex
                          "': its picture is of another size than that of '" + configurations.front().name +
                          "'");
     }
-    measureInTurn(settings, options.first().quiet);
-    checkSettings(context, settings, reference, options.first().quiet);
+    measureInTurn(settings, options.first().output.quiet);
+    checkSettings(context, settings, reference, options.first().output.quiet);
     for (TimedSetting& s : settings) measured.push_back(std::move(s.report));
   }
   return measured;
@@ -62,7 +62,7 @@ int runBenchFrame(const BenchFrameOptions& options) {
   const std::vector<BaselineEntry> baseline = readBaseline(options.baseline);
   std::optional<ReferencePicture> reference;
   if (!options.reference.empty()) reference = readReference(options.reference);
-  const auto context = makeContext(options.first().backend, options.first().vectorWidth);
+  const auto context = makeContext(options.first().device.backend, options.first().device.vectorWidth);
   const BenchMachine machine = describeMachine(*context);
   const std::vector<FrameSetting> measured = measure(options, *context, reference);
   countInterrupts();  // what is measured is written whole

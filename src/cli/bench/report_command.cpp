@@ -31,7 +31,7 @@ std::vector<TimedSetting> settingsOf(const BenchReportOptions& options, const Co
     timing.mostSeconds = kMostSecondsOfSlowRows;
     timing.leastFrames = kSamplesTogether;
     BenchConfiguration configuration = r.configuration;
-    configuration.render.quiet = true;
+    configuration.render.output.quiet = true;
     settings.push_back(makeSetting(context, configuration, timing));
     if (r.row->samples > 1 || r.row->iterative()) continue;
     timing.samplesPerDraw = 1;
@@ -47,11 +47,11 @@ int runBenchReport(const BenchReportOptions& options) {
     for (const std::filesystem::path& input : inputsOf(row.configuration.render)) inputs.push_back(input);
   }
   checkOutputs(outputsOf(options), inputs);
-  const auto context = makeContext(options.first().backend, options.first().vectorWidth);
+  const auto context = makeContext(options.first().device.backend, options.first().device.vectorWidth);
   const BenchMachine machine = describeMachine(*context);
   std::vector<TimedSetting> settings = settingsOf(options, *context);
-  measureInTurn(settings, options.first().quiet);
-  checkSettings(*context, settings, {}, options.first().quiet);
+  measureInTurn(settings, options.first().output.quiet);
+  checkSettings(*context, settings, {}, options.first().output.quiet);
   std::vector<FrameSetting> measured;
   std::vector<MeasuredRow> rows;
   size_t next = 0;

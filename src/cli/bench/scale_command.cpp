@@ -44,15 +44,17 @@ struct Setting {
 
 ShaderVariant variantFor(const Setting& setting, TraversalMethod method, const Scene& scene, uint32_t depth) {
   RenderOptions wanted = setting.options.render;
-  wanted.traversal = method;
+  wanted.device.traversal = method;
   return chooseVariant(wanted, traitsOf(scene, Surroundings::None), Surroundings::None, depth,
                        BufferReads::Auto);
 }
 
 std::unique_ptr<Renderer> upload(const Setting& setting, GpuScene packed, ShaderVariant& variant) {
   const RenderOptions& render = setting.options.render;
-  variant.reads = chooseReads(render.bufferReads, setting.context.software, packed, readLimits()).reads;
-  return std::make_unique<Renderer>(setting.context, std::move(packed), variant.reads, render.shaderFolder);
+  variant.reads =
+      chooseReads(render.device.bufferReads, setting.context.software, packed, readLimits()).reads;
+  return std::make_unique<Renderer>(setting.context, std::move(packed), variant.reads,
+                                    render.device.shaderFolder);
 }
 
 /// The picture is held against double precision, and against the first traversal's. Throws RenderError.
@@ -219,13 +221,13 @@ ScaleRow measureSize(Setting& setting, size_t wanted, double iterativeMsPerTrian
 }
 
 ScaleReport measure(const BenchScaleOptions& options, const Context& context) {
-  Setting setting{options, context, {}, *options.render.resolution};
+  Setting setting{options, context, {}, *options.render.camera.resolution};
   setting.view.showEnvironment = false;
   ScaleReport report;
   report.width = setting.size.x;
   report.height = setting.size.y;
   report.renderer = context.renderer;
-  ProgressBar bar("measuring", options.render.quiet);
+  ProgressBar bar("measuring", options.render.output.quiet);
   double iterativeMsPerTriangle = 0.0;
   const std::vector<size_t> sizes = sizesOf(options);
   for (size_t i = 0; i < sizes.size(); ++i) {
@@ -244,7 +246,7 @@ ScaleReport measure(const BenchScaleOptions& options, const Context& context) {
 int runBenchScale(const BenchScaleOptions& options) {
   const std::vector<NamedOutput> outputs{{"--json", options.json}, {"--chart", options.chart}};
   checkOutputs(outputs, {});
-  const auto context = makeContext(options.render.backend, options.render.vectorWidth);
+  const auto context = makeContext(options.render.device.backend, options.render.device.vectorWidth);
   const ScaleReport report = measure(options, *context);
   countInterrupts();  // what is measured is written whole
   std::fputs(scaleTable(report).c_str(), stdout);

@@ -34,10 +34,10 @@ void judge(TimedSetting& s, const FilmPixels& other, CheckAgainst against, const
 /// The same by the other way through the tree; the heat map shows the way itself.
 RenderOptions otherWay(const RenderOptions& options) {
   RenderOptions other = options;
-  other.quiet = true;
+  other.output.quiet = true;
   if (has(options.stages, Stage::BvhHeatmap)) return other;
-  other.traversal =
-      options.traversal == TraversalMethod::Bvh ? TraversalMethod::FrontToBack : TraversalMethod::Bvh;
+  other.device.traversal =
+      options.device.traversal == TraversalMethod::Bvh ? TraversalMethod::FrontToBack : TraversalMethod::Bvh;
   return other;
 }
 

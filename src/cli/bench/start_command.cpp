@@ -127,7 +127,7 @@ int runBenchStart(const BenchStartOptions& options) {
   checkOutputs(outputs, inputsOf(options.render));
   const ScratchFolder folder;
   RenderOptions render = options.render;
-  render.output = folder.path() / render.output;
+  render.output.file = folder.path() / render.output.file;
   StartReport report;
   report.scene = render.scene.filename().string();
   report.command = commandText(options.render);
@@ -136,7 +136,7 @@ int runBenchStart(const BenchStartOptions& options) {
   const std::filesystem::path file = folder.path() / "statistics.json";
   words.insert(words.end(), {"--stats", file.string(), "--quiet"});
   ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
-  ProgressBar bar("starting", render.quiet);
+  ProgressBar bar("starting", render.output.quiet);
   for (int i = 0; i < options.starts; ++i) {
     bar.show(double(i) / options.starts);
     const EndedProcess process = startAndAwait(words);

@@ -28,7 +28,7 @@ BenchStartOptions finishBenchStart(const RawBenchStart& raw) {
   options.render = finishRender(render);
   if (isAdaptive(options.render))
     throw UsageError("--noise and --time: a start ends with a number of samples; --spp says which");
-  if (!options.render.statsFile.empty())
+  if (!options.render.output.statsFile.empty())
     throw UsageError("--stats: each start has its own; --json has them all");
   return options;
 }

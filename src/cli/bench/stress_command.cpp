@@ -49,11 +49,11 @@ StressReport measure(const BenchStressOptions& options, const std::vector<Stress
   report.backend = context.backend;
   report.renderer = context.renderer;
   report.quick = options.quick;
-  ProgressBar bar("trying", options.render.quiet);
+  ProgressBar bar("trying", options.render.output.quiet);
   const auto goOn = [&] { bar.show(double(report.rows.size()) / double(rows.size())); };
   for (const StressRow& row : rows) {
-    StressSetting setting{context, options.render.shaderFolder, options.quick,
-                          true,    options.render.schedule,     goOn};
+    StressSetting setting{context, options.render.device.shaderFolder, options.quick,
+                          true,    options.render.device.schedule,     goOn};
     StressResult result{row.name, row.sentence, row.limit, timed(row, setting), {}};
     setting.watertight = false;
     if (row.fastToo) result.fast = timed(row, setting);
@@ -68,7 +68,7 @@ int runBenchStress(const BenchStressOptions& options) {
   const std::vector<NamedOutput> outputs{{"--json", options.json}};
   checkOutputs(outputs, {});
   const std::vector<StressRow> rows = chosenRows(options);
-  const auto context = makeContext(options.render.backend, options.render.vectorWidth);
+  const auto context = makeContext(options.render.device.backend, options.render.device.vectorWidth);
   const StressReport report = measure(options, rows, *context);
   countInterrupts();  // what was found is written whole
   std::fputs(stressTable(report).c_str(), stdout);

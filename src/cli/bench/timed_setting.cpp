@@ -55,7 +55,7 @@ TimedSetting makeSetting(const Context& context, const BenchConfiguration& confi
   Statistics stats;
   RenderOptions options = configuration.render;
   // Frames are timed without what comes before them, so the variant is that of a long render.
-  if (!configuration.samplesGiven) options.spp = std::numeric_limits<int>::max();
+  if (!configuration.samplesGiven) options.sampling.spp = std::numeric_limits<int>::max();
   auto loaded = std::make_shared<LoadedScene>(loadScene(options, stats));
   Tracer tracer = makeTracer(context, *loaded, options, stats);
   return makeSetting(context, configuration, timing, std::move(loaded), std::move(tracer));
@@ -114,7 +114,7 @@ void warmUp(TimedSetting& s) {
   const double affordable = kMostOverTime * roundMs / frameMs;
   const double least = std::min(double(s.timing.leastFrames), affordable);
   const double wanted = std::clamp(std::max(roundMs / frameMs, least), 1.0, double(kMost));
-  s.report.frames = s.configuration.samplesGiven ? s.configuration.render.spp : int(wanted);
+  s.report.frames = s.configuration.samplesGiven ? s.configuration.render.sampling.spp : int(wanted);
   if (s.timing.mostSeconds > 0.0) {
     const double rounds = 1000.0 * s.timing.mostSeconds / (frameMs * s.report.frames);
     s.timing.rounds = int(std::clamp(rounds, 1.0, double(s.timing.rounds)));

@@ -101,7 +101,8 @@ TraversalReport measure(const BenchTraversalOptions& options, const Context& con
                                         Surroundings::None, loaded.bvh.depth, BufferReads::Auto);
   if (loaded.bvh.besideTree > 0) variant.literals = largeFirst(scene, loaded.bvh, variant);
   GpuScene packed = packScene(scene, loaded.bvh, {}, variant);
-  variant.reads = chooseReads(options.render.bufferReads, context.software, packed, readLimits()).reads;
+  variant.reads =
+      chooseReads(options.render.device.bufferReads, context.software, packed, readLimits()).reads;
 
   TraversalReport report;
   report.scene = options.render.scene.filename().string();
@@ -114,12 +115,12 @@ TraversalReport measure(const BenchTraversalOptions& options, const Context& con
   report.sahCost = stats.bvh.sahCost;
   if (report.triangles > 0)
     report.gpuBytesPerTriangle = double(packed.geometryBytes()) / double(report.triangles);
-  RayCaster caster(context, std::move(packed), variant, loaded.size, options.render.shaderFolder);
+  RayCaster caster(context, std::move(packed), variant, loaded.size, options.render.device.shaderFolder);
   report.clock = caster.clockName();
 
   // Step: warm up, which is where the driver compiles, and check.
   const ExactTracer tracer(scene, loaded.bvh);
-  std::vector<MeasuredSet> sets = makeSets(loaded, tracer, options.render.seed);
+  std::vector<MeasuredSet> sets = makeSets(loaded, tracer, options.render.sampling.seed);
   std::vector<RayCaster::RaySet> uploaded;
   for (MeasuredSet& set : sets) {
     uploaded.emplace_back(set.rays);
@@ -129,7 +130,7 @@ TraversalReport measure(const BenchTraversalOptions& options, const Context& con
   }
 
   // Step: measure in turn.
-  ProgressBar bar("measuring", options.render.quiet);
+  ProgressBar bar("measuring", options.render.output.quiet);
   for (int round = 0; round < options.rounds; ++round) {
     for (size_t i = 0; i < sets.size(); ++i) {
       sets[i].row.ms.push_back(caster.trace(uploaded[i], sets[i].anyHit()));
@@ -145,7 +146,7 @@ TraversalReport measure(const BenchTraversalOptions& options, const Context& con
 int runBenchTraversal(const BenchTraversalOptions& options) {
   const std::vector<NamedOutput> outputs{{"--json", options.json}, {"--rays", options.rays}};
   checkOutputs(outputs, inputsOf(options.render));
-  const auto context = makeContext(options.render.backend, options.render.vectorWidth);
+  const auto context = makeContext(options.render.device.backend, options.render.device.vectorWidth);
   const TraversalReport report = measure(options, *context);
   countInterrupts();  // what is measured is written whole
   std::fputs(traversalTable(report).c_str(), stdout);

@@ -27,7 +27,7 @@ void addBenchTraversalOptions(CLI::App& app, RawBenchTraversal& raw) {
                                       "index of the camera of the primary rays, from 0");
   app.add_option("--camera", raw.render.camera.name, "name or index of the camera of the primary rays")
       ->excludes(index);
-  app.add_option("--seed", raw.render.options.seed, "seed of the diffuse and shadow rays")
+  app.add_option("--seed", raw.render.options.sampling.seed, "seed of the diffuse and shadow rays")
       ->capture_default_str();
   app.add_option("--json", o.json, "write all measurements to this file, one JSON line per kind of ray")
       ->type_name("FILE");
@@ -43,9 +43,9 @@ BenchTraversalOptions finishBenchTraversal(const RawBenchTraversal& raw) {
   render.noDefaultLight = true;
   render.instancing = "flatten";
   options.render = finishRender(render);
-  if (options.render.traversal == TraversalMethod::Iterative)
+  if (options.render.device.traversal == TraversalMethod::Iterative)
     throw UsageError("--traversal: 'iterative' takes more than one draw; `bench scale` measures it");
-  if (options.render.traversal == TraversalMethod::Literals)
+  if (options.render.device.traversal == TraversalMethod::Literals)
     throw UsageError("--traversal: 'literals' has no tree; 'bench traversal' measures trees");
   return options;
 }

@@ -33,7 +33,7 @@ Tracer makeForcedTracer(const Context& context, const LoadedScene& loaded, const
   tracer.variant.dispatch = own.dispatch;
   useLiterals(loaded, packed, options, tracer.variant);
   tracer.renderer =
-      std::make_unique<Renderer>(context, std::move(packed), forced.reads, options.shaderFolder);
+      std::make_unique<Renderer>(context, std::move(packed), forced.reads, options.device.shaderFolder);
   return tracer;
 }
 
@@ -72,8 +72,8 @@ SceneResult measure(const BenchVariantsOptions& options, const BenchConfiguratio
                     makeForcedTracer(context, *loaded, forced.variant, own, configuration.render)));
     settings.back().otherSamples = forced.otherSamples;
   }
-  measureInTurn(settings, options.first().quiet);
-  checkSettings(context, settings, {}, options.first().quiet);
+  measureInTurn(settings, options.first().output.quiet);
+  checkSettings(context, settings, {}, options.first().output.quiet);
   for (TimedSetting& s : settings) result.measured.push_back(std::move(s.report));
   return result;
 }
@@ -84,7 +84,7 @@ int runBenchVariants(const BenchVariantsOptions& options) {
     for (const std::filesystem::path& input : inputsOf(scene.render)) inputs.push_back(input);
   }
   checkOutputs(outputsOf(options), inputs);
-  const auto context = makeContext(options.first().backend, options.first().vectorWidth);
+  const auto context = makeContext(options.first().device.backend, options.first().device.vectorWidth);
   const BenchMachine machine = describeMachine(*context);
   std::string table;
   std::string json;

@@ -62,7 +62,7 @@ float drawSide(const ViewState& state, ViewFacts& facts, size_t side, ImVec2 pla
     else if (layout.figures == FigureDetail::Brief)
       row("error", "%.2f %%", 100.0 * s.error);
     else
-      row("error", "%.2f %% (goal %.2f %%)", 100.0 * s.error, 100.0 * state.sides[side].noise);
+      row("error", "%.2f %% (goal %.2f %%)", 100.0 * s.error, 100.0 * state.sides[side].sampling.noise);
     if (layout.figures == FigureDetail::All) drawCosts(state, facts, side);
     ImGui::EndTable();
     addWindowPlace(facts.places, name);

@@ -54,25 +54,25 @@ void drawStages(ViewState& state, bool cumulative) {
 void drawSampling(ViewState& state, Places& places) {
   RenderOptions& o = state.options();
   label(places, "Bounces");
-  int bounces = std::min(o.bounces, kMostBouncesShown);
+  int bounces = std::min(o.sampling.bounces, kMostBouncesShown);
   if (ImGui::SliderInt("##bounces", &bounces, 0, kMostBouncesShown,
-                       o.bounces >= kMostBouncesShown ? "unlimited" : "%d", kBounded))
-    o.bounces = bounces >= kMostBouncesShown ? kUnlimitedBounces : bounces;
+                       o.sampling.bounces >= kMostBouncesShown ? "unlimited" : "%d", kBounded))
+    o.sampling.bounces = bounces >= kMostBouncesShown ? kUnlimitedBounces : bounces;
   label(places, "Roulette from");
-  ImGui::SliderInt("##roulette", &o.rouletteDepth, 1, 32, "%d", kBounded);
+  ImGui::SliderInt("##roulette", &o.sampling.rouletteDepth, 1, 32, "%d", kBounded);
   label(places, "Noise to reach");
-  float noise = float(100.0 * o.noise);
+  float noise = float(100.0 * o.sampling.noise);
   if (ImGui::SliderFloat("##noise", &noise, 0.1f, 20.0f, "%.2f %%", kBoundedLogarithmic))
-    for (RenderOptions& side : state.sides) side.noise = 0.01 * noise;
+    for (RenderOptions& side : state.sides) side.sampling.noise = 0.01 * noise;
   label(places, "Pixel filter");
-  choose("##filter", kPixelFilterNames, o.pixelFilter);
+  choose("##filter", kPixelFilterNames, o.camera.pixelFilter);
   label(places, "Clamp indirect");
-  float clamp = float(o.clampIndirect);
+  float clamp = float(o.sampling.clampIndirect);
   if (ImGui::SliderFloat("##clamp", &clamp, 0.0f, 100.0f, clamp > 0.0f ? "%.2f (biased)" : "off",
                          kBoundedLogarithmic))
-    o.clampIndirect = clamp;
+    o.sampling.clampIndirect = clamp;
   label(places, "Traversal");
-  choose("##traversal", kTraversalNames, o.traversal);
+  choose("##traversal", kTraversalNames, o.device.traversal);
 }
 
 void drawAnimation(ViewState& state, Places& places) {
@@ -129,7 +129,7 @@ void drawCompare(ViewState& state, Places& places, Task& task) {
   if (ImGui::Checkbox("Split view", &split)) apply(state, *controlOf(Action::ToggleSplit), {});
   stayOnLineFor("[ ] Denoise");
   const std::string reason = whyWithoutNoise(state.options());
-  bool denoise = state.options().denoise != Denoise::None && reason.empty();
+  bool denoise = state.options().output.denoise != Denoise::None && reason.empty();
   ImGui::BeginDisabled(!reason.empty());
   if (ImGui::Checkbox("Denoise", &denoise)) apply(state, *controlOf(Action::ToggleDenoise), {});
   ImGui::EndDisabled();
@@ -161,11 +161,12 @@ void drawAdvanced(ViewState& state, ViewFacts& facts) {
   Places& places = facts.places;
   RenderOptions& o = state.options();
   label(places, "Show");
-  const std::string current(rowOf(o.debugView).label);
+  const std::string current(rowOf(o.output.debugView).label);
   if (ImGui::BeginCombo("##show", current.c_str(), ImGuiComboFlags_HeightLargest)) {
     for (size_t i = 0; i < kDebugViewRows.size(); ++i) {
       const std::string name(kDebugViewRows[i].label);
-      if (ImGui::Selectable(name.c_str(), DebugView(i) == o.debugView)) o.debugView = DebugView(i);
+      if (ImGui::Selectable(name.c_str(), DebugView(i) == o.output.debugView))
+        o.output.debugView = DebugView(i);
     }
     ImGui::EndCombo();
   }

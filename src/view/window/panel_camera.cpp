@@ -53,7 +53,7 @@ double firstStop(const CameraPose& pose) {
 
 /// Depth of field: sharp at the focal point, unless the command line says where.
 void drawLens(ViewState& state, Places& places) {
-  LensOptions lens = state.sides[0].lens;
+  LensOptions lens = state.sides[0].camera.lens;
   bool blurred = lens.fStop.has_value();
   if (ImGui::Checkbox("Depth of field", &blurred))
     lens.fStop = blurred ? std::optional(firstStop(state.pose)) : std::nullopt;
@@ -68,7 +68,7 @@ void drawLens(ViewState& state, Places& places) {
     if (ImGui::SliderInt("##blades", &lens.blades, 2, 12, lens.blades < 3 ? "round" : "%d", kBounded))
       lens.blades = lens.blades < 3 ? 0 : lens.blades;
   }
-  for (RenderOptions& side : state.sides) side.lens = lens;
+  for (RenderOptions& side : state.sides) side.camera.lens = lens;
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ constexpr std::array<ImU32, 3> kPlotColors{IM_COL32(220, 70, 70, 150), IM_COL32(
 const Histogram& current(const ViewState& state, ViewFacts& facts) {
   const size_t side = state.active;
   ShownHistogram& shown = facts.histogram;
-  const double exposure = state.sides[side].exposure;
+  const double exposure = state.sides[side].output.exposure;
   const bool known =
       shown.picture == facts.pictureNumber[side] && shown.side == side && shown.exposure == exposure;
   if (!known)

@@ -59,13 +59,13 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
   Task task;
   RenderOptions& o = state.sides[0];
   label(places, "Exposure");
-  float exposure = float(o.exposure);
+  float exposure = float(o.output.exposure);
   if (ImGui::SliderFloat("##exposure", &exposure, -8.0f, 8.0f, "%.1f EV", kBounded))
-    for (RenderOptions& side : state.sides) side.exposure = exposure;
+    for (RenderOptions& side : state.sides) side.output.exposure = exposure;
   label(places, "Tone map");
-  ToneMap curve = o.toneMap;
+  ToneMap curve = o.output.toneMap;
   choose("##curve", toneMapNames(), curve);
-  for (RenderOptions& side : state.sides) side.toneMap = curve;
+  for (RenderOptions& side : state.sides) side.output.toneMap = curve;
   const bool map = state.scene->map;
   label(places, "Environment");
   if (const std::optional<RenderOptions> other = chooseEnvironment(*state.scene, facts)) {
@@ -74,18 +74,18 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
   }
   label(places, "Rotation");
   ImGui::BeginDisabled(!map);
-  float degrees = float(o.hdriRotationDegrees);
+  float degrees = float(o.light.hdriRotationDegrees);
   if (ImGui::SliderFloat("##rotation", &degrees, -180.0f, 180.0f, map ? "%.0f degrees" : "no environment map",
                          kBounded))
-    for (RenderOptions& side : state.sides) side.hdriRotationDegrees = degrees;
+    for (RenderOptions& side : state.sides) side.light.hdriRotationDegrees = degrees;
   ImGui::EndDisabled();
   label(places, "Intensity");
-  float intensity = float(o.hdriIntensity);
+  float intensity = float(o.light.hdriIntensity);
   if (ImGui::SliderFloat("##intensity", &intensity, 0.0f, kMostIntensity, "%.2f", kBoundedLogarithmic))
-    for (RenderOptions& side : state.sides) side.hdriIntensity = intensity;
-  if (!state.scene->options.hdriFile.empty()) {
+    for (RenderOptions& side : state.sides) side.light.hdriIntensity = intensity;
+  if (!state.scene->options.light.hdriFile.empty()) {
     label(places, "Blur");
-    const double blur = state.scene->options.backgroundBlur;
+    const double blur = state.scene->options.light.backgroundBlur;
     // It is blurred once, when the slider is let go.
     float wanted = state.blur.value_or(float(blur));
     if (ImGui::SliderFloat("##blur", &wanted, 0.0f, kMostBlur, wanted > 0.0f ? "%.1f degrees" : "none",
@@ -94,25 +94,25 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
     if (ImGui::IsItemDeactivatedAfterEdit() && state.blur) {
       task.errand = Errand::Load;
       task.load = state.scene->options;
-      task.load->backgroundBlur = *state.blur < kLeastBlur ? 0.0 : double(*state.blur);
+      task.load->light.backgroundBlur = *state.blur < kLeastBlur ? 0.0 : double(*state.blur);
       state.blur.reset();
     }
   }
   label(places, "Background");
-  bool background = o.background;
+  bool background = o.light.background;
   if (ImGui::Checkbox("##background", &background))
-    for (RenderOptions& side : state.sides) side.background = background;
+    for (RenderOptions& side : state.sides) side.light.background = background;
   if (background && !map) {
     ImGui::SameLine();
-    glm::vec3 color = o.backgroundColor.value_or(glm::vec3(0.0f));
+    glm::vec3 color = o.light.backgroundColor.value_or(glm::vec3(0.0f));
     if (ImGui::ColorEdit3("##color", glm::value_ptr(color),
                           ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoInputs))
       for (RenderOptions& side : state.sides)
-        side.backgroundColor = glm::clamp(color, glm::vec3(0.0f), glm::vec3(kMostColor));
+        side.light.backgroundColor = glm::clamp(color, glm::vec3(0.0f), glm::vec3(kMostColor));
     addItemPlace(places, "Background colour");
   }
   const bool paths = has(state.options().stages, Stage::Gi);
-  bool ground = o.shadowCatcher && paths;
+  bool ground = o.light.shadowCatcher && paths;
   ImGui::BeginDisabled(!paths);
   if (ImGui::Checkbox("Shadow catcher", &ground)) apply(state, *controlOf(Action::ToggleGround), {});
   ImGui::EndDisabled();

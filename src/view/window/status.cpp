@@ -75,7 +75,7 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["schema"] = 1;
   json["state"] = stateName(state, facts, report);
   json["scene"] = state.scene ? state.scene->options.scene.string() : "";
-  json["environment"] = state.scene ? state.scene->options.hdriFile.string() : "";
+  json["environment"] = state.scene ? state.scene->options.light.hdriFile.string() : "";
   json["width"] = state.size.x;
   json["height"] = state.size.y;
   json["asked"] = report.asked;
@@ -93,14 +93,14 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["sides"] = Json::array();
   for (size_t i = 0; i < state.tracedCount(); ++i) json["sides"].push_back(sideJson(state, facts, i));
   json["camera"] = report.camera;
-  json["exposure"] = state.sides[0].exposure;
-  json["tone_map"] = toneMapNames()[size_t(state.sides[0].toneMap)];
+  json["exposure"] = state.sides[0].output.exposure;
+  json["tone_map"] = toneMapNames()[size_t(state.sides[0].output.toneMap)];
   json["thumbnails"] = facts.thumbnails.size();
   json["reference"] = state.reference.string();
   json["hidden"] = state.sides[0].selection.hiddenNodes;
-  json["hdri_rotation"] = state.sides[0].hdriRotationDegrees;
-  json["hdri_intensity"] = state.sides[0].hdriIntensity;
-  json["background"] = state.sides[0].background;
+  json["hdri_rotation"] = state.sides[0].light.hdriRotationDegrees;
+  json["hdri_intensity"] = state.sides[0].light.hdriIntensity;
+  json["background"] = state.sides[0].light.background;
   const int animation = shownAnimation(state);
   json["animation"] = animation < 0 ? Json()
                                     : Json{{"index", animation},

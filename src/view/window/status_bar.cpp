@@ -42,8 +42,9 @@ std::vector<std::string> progressTexts(const ViewState& state, const ViewFacts& 
   const std::string name = state.split ? (side == 0 ? "A: " : "B: ") : "";
   texts.push_back(name + samplesText(s.samples) + " per pixel");
   if (s.error >= 0.0) {
-    texts.push_back(o.noise > 0.0 ? printed("error %.2f %% of %.2f %%", 100.0 * s.error, 100.0 * o.noise)
-                                  : printed("error %.2f %%", 100.0 * s.error));
+    texts.push_back(o.sampling.noise > 0.0
+                        ? printed("error %.2f %% of %.2f %%", 100.0 * s.error, 100.0 * o.sampling.noise)
+                        : printed("error %.2f %%", 100.0 * s.error));
   }
   if (!s.resting && progress.seconds) texts.push_back(durationText(*progress.seconds) + " left");
   const glm::ivec2 size = facts.pictureSize[side];

@@ -51,16 +51,18 @@ glm::ivec2 standardSize(float scale) {
 /// Whether the panel stands beside the picture at first: where both fit on the screen.
 bool startsWithPanel(const RenderOptions& options) {
   const float scale = primaryScale(glfwGetPrimaryMonitor());
-  if (!options.resolution) return layoutOf(glm::vec2(standardSize(scale)), scale, {.panel = true}).docked;
-  const bool fits = glm::all(glm::lessThanEqual(windowFor(*options.resolution, scale, true), screenRoom()));
-  return fits && fitsPanel(glm::vec2(*options.resolution), scale);
+  if (!options.camera.resolution)
+    return layoutOf(glm::vec2(standardSize(scale)), scale, {.panel = true}).docked;
+  const bool fits =
+      glm::all(glm::lessThanEqual(windowFor(*options.camera.resolution, scale, true), screenRoom()));
+  return fits && fitsPanel(glm::vec2(*options.camera.resolution), scale);
 }
 
 /// A given resolution is that of the picture.
 glm::ivec2 startSize(const RenderOptions& options) {
   const float scale = primaryScale(glfwGetPrimaryMonitor());
-  if (!options.resolution) return standardSize(scale);
-  return windowFor(*options.resolution, scale, startsWithPanel(options));
+  if (!options.camera.resolution) return standardSize(scale);
+  return windowFor(*options.camera.resolution, scale, startsWithPanel(options));
 }
 
 }  // namespace
@@ -73,8 +75,8 @@ Window::Window(const WindowStart& start, Exchange& exchange)
       interface_(window_.get()),
       frames_(kSettleFrames) {
   state_.sides[0] = wanted_ = start.options;
-  state_.treeBoxes = start.options.treeLevel.has_value();
-  state_.treeLevel = start.options.treeLevel.value_or(state_.treeLevel);
+  state_.treeBoxes = start.options.output.treeLevel.has_value();
+  state_.treeLevel = start.options.output.treeLevel.value_or(state_.treeLevel);
   state_.panel = startsWithPanel(start.options);
   exchange_.setWake([] { glfwPostEmptyEvent(); });
   try {
@@ -225,7 +227,7 @@ void Window::askForThumbnails() {
   if (!std::exchange(facts_.wantsThumbnails, false) || !state_.scene) return;
   std::vector<std::filesystem::path> wanted = state_.scene->environments;
   wanted.emplace_back();
-  if (!state_.scene->options.hdriFile.empty()) wanted.push_back(state_.scene->options.hdriFile);
+  if (!state_.scene->options.light.hdriFile.empty()) wanted.push_back(state_.scene->options.light.hdriFile);
   std::erase_if(wanted, [&](const auto& file) { return !askedThumbnails_.insert(file).second; });
   if (!wanted.empty()) exchange_.makeThumbnails(std::move(wanted));
 }
@@ -271,9 +273,9 @@ void Window::takeState(const Delivery& news) {
 
 /// One that was dropped before a model would keep every model from being shown.
 void Window::forgetBrokenEnvironment() {
-  const std::string file = wanted_.hdriFile.string();
+  const std::string file = wanted_.light.hdriFile.string();
   if (file.empty() || facts_.error.find(file) == std::string::npos) return;
-  wanted_.hdriFile.clear();
+  wanted_.light.hdriFile.clear();
   say(std::filesystem::path(file).filename().string() + " is left out from now on");
 }
 
@@ -318,7 +320,7 @@ void Window::draw() {
   execute(said);
   askForThumbnails();
   std::array<DisplaySide, 2> sides;
-  for (size_t i = 0; i < 2; ++i) sides[i] = {state_.sides[i].exposure, state_.sides[i].toneMap};
+  for (size_t i = 0; i < 2; ++i) sides[i] = {state_.sides[i].output.exposure, state_.sides[i].output.toneMap};
   display_.draw({size, layout.picture, state_.shownBar(), state_.magnifier,
                  state_.split && state_.comparison == CompareMode::Difference, state_.differenceStops},
                 sides);

@@ -95,7 +95,7 @@ void Window::executeOnScene(const Task& task) {
 
 /// For a picture of the size that is shown.
 void Window::load(RenderOptions options) {
-  options.resolution = state_.size;
+  options.camera.resolution = state_.size;
   wanted_ = options;
   pasted_.reset();
   exchange_.load(options);
@@ -128,7 +128,7 @@ void Window::openFiles(const std::vector<std::filesystem::path>& files) {
       std::ranges::any_of(toLoad, [](const auto& file) { return kindOfDropped(file) == DroppedFile::Scene; });
   if (hasScene || state_.scene || facts_.load.busy) return load(*drop.load);
   wanted_ = *drop.load;
-  say(wanted_.hdriFile.filename().string() + " will light the model that is dropped next");
+  say(wanted_.light.hdriFile.filename().string() + " will light the model that is dropped next");
 }
 
 void Window::save(const char* extension) {
@@ -145,20 +145,20 @@ void Window::save(const char* extension) {
   if (both) request.both = state_.comparison;
   request.bar = state_.shownBar();
   request.differenceStops = state_.differenceStops;
-  request.exposure = o.exposure;
-  request.toneMap = o.toneMap;
+  request.exposure = o.output.exposure;
+  request.toneMap = o.output.toneMap;
   exchange_.save(std::move(request));
 }
 
 /// Of the active side, with all that its picture on the screen depends on.
 RenderOptions Window::shownOptions() const {
   RenderOptions o = renderOptionsOf(state_, state_.active);
-  o.resolution = state_.size;
-  o.sceneOrigin = state_.scene->description.origin;
-  o.spp = std::max(facts_.statistics[state_.active].samples, 1);
+  o.camera.resolution = state_.size;
+  o.camera.sceneOrigin = state_.scene->description.origin;
+  o.sampling.spp = std::max(facts_.statistics[state_.active].samples, 1);
   // What lights the scene without need is not said.
-  if (!state_.scene->defaultLight && o.defaultLight == DefaultLight::Studio)
-    o.defaultLight = DefaultLight::White;
+  if (!state_.scene->defaultLight && o.light.defaultLight == DefaultLight::Studio)
+    o.light.defaultLight = DefaultLight::White;
   return o;
 }
 
@@ -207,8 +207,8 @@ void Window::executeOnBookmark(const Task& task) {
 
 void Window::copyCommand() {
   RenderOptions o = shownOptions();
-  const bool layers = !o.aovFeatures.empty() || o.aovSamples || o.aovVariance;
-  o.output = freePictureName(o.scene, layers ? ".exr" : ".png");
+  const bool layers = !o.output.aovFeatures.empty() || o.output.aovSamples || o.output.aovVariance;
+  o.output.file = freePictureName(o.scene, layers ? ".exr" : ".png");
   glfwSetClipboardString(window_.get(), start_.commandText(o).c_str());
   say("copied the command that renders this picture");
 }
