@@ -7,11 +7,10 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "cli/bench/commands.h"
-#include "cli/commands.h"
 #include "cli/suggestion.h"
 #include "errors.h"
 #include "options/camera_options.h"
@@ -24,8 +23,9 @@ namespace fragtrace {
 
 namespace {
 
-std::vector<std::string> argumentsOf(int argc, const char* const* argv) {
-  std::vector<std::string> arguments = withNumbersSettled({argv + std::min(argc, 1), argv + argc});
+std::vector<std::string> argumentsOf(std::span<const char* const> words) {
+  const auto first = words.begin() + std::ptrdiff_t(std::min(words.size(), size_t(1)));
+  std::vector<std::string> arguments = withNumbersSettled({first, words.end()});
   std::ranges::reverse(arguments);  // last first, as the library wants them
   return arguments;
 }
@@ -35,17 +35,6 @@ std::vector<std::string> commandNames(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     names.push_back(command->get_name());
   return names;
-}
-
-/// A first word that is no command but a file is to be viewed; a file with the name of a command is ./NAME.
-std::vector<const char*> withView(const CLI::App& app, int argc, const char* const* argv) {
-  std::vector<const char*> words(argv, argv + argc);
-  if (argc < 2 || argv[1][0] == '-') return words;
-  const std::vector<std::string> names = commandNames(app);
-  std::error_code error;
-  const bool isFile = std::filesystem::is_regular_file(argv[1], error);
-  if (isFile && std::ranges::find(names, argv[1]) == names.end()) words.insert(words.begin() + 1, "view");
-  return words;
 }
 
 /// The library would call an unknown command an argument too many, and a missing one a subcommand.
@@ -96,7 +85,15 @@ RunCommand addCommands(CLI::App& app, std::span<const CommandRow> rows) {
   };
 }
 
-RunCommand addBench(CLI::App& app) { return addCommands(app, kBenchRows); }
+std::vector<const char*> withView(std::span<const CommandRow> rows, int argc, const char* const* argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  if (argc < 2 || argv[1][0] == '-') return words;
+  const auto named = [&](const CommandRow& row) { return row.name == std::string_view(argv[1]); };
+  std::error_code error;
+  const bool isFile = std::filesystem::is_regular_file(argv[1], error);
+  if (isFile && std::ranges::none_of(rows, named)) words.insert(words.begin() + 1, "view");
+  return words;
+}
 
 bool asksForJson(std::span<const char* const> words) {
   for (size_t i = 0; i < words.size(); ++i) {
@@ -107,19 +104,19 @@ bool asksForJson(std::span<const char* const> words) {
   return false;
 }
 
-int runCommandLine(int givenCount, const char* const* given) {
+int runCommandLine(std::span<const CommandRow> rows, std::span<const char* const> words) {
   CLI::App app("A path tracer for glTF whose tracing runs in an OpenGL shader.", "fragtrace");
   hideOldSpellings(app);
   app.set_version_flag("--version", std::string("fragtrace ") + kVersionText);
-  const RunCommand run = addCommands(app, kCommandRows);
-  const std::vector<const char*> words = withView(app, givenCount, given);
-  const int argc = int(words.size());
-  const char* const* argv = words.data();
-  const auto word = [&](int i) { return i < argc ? std::optional<std::string>(argv[i]) : std::nullopt; };
+  const RunCommand run = addCommands(app, rows);
+  const auto word = [&](size_t i) {
+    return i < words.size() ? std::optional<std::string>(words[i]) : std::nullopt;
+  };
   checkCommand(app, word(1));
-  if (word(1) == "bench") checkCommand(*app.get_subcommand("bench"), word(2));
+  const CLI::App* command = word(1)->starts_with('-') ? nullptr : app.get_subcommand(*word(1));
+  if (command != nullptr && !commandNames(*command).empty()) checkCommand(*command, word(2));
   try {
-    app.parse(argumentsOf(argc, argv));
+    app.parse(argumentsOf(words));
   } catch (const CLI::Success& success) {
     return app.exit(success, std::cout, std::cerr);
   } catch (const CLI::ExtrasError&) {

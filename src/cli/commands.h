@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "cli/bench_program.h"
 #include "options/command.h"
 
 namespace fragtrace {
@@ -14,6 +15,7 @@ RunCommand addInfo(CLI::App& app);
 RunCommand addDiff(CLI::App& app);
 RunCommand addMerge(CLI::App& app);
 RunCommand addDenoise(CLI::App& app);
+/// For --help alone: the program has become another one before it asks for this command's options.
 RunCommand addBench(CLI::App& app);
 
 /// In the order of --help.
@@ -24,7 +26,7 @@ inline constexpr std::array kCommandRows{
     CommandRow{"diff", "compare a picture with a reference", addDiff},
     CommandRow{"merge", "merge parts of one render", addMerge},
     CommandRow{"denoise", "remove noise from a picture file", addDenoise},
-    CommandRow{"bench", "measure speed and error", addBench},
+    CommandRow{"bench", kBenchSentence, addBench},
 };
 
 }  // namespace fragtrace

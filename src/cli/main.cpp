@@ -1,73 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include <fcntl.h>
-#include <unistd.h>
+#include <vector>
 
-#include <csignal>
-#include <new>
-#include <system_error>
-
+#include "cli/bench_program.h"
 #include "cli/command_line.h"
-#include "cli/leave.h"
-#include "errors.h"
-#include "process/report.h"
-#include "session/interrupt.h"
+#include "cli/commands.h"
+#include "cli/program.h"
 
 namespace {
 
-enum ExitStatus { kDone = 0, kFailed = 1, kUsage = 2, kInput = 3, kNoContext = 4 };
-
-int fail(ExitStatus status, const char* message) {
-  fragtrace::reportError(message);
-  return status;
-}
-
-/// A stream that was closed would else be the first file that is opened, and get what is printed.
-void openClosedStreams() {
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    // The lowest free descriptor is the one just found closed.
-    if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY);
-  }
-}
-
-int run(int argc, char** argv) {
-  using namespace fragtrace;
-  openClosedStreams();
-  // A full pipe or file gives an error where it is written to, which reaches the user.
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
-  if (asksForJson({argv, size_t(argc)})) reportAsJson(false);
-  exitOnInterrupt();
-  sayWhenCrashing();
-  return runCommandLine(argc, argv);
-}
-
-int statusOf(int argc, char** argv) {
-  try {
-    const int status = run(argc, argv);
-    fragtrace::checkPrinted();
-    return status;
-  } catch (const fragtrace::UsageError& error) {
-    return fail(kUsage, error.what());
-  } catch (const fragtrace::InputError& error) {
-    return fail(kInput, error.what());
-  } catch (const fragtrace::ContextError& error) {
-    return fail(kNoContext, error.what());
-  } catch (const std::bad_alloc&) {
-    return fail(kInput, "out of memory");
-  } catch (const std::system_error& error) {
-    if (error.code() != std::errc::resource_unavailable_try_again) return fail(kFailed, error.what());
-    return fail(kFailed,
-                "the system grants no further thread, perhaps because memory ran out (ulimit -u, ulimit -v)");
-  } catch (const std::exception& error) {
-    return fail(kFailed, error.what());
-  }
+int run(int argc, const char* const* argv) {
+  fragtrace::becomeBenchProgram(argc, argv);
+  const std::vector<const char*> words = fragtrace::withView(fragtrace::kCommandRows, argc, argv);
+  return fragtrace::runCommandLine(fragtrace::kCommandRows, words);
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const int status = statusOf(argc, argv);
-  fragtrace::reportEnd(status);
-  fragtrace::endAsMeant();
-  return status;
-}
+int main(int argc, char** argv) { return fragtrace::runProgram(run, argc, argv); }

@@ -11,7 +11,7 @@ from suite import likely
 def tree_of(source):
     """Names all that a verdict depends on."""
     digest = hashlib.sha256()
-    for folder in ("shaders", "src", "scenes", "tests"):
+    for folder in ("shaders", "src", "bench", "scenes", "tests"):
         for path in sorted((source / folder).rglob("*")):
             if path.is_file() and "mutants" not in path.parts and "__pycache__" not in path.parts:
                 digest.update(str(path.relative_to(source)).encode() + b"\0" + path.read_bytes())

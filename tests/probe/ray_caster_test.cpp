@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "bench/ball_scene.h"
-#include "bench/hit_check.h"
-#include "bench/ray_sets.h"
+#include "bench/rays/ball_scene.h"
+#include "bench/rays/hit_check.h"
+#include "bench/rays/ray_sets.h"
 #include "gl_probe.h"
 #include "render/ray_caster.h"
 #include "scene/camera.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // property_test BACKEND FIRST COUNT [FORM]: scenes of the seeds FIRST, FIRST + 1, ... are drawn as they are
-// and in an equivalent form (src/stress/forms.h), which must show the same. Seed s takes form s / 6 % 6
+// and in an equivalent form (bench/stress/forms.h), which must show the same. Seed s takes form s / 6 % 6
 // unless one is named. A scene that does not is printed with its seed and form: `property_test egl SEED 1
 // FORM` draws it again.
 #include <cstdio>
@@ -8,9 +8,9 @@
 #include <cstring>
 #include <exception>
 
+#include "bench/stress/likeness.h"
+#include "bench/stress/random_sketch.h"
 #include "osmesa.h"
-#include "stress/likeness.h"
-#include "stress/random_sketch.h"
 
 namespace fragtrace {
 namespace {

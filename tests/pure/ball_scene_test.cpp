@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "bench/ball_scene.h"
+#include "bench/rays/ball_scene.h"
 
 namespace fragtrace {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Axes by their numbers, charts by what their SVG says.
-#include "bench/chart.h"
+#include "bench/report/chart.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <regex>
 #include <set>
 
-#include "bench/axis.h"
+#include "bench/report/axis.h"
 
 namespace fragtrace {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/error_report.h"
+#include "bench/report/error_report.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "bench/frame_report.h"
+#include "bench/report/frame_report.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "bench/baseline.h"
-#include "bench/variants_table.h"
+#include "bench/report/baseline.h"
+#include "bench/report/variants_table.h"
 #include "errors.h"
 
 namespace fragtrace {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "bench/ball_scene.h"
-#include "bench/hit_check.h"
-#include "bench/ray_sets.h"
+#include "bench/rays/ball_scene.h"
+#include "bench/rays/hit_check.h"
+#include "bench/rays/ray_sets.h"
 #include "errors.h"
 
 namespace fragtrace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "bench/ball_scene.h"
-#include "bench/ray_sets.h"
+#include "bench/rays/ball_scene.h"
+#include "bench/rays/ray_sets.h"
 
 namespace fragtrace {
 namespace {

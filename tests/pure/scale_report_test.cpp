@@ -7,8 +7,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "bench/scale_report.h"
-#include "bench/traversal_report.h"
+#include "bench/report/scale_report.h"
+#include "bench/report/traversal_report.h"
 
 namespace fragtrace {
 namespace {

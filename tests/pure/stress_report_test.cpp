@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/stress_report.h"
+#include "bench/report/stress_report.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/table_report.h"
+#include "bench/report/table_report.h"
 
 #include <utility>
 

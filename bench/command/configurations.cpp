@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "bench/command/configurations.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "options/choose.h"
+#include "options/old_spellings.h"
+
+namespace fragtrace {
+
+namespace {
+
+struct NamedConfiguration {
+  std::string_view name;
+  std::string_view options;
+};
+
+/// What the questions "what does it cost, what does it bring?" are asked of most.
+constexpr std::array<NamedConfiguration, 13> kNamedConfigurations = {{
+    {"default", ""},
+    {"baseline", "--disable light-sampling,sobol"},
+    {"random", "--disable sobol"},
+    {"bsdf", "--disable light-sampling"},
+    {"adaptive", "--noise 0.02 --spp 65536"},
+    {"power-lights", "--light-selection power"},
+    {"light-candidates", "--light-reuse candidates"},
+    {"light-spatial", "--light-reuse spatial"},
+    {"no-caustics", "--caustics off"},
+    {"schlick", "--enable schlick"},
+    {"no-compensation", "--disable energy-compensation"},
+    {"clamped", "--clamp-indirect 10"},
+    {"fast-triangles", "--disable watertight"},
+}};
+
+std::vector<std::string_view> configurationNames() {
+  std::vector<std::string_view> names(kNamedConfigurations.size());
+  std::ranges::transform(kNamedConfigurations, names.begin(), &NamedConfiguration::name);
+  return names;
+}
+
+/// Options of `render` as arguments, by their names.
+using GivenOptions = std::map<std::string, std::vector<std::string>>;
+
+/// Those that were given to an app which has them.
+GivenOptions givenOptions(const CLI::App& app) {
+  CLI::App render;
+  RawRender raw;
+  addRenderOptions(render, raw);
+  GivenOptions given;
+  for (const CLI::Option* option : render.get_options()) {
+    const std::string name = option->get_name();
+    const CLI::Option* here = app.get_option_no_throw(name);
+    if (here == nullptr || here->count() == 0 || name == "--help") continue;
+    std::vector<std::string>& arguments = given[name];
+    arguments.push_back(name);
+    if (option->get_items_expected_max() > 0) arguments.push_back(CLI::detail::join(here->results(), ","));
+  }
+  return given;
+}
+
+/// Fills in the options of one configuration: its own, and those given for all where it has none. What both
+/// turn on or off adds up.
+void parseRender(const GivenOptions& shared, BenchConfiguration& c, const std::string& scene,
+                 const char* defaultSamples) {
+  const auto parsed = [&](std::vector<std::string> arguments, const auto& use) {
+    CLI::App app;
+    RawRender raw;
+    raw.scene = scene;
+    addRenderOptions(app, raw);
+    std::reverse(arguments.begin(), arguments.end());  // last first, as the library wants them
+    try {
+      app.parse(arguments);
+    } catch (const CLI::ParseError& error) {
+      throw UsageError("configuration '" + c.name + "': " + error.what());
+    }
+    return use(app, raw);
+  };
+  std::vector<std::string> arguments = withNumbersSettled(CLI::detail::split_up(c.text));
+  GivenOptions given = parsed(arguments, [&](const CLI::App& app, const RawRender&) {
+    if (!shared.contains("--quiet")) sayOldSpellings(app);
+    return givenOptions(app);
+  });
+  for (const auto& [name, option] : shared) {
+    const auto [own, isNew] = given.try_emplace(name, option);
+    const bool addsUp = name == "--enable" || name == "--disable";
+    if (!isNew && addsUp) own->second.back() += "," + option.back();
+  }
+  c.samplesGiven = given.contains("--spp");
+  // An adaptive one goes on until its goal.
+  if (defaultSamples != nullptr && !given.contains("--noise") && !given.contains("--time"))
+    given.try_emplace("--spp", std::vector<std::string>{"--spp", defaultSamples});
+  arguments.clear();
+  c.fullText.clear();
+  for (const auto& [name, option] : given) {
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    if (name == "--quiet" || name == "--verbose") continue;
+    for (const std::string& argument : option) c.fullText += (c.fullText.empty() ? "" : " ") + argument;
+  }
+  c.render = parsed(arguments, [](const CLI::App&, const RawRender& raw) { return finishRender(raw); });
+}
+
+}  // namespace
+
+void addConfigurationOptions(CLI::App& app, RawConfigurations& raw, const char* defaults) {
+  app.add_option("--configs", raw.names,
+                 "settings to measure: " + joined(configurationNames()) + "; by default " + defaults)
+      ->delimiter(',');
+  app.add_option("--config", raw.own, "NAME=OPTIONS: a setting of your own, such as \"rough=--bounces 4\"")
+      ->allow_extra_args(false);
+  addRenderOptions(app, raw.shared);
+}
+
+std::vector<BenchConfiguration> configurationsOf(const RawConfigurations& raw, const CLI::App& app,
+                                                 const std::string& scene,
+                                                 const std::vector<std::string>& defaults,
+                                                 const char* defaultSamples) {
+  const GivenOptions shared = givenOptions(app);
+  std::vector<BenchConfiguration> configurations;
+  std::vector<std::string> names = raw.names;
+  if (names.empty()) names = {"default"};
+  if (raw.names.empty() && raw.own.empty()) names = defaults;
+  for (const std::string& name : names) {
+    const NamedConfiguration& c =
+        kNamedConfigurations[choose<size_t>("--configs", name, configurationNames())];
+    configurations.push_back({name, std::string(c.options), {}, {}, false});
+  }
+  for (const std::string& text : raw.own) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw UsageError("--config: '" + text + "' is not NAME=OPTIONS");
+    if (std::ranges::count(configurationNames(), text.substr(0, equals)) > 0)
+      throw UsageError("--config: '" + text.substr(0, equals) + "' is one of --configs; choose another name");
+    configurations.push_back({text.substr(0, equals), text.substr(equals + 1), {}, {}, false});
+  }
+  for (BenchConfiguration& c : configurations) {
+    parseRender(shared, c, scene, defaultSamples);
+    for (const BenchConfiguration& other : configurations) {
+      if (&other != &c && other.name == c.name) throw UsageError("--config: '" + c.name + "' stands twice");
+    }
+  }
+  if (!raw.shared.statsFile.empty()) throw UsageError("--stats: --json holds what was measured");
+  return configurations;
+}
+
+BenchConfiguration configurationOf(const RawConfigurations& raw, const CLI::App& app, const std::string& name,
+                                   const std::string& text, const std::string& scene) {
+  BenchConfiguration c{name, text, {}, {}, false};
+  parseRender(givenOptions(app), c, scene, nullptr);
+  if (!raw.shared.statsFile.empty()) throw UsageError("--stats: --json holds what was measured");
+  return c;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "bench/command/timed_setting.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "errors.h"
+#include "options/numbers.h"
+#include "session/progress_bar.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// Far from a GPU's watchdog, and so long that what is done between draws does not count.
+constexpr double kTimedDrawMs = 250.0;
+/// How many times a round's time its least frames may take.
+constexpr double kMostOverTime = 5.0;
+
+/// Adds samples [from, to), by draws as the timing wants them. Milliseconds go into `times`.
+void drawSamples(TimedSetting& s, int from, int to, RenderTimes& times) {
+  const int most = s.timing.samplesPerDraw > 0 ? s.timing.samplesPerDraw : to - from;
+  for (int done = from; done < to;) {
+    const int next = std::min(to, done + most);
+    s.tracer.renderer->addSamples(*s.film, s.loaded->view, done, next, times);
+    done = next;
+  }
+}
+
+}  // namespace
+
+void addTimingOptions(CLI::App& app, FrameTiming& timing) {
+  app.add_option("--rounds,--repetitions", timing.rounds,
+                 "number of timing rounds; every round measures all settings, one after another")
+      ->check(wholeNumber(1, 100000))
+      ->capture_default_str();
+  app.add_option("--round-time", timing.roundSeconds, "seconds per round")
+      ->check(CLI::Range(0.001, 3600.0))
+      ->capture_default_str();
+  app.add_option("--samples-per-draw", timing.samplesPerDraw,
+                 "maximum samples per draw; with 1, each frame is drawn on its own, as in a viewer; by "
+                 "default, the renderer chooses a number that takes a short time")
+      ->check(wholeNumber(1, 1 << 20));
+}
+
+void checkTimed(const BenchConfiguration& configuration) {
+  const std::string name = "configuration '" + configuration.name + "': ";
+  if (configuration.adaptive())
+    throw UsageError(name + "--noise and --time draw no frames; `bench error` measures them");
+}
+
+TimedSetting makeSetting(const Context& context, const BenchConfiguration& configuration,
+                         const FrameTiming& timing) {
+  Statistics stats;
+  RenderOptions options = configuration.render;
+  // Frames are timed without what comes before them, so the variant is that of a long render.
+  if (!configuration.samplesGiven) options.sampling.spp = std::numeric_limits<int>::max();
+  auto loaded = std::make_shared<LoadedScene>(loadScene(options, stats));
+  Tracer tracer = makeTracer(context, *loaded, options, stats);
+  return makeSetting(context, configuration, timing, std::move(loaded), std::move(tracer));
+}
+
+TimedSetting makeSetting(const Context& context, const BenchConfiguration& configuration,
+                         const FrameTiming& timing, std::shared_ptr<const LoadedScene> loaded,
+                         Tracer tracer) {
+  TimedSetting s;
+  s.configuration = configuration;
+  s.timing = timing;
+  s.loaded = std::move(loaded);
+  s.tracer = std::move(tracer);
+  s.film = std::make_unique<Film>(s.loaded->size);
+  if (!context.software) s.tracer.renderer->setDrawTime(kTimedDrawMs);
+  FrameSetting& r = s.report;
+  r.scene = configuration.render.scene.filename().string();
+  r.configuration = configuration.name;
+  r.options = configuration.fullText;
+  r.variant = variantName(s.tracer.variant);
+  r.clock = s.tracer.renderer->clock();
+  r.width = s.loaded->size.x;
+  r.height = s.loaded->size.y;
+  r.triangles = s.loaded->scene.triangles.size();
+  r.samplesPerDraw = timing.samplesPerDraw;
+  return s;
+}
+
+void warmUp(TimedSetting& s) {
+  s.report.compileMs =
+      s.tracer.programMs + s.tracer.renderer->compile(s.tracer.variant, *s.film, s.loaded->view);
+  RenderTimes first;
+  drawSamples(s, 0, 1, first);
+  s.report.firstFrameMs = first.drawMs;
+  if (s.timing.mostSeconds > 0.0 && first.drawMs > 1000.0 * s.timing.mostSeconds) {
+    s.report.frameMs.push_back(first.drawMs);
+    s.report.wallFrameMs.push_back(first.renderMs);
+    s.timing.rounds = 0;
+    return;
+  }
+  // Step: frames until a round's time has passed; the last of them tell how many a round needs.
+  const double roundMs = 1000.0 * s.timing.roundSeconds;
+  double frameMs = std::max(first.drawMs, 1e-6);
+  constexpr int kMost = 1 << 24;
+  int frames = 1;
+  for (double spent = first.drawMs; spent < roundMs && frames < kMost;) {
+    RenderTimes times;
+    s.film->clear();
+    drawSamples(s, 0, frames, times);
+    frameMs = std::max(times.drawMs / frames, 1e-6);
+    spent += std::max(times.renderMs, times.drawMs);
+    const double missing = std::max(1.0, (roundMs - spent) / frameMs);
+    frames = int(std::min({2.0 * frames, std::ceil(missing), double(kMost)}));
+  }
+  // Step: what a draw costs once must not weigh differently in settings that are compared.
+  const double affordable = kMostOverTime * roundMs / frameMs;
+  const double least = std::min(double(s.timing.leastFrames), affordable);
+  const double wanted = std::clamp(std::max(roundMs / frameMs, least), 1.0, double(kMost));
+  s.report.frames = s.configuration.samplesGiven ? s.configuration.render.sampling.spp : int(wanted);
+  if (s.timing.mostSeconds > 0.0) {
+    const double rounds = 1000.0 * s.timing.mostSeconds / (frameMs * s.report.frames);
+    s.timing.rounds = int(std::clamp(rounds, 1.0, double(s.timing.rounds)));
+  }
+}
+
+void drawRound(TimedSetting& s) {
+  RenderTimes times;
+  s.film->clear();
+  drawSamples(s, 0, s.report.frames, times);
+  s.report.frameMs.push_back(times.drawMs / s.report.frames);
+  s.report.wallFrameMs.push_back(times.renderMs / s.report.frames);
+}
+
+void measureInTurn(std::span<TimedSetting> settings, bool quiet) {
+  if (settings.empty()) return;
+  ProgressBar bar("measuring", quiet);
+  int rounds = 0;
+  for (TimedSetting& s : settings) {
+    warmUp(s);
+    rounds = std::max(rounds, s.timing.rounds);
+  }
+  for (int r = 0; r < rounds; ++r) {
+    for (TimedSetting& s : settings) {
+      if (r < s.timing.rounds) drawRound(s);
+    }
+    bar.show(double(r + 1) / rounds);
+  }
+  bar.clear();
+  for (TimedSetting& s : settings) {
+    const FilmTotals totals = totalsOf(s.film->read());
+    s.report.raysPerPath = double(totals.rays) / double(std::max<uint64_t>(1, totals.samples));
+    s.report.nonfinitePixels = totals.nonfinitePixels;
+    s.report.budgetHits = totals.budgetHits;
+  }
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Settings whose frames are timed in turn: A B A B.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bench/command/configurations.h"
+#include "bench/report/frame_report.h"
+#include "render/film.h"
+#include "session/tracer.h"
+
+namespace CLI {
+class App;
+}
+
+namespace fragtrace {
+
+/// How long and how often.
+struct FrameTiming {
+  int rounds = 10;
+  double roundSeconds = 0.5;  ///< as many frames a round as take this long, unless --spp says how many
+  int leastFrames = 8;        ///< a round, as long as these take no more than 5 times as long
+  double mostSeconds =
+      0.0;  ///< fewer rounds where they take longer; a first frame that does is the only one; 0: no limit
+  int samplesPerDraw = 0;  ///< at most; 0: as many as the renderer puts into a draw
+};
+
+/// Adds --rounds, --round-time and --samples-per-draw.
+void addTimingOptions(CLI::App& app, FrameTiming& timing);
+/// Throws UsageError where a configuration cannot be timed.
+void checkTimed(const BenchConfiguration& configuration);
+
+/// One setting on the device, and what was measured of it.
+struct TimedSetting {
+  BenchConfiguration configuration;
+  FrameTiming timing;
+  std::shared_ptr<const LoadedScene> loaded;
+  Tracer tracer;
+  bool otherSamples = false;   ///< its variant samples lights otherwise than its options alone ask for
+  std::unique_ptr<Film> film;  ///< samples from 0 on of the last round
+  FrameSetting report;
+};
+
+/// Loads and uploads. Throws InputError, UsageError, RenderError.
+TimedSetting makeSetting(const Context& context, const BenchConfiguration& configuration,
+                         const FrameTiming& timing);
+/// Of what is loaded and uploaded already.
+TimedSetting makeSetting(const Context& context, const BenchConfiguration& configuration,
+                         const FrameTiming& timing, std::shared_ptr<const LoadedScene> loaded, Tracer tracer);
+
+/// Compiles, draws the first frame and more until a round's time has passed, and chooses the frames of a
+/// round.
+void warmUp(TimedSetting& setting);
+
+/// Draws one round on a cleared film.
+void drawRound(TimedSetting& setting);
+
+/// Warms up all, then draws round after round in turn.
+void measureInTurn(std::span<TimedSetting> settings, bool quiet);
+
+}  // namespace fragtrace

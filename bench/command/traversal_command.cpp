@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// `fragtrace bench traversal`: rays a second of each kind, nothing shaded.
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "bench/command/commands.h"
+#include "bench/command/traversal_options.h"
+#include "bench/rays/hit_check.h"
+#include "bench/rays/ray_sets.h"
+#include "bench/report/traversal_report.h"
+#include "errors.h"
+#include "image/files/whole_file.h"
+#include "pack/literals.h"
+#include "render/ray_caster.h"
+#include "session/interrupt.h"
+#include "session/outputs.h"
+#include "session/progress_bar.h"
+#include "session/setup.h"
+
+namespace fragtrace {
+
+namespace {
+
+struct MeasuredSet {
+  RayKind kind;
+  std::vector<Ray> rays;
+  std::vector<FoundHit> found;
+  TraversalRow row;
+
+  bool anyHit() const { return kind == RayKind::Shadow; }
+};
+
+std::vector<FoundHit> foundBy(const RayCaster& caster, const Bvh& bvh) {
+  std::vector<FoundHit> found;
+  for (const TracedRay& hit : caster.hits()) found.push_back({primitiveInSlot(bvh, hit.slot), hit.t});
+  return found;
+}
+
+std::vector<MeasuredSet> makeSets(const LoadedScene& loaded, const ExactTracer& tracer, uint32_t seed) {
+  std::vector<Ray> primary = primaryRays(loaded.camera, loaded.scene.space, loaded.size);
+  const std::vector<ExactHit> hits = tracer.nearest(primary);
+  std::vector<MeasuredSet> sets;
+  sets.push_back({RayKind::Diffuse, diffuseRays(tracer, primary, hits, seed), {}, {}});
+  sets.push_back({RayKind::Shadow, shadowRays(tracer, loaded.scene, primary, hits, seed + 1), {}, {}});
+  sets.insert(sets.begin(), {RayKind::Primary, std::move(primary), {}, {}});
+  for (MeasuredSet& set : sets) {
+    set.row.kind = kRayKindNames[size_t(set.kind)];
+    set.row.rays = countRays(set.rays);
+  }
+  return sets;
+}
+
+/// Holds what was found against double precision. Throws RenderError when it is wrong.
+void check(MeasuredSet& set, const ExactTracer& tracer, const Scene& scene) {
+  const std::vector<ExactHit> exact = tracer.nearest(set.rays);
+  const double size = glm::length(scene.bounds.extent()) / scene.space.unit;
+  set.row.wrong = set.anyHit() ? countWrongAny(set.rays, set.found, exact)
+                               : countWrongNearest(set.rays, set.found, exact, size);
+  set.row.wrongAllowed = wrongRaysAllowed(set.row.rays);
+  for (const FoundHit& hit : set.found) set.row.hits += hit.primitive != kMissIndex ? 1 : 0;
+  if (set.row.wrong > set.row.wrongAllowed) {
+    throw RenderError(std::to_string(set.row.wrong) + " of " + std::to_string(set.row.rays) + " " +
+                      set.row.kind + " rays hit something else than in double precision");
+  }
+  set.row.provedByAll = proveTree(tracer, scene.triangles.size() + scene.spheres.size(), set.rays);
+}
+
+/// Little-endian: "FTRAYS1", 0; numbers of triangles and of rays a set, 32 bits each; nine floats a triangle;
+/// for each kind origin, limit, direction and the distance found (for shadow rays 0; -1: nothing) of each
+/// ray.
+void writeRays(const std::filesystem::path& path, const Scene& scene, const std::vector<MeasuredSet>& sets) {
+  std::vector<uint8_t> bytes{'F', 'T', 'R', 'A', 'Y', 'S', '1', 0};
+  const auto append = [&](const auto& value) {
+    const size_t at = bytes.size();
+    bytes.resize(at + sizeof value);
+    std::memcpy(bytes.data() + at, &value, sizeof value);
+  };
+  append(uint32_t(scene.triangles.size()));
+  append(uint32_t(sets.front().rays.size()));
+  for (const Triangle& t : scene.triangles) append(cornersOf(scene, t));
+  for (const MeasuredSet& set : sets) {
+    for (size_t i = 0; i < set.rays.size(); ++i) {
+      const bool hit = set.found[i].primitive != kMissIndex;
+      append(glm::vec4(set.rays[i].origin, set.rays[i].limit));
+      append(glm::vec4(set.rays[i].direction, !hit ? -1.0f : (set.anyHit() ? 0.0f : set.found[i].t)));
+    }
+  }
+  replaceFile(path, bytes);
+}
+
+TraversalReport measure(const BenchTraversalOptions& options, const Context& context) {
+  Statistics stats;
+  LoadedScene loaded = loadScene(options.render, stats);
+  const std::vector<NamedOutput> outputs{{"--json", options.json}, {"--rays", options.rays}};
+  checkOutputs(outputs, inputsOf(loaded.scene));
+  const Scene& scene = loaded.scene;
+  if (!options.rays.empty() && !scene.spheres.empty())
+    throw InputError(options.render.scene.string() + ": has spheres, which --rays does not write");
+  ShaderVariant variant = chooseVariant(options.render, traitsOf(scene, Surroundings::None),
+                                        Surroundings::None, loaded.bvh.depth, BufferReads::Auto);
+  if (loaded.bvh.besideTree > 0) variant.literals = largeFirst(scene, loaded.bvh, variant);
+  GpuScene packed = packScene(scene, loaded.bvh, {}, variant);
+  variant.reads =
+      chooseReads(options.render.device.bufferReads, context.software, packed, readLimits()).reads;
+
+  TraversalReport report;
+  report.scene = options.render.scene.filename().string();
+  report.triangles = scene.triangles.size();
+  report.spheres = scene.spheres.size();
+  report.width = loaded.size.x;
+  report.height = loaded.size.y;
+  report.renderer = context.renderer;
+  report.variant = variantName(variant);
+  report.sahCost = stats.bvh.sahCost;
+  if (report.triangles > 0)
+    report.gpuBytesPerTriangle = double(packed.geometryBytes()) / double(report.triangles);
+  RayCaster caster(context, std::move(packed), variant, loaded.size, options.render.device.shaderFolder);
+  report.clock = caster.clockName();
+
+  // Step: warm up, which is where the driver compiles, and check.
+  const ExactTracer tracer(scene, loaded.bvh);
+  std::vector<MeasuredSet> sets = makeSets(loaded, tracer, options.render.sampling.seed);
+  std::vector<RayCaster::RaySet> uploaded;
+  for (MeasuredSet& set : sets) {
+    uploaded.emplace_back(set.rays);
+    caster.trace(uploaded.back(), set.anyHit());
+    set.found = foundBy(caster, loaded.bvh);
+    check(set, tracer, scene);
+  }
+
+  // Step: measure in turn.
+  ProgressBar bar("measuring", options.render.output.quiet);
+  for (int round = 0; round < options.rounds; ++round) {
+    for (size_t i = 0; i < sets.size(); ++i) {
+      sets[i].row.ms.push_back(caster.trace(uploaded[i], sets[i].anyHit()));
+    }
+    bar.show(double(round + 1) / options.rounds);
+  }
+  bar.clear();
+  if (!options.rays.empty()) writeRays(options.rays, scene, sets);
+  for (MeasuredSet& set : sets) report.rows.push_back(std::move(set.row));
+  return report;
+}
+
+int runBenchTraversal(const BenchTraversalOptions& options) {
+  const std::vector<NamedOutput> outputs{{"--json", options.json}, {"--rays", options.rays}};
+  checkOutputs(outputs, inputsOf(options.render));
+  const auto context = makeContext(options.render.device.backend, options.render.device.vectorWidth);
+  const TraversalReport report = measure(options, *context);
+  countInterrupts();  // what is measured is written whole
+  std::fputs(traversalTable(report).c_str(), stdout);
+  replaceText(options.json, traversalJson(report));
+  return 0;
+}
+
+}  // namespace
+
+RunCommand addBenchTraversal(CLI::App& app) {
+  const auto raw = std::make_shared<RawBenchTraversal>();
+  addBenchTraversalOptions(app, *raw);
+  return [raw] { return runBenchTraversal(finishBenchTraversal(*raw)); };
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "bench/stress/likeness.h"
+
+#include <cmath>
+
+#include "bench/report/formatted.h"
+#include "bench/stress/random_sketch.h"
+#include "film/picture_check.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr double kMostApart = 1e-3;
+constexpr double kMostErrorsSame = 3.0;
+constexpr double kMostErrorsOther = 5.0;
+
+bool sameNumbers(Form form) { return form == Form::Scaled || form == Form::Moved; }
+
+double meanOf(const FilmPixels& film) {
+  double sum = 0.0;
+  for (const FilmPixel& p : film.pixels) sum += p.luminance();
+  return sum / double(film.pixels.size());
+}
+
+size_t countOtherHits(const FilmPixels& a, const FilmPixels& b, double scale) {
+  constexpr double kApart = 1e-3;
+  size_t count = 0;
+  for (size_t i = 0; i < a.pixels.size(); ++i) {
+    const double da = a.pixels[i].mean().x;
+    const double db = b.pixels[i].mean().x / scale;
+    count += !(std::abs(da - db) <= kApart * std::abs(da));
+  }
+  return count;
+}
+
+std::string whyOther(const Likeness& l) {
+  if (sameNumbers(l.form)) {
+    if (!(l.meanApart <= kMostApart)) return formatted("their means are %.2g apart", l.meanApart);
+    if (!(l.worstBlock <= kMostErrorsSame))
+      return formatted("a block is %.3g standard errors off", l.worstBlock);
+    return "";
+  }
+  if (!(l.meanErrors <= kMostErrorsOther))
+    return formatted("their means are %.3g standard errors apart", l.meanErrors);
+  if (!(l.worstBlock <= kMostErrorsOther))
+    return formatted("a block is %.3g standard errors off", l.worstBlock);
+  return "";
+}
+
+/// A random scene and its form.
+struct Pair {
+  SceneSketch sketch;
+  SceneSketch other;
+  SceneDrawing a;
+  SceneDrawing b;
+
+  Pair(const Context& context, uint32_t seed, Form form, const RenderOptions& options)
+      : sketch(randomSketch(seed)),
+        other(inForm(sketch, form, seed)),
+        a(drawingOf(context, sketch, options)),
+        b(drawingOf(
+            context, other,
+            withSeed(options, sameNumbers(form) ? options.sampling.seed : options.sampling.seed + 1))) {}
+
+  void compareHits(Likeness& l, const SceneDrawing::GoOn& goOn) {
+    const FilmPixels before = a.depth(goOn);
+    l.pixels = before.pixels.size();
+    l.otherHits = countOtherHits(before, b.depth(goOn), glm::length(glm::dvec3(other.root[0])));
+  }
+
+ private:
+  static SceneDrawing drawingOf(const Context& context, const SceneSketch& drawn,
+                                const RenderOptions& options) {
+    return {context, sceneOf(drawn), options, environmentOf(drawn), drawn.skyTurn};
+  }
+
+  static RenderOptions withSeed(RenderOptions options, uint32_t seed) {
+    options.sampling.seed = seed;
+    return options;
+  }
+};
+
+RenderOptions optionsOf(int side) {
+  RenderOptions options;
+  options.sampling.spp = 64;
+  options.sampling.bounces = 6;
+  options.sampling.seed = 1;
+  options.camera.resolution = glm::ivec2(side);
+  options.device.traversal = TraversalMethod::FrontToBack;
+  // Independent samples tell their noise.
+  options.stages.reset(size_t(Stage::Sobol));
+  return options;
+}
+
+}  // namespace
+
+Likeness hitsOf(const Context& context, uint32_t seed, Form form, const SceneDrawing::GoOn& goOn) {
+  Likeness l;
+  l.seed = seed;
+  l.form = form;
+  Pair(context, seed, form, optionsOf(64)).compareHits(l, goOn);
+  return l;
+}
+
+Likeness likenessOf(const Context& context, uint32_t seed, Form form, Schedule schedule,
+                    const SceneDrawing::GoOn& goOn) {
+  Likeness l;
+  l.seed = seed;
+  l.form = form;
+  RenderOptions options = optionsOf(24);
+  options.device.schedule = schedule;
+  Pair pair(context, seed, form, options);
+  const FilmPixels a = pair.a.picture(goOn);
+  const FilmPixels b = pair.b.picture(goOn);
+  const PictureCheck check = checkPicture(b, a, CheckAgainst::OtherSamples);
+  l.meanApart = std::abs(meanOf(b) / meanOf(a) - 1.0);
+  l.meanErrors = check.meanErrors;
+  l.worstBlock = check.worstBlock;
+  pair.compareHits(l, goOn);
+  const FilmTotals totals[] = {totalsOf(a), totalsOf(b)};
+  for (const FilmTotals& t : totals) {
+    if (t.nonfinitePixels > 0) l.wrong = std::to_string(t.nonfinitePixels) + " pixels met NaN or infinity";
+    if (t.budgetHits > 0) l.wrong = std::to_string(t.budgetHits) + " pixels in which a loop was cut";
+    if (t.emptyPixels > 0) l.wrong = "a pixel without samples";
+  }
+  if (l.wrong.empty()) l.wrong = whyOther(l);
+  return l;
+}
+
+std::string likenessLine(const Likeness& l) {
+  return formatted(
+      "seed %u %.*s: mean apart %.2g (%.2f standard errors), worst block %.2f standard errors, %zu of %zu "
+      "hits other%s%s",
+      l.seed, int(kFormNames[size_t(l.form)].size()), kFormNames[size_t(l.form)].data(), l.meanApart,
+      l.meanErrors, l.worstBlock, l.otherHits, l.pixels, l.wrong.empty() ? "" : ": ", l.wrong.c_str());
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Scenes drawn as `render` would draw them, without files of their own.
+#pragma once
+
+#include <functional>
+
+#include "bench/stress/sketch.h"
+#include "bvh/bvh.h"
+#include "film/film_pixels.h"
+#include "pack/gpu_scene.h"
+#include "render/renderer.h"
+
+namespace fragtrace {
+
+/// A scene on the device, lit by its own lights and, if there is one, by an environment.
+class SceneDrawing {
+ public:
+  /// Called between draws; may throw to end the work.
+  using GoOn = std::function<void()>;
+
+  /// Throws RenderError.
+  SceneDrawing(const Context& context, const Scene& scene, const RenderOptions& options,
+               const Environment& environment = {}, double environmentTurn = 0.0);
+
+  /// options.spp samples of options.seed.
+  FilmPixels picture(const GoOn& goOn);
+  /// Metres along the view axis, one sample per pixel, of seed 0.
+  FilmPixels depth(const GoOn& goOn);
+
+ private:
+  FilmPixels draw(const ShaderVariant& variant, int samples, uint32_t seed, const GoOn& goOn);
+
+  RenderOptions options_;
+  View view_;
+  ShaderVariant picture_;
+  ShaderVariant depth_;
+  std::unique_ptr<Renderer> renderer_;
+};
+
+/// Through a file that goes again. Throws InputError, RenderError.
+Scene sceneOf(const SceneSketch& sketch);
+
+/// The sketch's sky.
+Environment environmentOf(const SceneSketch& sketch);
+
+}  // namespace fragtrace

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// The rows of `bench stress`: each is one function that tries to break the tracer and counts how often it
+// could.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/report/stress_report.h"
+#include "gl/context.h"
+#include "stage/render_options.h"
+
+namespace fragtrace {
+
+/// What a row runs with.
+struct StressSetting {
+  const Context& context;
+  std::filesystem::path shaderFolder;  ///< shaders from disk in place of the built-in ones
+  bool quick = false;                  ///< about a hundredth of the cases
+  bool watertight = true;              ///< else with the fast triangle test
+  Schedule schedule = Schedule::Auto;  ///< of what is path traced
+  std::function<void()> goOn;          ///< to be called now and then, so that progress shows
+};
+
+struct StressRow {
+  std::string name;
+  std::string sentence;  ///< what is tried, for the table
+  double limit = 0.0;    ///< share of the cases that may fail
+  bool fastToo = false;  ///< the fast triangle test is tried as well, for comparison
+  std::function<StressOutcome(const StressSetting&)>
+      run;  ///< counts cases and failures; seconds are filled in by who calls
+};
+
+/// All rows, in the order of the table. A new one is one function and one line in stress.cpp.
+std::vector<StressRow> stressRows();
+
+}  // namespace fragtrace

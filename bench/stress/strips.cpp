@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include "bench/stress/strips.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <span>
+
+#include "bench/rays/dice.h"
+#include "bench/stress/drawn.h"
+
+namespace fragtrace {
+
+namespace {
+
+using glm::dvec3;
+
+/// Random places in [0, 1], sorted, both ends among them.
+std::vector<double> cuts(uint32_t count, Dice& dice) {
+  std::vector<double> places{0.0, 1.0};
+  for (uint32_t i = 0; i < count; ++i) places.push_back(dice.unit());
+  std::ranges::sort(places);
+  return places;
+}
+
+Scene emptyScene() {
+  Scene scene;
+  scene.materials.resize(1);
+  scene.materials[0].doubleSided = true;
+  return scene;
+}
+
+/// A closed prism, turned and moved, and a point inside.
+struct Prism {
+  Scene scene = emptyScene();
+  dvec3 inside{0.0};
+  glm::dquat turn{1.0, 0.0, 0.0, 0.0};
+  dvec3 place{0.0};
+
+  uint32_t add(const dvec3& p) {
+    scene.vertices.position.emplace_back(turn * p + place);
+    scene.bounds.include(dvec3(scene.vertices.position.back()));
+    return uint32_t(scene.vertices.position.size() - 1);
+  }
+  void face(uint32_t a, uint32_t b, uint32_t c) {
+    if (a != b && b != c && c != a) scene.triangles.push_back({{a, b, c}, 0, true});
+  }
+  void quad(uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
+    face(a, b, c);
+    face(a, c, d);
+  }
+};
+
+/// The three sides are cut at places along the crease.
+void cutAcross(Prism& w, double height, uint32_t count, Dice& dice) {
+  std::vector<std::array<uint32_t, 3>> rows;
+  for (const double t : cuts(count, dice)) {
+    const double z = 2.0 * t - 1.0;
+    rows.push_back({w.add({0.0, 0.0, z}), w.add({1.0, -height, z}), w.add({1.0, height, z})});
+  }
+  for (size_t i = 0; i + 1 < rows.size(); ++i) {
+    for (size_t p = 0; p < 3; ++p)
+      w.quad(rows[i][p], rows[i][(p + 1) % 3], rows[i + 1][(p + 1) % 3], rows[i + 1][p]);
+  }
+  w.face(rows[0][0], rows[0][2], rows[0][1]);
+  w.face(rows.back()[0], rows.back()[1], rows.back()[2]);
+}
+
+/// The two sides at the crease, and the ends, are cut at distances from it.
+void cutAlong(Prism& w, double height, uint32_t count, Dice& dice) {
+  struct Row {
+    std::array<uint32_t, 2> low;  // at both ends
+    std::array<uint32_t, 2> high;
+  };
+  std::vector<Row> rows;
+  for (const double x : cuts(count, dice)) {
+    Row r;
+    for (size_t end = 0; end < 2; ++end) {
+      const double z = end == 0 ? -1.0 : 1.0;
+      r.low[end] = w.add({x, -height * x, z});
+      r.high[end] = x == 0.0 ? r.low[end] : w.add({x, height * x, z});
+    }
+    rows.push_back(r);
+  }
+  for (size_t i = 0; i + 1 < rows.size(); ++i) {
+    const Row& a = rows[i];
+    const Row& b = rows[i + 1];
+    w.quad(a.low[0], b.low[0], b.low[1], a.low[1]);
+    w.quad(a.high[1], b.high[1], b.high[0], a.high[0]);
+    w.quad(b.low[0], a.low[0], a.high[0], b.high[0]);
+    w.quad(a.low[1], b.low[1], b.high[1], a.high[1]);
+  }
+  const Row& last = rows.back();
+  w.quad(last.low[1], last.low[0], last.high[0], last.high[1]);
+}
+
+/// A prism from z = -1 to 1 with its crease along z and its back at x = 1, turned and moved.
+Prism makeWedge(double degrees, bool across, uint32_t count, Dice& dice) {
+  Prism w;
+  w.turn = glm::angleAxis(dice.between(0.0, glm::two_pi<double>()), dice.direction());
+  w.place = dice.inCube(0.5);
+  const double height = std::tan(glm::radians(degrees) / 2.0);
+  w.inside = w.turn * dvec3(dice.between(0.1, 0.9), 0.0, dice.between(-0.9, 0.9)) + w.place;
+  if (across) cutAcross(w, height, count, dice);
+  if (!across) cutAlong(w, height, count, dice);
+  return w;
+}
+
+/// Winds every other triangle or so the other way.
+void flipSome(Prism& prism, Dice& dice) {
+  for (Triangle& t : prism.scene.triangles) {
+    if (dice.between(0.0, 1.0) < 0.5) std::swap(t.vertex.y, t.vertex.z);
+  }
+}
+
+/// A skew box of 1 x 1 x length, its sides at an angle, of 12 triangles.
+Prism makeBox(double degrees, double length, bool turned, Dice& dice) {
+  Prism w;
+  if (turned) w.turn = glm::angleAxis(dice.between(0.0, glm::two_pi<double>()), dice.direction());
+  const dvec3 x(1.0, 0.0, 0.0);
+  const dvec3 y(std::cos(glm::radians(degrees)), std::sin(glm::radians(degrees)), 0.0);
+  const dvec3 z(0.0, 0.0, length);
+  const dvec3 low = dice.inCube(0.5) - 0.5 * (x + y + z);
+  w.inside = w.turn * (low + dice.between(0.1, 0.9) * x + dice.between(0.1, 0.9) * y + 0.5 * z);
+  std::array<uint32_t, 8> p{};
+  for (uint32_t i = 0; i < 8; ++i)
+    p[i] = w.add(low + double(i & 1u) * x + double(i >> 1 & 1u) * y + double(i >> 2) * z);
+  w.quad(p[0], p[2], p[3], p[1]);
+  w.quad(p[4], p[5], p[7], p[6]);
+  w.quad(p[0], p[1], p[5], p[4]);
+  w.quad(p[2], p[6], p[7], p[3]);
+  w.quad(p[0], p[4], p[6], p[2]);
+  w.quad(p[1], p[3], p[7], p[5]);
+  return w;
+}
+
+/// What lies on the walls, or this part of the way to the middle inside of them.
+struct Skin {
+  AlphaMode mode;
+  float alpha;
+  double gap;
+};
+
+/// Two more triangles for each, in front of or behind those of the walls in the scene's order.
+void addSkin(Prism& box, const Skin& skin, bool first, bool flipped) {
+  Scene& scene = box.scene;
+  Material material = scene.materials[0];
+  material.alphaMode = skin.mode;
+  material.baseColorFactor.w = skin.alpha;
+  scene.materials.push_back(material);
+  const auto corners = uint32_t(scene.vertices.position.size());
+  const dvec3 middle = scene.bounds.center();
+  for (uint32_t i = 0; i < corners; ++i) {
+    const dvec3 p(scene.vertices.position[i]);
+    scene.vertices.position.emplace_back(p + skin.gap * (middle - p));
+  }
+  std::vector<Triangle> triangles = scene.triangles;
+  for (Triangle& t : triangles) {
+    t.vertex += corners;
+    t.material = 1;
+    if (flipped) std::swap(t.vertex.y, t.vertex.z);
+  }
+  scene.triangles.insert(first ? scene.triangles.begin() : scene.triangles.end(), triangles.begin(),
+                         triangles.end());
+}
+
+/// Counts light inside.
+void scatterIn(const StressSetting& setting, const Prism& prism, bool literals, StressOutcome& outcome) {
+  RenderOptions options = optionsOf(setting, Stage::Gi);
+  if (literals) options.device.traversal = TraversalMethod::Literals;
+  StressPicture picture(setting, prism.scene, whiteWorld(1e4f), options);
+  View view;
+  view.camera.position = prism.inside;
+  view.camera.forward = prism.turn * dvec3(-1.0, 0.0, 0.0);
+  view.camera.up = prism.turn * dvec3(0.0, 0.0, 1.0);
+  view.camera.fovY = glm::radians(100.0);
+  view.bounces = 4;
+  const int side = setting.quick ? 64 : 128;
+  countLight(picture.draw(view, glm::ivec2(side), setting.quick ? 4 : 16), outcome);
+}
+
+}  // namespace
+
+StressOutcome scatterInStrips(const StressSetting& setting) {
+  constexpr std::array kDegrees{5.0, 20.0, 1.0, 2.0, 60.0};
+  const size_t angles = setting.quick ? 2 : kDegrees.size();
+  Dice dice(60);
+  StressOutcome outcome;
+  for (const bool flipping : {false, true}) {
+    for (const double degrees : std::span(kDegrees).first(angles)) {
+      for (const bool across : {true, false}) {
+        for (const bool literals : {false, true}) {
+          Prism prism = makeWedge(degrees, across, literals ? 6 : 60, dice);
+          if (flipping) flipSome(prism, dice);
+          scatterIn(setting, prism, literals, outcome);
+        }
+      }
+    }
+  }
+  return outcome;
+}
+
+StressOutcome scatterInBoxes(const StressSetting& setting) {
+  Dice dice(90);
+  StressOutcome outcome;
+  for (const double degrees : {90.0, 89.0, 91.0}) {
+    for (const double length : {1.0, 30.0, 1000.0}) {
+      if (setting.quick && length != 1000.0) continue;
+      for (const bool turned : {false, true}) {
+        for (const bool literals : {false, true}) {
+          const Prism box = makeBox(degrees, length, turned, dice);
+          scatterIn(setting, box, literals, outcome);
+        }
+      }
+    }
+  }
+  return outcome;
+}
+
+StressOutcome scatterInSkinnedBoxes(const StressSetting& setting) {
+  // Some of what an opaque point of a skin scatters away from the inside begins behind the wall unless the
+  // gap is above both offsets or far below them; what lets everything pass scatters nothing.
+  const std::array<Skin, 5> skins{Skin{AlphaMode::Blend, 0.3f, 0.0},
+                                  {AlphaMode::Blend, 0.3f, 4e-7},
+                                  Skin{AlphaMode::Mask, 0.0f, 0.0},
+                                  {AlphaMode::Mask, 0.0f, 1e-6},
+                                  Skin{AlphaMode::Mask, 0.0f, 4e-6}};
+  Dice dice(120);
+  StressOutcome outcome;
+  for (const Skin& skin : skins) {
+    for (const bool first : {false, true}) {
+      for (const bool flipped : {false, true}) {
+        for (const bool literals : {false, true}) {
+          if (setting.quick && first != flipped) continue;
+          Prism box = makeBox(90.0, 1.0, true, dice);
+          addSkin(box, skin, first, flipped);
+          scatterIn(setting, box, literals, outcome);
+        }
+      }
+    }
+  }
+  return outcome;
+}
+
+}  // namespace fragtrace

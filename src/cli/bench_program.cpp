@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "cli/bench_program.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/own_program.h"
+#include "errors.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr const char* kName = "fragtrace-bench";
+
+bool asksForHelp(std::string_view word) { return word == "--help" || word == "-h"; }
+
+}  // namespace
+
+void becomeBenchProgram(int argc, const char* const* argv) {
+  const char* const* const end = argv + argc;
+  // `fragtrace --help bench` is a question to `bench`, too.
+  const char* const* const command = std::find_if_not(argv + std::min(argc, 1), end, asksForHelp);
+  if (command == end || *command != std::string_view("bench")) return;
+  const std::string path = ownProgram(kName, "bench").string();
+  std::vector<char*> words{const_cast<char*>(kName)};
+  for (const char* const* word = argv + 1; word != end; ++word) {
+    if (word != command) words.push_back(const_cast<char*>(*word));
+  }
+  words.push_back(nullptr);
+  ::execv(path.c_str(), words.data());
+  throw RenderError(path + " cannot be started: " + std::generic_category().message(errno));
+}
+
+RunCommand addBench(CLI::App&) { return {}; }
+
+}  // namespace fragtrace

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "cli/program.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <new>
+#include <system_error>
+
+#include "cli/command_line.h"
+#include "cli/leave.h"
+#include "errors.h"
+#include "process/report.h"
+#include "session/interrupt.h"
+
+namespace fragtrace {
+
+namespace {
+
+enum ExitStatus { kDone = 0, kFailed = 1, kUsage = 2, kInput = 3, kNoContext = 4 };
+
+int fail(ExitStatus status, const char* message) {
+  reportError(message);
+  return status;
+}
+
+/// A stream that was closed would else be the first file that is opened, and get what is printed.
+void openClosedStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    // The lowest free descriptor is the one just found closed.
+    if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY);
+  }
+}
+
+int prepareAndRun(const MainFunction& run, int argc, char** argv) {
+  openClosedStreams();
+  // A full pipe or file gives an error where it is written to, which reaches the user.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  if (asksForJson({argv, size_t(argc)})) reportAsJson(false);
+  exitOnInterrupt();
+  sayWhenCrashing();
+  return run(argc, argv);
+}
+
+int statusOf(const MainFunction& run, int argc, char** argv) {
+  try {
+    const int status = prepareAndRun(run, argc, argv);
+    checkPrinted();
+    return status;
+  } catch (const UsageError& error) {
+    return fail(kUsage, error.what());
+  } catch (const InputError& error) {
+    return fail(kInput, error.what());
+  } catch (const ContextError& error) {
+    return fail(kNoContext, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kInput, "out of memory");
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::resource_unavailable_try_again) return fail(kFailed, error.what());
+    return fail(kFailed,
+                "the system grants no further thread, perhaps because memory ran out (ulimit -u, ulimit -v)");
+  } catch (const std::exception& error) {
+    return fail(kFailed, error.what());
+  }
+}
+
+}  // namespace
+
+int runProgram(const MainFunction& run, int argc, char** argv) {
+  const int status = statusOf(run, argc, argv);
+  reportEnd(status);
+  endAsMeant();
+  return status;
+}
+
+}  // namespace fragtrace
