@@ -5,7 +5,7 @@ find_package(Python 3.9 REQUIRED COMPONENTS Interpreter Development.Module)
 find_package(nanobind CONFIG REQUIRED)
 file(GLOB python_sources CONFIGURE_DEPENDS src/python/*.cpp)
 nanobind_add_module(_core NB_STATIC ${python_sources})
-target_link_libraries(_core PRIVATE fragtrace_picture fragtrace_options)
+target_link_libraries(_core PRIVATE fragtrace_picture CLI11::CLI11)
 set_target_properties(_core PROPERTIES UNITY_BUILD OFF)
 # What it links stays its own, whatever else the interpreter has loaded.
 target_link_options(_core PRIVATE -Wl,--exclude-libs,ALL)

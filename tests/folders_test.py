@@ -8,8 +8,8 @@ import sys
 from pathlib import Path
 
 LAYERS = (".", "math", "process", "image", "image/display", "image/compare", "image/worker", "image/files", "denoise", "scene", "bvh", "gltf",
-          "gltf/codecs/worker", "gltf/read", "gltf/check", "gltf/codecs", "gltf/build", "stage", "shader", "pack", "film", "gl", "render",
-          "view/picture", "view", "view/window", "options", "session", "picture", "python", "live", "cli",
+          "gltf/codecs/worker", "gltf/read", "gltf/check", "gltf/codecs", "gltf/build", "stage", "options", "shader", "pack", "film", "gl", "render",
+          "view/picture", "view", "view/window", "session", "picture", "python", "live", "cli",
           # The instruments see the product, which does not see them.
           "bench/report", "bench/rays", "bench/stress", "bench/command", "bench/gpu", "bench/peers")
 MOST_FILES = 40  # in a folder: more is more than one concept

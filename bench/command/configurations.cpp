@@ -7,7 +7,7 @@
 #include <map>
 
 #include "options/choose.h"
-#include "options/old_spellings.h"
+#include "options/option_text.h"
 
 namespace fragtrace {
 
@@ -48,7 +48,7 @@ using GivenOptions = std::map<std::string, std::vector<std::string>>;
 GivenOptions givenOptions(const CLI::App& app) {
   CLI::App render;
   RawRender raw;
-  addRenderOptions(render, raw);
+  addOptions(render, OptionGroup::Tracing, raw);
   GivenOptions given;
   for (const CLI::Option* option : render.get_options()) {
     const std::string name = option->get_name();
@@ -68,8 +68,8 @@ void parseRender(const GivenOptions& shared, BenchConfiguration& c, const std::s
   const auto parsed = [&](std::vector<std::string> arguments, const auto& use) {
     CLI::App app;
     RawRender raw;
-    raw.scene = scene;
-    addRenderOptions(app, raw);
+    raw.options.scene = scene;
+    addOptions(app, OptionGroup::Tracing, raw);
     std::reverse(arguments.begin(), arguments.end());  // last first, as the library wants them
     try {
       app.parse(arguments);
@@ -79,10 +79,8 @@ void parseRender(const GivenOptions& shared, BenchConfiguration& c, const std::s
     return use(app, raw);
   };
   std::vector<std::string> arguments = withNumbersSettled(CLI::detail::split_up(c.text));
-  GivenOptions given = parsed(arguments, [&](const CLI::App& app, const RawRender&) {
-    if (!shared.contains("--quiet")) sayOldSpellings(app);
-    return givenOptions(app);
-  });
+  GivenOptions given =
+      parsed(arguments, [](const CLI::App& app, const RawRender&) { return givenOptions(app); });
   for (const auto& [name, option] : shared) {
     const auto [own, isNew] = given.try_emplace(name, option);
     const bool addsUp = name == "--enable" || name == "--disable";
@@ -110,7 +108,7 @@ void addConfigurationOptions(CLI::App& app, RawConfigurations& raw, const char* 
       ->delimiter(',');
   app.add_option("--config", raw.own, "NAME=OPTIONS: a setting of your own, such as \"rough=--bounces 4\"")
       ->allow_extra_args(false);
-  addRenderOptions(app, raw.shared);
+  addOptions(app, OptionGroup::Tracing, raw.shared);
 }
 
 std::vector<BenchConfiguration> configurationsOf(const RawConfigurations& raw, const CLI::App& app,
@@ -141,7 +139,8 @@ std::vector<BenchConfiguration> configurationsOf(const RawConfigurations& raw, c
       if (&other != &c && other.name == c.name) throw UsageError("--config: '" + c.name + "' stands twice");
     }
   }
-  if (!raw.shared.statsFile.empty()) throw UsageError("--stats: --json holds what was measured");
+  if (!raw.shared.options.output.statsFile.empty())
+    throw UsageError("--stats: --json holds what was measured");
   return configurations;
 }
 
@@ -149,7 +148,8 @@ BenchConfiguration configurationOf(const RawConfigurations& raw, const CLI::App&
                                    const std::string& text, const std::string& scene) {
   BenchConfiguration c{name, text, {}, {}, false};
   parseRender(givenOptions(app), c, scene, nullptr);
-  if (!raw.shared.statsFile.empty()) throw UsageError("--stats: --json holds what was measured");
+  if (!raw.shared.options.output.statsFile.empty())
+    throw UsageError("--stats: --json holds what was measured");
   return c;
 }
 

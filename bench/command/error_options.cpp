@@ -37,7 +37,7 @@ void addBenchErrorOptions(CLI::App& app, RawBenchError& raw) {
   addConfigurationOptions(app, raw.configurations, "default,random,baseline, or default alone with --config");
   app.get_option("--spp")->description(std::string("samples per pixel of the last step, by default ") +
                                        kDefaultSamples);
-  addDenoiseOption(app, raw.configurations.shared);
+  addOptions(app, OptionGroup::Filter, raw.configurations.shared);
   app.get_option("--denoise")
       ->description(
           joined(kDenoiseNames) +
@@ -48,11 +48,11 @@ BenchErrorOptions finishBenchError(const RawBenchError& raw, const CLI::App& app
   BenchErrorOptions options = raw.options;
   options.configurations = configurationsOf(raw.configurations, app, raw.scene,
                                             {"default", "random", "baseline"}, kDefaultSamples);
-  const auto denoise = choose<Denoise>("--denoise", raw.configurations.shared.denoise, kDenoiseNames);
+  const OutputOptions& shared = raw.configurations.shared.options.output;
   for (BenchConfiguration& c : options.configurations) {
-    c.render.output.denoise = denoise;
-    c.render.output.oidnLibrary = raw.configurations.shared.oidnLibrary;
-    if (denoise == Denoise::None) continue;
+    c.render.output.denoise = shared.denoise;
+    c.render.output.oidnLibrary = shared.oidnLibrary;
+    if (shared.denoise == Denoise::None) continue;
     const std::string reason = whyNotDenoised(c.render);
     if (!reason.empty()) throw UsageError("configuration '" + c.name + "': --denoise: " + reason);
   }

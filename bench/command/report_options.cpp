@@ -20,7 +20,7 @@ void addBenchReportOptions(CLI::App& app, RawBenchReport& raw) {
   app.add_option("--json", o.json, "write all measurements to this file, one JSON line per setting")
       ->type_name("FILE");
   app.add_option("--chart", o.chart, "write a chart of frame time against faces, an .svg")->type_name("FILE");
-  addRenderOptions(app, raw.configurations.shared);
+  addOptions(app, OptionGroup::Tracing, raw.configurations.shared);
   app.get_option("--spp")->description("frames per round; by default as many as fit into --round-time");
   app.get_option("--resolution")->description("WIDTH,HEIGHT in pixels, by default 500,500");
 }

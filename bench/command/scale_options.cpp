@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "options/choose.h"
-#include "options/device_options.h"
 #include "options/numbers.h"
 
 namespace fragtrace {
@@ -34,11 +33,9 @@ void addBenchScaleOptions(CLI::App& app, RawBenchScale& raw) {
   app.add_option("--per-decade", o.perDecade, "number of sizes per factor of ten")
       ->check(wholeNumber(1, 10))
       ->capture_default_str();
-  app.add_option("--resolution", raw.render.camera.resolution, "WIDTH,HEIGHT of the picture in pixels")
-      ->delimiter(',')
-      ->expected(2)
+  addOption(app, "--resolution", raw.render, "WIDTH,HEIGHT of the picture in pixels")
       ->check(wholeNumber(8, 4096));
-  raw.render.camera.resolution = {500, 500};
+  raw.render.options.camera.resolution = glm::ivec2(500, 500);
   app.add_option("--traversals", raw.traversals,
                  "traversals to measure: " + joined(traversalNames()) + "; ratios are to the first")
       ->delimiter(',');

@@ -6,8 +6,8 @@
 #include "errors.h"
 #include "film/picture_check.h"
 #include "image/channels.h"
+#include "options/same_picture.h"
 #include "session/progress_bar.h"
-#include "stage/same_picture.h"
 
 namespace fragtrace {
 

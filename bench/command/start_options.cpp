@@ -10,7 +10,7 @@ namespace fragtrace {
 
 void addBenchStartOptions(CLI::App& app, RawBenchStart& raw) {
   BenchStartOptions& o = raw.options;
-  app.add_option("file", raw.render.scene, "scene: a .gltf or .glb file")->type_name("FILE")->required();
+  addOption(app, "file", raw.render)->required();
   app.add_option("--starts", o.starts, "number of starts")
       ->check(wholeNumber(1, 1000))
       ->capture_default_str();
@@ -18,13 +18,13 @@ void addBenchStartOptions(CLI::App& app, RawBenchStart& raw) {
       ->check(CLI::IsMember({"png", "jpg", "exr", "hdr", "pfm"}))
       ->capture_default_str();
   app.add_option("--json", o.json, "write all measurements to this JSON file")->type_name("FILE");
-  addRenderOptions(app, raw.render);
+  addOptions(app, OptionGroup::Tracing, raw.render);
 }
 
 BenchStartOptions finishBenchStart(const RawBenchStart& raw) {
   BenchStartOptions options = raw.options;
   RawRender render = raw.render;
-  render.output = "picture." + raw.format;
+  render.options.output.file = "picture." + raw.format;
   options.render = finishRender(render);
   if (isAdaptive(options.render))
     throw UsageError("--noise and --time: a start ends with a number of samples; --spp says which");

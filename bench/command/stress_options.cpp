@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 
 #include "options/choose.h"
-#include "options/device_options.h"
 
 namespace fragtrace {
 
@@ -17,10 +16,9 @@ void addBenchStressOptions(CLI::App& app, RawBenchStress& raw) {
   app.add_option("--json", o.json, "write all results to this file, one JSON line per row")
       ->type_name("FILE");
   addDeviceOptions(app, raw.render);
-  app.add_option("--schedule", raw.render.schedule,
-                 "how paths are scheduled: " + joined(kScheduleNames) +
-                     "; auto uses the megakernel, because the pictures are small")
-      ->capture_default_str();
+  addOption(app, "--schedule", raw.render,
+            "how paths are scheduled: " + joined(kScheduleNames) +
+                "; auto uses the megakernel, because the pictures are small");
 }
 
 BenchStressOptions finishBenchStress(const RawBenchStress& raw) {

@@ -27,7 +27,7 @@ void addBenchVariantsOptions(CLI::App& app, RawBenchVariants& raw) {
   addTimingOptions(app, o.timing);
   app.add_option("--json", o.json, "write all measurements to this file, one JSON line per setting")
       ->type_name("FILE");
-  addRenderOptions(app, raw.configurations.shared);
+  addOptions(app, OptionGroup::Tracing, raw.configurations.shared);
   app.get_option("--spp")->description("frames per round; by default as many as fit into --round-time");
 }
 

@@ -13,9 +13,7 @@
 
 #include "cli/suggestion.h"
 #include "errors.h"
-#include "options/camera_options.h"
 #include "options/choose.h"
-#include "options/old_spellings.h"
 #include "options/option_text.h"
 #include "version_text.h"
 
@@ -62,9 +60,7 @@ std::string whatIsUnknown(const CLI::App& app) {
       std::ranges::find_if(left, [](const std::string& word) { return word.starts_with('-'); });
   if (option == left.end()) return "'" + left.front() + "' is an argument too many; --help says more";
   std::vector<std::string> known;
-  for (const CLI::Option* one : command.get_options()) {
-    if (one->get_group() != kOldSpellings) known.push_back(one->get_name());
-  }
+  for (const CLI::Option* one : command.get_options()) known.push_back(one->get_name());
   const std::string unknown = option->substr(0, option->find('='));
   const std::string meant = suggestedOption(unknown, known);
   return unknown + " is no option of " + command.get_name() +
@@ -106,7 +102,6 @@ bool asksForJson(std::span<const char* const> words) {
 
 int runCommandLine(std::span<const CommandRow> rows, std::span<const char* const> words) {
   CLI::App app("A path tracer for glTF whose tracing runs in an OpenGL shader.", "fragtrace");
-  hideOldSpellings(app);
   app.set_version_flag("--version", std::string("fragtrace ") + kVersionText);
   const RunCommand run = addCommands(app, rows);
   const auto word = [&](size_t i) {
@@ -124,7 +119,6 @@ int runCommandLine(std::span<const CommandRow> rows, std::span<const char* const
   } catch (const CLI::ParseError& error) {
     throw UsageError(plainText(error) + "; --help says more");
   }
-  sayOldSpellings(chosenCommand(app));
   return run();
 }
 

@@ -9,7 +9,8 @@
 #include "cli/commands.h"
 #include "gltf/gltf.h"
 #include "options/choose.h"
-#include "options/input_options.h"
+#include "options/option_table.h"
+#include "options/parse_render.h"
 #include "pack/gpu_scene.h"
 #include "scene/parts.h"
 #include "session/scene_json.h"
@@ -21,10 +22,7 @@ namespace fragtrace {
 namespace {
 
 struct InfoOptions {
-  std::filesystem::path scene;
-  SceneSelection selection;
-  InputLimits limits;
-  Instancing instancing = Instancing::Auto;
+  RenderOptions render;  ///< of it the file, and how it is read
   bool json = false;
   bool nodes = false;
 };
@@ -169,10 +167,10 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
 
 int inform(const InfoOptions& options) {
   GltfOptions loading;
-  loading.selection = options.selection;
-  loading.instancing = options.instancing;
-  loading.limits = options.limits;
-  const Scene scene = loadGltf(options.scene, loading);
+  loading.selection = options.render.selection;
+  loading.instancing = options.render.device.instancing;
+  loading.limits = options.render.limits;
+  const Scene scene = loadGltf(options.render.scene, loading);
   const SceneDescription description = describe(scene);
   const Bvh tree = buildSceneBvh(scene);
   const BvhQuality bvh = bvhQuality(tree);
@@ -182,14 +180,14 @@ int inform(const InfoOptions& options) {
   const double bytesPerTriangle =
       scene.triangles.empty() ? 0.0 : gpuBytesPerTriangle(scene, tree, traits, surroundings);
   if (!options.json) {
-    printText(options.scene, description, bvh, bytesPerTriangle, traits);
+    printText(options.render.scene, description, bvh, bytesPerTriangle, traits);
     printAllParts(scene);
     if (options.nodes) printNodes(scene.nodes);
     return 0;
   }
   nlohmann::ordered_json json;
   json["schema"] = 1;
-  json["file"] = options.scene.string();
+  json["file"] = options.render.scene.string();
   json["scene"] = sceneJson(description);
   json["bvh"] = bvhJson(bvh);
   if (bytesPerTriangle > 0.0) json["gpu_bytes_per_triangle"] = bytesPerTriangle;
@@ -216,7 +214,7 @@ int runInfo(const InfoOptions& options) {
   } catch (const std::exception& error) {
     if (options.json) {
       const nlohmann::ordered_json json = {
-          {"schema", 1}, {"file", options.scene.string()}, {"error", error.what()}};
+          {"schema", 1}, {"file", options.render.scene.string()}, {"error", error.what()}};
       std::cout << jsonText(json);
     }
     throw;
@@ -227,23 +225,17 @@ int runInfo(const InfoOptions& options) {
 
 RunCommand addInfo(CLI::App& app) {
   struct Raw {
-    InfoOptions options;
-    std::string instancing = "auto";
+    RawRender render;
+    bool json = false;
+    bool nodes = false;
   };
   const auto raw = std::make_shared<Raw>();
-  app.add_option("file", raw->options.scene, "scene: a .gltf or .glb file")->type_name("FILE")->required();
-  app.add_flag("--json", raw->options.json, "print one JSON object");
-  app.add_flag("--nodes", raw->options.nodes, "also list the nodes of the scene");
-  addSelectionOptions(app, raw->options.selection);
-  app.add_option("--instancing", raw->instancing,
-                 "whether copies of a mesh share its triangles: " + joined(kInstancingNames))
-      ->capture_default_str();
-  addInputOptions(app, raw->options.limits);
-  return [raw] {
-    InfoOptions options = raw->options;
-    options.instancing = choose<Instancing>("--instancing", raw->instancing, kInstancingNames);
-    return runInfo(options);
-  };
+  addOption(app, "file", raw->render)->required();
+  app.add_flag("--json", raw->json, "print one JSON object");
+  app.add_flag("--nodes", raw->nodes, "also list the nodes of the scene");
+  for (const OptionRow& row : inputRows()) row.add(app, row, raw->render);
+  addOption(app, "--instancing", raw->render);
+  return [raw] { return runInfo({raw->render.options, raw->json, raw->nodes}); };
 }
 
 }  // namespace fragtrace

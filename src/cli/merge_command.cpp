@@ -10,7 +10,6 @@
 #include "errors.h"
 #include "image/format.h"
 #include "options/choose.h"
-#include "options/encoding_options.h"
 #include "picture/denoised_file.h"
 #include "picture/joined_parts.h"
 #include "picture/picture_file.h"
@@ -61,10 +60,9 @@ RunCommand addMerge(CLI::App& app) {
       ->type_name("FILE")
       ->required();
   app.add_option("-o,--output", raw->options.output, "file to write, an .exr")->type_name("FILE")->required();
-  app.add_option("--denoise", raw->filter.denoise,
-                 "filter that removes noise from the merged picture: " + joined(kDenoiseNames))
-      ->capture_default_str();
-  addHalfOption(app, raw->filter.options.output.encoding);
+  addOption(app, "--denoise", raw->filter,
+            "filter that removes noise from the merged picture: " + joined(kDenoiseNames));
+  addOption(app, "--half", raw->filter);
   addFileFilterOptions(app, raw->filter);
   return [raw] {
     MergeOptions options = raw->options;

@@ -12,10 +12,7 @@
 #include "errors.h"
 #include "image/files/process.h"
 #include "options/config_file.h"
-#include "options/encoding_options.h"
-#include "options/output_options.h"
 #include "options/parse_render.h"
-#include "options/sequence_options.h"
 #include "picture/denoising.h"
 #include "picture/finished_picture.h"
 #include "picture/picture_file.h"
@@ -185,7 +182,9 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
   const RenderOptions& options = frame.options;
   checkOutputs(outputsOf(options), inputsOf(options));
   nlohmann::ordered_json context = eventContext(options);
-  context.update({{"frame", frame.number}, {"first_frame", sequence.first}, {"last_frame", sequence.last}});
+  context.update({{"frame", frame.number},
+                  {"first_frame", rangeOf(sequence).first},
+                  {"last_frame", rangeOf(sequence).last}});
   setReportContext(context);
   Statistics stats = prepareFrame(run, frame, sequence);
   LoadedScene& loaded = *run.loaded;
@@ -211,7 +210,7 @@ bool isWhole(const std::filesystem::path& path) {
 
 /// All pictures that are wanted; one that fails is said, and the others are drawn. Returns the status.
 int runSequence(const RenderOptions& options) {
-  const SequenceOptions& sequence = *options.output.sequence;
+  const SequenceOptions& sequence = options.output.sequence;
   SequenceRun run;
   RenderOptions settled = options;
   run.device.oidn = openDenoiser(settled);
@@ -259,32 +258,24 @@ int runSequence(const RenderOptions& options) {
 RunCommand addRender(CLI::App& app) {
   struct Raw {
     RawRender render;
-    RawSequence sequence;
     std::string config;
   };
   const auto raw = std::make_shared<Raw>();
-  app.add_option("file", raw->render.scene, "scene: a .gltf or .glb file")->type_name("FILE")->required();
-  app.add_option("-o,--output", raw->render.output,
-                 "picture to write: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); '-' "
-                 "writes it to "
-                 "standard output (--format), and nothing else goes there; required")
-      ->type_name("FILE");
-  addRenderOptions(app, raw->render);
-  addHalfOption(app, raw->render.options.output.encoding);
-  addPngDepthOption(app, raw->render.options.output.encoding);
-  addOutputOptions(app, raw->render);
-  addSequenceOptions(app, raw->sequence);
-  addDenoiseOption(app, raw->render);
+  addOption(app, "file", raw->render)->required();
+  addOption(app, "--output", raw->render);
+  for (const OptionGroup group : {OptionGroup::Tracing, OptionGroup::Encoding, OptionGroup::Output,
+                                  OptionGroup::Sequence, OptionGroup::Filter})
+    addOptions(app, group, raw->render);
   addConfigOption(app, raw->config);
   return [raw, &app] {
-    RenderOptions options = finishConfigured(raw->render, raw->config, app);
+    const RenderOptions options = finishConfigured(raw->render, raw->config, app);
     if (options.output.file.empty()) throw UsageError("--output is required; --help says more");
     checkEncoding(options.output.encoding, options.output.file);
-    finishSequence(raw->sequence, options);
+    checkSequence(options);
     if (options.output.progress == ProgressForm::Json) reportAsJson(options.output.quiet);
     if (options.output.toStandardOutput && isatty(STDOUT_FILENO) != 0)
       throw UsageError("--output -: standard output is a terminal; send it to a file or a program");
-    return options.output.sequence ? runSequence(options) : runRender(options);
+    return isSequence(options) ? runSequence(options) : runRender(options);
   };
 }
 

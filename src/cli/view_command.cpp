@@ -13,7 +13,7 @@
 #include "errors.h"
 #include "live/reference.h"
 #include "live/view_tracer.h"
-#include "options/camera_options.h"
+#include "options/camera_text.h"
 #include "options/command_text.h"
 #include "options/view_options.h"
 #include "picture/denoising.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "errors.h"
+#include "options/option_row.h"
 #include "picture/denoising.h"
-#include "stage/option_effects.h"
 
 namespace fragtrace {
 

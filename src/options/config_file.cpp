@@ -10,7 +10,6 @@
 
 #include "errors.h"
 #include "image/files/whole_file.h"
-#include "options/old_spellings.h"
 #include "options/option_text.h"
 
 namespace fragtrace {
@@ -67,6 +66,12 @@ std::vector<std::string> spelledValues(const Json& value, const std::string& pla
   return values;
 }
 
+/// An error that begins with the option's name, without it.
+std::string afterName(const std::string& error, const std::string& name) {
+  const std::string option = "--" + name;
+  return error.starts_with(option + ": ") ? error.substr(option.size()) : ": " + error;
+}
+
 /// Gives the command all options of the file that its command line has not given, nor one that excludes them.
 /// Returns their names.
 std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& command) {
@@ -103,6 +108,8 @@ std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& com
       option->run_callback();
     } catch (const CLI::ParseError& error) {
       throw InputError(place + ": " + plainText(error));
+    } catch (const UsageError& error) {
+      throw InputError(place + afterName(error.what(), name));
     }
     taken.insert(name);
   }
@@ -118,13 +125,11 @@ void addConfigOption(CLI::App& app, std::string& file) {
 
 RenderOptions finishConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command) {
   if (config.empty()) return finishRender(raw);
-  const std::vector<std::string> said = oldSpellingsOf(command);
   std::vector<std::string> enable = std::exchange(raw.enable, {});
   std::vector<std::string> disable = std::exchange(raw.disable, {});
   const std::set<std::string> taken = applyFile(config, command);
   raw.fileEnable = std::exchange(raw.enable, std::move(enable));
   raw.fileDisable = std::exchange(raw.disable, std::move(disable));
-  sayOldSpellings(command, said);
   try {
     return finishRender(raw);
   } catch (const UsageError& error) {
@@ -132,7 +137,7 @@ RenderOptions finishConfigured(RawRender& raw, const std::filesystem::path& conf
     const std::string text = error.what();
     for (const std::string& name : taken) {
       if (text.starts_with("--" + name + ": "))
-        throw InputError(placeOf(config, name) + text.substr(name.size() + 2));
+        throw InputError(placeOf(config, name) + afterName(text, name));
     }
     throw;
   }

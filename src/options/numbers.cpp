@@ -2,6 +2,7 @@
 #include "options/numbers.h"
 
 #include <charconv>
+#include <cmath>
 #include <string>
 
 namespace fragtrace {
@@ -36,6 +37,25 @@ CLI::Validator wholeNumber(int64_t least, int64_t most) {
         return good ? "" : "'" + text + "' is no " + wanted;
       },
       "");
+}
+
+CLI::Validator finiteNumber() {
+  return CLI::Validator(
+      [](const std::string& text) -> std::string {
+        double value = 0.0;
+        return CLI::detail::lexical_cast(text, value) && !std::isfinite(value) ? "not a finite number" : "";
+      },
+      "");
+}
+
+CLI::Validator finiteSeconds() {
+  return CLI::Validator(
+      [](const std::string& text) -> std::string {
+        double seconds = 0.0;
+        const bool isNumber = CLI::detail::lexical_cast(text, seconds);
+        return isNumber && std::isfinite(seconds) && seconds >= 0.0 ? "" : "is no finite number from 0 on";
+      },
+      "SECONDS");
 }
 
 CLI::Validator memorySize(uint64_t least) {

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "errors.h"
-#include "options/camera_options.h"
 
 namespace fragtrace {
 
@@ -72,6 +71,31 @@ std::vector<std::string> splitWords(const std::string& text) {
       words.back() += c;
   }
   if (quote != 0) throw UsageError(std::string("a ") + quote + " has no end");
+  return words;
+}
+
+std::string withNumberSettled(std::string argument, std::string_view before) {
+  if (argument.starts_with("-.") && argument.size() > 2 &&
+      std::isdigit(static_cast<unsigned char>(argument[2]))) {
+    argument.insert(1, "0");
+  }
+  constexpr std::string_view kResolution = "--resolution=";
+  constexpr const char* kDigits = "0123456789";
+  const bool joined = argument.starts_with(kResolution);
+  if (!joined && before != kResolution.substr(0, kResolution.size() - 1)) return argument;
+  const size_t start = joined ? kResolution.size() : 0;
+  const size_t middle = argument.find_first_not_of(kDigits, start);
+  const bool isSize = middle != std::string::npos && middle > start && argument[middle] == 'x' &&
+                      middle + 1 < argument.size() &&
+                      argument.find_first_not_of(kDigits, middle + 1) == std::string::npos;
+  if (isSize) argument[middle] = ',';
+  return argument;
+}
+
+std::vector<std::string> withNumbersSettled(std::vector<std::string> words) {
+  // From the last one on, so that the word before is still as it was given.
+  for (size_t i = words.size(); i-- > 0;)
+    words[i] = withNumberSettled(words[i], i > 0 ? std::string_view(words[i - 1]) : std::string_view());
   return words;
 }
 

@@ -1,77 +1,57 @@
 // SPDX-License-Identifier: MIT
-// The options of `render`, which other commands take too.
+// The options of `render`, as commands declare, check and settle them.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "options/camera_options.h"
+#include "options/option_row.h"
 #include "stage/render_options.h"
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace fragtrace {
 
 /// Of any pixel: sample indices have 32 bits, targets of the film 30.
 inline constexpr int kMostSamples = 1 << 29;
 
-/// Option values as the library parses them, before they become RenderOptions.
+/// What a command has parsed: the options, and what settles them once all is parsed.
 struct RawRender {
-  RenderOptions options;
-  std::optional<int> spp;
-  std::string scene;
-  std::string output;
-  RawCamera camera;
+  RenderOptions options{};
+  std::optional<int> spp{};
   std::string stage = "gi";
-  std::vector<std::string> enable;
-  std::vector<std::string> disable;
-  std::vector<std::string> fileEnable;  ///< of --config: what the command line switches counts more
-  std::vector<std::string> fileDisable;
-  std::string bounces = "16";
-  std::vector<double> backgroundColor;
-  std::vector<int> region;
-  std::string hdriFile;
-  std::string lightSelection = "auto";
-  std::string lightReuse = "none";
-  std::string caustics = "auto";
-  std::string pixelFilter = "box";
-  std::string toneMap = "neutral";
-  std::string traversal = "auto";
-  std::string instancing = "auto";
-  std::string backend = "auto";
-  std::string reads = "auto";
-  std::string dispatch = "auto";
-  std::string vectorWidth = "auto";
-  std::string schedule = "auto";
-  std::string statsFile;
-  std::string shaderFolder;
-  std::vector<std::string> aov;
-  std::string denoise = "none";
-  std::string oidnLibrary;
-  std::string debugView = "none";
-  std::string progress = "auto";
-  std::string format;  ///< of a picture on standard output
-  std::string fresnel = "exact";
-  std::string compensation = "on";
-  std::string sampler = "sobol";
-  std::string lightSampling = "nee";
-  std::string shadowCatcher;
-  bool noBackground = false;
-  std::string defaultLight = "white";
+  std::vector<std::string> enable{};
+  std::vector<std::string> disable{};
+  std::vector<std::string> fileEnable{};  ///< of --config: what the command line switches counts more
+  std::vector<std::string> fileDisable{};
   bool noDefaultLight = false;
   bool anyOutput = false;  ///< pictures get their names later, so what any format holds may be asked for
 };
 
-/// Adds all options but scene and output.
-void addRenderOptions(CLI::App& app, RawRender& raw);
+/// Declares the option of the row with that name.
+CLI::Option* addOption(CLI::App& app, const char* name, RawRender& raw);
 
-/// --denoise and --oidn-library, of commands that finish a picture.
-void addDenoiseOption(CLI::App& app, RawRender& raw);
+/// The same with a help text of the command's own.
+CLI::Option* addOption(CLI::App& app, const char* name, RawRender& raw, const std::string& help);
 
-/// Checks what the library cannot. Throws UsageError.
+/// Declares all options of a group, in the order of the table.
+void addOptions(CLI::App& app, OptionGroup group, RawRender& raw);
+
+/// --rendering-backend, --buffer-reads, --vector-width, --shader-folder and --quiet, of commands that choose
+/// all else themselves.
+void addDeviceOptions(CLI::App& app, RawRender& raw);
+
+/// Settles the options that depend on others, and checks that they go together. Throws UsageError.
 RenderOptions finishRender(const RawRender& raw);
+
+/// Throws UsageError where the file's format has no such choice.
+void checkEncoding(const Encoding& encoding, const std::filesystem::path& output);
+
+/// Throws UsageError for options that a sequence does not go with.
+void checkSequence(const RenderOptions& options);
 
 }  // namespace fragtrace

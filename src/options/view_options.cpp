@@ -18,13 +18,13 @@ constexpr int kMostWindowPixels = 16384;
 }  // namespace
 
 void addViewOptions(CLI::App& app, RawView& raw) {
-  app.add_option("file", raw.render.scene,
-                 "scene: a .gltf or .glb file; without one, the window waits for a file to be dropped on it")
-      ->type_name("FILE");
-  addRenderOptions(app, raw.render);
-  raw.render.denoise = "variance";
-  raw.render.defaultLight = "studio";
-  addDenoiseOption(app, raw.render);
+  RenderOptions& shown = raw.render.options;
+  shown.output.denoise = Denoise::Variance;
+  shown.light.defaultLight = DefaultLight::Studio;
+  addOption(app, "file", raw.render,
+            "scene: a .gltf or .glb file; without one, the window waits for a file to be dropped on it");
+  addOptions(app, OptionGroup::Tracing, raw.render);
+  addOptions(app, OptionGroup::Filter, raw.render);
   const auto describe = [&](const char* name, const char* text) { app.get_option(name)->description(text); };
   describe("--spp", "samples per pixel after which rendering stops; by default without limit");
   describe("--noise",
@@ -37,7 +37,6 @@ void addViewOptions(CLI::App& app, RawView& raw) {
       "64 and 256 samples per pixel");
   describe("--resolution",
            "WIDTH,HEIGHT of the picture in pixels, at most 16384 each; by default the window has 1280,720");
-  app.get_option("--default-light")->default_str(raw.render.defaultLight);
   addConfigOption(app, raw.config);
   app.add_option("--reference", raw.reference,
                  "picture to compare with: a linear .exr, .hdr or .pfm that is shown as side B of the split "
@@ -55,7 +54,7 @@ ViewOptions finishView(RawView& raw, CLI::App& command) {
   raw.render.anyOutput = true;
   // Compared with what `render` draws, the scene is lit as there.
   if (!raw.reference.empty() && command.get_option("--default-light")->empty())
-    raw.render.defaultLight = "white";
+    raw.render.options.light.defaultLight = DefaultLight::White;
   options.render = finishConfigured(raw.render, raw.config, command);
   const glm::ivec2 size = options.render.camera.resolution.value_or(glm::ivec2(1));
   if (size.x > kMostWindowPixels || size.y > kMostWindowPixels)

@@ -9,13 +9,13 @@
 #include "errors.h"
 #include "gl/program.h"
 #include "image/channels.h"
+#include "options/same_picture.h"
 #include "render/denoise.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/phase_timer.h"
 #include "session/progress_bar.h"
 #include "session/say.h"
-#include "stage/same_picture.h"
 
 namespace fragtrace {
 

@@ -11,7 +11,7 @@
 #include <type_traits>
 
 #include "errors.h"
-#include "stage/option_effects.h"
+#include "options/option_table.h"
 
 namespace fragtrace {
 
@@ -82,16 +82,10 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   json["variant"] = variantName(variant);
   RenderOptions named = options;
   named.light.studio = isInStudio(options, loaded);
-  forEachOption(named, [&](const auto& row, const auto& value) {
-    if (row.attribute == nullptr) return;
-    using Value = std::remove_cvref_t<decltype(value)>;
-    if constexpr (std::is_same_v<Value, std::filesystem::path>)
-      json[row.attribute] = value.filename().string();
-    else if constexpr (std::is_arithmetic_v<Value>)
-      json[row.attribute] = value;
-    else
-      throw std::logic_error(std::string(row.attribute) + " has no text");
-  });
+  for (const OptionRow& row : optionRows()) {
+    if (row.traits.attribute != nullptr)
+      std::visit([&](const auto& value) { json[row.traits.attribute] = value; }, row.value(named));
+  }
   json["background_color"] = nullptr;
   if (!loaded.view.showEnvironment)
     json["background_color"] = numbers(glm::dvec3(options.light.backgroundColor.value_or(glm::vec3(0.0f))));

@@ -20,13 +20,19 @@ std::filesystem::path numberedName(const std::filesystem::path& pattern, int num
   return std::filesystem::path(pattern).replace_filename(name);
 }
 
+FrameRange rangeOf(const SequenceOptions& sequence) {
+  return sequence.turntable > 0 ? FrameRange{0, sequence.turntable - 1, 1} : sequence.frames.value();
+}
+
 int frameCount(const SequenceOptions& sequence) {
-  return (sequence.last - sequence.first) / sequence.step + 1;
+  const FrameRange range = rangeOf(sequence);
+  return (range.last - range.first) / range.step + 1;
 }
 
 SequenceFrame frameOf(const RenderOptions& options, int index) {
-  const SequenceOptions& sequence = *options.output.sequence;
-  SequenceFrame frame{sequence.first + index * sequence.step, options, 0.0};
+  const SequenceOptions& sequence = options.output.sequence;
+  const FrameRange range = rangeOf(sequence);
+  SequenceFrame frame{range.first + index * range.step, options, 0.0};
   frame.options.output.file = numberedName(options.output.file, frame.number);
   if (!options.output.statsFile.empty())
     frame.options.output.statsFile = numberedName(options.output.statsFile, frame.number);
@@ -38,7 +44,7 @@ SequenceFrame frameOf(const RenderOptions& options, int index) {
   }
   if (options.device.traversal == TraversalMethod::Auto)
     frame.options.device.traversal = TraversalMethod::FrontToBack;
-  frame.options.output.sequence.reset();
+  frame.options.output.sequence = {};
   return frame;
 }
 

@@ -19,10 +19,13 @@ struct SequenceFrame {
 /// The name with the number in place of its last run of #, with at least as many digits.
 std::filesystem::path numberedName(const std::filesystem::path& pattern, int number);
 
+/// The numbers of its pictures; there are some (isSequence).
+FrameRange rangeOf(const SequenceOptions& sequence);
+
 int frameCount(const SequenceOptions& sequence);
 
-/// The picture of that index, from 0; options.sequence is there. Small scenes are no shader text in it, so
-/// that one program draws all pictures.
+/// The picture of that index, from 0; the options are of a sequence. Small scenes are no shader text in it,
+/// so that one program draws all pictures.
 SequenceFrame frameOf(const RenderOptions& options, int index);
 
 /// The camera turned by an angle (radians, to the right of who looks through it) about the vertical axis, +Y,

@@ -6,10 +6,9 @@
 
 #include "errors.h"
 #include "options/config_file.h"
+#include "options/option_row.h"
 #include "options/option_text.h"
-#include "options/output_options.h"
 #include "picture/denoising.h"
-#include "stage/option_effects.h"
 
 namespace fragtrace {
 
@@ -143,10 +142,9 @@ struct RawWords {
 
 void addWords(CLI::App& app, RawWords& raw) {
   raw.render.anyOutput = true;
-  app.add_option("file", raw.render.scene)->required();
-  addRenderOptions(app, raw.render);
-  addOutputOptions(app, raw.render);
-  addDenoiseOption(app, raw.render);
+  addOption(app, "file", raw.render)->required();
+  for (const OptionGroup group : {OptionGroup::Tracing, OptionGroup::Output, OptionGroup::Filter})
+    addOptions(app, group, raw.render);
   addConfigOption(app, raw.config);
 }
 

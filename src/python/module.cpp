@@ -18,7 +18,7 @@
 #include "image/display/tone_map.h"
 #include "image/image.h"
 #include "options/choose.h"
-#include "options/encoding_options.h"
+#include "options/parse_render.h"
 #include "picture/joined_parts.h"
 #include "python/kept_scene.h"
 

@@ -8,7 +8,7 @@ namespace fragtrace {
 /// What a change of an option or a stage changes.
 enum class Effect : uint8_t {
   Report,   ///< what is said, written beside the picture, or allowed
-  Way,      ///< how the same samples are drawn: their time and rounding
+  Method,   ///< how the same samples are drawn: their time and rounding
   Layers,   ///< what a file holds beside the picture
   Count,    ///< how many samples
   Display,  ///< what is made of finished samples

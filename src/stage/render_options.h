@@ -74,14 +74,20 @@ inline constexpr std::array<std::string_view, 3> kProgressNames{"auto", "json", 
 enum class PixelFilter : uint8_t { Box, Gaussian, BlackmanHarris };
 inline constexpr std::array<std::string_view, 3> kPixelFilterNames{"box", "gaussian", "blackman-harris"};
 
-/// Pictures of one scene, numbered: at times of an animation, or from all around.
-struct SequenceOptions {
+struct FrameRange {
   int first = 0;
   int last = 0;  ///< belongs to it
   int step = 1;
-  double fps = 24.0;  ///< picture k is the animation at k / fps seconds
-  int turntable = 0;  ///< pictures of a whole turn about the focal point; 0: of the animation
-  bool keep = false;  ///< pictures that are there already are not drawn again
+
+  bool operator==(const FrameRange&) const = default;
+};
+
+/// Pictures of one scene, numbered: at times of an animation, or from all around.
+struct SequenceOptions {
+  std::optional<FrameRange> frames;  ///< of the animation
+  double fps = 24.0;                 ///< picture k is the animation at k / fps seconds
+  int turntable = 0;                 ///< pictures of a whole turn about the focal point; 0: none
+  bool keep = false;                 ///< pictures that are there already are not drawn again
 
   bool operator==(const SequenceOptions&) const = default;
 };
@@ -149,6 +155,7 @@ struct LightOptions {
 struct OutputOptions {
   std::filesystem::path file;
   bool toStandardOutput = false;  ///< the picture; `file` then tells its format and what messages call it
+  std::string format;             ///< of standard output
   Encoding encoding;
   double exposure = 0.0;  ///< stops
   ToneMap toneMap = ToneMap::Neutral;
@@ -159,7 +166,7 @@ struct OutputOptions {
   std::filesystem::path oidnLibrary;  ///< file of Open Image Denoise; none: it is looked for
   DebugView debugView = DebugView::None;
   std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
-  std::optional<SequenceOptions> sequence;
+  SequenceOptions sequence;
   double checkpointSeconds = 0.0;  ///< between two checkpoints; 0: none is written
   bool resume = false;             ///< go on from the checkpoint beside the output
   std::filesystem::path statsFile;
@@ -203,6 +210,11 @@ inline bool hasMap(const RenderOptions& o) { return o.light.studio || !o.light.h
 
 /// Whether noise or time ends a render, which places samples where they help most.
 inline bool isAdaptive(const RenderOptions& o) { return o.sampling.noise > 0.0 || o.sampling.seconds > 0.0; }
+
+/// Whether numbered pictures are asked for.
+inline bool isSequence(const RenderOptions& o) {
+  return o.output.sequence.frames || o.output.sequence.turntable > 0;
+}
 
 /// Width / height of the picture that a scene without a camera is framed for; without --resolution it is
 /// wide, as good as square.

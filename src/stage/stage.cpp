@@ -49,7 +49,7 @@ std::span<const StageRow> stageRows() {
        "triangle test of the trees that lets no ray through between neighbours, and points moved out of "
        "sharp creases, in place of a faster test "
        "(on by default)",
-       false, true, "kWatertight", Trait::Triangles, Effect::Way},
+       false, true, "kWatertight", Trait::Triangles, Effect::Method},
       {Stage::BvhHeatmap, "bvh-heatmap", "Node heat map", "paints how many nodes each camera ray visits",
        false, false, "kHeatmap"},
   }};

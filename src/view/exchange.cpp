@@ -5,7 +5,7 @@
 #include <chrono>
 #include <utility>
 
-#include "stage/option_effects.h"
+#include "options/option_row.h"
 
 namespace fragtrace {
 

@@ -16,7 +16,7 @@ struct WindowStart {
   std::filesystem::path statusFile;  ///< see docs/viewer.md; empty: none
   std::filesystem::path reference;   ///< a picture to compare with; empty: none
   std::function<void()> opened;      ///< called once the window is there
-  // Options as text of the command line, and back (cli/camera_options.h, cli/command_text.h).
+  // Options as text of the command line, and back (options/camera_text.h, options/command_text.h).
   std::function<std::string(const RenderOptions&)> cameraText;
   std::function<std::string(const RenderOptions&)> commandText;
   std::function<RenderOptions(const RenderOptions&, const std::string&)> withCommandText;

@@ -162,8 +162,8 @@ class Materials(Case):
         gltf["nodes"].append({"mesh": 1, "translation": [-1, 0, 1], "rotation": [0, 0.70710678, 0, 0.70710678]})
         gltf["scenes"][0]["nodes"].append(2)
         means = []
-        for sampling in ("nee", "bsdf"):
-            picture = self.picture_of(gltf, "--spp", "512", "--light-sampling", sampling, "--stage", "gi")
+        for switch in ("--enable", "--disable"):
+            picture = self.picture_of(gltf, "--spp", "512", switch, "light-sampling", "--stage", "gi")
             pixels = [p[0] for row in picture[8:24] for p in row[20:28]]
             means.append(sum(pixels) / len(pixels))
         self.assertAlmostEqual(means[0] / means[1], 1, delta=0.02)

@@ -24,9 +24,9 @@ class Means(Case):
 
     def agree(self, scene, changed, *options):
         # With sobol the true variance is below the one stated.
-        common = ["--resolution", "16,16", "--sampler", "random", *options]
+        common = ["--resolution", "16,16", "--disable", "sobol", *options]
         expected, variance = self.mean(scene, *common)
-        mean, more = self.mean(scene, *(changed if "--sampler" in changed else ["--sampler", "random", *changed]),
+        mean, more = self.mean(scene, *(changed if "sobol" in changed else ["--disable", "sobol", *changed]),
                                "--resolution", "16,16", *options, "--seed", 1)
         z = (mean - expected) / math.sqrt(variance + more)
         print(f"{scene} {' '.join(map(str, changed))}: {expected:.5f}, {mean:.5f}, z {z:+.2f}")
@@ -35,12 +35,12 @@ class Means(Case):
         self.assertLess(LARGEST_Z * math.sqrt(variance + more), 0.03 * expected)
 
     def test_samplers(self):
-        self.agree("cornell-box", ["--sampler", "sobol"], "--spp", 1024, *FLOOR)
+        self.agree("cornell-box", ["--enable", "sobol"], "--spp", 1024, *FLOOR)
 
     def test_light_found_by_scattered_rays_only(self):
-        self.agree("cornell-box", ["--light-sampling", "bsdf"], "--spp", 8192, *FLOOR)
-        self.agree("environment-diffuse", ["--light-sampling", "bsdf"], "--spp", 1024, "--hdri-file", SCENES / "sky.pfm")
-        self.agree("glass-sphere", ["--light-sampling", "bsdf"], "--spp", 4096)
+        self.agree("cornell-box", ["--disable", "light-sampling"], "--spp", 8192, *FLOOR)
+        self.agree("environment-diffuse", ["--disable", "light-sampling"], "--spp", 1024, "--hdri-file", SCENES / "sky.pfm")
+        self.agree("glass-sphere", ["--disable", "light-sampling"], "--spp", 4096)
 
     def test_pixel_filters_spread_light_but_lose_none(self):
         """Of a body that no filter reaches over the picture's edge."""

@@ -52,8 +52,8 @@ class Schedules(BothSchedules):
     def test_instances(self):
         write_field(self.folder, "field", 64, 500)
         # Without light sampling, too: no shadow rays then.
-        for light in ("nee", "bsdf"):
-            self.same(str(self.folder / "field"), *SKY, "--instancing", "share", "--resolution", "37,40", "--spp", 2, "--light-sampling", light)
+        for switch in ("--enable", "--disable"):
+            self.same(str(self.folder / "field"), *SKY, "--instancing", "share", "--resolution", "37,40", "--spp", 2, switch, "light-sampling")
 
     def test_what_is_cut_into_many_draws(self):
         """Columns that end before a lane does, tiles beside each other, and more samples than the steps of a draw take."""

@@ -148,7 +148,7 @@ ErrorReport reportOfTwo() {
   report.curves = {curveOf(powerLaw(1.0, 1.5, 64)),
                    curveOf(powerLaw(4.0 / 3.0, 1.0, 64), "a, \"quoted\" one")};
   report.curves[1].repetitions.push_back(powerLaw(2.0 / 3.0, 1.0, 64));
-  report.curves[1].options = "--sampler random";
+  report.curves[1].options = "--disable sobol";
   report.curves[1].variant = "gi";
   report.curves[1].compileMs = 12.5;
   return report;

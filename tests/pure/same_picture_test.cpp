@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "stage/same_picture.h"
+#include "options/same_picture.h"
 
 #include <gtest/gtest.h>
 

@@ -256,7 +256,7 @@ def described(scene, entry, scratch):
     """The scene as a dictionary, without its environment."""
     width, height = entry["resolution"]
     options = dict(zip(entry["options"][::2], entry["options"][1::2]))
-    compensated = options.get("--energy-compensation", "on") == "on"
+    compensated = options.get("--disable") != "energy-compensation"
     materials = [item.material for item in scene.meshes + scene.spheres]
     # volpath sees lights through holes; volpathmis weighs the colours of a medium against one another.
     integrator = "path"

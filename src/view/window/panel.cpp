@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-#include "stage/same_picture.h"
+#include "options/same_picture.h"
 #include "view/presets.h"
 #include "view/window/input.h"
 #include "view/window/panel_parts.h"

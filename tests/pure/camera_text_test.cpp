@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "options/camera_options.h"
+#include "options/camera_text.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <random>
 
 #include "errors.h"
+#include "options/option_text.h"
 #include "view/camera_controller.h"
 
 namespace fragtrace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "stage/same_picture.h"
+#include "options/same_picture.h"
 
-#include "stage/option_effects.h"
+#include "options/option_row.h"
 
 namespace fragtrace {
 
@@ -9,8 +9,8 @@ namespace {
 
 /// What the samples depend on.
 RenderOptions sampledPart(const RenderOptions& options) {
-  RenderOptions part =
-      withoutEffects(options, {Effect::Report, Effect::Way, Effect::Layers, Effect::Count, Effect::Display});
+  RenderOptions part = withoutEffects(
+      options, {Effect::Report, Effect::Method, Effect::Layers, Effect::Count, Effect::Display});
   // The heat map shows the way through the tree.
   if (has(options.stages, Stage::BvhHeatmap)) part.device.traversal = options.device.traversal;
   return part;

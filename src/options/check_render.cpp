@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// Options that depend on others.
+#include <algorithm>
+
+#include "errors.h"
+#include "image/format.h"
+#include "image/image.h"
+#include "options/choose.h"
+#include "options/parse_render.h"
+#include "options/stage_names.h"
+
+namespace fragtrace {
+
+namespace {
+
+void switchStages(const std::vector<std::string>& on, const std::vector<std::string>& off, StageSet& stages) {
+  for (const std::string& name : on) stages.set(size_t(stageNamed("--enable", name)));
+  for (const std::string& name : off) stages.reset(size_t(stageNamed("--disable", name)));
+}
+
+StageSet stagesOf(const RawRender& raw) {
+  StageSet stages = stagesUpTo(choose<Stage>("--stage", raw.stage, stageNames(true)));
+  switchStages(raw.fileEnable, raw.fileDisable, stages);
+  switchStages(raw.enable, raw.disable, stages);
+  return stages;
+}
+
+/// The samples that were asked for, or those that the end of the render needs.
+int samplesOf(const RawRender& raw) {
+  const SamplingOptions& o = raw.options.sampling;
+  const bool adaptive = isAdaptive(raw.options);
+  const int spp = raw.spp.value_or(adaptive ? kMostSamples : o.spp);
+  // Two halves of two: one sample says nothing of its error.
+  if (adaptive && o.sampleOffset > 0)
+    throw UsageError("--sample-offset: adaptive pictures (--noise, --time) are no parts of a render");
+  if (adaptive && spp < 4) throw UsageError("--spp: --noise and --time need at least 4");
+  if (int64_t(o.sampleOffset) + spp > kMostSamples && !adaptive)
+    throw UsageError("--sample-offset: with --spp it goes beyond sample " + std::to_string(kMostSamples));
+  return spp;
+}
+
+/// Where --output is "-", the picture goes to standard output.
+void chooseStandardOutput(OutputOptions& o) {
+  if (o.file != "-") {
+    if (!o.format.empty()) throw UsageError("--format: needs --output -; a file has the format of its name");
+    return;
+  }
+  const auto refuse = [](const std::string& why) { throw UsageError("--output -: " + why); };
+  if (o.format.empty()) refuse("needs --format, one of png, jpg, exr, hdr, pfm");
+  if (o.checkpointSeconds > 0.0 || o.resume) refuse("--checkpoint and --resume need a file");
+  if (o.statsFile == "-") refuse("standard output takes the picture or the statistics (--stats -), not both");
+  o.toStandardOutput = true;
+  o.file = "standard output." + o.format;
+}
+
+void checkOutput(const RenderOptions& o, bool anyOutput) {
+  const OutputOptions& out = o.output;
+  if (!out.file.empty() && !isWritableImageName(out.file))
+    throw UsageError("--output: '" + out.file.string() + "' ends in none of .png, .jpg, .exr, .hdr, .pfm");
+  const auto part = std::ranges::find_if(out.aovFeatures, isLightPart);
+  if (part != out.aovFeatures.end() && !has(o.stages, Stage::Gi))
+    throw UsageError("--aov " + std::string(rowOf(*part).name) + ": only stage gi has it");
+  const bool hasLayers = !out.aovFeatures.empty() || out.aovSamples || out.aovVariance;
+  if (hasLayers && !anyOutput && formatOfName(out.file) != ImageFormat::OpenExr)
+    throw UsageError("--aov: only .exr files hold more layers");
+  if (out.treeLevel && !out.file.empty() && !isDisplayFormat(out.file))
+    throw UsageError("--tree-level: boxes are drawn over a .png or .jpg only");
+}
+
+void checkLens(const LensOptions& lens) {
+  if (lens.blades == 1 || lens.blades == 2) throw UsageError("--aperture-blades: neither 0 nor 3 or more");
+  if (!lens.fStop && lens.focusDistance) throw UsageError("--focus-distance: goes with --f-stop");
+  if (!lens.fStop && lens.blades > 0) throw UsageError("--aperture-blades: goes with --f-stop");
+}
+
+void checkStudio(const LightOptions& o) {
+  if (o.studio && !o.hdriFile.empty()) throw UsageError("--studio: there is an --hdri-file, too");
+  if (o.studio && o.backgroundBlur > 0.0)
+    throw UsageError("--background-blur: the backdrop of --studio has nothing to blur");
+}
+
+/// Light paths cannot do all that paths from the camera can, which auto leaves to these.
+void checkLightPaths(const RenderOptions& o) {
+  if (o.light.caustics != Caustics::On) return;
+  if (o.sampling.clampIndirect > 0.0)
+    throw UsageError("--caustics on: light paths cannot be clamped (--clamp-indirect)");
+  if (o.light.shadowCatcher)
+    throw UsageError("--caustics on: a shadow catcher shows no caustics (--shadow-catcher)");
+  if (std::ranges::any_of(o.output.aovFeatures, isLightPart))
+    throw UsageError("--caustics on: emission, diffuse and specular (--aov) would not add up to the picture");
+}
+
+/// Pixels take light samples of others in the same pass of the whole picture, so that their errors are alike.
+void checkReuse(const RenderOptions& o) {
+  if (o.light.reuse != LightReuse::Spatial) return;
+  const std::string refused = "--light-reuse spatial: not with ";
+  if (o.camera.region) throw UsageError(refused + "--region: pixels take light from others");
+  if (isAdaptive(o)) throw UsageError(refused + "--noise, --time: all pixels need as many samples");
+  if (o.output.denoise != Denoise::None)
+    throw UsageError(refused + "--denoise: a filter takes what pixels share for the picture");
+  if (std::ranges::any_of(o.output.aovFeatures, isLightPart))
+    throw UsageError(refused + "emission, diffuse, specular (--aov): they would not add up to the picture");
+}
+
+}  // namespace
+
+RenderOptions finishRender(const RawRender& raw) {
+  RenderOptions o = raw.options;
+  chooseStandardOutput(o.output);
+  o.stages = stagesOf(raw);
+  if (raw.noDefaultLight) o.light.defaultLight = DefaultLight::None;
+  o.sampling.spp = samplesOf(raw);
+  if (o.output.debugView == DebugView::Visits) o.stages.set(size_t(Stage::BvhHeatmap));
+  checkLens(o.camera.lens);
+  checkStudio(o.light);
+  checkOutput(o, raw.anyOutput);
+  checkLightPaths(o);
+  checkReuse(o);
+  return o;
+}
+
+void checkEncoding(const Encoding& encoding, const std::filesystem::path& output) {
+  const auto format = formatOfName(output);
+  if (encoding.half && format != ImageFormat::OpenExr)
+    throw UsageError("--half: only .exr files hold 16-bit floats");
+  if (encoding.pngBits != Encoding().pngBits && format != ImageFormat::Png)
+    throw UsageError("--png-depth: '" + output.string() + "' is no .png");
+}
+
+void checkSequence(const RenderOptions& options) {
+  const SequenceOptions& sequence = options.output.sequence;
+  if (!isSequence(options)) {
+    if (sequence.keep) throw UsageError("--continue: goes with --frames or --turntable");
+    return;
+  }
+  const bool isTurntable = sequence.turntable > 0;
+  const auto refuse = [&](const std::string& why) {
+    throw UsageError(std::string(isTurntable ? "--turntable" : "--frames") + ": " + why);
+  };
+  const auto isNumbered = [](const std::filesystem::path& file) {
+    return file.filename().string().find('#') != std::string::npos;
+  };
+  if (!isNumbered(options.output.file))
+    refuse("the name of --output needs #### where the number of the picture goes");
+  if (!options.output.statsFile.empty() && !isNumbered(options.output.statsFile))
+    refuse("the name of --stats needs #### where the number of the picture goes");
+  if (options.selection.animationTime && !isTurntable) refuse("--animation-time is of a single picture");
+  if (options.camera.overrides.fit != Fit::None && !isTurntable)
+    refuse(
+        "--fit would place another camera for each picture; --camera-orbit or --camera-position place one");
+  if (options.output.checkpointSeconds > 0.0 || options.output.resume)
+    refuse("--checkpoint and --resume are of a single picture; --continue goes on with a sequence");
+  if (options.device.traversal == TraversalMethod::Literals)
+    refuse("--traversal literals would compile a shader for each picture");
+}
+
+}  // namespace fragtrace

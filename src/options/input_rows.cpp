@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "options/option_table.h"
+#include "options/row_makers.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// The scene's file, which commands declare as an argument.
+OptionRow sceneRow() {
+  OptionRow row =
+      memberRow("file", "scene: a .gltf or .glb file", FRAGTRACE_MEMBER(scene),
+                {.effect = Effect::Picture, .renewal = Renewal::Scene, .group = OptionGroup::File});
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    addWord(
+        app, r, raw, [](RenderOptions& o, const std::string& text) { o.scene = text; }, "FILE");
+  };
+  row.examples = {"a b.gltf"};
+  row.words = [](const RenderOptions& o) { return std::vector{o.scene.string()}; };
+  return row;
+}
+
+/// Sets what a picture on standard output is called, too.
+OptionRow outputRow() {
+  OptionRow row = memberRow(
+      "--output",
+      "picture to write: .png .jpg (tone-mapped, sRGB), .exr .hdr .pfm (linear radiance); '-' writes it to "
+      "standard output (--format), and nothing else goes there; required",
+      FRAGTRACE_MEMBER(output.file), {.effect = Effect::Report, .kept = true, .group = OptionGroup::File});
+  row.examples = {"it's-1.exr"};
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    app.add_option_function<std::string>(
+           "-o,--output", [&raw](const std::string& file) { raw.options.output.file = file; }, r.help)
+        ->type_name("FILE");
+  };
+  row.words = [](const RenderOptions& o) {
+    return std::vector<std::string>{o.output.toStandardOutput ? "-" : o.output.file.string()};
+  };
+  row.copy = [](RenderOptions& to, const RenderOptions& from) {
+    to.output.file = from.output.file;
+    to.output.toStandardOutput = from.output.toStandardOutput;
+  };
+  return row;
+}
+
+OptionRow timeRow() {
+  OptionRow row = memberRow(
+      "--animation-time",
+      "pose the scene at this time of its animation, in seconds; by default the scene is not animated",
+      FRAGTRACE_MEMBER(selection.animationTime), {.effect = Effect::Picture, .renewal = Renewal::Scene});
+  row.examples = {"0", "1.2500000000000002"};
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    app.add_option(r.name, raw.options.selection.animationTime, r.help)->check(finiteSeconds());
+  };
+  row.words = [](const RenderOptions& o) { return std::vector{exactText(*o.selection.animationTime)}; };
+  return row;
+}
+
+OptionRow hiddenRow() {
+  OptionRow row = memberRow(
+      "--hide",
+      "name or index of a node to hide, together with everything below it; can be given "
+      "several times; `fragtrace info --nodes` lists the nodes",
+      FRAGTRACE_MEMBER(selection.hiddenNodes), {.effect = Effect::Picture, .renewal = Renewal::Scene});
+  row.examples = {"/nodes/3"};
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    app.add_option(r.name, raw.options.selection.hiddenNodes, r.help)
+        ->type_name("NODE")
+        ->allow_extra_args(false);
+  };
+  row.words = [](const RenderOptions& o) { return o.selection.hiddenNodes; };
+  return row;
+}
+
+OptionRow memoryRow() {
+  OptionRow row =
+      memberRow("--memory-limit",
+                "memory limit, counted separately for files and for the picture, such as 500MB "
+                "or 2GiB, at least 1MB; by "
+                "default the smallest of 8 GiB, half of the machine's memory and ulimit -v",
+                FRAGTRACE_MEMBER(limits.memoryBytes), {.effect = Effect::Report, .renewal = Renewal::Scene});
+  row.examples = {"12345678", "2GiB"};
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    app.add_option(r.name, raw.options.limits.memoryBytes, r.help)
+        ->transform(memorySize(kLeastMemoryBytes))
+        ->type_name("SIZE");
+  };
+  row.words = [](const RenderOptions& o) { return std::vector{std::to_string(o.limits.memoryBytes)}; };
+  return row;
+}
+
+OptionRow missingRow() {
+  OptionRow row = memberRow(
+      "--missing-textures",
+      "what to do if the image of a texture cannot be read: error (default) ends the program; warn prints a "
+      "warning, replaces a missing base colour with magenta, and omits the effects of other missing textures",
+      FRAGTRACE_MEMBER(limits.drawMissingTextures), {.effect = Effect::Picture, .renewal = Renewal::Scene});
+  row.examples = {"error", "warn"};
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    addWord(app, r, raw,
+            [](RenderOptions& o, const std::string& text) { o.limits.drawMissingTextures = text == "warn"; });
+    app.get_option(r.name)->check(CLI::IsMember({"error", "warn"}));
+  };
+  row.words = [](const RenderOptions&) { return std::vector<std::string>{"warn"}; };
+  return row;
+}
+
+}  // namespace
+
+std::vector<OptionRow> fileRows() { return {sceneRow(), outputRow()}; }
+
+std::vector<OptionRow> inputRows() {
+  constexpr OptionTraits kScene{.effect = Effect::Picture, .renewal = Renewal::Scene};
+  return {
+      word("--scene", "name or index of the scene; by default the one that the file chooses",
+           FRAGTRACE_MEMBER(selection.scene), kScene),
+      timeRow(),
+      word("--animation", "name or index of the animation for --animation-time; by default the first",
+           FRAGTRACE_MEMBER(selection.animation), kScene),
+      word("--material-variant", "name or index of the material variant; `fragtrace info` lists the variants",
+           FRAGTRACE_MEMBER(selection.materialVariant), kScene),
+      hiddenRow(),
+      memoryRow(),
+      limit<int>("--texture-limit",
+                 "maximum width and height of textures in pixels; larger ones are scaled down",
+                 FRAGTRACE_MEMBER(limits.textureSide), {1, kLargestTextureSide}, kScene),
+      missingRow(),
+      flag("--allow-external-files", "let the scene refer to files outside its folder",
+           FRAGTRACE_MEMBER(limits.allowExternalFiles),
+           {.effect = Effect::Report, .renewal = Renewal::Scene}),
+  };
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "options/option_row.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string_view>
+
+#include "options/option_table.h"
+#include "options/option_text.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// Sets those to the default whose row `chosen` is true of.
+template <typename Chosen>
+void reset(RenderOptions& options, const Chosen& chosen) {
+  static const RenderOptions standard;
+  for (const OptionRow& row : optionRows()) {
+    if (chosen(row)) row.copy(options, standard);
+  }
+}
+
+}  // namespace
+
+std::span<const OptionRow> optionRows() {
+  static const std::vector<OptionRow> rows = [] {
+    std::vector<OptionRow> all;
+    for (std::vector<OptionRow> (*part)() :
+         {&fileRows, &cameraRows, &samplingRows, &lightRows, &deviceRows, &inputRows, &outputRows})
+      std::ranges::move(part(), std::back_inserter(all));
+    return all;
+  }();
+  return rows;
+}
+
+const OptionRow& rowOf(std::string_view name) {
+  const auto rows = optionRows();
+  const auto found =
+      std::ranges::find(rows, name, [](const OptionRow& row) { return std::string_view(row.name); });
+  if (found == rows.end()) throw std::logic_error("no option " + std::string(name));
+  return *found;
+}
+
+void appendRow(std::string& text, const OptionRow& row, const RenderOptions& options) {
+  if (row.isDefault(options)) return;
+  if (row.examples.empty()) text += (text.empty() ? "" : " ") + std::string(row.name);
+  for (const std::string& word : row.words(options)) appendOption(text, row.name, word);
+}
+
+RenderOptions withoutEffects(RenderOptions options, std::initializer_list<Effect> effects) {
+  const auto chosen = [&](Effect effect) { return std::ranges::find(effects, effect) != effects.end(); };
+  reset(options, [&](const OptionRow& row) { return chosen(row.traits.effect); });
+  for (const StageRow& row : stageRows()) {
+    if (chosen(row.effect)) options.stages.set(size_t(row.stage), row.standard);
+  }
+  return options;
+}
+
+RenderOptions sceneOptions(RenderOptions options) {
+  reset(options, [](const OptionRow& row) { return row.traits.renewal != Renewal::Scene; });
+  return options;
+}
+
+RenderOptions programOptions(RenderOptions options) {
+  reset(options, [](const OptionRow& row) { return row.traits.renewal == Renewal::None; });
+  return options;
+}
+
+}  // namespace fragtrace

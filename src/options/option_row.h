@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// An option of `render`: one row of a table (option_table.h), from which its declaration, its text in
+// commands and option files, and what has to be done again when it changes follow.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "stage/effect.h"
+#include "stage/render_options.h"
+
+namespace CLI {
+class App;
+}
+
+namespace fragtrace {
+
+struct RawRender;
+
+/// The earliest step that has to be done again for a picture of a scene when the option changes.
+enum class Renewal : uint8_t {
+  None,     ///< aim() and drawing
+  Program,  ///< makeTracer(): the program, and what it reads of the scene
+  Scene     ///< loadScene()
+};
+
+/// Which commands have an option.
+enum class OptionGroup : uint8_t {
+  File,      ///< the scene and the picture, which each command declares by itself
+  Tracing,   ///< all that trace
+  Encoding,  ///< that write pictures
+  Output,    ///< that write one picture at a time
+  Sequence,  ///< that write numbered pictures
+  Filter,    ///< that finish a picture
+  None       ///< a member that another row's option sets, too
+};
+
+using AttributeValue = std::variant<bool, int, double, std::string>;
+
+/// All of an option that does not depend on its type.
+struct OptionTraits {
+  Effect effect = Effect::Picture;
+  Renewal renewal = Renewal::None;
+  const char* attribute = nullptr;  ///< its name in the attribute fragtrace:settings, where it stands there
+  bool copied = true;               ///< the command that the viewer copies says it
+  bool kept = false;                ///< the viewer keeps its own when a command is pasted
+  const char* excludes = nullptr;   ///< an option of an earlier row
+  OptionGroup group = OptionGroup::Tracing;
+};
+
+struct OptionRow {
+  const char* name = "";  ///< with its dashes
+  std::string help{};
+  OptionTraits traits{};
+  std::vector<std::string>
+      examples{};  ///< values, as one word each; none: a flag. The first and last of a range
+  /// Declares the option, so that parsing sets its members. RawRender outlives the command.
+  std::function<void(CLI::App&, const OptionRow&, RawRender&)> add{};
+  std::function<bool(const RenderOptions&)> isDefault{};
+  /// The value as the command line spells it, a word each time that the option is given; of a flag none.
+  std::function<std::vector<std::string>(const RenderOptions&)> words{};
+  std::function<void(RenderOptions& to, const RenderOptions& from)> copy{};  ///< its members
+  std::function<AttributeValue(const RenderOptions&)> value{};               ///< where it has an attribute
+};
+
+/// The row of the option. A name that there is not is an error of the program: std::logic_error.
+const OptionRow& rowOf(std::string_view name);
+
+/// Appends the option to a command, unless it is as by default.
+void appendRow(std::string& text, const OptionRow& row, const RenderOptions& options);
+
+/// The options, with all options and stages that have these effects as by default. A member without a row
+/// counts as Effect::Picture and Renewal::Scene: it costs time, never a wrong picture. Stages have their
+/// effects in stageRows().
+RenderOptions withoutEffects(RenderOptions options, std::initializer_list<Effect> effects);
+
+/// The options that loadScene() looks at, but for those that aim() looks at again: all else is as by default.
+RenderOptions sceneOptions(RenderOptions options);
+
+/// The same for makeTracer(), the options that loading depends on included.
+RenderOptions programOptions(RenderOptions options);
+
+}  // namespace fragtrace

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <charconv>
+
+#include "bvh/bvh.h"
+#include "errors.h"
+#include "options/option_table.h"
+#include "options/row_makers.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr std::array<std::string_view, 5> kFormatNames{"png", "jpg", "exr", "hdr", "pfm"};
+
+/// Of first hits, then those of the film.
+std::vector<std::string> layerNames() {
+  std::vector<std::string> names;
+  for (const FeatureRow& row : kFeatureRows) {
+    if (!row.name.empty()) names.emplace_back(row.name);
+  }
+  names.insert(names.end(), {"samples", "variance"});
+  return names;
+}
+
+void chooseLayers(const std::vector<std::string>& names, OutputOptions& o) {
+  const std::vector<std::string> known = layerNames();
+  for (const std::string& name : names) {
+    const auto index = choose<size_t>("--aov", name, known);
+    if (name == "samples") {
+      o.aovSamples = true;
+    } else if (name == "variance") {
+      o.aovVariance = true;
+    } else if (const Feature feature = Feature(index + 1);
+               std::ranges::find(o.aovFeatures, feature) == o.aovFeatures.end()) {
+      o.aovFeatures.push_back(feature);
+      // All that a filter needs.
+      if (feature == Feature::Guides) o.aovSamples = o.aovVariance = true;
+    }
+  }
+}
+
+OptionRow layersRow() {
+  OptionRow row{.name = "--aov",
+                .help = "extra layers to write into an .exr, separated by commas: " + joined(layerNames()),
+                .traits = {.effect = Effect::Layers, .renewal = Renewal::Program},
+                .examples = layerNames()};
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    app.add_option_function<std::vector<std::string>>(
+           r.name, [&raw](const std::vector<std::string>& names) { chooseLayers(names, raw.options.output); },
+           r.help)
+        ->delimiter(',')
+        ->allow_extra_args(false);
+  };
+  row.isDefault = [](const RenderOptions& o) {
+    return o.output.aovFeatures.empty() && !o.output.aovSamples && !o.output.aovVariance;
+  };
+  row.words = [](const RenderOptions& o) {
+    std::string names;
+    const auto add = [&](std::string_view name) { names += (names.empty() ? "" : ",") + std::string(name); };
+    for (const Feature feature : o.output.aovFeatures) add(rowOf(feature).name);
+    if (o.output.aovSamples) add("samples");
+    if (o.output.aovVariance) add("variance");
+    return std::vector{names};
+  };
+  row.copy = [](RenderOptions& to, const RenderOptions& from) {
+    to.output.aovFeatures = from.output.aovFeatures;
+    to.output.aovSamples = from.output.aovSamples;
+    to.output.aovVariance = from.output.aovVariance;
+  };
+  return row;
+}
+
+std::vector<std::string_view> debugViewNames() {
+  std::vector<std::string_view> names;
+  for (const DebugViewRow& row : kDebugViewRows) names.push_back(row.name);
+  return names;
+}
+
+OptionRow pngDepthRow() {
+  OptionRow row =
+      memberRow("--png-depth", "bits per channel of a .png: 8, 16", FRAGTRACE_MEMBER(output.encoding.pngBits),
+                {.effect = Effect::Display, .group = OptionGroup::Encoding});
+  row.examples = {"8", "16"};
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    app.add_option(r.name, raw.options.output.encoding.pngBits, r.help)
+        ->check(CLI::IsMember({8, 16}))
+        ->capture_default_str();
+  };
+  row.words = [](const RenderOptions& o) { return std::vector{std::to_string(o.output.encoding.pngBits)}; };
+  return row;
+}
+
+constexpr int kMostFrame = 9'999'999;
+
+/// A:B or A:B:STEP.
+FrameRange framesOf(const std::string& text) {
+  std::vector<int> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (;;) {
+    int number = -1;
+    const auto [rest, error] = std::from_chars(at, end, number);
+    if (error != std::errc() || number < 0 || number > kMostFrame) break;
+    numbers.push_back(number);
+    if (rest == end) {
+      at = end;
+      break;
+    }
+    if (*rest != ':') break;
+    at = rest + 1;
+  }
+  const bool whole = at == end && (numbers.size() == 2 || numbers.size() == 3);
+  if (!whole || numbers[1] < numbers[0] || (numbers.size() == 3 && numbers[2] < 1))
+    throw UsageError("--frames: '" + text + "' is no A:B or A:B:STEP, such as 0:59, with 0 <= A <= B <= " +
+                     std::to_string(kMostFrame));
+  return {numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 1};
+}
+
+OptionRow framesRow(const OptionTraits& traits) {
+  OptionRow row = memberRow("--frames",
+                            "A:B or A:B:STEP: render pictures A to B of the animation (B included), each to "
+                            "--output with its number "
+                            "in place of ####",
+                            FRAGTRACE_MEMBER(output.sequence.frames), traits);
+  row.examples = {"0:59", "10:9999999:3"};
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    addWord(app, r, raw,
+            [](RenderOptions& o, const std::string& text) { o.output.sequence.frames = framesOf(text); });
+  };
+  row.words = [](const RenderOptions& o) {
+    const FrameRange& range = *o.output.sequence.frames;
+    return std::vector{std::to_string(range.first) + ":" + std::to_string(range.last) + ":" +
+                       std::to_string(range.step)};
+  };
+  return row;
+}
+
+OptionRow formatRow() {
+  OptionRow row = memberRow(
+      "--format", "format of the picture that --output - writes to standard output: " + joined(kFormatNames),
+      FRAGTRACE_MEMBER(output.format),
+      {.effect = Effect::Report, .copied = false, .group = OptionGroup::Output});
+  row.examples.assign(kFormatNames.begin(), kFormatNames.end());
+  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
+    addWord(app, r, raw, [](RenderOptions& o, const std::string& text) {
+      choose<int>("--format", text, kFormatNames);
+      o.output.format = text;
+    });
+  };
+  row.words = [](const RenderOptions& o) { return std::vector{o.output.format}; };
+  return row;
+}
+
+}  // namespace
+
+std::vector<OptionRow> outputRows() {
+  constexpr OptionTraits kDisplay{.effect = Effect::Display};
+  constexpr OptionTraits kSaid{.effect = Effect::Report, .copied = false, .kept = true};
+  constexpr OptionTraits kOne{.effect = Effect::Report, .copied = false, .group = OptionGroup::Output};
+  constexpr OptionTraits kNumbered{.effect = Effect::View, .copied = false, .group = OptionGroup::Sequence};
+  OptionTraits turntable = kNumbered;
+  turntable.excludes = "--frames";
+  OptionTraits progress = kSaid;
+  progress.group = OptionGroup::Output;
+  OptionTraits quiet = kSaid;
+  quiet.renewal = Renewal::Program;
+  OptionTraits filter = kDisplay;
+  filter.group = OptionGroup::Filter;
+  return {
+      layersRow(),
+      choice("--debug-view", "show this instead of the picture", FRAGTRACE_MEMBER(output.debugView),
+             debugViewNames(), {.effect = Effect::Picture, .renewal = Renewal::Program}),
+      limit<int>(
+          "--tree-level",
+          "draw the boxes of this level of the bounding-volume hierarchy over a .png or .jpg; 0 is the root",
+          FRAGTRACE_MEMBER(output.treeLevel), {0, int(kMaxBvhDepth)}, kDisplay),
+      numberRow<double>("--exposure", "exposure in stops (EV), for .png and .jpg",
+                        FRAGTRACE_MEMBER(output.exposure), std::nullopt, true, kDisplay),
+      choice("--tone-map", "tone curve of .png and .jpg", FRAGTRACE_MEMBER(output.toneMap), toneMapNames(),
+             kDisplay),
+      word("--stats",
+           "write statistics to this JSON file; '-' writes them to standard output, and nothing else goes "
+           "there",
+           FRAGTRACE_MEMBER(output.statsFile), kSaid, "FILE"),
+      flag("--quiet", "print errors only; benchmarks still print their tables",
+           FRAGTRACE_MEMBER(output.quiet), quiet),
+      flag("--verbose", "print the choices that the program makes, and times and sizes",
+           FRAGTRACE_MEMBER(output.verbose), kSaid),
+      flag("--half",
+           "store the colours, normals and roughness of an .exr as 16-bit floats, for about half the file "
+           "size; "
+           "all other layers keep 32 bits; values beyond 65504 are clamped",
+           FRAGTRACE_MEMBER(output.encoding.half),
+           {.effect = Effect::Display, .group = OptionGroup::Encoding}),
+      pngDepthRow(),
+      limit<double>(
+          "--checkpoint",
+          "write the state of the render to OUTPUT.checkpoint every this many seconds, and when the "
+          "render is interrupted; the file is deleted when the picture is finished",
+          FRAGTRACE_MEMBER(output.checkpointSeconds), {0.1, 1e7}, kOne),
+      flag("--resume",
+           "continue from OUTPUT.checkpoint; the result is the same picture; if there is no checkpoint, "
+           "start from "
+           "the beginning, or do nothing if the picture is finished",
+           FRAGTRACE_MEMBER(output.resume), kOne),
+      formatRow(),
+      choice("--progress",
+             "how progress is reported on stderr: as a bar or lines (auto), as one JSON object per line, "
+             "messages "
+             "included (json), or not at all (none)",
+             FRAGTRACE_MEMBER(output.progress), kProgressNames, progress),
+      framesRow(kNumbered),
+      number<double>("--fps",
+                     "frames per second: picture k of --frames shows the animation at k / FPS seconds",
+                     FRAGTRACE_MEMBER(output.sequence.fps), {0.001, 1e6}, kNumbered),
+      limit<int>(
+          "--turntable",
+          "render N pictures, numbers 0 to N - 1, from evenly spaced directions around the focal point, each "
+          "to --output with its number in place of ####",
+          FRAGTRACE_MEMBER(output.sequence.turntable), {1, kMostFrame}, turntable),
+      flag("--continue", "with --frames or --turntable: skip pictures that are there already",
+           FRAGTRACE_MEMBER(output.sequence.keep), kNumbered),
+      choice("--denoise",
+             "filter that removes noise from the finished picture: {}; auto uses oidn if it is installed, "
+             "otherwise "
+             "variance; an .exr keeps the noisy colours as noisy.R, noisy.G, noisy.B",
+             FRAGTRACE_MEMBER(output.denoise), kDenoiseNames, filter),
+      word("--oidn-library",
+           "library file of Open Image Denoise 2.x; by default the file that FRAGTRACE_OIDN_LIBRARY names, "
+           "otherwise "
+           "the library installed by the system or by pip (pyoidn)",
+           FRAGTRACE_MEMBER(output.oidnLibrary), filter, "FILE"),
+  };
+}
+
+}  // namespace fragtrace

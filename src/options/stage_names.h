@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Names of stages, as options spell them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "stage/stage.h"
+
+namespace fragtrace {
+
+/// In the order of stageRows(); `cumulativeOnly`: those that --stage takes.
+std::vector<std::string> stageNames(bool cumulativeOnly);
+
+/// Throws UsageError.
+Stage stageNamed(const char* option, const std::string& name);
+
+}  // namespace fragtrace
