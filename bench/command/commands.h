@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "options/command.h"
 
@@ -29,5 +30,17 @@ inline constexpr std::array kBenchRows{
     CommandRow{"start", "measure the steps from a cold start to a written picture", addBenchStart},
     CommandRow{"stress", "measure failure rates in cases that break ray tracers", addBenchStress},
 };
+
+/// A benchmark: declares its options, and once they are parsed settles and runs them.
+template <typename Options>
+RunCommand commandOf(CLI::App& app, void (*declare)(CLI::App&, Options&),
+                     void (*settle)(const CLI::App&, Options&), int (*run)(const Options&)) {
+  const auto options = std::make_shared<Options>();
+  declare(app, *options);
+  return [=, &app] {
+    settle(app, *options);
+    return run(*options);
+  };
+}
 
 }  // namespace fragtrace

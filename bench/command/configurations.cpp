@@ -4,10 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 
 #include "options/choose.h"
 #include "options/option_text.h"
+#include "session/outputs.h"
 
 namespace fragtrace {
 
@@ -151,6 +153,17 @@ BenchConfiguration configurationOf(const RawConfigurations& raw, const CLI::App&
   if (!raw.shared.options.output.statsFile.empty())
     throw UsageError("--stats: --json holds what was measured");
   return c;
+}
+
+std::vector<std::filesystem::path> inputsOf(std::span<const BenchConfiguration> configurations) {
+  std::vector<std::filesystem::path> inputs;
+  for (const BenchConfiguration& c : configurations)
+    std::ranges::move(inputsOf(c.render), std::back_inserter(inputs));
+  return inputs;
+}
+
+std::unique_ptr<Context> contextOf(const RenderOptions& options) {
+  return makeContext(options.device.backend, options.device.vectorWidth);
 }
 
 }  // namespace fragtrace

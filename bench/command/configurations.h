@@ -2,9 +2,13 @@
 // Sets of options that `bench` measures against each other (--configs, --config).
 #pragma once
 
+#include <filesystem>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "gl/context.h"
 #include "options/parse_render.h"
 
 namespace fragtrace {
@@ -40,5 +44,11 @@ std::vector<BenchConfiguration> configurationsOf(const RawConfigurations& raw, c
 /// One configuration of the program's own, with what was given for all where it has none. Throws UsageError.
 BenchConfiguration configurationOf(const RawConfigurations& raw, const CLI::App& app, const std::string& name,
                                    const std::string& text, const std::string& scene);
+
+/// The files that they read, but for the pictures that scenes refer to.
+std::vector<std::filesystem::path> inputsOf(std::span<const BenchConfiguration> configurations);
+
+/// What the options ask for.
+std::unique_ptr<Context> contextOf(const RenderOptions& options);
 
 }  // namespace fragtrace

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
 // `fragtrace bench error`: how far pictures are from the reference, against the samples and the seconds
 // spent.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <memory>
 #include <optional>
 
 #include "bench/command/commands.h"
-#include "bench/command/error_options.h"
+#include "bench/command/configurations.h"
+#include "bench/command/results.h"
 #include "bench/report/error_report.h"
 #include "errors.h"
 #include "image/channels.h"
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
 #include "image/display/tone_map.h"
+#include "options/choose.h"
+#include "options/numbers.h"
 #include "picture/denoising.h"
 #include "picture/draw_picture.h"
 #include "render/adaptive.h"
-#include "session/interrupt.h"
-#include "session/outputs.h"
 #include "session/phase_timer.h"
 #include "session/progress_bar.h"
 #include "session/tracer.h"
@@ -28,9 +28,64 @@ namespace fragtrace {
 
 namespace {
 
+constexpr const char* kDefaultSamples = "256";
 constexpr int kReferenceFactor = 64;       // samples of a reference over the most that is measured
 constexpr uint32_t kReferenceSeed = 7919;  // apart from those of the repetitions
 constexpr int kAdaptiveSteps = 6;          // goals, each half of the last
+
+struct ErrorOptions {
+  std::string scene;
+  RawConfigurations raw;
+  std::vector<BenchConfiguration> configurations;
+  std::filesystem::path reference;  ///< empty: made by the first configuration
+  int repetitions = 3;
+  double goal = 1e-3;
+  ResultFiles files;
+};
+
+void declareError(CLI::App& app, ErrorOptions& o) {
+  app.add_option("file", o.scene, "scene: a .gltf or .glb file")->type_name("FILE")->required();
+  app.add_option(
+         "--reference", o.reference,
+         "reference picture; by default one rendered with the first configuration and 64 times the samples")
+      ->type_name("FILE");
+  app.add_option("--repetitions", o.repetitions, "pictures per step, each with its own seed")
+      ->check(wholeNumber(1, 1000))
+      ->capture_default_str();
+  app.add_option("--goal", o.goal, "relative MSE at which times are compared")
+      ->check(CLI::Range(1e-12, 1e3))
+      ->capture_default_str();
+  addJsonOption(app, o.files, "write all measurements to this JSON file");
+  app.add_option("--csv", o.files.csv, "write all measurements to this table")->type_name("FILE");
+  addChartOption(app, o.files, "write a chart of error against time, an .svg");
+  addConfigurationOptions(app, o.raw, "default,random,baseline, or default alone with --config");
+  app.get_option("--spp")->description(std::string("samples per pixel of the last step, by default ") +
+                                       kDefaultSamples);
+  addOptions(app, OptionGroup::Filter, o.raw.shared);
+  app.get_option("--denoise")
+      ->description(
+          joined(kDenoiseNames) +
+          "; also measures each picture after filtering; its time then includes rendering and filtering");
+}
+
+/// Throws UsageError.
+void settleError(const CLI::App& app, ErrorOptions& o) {
+  o.configurations =
+      configurationsOf(o.raw, app, o.scene, {"default", "random", "baseline"}, kDefaultSamples);
+  const OutputOptions& shared = o.raw.shared.options.output;
+  for (BenchConfiguration& c : o.configurations) {
+    c.render.output.denoise = shared.denoise;
+    c.render.output.oidnLibrary = shared.oidnLibrary;
+    if (shared.denoise == Denoise::None) continue;
+    const std::string reason = whyNotDenoised(c.render);
+    if (!reason.empty()) throw UsageError("configuration '" + c.name + "': --denoise: " + reason);
+  }
+  if (!std::isfinite(o.goal)) throw UsageError("--goal: not a finite number");
+  const auto isAdaptive = [](const BenchConfiguration& c) { return c.adaptive(); };
+  if (o.reference.empty() && std::ranges::all_of(o.configurations, isAdaptive))
+    throw UsageError("--reference: needed where every configuration is adaptive");
+  checkChart(o.files);
+}
 
 /// One configuration on the device.
 struct Contender {
@@ -178,7 +233,7 @@ Image makeReference(Contender& c, int samples, bool quiet) {
 
 std::string sizeText(glm::ivec2 size) { return std::to_string(size.x) + " x " + std::to_string(size.y); }
 
-Image readGivenReference(const BenchErrorOptions& options, glm::ivec2 size) {
+Image readGivenReference(const ErrorOptions& options, glm::ivec2 size) {
   const std::string name = options.reference.string();
   Image reference = readImage(options.reference);
   if (glm::ivec2(reference.width, reference.height) != size)
@@ -189,15 +244,11 @@ Image readGivenReference(const BenchErrorOptions& options, glm::ivec2 size) {
 }
 
 /// All pictures are compared with one reference.
-void checkSize(const BenchErrorOptions& options, glm::ivec2 first, const BenchConfiguration& configuration,
+void checkSize(const ErrorOptions& options, glm::ivec2 first, const BenchConfiguration& configuration,
                glm::ivec2 own) {
   if (own == first) return;
   throw UsageError("configuration '" + configuration.name + "': its picture is of " + sizeText(own) +
                    " pixels, that of '" + options.configurations.front().name + "' is of " + sizeText(first));
-}
-
-std::vector<NamedOutput> outputsOf(const BenchErrorOptions& options) {
-  return {{"--json", options.json}, {"--csv", options.csv}, {"--chart", options.chart}};
 }
 
 /// A configuration that is loaded, with its filter.
@@ -249,7 +300,7 @@ void repeat(Contender& c, const Judge& judge, int repetition) {
 }
 
 /// Moves the curves into the report.
-void takeCurves(std::vector<Contender>& contenders, const BenchErrorOptions& options, int referenceSamples,
+void takeCurves(std::vector<Contender>& contenders, const ErrorOptions& options, int referenceSamples,
                 ErrorReport& report) {
   constexpr double kFarFewer = 8.0;
   for (Contender& c : contenders) {
@@ -263,7 +314,7 @@ void takeCurves(std::vector<Contender>& contenders, const BenchErrorOptions& opt
   }
 }
 
-ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
+ErrorReport measure(const ErrorOptions& options, const Context& context) {
   const RenderOptions& first = options.configurations.front().render;
   std::vector<Contender> contenders;
   int most = 1;
@@ -271,7 +322,7 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
     const bool saidBefore = !contenders.empty();  // warnings are said once
     contenders.push_back(makeContender(configuration, context, saidBefore));
     if (!configuration.adaptive()) most = std::max(most, configuration.render.sampling.spp);
-    checkOutputs(outputsOf(options), inputsOf(contenders.back().loaded.scene));
+    checkResultFiles(options.files, inputsOf(contenders.back().loaded.scene));
     checkSize(options, contenders.front().loaded.size, configuration, contenders.back().loaded.size);
   }
   const glm::ivec2 size = contenders.front().loaded.size;
@@ -306,29 +357,18 @@ ErrorReport measure(const BenchErrorOptions& options, const Context& context) {
   return report;
 }
 
-int runBenchError(const BenchErrorOptions& options) {
-  std::vector<std::filesystem::path> inputs{options.reference};
-  for (const BenchConfiguration& configuration : options.configurations) {
-    for (const std::filesystem::path& input : inputsOf(configuration.render)) inputs.push_back(input);
-  }
-  checkOutputs(outputsOf(options), inputs);
-  const RenderOptions& first = options.configurations.front().render;
-  const auto context = makeContext(first.device.backend, first.device.vectorWidth);
+int runError(const ErrorOptions& options) {
+  std::vector<std::filesystem::path> inputs = inputsOf(options.configurations);
+  inputs.push_back(options.reference);
+  checkResultFiles(options.files, inputs);
+  const auto context = contextOf(options.configurations.front().render);
   const ErrorReport report = measure(options, *context);
-  countInterrupts();  // what is measured is written whole
-  std::fputs(errorTable(report).c_str(), stdout);
-  replaceText(options.json, errorJson(report));
-  replaceText(options.csv, errorCsv(report));
-  replaceText(options.chart, errorChart(report));
+  writeResults(options.files, {errorTable(report), errorJson(report), errorCsv(report), errorChart(report)});
   return 0;
 }
 
 }  // namespace
 
-RunCommand addBenchError(CLI::App& app) {
-  const auto raw = std::make_shared<RawBenchError>();
-  addBenchErrorOptions(app, *raw);
-  return [raw, &app] { return runBenchError(finishBenchError(*raw, app)); };
-}
+RunCommand addBenchError(CLI::App& app) { return commandOf(app, declareError, settleError, runError); }
 
 }  // namespace fragtrace

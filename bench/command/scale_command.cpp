@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
 // `fragtrace bench scale`: how time and memory grow with the number of triangles.
+#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 #include <memory>
 
 #include "bench/command/commands.h"
-#include "bench/command/scale_options.h"
+#include "bench/command/configurations.h"
+#include "bench/command/results.h"
 #include "bench/rays/ball_scene.h"
 #include "bench/rays/hit_check.h"
 #include "bench/rays/ray_sets.h"
 #include "bench/report/scale_report.h"
 #include "errors.h"
+#include "options/choose.h"
+#include "options/numbers.h"
 #include "pack/pack_tree.h"
-#include "session/interrupt.h"
-#include "session/outputs.h"
 #include "session/peak_memory.h"
 #include "session/progress_bar.h"
 #include "session/setup.h"
@@ -21,6 +23,81 @@
 namespace fragtrace {
 
 namespace {
+
+constexpr size_t kFewest = 100;
+constexpr size_t kMost = 100000000;
+
+const std::vector<std::string>& traversalNames() {
+  static const std::vector<std::string> names{"iterative", "bvh", "front-to-back"};
+  return names;
+}
+
+struct ScaleOptions {
+  RawRender raw;
+  RenderOptions render;  ///< resolution, device
+  std::vector<std::string> traversalNames{"front-to-back", "bvh", "iterative"};
+  std::vector<TraversalMethod> traversals;
+  size_t from = 1000;
+  size_t to = 10000000;
+  int perDecade = 2;  ///< sizes in a factor of ten
+  int rounds = 5;
+  double longest = 60.0;  ///< seconds a frame of the iterative traversal may take
+  ResultFiles files;
+};
+
+void declareScale(CLI::App& app, ScaleOptions& o) {
+  app.add_option("--from", o.from, "triangles of the smallest scene")
+      ->check(wholeNumber(kFewest, kMost))
+      ->capture_default_str();
+  app.add_option("--to", o.to, "triangles of the largest scene")
+      ->check(wholeNumber(kFewest, kMost))
+      ->capture_default_str();
+  app.add_option("--per-decade", o.perDecade, "number of sizes per factor of ten")
+      ->check(wholeNumber(1, 10))
+      ->capture_default_str();
+  addOption(app, "--resolution", o.raw, "WIDTH,HEIGHT of the picture in pixels")->check(wholeNumber(8, 4096));
+  o.raw.options.camera.resolution = glm::ivec2(500, 500);
+  app.add_option("--traversals", o.traversalNames,
+                 "traversals to measure: " + joined(traversalNames()) + "; ratios are to the first")
+      ->delimiter(',');
+  app.add_option("--rounds", o.rounds, "rounds of timing")
+      ->check(wholeNumber(1, 1000))
+      ->capture_default_str();
+  app.add_option("--longest", o.longest,
+                 "skip the iterative traversal if its frame takes longer than this many seconds")
+      ->check(CLI::Range(0.001, 1e6))
+      ->capture_default_str();
+  addJsonOption(app, o.files, "write all measurements to this file, one JSON line per size");
+  addChartOption(app, o.files, "write a chart of time against triangles, an .svg");
+  addDeviceOptions(app, o.raw);
+}
+
+/// Throws UsageError.
+void settleScale(const CLI::App&, ScaleOptions& o) {
+  o.raw.stage = "flat";
+  o.render = finishRender(o.raw);
+  if (o.to < o.from) throw UsageError("--to: is below --from");
+  for (const std::string& name : o.traversalNames) {
+    const int index = choose<int>("--traversals", name, traversalNames());
+    if (std::ranges::count(o.traversalNames, name) > 1)
+      throw UsageError("--traversals: '" + name + "' stands twice");
+    o.traversals.push_back(TraversalMethod(index + int(TraversalMethod::Iterative)));
+  }
+  checkChart(o.files);
+}
+
+/// The sizes: from, then perDecade a factor of ten, and to.
+std::vector<size_t> sizesOf(const ScaleOptions& options) {
+  std::vector<size_t> sizes;
+  for (int i = 0;; ++i) {
+    const double size = double(options.from) * std::pow(10.0, double(i) / options.perDecade);
+    // What is left to the last one is not worth a size of its own.
+    if (size > 0.95 * double(options.to)) break;
+    sizes.push_back(size_t(std::llround(size)));
+  }
+  sizes.push_back(options.to);
+  return sizes;
+}
 
 constexpr double kRoundMs = 300.0;  // of frames, each round
 constexpr int kMostFrames = 64;
@@ -36,7 +113,7 @@ struct Runner {
 };
 
 struct Setting {
-  const BenchScaleOptions& options;
+  const ScaleOptions& options;
   const Context& context;
   View view;
   glm::ivec2 size;
@@ -138,7 +215,7 @@ ScaleFrames measureIterative(const Setting& setting, const Scene& scene, std::sp
 
 /// What times the traversals of the tree that are asked for; without a renderer yet.
 std::vector<Runner> treeRunners(const Setting& setting, const Scene& scene, uint32_t depth) {
-  const BenchScaleOptions& options = setting.options;
+  const ScaleOptions& options = setting.options;
   std::vector<Runner> runners;
   for (size_t i = 0; i < options.traversals.size(); ++i) {
     const TraversalMethod traversal = options.traversals[i];
@@ -164,7 +241,7 @@ std::unique_ptr<Image> checkRunners(Setting& setting, std::vector<Runner>& runne
 }
 
 ScaleRow measureSize(Setting& setting, size_t wanted, double iterativeMsPerTriangle) {
-  const BenchScaleOptions& options = setting.options;
+  const ScaleOptions& options = setting.options;
   ScaleRow row;
   const bool peakKnown = resetPeakMemory();
   Stopwatch watch;
@@ -220,7 +297,7 @@ ScaleRow measureSize(Setting& setting, size_t wanted, double iterativeMsPerTrian
   return row;
 }
 
-ScaleReport measure(const BenchScaleOptions& options, const Context& context) {
+ScaleReport measure(const ScaleOptions& options, const Context& context) {
   Setting setting{options, context, {}, *options.render.camera.resolution};
   setting.view.showEnvironment = false;
   ScaleReport report;
@@ -243,24 +320,16 @@ ScaleReport measure(const BenchScaleOptions& options, const Context& context) {
   return report;
 }
 
-int runBenchScale(const BenchScaleOptions& options) {
-  const std::vector<NamedOutput> outputs{{"--json", options.json}, {"--chart", options.chart}};
-  checkOutputs(outputs, {});
-  const auto context = makeContext(options.render.device.backend, options.render.device.vectorWidth);
+int runScale(const ScaleOptions& options) {
+  checkResultFiles(options.files, {});
+  const auto context = contextOf(options.render);
   const ScaleReport report = measure(options, *context);
-  countInterrupts();  // what is measured is written whole
-  std::fputs(scaleTable(report).c_str(), stdout);
-  replaceText(options.json, scaleJson(report));
-  replaceText(options.chart, scaleChart(report));
+  writeResults(options.files, {scaleTable(report), scaleJson(report), {}, scaleChart(report)});
   return 0;
 }
 
 }  // namespace
 
-RunCommand addBenchScale(CLI::App& app) {
-  const auto raw = std::make_shared<RawBenchScale>();
-  addBenchScaleOptions(app, *raw);
-  return [raw] { return runBenchScale(finishBenchScale(*raw)); };
-}
+RunCommand addBenchScale(CLI::App& app) { return commandOf(app, declareScale, settleScale, runScale); }
 
 }  // namespace fragtrace

@@ -112,14 +112,14 @@ void checkSettings(const Context& context, std::span<TimedSetting> settings,
   bar.clear();
 }
 
-std::string wrongPictures(std::span<const FrameSetting> settings) {
+void throwIfWrong(std::span<const FrameSetting> settings) {
   std::string text;
   for (const FrameSetting& s : settings) {
     if (s.picture.wrong.empty()) continue;
     text += (text.empty() ? "" : "; ") + s.scene + ", " + s.configuration + ": " + s.picture.wrong +
             " (against " + s.picture.against + ")";
   }
-  return text;
+  if (!text.empty()) throw RenderError("wrong picture: " + text);
 }
 
 }  // namespace fragtrace

@@ -30,7 +30,7 @@ void checkSize(const ReferencePicture& reference, const TimedSetting& setting);
 void checkSettings(const Context& context, std::span<TimedSetting> settings,
                    const std::optional<ReferencePicture>& reference, bool quiet);
 
-/// The failure that wrong pictures are: "a.gltf, bvh: ...". Empty: none.
-std::string wrongPictures(std::span<const FrameSetting> settings);
+/// Throws RenderError, which names them, where pictures are wrong.
+void throwIfWrong(std::span<const FrameSetting> settings);
 
 }  // namespace fragtrace

@@ -6,23 +6,27 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <algorithm>
-#include <memory>
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <functional>
+#include <iterator>
 #include <system_error>
 
 #include "bench/command/commands.h"
-#include "bench/command/start_options.h"
-#include "bench/report/start_report.h"
+#include "bench/command/results.h"
+#include "bench/report/formatted.h"
+#include "bench/report/json.h"
+#include "bench/report/scratch_folder.h"
 #include "cli/own_program.h"
 #include "errors.h"
+#include "math/summary.h"
 #include "options/command_text.h"
+#include "options/numbers.h"
 #include "options/option_text.h"
-#include "session/interrupt.h"
-#include "session/outputs.h"
+#include "options/parse_render.h"
 #include "session/phase_timer.h"
 #include "session/progress_bar.h"
 
@@ -30,25 +34,35 @@ namespace fragtrace {
 
 namespace {
 
-/// A folder that goes with it.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "fragtrace-start-XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw RenderError(name + ": cannot be made");
-    path_ = name;
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code error;
-    std::filesystem::remove_all(path_, error);
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
+struct StartOptions {
+  RawRender raw;
+  std::string format = "png";
+  RenderOptions render;  ///< with the picture's file name, which is put into a folder of its own
+  int starts = 7;
+  ResultFiles files;
 };
+
+void declareStart(CLI::App& app, StartOptions& o) {
+  addOption(app, "file", o.raw)->required();
+  app.add_option("--starts", o.starts, "number of starts")
+      ->check(wholeNumber(1, 1000))
+      ->capture_default_str();
+  app.add_option("--format", o.format, "format of the picture: png, jpg, exr, hdr, pfm")
+      ->check(CLI::IsMember({"png", "jpg", "exr", "hdr", "pfm"}))
+      ->capture_default_str();
+  addJsonOption(app, o.files, "write all measurements to this JSON file");
+  addOptions(app, OptionGroup::Tracing, o.raw);
+}
+
+/// Throws UsageError.
+void settleStart(const CLI::App&, StartOptions& o) {
+  o.raw.options.output.file = "picture." + o.format;
+  o.render = finishRender(o.raw);
+  if (isAdaptive(o.render))
+    throw UsageError("--noise and --time: a start ends with a number of samples; --spp says which");
+  if (!o.render.output.statsFile.empty())
+    throw UsageError("--stats: each start has its own; --json has them all");
+}
 
 struct EndedProcess {
   double begin = 0.0;  ///< steadyMilliseconds()
@@ -90,49 +104,93 @@ EndedProcess startAndAwait(std::vector<std::string> words) {
   return ended;
 }
 
-nlohmann::json readStatistics(const std::filesystem::path& path) {
+Json readStatistics(const std::filesystem::path& path) {
   std::ifstream file(path);
   try {
-    return nlohmann::json::parse(file);
-  } catch (const nlohmann::json::exception& error) {
+    return Json::parse(file);
+  } catch (const Json::exception& error) {
     throw RenderError(path.string() + ": " + error.what());
   }
 }
 
-void addTimes(StartReport& report, size_t row, const std::string& phase, const std::string& thread,
-              double begin, double end, double cpu) {
-  if (row == report.rows.size()) report.rows.push_back({phase, thread, {}, {}, {}});
-  report.rows[row].beginMs.push_back(begin);
-  report.rows[row].endMs.push_back(end);
-  report.rows[row].cpuMs.push_back(cpu);
+std::vector<double> listOf(const Json& json) { return json.get<std::vector<double>>(); }
+
+double medianOf(const std::vector<double>& values) { return summarize(values).median; }
+
+/// "281 ms (274 to 294)"
+std::string rangeText(const std::vector<double>& ms) {
+  const auto [least, most] = std::ranges::minmax(ms);
+  return formatted("%.4g ms (%.4g to %.4g)", medianOf(ms), least, most);
 }
 
-/// The steps of one start: up to the program's first, its own, and what comes after the picture.
-void addStart(StartReport& report, const EndedProcess& process, const nlohmann::json& statistics) {
+void addTimes(Json& phases, size_t row, const Json& phase, const Json& thread, double begin, double end,
+              double cpu) {
+  if (row == phases.size()) phases.push_back({{"phase", phase}, {"thread", thread}});
+  phases[row]["begin_ms"].push_back(begin);
+  phases[row]["end_ms"].push_back(end);
+  phases[row]["cpu_ms"].push_back(cpu);
+}
+
+/// The steps of one start, in milliseconds since the process was started: up to the program's first, its own,
+/// and what comes after the picture.
+void addStart(Json& report, const EndedProcess& process, const Json& statistics) {
+  for (const char* key : {"width", "height", "gl_renderer", "variant", "quick_compilation"})
+    report[key] = statistics[key];
   const double zero = statistics["clock_ms"].get<double>() - process.begin;
+  Json& phases = report["phases"];
   size_t row = 0;
-  addTimes(report, row++, "process", "main", 0.0, zero, statistics["clock_cpu_ms"].get<double>());
+  addTimes(phases, row++, "process", "main", 0.0, zero, statistics["clock_cpu_ms"]);
   double written = 0.0;
-  for (const nlohmann::json& phase : statistics["phases"]) {
+  for (const Json& phase : statistics["phases"]) {
     const double end = zero + phase["end_ms"].get<double>();
-    addTimes(report, row++, phase["name"], phase["thread"], zero + phase["begin_ms"].get<double>(), end,
-             phase["cpu_ms"].get<double>());
+    addTimes(phases, row++, phase["name"], phase["thread"], zero + phase["begin_ms"].get<double>(), end,
+             phase["cpu_ms"]);
     written = std::max(written, end);
   }
-  report.writtenMs.push_back(written);
-  report.endedMs.push_back(process.end - process.begin);
-  report.cpuMs.push_back(process.cpuMs);
+  report["written_ms"].push_back(written);
+  report["ended_ms"].push_back(process.end - process.begin);
+  report["cpu_ms"].push_back(process.cpuMs);
 }
 
-int runBenchStart(const BenchStartOptions& options) {
-  const std::vector<NamedOutput> outputs{{"--json", options.json}};
-  checkOutputs(outputs, inputsOf(options.render));
+std::string startTable(const Json& report) {
+  const auto textOf = [](const Json& json) { return json.get<std::string>(); };
+  const double whole = medianOf(listOf(report["written_ms"]));
+  std::string text = formatted("%s, %d x %d, %s, %zu cold starts%s\n%s\n\n", textOf(report["scene"]).c_str(),
+                               report["width"].get<int>(), report["height"].get<int>(),
+                               textOf(report["gl_renderer"]).c_str(), report["written_ms"].size(),
+                               report["quick_compilation"] ? ", compiled without optimising" : "",
+                               textOf(report["variant"]).c_str());
+  text += formatted("%-14s %-12s %10s %10s %10s %10s %8s\n", "phase", "thread", "begin ms", "end ms",
+                    "wall ms", "CPU ms", "share");
+  for (const Json& row : report["phases"]) {
+    const std::vector<double> begin = listOf(row["begin_ms"]);
+    const std::vector<double> end = listOf(row["end_ms"]);
+    std::vector<double> wall;
+    std::ranges::transform(end, begin, std::back_inserter(wall), std::minus());
+    const double share = whole > 0.0 ? 100.0 * medianOf(wall) / whole : 0.0;
+    text += formatted("%-14s %-12s %10.1f %10.1f %10.1f %10.1f %6.1f %%\n", textOf(row["phase"]).c_str(),
+                      textOf(row["thread"]).c_str(), medianOf(begin), medianOf(end), medianOf(wall),
+                      medianOf(listOf(row["cpu_ms"])), share);
+  }
+  return text + formatted("\nwritten after %s, ended after %s, CPU %s\n",
+                          rangeText(listOf(report["written_ms"])).c_str(),
+                          rangeText(listOf(report["ended_ms"])).c_str(),
+                          rangeText(listOf(report["cpu_ms"])).c_str());
+}
+
+int runStart(const StartOptions& options) {
+  checkResultFiles(options.files, inputsOf(options.render));
   const ScratchFolder folder;
   RenderOptions render = options.render;
   render.output.file = folder.path() / render.output.file;
-  StartReport report;
-  report.scene = render.scene.filename().string();
-  report.command = commandText(options.render);
+  // In the order of the file.
+  Json report = {{"schema", 1},
+                 {"bench", "start"},
+                 {"scene", render.scene.filename().string()},
+                 {"command", commandText(options.render)}};
+  for (const char* key : {"width", "height", "gl_renderer", "variant", "quick_compilation", "written_ms",
+                          "ended_ms", "cpu_ms", "phases"})
+    report[key] = nullptr;
   std::vector<std::string> words = splitWords(commandText(render));
   words.erase(words.begin());
   const std::filesystem::path file = folder.path() / "statistics.json";
@@ -142,27 +200,15 @@ int runBenchStart(const BenchStartOptions& options) {
   for (int i = 0; i < options.starts; ++i) {
     bar.show(double(i) / options.starts);
     const EndedProcess process = startAndAwait(words);
-    const nlohmann::json statistics = readStatistics(file);
-    addStart(report, process, statistics);
-    report.renderer = statistics["gl_renderer"];
-    report.variant = statistics["variant"];
-    report.quickCompilation = statistics["quick_compilation"];
-    report.width = statistics["width"];
-    report.height = statistics["height"];
+    addStart(report, process, readStatistics(file));
   }
   bar.clear();
-  countInterrupts();  // what is measured is written whole
-  std::fputs(startTable(report).c_str(), stdout);
-  replaceText(options.json, startJson(report));
+  writeResults(options.files, {startTable(report), jsonLine(report), {}, {}});
   return 0;
 }
 
 }  // namespace
 
-RunCommand addBenchStart(CLI::App& app) {
-  const auto raw = std::make_shared<RawBenchStart>();
-  addBenchStartOptions(app, *raw);
-  return [raw] { return runBenchStart(finishBenchStart(*raw)); };
-}
+RunCommand addBenchStart(CLI::App& app) { return commandOf(app, declareStart, settleStart, runStart); }
 
 }  // namespace fragtrace

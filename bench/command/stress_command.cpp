@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 // `fragtrace bench stress`: every row of bench/stress, as a table; status 1 when one is over its limit.
+#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
-#include <memory>
 
 #include "bench/command/commands.h"
-#include "bench/command/stress_options.h"
+#include "bench/command/configurations.h"
+#include "bench/command/results.h"
 #include "bench/stress/stress.h"
 #include "errors.h"
 #include "options/choose.h"
-#include "session/interrupt.h"
-#include "session/outputs.h"
 #include "session/progress_bar.h"
 #include "session/setup.h"
 
@@ -18,20 +16,42 @@ namespace fragtrace {
 
 namespace {
 
-std::vector<StressRow> chosenRows(const BenchStressOptions& options) {
+struct StressOptions {
+  RawRender raw;
+  RenderOptions render;           ///< device
+  std::vector<std::string> rows;  ///< those whose name holds one of these; empty: all
+  bool quick = false;
+  ResultFiles files;
+};
+
+void declareStress(CLI::App& app, StressOptions& o) {
+  app.add_flag("--quick", o.quick, "run about 1/100 of the cases");
+  app.add_option("--rows", o.rows,
+                 "run only the rows whose name contains one of these strings, separated by commas")
+      ->delimiter(',');
+  addJsonOption(app, o.files, "write all results to this file, one JSON line per row");
+  addDeviceOptions(app, o.raw);
+  addOption(app, "--schedule", o.raw,
+            "how paths are scheduled: " + joined(kScheduleNames) +
+                "; auto uses the megakernel, because the pictures are small");
+}
+
+void settleStress(const CLI::App&, StressOptions& o) { o.render = finishRender(o.raw); }
+
+std::vector<StressRow> chosenRows(const StressOptions& options) {
   std::vector<StressRow> rows = stressRows();
-  std::vector<std::string> names;
-  names.reserve(rows.size());
-  for (const StressRow& row : rows) names.push_back(row.name);
+  const auto holds = [](const StressRow& row, const std::string& part) {
+    return row.name.find(part) != std::string::npos;
+  };
   for (const std::string& part : options.rows) {
-    if (std::ranges::none_of(names,
-                             [&](const std::string& name) { return name.find(part) != std::string::npos; }))
-      throw UsageError("--rows: '" + part + "' is in none of " + joined(names));
+    if (std::ranges::any_of(rows, [&](const StressRow& row) { return holds(row, part); })) continue;
+    std::vector<std::string> names;
+    for (const StressRow& row : rows) names.push_back(row.name);
+    throw UsageError("--rows: '" + part + "' is in none of " + joined(names));
   }
-  if (options.rows.empty()) return rows;
   std::erase_if(rows, [&](const StressRow& row) {
-    return std::ranges::none_of(
-        options.rows, [&](const std::string& part) { return row.name.find(part) != std::string::npos; });
+    return !options.rows.empty() &&
+           std::ranges::none_of(options.rows, [&](const std::string& part) { return holds(row, part); });
   });
   return rows;
 }
@@ -43,7 +63,7 @@ StressOutcome timed(const StressRow& row, const StressSetting& setting) {
   return outcome;
 }
 
-StressReport measure(const BenchStressOptions& options, const std::vector<StressRow>& rows,
+StressReport measure(const StressOptions& options, const std::vector<StressRow>& rows,
                      const Context& context) {
   StressReport report;
   report.backend = context.backend;
@@ -64,15 +84,12 @@ StressReport measure(const BenchStressOptions& options, const std::vector<Stress
   return report;
 }
 
-int runBenchStress(const BenchStressOptions& options) {
-  const std::vector<NamedOutput> outputs{{"--json", options.json}};
-  checkOutputs(outputs, {});
+int runStress(const StressOptions& options) {
+  checkResultFiles(options.files, {});
   const std::vector<StressRow> rows = chosenRows(options);
-  const auto context = makeContext(options.render.device.backend, options.render.device.vectorWidth);
+  const auto context = contextOf(options.render);
   const StressReport report = measure(options, rows, *context);
-  countInterrupts();  // what was found is written whole
-  std::fputs(stressTable(report).c_str(), stdout);
-  replaceText(options.json, stressJson(report));
+  writeResults(options.files, {stressTable(report), stressJson(report), {}, {}});
   if (report.rowsOver() > 0)
     throw RenderError(std::to_string(report.rowsOver()) + " of " + std::to_string(report.rows.size()) +
                       " rows are over their limit");
@@ -81,10 +98,6 @@ int runBenchStress(const BenchStressOptions& options) {
 
 }  // namespace
 
-RunCommand addBenchStress(CLI::App& app) {
-  const auto raw = std::make_shared<RawBenchStress>();
-  addBenchStressOptions(app, *raw);
-  return [raw] { return runBenchStress(finishBenchStress(*raw)); };
-}
+RunCommand addBenchStress(CLI::App& app) { return commandOf(app, declareStress, settleStress, runStress); }
 
 }  // namespace fragtrace

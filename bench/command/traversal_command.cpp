@@ -1,26 +1,68 @@
 // SPDX-License-Identifier: MIT
 // `fragtrace bench traversal`: rays a second of each kind, nothing shaded.
-#include <cstdio>
+#include <CLI/CLI.hpp>
 #include <cstring>
 #include <memory>
 
 #include "bench/command/commands.h"
-#include "bench/command/traversal_options.h"
+#include "bench/command/configurations.h"
+#include "bench/command/results.h"
 #include "bench/rays/hit_check.h"
 #include "bench/rays/ray_sets.h"
 #include "bench/report/traversal_report.h"
 #include "errors.h"
 #include "image/files/whole_file.h"
+#include "options/numbers.h"
 #include "pack/literals.h"
 #include "render/ray_caster.h"
-#include "session/interrupt.h"
-#include "session/outputs.h"
 #include "session/progress_bar.h"
 #include "session/setup.h"
 
 namespace fragtrace {
 
 namespace {
+
+struct TraversalOptions {
+  RawRender raw;
+  RenderOptions render;  ///< scene, camera, traversal, device
+  int rounds = 7;
+  std::filesystem::path rays;  ///< triangles and rays for another tracer
+  ResultFiles files;
+};
+
+void declareTraversal(CLI::App& app, TraversalOptions& o) {
+  addOption(app, "file", o.raw)->required();
+  addOption(app, "--resolution", o.raw, "WIDTH,HEIGHT of the grid of primary rays, one ray per pixel")
+      ->check(wholeNumber(1, 4096));
+  o.raw.options.camera.resolution = glm::ivec2(1024, 1024);
+  app.add_option("--rounds", o.rounds, "rounds of timing")
+      ->check(wholeNumber(1, 10000))
+      ->capture_default_str();
+  addOption(app, "--traversal", o.raw, "traversal to measure: auto, bvh, front-to-back");
+  addOption(app, "--camera-index", o.raw, "index of the camera of the primary rays, from 0");
+  addOption(app, "--camera", o.raw, "name or index of the camera of the primary rays");
+  addOption(app, "--seed", o.raw, "seed of the diffuse and shadow rays");
+  addJsonOption(app, o.files, "write all measurements to this file, one JSON line per kind of ray");
+  app.add_option("--rays", o.rays, "write triangles and rays to this file, for another tracer (bench/peers)")
+      ->type_name("FILE");
+  addDeviceOptions(app, o.raw);
+}
+
+/// Throws UsageError.
+void settleTraversal(const CLI::App&, TraversalOptions& o) {
+  o.raw.stage = "flat";
+  o.raw.noDefaultLight = true;
+  o.raw.options.device.instancing = Instancing::Flatten;
+  o.render = finishRender(o.raw);
+  if (o.render.device.traversal == TraversalMethod::Iterative)
+    throw UsageError("--traversal: 'iterative' takes more than one draw; `bench scale` measures it");
+  if (o.render.device.traversal == TraversalMethod::Literals)
+    throw UsageError("--traversal: 'literals' has no tree; 'bench traversal' measures trees");
+}
+
+void checkFiles(const TraversalOptions& options, const std::vector<std::filesystem::path>& inputs) {
+  checkOutputs(std::vector<NamedOutput>{{"--json", options.files.json}, {"--rays", options.rays}}, inputs);
+}
 
 struct MeasuredSet {
   RayKind kind;
@@ -30,12 +72,6 @@ struct MeasuredSet {
 
   bool anyHit() const { return kind == RayKind::Shadow; }
 };
-
-std::vector<FoundHit> foundBy(const RayCaster& caster, const Bvh& bvh) {
-  std::vector<FoundHit> found;
-  for (const TracedRay& hit : caster.hits()) found.push_back({primitiveInSlot(bvh, hit.slot), hit.t});
-  return found;
-}
 
 std::vector<MeasuredSet> makeSets(const LoadedScene& loaded, const ExactTracer& tracer, uint32_t seed) {
   std::vector<Ray> primary = primaryRays(loaded.camera, loaded.scene.space, loaded.size);
@@ -89,11 +125,10 @@ void writeRays(const std::filesystem::path& path, const Scene& scene, const std:
   replaceFile(path, bytes);
 }
 
-TraversalReport measure(const BenchTraversalOptions& options, const Context& context) {
+TraversalReport measure(const TraversalOptions& options, const Context& context) {
   Statistics stats;
   LoadedScene loaded = loadScene(options.render, stats);
-  const std::vector<NamedOutput> outputs{{"--json", options.json}, {"--rays", options.rays}};
-  checkOutputs(outputs, inputsOf(loaded.scene));
+  checkFiles(options, inputsOf(loaded.scene));
   const Scene& scene = loaded.scene;
   if (!options.rays.empty() && !scene.spheres.empty())
     throw InputError(options.render.scene.string() + ": has spheres, which --rays does not write");
@@ -143,23 +178,18 @@ TraversalReport measure(const BenchTraversalOptions& options, const Context& con
   return report;
 }
 
-int runBenchTraversal(const BenchTraversalOptions& options) {
-  const std::vector<NamedOutput> outputs{{"--json", options.json}, {"--rays", options.rays}};
-  checkOutputs(outputs, inputsOf(options.render));
-  const auto context = makeContext(options.render.device.backend, options.render.device.vectorWidth);
+int runTraversal(const TraversalOptions& options) {
+  checkFiles(options, inputsOf(options.render));
+  const auto context = contextOf(options.render);
   const TraversalReport report = measure(options, *context);
-  countInterrupts();  // what is measured is written whole
-  std::fputs(traversalTable(report).c_str(), stdout);
-  replaceText(options.json, traversalJson(report));
+  writeResults(options.files, {traversalTable(report), traversalJson(report), {}, {}});
   return 0;
 }
 
 }  // namespace
 
 RunCommand addBenchTraversal(CLI::App& app) {
-  const auto raw = std::make_shared<RawBenchTraversal>();
-  addBenchTraversalOptions(app, *raw);
-  return [raw] { return runBenchTraversal(finishBenchTraversal(*raw)); };
+  return commandOf(app, declareTraversal, settleTraversal, runTraversal);
 }
 
 }  // namespace fragtrace

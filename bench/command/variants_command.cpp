@@ -1,25 +1,59 @@
 // SPDX-License-Identifier: MIT
 // `fragtrace bench variants`: what leaving out of the shader what a scene does not need saves.
+#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 
 #include "bench/command/commands.h"
+#include "bench/command/results.h"
 #include "bench/command/setting_check.h"
-#include "bench/command/variants_options.h"
-#include "bench/report/machine.h"
-#include "bench/report/variants_table.h"
+#include "bench/report/frame_report.h"
 #include "errors.h"
+#include "options/choose.h"
 #include "pack/gpu_scene.h"
-#include "session/interrupt.h"
-#include "session/outputs.h"
 #include "stage/forced_variants.h"
 
 namespace fragtrace {
 
 namespace {
 
-std::vector<NamedOutput> outputsOf(const BenchVariantsOptions& options) { return {{"--json", options.json}}; }
+struct VariantsOptions {
+  std::vector<std::string> sceneNames;
+  RawConfigurations raw;
+  std::vector<BenchConfiguration> scenes;  ///< one each
+  std::vector<std::string> only;           ///< what is turned on; empty: everything
+  FrameTiming timing;
+  ResultFiles files;
+
+  const RenderOptions& first() const { return scenes.front().render; }
+};
+
+std::vector<std::string> forcedNames() {
+  std::vector<std::string> names;
+  for (const TraitRow& row : traitRows()) names.emplace_back(row.name);
+  for (const char* name : {"all traits", "stack-32", "resumable"}) names.emplace_back(name);
+  return names;
+}
+
+void declareVariants(CLI::App& app, VariantsOptions& o) {
+  app.add_option("scenes", o.sceneNames, "scenes: .gltf or .glb files")->type_name("FILE")->required();
+  app.add_option("--only", o.only, "traits to turn on, one at a time: " + joined(forcedNames()))
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  addTimingOptions(app, o.timing);
+  addJsonOption(app, o.files, "write all measurements to this file, one JSON line per setting");
+  addOptions(app, OptionGroup::Tracing, o.raw.shared);
+  app.get_option("--spp")->description("frames per round; by default as many as fit into --round-time");
+}
+
+/// Throws UsageError.
+void settleVariants(const CLI::App& app, VariantsOptions& o) {
+  for (const std::string& name : o.only) choose<size_t>("--only", name, forcedNames());
+  for (const std::string& scene : o.sceneNames) {
+    o.scenes.push_back(configurationOf(o.raw, app, "own variant", "", scene));
+    checkTimed(o.scenes.back());
+  }
+}
 
 /// The scene as a variant reads it, which may want an environment where there is none: a black one. Entry and
 /// traversal are those of the scene's own variant.
@@ -42,13 +76,13 @@ struct SceneResult {
   std::vector<std::pair<std::string, std::string>> notForced;
 };
 
-SceneResult measure(const BenchVariantsOptions& options, const BenchConfiguration& configuration,
+SceneResult measure(const VariantsOptions& options, const BenchConfiguration& configuration,
                     const Context& context) {
   SceneResult result;
   std::vector<TimedSetting> settings;
   settings.push_back(makeSetting(context, configuration, options.timing));
   const std::shared_ptr<const LoadedScene> loaded = settings.front().loaded;
-  checkOutputs(outputsOf(options), inputsOf(loaded->scene));
+  checkResultFiles(options.files, inputsOf(loaded->scene));
   const ShaderVariant own = settings.front().tracer.variant;
   const Surroundings surroundings = loaded->environment.kind;
   const std::vector<ForcedVariant> left =
@@ -78,37 +112,27 @@ SceneResult measure(const BenchVariantsOptions& options, const BenchConfiguratio
   return result;
 }
 
-int runBenchVariants(const BenchVariantsOptions& options) {
-  std::vector<std::filesystem::path> inputs;
-  for (const BenchConfiguration& scene : options.scenes) {
-    for (const std::filesystem::path& input : inputsOf(scene.render)) inputs.push_back(input);
-  }
-  checkOutputs(outputsOf(options), inputs);
-  const auto context = makeContext(options.first().device.backend, options.first().device.vectorWidth);
+int runVariants(const VariantsOptions& options) {
+  checkResultFiles(options.files, inputsOf(options.scenes));
+  const auto context = contextOf(options.first());
   const BenchMachine machine = describeMachine(*context);
-  std::string table;
-  std::string json;
-  std::string wrong;
+  ResultTexts texts;
+  std::vector<SceneResult> results;
   for (const BenchConfiguration& scene : options.scenes) {
-    const SceneResult result = measure(options, scene, *context);
-    if (!table.empty()) table += "\n";
-    table += variantsTable(machine, result.measured, result.notForced);
-    json += frameJson("variants", machine, result.measured);
-    if (wrong.empty()) wrong = wrongPictures(result.measured);
+    const SceneResult& result = results.emplace_back(measure(options, scene, *context));
+    if (!texts.table.empty()) texts.table += "\n";
+    texts.table += variantsTable(machine, result.measured, result.notForced);
+    texts.json += frameJson("variants", machine, result.measured);
   }
-  countInterrupts();  // what is measured is written whole
-  std::fputs(table.c_str(), stdout);
-  replaceText(options.json, json);
-  if (!wrong.empty()) throw RenderError("wrong picture: " + wrong);
+  writeResults(options.files, texts);
+  for (const SceneResult& result : results) throwIfWrong(result.measured);
   return 0;
 }
 
 }  // namespace
 
 RunCommand addBenchVariants(CLI::App& app) {
-  const auto raw = std::make_shared<RawBenchVariants>();
-  addBenchVariantsOptions(app, *raw);
-  return [raw, &app] { return runBenchVariants(finishBenchVariants(*raw, app)); };
+  return commandOf(app, declareVariants, settleVariants, runVariants);
 }
 
 }  // namespace fragtrace

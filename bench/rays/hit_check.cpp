@@ -23,6 +23,12 @@ int materialOf(const Scene& scene, const ExactHit& hit) {
 
 }  // namespace
 
+std::vector<FoundHit> foundBy(const RayCaster& caster, const Bvh& bvh) {
+  std::vector<FoundHit> found;
+  for (const TracedRay& hit : caster.hits()) found.push_back({primitiveInSlot(bvh, hit.slot), hit.t});
+  return found;
+}
+
 size_t countWrongNearest(std::span<const Ray> rays, std::span<const FoundHit> found,
                          std::span<const ExactHit> exact, double sceneSize) {
   size_t wrong = 0;

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "bvh/exact_tracer.h"
 #include "image/image.h"
+#include "render/ray_caster.h"
 
 namespace fragtrace {
 
@@ -14,6 +16,9 @@ struct FoundHit {
   uint32_t primitive = kMissIndex;
   float t = 0.0f;
 };
+
+/// What the last rays have hit, on this tree.
+std::vector<FoundHit> foundBy(const RayCaster& caster, const Bvh& bvh);
 
 /// Rays whose nearest hit is another one: a miss for a hit or the other way round, or another primitive at
 /// another distance (more than 1e-5 of it and of the size of the scene apart; where two meet, either is

@@ -60,22 +60,16 @@ std::string number(double value) {
 std::string escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else
+      result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
   }
   return result;
 }
@@ -132,24 +126,22 @@ struct Layout {
   double toY(double value) const { return bottom() - kPlotHeight * positionOn(y, value); }
 };
 
-bool hasPlace(const Chart& chart, const ChartPoint& point) {
-  return isShown(point.x, chart.logX) && isShown(point.y, chart.logY);
-}
+bool hasPlace(const ChartPoint& point) { return isShown(point.x) && isShown(point.y); }
 
 void fitAxes(const Chart& chart, Layout& layout) {
   std::vector<double> xs;
   std::vector<double> ys;
   for (const ChartSeries& series : chart.series) {
     for (const ChartPoint& point : series.points) {
-      if (!hasPlace(chart, point)) continue;
+      if (!hasPlace(point)) continue;
       xs.push_back(point.x);
       for (const double y : {point.y, point.low.value_or(point.y), point.high.value_or(point.y)})
         ys.push_back(y);
     }
   }
   if (chart.line) ys.push_back(chart.line->y);
-  layout.x = fitAxis(xs, chart.logX);
-  layout.y = fitAxis(ys, chart.logY);
+  layout.x = fitAxis(xs);
+  layout.y = fitAxis(ys);
 }
 
 Layout layOut(const Chart& chart) {
@@ -240,20 +232,19 @@ std::string drawMarker(const Style& style, Point at) {
          (style.isFilled ? "#FFFFFF" : color) + "' stroke-width='" + (style.isFilled ? "1" : "2") + "'/>\n";
 }
 
-std::string drawErrorBars(const Chart& chart, const Layout& layout, const ChartSeries& series,
-                          const std::string& color) {
+std::string drawErrorBars(const Layout& layout, const ChartSeries& series, const std::string& color) {
   constexpr double kCap = 4;
   std::vector<std::array<Point, 2>> lines;
   for (const ChartPoint& point : series.points) {
-    if (!hasPlace(chart, point)) continue;
+    if (!hasPlace(point)) continue;
     const Point at{layout.toX(point.x), layout.toY(point.y)};
     for (const std::optional<double>& end : {point.low, point.high}) {
-      if (!end || !isShown(*end, chart.logY)) continue;
+      if (!end || !isShown(*end)) continue;
       const double y = layout.toY(*end);
       lines.push_back({at, Point{at.x, y}});
       lines.push_back({Point{at.x - kCap, y}, Point{at.x + kCap, y}});
     }
-    if (chart.logY && point.low && *point.low <= 0) lines.push_back({at, Point{at.x, layout.bottom()}});
+    if (point.low && *point.low <= 0) lines.push_back({at, Point{at.x, layout.bottom()}});
   }
   return linesPath(lines, "class='bar' stroke='" + color + "' stroke-width='1.2'");
 }
@@ -267,13 +258,13 @@ std::string drawSeries(const Chart& chart, const Layout& layout, size_t index) {
   std::string markers;
   for (size_t i = 0; i < series.points.size(); ++i) {
     const ChartPoint& point = series.points[i];
-    if (!hasPlace(chart, point)) continue;
+    if (!hasPlace(point)) continue;
     const Point at{layout.toX(point.x), layout.toY(point.y)};
     if (!points.empty()) points += ' ';
     points += number(at.x).append(",").append(number(at.y));
     if (i % markerDistance == 0) markers += drawMarker(style, at);
   }
-  std::string svg = "<g class='series'>\n" + drawErrorBars(chart, layout, series, color);
+  std::string svg = "<g class='series'>\n" + drawErrorBars(layout, series, color);
   if (!points.empty())
     svg += "<polyline class='line' fill='none' stroke='" + color +
            "' stroke-width='2' stroke-linejoin='round' points='" + points + "'/>\n";
@@ -281,7 +272,7 @@ std::string drawSeries(const Chart& chart, const Layout& layout, size_t index) {
 }
 
 std::string drawLimit(const Chart& chart, const Layout& layout) {
-  if (!chart.line || !isShown(chart.line->y, chart.logY)) return "";
+  if (!chart.line || !isShown(chart.line->y)) return "";
   const double y = layout.toY(chart.line->y);
   return linesPath({{Point{layout.left, y}, Point{layout.right(), y}}},
                    "class='limit' stroke='#444444' stroke-width='1.5' stroke-dasharray='7 4'");

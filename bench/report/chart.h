@@ -28,21 +28,19 @@ struct ChartLine {
   std::string label;
 };
 
-/// All texts are UTF-8. On a logarithmic axis only what is positive is shown, on both only what is finite.
+/// Both axes are logarithmic: only what is positive and finite is shown. All texts are UTF-8.
 struct Chart {
   std::string title;
   std::string xLabel;
   std::string yLabel;
-  bool logX = false;
-  bool logY = false;
   std::vector<ChartSeries> series;  ///< eight differ in colour and marker; from the ninth on they repeat
   std::optional<ChartLine> line;
   std::string caption;  ///< small, below; broken into lines
 };
 
 /// The chart as a complete SVG 1.1 document: white, the legend right of the plot. Points that cannot be shown
-/// are left out, as are ends of error bars (that of a bar which reaches to 0 or below on a logarithmic axis
-/// goes to the bottom). For readers of the file: the plot's box is rect.plot; ticks' labels are text.x-tick
+/// are left out, as are ends of error bars (that of a bar which reaches to 0 or below goes to the
+/// bottom). For readers of the file: the plot's box is rect.plot; ticks' labels are text.x-tick
 /// and text.y-tick; every series is a g.series of path.bar, polyline.line and path.marker, the latter
 /// translated to their points.
 std::string chartSvg(const Chart& chart);

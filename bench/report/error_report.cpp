@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "bench/report/chart.h"
 #include "bench/report/formatted.h"
+#include "bench/report/json.h"
 
 namespace fragtrace {
 
@@ -67,8 +67,8 @@ std::string gainText(const ErrorReport& report, const ErrorCurve& slower, const 
 }
 
 /// What a curve's entry holds in any case.
-nlohmann::ordered_json measuredJson(const ErrorReport& report, const ErrorCurve& curve) {
-  nlohmann::ordered_json entry;
+Json measuredJson(const ErrorReport& report, const ErrorCurve& curve) {
+  Json entry;
   entry["compile_ms"] = curve.compileMs;
   entry["near_reference"] = curve.nearReference;
   entry["slope"] = slopeOf(curve);
@@ -80,10 +80,10 @@ nlohmann::ordered_json measuredJson(const ErrorReport& report, const ErrorCurve&
   return entry;
 }
 
-nlohmann::ordered_json repetitionsJson(const ErrorCurve& curve) {
-  nlohmann::ordered_json repetitions = nlohmann::ordered_json::array();
+Json repetitionsJson(const ErrorCurve& curve) {
+  Json repetitions = Json::array();
   for (const auto& repetition : curve.repetitions) {
-    nlohmann::ordered_json steps = nlohmann::ordered_json::array();
+    Json steps = Json::array();
     for (const ErrorSample& s : repetition) {
       steps.push_back({{"samples", s.samples},
                        {"seconds", s.seconds},
@@ -96,14 +96,13 @@ nlohmann::ordered_json repetitionsJson(const ErrorCurve& curve) {
   return repetitions;
 }
 
-nlohmann::ordered_json gainJson(const Gain& gain) {
+Json gainJson(const Gain& gain) {
   return {{"times_sooner", gain.time}, {"times_fewer_samples", gain.samples}};
 }
 
 /// Of the pictures filtered, in the entry of those as drawn.
-nlohmann::ordered_json filteredJson(const ErrorReport& report, const ErrorCurve& drawn,
-                                    const ErrorCurve& curve) {
-  nlohmann::ordered_json entry = {{"filter", curve.filter}};
+Json filteredJson(const ErrorReport& report, const ErrorCurve& drawn, const ErrorCurve& curve) {
+  Json entry = {{"filter", curve.filter}};
   entry.update(measuredJson(report, curve));
   if (const auto gain = gainOver(report, drawn, curve)) entry["denoised_is"] = gainJson(*gain);
   entry["repetitions"] = repetitionsJson(curve);
@@ -208,7 +207,7 @@ std::string errorTable(const ErrorReport& report) {
 }
 
 std::string errorJson(const ErrorReport& report) {
-  nlohmann::ordered_json json;
+  Json json;
   json["schema"] = 1;
   json["scene"] = report.scene;
   json["reference"] = report.reference;
@@ -219,8 +218,7 @@ std::string errorJson(const ErrorReport& report) {
   const ErrorCurve* best = curveNamed(report, "default");
   for (const ErrorCurve& curve : report.curves) {
     if (!curve.filter.empty()) continue;
-    nlohmann::ordered_json entry = {
-        {"name", curve.name}, {"options", curve.options}, {"variant", curve.variant}};
+    Json entry = {{"name", curve.name}, {"options", curve.options}, {"variant", curve.variant}};
     entry.update(measuredJson(report, curve));
     if (const auto gain = best && &curve != best ? gainOver(report, curve, *best) : std::nullopt)
       entry["default_is"] = gainJson(*gain);
@@ -251,8 +249,6 @@ std::string errorChart(const ErrorReport& report) {
   const bool filtered = std::ranges::any_of(report.curves, [](const auto& c) { return !c.filter.empty(); });
   chart.xLabel = filtered ? "seconds of drawing, and of filtering where denoised" : "seconds of drawing";
   chart.yLabel = "relative MSE";
-  chart.logX = true;
-  chart.logY = true;
   chart.line = ChartLine{report.goal, formatted("goal %g", report.goal)};
   chart.caption =
       std::to_string(report.width) + " x " + std::to_string(report.height) + " on " + report.renderer +

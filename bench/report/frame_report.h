@@ -4,22 +4,13 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "bench/report/machine.h"
 #include "math/summary.h"
 
 namespace fragtrace {
-
-/// Where and when; the same for all settings of a run.
-struct BenchMachine {
-  std::string processor;
-  int cores = 0;
-  std::string glRenderer;
-  std::string glVersion;
-  std::string backend;
-  std::string program;  ///< name and version
-  std::string date;     ///< ISO 8601, UTC
-};
 
 /// How the picture of a setting was judged.
 struct PictureVerdict {
@@ -76,5 +67,16 @@ std::string frameJson(const std::string& command, const BenchMachine& machine,
 
 /// The first setting of a scene, which ratios are to.
 const FrameSetting& firstOfScene(const std::vector<FrameSetting>& settings, const FrameSetting& setting);
+
+// The table of `bench variants`.
+
+/// Whether it is faster without something: "saves", "costs", or "no difference" where the middle half of the
+/// ratios holds 1.
+std::string gainText(const std::vector<double>& withMs, const std::vector<double>& withoutMs);
+
+/// The first setting is the scene's own variant, each other has something turned on; `notForced` holds what
+/// could not be, and why.
+std::string variantsTable(const BenchMachine& machine, const std::vector<FrameSetting>& settings,
+                          const std::vector<std::pair<std::string, std::string>>& notForced);
 
 }  // namespace fragtrace

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "bench/report/chart.h"
 #include "bench/report/formatted.h"
+#include "bench/report/json.h"
 #include "math/summary.h"
 
 namespace fragtrace {
@@ -104,13 +104,8 @@ std::string scaleTable(const ScaleReport& report) {
 }
 
 std::string scaleJson(const ScaleReport& report) {
-  const auto line = [](const nlohmann::ordered_json& json) {
-    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  };
-  const auto numberOrNull = [](double value) {
-    return std::isnan(value) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
-  };
-  nlohmann::ordered_json head;
+  const auto numberOrNull = [](double value) { return std::isnan(value) ? Json(nullptr) : Json(value); };
+  Json head;
   head["schema"] = 1;
   head["bench"] = "scale";
   head["width"] = report.width;
@@ -118,7 +113,7 @@ std::string scaleJson(const ScaleReport& report) {
   head["gl_renderer"] = report.renderer;
   std::string text;
   for (const ScaleRow& r : report.rows) {
-    nlohmann::ordered_json json = head;
+    Json json = head;
     json["triangles"] = r.triangles;
     json["make_ms"] = r.makeMs;
     json["build_ms"] = r.buildMs;
@@ -129,9 +124,9 @@ std::string scaleJson(const ScaleReport& report) {
     json["gpu_bytes"] = r.gpuBytes;
     json["gpu_bytes_per_triangle"] = double(r.gpuBytes) / double(r.triangles);
     json["peak_bytes"] = r.peakBytes;
-    json["traversals"] = nlohmann::ordered_json::array();
+    json["traversals"] = Json::array();
     for (const ScaleFrames& f : r.frames) {
-      nlohmann::ordered_json entry;
+      Json entry;
       entry["traversal"] = f.traversal;
       if (f.frameMs.empty()) {
         entry["left_out"] = f.left;
@@ -146,15 +141,15 @@ std::string scaleJson(const ScaleReport& report) {
       }
       json["traversals"].push_back(std::move(entry));
     }
-    text += line(json);
+    text += jsonLine(json);
   }
-  nlohmann::ordered_json growth = head;
-  growth["exponents"] = nlohmann::ordered_json::object();
+  Json growth = head;
+  growth["exponents"] = Json::object();
   for (const Growth& g : growthOf(report)) {
     growth["exponents"][g.name] = {{"all", numberOrNull(g.exponent)},
                                    {"larger_half", numberOrNull(g.lateExponent)}};
   }
-  return text + line(growth);
+  return text + jsonLine(growth);
 }
 
 std::string scaleChart(const ScaleReport& report) {
@@ -162,8 +157,6 @@ std::string scaleChart(const ScaleReport& report) {
   chart.title = "Time against triangles";
   chart.xLabel = "triangles";
   chart.yLabel = "milliseconds";
-  chart.logX = true;
-  chart.logY = true;
   chart.caption =
       formatted("%d x %d, stage flat, one sample per pixel and frame, on ", report.width, report.height) +
       report.renderer +

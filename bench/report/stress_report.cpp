@@ -2,9 +2,9 @@
 #include "bench/report/stress_report.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "bench/report/formatted.h"
+#include "bench/report/json.h"
 
 namespace fragtrace {
 
@@ -31,7 +31,7 @@ std::string stressTable(const StressReport& report) {
 std::string stressJson(const StressReport& report) {
   std::string text;
   for (const StressResult& row : report.rows) {
-    nlohmann::ordered_json json;
+    Json json;
     json["schema"] = 1;
     json["bench"] = "stress";
     json["backend"] = report.backend;
@@ -51,7 +51,7 @@ std::string stressJson(const StressReport& report) {
       json["fast_rate"] = row.fast->rate();
       json["fast_seconds"] = row.fast->seconds;
     }
-    text += json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    text += jsonLine(json);
   }
   return text;
 }

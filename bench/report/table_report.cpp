@@ -176,8 +176,6 @@ std::string reportChart(const BenchMachine& machine, std::span<const MeasuredRow
   chart.title = "Frame time against faces";
   chart.xLabel = "triangles";
   chart.yLabel = "milliseconds per frame";
-  chart.logX = true;
-  chart.logY = true;
   std::string clock;
   for (const char* method : {"iterative", "bvh", "front-to-back"}) {
     ChartSeries here;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bench/report/traversal_report.h"
 
-#include <nlohmann/json.hpp>
-
 #include "bench/report/formatted.h"
+#include "bench/report/json.h"
 #include "math/summary.h"
 
 namespace fragtrace {
@@ -33,7 +32,7 @@ std::string traversalJson(const TraversalReport& report) {
   std::string text;
   for (const TraversalRow& row : report.rows) {
     const Summary summary = summarize(row.ms);
-    nlohmann::ordered_json json;
+    Json json;
     json["schema"] = 1;
     json["bench"] = "traversal";
     json["scene"] = report.scene;
@@ -55,7 +54,7 @@ std::string traversalJson(const TraversalReport& report) {
     json["wrong"] = row.wrong;
     json["wrong_allowed"] = row.wrongAllowed;
     json["proved_by_all"] = row.provedByAll;
-    text += json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    text += jsonLine(json);
   }
   return text;
 }

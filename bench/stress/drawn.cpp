@@ -4,11 +4,6 @@
 #include <glm/gtc/constants.hpp>
 
 #include "bench/report/formatted.h"
-#include "bvh/two_level.h"
-#include "errors.h"
-#include "gl/schedule.h"
-#include "pack/literals.h"
-#include "pack/pack_tree.h"
 #include "scene/creases.h"
 
 namespace fragtrace {
@@ -28,36 +23,11 @@ RenderOptions optionsOf(const StressSetting& setting, Stage stage) {
   return options;
 }
 
-StressPicture::StressPicture(const StressSetting& setting, Scene scene, const Environment& environment,
-                             const RenderOptions& options)
-    : setting_(setting) {
+SceneDrawing drawingOf(const StressSetting& setting, Scene scene, const Environment& environment,
+                       RenderOptions options) {
   scene.insets = creaseInsets(scene);
-  const bool iterative = options.device.traversal == TraversalMethod::Iterative;
-  const Bvh bvh = iterative ? listLeaves(scene) : buildSceneBvh(scene);
-  variant_ = chooseVariant(options, traitsOf(scene, environment.kind), environment.kind, bvh.depth,
-                           BufferReads::Auto);
-  GpuScene packed = packScene(scene, bvh, environment, variant_);
-  if (options.device.traversal == TraversalMethod::Literals) {
-    variant_.traversal = options.device.traversal;
-    variant_.literals = literalScene(scene, bvh, packed, variant_);
-  }
-  variant_.reads = chooseReads(BufferReads::Auto, setting.context.software, packed, readLimits()).reads;
-  chooseSchedule(variant_, options, {});
-  renderer_ =
-      std::make_unique<Renderer>(setting.context, std::move(packed), variant_.reads, setting.shaderFolder);
-}
-
-FilmPixels StressPicture::draw(const View& view, glm::ivec2 size, int samples) {
-  Film film(size);
-  renderer_->compile(variant_, film, view);
-  RenderTimes times;
-  renderer_->addSamples(film, view, 0, samples, times, [&](double) {
-    setting_.goOn();
-    return true;
-  });
-  FilmPixels pixels = film.read();
-  if (totalsOf(pixels).budgetHits > 0) throw RenderError("the driver ended loops early (budget_hits)");
-  return pixels;
+  options.device.shaderFolder = setting.shaderFolder;
+  return {setting.context, scene, options, environment};
 }
 
 void countLight(const FilmPixels& film, StressOutcome& outcome) {

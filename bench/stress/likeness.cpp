@@ -48,6 +48,12 @@ std::string whyOther(const Likeness& l) {
   return "";
 }
 
+SceneDrawing drawingOf(const Context& context, const SceneSketch& drawn, RenderOptions options,
+                       uint32_t seed) {
+  options.sampling.seed = seed;
+  return {context, sceneOf(drawn), options, environmentOf(drawn), drawn.skyTurn};
+}
+
 /// A random scene and its form.
 struct Pair {
   SceneSketch sketch;
@@ -58,26 +64,13 @@ struct Pair {
   Pair(const Context& context, uint32_t seed, Form form, const RenderOptions& options)
       : sketch(randomSketch(seed)),
         other(inForm(sketch, form, seed)),
-        a(drawingOf(context, sketch, options)),
-        b(drawingOf(
-            context, other,
-            withSeed(options, sameNumbers(form) ? options.sampling.seed : options.sampling.seed + 1))) {}
+        a(drawingOf(context, sketch, options, options.sampling.seed)),
+        b(drawingOf(context, other, options, options.sampling.seed + (sameNumbers(form) ? 0 : 1))) {}
 
   void compareHits(Likeness& l, const SceneDrawing::GoOn& goOn) {
     const FilmPixels before = a.depth(goOn);
     l.pixels = before.pixels.size();
     l.otherHits = countOtherHits(before, b.depth(goOn), glm::length(glm::dvec3(other.root[0])));
-  }
-
- private:
-  static SceneDrawing drawingOf(const Context& context, const SceneSketch& drawn,
-                                const RenderOptions& options) {
-    return {context, sceneOf(drawn), options, environmentOf(drawn), drawn.skyTurn};
-  }
-
-  static RenderOptions withSeed(RenderOptions options, uint32_t seed) {
-    options.sampling.seed = seed;
-    return options;
   }
 };
 

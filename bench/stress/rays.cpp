@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/stress/rays.h"
+#include "bench/stress/rows.h"
 
 #include <algorithm>
 #include <array>
@@ -108,9 +108,9 @@ StressOutcome attackByRays(const StressSetting& setting, const RayAttack& attack
     way.variant.reads = chooseReads(BufferReads::Auto, setting.context.software, packed, readLimits()).reads;
     RayCaster caster(setting.context, std::move(packed), way.variant, size, setting.shaderFolder);
     caster.trace(RayCaster::RaySet(rays), false);
-    const std::vector<TracedRay> traced = caster.hits();
+    const std::vector<FoundHit> traced = foundBy(caster, way.bvh);
     for (size_t i = 0; i < rays.size(); ++i) {
-      FoundHit found{primitiveInSlot(way.bvh, traced[i].slot), traced[i].t};
+      FoundHit found = traced[i];
       RayFault fault = judgeRay(scene, rays[i], found, exact[i]);
       if (attack.closed && found.primitive == kMissIndex) fault = RayFault::Missed;
       for (const uint32_t mate : fault == RayFault::FalseHit && way.merges ? matesOf(scene, found.primitive)

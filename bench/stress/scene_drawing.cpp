@@ -1,45 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "bench/stress/scene_drawing.h"
 
-#include <unistd.h>
-
 #include <fstream>
 
+#include "bench/report/scratch_folder.h"
+#include "bvh/two_level.h"
 #include "errors.h"
 #include "gl/schedule.h"
 #include "gltf/gltf.h"
+#include "pack/literals.h"
 #include "pack/pack_tree.h"
 
 namespace fragtrace {
 
-namespace {
-
-/// A file that goes with the scope.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& text) {
-    static int count = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("fragtrace-" + std::to_string(::getpid()) + "-" + std::to_string(count++) + ".gltf");
-    std::ofstream file(path_, std::ios::binary);
-    if (!(file << text).flush()) throw RenderError("cannot write " + path_.string());
-  }
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-}  // namespace
-
-Scene sceneOf(const SceneSketch& sketch) { return loadGltf(TemporaryFile(gltfText(sketch)).path()); }
+Scene sceneOf(const SceneSketch& sketch) {
+  const ScratchFolder folder;
+  const std::filesystem::path path = folder.path() / "sketch.gltf";
+  std::ofstream file(path, std::ios::binary);
+  if (!(file << gltfText(sketch)).flush()) throw RenderError("cannot write " + path.string());
+  return loadGltf(path);
+}
 
 Environment environmentOf(const SceneSketch& sketch) {
   return sketch.sky.width > 0 ? Environment{Surroundings::Map, sketch.sky} : Environment{};
@@ -47,17 +27,20 @@ Environment environmentOf(const SceneSketch& sketch) {
 
 SceneDrawing::SceneDrawing(const Context& context, const Scene& scene, const RenderOptions& options,
                            const Environment& environment, double environmentTurn)
-    : options_(options) {
+    : options_(options), size_(options.camera.resolution.value_or(glm::ivec2(64))) {
   const TraitSet present = traitsOf(scene, environment.kind);
   const bool iterative = options.device.traversal == TraversalMethod::Iterative;
-  const Bvh bvh =
-      iterative ? listLeaves(scene) : buildBvh(primitiveBounds(scene), uint32_t(scene.triangles.size()));
+  const Bvh bvh = iterative ? listLeaves(scene) : buildSceneBvh(scene);
   picture_ = chooseVariant(options, present, environment.kind, bvh.depth, options.device.bufferReads);
   depth_ = chooseFeatureVariant(options, present, environment.kind, bvh.depth, options.device.bufferReads,
                                 Feature::Depth);
   ShaderVariant everything = picture_;
   everything.traits |= depth_.traits;
   GpuScene packed = packScene(scene, bvh, environment, everything);
+  if (options.device.traversal == TraversalMethod::Literals) {
+    picture_.traversal = options.device.traversal;
+    picture_.literals = literalScene(scene, bvh, packed, picture_);
+  }
   picture_.reads = chooseReads(options.device.bufferReads, context.software, packed, readLimits()).reads;
   depth_.reads = picture_.reads;
   chooseSchedule(picture_, options, {});
@@ -71,22 +54,32 @@ SceneDrawing::SceneDrawing(const Context& context, const Scene& scene, const Ren
   view_.bounces = options.sampling.bounces;
 }
 
-FilmPixels SceneDrawing::draw(const ShaderVariant& variant, int samples, uint32_t seed, const GoOn& goOn) {
-  Film film(options_.camera.resolution.value_or(glm::ivec2(64)));
-  view_.seed = seed;
-  renderer_->compile(variant, film, view_);
+FilmPixels SceneDrawing::draw(const GoOn& goOn, const ShaderVariant& variant, const View& view,
+                              glm::ivec2 size, int samples) {
+  Film film(size);
+  renderer_->compile(variant, film, view);
   RenderTimes times;
-  renderer_->addSamples(film, view_, 0, samples, times, [&](double) {
+  renderer_->addSamples(film, view, 0, samples, times, [&](double) {
     goOn();
     return true;
   });
   return film.read();
 }
 
-FilmPixels SceneDrawing::picture(const GoOn& goOn) {
-  return draw(picture_, options_.sampling.spp, options_.sampling.seed, goOn);
+FilmPixels SceneDrawing::draw(const GoOn& goOn, const View& view, glm::ivec2 size, int samples) {
+  FilmPixels pixels = draw(goOn, picture_, view, size, samples);
+  if (totalsOf(pixels).budgetHits > 0) throw RenderError("the driver ended loops early (budget_hits)");
+  return pixels;
 }
 
-FilmPixels SceneDrawing::depth(const GoOn& goOn) { return draw(depth_, 1, 0, goOn); }
+FilmPixels SceneDrawing::picture(const GoOn& goOn) {
+  view_.seed = options_.sampling.seed;
+  return draw(goOn, picture_, view_, size_, options_.sampling.spp);
+}
+
+FilmPixels SceneDrawing::depth(const GoOn& goOn) {
+  view_.seed = 0;
+  return draw(goOn, depth_, view_, size_, 1);
+}
 
 }  // namespace fragtrace

@@ -26,11 +26,15 @@ class SceneDrawing {
   FilmPixels picture(const GoOn& goOn);
   /// Metres along the view axis, one sample per pixel, of seed 0.
   FilmPixels depth(const GoOn& goOn);
+  /// From another place. Throws RenderError where the driver ended loops early.
+  FilmPixels draw(const GoOn& goOn, const View& view, glm::ivec2 size, int samples);
 
  private:
-  FilmPixels draw(const ShaderVariant& variant, int samples, uint32_t seed, const GoOn& goOn);
+  FilmPixels draw(const GoOn& goOn, const ShaderVariant& variant, const View& view, glm::ivec2 size,
+                  int samples);
 
   RenderOptions options_;
+  glm::ivec2 size_;
   View view_;
   ShaderVariant picture_;
   ShaderVariant depth_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/stress/scene_rows.h"
+#include "bench/stress/rows.h"
 
 #include <array>
 #include <cmath>
@@ -89,8 +89,7 @@ StressOutcome castAtShrinking(const StressSetting& setting) {
   const std::vector<Ray> rays = primaryRays(frameScene(scene.bounds), scene.space, size);
   caster.trace(RayCaster::RaySet(rays), false);
   setting.goOn();
-  std::vector<FoundHit> found;
-  for (const TracedRay& hit : caster.hits()) found.push_back({primitiveInSlot(bvh, hit.slot), hit.t});
+  const std::vector<FoundHit> found = foundBy(caster, bvh);
   const ExactTracer tracer(scene, bvh);
   proveTree(tracer, scene.triangles.size(), rays);
   StressOutcome outcome;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/stress/shading.h"
+#include "bench/stress/rows.h"
 
 #include <algorithm>
 #include <array>
@@ -174,10 +174,10 @@ StressOutcome shadeBadNormals(const StressSetting& setting) {
       if (which == 1) n = -n;
       if (which == 2) n = glm::normalize(n + vec3(2.0 * dice.direction()));
     }
-    StressPicture picture(setting, scene, whiteWorld(1.0f), furnaceOptions(setting));
+    SceneDrawing picture = drawingOf(setting, scene, whiteWorld(1.0f), furnaceOptions(setting));
     // Light that would leave below the true surface is lost: a white ball may be grey, but not black.
-    judgeFurnace(picture.draw(furnaceView(dvec3(1.0, 2.0, 3.0), dvec3(0.0)), size, samples), 0.2,
-                 1.0 + kRounding, kind, outcome);
+    judgeFurnace(picture.draw(setting.goOn, furnaceView(dvec3(1.0, 2.0, 3.0), dvec3(0.0)), size, samples),
+                 0.2, 1.0 + kRounding, kind, outcome);
   }
   return outcome;
 }
@@ -203,8 +203,9 @@ StressOutcome shadeBadTangents(const StressSetting& setting) {
                                             : vec3(dice.direction());
       v.tangent[i] = glm::vec4(tangent, dice.coin() ? 1.0f : -1.0f);
     }
-    StressPicture picture(setting, scene, whiteWorld(1.0f), furnaceOptions(setting));
-    judgeMirrorFurnace(picture.draw(furnaceView(dvec3(1.0, 2.0, 3.0), dvec3(0.0)), size, 64), kind, outcome);
+    SceneDrawing picture = drawingOf(setting, scene, whiteWorld(1.0f), furnaceOptions(setting));
+    judgeMirrorFurnace(picture.draw(setting.goOn, furnaceView(dvec3(1.0, 2.0, 3.0), dvec3(0.0)), size, 64),
+                       kind, outcome);
   }
   return outcome;
 }
@@ -213,9 +214,9 @@ StressOutcome lookThroughGlass(const StressSetting& setting) {
   const glm::ivec2 size = setting.quick ? glm::ivec2(32) : glm::ivec2(128);
   StressOutcome outcome;
   for (const GlassCase& c : glassCases()) {
-    StressPicture picture(setting, c.scene, whiteWorld(1.0f), furnaceOptions(setting));
+    SceneDrawing picture = drawingOf(setting, c.scene, whiteWorld(1.0f), furnaceOptions(setting));
     // A few paths go round inside for longer than they are followed.
-    judgeFurnace(picture.draw(furnaceView(c.camera, c.towards), size, 64), 0.95 * c.brightness,
+    judgeFurnace(picture.draw(setting.goOn, furnaceView(c.camera, c.towards), size, 64), 0.95 * c.brightness,
                  c.brightness * (1.0 + kRounding), c.name, outcome);
   }
   return outcome;
@@ -236,12 +237,12 @@ StressOutcome lookAtContactShadow(const StressSetting& setting) {
     sun.direction = glm::normalize(vec3(0.1f, -1.0f, 1.0f));
     scene.lights.push_back(sun);
     RenderOptions options = optionsOf(setting, Stage::Shadows);
-    StressPicture picture(setting, scene, {}, options);
+    SceneDrawing picture = drawingOf(setting, scene, {}, options);
     // Close to the line where the wall meets the floor, which lies in the wall's shadow; ambient light is
     // 0.03.
     View view = furnaceView(scale * dvec3(0.3, 0.01, 0.02), scale * dvec3(0.31, 0.0, 0.0));
     view.showEnvironment = false;
-    const FilmPixels film = picture.draw(view, size, 4);
+    const FilmPixels film = picture.draw(setting.goOn, view, size, 4);
     for (const FilmPixel& p : film.pixels) {
       ++outcome.cases;
       if (p.nonfinite == 0 && p.mean().x <= 0.0301) continue;

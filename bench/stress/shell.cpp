@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/stress/shell.h"
+#include "bench/stress/rows.h"
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -33,12 +33,12 @@ StressOutcome lookOut(const StressSetting& setting, const glm::dvec3& place, dou
   const glm::ivec2 pixels = setting.quick ? glm::ivec2(130) : glm::ivec2(1024);
   const int samples = setting.quick ? 10 : 16;
   const Scene scene = shellAt(place, size, 0.0f);
-  StressPicture picture(setting, scene, {}, optionsOf(setting, Stage::Flat));
+  SceneDrawing picture = drawingOf(setting, scene, {}, optionsOf(setting, Stage::Flat));
   StressOutcome outcome;
   for (View view : viewsAround(place)) {
     view.background = glm::vec3(1.0f);
     view.showEnvironment = false;
-    const FilmPixels film = picture.draw(view, pixels, samples);
+    const FilmPixels film = picture.draw(setting.goOn, view, pixels, samples);
     for (const FilmPixel& p : film.pixels) {
       outcome.cases += p.samples;
       outcome.failures += size_t(std::lround(p.sum.x)) + p.nonfinite;
@@ -69,11 +69,11 @@ Scene spikyMesh(Dice& dice) {
 }
 
 /// Counts light in the six views around a place.
-void scatterInside(StressPicture& picture, const glm::dvec3& place, glm::ivec2 pixels, int samples,
-                   StressOutcome& outcome) {
+void scatterInside(const StressSetting& setting, SceneDrawing& picture, const glm::dvec3& place,
+                   glm::ivec2 pixels, int samples, StressOutcome& outcome) {
   for (View view : viewsAround(place)) {
     view.bounces = 4;
-    countLight(picture.draw(view, pixels, samples), outcome);
+    countLight(picture.draw(setting.goOn, view, pixels, samples), outcome);
   }
 }
 
@@ -94,9 +94,9 @@ StressOutcome scatterInWhiteShell(const StressSetting& setting) {
   // leave them.
   const glm::dvec3 place(1.0, 0.0, 0.0);
   const Scene scene = shellAt(place, 1.0, 1.0f);
-  StressPicture picture(setting, scene, whiteWorld(1e4f), optionsOf(setting, Stage::Gi));
+  SceneDrawing picture = drawingOf(setting, scene, whiteWorld(1e4f), optionsOf(setting, Stage::Gi));
   StressOutcome outcome;
-  scatterInside(picture, place, pixels, samples, outcome);
+  scatterInside(setting, picture, place, pixels, samples, outcome);
   return outcome;
 }
 
@@ -113,10 +113,10 @@ StressOutcome scatterInSharedShells(const StressSetting& setting) {
         glm::rotate(glm::translate(glm::dmat4(1.0), place), dice.between(0.0, 6.0), dice.direction());
     scene.instances.push_back({glm::scale(turned, glm::dvec3(dice.between(2.0, 8.0))), 0, ""});
   }
-  StressPicture picture(setting, scene, whiteWorld(1e4f), optionsOf(setting, Stage::Gi));
+  SceneDrawing picture = drawingOf(setting, scene, whiteWorld(1e4f), optionsOf(setting, Stage::Gi));
   StressOutcome outcome;
   for (const Instance& instance : scene.instances)
-    scatterInside(picture, glm::dvec3(instance.toLocal[3]), pixels, setting.quick ? 4 : 16, outcome);
+    scatterInside(setting, picture, glm::dvec3(instance.toLocal[3]), pixels, setting.quick ? 4 : 16, outcome);
   return outcome;
 }
 

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/stress/stress.h"
 
-#include "bench/stress/rays.h"
-#include "bench/stress/scene_rows.h"
-#include "bench/stress/shading.h"
-#include "bench/stress/shell.h"
-#include "bench/stress/strips.h"
+#include "bench/stress/rows.h"
 
 namespace fragtrace {
 

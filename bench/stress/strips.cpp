@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/stress/strips.h"
+#include "bench/stress/rows.h"
 
 #include <algorithm>
 #include <array>
@@ -170,7 +170,7 @@ void addSkin(Prism& box, const Skin& skin, bool first, bool flipped) {
 void scatterIn(const StressSetting& setting, const Prism& prism, bool literals, StressOutcome& outcome) {
   RenderOptions options = optionsOf(setting, Stage::Gi);
   if (literals) options.device.traversal = TraversalMethod::Literals;
-  StressPicture picture(setting, prism.scene, whiteWorld(1e4f), options);
+  SceneDrawing picture = drawingOf(setting, prism.scene, whiteWorld(1e4f), options);
   View view;
   view.camera.position = prism.inside;
   view.camera.forward = prism.turn * dvec3(-1.0, 0.0, 0.0);
@@ -178,7 +178,7 @@ void scatterIn(const StressSetting& setting, const Prism& prism, bool literals, 
   view.camera.fovY = glm::radians(100.0);
   view.bounces = 4;
   const int side = setting.quick ? 64 : 128;
-  countLight(picture.draw(view, glm::ivec2(side), setting.quick ? 4 : 16), outcome);
+  countLight(picture.draw(setting.goOn, view, glm::ivec2(side), setting.quick ? 4 : 16), outcome);
 }
 
 }  // namespace

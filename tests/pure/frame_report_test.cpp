@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "bench/report/baseline.h"
-#include "bench/report/variants_table.h"
 #include "errors.h"
 
 namespace fragtrace {

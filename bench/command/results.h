@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The files that a benchmark writes beside its table.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "session/outputs.h"
+
+namespace CLI {
+class App;
+}
+
+namespace fragtrace {
+
+struct ResultFiles {
+  std::filesystem::path json;
+  std::filesystem::path csv;
+  std::filesystem::path chart;
+};
+
+/// `help` says what is in the file.
+void addJsonOption(CLI::App& app, ResultFiles& files, const char* help);
+void addChartOption(CLI::App& app, ResultFiles& files, const char* help);
+/// Throws UsageError where the chart's name does not end in .svg.
+void checkChart(const ResultFiles& files);
+
+/// Before long work, as checkOutputs of session/outputs.h.
+void checkResultFiles(const ResultFiles& files, std::span<const std::filesystem::path> inputs);
+
+struct ResultTexts {
+  std::string table;  ///< for standard output
+  std::string json;
+  std::string csv;
+  std::string chart;
+};
+/// Prints and writes what was measured. Interrupts no longer stop the program, so that it is written whole.
+void writeResults(const ResultFiles& files, const ResultTexts& texts);
+
+}  // namespace fragtrace

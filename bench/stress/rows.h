@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// The rows of `bench stress` as functions, which stress.cpp lists. Each says what cases and failures are.
+#pragma once
+
+#include "bench/rays/ray_attacks.h"
+#include "bench/stress/forms.h"
+#include "bench/stress/stress.h"
+
+namespace fragtrace {
+
+// Rays alone: traversal on the device against double precision.
+
+/// The attack's rays by every way of finding triangles that takes the scene.
+StressOutcome attackByRays(const StressSetting& setting, const RayAttack& attack);
+
+// Closed shells in a bright world: whoever is inside sees none of it.
+
+/// A black shell of 80,000 triangles; cases are camera rays, failures those that meet nothing.
+StressOutcome lookOutOfBlackShell(const StressSetting& setting);
+/// The same at (148376, 1234, -223423), in coordinates that are rounded there.
+StressOutcome lookOutOfFarShell(const StressSetting& setting);
+/// A white one with one point of its surface at the origin, path traced; cases are paths, failures pixels
+/// that are not black.
+StressOutcome scatterInWhiteShell(const StressSetting& setting);
+/// Inside white shells of spikes, instances of one mesh, turned, evenly scaled and up to a kilometre away;
+/// the same cases and failures.
+StressOutcome scatterInSharedShells(const StressSetting& setting);
+
+// Closed prisms in a bright world: wedges that are cut into slivers, boxes, and boxes with see-through skins.
+
+/// Closed white wedges of 1 to 60 degrees, turned at random, each face cut into strips of random widths,
+/// across or along the crease, once wound alike and once at random; path traced, by a tree and (wedges of
+/// fewer strips) as literals. Cases are paths, failures pixels that are not black.
+StressOutcome scatterInStrips(const StressSetting& setting);
+
+/// The same in boxes of 12 triangles, up to a thousand times as long as wide, with angles of 89 to 91
+/// degrees.
+StressOutcome scatterInBoxes(const StressSetting& setting);
+
+/// In cubes on whose walls, or less than an offset away from them, lie see-through skins: BLEND, or MASK that
+/// is cut out everywhere.
+StressOutcome scatterInSkinnedBoxes(const StressSetting& setting);
+
+// Shading in a white furnace: whatever normals and boundaries are, no pixel is black, too bright or not a
+// number.
+
+/// A white mesh whose normals are missing, backwards or tilted; cases are pixels that see it, failures those
+/// that are black, brighter than the world, or not finite.
+StressOutcome shadeBadNormals(const StressSetting& setting);
+/// A mirror with a normal map that turns everything away and tangents that do not fit; the same.
+StressOutcome shadeBadTangents(const StressSetting& setting);
+/// Clear glass that is nested, touches glass, has index 1 or is seen from inside; cases are pixels, failures
+/// those that are not as bright as the world (from inside: times the square of the index).
+StressOutcome lookThroughGlass(const StressSetting& setting);
+/// The foot of a wall in the light from behind it; cases are pixels of the shadow, failures those that are
+/// lit.
+StressOutcome lookAtContactShadow(const StressSetting& setting);
+
+// Whole scenes: equivalent forms of random ones, trees of the worst shapes, very many samples.
+
+/// Random scenes and their form: scenes that do not show the same.
+StressOutcome drawForms(const StressSetting& setting, Form form);
+
+/// The same: pixels in which one sample hits something else.
+StressOutcome hitForms(const StressSetting& setting, Form form);
+
+/// A million identical triangles (quick: 20,000), 64 samples per pixel: pixels that differ from one
+/// triangle's in a bit, or in which a loop was cut.
+StressOutcome drawIdentical(const StressSetting& setting);
+
+/// 50,000 triangles of shrinking sizes (quick: 20,000), a fifth of them within one cell of the boxes' grid;
+/// one ray of the framing camera a pixel: hits that double precision does not find. More would take a ray
+/// more steps than RayCaster allows.
+StressOutcome castAtShrinking(const StressSetting& setting);
+
+/// 16 million samples of 1/3 (quick: a million) in each of 4 pixels: channels that are more than 1e-6 off.
+StressOutcome addThirds(const StressSetting& setting);
+
+/// Scenes with a number in a file that is NaN, infinite or as large as floats can be: those that are neither
+/// refused nor drawn without a sample that is not finite.
+StressOutcome drawNoNumbers(const StressSetting& setting);
+
+}  // namespace fragtrace
