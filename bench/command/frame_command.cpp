@@ -18,6 +18,7 @@ namespace fragtrace {
 
 namespace {
 
+/// As parsed, and what follows from it.
 struct FrameOptions {
   std::vector<std::string> sceneNames;
   RawConfigurations raw;

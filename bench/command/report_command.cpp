@@ -20,6 +20,7 @@ struct DrawnRow {
   BenchConfiguration configuration;
 };
 
+/// As parsed, and what follows from it.
 struct ReportOptions {
   std::string folder = "scenes";
   std::vector<std::string> parts;

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 
 #include "bench/command/commands.h"
@@ -13,6 +14,7 @@
 #include "bench/rays/ray_sets.h"
 #include "bench/report/scale_report.h"
 #include "errors.h"
+#include "math/summary.h"
 #include "options/choose.h"
 #include "options/numbers.h"
 #include "pack/pack_tree.h"
@@ -32,6 +34,7 @@ const std::vector<std::string>& traversalNames() {
   return names;
 }
 
+/// As parsed, and what follows from it.
 struct ScaleOptions {
   RawRender raw;
   RenderOptions render;  ///< resolution, device
@@ -104,14 +107,18 @@ constexpr int kMostFrames = 64;
 
 /// One traversal of one scene on the device.
 struct Runner {
-  TraversalMethod method;
+  std::string name;
   ShaderVariant variant;
   Renderer* renderer = nullptr;
   std::unique_ptr<Film> film;
   int frames = 1;  ///< a round
-  ScaleFrames report;
+  double compileMs = 0.0;
+  std::vector<double> frameMs;  ///< one a round
+  FlatPictureCheck seen;
+  size_t differing = 0;  ///< pixels that are not those of the first traversal
 };
 
+/// What all measurements of one run share; the camera is that of the size.
 struct Setting {
   const ScaleOptions& options;
   const Context& context;
@@ -137,35 +144,38 @@ std::unique_ptr<Renderer> upload(const Setting& setting, GpuScene packed, Shader
 /// The picture is held against double precision, and against the first traversal's. Throws RenderError.
 void check(Runner& runner, const Scene& scene, std::span<const ExactHit> hits, const Image* first) {
   const FilmPixels pixels = runner.film->read();
-  const std::string name = std::to_string(scene.triangles.size()) + " triangles, " + runner.report.traversal;
+  const std::string name = std::to_string(scene.triangles.size()) + " triangles, " + runner.name;
   if (totalsOf(pixels).budgetHits > 0)
     throw RenderError(name + ": the driver ended loops early (budget_hits)");
   const Image picture = imageOf(pixels, {});
-  const FlatPictureCheck seen = checkFlatPicture(picture, scene, hits);
-  runner.report.compared = seen.compared;
-  runner.report.wrong = seen.wrong;
+  runner.seen = checkFlatPicture(picture, scene, hits);
   for (size_t i = 0; first && i < picture.values.size(); i += 3) {
     const bool same =
         std::equal(picture.values.begin() + ptrdiff_t(i), picture.values.begin() + ptrdiff_t(i + 3),
                    first->values.begin() + ptrdiff_t(i));
-    runner.report.differing += same ? 0 : 1;
+    runner.differing += same ? 0 : 1;
   }
   // A bump that is thinner than a pixel can pass between the middles of pixels.
   const size_t pixelCount = picture.values.size() / 3;
-  if (seen.wrong > 1 + pixelCount / 20000) {
-    throw RenderError(name + ": the picture is wrong in " + std::to_string(seen.wrong) + " of " +
-                      std::to_string(seen.compared) + " pixels");
+  if (runner.seen.wrong > 1 + pixelCount / 20000) {
+    throw RenderError(name + ": the picture is wrong in " + std::to_string(runner.seen.wrong) + " of " +
+                      std::to_string(runner.seen.compared) + " pixels");
   }
-  if (runner.report.differing > wrongRaysAllowed(pixelCount)) {
+  if (runner.differing > wrongRaysAllowed(pixelCount)) {
     throw RenderError(name + ": the picture is not that of " + "the first traversal in " +
-                      std::to_string(runner.report.differing) + " pixels");
+                      std::to_string(runner.differing) + " pixels");
   }
 }
 
-void warmUp(const Setting& setting, Runner& runner) {
+/// Once a scene; a renderer's programs stay in its cache.
+void compile(const Setting& setting, Runner& runner, Renderer& renderer) {
+  runner.renderer = &renderer;
   runner.film = std::make_unique<Film>(setting.size);
-  runner.report.compileMs = runner.renderer->compile(runner.variant, *runner.film, setting.view);
-  runner.report.variant = variantName(runner.variant);
+  runner.compileMs = renderer.compile(runner.variant, *runner.film, setting.view);
+}
+
+/// Chooses how many frames make a round.
+void warmUp(const Setting& setting, Runner& runner) {
   RenderTimes times;
   runner.renderer->addSamples(*runner.film, setting.view, 0, 4, times);
   runner.frames = int(std::clamp(kRoundMs / times.frameMs.back(), 1.0, double(kMostFrames)));
@@ -178,39 +188,46 @@ void timeFrames(const Setting& setting, Runner& runner) {
   runner.renderer->addSamples(*runner.film, setting.view, 0, 2, unused);
   RenderTimes times;
   runner.renderer->addSamples(*runner.film, setting.view, 2, 2 + runner.frames, times);
-  runner.report.frameMs.push_back(times.renderMs / runner.frames);
+  runner.frameMs.push_back(times.renderMs / runner.frames);
+}
+
+/// What is written of a traversal.
+Json framesJson(const Runner& runner) {
+  return {{"traversal", runner.name},
+          {"variant", variantName(runner.variant)},
+          {"compile_ms", runner.compileMs},
+          {"frame_ms", runner.frameMs},
+          {"median_ms", summarize(runner.frameMs).median},
+          {"compared_pixels", runner.seen.compared},
+          {"wrong_pixels", runner.seen.wrong},
+          {"differing_pixels", runner.differing}};
+}
+
+/// What is written in place of the figures where a frame would take, or takes, too long.
+Json tooLongJson() {
+  return {{"traversal", "iterative"}, {"left_out", "a frame takes longer than --longest"}};
 }
 
 /// The iterative traversal walks a plain list: one frame, unless that takes too long.
-ScaleFrames measureIterative(const Setting& setting, const Scene& scene, std::span<const ExactHit> hits,
-                             const Image* first) {
+Json measureIterative(const Setting& setting, const Scene& scene, std::span<const ExactHit> hits,
+                      const Image* first) {
   const Bvh list = listLeaves(scene);
-  Runner runner{TraversalMethod::Iterative,
-                variantFor(setting, TraversalMethod::Iterative, scene, 0),
-                nullptr,
-                {},
-                1,
-                {}};
-  runner.report.traversal = "iterative";
+  Runner runner;
+  runner.name = "iterative";
+  runner.variant = variantFor(setting, TraversalMethod::Iterative, scene, 0);
   const auto renderer = upload(setting, packScene(scene, list, {}, runner.variant), runner.variant);
-  runner.renderer = renderer.get();
-  runner.film = std::make_unique<Film>(setting.size);
-  runner.report.compileMs = runner.renderer->compile(runner.variant, *runner.film, setting.view);
-  runner.report.variant = variantName(runner.variant);
+  compile(setting, runner, *renderer);
   RenderTimes times;
   Stopwatch watch;
   double spent = 0.0;
-  const bool complete = runner.renderer->addSamples(*runner.film, setting.view, 0, 1, times, [&](double) {
+  const bool complete = renderer->addSamples(*runner.film, setting.view, 0, 1, times, [&](double) {
     spent += watch.lap();
     return spent < 1000.0 * setting.options.longest;
   });
-  if (!complete) {
-    runner.report.left = "a frame takes longer than --longest";
-    return runner.report;
-  }
-  runner.report.frameMs.push_back(times.renderMs);
+  if (!complete) return tooLongJson();
+  runner.frameMs.push_back(times.renderMs);
   check(runner, scene, hits, first);
-  return runner.report;
+  return framesJson(runner);
 }
 
 /// What times the traversals of the tree that are asked for; without a renderer yet.
@@ -218,10 +235,10 @@ std::vector<Runner> treeRunners(const Setting& setting, const Scene& scene, uint
   const ScaleOptions& options = setting.options;
   std::vector<Runner> runners;
   for (size_t i = 0; i < options.traversals.size(); ++i) {
-    const TraversalMethod traversal = options.traversals[i];
-    if (traversal == TraversalMethod::Iterative) continue;
-    runners.push_back({traversal, variantFor(setting, traversal, scene, depth), nullptr, {}, 1, {}});
-    runners.back().report.traversal = options.traversalNames[i];
+    if (options.traversals[i] == TraversalMethod::Iterative) continue;
+    Runner& runner = runners.emplace_back();
+    runner.name = options.traversalNames[i];
+    runner.variant = variantFor(setting, options.traversals[i], scene, depth);
   }
   return runners;
 }
@@ -240,90 +257,91 @@ std::unique_ptr<Image> checkRunners(Setting& setting, std::vector<Runner>& runne
   return first;
 }
 
-ScaleRow measureSize(Setting& setting, size_t wanted, double iterativeMsPerTriangle) {
+/// A size, as it is written. `iterativeMsPerTriangle` is that of the size before, and becomes this one's.
+Json measureSize(Setting& setting, size_t wanted, double& iterativeMsPerTriangle) {
   const ScaleOptions& options = setting.options;
-  ScaleRow row;
+  Json row = {{"schema", 1},
+              {"bench", "scale"},
+              {"width", setting.size.x},
+              {"height", setting.size.y},
+              {"gl_renderer", setting.context.renderer}};
   const bool peakKnown = resetPeakMemory();
   Stopwatch watch;
   const Scene scene = makeBallScene(wanted);
-  row.triangles = scene.triangles.size();
-  row.makeMs = watch.lap();
-  const Bvh bvh = buildBvh(primitiveBounds(scene), uint32_t(row.triangles));
-  row.buildMs = watch.lap();
+  const size_t triangles = scene.triangles.size();
+  row["triangles"] = triangles;
+  row["make_ms"] = watch.lap();
+  const Bvh bvh = buildBvh(primitiveBounds(scene), uint32_t(triangles));
+  row["build_ms"] = watch.lap();
   const BvhQuality quality = bvhQuality(bvh);
-  row.sahCost = quality.sahCost;
-  row.depth = quality.depth;
   setting.view.camera = frameScene(scene.bounds);
 
   // Step: both tree traversals read the same arrays.
   std::vector<Runner> runners = treeRunners(setting, scene, bvh.depth);
   std::unique_ptr<Renderer> renderer;
+  size_t gpuBytes = 0;
+  row["pack_ms"] = 0.0;
+  row["upload_ms"] = 0.0;
   if (!runners.empty()) {
     watch.lap();
     GpuScene packed = packScene(scene, bvh, {}, runners.front().variant);
-    row.packMs = watch.lap();
-    row.gpuBytes = packed.bytes();
+    row["pack_ms"] = watch.lap();
+    gpuBytes = packed.bytes();
     renderer = upload(setting, std::move(packed), runners.front().variant);
-    row.uploadMs = watch.lap();
+    row["upload_ms"] = watch.lap();
   }
   for (Runner& runner : runners) {
-    runner.renderer = renderer.get();
     runner.variant.reads = runners.front().variant.reads;
+    compile(setting, runner, *renderer);
     warmUp(setting, runner);
   }
   for (int round = 0; round < options.rounds; ++round) {
     for (Runner& runner : runners) timeFrames(setting, runner);
   }
-  if (peakKnown) row.peakBytes = peakMemory();
+  row["sah_cost"] = quality.sahCost;
+  row["depth"] = quality.depth;
+  row["gpu_bytes"] = gpuBytes;
+  row["gpu_bytes_per_triangle"] = double(gpuBytes) / double(triangles);
+  row["peak_bytes"] = peakKnown ? peakMemory() : 0;  // resident, until the last frame
 
   // Step: right pictures only.
   const ExactTracer tracer(scene, bvh);
   const std::vector<Ray> rays = primaryRays(setting.view.camera, setting.view.space, setting.size);
-  proveTree(tracer, row.triangles, rays);
+  proveTree(tracer, triangles, rays);
   const std::vector<ExactHit> hits = tracer.nearest(rays);
   const std::unique_ptr<Image> first = checkRunners(setting, runners, scene, hits);
-  for (Runner& runner : runners) row.frames.push_back(std::move(runner.report));
+  Json& traversals = row["traversals"] = Json::array();
+  std::ranges::transform(runners, std::back_inserter(traversals), framesJson);
   if (std::ranges::count(options.traversals, TraversalMethod::Iterative) > 0) {
-    ScaleFrames iterative;
-    iterative.traversal = "iterative";
-    if (iterativeMsPerTriangle * double(row.triangles) > 1000.0 * options.longest) {
-      iterative.left = "a frame takes longer than --longest";
-    } else {
-      renderer.reset();
-      iterative = measureIterative(setting, scene, hits, first.get());
-    }
-    row.frames.push_back(std::move(iterative));
+    renderer.reset();
+    const bool tooLong = iterativeMsPerTriangle * double(triangles) > 1000.0 * options.longest;
+    const Json iterative = tooLong ? tooLongJson() : measureIterative(setting, scene, hits, first.get());
+    if (iterative.contains("frame_ms"))
+      iterativeMsPerTriangle = iterative["frame_ms"][0].get<double>() / double(triangles);
+    traversals.push_back(iterative);
   }
   return row;
 }
 
-ScaleReport measure(const ScaleOptions& options, const Context& context) {
+std::vector<Json> measure(const ScaleOptions& options, const Context& context) {
   Setting setting{options, context, {}, *options.render.camera.resolution};
   setting.view.showEnvironment = false;
-  ScaleReport report;
-  report.width = setting.size.x;
-  report.height = setting.size.y;
-  report.renderer = context.renderer;
   ProgressBar bar("measuring", options.render.output.quiet);
   double iterativeMsPerTriangle = 0.0;
+  std::vector<Json> rows;
   const std::vector<size_t> sizes = sizesOf(options);
-  for (size_t i = 0; i < sizes.size(); ++i) {
-    report.rows.push_back(measureSize(setting, sizes[i], iterativeMsPerTriangle));
-    const ScaleRow& row = report.rows.back();
-    for (const ScaleFrames& f : row.frames) {
-      if (f.traversal == "iterative" && !f.frameMs.empty())
-        iterativeMsPerTriangle = f.frameMs.front() / double(row.triangles);
-    }
-    bar.show(double(i + 1) / double(sizes.size()));
+  for (const size_t size : sizes) {
+    rows.push_back(measureSize(setting, size, iterativeMsPerTriangle));
+    bar.show(double(rows.size()) / double(sizes.size()));
   }
   bar.clear();
-  return report;
+  return rows;
 }
 
 int runScale(const ScaleOptions& options) {
   checkResultFiles(options.files, {});
   const auto context = contextOf(options.render);
-  const ScaleReport report = measure(options, *context);
+  const std::vector<Json> report = measure(options, *context);
   writeResults(options.files, {scaleTable(report), scaleJson(report), {}, scaleChart(report)});
   return 0;
 }

@@ -34,6 +34,7 @@ namespace fragtrace {
 
 namespace {
 
+/// As parsed, and what follows from it.
 struct StartOptions {
   RawRender raw;
   std::string format = "png";

@@ -16,6 +16,7 @@ namespace fragtrace {
 
 namespace {
 
+/// As parsed, and what follows from it.
 struct StressOptions {
   RawRender raw;
   RenderOptions render;           ///< device

@@ -28,6 +28,54 @@ void drawSamples(TimedSetting& s, int from, int to, RenderTimes& times) {
   }
 }
 
+/// Compiles, draws the first frame and more until a round's time has passed, and chooses the frames of a
+/// round.
+void warmUp(TimedSetting& s) {
+  s.report.compileMs =
+      s.tracer.programMs + s.tracer.renderer->compile(s.tracer.variant, *s.film, s.loaded->view);
+  RenderTimes first;
+  drawSamples(s, 0, 1, first);
+  s.report.firstFrameMs = first.drawMs;
+  if (s.timing.mostSeconds > 0.0 && first.drawMs > 1000.0 * s.timing.mostSeconds) {
+    s.report.frameMs.push_back(first.drawMs);
+    s.report.wallFrameMs.push_back(first.renderMs);
+    s.timing.rounds = 0;
+    return;
+  }
+  // Step: frames until a round's time has passed; the last of them tell how many a round needs.
+  const double roundMs = 1000.0 * s.timing.roundSeconds;
+  double frameMs = std::max(first.drawMs, 1e-6);
+  constexpr int kMost = 1 << 24;
+  int frames = 1;
+  for (double spent = first.drawMs; spent < roundMs && frames < kMost;) {
+    RenderTimes times;
+    s.film->clear();
+    drawSamples(s, 0, frames, times);
+    frameMs = std::max(times.drawMs / frames, 1e-6);
+    spent += std::max(times.renderMs, times.drawMs);
+    const double missing = std::max(1.0, (roundMs - spent) / frameMs);
+    frames = int(std::min({2.0 * frames, std::ceil(missing), double(kMost)}));
+  }
+  // Step: what a draw costs once must not weigh differently in settings that are compared.
+  const double affordable = kMostOverTime * roundMs / frameMs;
+  const double least = std::min(double(s.timing.leastFrames), affordable);
+  const double wanted = std::clamp(std::max(roundMs / frameMs, least), 1.0, double(kMost));
+  s.report.frames = s.configuration.samplesGiven ? s.configuration.render.sampling.spp : int(wanted);
+  if (s.timing.mostSeconds > 0.0) {
+    const double rounds = 1000.0 * s.timing.mostSeconds / (frameMs * s.report.frames);
+    s.timing.rounds = int(std::clamp(rounds, 1.0, double(s.timing.rounds)));
+  }
+}
+
+/// Draws one round on a cleared film.
+void drawRound(TimedSetting& s) {
+  RenderTimes times;
+  s.film->clear();
+  drawSamples(s, 0, s.report.frames, times);
+  s.report.frameMs.push_back(times.drawMs / s.report.frames);
+  s.report.wallFrameMs.push_back(times.renderMs / s.report.frames);
+}
+
 }  // namespace
 
 void addTimingOptions(CLI::App& app, FrameTiming& timing) {
@@ -82,51 +130,6 @@ TimedSetting makeSetting(const Context& context, const BenchConfiguration& confi
   r.triangles = s.loaded->scene.triangles.size();
   r.samplesPerDraw = timing.samplesPerDraw;
   return s;
-}
-
-void warmUp(TimedSetting& s) {
-  s.report.compileMs =
-      s.tracer.programMs + s.tracer.renderer->compile(s.tracer.variant, *s.film, s.loaded->view);
-  RenderTimes first;
-  drawSamples(s, 0, 1, first);
-  s.report.firstFrameMs = first.drawMs;
-  if (s.timing.mostSeconds > 0.0 && first.drawMs > 1000.0 * s.timing.mostSeconds) {
-    s.report.frameMs.push_back(first.drawMs);
-    s.report.wallFrameMs.push_back(first.renderMs);
-    s.timing.rounds = 0;
-    return;
-  }
-  // Step: frames until a round's time has passed; the last of them tell how many a round needs.
-  const double roundMs = 1000.0 * s.timing.roundSeconds;
-  double frameMs = std::max(first.drawMs, 1e-6);
-  constexpr int kMost = 1 << 24;
-  int frames = 1;
-  for (double spent = first.drawMs; spent < roundMs && frames < kMost;) {
-    RenderTimes times;
-    s.film->clear();
-    drawSamples(s, 0, frames, times);
-    frameMs = std::max(times.drawMs / frames, 1e-6);
-    spent += std::max(times.renderMs, times.drawMs);
-    const double missing = std::max(1.0, (roundMs - spent) / frameMs);
-    frames = int(std::min({2.0 * frames, std::ceil(missing), double(kMost)}));
-  }
-  // Step: what a draw costs once must not weigh differently in settings that are compared.
-  const double affordable = kMostOverTime * roundMs / frameMs;
-  const double least = std::min(double(s.timing.leastFrames), affordable);
-  const double wanted = std::clamp(std::max(roundMs / frameMs, least), 1.0, double(kMost));
-  s.report.frames = s.configuration.samplesGiven ? s.configuration.render.sampling.spp : int(wanted);
-  if (s.timing.mostSeconds > 0.0) {
-    const double rounds = 1000.0 * s.timing.mostSeconds / (frameMs * s.report.frames);
-    s.timing.rounds = int(std::clamp(rounds, 1.0, double(s.timing.rounds)));
-  }
-}
-
-void drawRound(TimedSetting& s) {
-  RenderTimes times;
-  s.film->clear();
-  drawSamples(s, 0, s.report.frames, times);
-  s.report.frameMs.push_back(times.drawMs / s.report.frames);
-  s.report.wallFrameMs.push_back(times.renderMs / s.report.frames);
 }
 
 void measureInTurn(std::span<TimedSetting> settings, bool quiet) {

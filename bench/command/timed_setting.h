@@ -50,13 +50,6 @@ TimedSetting makeSetting(const Context& context, const BenchConfiguration& confi
 TimedSetting makeSetting(const Context& context, const BenchConfiguration& configuration,
                          const FrameTiming& timing, std::shared_ptr<const LoadedScene> loaded, Tracer tracer);
 
-/// Compiles, draws the first frame and more until a round's time has passed, and chooses the frames of a
-/// round.
-void warmUp(TimedSetting& setting);
-
-/// Draws one round on a cleared film.
-void drawRound(TimedSetting& setting);
-
 /// Warms up all, then draws round after round in turn.
 void measureInTurn(std::span<TimedSetting> settings, bool quiet);
 

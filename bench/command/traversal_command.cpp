@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `fragtrace bench traversal`: rays a second of each kind, nothing shaded.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstring>
 #include <memory>
 
@@ -12,6 +13,7 @@
 #include "bench/report/traversal_report.h"
 #include "errors.h"
 #include "image/files/whole_file.h"
+#include "math/summary.h"
 #include "options/numbers.h"
 #include "pack/literals.h"
 #include "render/ray_caster.h"
@@ -22,6 +24,7 @@ namespace fragtrace {
 
 namespace {
 
+/// As parsed, and what follows from it.
 struct TraversalOptions {
   RawRender raw;
   RenderOptions render;  ///< scene, camera, traversal, device
@@ -68,21 +71,26 @@ struct MeasuredSet {
   RayKind kind;
   std::vector<Ray> rays;
   std::vector<FoundHit> found;
-  TraversalRow row;
+  size_t count = 0;        ///< of rays that are there
+  std::vector<double> ms;  ///< one a round
+  size_t wrong = 0;        ///< rays whose hit is not that of double precision
+  size_t provedByAll =
+      0;  ///< rays on which double precision by the tree is itself held against all primitives
 
+  std::string name() const { return std::string(kRayKindNames[size_t(kind)]); }
   bool anyHit() const { return kind == RayKind::Shadow; }
 };
 
 std::vector<MeasuredSet> makeSets(const LoadedScene& loaded, const ExactTracer& tracer, uint32_t seed) {
-  std::vector<Ray> primary = primaryRays(loaded.camera, loaded.scene.space, loaded.size);
+  std::vector<MeasuredSet> sets(3);
+  const std::vector<Ray> primary = primaryRays(loaded.camera, loaded.scene.space, loaded.size);
   const std::vector<ExactHit> hits = tracer.nearest(primary);
-  std::vector<MeasuredSet> sets;
-  sets.push_back({RayKind::Diffuse, diffuseRays(tracer, primary, hits, seed), {}, {}});
-  sets.push_back({RayKind::Shadow, shadowRays(tracer, loaded.scene, primary, hits, seed + 1), {}, {}});
-  sets.insert(sets.begin(), {RayKind::Primary, std::move(primary), {}, {}});
-  for (MeasuredSet& set : sets) {
-    set.row.kind = kRayKindNames[size_t(set.kind)];
-    set.row.rays = countRays(set.rays);
+  sets[1].rays = diffuseRays(tracer, primary, hits, seed);
+  sets[2].rays = shadowRays(tracer, loaded.scene, primary, hits, seed + 1);
+  sets[0].rays = primary;
+  for (size_t i = 0; i < sets.size(); ++i) {
+    sets[i].kind = RayKind(i);
+    sets[i].count = countRays(sets[i].rays);
   }
   return sets;
 }
@@ -91,15 +99,28 @@ std::vector<MeasuredSet> makeSets(const LoadedScene& loaded, const ExactTracer& 
 void check(MeasuredSet& set, const ExactTracer& tracer, const Scene& scene) {
   const std::vector<ExactHit> exact = tracer.nearest(set.rays);
   const double size = glm::length(scene.bounds.extent()) / scene.space.unit;
-  set.row.wrong = set.anyHit() ? countWrongAny(set.rays, set.found, exact)
-                               : countWrongNearest(set.rays, set.found, exact, size);
-  set.row.wrongAllowed = wrongRaysAllowed(set.row.rays);
-  for (const FoundHit& hit : set.found) set.row.hits += hit.primitive != kMissIndex ? 1 : 0;
-  if (set.row.wrong > set.row.wrongAllowed) {
-    throw RenderError(std::to_string(set.row.wrong) + " of " + std::to_string(set.row.rays) + " " +
-                      set.row.kind + " rays hit something else than in double precision");
+  set.wrong = set.anyHit() ? countWrongAny(set.rays, set.found, exact)
+                           : countWrongNearest(set.rays, set.found, exact, size);
+  if (set.wrong > wrongRaysAllowed(set.count)) {
+    throw RenderError(std::to_string(set.wrong) + " of " + std::to_string(set.count) + " " + set.name() +
+                      " rays hit something else than in double precision");
   }
-  set.row.provedByAll = proveTree(tracer, scene.triangles.size() + scene.spheres.size(), set.rays);
+  set.provedByAll = proveTree(tracer, scene.triangles.size() + scene.spheres.size(), set.rays);
+}
+
+/// The line that is written of a kind of rays, behind what all have in common.
+Json lineOf(Json line, const MeasuredSet& set) {
+  line["kind"] = set.name();
+  line["rays"] = set.count;
+  line["hits"] =
+      std::ranges::count_if(set.found, [](const FoundHit& h) { return h.primitive != kMissIndex; });
+  line["ms"] = set.ms;
+  line["median_ms"] = summarize(set.ms).median;
+  line["mrays_per_s"] = megaRaysPerSecond(set.count, set.ms);
+  line["wrong"] = set.wrong;
+  line["wrong_allowed"] = wrongRaysAllowed(set.count);
+  line["proved_by_all"] = set.provedByAll;
+  return line;
 }
 
 /// Little-endian: "FTRAYS1", 0; numbers of triangles and of rays a set, 32 bits each; nine floats a triangle;
@@ -125,7 +146,7 @@ void writeRays(const std::filesystem::path& path, const Scene& scene, const std:
   replaceFile(path, bytes);
 }
 
-TraversalReport measure(const TraversalOptions& options, const Context& context) {
+std::vector<Json> measure(const TraversalOptions& options, const Context& context) {
   Statistics stats;
   LoadedScene loaded = loadScene(options.render, stats);
   checkFiles(options, inputsOf(loaded.scene));
@@ -139,19 +160,9 @@ TraversalReport measure(const TraversalOptions& options, const Context& context)
   variant.reads =
       chooseReads(options.render.device.bufferReads, context.software, packed, readLimits()).reads;
 
-  TraversalReport report;
-  report.scene = options.render.scene.filename().string();
-  report.triangles = scene.triangles.size();
-  report.spheres = scene.spheres.size();
-  report.width = loaded.size.x;
-  report.height = loaded.size.y;
-  report.renderer = context.renderer;
-  report.variant = variantName(variant);
-  report.sahCost = stats.bvh.sahCost;
-  if (report.triangles > 0)
-    report.gpuBytesPerTriangle = double(packed.geometryBytes()) / double(report.triangles);
+  const auto triangles = double(scene.triangles.size());
+  const double bytesPerTriangle = triangles > 0.0 ? double(packed.geometryBytes()) / triangles : 0.0;
   RayCaster caster(context, std::move(packed), variant, loaded.size, options.render.device.shaderFolder);
-  report.clock = caster.clockName();
 
   // Step: warm up, which is where the driver compiles, and check.
   const ExactTracer tracer(scene, loaded.bvh);
@@ -168,21 +179,36 @@ TraversalReport measure(const TraversalOptions& options, const Context& context)
   ProgressBar bar("measuring", options.render.output.quiet);
   for (int round = 0; round < options.rounds; ++round) {
     for (size_t i = 0; i < sets.size(); ++i) {
-      sets[i].row.ms.push_back(caster.trace(uploaded[i], sets[i].anyHit()));
+      sets[i].ms.push_back(caster.trace(uploaded[i], sets[i].anyHit()));
     }
     bar.show(double(round + 1) / options.rounds);
   }
   bar.clear();
   if (!options.rays.empty()) writeRays(options.rays, scene, sets);
-  for (MeasuredSet& set : sets) report.rows.push_back(std::move(set.row));
-  return report;
+  const Json head = {{"schema", 1},
+                     {"bench", "traversal"},
+                     {"scene", options.render.scene.filename().string()},
+                     {"triangles", scene.triangles.size()},
+                     {"spheres", scene.spheres.size()},
+                     {"width", loaded.size.x},
+                     {"height", loaded.size.y},
+                     {"gl_renderer", context.renderer},
+                     {"variant", variantName(variant)},
+                     {"clock", caster.clockName()},
+                     {"sah_cost", stats.bvh.sahCost},
+                     {"gpu_bytes_per_triangle", bytesPerTriangle}};
+  std::vector<Json> lines;
+  for (const MeasuredSet& set : sets) lines.push_back(lineOf(head, set));
+  return lines;
 }
 
 int runTraversal(const TraversalOptions& options) {
   checkFiles(options, inputsOf(options.render));
   const auto context = contextOf(options.render);
-  const TraversalReport report = measure(options, *context);
-  writeResults(options.files, {traversalTable(report), traversalJson(report), {}, {}});
+  const std::vector<Json> lines = measure(options, *context);
+  std::string json;
+  for (const Json& line : lines) json += jsonLine(line);
+  writeResults(options.files, {traversalTable(lines), json, {}, {}});
   return 0;
 }
 

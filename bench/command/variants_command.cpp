@@ -17,6 +17,7 @@ namespace fragtrace {
 
 namespace {
 
+/// As parsed, and what follows from it.
 struct VariantsOptions {
   std::vector<std::string> sceneNames;
   RawConfigurations raw;

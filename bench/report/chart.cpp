@@ -74,6 +74,7 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
+/// Of UTF-8.
 size_t characterCount(std::string_view text) {
   return size_t(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
@@ -128,6 +129,7 @@ struct Layout {
 
 bool hasPlace(const ChartPoint& point) { return isShown(point.x) && isShown(point.y); }
 
+/// The plot holds all points, the ends of their bars, and the limit.
 void fitAxes(const Chart& chart, Layout& layout) {
   std::vector<double> xs;
   std::vector<double> ys;
@@ -144,6 +146,7 @@ void fitAxes(const Chart& chart, Layout& layout) {
   layout.y = fitAxis(ys);
 }
 
+/// The plot has one size; the picture is as large as what stands around it needs.
 Layout layOut(const Chart& chart) {
   Layout layout;
   fitAxes(chart, layout);
@@ -181,6 +184,7 @@ std::string linesPath(const std::vector<std::array<Point, 2>>& lines, const std:
   return svg.append("'/>\n");
 }
 
+/// Lines at the ticks, the box around the plot, and labels.
 std::string drawGrid(const Layout& layout) {
   std::array<std::vector<std::array<Point, 2>>, 2> lines;  // light ones, labelled ones
   std::string labels;
@@ -204,6 +208,7 @@ std::string drawGrid(const Layout& layout) {
          number(kPlotHeight) + "' fill='none' stroke='#444444'/>\n" + labels;
 }
 
+/// The title, the names of the axes, and the caption.
 std::string drawTexts(const Chart& chart, const Layout& layout) {
   const double middleY = kPlotTop + kPlotHeight / 2;
   std::string svg =
@@ -225,6 +230,7 @@ std::string drawTexts(const Chart& chart, const Layout& layout) {
   return svg;
 }
 
+/// Filled ones have a white rim, which sets them off from the line of their colour.
 std::string drawMarker(const Style& style, Point at) {
   const std::string color(style.color);
   return "<path class='marker' d='" + std::string(style.marker) + "' transform='translate(" + number(at.x) +
@@ -232,6 +238,7 @@ std::string drawMarker(const Style& style, Point at) {
          (style.isFilled ? "#FFFFFF" : color) + "' stroke-width='" + (style.isFilled ? "1" : "2") + "'/>\n";
 }
 
+/// From each point to the ends of its bar that the axis can show, with a cap across them.
 std::string drawErrorBars(const Layout& layout, const ChartSeries& series, const std::string& color) {
   constexpr double kCap = 4;
   std::vector<std::array<Point, 2>> lines;
@@ -249,6 +256,7 @@ std::string drawErrorBars(const Layout& layout, const ChartSeries& series, const
   return linesPath(lines, "class='bar' stroke='" + color + "' stroke-width='1.2'");
 }
 
+/// Markers lie on the line, and both on the bars.
 std::string drawSeries(const Chart& chart, const Layout& layout, size_t index) {
   const ChartSeries& series = chart.series[index];
   const Style& style = styleOf(index);
@@ -271,6 +279,7 @@ std::string drawSeries(const Chart& chart, const Layout& layout, size_t index) {
   return svg + markers + "</g>\n";
 }
 
+/// The dashed line across the plot.
 std::string drawLimit(const Chart& chart, const Layout& layout) {
   if (!chart.line || !isShown(chart.line->y)) return "";
   const double y = layout.toY(chart.line->y);
@@ -278,6 +287,7 @@ std::string drawLimit(const Chart& chart, const Layout& layout) {
                    "class='limit' stroke='#444444' stroke-width='1.5' stroke-dasharray='7 4'");
 }
 
+/// A piece of each line with its marker, and its name.
 std::string drawLegend(const Chart& chart, const Layout& layout) {
   const double left = layout.legendLeft;
   double y = kPlotTop + 10;

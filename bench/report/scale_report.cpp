@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "bench/report/chart.h"
 #include "bench/report/formatted.h"
-#include "bench/report/json.h"
 #include "math/summary.h"
 
 namespace fragtrace {
@@ -29,154 +29,128 @@ void fitExponents(Growth& growth) {
   growth.lateExponent = logLogSlope(xs, ys);
 }
 
+double numberOf(const Json& json, const char* key) { return json.at(key).get<double>(); }
+
+/// Of what is above 0; what was not measured is not.
 template <typename Value>
-Growth growthOf(const ScaleReport& report, const std::string& name, const std::string& unit,
+Growth growthOf(std::span<const Json> sizes, const std::string& name, const std::string& unit,
                 const Value& valueOf) {
   Growth growth{name, unit, {}, {}, 0.0, 0.0};
-  for (const ScaleRow& row : report.rows) {
-    const double value = valueOf(row);
+  for (const Json& size : sizes) {
+    const double value = valueOf(size);
     if (!(value > 0.0)) continue;
-    growth.triangles.push_back(double(row.triangles));
+    growth.triangles.push_back(numberOf(size, "triangles"));
     growth.values.push_back(value);
   }
   fitExponents(growth);
   return growth;
 }
 
+/// That of a traversal at a size; null where there is none.
+Json framesOf(const Json& size, const std::string& traversal) {
+  for (const Json& frames : size.at("traversals")) {
+    if (frames.at("traversal") == traversal) return frames;
+  }
+  return nullptr;
+}
+
+/// What stands before the figures: all that the lines have in common.
+std::string headOf(const Json& size) {
+  return formatted("%d x %d, stage flat", int(numberOf(size, "width")), int(numberOf(size, "height")));
+}
+
 std::string exponentText(double exponent) { return std::isnan(exponent) ? "-" : formatted("%.2f", exponent); }
 
 }  // namespace
 
-std::vector<Growth> growthOf(const ScaleReport& report) {
-  std::vector<Growth> all;
-  all.push_back(growthOf(report, "make", "ms", [](const ScaleRow& r) { return r.makeMs; }));
-  all.push_back(growthOf(report, "build", "ms", [](const ScaleRow& r) { return r.buildMs; }));
-  all.push_back(growthOf(report, "pack", "ms", [](const ScaleRow& r) { return r.packMs; }));
-  all.push_back(growthOf(report, "upload", "ms", [](const ScaleRow& r) { return r.uploadMs; }));
-  std::vector<std::string> traversals;
-  for (const ScaleRow& row : report.rows) {
-    for (const ScaleFrames& f : row.frames) {
-      if (std::ranges::find(traversals, f.traversal) == traversals.end()) traversals.push_back(f.traversal);
-    }
+std::vector<Growth> growthOf(std::span<const Json> sizes) {
+  const auto plain = [&](const char* name, const char* unit, const char* key) {
+    return growthOf(sizes, name, unit, [&](const Json& size) { return numberOf(size, key); });
+  };
+  std::vector<Growth> all{plain("make", "ms", "make_ms"), plain("build", "ms", "build_ms"),
+                          plain("pack", "ms", "pack_ms"), plain("upload", "ms", "upload_ms")};
+  for (const Json& frames : sizes.front().at("traversals")) {
+    const std::string name = frames.at("traversal");
+    all.push_back(growthOf(sizes, name + " frame", "ms",
+                           [&](const Json& size) { return framesOf(size, name).value("median_ms", 0.0); }));
   }
-  for (const std::string& name : traversals) {
-    all.push_back(growthOf(report, name + " frame", "ms", [&](const ScaleRow& row) {
-      for (const ScaleFrames& f : row.frames) {
-        if (f.traversal == name) return summarize(f.frameMs).median;
-      }
-      return 0.0;
-    }));
-  }
-  all.push_back(
-      growthOf(report, "GPU memory", "bytes", [](const ScaleRow& r) { return double(r.gpuBytes); }));
-  all.push_back(
-      growthOf(report, "peak memory", "bytes", [](const ScaleRow& r) { return double(r.peakBytes); }));
+  all.push_back(plain("GPU memory", "bytes", "gpu_bytes"));
+  all.push_back(plain("peak memory", "bytes", "peak_bytes"));
   return all;
 }
 
-std::string scaleTable(const ScaleReport& report) {
+std::string scaleTable(std::span<const Json> sizes) {
   std::string text =
-      formatted("%d x %d, stage flat\n%s\n\n", report.width, report.height, report.renderer.c_str());
+      headOf(sizes.front()) + "\n" + sizes.front().at("gl_renderer").get<std::string>() + "\n\n";
   text += formatted("%10s %9s %9s %9s %9s %8s %6s %8s %8s\n", "triangles", "make ms", "build ms", "pack ms",
                     "upload ms", "SAH", "depth", "GPU B/t", "peak MB");
-  for (const ScaleRow& r : report.rows) {
-    text += formatted("%10zu %9.4g %9.4g %9.4g %9.4g %8.4g %6u %8.1f %8.0f\n", r.triangles, r.makeMs,
-                      r.buildMs, r.packMs, r.uploadMs, r.sahCost, r.depth,
-                      double(r.gpuBytes) / double(r.triangles), double(r.peakBytes) / 1e6);
+  for (const Json& size : sizes) {
+    const auto of = [&](const char* key) { return numberOf(size, key); };
+    text += formatted("%10.0f %9.4g %9.4g %9.4g %9.4g %8.4g %6.0f %8.1f %8.0f\n", of("triangles"),
+                      of("make_ms"), of("build_ms"), of("pack_ms"), of("upload_ms"), of("sah_cost"),
+                      of("depth"), of("gpu_bytes_per_triangle"), of("peak_bytes") / 1e6);
   }
   text += formatted("\n%10s  %-14s %10s %10s %10s %10s %8s %8s\n", "triangles", "traversal", "frame ms",
                     "least", "p95", "compared", "wrong", "differ");
-  for (const ScaleRow& r : report.rows) {
-    for (const ScaleFrames& f : r.frames) {
-      text += formatted("%10zu  %-14s ", r.triangles, f.traversal.c_str());
-      const Summary s = summarize(f.frameMs);
-      text += f.frameMs.empty() ? f.left + "\n"
-                                : formatted("%10.4g %10.4g %10.4g %10zu %8zu %8zu\n", s.median, s.min, s.p95,
-                                            f.compared, f.wrong, f.differing);
+  for (const Json& size : sizes) {
+    for (const Json& f : size.at("traversals")) {
+      text += formatted("%10.0f  %-14s ", numberOf(size, "triangles"),
+                        f.at("traversal").get<std::string>().c_str());
+      if (f.contains("left_out")) {
+        text += f.at("left_out").get<std::string>() + "\n";
+        continue;
+      }
+      const Summary s = summarize(f.at("frame_ms"));
+      text += formatted("%10.4g %10.4g %10.4g %10.0f %8.0f %8.0f\n", s.median, s.min, s.p95,
+                        numberOf(f, "compared_pixels"), numberOf(f, "wrong_pixels"),
+                        numberOf(f, "differing_pixels"));
     }
   }
   text += "\ngrowth ~ triangles^p, over all sizes and over the larger half\n";
-  for (const Growth& g : growthOf(report)) {
+  for (const Growth& g : growthOf(sizes)) {
     text += formatted("%-22s %6s %6s\n", g.name.c_str(), exponentText(g.exponent).c_str(),
                       exponentText(g.lateExponent).c_str());
   }
   return text;
 }
 
-std::string scaleJson(const ScaleReport& report) {
+std::string scaleJson(std::span<const Json> sizes) {
   const auto numberOrNull = [](double value) { return std::isnan(value) ? Json(nullptr) : Json(value); };
-  Json head;
-  head["schema"] = 1;
-  head["bench"] = "scale";
-  head["width"] = report.width;
-  head["height"] = report.height;
-  head["gl_renderer"] = report.renderer;
   std::string text;
-  for (const ScaleRow& r : report.rows) {
-    Json json = head;
-    json["triangles"] = r.triangles;
-    json["make_ms"] = r.makeMs;
-    json["build_ms"] = r.buildMs;
-    json["pack_ms"] = r.packMs;
-    json["upload_ms"] = r.uploadMs;
-    json["sah_cost"] = r.sahCost;
-    json["depth"] = r.depth;
-    json["gpu_bytes"] = r.gpuBytes;
-    json["gpu_bytes_per_triangle"] = double(r.gpuBytes) / double(r.triangles);
-    json["peak_bytes"] = r.peakBytes;
-    json["traversals"] = Json::array();
-    for (const ScaleFrames& f : r.frames) {
-      Json entry;
-      entry["traversal"] = f.traversal;
-      if (f.frameMs.empty()) {
-        entry["left_out"] = f.left;
-      } else {
-        entry["variant"] = f.variant;
-        entry["compile_ms"] = f.compileMs;
-        entry["frame_ms"] = f.frameMs;
-        entry["median_ms"] = summarize(f.frameMs).median;
-        entry["compared_pixels"] = f.compared;
-        entry["wrong_pixels"] = f.wrong;
-        entry["differing_pixels"] = f.differing;
-      }
-      json["traversals"].push_back(std::move(entry));
-    }
-    text += jsonLine(json);
-  }
-  Json growth = head;
+  for (const Json& size : sizes) text += jsonLine(size);
+  Json growth;
+  for (const char* key : {"schema", "bench", "width", "height", "gl_renderer"})
+    growth[key] = sizes.front().at(key);
   growth["exponents"] = Json::object();
-  for (const Growth& g : growthOf(report)) {
+  for (const Growth& g : growthOf(sizes)) {
     growth["exponents"][g.name] = {{"all", numberOrNull(g.exponent)},
                                    {"larger_half", numberOrNull(g.lateExponent)}};
   }
   return text + jsonLine(growth);
 }
 
-std::string scaleChart(const ScaleReport& report) {
+std::string scaleChart(std::span<const Json> sizes) {
   Chart chart;
   chart.title = "Time against triangles";
   chart.xLabel = "triangles";
   chart.yLabel = "milliseconds";
   chart.caption =
-      formatted("%d x %d, stage flat, one sample per pixel and frame, on ", report.width, report.height) +
-      report.renderer +
+      headOf(sizes.front()) + ", one sample per pixel and frame, on " +
+      sizes.front().at("gl_renderer").get<std::string>() +
       ". p: the exponent of time ~ triangles^p over the larger half of the sizes. Bars: the least "
       "and the largest frame.";
-  for (const Growth& g : growthOf(report)) {
+  for (const Growth& g : growthOf(sizes)) {
     if (g.unit != "ms" || g.values.empty()) continue;
     ChartSeries series;
     series.name = g.name + " (p " + exponentText(g.lateExponent) + ")";
     for (size_t i = 0; i < g.values.size(); ++i)
       series.points.push_back({g.triangles[i], g.values[i], {}, {}});
-    for (const ScaleRow& row : report.rows) {
-      for (const ScaleFrames& f : row.frames) {
-        if (f.frameMs.empty() || f.traversal + " frame" != g.name) continue;
-        for (ChartPoint& point : series.points) {
-          if (point.x != double(row.triangles)) continue;
-          point.low = *std::ranges::min_element(f.frameMs);
-          point.high = *std::ranges::max_element(f.frameMs);
-        }
-      }
+    for (const Json& size : sizes) {
+      const Json frames = framesOf(size, g.name.substr(0, g.name.rfind(" frame")));
+      const auto point = std::ranges::find(series.points, numberOf(size, "triangles"), &ChartPoint::x);
+      if (!frames.contains("frame_ms") || point == series.points.end()) continue;
+      const std::vector<double> ms = frames.at("frame_ms");
+      std::tie(point->low, point->high) = std::pair(std::ranges::min(ms), std::ranges::max(ms));
     }
     chart.series.push_back(std::move(series));
   }

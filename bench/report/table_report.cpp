@@ -83,6 +83,7 @@ std::string reportText(const ReportRow& row) {
                                          : formatted("%.2f-%.2f", row.reportLow, row.reportHigh);
 }
 
+/// None where it was not measured.
 const MeasuredRow* find(std::span<const MeasuredRow> rows, std::string_view subject,
                         std::string_view method) {
   for (const MeasuredRow& m : rows) {
@@ -105,6 +106,7 @@ std::vector<double> less(std::vector<double> ms, const std::vector<double>& fixe
   return ms;
 }
 
+/// One shape: its ratio here and in the report.
 std::string line(const std::string& name, const std::optional<PairedRatio>& ratio, const char* report) {
   return formatted("%-62s %-24s %s\n", name.c_str(), ratioText(ratio).c_str(), report);
 }

@@ -17,6 +17,7 @@ namespace fragtrace {
 
 namespace {
 
+/// One colour a surface, without light: a pixel tells what its rays hit.
 RenderOptions flatOptions(const StressSetting& setting, glm::ivec2 size, int spp) {
   RenderOptions options;
   options.stages = stagesUpTo(Stage::Flat);

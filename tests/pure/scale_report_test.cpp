@@ -9,30 +9,45 @@
 
 #include "bench/report/scale_report.h"
 #include "bench/report/traversal_report.h"
+#include "math/summary.h"
 
 namespace fragtrace {
 namespace {
 
 /// Build goes with the number of triangles, frames with a fixed cost that hides their growth at first.
-ScaleReport someReport() {
-  ScaleReport report;
-  report.width = 50;
-  report.height = 40;
-  report.renderer = "a driver";
+std::vector<Json> someReport() {
+  const auto frames = [](const char* traversal, const std::vector<double>& ms, int wrong, int differing) {
+    return Json{{"traversal", traversal},
+                {"variant", "flat"},
+                {"compile_ms", 7.0},
+                {"frame_ms", ms},
+                {"median_ms", summarize(ms).median},
+                {"compared_pixels", 1000},
+                {"wrong_pixels", wrong},
+                {"differing_pixels", differing}};
+  };
+  std::vector<Json> sizes;
   for (const size_t n : {1000u, 10000u, 100000u, 1000000u}) {
-    ScaleRow row;
-    row.triangles = n;
-    row.makeMs = 1.0;
-    row.buildMs = double(n) / 1000.0;
-    row.gpuBytes = n * 80;
-    row.peakBytes = 1000000;
-    row.frames.push_back(
-        {"front-to-back", "flat", 7.0, {10.0, 10.0 + double(n) / 1e5, 90.0}, "", 1000, 0, 0});
-    row.frames.push_back({"iterative", "", 0.0, {}, "too long", 0, 0, 0});
-    if (n == 1000) row.frames.back() = {"iterative", "flat", 3.0, {500.0}, "", 1000, 1, 2};
-    report.rows.push_back(row);
+    Json& size = sizes.emplace_back(Json{{"schema", 1},
+                                         {"bench", "scale"},
+                                         {"width", 50},
+                                         {"height", 40},
+                                         {"gl_renderer", "a driver"},
+                                         {"triangles", n},
+                                         {"make_ms", 1.0},
+                                         {"build_ms", double(n) / 1000.0},
+                                         {"pack_ms", 0.0},
+                                         {"upload_ms", 0.0},
+                                         {"sah_cost", 0.0},
+                                         {"depth", 0},
+                                         {"gpu_bytes", n * 80},
+                                         {"gpu_bytes_per_triangle", 80.0},
+                                         {"peak_bytes", 1000000}});
+    size["traversals"] = {frames("front-to-back", {10.0, 10.0 + double(n) / 1e5, 90.0}, 0, 0),
+                          n == 1000 ? frames("iterative", {500.0}, 1, 2)
+                                    : Json{{"traversal", "iterative"}, {"left_out", "too long"}}};
   }
-  return report;
+  return sizes;
 }
 
 const Growth& growthNamed(const std::vector<Growth>& all, std::string_view name) {
@@ -59,9 +74,10 @@ TEST(ScaleReport, FitsExponentsOverAllSizesAndTheLargerHalf) {
 }
 
 TEST(ScaleReport, SaysWhatWasMeasuredAndWhatWasNot) {
-  const ScaleReport report = someReport();
+  const std::vector<Json> report = someReport();
   const std::string table = scaleTable(report);
-  for (const char* text : {"50 x 40", "a driver", "1000000", "too long", "80.0", "growth"})
+  for (const char* text :
+       {"50 x 40", "a driver", "1000000", "too long", "1000        1        2", "80.0", "growth"})
     EXPECT_NE(table.find(text), std::string::npos) << text;
 
   std::istringstream lines(scaleJson(report));
@@ -92,25 +108,30 @@ TEST(ScaleReport, DrawsTimesWithTheirExponents) {
 }
 
 TEST(TraversalReport, GivesTheRateOfTheMedianRound) {
-  TraversalReport report;
-  report.scene = "a.gltf";
-  report.triangles = 12;
-  report.rows.push_back({"primary", 3000, 1500, {2.0, 1.0, 3.0}, 1, 2, 500});
-  report.rows.push_back({"shadow", 0, 0, {}, 0, 2, 0});
-  EXPECT_DOUBLE_EQ(report.rows[0].megaRaysPerSecond(), 1.5);
-  EXPECT_EQ(report.rows[1].megaRaysPerSecond(), 0.0);
-  const std::string table = traversalTable(report);
-  EXPECT_NE(table.find("50.0 %"), std::string::npos);
+  EXPECT_DOUBLE_EQ(megaRaysPerSecond(3000, {2.0, 1.0, 3.0}), 1.5);
+  EXPECT_EQ(megaRaysPerSecond(0, {}), 0.0);
+  const auto kind = [](const char* name, int rays, int hits, const std::vector<double>& ms) {
+    return Json{{"scene", "a.gltf"},
+                {"triangles", 12},
+                {"spheres", 0},
+                {"width", 60},
+                {"height", 50},
+                {"gl_renderer", "a driver"},
+                {"clock", "wall clock"},
+                {"sah_cost", 1.0},
+                {"gpu_bytes_per_triangle", 2.0},
+                {"kind", name},
+                {"rays", rays},
+                {"hits", hits},
+                {"ms", ms},
+                {"mrays_per_s", megaRaysPerSecond(size_t(rays), ms)},
+                {"wrong", 1}};
+  };
+  const std::vector<Json> kinds{kind("primary", 3000, 1500, {2.0, 1.0, 3.0}), kind("shadow", 0, 0, {})};
+  const std::string table = traversalTable(kinds);
+  EXPECT_NE(table.find("50.0 %          2          1          3          1.5        1"), std::string::npos)
+      << table;
   EXPECT_EQ(table.find("nan"), std::string::npos);
-  std::istringstream lines(traversalJson(report));
-  std::string line;
-  std::getline(lines, line);
-  const auto json = nlohmann::json::parse(line);
-  EXPECT_EQ(json["schema"], 1);
-  EXPECT_EQ(json["kind"], "primary");
-  EXPECT_EQ(json["mrays_per_s"], 1.5);
-  EXPECT_EQ(json["ms"].size(), 3u);
-  EXPECT_EQ(json["wrong"], 1);
 }
 
 }  // namespace
