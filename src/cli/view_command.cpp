@@ -6,7 +6,6 @@
 #include <future>
 #include <memory>
 #include <thread>
-#include <utility>
 
 #include "advice.h"
 #include "cli/commands.h"
@@ -40,9 +39,12 @@ const WindowLibrary& windowLibrary() {
 
 int runView(const ViewOptions& asked) {
   ViewOptions options = asked;
-  if (std::exchange(options.render.device.vectorWidth, VectorWidth::Auto) == VectorWidth::Bits512)
+  VectorWidth& width = options.render.device.vectorWidth;
+  if (width == VectorWidth::Bits512) {
+    width = VectorWidth::Auto;
     say(options.render,
         "warning: --vector-width 512 is left out: Mesa crashes when it draws windows with it");
+  }
   const NamedOutput status{"--status-file", options.statusFile};
   checkOutputs({&status, 1}, inputsOf(options.render));
   if (!options.reference.empty()) {

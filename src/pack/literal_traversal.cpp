@@ -77,7 +77,7 @@ class TraversalText {
       : mesh_(mesh),
         weights_(options.weights),
         passing_(options.passing),
-        caustics_(options.caustics),
+        backFaces_(options.backFaces),
         single_(singleAxis()),
         size_(size()) {}
 
@@ -269,7 +269,7 @@ class TraversalText {
     if (f.culled) {
       // All edges zero make t zero, too, but for the plane's.
       const std::string front = positive + (sliver ? "sum > 0.0" : "t > 0.0");
-      if (caustics_) {
+      if (backFaces_) {
         // Light paths may ask for backs (Traversal.both of shaders/traverse.glsl).
         body_ += "  hit = " + front + " || (kLightPaths && s.both && (" + negative + "sum < 0.0));\n";
         body_ += "  t = sum < 0.0 ? -t : t;\n  sum = abs(sum);\n  hit = hit && t > 0.0;\n";
@@ -337,7 +337,7 @@ class TraversalText {
   const LiteralMesh& mesh_;
   bool weights_;
   bool passing_;
-  bool caustics_;
+  bool backFaces_;
   int single_;
   double size_;  // of the mesh, metres
   std::map<std::string, std::string> variables_;

@@ -12,7 +12,7 @@ struct LiteralOptions {
   bool whole = false;    ///< there is nothing else to test
   bool passing =
       false;  ///< rays pass through surfaces: hits are ordered as by isNearer() of shaders/traverse.glsl
-  bool caustics = false;  ///< light paths ask for the backs of single-sided faces
+  bool backFaces = false;  ///< light paths ask for the backs of single-sided faces
 };
 
 /// traverseLiterals() of shaders/literals.glsl for this mesh: Woop, Benthin and Wald's test

@@ -87,7 +87,7 @@ LiteralOptions optionsOf(const ShaderVariant& variant, bool whole) {
   return {.weights = keepsWeights(variant),
           .whole = whole,
           .passing = passesSurfaces(variant),
-          .caustics = has(variant.traits, Trait::Caustics)};
+          .backFaces = has(variant.traits, Trait::Caustics)};
 }
 
 }  // namespace

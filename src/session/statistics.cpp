@@ -90,8 +90,9 @@ std::string statisticsText(const Statistics& s) {
     json["light_selection_reason"] = s.lightSelectionReason;
   }
   if (!s.lightReuse.empty()) json["light_reuse"] = s.lightReuse;
-  if (!s.caustics.empty()) {
-    json["caustics"] = {{"light_paths", s.film.lightPaths}, {"casters", s.casters}, {"reason", s.caustics}};
+  if (!s.lightPathReason.empty()) {
+    json["caustics"] = {
+        {"light_paths", s.film.lightPaths}, {"casters", s.casters}, {"reason", s.lightPathReason}};
   }
   if (s.featureMs > 0.0) json["feature_ms"] = s.featureMs;
   if (s.denoise) json["denoise"] = denoiseJson(*s.denoise);

@@ -60,9 +60,9 @@ struct Statistics {
   double clampIndirect = 0.0;  ///< 0: not clamped
   std::string lightSelection;  ///< how lights are chosen; empty: there is none to choose
   std::string lightSelectionReason;
-  std::string lightReuse;  ///< how a light sample is taken, as --light-reuse has it
-  std::string caustics;    ///< why light paths are traced, or are not; empty: the stage has none
-  size_t casters = 0;      ///< groups of surfaces that they are aimed at; 0: none are traced
+  std::string lightReuse;       ///< how a light sample is taken, as --light-reuse has it
+  std::string lightPathReason;  ///< why light paths are traced, or are not; empty: the stage has none
+  size_t casters = 0;           ///< groups of surfaces that they are aimed at; 0: none are traced
   bool complete = true;
   bool quickCompilation = false;  ///< the driver was told not to optimise
   std::string variant;

@@ -124,9 +124,9 @@ void warnOfNoEffect(const ShaderVariant& variant, const TraitSet& present, const
   };
   const bool global = has(variant.stages, Stage::Gi);
   if (options.light.caustics == Caustics::On && !has(variant.traits, Trait::Caustics))
-    warn("--caustics on: no light paths: " + (global ? stats.caustics : "only stage gi has them"));
+    warn("--caustics on: no light paths: " + (global ? stats.lightPathReason : "only stage gi has them"));
   if (lightPathsGiveWay(variant, present, options))
-    warn("no light paths for caustics (" + stats.caustics +
+    warn("no light paths for caustics (" + stats.lightPathReason +
          "): paths from the camera find fewer of them, and none of point, spot and directional lights");
   if (options.light.selection != LightSelection::Auto && stats.lightSelection.empty())
     warn(std::string("--light-selection: ") +
@@ -158,7 +158,8 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
     stats.lightReuse = tracer.variant.neighbours        ? "spatial"
                        : tracer.variant.lightCandidates ? "candidates"
                                                         : "none";
-  if (has(tracer.variant.stages, Stage::Gi)) stats.caustics = whyCaustics(tracer.variant, present, options);
+  if (has(tracer.variant.stages, Stage::Gi))
+    stats.lightPathReason = whyCaustics(tracer.variant, present, options);
   warnOfNoEffect(tracer.variant, present, options, stats);
   if (tracer.variant.clampIndirect) stats.clampIndirect = options.sampling.clampIndirect;
   for (const StageRow& row : stageRows()) {

@@ -39,6 +39,21 @@ class FirstPicture(Case):
         self.same(shown, pixels_of(self.folder / "command.png"))
         self.ends_well(viewer, viewer.close())
 
+    def test_the_copied_command_says_every_option_that_was_given(self):
+        said = ["--pixel-filter", "gaussian", "--line-width", "3", "--enable", "schlick", "--disable", "sobol", "--sample-offset", "3",
+                "--seed", "7", "--bounces", "3", "--rr-depth", "2", "--clamp-indirect", "5", "--light-selection", "power",
+                "--light-reuse", "candidates", "--caustics", "off", "--hdri-rotation", "10", "--hdri-intensity", "0.5",
+                "--shadow-catcher", "-1.5", "--background-color", "0.5,0.25,1", "--default-light", "none", "--traversal", "bvh",
+                "--instancing", "share", "--buffer-reads", "ssbo", "--dispatch", "compute", "--vector-width", "256",
+                "--schedule", "megakernel", "--memory-limit", "1000000000", "--texture-limit", "512", "--missing-textures", "warn",
+                "--aov", "normal,samples", "--tree-level", "2", "--exposure", "1", "--tone-map", "aces", "--denoise", "variance",
+                "--f-stop", "2", "--focus-distance", "3", "--aperture-blades", "5"]
+        switches = ["--no-background", "--allow-external-files"]
+        words = copied_command(self, self.view("cornell-box", *FEW, *said, *switches))
+        pairs = set(zip(words, words[1:]))
+        self.assertEqual([pair for pair in zip(said[::2], said[1::2]) if pair not in pairs], [])
+        self.assertLessEqual(set(switches), set(words))
+
     def test_cameras_and_lights_of_the_file_stay(self):
         viewer = self.view("lights", *FEW, "--default-light", "studio")
         words = copied_command(self, viewer)
