@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <vector>
 
 namespace fragtrace {
 
@@ -13,6 +14,33 @@ namespace fragtrace {
 inline constexpr int kMaxTilePixels = 1 << 18;
 /// The most lanes of a draw of the wavefront.
 inline constexpr int kMaxWaveLanes = 1 << 12;
+
+/// A rectangle of the film (from the bottom left) and which samples its pixels are to get: [from, to).
+struct Work {
+  glm::ivec2 corner{0};
+  glm::ivec2 size{0};
+  int from = 0;
+  int to = 0;
+  double busy = 1.0;  ///< part of its pixels that will draw (Film::setTargets)
+};
+
+/// Samples over all pixels of a work.
+inline double pixelSamples(const Work& work) {
+  return work.busy * work.size.x * work.size.y * (work.to - work.from);
+}
+
+/// The same work in tiles.
+inline std::vector<Work> tilesOf(const Work& work, glm::ivec2 tile) {
+  std::vector<Work> tiles;
+  for (int y = 0; y < work.size.y; y += tile.y) {
+    for (int x = 0; x < work.size.x; x += tile.x) {
+      const glm::ivec2 corner(x, y);
+      tiles.push_back(
+          {work.corner + corner, glm::min(tile, work.size - corner), work.from, work.to, work.busy});
+    }
+  }
+  return tiles;
+}
 
 /// One round over the picture: every tile of this size is advanced by so many samples.
 struct DrawPlan {

@@ -32,72 +32,55 @@ bool canSplat() {
 }
 
 void Renderer::compileLightPaths(Film& film, const View& view) {
-  const std::optional<ShaderVariant> light = lightPathVariant(variant_);
+  const std::optional<ShaderVariant> light = lightPathVariant(pace_->drawn);
   if (!light) return;
-  const ShaderVariant camera = variant_;
   if (!lightPathFilm_) lightPathFilm_.emplace(glm::ivec2(kRecordSide));
-  variant_ = *light;
-  setFrame(*lightPathFilm_, view);
-  setCasters();
-  drawTile(*lightPathFilm_, {0, 0}, glm::ivec2(8), 1, [] { return true; });
-  splat(film, view, glm::ivec2(1));
-  variant_ = camera;
+  const Work tiny{{0, 0}, glm::ivec2(8), 0, 1};
+  ShaderVariant& variant = drawn(*light);
+  drawPass({variant, *lightPathFilm_, view, {tiny}}, toTheEnd);
+  splat({variant, film, view, {}}, glm::ivec2(1));
 }
 
-void Renderer::setCasters() {
-  const GLuint program = programs_.tracer(variant_).name();
-  glProgramUniform4fv(program, 0, GLsizei(casters_.size()), casters_.empty() ? nullptr : &casters_[0].x);
-  glProgramUniform1i(program, GLint(layout::kMostCasters), int(casters_.size()));
-}
-
-bool Renderer::addLightPaths(Film& film, const View& view, int passes, const std::function<bool()>& goOn) {
-  const std::optional<ShaderVariant> light = lightPathVariant(variant_);
+bool Renderer::addLightPaths(Film& film, const View& view, int passes, const GoOn& goOn) {
+  const std::optional<ShaderVariant> light = lightPathVariant(pace_->drawn);
   if (!light) return true;
   const glm::ivec2 whole = view.placement ? view.placement->whole : film.size();
   const glm::ivec2 paths(whole.x, partsOf(whole.y, kPixelsPerPath));
+  const std::vector<Work> tiles = tilesOf({{0, 0}, paths, 0, 1}, glm::ivec2(kRecordSide));
   const uint64_t perPass = uint64_t(paths.x) * uint64_t(paths.y);
-  if (film.lightPaths() >= perPass * uint64_t(passes)) return true;
-  const ShaderVariant camera = variant_;
-  variant_ = *light;
-  setCasters();
-  View seen = view;
-  seen.placement = Placement{{0, 0}, whole};
-  bool complete = true;
-  while (complete && film.lightPaths() < perPass * uint64_t(passes)) {
+  while (film.lightPaths() < perPass * uint64_t(passes)) {
     const uint64_t pass = film.lightPaths() / perPass;
-    seen.sampleOffset = view.sampleOffset + int(pass);
     uint64_t before = pass * perPass;  // paths of the tiles before this one
-    for (int y = 0; complete && y < paths.y; y += kRecordSide) {
-      for (int x = 0; complete && x < paths.x; x += kRecordSide) {
-        const glm::ivec2 tile = glm::min(glm::ivec2(kRecordSide), paths - glm::ivec2(x, y));
-        // Tiles of a pass that was stopped are there already.
-        if (before >= film.lightPaths()) complete = addLightTile(film, view, seen, {x, y}, tile, goOn);
-        before += uint64_t(tile.x) * uint64_t(tile.y);
-      }
+    for (const Work& tile : tiles) {
+      // Tiles of a pass that was stopped are there already.
+      const bool there = before < film.lightPaths();
+      if (!there && !addLightTile({drawn(*light), film, view, {tile}}, whole, int(pass), goOn)) return false;
+      before += uint64_t(tile.size.x) * uint64_t(tile.size.y);
     }
   }
-  variant_ = camera;
-  setFrame(film, view);
-  return complete;
-}
-
-bool Renderer::addLightTile(Film& film, const View& view, const View& seen, glm::ivec2 corner,
-                            glm::ivec2 tile, const std::function<bool()>& goOn) {
-  lightPathFilm_->clearCounts();
-  setFrame(*lightPathFilm_, seen);
-  frame_.part.x = corner.x;
-  frame_.part.y = corner.y;
-  const int rows = software_ ? 2 * partsOf(tile.y, 2 * kSoftwarePathsPerLane) : tile.y;
-  if (!drawTile(*lightPathFilm_, {0, 0}, {tile.x, rows}, partsOf(tile.y, rows), goOn)) return false;
-  splat(film, view, tile);
-  film.countLightPaths(uint64_t(tile.x) * uint64_t(tile.y));
   return true;
 }
 
-void Renderer::splat(Film& film, const View& view, glm::ivec2 tile) {
+bool Renderer::addLightTile(const RenderPass& pass, glm::ivec2 whole, int index, const GoOn& goOn) {
+  const Work& tile = pass.work.front();
+  View seen = pass.view;
+  seen.sampleOffset += index;
+  // The film of records is that part of the paths that begins at the tile.
+  seen.placement = Placement{{tile.corner.x, whole.y - tile.corner.y - kRecordSide}, whole};
+  lightPathFilm_->clearCounts();
+  const int rows = software_ ? 2 * partsOf(tile.size.y, 2 * kSoftwarePathsPerLane) : tile.size.y;
+  const Work records{{0, 0}, {tile.size.x, rows}, 0, partsOf(tile.size.y, rows)};
+  if (!drawPass({pass.variant, *lightPathFilm_, seen, {records}}, goOn)) return false;
+  splat(pass, tile.size);
+  pass.film.countLightPaths(uint64_t(tile.size.x) * uint64_t(tile.size.y));
+  return true;
+}
+
+void Renderer::splat(const RenderPass& pass, glm::ivec2 tile) {
+  Film& film = pass.film;
   const glm::ivec2 size = film.size();
-  const Placement placed = view.placement.value_or(Placement{{0, 0}, size});
-  const GLuint program = programs_.splatter(variant_).name();
+  const Placement placed = pass.view.placement.value_or(Placement{{0, 0}, size});
+  const GLuint program = programs_.splatter(pass.variant).name();
   if (splatTarget_.name() == 0) splatTarget_ = makeFramebuffer();
   glNamedFramebufferTexture(splatTarget_.name(), GL_COLOR_ATTACHMENT0, film.splats().name(), 0);
   glBindFramebuffer(GL_FRAMEBUFFER, splatTarget_.name());

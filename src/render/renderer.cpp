@@ -110,24 +110,39 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.part.y = placed.whole.y - placed.corner.y - film.size().y;
   const glm::dvec3& origin = view.space.origin;
   frame_.worldOrigin = glm::vec4(glm::vec3(origin), float((view.catcherHeight - origin.y) / view.space.unit));
-  film.bind();
+}
+
+void Renderer::begin(const RenderPass& pass) {
+  setFrame(pass.film, pass.view);
+  pass.film.bind();
   buffers_.bind();
-  glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, film.size().x);
-  glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, film.size().y);
+  const glm::ivec2 size = pass.film.size();
+  glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, size.x);
+  glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, size.y);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glBindVertexArray(vertexArray_.name());
-  if (variant_.resumable || variant_.wavefront) bindPathStates();
-  glUseProgram(programs_.tracer(variant_).name());
+  useProgram(pass.variant);
+  if (pass.variant.neighbours) reservoirs_->bindTextures(layout::kReservoirTextures);
   glBindBufferBase(GL_UNIFORM_BUFFER, layout::kFrameBinding, frameBuffer_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kProgressBinding, progressBuffer_.name());
 }
 
-void Renderer::bindPathStates() {
-  const bool twoLevels = has(variant_.traits, Trait::Instances);
+void Renderer::useProgram(const ShaderVariant& variant) {
+  if (variant.resumable || variant.wavefront) bindPathStates(variant);
+  const GLuint program = programs_.tracer(variant).name();
+  if (variant.lightPaths) {
+    glProgramUniform4fv(program, 0, GLsizei(casters_.size()), casters_.empty() ? nullptr : &casters_[0].x);
+    glProgramUniform1i(program, GLint(layout::kMostCasters), int(casters_.size()));
+  }
+  glUseProgram(program);
+}
+
+void Renderer::bindPathStates(const ShaderVariant& variant) {
+  const bool twoLevels = has(variant.traits, Trait::Instances);
   const uint32_t rows = (twoLevels ? layout::kTwoLevelPathStateRows : layout::kPathStateRows) +
-                        (isLightPart(variant_.feature) || variant_.lightPaths ? 1 : 0);
+                        (isLightPart(variant.feature) || variant.lightPaths ? 1 : 0);
   const int64_t count =
-      variant_.wavefront ? int64_t(kMaxWaveLanes) * layout::kWaveLaneRows : int64_t(kMaxTilePixels) * rows;
+      variant.wavefront ? int64_t(kMaxWaveLanes) * layout::kWaveLaneRows : int64_t(kMaxTilePixels) * rows;
   if (count > pathStateRows_) {
     pathStates_ = makeBuffer();
     glNamedBufferStorage(pathStates_.name(), GLsizeiptr(count) * 16, nullptr, 0);
@@ -135,28 +150,19 @@ void Renderer::bindPathStates() {
     pathStateView_ = GlTexture();
   }
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kPathStatesBinding, pathStates_.name());
-  if (variant_.waveUnit >= 0) {
+  if (variant.waveUnit >= 0) {
     if (pathStateView_.name() == 0) {
       pathStateView_ = makeTexture(GL_TEXTURE_BUFFER);
       glTextureBuffer(pathStateView_.name(), GL_RGBA32UI, pathStates_.name());
     }
-    glBindImageTexture(GLuint(variant_.waveUnit), pathStateView_.name(), 0, GL_FALSE, 0, GL_READ_ONLY,
+    glBindImageTexture(GLuint(variant.waveUnit), pathStateView_.name(), 0, GL_FALSE, 0, GL_READ_ONLY,
                        GL_RGBA32UI);
   }
   checkGl("making room for the states of paths");
 }
 
-void Renderer::makeResumable() {
-  variant_.resumable = true;
-  variant_.wavefront = false;
-  variant_.waveUnit = -1;
-  if (variant_.lightPaths) setCasters();
-  bindPathStates();
-  glUseProgram(programs_.tracer(variant_).name());
-}
-
-int Renderer::stepBudget() const {
-  if (variant_.wavefront) return waveBudget_;
+int Renderer::stepBudget(const ShaderVariant& variant) const {
+  if (variant.wavefront) return waveBudget_;
   return software_ ? kSoftwareStepBudget : kHardwareStepBudget;
 }
 
@@ -165,13 +171,13 @@ void Renderer::adaptBudget(double ms) {
   waveBudget_ = std::clamp(int(waveBudget_ * std::clamp(targetMs_ / ms, 0.5, 2.0)), kLeastWaveBudget, most);
 }
 
-layout::Progress Renderer::draw() {
+layout::Progress Renderer::draw(const ShaderVariant& variant) {
   layout::Progress progress{};
   glNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
   const auto start = Clock::now();
   if (timer_.name() != 0) glBeginQuery(GL_TIME_ELAPSED, timer_.name());
-  if (variant_.dispatch == Dispatch::Compute) {
-    const uint32_t slots = variant_.wavefront ? layout::kWaveSlots : 1;
+  if (variant.dispatch == Dispatch::Compute) {
+    const uint32_t slots = variant.wavefront ? layout::kWaveSlots : 1;
     const glm::uvec2 lanes(frame_.tile.z, (uint32_t(frame_.tile.w) + slots - 1u) / slots);
     const glm::uvec2 groups = (lanes + kGroupSide - 1u) / kGroupSide;
     constexpr uint32_t kHands = layout::kWorkGroupHands;
@@ -196,145 +202,110 @@ layout::Progress Renderer::draw() {
   return progress;
 }
 
-bool Renderer::drawTile(Film& film, glm::ivec2 corner, glm::ivec2 tile, int target,
-                        const std::function<bool()>& goOn) {
-  frame_.tile = {corner, tile};
-  frame_.picture.z = target;
+bool Renderer::drawTile(const RenderPass& pass, const Work& tile, const std::function<bool()>& goOn) {
+  ShaderVariant& variant = pass.variant;
+  frame_.tile = {tile.corner, tile.size};
+  frame_.picture.z = tile.to;
   frame_.sampling.z = 0;
-  glViewport(corner.x, corner.y, tile.x, tile.y);
+  glViewport(tile.corner.x, tile.corner.y, tile.size.x, tile.size.y);
   overBudget_ = false;
   for (;;) {
     const auto start = Clock::now();
-    frame_.limits.z = stepBudget();
+    frame_.limits.z = stepBudget(variant);
     glNamedBufferSubData(frameBuffer_.name(), 0, sizeof frame_, &frame_);
-    const layout::Progress progress = draw();
-    film.addCut((progress.cutHigh * 0x1p32 + progress.cutLow) / layout::kCutUnits);
+    const layout::Progress progress = draw(variant);
+    pass.film.addCut((progress.cutHigh * 0x1p32 + progress.cutLow) / layout::kCutUnits);
     if (!goOn()) return false;
     if (progress.unfinished == 0) return true;
-    if (variant_.wavefront) adaptBudget(milliseconds(start, Clock::now()));
-    if (progress.stuck > 0 && !variant_.resumable) makeResumable();
+    if (variant.wavefront) adaptBudget(milliseconds(start, Clock::now()));
+    if (progress.stuck > 0 && !variant.resumable) {
+      variant.resumable = true;
+      variant.wavefront = false;
+      variant.waveUnit = -1;
+      useProgram(variant);
+    }
     overBudget_ = true;
     frame_.sampling.z = 1;
   }
 }
 
+bool Renderer::drawPass(const RenderPass& pass, const GoOn& goOn) {
+  begin(pass);
+  double done = 0.0;
+  for (const Work& tile : pass.work) {
+    if (!drawTile(pass, tile, [&] { return goOn(done); })) return false;
+    done += pixelSamples(tile);
+  }
+  return true;
+}
+
 double Renderer::compile(const ShaderVariant& variant, Film& film, const View& view) {
   const auto start = Clock::now();
-  paces_[asked_] = {variant_, msPerSample_, mostSamplesPerDraw_};
-  asked_ = variant_ = variant;
-  setFrame(film, view);
-  keepLight(film, view, 0, [] { return true; });
-  drawTile(film, {0, 0}, glm::min(film.size(), glm::ivec2(kTinyTile)), 1, [] { return true; });
+  pace_ = &paces_.insert_or_assign(variant, Pace{variant}).first->second;
+  const Work tiny{{0, 0}, glm::min(film.size(), glm::ivec2(kTinyTile)), 0, 1};
+  keepLight(film, view, 0, toTheEnd);
+  drawPass({pace_->drawn, film, view, {tiny}}, toTheEnd);
   compileLightPaths(film, view);
   film.clear();
-  mostSamplesPerDraw_ = 1;
-  msPerSample_ = 0.0;
   return milliseconds(start, Clock::now());
 }
 
-void Renderer::use(const ShaderVariant& variant) {
-  if (variant == asked_) return;
-  paces_[asked_] = {variant_, msPerSample_, mostSamplesPerDraw_};
-  const Pace& pace = paces_.at(variant);
-  asked_ = variant;
-  variant_ = pace.drawn;
-  msPerSample_ = pace.msPerSample;
-  mostSamplesPerDraw_ = pace.mostSamplesPerDraw;
-}
-
 void Renderer::adaptPace(int samples) {
-  mostSamplesPerDraw_ = overBudget_ ? std::max(1, samples / 2) : std::max(mostSamplesPerDraw_, samples * 2);
-}
-
-bool Renderer::addSamples(Film& film, const View& view, int from, int to, RenderTimes& times,
-                          const Progress& progress) {
-  setFrame(film, view);
-  const double drawnBefore = drawnMs_;
-  const double total = double(film.size().x) * film.size().y * (to - from);
-  double pixelSamplesDone = 0.0;
-  for (int done = from; done < to;) {
-    // Pixels take light samples of others in the same sample, which are kept for one at a time.
-    const int left = variant_.neighbours ? 1 : to - done;
-    const DrawPlan plan = variant_.wavefront
-                              ? planWaves(film.size(), done, left)
-                              : planDraws(film.size(), left, mostSamplesPerDraw_, msPerSample_, targetMs_);
-    const auto roundStart = Clock::now();
-    if (!keepLight(film, view, done, [&] { return progress(pixelSamplesDone / total); })) {
-      times.renderMs += milliseconds(roundStart, Clock::now());
-      times.drawMs += drawnMs_ - drawnBefore;
-      return false;
-    }
-    double tileMs = 0.0;
-    for (int y = 0; y < film.size().y; y += plan.tile.y) {
-      for (int x = 0; x < film.size().x; x += plan.tile.x) {
-        const glm::ivec2 corner(x, y);
-        const glm::ivec2 tile = glm::min(plan.tile, film.size() - corner);
-        const auto start = Clock::now();
-        const double fraction = pixelSamplesDone / total;
-        if (!drawTile(film, corner, tile, done + plan.samples, [&] { return progress(fraction); })) {
-          times.renderMs += milliseconds(roundStart, Clock::now());
-          times.drawMs += drawnMs_ - drawnBefore;
-          return false;
-        }
-        tileMs += milliseconds(start, Clock::now());
-        pixelSamplesDone += double(tile.x) * tile.y * plan.samples;
-      }
-    }
-    const double roundMs = milliseconds(roundStart, Clock::now());
-    msPerSample_ = tileMs / (double(film.size().x) * film.size().y * plan.samples);
-    times.renderMs += roundMs;
-    if (times.frameMs.empty()) times.firstFrameMs = roundMs / plan.samples;
-    times.frameMs.insert(times.frameMs.end(), size_t(plan.samples), roundMs / plan.samples);
-    done += plan.samples;
-    adaptPace(plan.samples);
-    const auto lightStart = Clock::now();
-    const bool lit = addLightPaths(film, view, done, [&] { return progress(pixelSamplesDone / total); });
-    const double lightMs = milliseconds(lightStart, Clock::now());
-    times.renderMs += lightMs;
-    for (int i = 0; i < plan.samples; ++i) *(times.frameMs.rbegin() + i) += lightMs / plan.samples;
-    if (!lit) {
-      times.drawMs += drawnMs_ - drawnBefore;
-      return false;
-    }
-  }
-  times.drawMs += drawnMs_ - drawnBefore;
-  progress(1.0);
-  return true;
+  int& most = pace_->mostSamplesPerDraw;
+  most = overBudget_ ? std::max(1, samples / 2) : std::max(most, samples * 2);
 }
 
 bool Renderer::addSamples(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
                           const Progress& progress) {
-  setFrame(film, view);
-  double total = 0.0;
-  for (const Work& w : parts) total += w.busy * w.size.x * w.size.y * (w.to - w.from);
-  double pixelSamplesDone = 0.0;
-  double drawMs = 0.0;
   const double drawnBefore = drawnMs_;
   const auto start = Clock::now();
-  bool complete = true;
-  for (const Work& w : parts) {
-    const double pixels = w.busy * w.size.x * w.size.y;
-    for (int done = w.from; complete && done < w.to;) {
-      const double affordable = msPerSample_ > 0.0 ? targetMs_ / (msPerSample_ * pixels) : 1.0;
-      const int most = std::min(mostSamplesPerDraw_, w.to - done);
-      const int samples = variant_.wavefront ? w.to - done : int(std::clamp(affordable, 1.0, double(most)));
-      const auto drawStart = Clock::now();
-      const double fraction = pixelSamplesDone / total;
-      complete = drawTile(film, w.corner, w.size, done + samples, [&] { return progress(fraction); });
-      drawMs += milliseconds(drawStart, Clock::now());
-      pixelSamplesDone += pixels * samples;
-      msPerSample_ = drawMs / pixelSamplesDone;
-      done += samples;
-      adaptPace(samples);
-    }
-  }
-  int most = 0;
-  for (const Work& w : parts) most = std::max(most, w.to);
-  if (complete)
-    complete = addLightPaths(film, view, most, [&] { return progress(pixelSamplesDone / total); });
+  const bool complete = addParts(film, view, parts, times, progress);
   times.renderMs += milliseconds(start, Clock::now());
   times.drawMs += drawnMs_ - drawnBefore;
+  if (complete) progress(1.0);
   return complete;
+}
+
+bool Renderer::addParts(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
+                        const Progress& progress) {
+  double total = 0.0;
+  for (const Work& part : parts) total += pixelSamples(part);
+  double done = 0.0;  // pixel-samples
+  double doneMs = 0.0;
+  const GoOn goOn = [&](double more) { return progress((done + more) / total); };
+  const GoOn stays = [&](double) { return goOn(0.0); };
+  ShaderVariant& variant = pace_->drawn;
+  for (const Work& part : parts) {
+    for (Work round = part; round.from < part.to; round.from = round.to) {
+      // Step: plan a round. Pixels take light samples of others in the same sample, which are kept for one at
+      // a time.
+      const int left = variant.neighbours ? 1 : part.to - round.from;
+      const DrawPlan plan = variant.wavefront ? planWaves(part.size, round.from, left)
+                                              : planDraws(part.size, left, pace_->mostSamplesPerDraw,
+                                                          pace_->msPerSample * part.busy, targetMs_);
+      round.to = round.from + plan.samples;
+      const auto start = Clock::now();
+
+      // Step: draw it.
+      if (!keepLight(film, view, round.from, stays)) return false;
+      const auto drawStart = Clock::now();
+      if (!drawPass({variant, film, view, tilesOf(round, plan.tile)}, goOn)) return false;
+      done += pixelSamples(round);
+      doneMs += milliseconds(drawStart, Clock::now());
+      pace_->msPerSample = doneMs / done;
+      adaptPace(plan.samples);
+      const bool lit = addLightPaths(film, view, round.to, stays);
+
+      // Step: note its time, where it is of whole frames.
+      const double frameMs = milliseconds(start, Clock::now()) / plan.samples;
+      if (part.size == film.size() && part.busy == 1.0) {
+        if (times.frameMs.empty()) times.firstFrameMs = frameMs;
+        times.frameMs.insert(times.frameMs.end(), size_t(plan.samples), frameMs);
+      }
+      if (!lit) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace fragtrace

@@ -12,6 +12,7 @@
 #include "gl/program.h"
 #include "gl/scene_buffers.h"
 #include "image/region.h"
+#include "render/draw_plan.h"
 #include "render/film.h"
 #include "stage/render_options.h"
 
@@ -53,13 +54,13 @@ struct RenderTimes {
   std::vector<double> frameMs;
 };
 
-/// A rectangle of the film (from the bottom left) and which samples its pixels are to get: [from, to).
-struct Work {
-  glm::ivec2 corner{0};
-  glm::ivec2 size{0};
-  int from = 0;
-  int to = 0;
-  double busy = 1.0;  ///< part of its pixels that will draw (Film::setTargets)
+/// Samples that one program adds to a film: camera paths, light paths, records of light, layers of first
+/// hits.
+struct RenderPass {
+  ShaderVariant& variant;  ///< becomes resumable where a path is longer than a draw
+  Film& film;
+  const View& view;
+  std::vector<Work> work;
 };
 
 class Renderer {
@@ -80,25 +81,27 @@ class Renderer {
   double compile(const ShaderVariant& variant, Film& film, const View& view);
 
   /// Whether compile() has seen the variant.
-  bool knows(const ShaderVariant& variant) const { return variant == asked_ || paces_.contains(variant); }
+  bool knows(const ShaderVariant& variant) const { return paces_.contains(variant); }
   /// Draws with such a variant, at the pace that it had.
-  void use(const ShaderVariant& variant);
+  void use(const ShaderVariant& variant) { pace_ = &paces_.at(variant); }
 
   /// Called after each draw with the fraction of the work done, 0..1; false stops the work.
   using Progress = std::function<bool(double fraction)>;
   static bool toTheEnd(double) { return true; }
 
-  /// Adds samples [from, to) to every pixel of the film. False when progress stopped it; the film then holds
-  /// what was finished.
-  bool addSamples(Film& film, const View& view, int from, int to, RenderTimes& times,
-                  const Progress& progress = toTheEnd);
-
-  /// The same for parts of the film, one after the other.
+  /// Adds samples to parts of the film, one after the other. False when progress stopped it; the film then
+  /// holds what was finished. compile() or use() has said which variant draws.
   bool addSamples(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
                   const Progress& progress = toTheEnd);
+  /// Samples [from, to) of every pixel of the film.
+  bool addSamples(Film& film, const View& view, int from, int to, RenderTimes& times,
+                  const Progress& progress = toTheEnd) {
+    const Work whole{{0, 0}, film.size(), from, to};
+    return addSamples(film, view, {&whole, 1}, times, progress);
+  }
 
   /// Milliseconds that one sample of one pixel takes, as measured by the latest work; 0: not yet known.
-  double msPerSample() const { return msPerSample_; }
+  double msPerSample() const { return pace_ ? pace_->msPerSample : 0.0; }
 
   /// What measures RenderTimes::drawMs: the GPU's timer, or the wall's clock round glFinish where a software
   /// driver's timer is wrong.
@@ -110,30 +113,35 @@ class Renderer {
  private:
   /// What of a scene stands in the frame's block.
   void describeScene(const GpuScene& scene);
+  /// What of a film and a view stands there.
   void setFrame(const Film& film, const View& view);
-  /// From now on paths are suspended between draws: for scenes with paths that take more than one draw.
-  void makeResumable();
-  void bindPathStates();
+  /// Binds all that the draws of a pass have in common.
+  void begin(const RenderPass& pass);
+  void useProgram(const ShaderVariant& variant);
+  void bindPathStates(const ShaderVariant& variant);
   /// Loop iterations that a lane may take in one draw.
-  int stepBudget() const;
+  int stepBudget(const ShaderVariant& variant) const;
   /// The wavefront's from the time of a draw that used it up.
   void adaptBudget(double ms);
-  layout::Progress draw();
-  /// Advances a tile to `target` samples in as many draws as its step budget takes; false when stopped.
-  bool drawTile(Film& film, glm::ivec2 corner, glm::ivec2 tile, int target,
-                const std::function<bool()>& goOn);
+  layout::Progress draw(const ShaderVariant& variant);
+  /// Called after each draw with the pixel-samples that a pass has finished; false stops it.
+  using GoOn = std::function<bool(double pixelSamples)>;
+  /// Does the work of a pass; false when stopped.
+  bool drawPass(const RenderPass& pass, const GoOn& goOn);
+  /// A part of it, in as many draws as its step budget takes.
+  bool drawTile(const RenderPass& pass, const Work& tile, const std::function<bool()>& goOn);
+  bool addParts(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
+                const Progress& progress);
   /// Brings the film's light paths up to so many passes, where its picture has any; false when stopped.
-  bool addLightPaths(Film& film, const View& view, int passes, const std::function<bool()>& goOn);
+  bool addLightPaths(Film& film, const View& view, int passes, const GoOn& goOn);
   void compileLightPaths(Film& film, const View& view);
-  /// A tile of a pass; `seen`: the view of the whole picture, whose sample is the pass.
-  bool addLightTile(Film& film, const View& view, const View& seen, glm::ivec2 corner, glm::ivec2 tile,
-                    const std::function<bool()>& goOn);
+  /// A tile of light paths, whose pass has this index: `pass` is of the film that they add to.
+  bool addLightTile(const RenderPass& pass, glm::ivec2 whole, int index, const GoOn& goOn);
   /// Keeps the light samples of all pixels in their sample `index`, where the picture's pixels take those of
   /// others; false when stopped.
-  bool keepLight(const Film& film, const View& view, int index, const std::function<bool()>& goOn);
-  void setCasters();
+  bool keepLight(const Film& film, const View& view, int index, const GoOn& goOn);
   /// What a tile of the records holds, through the pixel filter.
-  void splat(Film& film, const View& view, glm::ivec2 tile);
+  void splat(const RenderPass& pass, glm::ivec2 tile);
   /// More samples a draw as long as the step budget takes them.
   void adaptPace(int samples);
 
@@ -143,12 +151,15 @@ class Renderer {
     double msPerSample = 0.0;
     int mostSamplesPerDraw = 1;
   };
+  /// The variant as it is drawn.
+  ShaderVariant& drawn(const ShaderVariant& variant) {
+    return paces_.try_emplace(variant, Pace{variant}).first->second.drawn;
+  }
 
   ProgramCache programs_;
   SceneBuffers buffers_;
-  ShaderVariant asked_;
-  ShaderVariant variant_;                ///< the same, or resumable
-  std::map<ShaderVariant, Pace> paces_;  ///< of those that are not used now
+  std::map<ShaderVariant, Pace> paces_;
+  Pace* pace_ = nullptr;  ///< of the variant that draws
   layout::Frame frame_{};
   LightShare lightShare_;
   std::vector<glm::vec4> casters_;     ///< as in GpuScene
@@ -166,8 +177,6 @@ class Renderer {
   bool software_;
   double drawnMs_ = 0.0;  ///< by all draws
   double targetMs_;
-  double msPerSample_ = 0.0;
-  int mostSamplesPerDraw_ = 1;
   bool overBudget_ = false;  ///< the last tile needed more than one draw
   int waveBudget_ = kLeastWaveBudget;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <memory>
+#include <stdexcept>
 
 #include "bvh/two_level.h"
 #include "gl_probe.h"
@@ -197,6 +198,33 @@ TEST_P(Draws, AVariantThatSuspendsFromTheStart) {
   const FilmPixels expected = drawn([&](Film& film) { add(film, 0, kMany); });
   variant_.resumable = true;
   EXPECT_EQ(bitsOf(drawn([&](Film& film) { add(film, 0, kMany); })), bitsOf(expected));
+}
+
+/// Work that ends by an exception, be it between light paths, leaves the renderer with the picture's own
+/// program.
+TEST_P(Draws, WorkThatIsThrownOutOf) {
+  constexpr int kFew = 2;
+  size_ = {64, 48};
+  open("caustics.gltf", {});
+  ASSERT_TRUE(has(variant_.traits, Trait::Caustics));
+  const FilmPixels expected = drawn([&](Film& film) { add(film, 0, kFew); });
+  int calls = 0;
+  const FilmPixels then = drawn([&](Film& film) {
+    for (int last = 1;; ++last) {
+      calls = 0;
+      try {
+        renderer_->addSamples(film, view_, 0, kFew, times_, [&](double) {
+          if (++calls == last) throw std::runtime_error("stopped");
+          return true;
+        });
+        return;
+      } catch (const std::runtime_error&) {
+        film.clear();
+      }
+    }
+  });
+  EXPECT_GE(calls, 4);  // a draw of the picture and one of light paths, for each sample
+  EXPECT_EQ(bitsOf(then), bitsOf(expected));
 }
 
 /// Scatterings at smooth glass are kept apart from the others, and what --bounces cuts is counted once.
