@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Bindings, sentinels and packed layouts that C++ and GLSL share (src/shader/layout.h includes this file).
 
-// Scene buffers: each is read through one function of read_*.glsl.
+// Scene buffers: each is read through one function (src/shader/reads_text.cpp).
 const uint kNodesBinding = 0u;         // kNodeRows uvec4 a node; behind them kInstanceRows an instance
 const uint kLeavesBinding = 1u;        // 5 uvec4 a leaf: two primitives, structure of arrays
 // kFaceRows uvec4 a leaf slot (leaf * 2 + side): what shading needs of a primitive; behind them 1 a slot: kCreases
@@ -32,14 +32,14 @@ const uint kFilmCountsBinding = 2u;        // rgba32ui: samples, rays, non-finit
 // Storage buffers that the tracer writes.
 const uint kPathStatesBinding = 13u;
 const uint kProgressBinding = 14u;
-const uint kPathStateRows = 19u;  // uvec4s a suspended path
-const uint kTwoLevelPathStateRows = 24u;  // where there are instances
+// uvec4s a path (path_rows.glsl); where no ray passes surfaces, the wavefront leaves the last ones out. Behind those of
+// a suspended path come one more, those of its stack, and one where parts of the light are drawn, or light paths.
+const uint kPathRows = 12u;
+const uint kPathPassingRows = 3u;
 // Of the wavefront: a lane has this many pixels of a column of its tile, each with the state of its path, and a row of
 // its own before them.
 const uint kWaveSlots = 32u;
-const uint kWaveRows = 12u;  // at most: scenes that let no ray pass leave the last ones out
-const uint kWaveAlphaRows = 3u;
-const uint kWaveLaneRows = kWaveSlots * kWaveRows + 1u;
+const uint kWaveLaneRows = kWaveSlots * kPathRows + 1u;
 
 // A draw of the compute entries has a multiple of so many work groups (work_group.glsl).
 const uint kWorkGroupHands = 8u;

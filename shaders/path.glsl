@@ -93,39 +93,10 @@ uint keyOfPixel(ivec2 pixel) {
 
 /// A path that begins with a ray.
 Path pathAlong(vec3 origin, vec3 direction, Sampler numbers, int steps) {
-  Path p;
-  p.pixel = ivec2(0);
+  Path p = newPath();
   p.numbers = numbers;
-  p.after = kPhaseEnd;
   p.origin = origin;
   p.direction = direction;
-  p.tie = 0.0;
-  p.bounce = 0;
-  p.clear = 0;
-  p.walls = 0;
-  p.throughWalls = false;
-  p.chain = kChainNone;
-  p.clearFirst = false;
-  p.crossings = 0;
-  p.cameraRay = true;
-  p.caught = false;
-  p.oneChannel = false;
-  p.alpha = 0.0;
-  p.radiance = vec3(0.0);
-  p.throughput = vec3(1.0);
-  p.part = vec3(kFeature == kFeatureDiffuse || kFeature == kFeatureSpecular ? 0.0 : 1.0);
-  p.compression = 1.0;
-  p.density = 0.0;
-  p.normal = kNoNormal;
-  p.medium = kPrimitiveNone;
-  p.shadowOrigin = vec3(0.0);
-  p.shadowDirection = vec3(0.0, 0.0, 1.0);
-  p.shadowLimit = 0.0;
-  p.contribution = vec3(0.0);
-  p.hitSlot = -1;
-  p.hitInstance = -1;
-  p.hitT = 0.0;
-  p.hitWeights = vec2(0.0);
   p.traversal.steps = steps;
   return extend(p);
 }

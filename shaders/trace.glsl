@@ -36,6 +36,7 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "film_pixel.glsl"
 #include "film.glsl"
 #include "path_state.glsl"
+#include "path_rows.glsl"
 #include "path.glsl"
 #include "reuse/candidates.glsl"
 #include "reuse/reservoir.glsl"
@@ -65,9 +66,8 @@ uint samplesWanted(FilmPixel film) {
 struct PixelTrace {
   FilmPixel film;
   Path path;
-  bool tracing;     // a sample is under way
-  uint raysBefore;  // the film's, when that began
-  float cut;        // what kBounces took of the throughput
+  bool tracing;  // a sample is under way
+  float cut;     // what kBounces took of the throughput
 };
 
 /// What stays the same meanwhile.
@@ -79,25 +79,16 @@ struct PixelTask {
 };
 
 PixelTrace beginSample(PixelTrace t, PixelTask task) {
-  t.raysBefore = t.film.rays;
   uint index = t.film.samples + uint(frame.sampling.x);
-  if (kLightPaths) t.path = startLightPath(recordOf(task.pixel, t.film.samples), t.path.traversal.steps);
+  if (kLightPaths) t.path = startLightPath(recordOf(task.pixel, t.film.samples), task.key, t.path.traversal.steps);
   if (!kLightPaths) t.path = startPath(task.pixel, task.key, index, t.path.traversal.steps);
   t.tracing = true;
   return t;
 }
 
-/// What the path's ray has met.
-Path withHit(Path p, Traversal hit) {
-  p.hitSlot = hit.slot;
-  p.hitInstance = hit.hitInstance;
-  p.hitT = hit.t;
-  p.hitWeights = hit.weights;
-  return p;
-}
-
 PixelTrace endSample(PixelTrace t, PixelTask task) {
   t.cut += cutThroughput(t.path);
+  t.film.rays += uint(t.path.rays);
   if (kShadowCatcher) t.path = showShadow(t.path);
   if (kLightPaths) {
     storeRecord(recordOf(task.pixel, t.film.samples), t.path.radiance, t.path.part.xy);
@@ -131,7 +122,7 @@ PixelTrace traceDirect(PixelTrace t, PixelTask task, TreeFrame tree) {
     hit = traverse(t.path.origin, t.path.direction, kFarAway, hit, tree, task.budget, false);
     t.path.traversal.steps = hit.steps;
     if (hit.node != kTraversalDone) break;
-    t.film.rays += 1u;
+    t.path.rays += 1;
 
     // Step: shade it.
     if (kShadowCatcher && meetsCatcher(t.path, hit.slot < 0 ? kFarAway : hit.t)) {
@@ -152,7 +143,7 @@ PixelTrace traceDirect(PixelTrace t, PixelTask task, TreeFrame tree) {
           traverse(t.path.shadowOrigin, t.path.shadowDirection, t.path.shadowLimit, shadow, tree, task.budget, true);
       t.path.traversal.steps = shadow.steps;
       if (waiting && shadow.node != kTraversalDone) break;
-      t.film.rays += waiting ? 1u : 0u;
+      t.path.rays += waiting ? 1 : 0;
       t.path.radiance += waiting && shadow.slot < 0 ? t.path.contribution : vec3(0.0);
       t.path.phase = waiting ? t.path.after : t.path.phase;
     }
@@ -177,7 +168,7 @@ PixelTrace tracePhases(PixelTrace t, PixelTask task, TreeFrame tree) {
       t.path.traversal =
           traverse(t.path.origin, t.path.direction, kFarAway, t.path.traversal, tree, task.budget, false);
       if (t.path.traversal.node == kTraversalDone) {
-        t.film.rays += 1u;
+        t.path.rays += 1;
         t.path = withHit(t.path, t.path.traversal);
         t.path.phase = kPhaseShade;
       }
@@ -202,7 +193,7 @@ PixelTrace tracePhases(PixelTrace t, PixelTask task, TreeFrame tree) {
       t.path.traversal = traverse(t.path.shadowOrigin, t.path.shadowDirection, t.path.shadowLimit, t.path.traversal,
                                   tree, task.budget, !kPassing);
       if (t.path.traversal.node == kTraversalDone) {
-        t.film.rays += 1u;
+        t.path.rays += 1;
         t.path = settleShadow(t.path);
       }
     }
@@ -224,13 +215,10 @@ PixelTrace leaveUnfinished(PixelTrace t, PixelTask task, uint samplesBefore, int
   atomicAdd(progress.unfinished, 1u);
   if (kResumable && t.tracing) {
     t.film.flags |= kPixelSuspended;
-    savePath(t.path, state);
+    suspendPath(t.path, state * kSuspendedRows);
   }
-  if (!kResumable) {
-    // The sample begins anew in the next draw, unless it is longer than a whole draw.
-    if (t.tracing) t.film.rays = t.raysBefore;
-    if (t.film.samples == samplesBefore) atomicAdd(progress.stuck, 1u);
-  }
+  // Else the sample begins anew in the next draw, unless it is longer than a whole draw.
+  if (!kResumable && t.film.samples == samplesBefore) atomicAdd(progress.stuck, 1u);
   return t;
 }
 
@@ -245,16 +233,15 @@ void tracePixel(ivec2 pixel) {
   int state = place.y * frame.tile.z + place.x;
   PixelTask task;
   task.pixel = pixel;
-  task.key = keyOfPixel(pixel);
+  task.key = kLightPaths ? keyOfLightPaths() : keyOfPixel(pixel);
   task.wanted = samplesWanted(t.film);
   task.budget = frame.limits.z;
   TreeFrame tree = treeFrame();
   uint samplesBefore = t.film.samples;
-  t.raysBefore = t.film.rays;
   t.cut = 0.0;
   t.path.phase = kPhaseEnd;
   t.path.traversal.steps = 0;
-  if (kResumable && (t.film.flags & kPixelSuspended) != 0u) t.path = loadPath(state);
+  if (kResumable && (t.film.flags & kPixelSuspended) != 0u) t.path = resumePath(state * kSuspendedRows, task.key);
   t.path.pixel = pixel;
   t.film.flags &= ~kPixelSuspended;
   t.tracing = t.path.phase != kPhaseEnd;

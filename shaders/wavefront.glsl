@@ -5,7 +5,9 @@
 // pixels only is a loop of its own over their bits: llvmpipe executes a branch that no lane takes, but not an
 // iteration. Shading and traversal are those of the megakernel, in the same order for each pixel, so pictures are the
 // same bits where a compiler keeps to the text.
-#include "wave_state.glsl"
+
+/// Rows of a path.
+const int kWaveRows = int(kPassing ? kPathRows : kPathRows - kPathPassingRows);
 
 const int kWaveSamples = 64;  // the most samples a round that end in the surroundings at once
 
@@ -28,20 +30,20 @@ struct Wave {
   float cut;
 };
 
-int rowOf(Wave v, int k) { return v.first + k * kWavePathRows; }
+int rowOf(Wave v, int k) { return v.first + k * kWaveRows; }
 
 uint keyOf(Wave v, int k) { return keyOfPixel(v.corner + ivec2(0, k)); }
 
 /// The path of pixel k, with what its shadow ray has let through.
-WavePath takeUp(inout Wave v, int k) {
-  WavePath w = loadWave(rowOf(v, k), keyOf(v, k));
+Path takeUp(inout Wave v, int k) {
+  Path p = loadPath(rowOf(v, k), keyOf(v, k));
   uint bit = 1u << k;
   bool waited = (v.waiting & bit) != 0u;
-  w.path.radiance += waited && (v.blocked & bit) == 0u ? w.path.contribution : vec3(0.0);
-  w.rays += waited ? 1 : 0;
+  p.radiance += waited && (v.blocked & bit) == 0u ? p.contribution : vec3(0.0);
+  p.rays += waited ? 1 : 0;
   v.waiting &= ~bit;
   v.blocked &= ~bit;
-  return w;
+  return p;
 }
 
 /// Between loops: the next one reads what the last one has stored.
@@ -78,7 +80,7 @@ Wave sendShadow(Wave v, uint bit, int row, Traversal t) {
   v.shadows |= done ? 0u : bit;
   v.blocked |= done && t.slot >= 0 ? bit : 0u;
   if (kPassing) {
-    pathStates[row + kRowShadowHit] = uvec4(floatBitsToUint(t.t), uint(t.slot), floatBitsToUint(t.weights));
+    pathStates[row + kRowShadowHit] = metBy(t);
     pathStates[row + kRowPast].zw = uvec2(floatBitsToUint(t.past), uint(t.pastSlot));
   }
   return v;
@@ -99,23 +101,14 @@ Wave passShadows(Wave v, uint left, TreeFrame tree) {
     int k = findLSB(left);
     int row = rowOf(v, k);
     v.steps += 1;
-    Path p = loadWave(row, keyOf(v, k)).path;
-    vec4 f = uintBitsToFloat(readWave(row + kRowShadow));
-    p.shadowOrigin = f.xyz;
-    p.shadowLimit = f.w;
-    p.shadowDirection = uintBitsToFloat(readWave(row + kRowShadow + 1).xyz);
-    uvec4 a = readWave(row + kRowShadowHit);
-    p.traversal.t = uintBitsToFloat(a.x);
-    p.traversal.slot = int(a.y);
-    p.traversal.weights = uintBitsToFloat(a.zw);
-    p.traversal.hitInstance = kInstances ? int(readWave(row + kRowCrossings).y) : -1;
+    Path p = loadShadow(loadPath(row, keyOf(v, k)), row);
     p.phase = kPhaseShadow;
     p = settleShadow(p);
     pathStates[row + kRowCrossings].x = uint(p.crossings);
     if (kThinGlass) pathStates[row + kRowContribution].xyz = floatBitsToUint(p.contribution);
     if (p.phase == kPhaseShadow) {
       uint bit = 1u << k;
-      pathStates[row + 5].y += 1u;
+      pathStates[row + kRowCounts].y += 1u;
       v.blocked &= ~bit;
       v = sendShadow(v, bit, row, beginShadow(p, tree));
     }
@@ -132,10 +125,10 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
     // Searches in tables of lights are not counted, but for candidates: they take one or two iterations, and lanes
     // shade together.
     v.steps += 1 + kCandidateIterations;
-    WavePath w = takeUp(v, k);
-    w.rays += 1;
-    w.path.pixel = v.corner + ivec2(0, k);
-    Path p = shade(w.path);
+    Path p = takeUp(v, k);
+    p.rays += 1;
+    p.pixel = v.corner + ivec2(0, k);
+    p = shade(p);
     v.cut += cutThroughput(p);
     bool shadow = kShadows && p.phase == kPhaseShadow;
     Traversal s = p.traversal;
@@ -143,8 +136,8 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
     bool goesOn = p.phase == kPhaseExtend;
     Traversal t = p.traversal;
     if (goesOn) t = beginExtension(p, tree);
-    w.path = p;
-    saveWave(w, t, row);
+    p.traversal = t;
+    savePath(withHit(p, t), row, false);
     if (goesOn) v = sendRay(v, bit, t);
     if (!goesOn) v.misses |= bit;
     if (shadow) {
@@ -164,7 +157,7 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
   int samples = 0;
   ivec2 pixel = v.corner;
   FilmPixel film = loadFilm(pixel);
-  WavePath w = loadWave(v.first, 0u);
+  Path p = loadPath(v.first, 0u);
   while (left != 0u || more) {
     v.steps += 1;
     if (!more) {
@@ -172,28 +165,28 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
       left &= left - 1u;
       pixel = v.corner + ivec2(0, k);
       film = loadFilm(pixel);
-      w = takeUp(v, k);
+      p = takeUp(v, k);
     }
-    if (w.path.phase == kPhaseExtend) {
-      w.path = meetSurroundings(w.path);
-      w.rays += 1;
+    if (p.phase == kPhaseExtend) {
+      p = meetSurroundings(p);
+      p.rays += 1;
     }
-    if (w.path.phase != kPhaseNone) {
-      film = addSample(film, w.path.radiance, w.path.alpha);
-      film.rays += uint(w.rays);
-      w.rays = 0;
-      w.path.phase = kPhaseNone;
+    if (p.phase != kPhaseNone) {
+      film = addSample(film, p.radiance, p.alpha);
+      film.rays += uint(p.rays);
+      p.phase = kPhaseNone;
     }
     more = false;
     uint bit = 1u << k;
     int row = rowOf(v, k);
     if (film.samples < samplesWanted(film)) {
-      w.path = startPath(pixel, keyOf(v, k), film.samples + uint(frame.sampling.x), 0);
-      Traversal t = beginExtension(w.path, tree);
+      p = startPath(pixel, keyOf(v, k), film.samples + uint(frame.sampling.x), 0);
+      Traversal t = beginExtension(p, tree);
       samples += 1;
       more = t.node == kTraversalDone && t.slot < 0 && samples < kWaveSamples;
       if (!more) {
-        saveFirst(w.path, t, row);
+        p.traversal = t;
+        savePath(withHit(p, t), row, true);
         v = sendRay(v, bit, t);
       }
     }
@@ -211,8 +204,7 @@ Wave settleRay(Wave v, Traversal t, int current, bool isShadow) {
   v.hits |= !isShadow && met ? bit : 0u;
   v.misses |= !isShadow && !met ? bit : 0u;
   if (kPassing || !isShadow) {
-    uvec4 hit = uvec4(floatBitsToUint(t.t), uint(t.slot), floatBitsToUint(t.weights));
-    pathStates[row + (isShadow ? kRowShadowHit : kRowHit)] = hit;
+    pathStates[row + (isShadow ? kRowShadowHit : kRowHit)] = metBy(t);
     if (kInstances && !isShadow) pathStates[row + kRowContribution].w = uint(t.hitInstance);
     if (kInstances && isShadow) pathStates[row + kRowCrossings].y = uint(t.hitInstance);
   }
@@ -235,20 +227,20 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
       v.rays = isShadow ? 0u : v.rays & (v.rays - 1u);
       v.shadows = isShadow ? v.shadows & (v.shadows - 1u) : v.shadows;
       int row = rowOf(v, current);
-      vec4 a = uintBitsToFloat(readWave(row + (isShadow ? kRowShadow : 0)));
+      vec4 a = uintBitsToFloat(readPathStates(row + (isShadow ? kRowShadow : kRowRay)));
       origin = a.xyz;
-      direction = uintBitsToFloat(readWave(row + (isShadow ? kRowShadow + 1 : 1))).xyz;
+      direction = uintBitsToFloat(readPathStates(row + (isShadow ? kRowShadowDirection : kRowDirection))).xyz;
       limit = isShadow ? a.w : kFarAway;
       t = beginTraversal(limit, true, 0);
       if (kCreases) t.tie = isShadow ? 0.0 : a.w;
       if (kPassing) {
-        uvec4 past = readWave(row + kRowPast);
+        uvec4 past = readPathStates(row + kRowPast);
         t.past = uintBitsToFloat(isShadow ? past.z : past.x);
         t.pastSlot = int(isShadow ? past.w : past.y);
       }
       if (kLargeFirst) {
         // A shadow ray that has met something before the tree comes here only where that may let light pass.
-        uvec4 known = readWave(row + (kPassing && isShadow ? kRowShadowHit : kRowHit));
+        uvec4 known = readPathStates(row + (kPassing && isShadow ? kRowShadowHit : kRowHit));
         bool use = kPassing || !isShadow;
         t.t = use ? uintBitsToFloat(known.x) : t.t;
         t.slot = use ? int(known.y) : -1;
@@ -289,8 +281,8 @@ Wave beginAnew(Wave v, uint left) {
   for (; left != 0u; left &= left - 1u) {
     int row = rowOf(v, findLSB(left));
     v.steps += 1;
-    pathStates[row + kRowFlags] = uvec4(0u, 0u, 0u, uint(kPhaseNone));
-    pathStates[row + 5] = uvec4(0u);
+    pathStates[row + kRowRadiance] = uvec4(0u, 0u, 0u, uint(kPhaseNone));
+    pathStates[row + kRowCounts] = uvec4(0u);
   }
   return v;
 }

@@ -85,12 +85,15 @@ Emission drawEmission(Sampler numbers) {
   return e;
 }
 
+/// Of the random numbers of a pass of light paths, which has Sobol points of its own.
+uint keyOfLightPaths() { return pixelKey(uint(frame.sampling.x), 0xfffffffeu, uint(frame.picture.w)); }
+
 /// A light path. Until it is seen by the camera, `contribution` is its flux and `shadowLimit` the range of its light.
-/// A pass has Sobol points of its own, and as many rows of paths as its height asks for, each as wide as the picture.
-Path startLightPath(ivec2 record, int steps) {
+/// A pass has as many rows of paths as its height asks for, each as wide as the picture.
+Path startLightPath(ivec2 record, uint key, int steps) {
   ivec2 place = inPicture(record);
   uint index = uint(place.y * frame.picture.x + place.x);
-  Sampler numbers = makeSampler(pixelKey(uint(frame.sampling.x), 0xfffffffeu, uint(frame.picture.w)), index);
+  Sampler numbers = makeSampler(key, index);
   Emission e = drawEmission(numbers);
   Path p = pathAlong(e.origin, e.direction, numbers, steps);
   p.cameraRay = false;

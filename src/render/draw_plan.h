@@ -9,8 +9,8 @@
 
 namespace fragtrace {
 
-/// Largest tile, in pixels: the states of its suspended paths stand in one storage buffer, of 76 MiB (19 rows
-/// of 16 bytes each, layout::kPathStateRows) or, with instances, 96 MiB.
+/// Largest tile, in pixels: the states of its suspended paths stand in one storage buffer, of 60 to 104 MiB
+/// (kPathRows of layout.glsl; a row has 16 bytes).
 inline constexpr int kMaxTilePixels = 1 << 18;
 /// The most lanes of a draw of the wavefront.
 inline constexpr int kMaxWaveLanes = 1 << 12;

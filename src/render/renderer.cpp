@@ -138,9 +138,8 @@ void Renderer::useProgram(const ShaderVariant& variant) {
 }
 
 void Renderer::bindPathStates(const ShaderVariant& variant) {
-  const bool twoLevels = has(variant.traits, Trait::Instances);
-  const uint32_t rows = (twoLevels ? layout::kTwoLevelPathStateRows : layout::kPathStateRows) +
-                        (isLightPart(variant.feature) || variant.lightPaths ? 1 : 0);
+  const bool part = isLightPart(variant.feature) || variant.lightPaths;
+  const int rows = int(layout::kPathRows) + 1 + variant.stackSize / 4 + (part ? 1 : 0);
   const int64_t count =
       variant.wavefront ? int64_t(kMaxWaveLanes) * layout::kWaveLaneRows : int64_t(kMaxTilePixels) * rows;
   if (count > pathStateRows_) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shader/assemble.h"
 
-#include <algorithm>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -9,6 +8,8 @@
 #include "errors.h"
 #include "shader/embedded.h"
 #include "shader/live_text.h"
+#include "shader/reads_text.h"
+#include "shader/stack_text.h"
 #include "stage/glass_tables.h"
 
 namespace fragtrace {
@@ -40,20 +41,26 @@ struct Assembly {
     text << '\n';
   }
 
+  /// Of a file, or what is written from lists, or the scene as text.
+  std::string textOf(const std::string& name, const std::string& includedFrom) const {
+    const int vectors = variant.stackSize / 4;
+    if (name == "read.glsl") return readsText(variant.reads);
+    if (name == "stack.glsl") return stackText(vectors);
+    if (name == "path_states.glsl") return pathStatesText(variant.waveUnit) + stackRowsText(vectors);
+    if (name == "literals.glsl" && !variant.literals.empty()) return variant.literals;
+    return shaderText(source, name, includedFrom);
+  }
+
   void append(const std::string& name, const std::string& includedFrom) {
     if (!done.insert(name).second) return;
-    std::string file = name;
-    if (name == "read.glsl")
-      file = "reads/read_" + std::string(kBufferReadsNames[size_t(variant.reads)]) + ".glsl";
-    const bool literal = name == "literals.glsl" && !variant.literals.empty();
-    std::istringstream lines(literal ? variant.literals : shaderText(source, file, includedFrom));
-    lineDirective(1, file);
+    std::istringstream lines(textOf(name, includedFrom));
+    lineDirective(1, name);
     std::string line;
     for (int number = 1; std::getline(lines, line); ++number) {
       const size_t open = line.find('"');
       if (line.starts_with("#include") && open != std::string::npos) {
-        append(line.substr(open + 1, line.rfind('"') - open - 1), file);
-        lineDirective(number + 1, file);
+        append(line.substr(open + 1, line.rfind('"') - open - 1), name);
+        lineDirective(number + 1, name);
       } else {
         text << line << '\n';
       }
@@ -75,10 +82,6 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
   constant("kIterative", variant.traversal == TraversalMethod::Iterative);
   constant("kFrontToBack", variant.traversal == TraversalMethod::FrontToBack);
   constant("kResumable", variant.resumable);
-  if (variant.wavefront) {
-    constant("kWaveImage", variant.waveUnit >= 0);
-    text << "const uint kWaveUnit = " << std::max(variant.waveUnit, 0) << "u;\n";
-  }
   constant("kCandidates", variant.lightCandidates);
   constant("kLightRecords", variant.lightRecords);
   constant("kNeighbours", variant.neighbours);

@@ -7,8 +7,7 @@
 
 namespace fragtrace {
 
-/// Takes out functions that main does not reach by any name, and members of structs that nothing names.
-/// Structs that are made from all of their members at once, or lie in buffers, keep them.
+/// Takes out functions that main does not reach by any name.
 void dropUnused(std::vector<Token>& tokens);
 
 }  // namespace fragtrace

@@ -79,29 +79,6 @@ TEST(LiveText, FunctionsThatNothingCalls) {
             "const bool k = false; void main() { ; }");
 }
 
-TEST(LiveText, MembersThatNothingNames) {
-  EXPECT_EQ(live("struct S { int a, b, c; int d; vec2 e[2]; }; void main() { S s; s.b = 1; }"),
-            "struct S { int b; vec2 e[2]; }; void main() { S s; s.b = 1; }");
-  EXPECT_EQ(live("struct S { int a, b, c; }; void main() { S s; s.a = s.c; }"),
-            "struct S { int a, c; }; void main() { S s; s.a = s.c; }");
-}
-
-TEST(LiveText, NoStructIsLeftWithoutMembers) {
-  EXPECT_EQ(live("struct S { int a; }; struct T { S s; int b; }; void f(T t) { t.b = 1; } void main() { }"),
-            "void main() { }");
-  const std::string held = "struct S { int a; }; void main() { S s; S t = s; }";
-  EXPECT_EQ(live(held), held);
-}
-
-TEST(LiveText, StructsThatAreMadeAtOnceOrLieInBuffersKeepTheirMembers) {
-  for (const char* text :
-       {"struct S { int a, b; }; void main() { S s = S(1, 2); x = s.a; }",
-        "struct S { int a, b; }; uniform Block { S s; }; void main() { x = s.a; }",
-        "struct S { int a, b; }; struct T { S s; }; uniform Block { T t; }; void main() { x = t.s.a; }",
-        "struct S { int a, b; }; void main() { S s = { 1, 2 }; x = s.a; }"})
-    EXPECT_EQ(live(text), text);
-}
-
 TEST(LiveText, LinesKeepTheirNumbers) {
   const std::string text =
       "const bool kOff = false;  // one\n/* two\n */ void f() {\n}\n#line 9\nvoid main() {\n  if (kOff) {\n  "

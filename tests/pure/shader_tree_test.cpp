@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// shaders/stack.glsl and tree.glsl: the stack, and nodes and leaves as they are packed.
+// stack_text.h and shaders/tree.glsl: the stack, and nodes and leaves as they are packed.
 #include <gtest/gtest.h>
 
 #include "shader_scenes.h"

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// A path in rows of the buffer of path states. The wavefront keeps paths from round to round, the megakernel from draw
+// to draw (kResumable). Rows lie alike in both. The wavefront keeps no row that its variant does not need.
+#include "path_states.glsl"
+
+const int kRowRay = 0;              // origin, tie
+const int kRowDirection = 1;        // direction, medium
+const int kRowHit = 2;              // of the ray: distance, slot, weights
+const int kRowThroughput = 3;       // throughput, density
+const int kRowRadiance = 4;         // radiance, flags
+const int kRowCounts = 5;           // sample, rays, scatterings (scatteringsOf), those at smooth glass (clearOf)
+// kShadowRows:
+const int kRowShadow = 6;           // shadow ray's origin, limit
+const int kRowShadowDirection = 7;  // its direction, compression
+const int kRowContribution = 8;     // contribution, instance of the hit
+// kPassingRows:
+const int kRowShadowHit = 9;        // of the shadow ray, or of a traversal that is suspended: distance, slot, weights
+const int kRowPast = 10;            // what the ray and the shadow ray have passed through: distance and slot of each
+const int kRowCrossings = 11;       // crossings, instance of the row of the shadow ray's hit, instance that is walked
+// kResumable:
+const int kRowSuspended = 12;       // node of the traversal, light slot, more flags, visits
+const int kRowStack = 13;
+const int kRowPart = kRowStack + kStackSize / 4;  // kPartRow
+
+const bool kShadowRows = kShadows || kPassesLight || kInstances || kResumable;
+const bool kPassingRows = kPassing || kResumable;
+
+/// Path.part is kept from draw to draw.
+const bool kPartRow = kLightPart || kLightPaths;
+
+/// Rows of a path of the megakernel.
+const int kSuspendedRows = kRowPart + (kPartRow ? 1 : 0);
+
+/// And how far the path is a chain.
+uint scatteringsOf(Path p) { return uint(p.bounce) | (kCaustics ? uint(p.chain) << 30 : 0u); }
+
+/// Both counts in a word: roulette ends a path long before either is 65,535.
+uint clearOf(Path p) { return uint(p.clear) | (kThinGlass ? uint(p.walls) << 16 : 0u); }
+
+Path withCounts(Path p, uint scatterings, uint clear) {
+  p.bounce = int(kCaustics ? scatterings & 0x3fffffffu : scatterings);
+  p.chain = int(kCaustics ? scatterings >> 30 : 0u);
+  p.clear = int(kThinGlass ? clear & 0xffffu : clear);
+  p.walls = int(kThinGlass ? clear >> 16 : 0u);
+  return p;
+}
+
+/// What a traversal has met.
+uvec4 metBy(Traversal t) { return uvec4(floatBitsToUint(t.t), uint(t.slot), floatBitsToUint(t.weights)); }
+
+/// begins: nothing has changed yet what a camera ray carries. The wavefront keeps fewer rows of such a path.
+void savePath(Path p, int row, bool begins) {
+  uint flags = uint(p.phase) | (p.cameraRay ? 16u : 0u) | (p.oneChannel ? 32u : 0u) | (p.alpha > 0.0 ? 64u : 0u) |
+               (p.throughWalls ? 128u : 0u) | (kLightTree ? p.normal << 8 : 0u);
+  pathStates[row + kRowRay] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.tie));
+  pathStates[row + kRowDirection] = uvec4(floatBitsToUint(p.direction), p.medium);
+  pathStates[row + kRowHit] = uvec4(floatBitsToUint(p.hitT), uint(p.hitSlot), floatBitsToUint(p.hitWeights));
+  if (!begins) pathStates[row + kRowThroughput] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.density));
+  pathStates[row + kRowRadiance] = uvec4(floatBitsToUint(p.radiance), flags);
+  pathStates[row + kRowCounts] = uvec4(p.numbers.index, uint(p.rays), scatteringsOf(p), clearOf(p));
+  if (kShadowRows && !begins) {
+    pathStates[row + kRowShadow] = uvec4(floatBitsToUint(p.shadowOrigin), floatBitsToUint(p.shadowLimit));
+    pathStates[row + kRowShadowDirection] = uvec4(floatBitsToUint(p.shadowDirection), floatBitsToUint(p.compression));
+  }
+  if (kShadowRows) pathStates[row + kRowContribution] = uvec4(floatBitsToUint(p.contribution), uint(p.hitInstance));
+  if (kPassingRows) {
+    Traversal t = p.traversal;
+    pathStates[row + kRowPast] = uvec4(floatBitsToUint(t.past), uint(t.pastSlot), 0u, 0u);
+    pathStates[row + kRowCrossings] = uvec4(uint(p.crossings), uint(t.hitInstance), uint(t.instance), 0u);
+  }
+}
+
+/// Without its shadow ray. key: of its random numbers.
+Path loadPath(int row, uint key) {
+  Path p = newPath();
+  vec4 f = uintBitsToFloat(readPathStates(row + kRowRay));
+  p.origin = f.xyz;
+  p.tie = f.w;
+  uvec4 a = readPathStates(row + kRowDirection);
+  p.direction = uintBitsToFloat(a.xyz);
+  p.medium = a.w;
+  a = readPathStates(row + kRowHit);
+  p.hitT = uintBitsToFloat(a.x);
+  p.hitSlot = int(a.y);
+  p.hitWeights = uintBitsToFloat(a.zw);
+  a = readPathStates(row + kRowRadiance);
+  p.radiance = uintBitsToFloat(a.xyz);
+  p.phase = int(a.w & 15u);
+  p.cameraRay = (a.w & 16u) != 0u;
+  p.oneChannel = (a.w & 32u) != 0u;
+  p.alpha = (a.w & 64u) != 0u ? 1.0 : 0.0;
+  p.throughWalls = (a.w & 128u) != 0u;
+  p.normal = kLightTree ? a.w >> 8 : kNoNormal;
+  bool begins = !kResumable && p.cameraRay;
+  f = uintBitsToFloat(readPathStates(row + kRowThroughput));
+  p.throughput = begins ? vec3(1.0) : f.xyz;
+  p.density = begins ? 0.0 : f.w;
+  a = readPathStates(row + kRowCounts);
+  p.numbers = makeSampler(key, a.x);
+  p.rays = int(a.y);
+  p = withCounts(p, a.z, a.w);
+  if (kShadowRows) {
+    p.compression = begins ? 1.0 : uintBitsToFloat(readPathStates(row + kRowShadowDirection).w);
+    a = readPathStates(row + kRowContribution);
+    p.contribution = uintBitsToFloat(a.xyz);
+    p.hitInstance = int(a.w);
+  }
+  if (kPassingRows) p.crossings = int(readPathStates(row + kRowCrossings).x);
+  return p;
+}
+
+/// The shadow ray, and what the traversal has met.
+Path loadShadow(Path p, int row) {
+  vec4 f = uintBitsToFloat(readPathStates(row + kRowShadow));
+  p.shadowOrigin = f.xyz;
+  p.shadowLimit = f.w;
+  p.shadowDirection = uintBitsToFloat(readPathStates(row + kRowShadowDirection).xyz);
+  uvec4 a = readPathStates(row + kRowShadowHit);
+  p.traversal.t = uintBitsToFloat(a.x);
+  p.traversal.slot = int(a.y);
+  p.traversal.weights = uintBitsToFloat(a.zw);
+  p.traversal.hitInstance = kInstances ? int(readPathStates(row + kRowCrossings).y) : -1;
+  return p;
+}
+
+/// A path that goes on in the next draw, in whatever phase and wherever in a traversal.
+void suspendPath(Path p, int row) {
+  savePath(p, row, false);
+  Traversal t = p.traversal;
+  uint flags = uint(p.after) | (p.caught ? 16u : 0u) | (p.clearFirst ? 32u : 0u);
+  pathStates[row + kRowShadowHit] = metBy(t);
+  pathStates[row + kRowSuspended] = uvec4(uint(t.node), uint(p.lightSlot), flags, uint(t.visits));
+  if (!kIterative && !kLiterals) saveStack(t.stack, row + kRowStack);
+  if (kPartRow) pathStates[row + kRowPart] = uvec4(floatBitsToUint(p.part), 0u);
+}
+
+Path resumePath(int row, uint key) {
+  Path p = loadShadow(loadPath(row, key), row);
+  uvec4 a = readPathStates(row + kRowSuspended);
+  p.lightSlot = int(a.y);
+  p.after = int(a.z & 15u);
+  p.caught = (a.z & 16u) != 0u;
+  p.clearFirst = (a.z & 32u) != 0u;
+  if (kPartRow) p.part = uintBitsToFloat(readPathStates(row + kRowPart).xyz);
+  p.traversal.node = int(a.x);
+  p.traversal.visits = int(a.w);
+  a = readPathStates(row + kRowPast);
+  p.traversal.past = uintBitsToFloat(a.x);
+  p.traversal.pastSlot = int(a.y);
+  if (kInstances) p.traversal.instance = int(readPathStates(row + kRowCrossings).z);
+  p.traversal.both = kLightPaths && p.phase == kPhaseExtend;
+  p.traversal.tie = p.phase == kPhaseExtend ? p.tie : 0.0;
+  if (!kIterative && !kLiterals) p.traversal.stack = loadStack(row + kRowStack);
+  return p;
+}
