@@ -1,5 +1,47 @@
 // SPDX-License-Identifier: MIT
-// The tracer: what both entries (fragment and compute) include and call.
+// The tracer: what all entries include and call. The whole of it:
+//
+//   tracePixel(pixel):                            a lane of the megakernel; a lane of wavefront.glsl has 32 pixels
+//     film = load(pixel)
+//     until film has its samples or the draw its steps:
+//       path = beginSample()                      a camera ray; or a ray of a lamp (caustics/)
+//       while the path goes on: advance(path)
+//       film = endSample(path)                    sums of radiance and its variance, counts
+//     store(film)
+//
+//   advance(path):                                one round
+//     hit = traverse(path.ray)
+//     meet(path, hit)
+//     if it left a shadow ray: settleShadow(path, traverse(shadow ray))
+//
+//   traverse(ray):                                traverse.glsl
+//     node = root
+//     until nothing is left:
+//       inner node: node = nearer child that the ray meets; push the farther one; none: pop
+//       leaf: keep the nearest hit on its two primitives (intersect.glsl); pop
+//
+//   meet(path, hit):
+//     the shadow catcher lies before it: catcher.glsl
+//     nothing is hit:
+//       radiance += throughput * environment * weight(density of scattering, density of light samples); end
+//     else shade(path, hit)
+//
+//   shade(path, hit):                             shade.glsl
+//     surface, material = what is hit             surface.glsl, material.glsl
+//     alpha lets it pass: the same ray goes on behind the hit
+//     throughput *= absorption along the ray
+//     radiance += throughput * emission * weight(density of scattering, density of light samples)
+//     as many scatterings as may be: end
+//     light = a light by its power, a point of it   lights.glsl
+//     contribution = throughput * irradiance * BSDF * weight(density of the light sample, density of scattering)
+//     shadow ray = from the surface to the light
+//     direction = a direction drawn from the BSDF   bsdf.glsl, layers.glsl
+//     throughput *= BSDF * cosine / density
+//     Russian roulette: end, or throughput /= chance to survive
+//     path.ray = from the surface along the direction
+//
+//   settleShadow(path, hit):
+//     if nothing is hit: radiance += contribution
 #include "layout.glsl"
 layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frameBlock; };
 // The block once more as a variable: llvmpipe reads a uniform lane by lane, so each is read once a draw.
@@ -45,16 +87,9 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "shade.glsl"
 #include "catcher.glsl"
 
-/// Each round of the loop is one ray of a path, its shading and its shadow ray, without the phases of a path that can
-/// be suspended.
-const bool kDirect = kGi && !kPassing && !kResumable && kFeature == kFeatureNone;
-
-Traversal beginTraversal(float limit, bool wanted, int steps) {
-  Traversal t = startTraversal(limit, frame.limits.w);
-  t.steps = steps;
-  if (!wanted) t.node = kTraversalDone;
-  return t;
-}
+/// Rays are traced from end to end: what the budget ends begins its sample anew in the next draw, and no traversal is
+/// kept from round to round.
+const bool kWholeRays = kGi && !kPassing && !kResumable && kFeature == kFeatureNone;
 
 /// A pixel may want fewer samples than the draw brings (Film::setTargets).
 uint samplesWanted(FilmPixel film) {
@@ -62,198 +97,128 @@ uint samplesWanted(FilmPixel film) {
   return own > 0u ? min(own, uint(frame.picture.z)) : uint(frame.picture.z);
 }
 
-/// A pixel on its way: what the loops below advance.
-struct PixelTrace {
-  FilmPixel film;
-  Path path;
-  bool tracing;  // a sample is under way
-  float cut;     // what kBounces took of the throughput
-};
-
-/// What stays the same meanwhile.
-struct PixelTask {
-  ivec2 pixel;  // y from the bottom
-  uint key;     // of its random numbers
-  uint wanted;  // samples
-  int budget;   // traversal steps in this draw
-};
-
-PixelTrace beginSample(PixelTrace t, PixelTask task) {
-  uint index = t.film.samples + uint(frame.sampling.x);
-  if (kLightPaths) t.path = startLightPath(recordOf(task.pixel, t.film.samples), task.key, t.path.traversal.steps);
-  if (!kLightPaths) t.path = startPath(task.pixel, task.key, index, t.path.traversal.steps);
-  t.tracing = true;
-  return t;
+/// The next sample of a pixel.
+Path beginSample(FilmPixel film, ivec2 pixel, uint key, int steps) {
+  if (kLightPaths) return startLightPath(recordOf(pixel, film.samples), key, steps);
+  return startPath(pixel, key, film.samples + uint(frame.sampling.x), steps);
 }
 
-PixelTrace endSample(PixelTrace t, PixelTask task) {
-  t.cut += cutThroughput(t.path);
-  t.film.rays += uint(t.path.rays);
-  if (kShadowCatcher) t.path = showShadow(t.path);
+/// Adds the finished path to the film.
+FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
+  film.rays += uint(p.rays);
+  if (kHeatmap) p.radiance = vec3(float(p.traversal.visits));
+  if (kShadowCatcher) p = showShadow(p);
   if (kLightPaths) {
-    storeRecord(recordOf(task.pixel, t.film.samples), t.path.radiance, t.path.part.xy);
-    t.film.samples += 1u;
+    storeRecord(recordOf(pixel, film.samples), p.radiance, p.part.xy);
+    film.samples += 1u;
   } else if (kLightRecords) {
-    t.film.samples += 1u;
+    film.samples += 1u;
   } else if (kFeature == kFeatureGuides) {
-    t.film = addGuides(t.film, t.path.radiance, t.path.contribution, t.path.shadowLimit, t.path.alpha);
+    film = addGuides(film, p.radiance, p.contribution, p.shadowLimit, p.alpha);
   } else {
-    t.film = addSample(t.film, t.path.radiance, t.path.alpha);
+    film = addSample(film, p.radiance, p.alpha);
   }
-  return t;
+  return film;
 }
 
-/// Whole rays only: a traversal that the budget ends begins its sample anew in the next draw.
-PixelTrace traceDirect(PixelTrace t, PixelTask task, TreeFrame tree) {
-  while (t.path.traversal.steps < task.budget) {
-    if (!t.tracing) {
-      if (t.film.samples >= task.wanted) break;
-      t = beginSample(t, task);
-      if (kLightPaths && t.path.phase == kPhaseEnd) {
-        t = endSample(t, task);
-        t.tracing = false;
-        continue;
-      }
-    }
-    // Step: find what the ray hits.
-    Traversal hit = beginTraversal(kFarAway, true, t.path.traversal.steps + 1);
-    if (kCreases) hit.tie = t.path.tie;
-    if (kLightPaths) hit.both = true;
-    hit = traverse(t.path.origin, t.path.direction, kFarAway, hit, tree, task.budget, false);
-    t.path.traversal.steps = hit.steps;
-    if (hit.node != kTraversalDone) break;
-    t.path.rays += 1;
-
-    // Step: shade it.
-    if (kShadowCatcher && meetsCatcher(t.path, hit.slot < 0 ? kFarAway : hit.t)) {
-      t.path = meetCatcher(withHit(t.path, hit));
-    } else if (hit.slot < 0) {
-      t.path = meetSurroundings(t.path);
-    } else {
-      t.path = withHit(t.path, hit);
-      t.path = shade(t.path);
-    }
-    t.path.traversal.steps = hit.steps + kCandidateSteps;
-
-    // Step: is the light seen? Literals are tested for lanes without a shadow ray, too: a branch would save nothing.
-    if (kShadows) {
-      bool waiting = t.path.phase == kPhaseShadow;
-      Traversal shadow = beginTraversal(t.path.shadowLimit, waiting, t.path.traversal.steps);
-      shadow =
-          traverse(t.path.shadowOrigin, t.path.shadowDirection, t.path.shadowLimit, shadow, tree, task.budget, true);
-      t.path.traversal.steps = shadow.steps;
-      if (waiting && shadow.node != kTraversalDone) break;
-      t.path.rays += waiting ? 1 : 0;
-      t.path.radiance += waiting && shadow.slot < 0 ? t.path.contribution : vec3(0.0);
-      t.path.phase = waiting ? t.path.after : t.path.phase;
-    }
-    t.tracing = t.path.phase == kPhaseExtend;
-    if (!t.tracing) t = endSample(t, task);
+/// What the path's ray has met says what the path does next.
+Path meet(Path p) {
+  if (kHeatmap) {
+    p.phase = kPhaseEnd;
+  } else if (kShadowCatcher && meetsCatcher(p, p.hitSlot < 0 ? kFarAway : p.hitT)) {
+    p = meetCatcher(p);
+  } else if (p.hitSlot < 0) {
+    p = meetSurroundings(p);
+  } else {
+    p = shade(p);
   }
-  return t;
+  return p;
 }
 
-/// In phases, between which a path can be suspended, and for what a ray alone does not decide: holes, guides, heat
-/// maps.
-PixelTrace tracePhases(PixelTrace t, PixelTask task, TreeFrame tree) {
-  while (t.path.traversal.steps < task.budget) {
-    if (!t.tracing) {
-      if (t.film.samples >= task.wanted) break;
-      t = beginSample(t, task);
-    }
-    t.path.traversal.steps += 1;
+/// One round of a path. A traversal that the budget ends leaves it in its phase.
+Path advance(Path p, int budget, TreeFrame tree) {
+  p.traversal.steps += 1;
 
-    // Step: find what the path's ray hits.
-    if (t.path.phase == kPhaseExtend) {
-      t.path.traversal =
-          traverse(t.path.origin, t.path.direction, kFarAway, t.path.traversal, tree, task.budget, false);
-      if (t.path.traversal.node == kTraversalDone) {
-        t.path.rays += 1;
-        t.path = withHit(t.path, t.path.traversal);
-        t.path.phase = kPhaseShade;
-      }
-    }
-
-    // Step: shade it; this may need a shadow ray.
-    if (kHeatmap) {
-      if (t.path.phase == kPhaseShade) t.path.phase = kPhaseEnd;
-    } else if (t.path.phase == kPhaseShade) {
-      if (kShadowCatcher && meetsCatcher(t.path, t.path.hitSlot < 0 ? kFarAway : t.path.hitT)) {
-        t.path = meetCatcher(t.path);
-      } else if (t.path.hitSlot < 0) {
-        t.path = meetSurroundings(t.path);
-      } else {
-        t.path = shade(t.path);
-      }
-      t.path.traversal.steps += kCandidateSteps;
-    }
-
-    // Step: is the light seen?
-    if (kShadows && t.path.phase == kPhaseShadow) {
-      t.path.traversal = traverse(t.path.shadowOrigin, t.path.shadowDirection, t.path.shadowLimit, t.path.traversal,
-                                  tree, task.budget, !kPassing);
-      if (t.path.traversal.node == kTraversalDone) {
-        t.path.rays += 1;
-        t.path = settleShadow(t.path);
-      }
-    }
-
-    // Step: the sample is complete.
-    if (t.path.phase >= kPhaseEnd) {
-      if (kHeatmap) t.path.radiance = vec3(float(t.path.traversal.visits));
-      t = endSample(t, task);
-      t.tracing = false;
+  // Step: find what the path's ray hits.
+  // Only light paths may have ended before their first ray.
+  if ((kWholeRays && !kLightPaths) || p.phase == kPhaseExtend) {
+    if (kWholeRays) p = extend(p);
+    p.traversal = traverse(p.origin, p.direction, kFarAway, p.traversal, tree, budget, false);
+    if (p.traversal.node == kTraversalDone) {
+      p.rays += 1;
+      p = withHit(p, p.traversal);
+      p.phase = kPhaseShade;
     }
   }
-  return t;
+
+  // Step: shade it; this may need a shadow ray.
+  if (p.phase == kPhaseShade) {
+    p = meet(p);
+    p.traversal.steps += kCandidateSteps;
+  }
+
+  // Step: is the light seen?
+  if (kShadows && p.phase == kPhaseShadow) {
+    p.traversal = traverse(p.shadowOrigin, p.shadowDirection, p.shadowLimit, p.traversal, tree, budget, !kPassing);
+    if (p.traversal.node == kTraversalDone) {
+      p.rays += 1;
+      p = settleShadow(p);
+    }
+  }
+  return p;
 }
 
-/// What an unfinished pixel leaves for the next draw, and says of this one.
-PixelTrace leaveUnfinished(PixelTrace t, PixelTask task, uint samplesBefore, int state) {
-  // The budget alone may end the loops above: one that ended below it was cut by the driver.
-  if (t.path.traversal.steps < task.budget) t.film.flags |= kPixelBudgetHit;
-  atomicAdd(progress.unfinished, 1u);
-  if (kResumable && t.tracing) {
-    t.film.flags |= kPixelSuspended;
-    suspendPath(t.path, state * kSuspendedRows);
-  }
-  // Else the sample begins anew in the next draw, unless it is longer than a whole draw.
-  if (!kResumable && t.film.samples == samplesBefore) atomicAdd(progress.stuck, 1u);
-  return t;
+/// Fetches the uniform block. The film's flags are never so, but compilers do not know: they would put the block's
+/// reads back to where they are used, inside of loops.
+void fetchFrame(FilmPixel film) {
+  if (film.flags != 0xffffffffu) frame = frameBlock;
 }
 
 /// Advances one pixel (y from the bottom) until it has the samples wanted or has used the step budget of this draw.
 void tracePixel(ivec2 pixel) {
-  PixelTrace t;
-  t.film = loadFilm(pixel);
-  // Always so, but compilers do not know: they would put the block's reads back to where they are used, inside the
-  // loop.
-  if (t.film.flags != 0xffffffffu) frame = frameBlock;
+  FilmPixel film = loadFilm(pixel);
+  fetchFrame(film);
   ivec2 place = pixel - frame.tile.xy;
-  int state = place.y * frame.tile.z + place.x;
-  PixelTask task;
-  task.pixel = pixel;
-  task.key = kLightPaths ? keyOfLightPaths() : keyOfPixel(pixel);
-  task.wanted = samplesWanted(t.film);
-  task.budget = frame.limits.z;
+  int row = (place.y * frame.tile.z + place.x) * kSuspendedRows;
+  uint key = kLightPaths ? keyOfLightPaths() : keyOfPixel(pixel);
+  uint wanted = samplesWanted(film);
+  int budget = frame.limits.z;
   TreeFrame tree = treeFrame();
-  uint samplesBefore = t.film.samples;
-  t.cut = 0.0;
-  t.path.phase = kPhaseEnd;
-  t.path.traversal.steps = 0;
-  if (kResumable && (t.film.flags & kPixelSuspended) != 0u) t.path = resumePath(state * kSuspendedRows, task.key);
-  t.path.pixel = pixel;
-  t.film.flags &= ~kPixelSuspended;
-  t.tracing = t.path.phase != kPhaseEnd;
+  uint samplesBefore = film.samples;
+  float cut = 0.0;  // what kBounces took of the throughput
+  Path p;
+  p.phase = kPhaseEnd;
+  p.traversal.steps = 0;
+  if (kResumable && (film.flags & kPixelSuspended) != 0u) p = resumePath(row, key);
+  p.pixel = pixel;
+  film.flags &= ~kPixelSuspended;
 
-  if (kDirect) {
-    t = traceDirect(t, task, tree);
-  } else {
-    t = tracePhases(t, task, tree);
+  bool tracing = p.phase != kPhaseEnd;
+  while (p.traversal.steps < budget) {
+    if (!tracing) {
+      if (film.samples >= wanted) break;
+      p = beginSample(film, pixel, key, p.traversal.steps);
+      tracing = true;
+    }
+    p = advance(p, budget, tree);
+    if (p.phase >= kPhaseEnd) {
+      cut += cutThroughput(p);
+      film = endSample(film, p, pixel);
+      tracing = false;
+    }
   }
 
-  bool finished = t.film.samples >= task.wanted && !t.tracing;
-  if (!finished) t = leaveUnfinished(t, task, samplesBefore, state);
-  if (kScatters) reportCut(t.cut);
-  storeFilm(pixel, t.film);
+  if (tracing || film.samples < wanted) {
+    // The budget alone may end the loop: one that ended below it was cut by the driver.
+    if (p.traversal.steps < budget) film.flags |= kPixelBudgetHit;
+    atomicAdd(progress.unfinished, 1u);
+    if (kResumable && tracing) {
+      film.flags |= kPixelSuspended;
+      suspendPath(p, row);
+    }
+    // Else the sample begins anew in the next draw, unless it is longer than a whole draw.
+    if (!kResumable && film.samples == samplesBefore) atomicAdd(progress.stuck, 1u);
+  }
+  if (kScatters) reportCut(cut);
+  storeFilm(pixel, film);
 }

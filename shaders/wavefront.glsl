@@ -3,8 +3,8 @@
 // round shades what the rays of the last one hit, ends and begins samples, then traces all rays in one loop that gives
 // a lane its next ray as soon as the last one is done, so that no lane waits for the longest ray. What is done to some
 // pixels only is a loop of its own over their bits: llvmpipe executes a branch that no lane takes, but not an
-// iteration. Shading and traversal are those of the megakernel, in the same order for each pixel, so pictures are the
-// same bits where a compiler keeps to the text.
+// iteration. Its loops are the steps of advance() (trace.glsl) one by one, in the same order for each pixel, so
+// pictures are the same bits where a compiler keeps to the text.
 
 /// Rows of a path.
 const int kWaveRows = int(kPassing ? kPathRows : kPathRows - kPathPassingRows);
@@ -172,15 +172,14 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
       p.rays += 1;
     }
     if (p.phase != kPhaseNone) {
-      film = addSample(film, p.radiance, p.alpha);
-      film.rays += uint(p.rays);
+      film = endSample(film, p, pixel);
       p.phase = kPhaseNone;
     }
     more = false;
     uint bit = 1u << k;
     int row = rowOf(v, k);
     if (film.samples < samplesWanted(film)) {
-      p = startPath(pixel, keyOf(v, k), film.samples + uint(frame.sampling.x), 0);
+      p = beginSample(film, pixel, keyOf(v, k), 0);
       Traversal t = beginExtension(p, tree);
       samples += 1;
       more = t.node == kTraversalDone && t.slot < 0 && samples < kWaveSamples;
@@ -213,7 +212,7 @@ Wave settleRay(Wave v, Traversal t, int current, bool isShadow) {
 
 /// Traces all rays, but for those that the step budget leaves over. A lane whose ray is done takes its next one.
 Wave traceRays(Wave v, int budget, TreeFrame tree) {
-  Traversal t = beginTraversal(0.0, false, 0);
+  Traversal t = startTraversal(0.0, 0);
   TreeRay ray = makeTreeRay(vec3(0.0), vec3(1.0), 0.0, tree.origin, tree.cell);
   vec3 origin = vec3(0.0);
   vec3 direction = vec3(1.0);
@@ -231,7 +230,7 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
       origin = a.xyz;
       direction = uintBitsToFloat(readPathStates(row + (isShadow ? kRowShadowDirection : kRowDirection))).xyz;
       limit = isShadow ? a.w : kFarAway;
-      t = beginTraversal(limit, true, 0);
+      t = startTraversal(limit, frame.limits.w);
       if (kCreases) t.tie = isShadow ? 0.0 : a.w;
       if (kPassing) {
         uvec4 past = readPathStates(row + kRowPast);
@@ -292,7 +291,7 @@ Wave beginAnew(Wave v, uint left) {
 void traceWave(ivec2 lane) {
   Wave v;
   v.corner = frameBlock.tile.xy + ivec2(lane.x, lane.y * int(kWaveSlots));
-  if (loadFilm(v.corner).flags != 0xffffffffu) frame = frameBlock;
+  fetchFrame(loadFilm(v.corner));
   int own = (lane.y * frame.tile.z + lane.x) * int(kWaveLaneRows);  // the row of what is left of the lane's own
   v.first = own + 1;
   int count = min(int(kWaveSlots), frame.tile.w - lane.y * int(kWaveSlots));

@@ -10,8 +10,8 @@
 
 namespace fragtrace {
 
-/// Sizes in which the shader's stack (src/shader/stack_text.h) comes; each step up was measured to cost 4 to 7 %
-/// of the time on llvmpipe.
+/// Sizes in which the shader's stack (src/shader/stack_text.h) comes; each step up was measured to cost 4 to
+/// 7 % of the time on llvmpipe.
 inline constexpr std::array<uint32_t, 6> kBvhStackSizes{8, 12, 16, 20, 24, kMaxBvhDepth};
 
 struct BvhBuildSettings {

@@ -12,8 +12,8 @@ namespace {
 
 /// Scene buffers by binding; layout.glsl has k...Binding of each.
 constexpr std::array<std::string_view, layout::kSceneBufferCount> kSceneBuffers{
-    "Nodes",     "Leaves", "Faces",    "Normals", "Texcoords",   "Tangents",            "Colors",
-    "Materials", "Texels", "Emitters", "Lights",  "Environment", "EnvironmentInversion"};
+    "Nodes",  "Leaves",   "Faces",  "Normals",     "Texcoords",           "Tangents", "Colors", "Materials",
+    "Texels", "Emitters", "Lights", "Environment", "EnvironmentInversion"};
 
 /// "Nodes": "nodesBuffer".
 std::string variableOf(std::string_view name) {
@@ -58,7 +58,8 @@ std::string readsText(BufferReads reads) {
 
 std::string pathStatesText(int imageUnit) {
   // Neither is `restrict`: image and buffer are the same memory.
-  std::string text = "layout(std430, binding = kPathStatesBinding) buffer PathStatesBlock { uvec4 pathStates[]; };\n";
+  std::string text =
+      "layout(std430, binding = kPathStatesBinding) buffer PathStatesBlock { uvec4 pathStates[]; };\n";
   std::string value = "pathStates[index]";
   if (imageUnit >= 0) {
     text += "layout(rgba32ui, binding = " + std::to_string(imageUnit) +

@@ -43,8 +43,8 @@ std::string stackText(int vectors) {
   text += "ivec4 pushed(ivec4 e, int top) { return ivec4(top, e.x, e.y, e.z); }\n";
   text += "ivec4 popped(ivec4 e, int next) { return ivec4(e.y, e.z, e.w, next); }\n";
   // Pushes value on top, pops the top (e0.x), or neither; never both. Two passes of single selects: nested
-  // ones cost llvmpipe a seventh of the time of a ball's paths. A push goes from the bottom up, a pop from the
-  // top down, so that each entry is read before it changes.
+  // ones cost llvmpipe a seventh of the time of a ball's paths. A push goes from the bottom up, a pop from
+  // the top down, so that each entry is read before it changes.
   text += "Stack stepStack(Stack s, bool push, bool pop, int value) {\n";
   for (int i = vectors; i-- > 0;) text += pushLine(i);
   for (int i = 0; i < vectors; ++i) text += popLine(i, vectors);

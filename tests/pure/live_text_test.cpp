@@ -98,7 +98,7 @@ TEST(LiveText, TextThatIsNotUnderstoodStaysAsItIs) {
 
 TEST(LiveText, AVariantHasNothingOfWhatItIsWithout) {
   const std::string text = assembleShader({}, "entry/trace.frag", ShaderVariant{});
-  for (const char* name : {"sheen", "savePath", "s47", "perlin("})
+  for (const char* name : {"sheenLambda", "savePath", "s.e3", "perlin("})
     EXPECT_EQ(text.find(name), std::string::npos) << name;
   EXPECT_NE(text.find("void main()"), std::string::npos);
 }
