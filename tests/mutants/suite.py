@@ -16,6 +16,7 @@ LIKELY = {
     "shade.lightAt": ("command.LightTree",),
     "path.takesLightFromBehind": ("command.LightTree",),
     "path.": ("closed-furnace.gi", "command.KnownLight", "cornell-box.gi", "coverage.gi"),
+    "path_state.": ("closed-furnace.gi", "command.KnownLight", "cornell-box.gi", "coverage.gi"),
     "path.scatter": ("closed-furnace-roulette.gi", "closed-furnace.gi", "command.KnownLight", "glass-sphere.gi"),
     "path.alphaAt": ("command.Sheets", "coverage.gi"),
     "path.passesThrough": ("command.Sheets",),
