@@ -135,7 +135,7 @@ std::vector<ErrorSample> measureSteps(Contender& c, const View& view, const Judg
 /// The picture filtered, as `render --denoise` does it. `compileMs` grows by what was built on the way.
 ErrorSample finish(Contender& c, const View& view, const Judge& judge, const Draw& draw, double& compileMs) {
   const RenderOptions& options = c.configuration.render;
-  Image picture = pictureOf(draw.drawing, options, c.tracer.variant);
+  Image picture = pictureOf(draw.drawing, options);
   double seconds = draw.seconds;
   for (const ShaderVariant& variant : c.tracer.features) {
     const int samples = samplesOfLayer(options, variant.feature, draw.layerSamples);

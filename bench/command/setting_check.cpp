@@ -35,7 +35,7 @@ void judge(TimedSetting& s, const FilmPixels& other, CheckAgainst against, const
 RenderOptions otherWay(const RenderOptions& options) {
   RenderOptions other = options;
   other.output.quiet = true;
-  if (has(options.stages, Stage::BvhHeatmap)) return other;
+  if (options.output.debugView == DebugView::Visits) return other;
   other.device.traversal =
       options.device.traversal == TraversalMethod::Bvh ? TraversalMethod::FrontToBack : TraversalMethod::Bvh;
   return other;

@@ -139,8 +139,8 @@ struct SequenceRun {
 /// was drawn before.
 bool keepsTree(const RenderOptions& options, const Scene& scene) {
   constexpr size_t kLeastTriangles = 4096;
-  return !holdsLayers(options) && !keepsCheckpoint(options) && !has(options.stages, Stage::BvhHeatmap) &&
-         options.output.debugView == DebugView::None && scene.triangles.size() >= kLeastTriangles;
+  return !holdsLayers(options) && !keepsCheckpoint(options) && options.output.debugView == DebugView::None &&
+         scene.triangles.size() >= kLeastTriangles;
 }
 
 /// The scene as the picture shows it, on the device. A turntable loads it once; else the environment stays.

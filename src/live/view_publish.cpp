@@ -57,11 +57,10 @@ bool ViewTracer::denoisesByOidn(const Side& side) const {
 
 std::optional<Image> ViewTracer::shownOf(Side& side, const FilmPixels& pixels,
                                          const std::function<bool()>& goOn) {
-  const ShaderVariant& variant = side.program->tracer.variant;
   const bool alpha = !side.options.light.background;
-  if (!denoises(side)) return shownPicture(side.options, variant, pixels, {alpha});
+  if (!denoises(side)) return shownPicture(side.options, pixels, {alpha});
   const auto start = Clock::now();
-  const Image drawn = shownPicture(side.options, variant, pixels, {true, true, true});
+  const Image drawn = shownPicture(side.options, pixels, {true, true, true});
   std::optional<Image> shown;
   try {
     shown = denoiser_->shown(drawn, side.samples, side.options, denoisesByOidn(side), side.program->tracer,
@@ -69,7 +68,7 @@ std::optional<Image> ViewTracer::shownOf(Side& side, const FilmPixels& pixels,
   } catch (const ContextLost&) {
     throw;
   } catch (const RenderError& error) {
-    side.program->tracer.renderer->use(variant);  // it may have been at a layer
+    side.program->tracer.renderer->use(side.program->tracer.variant);  // it may have been at a layer
     exchange_.tellError(error.what());
     shown = onlyChannels(drawn, {"R", "G", "B", "A"});
   }
@@ -93,7 +92,7 @@ void ViewTracer::publish(Side& side) {
   if (!shown) return;
   side.shownAt = side.samples;
   picture.image = std::move(*shown);
-  if (has(side.program->tracer.variant.stages, Stage::BvhHeatmap)) picture.image = colorsOf(picture.image);
+  if (side.options.output.debugView == DebugView::Visits) picture.image = colorsOf(picture.image);
   picture.asItIs = showsColors(side.options);
   picture.lines = linesOver(side);
   SideStatistics& s = picture.statistics;
@@ -168,7 +167,7 @@ void ViewTracer::save(const SaveRequest& request) {
     const bool exr = formatOfName(options.output.file) == ImageFormat::OpenExr;
     const Layers layers{!options.light.background, options.output.aovSamples, options.output.aovVariance};
     // A file of radiance is what its samples say, one for a display what is seen.
-    Image image = exr ? shownPicture(options, side.program->tracer.variant, pixels, layers) : seenOf(side);
+    Image image = exr ? shownPicture(options, pixels, layers) : seenOf(side);
     loaded_->camera = side.view.camera;
     loaded_->size = pixels.size;
     if (exr && options.output.debugView == DebugView::None)

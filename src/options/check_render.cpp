@@ -110,7 +110,6 @@ RenderOptions finishRender(const RawRender& raw) {
   o.stages = stagesOf(raw);
   if (raw.noDefaultLight) o.light.defaultLight = DefaultLight::None;
   o.sampling.spp = samplesOf(raw);
-  if (o.output.debugView == DebugView::Visits) o.stages.set(size_t(Stage::BvhHeatmap));
   checkLens(o.camera.lens);
   checkStudio(o.light);
   checkOutput(o, raw.anyOutput);

@@ -12,7 +12,7 @@ RenderOptions sampledPart(const RenderOptions& options) {
   RenderOptions part = withoutEffects(
       options, {Effect::Report, Effect::Method, Effect::Layers, Effect::Count, Effect::Display});
   // The heat map shows the way through the tree.
-  if (has(options.stages, Stage::BvhHeatmap)) part.device.traversal = options.device.traversal;
+  if (options.output.debugView == DebugView::Visits) part.device.traversal = options.device.traversal;
   return part;
 }
 
@@ -31,8 +31,7 @@ bool drawSameSamples(const RenderOptions& a, const RenderOptions& b) {
 
 std::string whyWithoutNoise(const RenderOptions& options) {
   if (!has(options.stages, Stage::Gi)) return "stages before gi have no noise but at edges";
-  if (options.output.debugView != DebugView::None || has(options.stages, Stage::BvhHeatmap))
-    return "a debug view shows what was drawn";
+  if (options.output.debugView != DebugView::None) return "a debug view shows what was drawn";
   return "";
 }
 

@@ -272,7 +272,7 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
     from.reset();
     add(stats.film, totalsOf(drawing.pixels), isFirst);
     const bool counted = keepsCounts && (plan.parts.size() > 1 || stats.adaptive || !stats.complete);
-    addPart(picture, pictureOf(drawing, options, job.tracer.variant, counted), region, job.loaded.region);
+    addPart(picture, pictureOf(drawing, options, counted), region, job.loaded.region);
   }
   bar.clear();
   for (; i < plan.parts.size(); ++i) {

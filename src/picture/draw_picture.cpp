@@ -41,11 +41,10 @@ bool drawAllSamples(Renderer& renderer, SampledFilm& sampled, const RenderOption
   return true;
 }
 
-Image pictureOf(const Drawing& drawing, const RenderOptions& options, const ShaderVariant& variant,
-                bool withSamples) {
+Image pictureOf(const Drawing& drawing, const RenderOptions& options, bool withSamples) {
   const RenderOptions drawn = withGuides(options);
   Image picture = shownPicture(
-      options, variant, drawing.pixels,
+      options, drawing.pixels,
       {!options.light.background, drawn.output.aovSamples || withSamples, drawn.output.aovVariance},
       drawing.variance);
   if (drawing.observed.empty()) return picture;

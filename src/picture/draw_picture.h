@@ -36,8 +36,7 @@ bool drawAllSamples(Renderer& renderer, SampledFilm& sampled, const RenderOption
 
 /// The drawing as a picture, with all that the options ask for and their filter needs but layers of first
 /// hits; with samples.Y also where it is wanted without being asked for.
-Image pictureOf(const Drawing& drawing, const RenderOptions& options, const ShaderVariant& variant,
-                bool withSamples = false);
+Image pictureOf(const Drawing& drawing, const RenderOptions& options, bool withSamples = false);
 
 /// Samples of layers that nobody has asked for, or that somebody waits for.
 inline constexpr int kFewLayerSamples = 16;

@@ -25,7 +25,7 @@ void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, c
   const bool chosen = !loaded.scene.cameras.empty() || options.camera.overrides != CameraOverrides();
   const bool nothing = stats.scene.triangles == 0 && stats.scene.spheres == 0;
   const bool seen = stats.film.hitPixels > 0 || stats.film.samples == 0;
-  if (chosen || options.camera.region || nothing || seen || has(variant.stages, Stage::BvhHeatmap)) return;
+  if (chosen || options.camera.region || nothing || seen || variant.heatmap) return;
   say(options,
       "warning: the default view shows nothing of the scene; --camera-position and --camera-focal-point "
       "choose another");

@@ -52,14 +52,12 @@ std::string lostInPfm(const RenderOptions& options, const Image& linear) {
 
 }  // namespace
 
-bool showsColors(const RenderOptions& options) {
-  return has(options.stages, Stage::BvhHeatmap) || options.output.debugView != DebugView::None;
-}
+bool showsColors(const RenderOptions& options) { return options.output.debugView != DebugView::None; }
 
-Image shownPicture(const RenderOptions& options, const ShaderVariant& variant, const FilmPixels& pixels,
-                   const Layers& layers, std::span<const double> variance) {
+Image shownPicture(const RenderOptions& options, const FilmPixels& pixels, const Layers& layers,
+                   std::span<const double> variance) {
   Image picture = imageOf(pixels, layers, variance);
-  if (has(variant.stages, Stage::BvhHeatmap)) return paintHeatmap(picture);
+  if (options.output.debugView == DebugView::Visits) return paintHeatmap(picture);
   if (options.output.debugView != DebugView::None)
     replaceColor(picture, debugPicture(options.output.debugView, pixels, variance));
   return picture;

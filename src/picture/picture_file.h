@@ -17,8 +17,8 @@ bool showsColors(const RenderOptions& options);
 
 /// What the film holds as a picture: linear radiance, or the colours of a debug view. `variance` is as for
 /// imageOf().
-Image shownPicture(const RenderOptions& options, const ShaderVariant& variant, const FilmPixels& pixels,
-                   const Layers& layers, std::span<const double> variance = {});
+Image shownPicture(const RenderOptions& options, const FilmPixels& pixels, const Layers& layers,
+                   std::span<const double> variance = {});
 
 /// The edges of the boxes of the level asked for, if any, seen by a camera whose picture has that size.
 std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedScene& loaded,

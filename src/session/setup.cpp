@@ -120,7 +120,7 @@ bool walksTree(const RenderOptions& options) {
 }
 
 bool besideAllowed(const RenderOptions& options) {
-  return options.device.traversal == TraversalMethod::Auto && !has(options.stages, Stage::BvhHeatmap);
+  return options.device.traversal == TraversalMethod::Auto && options.output.debugView != DebugView::Visits;
 }
 
 }  // namespace

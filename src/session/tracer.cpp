@@ -28,7 +28,7 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
   }
   if (variant.feature != Feature::None && !isLightPart(variant.feature)) return;
   const bool asked = options.device.traversal == TraversalMethod::Literals;
-  if (has(variant.stages, Stage::BvhHeatmap)) {
+  if (variant.heatmap) {
     if (asked) throw UsageError("--traversal literals: has no tree whose nodes the heat map could count");
     return;
   }

@@ -50,8 +50,6 @@ std::span<const StageRow> stageRows() {
        "sharp creases, in place of a faster test "
        "(on by default)",
        false, true, "kWatertight", Trait::Triangles, Effect::Method},
-      {Stage::BvhHeatmap, "bvh-heatmap", "Node heat map", "paints how many nodes each camera ray visits",
-       false, false, "kHeatmap"},
   }};
   return rows;
 }

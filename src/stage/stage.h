@@ -29,7 +29,6 @@ enum class Stage : uint8_t {
   Sobol,
   LightSampling,
   Watertight,
-  BvhHeatmap,
   Count
 };
 using StageSet = std::bitset<size_t(Stage::Count)>;

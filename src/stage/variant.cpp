@@ -41,14 +41,11 @@ void drop(TraitSet& traits, std::initializer_list<Trait> members) {
 }
 
 /// A stage that is off by itself, or by what was asked for, turns others off.
-void dropStages(StageSet& stages) {
+void dropStages(StageSet& stages, bool heatmap) {
   // gi shades by itself; without it and phong nothing beyond flat has a meaning.
   stages.set(size_t(Stage::Flat));
   if (has(stages, Stage::Gi)) stages.set(size_t(Stage::Phong));
-  if (has(stages, Stage::BvhHeatmap)) {
-    stages &= StageSet(1ul << unsigned(Stage::Flat) | 1ul << unsigned(Stage::BvhHeatmap) |
-                       1ul << unsigned(Stage::Watertight));
-  }
+  if (heatmap) stages &= StageSet(1ul << unsigned(Stage::Flat) | 1ul << unsigned(Stage::Watertight));
   if (has(stages, Stage::Phong)) return;
   for (Stage s : {Stage::Shadows, Stage::Reflections, Stage::Refraction, Stage::NormalMaps, Stage::Gi,
                   Stage::Schlick, Stage::EnergyCompensation}) {
@@ -57,11 +54,10 @@ void dropStages(StageSet& stages) {
 }
 
 /// Traits that no stage left on asks for, or that lack what they need.
-void dropTraits(const StageSet& stages, Surroundings surroundings, TraitSet& traits) {
+void dropTraits(const StageSet& stages, bool heatmap, Surroundings surroundings, TraitSet& traits) {
   const bool gi = has(stages, Stage::Gi);
   if (!has(stages, Stage::Phong) && surroundings != Surroundings::Map) drop(traits, {Trait::Environment});
-  if (has(stages, Stage::BvhHeatmap))
-    drop(traits, {Trait::Alpha, Trait::BaseColorTexture, Trait::VertexColors, Trait::Environment});
+  if (heatmap) drop(traits, {Trait::Alpha, Trait::BaseColorTexture, Trait::VertexColors, Trait::Environment});
   if (gi && !has(stages, Stage::Reflections)) drop(traits, {Trait::Specular});
   for (TraitSet before; before != traits;) {
     before = traits;
@@ -192,8 +188,9 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
     v.traits.set(size_t(Trait::LightTree), options.light.selection != LightSelection::Power);
   if (options.light.caustics == Caustics::Off || !whyNoLightPaths(options).empty())
     v.traits.reset(size_t(Trait::Caustics));
-  dropStages(v.stages);
-  dropTraits(v.stages, surroundings, v.traits);
+  v.heatmap = options.output.debugView == DebugView::Visits;
+  dropStages(v.stages, v.heatmap);
+  dropTraits(v.stages, v.heatmap, surroundings, v.traits);
   dropIdle(v);
 
   // Step: how rays find triangles.
@@ -230,6 +227,7 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
     return light;
   }
   RenderOptions wanted = options;
+  wanted.output.debugView = DebugView::None;
   const bool guides = feature == Feature::Guides;
   const bool normals = feature == Feature::Normal || guides;
   const bool follows = guides && has(present, Trait::SmoothSurfaces);
@@ -282,9 +280,7 @@ ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet&
   const Feature feature = rowOf(options.output.debugView).feature;
   if (feature != Feature::None)
     return chooseFeatureVariant(options, present, surroundings, treeDepth, reads, feature);
-  RenderOptions wanted = options;
-  if (options.output.debugView == DebugView::Visits) wanted.stages.set(size_t(Stage::BvhHeatmap));
-  return chooseVariant(wanted, present, surroundings, treeDepth, reads);
+  return chooseVariant(options, present, surroundings, treeDepth, reads);
 }
 
 std::optional<ShaderVariant> lightPathVariant(const ShaderVariant& variant) {
@@ -334,6 +330,7 @@ std::string variantName(const ShaderVariant& variant) {
   if (variant.pixelFilter != PixelFilter::Box)
     append(std::string(kPixelFilterNames[size_t(variant.pixelFilter)]) + "-filter");
   if (variant.feature != Feature::None) append(std::string(rowOf(variant.feature).name));
+  if (variant.heatmap) append(std::string(rowOf(DebugView::Visits).name));
   if (variant.uniformLights) append("uniform-lights");
   if (variant.lightCandidates) append("light-candidates");
   if (variant.lightRecords) append("light-records");

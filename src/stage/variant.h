@@ -22,6 +22,7 @@ struct ShaderVariant {
   Dispatch dispatch = Dispatch::Fragment;
   PixelFilter pixelFilter = PixelFilter::Box;
   Feature feature = Feature::None;  ///< what is drawn in place of radiance
+  bool heatmap = false;             ///< the nodes that camera rays visit are, too
   bool uniformLights = false;       ///< the light tree chooses all lights alike
   bool lightCandidates = false;     ///< a light sample is one of several (shaders/reuse/candidates.glsl)
   bool lightRecords = false;        ///< light samples of first hits are kept (shaders/reuse/neighbours.glsl)
@@ -39,7 +40,7 @@ struct ShaderVariant {
 
   auto key() const {
     return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, dispatch,
-                      pixelFilter, feature, uniformLights, lightCandidates, lightRecords, neighbours,
+                      pixelFilter, feature, heatmap, uniformLights, lightCandidates, lightRecords, neighbours,
                       clampIndirect, shadowCatcher, lens, lightPaths, wavefront, waveUnit, resumable,
                       literals);
   }

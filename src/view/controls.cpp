@@ -160,6 +160,11 @@ bool changePicture(ViewState& state, const Control& control, const Movement& m) 
         if (row.cumulative) o.stages.set(size_t(row.stage), int(row.stage) <= control.argument);
       }
       return true;
+    case Action::ToggleDebugView: {
+      const auto view = DebugView(control.argument);
+      o.output.debugView = o.output.debugView == view ? DebugView::None : view;
+      return true;
+    }
     case Action::NextDebugView: {
       const int count = int(kDebugViewRows.size());
       o.output.debugView = DebugView((int(o.output.debugView) + control.argument + count) % count);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "stage/feature.h"
 #include "stage/stage.h"
 
 namespace fragtrace {
@@ -68,7 +69,7 @@ void addPicture(std::vector<Control>& rows) {
   // Function keys in the order of the stages: Shift for all up to that one. The first is always on.
   int code = key::kF1;
   for (const StageRow& row : stageRows()) {
-    if (row.stage == Stage::BvhHeatmap || row.stage == Stage::Watertight) continue;
+    if (row.stage == Stage::Watertight) continue;
     // F11 alone is what desktops use it for.
     const int modifiers = code == key::kF11 ? kShift : 0;
     if (row.stage != Stage::Flat)
@@ -81,7 +82,7 @@ void addPicture(std::vector<Control>& rows) {
       add(Press, code, kShift, Action::StagesUpTo, "the stages up to that one", int(row.stage));
     ++code;
   }
-  add(Press, 'X', 0, Action::ToggleStage, "node heat map on or off", int(Stage::BvhHeatmap));
+  add(Press, 'X', 0, Action::ToggleDebugView, "node heat map on or off", int(DebugView::Visits));
   add(Press, 'M', 0, Action::ToggleStage, "watertight triangle test on or off", int(Stage::Watertight));
   add(Press, 'V', 0, Action::NextDebugView, "the next debug view", 1);
   add(Press, 'V', kShift, Action::NextDebugView, "the previous debug view", -1);

@@ -37,8 +37,9 @@ enum class Action : uint8_t {
   Undo,
   Redo,
   // Picture.
-  ToggleStage,  ///< argument: a Stage
-  StagesUpTo,   ///< argument: a Stage
+  ToggleStage,      ///< argument: a Stage
+  StagesUpTo,       ///< argument: a Stage
+  ToggleDebugView,  ///< argument: a DebugView
   NextDebugView,
   ToggleTreeBoxes,
   TreeLevel,

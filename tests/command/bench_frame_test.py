@@ -67,7 +67,7 @@ class FrameTimes(Frame):
         self.assertTrue(found[BOX.name, "default"]["picture"]["right"])
 
     def test_different_stages_are_different_pictures_and_both_are_right(self):
-        _, found = self.frame(*QUICK, "--config", "flat=--stage flat", "--config", "heat=--enable bvh-heatmap",
+        _, found = self.frame(*QUICK, "--config", "flat=--stage flat", "--config", "heat=--debug-view visits",
                               "--config", "loop=--stage flat --traversal iterative")
         self.assertTrue(all(line["picture"]["right"] for line in found.values()))
 

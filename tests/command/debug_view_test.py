@@ -118,10 +118,13 @@ class DebugViews(Case):
         self.renders(BOX, "-o", path, "--quiet", "--resolution", "48,40", "--spp", 8, *options)
         return path
 
-    def test_visits_are_the_heat_map(self):
-        view, switch = (Exr(self.picture_of("x.exr", *options)).layers for options in (["--debug-view", "visits"], ["--enable", "bvh-heatmap"]))
-        self.assertIn("visits", view)
-        self.assertEqual(view, switch)
+    def test_visits_are_a_heat_map_with_their_numbers_beside_it(self):
+        """Who walks the tree in a fixed order visits more nodes."""
+        near, fixed = (Exr(self.picture_of("x.exr", "--debug-view", "visits", "--traversal", way)) for way in ("front-to-back", "bvh"))
+        self.assertEqual(sorted(near.layers), ["B", "G", "R", "visits"])
+        self.assertGreater(min(near.values("visits")[:1000]), 0)
+        self.assertGreater(sum(fixed.values("visits")), sum(near.values("visits")))
+        self.assertGreater(len(set(near.values("R"))), 10)
 
     def test_counts_are_drawn_from_the_samples_of_the_picture(self):
         """Uniform pictures are red all over (all are at the end of the scale); noise is where light comes seldom."""

@@ -64,7 +64,7 @@ class Instancing(Case):
 
     def test_the_heat_map_and_the_other_way_through_the_tree(self):
         write_field(self.folder, "field", 64, 500)
-        visits, told = self.drawn("visits", "--instancing", "share", "--spp", 1, "--enable", "bvh-heatmap")
+        visits, told = self.drawn("visits", "--instancing", "share", "--spp", 1, "--debug-view", "visits")
         self.assertIn("instances", told["variant"].split("+"))
         self.assertGreater(max(visits.values("R")), 0)
         nearest, _ = self.drawn("nearest", "--instancing", "share", "--spp", 1, "--stage", "phong")

@@ -43,8 +43,8 @@ class Traversals(Case):
         self.same("water-cube-plain", "literals", traversal="literals")
 
     def test_the_heat_map_has_no_tree_to_count_in_literals(self):
-        self.fails(2, "render", SCENES / "cornell-box.gltf", "-o", self.folder / "x.pfm", "--traversal", "literals", "--enable",
-                   "bvh-heatmap", "--quiet", says=["--traversal literals"])
+        self.fails(2, "render", SCENES / "cornell-box.gltf", "-o", self.folder / "x.pfm", "--traversal", "literals", "--debug-view",
+                   "visits", "--quiet", says=["--traversal literals"])
 
     def test_every_stage_with_literals(self):
         for stage in ("flat", "phong", "shadows", "reflections"):

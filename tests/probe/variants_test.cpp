@@ -17,7 +17,6 @@ class Variants : public ::testing::TestWithParam<BufferReads> {
   static ShaderVariant full(BufferReads reads) {
     ShaderVariant v;
     v.stages.set();
-    v.stages.reset(size_t(Stage::BvhHeatmap));
     v.traits.set();
     v.reads = reads;
     return v;

@@ -76,7 +76,7 @@ TEST(SamePicture, DoesNotDependOnHowItIsTracedOrWritten) {
 
 TEST(SamePicture, OfTheHeatMapIsTheWayThroughTheTree) {
   RenderOptions bvh;
-  bvh.stages.set(size_t(Stage::BvhHeatmap));
+  bvh.output.debugView = DebugView::Visits;
   bvh.device.traversal = TraversalMethod::Bvh;
   RenderOptions other = bvh;
   other.device.traversal = TraversalMethod::FrontToBack;

@@ -149,7 +149,10 @@ TEST(DebugView, CountsAreThoseOfTheirPicture) {
       chooseVariant(options, allTraits(), Surroundings::Map, 10, BufferReads::Image);
   for (const DebugView view : {DebugView::None, DebugView::Samples, DebugView::Variance})
     EXPECT_EQ(pictureOf(view, allTraits()), picture);
-  EXPECT_TRUE(has(pictureOf(DebugView::Visits, allTraits()).stages, Stage::BvhHeatmap));
+  const ShaderVariant visits = pictureOf(DebugView::Visits, allTraits());
+  EXPECT_TRUE(visits.heatmap);
+  EXPECT_FALSE(has(visits.stages, Stage::Phong));
+  EXPECT_FALSE(has(visits.traits, Trait::Alpha));
 }
 
 TEST(DebugView, SaysWhyItIsBlank) {

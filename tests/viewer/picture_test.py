@@ -13,7 +13,7 @@ FEW = [*SIZE, "--spp", "4"]
 SWITCHES = {"F3": ["--disable", "shadows"], "F4": ["--disable", "reflections"], "F5": ["--disable", "refraction"],
             "F6": ["--disable", "normal-maps"], "F7": ["--disable", "gi"], "F8": ["--enable", "schlick"],
             "F9": ["--disable", "energy-compensation"], "F10": ["--disable", "sobol"], "shift+F11": ["--disable", "light-sampling"],
-            "x": ["--enable", "bvh-heatmap"]}
+            "x": ["--debug-view", "visits"]}
 
 
 class Toggles(Case):
