@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-# The programs, their worker processes and the window library lie in one folder, where they look for each other; bin has a link to fragtrace.
+# The programs, their worker, its modules and the window library lie in one folder, where they look for each other; bin has a link to fragtrace.
 include(GNUInstallDirs)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(FRAGTRACE_FOLDER ${CMAKE_INSTALL_LIBDIR}/fragtrace)
-install(TARGETS fragtrace fragtrace-bench fragtrace_imageio fragtrace_codecs RUNTIME DESTINATION ${FRAGTRACE_FOLDER})
-install(TARGETS fragtrace_window LIBRARY DESTINATION ${FRAGTRACE_FOLDER})
+install(TARGETS fragtrace fragtrace-bench fragtrace_worker RUNTIME DESTINATION ${FRAGTRACE_FOLDER})
+install(TARGETS fragtrace_pictures fragtrace_geometry fragtrace_window LIBRARY DESTINATION ${FRAGTRACE_FOLDER})
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 file(RELATIVE_PATH link /${CMAKE_INSTALL_BINDIR} /${FRAGTRACE_FOLDER}/fragtrace)
 install(CODE "

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# What the wheel holds (pyproject.toml): the module, the programs and the process for compressed geometry, all in the package's folder.
-# Pictures are read and written by a process in Python, with the package OpenImageIO.
+# What the wheel holds (pyproject.toml): the module, the programs and their worker with the module for compressed geometry, all in the
+# package's folder. For pictures the worker becomes a program in Python, with the package OpenImageIO.
 find_package(Python 3.9 REQUIRED COMPONENTS Interpreter Development.Module)
 find_package(nanobind CONFIG REQUIRED)
 file(GLOB python_sources CONFIGURE_DEPENDS src/python/*.cpp)
@@ -10,5 +10,6 @@ set_target_properties(_core PROPERTIES UNITY_BUILD OFF)
 # What it links stays its own, whatever else the interpreter has loaded.
 target_link_options(_core PRIVATE -Wl,--exclude-libs,ALL)
 install(TARGETS _core LIBRARY DESTINATION fragtrace)
-install(TARGETS fragtrace fragtrace-bench fragtrace_codecs RUNTIME DESTINATION fragtrace)
-install(PROGRAMS src/python/fragtrace_imageio DESTINATION fragtrace)
+install(TARGETS fragtrace fragtrace-bench fragtrace_worker RUNTIME DESTINATION fragtrace)
+install(TARGETS fragtrace_geometry LIBRARY DESTINATION fragtrace)
+install(PROGRAMS src/python/fragtrace_pictures DESTINATION fragtrace)

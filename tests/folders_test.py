@@ -7,7 +7,7 @@ import re
 import sys
 from pathlib import Path
 
-LAYERS = (".", "math", "process", "image", "image/display", "image/compare", "image/worker", "image/files", "denoise", "scene", "bvh", "gltf",
+LAYERS = (".", "math", "process", "worker", "image", "image/display", "image/compare", "image/worker", "image/files", "denoise", "scene", "bvh", "gltf",
           "gltf/codecs/worker", "gltf/read", "gltf/check", "gltf/codecs", "gltf/build", "stage", "options", "shader", "pack", "film", "gl", "render",
           "view/picture", "view", "view/window", "session", "picture", "python", "live", "cli",
           # The instruments see the product, which does not see them.

@@ -6,13 +6,13 @@
 #include <stb/stb_image_write.h>
 
 #include <algorithm>
-#include <cstring>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
 #include "image/limits.h"
-#include "image/worker/openimageio.h"
+#include "image/worker/library.h"
+#include "process/message.h"
 
 namespace fragtrace {
 namespace {
@@ -45,8 +45,8 @@ class ExrWriter {
  public:
   template <typename T>
   void add(const T& value) {
-    const auto* from = reinterpret_cast<const uint8_t*>(&value);
-    bytes.insert(bytes.end(), from, from + sizeof value);
+    const Bytes from = asMessage(value);
+    bytes.insert(bytes.end(), from.begin(), from.end());
   }
   void addText(const std::string& text) {
     bytes.insert(bytes.end(), text.begin(), text.end());
@@ -135,9 +135,7 @@ class ExrReader {
   }
   template <typename T>
   T take() {
-    T value;
-    std::memcpy(&value, take(sizeof value).data(), sizeof value);
-    return value;
+    return takeMessage<T>(bytes_);
   }
   std::string takeText() {
     std::string text;

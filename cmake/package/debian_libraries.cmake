@@ -6,8 +6,8 @@ file(WRITE ${folder}/debian/control "Source: fragtrace\n\nPackage: fragtrace\nAr
 set(build ${CPACK_FRAGTRACE_BUILD})
 execute_process(
   COMMAND dpkg-shlibdeps -O
-          -dDepends -e${build}/fragtrace -e${build}/fragtrace-bench -e${build}/fragtrace_imageio
-          -dRecommends -e${build}/fragtrace_codecs -e${build}/libfragtrace_window.so
+          -dDepends -e${build}/fragtrace -e${build}/fragtrace-bench -e${build}/fragtrace_worker -e${build}/libfragtrace_pictures.so
+          -dRecommends -e${build}/libfragtrace_geometry.so -e${build}/libfragtrace_window.so
   WORKING_DIRECTORY ${folder} OUTPUT_VARIABLE found COMMAND_ERROR_IS_FATAL ANY)
 foreach(field Depends Recommends)
   string(TOUPPER ${field} name)

@@ -18,6 +18,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "process/message.h"
 #include "process/plugin.h"
 
 namespace fragtrace {
@@ -34,12 +35,12 @@ std::filesystem::path pathOf(const std::string& name) {
 }
 
 /// The error of posix_spawn, or 0. Signals of the terminal do not reach the child, whose output is dropped.
-int spawn(const std::filesystem::path& path, int socket, int socketThere, pid_t& process) {
+int spawn(const std::filesystem::path& path, std::string argument, int socket, pid_t& process) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_init(&actions);
   posix_spawnattr_init(&attributes);
-  posix_spawn_file_actions_adddup2(&actions, socket, socketThere);
+  posix_spawn_file_actions_adddup2(&actions, socket, kWorkerSocket);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
 #ifndef __SANITIZE_ADDRESS__
@@ -48,7 +49,7 @@ int spawn(const std::filesystem::path& path, int socket, int socketThere, pid_t&
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   posix_spawnattr_setpgroup(&attributes, 0);
   std::string name = path.string();
-  char* const arguments[] = {name.data(), nullptr};
+  char* const arguments[] = {name.data(), argument.data(), nullptr};
   const int error = ::posix_spawn(&process, path.c_str(), &actions, &attributes, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
@@ -68,9 +69,6 @@ bool addressesAreLimited() {
   return ::getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY;
 }
 
-/// What the loader of its libraries gives where it fails.
-constexpr int kNotLoaded = 127;
-
 /// How a process ends that got no memory: the loader gives up, the libraries abort, or go on with nothing.
 bool isWantOfMemory(int status) {
   if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGABRT || WTERMSIG(status) == SIGSEGV;
@@ -85,20 +83,21 @@ Child::~Child() {
   endChild(*this);
 }
 
-std::unique_ptr<Child> startChild(const std::string& name, int socketThere) {
+std::unique_ptr<Child> startChild(const std::string& name, const std::string& argument) {
   const std::filesystem::path path = pathOf(name);
+  const std::filesystem::path argumentPath = pathOf(argument);
   int sockets[2] = {-1, -1};
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, sockets) != 0)
     throw std::runtime_error("no socket for " + name + ": " + std::generic_category().message(errno));
   auto child = std::make_unique<Child>();
   child->socket = sockets[0];
   // dup2 of a descriptor to itself would leave it closed on exec.
-  if (sockets[1] == socketThere) {
-    const int moved = ::fcntl(sockets[1], F_DUPFD_CLOEXEC, socketThere + 1);
+  if (sockets[1] == kWorkerSocket) {
+    const int moved = ::fcntl(sockets[1], F_DUPFD_CLOEXEC, kWorkerSocket + 1);
     ::close(sockets[1]);
     sockets[1] = moved;
   }
-  const int error = spawn(path, sockets[1], socketThere, child->process);
+  const int error = spawn(path, argumentPath.string(), sockets[1], child->process);
   ::close(sockets[1]);
   if (error != 0) {
     child->process = -1;

@@ -26,9 +26,10 @@ inline constexpr const char* kOutOfTime = "out of time";
 /// And of one that a shared library was missing for.
 inline constexpr const char* kLibraryMissing = "a library that it needs is not installed";
 
-/// Starts an executable, looked for in the folder FRAGTRACE_LIBRARY_PATH, then beside our own, with a
-/// sequential-packet socket as its descriptor `socketThere`. Throws std::runtime_error naming it.
-std::unique_ptr<Child> startChild(const std::string& name, int socketThere);
+/// Starts an executable with the path of another file as its argument, and with a sequential-packet socket as
+/// its descriptor kWorkerSocket. Both are looked for in the folder FRAGTRACE_LIBRARY_PATH, then beside our
+/// own. Throws std::runtime_error naming what is missing.
+std::unique_ptr<Child> startChild(const std::string& name, const std::string& argument);
 
 /// Sets how much data it may have, and how many more seconds of processor time it may take (0: any number).
 void limitChild(const Child& child, uint64_t dataBytes, unsigned cpuSeconds);

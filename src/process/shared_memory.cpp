@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -38,6 +39,15 @@ SharedMemory::SharedMemory(uint64_t size) : size_(size) {
   if (::fcntl(file_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) != 0) fail();
   void* memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
   if (memory == MAP_FAILED) fail();
+  bytes_ = static_cast<uint8_t*>(memory);
+}
+
+SharedMemory::SharedMemory(int file, uint64_t size) : size_(size), file_(file) {
+  void* memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  if (memory == MAP_FAILED) {
+    ::close(file);
+    throw std::bad_alloc();
+  }
   bytes_ = static_cast<uint8_t*>(memory);
 }
 

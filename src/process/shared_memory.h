@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What we share with a process of our own: memory, and messages that carry its descriptor.
+// Memory that the program shares with a worker process, and messages that carry its descriptor.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,8 @@ class SharedMemory {
  public:
   /// Throws std::runtime_error.
   explicit SharedMemory(uint64_t size);
+  /// The memory that came with a message; takes the file over. Throws std::bad_alloc.
+  SharedMemory(int file, uint64_t size);
   ~SharedMemory();
   SharedMemory(const SharedMemory&) = delete;
   SharedMemory& operator=(const SharedMemory&) = delete;
@@ -27,29 +29,10 @@ class SharedMemory {
   uint8_t* bytes_ = nullptr;
 };
 
-/// The descriptor of the process's end of the socket.
-inline constexpr int kServiceSocket = 3;
-
-/// A request's memory holds its input and, from here on, the output.
-template <typename Request>
-uint64_t outputOffset(const Request& request) {
-  constexpr uint64_t kAlignment = 4096;
-  return (request.inputBytes + kAlignment - 1) / kAlignment * kAlignment;
-}
-
 /// Sends a message and a file descriptor; false when nobody listens.
 bool sendWithFile(int socket, std::span<const uint8_t> message, int file);
 /// Waits for a message of exactly that size; the descriptor becomes the caller's. False when the other side
 /// has gone.
 bool receiveWithFile(int socket, std::span<uint8_t> message, int& file);
-
-template <typename Message>
-std::span<const uint8_t> asMessage(const Message& message) {
-  return {reinterpret_cast<const uint8_t*>(&message), sizeof message};
-}
-template <typename Message>
-std::span<uint8_t> asMessage(Message& message) {
-  return {reinterpret_cast<uint8_t*>(&message), sizeof message};
-}
 
 }  // namespace fragtrace

@@ -9,7 +9,7 @@ import struct
 import subprocess
 import time
 
-from support import FRAGTRACE, Case, main, run
+from support import FRAGTRACE, SCENES, SMALL, Case, main, run
 
 TRIANGLE = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
 INDICES = struct.pack("<3I", 0, 1, 2)
@@ -59,26 +59,39 @@ class Codecs(Case):
             result = self.without(make(True))
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertEqual(json.loads(result.stdout)["scene"]["triangles"], 1)
-            self.assertIn("cannot be decoded, the uncompressed data are taken: fragtrace_codecs is not in", result.stderr)
+            self.assertIn("cannot be decoded, the uncompressed data are taken: fragtrace_worker is not in", result.stderr)
 
     def test_without_the_codecs_and_such_data_the_file_is_refused_by_the_extensions_name(self):
         for make, name in ((meshopt, "EXT_meshopt_compression"), (draco, "KHR_draco_mesh_compression")):
             result = self.without(make(False))
             self.assertEqual(result.returncode, 3)
-            self.assertIn(name + " cannot be decoded: fragtrace_codecs is not in", result.stderr)
+            self.assertIn(name + " cannot be decoded: fragtrace_worker is not in", result.stderr)
 
     def test_where_their_libraries_are_missing_uncompressed_data_are_taken(self):
-        stand_in = self.folder / "fragtrace_codecs"
-        stand_in.write_text("#!/bin/sh\nexit 127")  # as the loader of libraries does
-        stand_in.chmod(0o755)
+        (self.folder / "libfragtrace_geometry.so").touch()  # cannot be opened, as one that misses a library
         for make in (meshopt, draco):
             result = run("info", self.write(make(True)), env={**os.environ, "FRAGTRACE_LIBRARY_PATH": str(self.folder)})
             self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertIn("the uncompressed data are taken: its libraries are not installed (on Debian", result.stderr)
+            self.assertIn("the uncompressed data are taken: the library that decodes it is not installed (on Debian", result.stderr)
+
+    def test_a_module_that_is_missing_stops_no_other(self):
+        textured = SCENES / "sphere-textured.gltf"
+        for module, reads_pictures in (("libfragtrace_pictures.so", True), ("libfragtrace_geometry.so", False)):
+            folder = self.folder / module[:-3]
+            folder.mkdir()
+            for name in ("fragtrace", "fragtrace_worker", module):
+                shutil.copy(FRAGTRACE.parent / name, folder)
+            environment = {k: v for k, v in os.environ.items() if k != "FRAGTRACE_LIBRARY_PATH"}
+            compressed, picture = (subprocess.run([folder / "fragtrace", *map(str, command)], capture_output=True, text=True, env=environment)
+                                   for command in (["info", self.write(draco(False))], ["render", textured, "-o", folder / "x.pfm", *SMALL]))
+            self.assertEqual(compressed.returncode, 3)
+            self.assertEqual("libfragtrace_geometry.so is not in" in compressed.stderr, reads_pictures, compressed.stderr)
+            self.assertEqual(picture.returncode, 0 if reads_pictures else 3, picture.stderr)
+            self.assertEqual("libfragtrace_pictures.so is not in" in picture.stderr, not reads_pictures, picture.stderr)
 
     def test_codecs_that_crash_loop_or_end_are_named(self):
-        for script, says in (("kill -SEGV $$", "signal 11"), ("exit 7", "status 7"), ("exit 127", "apt-get install libdraco"), ("while :; do :; done", "out of time")):
-            stand_in = self.folder / "fragtrace_codecs"
+        for script, says in (("kill -SEGV $$", "signal 11"), ("exit 7", "status 7"), ("exit 127", "apt-get install libdraco"), ("while :; do :; done", "longer to decode than its size is given")):
+            stand_in = self.folder / "fragtrace_worker"
             stand_in.write_text("#!/bin/sh\n" + script)
             stand_in.chmod(0o755)
             began = time.monotonic()
@@ -87,7 +100,7 @@ class Codecs(Case):
             self.assertLess(time.monotonic() - began, 120)
 
     def test_files_that_need_no_codecs_do_not_start_them(self):
-        stand_in = self.folder / "fragtrace_codecs"
+        stand_in = self.folder / "fragtrace_worker"
         stand_in.write_text(f"#!/bin/sh\ntouch {self.folder}/started")
         stand_in.chmod(0o755)
         document = meshopt(False)

@@ -15,7 +15,7 @@ from support import FRAGTRACE, SCENES, SMALL, Case, main, read_pfm, run
 
 BOX = SCENES / "cornell-box.gltf"
 ENDLESS = ["--resolution", "64,64", "--spp", "500000000", "--quiet"]  # what is not refused at once runs into the time limit
-WORKER = "fragtrace_imageio"
+WORKER = "fragtrace_worker"
 
 
 class BeforeTheFirstSample(Case):
@@ -48,7 +48,7 @@ class BeforeTheFirstSample(Case):
 class AtTheEnd(Case):
     def lost(self, name, *options):
         """A render of three seconds whose image library is gone when it ends."""
-        for program in ("fragtrace", WORKER):
+        for program in ("fragtrace", WORKER, "libfragtrace_pictures.so"):
             shutil.copy(FRAGTRACE.parent / program, self.folder / program)
         with subprocess.Popen([self.folder / "fragtrace", "render", BOX, "-o", self.folder / name, "--resolution", "16,12",
                                "--time", "3", *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,

@@ -20,10 +20,10 @@ PICTURE = SCENES / "graticule.png"
 
 
 class ImageProcess(Case):
-    """What stands in for fragtrace_imageio loops, crashes or ends; the program says so and ends with 3."""
+    """What stands in for fragtrace_worker loops, crashes or ends; the program says so and ends with 3."""
 
     def decoding(self, script, says, *, render=True):
-        stand_in = self.folder / "fragtrace_imageio"
+        stand_in = self.folder / "fragtrace_worker"
         stand_in.write_text("#!/bin/sh\n" + script)
         stand_in.chmod(0o755)
         environment = {**os.environ, "FRAGTRACE_LIBRARY_PATH": str(self.folder)}
@@ -50,7 +50,7 @@ class ImageProcess(Case):
         result = subprocess.run([self.folder / "fragtrace", "diff", PICTURE, PICTURE], capture_output=True, text=True,
                                 env=environment)
         self.assertEqual(result.returncode, 3)
-        self.assertIn("fragtrace_imageio is not in", result.stderr)
+        self.assertIn("fragtrace_worker is not in", result.stderr)
 
     def test_it_does_not_outlive_the_program(self):
         before = self.processes()
@@ -68,7 +68,7 @@ class ImageProcess(Case):
         mine = set()
         for entry in Path("/proc").glob("[0-9]*"):
             try:
-                if (entry / "exe").readlink() == FRAGTRACE.parent / "fragtrace_imageio":
+                if (entry / "exe").readlink() == FRAGTRACE.parent / "fragtrace_worker":
                     mine.add(entry.name)
             except OSError:
                 pass

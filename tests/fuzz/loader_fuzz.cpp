@@ -20,7 +20,7 @@
 
 namespace fragtrace {
 
-/// Pictures are decoded by another process (src/image/worker), which is not what this target tries.
+/// Pictures are decoded by another process (src/worker), which is not what this target tries.
 TexelImage decodeTexels(std::span<const uint8_t>, const std::string&) { return {}; }
 
 }  // namespace fragtrace

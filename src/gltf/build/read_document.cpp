@@ -62,7 +62,7 @@ void checkExtensions(json& root, Diagnostics& diagnostics) {
 }
 
 /// Brings every buffer into memory, exactly as long as the document says; one without URI stays empty.
-Buffers readBuffers(json& root, Container& container, CodecProcess& codecs, Document& document) {
+Buffers readBuffers(json& root, Container& container, Worker& codecs, Document& document) {
   Diagnostics& diagnostics = document.diagnostics;
   Buffers buffers;
   const json& described = arrayIn(root, "buffers");
@@ -71,7 +71,7 @@ Buffers readBuffers(json& root, Container& container, CodecProcess& codecs, Docu
     const auto length = buffer["byteLength"].get<uint64_t>();
     if (length == 0) diagnostics.refuse(pointerTo("buffers", i, "byteLength"), "is 0");
     std::vector<uint8_t> bytes;
-    if (isFallback(buffer) && codecs.available()) {
+    if (isFallback(buffer) && codecs.works()) {
       buffers.emplace_back();
       continue;
     }
@@ -303,7 +303,7 @@ Document readDocument(const std::filesystem::path& path, const GltfOptions& opti
   checkMotion(root, diagnostics);
   noteNames(root, document);
   applySelection(root, options.selection, diagnostics);
-  CodecProcess codecs;
+  Worker codecs(kGeometryCodecs);
   Buffers buffers = readBuffers(root, container, codecs, document);
   checkBufferViews(root, diagnostics);
   checkDataValidity(root, diagnostics);

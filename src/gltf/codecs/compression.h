@@ -21,7 +21,7 @@ bool isFallback(const nlohmann::json& buffer);
 /// KHR_draco_mesh_compression: the document gets more buffers, buffer views and accessors. Where the
 /// libraries are missing and the file holds the data uncompressed, too, these are taken, with a warning.
 /// Throw InputError.
-void decompressViews(nlohmann::json& root, Buffers& buffers, CodecProcess& codecs, Document& document);
-void decompressPrimitives(nlohmann::json& root, Buffers& buffers, CodecProcess& codecs, Document& document);
+void decompressViews(nlohmann::json& root, Buffers& buffers, Worker& codecs, Document& document);
+void decompressPrimitives(nlohmann::json& root, Buffers& buffers, Worker& codecs, Document& document);
 
 }  // namespace fragtrace

@@ -47,12 +47,12 @@ class PrimitiveDecoder {
     document_.diagnostics.warn(place_ + "/attributes", "is empty; the primitive's own data are taken");
   }
 
-  void decode(Buffers& buffers, CodecProcess& codecs) {
+  void decode(Buffers& buffers, Worker& codecs) {
     makeRequest();
     const std::span<const uint8_t> encoded = encodedBytes(buffers);
     takeMemory(document_, place_, 2 * request_.outputBytes);
     std::vector<uint8_t> decoded =
-        document_.diagnostics.attempt(place_, [&] { return codecs.decode(request_, encoded); });
+        document_.diagnostics.attempt(place_, [&] { return decodeByProcess(codecs, request_, encoded); });
     putDecoded(buffers.size());
     root_["buffers"].push_back({{"byteLength", decoded.size()}});
     buffers.push_back(std::move(decoded));
@@ -152,7 +152,7 @@ class PrimitiveDecoder {
 
 }  // namespace
 
-void decompressPrimitives(json& root, Buffers& buffers, CodecProcess& codecs, Document& document) {
+void decompressPrimitives(json& root, Buffers& buffers, Worker& codecs, Document& document) {
   if (!root.contains("meshes")) return;
   for (size_t m = 0; m < root["meshes"].size(); ++m) {
     json& primitives = root["meshes"][m]["primitives"];
@@ -163,7 +163,7 @@ void decompressPrimitives(json& root, Buffers& buffers, CodecProcess& codecs, Do
       PrimitiveDecoder decoder(root, primitives[i], place, document);
       if (decoder.isEmpty()) {
         decoder.takeOwnData();
-      } else if (codecs.available()) {
+      } else if (codecs.works()) {
         decoder.decode(buffers, codecs);
       } else if (decoder.hasFallback()) {
         document.diagnostics.warn(place,

@@ -112,7 +112,7 @@ bool isFallback(const json& buffer) {
   return extension != nullptr && extension->value("fallback", false);
 }
 
-void decompressViews(json& root, Buffers& buffers, CodecProcess& codecs, Document& document) {
+void decompressViews(json& root, Buffers& buffers, Worker& codecs, Document& document) {
   Diagnostics& diagnostics = document.diagnostics;
   for (size_t i = 0; i < root["bufferViews"].size(); ++i) {
     json& view = root["bufferViews"][i];
@@ -121,7 +121,7 @@ void decompressViews(json& root, Buffers& buffers, CodecProcess& codecs, Documen
     const std::string place = pointerTo("bufferViews", i, "extensions", name);
     if (name == kKhr && viewExtension(view, kExt) != nullptr)
       diagnostics.refuse(place, "excludes " + std::string(kExt) + ", which stands beside it");
-    if (!codecs.available()) {
+    if (!codecs.works()) {
       if (buffers[view["buffer"].get<size_t>()].empty())
         diagnostics.refuse(place, std::string(name) + " cannot be decoded: " + codecs.whyNot());
       diagnostics.warn(place, "cannot be decoded, the uncompressed data are taken: " + codecs.whyNot());
@@ -132,7 +132,7 @@ void decompressViews(json& root, Buffers& buffers, CodecProcess& codecs, Documen
     const std::span<const uint8_t> encoded = encodedBytes(*extension, buffers, place, diagnostics);
     takeMemory(document, place, 2 * request.outputBytes);
     std::vector<uint8_t> decoded =
-        diagnostics.attempt(place, [&] { return codecs.decode(request, encoded); });
+        diagnostics.attempt(place, [&] { return decodeByProcess(codecs, request, encoded); });
     view["buffer"] = buffers.size();
     view["byteOffset"] = 0;
     root["buffers"].push_back({{"byteLength", decoded.size()}});

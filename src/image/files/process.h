@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The image library in a process of its own, fragtrace_imageio: the distribution's decoders carry known
-// faults, so what they do to a file from anywhere is limited in time and memory and cannot harm us; and a run
-// that reads and writes no encoded picture does not load OpenImageIO's 250 shared objects.
+// The image library in a worker process (process/worker.h): a run that reads and writes no encoded picture
+// does not load OpenImageIO's 250 shared objects.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +12,7 @@
 
 namespace fragtrace {
 
-// The process is started by the first call, from any thread, and serves one call after the other. It is
-// looked for in the folder FRAGTRACE_LIBRARY_PATH, then beside the executable. Every function throws
-// std::runtime_error with the bare reason; the caller adds the file.
+// Every function throws std::runtime_error with the bare reason; the caller adds the file.
 
 /// All channels as floats; values as stored, alpha unassociated in 8 and 16 bit formats.
 Image decodeByProcess(std::span<const uint8_t> bytes, const ImageHeader& header);

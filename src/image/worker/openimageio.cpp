@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The only file that sees OpenImageIO; formats are chosen by name.
-#include "image/worker/openimageio.h"
-
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -11,6 +9,7 @@
 #include <string>
 
 #include "image/limits.h"
+#include "image/worker/library.h"
 
 namespace fragtrace {
 namespace {

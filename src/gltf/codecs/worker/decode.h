@@ -1,12 +1,42 @@
 // SPDX-License-Identifier: MIT
+// What the worker's module for compressed geometry does. Its input is a request and the encoded bytes, its
+// output the decoded ones.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
-#include "gltf/codecs/worker/messages.h"
-
 namespace fragtrace {
+
+enum class Codec : uint32_t {
+  MeshoptVertices,   ///< EXT_ and KHR_meshopt_compression, mode ATTRIBUTES
+  MeshoptTriangles,  ///< TRIANGLES
+  MeshoptIndices,    ///< INDICES
+  Draco              ///< KHR_draco_mesh_compression
+};
+enum class MeshoptFilter : uint32_t { None, Octahedral, Quaternion, Exponential, Color };
+
+/// An attribute of a Draco mesh, and as what its values are wanted.
+struct CodecAttribute {
+  uint32_t id = 0;  ///< in the Draco stream
+  uint32_t componentType = 0;
+  uint32_t components = 0;
+};
+inline constexpr size_t kMostCodecAttributes = 32;
+
+/// Draco's output: indices of 32 bits, three a triangle, then one attribute after the other, each from the
+/// next multiple of four bytes on.
+struct CodecRequest {
+  Codec codec = Codec::Draco;
+  MeshoptFilter filter = MeshoptFilter::None;
+  uint64_t outputBytes = 0;
+  uint64_t count = 0;       ///< elements, or vertices
+  uint64_t stride = 0;      ///< bytes of an element (meshopt)
+  uint64_t indexCount = 0;  ///< Draco
+  uint32_t attributeCount = 0;
+  std::array<CodecAttribute, kMostCodecAttributes> attributes{};
+};
 
 /// Decode into `output`, which they fill. Throw std::runtime_error when the bytes are not what was asked for.
 void decodeDraco(const CodecRequest& request, std::span<const uint8_t> input, std::span<uint8_t> output);

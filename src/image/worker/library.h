@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Encoding and decoding by OpenImageIO, from memory to memory. Every function throws std::runtime_error with
-// OpenImageIO's own words.
+// Encoding and decoding by an image library, from memory to memory: OpenImageIO (openimageio.cpp), or stb in
+// the bundle of bench/gpu/pack. Every function throws std::runtime_error with the library's own words.
 #pragma once
 
 #include <cstdint>

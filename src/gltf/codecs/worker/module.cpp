@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The worker's module for compressed geometry.
+#include "worker/module.h"
+
+#include "gltf/codecs/worker/decode.h"
+#include "process/message.h"
+
+namespace fragtrace {
+
+extern "C" void fragtraceWork(std::span<const uint8_t> input, WorkOutput& output) {
+  if (input.empty()) return;
+  const auto request = takeMessage<CodecRequest>(input);
+  request.codec == Codec::Draco ? decodeDraco(request, input, output.room)
+                                : decodeMeshopt(request, input, output.room);
+  output.used = output.room.size();
+}
+
+}  // namespace fragtrace
