@@ -98,7 +98,7 @@ OptionRow regionRow() {
       "same samples as in the whole",
       FRAGTRACE_MEMBER(camera.region), 4, take,
       [](const Region& r) { return numbersText(r.corner.x, r.corner.y, r.size.x, r.size.y); }, {"0,7,640,1"},
-      {.effect = Effect::Picture, .copied = false, .group = OptionGroup::Output}, NumberRange{0, 65536});
+      {.effect = Effect::Picture, .copied = false, .group = OptionGroup::Output}, NumberRange<int>{0, 65536});
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ std::vector<OptionRow> cameraRows() {
           FRAGTRACE_MEMBER(camera.resolution), 2,
           [](const std::vector<int>& n) { return glm::ivec2(n[0], n[1]); },
           [](const glm::ivec2& size) { return numbersText(size.x, size.y); }, {"640,480", "1,65536"},
-          {.effect = Effect::Picture, .kept = true}, NumberRange{1, 65536}),
+          {.effect = Effect::Picture, .kept = true}, NumberRange<int>{1, 65536}),
       regionRow(),
       limit<int>("--camera-index",
                  "index of the scene's camera, from 0; by default the first camera, or a view of the whole "

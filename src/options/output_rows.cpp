@@ -73,6 +73,7 @@ OptionRow layersRow() {
 
 std::vector<std::string_view> debugViewNames() {
   std::vector<std::string_view> names;
+  names.reserve(std::size(kDebugViewRows));
   for (const DebugViewRow& row : kDebugViewRows) names.push_back(row.name);
   return names;
 }

@@ -154,23 +154,23 @@ struct LightOptions {
 /// The files that are written, what they show, and what is said meanwhile.
 struct OutputOptions {
   std::filesystem::path file;
-  bool toStandardOutput = false;  ///< the picture; `file` then tells its format and what messages call it
-  std::string format;             ///< of standard output
-  Encoding encoding;
-  double exposure = 0.0;  ///< stops
-  ToneMap toneMap = ToneMap::Neutral;
-  bool aovSamples = false;  ///< more layers of .exr files
-  bool aovVariance = false;
-  std::vector<Feature> aovFeatures;
-  Denoise denoise = Denoise::None;
+  std::string format;  ///< of standard output
+  std::filesystem::path statsFile;
   std::filesystem::path oidnLibrary;  ///< file of Open Image Denoise; none: it is looked for
-  DebugView debugView = DebugView::None;
-  std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
+  std::vector<Feature> aovFeatures;   ///< more layers of .exr files
   SequenceOptions sequence;
   double checkpointSeconds = 0.0;  ///< between two checkpoints; 0: none is written
-  bool resume = false;             ///< go on from the checkpoint beside the output
-  std::filesystem::path statsFile;
+  double exposure = 0.0;           ///< stops
+  ToneMap toneMap = ToneMap::Neutral;
+  Encoding encoding;
+  std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
+  DebugView debugView = DebugView::None;
+  Denoise denoise = Denoise::None;
   ProgressForm progress = ProgressForm::Auto;
+  bool toStandardOutput = false;  ///< the picture; `file` then tells its format and what messages call it
+  bool aovSamples = false;
+  bool aovVariance = false;
+  bool resume = false;  ///< go on from the checkpoint beside the output
   bool quiet = false;
   bool verbose = false;
 
