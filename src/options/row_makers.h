@@ -17,8 +17,7 @@
 #include "options/parse_render.h"
 
 /// The member at that place of RenderOptions, for the makers below.
-#define FRAGTRACE_MEMBER(path) \
-  [](auto& options) -> auto& { return options.path; }
+#define FRAGTRACE_MEMBER(path) ([](auto& options) -> auto& { return options.path; })
 
 namespace fragtrace {
 
@@ -172,8 +171,8 @@ OptionRow word(const char* name, std::string help, Member member, OptionTraits t
 
 /// Numbers in one word, separated by commas, which `take` puts into the options; it throws UsageError.
 template <typename Number, typename Member, typename Take, typename Write>
-OptionRow numbers(const char* name, std::string help, Member member, int count, const Take& take,
-                  const Write& write, std::vector<std::string> examples, OptionTraits traits,
+OptionRow numbers(const char* name, std::string help, Member member, int count, Take take, Write write,
+                  std::vector<std::string> examples, OptionTraits traits,
                   std::optional<NumberRange<int>> range = std::nullopt) {
   OptionRow row = memberRow(name, std::move(help), member, traits);
   row.examples = std::move(examples);
