@@ -47,6 +47,7 @@ std::vector<StressRow> chosenRows(const StressOptions& options) {
   for (const std::string& part : options.rows) {
     if (std::ranges::any_of(rows, [&](const StressRow& row) { return holds(row, part); })) continue;
     std::vector<std::string> names;
+    names.reserve(rows.size());
     for (const StressRow& row : rows) names.push_back(row.name);
     throw UsageError("--rows: '" + part + "' is in none of " + joined(names));
   }

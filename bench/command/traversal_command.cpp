@@ -198,6 +198,7 @@ std::vector<Json> measure(const TraversalOptions& options, const Context& contex
                      {"sah_cost", stats.bvh.sahCost},
                      {"gpu_bytes_per_triangle", bytesPerTriangle}};
   std::vector<Json> lines;
+  lines.reserve(sets.size());
   for (const MeasuredSet& set : sets) lines.push_back(lineOf(head, set));
   return lines;
 }
