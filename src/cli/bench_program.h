@@ -6,8 +6,8 @@ namespace fragtrace {
 
 inline constexpr const char* kBenchSentence = "measure speed and error";  ///< of --help
 
-/// Where the command is `bench`, this process becomes that program, with the words that follow. Else it comes
-/// back. Throws RenderError where the program is missing.
+/// Replaces this process by that program if the command is `bench`, with the words that follow; else returns.
+/// Throws RenderError if the program is missing.
 void becomeBenchProgram(int argc, const char* const* argv);
 
 }  // namespace fragtrace

@@ -6,8 +6,8 @@
 
 namespace fragtrace {
 
-/// Where the program of that name lies, in one of ownFolders() (process/plugin.h). Throws RenderError, which
-/// says what needs it, where it is missing, and what brings it.
+/// The path of a program that ownFile() (process/plugin.h) finds. Throws RenderError where it is missing:
+/// `user` is the command that needs it.
 std::filesystem::path ownProgram(const std::string& name, const std::string& user);
 
 }  // namespace fragtrace

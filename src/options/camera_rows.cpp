@@ -10,18 +10,18 @@ namespace fragtrace {
 namespace {
 
 /// Throws UsageError.
-glm::dvec3 vectorOf(const char* option, const std::vector<double>& values) {
+void checkFinite(const std::string& option, const std::vector<double>& values) {
   for (const double value : values) {
-    if (!std::isfinite(value)) throw UsageError(std::string(option) + ": not a finite number");
+    if (!std::isfinite(value)) throw UsageError(option + ": not a finite number");
   }
-  return {values[0], values[1], values[2]};
 }
 
 /// X,Y,Z of a place, or of a direction, which is not zero.
 template <typename Member>
 OptionRow vectorRow(const char* name, std::string help, Member member, bool isPlace, OptionTraits traits) {
   const auto take = [name, isPlace](const std::vector<double>& values) {
-    const glm::dvec3 v = vectorOf(name, values);
+    checkFinite(name, values);
+    const glm::dvec3 v(values[0], values[1], values[2]);
     if (isPlace && glm::length(v) > kFarthest)
       throw UsageError(std::string(name) + ": farther than 1e30 m from the origin");
     if (!isPlace && v == glm::dvec3(0.0)) throw UsageError(std::string(name) + ": is zero");
@@ -33,9 +33,7 @@ OptionRow vectorRow(const char* name, std::string help, Member member, bool isPl
 }
 
 Orbit orbitOf(const std::vector<double>& values) {
-  for (const double value : values) {
-    if (!std::isfinite(value)) throw UsageError("--camera-orbit: not a finite number");
-  }
+  checkFinite("--camera-orbit", values);
   const Orbit orbit{values[0], values[1], values.size() > 2 ? values[2] : 1.0};
   if (std::abs(orbit.elevationDegrees) > 90.0)
     throw UsageError("--camera-orbit: the elevation is not between -90 and 90 degrees");
@@ -82,7 +80,6 @@ OptionRow fitRow() {
     app.add_flag_callback(
         r.name, [&raw] { raw.options.camera.overrides.fit = Fit::View; }, r.help);
   };
-  row.words = [](const RenderOptions&) { return std::vector<std::string>(); };
   return row;
 }
 

@@ -39,14 +39,14 @@ int samplesOf(const RawRender& raw) {
   return spp;
 }
 
-/// Where --output is "-", the picture goes to standard output.
+/// Settles --output -, which writes the picture to standard output.
 void chooseStandardOutput(OutputOptions& o) {
   if (o.file != "-") {
     if (!o.format.empty()) throw UsageError("--format: needs --output -; a file has the format of its name");
     return;
   }
   const auto refuse = [](const std::string& why) { throw UsageError("--output -: " + why); };
-  if (o.format.empty()) refuse("needs --format, one of png, jpg, exr, hdr, pfm");
+  if (o.format.empty()) refuse("needs --format, one of " + joined(rowOf("--format").examples));
   if (o.checkpointSeconds > 0.0 || o.resume) refuse("--checkpoint and --resume need a file");
   if (o.statsFile == "-") refuse("standard output takes the picture or the statistics (--stats -), not both");
   o.toStandardOutput = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a command is: one row of a table.
+// A command: one row of a table.
 #pragma once
 
 #include <functional>

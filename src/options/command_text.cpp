@@ -17,7 +17,7 @@ namespace {
 
 constexpr size_t kLongestText = size_t(1) << 16;  // bytes
 
-/// What follows "render" or "view".
+/// Parses the words that follow "render" or "view".
 RenderOptions parseCommand(const std::string& name, std::vector<std::string> words) {
   CLI::App app("", name);
   app.set_help_flag();

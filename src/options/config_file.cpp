@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What an error says is of which member; "~" and "/" as in RFC 6901.
+/// Names a member of the file in an error, as a JSON pointer (RFC 6901).
 std::string placeOf(const std::filesystem::path& path, const std::string& name) {
   return path.string() + ": " + (Json::json_pointer() / name).to_string();
 }

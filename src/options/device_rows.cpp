@@ -20,8 +20,7 @@ std::vector<OptionRow> deviceRows() {
              kDispatchNames, kProgram),
       choice("--vector-width",
              "bits of the vectors that Mesa's software driver computes with; the picture is the same; 512 "
-             "can be "
-             "faster where the processor has AVX-512, but Mesa crashes on some scenes with it",
+             "can be faster where the processor has AVX-512, but Mesa crashes on some scenes with it",
              FRAGTRACE_MEMBER(device.vectorWidth), kVectorWidthNames, {.effect = Effect::Method}),
       choice(
           "--schedule",

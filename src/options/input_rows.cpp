@@ -6,20 +6,6 @@ namespace fragtrace {
 
 namespace {
 
-/// The scene's file, which commands declare as an argument.
-OptionRow sceneRow() {
-  OptionRow row =
-      memberRow("file", "scene: a .gltf or .glb file", FRAGTRACE_MEMBER(scene),
-                {.effect = Effect::Picture, .renewal = Renewal::Scene, .group = OptionGroup::File});
-  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
-    addWord(
-        app, r, raw, [](RenderOptions& o, const std::string& text) { o.scene = text; }, "FILE");
-  };
-  row.examples = {"a b.gltf"};
-  row.words = [](const RenderOptions& o) { return std::vector{o.scene.string()}; };
-  return row;
-}
-
 /// Sets what a picture on standard output is called, too.
 OptionRow outputRow() {
   OptionRow row = memberRow(
@@ -59,8 +45,8 @@ OptionRow timeRow() {
 OptionRow hiddenRow() {
   OptionRow row = memberRow(
       "--hide",
-      "name or index of a node to hide, together with everything below it; can be given "
-      "several times; `fragtrace info --nodes` lists the nodes",
+      "name or index of a node to hide, together with everything below it; can be given several times; "
+      "`fragtrace info --nodes` lists the nodes",
       FRAGTRACE_MEMBER(selection.hiddenNodes), {.effect = Effect::Picture, .renewal = Renewal::Scene});
   row.examples = {"/nodes/3"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
@@ -75,9 +61,8 @@ OptionRow hiddenRow() {
 OptionRow memoryRow() {
   OptionRow row =
       memberRow("--memory-limit",
-                "memory limit, counted separately for files and for the picture, such as 500MB "
-                "or 2GiB, at least 1MB; by "
-                "default the smallest of 8 GiB, half of the machine's memory and ulimit -v",
+                "memory limit, counted separately for files and for the picture, such as 500MB or 2GiB, at "
+                "least 1MB; by default the smallest of 8 GiB, half of the machine's memory and ulimit -v",
                 FRAGTRACE_MEMBER(limits.memoryBytes), {.effect = Effect::Report, .renewal = Renewal::Scene});
   row.examples = {"12345678", "2GiB"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
@@ -107,7 +92,14 @@ OptionRow missingRow() {
 
 }  // namespace
 
-std::vector<OptionRow> fileRows() { return {sceneRow(), outputRow()}; }
+std::vector<OptionRow> fileRows() {
+  return {
+      // Commands declare the scene as an argument.
+      word("file", "scene: a .gltf or .glb file", FRAGTRACE_MEMBER(scene),
+           {.effect = Effect::Picture, .renewal = Renewal::Scene, .group = OptionGroup::File}, "FILE"),
+      outputRow(),
+  };
+}
 
 std::vector<OptionRow> inputRows() {
   constexpr OptionTraits kScene{.effect = Effect::Picture, .renewal = Renewal::Scene};

@@ -58,7 +58,6 @@ OptionRow backgroundRow() {
     app.add_flag_callback(
         r.name, [&raw] { raw.options.light.background = false; }, r.help);
   };
-  row.words = [](const RenderOptions&) { return std::vector<std::string>(); };
   row.value = [](const RenderOptions& o) { return AttributeValue(o.light.background); };
   return row;
 }
@@ -86,20 +85,17 @@ std::vector<OptionRow> lightRows() {
   return {
       choice("--light-selection",
              "how global illumination chooses a light to sample: by what it may send to the point (tree), by "
-             "its "
-             "power, or all alike",
+             "its power, or all alike",
              FRAGTRACE_MEMBER(light.selection), kLightSelectionNames, kEstimator),
       choice(
           "--light-reuse",
           "how global illumination takes the light sample of a point: one alone (none), one of four by the "
           "light that they may bring (candidates), or, for what the camera sees, one of those of pixels "
-          "nearby "
-          "(spatial)",
+          "nearby (spatial)",
           FRAGTRACE_MEMBER(light.reuse), kLightReuseNames, kEstimator),
       choice("--caustics",
              "trace paths from lamps to smooth glass and metal for the light that these throw on rough "
-             "surfaces; "
-             "auto does where there are both",
+             "surfaces; auto does where there are both",
              FRAGTRACE_MEMBER(light.caustics), kCausticsNames,
              {.effect = Effect::Picture, .renewal = Renewal::Program}),
       word("--hdri-file", "equirectangular environment map: .hdr, .exr, .pfm",
@@ -110,20 +106,19 @@ std::vector<OptionRow> lightRows() {
                         {.effect = Effect::Picture, .attribute = "hdri_rotation"}),
       number<double>(
           "--hdri-intensity",
-          "multiply the light of the environment by this factor: of a map, of the studio, or of what "
-          "lights a scene by default",
+          "multiply the light of the environment by this factor: of a map, of the studio, or of what lights "
+          "a scene by default",
           FRAGTRACE_MEMBER(light.hdriIntensity), {0.0, kMostIntensity},
           {.effect = Effect::Picture, .attribute = "hdri_intensity"}),
       limit<double>(
           "--background-blur",
-          "blur the environment map where the camera sees it directly: standard deviation in degrees; "
-          "the light stays the same",
+          "blur the environment map where the camera sees it directly: standard deviation in degrees; the "
+          "light stays the same",
           FRAGTRACE_MEMBER(light.backgroundBlur), {kLeastBlur, 90.0},
           {.effect = Effect::Picture, .renewal = Renewal::Scene, .attribute = "background_blur"}),
       flag("--studio",
            "light the scene with a built-in environment: a key, a fill and a rim light, as soft boxes that "
-           "the "
-           "camera does not see, in front of a grey backdrop",
+           "the camera does not see, in front of a grey backdrop",
            FRAGTRACE_MEMBER(light.studio),
            {.effect = Effect::Picture, .renewal = Renewal::Scene, .attribute = "studio"}),
       catcherRow(),
@@ -131,15 +126,13 @@ std::vector<OptionRow> lightRows() {
       backgroundRow(),
       numbers<double>("--background-color",
                       "linear R,G,B that the camera sees where there is no surface, instead of the "
-                      "environment map; it lights "
-                      "nothing",
+                      "environment map; it lights nothing",
                       FRAGTRACE_MEMBER(light.backgroundColor), 3, colorOf,
                       [](const glm::vec3& c) { return numbersText(double(c.r), double(c.g), double(c.b)); },
                       {"0.10000000149011612,0.2,1"}, {.effect = Effect::Picture}),
       choice("--default-light",
              "what lights a scene that has no light of its own: {}; white comes from all sides, and studio "
-             "is the "
-             "environment of --studio",
+             "is the environment of --studio",
              FRAGTRACE_MEMBER(light.defaultLight), kDefaultLightNames, kScene),
       noDefaultLightRow(),
   };

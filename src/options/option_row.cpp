@@ -44,8 +44,9 @@ const OptionRow& rowOf(std::string_view name) {
 
 void appendRow(std::string& text, const OptionRow& row, const RenderOptions& options) {
   if (row.isDefault(options)) return;
-  if (row.examples.empty()) text += (text.empty() ? "" : " ") + std::string(row.name);
-  for (const std::string& word : row.words(options)) appendOption(text, row.name, word);
+  const std::vector<std::string> words = row.words(options);
+  if (words.empty()) text += (text.empty() ? "" : " ") + std::string(row.name);
+  for (const std::string& word : words) appendOption(text, row.name, word);
 }
 
 RenderOptions withoutEffects(RenderOptions options, std::initializer_list<Effect> effects) {

@@ -33,7 +33,7 @@ std::string withNumberSettled(std::string argument, std::string_view before);
 /// The same of all words of a command.
 std::vector<std::string> withNumbersSettled(std::vector<std::string> words);
 
-/// What the option library found wrong, in the words of this program's messages.
+/// Says an error of the option library in the words of this program's messages.
 std::string plainText(const CLI::ParseError& error);
 
 /// Gives a command its words, in their order. Throws UsageError, which names words that it does not know in

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kFormatNames{"png", "jpg", "exr", "hdr", "pfm"};
 
-/// Of first hits, then those of the film.
+/// The layers of first hits come first, those of the film follow.
 std::vector<std::string> layerNames() {
   std::vector<std::string> names;
   for (const FeatureRow& row : kFeatureRows) {
@@ -121,8 +121,7 @@ FrameRange framesOf(const std::string& text) {
 OptionRow framesRow(const OptionTraits& traits) {
   OptionRow row = memberRow("--frames",
                             "A:B or A:B:STEP: render pictures A to B of the animation (B included), each to "
-                            "--output with its number "
-                            "in place of ####",
+                            "--output with its number in place of ####",
                             FRAGTRACE_MEMBER(output.sequence.frames), traits);
   row.examples = {"0:59", "10:9999999:3"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
@@ -190,26 +189,23 @@ std::vector<OptionRow> outputRows() {
            FRAGTRACE_MEMBER(output.verbose), kSaid),
       flag("--half",
            "store the colours, normals and roughness of an .exr as 16-bit floats, for about half the file "
-           "size; "
-           "all other layers keep 32 bits; values beyond 65504 are clamped",
+           "size; all other layers keep 32 bits; values beyond 65504 are clamped",
            FRAGTRACE_MEMBER(output.encoding.half),
            {.effect = Effect::Display, .group = OptionGroup::Encoding}),
       pngDepthRow(),
       limit<double>(
           "--checkpoint",
-          "write the state of the render to OUTPUT.checkpoint every this many seconds, and when the "
-          "render is interrupted; the file is deleted when the picture is finished",
+          "write the state of the render to OUTPUT.checkpoint every this many seconds, and when the render "
+          "is interrupted; the file is deleted when the picture is finished",
           FRAGTRACE_MEMBER(output.checkpointSeconds), {0.1, 1e7}, kOne),
       flag("--resume",
            "continue from OUTPUT.checkpoint; the result is the same picture; if there is no checkpoint, "
-           "start from "
-           "the beginning, or do nothing if the picture is finished",
+           "start from the beginning, or do nothing if the picture is finished",
            FRAGTRACE_MEMBER(output.resume), kOne),
       formatRow(),
       choice("--progress",
              "how progress is reported on stderr: as a bar or lines (auto), as one JSON object per line, "
-             "messages "
-             "included (json), or not at all (none)",
+             "messages included (json), or not at all (none)",
              FRAGTRACE_MEMBER(output.progress), kProgressNames, progress),
       framesRow(kNumbered),
       number<double>("--fps",
@@ -224,13 +220,11 @@ std::vector<OptionRow> outputRows() {
            FRAGTRACE_MEMBER(output.sequence.keep), kNumbered),
       choice("--denoise",
              "filter that removes noise from the finished picture: {}; auto uses oidn if it is installed, "
-             "otherwise "
-             "variance; an .exr keeps the noisy colours as noisy.R, noisy.G, noisy.B",
+             "otherwise variance; an .exr keeps the noisy colours as noisy.R, noisy.G, noisy.B",
              FRAGTRACE_MEMBER(output.denoise), kDenoiseNames, filter),
       word("--oidn-library",
            "library file of Open Image Denoise 2.x; by default the file that FRAGTRACE_OIDN_LIBRARY names, "
-           "otherwise "
-           "the library installed by the system or by pip (pyoidn)",
+           "otherwise the library installed by the system or by pip (pyoidn)",
            FRAGTRACE_MEMBER(output.oidnLibrary), filter, "FILE"),
   };
 }

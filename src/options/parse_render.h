@@ -16,10 +16,10 @@ class Option;
 
 namespace fragtrace {
 
-/// Of any pixel: sample indices have 32 bits, targets of the film 30.
+/// The most samples of a pixel: sample indices have 32 bits, targets of the film 30.
 inline constexpr int kMostSamples = 1 << 29;
 
-/// What a command has parsed: the options, and what settles them once all is parsed.
+/// The options as a command has parsed them, and the words that finishRender() settles them by.
 struct RawRender {
   RenderOptions options{};
   std::optional<int> spp{};

@@ -44,7 +44,7 @@ std::string numbersText(Numbers... values) {
   return text;
 }
 
-/// A row whose members are one member; its value has no words yet, nor can it be declared.
+/// A row whose members are one member. Its maker adds the declaration and, unless it is a flag, the words.
 template <typename Member>
 OptionRow memberRow(const char* name, std::string help, Member member, OptionTraits traits) {
   OptionRow row{.name = name, .help = std::move(help), .traits = traits};
@@ -52,6 +52,7 @@ OptionRow memberRow(const char* name, std::string help, Member member, OptionTra
     static const RenderOptions standard;
     return member(o) == member(standard);
   };
+  row.words = [](const RenderOptions&) { return std::vector<std::string>(); };
   row.copy = [member](RenderOptions& to, const RenderOptions& from) { member(to) = member(from); };
   return row;
 }
@@ -62,7 +63,6 @@ OptionRow flag(const char* name, std::string help, Member member, OptionTraits t
   row.add = [member](CLI::App& app, const OptionRow& r, RawRender& raw) {
     app.add_flag(r.name, member(raw.options), r.help);
   };
-  row.words = [](const RenderOptions&) { return std::vector<std::string>(); };
   row.value = [member](const RenderOptions& o) { return AttributeValue(bool(member(o))); };
   return row;
 }
@@ -150,7 +150,7 @@ OptionRow choice(const char* name, std::string help, Member member, const Names&
   return row;
 }
 
-/// Text, or the path of a file; of a path, `type` says what: FILE or FOLDER.
+/// Text, or a path: `type` is TEXT, FILE or FOLDER in --help.
 template <typename Member>
 OptionRow word(const char* name, std::string help, Member member, OptionTraits traits,
                const char* type = "TEXT") {

@@ -7,7 +7,7 @@ namespace fragtrace {
 
 namespace {
 
-/// What the samples depend on.
+/// The options that the samples depend on.
 RenderOptions sampledPart(const RenderOptions& options) {
   RenderOptions part = withoutEffects(
       options, {Effect::Report, Effect::Method, Effect::Layers, Effect::Count, Effect::Display});
@@ -16,7 +16,7 @@ RenderOptions sampledPart(const RenderOptions& options) {
   return part;
 }
 
-/// What they converge to depends on.
+/// The options that the limit of many samples depends on.
 RenderOptions shownPart(const RenderOptions& options) {
   return withoutEffects(sampledPart(options), {Effect::Noise});
 }

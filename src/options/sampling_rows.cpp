@@ -64,8 +64,8 @@ OptionRow switchRow(const char* name, std::string help, bool on, std::vector<std
 OptionRow sppRow() {
   OptionRow row =
       memberRow("--spp",
-                "samples (camera paths) per pixel, 64 by default; with --noise or --time: at most "
-                "this many, by default without limit",
+                "samples (camera paths) per pixel, 64 by default; with --noise or --time: at most this many, "
+                "by default without limit",
                 FRAGTRACE_MEMBER(sampling.spp), {.effect = Effect::Count, .kept = true});
   row.examples = {"1", std::to_string(kMostSamples)};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
@@ -118,15 +118,14 @@ std::vector<OptionRow> samplingRows() {
       sppRow(),
       limit<double>(
           "--noise",
-          "render until 95 % of the pixels that can be noisy have an estimated relative error below "
-          "this, for example 0.01",
+          "render until 95 % of the pixels that can be noisy have an estimated relative error below this, "
+          "for example 0.01",
           FRAGTRACE_MEMBER(sampling.noise), {1e-5, 1.0}, kEnd),
       limit<double>("--time", "render for this many seconds, and place the samples where they help most",
                     FRAGTRACE_MEMBER(sampling.seconds), {0.01, 1e7}, kEnd),
       number<int>(
           "--sample-offset",
-          "index of the first sample in the sample sequence of this seed; for rendering in parts (see "
-          "merge)",
+          "index of the first sample in the sample sequence of this seed; for rendering in parts (see merge)",
           FRAGTRACE_MEMBER(sampling.sampleOffset), {0, kMostSamples - 1}, kNoise),
       number<uint32_t>("--seed", "seed of the sample points, 0 to 4294967295",
                        FRAGTRACE_MEMBER(sampling.seed), {0, std::numeric_limits<uint32_t>::max()}, kNoise),

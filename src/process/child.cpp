@@ -24,16 +24,6 @@
 namespace fragtrace {
 namespace {
 
-std::filesystem::path pathOf(const std::string& name) {
-  std::string places;
-  for (const auto& folder : ownFolders()) {
-    std::error_code error;
-    if (std::filesystem::exists(folder / name, error)) return folder / name;
-    places += (places.empty() ? "" : ", ") + folder.string();
-  }
-  throw std::runtime_error(name + " is not in " + places);
-}
-
 /// The error of posix_spawn, or 0. Signals of the terminal do not reach the child, whose output is dropped.
 int spawn(const std::filesystem::path& path, std::string argument, int socket, pid_t& process) {
   posix_spawn_file_actions_t actions;
@@ -84,8 +74,8 @@ Child::~Child() {
 }
 
 std::unique_ptr<Child> startChild(const std::string& name, const std::string& argument) {
-  const std::filesystem::path path = pathOf(name);
-  const std::filesystem::path argumentPath = pathOf(argument);
+  const std::filesystem::path path = ownFile(name);
+  const std::filesystem::path argumentPath = ownFile(argument);
   int sockets[2] = {-1, -1};
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, sockets) != 0)
     throw std::runtime_error("no socket for " + name + ": " + std::generic_category().message(errno));

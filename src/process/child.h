@@ -21,9 +21,9 @@ struct Child {
   Child& operator=(const Child&) = delete;
 };
 
-/// What endChild says of one that was stopped for its processor time.
+/// endChild says this of a process that was stopped for its processor time,
 inline constexpr const char* kOutOfTime = "out of time";
-/// And of one that a shared library was missing for.
+/// and this of one that a shared library was missing for.
 inline constexpr const char* kLibraryMissing = "a library that it needs is not installed";
 
 /// Starts an executable with the path of another file as its argument, and with a sequential-packet socket as

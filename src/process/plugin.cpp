@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include <cstdlib>
+#include <stdexcept>
 #include <system_error>
 
 namespace fragtrace {
@@ -13,12 +14,22 @@ std::vector<std::filesystem::path> ownFolders() {
   if (const char* folder = std::getenv("FRAGTRACE_LIBRARY_PATH")) folders.emplace_back(folder);
   std::error_code error;
   const auto executable = std::filesystem::read_symlink("/proc/self/exe", error);
-  // Where this code is part of a shared object, Python's module, its folder is ours, not the interpreter's.
+  // In Python the executable is the interpreter: the folder of our module counts.
   Dl_info own{};
   const bool known = dladdr(reinterpret_cast<const void*>(&ownFolders), &own) != 0 && own.dli_fname[0] == '/';
   const auto object = known ? std::filesystem::canonical(own.dli_fname, error) : executable;
   if (!object.empty()) folders.push_back(object.parent_path());
   return folders;
+}
+
+std::filesystem::path ownFile(const std::string& name) {
+  std::string places;
+  for (const auto& folder : ownFolders()) {
+    std::error_code error;
+    if (std::filesystem::exists(folder / name, error)) return folder / name;
+    places += (places.empty() ? "" : ", ") + folder.string();
+  }
+  throw std::runtime_error(name + " is not in " + places);
 }
 
 Plugin openPlugin(const char* library, const char* function) {

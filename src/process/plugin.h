@@ -9,9 +9,13 @@
 
 namespace fragtrace {
 
-/// Where our own libraries and programs are looked for: the folder FRAGTRACE_LIBRARY_PATH, then that of the
-/// executable or shared object that this code is part of.
+/// The folders of our own libraries and programs: FRAGTRACE_LIBRARY_PATH, then that of the executable or
+/// shared object that this code is part of.
 std::vector<std::filesystem::path> ownFolders();
+
+/// The file of that name in the first of these folders that has it. Throws std::runtime_error, which names
+/// them.
+std::filesystem::path ownFile(const std::string& name);
 
 struct Plugin {
   void* entry = nullptr;

@@ -37,18 +37,20 @@ SharedMemory::SharedMemory(uint64_t size) : size_(size) {
   if (file_ < 0 || ::ftruncate(file_, off_t(size)) != 0) fail();
   // Else the other side could shorten it under our hands.
   if (::fcntl(file_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) != 0) fail();
-  void* memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
-  if (memory == MAP_FAILED) fail();
-  bytes_ = static_cast<uint8_t*>(memory);
+  if (!map()) fail();
 }
 
 SharedMemory::SharedMemory(int file, uint64_t size) : size_(size), file_(file) {
-  void* memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-  if (memory == MAP_FAILED) {
-    ::close(file);
-    throw std::bad_alloc();
-  }
+  if (map()) return;
+  ::close(file);
+  throw std::bad_alloc();
+}
+
+bool SharedMemory::map() {
+  void* memory = ::mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
+  if (memory == MAP_FAILED) return false;
   bytes_ = static_cast<uint8_t*>(memory);
+  return true;
 }
 
 SharedMemory::~SharedMemory() {

@@ -22,6 +22,7 @@ class SharedMemory {
   int file() const { return file_; }
 
  private:
+  bool map();
   [[noreturn]] void fail();
 
   uint64_t size_;
