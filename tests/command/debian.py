@@ -62,6 +62,7 @@ class Debian:
 
     def __init__(self, folder, release):
         self.root = Path(folder) / "root"
+        self.root.parent.mkdir(parents=True, exist_ok=True)
         subprocess.run(["cp", "-a", "--reflink=auto", fresh_debian(release), self.root], check=True)
         self.archives = KEPT / f"archives-{release}"
         (self.archives / "partial").mkdir(parents=True, exist_ok=True)
