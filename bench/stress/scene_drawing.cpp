@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "bench/stress/scene_drawing.h"
 
-#include <fstream>
-
 #include "bench/report/scratch_folder.h"
 #include "bvh/two_level.h"
 #include "errors.h"
@@ -15,10 +13,8 @@ namespace fragtrace {
 
 Scene sceneOf(const SceneSketch& sketch) {
   const ScratchFolder folder;
-  const std::filesystem::path path = folder.path() / "sketch.gltf";
-  std::ofstream file(path, std::ios::binary);
-  if (!(file << gltfText(sketch)).flush()) throw RenderError("cannot write " + path.string());
-  return loadGltf(path);
+  writeSketch(sketch, folder.path());
+  return loadGltf(folder.path() / "sketch.gltf");
 }
 
 Environment environmentOf(const SceneSketch& sketch) {

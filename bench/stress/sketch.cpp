@@ -1,31 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "bench/stress/sketch.h"
 
-#include <cstring>
 #include <nlohmann/json.hpp>
-#include <string_view>
 #include <utility>
 
-#include "bench/stress/stored_png.h"
+#include "image/files/whole_file.h"
 
 namespace fragtrace {
 
 namespace {
 
 using nlohmann::json;
-
-/// RFC 4648.
-std::string base64(const std::string& bytes) {
-  constexpr std::string_view kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t bits = 0;
-    for (size_t k = 0; k < 3; ++k) bits = bits << 8 | (i + k < bytes.size() ? uint8_t(bytes[i + k]) : 0u);
-    for (size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kAlphabet[bits >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
 
 json numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
@@ -66,19 +51,18 @@ json materialJson(const SketchMaterial& m) {
 
 class Writer {
  public:
-  Writer() : root_(json::object()) {}
-
-  std::string text(const SceneSketch& sketch) {
+  void write(const SceneSketch& sketch, const std::filesystem::path& folder) {
     root_["asset"]["version"] = "2.0";
     root_["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_transmission", "KHR_materials_volume",
                                "KHR_texture_transform", "KHR_implicit_shapes"};
-    for (const SketchTexture& texture : sketch.textures) addTexture(texture);
+    for (const SketchTexture& texture : sketch.textures) addTexture(texture, folder);
     for (const SketchMaterial& m : sketch.materials) root_["materials"].push_back(materialJson(m));
     for (const SketchMesh& mesh : sketch.meshes) addMesh(mesh);
     addNodes(sketch);
-    root_["buffers"] = {
-        {{"byteLength", bytes_.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes_)}}};
-    return root_.dump();
+    root_["buffers"] = {{{"byteLength", bytes_.size()}, {"uri", "sketch.bin"}}};
+    replaceFile(folder / "sketch.bin", bytes_);
+    const std::string text = root_.dump();
+    replaceFile(folder / "sketch.gltf", std::vector<uint8_t>(text.begin(), text.end()));
   }
 
  private:
@@ -87,7 +71,8 @@ class Writer {
                      size_t count) {
     const size_t size = elements.size() * sizeof(Element);
     root_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", size}});
-    bytes_.append(reinterpret_cast<const char*>(elements.data()), size);
+    const auto* first = reinterpret_cast<const uint8_t*>(elements.data());
+    bytes_.insert(bytes_.end(), first, first + size);
     root_["accessors"].push_back({{"bufferView", root_["bufferViews"].size() - 1},
                                   {"componentType", componentType},
                                   {"count", count},
@@ -95,10 +80,15 @@ class Writer {
     return root_["accessors"].size() - 1;
   }
 
-  void addTexture(const SketchTexture& texture) {
+  void addTexture(const SketchTexture& texture, const std::filesystem::path& folder) {
     const size_t index = root_["images"].size();
-    root_["images"].push_back(
-        {{"uri", "data:image/png;base64," + base64(storedPng(texture.side, texture.texels))}});
+    const std::string name = std::to_string(index) + ".png";
+    Image picture{texture.side, texture.side, {"R", "G", "B"}, {}, {}};
+    for (const glm::u8vec3& texel : texture.texels) {
+      for (int c = 0; c < 3; ++c) picture.values.push_back(float(texel[c]) / 255.0f);
+    }
+    writeImage(folder / name, picture);
+    root_["images"].push_back({{"uri", name}});
     root_["samplers"].push_back({{"wrapS", texture.wrap}, {"wrapT", texture.wrap}});
     root_["textures"].push_back({{"source", index}, {"sampler", index}});
   }
@@ -152,8 +142,8 @@ class Writer {
     root_["scenes"] = {{{"nodes", {0}}}};
   }
 
-  json root_;
-  std::string bytes_;
+  json root_ = json::object();
+  std::vector<uint8_t> bytes_;
 };
 
 }  // namespace
@@ -165,6 +155,8 @@ glm::dmat4 lookingFrom(const glm::dvec3& from, const glm::dvec3& at) {
   return {glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(backward, 0), glm::dvec4(from, 1)};
 }
 
-std::string gltfText(const SceneSketch& sketch) { return Writer().text(sketch); }
+void writeSketch(const SceneSketch& sketch, const std::filesystem::path& folder) {
+  Writer().write(sketch, folder);
+}
 
 }  // namespace fragtrace

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <glm/glm.hpp>
-#include <string>
 #include <vector>
 
 #include "image/image.h"
@@ -74,7 +74,8 @@ struct SceneSketch {
 /// The matrix of a camera at a point that looks at another, +y up.
 glm::dmat4 lookingFrom(const glm::dvec3& from, const glm::dvec3& at);
 
-/// The whole file, with its buffer and textures inside; the sky has no place in it.
-std::string gltfText(const SceneSketch& sketch);
+/// Writes sketch.gltf, sketch.bin and a .png for each texture into a folder; the sky has no place in them.
+/// Throws RenderError.
+void writeSketch(const SceneSketch& sketch, const std::filesystem::path& folder);
 
 }  // namespace fragtrace

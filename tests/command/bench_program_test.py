@@ -35,7 +35,7 @@ class BenchProgram(Case):
                 self.assertEqual(process.returncode, -signal.SIGTERM)
 
     def test_a_missing_program_is_named(self):
-        said = f"bench needs the program fragtrace-bench, which is not in {self.folder}; the package fragtrace holds it, and scripts/build makes it"
+        said = f"bench: the program fragtrace-bench is not in {self.folder}; the package fragtrace holds it, and scripts/build makes it"
         with self.program(FRAGTRACE, "bench", "stress") as process:
             self.assertEqual(process.communicate(), ("", f"fragtrace: {said}\n"))
             self.assertEqual(process.returncode, 1)
@@ -45,7 +45,7 @@ class BenchProgram(Case):
 
     def test_a_start_needs_the_renderer(self):
         with self.program(BENCH, "start", SCENES / "cornell-box.gltf", "--quiet") as process:
-            self.assertIn("bench start needs the program fragtrace, which", process.communicate()[1])
+            self.assertIn("bench start: the program fragtrace is not in", process.communicate()[1])
             self.assertEqual(process.returncode, 1)
 
     def test_it_speaks_as_the_command_does(self):
