@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -27,6 +28,8 @@
 #include "options/numbers.h"
 #include "options/option_text.h"
 #include "options/parse_render.h"
+#include "process/report.h"
+#include "session/interrupt.h"
 #include "session/phase_timer.h"
 #include "session/progress_bar.h"
 
@@ -73,7 +76,8 @@ struct EndedProcess {
 
 double millisecondsOf(const timeval& time) { return 1e3 * double(time.tv_sec) + 1e-3 * double(time.tv_usec); }
 
-/// The renderer with these words. What it prints is dropped, what it says on stderr is not.
+/// The renderer with these words, which ends when this process is interrupted. What it prints is dropped,
+/// what it says on stderr is not.
 EndedProcess startAndAwait(std::vector<std::string> words) {
   words.insert(words.begin(), "fragtrace");
   const std::string program = ownProgram("fragtrace", "bench start").string();
@@ -84,22 +88,32 @@ EndedProcess startAndAwait(std::vector<std::string> words) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  // Signals of the terminal reach it by us alone.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   pid_t process = -1;
   EndedProcess ended;
   ended.begin = steadyMilliseconds();
-  const int error = ::posix_spawn(&process, program.c_str(), &actions, nullptr, arguments.data(), environ);
+  const int error =
+      ::posix_spawn(&process, program.c_str(), &actions, &attributes, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
   if (error != 0) throw RenderError("fragtrace cannot be started: " + std::generic_category().message(error));
   int status = 0;
   rusage used{};
   while (::wait4(process, &status, 0, &used) < 0) {
     if (errno != EINTR)
       throw RenderError("a start cannot be waited for: " + std::generic_category().message(errno));
+    if (interrupts() > 0) ::kill(process, SIGKILL);
   }
   ended.end = steadyMilliseconds();
   ended.cpuMs = millisecondsOf(used.ru_utime) + millisecondsOf(used.ru_stime);
+  if (interrupts() > 0) return ended;
   const int exited = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+  constexpr int kUsageStatus = 2;
   constexpr int kInputStatus = 3;
+  if (exited == kUsageStatus) throw UsageError("a start failed, as said above");
   if (exited == kInputStatus) throw InputError("a start failed, as said above");
   if (exited != 0) throw RenderError("a start failed, as said above");
   return ended;
@@ -197,10 +211,16 @@ int runStart(const StartOptions& options) {
   const std::filesystem::path file = folder.path() / "statistics.json";
   words.insert(words.end(), {"--stats", file.string(), "--quiet"});
   ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+  countInterrupts();
   ProgressBar bar("starting", render.output.quiet);
   for (int i = 0; i < options.starts; ++i) {
     bar.show(double(i) / options.starts);
     const EndedProcess process = startAndAwait(words);
+    if (interrupts() > 0) {
+      bar.clear();
+      reportError("interrupted, nothing is written");
+      return kInterruptedStatus;
+    }
     addStart(report, process, readStatistics(file));
   }
   bar.clear();

@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/denoise_options.h"
+#include "cli/leave.h"
 #include "errors.h"
 #include "image/channels.h"
 #include "image/format.h"
@@ -39,7 +40,7 @@ int runDenoise(const DenoiseOptions& asked) {
   Image result = denoisedFile(drawn, asked.picture, options, oidn, stats);
   result.placement = drawn.placement;
   writePicture(options, writable(result, options.output.file), {});
-  if (!options.output.quiet) {
+  if (!options.output.quiet && !standardOutputIsClosed()) {
     std::printf("%s: %d x %d, %s in %.2f s\n", options.output.file.string().c_str(), result.width,
                 result.height, stats.filter.c_str(), (stats.filterMs + stats.compileMs) / 1000.0);
   }

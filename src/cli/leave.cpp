@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cli/leave.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -9,6 +12,8 @@
 #include "process/report.h"
 
 namespace fragtrace {
+
+bool standardOutputIsClosed() { return (::fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) == O_RDONLY; }
 
 void checkPrinted() {
   std::cout.flush();

@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/denoise_options.h"
+#include "cli/leave.h"
 #include "errors.h"
 #include "image/format.h"
 #include "options/choose.h"
@@ -40,7 +41,7 @@ int runMerge(const MergeOptions& options) {
   }
   filter.output.file = options.output;
   sayClamped(filter, writeImage(options.output, result, filter.output.encoding));
-  if (!filter.output.quiet)
+  if (!filter.output.quiet && !standardOutputIsClosed())
     std::printf("%s: %s\n", options.output.string().c_str(),
                 describeParts(options.parts.size(), joined).c_str());
   return 0;

@@ -25,11 +25,13 @@ int fail(ExitStatus status, const char* message) {
   return status;
 }
 
-/// A stream that was closed would else be the first file that is opened, and get what is printed.
+/// A stream that was closed would else be the first file that is opened, and get what is printed. Standard
+/// output is opened for reading, by which standardOutputIsClosed() knows it.
 void openClosedStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     // The lowest free descriptor is the one just found closed.
-    if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY);
+    if (::fcntl(stream, F_GETFD) < 0)
+      (void)::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
   }
 }
 

@@ -26,8 +26,6 @@ namespace fragtrace {
 
 namespace {
 
-constexpr int kInterruptedStatus = 130;
-
 void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
   std::string noise;
   if (stats.adaptive) {
@@ -49,7 +47,7 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
                           {"complete", stats.complete}});
   // Standard output is the statistics' or the picture's alone.
   const bool taken = isStandardOutput(options.output.statsFile) || options.output.toStandardOutput;
-  if (options.output.quiet || (taken && reportsAsJson())) return;
+  if (options.output.quiet || (taken ? reportsAsJson() : standardOutputIsClosed())) return;
   std::fprintf(taken ? stderr : stdout,
                "%s: %d x %d, %.4g samples per pixel in %.2f s (%.2f million paths/s)%s\n",
                options.output.toStandardOutput ? "standard output" : options.output.file.string().c_str(),

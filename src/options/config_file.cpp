@@ -37,10 +37,13 @@ Json parseFile(const std::filesystem::path& path) {
   Json json;
   try {
     json = Json::parse(bytes, watch);
-  } catch (const Json::parse_error& error) {
-    const std::string text = error.what();  // "[json.exception...] parse error at line 1, column 2: ..."
-    const size_t from = text.find("at line");
-    throw InputError(path.string() + ": " + (from == std::string::npos ? text : text.substr(from)));
+  } catch (const Json::exception& error) {
+    // "[json.exception...] parse error at line 1, column 2: ..."; of numbers that are too large without a
+    // place
+    const std::string text = error.what();
+    const size_t line = text.find("at line");
+    throw InputError(path.string() + ": " +
+                     text.substr(line == std::string::npos ? text.find(' ') + 1 : line));
   }
   if (!json.is_object()) throw InputError(path.string() + ": is no JSON object of option names");
   return json;

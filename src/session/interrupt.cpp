@@ -14,7 +14,6 @@ namespace fragtrace {
 
 namespace {
 
-constexpr int kInterruptedStatus = 130;
 // The first line ends that of a progress bar.
 constexpr std::string_view kSaidOnTerminal = "\nfragtrace: interrupted, nothing is written\n";
 constexpr std::string_view kSaid = kSaidOnTerminal.substr(1);

@@ -3,7 +3,10 @@
 """`bench start`: its rows; and that a picture of few paths, compiled without optimising, is the same bits."""
 import json
 import os
+import signal
 import subprocess
+import time
+from pathlib import Path
 
 from support import FRAGTRACE, SCENES, Case, main, run
 
@@ -47,15 +50,30 @@ class BenchStart(Case):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(list(self.folder.iterdir()), [])
 
+    def test_interrupted_it_ends_its_render_and_leaves_nothing(self):
+        for signal_number in (signal.SIGINT, signal.SIGTERM):
+            process = subprocess.Popen([FRAGTRACE, "bench", "start", BOX, "--resolution", "512,512", "--spp", "100000", "--quiet"], text=True,
+                                       env=dict(os.environ, TMPDIR=str(self.folder)), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
+            while not children.read_text():
+                time.sleep(0.01)
+            render = children.read_text().split()[0]
+            process.send_signal(signal_number)
+            self.assertEqual(process.communicate(timeout=20), ("", "fragtrace: interrupted, nothing is written\n"))
+            self.assertEqual(process.returncode, 130)
+            self.assertFalse(Path("/proc", render).exists())
+            self.assertEqual(list(self.folder.iterdir()), [])
+
     def test_what_cannot_be_measured_is_refused(self):
         self.fails(2, "bench", "start", BOX, "--time", 1, says=["--time"])
         self.fails(2, "bench", "start", BOX, "--stats", self.folder / "s.json", says=["--stats"])
         self.fails(2, "bench", "start", BOX, "--format", "gif", says=["--format"])
         self.fails(2, "bench", "start", BOX, "--json", BOX, says=["cornell-box"])
-        result = run("bench", "start", self.folder / "none.gltf", *TINY, "--quiet")
-        self.assertEqual(result.returncode, 3)
-        for words in ("none.gltf", "a start failed"):
-            self.assertIn(words, result.stderr)
+        for words, status, said in (([self.folder / "none.gltf"], 3, "none.gltf"), ([BOX, "--hide", "none"], 2, "--hide")):
+            result = run("bench", "start", *words, *TINY, "--quiet")
+            self.assertEqual(result.returncode, status)
+            self.assertIn(said, result.stderr)
+            self.assertIn("a start failed", result.stderr)
 
 
 class QuickCompilation(Case):

@@ -151,7 +151,7 @@ class WheelChecks:
         (debian.home / "scenes").mkdir()
         shutil.copy(ROOT / "docs/notebook.ipynb", debian.home / "docs")
         shutil.copy(SCENES / "cornell-box.gltf", debian.home / "scenes")
-        self.does(debian.run("apt-get install --yes --no-install-recommends python3-venv libegl1 libosmesa6 libgl1-mesa-dri; chown -R painter: /home/painter"))
+        self.does(debian.run("apt-get install --yes --no-install-recommends python3-venv libegl1 libosmesa6 libgl1-mesa-dri && chown -R painter: /home/painter"))
         self.assertEqual(debian.run("type gcc g++ cc c++ clang", "painter").stdout, "")
         self.does(debian.run("python3 -m venv there && there/bin/pip install fragtrace-*.whl nbclient ipykernel", "painter"))
         own = self.folder / "own.exr"

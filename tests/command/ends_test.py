@@ -92,6 +92,14 @@ class StandardStreams(Case):
             self.assertTrue(path.read_bytes().startswith(b"\x89PNG"))
             path.unlink()
 
+    def test_a_result_for_a_closed_one_is_an_error(self):
+        tiny = ["--resolution", "8,8", "--spp", "1", "--quiet"]
+        for words in (["info", BOX], ["render", BOX, "-o", "-", "--format", "png", *tiny], ["render", BOX, "-o", self.folder / "x.pfm", *tiny, "--stats", "-"],
+                      ["bench", "frame", BOX, "--stage", "flat", "--rounds", "1", "--round-time", "0.01", *tiny]):
+            result = subprocess.run(["bash", "-c", 'exec "$0" "$@" >&-', FRAGTRACE, *words], capture_output=True, text=True)
+            self.assertEqual(result.returncode, 1, words)
+            self.assertIn("standard output", result.stderr)
+
     def test_statistics_go_to_standard_output_alone(self):
         result = self.renders(BOX, "-o", self.folder / "x.pfm", "--resolution", "16,16", "--spp", "1", "--stats", "-", cwd=self.folder)
         self.assertEqual(json.loads(result.stdout)["width"], 16)

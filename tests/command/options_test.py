@@ -49,6 +49,7 @@ class Config(Case):
         self.refused('{\n "spp": 2,\n "seed" 3}', "view.json", "line 3")
         self.refused("", "view.json", "line 1")
         self.refused('[{"spp": 2}]', "view.json", "no JSON object")
+        self.refused('{"seed": 1e400}', "view.json", "1e400")
         self.refused('{"spp": 2, "spp": 3}', "view.json: /spp", "twice")
         for name in ("warp", "file", "config", "help", "--spp", "o", "", "a/b"):
             self.refused({name: 1}, "view.json: /" + name.replace("/", "~1"), "no option of render")
