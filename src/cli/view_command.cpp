@@ -17,6 +17,7 @@
 #include "options/view_options.h"
 #include "picture/denoising.h"
 #include "process/plugin.h"
+#include "process/thread_name.h"
 #include "session/outputs.h"
 #include "session/say.h"
 #include "view/window.h"
@@ -60,6 +61,7 @@ int runView(const ViewOptions& asked) {
   std::thread tracing;
   const auto begin = [&] {
     tracing = std::thread([&] {
+      nameThread("trace");
       tracer.run();
       ended.set_value();
     });

@@ -4,6 +4,7 @@
 #include <thread>
 #include <utility>
 
+#include "process/thread_name.h"
 #include "scene/studio.h"
 #include "view/picture/thumbnail.h"
 
@@ -12,6 +13,7 @@ namespace fragtrace {
 void ThumbnailMaker::make(const std::vector<std::filesystem::path>& files, uint64_t memoryLimit) {
   ++*threads_;
   std::thread([cancelled = cancelled_, threads = threads_, files, memoryLimit, &exchange = exchange_] {
+    nameThread("thumbnails");
     for (const std::filesystem::path& file : files) {
       EnvironmentThumbnail thumbnail{file, {}};
       try {

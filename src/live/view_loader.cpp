@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "pack/own_light.h"
+#include "process/thread_name.h"
 #include "view/camera_controller.h"
 #include "view/environments.h"
 
@@ -41,6 +42,7 @@ void SceneLoader::start(const RenderOptions& options) {
   ++*threads_;
   // Detached: a load that nobody waits for any more ends at its next step.
   std::thread([job = job_, threads = threads_, options, asRendered = asRendered_, &exchange = exchange_] {
+    nameThread("load");
     LoadResult result;
     result.options = options;
     const auto progress = [&](const char* step, double fraction) {

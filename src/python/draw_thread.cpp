@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "process/thread_name.h"
 #include "session/interrupt.h"
 #include "session/say.h"
 
@@ -90,7 +91,10 @@ std::shared_ptr<DrawJob> postJob(std::function<void(DrawJob&)> work) {
   }
   if (q.process == 0) {
     q.process = ::getpid();
-    std::thread(performAll).detach();
+    std::thread([] {
+      nameThread("trace");
+      performAll();
+    }).detach();
   }
   q.jobs.push_back(job);
   q.changed.notify_all();

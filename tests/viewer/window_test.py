@@ -64,6 +64,14 @@ class Ends(Case):
         self.assertEqual(result.returncode, 4, result.stderr)
         self.assertRegex(result.stderr, r"^fragtrace: no window: .*libGL\.so\.1: .*libgl1.*\n$")
 
+    def test_profilers_tell_its_threads_apart(self):
+        viewer = self.view("furnace", *FEW)
+        # The driver's threads have the names of those that made them, or their own.
+        process = Path("/proc", str(viewer.process.pid))
+        self.assertIn("trace", {path.read_text().strip() for path in process.glob("task/*/comm")})
+        self.assertEqual((process / "comm").read_text().strip(), "fragtrace")
+        self.ends_well(viewer, viewer.close())
+
     def test_vectors_of_512_bits_are_left_out(self):
         viewer = self.view("furnace", *FEW, "--vector-width", "512")
         self.assertIn("--vector-width 512 is left out", viewer.stderr())
