@@ -7,22 +7,26 @@ namespace fragtrace {
 
 namespace {
 
+/// Whether it compiles is asked where a program does not link: drivers that compile in threads of their own
+/// would have to wait for it.
 GlShader compileShader(GLenum kind, const std::string& text) {
   GlShader shader(glCreateShader(kind));
   const char* pointer = text.c_str();
   glShaderSource(shader.name(), 1, &pointer, nullptr);
   glCompileShader(shader.name());
+  return shader;
+}
+
+void checkCompiled(const GlShader& shader) {
   GLint ok = 0;
   glGetShaderiv(shader.name(), GL_COMPILE_STATUS, &ok);
-  if (!ok) {
-    checkGl("compiling a shader");
-    GLint length = 0;
-    glGetShaderiv(shader.name(), GL_INFO_LOG_LENGTH, &length);
-    std::string log(size_t(length) + 1, '\0');
-    glGetShaderInfoLog(shader.name(), length, nullptr, log.data());
-    throw RenderError("shader does not compile:\n" + std::string(log.c_str()));
-  }
-  return shader;
+  if (ok) return;
+  checkGl("compiling a shader");
+  GLint length = 0;
+  glGetShaderiv(shader.name(), GL_INFO_LOG_LENGTH, &length);
+  std::string log(size_t(length) + 1, '\0');
+  glGetShaderInfoLog(shader.name(), length, nullptr, log.data());
+  throw RenderError("shader does not compile:\n" + std::string(log.c_str()));
 }
 
 GlProgram link(std::initializer_list<const GlShader*> shaders) {
@@ -32,6 +36,7 @@ GlProgram link(std::initializer_list<const GlShader*> shaders) {
   GLint ok = 0;
   glGetProgramiv(program.name(), GL_LINK_STATUS, &ok);
   if (!ok) {
+    for (const GlShader* shader : shaders) checkCompiled(*shader);
     checkGl("linking a shader program");
     GLint length = 0;
     glGetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &length);
