@@ -12,6 +12,8 @@ whole:
   scale.json       fragtrace bench scale --json FILE
   aims.json        bench/peers/aims.py FRAGTRACE --assets DIR --json FILE
   aims-again.json  the same, parts that were measured again by a later program and replace those of aims.json
+  gpu-compilers.json            bench/gpu/compilers --json FILE
+  gpu-compilers-software.json   the same with --options "--tune software"
   denoise/         bench/denoise_table.py FRAGTRACE --out FOLDER --filters variance,oidn
 """
 
@@ -25,6 +27,7 @@ REPOSITORY = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(REPOSITORY / folder) for folder in ("bench", "bench/peers", "bench/gpu")]
 
 import aims  # noqa: E402
+import compiler_figures  # noqa: E402
 import denoise_table  # noqa: E402
 import markdown  # noqa: E402
 import program_tables  # noqa: E402
@@ -48,6 +51,11 @@ def aims_table(path):
     return markdown.wrapped(f"{text}. All parts together take {minutes:.0f} minutes.") + aims.table(results)
 
 
+def gpu_compilers(path):
+    result = json.loads(path.read_text(encoding="utf-8"))
+    return [f"Mesa {result['mesa']}, {result['date']}.", "", *compiler_figures.table(result)]
+
+
 def denoise(filter_name, what, folder):
     return denoise_table.tables_of(folder, filter_name)[what]
 
@@ -57,7 +65,9 @@ TABLES = {"report": ("report.json", program_tables.report_times),
           "report shapes": ("report.json", program_tables.report_shapes),
           "scale": ("scale.json", program_tables.scale_times),
           "scale exponents": ("scale.json", program_tables.scale_exponents),
-          "aims": ("aims.json", aims_table)}
+          "aims": ("aims.json", aims_table),
+         "gpu compilers": ("gpu-compilers.json", gpu_compilers),
+         "gpu compilers, software": ("gpu-compilers-software.json", gpu_compilers)}
 for one, whats in (("variance", ("relmse", "flip", "sooner", "baseline")), ("oidn", ("relmse", "flip", "sooner"))):
     TABLES.update({f"denoise {one} {what}": ("denoise", partial(denoise, one, what)) for what in whats})
 

@@ -107,7 +107,7 @@ Path guideAtCatcher(Path p) {
   p.shadowLimit = t * dot(p.direction, frame.cameraForward.xyz) * frame.cameraForward.w;
   p.contribution = vec3(0.0, 1.0, 0.0);
   p.radiance = vec3(1.0);
-  p.alpha = 1.0;
+  p.covered = true;
   p.phase = kPhaseEnd;
   return p;
 }
@@ -118,11 +118,15 @@ Path meetCatcher(Path p) {
   return beginShadow(p);
 }
 
-/// The finished sample of a path that was caught: what is behind, as far as the light is there; alpha is the luminance
-/// of the share that is not.
+/// Alpha of the finished sample; of a shadow on the catcher the luminance of the share of light that is not there.
+float coverageOf(Path p) {
+  if (kShadowCatcher && p.caught) return luminance(p.radiance);
+  return p.covered ? 1.0 : 0.0;
+}
+
+/// The finished sample of a path that was caught: what is behind, as far as the light is there.
 Path showShadow(Path p) {
   if (!p.caught) return p;
-  p.alpha = luminance(p.radiance);
   p.radiance = p.throughput * (vec3(1.0) - p.radiance);
   // The background, with or without a shadow on it, is what the camera sees: emission.
   if (kFeature == kFeatureDiffuse || kFeature == kFeatureSpecular) p.radiance = vec3(0.0);

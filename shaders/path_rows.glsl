@@ -50,14 +50,14 @@ uvec4 metBy(Traversal t) { return uvec4(floatBitsToUint(t.t), uint(t.slot), floa
 
 /// begins: nothing has changed yet what a camera ray carries. The wavefront keeps fewer rows of such a path.
 void savePath(Path p, int row, bool begins) {
-  uint flags = uint(p.phase) | (p.cameraRay ? 16u : 0u) | (p.oneChannel ? 32u : 0u) | (p.alpha > 0.0 ? 64u : 0u) |
+  uint flags = uint(p.phase) | (p.cameraRay ? 16u : 0u) | (p.oneChannel ? 32u : 0u) | (p.covered ? 64u : 0u) |
                (p.throughWalls ? 128u : 0u) | (kLightTree ? p.normal << 8 : 0u);
   pathStates[row + kRowRay] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.tie));
   pathStates[row + kRowDirection] = uvec4(floatBitsToUint(p.direction), p.medium);
   pathStates[row + kRowHit] = uvec4(floatBitsToUint(p.hitT), uint(p.hitSlot), floatBitsToUint(p.hitWeights));
   if (!begins) pathStates[row + kRowThroughput] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.density));
   pathStates[row + kRowRadiance] = uvec4(floatBitsToUint(p.radiance), flags);
-  pathStates[row + kRowCounts] = uvec4(p.numbers.index, uint(p.rays), scatteringsOf(p), clearOf(p));
+  pathStates[row + kRowCounts] = uvec4(bitfieldReverse(p.numbers.reversed), uint(p.rays), scatteringsOf(p), clearOf(p));
   if (kShadowRows && !begins) {
     pathStates[row + kRowShadow] = uvec4(floatBitsToUint(p.shadowOrigin), floatBitsToUint(p.shadowLimit));
     pathStates[row + kRowShadowDirection] = uvec4(floatBitsToUint(p.shadowDirection), floatBitsToUint(p.compression));
@@ -88,7 +88,7 @@ Path loadPath(int row, uint key) {
   p.phase = int(a.w & 15u);
   p.cameraRay = (a.w & 16u) != 0u;
   p.oneChannel = (a.w & 32u) != 0u;
-  p.alpha = (a.w & 64u) != 0u ? 1.0 : 0.0;
+  p.covered = (a.w & 64u) != 0u;
   p.throughWalls = (a.w & 128u) != 0u;
   p.normal = kLightTree ? a.w >> 8 : kNoNormal;
   bool begins = !kResumable && p.cameraRay;

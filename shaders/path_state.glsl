@@ -33,7 +33,7 @@ struct Path {
   bool throughWalls;  // the shadow ray passes thin walls (kThinGlass)
   int chain;          // how far it is one whose end light paths find, kChain* (kCaustics)
   bool clearFirst;    // of a light path: it has met smooth glass first (kLightPaths)
-  float alpha;     // 1 once a camera ray has hit a surface, else 0
+  bool covered;    // a camera ray has hit a surface
   vec3 radiance;
   vec3 throughput;
   float compression;  // undoes the radiance compression inside glass
@@ -78,7 +78,7 @@ Path newPath() {
   p.throughWalls = false;
   p.chain = kChainNone;
   p.clearFirst = false;
-  p.alpha = 0.0;
+  p.covered = false;
   p.radiance = vec3(0.0);
   p.throughput = vec3(1.0);
   p.compression = 1.0;

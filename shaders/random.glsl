@@ -23,21 +23,12 @@ float randomFloat(uint key, uint dimension) {
   return float(bits >> 8) * 5.9604644775390625e-8f;
 }
 
-/// What the numbers of one path are drawn from: key of pixel and seed, and the sample's index with and without its bits
-/// reversed (kSobol); else the path's own key.
+/// What the numbers of one path are drawn from: key of pixel and seed (kSobol), else the path's own key; and the
+/// sample's index with its bits reversed.
 struct Sampler {
   uint key;
-  uint index;
   uint reversed;
 };
-
-uint reverseBits(uint x) {
-  x = (x >> 16) | (x << 16);
-  x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
-  x = ((x & 0xf0f0f0f0u) >> 4) | ((x & 0x0f0f0f0fu) << 4);
-  x = ((x & 0xccccccccu) >> 2) | ((x & 0x33333333u) << 2);
-  return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
-}
 
 /// An Owen scramble of numbers whose bits are reversed: each bit is flipped by a hash of those below it (Laine and
 /// Karras, Stratified Sampling for Stochastic Transparency, 2011; constants of Vegdahl, 2021).
@@ -65,8 +56,7 @@ float unitFloat(uint bits) { return float(bits >> 8) * 5.9604644775390625e-8f; }
 Sampler makeSampler(uint key, uint sampleIndex) {
   Sampler s;
   s.key = kSobol ? key : pathKey(key, sampleIndex);
-  s.index = sampleIndex;
-  s.reversed = reverseBits(sampleIndex);
+  s.reversed = bitfieldReverse(sampleIndex);
   return s;
 }
 
@@ -74,13 +64,13 @@ uint dimensionSeed(Sampler s, uint dimension) { return mixBits(s.key ^ mixBits(d
 
 /// The sample's index, shuffled within blocks of powers of two, so that numbers of different dimensions are independent
 /// (Burley, Practical Hash-based Owen Scrambling, 2020).
-uint shuffledIndex(Sampler s, uint seed) { return reverseBits(owenScramble(s.reversed, seed)); }
+uint shuffledIndex(Sampler s, uint seed) { return bitfieldReverse(owenScramble(s.reversed, seed)); }
 
 /// 32 bits for one dimension: over the samples of a pixel an Owen-scrambled van der Corput sequence, or independent
 /// ones.
 uint drawBits(Sampler s, uint dimension) {
   uint seed = dimensionSeed(s, dimension);
-  return kSobol ? reverseBits(owenScramble(shuffledIndex(s, seed), mixBits(seed + 1u))) : seed;
+  return kSobol ? bitfieldReverse(owenScramble(shuffledIndex(s, seed), mixBits(seed + 1u))) : seed;
 }
 
 /// Uniform in [0, 1).
@@ -92,8 +82,8 @@ uvec2 drawPairBits(Sampler s, uint dimension) {
   uint other = dimensionSeed(s, dimension + 1u);
   if (!kSobol) return uvec2(seed, other);
   uint index = shuffledIndex(s, seed);
-  return uvec2(reverseBits(owenScramble(index, mixBits(seed + 1u))),
-               reverseBits(owenScramble(sobolSecond(index), other)));
+  return uvec2(bitfieldReverse(owenScramble(index, mixBits(seed + 1u))),
+               bitfieldReverse(owenScramble(sobolSecond(index), other)));
 }
 
 /// The same as numbers in [0, 1).
@@ -103,4 +93,6 @@ vec2 drawPair(Sampler s, uint dimension) {
 }
 
 /// Uniform in [0, 1), independent from sample to sample.
-float hashFloat(Sampler s, uint dimension) { return randomFloat(mixBits(s.key + s.index), dimension); }
+float hashFloat(Sampler s, uint dimension) {
+  return randomFloat(mixBits(s.key + bitfieldReverse(s.reversed)), dimension);
+}

@@ -221,7 +221,7 @@ Path shade(Path p) {
     p.phase = kPhaseExtend;
     return tracePast(p, kFarAway, p.hitT, p.hitSlot);
   }
-  if (p.cameraRay) p.alpha = 1.0;
+  if (p.cameraRay) p.covered = true;
   if (kFeature == kFeatureGuides) return guideAt(p, s, base.rgb);
   if (!kDrawsLight) {
     p.radiance = featureAt(s, p.hitSlot, p.hitInstance, base.rgb, -p.direction);

@@ -43,11 +43,7 @@
 //   settleShadow(path, hit):
 //     if nothing is hit: radiance += contribution
 #include "layout.glsl"
-layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frameBlock; };
-// The block once more as a variable: llvmpipe reads a uniform lane by lane, so each is read once a draw.
-Frame frame = Frame(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0),
-                    ivec4(0), ivec4(0), ivec4(0), ivec4(0), ivec4(0), vec4(0.0), vec4(0.0),
-                    vec4(0.0));
+#include "frame.glsl"
 layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progress progress; };
 #include "read.glsl"
 #include "random.glsl"
@@ -107,6 +103,7 @@ Path beginSample(FilmPixel film, ivec2 pixel, uint key, int steps) {
 FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
   film.rays += uint(p.rays);
   if (kHeatmap) p.radiance = vec3(float(p.traversal.visits));
+  float alpha = coverageOf(p);
   if (kShadowCatcher) p = showShadow(p);
   if (kLightPaths) {
     storeRecord(recordOf(pixel, film.samples), p.radiance, p.part.xy);
@@ -114,9 +111,9 @@ FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
   } else if (kLightRecords) {
     film.samples += 1u;
   } else if (kFeature == kFeatureGuides) {
-    film = addGuides(film, p.radiance, p.contribution, p.shadowLimit, p.alpha);
+    film = addGuides(film, p.radiance, p.contribution, p.shadowLimit, alpha);
   } else {
-    film = addSample(film, p.radiance, p.alpha);
+    film = addSample(film, p.radiance, alpha);
   }
   return film;
 }
@@ -135,21 +132,35 @@ Path meet(Path p) {
   return p;
 }
 
-/// One round of a path. A traversal that the budget ends leaves it in its phase.
+/// The shadow ray has been traced, as far as the budget lets it.
+Path meetShadow(Path p) {
+  if (p.traversal.node != kTraversalDone) return p;
+  p.rays += 1;
+  return settleShadow(p);
+}
+
+/// One round of a path. A traversal that the budget ends leaves it in its phase. On GPUs a round is one ray of either
+/// kind, so that there is one traversal: a second one takes registers (docs/design/gpu.md).
 Path advance(Path p, int budget, TreeFrame tree) {
   p.traversal.steps += 1;
 
-  // Step: find what the path's ray hits.
+  // Step: find what the path's ray hits; dark: what its shadow ray hits.
+  bool dark = kGpu && kShadows && p.phase == kPhaseShadow;
   // Only light paths may have ended before their first ray.
-  if ((kWholeRays && !kLightPaths) || p.phase == kPhaseExtend) {
-    if (kWholeRays) p = extend(p);
-    p.traversal = traverse(p.origin, p.direction, kFarAway, p.traversal, tree, budget, false);
-    if (p.traversal.node == kTraversalDone) {
+  if ((kWholeRays && !kLightPaths) || p.phase == kPhaseExtend || dark) {
+    if (kWholeRays && !dark) p = extend(p);
+    if (kGpu && kWholeRays && dark) p = traceAnew(p, p.shadowLimit);
+    p.traversal = traverse(dark ? p.shadowOrigin : p.origin, dark ? p.shadowDirection : p.direction,
+                           dark ? p.shadowLimit : kFarAway, p.traversal, tree, budget, dark && !kPassing);
+    // Of a ray that is not done or dark, too: what the one before has hit then needs no registers.
+    if (kWholeRays) p = withHit(p, p.traversal);
+    if (!dark && p.traversal.node == kTraversalDone) {
       p.rays += 1;
-      p = withHit(p, p.traversal);
+      if (!kWholeRays) p = withHit(p, p.traversal);
       p.phase = kPhaseShade;
     }
   }
+  if (kGpu && dark) p = meetShadow(p);
 
   // Step: shade it; this may need a shadow ray.
   if (p.phase == kPhaseShade) {
@@ -158,57 +169,54 @@ Path advance(Path p, int budget, TreeFrame tree) {
   }
 
   // Step: is the light seen?
-  if (kShadows && p.phase == kPhaseShadow) {
+  if (!kGpu && kShadows && p.phase == kPhaseShadow) {
     p.traversal = traverse(p.shadowOrigin, p.shadowDirection, p.shadowLimit, p.traversal, tree, budget, !kPassing);
-    if (p.traversal.node == kTraversalDone) {
-      p.rays += 1;
-      p = settleShadow(p);
-    }
+    p = meetShadow(p);
   }
   return p;
 }
 
-/// Fetches the uniform block. The film's flags are never so, but compilers do not know: they would put the block's
-/// reads back to where they are used, inside of loops.
-void fetchFrame(FilmPixel film) {
-  if (film.flags != 0xffffffffu) frame = frameBlock;
-}
+uint keyOfLane(ivec2 pixel) { return kLightPaths ? keyOfLightPaths() : keyOfPixel(pixel); }
 
-/// Advances one pixel (y from the bottom) until it has the samples wanted or has used the step budget of this draw.
+/// Advances one pixel (y from the bottom) until it has the samples wanted or has used the step budget of this draw. On
+/// GPUs its film stays in memory while a path goes on.
 void tracePixel(ivec2 pixel) {
   FilmPixel film = loadFilm(pixel);
-  fetchFrame(film);
+  fetchFrame(film.flags);
   ivec2 place = pixel - frame.tile.xy;
   int row = (place.y * frame.tile.z + place.x) * kSuspendedRows;
-  uint key = kLightPaths ? keyOfLightPaths() : keyOfPixel(pixel);
-  uint wanted = samplesWanted(film);
   int budget = frame.limits.z;
   TreeFrame tree = treeFrame();
-  uint samplesBefore = film.samples;
+  bool advanced = false;
   float cut = 0.0;  // what kBounces took of the throughput
   Path p;
   p.phase = kPhaseEnd;
   p.traversal.steps = 0;
-  if (kResumable && (film.flags & kPixelSuspended) != 0u) p = resumePath(row, key);
+  if (kResumable && (film.flags & kPixelSuspended) != 0u) p = resumePath(row, keyOfLane(pixel));
   p.pixel = pixel;
-  film.flags &= ~kPixelSuspended;
 
   bool tracing = p.phase != kPhaseEnd;
   while (p.traversal.steps < budget) {
     if (!tracing) {
-      if (film.samples >= wanted) break;
-      p = beginSample(film, pixel, key, p.traversal.steps);
+      if (kGpu) film = loadFilm(pixel);
+      if (film.samples >= samplesWanted(film)) break;
+      p = beginSample(film, pixel, keyOfLane(pixel), p.traversal.steps);
       tracing = true;
     }
     p = advance(p, budget, tree);
     if (p.phase >= kPhaseEnd) {
       cut += cutThroughput(p);
+      if (kGpu) film = loadFilm(pixel);
       film = endSample(film, p, pixel);
+      if (kGpu) storeFilm(pixel, film);
       tracing = false;
+      advanced = true;
     }
   }
 
-  if (tracing || film.samples < wanted) {
+  if (kGpu) film = loadFilm(pixel);
+  film.flags &= ~kPixelSuspended;
+  if (tracing || film.samples < samplesWanted(film)) {
     // The budget alone may end the loop: one that ended below it was cut by the driver.
     if (p.traversal.steps < budget) film.flags |= kPixelBudgetHit;
     atomicAdd(progress.unfinished, 1u);
@@ -217,7 +225,7 @@ void tracePixel(ivec2 pixel) {
       suspendPath(p, row);
     }
     // Else the sample begins anew in the next draw, unless it is longer than a whole draw.
-    if (!kResumable && film.samples == samplesBefore) atomicAdd(progress.stuck, 1u);
+    if (!kResumable && !advanced) atomicAdd(progress.stuck, 1u);
   }
   if (kScatters) reportCut(cut);
   storeFilm(pixel, film);

@@ -201,7 +201,7 @@ Traversal changeSpace(Traversal s) {
   bool ends = s.node == kInstanceEnd;
   int instance = ~s.node - kInstanceLeaf;
   s.instance = ends ? -1 : instance;
-  s.node = ends ? s.stack.e0.x : int(readNodes(int(kInstanceRows) * (ends ? 0 : instance) + 3).w);
+  s.node = ends ? topOf(s.stack) : int(readNodes(int(kInstanceRows) * (ends ? 0 : instance) + 3).w);
   s.stack = stepStack(s.stack, !ends, ends, kInstanceEnd);
   s.steps += 1;
   return s;
@@ -231,7 +231,7 @@ Traversal stepNode(Traversal s, TreeRay ray, float rayLimit, TreeFrame tree, boo
   bool both = hit0 && hit1;
   bool first1 = both ? swap : hit1;
   int pushed = first1 ? n.child0 : n.child1;
-  int popped = s.stack.e0.x;
+  int popped = topOf(s.stack);
   bool none = !hit0 && !hit1;
   int next = none ? popped : (first1 ? n.child1 : n.child0);
   s.node = there ? next : s.node;
@@ -242,7 +242,7 @@ Traversal stepNode(Traversal s, TreeRay ray, float rayLimit, TreeFrame tree, boo
 /// The primitives of the leaf at which the traversal is; then what the stack holds.
 Traversal meetLeaf(Traversal s, TreeRay ray, bool anyHit) {
   s = intersectLeaf(s, ~s.node, ray.origin, ray.direction, ray.shear, ray.start);
-  s.node = anyHit && s.slot >= 0 ? kTraversalDone : s.stack.e0.x;
+  s.node = anyHit && s.slot >= 0 ? kTraversalDone : topOf(s.stack);
   s.stack = stepStack(s.stack, false, true, 0);
   return s;
 }

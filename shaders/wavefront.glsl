@@ -290,8 +290,8 @@ Wave beginAnew(Wave v, uint left) {
 /// or the step budget of this draw is used.
 void traceWave(ivec2 lane) {
   Wave v;
-  v.corner = frameBlock.tile.xy + ivec2(lane.x, lane.y * int(kWaveSlots));
-  fetchFrame(loadFilm(v.corner));
+  v.corner = tileOfDraw().xy + ivec2(lane.x, lane.y * int(kWaveSlots));
+  fetchFrame(loadFilm(v.corner).flags);
   int own = (lane.y * frame.tile.z + lane.x) * int(kWaveLaneRows);  // the row of what is left of the lane's own
   v.first = own + 1;
   int count = min(int(kWaveSlots), frame.tile.w - lane.y * int(kWaveSlots));

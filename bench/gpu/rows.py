@@ -89,6 +89,8 @@ FRAMES = (
     helmet("fragment", FRAGMENT, {"fragment"}),
     helmet("compute", COMPUTE, {"compute"}),
     helmet("wavefront", WAVEFRONT, {"wavefront"}),
+    *(row(f"{entry}, text for software", [*options, "--tune", "software"], wants) for row in (mesh, ball, helmet)
+      for entry, options, wants in (("fragment", FRAGMENT, {"fragment"}), ("compute", COMPUTE, {"compute"}))),
 )
 
 SCALE = ["--from", "10000000", "--to", "10000000", "--traversals", "front-to-back,bvh"]

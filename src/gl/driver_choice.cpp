@@ -18,6 +18,10 @@ Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals) 
   return fewRasterisers ? Dispatch::Compute : Dispatch::Fragment;
 }
 
+bool isForGpu(Tune wanted, const Context& context) {
+  return wanted == Tune::Auto ? !context.software : wanted == Tune::Gpu;
+}
+
 void setVectorWidth(VectorWidth width) {
   if (width == VectorWidth::Auto) return;
   ::setenv("LP_NATIVE_VECTOR_WIDTH", std::string(kVectorWidthNames[size_t(width)]).c_str(), 1);

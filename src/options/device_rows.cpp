@@ -18,6 +18,8 @@ std::vector<OptionRow> deviceRows() {
              kBufferReadsNames, kProgram),
       choice("--dispatch", "which shader stage runs the tracer", FRAGTRACE_MEMBER(device.dispatch),
              kDispatchNames, kProgram),
+      choice("--tune", "which kind of driver the shaders' text suits; the picture is the same",
+             FRAGTRACE_MEMBER(device.tune), kTuneNames, kProgram),
       choice("--vector-width",
              "bits of the vectors that Mesa's software driver computes with; the picture is the same; 512 "
              "can be faster where the processor has AVX-512, but Mesa crashes on some scenes with it",

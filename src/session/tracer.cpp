@@ -51,6 +51,7 @@ std::string settleVariant(ShaderVariant& variant, const LoadedScene& loaded, con
   variant.reads = reads;
   variant.dispatch =
       chooseDispatch(options.device.dispatch, context, variant.traversal == TraversalMethod::Literals);
+  variant.gpu = isForGpu(options.device.tune, context);
   return chooseSchedule(variant, options,
                         {context.software, pathsOf(options, loaded.size), loaded.bvh.nodes.size()});
 }
@@ -181,6 +182,7 @@ void settleVariants(Tracer& tracer, const LoadedScene& loaded, const GpuScene& p
     useLiterals(loaded, packed, options, feature);
     feature.reads = tracer.reads;
     feature.dispatch = chooseDispatch(options.device.dispatch, context, false);
+    feature.gpu = isForGpu(options.device.tune, context);
   }
   stats.variant = variantName(tracer.variant);
 }

@@ -44,9 +44,15 @@ struct Assembly {
   /// Of a file, or what is written from lists, or the scene as text.
   std::string textOf(const std::string& name, const std::string& includedFrom) const {
     const int vectors = variant.stackSize / 4;
+    const bool shared = variant.gpu && variant.dispatch == Dispatch::Compute;
+    const auto fileText = [&](const char* file) { return shaderText(source, file, includedFrom); };
     if (name == "read.glsl") return readsText(variant.reads);
-    if (name == "stack.glsl") return stackText(vectors);
-    if (name == "path_states.glsl") return pathStatesText(variant.waveUnit) + stackRowsText(vectors);
+    if (name == "frame.glsl")
+      return fileText(variant.gpu ? "tune/frame_uniform.glsl" : "tune/frame_variable.glsl");
+    if (name == "stack.glsl") return shared ? fileText("tune/stack_shared.glsl") : stackText(vectors);
+    if (name == "path_states.glsl")
+      return pathStatesText(variant.waveUnit) +
+             (shared ? fileText("tune/stack_shared_rows.glsl") : stackRowsText(vectors));
     if (name == "literals.glsl" && !variant.literals.empty()) return variant.literals;
     return shaderText(source, name, includedFrom);
   }
@@ -90,6 +96,7 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
   constant("kShadowCatcher", variant.shadowCatcher);
   constant("kLens", variant.lens);
   constant("kLightPaths", variant.lightPaths);
+  constant("kGpu", variant.gpu);
   text << "const int kPixelFilter = " << int(variant.pixelFilter) << ";\n";
   text << "const int kFeature = " << int(variant.feature) << ";\n";
   text << "const int kStackSize = " << variant.stackSize << ";\n";

@@ -40,6 +40,7 @@ std::string stackText(int vectors) {
   text += "Stack emptyStack() {\n  Stack s;\n";
   for (int i = 0; i < vectors; ++i) text += line(i, member(i) + " = ivec4(kTraversalDone)");
   text += "  return s;\n}\n";
+  text += "int topOf(Stack s) { return s.e0.x; }\n";
   text += "ivec4 pushed(ivec4 e, int top) { return ivec4(top, e.x, e.y, e.z); }\n";
   text += "ivec4 popped(ivec4 e, int next) { return ivec4(e.y, e.z, e.w, next); }\n";
   // Pushes value on top, pops the top (e0.x), or neither; never both. Two passes of single selects: nested

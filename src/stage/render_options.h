@@ -37,6 +37,9 @@ inline constexpr std::array<std::string_view, 4> kBufferReadsNames{"auto", "ssbo
 /// Which stage of the pipeline runs the tracer: one fragment or one compute invocation a pixel.
 enum class Dispatch : uint8_t { Auto, Fragment, Compute };
 inline constexpr std::array<std::string_view, 3> kDispatchNames{"auto", "fragment", "compute"};
+/// Which compilers the shaders' text suits (docs/design/gpu.md). Pictures are the same bits.
+enum class Tune : uint8_t { Auto, Software, Gpu };
+inline constexpr std::array<std::string_view, 3> kTuneNames{"auto", "software", "gpu"};
 /// Bits of the vectors that Mesa's software driver computes with, and so how many invocations run in
 /// lockstep: 8 or 16. Auto: as the driver has it, 256 today. Mesa 22.3 to 26.1 crash on some shaders with 512
 /// (docs/design/drivers.md).
@@ -184,6 +187,7 @@ struct DeviceOptions {
   Backend backend = Backend::Auto;
   BufferReads bufferReads = BufferReads::Auto;
   Dispatch dispatch = Dispatch::Auto;
+  Tune tune = Tune::Auto;
   VectorWidth vectorWidth = VectorWidth::Auto;
   Schedule schedule = Schedule::Auto;
   std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one

@@ -341,6 +341,7 @@ std::string variantName(const ShaderVariant& variant) {
   if (variant.lightPaths) append("light-paths");
   append(std::string(kBufferReadsNames[size_t(variant.reads)]) + "-reads");
   append(std::string(kDispatchNames[size_t(variant.dispatch)]));
+  if (variant.gpu) append("gpu");
   if (variant.wavefront) append("wavefront");
   return name;
 }

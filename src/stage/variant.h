@@ -31,6 +31,7 @@ struct ShaderVariant {
   bool shadowCatcher = false;
   bool lens = false;        ///< else a pinhole
   bool lightPaths = false;  ///< light paths are traced in place of camera paths (shaders/caustics/)
+  bool gpu = false;         ///< the text suits the compilers of GPUs, else that of llvmpipe
   bool wavefront = false;   ///< else the megakernel
   int waveUnit = -1;        ///< image unit through which it reads its states; -1: a storage buffer
   bool resumable =
@@ -41,7 +42,7 @@ struct ShaderVariant {
   auto key() const {
     return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, dispatch,
                       pixelFilter, feature, heatmap, uniformLights, lightCandidates, lightRecords, neighbours,
-                      clampIndirect, shadowCatcher, lens, lightPaths, wavefront, waveUnit, resumable,
+                      clampIndirect, shadowCatcher, lens, lightPaths, gpu, wavefront, waveUnit, resumable,
                       literals);
   }
   bool operator<(const ShaderVariant& other) const { return key() < other.key(); }

@@ -58,14 +58,17 @@ def fresh_debian(release):
 
 
 class Debian:
-    """A Debian of its own below a folder, with a user `painter`."""
+    """A Debian of its own below a folder, with a user `painter`; the one that is there already, or a fresh one."""
 
     def __init__(self, folder, release):
         self.root = Path(folder) / "root"
-        self.root.parent.mkdir(parents=True, exist_ok=True)
-        subprocess.run(["cp", "-a", "--reflink=auto", fresh_debian(release), self.root], check=True)
+        self.home = self.root / "home/painter"
         self.archives = KEPT / f"archives-{release}"
         (self.archives / "partial").mkdir(parents=True, exist_ok=True)
+        if self.root.exists():
+            return
+        self.root.parent.mkdir(parents=True, exist_ok=True)
+        subprocess.run(["cp", "-a", "--reflink=auto", fresh_debian(release), self.root], check=True)
         for name in ("resolv.conf", "hosts", CERTIFICATES):
             shutil.copy(Path("/etc") / name, self.root / "etc" / name)
         proxies = subprocess.run(["apt-config", "dump"], capture_output=True, text=True, check=True).stdout
@@ -73,7 +76,6 @@ class Debian:
         (self.root / "usr/sbin/policy-rc.d").write_text("#!/bin/sh\nexit 101\n")
         (self.root / "usr/sbin/policy-rc.d").chmod(0o755)
         self.run("apt-get update && useradd --create-home --shell /bin/bash painter")
-        self.home = self.root / "home/painter"
 
     def run(self, script, user="root", timeout=1800):
         """What bash makes of the script there, in the user's home folder. All its processes and mounts end with it."""

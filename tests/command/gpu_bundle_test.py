@@ -68,8 +68,8 @@ class GpuTable(Case):
         self.assertIn("FAILED: stopped at its limit of 2 s", rows["rays a second"][2])
         self.assertIn("FlightHelmet.gltf is not in the bundle", rows["FlightHelmet under lightroom_14b, compute"][2])
         self.assertIn("FAILED: its figures cannot be read: TypeError", rows["room with the ball, compute"][2])
-        self.assertIn("9 rows failed or are wrong", text.splitlines()[-1])
-        self.assertEqual(len((self.out / "figures.jsonl").read_text().splitlines()), 5)
+        self.assertIn("14 rows failed or are wrong", text.splitlines()[-1])
+        self.assertEqual(len((self.out / "figures.jsonl").read_text().splitlines()), 9)
 
     def test_an_interrupted_run_keeps_its_table(self):
         process = self.begin("--only", "mesh,rays")
@@ -83,7 +83,7 @@ class GpuTable(Case):
         process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130)
         self.assertLess(time.monotonic() - began, 10)
-        self.assertEqual(len(self.rows()), 2)
+        self.assertEqual(len(self.rows()), 4)
         self.assertIn("INTERRUPTED", (self.out / "table.md").read_text())
         with self.assertRaises(ProcessLookupError):
             os.kill(int((self.bundle / "process").read_text()), 0)

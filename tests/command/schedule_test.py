@@ -26,11 +26,19 @@ MORE_PICTURES = {
 }
 
 
+# The ways to draw, and what only some scenes and stages have: passes beside the picture, stages before gi, suspended paths, the catcher.
+ENTRIES = (["--dispatch", "fragment"], ["--dispatch", "compute", "--schedule", "megakernel"], ["--schedule", "wavefront"])
+TUNED = (("room-ball", []), ("cornell-box", ["--traversal", "literals"]), ("thin-glass", SKY), ("coverage", []), ("lobes", SKY))
+TUNED_BY_FRAGMENTS = (("plastics", ["--stage", "refraction", *SKY]), ("many-lights", ["--light-reuse", "spatial"]), ("caustics", []), ("many-lights", ["--stage", "shadows"]),
+                      ("coverage", ["--shadow-catcher", "bottom"]), ("sphere-textured", ["--debug-view", "texcoords"]), ("room-ball", ["--denoise", "variance"]))
+
+
 class BothSchedules(Case):
     def drawn(self, scene, schedule, *options):
         """What the file holds, and the statistics."""
         path, stats = self.folder / "x.pfm", self.folder / "s.json"
-        self.renders(SCENES / (scene + ".gltf"), "-o", path, "--quiet", "--schedule", schedule, "--stats", stats, *options)
+        asked = [] if "--schedule" in options else ["--schedule", schedule]
+        self.renders(SCENES / (scene + ".gltf"), "-o", path, "--quiet", *asked, "--stats", stats, *options)
         return path.read_bytes(), json.loads(stats.read_text())
 
     def same(self, scene, *options):
@@ -98,6 +106,31 @@ class MoreSchedules(BothSchedules):
     def test_the_same_bits(self):
         for scene, options in MORE_PICTURES.items():
             self.same(scene, *options, "--resolution", "37,70", "--spp", 3)
+
+
+class Tunes(BothSchedules):
+    """The text for GPUs draws the same bits as that for software."""
+    def same_tuned(self, scene, *options):
+        small = ["--resolution", "37,30", "--spp", 3, *options]
+        (picture, stats), (other, tuned) = (self.drawn(scene, "auto", *small, "--tune", tune) for tune in ("software", "gpu"))
+        self.assertNotIn("+gpu", stats["variant"])
+        self.assertIn("+gpu", tuned["variant"])
+        for name in ("rays", "budget_hits", "nonfinite_pixels", "cut_share"):
+            self.assertEqual(stats.get(name), tuned.get(name), f"{scene}: {name}")
+        self.assertEqual(picture, other, (scene, options))
+
+    def test_by_each_entry(self):
+        for scene, options in TUNED:
+            for entry in ENTRIES:
+                self.same_tuned(scene, *options, *entry)
+
+    def test_what_else_is_drawn(self):
+        for scene, options in TUNED_BY_FRAGMENTS:
+            self.same_tuned(scene, *options)
+
+    def test_stacks_of_paths_that_are_suspended(self):
+        write_field(self.folder, "field", 64, 500)
+        self.same_tuned(str(self.folder / "field"), *SKY, "--instancing", "share", "--dispatch", "compute")
 
 
 if __name__ == "__main__":

@@ -63,7 +63,7 @@ ROWS = [
     F("catcher.endShadow", "kPi * weight", "1.02 * kPi * weight", "the hidden environment counts 2 % too much"),
     F("catcher.guideAtCatcher", "p.radiance = vec3(1.0)", "p.radiance = vec3(1.02)", "filters take the shadow catcher for 2 % brighter than white",
       "a filter divides by it and multiplies by it again"),
-    F("catcher.showShadow alpha", "p.alpha = luminance", "p.alpha = 1.02 * luminance", "the alpha of shadows is 2 % too large"),
+    F("catcher.coverageOf", "return luminance", "return 1.02 * luminance", "the alpha of shadows is 2 % too large"),
     F("catcher.showShadow", "p.throughput * (vec3(1.0)", "p.throughput * (vec3(1.02)", "the background behind the shadow catcher is 2 % too bright"),
     F("shade.shade flat", "p.throughput * base.rgb", "1.02 * p.throughput * base.rgb", "flat and unlit surfaces are 2 % too bright"),
     F("shade.shade absorption", "exp(-p.hitT", "exp(-1.02 * p.hitT", "glass absorbs along a way 2 % too long"),

@@ -4,6 +4,7 @@
 // already named.
 
 using uint = uint32_t;
+using glm::bitfieldReverse;
 using glm::ivec2;
 using glm::ivec3;
 using glm::ivec4;

@@ -16,7 +16,7 @@ TEST(ShaderStack, PushesAndPopsAsAVectorDoesAtEverySize) {
     glsl_float::Stack stack = glsl_float::emptyStack();
     std::vector<int> expected;
     for (int k = 0; k < 20000; ++k) {
-      ASSERT_EQ(stack.e0.x, expected.empty() ? layout::kTraversalDone : expected.back());
+      ASSERT_EQ(glsl_float::topOf(stack), expected.empty() ? layout::kTraversalDone : expected.back());
       // Mostly up, then mostly down, so that it fills and empties.
       const bool up = draw.integer(0, 9) < (k / 100 % 2 == 0 ? 7 : 3);
       const bool push = up && expected.size() < size;
@@ -30,10 +30,10 @@ TEST(ShaderStack, PushesAndPopsAsAVectorDoesAtEverySize) {
       stack = glsl_float::stepStack(stack, true, false, expected.back());
     }
     for (; !expected.empty(); expected.pop_back()) {
-      ASSERT_EQ(stack.e0.x, expected.back()) << "size " << size;
+      ASSERT_EQ(glsl_float::topOf(stack), expected.back()) << "size " << size;
       stack = glsl_float::stepStack(stack, false, true, 0);
     }
-    EXPECT_EQ(stack.e0.x, layout::kTraversalDone);
+    EXPECT_EQ(glsl_float::topOf(stack), layout::kTraversalDone);
   }
 }
 

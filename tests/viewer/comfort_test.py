@@ -44,7 +44,7 @@ class FirstPicture(Case):
                 "--seed", "7", "--bounces", "3", "--rr-depth", "2", "--clamp-indirect", "5", "--light-selection", "power",
                 "--light-reuse", "candidates", "--caustics", "off", "--hdri-rotation", "10", "--hdri-intensity", "0.5",
                 "--shadow-catcher", "-1.5", "--background-color", "0.5,0.25,1", "--default-light", "none", "--traversal", "bvh",
-                "--instancing", "share", "--buffer-reads", "ssbo", "--dispatch", "compute", "--vector-width", "256",
+                "--instancing", "share", "--buffer-reads", "ssbo", "--dispatch", "compute", "--tune", "gpu", "--vector-width", "256",
                 "--schedule", "megakernel", "--memory-limit", "1000000000", "--texture-limit", "512", "--missing-textures", "warn",
                 "--aov", "normal,samples", "--tree-level", "2", "--exposure", "1", "--tone-map", "aces", "--denoise", "variance",
                 "--f-stop", "2", "--focus-distance", "3", "--aperture-blades", "5"]

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// The uniform block for software drivers: once more as a variable. llvmpipe reads a uniform lane by lane, so each is
+// read once a draw.
+
+layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frameBlock; };
+Frame frame = Frame(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0),
+                    ivec4(0), ivec4(0), ivec4(0), ivec4(0), ivec4(0), vec4(0.0), vec4(0.0),
+                    vec4(0.0));
+
+/// Pixels of the draw, before fetchFrame().
+ivec4 tileOfDraw() { return frameBlock.tile; }
+
+/// Fetches the block. A film's flags are never 0xffffffff, but compilers do not know: they would put the block's reads
+/// back to where they are used, inside of loops.
+void fetchFrame(uint filmFlags) {
+  if (filmFlags != 0xffffffffu) frame = frameBlock;
+}

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The traversal stack for compute on GPUs, with the functions of stack_text.h: entries lie in shared memory, so that a
+// stack takes one register. Each lane has one, so of a lane's traversals one alone may be under way.
+
+const int kGroupLanes = 64;  // of all compute entries
+
+shared int stackEntries[kStackSize * kGroupLanes];  // a row of lanes an entry
+
+struct Stack {
+  int count;
+};
+
+int stackPlace(int entry) { return entry * kGroupLanes + int(gl_LocalInvocationIndex); }
+
+Stack emptyStack() { return Stack(0); }
+
+int topOf(Stack s) { return s.count > 0 ? stackEntries[stackPlace(s.count - 1)] : kTraversalDone; }
+
+Stack stepStack(Stack s, bool push, bool pop, int value) {
+  if (push) stackEntries[stackPlace(s.count)] = value;
+  return Stack(s.count + (push ? 1 : pop && s.count > 0 ? -1 : 0));
+}
