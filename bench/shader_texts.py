@@ -5,10 +5,12 @@ import re
 FILE_ENDINGS = {"vertex": "vert", "fragment": "frag", "compute": "comp"}  # by kind, as glslangValidator wants them
 
 
+def sections(file):
+    """Kind and text of each shader. Without the names of files in #line (GL_ARB_shading_language_include), which few compilers know."""
+    for kind, text in re.findall(r"^\[(\w+) shader\]\n(.*?)(?=^\[|\Z)", file.read_text(), re.MULTILINE | re.DOTALL):
+        yield kind, re.sub(r'^(#line \d+) ".*"$', r"\1", text, flags=re.MULTILINE).rstrip("\n") + "\n"
+
+
 def captured(folder):
-    """Kind and text of each. Without the names of files in #line (GL_ARB_shading_language_include), which glslangValidator does not know."""
-    texts = set()
-    for file in folder.iterdir():
-        for kind, text in re.findall(r"^\[(\w+) shader\]\n(.*?)(?=^\[|\Z)", file.read_text(), re.MULTILINE | re.DOTALL):
-            texts.add((kind, re.sub(r'^(#line \d+) ".*"$', r"\1", text, flags=re.MULTILINE).rstrip("\n") + "\n"))
-    return texts
+    """Sections of all files."""
+    return {section for file in folder.iterdir() for section in sections(file)}

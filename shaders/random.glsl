@@ -23,8 +23,8 @@ float randomFloat(uint key, uint dimension) {
   return float(bits >> 8) * 5.9604644775390625e-8f;
 }
 
-/// What the numbers of one path are drawn from: key of pixel and seed (kSobol), else the path's own key; and the
-/// sample's index with its bits reversed.
+/// The numbers of one path come from the key of pixel and seed (kSobol), else the path's own key, and the sample's
+/// index with its bits reversed.
 struct Sampler {
   uint key;
   uint reversed;

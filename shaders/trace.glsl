@@ -152,7 +152,7 @@ Path advance(Path p, int budget, TreeFrame tree) {
     if (kGpu && kWholeRays && dark) p = traceAnew(p, p.shadowLimit);
     p.traversal = traverse(dark ? p.shadowOrigin : p.origin, dark ? p.shadowDirection : p.direction,
                            dark ? p.shadowLimit : kFarAway, p.traversal, tree, budget, dark && !kPassing);
-    // Of a ray that is not done or dark, too: what the one before has hit then needs no registers.
+    // A ray that is dark or not done leaves its hit, too: that of the ray before then needs no registers.
     if (kWholeRays) p = withHit(p, p.traversal);
     if (!dark && p.traversal.node == kTraversalDone) {
       p.rays += 1;

@@ -6,7 +6,6 @@ Each file is one of MESA_SHADER_CAPTURE_PATH. A line of JSON a file, after one w
 import ctypes
 import json
 import os
-import re
 import sys
 import time
 from pathlib import Path
@@ -14,6 +13,7 @@ from pathlib import Path
 os.environ["PYOPENGL_PLATFORM"] = "egl"
 
 from OpenGL import EGL, GL  # noqa: E402
+from shader_texts import sections  # noqa: E402
 
 ATTRIBUTES = (EGL.EGL_CONTEXT_MAJOR_VERSION, 4, EGL.EGL_CONTEXT_MINOR_VERSION, 5, EGL.EGL_CONTEXT_OPENGL_DEBUG, EGL.EGL_TRUE, EGL.EGL_NONE)
 KINDS = {"vertex": GL.GL_VERTEX_SHADER, "fragment": GL.GL_FRAGMENT_SHADER, "compute": GL.GL_COMPUTE_SHADER}
@@ -39,9 +39,9 @@ def begin():
 def compiled(file):
     del MESSAGES[:]
     program, start = GL.glCreateProgram(), time.monotonic()
-    for kind, text in re.findall(r"^\[(\w+) shader\]\n(.*?)(?=^\[|\Z)", file.read_text(), re.MULTILINE | re.DOTALL):
+    for kind, text in sections(file):
         shader = GL.glCreateShader(KINDS[kind])
-        GL.glShaderSource(shader, re.sub(r'^(#line \d+) ".*"$', r"\1", text, flags=re.MULTILINE))  # drivers need not know names of files
+        GL.glShaderSource(shader, text)
         GL.glCompileShader(shader)
         MESSAGES.append(GL.glGetShaderInfoLog(shader) or "")
         GL.glAttachShader(program, shader)

@@ -71,7 +71,8 @@ def compile_texts(system, device, files, timeout=1800):
     folder = system.root / "root/texts"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
-    for file in (*files, Path(__file__).with_name("compile_texts.py")):
+    here = Path(__file__).parent
+    for file in (*files, here / "compile_texts.py", here.parent / "shader_texts.py"):
         shutil.copy(file, folder)
     variables = " ".join(f"{name}={value}" for name, value in {**COMPILING, **environment, "LD_PRELOAD": SHIMS[kind]}.items())
     done = system.run(f"cd texts && env {variables} python3 compile_texts.py {' '.join(file.name for file in files)}", timeout=timeout)

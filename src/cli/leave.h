@@ -3,8 +3,8 @@
 
 namespace fragtrace {
 
-/// Whether standard output was closed before the program began. A line about a file that was written is of no
-/// use there; a result is an error (checkPrinted).
+/// Returns true if standard output was closed before the program began. A line about a file that was written
+/// is of no use there; a result is an error (checkPrinted).
 bool standardOutputIsClosed();
 
 /// Throws RenderError where standard output could not take all that was printed.

@@ -12,7 +12,8 @@ namespace fragtrace {
 /// there has not been measured (docs/design/gpu.md).
 Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals);
 
-/// Whether shaders get the text for compilers of GPUs: where registers are few and reads of uniforms cheap.
+/// Returns true if shaders get the text for compilers of GPUs: where registers are few and reads of uniforms
+/// cheap.
 bool isForGpu(Tune wanted, const Context& context);
 
 /// Tells Mesa's software driver the width, for all contexts of the process; has to come before the first.

@@ -7,7 +7,7 @@ namespace fragtrace {
 
 namespace {
 
-/// Whether it compiles is asked where a program does not link: drivers that compile in threads of their own
+/// Its success is asked where a program does not link: drivers that compile in threads of their own
 /// would have to wait for it.
 GlShader compileShader(GLenum kind, const std::string& text) {
   GlShader shader(glCreateShader(kind));
