@@ -9,7 +9,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
 #include <fstream>
 #include <functional>
@@ -76,6 +75,34 @@ struct EndedProcess {
 
 double millisecondsOf(const timeval& time) { return 1e3 * double(time.tv_sec) + 1e-3 * double(time.tv_usec); }
 
+/// While it lives, signals that interrupt and the end of a child come only in wait(), so none is missed
+/// between a look at what they change and the wait.
+class SignalWait {
+ public:
+  SignalWait() {
+    struct sigaction action {};
+    action.sa_handler = [](int) {};
+    sigaction(SIGCHLD, &action, &handlerBefore_);
+    sigset_t blocked;
+    sigemptyset(&blocked);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) sigaddset(&blocked, signal);
+    sigprocmask(SIG_BLOCK, &blocked, &before_);
+  }
+  ~SignalWait() {
+    sigprocmask(SIG_SETMASK, &before_, nullptr);
+    sigaction(SIGCHLD, &handlerBefore_, nullptr);
+  }
+  SignalWait(const SignalWait&) = delete;
+  SignalWait& operator=(const SignalWait&) = delete;
+
+  const sigset_t& before() const { return before_; }
+  void wait() const { ::sigsuspend(&before_); }
+
+ private:
+  sigset_t before_{};
+  struct sigaction handlerBefore_ {};
+};
+
 /// The renderer with these words, which ends when this process is interrupted. What it prints is dropped,
 /// what it says on stderr is not.
 EndedProcess startAndAwait(std::vector<std::string> words) {
@@ -91,7 +118,9 @@ EndedProcess startAndAwait(std::vector<std::string> words) {
   // Signals of the terminal reach it by us alone.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  const SignalWait signals;
+  posix_spawnattr_setsigmask(&attributes, &signals.before());
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
   pid_t process = -1;
   EndedProcess ended;
   ended.begin = steadyMilliseconds();
@@ -102,10 +131,9 @@ EndedProcess startAndAwait(std::vector<std::string> words) {
   if (error != 0) throw RenderError("fragtrace cannot be started: " + std::generic_category().message(error));
   int status = 0;
   rusage used{};
-  while (::wait4(process, &status, 0, &used) < 0) {
-    if (errno != EINTR)
-      throw RenderError("a start cannot be waited for: " + std::generic_category().message(errno));
+  while (::wait4(process, &status, WNOHANG, &used) == 0) {
     if (interrupts() > 0) ::kill(process, SIGKILL);
+    signals.wait();
   }
   ended.end = steadyMilliseconds();
   ended.cpuMs = millisecondsOf(used.ru_utime) + millisecondsOf(used.ru_stime);
