@@ -157,6 +157,7 @@ std::vector<Ball> casterBalls(const Scene& scene, size_t most) {
     }
   }
   std::vector<Ball> balls;
+  balls.reserve(groups.size());
   for (const Group& group : groups) balls.push_back(group.around);
   return balls;
 }

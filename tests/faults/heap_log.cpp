@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+// The name is the sanitizers'. NOLINTNEXTLINE(bugprone-reserved-identifier)
 extern "C" __attribute__((weak)) size_t __sanitizer_get_current_allocated_bytes();
 
 namespace {
