@@ -9,4 +9,4 @@ target_link_libraries(fragtrace_instruments PUBLIC fragtrace_gl PRIVATE nlohmann
 
 file(GLOB bench_sources CONFIGURE_DEPENDS bench/command/*.cpp)
 add_executable(fragtrace-bench ${bench_sources})
-target_link_libraries(fragtrace-bench PRIVATE fragtrace_instruments fragtrace_program nlohmann_json::nlohmann_json)
+target_link_libraries(fragtrace-bench PRIVATE fragtrace_instruments fragtrace_live fragtrace_program nlohmann_json::nlohmann_json)

@@ -26,13 +26,20 @@ RenderOptions ViewTracer::withFilter(RenderOptions options) {
   return options;
 }
 
+void ViewTracer::turn(Side& side) const {
+  if (start_.keepsPast)
+    side.memory.turn();
+  else
+    side.memory = {};
+}
+
 void ViewTracer::adoptSide(Side& side, const RenderOptions& asked) {
   const RenderOptions options = withFilter(asked);
   const bool same = side.program && drawsTheSame(side.options, options);
   const bool otherLook = side.options.output.treeLevel != options.output.treeLevel ||
                          side.options.output.denoise != options.output.denoise;
   if (differInCameraAlone(side.options, options))
-    side.memory.turn();
+    turn(side);
   else if (!same)
     side.memory = {};
   side.options = options;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "errors.h"
 #include "live/pick_text.h"
@@ -57,6 +58,7 @@ ViewTracer::ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn
       loader_(exchange, !start.reference.empty()),
       thumbnails_(exchange),
       oidn_(std::move(oidn)) {
+  resolution_.targetMs = start.movingMs > 0.0 ? start.movingMs : std::numeric_limits<double>::infinity();
   passOnWhatIsSaid([&exchange](const std::string& text) { exchange.tell(text); });
 }
 
@@ -267,7 +269,7 @@ void ViewTracer::fitFilm(Side& side) {
   const glm::ivec2 size = sizeAtStep(request_.size, resolution_.step);
   const bool fits = side.film && side.film->size() == size;
   if (fits && !side.stale) return;
-  if (!fits) side.memory.turn();
+  if (!fits) turn(side);
   side.shown = {};
   side.shownAt = 0;
   if (fits)

@@ -79,6 +79,8 @@ class ViewTracer {
   RenderOptions withFilter(RenderOptions options);
   void adoptSide(Side& side, const RenderOptions& options);
   void preview(Side& side);
+  /// Its camera or resolution is another one.
+  void turn(Side& side) const;
   View viewOf(const RenderOptions& options);
   std::shared_ptr<ViewProgram> programFor(const RenderOptions& options);
   /// A film of the size that is drawn at now; empty, if it was of another.

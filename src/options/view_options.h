@@ -10,6 +10,9 @@ struct ViewOptions {
   bool watch = false;    ///< reload when the scene's files or the shaders change
   std::filesystem::path statusFile;
   std::filesystem::path reference;  ///< a picture that is shown as side B; empty: none
+  // Of measurements alone.
+  double movingMs = 100.0;  ///< that a picture in motion may take; 0: it has full resolution
+  bool keepsPast = true;    ///< what the camera saw before is taken over
 };
 
 struct RawView {

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "bench/command/motion_run.h"
+
+#include <pthread.h>
+
+#include <cmath>
+#include <ctime>
+#include <deque>
+#include <fstream>
+#include <numbers>
+#include <thread>
+
+#include "errors.h"
+#include "live/view_tracer.h"
+#include "options/camera_text.h"
+#include "picture/denoising.h"
+#include "process/thread_name.h"
+#include "session/phase_timer.h"
+#include "view/view_state.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr double kDolly = 0.5;  // of the distance
+
+/// The tracing thread for as long as it lives.
+class TracingThread {
+ public:
+  TracingThread(ViewOptions options, Exchange& exchange)
+      : exchange_(exchange),
+        oidn_(openDenoiser(options.render)),
+        tracer_(options, std::move(oidn_), exchange),
+        thread_([this] {
+          nameThread("trace");
+          tracer_.run();
+        }) {}
+  ~TracingThread() {
+    exchange_.quit();
+    thread_.join();
+  }
+  TracingThread(const TracingThread&) = delete;
+  TracingThread& operator=(const TracingThread&) = delete;
+
+  double cpuMs() {
+    clockid_t clock{};
+    timespec time{};
+    if (::pthread_getcpuclockid(thread_.native_handle(), &clock) != 0 || ::clock_gettime(clock, &time) != 0)
+      return 0.0;
+    return 1e3 * double(time.tv_sec) + 1e-6 * double(time.tv_nsec);
+  }
+
+ private:
+  Exchange& exchange_;
+  std::optional<OidnLibrary> oidn_;  ///< until the tracer has it
+  ViewTracer tracer_;
+  std::thread thread_;
+};
+
+/// A wish that no picture has answered yet.
+struct Wish {
+  uint64_t number;
+  double at;  ///< steadyMilliseconds()
+  RenderOptions options;
+};
+
+CameraPose between(const CameraPose& a, const CameraPose& b, double part) {
+  CameraPose pose = a;
+  pose.position = glm::mix(a.position, b.position, part);
+  pose.focalPoint = glm::mix(a.focalPoint, b.focalPoint, part);
+  pose.viewUp = glm::normalize(glm::mix(a.viewUp, b.viewUp, part));
+  pose.viewAngleDegrees = std::lerp(a.viewAngleDegrees, b.viewAngleDegrees, part);
+  pose.halfHeight = std::lerp(a.halfHeight, b.halfHeight, part);
+  return pose;
+}
+
+CameraPath pathThrough(const std::filesystem::path& file, double period, const RenderOptions& options) {
+  std::ifstream lines(file);
+  if (!lines) throw InputError(file.string() + ": cannot be read");
+  std::vector<CameraOverrides> places;
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.empty()) continue;
+    try {
+      places.push_back(withCameraText(options, line).camera.overrides);
+    } catch (const UsageError& error) {
+      throw InputError(file.string() + ":" + std::to_string(number) + ": " + error.what());
+    }
+  }
+  if (places.size() < 2) throw InputError(file.string() + ": has fewer than two places of the camera");
+  return [places, period](const CameraPose& start, double seconds) {
+    const auto poseAt = [&](size_t i) {
+      const CameraOverrides& o = places[i % places.size()];
+      CameraPose pose = start;
+      pose.position = o.position.value_or(start.position);
+      pose.focalPoint = o.focalPoint.value_or(start.focalPoint);
+      pose.viewUp = o.viewUp.value_or(start.viewUp);
+      pose.viewAngleDegrees = o.viewAngleDegrees.value_or(start.viewAngleDegrees);
+      pose.halfHeight = o.parallelScale.value_or(start.halfHeight);
+      return pose;
+    };
+    const double at = seconds / period * double(places.size());
+    const auto from = size_t(at);
+    return between(poseAt(from), poseAt(from + 1), at - double(from));
+  };
+}
+
+ViewedScene awaitScene(Exchange& exchange) {
+  for (;;) {
+    Delivery news = exchange.take();
+    if (news.failure) std::rethrow_exception(news.failure);
+    if (news.scene) return std::move(*news.scene);
+    if (!news.error.empty()) throw InputError(news.error);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+}  // namespace
+
+CameraPath cameraPath(const std::string& name, double period, const RenderOptions& options) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  if (name == "orbit")
+    return [period](const CameraPose& start, double s) { return orbit(start, kTurn * s / period, 0.0); };
+  if (name == "dolly") {
+    return [period](const CameraPose& start, double s) {
+      const double part = kDolly * 0.5 * (1.0 - std::cos(kTurn * s / period));
+      return zoom(start, -std::log(1.0 - part));
+    };
+  }
+  return pathThrough(name, period, options);
+}
+
+MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double fraction)>& goOn) {
+  Exchange exchange;
+  TracingThread thread(plan.view, exchange);
+  exchange.load(plan.view.render);
+  ViewState state;
+  state.sides[0] = plan.view.render;
+  showScene(state, awaitScene(exchange));
+  state.size = plan.size;
+  state.posed = true;
+  const CameraPose start = state.pose;
+
+  MotionFigures figures;
+  std::deque<Wish> wishes;
+  const int all = plan.warmUp + plan.pictures;
+  int seen = 0;
+  const double begin = steadyMilliseconds();
+  double next = begin;
+  double counted = 0.0;  // since when
+  double cpuBefore = 0.0;
+  double last = 0.0;
+  RenderOptions answered;  // by the latest picture
+  while (seen < all && goOn(double(seen) / all)) {
+    const double now = steadyMilliseconds();
+    if (now >= next) {
+      state.pose = plan.path(start, 1e-3 * (now - begin));
+      wishes.push_back({exchange.ask(tracedSides(state), plan.size, true), now, renderOptionsOf(state, 0)});
+      next = std::max(next + plan.intervalMs, now);
+    }
+    Delivery news = exchange.take();
+    if (news.failure) std::rethrow_exception(news.failure);
+    if (!news.error.empty()) throw RenderError(news.error);
+    for (TracedPicture& picture : news.pictures) {
+      const double at = steadyMilliseconds();
+      ++seen;
+      if (seen == plan.warmUp) {
+        counted = at;
+        cpuBefore = thread.cpuMs();
+      }
+      const bool counts = seen > plan.warmUp;
+      while (!wishes.empty() && wishes.front().number <= picture.request) {
+        if (counts) figures.latencyMs.push_back(at - wishes.front().at);
+        answered = std::move(wishes.front().options);
+        wishes.pop_front();
+      }
+      if (counts) {
+        ++figures.pictures;
+        figures.pixels += double(picture.image.width) * picture.image.height;
+        figures.gapMs.push_back(at - last);
+        figures.seconds = 1e-3 * (at - counted);
+        figures.cpuMs = thread.cpuMs() - cpuBefore;
+        const auto due = size_t(figures.pictures) * size_t(plan.compared) / size_t(plan.pictures);
+        if (figures.kept.size() < due) figures.kept.push_back({std::move(picture.image), answered});
+      }
+      last = at;
+    }
+    if (news.pictures.empty()) std::this_thread::sleep_for(std::chrono::microseconds(500));
+  }
+  return figures;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The viewer's tracing thread driven without a window along a camera path, and what its pictures cost.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "options/view_options.h"
+#include "view/camera_controller.h"
+
+namespace fragtrace {
+
+/// Where the camera is at a time in seconds, from where the scene's own camera is.
+using CameraPath = std::function<CameraPose(const CameraPose& start, double seconds)>;
+
+/// "orbit": a turn about the focal point in `period` seconds; "dolly": towards it by half of the distance and
+/// back; else a file of camera options, as the viewer copies these, a line a place: through all of them and
+/// back to the first. Throws UsageError, InputError.
+CameraPath cameraPath(const std::string& name, double period, const RenderOptions& options);
+
+struct MotionPlan {
+  ViewOptions view;
+  glm::ivec2 size{1280, 720};
+  CameraPath path;
+  double intervalMs = 1000.0 / 60;  ///< from one move of the camera to the next
+  int warmUp = 20;                  ///< pictures that do not count
+  int pictures = 100;
+  int compared = 0;  ///< of these, evenly spread, are kept
+};
+
+/// A picture, and the options that `render` draws it with.
+struct KeptPicture {
+  Image image;
+  RenderOptions options;
+};
+
+/// Over the pictures that count.
+struct MotionFigures {
+  double seconds = 0.0;  ///< that they took
+  int pictures = 0;
+  double pixels = 0.0;              ///< of them all
+  double cpuMs = 0.0;               ///< of the tracing thread
+  std::vector<double> latencyMs{};  ///< from a move of the camera to the first picture that answers it
+  std::vector<double> gapMs{};      ///< from picture to picture
+  std::vector<KeptPicture> kept{};
+};
+
+/// False from goOn(fraction) ends it. Throws what the tracing thread failed with.
+MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double fraction)>& goOn);
+
+}  // namespace fragtrace
