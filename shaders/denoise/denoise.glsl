@@ -1,19 +1,29 @@
 // SPDX-License-Identifier: MIT
 // What the passes of the variance filter share (src/render/denoise.h). Pictures are textures of one texel a pixel;
 // light is divided by the albedo, so that textures stay sharp, and is in units of the picture's mean.
-#include "layout.glsl"
-#include "luminance.glsl"
+#include "picture/picture.glsl"
 
 const float kDarkSquared = 0.01;   // of light: what relative differences are relative to at least, squared
+const float kBrightest = 1e12;     // of light
 const int kWindow = 2;             // pixels each way, of the passes that look at noise
 
-layout(location = 0) uniform ivec2 size;
+// The steps of summary.frag, and what they sum: light, pixels that have any, samples; logarithms of light; variance
+// that was observed, and that of independent samples.
+const int kMeans = 0;
+const int kLogarithms = 1;
+const int kShares = 2;
 
-bool inside(ivec2 pixel) { return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, size)); }
+/// A lamp that is a thousand times as bright as all else hardly counts in a geometric mean; nor does what is darker
+/// than a thousandth of the arithmetic one.
+float leastLight(vec4 means) { return 1e-3 * means.x / max(means.y, 1.0); }
 
-/// What a pixel's light is divided by; albedo and coverage are means over its samples.
-vec3 demodulation(vec4 albedo) {
-  return albedo.a > 0.0 ? mix(max(albedo.rgb, vec3(0.0)), vec3(1.0), kAlbedoFloor) : vec3(1.0);
+/// 1 / typical luminance of what has an albedo; 1 where all is black.
+float scaleOf(vec4 means, vec4 logarithms) { return means.x > 0.0 ? exp(-logarithms.x / means.y) : 1.0; }
+
+/// In units of the mean, so that squares neither overflow nor vanish.
+vec3 scaledLight(vec3 light, float scale) { return clamp(light * scale, 0.0, kBrightest); }
+float scaledVariance(float variance, float scale) {
+  return clamp(variance * scale * scale, 0.0, kBrightest * kBrightest);
 }
 
 /// What tells surfaces apart: of the part of the samples that hit something.

@@ -9,9 +9,17 @@ layout(binding = 2) uniform sampler2D moved;
 layout(binding = 3) uniform usampler2D guides;
 layout(binding = 4) uniform sampler2D albedos;
 
-layout(location = 1) uniform float trust;  // in the filter: its distance may be so many times the noise
+layout(binding = 5) uniform sampler2D means;     // of summary.frag
+layout(binding = 6) uniform sampler2D logarithms;
 
 layout(location = 0) out vec4 denoised;
+
+/// How many times the noise the filter may move a window's light. Distances scatter about their noise, and a share
+/// below 1 gives noise back; with many samples that matters less than what the filter takes for noise.
+float trustAt(float samples) {
+  const float few = 16.0;
+  return 1.0 + 0.5 * min(1.0, few / max(samples, 1.0));
+}
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -27,7 +35,10 @@ void main() {
       sum += weight * texelFetch(moved, other, 0).xy;
     }
   }
+  vec4 mean = texelFetch(means, ivec2(0), 0);
+  float trust = trustAt(mean.z / (float(size.x) * float(size.y)));
   float share = sum.x > trust * sum.y ? trust * sum.y / sum.x : 1.0;
   vec3 light = mix(texelFetch(lights, pixel, 0).rgb, texelFetch(filtered, pixel, 0).rgb, share);
-  denoised = vec4(light * demodulation(texelFetch(albedos, pixel, 0)), 1.0);
+  float scale = scaleOf(mean, texelFetch(logarithms, ivec2(0), 0));
+  denoised = vec4(light * demodulation(texelFetch(albedos, pixel, 0)) / scale, 1.0);
 }

@@ -7,8 +7,8 @@
 layout(binding = 0) uniform sampler2D lights;     // as prepare.frag leaves these
 layout(binding = 1) uniform sampler2D observed;
 layout(binding = 2) uniform usampler2D guides;
-// observed / independent variance of the whole picture; negative: nothing was observed
-layout(location = 1) uniform float share;
+layout(binding = 3) uniform sampler2D shares;     // of summary.frag
+layout(location = 1) uniform bool wasObserved;
 
 layout(location = 0) out vec4 light;   // with the variance that the filter goes by
 layout(location = 1) out float noise;  // the variance that the pixel's own samples tell
@@ -56,7 +56,10 @@ void main() {
     return;
   }
   float left = 1.0;
-  if (share >= 0.0 && independent > 0.0) {
+  vec4 whole = texelFetch(shares, ivec2(0), 0);
+  if (wasObserved && whole.y > 0.0 && independent > 0.0) {
+    // Observed / independent variance of the whole picture.
+    float share = min(whole.x / whole.y, 1.0);
     float prior = kPrior * independentSquares / independent;
     left = min((observations + prior * share) / (independent + prior), 1.0);
   }

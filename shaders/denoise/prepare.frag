@@ -2,14 +2,15 @@
 // The first pass of the variance filter: light without albedo, its variance, and what tells surfaces apart.
 #include "denoise/denoise.glsl"
 
-// radiance; variance of its luminance from independent samples, -1: not known
-layout(binding = 0) uniform sampler2D noisy;
+layout(binding = 0) uniform sampler2D noisy;    // radiance; variance of its luminance from independent samples
 layout(binding = 1) uniform sampler2D albedos;  // albedo, coverage
 layout(binding = 2) uniform sampler2D normals;  // normal, depth; means that count misses as 0, as albedo does
-// one observation of the variance (observedVariance() of src/film/noise.h)
-layout(binding = 3) uniform sampler2D seen;
+// samples; one observation of the variance (observedVariance() of src/film/noise.h), negative: none
+layout(binding = 3) uniform sampler2D counts;
+layout(binding = 4) uniform sampler2D means;    // of summary.frag
+layout(binding = 5) uniform sampler2D logarithms;
 
-layout(location = 0) out vec4 light;      // without albedo; variance of its luminance
+layout(location = 0) out vec4 light;      // without albedo; variance of its luminance, -1: not known
 layout(location = 1) out float observed;  // of it
 layout(location = 2) out uvec4 guide;
 
@@ -33,8 +34,11 @@ void main() {
   vec4 normal = texelFetch(normals, pixel, 0);
   vec3 divisor = demodulation(albedo);
   float part = luminance(divisor);
-  light = vec4(radiance.rgb / divisor, radiance.a >= 0.0 ? radiance.a / (part * part) : -1.0);
-  observed = texelFetch(seen, pixel, 0).r / (part * part);
+  float scale = scaleOf(texelFetch(means, ivec2(0), 0), texelFetch(logarithms, ivec2(0), 0));
+  vec2 count = texelFetch(counts, pixel, 0).xy;
+  light = vec4(scaledLight(radiance.rgb, scale) / divisor,
+               count.x > 1.0 ? scaledVariance(radiance.a, scale) / (part * part) : -1.0);
+  observed = scaledVariance(count.y, scale) / (part * part);
   float coverage = max(albedo.a, 1e-6);
   float depth = logDepth(pixel);
   guide = packedGuide(Guide(vec4(albedo.rgb / coverage, albedo.a), normal.xyz / coverage, depth,

@@ -24,6 +24,7 @@ constexpr int kFewestForOidn = 4;
 /// Below this many samples the variance of a pixel tells little of its error.
 constexpr int kLeastForError = 32;
 constexpr double kErrorStep = 1.2;  ///< from one estimate of the error to the next, in samples
+constexpr double kCountMs = 200.0;  ///< from one look at the film's counts to the next
 
 double sinceMs(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -40,8 +41,9 @@ Image colorsOf(const Image& image) {
 
 }  // namespace
 
-void ViewTracer::estimate(Side& side, const FilmPixels& pixels) {
+void ViewTracer::estimate(Side& side) {
   if (side.samples < kLeastForError || side.samples < kErrorStep * side.errorAt) return;
+  const FilmPixels pixels = side.film->read();
   const std::vector<double> errors = relativeErrors(pixels, independentVariance(pixels));
   side.error = distanceTo(side.options.sampling.noise, pixels, errors).error;
   side.errorAt = side.samples;
@@ -55,44 +57,57 @@ bool ViewTracer::denoisesByOidn(const Side& side) const {
          side.samples >= kFewestForOidn;
 }
 
-std::optional<Image> ViewTracer::shownOf(Side& side, const FilmPixels& pixels,
-                                         const std::function<bool()>& goOn) {
-  const bool alpha = !side.options.light.background;
-  if (!denoises(side)) return shownPicture(side.options, pixels, {alpha});
+bool ViewTracer::show(Side& side, const std::function<bool()>& goOn) {
+  if (showsColors(side.options)) {
+    const Image picture = shownPicture(side.options, side.film->read(), {!side.options.light.background});
+    maker_->show(side.options.output.debugView == DebugView::Visits ? colorsOf(picture) : picture,
+                 side.memory);
+    return true;
+  }
   const auto start = Clock::now();
-  const Image drawn = shownPicture(side.options, pixels, {true, true, true});
-  std::optional<Image> shown;
+  Tracer& tracer = side.program->tracer;
+  const bool filtered = denoises(side);
+  bool complete = false;
   try {
-    shown = denoiser_->shown(drawn, side.samples, side.options, denoisesByOidn(side), side.program->tracer,
-                             side.view, side.memory, goOn);
+    complete = maker_->show(*side.film, {filtered, denoisesByOidn(side), side.samples}, side.options, tracer,
+                            side.view, side.memory, goOn);
   } catch (const ContextLost&) {
     throw;
   } catch (const RenderError& error) {
-    side.program->tracer.renderer->use(side.program->tracer.variant);  // it may have been at a layer
+    if (!filtered) throw;
+    tracer.renderer->use(tracer.variant);  // it may have been at a layer
     exchange_.tellError(error.what());
-    shown = onlyChannels(drawn, {"R", "G", "B", "A"});
+    complete = maker_->show(*side.film, {}, side.options, tracer, side.view, side.memory, goOn);
   }
-  if (!denoisesByOidn(side)) filterMsPerPixel_ = sinceMs(start) / double(pixels.pixels.size());
+  if (!filtered) return complete;
   side.filterMs = sinceMs(start);
-  if (shown && !alpha) *shown = withoutAlpha(*shown);
-  if (shown) side.shown = *shown;
-  return shown;
+  if (!denoisesByOidn(side))
+    filterMsPerPixel_ = side.filterMs / (double(side.film->size().x) * side.film->size().y);
+  return complete;
+}
+
+void ViewTracer::count(Side& side) {
+  if (sinceMs(counted_) < kCountMs && !resting(side)) return;
+  counted_ = Clock::now();
+  const glm::vec3 totals = maker_->count(*side.film);
+  if (side.times.renderMs > 0.0) side.megaRaysPerSecond = double(totals.y) / side.times.renderMs / 1000.0;
+  if (totals.z > 0.0f)
+    exchange_.tellError("the driver ended loops early in " + std::to_string(int64_t(totals.z)) +
+                        " pixels; the picture is wrong");
 }
 
 void ViewTracer::publish(Side& side) {
   const auto start = Clock::now();
-  const FilmPixels pixels = side.film->read();
-  estimate(side, pixels);
-  const FilmTotals totals = totalsOf(pixels);
+  if (!show(side, [this] { return request_.moving ? !exchange_.ending() : !exchange_.interrupted(); }))
+    return;
+  estimate(side);
+  count(side);
+  side.shownAt = side.samples;
+  const glm::ivec2 size = side.film->size();
   TracedPicture picture;
   picture.side = size_t(&side - sides_.data());
   picture.request = request_.number;
-  std::optional<Image> shown = shownOf(
-      side, pixels, [this] { return request_.moving ? !exchange_.ending() : !exchange_.interrupted(); });
-  if (!shown) return;
-  side.shownAt = side.samples;
-  picture.image = std::move(*shown);
-  if (side.options.output.debugView == DebugView::Visits) picture.image = colorsOf(picture.image);
+  picture.image = PictureMaker::shown(side.memory);
   picture.asItIs = showsColors(side.options);
   picture.lines = linesOver(side);
   SideStatistics& s = picture.statistics;
@@ -102,31 +117,28 @@ void ViewTracer::publish(Side& side) {
   const Summary frames = summarize(side.times.frameMs);
   s.frameMs = frames.median;
   s.frameP95Ms = frames.p95;
-  if (side.times.renderMs > 0.0) {
-    s.megaRaysPerSecond = double(totals.rays) / side.times.renderMs / 1000.0;
-    s.megaPathsPerSecond = double(totals.samples) / side.times.renderMs / 1000.0;
-  }
+  s.megaRaysPerSecond = side.megaRaysPerSecond;
+  if (side.times.renderMs > 0.0)
+    s.megaPathsPerSecond = double(side.samples) * size.x * size.y / side.times.renderMs / 1000.0;
   if (denoises(side)) {
     s.filtered = filteredShare(side.samples);
     s.filterMs = side.filterMs;
   }
   s.resting = !request_.moving && resolution_.step == 0 && resting(side);
   s.variant = side.program->variant;
-  s.deviceBytes = side.program->bytes + pixels.pixels.size() * 48;
+  s.deviceBytes = side.program->bytes + size_t(size.x) * size_t(size.y) * 48;
   exchange_.deliver(std::move(picture));
   losses_ = 0;
-  if (totals.budgetHits > 0)
-    exchange_.tellError("the driver ended loops early in " + std::to_string(totals.budgetHits) +
-                        " pixels; the picture is wrong");
   published_ = Clock::now();
   publishMs_ = sinceMs(start);
 }
 
 /// As the window shows it.
 Image ViewTracer::seenOf(Side& side) {
-  const FilmPixels pixels = side.film->read();
-  const bool seen = denoises(side) && side.shown.width == pixels.size.x && side.shown.height == pixels.size.y;
-  return seen ? side.shown : *shownOf(side, pixels, [] { return true; });
+  const bool seen = denoises(side) && side.shownAt > 0 && side.memory.shownSize == side.film->size();
+  if (!seen) show(side, [] { return true; });
+  Image picture = PictureMaker::shown(side.memory);
+  return side.options.light.background ? onlyChannels(picture, {"R", "G", "B"}) : picture;
 }
 
 void ViewTracer::saveBoth(const SaveRequest& request) {

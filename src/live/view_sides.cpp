@@ -30,7 +30,7 @@ void ViewTracer::turn(Side& side) const {
   if (start_.keepsPast)
     side.memory.turn();
   else
-    side.memory = {};
+    side.memory.forget();
 }
 
 void ViewTracer::adoptSide(Side& side, const RenderOptions& asked) {
@@ -41,7 +41,7 @@ void ViewTracer::adoptSide(Side& side, const RenderOptions& asked) {
   if (differInCameraAlone(side.options, options))
     turn(side);
   else if (!same)
-    side.memory = {};
+    side.memory.forget();
   side.options = options;
   if (same && otherLook && !side.stale && side.samples > 0) publish(side);
   if (same) return;

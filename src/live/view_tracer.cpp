@@ -93,7 +93,7 @@ void ViewTracer::run() {
 void ViewTracer::enterContext() {
   context_ = makeContext(start_.render.device.backend);
   driverLog_ = std::make_unique<DebugLog>();
-  denoiser_ = std::make_unique<ViewDenoiser>(start_.render.device.shaderFolder, oidn_);
+  maker_ = std::make_unique<PictureMaker>(start_.render.device.shaderFolder, oidn_);
 }
 
 /// What was in the context is made anew in another one.
@@ -109,7 +109,7 @@ void ViewTracer::recover(const ContextLost& error) {
 void ViewTracer::leaveContext() {
   sides_.clear();
   programs_.reset();
-  denoiser_.reset();
+  maker_.reset();
   driverLog_.reset();
   context_.reset();
 }
@@ -187,7 +187,7 @@ void ViewTracer::watchFiles() {
 /// The shaders have changed; what cannot be compiled now stays as it was.
 void ViewTracer::rebuildPrograms() {
   programs_->forget();
-  denoiser_ = std::make_unique<ViewDenoiser>(start_.render.device.shaderFolder, oidn_);
+  maker_ = std::make_unique<PictureMaker>(start_.render.device.shaderFolder, oidn_);
   for (Side& side : sides_) {
     const std::shared_ptr<ViewProgram> wanted = programFor(side.options);
     if (!wanted->error.empty()) return;
@@ -270,10 +270,9 @@ void ViewTracer::fitFilm(Side& side) {
   const bool fits = side.film && side.film->size() == size;
   if (fits && !side.stale) return;
   if (!fits) turn(side);
-  side.shown = {};
   side.shownAt = 0;
-  if (fits)
-    side.film->clear();
+  if (side.film)
+    side.film->restart(size);
   else
     side.film = std::make_unique<Film>(size);
   side.stale = false;

@@ -9,8 +9,8 @@
 #include "errors.h"
 #include "gl/debug_log.h"
 #include "live/thumbnails.h"
-#include "live/view_denoiser.h"
 #include "live/view_loader.h"
+#include "live/view_picture.h"
 #include "live/view_programs.h"
 #include "options/view_options.h"
 #include "session/setup.h"
@@ -51,12 +51,12 @@ class ViewTracer {
     View view;
     int samples = 0;
     RenderTimes times;
+    double megaRaysPerSecond = 0.0;
     double error = -1.0;
     int errorAt = 0;    ///< samples when it was estimated
     bool stale = true;  ///< what the film holds is another picture
     SideMemory memory;
-    Image shown;            ///< published last, where it is filtered; may be empty
-    int shownAt = 0;        ///< samples when it was
+    int shownAt = 0;        ///< samples when it was published last
     double filterMs = 0.0;  ///< that it took
   };
 
@@ -88,13 +88,14 @@ class ViewTracer {
   bool resting(const Side& side) const;
   /// Some samples for the side that has the fewest; false when all rest.
   bool work();
-  void estimate(Side& side, const FilmPixels& pixels);
+  void estimate(Side& side);
+  void count(Side& side);
   /// Whether the side's picture is filtered.
   static bool denoises(const Side& side);
   /// By Open Image Denoise, which takes seconds and so runs when the samples have doubled.
   bool denoisesByOidn(const Side& side) const;
-  /// What the side shows now; nothing when something more urgent waits.
-  std::optional<Image> shownOf(Side& side, const FilmPixels& pixels, const std::function<bool()>& goOn);
+  /// Makes what the side shows now; false when goOn() said no.
+  bool show(Side& side, const std::function<bool()>& goOn);
   void publish(Side& side);
   Image seenOf(Side& side);
   void save(const SaveRequest& request);
@@ -120,7 +121,7 @@ class ViewTracer {
   std::optional<RefittableTree> tree_;  ///< that was built last for a moving scene
   std::unique_ptr<ViewPrograms> programs_;
   std::optional<OidnLibrary> oidn_;  ///< opened later where a pasted command asks for it
-  std::unique_ptr<ViewDenoiser> denoiser_;
+  std::unique_ptr<PictureMaker> maker_;
   TraceRequest request_;
   Selected selected_;  ///< what was picked last
   std::vector<Side> sides_;
@@ -131,6 +132,7 @@ class ViewTracer {
   double publishMs_ = 0.0;          ///< what the latest publication took
   double filterMsPerPixel_ = 0.0;   ///< in it, of layers and filter
   std::chrono::steady_clock::time_point published_;
+  std::chrono::steady_clock::time_point counted_;
   FileWatch sceneFiles_;
   FileWatch shaderFiles_;
   std::chrono::steady_clock::time_point watched_;

@@ -72,7 +72,7 @@ RenderOptions withGuides(const RenderOptions& options) {
 PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn) {
   if (!oidn) {
     const double start = steadyMilliseconds();
-    const auto filter = std::make_shared<const VarianceFilter>(shaderSource(options.device.shaderFolder));
+    const auto filter = std::make_shared<VarianceFilter>(shaderSource(options.device.shaderFolder));
     return {std::string(kVarianceFilter), steadyMilliseconds() - start,
             [filter](const Image& picture) { return filter->filtered(picture); }};
   }

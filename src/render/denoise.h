@@ -3,42 +3,57 @@
 // show (docs/design/denoising.md).
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string_view>
 
-#include "gl/gl.h"
 #include "image/image.h"
-#include "shader/assemble.h"
+#include "render/noisy_textures.h"
+#include "render/picture_passes.h"
 
 namespace fragtrace {
 
 /// Changes whenever the filter gives another picture.
 inline constexpr std::string_view kVarianceFilter = "variance 3";
 
-/// Its programs, which one context holds. Needs that context to be current in every call, of which
-/// framebuffer, viewport and program are changed.
+/// Its programs and textures, which one context holds. Needs that context to be current in every call, of
+/// which framebuffer, viewport, program and texture units are changed.
 class VarianceFilter {
  public:
   /// Throws RenderError when the driver fails, as filtered() does.
   explicit VarianceFilter(const ShaderSource& source);
 
-  /// R, G and B of the picture that `noisy` converges to, estimated from linear R, G, B, its variance.Y and
-  /// samples.Y, kGuideChannels, and kObservedChannel where it is there: without it the samples count as
-  /// independent. Pixels whose colour is not finite are filled from their neighbours; other such values count
-  /// as 0. Nothing, when goOn(), which is asked between passes, says no. Throws RenderError naming a layer
-  /// that is missing.
-  std::optional<Image> filtered(const Image& noisy, const std::function<bool()>& goOn) const;
-  Image filtered(const Image& noisy) const {
-    return *filtered(noisy, [] { return true; });
-  }
+  /// R, G and B of the picture that `noisy`, of `size` pixels, converges to, until the next call. All values
+  /// must be finite. Without `observed` the samples count as independent. Null, when goOn(), which is asked
+  /// between passes that are waited for, says no; without one nothing is waited for.
+  const GlTexture* filtered(const NoisyTextures& noisy, glm::ivec2 size, bool observed,
+                            const std::function<bool()>& goOn, PicturePasses& passes);
+
+  /// The same of linear R, G, B, its variance.Y and samples.Y, kGuideChannels, and kObservedChannel where it
+  /// is there. Pixels whose colour is not finite are filled from their neighbours; other such values count as
+  /// 0. Throws RenderError naming a layer that is missing.
+  Image filtered(const Image& noisy);
 
  private:
+  void makeRoom(glm::ivec2 size);
+  void summarize(const NoisyTextures& noisy, glm::ivec2 size, bool observed, PicturePasses& passes);
+
+  GlProgram summary_;
   GlProgram prepare_;
   GlProgram noise_;
   GlProgram filter_;
   GlProgram compare_;
   GlProgram finish_;
+  PictureSums sums_;
+  std::array<GlTexture, 3> summaries_;  ///< a texel each, in the order of shaders/denoise/denoise.glsl
+  glm::ivec2 room_{0};                  ///< of the following
+  GlTexture light_;
+  GlTexture seenLight_;
+  GlTexture guides_;
+  GlTexture variance_;
+  GlTexture moved_;
+  std::array<GlTexture, 2> turns_;
 };
 
 }  // namespace fragtrace

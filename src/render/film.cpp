@@ -20,7 +20,7 @@ constexpr const char* kLoading = "loading the film";
 
 int Film::mostSide() { return int(driverLimit(GL_MAX_TEXTURE_SIZE)); }
 
-Film::Film(glm::ivec2 size) : size_(size) {
+Film::Film(glm::ivec2 size) : size_(size), room_(size) {
   const int most = mostSide();
   if (size.x > most || size.y > most) {
     throw RenderError("the picture is " + std::to_string(size.x) + " x " + std::to_string(size.y) +
@@ -43,6 +43,15 @@ void Film::clear() {
   checkGl("clearing the film");
 }
 
+void Film::restart(glm::ivec2 size) {
+  if (glm::any(glm::greaterThan(size, room_))) {
+    *this = Film(glm::max(size, room_));
+  } else {
+    clear();
+  }
+  size_ = size;
+}
+
 void Film::clearCounts() {
   const GLuint none[4] = {};
   glClearTexImage(counts_.name(), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, none);
@@ -63,7 +72,7 @@ void Film::bindTextures(GLuint first) const {
 const GlTexture& Film::splats() {
   if (splats_.name() == 0) {
     const float zero[4] = {};
-    splats_ = makePictureTexture(GL_RGBA32F, size_);
+    splats_ = makePictureTexture(GL_RGBA32F, room_);
     glClearTexImage(splats_.name(), 0, GL_RGBA, GL_FLOAT, zero);
     checkGl("making room for light paths");
   }

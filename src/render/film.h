@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+
 #include "film/checkpoint.h"
 #include "film/film_pixels.h"
 #include "gl/gl.h"
@@ -14,6 +16,8 @@ class Film {
   /// Of the pixels that this driver's films can have a side.
   static int mostSide();
   void clear();
+  /// Empty, and of another size, of which it keeps its textures where these have room for it.
+  void restart(glm::ivec2 size);
   /// The counts alone, where all else is written anew before it is read.
   void clearCounts();
   void bind() const;
@@ -41,6 +45,11 @@ class Film {
   /// Sum and compensation as two textures, the first on this unit.
   void bindTextures(GLuint first) const;
 
+  /// Sum, compensation, counts, and light of light paths, which is null where there are none.
+  std::array<const GlTexture*, 4> textures() const {
+    return {&sum_, &compensation_, &counts_, lightPaths_ > 0 ? &splats_ : nullptr};
+  }
+
   /// Adds to FilmPixels::cut, which is kept on the host.
   void addCut(double cut) { cut_ += cut; }
 
@@ -53,6 +62,7 @@ class Film {
   void addSplats(FilmPixels& film) const;
 
   glm::ivec2 size_;
+  glm::ivec2 room_;  ///< of the textures
   GlTexture sum_;
   GlTexture compensation_;
   GlTexture counts_;

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "view/picture/reproject.h"
+// The past of a camera that moves, joined with the present on the driver.
+#include "render/seen_picture.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <utility>
 
+#include "gl/program.h"
+#include "gl_probe.h"
 #include "image/channels.h"
+#include "render/noisy_image.h"
 #include "scene/projection.h"
 
 namespace fragtrace {
@@ -29,9 +33,15 @@ Camera cameraAt(double x, double distance) {
   return camera;
 }
 
+/// A picture with the layers of a noisy one, and who saw it. The wall looks the same upside down.
+struct Seen {
+  Image layers;
+  Camera camera;
+};
+
 /// The wall, lit evenly, as that camera sees it.
-SeenPicture seen(const Camera& camera, double light, double samples, double variance) {
-  SeenPicture picture;
+Seen seen(const Camera& camera, double light, double samples, double variance) {
+  Seen picture;
   picture.camera = camera;
   picture.layers = {kSide, kSide, {"R", "G", "B", "samples.Y", "variance.Y"}, {}, {}};
   picture.layers.channels.insert(picture.layers.channels.end(), kGuideChannels.begin(), kGuideChannels.end());
@@ -56,52 +66,76 @@ float valueOf(const Image& image, const char* channel, int x, int y) {
       .values[(size_t(y) * kSide + size_t(x)) * image.channelCount() + findChannel(image, channel).value()];
 }
 
-TEST(Reprojection, JoinsAsIfAllSamplesHadBeenSeen) {
+SeenPicture uploaded(const Seen& seen) {
+  bool observed = false;
+  return {texturesOf(seen.layers, observed), {kSide, kSide}, seen.camera};
+}
+
+class Reprojection : public GlProbe {
+ protected:
+  static Image joined(const Seen& now, const Seen& past, double most) {
+    SeenPasses seenPasses(shaderSource({}));
+    PicturePasses passes;
+    const SeenPicture fresh = uploaded(now);
+    const SeenPicture present = uploaded(now);
+    seenPasses.join(fresh.noisy, present, uploaded(past), most, passes);
+    return imageOf(present.noisy, present.size);
+  }
+  /// As the device keeps it.
+  static Image asIs(const Seen& now) {
+    const SeenPicture present = uploaded(now);
+    return imageOf(present.noisy, present.size);
+  }
+};
+
+TEST_P(Reprojection, JoinsAsIfAllSamplesHadBeenSeen) {
   const Camera camera = cameraAt(0.0, kDistance);
-  const SeenPicture now = seen(camera, kLight, 4, 0.25);
-  const SeenPicture past = seen(camera, 2.0 * kLight, 8, 0.125);
-  const Image joined = withPast(now, past, 100.0);
+  const Seen now = seen(camera, kLight, 4, 0.25);
+  const Seen past = seen(camera, 2.0 * kLight, 8, 0.125);
+  const Image whole = joined(now, past, 100.0);
   const double own = valueOf(now.layers, "G", 20, 30);
-  EXPECT_NEAR(valueOf(joined, "samples.Y", 20, 30), 12.0, 1e-4);
-  EXPECT_NEAR(valueOf(joined, "G", 20, 30), (4.0 * own + 8.0 * 2.0 * own) / 12.0, 1e-4);
+  EXPECT_NEAR(valueOf(whole, "samples.Y", 20, 30), 12.0, 1e-4);
+  EXPECT_NEAR(valueOf(whole, "G", 20, 30), (4.0 * own + 8.0 * 2.0 * own) / 12.0, 1e-4);
   const double m2 = 0.25 * 4 * 3 + 0.125 * 8 * 7 + own * own * 4 * 8 / 12;
-  EXPECT_NEAR(valueOf(joined, "variance.Y", 20, 30), m2 / (12 * 11), 1e-4);
+  EXPECT_NEAR(valueOf(whole, "variance.Y", 20, 30), m2 / (12 * 11), 1e-4);
 }
 
-TEST(Reprojection, ThePastCountsForNoMoreThanAllowed) {
+TEST_P(Reprojection, ThePastCountsForNoMoreThanAllowed) {
   const Camera camera = cameraAt(0.0, kDistance);
-  const Image joined = withPast(seen(camera, kLight, 1, 0.0), seen(camera, kLight, 500, 0.1), 16.0);
-  EXPECT_NEAR(valueOf(joined, "samples.Y", 5, 5), 17.0, 1e-3);
+  const Image whole = joined(seen(camera, kLight, 1, 0.0), seen(camera, kLight, 500, 0.1), 16.0);
+  EXPECT_NEAR(valueOf(whole, "samples.Y", 5, 5), 17.0, 1e-3);
 }
 
-TEST(Reprojection, ACameraThatMovedFindsTheSamePoints) {
-  const SeenPicture now = seen(cameraAt(0.3, 3.5), 0.5 * kLight, 1, 0.0);
-  const SeenPicture past = seen(cameraAt(0.0, kDistance), kLight, 1e6, 0.0);
-  const Image joined = withPast(now, past, 1e6);
+TEST_P(Reprojection, ACameraThatMovedFindsTheSamePoints) {
+  const Seen now = seen(cameraAt(0.3, 3.5), 0.5 * kLight, 1, 0.0);
+  const Seen past = seen(cameraAt(0.0, kDistance), kLight, 1e6, 0.0);
+  const Image whole = joined(now, past, 1e6);
   // The past's light at the present's texture, to a bilinear lookup of a stripe.
   for (int x = 8; x < kSide - 8; ++x)
-    EXPECT_NEAR(valueOf(joined, "R", x, 32) / (2.0 * valueOf(now.layers, "R", x, 32)), 1.0, 2e-3) << x;
+    EXPECT_NEAR(valueOf(whole, "R", x, 32) / (2.0 * valueOf(now.layers, "R", x, 32)), 1.0, 2e-3) << x;
 }
 
-TEST(Reprojection, OtherSurfacesGiveNothing) {
+TEST_P(Reprojection, OtherSurfacesGiveNothing) {
   const Camera camera = cameraAt(0.0, kDistance);
-  const SeenPicture now = seen(camera, kLight, 1, 0.0);
+  const Seen now = seen(camera, kLight, 1, 0.0);
   for (const auto& [channel, value] : {std::pair{kGuideChannels[7], 3.5f},
                                        {kGuideChannels[6], -1.0f},
                                        {kGuideChannels[1], 0.9f},
                                        {kGuideChannels[3], 0.0f}}) {
-    SeenPicture past = seen(camera, 9.0, 8, 0.1);
+    Seen past = seen(camera, 9.0, 8, 0.1);
     const size_t at = findChannel(past.layers, channel).value();
     for (size_t i = at; i < past.layers.values.size(); i += past.layers.channelCount())
       past.layers.values[i] = value;
-    EXPECT_EQ(withPast(now, past, 16.0).values, now.layers.values) << channel;
+    EXPECT_EQ(joined(now, past, 16.0).values, asIs(now).values) << channel;
   }
 }
 
-TEST(Reprojection, WhatWasOutsideThePastPictureStaysAsItIs) {
-  const SeenPicture now = seen(cameraAt(50.0, kDistance), kLight, 1, 0.0);
-  EXPECT_EQ(withPast(now, seen(cameraAt(0.0, kDistance), kLight, 8, 0.1), 16.0).values, now.layers.values);
+TEST_P(Reprojection, WhatWasOutsideThePastPictureStaysAsItIs) {
+  const Seen now = seen(cameraAt(50.0, kDistance), kLight, 1, 0.0);
+  EXPECT_EQ(joined(now, seen(cameraAt(0.0, kDistance), kLight, 8, 0.1), 16.0).values, asIs(now).values);
 }
+
+INSTANTIATE_TEST_SUITE_P(Backends, Reprojection, bothBackends(), backendName);
 
 }  // namespace
 }  // namespace fragtrace

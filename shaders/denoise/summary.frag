@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// What the variance filter needs to know of the whole picture: the first pass of each step, which sums over blocks of
+// 16 x 16 pixels. sums.frag goes on until one texel is left.
+#include "denoise/denoise.glsl"
+
+layout(binding = 0) uniform sampler2D noisy;    // as in prepare.frag
+layout(binding = 1) uniform sampler2D albedos;
+layout(binding = 2) uniform sampler2D counts;
+layout(binding = 3) uniform sampler2D means;    // the steps before this one
+layout(binding = 4) uniform sampler2D logarithms;
+layout(location = 1) uniform int part;          // kMeans, kLogarithms, kShares
+
+layout(location = 0) out vec4 sum;
+
+/// Of light without albedo; of no surface: 0. Not finite counts as nothing.
+vec4 termOf(ivec2 pixel) {
+  vec4 radiance = texelFetch(noisy, pixel, 0);
+  vec4 albedo = texelFetch(albedos, pixel, 0);
+  vec2 count = texelFetch(counts, pixel, 0).xy;
+  float light = luminance(radiance.rgb / demodulation(albedo));
+  bool counted = albedo.a > 0.0 && abs(light) < 3e38;
+  light = max(light, 0.0);
+  vec4 mean = texelFetch(means, ivec2(0), 0);
+  if (part == kMeans) return vec4(counted ? vec2(light, 1.0) : vec2(0.0), max(count.x, 0.0), 0.0);
+  if (part == kLogarithms) return vec4(counted ? log(max(light, leastLight(mean))) : 0.0);
+  float scale = scaleOf(mean, texelFetch(logarithms, ivec2(0), 0));
+  float bright = luminance(scaledLight(radiance.rgb, scale));
+  float weight = count.x > 1.0 ? 1.0 / (bright * bright + kDarkSquared) : 0.0;
+  return vec4(weight * scaledVariance(max(count.y, 0.0), scale), weight * scaledVariance(radiance.a, scale), 0.0, 0.0);
+}
+
+void main() {
+  ivec2 corner = ivec2(gl_FragCoord.xy) * kBlock;
+  ivec2 end = min(corner + kBlock, size);
+  sum = vec4(0.0);
+  for (int y = corner.y; y < end.y; ++y) {
+    vec4 row = vec4(0.0);
+    for (int x = corner.x; x < end.x; ++x) row += termOf(ivec2(x, y));
+    sum += row;
+  }
+}

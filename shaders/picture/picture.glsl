@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// What passes over pictures share (src/render/picture_passes.h): pictures are textures of one texel a pixel, of which
+// the part from the corner counts.
+#include "layout.glsl"
+#include "luminance.glsl"
+
+const int kBlock = 16;  // texels a side that a sum takes into one
+
+layout(location = 0) uniform ivec2 size;  // of what is read
+
+bool inside(ivec2 pixel) { return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, size)); }
+
+/// What a pixel's light is divided by, so that textures stay sharp; albedo and coverage are means over its samples.
+vec3 demodulation(vec4 albedo) {
+  return albedo.a > 0.0 ? mix(max(albedo.rgb, vec3(0.0)), vec3(1.0), kAlbedoFloor) : vec3(1.0);
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// A picture with the samples of a past one added to its own (src/render/reproject.h). Places and points are seen from
+// the present camera's position.
+#include "picture/picture.glsl"
+
+layout(binding = 0) uniform sampler2D radiances;  // of the present, as film.frag leaves these
+layout(binding = 1) uniform sampler2D counts;
+layout(binding = 2) uniform sampler2D albedos;
+layout(binding = 3) uniform sampler2D normals;
+layout(binding = 4) uniform sampler2D pastRadiances;
+layout(binding = 5) uniform sampler2D pastCounts;
+layout(binding = 6) uniform sampler2D pastAlbedos;
+layout(binding = 7) uniform sampler2D pastNormals;
+layout(location = 1) uniform ivec2 pastSize;
+layout(location = 2) uniform float most;  // samples that the past counts for
+// Position, half of the width at distance 1 or anywhere, half of the height, forward; in w of the last whether a
+// perspective: present, past.
+layout(location = 3) uniform vec4 cameras[8];
+
+layout(location = 0) out vec4 radiance;
+layout(location = 1) out vec2 count;
+
+const float kDepthApart = 0.02;    // of the depth: the same surface
+const float kNormalAlike = 0.9;    // cosine
+const float kAlbedoApart = 0.15;   // a channel
+const float kCovered = 0.5;        // of the samples of a pixel: it shows a surface
+const float kEnoughOfFour = 0.25;  // weight of the taps that fit, for the past to count
+
+/// Of what was hit.
+struct Surface {
+  vec3 albedo;
+  float coverage;
+  vec3 normal;
+  float depth;
+};
+
+Surface surfaceOf(vec4 albedo, vec4 normal) {
+  float part = 1.0 / max(albedo.a, 1e-6);
+  return Surface(part * albedo.rgb, albedo.a, part * normal.xyz, part * normal.w);
+}
+
+vec3 divisorOf(Surface s) { return mix(max(s.albedo, vec3(0.0)), vec3(1.0), kAlbedoFloor); }
+
+/// The point that the middle of a pixel shows.
+vec3 pointAt(vec2 pixel, float depth) {
+  vec2 place = 2.0 * pixel / vec2(size) - 1.0;
+  vec3 aside = place.x * cameras[1].xyz + place.y * cameras[2].xyz;
+  return cameras[0].xyz + depth * cameras[3].xyz + (cameras[3].w > 0.0 ? depth : 1.0) * aside;
+}
+
+bool showsTheSame(Surface now, float depth, Surface before) {
+  vec3 apart = abs(now.albedo - before.albedo);
+  return before.coverage >= kCovered && abs(before.depth - depth) <= kDepthApart * abs(depth) &&
+         dot(now.normal, before.normal) >= kNormalAlike * length(now.normal) * length(before.normal) &&
+         max(max(apart.r, apart.g), apart.b) <= kAlbedoApart;
+}
+
+/// What the past knows of a point.
+struct Known {
+  vec3 light;  // without albedo
+  float variance;
+  float samples;
+  float weight;  // of the taps that fit
+};
+
+Known knownOf(Surface now, vec3 point) {
+  Known known = Known(vec3(0.0), 0.0, 0.0, 0.0);
+  vec3 view = point - cameras[4].xyz;
+  float depth = dot(view, cameras[7].xyz);
+  vec3 right = cameras[5].xyz;
+  vec3 up = cameras[6].xyz;
+  float w = cameras[7].w > 0.0 ? depth : 1.0;
+  if (!(w > 0.0)) return known;
+  vec2 place = vec2(dot(view, right) / dot(right, right), dot(view, up) / dot(up, up)) / w;
+  vec2 at = (0.5 + 0.5 * place) * vec2(pastSize) - 0.5;
+  if (!(all(greaterThan(at, vec2(-1.0))) && all(lessThan(at, vec2(pastSize))))) return known;
+  ivec2 corner = ivec2(floor(at));
+  for (int tap = 0; tap < 4; ++tap) {
+    ivec2 pixel = corner + ivec2(tap & 1, tap >> 1);
+    if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, pastSize))) continue;
+    vec2 near = 1.0 - abs(at - vec2(pixel));
+    float weight = near.x * near.y;
+    float samples = texelFetch(pastCounts, pixel, 0).x;
+    Surface before = surfaceOf(texelFetch(pastAlbedos, pixel, 0), texelFetch(pastNormals, pixel, 0));
+    if (!(weight > 0.0 && samples > 0.0) || !showsTheSame(now, depth, before)) continue;
+    vec4 light = texelFetch(pastRadiances, pixel, 0);
+    vec3 divisor = divisorOf(before);
+    float part = luminance(divisor);
+    known.light += weight * light.rgb / divisor;
+    known.variance += weight * light.a / (part * part);
+    known.samples += weight * samples;
+    known.weight += weight;
+  }
+  float all = max(known.weight, 1e-6);
+  return Known(known.light / all, known.variance / all, known.samples / all, known.weight);
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  radiance = texelFetch(radiances, pixel, 0);
+  count = texelFetch(counts, pixel, 0).xy;
+  Surface now = surfaceOf(texelFetch(albedos, pixel, 0), texelFetch(normals, pixel, 0));
+  if (now.coverage < kCovered || !(count.x > 0.0)) return;
+  Known known = knownOf(now, pointAt(gl_FragCoord.xy, now.depth));
+  if (known.weight < kEnoughOfFour) return;
+  // Of more samples than count, the variance is that of as many as do.
+  float counted = min(known.samples, most);
+  float samples = count.x + counted;
+  vec3 divisor = divisorOf(now);
+  float part = luminance(divisor);
+  vec3 light = known.light * divisor;
+  float pastVariance = known.variance * part * part * known.samples / counted;
+  float apart = luminance(light - radiance.rgb);
+  // Chan, Golub and LeVeque (1979).
+  float m2 = radiance.a * count.x * (count.x - 1.0) + pastVariance * counted * max(counted - 1.0, 0.0) +
+             apart * apart * count.x * counted / samples;
+  radiance = vec4((radiance.rgb * count.x + light * counted) / samples, m2 / (samples * (samples - 1.0)));
+  count.x = samples;
+}

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "live/view_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "denoise/oidn.h"
+#include "gl/program.h"
+#include "image/channels.h"
+#include "picture/draw_picture.h"
+#include "render/noisy_image.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr double kAllUpTo = 64.0;  // samples
+constexpr double kNoneFrom = 256.0;
+constexpr int kGuideStep = 4;              // from one set of guides to the next, in samples
+constexpr double kMostPastSamples = 16.0;  // that the past counts for
+
+bool fits(glm::ivec2 size, glm::ivec2 room) { return glm::all(glm::lessThanEqual(size, room)); }
+
+void makeRoomToShow(SideMemory& memory, glm::ivec2 size) {
+  if (!fits(size, memory.shownRoom)) {
+    memory.shownRoom = glm::max(size, memory.shownRoom);
+    memory.shown = makePictureTexture(GL_RGBA32F, memory.shownRoom);
+  }
+  memory.shownSize = size;
+}
+
+/// The same pixels with the rows in the other order.
+Image turnedOver(const Image& image) {
+  Image turned = image;
+  const size_t row = size_t(image.width) * image.channelCount();
+  for (size_t y = 0; y < size_t(image.height); ++y)
+    std::copy_n(image.values.begin() + ptrdiff_t(y * row), row,
+                turned.values.end() - ptrdiff_t((y + 1) * row));
+  return turned;
+}
+
+}  // namespace
+
+double filteredShare(double samples) {
+  return std::clamp(std::log2(kNoneFrom / std::max(samples, 1.0)) / std::log2(kNoneFrom / kAllUpTo), 0.0,
+                    1.0);
+}
+
+void SideMemory::turn() {
+  if (present.size.x > 0) std::swap(past, present);
+  present.size = glm::ivec2(0);
+  guideSamples = 0;
+}
+
+void SideMemory::forget() {
+  present.size = past.size = glm::ivec2(0);
+  guideSamples = 0;
+}
+
+PictureMaker::PictureMaker(const std::filesystem::path& shaderFolder, const std::optional<OidnLibrary>& oidn)
+    : source_(shaderSource(shaderFolder)),
+      oidn_(oidn),
+      seen_(source_),
+      counted_(makePictureTexture(GL_RGBA32F, {1, 1})) {}
+
+bool PictureMaker::drawGuides(int samples, glm::ivec2 size, Tracer& tracer, const View& view,
+                              SideMemory& memory, const std::function<bool()>& goOn) {
+  const int wanted = std::min(samples, kFewLayerSamples);
+  if (memory.guideSamples >= kFewLayerSamples ||
+      (memory.guideSamples > 0 && wanted < kGuideStep * memory.guideSamples))
+    return true;
+  const ShaderVariant& variant = tracer.features.front();
+  if (!memory.guides)
+    memory.guides.emplace(size);
+  else if (memory.guideSamples == 0)
+    memory.guides->restart(size);
+  if (tracer.renderer->knows(variant))
+    tracer.renderer->use(variant);
+  else
+    tracer.renderer->compile(variant, *memory.guides, view);
+  RenderTimes times;
+  const bool complete = tracer.renderer->addSamples(*memory.guides, view, memory.guideSamples, wanted, times,
+                                                    [&](double) { return goOn(); });
+  tracer.renderer->use(tracer.variant);
+  if (complete) memory.guideSamples = wanted;
+  return complete;
+}
+
+const GlTexture* PictureMaker::filtered(const Showing& showing, const RenderOptions& options,
+                                        const SeenPicture& present, const std::function<bool()>& goOn) {
+  if (!showing.byOidn) {
+    if (!filter_) filter_ = std::make_unique<VarianceFilter>(source_);
+    return filter_->filtered(present.noisy, present.size, false, goOn, passes_);
+  }
+  const std::optional<Image> denoised =
+      denoisedByOidn(imageOf(present.noisy, present.size), *oidn_, options.limits.memoryBytes,
+                     [&](double) { return goOn(); });
+  if (!denoised) return nullptr;
+  denoised_ = makePictureTexture(GL_RGBA32F, present.size);
+  writePictureTexture(denoised_, GL_RGB, 3, GL_FLOAT, present.size, turnedOver(*denoised).values,
+                      "uploading a denoised picture");
+  return &denoised_;
+}
+
+bool PictureMaker::show(const Film& film, const Showing& showing, const RenderOptions& options,
+                        Tracer& tracer, const View& view, SideMemory& memory,
+                        const std::function<bool()>& goOn) {
+  const glm::ivec2 size = film.size();
+  if (!fits(size, room_)) {
+    room_ = glm::max(size, room_);
+    raw_ = makePictureTexture(GL_RGBA32F, room_);
+  }
+  const double share = showing.filtered ? filteredShare(showing.samples) : 0.0;
+  const GlTexture* filter = nullptr;
+  if (share <= 0.0) {
+    seen_.read(film, raw_, passes_);
+    if (showing.filtered) memory.forget();
+  } else {
+    if (!drawGuides(showing.samples, size, tracer, view, memory, goOn)) return false;
+    SeenPicture& present = memory.present;
+    makeRoom(present.noisy, size);
+    present.size = size;
+    present.camera = view.camera;
+    // The past fades out as the filter does: what it has seen from elsewhere is not what is seen here.
+    const double past = kMostPastSamples * std::max(0.0, 1.0 - showing.samples / kAllUpTo);
+    const bool joins = memory.past.size.x > 0 && past > 0.0;
+    if (joins) makeRoom(fresh_, size);
+    seen_.read(film, *memory.guides, raw_, joins ? fresh_ : present.noisy, present.noisy, passes_);
+    if (joins) seen_.join(fresh_, present, memory.past, past, passes_);
+    filter = filtered(showing, options, present, goOn);
+    if (!filter) return false;
+  }
+  makeRoomToShow(memory, size);
+  seen_.show(raw_, filter, share, options.light.background, size, memory.shown, passes_);
+  return true;
+}
+
+void PictureMaker::show(const Image& image, SideMemory& memory) const {
+  const glm::ivec2 size(image.width, image.height);
+  makeRoomToShow(memory, size);
+  const bool alpha = image.channelCount() > 3;
+  // Three channels leave the fourth at 1.
+  writePictureTexture(memory.shown, alpha ? GL_RGBA : GL_RGB, alpha ? 4 : 3, GL_FLOAT, size, image.values,
+                      "uploading a picture");
+}
+
+Image PictureMaker::shown(const SideMemory& memory) {
+  const glm::ivec2 size = memory.shownSize;
+  return {size.x,
+          size.y,
+          {"R", "G", "B", "A"},
+          readPictureTexture<float>(memory.shown, GL_RGBA, 4, GL_FLOAT, size, "reading what is shown"),
+          {}};
+}
+
+glm::vec3 PictureMaker::count(const Film& film) {
+  seen_.count(film, counted_, passes_);
+  const auto sums = readPictureTexture<float>(counted_, GL_RGBA, 4, GL_FLOAT, {1, 1}, "reading sums");
+  return {sums[0], sums[1], sums[2]};
+}
+
+}  // namespace fragtrace

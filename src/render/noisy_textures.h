@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "render/picture_texture.h"
+
+namespace fragtrace {
+
+/// A noisy picture on the device, with what tells its surfaces apart: means of its samples, a texel a pixel,
+/// in textures that may be larger.
+struct NoisyTextures {
+  GlTexture radiance;  ///< linear R, G, B; variance of the mean's luminance (Layers::variance)
+  GlTexture counts;    ///< samples; one observation of that variance (observedVariance()), negative: none
+  GlTexture albedo;    ///< and coverage, as the first four of kGuideChannels
+  GlTexture normal;    ///< and depth: the others
+  glm::ivec2 room{0};  ///< pixels that they hold
+};
+
+/// Textures for that many pixels, where these are smaller.
+inline void makeRoom(NoisyTextures& noisy, glm::ivec2 size) {
+  if (!glm::any(glm::greaterThan(size, noisy.room))) return;
+  const glm::ivec2 room = glm::max(size, noisy.room);
+  noisy = {makePictureTexture(GL_RGBA32F, room), makePictureTexture(GL_RG32F, room),
+           makePictureTexture(GL_RGBA32F, room), makePictureTexture(GL_RGBA32F, room), room};
+}
+
+}  // namespace fragtrace

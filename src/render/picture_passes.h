@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Programs over all pixels of a picture, from textures into textures (shaders/picture/picture.glsl).
+#pragma once
+
+#include <glm/glm.hpp>
+#include <initializer_list>
+
+#include "gl/gl.h"
+#include "shader/assemble.h"
+
+namespace fragtrace {
+
+/// Of a fragment shader alone. Throws RenderError.
+GlProgram passProgram(const ShaderSource& source, const char* entry);
+
+/// A framebuffer and its draws; changes framebuffer, viewport, program and texture units of the context.
+class PicturePasses {
+ public:
+  PicturePasses() : vertexArray_(makeVertexArray()), framebuffer_(makeFramebuffer()) {}
+
+  /// Over `into.front()`'s first `drawn` pixels; `size` is what the program takes for its own. Throws
+  /// RenderError.
+  void draw(const GlProgram& program, glm::ivec2 size, glm::ivec2 drawn,
+            std::initializer_list<const GlTexture*> from, std::initializer_list<const GlTexture*> into);
+  void draw(const GlProgram& program, glm::ivec2 size, std::initializer_list<const GlTexture*> from,
+            std::initializer_list<const GlTexture*> into) {
+    draw(program, size, size, from, into);
+  }
+
+ private:
+  GlVertexArray vertexArray_;
+  GlFramebuffer framebuffer_;
+  size_t attached_ = 0;
+};
+
+/// What is left of a picture after sums over blocks, block by block down to a texel.
+class PictureSums {
+ public:
+  PictureSums(const ShaderSource& source) : sums_(passProgram(source, "picture/sums.frag")) {}
+
+  /// The size after one sum.
+  static glm::ivec2 blocksOf(glm::ivec2 size);
+  /// Where a program leaves its sums over blocks of a picture of that size.
+  const GlTexture& blocks(glm::ivec2 size);
+  /// Sums these, into one texel of RGBA32F.
+  void into(const GlTexture& texel, glm::ivec2 size, PicturePasses& passes);
+
+ private:
+  GlProgram sums_;
+  glm::ivec2 room_{0};
+  GlTexture blocks_;  ///< of pixels
+  GlTexture wider_;   ///< of these
+};
+
+}  // namespace fragtrace

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "render/seen_picture.h"
+
+#include <array>
+
+#include "scene/projection.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// As shaders/picture/reproject.frag has it, relative to a point, so that floats are exact about the camera.
+void putCamera(glm::vec4* rows, const SeenPicture& picture, const glm::dvec3& origin) {
+  const Projection p = projectionOf(picture.camera, double(picture.size.x) / picture.size.y);
+  rows[0] = glm::vec4(glm::vec3(p.position - origin), 0.0f);
+  rows[1] = glm::vec4(glm::vec3(p.right), 0.0f);
+  rows[2] = glm::vec4(glm::vec3(p.up), 0.0f);
+  rows[3] = glm::vec4(glm::vec3(p.forward), p.perspective ? 1.0f : 0.0f);
+}
+
+}  // namespace
+
+SeenPasses::SeenPasses(const ShaderSource& source)
+    : film_(passProgram(source, "picture/film.frag")),
+      reproject_(passProgram(source, "picture/reproject.frag")),
+      show_(passProgram(source, "picture/show.frag")),
+      totals_(passProgram(source, "picture/totals.frag")),
+      sums_(source) {}
+
+void SeenPasses::read(const Film& film, const GlTexture& raw, PicturePasses& passes) {
+  const auto from = film.textures();
+  glProgramUniform1f(film_.name(), 1, float(film.lightPaths()));
+  passes.draw(film_, film.size(), {from[0], from[1], from[2], from[3]}, {&raw});
+}
+
+void SeenPasses::read(const Film& film, const Film& guides, const GlTexture& raw, const NoisyTextures& fresh,
+                      const NoisyTextures& surfaces, PicturePasses& passes) {
+  const auto from = film.textures();
+  const auto beside = guides.textures();
+  glProgramUniform1f(film_.name(), 1, float(film.lightPaths()));
+  passes.draw(film_, film.size(), {from[0], from[1], from[2], from[3], beside[0], beside[1], beside[2]},
+              {&raw, &fresh.radiance, &fresh.counts, &surfaces.albedo, &surfaces.normal});
+}
+
+void SeenPasses::join(const NoisyTextures& fresh, const SeenPicture& now, const SeenPicture& past,
+                      double most, PicturePasses& passes) {
+  std::array<glm::vec4, 8> cameras{};
+  putCamera(&cameras[0], now, now.camera.position);
+  putCamera(&cameras[4], past, now.camera.position);
+  const GLuint program = reproject_.name();
+  glProgramUniform2i(program, 1, past.size.x, past.size.y);
+  glProgramUniform1f(program, 2, float(most));
+  glProgramUniform4fv(program, 3, GLsizei(cameras.size()), &cameras[0].x);
+  const NoisyTextures& a = now.noisy;
+  const NoisyTextures& b = past.noisy;
+  passes.draw(
+      reproject_, now.size,
+      {&fresh.radiance, &fresh.counts, &a.albedo, &a.normal, &b.radiance, &b.counts, &b.albedo, &b.normal},
+      {&a.radiance, &a.counts});
+}
+
+void SeenPasses::show(const GlTexture& raw, const GlTexture* filtered, double share, bool background,
+                      glm::ivec2 size, const GlTexture& shown, PicturePasses& passes) {
+  glProgramUniform1f(show_.name(), 1, filtered ? float(share) : 0.0f);
+  glProgramUniform1i(show_.name(), 2, background ? 1 : 0);
+  passes.draw(show_, size, {&raw, filtered}, {&shown});
+}
+
+void SeenPasses::count(const Film& film, const GlTexture& texel, PicturePasses& passes) {
+  passes.draw(totals_, film.size(), PictureSums::blocksOf(film.size()), {film.textures()[2]},
+              {&sums_.blocks(film.size())});
+  sums_.into(texel, film.size(), passes);
+}
+
+}  // namespace fragtrace
