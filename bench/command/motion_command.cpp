@@ -83,6 +83,8 @@ void declareMotion(CLI::App& app, MotionOptions& o) {
       ->delimiter(',')
       ->check(CLI::IsMember(kModes))
       ->capture_default_str();
+  app.add_flag("--wait", o.plan.view.waitsForPasses,
+               "wait for the device after each step of a picture, so that each has its time");
   addJsonOption(app, o.files, "write all measurements to this JSON file");
   addChartOption(app, o.files, "write a chart of error against time per picture, an .svg; needs --compare");
   addOptions(app, OptionGroup::Tracing, o.raw);
@@ -204,30 +206,52 @@ MotionError errorOf(const std::vector<KeptPicture>& kept, References& references
   return error;
 }
 
-Json jsonOf(const MotionRow& row) {
+Json jsonOf(const MotionRow& row, bool waited) {
   const MotionFigures& f = row.figures;
-  Json json = {{"mode", row.mode},          {"pictures", f.pictures},   {"seconds", f.seconds},
-               {"pixels", f.pixels},        {"trace_cpu_ms", f.cpuMs},  {"gap_ms", f.gapMs},
-               {"latency_ms", f.latencyMs}, {"compared", f.kept.size()}};
+  Json json = {{"mode", row.mode},          {"pictures", f.pictures},    {"seconds", f.seconds},
+               {"pixels", f.pixels},        {"trace_cpu_ms", f.cpuMs},   {"gap_ms", f.gapMs},
+               {"latency_ms", f.latencyMs}, {"compared", f.kept.size()}, {"moved_bytes", f.movedBytes}};
+  for (size_t pass = 0; pass < kPassNames.size(); ++pass) {
+    json["passes"][kPassNames[pass]] = {{"cpu_ms", f.passes.cpu[pass]}};
+    if (waited) json["passes"][kPassNames[pass]]["wall_ms"] = f.passes.wall[pass];
+  }
   if (!f.kept.empty()) json.update({{"relmse", row.error.relmse}, {"flip", row.error.flip}});
   return json;
 }
 
+/// Milliseconds of a picture's steps.
+std::string passTable(const std::vector<MotionRow>& rows, bool waited) {
+  std::string text = formatted("\n%-9s %-8s", "mode", "ms");
+  for (const char* name : kPassNames) text += formatted(" %9s", name);
+  for (const MotionRow& row : rows) {
+    const auto add = [&](const char* clock, const auto& times) {
+      text += formatted("\n%-9s %-8s", row.mode.c_str(), clock);
+      for (const double ms : times) text += formatted(" %9.3f", ms / std::max(row.figures.pictures, 1));
+    };
+    add("CPU", row.figures.passes.cpu);
+    if (waited) add("wall", row.figures.passes.wall);
+  }
+  return text + "\n";
+}
+
 std::string tableOf(const std::vector<MotionRow>& rows) {
-  std::string text = formatted("%-9s %8s %8s %8s %8s %8s %9s %9s %8s %8s\n", "mode", "pic/s", "gap p95",
-                               "late ms", "late p95", "MPix/s", "size", "CPU ms", "relMSE", "FLIP");
+  std::string text = formatted("%-9s %8s %8s %8s %8s %8s %9s %9s %9s %8s %8s\n", "mode", "pic/s", "gap p95",
+                               "late ms", "late p95", "MPix/s", "size", "CPU ms", "kB", "relMSE", "FLIP");
   for (const MotionRow& row : rows) {
     const MotionFigures& f = row.figures;
     const Summary late = summarize(f.latencyMs);
     const double each = f.pixels / std::max(f.pictures, 1);
-    text += formatted("%-9s %8.2f %8.1f %8.1f %8.1f %8.3f %9.0f %9.2f", row.mode.c_str(),
+    text += formatted("%-9s %8.2f %8.1f %8.1f %8.1f %8.3f %9.0f %9.2f %9.1f", row.mode.c_str(),
                       f.pictures / f.seconds, summarize(f.gapMs).p95, late.median, late.p95,
-                      1e-6 * f.pixels / f.seconds, each, f.cpuMs / std::max(f.pictures, 1));
+                      1e-6 * f.pixels / f.seconds, each, f.cpuMs / std::max(f.pictures, 1),
+                      1e-3 * f.movedBytes / std::max(f.pictures, 1));
     text += f.kept.empty() ? formatted(" %8s %8s\n", "", "")
                            : formatted(" %8.4f %8.4f\n", row.error.relmse, row.error.flip);
   }
   return text +
-         "pic/s: pictures a second; size: pixels of a picture; CPU: of the tracing thread, a picture\n";
+         "pic/s: pictures a second; size: pixels of a picture; CPU: of the tracing thread, a picture; kB: "
+         "moved between "
+         "host and device\n";
 }
 
 std::string chartOf(const std::vector<MotionRow>& rows, const std::string& scene) {
@@ -247,6 +271,7 @@ int runMotionCommand(const MotionOptions& o) {
     ProgressBar bar(mode, o.render.output.quiet);
     MotionPlan plan = o.plan;
     plan.view = viewOptionsOf(o, mode);
+    plan.view.waitsForPasses = o.plan.view.waitsForPasses;
     const auto goOn = [&](double fraction) {
       bar.show(fraction);
       return interrupts() == 0;
@@ -274,10 +299,13 @@ int runMotionCommand(const MotionOptions& o) {
   Json json = {{"schema", 1},          {"bench", "motion"},      {"scene", scene},
                {"path", o.path},       {"width", o.plan.size.x}, {"height", o.plan.size.y},
                {"rows", Json::array()}};
-  for (const MotionRow& row : rows) json["rows"].push_back(jsonOf(row));
+  for (const MotionRow& row : rows) json["rows"].push_back(jsonOf(row, o.plan.view.waitsForPasses));
   const std::string head = formatted("%s, %d x %d, %s of %g s\n\n", scene.c_str(), o.plan.size.x,
                                      o.plan.size.y, o.path.c_str(), o.period);
-  writeResults(o.files, {head + tableOf(rows), jsonLine(json), {}, chartOf(rows, scene)});
+  writeResults(o.files, {head + tableOf(rows) + passTable(rows, o.plan.view.waitsForPasses),
+                         jsonLine(json),
+                         {},
+                         chartOf(rows, scene)});
   return 0;
 }
 

@@ -3,6 +3,7 @@
 
 #include <pthread.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <deque>
@@ -33,7 +34,7 @@ class TracingThread {
         tracer_(options, std::move(oidn_), exchange),
         thread_([this] {
           nameThread("trace");
-          tracer_.run();
+          tracer_.run({});
         }) {}
   ~TracingThread() {
     exchange_.quit();
@@ -152,11 +153,16 @@ MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double 
   double cpuBefore = 0.0;
   double last = 0.0;
   RenderOptions answered;  // by the latest picture
-  while (seen < all && goOn(double(seen) / all)) {
+  const auto missing = [&] { return figures.kept.size() < size_t(plan.compared); };
+  // A picture that is to be kept may come after the last that counts, as it has to be asked for.
+  while ((seen < all || missing()) && goOn(std::min(double(seen) / all, 1.0))) {
     const double now = steadyMilliseconds();
     if (now >= next) {
       state.pose = plan.path(start, 1e-3 * (now - begin));
-      wishes.push_back({exchange.ask(tracedSides(state), plan.size, true), now, renderOptionsOf(state, 0)});
+      const bool kept = figures.kept.size() <
+                        size_t(std::min(figures.pictures + 1, plan.pictures) * plan.compared / plan.pictures);
+      wishes.push_back(
+          {exchange.ask(tracedSides(state), plan.size, true, kept), now, renderOptionsOf(state, 0)});
       next = std::max(next + plan.intervalMs, now);
     }
     Delivery news = exchange.take();
@@ -169,7 +175,7 @@ MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double 
         counted = at;
         cpuBefore = thread.cpuMs();
       }
-      const bool counts = seen > plan.warmUp;
+      const bool counts = seen > plan.warmUp && seen <= all;
       while (!wishes.empty() && wishes.front().number <= picture.request) {
         if (counts) figures.latencyMs.push_back(at - wishes.front().at);
         answered = std::move(wishes.front().options);
@@ -177,12 +183,20 @@ MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double 
       }
       if (counts) {
         ++figures.pictures;
-        figures.pixels += double(picture.image.width) * picture.image.height;
+        figures.pixels += double(picture.size.x) * picture.size.y;
         figures.gapMs.push_back(at - last);
         figures.seconds = 1e-3 * (at - counted);
         figures.cpuMs = thread.cpuMs() - cpuBefore;
+        figures.movedBytes += double(picture.statistics.movedBytes);
+        for (size_t pass = 0; pass < kPassNames.size(); ++pass) {
+          figures.passes.cpu[pass] += picture.statistics.passes.cpu[pass];
+          figures.passes.wall[pass] += picture.statistics.passes.wall[pass];
+        }
+      }
+      if (seen > plan.warmUp) {
         const auto due = size_t(figures.pictures) * size_t(plan.compared) / size_t(plan.pictures);
-        if (figures.kept.size() < due) figures.kept.push_back({std::move(picture.image), answered});
+        if (figures.kept.size() < due && picture.image.width > 0)
+          figures.kept.push_back({std::move(picture.image), answered});
       }
       last = at;
     }

@@ -8,6 +8,7 @@
 
 #include "options/view_options.h"
 #include "view/camera_controller.h"
+#include "view/pass_times.h"
 
 namespace fragtrace {
 
@@ -39,8 +40,10 @@ struct KeptPicture {
 struct MotionFigures {
   double seconds = 0.0;  ///< that they took
   int pictures = 0;
-  double pixels = 0.0;              ///< of them all
-  double cpuMs = 0.0;               ///< of the tracing thread
+  double pixels = 0.0;      ///< of them all
+  double cpuMs = 0.0;       ///< of the tracing thread
+  double movedBytes = 0.0;  ///< between host and device
+  PassTimes passes{};
   std::vector<double> latencyMs{};  ///< from a move of the camera to the first picture that answers it
   std::vector<double> gapMs{};      ///< from picture to picture
   std::vector<KeptPicture> kept{};

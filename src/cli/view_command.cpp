@@ -59,30 +59,28 @@ int runView(const ViewOptions& asked) {
   ViewTracer tracer(options, std::move(oidn), exchange);
   std::promise<void> ended;
   std::thread tracing;
-  const auto begin = [&] {
-    tracing = std::thread([&] {
+  const auto begin = [&](const std::optional<OutsideContext>& shared) {
+    tracing = std::thread([&, shared] {
       nameThread("trace");
-      tracer.run();
+      tracer.run(shared);
       ended.set_value();
     });
   };
-  try {
-    library.run({options.render, options.statusFile, options.reference, begin, cameraText, commandText,
-                 withCommandText},
-                exchange);
-  } catch (...) {
+  const auto end = [&] {
     exchange.quit();
-    if (tracing.joinable()) tracing.join();
-    throw;
-  }
-  exchange.quit();
-  const bool soon = ended.get_future().wait_for(kPatience) == std::future_status::ready;
-  if (!soon || tracer.loading()) {
-    // Nothing is being written; what is left the system ends sooner than we could.
-    std::fflush(nullptr);
-    std::_Exit(0);
-  }
-  tracing.join();
+    if (!tracing.joinable()) return;
+    const bool failed = std::uncaught_exceptions() > 0;
+    const bool soon = failed || ended.get_future().wait_for(kPatience) == std::future_status::ready;
+    if (!soon || (!failed && tracer.loading())) {
+      // Nothing is being written; what is left the system ends sooner than we could.
+      std::fflush(nullptr);
+      std::_Exit(0);
+    }
+    tracing.join();
+  };
+  library.run({options.render, options.statusFile, options.reference, begin, end, cameraText, commandText,
+               withCommandText},
+              exchange);
   return 0;
 }
 

@@ -27,6 +27,30 @@ bool loadFunctions(Context& context, GetProcAddress getProcAddress, std::string&
   return true;
 }
 
+namespace {
+
+class Adopted : public Context {
+ public:
+  explicit Adopted(const OutsideContext& outside) : leave_(outside.leave) {
+    backend = "window";
+    outside.enter();
+  }
+  ~Adopted() override { leave_(); }
+
+ private:
+  std::function<void()> leave_;
+};
+
+}  // namespace
+
+std::unique_ptr<Context> makeContext(const OutsideContext& outside) {
+  auto context = std::make_unique<Adopted>(outside);
+  std::string reason;
+  if (!loadFunctions(*context, outside.functions, reason))
+    throw ContextError("the window's driver: " + reason);
+  return context;
+}
+
 std::unique_ptr<Context> makeContext(Backend backend, VectorWidth width) {
   setVectorWidth(width);
   std::string tried;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -30,6 +31,16 @@ std::unique_ptr<Context> makeContext(Backend backend, VectorWidth width = Vector
 /// The two ways, each null on failure with the reasons appended to `tried`.
 std::unique_ptr<Context> makeEglContext(std::string& tried);
 std::unique_ptr<Context> makeOsMesaContext(std::string& tried);
+
+/// A context that somebody else has made, for one thread.
+struct OutsideContext {
+  std::function<void()> enter;  ///< makes it current in the calling thread
+  std::function<void()> leave;  ///< none is, any more
+  void (*(*functions)(const char* name))() = nullptr;
+};
+
+/// That context, current from now on until this is destroyed. Throws ContextError.
+std::unique_ptr<Context> makeContext(const OutsideContext& outside);
 
 /// Fills the function table and the context's facts; false with a reason when it is no OpenGL 4.5.
 using GetProcAddress = void (*(*)(const char*))();

@@ -46,6 +46,31 @@ void checkGl(const char* where) {
   throw RenderError(message);
 }
 
+void* makeFence() {
+  void* fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  glFlush();
+  return fence;
+}
+
+void awaitFence(void* fence) {
+  if (fence == nullptr) return;
+  glWaitSync(static_cast<GLsync>(fence), 0, GL_TIMEOUT_IGNORED);
+  releaseFence(fence);
+}
+
+bool isSignalled(void* fence) {
+  return fence == nullptr || glClientWaitSync(static_cast<GLsync>(fence), 0, 0) != GL_TIMEOUT_EXPIRED;
+}
+
+void releaseFence(void* fence) { glDeleteSync(static_cast<GLsync>(fence)); }
+
+void waitForDevice() { glFinish(); }
+
+uint64_t& movedBytes() {
+  static thread_local uint64_t bytes = 0;
+  return bytes;
+}
+
 int64_t driverLimit(GLenum name) {
   GLint64 value = 0;
   glGetInteger64v(name, &value);

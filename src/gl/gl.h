@@ -13,6 +13,20 @@ namespace fragtrace {
 /// Throws RenderError naming `where` and every pending OpenGL error; ContextLost if the context is.
 void checkGl(const char* where);
 
+/// Fences between contexts that share objects, as GLsync. One after all that this context was told, which is
+/// sent on its way.
+void* makeFence();
+/// What this context is told from now on waits for it, and it is released; null: nothing to wait for.
+void awaitFence(void* fence);
+bool isSignalled(void* fence);
+void releaseFence(void* fence);
+
+/// Until all that this context was told is done.
+void waitForDevice();
+
+/// Bytes that this thread has moved between host and device, which who moves any counts.
+uint64_t& movedBytes();
+
 /// A limit of the driver, such as GL_MAX_TEXTURE_SIZE. Throws as checkGl(): a lost context says 0.
 int64_t driverLimit(GLenum name);
 

@@ -21,12 +21,10 @@ constexpr double kMostPastSamples = 16.0;  // that the past counts for
 
 bool fits(glm::ivec2 size, glm::ivec2 room) { return glm::all(glm::lessThanEqual(size, room)); }
 
-void makeRoomToShow(SideMemory& memory, glm::ivec2 size) {
-  if (!fits(size, memory.shownRoom)) {
-    memory.shownRoom = glm::max(size, memory.shownRoom);
-    memory.shown = makePictureTexture(GL_RGBA32F, memory.shownRoom);
-  }
-  memory.shownSize = size;
+void fit(ShownTexture& shown, glm::ivec2 size) {
+  if (shown.size == size) return;
+  shown.texture = makePictureTexture(GL_RGBA32F, size);
+  shown.size = size;
 }
 
 /// The same pixels with the rows in the other order.
@@ -57,9 +55,19 @@ void SideMemory::forget() {
   guideSamples = 0;
 }
 
-PictureMaker::PictureMaker(const std::filesystem::path& shaderFolder, const std::optional<OidnLibrary>& oidn)
+Image imageOf(const ShownTexture& shown) {
+  return {shown.size.x,
+          shown.size.y,
+          {"R", "G", "B", "A"},
+          readPictureTexture<float>(shown.texture, GL_RGBA, 4, GL_FLOAT, shown.size, "reading what is shown"),
+          {}};
+}
+
+PictureMaker::PictureMaker(const std::filesystem::path& shaderFolder, const std::optional<OidnLibrary>& oidn,
+                           PassClock& clock)
     : source_(shaderSource(shaderFolder)),
       oidn_(oidn),
+      clock_(clock),
       seen_(source_),
       counted_(makePictureTexture(GL_RGBA32F, {1, 1})) {}
 
@@ -103,9 +111,10 @@ const GlTexture* PictureMaker::filtered(const Showing& showing, const RenderOpti
 }
 
 bool PictureMaker::show(const Film& film, const Showing& showing, const RenderOptions& options,
-                        Tracer& tracer, const View& view, SideMemory& memory,
+                        Tracer& tracer, const View& view, SideMemory& memory, ShownTexture& into,
                         const std::function<bool()>& goOn) {
   const glm::ivec2 size = film.size();
+  clock_.restart();
   if (!fits(size, room_)) {
     room_ = glm::max(size, room_);
     raw_ = makePictureTexture(GL_RGBA32F, room_);
@@ -114,9 +123,11 @@ bool PictureMaker::show(const Film& film, const Showing& showing, const RenderOp
   const GlTexture* filter = nullptr;
   if (share <= 0.0) {
     seen_.read(film, raw_, passes_);
+    clock_.end(Pass::Film);
     if (showing.filtered) memory.forget();
   } else {
     if (!drawGuides(showing.samples, size, tracer, view, memory, goOn)) return false;
+    clock_.end(Pass::Guides);
     SeenPicture& present = memory.present;
     makeRoom(present.noisy, size);
     present.size = size;
@@ -126,31 +137,26 @@ bool PictureMaker::show(const Film& film, const Showing& showing, const RenderOp
     const bool joins = memory.past.size.x > 0 && past > 0.0;
     if (joins) makeRoom(fresh_, size);
     seen_.read(film, *memory.guides, raw_, joins ? fresh_ : present.noisy, present.noisy, passes_);
+    clock_.end(Pass::Film);
     if (joins) seen_.join(fresh_, present, memory.past, past, passes_);
+    clock_.end(Pass::Past);
     filter = filtered(showing, options, present, goOn);
     if (!filter) return false;
+    clock_.end(Pass::Filter);
   }
-  makeRoomToShow(memory, size);
-  seen_.show(raw_, filter, share, options.light.background, size, memory.shown, passes_);
+  fit(into, size);
+  seen_.show(raw_, filter, share, options.light.background, size, into.texture, passes_);
+  clock_.end(Pass::Show);
   return true;
 }
 
-void PictureMaker::show(const Image& image, SideMemory& memory) const {
+void PictureMaker::show(const Image& image, ShownTexture& into) const {
   const glm::ivec2 size(image.width, image.height);
-  makeRoomToShow(memory, size);
+  fit(into, size);
   const bool alpha = image.channelCount() > 3;
   // Three channels leave the fourth at 1.
-  writePictureTexture(memory.shown, alpha ? GL_RGBA : GL_RGB, alpha ? 4 : 3, GL_FLOAT, size, image.values,
+  writePictureTexture(into.texture, alpha ? GL_RGBA : GL_RGB, alpha ? 4 : 3, GL_FLOAT, size, image.values,
                       "uploading a picture");
-}
-
-Image PictureMaker::shown(const SideMemory& memory) {
-  const glm::ivec2 size = memory.shownSize;
-  return {size.x,
-          size.y,
-          {"R", "G", "B", "A"},
-          readPictureTexture<float>(memory.shown, GL_RGBA, 4, GL_FLOAT, size, "reading what is shown"),
-          {}};
 }
 
 glm::vec3 PictureMaker::count(const Film& film) {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "denoise/oidn_library.h"
+#include "live/pass_clock.h"
 #include "render/denoise.h"
 #include "render/seen_picture.h"
 #include "session/tracer.h"
@@ -23,14 +24,18 @@ struct SideMemory {
   int guideSamples = 0;        ///< of these; 0: they are to be drawn anew
   SeenPicture past;            ///< of the view before
   SeenPicture present;         ///< shown last, before it was filtered
-  GlTexture shown;             ///< RGBA32F, the first row at the top
-  glm::ivec2 shownSize{0};     ///< 0: nothing
-  glm::ivec2 shownRoom{0};
 
   /// The camera or the resolution is another one.
   void turn();
   /// Another picture altogether.
   void forget();
+};
+
+/// A picture as the window shows it: RGBA32F, linear, the first row at the top.
+struct ShownTexture {
+  GlTexture texture;
+  glm::ivec2 size{0};     ///< of it, exactly
+  void* ready = nullptr;  ///< a fence, of one that was handed over
 };
 
 /// How a side's picture is made.
@@ -40,21 +45,23 @@ struct Showing {
   int samples = 0;      ///< per pixel
 };
 
+/// R, G, B and A.
+Image imageOf(const ShownTexture& shown);
+
 class PictureMaker {
  public:
-  /// `oidn` must outlive this. Needs a context, as all calls do; throws RenderError, as they do.
-  PictureMaker(const std::filesystem::path& shaderFolder, const std::optional<OidnLibrary>& oidn);
+  /// `oidn` and the clock must outlive this. Needs a context, as all calls do; throws RenderError, as they
+  /// do.
+  PictureMaker(const std::filesystem::path& shaderFolder, const std::optional<OidnLibrary>& oidn,
+               PassClock& clock);
 
-  /// Shows the film, which was drawn by `tracer`, whose one feature is the guides that a filter needs, drawn
-  /// where they are not there yet. False when goOn() said no.
+  /// Shows the film in `into`, which was drawn by `tracer`, whose one feature is the guides that a filter
+  /// needs, drawn where they are not there yet. False when goOn() said no.
   bool show(const Film& film, const Showing& showing, const RenderOptions& options, Tracer& tracer,
-            const View& view, SideMemory& memory, const std::function<bool()>& goOn);
+            const View& view, SideMemory& memory, ShownTexture& into, const std::function<bool()>& goOn);
 
   /// Shows R, G, B and, where it has that, A of the host's.
-  void show(const Image& image, SideMemory& memory) const;
-
-  /// What is shown: R, G, B and A.
-  static Image shown(const SideMemory& memory);
+  void show(const Image& image, ShownTexture& into) const;
 
   /// The sums over all pixels: samples, rays, and pixels in which the driver ended a loop.
   glm::vec3 count(const Film& film);
@@ -67,6 +74,7 @@ class PictureMaker {
 
   ShaderSource source_;
   const std::optional<OidnLibrary>& oidn_;
+  PassClock& clock_;
   PicturePasses passes_;
   SeenPasses seen_;
   std::unique_ptr<VarianceFilter> filter_;  ///< made when it is first needed

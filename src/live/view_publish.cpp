@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "film/noise.h"
+#include "gl/gl.h"
 #include "image/channels.h"
 #include "image/format.h"
 #include "live/reference.h"
@@ -28,6 +29,14 @@ constexpr double kCountMs = 200.0;  ///< from one look at the film's counts to t
 
 double sinceMs(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Of films, and of pictures on their way to the window.
+size_t bytesPerPixel(const SideMemory& memory) {
+  constexpr size_t kFilm = 48;
+  constexpr size_t kShown = kSlots * 16 + 16;
+  constexpr size_t kFiltered = kFilm + 3 * 56 + 76;  // guides; past, present and fresh; the filter's own
+  return kFilm + kShown + (memory.guides ? kFiltered : 0);
 }
 
 /// R, G and B alone.
@@ -57,11 +66,28 @@ bool ViewTracer::denoisesByOidn(const Side& side) const {
          side.samples >= kFewestForOidn;
 }
 
+int ViewTracer::nextSlot(Side& side) {
+  const auto number = size_t(&side - sides_.data());
+  side.shownIn = -1;
+  if (!shares_) return 0;
+  const auto [slot, done] = exchange_.freeSlot(number);
+  awaitFence(done);
+  ShownTexture& shown = shown_[number][size_t(slot)];
+  if (shown.ready != nullptr) releaseFence(std::exchange(shown.ready, nullptr));
+  return slot;
+}
+
+ShownTexture& ViewTracer::shownOf(const Side& side, int slot) {
+  return shown_[size_t(&side - sides_.data())][size_t(slot)];
+}
+
 bool ViewTracer::show(Side& side, const std::function<bool()>& goOn) {
+  const int slot = nextSlot(side);
+  ShownTexture& into = shownOf(side, slot);
   if (showsColors(side.options)) {
     const Image picture = shownPicture(side.options, side.film->read(), {!side.options.light.background});
-    maker_->show(side.options.output.debugView == DebugView::Visits ? colorsOf(picture) : picture,
-                 side.memory);
+    maker_->show(side.options.output.debugView == DebugView::Visits ? colorsOf(picture) : picture, into);
+    side.shownIn = slot;
     return true;
   }
   const auto start = Clock::now();
@@ -70,15 +96,16 @@ bool ViewTracer::show(Side& side, const std::function<bool()>& goOn) {
   bool complete = false;
   try {
     complete = maker_->show(*side.film, {filtered, denoisesByOidn(side), side.samples}, side.options, tracer,
-                            side.view, side.memory, goOn);
+                            side.view, side.memory, into, goOn);
   } catch (const ContextLost&) {
     throw;
   } catch (const RenderError& error) {
     if (!filtered) throw;
     tracer.renderer->use(tracer.variant);  // it may have been at a layer
     exchange_.tellError(error.what());
-    complete = maker_->show(*side.film, {}, side.options, tracer, side.view, side.memory, goOn);
+    complete = maker_->show(*side.film, {}, side.options, tracer, side.view, side.memory, into, goOn);
   }
+  if (complete) side.shownIn = slot;
   if (!filtered) return complete;
   side.filterMs = sinceMs(start);
   if (!denoisesByOidn(side))
@@ -107,7 +134,14 @@ void ViewTracer::publish(Side& side) {
   TracedPicture picture;
   picture.side = size_t(&side - sides_.data());
   picture.request = request_.number;
-  picture.image = PictureMaker::shown(side.memory);
+  picture.size = size;
+  ShownTexture& shown = shownOf(side, side.shownIn);
+  if (shares_) {
+    shown.ready = makeFence();
+    picture.shared = {side.shownIn, shown.texture.name(), shown.ready};
+  } else if (request_.values) {
+    picture.image = imageOf(shown);
+  }
   picture.asItIs = showsColors(side.options);
   picture.lines = linesOver(side);
   SideStatistics& s = picture.statistics;
@@ -126,7 +160,10 @@ void ViewTracer::publish(Side& side) {
   }
   s.resting = !request_.moving && resolution_.step == 0 && resting(side);
   s.variant = side.program->variant;
-  s.deviceBytes = side.program->bytes + size_t(size.x) * size_t(size.y) * 48;
+  s.deviceBytes = side.program->bytes + size_t(size.x) * size_t(size.y) * bytesPerPixel(side.memory);
+  s.copied = !shares_;
+  s.passes = clock_.take();
+  s.movedBytes = movedBytes() - std::exchange(side.movedBytes, movedBytes());
   exchange_.deliver(std::move(picture));
   losses_ = 0;
   published_ = Clock::now();
@@ -135,9 +172,10 @@ void ViewTracer::publish(Side& side) {
 
 /// As the window shows it.
 Image ViewTracer::seenOf(Side& side) {
-  const bool seen = denoises(side) && side.shownAt > 0 && side.memory.shownSize == side.film->size();
+  const bool seen =
+      denoises(side) && side.shownIn >= 0 && shownOf(side, side.shownIn).size == side.film->size();
   if (!seen) show(side, [] { return true; });
-  Image picture = PictureMaker::shown(side.memory);
+  const Image picture = imageOf(shownOf(side, side.shownIn));
   return side.options.light.background ? onlyChannels(picture, {"R", "G", "B"}) : picture;
 }
 
@@ -201,6 +239,7 @@ void ViewTracer::takeReference(const std::filesystem::path& path) {
     picture.side = 1;
     picture.file = path;
     picture.image = readReference(path, start_.render.limits.memoryBytes);
+    picture.size = {picture.image.width, picture.image.height};
     reference_ = picture.image;
     exchange_.deliver(std::move(picture));
   } catch (const std::exception& error) {

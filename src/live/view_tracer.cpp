@@ -57,14 +57,15 @@ ViewTracer::ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn
       exchange_(exchange),
       loader_(exchange, !start.reference.empty()),
       thumbnails_(exchange),
-      oidn_(std::move(oidn)) {
+      oidn_(std::move(oidn)),
+      clock_(start.waitsForPasses) {
   resolution_.targetMs = start.movingMs > 0.0 ? start.movingMs : std::numeric_limits<double>::infinity();
   passOnWhatIsSaid([&exchange](const std::string& text) { exchange.tell(text); });
 }
 
-void ViewTracer::run() {
+void ViewTracer::run(const std::optional<OutsideContext>& shared) {
   try {
-    enterContext();
+    enterContext(shared);
     bool working = false;
     for (;;) {
       Orders orders = exchange_.wait(working ? 0.0 : start_.watch ? kWatchSeconds : kLongWait);
@@ -90,10 +91,27 @@ void ViewTracer::run() {
   leaveContext();
 }
 
-void ViewTracer::enterContext() {
-  context_ = makeContext(start_.render.device.backend);
+void ViewTracer::enterContext(const std::optional<OutsideContext>& shared) {
+  const Backend backend = start_.render.device.backend;
+  shares_ = shared && backend == Backend::Auto;
+  if (shares_) context_ = makeContext(*shared);
+  // A window may be drawn by software though there is a GPU, as over a network.
+  if (shares_ && context_->software) {
+    context_.reset();
+    context_ = makeContext(backend);
+    shares_ = context_->software;
+    if (shares_) {
+      context_.reset();
+      context_ = makeContext(*shared);
+    }
+  }
+  if (!context_) context_ = makeContext(backend);
+  if (start_.render.output.verbose)
+    exchange_.tell(shares_ ? "pictures stay on the device: " + context_->renderer
+                           : "pictures are copied: they are drawn by " + context_->renderer + " (" +
+                                 context_->backend + ")");
   driverLog_ = std::make_unique<DebugLog>();
-  maker_ = std::make_unique<PictureMaker>(start_.render.device.shaderFolder, oidn_);
+  maker_ = std::make_unique<PictureMaker>(start_.render.device.shaderFolder, oidn_, clock_);
 }
 
 /// What was in the context is made anew in another one.
@@ -101,13 +119,14 @@ void ViewTracer::recover(const ContextLost& error) {
   if (++losses_ > kMostLosses) throw error;
   exchange_.tell(std::string(error.what()) + "; drawing anew");
   leaveContext();
-  enterContext();
+  enterContext({});
   if (loaded_) programs_ = std::make_unique<ViewPrograms>(*context_, *loaded_, loadedOptions_);
 }
 
 /// In the thread whose context it is.
 void ViewTracer::leaveContext() {
   sides_.clear();
+  shown_ = {};
   programs_.reset();
   maker_.reset();
   driverLog_.reset();
@@ -187,7 +206,7 @@ void ViewTracer::watchFiles() {
 /// The shaders have changed; what cannot be compiled now stays as it was.
 void ViewTracer::rebuildPrograms() {
   programs_->forget();
-  maker_ = std::make_unique<PictureMaker>(start_.render.device.shaderFolder, oidn_);
+  maker_ = std::make_unique<PictureMaker>(start_.render.device.shaderFolder, oidn_, clock_);
   for (Side& side : sides_) {
     const std::shared_ptr<ViewProgram> wanted = programFor(side.options);
     if (!wanted->error.empty()) return;
@@ -321,11 +340,13 @@ bool ViewTracer::work() {
   const int most = std::max(1, std::min(side->samples, side->options.sampling.spp - side->samples));
   const int count = settled ? int(std::clamp(affordable, 1.0, double(most))) : 1;
   const double before = side->times.renderMs;
+  clock_.restart();
   // A frame of a moving picture is short, and worth its end: else nothing would be seen before the hand
   // rests.
   const bool complete = renderer.addSamples(
       *side->film, side->view, side->samples, side->samples + count, side->times,
       [&](double) { return !(request_.moving ? exchange_.ending() : exchange_.interrupted()); });
+  clock_.end(Pass::Trace);
   if (!complete) return true;
   side->samples += count;
   const double filterMs = denoises(*side) && !settled ? filterMsPerPixel_ * size.x * size.y : 0.0;

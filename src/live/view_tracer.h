@@ -37,8 +37,10 @@ class ViewTracer {
   ViewTracer& operator=(const ViewTracer&) = delete;
   ~ViewTracer() { passOnWhatIsSaid({}); }
 
-  /// Until the exchange says quit; to be called in the thread that is to draw.
-  void run();
+  /// Until the exchange says quit; to be called in the thread that is to draw. In a context that shares its
+  /// objects with the window's, if that can be had and is no worse than one of its own: pictures then stay on
+  /// the device.
+  void run(const std::optional<OutsideContext>& shared);
 
   /// Whether a thread still loads what nobody waits for any more.
   bool loading() const { return loader_.busy() || thumbnails_.busy(); }
@@ -56,11 +58,13 @@ class ViewTracer {
     int errorAt = 0;    ///< samples when it was estimated
     bool stale = true;  ///< what the film holds is another picture
     SideMemory memory;
-    int shownAt = 0;        ///< samples when it was published last
-    double filterMs = 0.0;  ///< that it took
+    int shownAt = 0;          ///< samples when it was published last
+    int shownIn = -1;         ///< slot of that picture; negative: it is not there any more
+    double filterMs = 0.0;    ///< that it took
+    uint64_t movedBytes = 0;  ///< by the thread, at the side's picture before
   };
 
-  void enterContext();
+  void enterContext(const std::optional<OutsideContext>& shared);
   void leaveContext();
   void recover(const ContextLost& error);
   void obey(Orders orders);
@@ -96,6 +100,9 @@ class ViewTracer {
   bool denoisesByOidn(const Side& side) const;
   /// Makes what the side shows now; false when goOn() said no.
   bool show(Side& side, const std::function<bool()>& goOn);
+  /// Where the side's next picture goes.
+  int nextSlot(Side& side);
+  ShownTexture& shownOf(const Side& side, int slot);
   void publish(Side& side);
   Image seenOf(Side& side);
   void save(const SaveRequest& request);
@@ -121,10 +128,13 @@ class ViewTracer {
   std::optional<RefittableTree> tree_;  ///< that was built last for a moving scene
   std::unique_ptr<ViewPrograms> programs_;
   std::optional<OidnLibrary> oidn_;  ///< opened later where a pasted command asks for it
+  PassClock clock_;
   std::unique_ptr<PictureMaker> maker_;
   TraceRequest request_;
   Selected selected_;  ///< what was picked last
   std::vector<Side> sides_;
+  bool shares_ = false;                                    ///< objects with the window
+  std::array<std::array<ShownTexture, kSlots>, 2> shown_;  ///< of the sides; without sharing the first
   ResolutionController resolution_;
   std::vector<SaveRequest> saves_;
   std::optional<Image> reference_;  ///< that the window shows as side B

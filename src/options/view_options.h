@@ -12,6 +12,7 @@ struct ViewOptions {
   std::filesystem::path reference;  ///< a picture that is shown as side B; empty: none
   // Of measurements alone.
   double movingMs = 100.0;  ///< that a picture in motion may take; 0: it has full resolution
+  bool waitsForPasses = false;  ///< so that each has its time
   bool keepsPast = true;    ///< what the camera saw before is taken over
 };
 

@@ -14,6 +14,9 @@ namespace fragtrace {
 namespace {
 
 constexpr const char* kReading = "reading the film";
+constexpr GLint kSum = 0;  // draw buffers that are cleared
+constexpr GLint kCompensation = 1;
+constexpr GLint kCounts = 2;
 constexpr const char* kLoading = "loading the film";
 
 }  // namespace
@@ -29,6 +32,13 @@ Film::Film(glm::ivec2 size) : size_(size), room_(size) {
   sum_ = makePictureTexture(GL_RGBA32F, size);
   compensation_ = makePictureTexture(GL_RGBA32F, size);
   counts_ = makePictureTexture(GL_RGBA32UI, size);
+  clearing_ = makeFramebuffer();
+  const std::array buffers{GLenum(GL_COLOR_ATTACHMENT0), GLenum(GL_COLOR_ATTACHMENT1),
+                           GLenum(GL_COLOR_ATTACHMENT2)};
+  const std::array textures{&sum_, &compensation_, &counts_};
+  for (size_t i = 0; i < buffers.size(); ++i)
+    glNamedFramebufferTexture(clearing_.name(), buffers[i], textures[i]->name(), 0);
+  glNamedFramebufferDrawBuffers(clearing_.name(), GLsizei(buffers.size()), buffers.data());
   clear();
 }
 
@@ -37,8 +47,8 @@ void Film::clear() {
   cut_ = 0.0;
   lightPaths_ = 0;
   if (splats_.name() != 0) glClearTexImage(splats_.name(), 0, GL_RGBA, GL_FLOAT, zero);
-  glClearTexImage(sum_.name(), 0, GL_RGBA, GL_FLOAT, zero);
-  glClearTexImage(compensation_.name(), 0, GL_RGBA, GL_FLOAT, zero);
+  glClearNamedFramebufferfv(clearing_.name(), GL_COLOR, kSum, zero);
+  glClearNamedFramebufferfv(clearing_.name(), GL_COLOR, kCompensation, zero);
   clearCounts();
   checkGl("clearing the film");
 }
@@ -54,7 +64,7 @@ void Film::restart(glm::ivec2 size) {
 
 void Film::clearCounts() {
   const GLuint none[4] = {};
-  glClearTexImage(counts_.name(), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, none);
+  glClearNamedFramebufferuiv(clearing_.name(), GL_COLOR, kCounts, none);
 }
 
 void Film::bind() const {

@@ -27,6 +27,7 @@ std::vector<Value> readPictureTexture(const GlTexture& texture, GLenum format, i
                                       glm::ivec2 size, const char* where) {
   const size_t row = size_t(size.x) * size_t(channels);
   std::vector<Value> values(row * size_t(size.y));
+  movedBytes() += values.size() * sizeof(Value);
   // The copy's size is an int in OpenGL, so large pictures are read in bands.
   const int rowsAtOnce = std::max(1, int((size_t(1) << 28) / (row * sizeof(Value))));
   for (int y = 0; y < size.y; y += rowsAtOnce) {
@@ -44,6 +45,7 @@ void writePictureTexture(const GlTexture& texture, GLenum format, int channels, 
                          const std::vector<Value>& values, const char* where) {
   const size_t row = size_t(size.x) * size_t(channels);
   if (values.size() != row * size_t(size.y)) throw std::invalid_argument("values do not fill the texture");
+  movedBytes() += values.size() * sizeof(Value);
   glTextureSubImage2D(texture.name(), 0, 0, 0, size.x, size.y, format, type, values.data());
   checkGl(where);
 }

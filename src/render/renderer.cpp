@@ -172,6 +172,7 @@ void Renderer::adaptBudget(double ms) {
 
 layout::Progress Renderer::draw(const ShaderVariant& variant) {
   layout::Progress progress{};
+  movedBytes() += 2 * sizeof progress;
   glNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
   const auto start = Clock::now();
   if (timer_.name() != 0) glBeginQuery(GL_TIME_ELAPSED, timer_.name());
@@ -211,6 +212,7 @@ bool Renderer::drawTile(const RenderPass& pass, const Work& tile, const std::fun
   for (;;) {
     const auto start = Clock::now();
     frame_.limits.z = stepBudget(variant);
+    movedBytes() += sizeof frame_;
     glNamedBufferSubData(frameBuffer_.name(), 0, sizeof frame_, &frame_);
     const layout::Progress progress = draw(variant);
     pass.film.addCut((progress.cutHigh * 0x1p32 + progress.cutLow) / layout::kCutUnits);

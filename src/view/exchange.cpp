@@ -47,11 +47,11 @@ void Exchange::inform(const std::function<void(Delivery&)>& change) {
   wake();
 }
 
-uint64_t Exchange::ask(std::vector<RenderOptions> sides, glm::ivec2 size, bool moving) {
+uint64_t Exchange::ask(std::vector<RenderOptions> sides, glm::ivec2 size, bool moving, bool values) {
   uint64_t number = 0;
   order([&](Orders& o) {
     number = ++requests_;
-    o.request = TraceRequest{number, std::move(sides), size, moving};
+    o.request = TraceRequest{number, std::move(sides), size, moving, values};
   });
   return number;
 }
@@ -90,6 +90,9 @@ void Exchange::quit() {
 Delivery Exchange::take() {
   const std::lock_guard lock(mutex_);
   Delivery taken = std::move(delivery_);
+  for (const TracedPicture& picture : taken.pictures) {
+    if (picture.shared.slot >= 0) taken_[picture.side][size_t(picture.shared.slot)] = true;
+  }
   // What describes a state stays until it changes.
   delivery_ = {};
   delivery_.load = taken.load;
@@ -99,6 +102,25 @@ Delivery Exchange::take() {
   delivery_.error = taken.error;
   delivery_.failure = taken.failure;
   return taken;
+}
+
+void Exchange::giveBack(size_t side, const SharedTexture& texture, void* done) {
+  const std::lock_guard lock(mutex_);
+  taken_[side][size_t(texture.slot)] = false;
+  doneAt_[side][size_t(texture.slot)] = done;
+}
+
+std::pair<int, void*> Exchange::freeSlot(size_t side) {
+  const std::lock_guard lock(mutex_);
+  const auto waiting = std::ranges::find_if(
+      delivery_.pictures, [&](const TracedPicture& p) { return p.side == side && p.shared.slot >= 0; });
+  const int reserved = waiting != delivery_.pictures.end() ? waiting->shared.slot : -1;
+  for (int slot = 0; slot < int(kSlots); ++slot) {
+    if (!taken_[side][size_t(slot)] && slot != reserved)
+      return {slot, std::exchange(doneAt_[side][size_t(slot)], nullptr)};
+  }
+  delivery_.pictures.erase(waiting);
+  return {reserved, std::exchange(doneAt_[side][size_t(reserved)], nullptr)};
 }
 
 Orders Exchange::wait(double seconds) {

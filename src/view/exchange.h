@@ -17,6 +17,7 @@
 #include "scene/describe.h"
 #include "stage/render_options.h"
 #include "stage/traits.h"
+#include "view/pass_times.h"
 
 namespace fragtrace {
 
@@ -30,6 +31,7 @@ struct TraceRequest {
   std::vector<RenderOptions> sides;  ///< one, or both sides of the split view; with their cameras
   glm::ivec2 size{0};                ///< pixels
   bool moving = false;               ///< frames at the resolution that can be had now, rather than samples
+  bool values = true;                ///< pictures that are not shared are copied to the host
 };
 
 /// Whether both draw the same samples: not how many of them, nor what the display makes of them.
@@ -51,15 +53,29 @@ struct SideStatistics {
   double filtered = 0.0;  ///< the share of the noise filter in what is shown, 0 to 1
   double filterMs = 0.0;  ///< what it took, with the layers it needs
   std::string variant;
-  size_t deviceBytes = 0;  ///< scene and film
+  size_t deviceBytes = 0;   ///< scene, film and pictures
+  uint64_t movedBytes = 0;  ///< between host and device since the side's picture before
+  PassTimes passes;         ///< since then
+  bool copied = false;      ///< through the host, as the window's driver is another one
 };
+
+/// A texture that the contexts of both threads see: RGBA32F, linear, the first row at the top.
+struct SharedTexture {
+  int slot = -1;  ///< of the side's kSlots; negative: there is none
+  unsigned texture = 0;
+  void* ready = nullptr;  ///< the GLsync after which it holds the picture; the tracing thread's
+};
+/// One that the window shows, one that waits for it, one that is drawn.
+inline constexpr size_t kSlots = 3;
 
 /// A finished picture of one side.
 struct TracedPicture {
   size_t side = 0;
   uint64_t request = 0;  ///< the latest that it answers
-  Image image;          ///< linear R, G, B, and A where camera rays may see nothing; the first row at the top
-  bool asItIs = false;  ///< colours of a debug view: neither exposure nor tone map
+  glm::ivec2 size{0};
+  SharedTexture shared{};          ///< where the picture is; else it is here:
+  Image image;                     ///< linear R, G, B and perhaps A, the first row at the top
+  bool asItIs = false;             ///< colours of a debug view: neither exposure nor tone map
   std::filesystem::path file{};    ///< that the picture was read from; empty: it was traced
   std::vector<PictureLine> lines;  ///< over it: boxes of the tree
   SideStatistics statistics;
@@ -168,7 +184,7 @@ class Exchange {
   void setWake(std::function<void()> wake);
 
   // The window's thread.
-  uint64_t ask(std::vector<RenderOptions> sides, glm::ivec2 size, bool moving);
+  uint64_t ask(std::vector<RenderOptions> sides, glm::ivec2 size, bool moving, bool values = true);
   void load(const RenderOptions& options);
   void cancelLoad();
   void save(SaveRequest request);
@@ -177,6 +193,8 @@ class Exchange {
   void compareWith(std::filesystem::path reference);
   void quit();
   Delivery take();
+  /// The window shows a texture no longer, once the GLsync `done`, now the tracing thread's, is signalled.
+  void giveBack(size_t side, const SharedTexture& texture, void* done);
 
   // The tracing thread.
   /// Waits for orders, at most that long.
@@ -184,6 +202,9 @@ class Exchange {
   /// Whether to stop drawing: a newer request waits, or the end.
   bool interrupted() const;
   bool ending() const;
+  /// A slot of the side that the window neither shows nor waits for, with the GLsync that its last use ends
+  /// at (null: none), which becomes the caller's. The picture that the window has not yet taken gives way.
+  std::pair<int, void*> freeSlot(size_t side);
   void deliver(TracedPicture picture);
   void deliver(ViewedScene scene);
   void deliver(PickAnswer answer);
@@ -211,6 +232,8 @@ class Exchange {
   bool ending_ = false;
   Orders orders_;
   Delivery delivery_;
+  std::array<std::array<bool, kSlots>, 2> taken_{};  ///< by the window
+  std::array<std::array<void*, kSlots>, 2> doneAt_{};
 };
 
 }  // namespace fragtrace

@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "gl/context.h"
 #include "view/exchange.h"
 
 namespace fragtrace {
@@ -15,7 +16,10 @@ struct WindowStart {
   RenderOptions options;
   std::filesystem::path statusFile;  ///< see docs/viewer.md; empty: none
   std::filesystem::path reference;   ///< a picture to compare with; empty: none
-  std::function<void()> opened;      ///< called once the window is there
+  /// Called once the window is there, with a context that shares its objects, if there can be one, and lives
+  /// as long as it; and before the window ends, by when nothing may be drawn there any more.
+  std::function<void(const std::optional<OutsideContext>& shared)> opened;
+  std::function<void()> ending;
   // Options as text of the command line, and back (options/camera_text.h, options/command_text.h).
   std::function<std::string(const RenderOptions&)> cameraText;
   std::function<std::string(const RenderOptions&)> commandText;

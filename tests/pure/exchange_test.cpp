@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <random>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace fragtrace {
 namespace {
@@ -69,6 +73,36 @@ TEST(Exchange, StatesStayUntilTheyChangeAndMessagesComeOnce) {
   EXPECT_TRUE(again.messages.empty());
   EXPECT_EQ(again.note, "compiling");
   EXPECT_EQ(again.error, "wrong");
+}
+
+/// Whatever the two threads do in turn, what is drawn to is neither shown nor waited for.
+TEST(Exchange, ASlotThatIsDrawnToBelongsToNobodyElse) {
+  Exchange exchange;
+  std::array<char, kSlots> fences{};
+  std::vector<int> held;  // by the window: the first is shown
+  std::mt19937 random(5);
+  for (int turn = 0; turn < 10'000; ++turn) {
+    const int choice = std::uniform_int_distribution(0, 2)(random);
+    if (choice < 2) {
+      const auto [slot, done] = exchange.freeSlot(1);
+      ASSERT_TRUE(slot >= 0 && slot < int(kSlots));
+      ASSERT_EQ(std::ranges::count(held, slot), 0) << turn;
+      ASSERT_TRUE(done == nullptr || done == &fences[size_t(slot)]);
+      if (choice == 1) continue;  // the picture is not finished
+      TracedPicture picture;
+      picture.side = 1;
+      picture.shared.slot = slot;
+      exchange.deliver(std::move(picture));
+      continue;
+    }
+    for (const TracedPicture& picture : exchange.take().pictures) held.push_back(picture.shared.slot);
+    // One that waits for its fence gives way to a newer one, and then the one that is shown.
+    while (held.size() > (turn % 2 == 0 ? 1u : 2u)) {
+      const auto gone = held.begin() + (held.size() > 2 ? 1 : 0);
+      exchange.giveBack(1, {*gone}, &fences[size_t(*gone)]);
+      held.erase(gone);
+    }
+  }
 }
 
 TEST(Exchange, WakesTheWindowForNewsAndTheTracerForOrders) {

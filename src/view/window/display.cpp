@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "view/window/display.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "errors.h"
 #include "gl/program.h"
@@ -21,7 +23,7 @@ constexpr GLint kDifference = 4;
 
 }  // namespace
 
-Display::Display() : vertexArray_(makeVertexArray()) {
+Display::Display(Exchange& exchange) : exchange_(exchange), vertexArray_(makeVertexArray()) {
   const ShaderSource source = shaderSource({});
   const std::string vertex = assembleShader(source, "entry/fullscreen.vert", {});
   mapping_ = buildProgram(vertex, assembleShader(source, "entry/display.frag", {}));
@@ -29,13 +31,17 @@ Display::Display() : vertexArray_(makeVertexArray()) {
   checkGl("building the display's programs");
 }
 
-void Display::take(const TracedPicture& picture) {
-  Side& side = sides_.at(picture.side);
-  const Image& image = picture.image;
-  const glm::ivec2 size(image.width, image.height);
+bool Display::waits() const {
+  return std::ranges::any_of(sides_, [](const Side& side) { return side.waiting.slot >= 0; });
+}
+
+void Display::giveBack(size_t side, SharedTexture& texture) {
+  if (texture.slot >= 0) exchange_.giveBack(side, texture, makeFence());
+  texture = {};
+}
+
+void Display::show(Side& side, GLuint traced, glm::ivec2 size, bool asItIs) {
   if (side.size != size) {
-    side.traced = makeTexture(GL_TEXTURE_2D);
-    glTextureStorage2D(side.traced.name(), 1, GL_RGBA32F, size.x, size.y);
     side.displayed = makeTexture(GL_TEXTURE_2D);
     glTextureStorage2D(side.displayed.name(), 1, GL_RGBA8, size.x, size.y);
     glTextureParameteri(side.displayed.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -44,13 +50,49 @@ void Display::take(const TracedPicture& picture) {
     glNamedFramebufferTexture(side.framebuffer.name(), GL_COLOR_ATTACHMENT0, side.displayed.name(), 0);
     side.size = size;
   }
+  side.traced = traced;
+  ++side.number;
+  side.asItIs = asItIs;
+  side.fresh = false;
+}
+
+double Display::keepValues(size_t number, PictureValues& values, const PixelArea& area, double now) {
+  Side& side = sides_[number];
+  return side.reader.keep(values, side.traced, side.number, side.size, area, now);
+}
+
+/// Shows the picture that waits, if it is ready.
+void Display::adopt(size_t number) {
+  Side& side = sides_[number];
+  if (side.waiting.slot < 0 || !isSignalled(side.waiting.ready)) return;
+  giveBack(number, side.shared);
+  side.shared = std::exchange(side.waiting, {});
+  show(side, side.shared.texture, side.waitingSize, side.waitingAsItIs);
+}
+
+void Display::take(const TracedPicture& picture) {
+  Side& side = sides_.at(picture.side);
+  giveBack(picture.side, side.waiting);
+  if (picture.shared.slot >= 0) {
+    side.waiting = picture.shared;
+    side.waitingSize = picture.size;
+    side.waitingAsItIs = picture.asItIs;
+    return adopt(picture.side);
+  }
+  const Image& image = picture.image;
+  const glm::ivec2 size(image.width, image.height);
   const bool alpha = image.channelCount() == 4;
   if (!alpha && image.channelCount() != 3) throw RenderError("a traced picture is neither RGB nor RGBA");
+  if (side.copiedSize != size) {
+    side.copied = makeTexture(GL_TEXTURE_2D);
+    glTextureStorage2D(side.copied.name(), 1, GL_RGBA32F, size.x, size.y);
+    side.copiedSize = size;
+  }
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTextureSubImage2D(side.traced.name(), 0, 0, 0, size.x, size.y, alpha ? GL_RGBA : GL_RGB, GL_FLOAT,
+  glTextureSubImage2D(side.copied.name(), 0, 0, 0, size.x, size.y, alpha ? GL_RGBA : GL_RGB, GL_FLOAT,
                       image.values.data());
-  side.asItIs = picture.asItIs;
-  side.fresh = false;
+  giveBack(picture.side, side.shared);
+  show(side, side.copied.name(), size, picture.asItIs);
   checkGl("uploading a picture");
 }
 
@@ -58,7 +100,7 @@ void Display::map(Side& side, const DisplaySide& settings) {
   if (side.fresh && side.settings == settings) return;
   glBindFramebuffer(GL_FRAMEBUFFER, side.framebuffer.name());
   glViewport(0, 0, side.size.x, side.size.y);
-  glBindTextureUnit(0, side.traced.name());
+  glBindTextureUnit(0, side.traced);
   glUseProgram(mapping_.name());
   glUniform1f(kFactor, side.asItIs ? 1.0f : float(std::exp2(settings.exposure)));
   glUniform1i(kToneMap, side.asItIs ? GLint(ToneMap::Linear) : GLint(settings.toneMap));
@@ -75,6 +117,7 @@ void Display::draw(const DisplayView& view, const std::array<DisplaySide, 2>& si
   glBindSampler(1, 0);
   glBindVertexArray(vertexArray_.name());
   for (size_t i = 0; i < 2; ++i) {
+    adopt(i);
     if (shows(i)) map(sides_[i], sides[i]);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -91,12 +134,12 @@ void Display::drawPictures(const DisplayView& view) {
   const bool difference = view.difference && shows(1);
   for (size_t i = 0; i < 2; ++i) {
     const Side& side = shows(i) ? sides_[i] : sides_[0];
-    const GlTexture& shown = difference ? side.traced : side.displayed;
+    const GLuint shown = difference ? side.traced : side.displayed.name();
     // Pixels of a picture that fits, or is enlarged, are shown as they are.
     const GLint filter = side.size == picture || view.magnifier.steps > 0 ? GL_NEAREST : GL_LINEAR;
-    glTextureParameteri(shown.name(), GL_TEXTURE_MIN_FILTER, filter);
-    glTextureParameteri(shown.name(), GL_TEXTURE_MAG_FILTER, filter);
-    glBindTextureUnit(GLuint(i), shown.name());
+    glTextureParameteri(shown, GL_TEXTURE_MIN_FILTER, filter);
+    glTextureParameteri(shown, GL_TEXTURE_MAG_FILTER, filter);
+    glBindTextureUnit(GLuint(i), shown);
   }
   const int bottom = view.framebuffer.y - picture.y;
   glViewport(0, bottom, picture.x, picture.y);

@@ -8,6 +8,7 @@
 #include "gl/gl.h"
 #include "image/display/tone_map.h"
 #include "view/view_state.h"
+#include "view/window/value_reader.h"
 
 namespace fragtrace {
 
@@ -31,17 +32,31 @@ struct DisplayView {
 class Display {
  public:
   /// Needs a current context; throws RenderError.
-  Display();
+  explicit Display(Exchange& exchange);
 
   void take(const TracedPicture& picture);
   bool shows(size_t side) const { return sides_[side].size.x > 0; }
+  /// Whether a picture that was taken is still being drawn by the tracing thread.
+  bool waits() const;
+  /// Keeps these values of a side's picture, and says when to be asked again, as ValueReader does.
+  double keepValues(size_t side, PictureValues& values, const PixelArea& area, double now);
+  /// Pixels of the picture that is shown.
+  glm::ivec2 sizeOf(size_t side) const { return sides_[side].size; }
 
   /// Fills the picture's area, and clears the rest.
   void draw(const DisplayView& view, const std::array<DisplaySide, 2>& sides);
 
  private:
   struct Side {
-    GlTexture traced;
+    GlTexture copied;  ///< where pictures are not shared
+    glm::ivec2 copiedSize{0};
+    SharedTexture shared;   ///< that is shown
+    SharedTexture waiting;  ///< until it is ready
+    glm::ivec2 waitingSize{0};
+    bool waitingAsItIs = false;
+    GLuint traced = 0;    ///< what is shown
+    uint64_t number = 0;  ///< of the picture
+    ValueReader reader;
     GlTexture displayed;
     GlFramebuffer framebuffer;  ///< of the latter
     glm::ivec2 size{0};
@@ -49,9 +64,13 @@ class Display {
     bool fresh = false;    ///< what is displayed is of the traced picture,
     DisplaySide settings;  ///< shown like this
   };
+  void adopt(size_t side);
+  static void show(Side& side, GLuint traced, glm::ivec2 size, bool asItIs);
+  void giveBack(size_t side, SharedTexture& texture);
   void map(Side& side, const DisplaySide& settings);
   void drawPictures(const DisplayView& view);
 
+  Exchange& exchange_;
   GlProgram mapping_;
   GlProgram window_;
   GlVertexArray vertexArray_;

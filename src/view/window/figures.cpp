@@ -34,7 +34,7 @@ void drawCosts(const ViewState& state, const ViewFacts& facts, size_t side) {
   if (s.filtered > 0.0) row("denoised", "%.0f %%, %.0f ms", 100.0 * s.filtered, s.filterMs);
   if (!state.split) row("paths", "%.2f million/s", s.megaPathsPerSecond);
   const glm::ivec2 size = facts.pictureSize[side];
-  row("picture", "%d x %d", size.x, size.y);
+  row("picture", "%d x %d%s", size.x, size.y, s.copied ? ", copied" : "");
   if (state.split || !state.scene) return;
   const SceneDescription& d = state.scene->description;
   if (d.spheres > 0)

@@ -82,6 +82,19 @@ WindowHandle openWindow(glm::ivec2 size, const std::string& title) {
   return window;
 }
 
+WindowHandle openSharing(GLFWwindow* window) {
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  WindowHandle sharing(glfwCreateWindow(1, 1, "", nullptr, window));
+  glfwWindowHint(GLFW_VISIBLE, GLFW_TRUE);
+  if (!sharing) throw std::runtime_error(takeGlfwErrors());
+  return sharing;
+}
+
+OutsideContext outsideContext(GLFWwindow* sharing) {
+  return {[sharing] { glfwMakeContextCurrent(sharing); }, [] { glfwMakeContextCurrent(nullptr); },
+          glfwGetProcAddress};
+}
+
 std::string takeGlfwErrors() {
   GlfwErrors& errors = glfwErrors();
   const std::lock_guard lock(errors.mutex);

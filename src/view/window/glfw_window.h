@@ -6,6 +6,8 @@
 #include <memory>
 #include <string>
 
+#include "gl/context.h"
+
 struct GLFWwindow;
 
 namespace fragtrace {
@@ -29,6 +31,11 @@ bool displayIsGone();
 
 /// Throws std::runtime_error.
 WindowHandle openWindow(glm::ivec2 size, const std::string& title);
+
+/// A context that shares its objects with that of a window, without a window that is seen: for a thread of
+/// its own. Throws std::runtime_error.
+WindowHandle openSharing(GLFWwindow* window);
+OutsideContext outsideContext(GLFWwindow* sharing);
 
 /// What GLFW has reported since the last call, from any thread; empty: nothing.
 std::string takeGlfwErrors();

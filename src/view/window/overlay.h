@@ -9,6 +9,7 @@
 
 #include "view/message_list.h"
 #include "view/picture/histogram.h"
+#include "view/picture/pixel_value.h"
 #include "view/remembered.h"
 #include "view/view_state.h"
 #include "view/window/places.h"
@@ -29,8 +30,8 @@ struct ViewFacts {
   std::array<SideStatistics, 2> statistics;
   std::array<glm::ivec2, 2> pictureSize{};  ///< of the pictures shown; lower than the window's while moving
   std::array<std::vector<PictureLine>, 2> lines;
-  std::array<Image, 2> pictures;            ///< linear, as in TracedPicture
-  std::array<uint64_t, 2> pictureNumber{};  ///< counts these
+  std::array<PictureValues, 2> values;  ///< of what is looked at: under the cursor, enlarged, the whole
+  bool wantsHistogram = false;          ///< of the active side
   ShownHistogram histogram;
   std::map<std::filesystem::path, unsigned> thumbnails;  ///< textures, of environments; empty: the studio
   bool wantsThumbnails = false;                          ///< the list of environments is open
@@ -42,6 +43,7 @@ struct ViewFacts {
   MessageList messages;
   std::optional<PickAnswer> pick;
   bool resting = false;
+  double picturesPerSecond = 0.0;  ///< of the first side, while something moves; else 0
   bool canUndo = false;
   bool canRedo = false;
   std::string status;  ///< what the status bar says

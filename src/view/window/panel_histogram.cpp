@@ -18,10 +18,11 @@ const Histogram& current(const ViewState& state, ViewFacts& facts) {
   const size_t side = state.active;
   ShownHistogram& shown = facts.histogram;
   const double exposure = state.sides[side].output.exposure;
-  const bool known =
-      shown.picture == facts.pictureNumber[side] && shown.side == side && shown.exposure == exposure;
-  if (!known)
-    shown = {histogramOf(facts.pictures[side], exposure), facts.pictureNumber[side], side, exposure};
+  const PictureValues& values = facts.values[side];
+  facts.wantsHistogram = true;
+  const bool whole = values.whole.x > 0 && values.area.size == values.whole;
+  const bool known = shown.picture == values.picture && shown.side == side && shown.exposure == exposure;
+  if (whole && !known) shown = {histogramOf(values.image, exposure), values.picture, side, exposure};
   return shown.histogram;
 }
 

@@ -36,9 +36,37 @@ void drawValue(ImDrawList& list, ImVec2 middle, const glm::dvec3& value) {
 
 }  // namespace
 
+std::optional<glm::dvec3> shownValue(const ViewFacts& facts, size_t side, bool difference,
+                                     const glm::dvec2& place) {
+  const auto value = radianceAt(facts.values[side], place);
+  if (!value || !difference) return value;
+  const auto other = radianceAt(facts.values[1], place);
+  return other ? std::optional(glm::abs(*value - *other)) : std::nullopt;
+}
+
+PixelArea wantedArea(const ViewState& state, const ViewFacts& facts, size_t side, glm::ivec2 whole) {
+  if (whole.x <= 0) return {};
+  if (facts.wantsHistogram && side == state.active) return {{0, 0}, whole};
+  const auto between = [&](const glm::dvec2& from, const glm::dvec2& to) {
+    const glm::ivec2 corner = pixelAt(whole, from);
+    return PixelArea{corner, pixelAt(whole, to) - corner + 1};
+  };
+  if (showsPixelValues(state)) {
+    const glm::dvec2 corner = magnifiedPlace(state, glm::dvec2(0.0));
+    return between(corner, corner + std::exp2(-state.magnifier.steps));
+  }
+  if (!facts.cursor) return {};
+  const glm::dvec2 place = magnifiedPlace(state, *facts.cursor + 0.5 / glm::dvec2(state.size));
+  return between(place, place);
+}
+
+bool showsPixelValues(const ViewState& state) {
+  return std::exp2(state.magnifier.steps) >= double((kLines + 1.0f) * ImGui::GetFontSize());
+}
+
 void drawPixelValues(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout) {
+  if (!showsPixelValues(state)) return;
   const double factor = std::exp2(state.magnifier.steps);
-  if (factor < double((kLines + 1.0f) * ImGui::GetFontSize())) return;
   const bool difference = state.split && state.comparison == CompareMode::Difference;
   const glm::dvec2 size(layout.picture);
   // In parts of the picture, from its top left.
@@ -52,11 +80,8 @@ void drawPixelValues(const ViewState& state, const ViewFacts& facts, const Windo
       const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / size;
       const glm::dvec2 shown = (place - corner) * factor;
       const size_t side = difference ? 0 : sideAt(state, shown);
-      const Image& picture = facts.pictures[side];
-      if (picture.width <= 0 || (difference && facts.pictures[1].width <= 0)) continue;
-      glm::dvec3 value = radianceAt(picture, place);
-      if (difference) value = glm::abs(value - radianceAt(facts.pictures[1], place));
-      drawValue(list, ImVec2(float(shown.x * size.x), float(shown.y * size.y)), value);
+      const auto value = shownValue(facts, side, difference, place);
+      if (value) drawValue(list, ImVec2(float(shown.x * size.x), float(shown.y * size.y)), *value);
     }
   }
   list.PopClipRect();

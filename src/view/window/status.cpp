@@ -39,6 +39,7 @@ Json sideJson(const ViewState& state, const ViewFacts& facts, size_t side) {
   json["resting"] = s.resting;
   json["filtered"] = s.filtered;
   json["filter_ms"] = s.filterMs;
+  json["copied"] = s.copied;
   json["variant"] = s.variant;
   json["width"] = facts.pictureSize[side].x;
   json["height"] = facts.pictureSize[side].y;
@@ -80,6 +81,7 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["height"] = state.size.y;
   json["asked"] = report.asked;
   json["answered"] = report.answered;
+  json["pictures"] = report.pictures;
   json["split"] = state.split;
   json["bar"] = state.bar;
   json["comparison"] = kComparisonNames[size_t(state.comparison)];

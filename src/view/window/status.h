@@ -25,6 +25,7 @@ struct WindowReport {
   uint64_t asked = 0;         ///< the latest request
   uint64_t seen = 0;          ///< that the tracing thread has seen
   uint64_t answered = 0;      ///< that a picture shown answers
+  uint64_t pictures = 0;      ///< of all sides, that came
   std::string camera;         ///< as options of the command line
   const char* end = nullptr;  ///< "closed" or "failed"; null: the window is open
   std::vector<std::string> glErrors;

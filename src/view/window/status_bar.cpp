@@ -8,6 +8,7 @@
 
 #include "view/picture/pixel_value.h"
 #include "view/progress.h"
+#include "view/window/pixel_values.h"
 #include "view/window/text.h"
 
 namespace fragtrace {
@@ -47,6 +48,7 @@ std::vector<std::string> progressTexts(const ViewState& state, const ViewFacts& 
                         : printed("error %.2f %%", 100.0 * s.error));
   }
   if (!s.resting && progress.seconds) texts.push_back(durationText(*progress.seconds) + " left");
+  if (facts.picturesPerSecond > 0.0) texts.push_back(printed("%.1f pictures/s", facts.picturesPerSecond));
   const glm::ivec2 size = facts.pictureSize[side];
   if (size.x <= 0) return texts;  // there is no picture yet
   texts.push_back(size == state.size
@@ -58,18 +60,16 @@ std::vector<std::string> progressTexts(const ViewState& state, const ViewFacts& 
 /// The pixel under the cursor, of the picture at its full resolution, and what it holds.
 std::string pixelText(const ViewState& state, const ViewFacts& facts) {
   if (!facts.cursor) return "";
-  const auto& pictures = facts.pictures;
   const bool difference = state.split && state.comparison == CompareMode::Difference;
   const size_t side = difference ? 0 : sideAt(state, *facts.cursor);
-  if (pictures[side].width <= 0 || (difference && pictures[1].width <= 0)) return "";
   // The middle of the pixel, since places of whole pixels are rounded.
   const glm::dvec2 place = magnifiedPlace(state, *facts.cursor + 0.5 / glm::dvec2(state.size));
   const glm::ivec2 pixel =
       glm::clamp(glm::ivec2(place * glm::dvec2(state.size)), glm::ivec2(0), state.size - 1);
-  glm::dvec3 value = radianceAt(pictures[side], place);
-  if (difference) value = glm::abs(value - radianceAt(pictures[1], place));
+  const auto value = shownValue(facts, side, difference, place);
+  if (!value) return "";
   const char* name = !state.split ? "" : difference ? "|A - B| " : side == 0 ? "A " : "B ";
-  return printed("%s%d, %d: %.4g %.4g %.4g", name, pixel.x, pixel.y, value.x, value.y, value.z);
+  return printed("%s%d, %d: %.4g %.4g %.4g", name, pixel.x, pixel.y, value->x, value->y, value->z);
 }
 
 }  // namespace

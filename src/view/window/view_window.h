@@ -27,6 +27,8 @@ class Window {
   /// Until the window is closed. Throws what the tracing thread failed with, and InputError when the scene
   /// that was asked for could never be shown.
   void run();
+  /// For the tracing thread.
+  std::optional<OutsideContext> shared() const;
   /// The last of the status file: why the window is closed; empty: it was wanted.
   void end(const std::string& failure);
 
@@ -44,6 +46,7 @@ class Window {
   void takeState(const Delivery& news);
   void forgetBrokenEnvironment();
   void ask();
+  void readValues();
   void draw();
   void writeStatus();
   void say(const std::string& message);
@@ -69,6 +72,7 @@ class Window {
   Exchange& exchange_;
   Glfw glfw_;
   WindowHandle window_;
+  WindowHandle sharing_;  ///< none: the tracing thread draws elsewhere
   DebugLog driverLog_;
   Input input_;
   Interface interface_;
@@ -88,10 +92,12 @@ class Window {
   bool newReference_ = false;  ///< its size is not yet compared with the picture's
   int frames_ = 0;             ///< still to be drawn
   double changed_ = -1.0;      ///< when the traced picture was last changed
+  double again_ = 1e30;        ///< when a picture or its values may have come
   double fades_ = 1e30;        ///< when a message is to be drawn paler
   std::vector<RenderOptions> askedSides_;
   glm::ivec2 askedSize_{0};
   bool askedMoving_ = false;
+  std::deque<double> arrivals_;  ///< of the first side's pictures in the last second
   std::deque<std::pair<uint64_t, double>> unanswered_;  ///< requests, and when they were made
 };
 

@@ -35,7 +35,11 @@ std::unique_ptr<Window> makeWindow(const WindowStart& start, Exchange& exchange)
 
 void runWindow(const WindowStart& start, Exchange& exchange) {
   const std::unique_ptr<Window> window = makeWindow(start, exchange);
-  start.opened();
+  const struct Ending {
+    const WindowStart& start;
+    ~Ending() { start.ending(); }
+  } ending{start};
+  start.opened(window->shared());
   try {
     window->run();
     if (displayIsGone()) throw ContextError("the display is gone");

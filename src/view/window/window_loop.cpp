@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "errors.h"
 #include "gl/gl.h"
 #include "view/shown_names.h"
 #include "view/window/panel.h"
+#include "view/window/pixel_values.h"
 
 namespace fragtrace {
 
@@ -73,6 +75,7 @@ Window::Window(const WindowStart& start, Exchange& exchange)
       window_(openWindow(startSize(start.options), windowTitle(start.options.scene))),
       input_(window_.get()),
       interface_(window_.get()),
+      display_(exchange),
       frames_(kSettleFrames) {
   state_.sides[0] = wanted_ = start.options;
   state_.treeBoxes = start.options.output.treeLevel.has_value();
@@ -84,7 +87,19 @@ Window::Window(const WindowStart& start, Exchange& exchange)
   } catch (const std::exception& error) {
     say(std::string("what the viewer remembers cannot be read: ") + error.what());
   }
+  if (start.options.device.backend == Backend::Auto) {
+    try {
+      sharing_ = openSharing(window_.get());
+    } catch (const std::exception& error) {
+      say(std::string("pictures are copied, as drivers share none: ") + error.what());
+    }
+  }
   open();
+}
+
+std::optional<OutsideContext> Window::shared() const {
+  if (!sharing_) return std::nullopt;
+  return outsideContext(sharing_.get());
 }
 
 /// The first load, for a picture as large as it will be.
@@ -125,6 +140,8 @@ void Window::wait() {
   const auto atMost = [&](double limit) { seconds = std::clamp(limit, 0.0, seconds); };
   if (input_.active() || state_.playback.playing) atMost(kFrameSeconds);
   if (askedMoving_) atMost(changed_ + kMovingSeconds - now);
+  if (now >= again_) frames_ = std::max(frames_, 1);
+  atMost(again_ - now);
   if (now >= fades_) frames_ = std::max(frames_, 2);  // the box of messages fits them one frame later
   atMost(fades_ - now);
   if (statusWaits_) atMost(statusTime_ + kStatusSeconds - now);
@@ -192,11 +209,11 @@ void Window::takePictures(std::vector<TracedPicture> pictures) {
     else if (side == 1 && !state_.reference.empty())
       continue;  // it was on its way when the reference took its place
     display_.take(picture);
+    ++report_.pictures;
+    if (side == 0) arrivals_.push_back(now);
     facts_.statistics[side] = picture.statistics;
-    facts_.pictureSize[side] = {picture.image.width, picture.image.height};
+    facts_.pictureSize[side] = picture.size;
     facts_.lines[side] = std::move(picture.lines);
-    facts_.pictures[side] = std::move(picture.image);
-    ++facts_.pictureNumber[side];
     report_.answered = std::max(report_.answered, picture.request);
     while (!unanswered_.empty() && unanswered_.front().first <= picture.request) {
       keepTime(report_.times.answerMs, 1000.0 * (now - unanswered_.front().second));
@@ -204,6 +221,10 @@ void Window::takePictures(std::vector<TracedPicture> pictures) {
     }
     frames_ = std::max(frames_, 1);
   }
+  while (!arrivals_.empty() && arrivals_.front() < now - 1.0) arrivals_.pop_front();
+  const bool moves = askedMoving_ && arrivals_.size() > 1;
+  facts_.picturesPerSecond =
+      moves ? double(arrivals_.size() - 1) / (arrivals_.back() - arrivals_.front()) : 0.0;
   compareSizes();
 }
 
@@ -299,6 +320,16 @@ void Window::ask() {
   if (moving) frames_ = std::max(frames_, 1);
 }
 
+/// Those that somebody looks at; frames are drawn until they are there.
+void Window::readValues() {
+  const double now = glfwGetTime();
+  again_ = display_.waits() ? now : std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < 2; ++i) {
+    const PixelArea area = wantedArea(state_, facts_, i, display_.sizeOf(i));
+    again_ = std::min(again_, display_.keepValues(i, facts_.values[i], area, now));
+  }
+}
+
 void Window::draw() {
   glm::ivec2 size(0);
   glfwGetFramebufferSize(window_.get(), &size.x, &size.y);
@@ -311,6 +342,7 @@ void Window::draw() {
   facts_.cursor = input_.update(state_, layout, [this](const Task& task) { execute(task); });
   takeDrops();
   facts_.places.clear();
+  facts_.wantsHistogram = false;
   facts_.canUndo = !history_.past.empty();
   facts_.canRedo = !history_.future.empty();
   const double now = glfwGetTime();
@@ -324,6 +356,7 @@ void Window::draw() {
   display_.draw({size, layout.picture, state_.shownBar(), state_.magnifier,
                  state_.split && state_.comparison == CompareMode::Difference, state_.differenceStops},
                 sides);
+  readValues();
   facts_.focus = Interface::focus();
   interface_.end();
   checkGl("drawing the window");

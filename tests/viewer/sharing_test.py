@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Pictures come to the window on the device, where it has the tracing thread's driver, and else through the host: the same pictures."""
+from support import Case, main, pixels_of
+
+SIZE = ["--resolution", "320,240", "--spp", "8", "--tone-map", "linear"]
+
+
+class Sharing(Case):
+    def test_shared_and_copied_pictures_are_those_of_render(self):
+        rendered = pixels_of(self.render("cornell-box", *SIZE))
+        for options, copied in (([], False), (["--rendering-backend", "egl"], True)):
+            with self.subTest(copied=copied):
+                viewer = self.view("cornell-box", *SIZE, "--denoise", "none", *options)
+                viewer.rest(lambda s: s["sides"][0]["samples"] == 8)
+                self.assertEqual(viewer.status()["sides"][0]["copied"], copied)
+                self.same(viewer.picture()[2], rendered)
+                before = viewer.status()["pictures"]
+                viewer.drag((60, 120), (260, 130))
+                viewer.rest(lambda s: s["sides"][0]["samples"] == 8 and s["pictures"] > before)
+                moved = viewer.picture()[2]
+                self.assertNotEqual(moved, rendered)
+                self.same(moved, pixels_of(viewer.press_for_file("F12", ".png")))
+                self.ends_well(viewer, viewer.close())
+
+    def test_verbose_says_which(self):
+        for options, said in (([], "pictures stay on the device: "), (["--rendering-backend", "egl"], "pictures are copied: they are drawn by ")):
+            viewer = self.view("cornell-box", *SIZE, "--verbose", *options)
+            viewer.until(lambda s, said=said: any(said in message for message in s["messages"]), said)
+            self.ends_well(viewer, viewer.close())
+
+    def test_two_sides_and_another_scene_give_textures_back(self):
+        """More pictures than there are textures, of both sides, of sizes that change, and of a scene that is loaded anew."""
+        viewer = self.view("cornell-box", *SIZE, "--denoise", "variance")
+        viewer.rest()
+        viewer.key("c")
+        viewer.until(lambda s: len(s["sides"]) == 2 and s["state"] == "resting", "two sides at rest")
+        for turn in range(4):
+            viewer.drag((60, 120), (200 + 10 * turn, 130))
+            viewer.key("F5")
+        viewer.until(lambda s: s["state"] == "resting" and all(side["samples"] == 8 for side in s["sides"]), "rest")
+        left, right = viewer.picture()[2], viewer.press_for_file("F12", ".png")
+        self.assertEqual(len(left), len(pixels_of(right)))
+        self.assertEqual(viewer.status()["gl_errors"], [])
+        self.ends_well(viewer, viewer.close())
+
+
+if __name__ == "__main__":
+    main()
