@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A picture with the samples of a past one added to its own (src/render/reproject.h). Places and points are seen from
-// the present camera's position.
+// What a past picture knows of the points that the present one shows (src/render/seen_picture.h). Places and points are
+// seen from the present camera's position.
 #include "picture/picture.glsl"
 
 layout(binding = 0) uniform sampler2D radiances;  // of the present, as film.frag leaves these
@@ -12,13 +12,14 @@ layout(binding = 5) uniform sampler2D pastCounts;
 layout(binding = 6) uniform sampler2D pastAlbedos;
 layout(binding = 7) uniform sampler2D pastNormals;
 layout(location = 1) uniform ivec2 pastSize;
-layout(location = 2) uniform float most;  // samples that the past counts for
 // Position, half of the width at distance 1 or anywhere, half of the height, forward; in w of the last whether a
 // perspective: present, past.
-layout(location = 3) uniform vec4 cameras[8];
+layout(location = 2) uniform vec4 cameras[8];
 
-layout(location = 0) out vec4 radiance;
-layout(location = 1) out vec2 count;
+layout(location = 0) out vec4 past;   // light at the present albedo, and the variance of its luminance
+// Luminance of the present light less that of the past's, and the variance that noise gives that, negative: not known;
+// samples of the past, 0: it knows nothing; how many like these are looked at (1 or 0).
+layout(location = 1) out vec4 apart;
 
 const float kDepthApart = 0.02;    // of the depth: the same surface
 const float kNormalAlike = 0.9;    // cosine
@@ -97,23 +98,16 @@ Known knownOf(Surface now, vec3 point) {
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  radiance = texelFetch(radiances, pixel, 0);
-  count = texelFetch(counts, pixel, 0).xy;
+  past = vec4(0.0);
+  apart = vec4(0.0);
+  vec4 radiance = texelFetch(radiances, pixel, 0);
+  float samples = texelFetch(counts, pixel, 0).x;
   Surface now = surfaceOf(texelFetch(albedos, pixel, 0), texelFetch(normals, pixel, 0));
-  if (now.coverage < kCovered || !(count.x > 0.0)) return;
+  if (now.coverage < kCovered || !(samples > 0.0)) return;
   Known known = knownOf(now, pointAt(gl_FragCoord.xy, now.depth));
   if (known.weight < kEnoughOfFour) return;
-  // Of more samples than count, the variance is that of as many as do.
-  float counted = min(known.samples, most);
-  float samples = count.x + counted;
   vec3 divisor = divisorOf(now);
   float part = luminance(divisor);
-  vec3 light = known.light * divisor;
-  float pastVariance = known.variance * part * part * known.samples / counted;
-  float apart = luminance(light - radiance.rgb);
-  // Chan, Golub and LeVeque (1979).
-  float m2 = radiance.a * count.x * (count.x - 1.0) + pastVariance * counted * max(counted - 1.0, 0.0) +
-             apart * apart * count.x * counted / samples;
-  radiance = vec4((radiance.rgb * count.x + light * counted) / samples, m2 / (samples * (samples - 1.0)));
-  count.x = samples;
+  past = vec4(known.light * divisor, known.variance * part * part);
+  apart = vec4(luminance(radiance.rgb - past.rgb), samples > 1.0 ? radiance.a + past.a : -1.0, known.samples, 1.0);
 }

@@ -133,8 +133,9 @@ bool PictureMaker::show(const Film& film, const Showing& showing, const RenderOp
     present.size = size;
     present.camera = view.camera;
     // The past fades out as the filter does: what it has seen from elsewhere is not what is seen here.
-    const double past = kMostPastSamples * std::max(0.0, 1.0 - showing.samples / kAllUpTo);
-    const bool joins = memory.past.size.x > 0 && past > 0.0;
+    const double left = std::max(0.0, 1.0 - double(showing.samples) / kNoPastFrom);
+    const double past = kMostPastSamples * left * left;
+    const bool joins = showing.past && memory.past.size.x > 0 && past > 0.0;
     if (joins) makeRoom(fresh_, size);
     seen_.read(film, *memory.guides, raw_, joins ? fresh_ : present.noisy, present.noisy, passes_);
     clock_.end(Pass::Film);

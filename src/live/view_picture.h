@@ -18,6 +18,9 @@ namespace fragtrace {
 /// How much of the filter shows at that many samples: all up to 64, none from 256 on.
 double filteredShare(double samples);
 
+/// Samples per pixel from which on nothing of the past is left.
+inline constexpr int kNoPastFrom = 16;
+
 /// What a side keeps on the device from picture to picture.
 struct SideMemory {
   std::optional<Film> guides;  ///< of the present view
@@ -43,6 +46,7 @@ struct Showing {
   bool filtered = false;
   bool byOidn = false;  ///< which must be there; else by variance
   int samples = 0;      ///< per pixel
+  bool past = true;     ///< with what the camera saw before
 };
 
 /// R, G, B and A.

@@ -81,7 +81,7 @@ ShownTexture& ViewTracer::shownOf(const Side& side, int slot) {
   return shown_[size_t(&side - sides_.data())][size_t(slot)];
 }
 
-bool ViewTracer::show(Side& side, const std::function<bool()>& goOn) {
+bool ViewTracer::show(Side& side, bool past, const std::function<bool()>& goOn) {
   const int slot = nextSlot(side);
   ShownTexture& into = shownOf(side, slot);
   if (showsColors(side.options)) {
@@ -95,8 +95,8 @@ bool ViewTracer::show(Side& side, const std::function<bool()>& goOn) {
   const bool filtered = denoises(side);
   bool complete = false;
   try {
-    complete = maker_->show(*side.film, {filtered, denoisesByOidn(side), side.samples}, side.options, tracer,
-                            side.view, side.memory, into, goOn);
+    complete = maker_->show(*side.film, {filtered, denoisesByOidn(side), side.samples, past}, side.options,
+                            tracer, side.view, side.memory, into, goOn);
   } catch (const ContextLost&) {
     throw;
   } catch (const RenderError& error) {
@@ -125,7 +125,8 @@ void ViewTracer::count(Side& side) {
 
 void ViewTracer::publish(Side& side) {
   const auto start = Clock::now();
-  if (!show(side, [this] { return request_.moving ? !exchange_.ending() : !exchange_.interrupted(); }))
+  if (!show(side, start_.keepsPast,
+            [this] { return request_.moving ? !exchange_.ending() : !exchange_.interrupted(); }))
     return;
   estimate(side);
   count(side);
@@ -170,11 +171,12 @@ void ViewTracer::publish(Side& side) {
   publishMs_ = sinceMs(start);
 }
 
-/// As the window shows it.
+/// As the window shows it, but for what the camera saw before.
 Image ViewTracer::seenOf(Side& side) {
-  const bool seen =
-      denoises(side) && side.shownIn >= 0 && shownOf(side, side.shownIn).size == side.film->size();
-  if (!seen) show(side, [] { return true; });
+  const bool hasPast = side.samples < kNoPastFrom && side.memory.past.size.x > 0;
+  const bool seen = denoises(side) && !hasPast && side.shownIn >= 0 &&
+                    shownOf(side, side.shownIn).size == side.film->size();
+  if (!seen) show(side, false, [] { return true; });
   const Image picture = imageOf(shownOf(side, side.shownIn));
   return side.options.light.background ? onlyChannels(picture, {"R", "G", "B"}) : picture;
 }

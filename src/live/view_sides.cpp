@@ -26,20 +26,13 @@ RenderOptions ViewTracer::withFilter(RenderOptions options) {
   return options;
 }
 
-void ViewTracer::turn(Side& side) const {
-  if (start_.keepsPast)
-    side.memory.turn();
-  else
-    side.memory.forget();
-}
-
 void ViewTracer::adoptSide(Side& side, const RenderOptions& asked) {
   const RenderOptions options = withFilter(asked);
   const bool same = side.program && drawsTheSame(side.options, options);
   const bool otherLook = side.options.output.treeLevel != options.output.treeLevel ||
                          side.options.output.denoise != options.output.denoise;
   if (differInCameraAlone(side.options, options))
-    turn(side);
+    side.memory.turn();
   else if (!same)
     side.memory.forget();
   side.options = options;

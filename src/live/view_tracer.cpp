@@ -288,7 +288,7 @@ void ViewTracer::fitFilm(Side& side) {
   const glm::ivec2 size = sizeAtStep(request_.size, resolution_.step);
   const bool fits = side.film && side.film->size() == size;
   if (fits && !side.stale) return;
-  if (!fits) turn(side);
+  if (!fits) side.memory.turn();
   side.shownAt = 0;
   if (side.film)
     side.film->restart(size);

@@ -83,8 +83,6 @@ class ViewTracer {
   RenderOptions withFilter(RenderOptions options);
   void adoptSide(Side& side, const RenderOptions& options);
   void preview(Side& side);
-  /// Its camera or resolution is another one.
-  void turn(Side& side) const;
   View viewOf(const RenderOptions& options);
   std::shared_ptr<ViewProgram> programFor(const RenderOptions& options);
   /// A film of the size that is drawn at now; empty, if it was of another.
@@ -99,7 +97,7 @@ class ViewTracer {
   /// By Open Image Denoise, which takes seconds and so runs when the samples have doubled.
   bool denoisesByOidn(const Side& side) const;
   /// Makes what the side shows now; false when goOn() said no.
-  bool show(Side& side, const std::function<bool()>& goOn);
+  bool show(Side& side, bool past, const std::function<bool()>& goOn);
   /// Where the side's next picture goes.
   int nextSlot(Side& side);
   ShownTexture& shownOf(const Side& side, int slot);

@@ -23,6 +23,7 @@ void putCamera(glm::vec4* rows, const SeenPicture& picture, const glm::dvec3& or
 SeenPasses::SeenPasses(const ShaderSource& source)
     : film_(passProgram(source, "picture/film.frag")),
       reproject_(passProgram(source, "picture/reproject.frag")),
+      join_(passProgram(source, "picture/join.frag")),
       show_(passProgram(source, "picture/show.frag")),
       totals_(passProgram(source, "picture/totals.frag")),
       sums_(source) {}
@@ -47,16 +48,21 @@ void SeenPasses::join(const NoisyTextures& fresh, const SeenPicture& now, const 
   std::array<glm::vec4, 8> cameras{};
   putCamera(&cameras[0], now, now.camera.position);
   putCamera(&cameras[4], past, now.camera.position);
-  const GLuint program = reproject_.name();
-  glProgramUniform2i(program, 1, past.size.x, past.size.y);
-  glProgramUniform1f(program, 2, float(most));
-  glProgramUniform4fv(program, 3, GLsizei(cameras.size()), &cameras[0].x);
+  if (glm::any(glm::greaterThan(now.size, room_))) {
+    room_ = glm::max(now.size, room_);
+    past_ = makePictureTexture(GL_RGBA32F, room_);
+    apart_ = makePictureTexture(GL_RGBA32F, room_);
+  }
   const NoisyTextures& a = now.noisy;
   const NoisyTextures& b = past.noisy;
+  glProgramUniform2i(reproject_.name(), 1, past.size.x, past.size.y);
+  glProgramUniform4fv(reproject_.name(), 2, GLsizei(cameras.size()), &cameras[0].x);
   passes.draw(
       reproject_, now.size,
       {&fresh.radiance, &fresh.counts, &a.albedo, &a.normal, &b.radiance, &b.counts, &b.albedo, &b.normal},
-      {&a.radiance, &a.counts});
+      {&past_, &apart_});
+  glProgramUniform1f(join_.name(), 1, float(most));
+  passes.draw(join_, now.size, {&fresh.radiance, &fresh.counts, &past_, &apart_}, {&a.radiance, &a.counts});
 }
 
 void SeenPasses::show(const GlTexture& raw, const GlTexture* filtered, double share, bool background,

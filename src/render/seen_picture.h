@@ -50,9 +50,13 @@ class SeenPasses {
  private:
   GlProgram film_;
   GlProgram reproject_;
+  GlProgram join_;
   GlProgram show_;
   GlProgram totals_;
   PictureSums sums_;
+  glm::ivec2 room_{0};
+  GlTexture past_;  ///< for the moment of a call
+  GlTexture apart_;
 };
 
 }  // namespace fragtrace

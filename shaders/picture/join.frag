@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// A picture with the samples of a past one added to its own, as far as noise explains how the two differ.
+#include "picture/picture.glsl"
+
+layout(binding = 0) uniform sampler2D radiances;  // of the present, as film.frag leaves these
+layout(binding = 1) uniform sampler2D counts;
+layout(binding = 2) uniform sampler2D pasts;      // as reproject.frag leaves these
+layout(binding = 3) uniform sampler2D aparts;
+layout(location = 1) uniform float most;          // samples that the past counts for
+
+layout(location = 0) out vec4 radiance;
+layout(location = 1) out vec2 count;
+
+const int kReach = 2;  // pixels each way that tell whether the past still holds
+
+/// The square of what the past is wrong by, and the variance of one pixel's difference: over the pixels around, from
+/// the mean difference beyond its own noise, and from the squares of differences beyond theirs.
+vec2 wrongness(ivec2 pixel) {
+  vec2 sums = vec2(0.0);
+  float pixels = 0.0;
+  float beyond = 0.0;
+  float known = 0.0;
+  for (int y = -kReach; y <= kReach; ++y) {
+    for (int x = -kReach; x <= kReach; ++x) {
+      if (((x ^ y) & 1) != 0) continue;
+      ivec2 other = pixel + ivec2(x, y);
+      if (!inside(other)) continue;
+      vec4 apart = texelFetch(aparts, other, 0);
+      sums += apart.w * vec2(apart.x, apart.x * apart.x);
+      pixels += apart.w;
+      if (apart.w > 0.0 && apart.y >= 0.0) {
+        beyond += apart.x * apart.x - apart.y;
+        known += 1.0;
+      }
+    }
+  }
+  float mean = sums.x / pixels;
+  float spread = max(sums.y / pixels - mean * mean, 0.0);
+  float bias = max(mean * mean - spread / pixels, 0.0);
+  if (known > 0.0) bias = max(bias, beyond / known);
+  return vec2(bias, spread);
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  radiance = texelFetch(radiances, pixel, 0);
+  count = texelFetch(counts, pixel, 0).xy;
+  vec4 apart = texelFetch(aparts, pixel, 0);
+  if (!(apart.z > 0.0)) return;
+  vec4 past = texelFetch(pasts, pixel, 0);
+  // The mean of n samples has the variance v; a past that is wrong by b counts as n v / b^2, for the least error.
+  vec2 wrong = wrongness(pixel);
+  float noise = apart.y >= 0.0 ? max(apart.y - past.a, 0.0) : wrong.y;
+  float worth = wrong.x > 0.0 ? count.x * noise / wrong.x : most;
+  float counted = min(min(apart.z, most), worth);
+  if (!(counted > 0.0)) return;
+  float samples = count.x + counted;
+  // Of more samples than count, the variance is that of as many as do.
+  float pastVariance = past.a * apart.z / counted;
+  // Chan, Golub and LeVeque (1979).
+  float m2 = radiance.a * count.x * (count.x - 1.0) + pastVariance * counted * max(counted - 1.0, 0.0) +
+             apart.x * apart.x * count.x * counted / samples;
+  radiance = vec4((radiance.rgb * count.x + past.rgb * counted) / samples, m2 / (samples * max(samples - 1.0, 1e-3)));
+  count.x = samples;
+}

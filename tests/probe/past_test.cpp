@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// What the viewer shows after a turn of the camera: the past that it takes over may make a picture better,
+// never wrong.
+#include <gtest/gtest.h>
+
+#include "gl_probe.h"
+#include "image/channels.h"
+#include "image/compare/difference.h"
+#include "image/compare/flip.h"
+#include "image/display/tone_map.h"
+#include "live/view_picture.h"
+#include "view/camera_controller.h"
+
+namespace fragtrace {
+namespace {
+
+constexpr glm::ivec2 kSize{96, 72};
+
+struct Turned {
+  std::string scene;
+  double turn;  ///< radians
+};
+
+class PastOfATurn : public GlProbe {
+ protected:
+  void load(const Turned& turned) {
+    options_.scene = std::string(FRAGTRACE_SCENES "/") + turned.scene;
+    options_.light.defaultLight = DefaultLight::Studio;
+    options_.camera.resolution = kSize;
+    options_.output.denoise = Denoise::Variance;
+    options_.output.aovFeatures = {Feature::Guides};
+    options_.output.quiet = true;
+    Statistics stats;
+    loaded_.emplace(loadScene(options_, stats));
+    tracer_ = makeTracer(context(), *loaded_, options_, stats);
+    film_.emplace(kSize);
+    tracer_.renderer->compile(tracer_.variant, *film_, loaded_->view);
+    maker_.emplace(std::filesystem::path(), oidn_, clock_);
+  }
+
+  View viewAt(double angle) const {
+    const CameraPose pose = orbit(poseOf(loaded_->camera, loaded_->scene.bounds), angle, 0.0);
+    const Camera camera = withOverrides(loaded_->camera, overridesOf(pose), loaded_->scene.bounds);
+    return makeView(options_, *loaded_, camera);
+  }
+
+  /// Adds samples to the film, and shows it.
+  Image shown(const View& view, int from, int to, bool filtered) {
+    RenderTimes times;
+    tracer_.renderer->use(tracer_.variant);
+    tracer_.renderer->addSamples(*film_, view, from, to, times);
+    ShownTexture into;
+    maker_->show(*film_, {filtered, false, to}, options_, tracer_, view, memory_, into, [] { return true; });
+    return onlyChannels(imageOf(into), {"R", "G", "B"});
+  }
+
+  RenderOptions options_;
+  std::optional<LoadedScene> loaded_;
+  Tracer tracer_;
+  std::optional<Film> film_;
+  std::optional<OidnLibrary> oidn_;
+  PassClock clock_{false};
+  std::optional<PictureMaker> maker_;
+  SideMemory memory_;
+};
+
+double flip(const Image& a, const Image& b) {
+  return flipError(toDisplay(a, 0.0, ToneMap::Neutral), toDisplay(b, 0.0, ToneMap::Neutral)).mean;
+}
+
+/// Errors of the pictures of 1, 4 and 16 samples after a turn in four steps: FLIP, and the last picture.
+struct Errors {
+  std::array<double, 3> flip{};
+  Image last;
+};
+
+class AfterTurns : public PastOfATurn {
+ protected:
+  Errors errorsOf(const Turned& turned, const Image& reference, bool past) {
+    memory_ = {};
+    constexpr int kSteps = 4;
+    for (int step = 0; past && step < kSteps; ++step) {
+      film_->clear();
+      shown(viewAt(turned.turn * step / kSteps), 0, 4, true);
+      memory_.turn();
+    }
+    film_->clear();
+    Errors errors;
+    int from = 0;
+    for (size_t i = 0; i < errors.flip.size(); ++i) {
+      const int to = 1 << (2 * i);
+      errors.last = shown(viewAt(turned.turn), from, to, true);
+      from = to;
+      errors.flip[i] = flip(errors.last, reference);
+    }
+    return errors;
+  }
+};
+
+TEST_P(AfterTurns, ThePastHelpsAndIsGoneAtSixteenSamples) {
+  for (const Turned& turned : {Turned{"mirror-sphere.gltf", 0.4}, Turned{"rough-metals.gltf", 0.3},
+                               Turned{"room-ball.gltf", 0.2}, Turned{"cornell-box.gltf", 0.2}}) {
+    load(turned);
+    const Image reference = shown(viewAt(turned.turn), 0, 256, false);
+    const Errors without = errorsOf(turned, reference, false);
+    const Errors with = errorsOf(turned, reference, true);
+    EXPECT_LT(with.flip[0], 0.8 * without.flip[0]) << turned.scene;
+    EXPECT_LT(with.flip[1], without.flip[1]) << turned.scene;
+    EXPECT_EQ(with.last.values, without.last.values) << turned.scene;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, AfterTurns, testing::Values(Backend::Egl), backendName);
+
+}  // namespace
+}  // namespace fragtrace
