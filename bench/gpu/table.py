@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The table of bench/gpu/run, and what its cells say of the lines that the program's benchmarks write."""
 import os
+import statistics
 from pathlib import Path
 
 from rows import BOX_SAMPLES, RAY_AIMS, REPORT, REPORT_AIMS
@@ -76,6 +77,18 @@ def report_rows(lines):
             beside.append(aim_text(REPORT_AIMS[name]))
         wrong = [verdict(line["picture"]) for line in found.values() if not line["picture"]["right"]]
         yield name, measured, ", ".join(beside), wrong[0] if wrong else "right"
+
+
+def motion_rows(name, lines):
+    """A row for each mode of `bench motion`."""
+    for line in lines:
+        for row in line["rows"]:
+            pictures = max(row["pictures"], 1)
+            late = statistics.median(row["latency_ms"]) if row["latency_ms"] else 0
+            measured = (f"{row['pictures'] / row['seconds']:.1f} pictures/s of {row['pixels'] / pictures / 1e6:.2f} Mpixels, {late:.1f} ms late; "
+                        f"host {row['trace_cpu_ms'] / pictures:.2f} ms, {row['moved_bytes'] / pictures / 1000:.1f} kB a picture")
+            beside = "aim 3 ms, 4 kB" if row["mode"] == "filtered" else "aim 1.5 ms, 4 kB" if row["mode"] == "raw" else ""
+            yield f"{name}, {row['mode']}", measured, beside, f"FLIP {row['flip']:.4f}, relative MSE {row['relmse']:.4g}"
 
 
 def scale_rows(lines):

@@ -166,6 +166,7 @@ void ViewTracer::publish(Side& side) {
   s.passes = clock_.take();
   s.movedBytes = movedBytes() - std::exchange(side.movedBytes, movedBytes());
   exchange_.deliver(std::move(picture));
+  shows_ = Shows::Picture;
   losses_ = 0;
   published_ = Clock::now();
   publishMs_ = sinceMs(start);

@@ -79,14 +79,26 @@ void ViewTracer::preview(Side& side) {
     if (program->tracer.renderer->addSamples(*side.film, side.view, 0, 1, side.times, goOn)) {
       side.samples = 1;
       publish(side);
+      shows_ = Shows::Preview;
     }
   }
   side = {};
   side.options = wanted;
 }
 
+void ViewTracer::tellWork(const std::string& what) {
+  switch (shows_) {
+    case Shows::Nothing:
+      return exchange_.tellNote(what);
+    case Shows::Preview:
+      return exchange_.tellNote(what + " (this is a preview in Blinn-Phong)");
+    case Shows::Picture:
+      return exchange_.tellNote(what + " (the last picture stays meanwhile)");
+  }
+}
+
 std::shared_ptr<ViewProgram> ViewTracer::programFor(const RenderOptions& options) {
-  if (!programs_->has(options)) exchange_.tellNote("compiling");
+  if (!programs_->has(options)) tellWork("compiling");
   std::shared_ptr<ViewProgram> program = programs_->of(options);
   exchange_.tellNote({});
   exchange_.tellError(program->error);

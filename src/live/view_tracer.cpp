@@ -245,7 +245,7 @@ void ViewTracer::pose(const TraceRequest& request) {
   options.camera.overrides = wanted.camera.overrides;
   options.camera.index = wanted.camera.index;
   options.camera.resolution = request.size;
-  if (!sameNodes) exchange_.tellNote("updating the scene");
+  if (!sameNodes) tellWork("updating the scene");
   std::vector<std::string> repeated;
   const SaidHere silence(repeated);  // it was said when the scene was loaded
   try {

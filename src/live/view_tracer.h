@@ -111,6 +111,8 @@ class ViewTracer {
   /// Boxes of the tree, and the outline of what is selected.
   std::vector<PictureLine> linesOver(const Side& side);
   void tellDriver();
+  /// What keeps the thread from drawing, and what is shown meanwhile.
+  void tellWork(const std::string& what);
 
   ViewOptions start_;
   Exchange& exchange_;
@@ -131,6 +133,7 @@ class ViewTracer {
   TraceRequest request_;
   Selected selected_;  ///< what was picked last
   std::vector<Side> sides_;
+  enum class Shows : uint8_t { Nothing, Preview, Picture } shows_ = Shows::Nothing;
   bool shares_ = false;                                    ///< objects with the window
   std::array<std::array<ShownTexture, kSlots>, 2> shown_;  ///< of the sides; without sharing the first
   ResolutionController resolution_;

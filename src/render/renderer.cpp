@@ -5,6 +5,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 
 #include "errors.h"
 #include "render/draw_plan.h"
@@ -114,6 +115,7 @@ void Renderer::setFrame(const Film& film, const View& view) {
 
 void Renderer::begin(const RenderPass& pass) {
   setFrame(pass.film, pass.view);
+  uploadFrame(0, sizeof frame_);
   pass.film.bind();
   buffers_.bind();
   const glm::ivec2 size = pass.film.size();
@@ -125,6 +127,12 @@ void Renderer::begin(const RenderPass& pass) {
   if (pass.variant.neighbours) reservoirs_->bindTextures(layout::kReservoirTextures);
   glBindBufferBase(GL_UNIFORM_BUFFER, layout::kFrameBinding, frameBuffer_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kProgressBinding, progressBuffer_.name());
+}
+
+void Renderer::uploadFrame(size_t from, size_t to) {
+  movedBytes() += to - from;
+  glNamedBufferSubData(frameBuffer_.name(), GLintptr(from), GLsizeiptr(to - from),
+                       reinterpret_cast<const char*>(&frame_) + from);
 }
 
 void Renderer::useProgram(const ShaderVariant& variant) {
@@ -172,8 +180,8 @@ void Renderer::adaptBudget(double ms) {
 
 layout::Progress Renderer::draw(const ShaderVariant& variant) {
   layout::Progress progress{};
-  movedBytes() += 2 * sizeof progress;
-  glNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
+  movedBytes() += sizeof progress;
+  glClearNamedBufferData(progressBuffer_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
   const auto start = Clock::now();
   if (timer_.name() != 0) glBeginQuery(GL_TIME_ELAPSED, timer_.name());
   if (variant.dispatch == Dispatch::Compute) {
@@ -212,8 +220,7 @@ bool Renderer::drawTile(const RenderPass& pass, const Work& tile, const std::fun
   for (;;) {
     const auto start = Clock::now();
     frame_.limits.z = stepBudget(variant);
-    movedBytes() += sizeof frame_;
-    glNamedBufferSubData(frameBuffer_.name(), 0, sizeof frame_, &frame_);
+    uploadFrame(offsetof(layout::Frame, picture), offsetof(layout::Frame, part));
     const layout::Progress progress = draw(variant);
     pass.film.addCut((progress.cutHigh * 0x1p32 + progress.cutLow) / layout::kCutUnits);
     if (!goOn()) return false;

@@ -117,6 +117,8 @@ class Renderer {
   void setFrame(const Film& film, const View& view);
   /// Binds all that the draws of a pass have in common.
   void begin(const RenderPass& pass);
+  /// These bytes of the frame's block, which the draws to come read.
+  void uploadFrame(size_t from, size_t to);
   void useProgram(const ShaderVariant& variant);
   void bindPathStates(const ShaderVariant& variant);
   /// Loop iterations that a lane may take in one draw.

@@ -24,6 +24,10 @@ elif words[1] == "frame" and "room-ball" in words[2]:
 elif words[1] == "frame":
     write("--json", {"frame_ms": {"median": 0.25}, "compile_ms": 100, "mpaths_per_s": 2, "mrays_per_s": 3, "picture": {"right": True},
                      "variant": "flat+front-to-back+fragment"})
+elif words[1] == "motion":
+    assert "--rounds" not in words
+    row = {"pictures": 4, "seconds": 2, "pixels": 4e6, "latency_ms": [3, 5, 4], "trace_cpu_ms": 6, "moved_bytes": 8000, "flip": 0.05, "relmse": 0.1}
+    write("--json", {"rows": [{"mode": "filtered", **row}, {"mode": "raw", **row}]})
 elif words[1] == "traversal":
     open("process", "w").write(str(os.getpid()))
     time.sleep(60)
@@ -53,7 +57,7 @@ class GpuTable(Case):
         return {cells[1]: cells[2:] for cells in lines[2:]}
 
     def test_what_fails_or_takes_too_long_has_its_row_and_the_rest_goes_on(self):
-        process = self.begin("--seconds", "20", "--only", "mesh,ball,scale,rays,helmet")
+        process = self.begin("--seconds", "22", "--only", "mesh,ball,scale,rays,helmet,motion")
         output, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 1, errors)
         text = (self.out / "table.md").read_text()
@@ -68,8 +72,11 @@ class GpuTable(Case):
         self.assertIn("FAILED: stopped at its limit of 2 s", rows["rays a second"][2])
         self.assertIn("FlightHelmet.gltf is not in the bundle", rows["FlightHelmet under lightroom_14b, compute"][2])
         self.assertIn("FAILED: its figures cannot be read: TypeError", rows["room with the ball, compute"][2])
-        self.assertIn("14 rows failed or are wrong", text.splitlines()[-1])
-        self.assertEqual(len((self.out / "figures.jsonl").read_text().splitlines()), 9)
+        self.assertEqual(rows["Cornell box, filtered"],
+                         ["2.0 pictures/s of 1.00 Mpixels, 4.0 ms late; host 1.50 ms, 2.0 kB a picture", "aim 3 ms, 4 kB",
+                          "FLIP 0.0500, relative MSE 0.1 |"])
+        self.assertIn("15 rows failed or are wrong", text.splitlines()[-1])
+        self.assertEqual(len((self.out / "figures.jsonl").read_text().splitlines()), 11)
 
     def test_an_interrupted_run_keeps_its_table(self):
         process = self.begin("--only", "mesh,rays")

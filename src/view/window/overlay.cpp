@@ -97,9 +97,7 @@ bool closeButton(Places& places, const std::string& name) {
 }
 
 void drawNewsLines(const ViewFacts& facts, double now) {
-  if (!facts.note.empty())
-    drawText(facts.note + (facts.pictureSize[0].x > 0 ? " (the last picture stays meanwhile)" : ""),
-             kMostLineCharacters);
+  if (!facts.note.empty()) drawText(facts.note, kMostLineCharacters);
   for (size_t i = facts.messages.size(); i-- > 0;) {
     const Message& message = facts.messages[i];
     const float opacity = float(opacityOf(message, now));
