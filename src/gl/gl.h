@@ -13,10 +13,10 @@ namespace fragtrace {
 /// Throws RenderError naming `where` and every pending OpenGL error; ContextLost if the context is.
 void checkGl(const char* where);
 
-/// Fences between contexts that share objects, as GLsync. One after all that this context was told, which is
-/// sent on its way.
+/// Fences between contexts that share objects, as GLsync; null, where the driver makes none, is signalled.
+/// One after all that this context was told, which is sent on its way.
 void* makeFence();
-/// What this context is told from now on waits for it, and it is released; null: nothing to wait for.
+/// What this context is told from now on waits for it, and it is released.
 void awaitFence(void* fence);
 bool isSignalled(void* fence);
 void releaseFence(void* fence);

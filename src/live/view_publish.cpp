@@ -73,7 +73,7 @@ int ViewTracer::nextSlot(Side& side) {
   const auto [slot, done] = exchange_.freeSlot(number);
   awaitFence(done);
   ShownTexture& shown = shown_[number][size_t(slot)];
-  if (shown.ready != nullptr) releaseFence(std::exchange(shown.ready, nullptr));
+  releaseFence(std::exchange(shown.ready, nullptr));
   return slot;
 }
 

@@ -150,7 +150,11 @@ __eglMustCastToProperFunctionPointerType eglGetProcAddress(const char* name) {
   WRAP(glBindTextureUnit)
   WRAP(glBindVertexArray)
   WRAP(glBlendFunc)
+  WRAP(glClearNamedBufferData)
+  WRAP(glClearNamedFramebufferfv)
+  WRAP(glClearNamedFramebufferuiv)
   WRAP(glClearTexImage)
+  WRAP(glClientWaitSync)
   WRAP(glCompileShader)
   WRAP(glCreateBuffers)
   WRAP(glCreateFramebuffers)
@@ -165,6 +169,7 @@ __eglMustCastToProperFunctionPointerType eglGetProcAddress(const char* name) {
   WRAP(glDeleteProgram)
   WRAP(glDeleteQueries)
   WRAP(glDeleteShader)
+  WRAP(glDeleteSync)
   WRAP(glDeleteTextures)
   WRAP(glDeleteVertexArrays)
   WRAP(glDisable)
@@ -172,7 +177,9 @@ __eglMustCastToProperFunctionPointerType eglGetProcAddress(const char* name) {
   WRAP(glDrawArrays)
   WRAP(glEnable)
   WRAP(glEndQuery)
+  WRAP(glFenceSync)
   WRAP(glFinish)
+  WRAP(glFlush)
   WRAP(glGetFloatv)
   WRAP(glGetInteger64v)
   WRAP(glGetNamedBufferSubData)
@@ -200,6 +207,7 @@ __eglMustCastToProperFunctionPointerType eglGetProcAddress(const char* name) {
   WRAP(glTextureSubImage2D)
   WRAP(glUseProgram)
   WRAP(glViewport)
+  WRAP(glWaitSync)
   return real;
 }
 

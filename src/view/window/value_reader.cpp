@@ -14,9 +14,7 @@ constexpr size_t kChannels = 4;
 
 }  // namespace
 
-ValueReader::~ValueReader() {
-  if (read_ != nullptr) releaseFence(read_);
-}
+ValueReader::~ValueReader() { releaseFence(done_); }
 
 void ValueReader::begin(GLuint texture, double now) {
   const PixelArea& area = asked_.area;
@@ -31,13 +29,15 @@ void ValueReader::begin(GLuint texture, double now) {
   glGetTextureSubImage(texture, 0, area.corner.x, area.corner.y, 0, area.size.x, area.size.y, 1, GL_RGBA,
                        GL_FLOAT, GLsizei(bytes), nullptr);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  read_ = makeFence();
+  done_ = makeFence();
+  reading_ = true;
   begun_ = now;
   checkGl("reading pixels");
 }
 
 void ValueReader::end(PictureValues& values) {
-  releaseFence(std::exchange(read_, nullptr));
+  releaseFence(std::exchange(done_, nullptr));
+  reading_ = false;
   values = asked_;
   const glm::ivec2 size = values.area.size;
   values.image = {size.x, size.y, {"R", "G", "B", "A"}, {}, {}};
@@ -49,8 +49,8 @@ void ValueReader::end(PictureValues& values) {
 
 double ValueReader::keep(PictureValues& values, GLuint texture, uint64_t picture, glm::ivec2 whole,
                          const PixelArea& area, double now) {
-  if (read_ != nullptr && isSignalled(read_)) end(values);
-  if (read_ != nullptr) return now;
+  if (reading_ && isSignalled(done_)) end(values);
+  if (reading_) return now;
   const bool known = values.area == area && values.whole == whole;
   if (area.size.x <= 0 || (known && values.picture == picture)) return kNever;
   if (known && now < begun_ + kInterval) return begun_ + kInterval;

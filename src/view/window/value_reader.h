@@ -25,9 +25,10 @@ class ValueReader {
   void end(PictureValues& values);
 
   GlBuffer buffer_;
-  size_t room_ = 0;       ///< bytes
-  void* read_ = nullptr;  ///< a fence, while a read is under way:
-  PictureValues asked_;   ///< of this
+  size_t room_ = 0;  ///< bytes
+  bool reading_ = false;
+  void* done_ = nullptr;  ///< a fence, after which
+  PictureValues asked_;   ///< is read, but for its image
   double begun_ = -1.0;
 };
 
