@@ -11,9 +11,9 @@ struct ViewOptions {
   std::filesystem::path statusFile;
   std::filesystem::path reference;  ///< a picture that is shown as side B; empty: none
   // Of measurements alone.
-  double movingMs = 100.0;  ///< that a picture in motion may take; 0: it has full resolution
+  double movingMs = 100.0;      ///< that a picture in motion may take; 0: it has full resolution
   bool waitsForPasses = false;  ///< so that each has its time
-  bool keepsPast = true;    ///< what the camera saw before is taken over
+  bool keepsPast = true;        ///< what the camera saw before is taken over
 };
 
 struct RawView {
