@@ -31,19 +31,19 @@ struct ViewFacts {
   std::array<glm::ivec2, 2> pictureSize{};  ///< of the pictures shown; lower than the window's while moving
   std::array<std::vector<PictureLine>, 2> lines;
   std::array<PictureValues, 2> values;  ///< of what is looked at: under the cursor, enlarged, the whole
-  bool wantsHistogram = false;          ///< of the active side
   ShownHistogram histogram;
   std::map<std::filesystem::path, unsigned> thumbnails;  ///< textures, of environments; empty: the studio
-  bool wantsThumbnails = false;                          ///< the list of environments is open
   std::optional<glm::dvec2> cursor;  ///< over the picture: parts of its width and height, from the top left
   LoadStatus load;
   std::string note;
   std::string error;
-  bool errorClosed = false;  ///< it has been read
   MessageList messages;
   std::optional<PickAnswer> pick;
-  bool resting = false;
   double picturesPerSecond = 0.0;  ///< of the first side, while something moves; else 0
+  bool wantsHistogram = false;     ///< of the active side
+  bool wantsThumbnails = false;    ///< the list of environments is open
+  bool errorClosed = false;        ///< it has been read
+  bool resting = false;
   bool canUndo = false;
   bool canRedo = false;
   std::string status;  ///< what the status bar says
