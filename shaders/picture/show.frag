@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The picture that a window shows: raw, filtered or between; its first row is at the top.
+// A filtered picture as a window shows it, as far as the filter counts; its first row is at the top.
 #include "picture/picture.glsl"
 
 layout(binding = 0) uniform sampler2D raw;       // linear R, G, B, and alpha
@@ -12,6 +12,6 @@ layout(location = 0) out vec4 shown;
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.x, size.y - 1 - int(gl_FragCoord.y));
   shown = texelFetch(raw, pixel, 0);
-  if (share > 0.0) shown.rgb = mix(shown.rgb, texelFetch(filtered, pixel, 0).rgb, share);
+  shown.rgb = mix(shown.rgb, texelFetch(filtered, pixel, 0).rgb, share);
   if (background) shown.a = 1.0;
 }

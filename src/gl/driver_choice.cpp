@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 
 namespace fragtrace {
@@ -16,6 +17,13 @@ Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals) 
   const bool fewRasterisers = std::ranges::any_of(
       kDataCentre, [&](std::string_view name) { return context.renderer.find(name) != std::string::npos; });
   return fewRasterisers ? Dispatch::Compute : Dispatch::Fragment;
+}
+
+bool mayHaveGpu() {
+  std::error_code error;
+  // Of Linux's own drivers, NVIDIA's, and those of a Windows that runs it.
+  return std::ranges::any_of(std::array{"/dev/dri", "/dev/nvidiactl", "/dev/dxg"},
+                             [&](const char* path) { return std::filesystem::exists(path, error); });
 }
 
 bool isForGpu(Tune wanted, const Context& context) {

@@ -12,6 +12,9 @@ namespace fragtrace {
 /// there has not been measured (docs/design/gpu.md).
 Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals);
 
+/// Returns true if this machine has a device that may be a GPU; without one, no driver need be asked.
+bool mayHaveGpu();
+
 /// Returns true if shaders get the text for compilers of GPUs: where registers are few and reads of uniforms
 /// cheap.
 bool isForGpu(Tune wanted, const Context& context);

@@ -69,7 +69,14 @@ PictureMaker::PictureMaker(const std::filesystem::path& shaderFolder, const std:
       oidn_(oidn),
       clock_(clock),
       seen_(source_),
-      counted_(makePictureTexture(GL_RGBA32F, {1, 1})) {}
+      counted_(makePictureTexture(GL_RGBA32F, {1, 1})) {
+  // llvmpipe compiles at the first draw: now, while a scene is loaded.
+  const Film film(kCompiledFor);
+  ShownTexture into;
+  fit(into, film.size());
+  seen_.show(film, true, into.texture, passes_);
+  count(film);
+}
 
 bool PictureMaker::drawGuides(int samples, glm::ivec2 size, Tracer& tracer, const View& view,
                               SideMemory& memory, const std::function<bool()>& goOn) {
@@ -114,39 +121,40 @@ bool PictureMaker::show(const Film& film, const Showing& showing, const RenderOp
                         Tracer& tracer, const View& view, SideMemory& memory, ShownTexture& into,
                         const std::function<bool()>& goOn) {
   const glm::ivec2 size = film.size();
+  const bool background = options.light.background;
   clock_.restart();
+  const double share = showing.filtered ? filteredShare(showing.samples) : 0.0;
+  if (share <= 0.0) {
+    if (showing.filtered) memory.forget();
+    fit(into, size);
+    seen_.show(film, background, into.texture, passes_);
+    clock_.end(Pass::Show);
+    return true;
+  }
   if (!fits(size, room_)) {
     room_ = glm::max(size, room_);
     raw_ = makePictureTexture(GL_RGBA32F, room_);
   }
-  const double share = showing.filtered ? filteredShare(showing.samples) : 0.0;
-  const GlTexture* filter = nullptr;
-  if (share <= 0.0) {
-    seen_.read(film, raw_, passes_);
-    clock_.end(Pass::Film);
-    if (showing.filtered) memory.forget();
-  } else {
-    if (!drawGuides(showing.samples, size, tracer, view, memory, goOn)) return false;
-    clock_.end(Pass::Guides);
-    SeenPicture& present = memory.present;
-    makeRoom(present.noisy, size);
-    present.size = size;
-    present.camera = view.camera;
-    // The past fades out as the filter does: what it has seen from elsewhere is not what is seen here.
-    const double left = std::max(0.0, 1.0 - double(showing.samples) / kNoPastFrom);
-    const double past = kMostPastSamples * left * left;
-    const bool joins = showing.past && memory.past.size.x > 0 && past > 0.0;
-    if (joins) makeRoom(fresh_, size);
-    seen_.read(film, *memory.guides, raw_, joins ? fresh_ : present.noisy, present.noisy, passes_);
-    clock_.end(Pass::Film);
-    if (joins) seen_.join(fresh_, present, memory.past, past, passes_);
-    clock_.end(Pass::Past);
-    filter = filtered(showing, options, present, goOn);
-    if (!filter) return false;
-    clock_.end(Pass::Filter);
-  }
+  if (!drawGuides(showing.samples, size, tracer, view, memory, goOn)) return false;
+  clock_.end(Pass::Guides);
+  SeenPicture& present = memory.present;
+  makeRoom(present.noisy, size);
+  present.size = size;
+  present.camera = view.camera;
+  // The past fades out as the filter does: what it has seen from elsewhere is not what is seen here.
+  const double left = std::max(0.0, 1.0 - double(showing.samples) / kNoPastFrom);
+  const double past = kMostPastSamples * left * left;
+  const bool joins = showing.past && memory.past.size.x > 0 && past > 0.0;
+  if (joins) makeRoom(fresh_, size);
+  seen_.read(film, *memory.guides, raw_, joins ? fresh_ : present.noisy, present.noisy, passes_);
+  clock_.end(Pass::Film);
+  if (joins) seen_.join(fresh_, present, memory.past, past, passes_);
+  clock_.end(Pass::Past);
+  const GlTexture* filter = filtered(showing, options, present, goOn);
+  if (!filter) return false;
+  clock_.end(Pass::Filter);
   fit(into, size);
-  seen_.show(raw_, filter, share, options.light.background, size, into.texture, passes_);
+  seen_.show(raw_, *filter, share, background, size, into.texture, passes_);
   clock_.end(Pass::Show);
   return true;
 }

@@ -18,7 +18,6 @@ constexpr double kHardwareWishMs = 10.0;
 constexpr size_t kLeastKept = 2;
 constexpr size_t kMostKept = 6;
 constexpr size_t kMostKeptBytes = size_t(1) << 29;
-constexpr int kTinyFilm = 8;  // pixels a side
 
 /// What of the options decides which program draws, and what it reads.
 RenderOptions programPart(const RenderOptions& options) {
@@ -71,7 +70,7 @@ void ViewPrograms::showPose(const RenderOptions& options) {
     program->bytes = stats.sceneBytes;
     // A pose may need another program, as for a deeper tree.
     Renderer& renderer = *program->tracer.renderer;
-    Film tiny(glm::ivec2{kTinyFilm});
+    Film tiny(kCompiledFor);
     if (renderer.knows(program->tracer.variant))
       renderer.use(program->tracer.variant);
     else
@@ -90,7 +89,7 @@ std::shared_ptr<ViewProgram> ViewPrograms::make(const RenderOptions& part) {
     program->tracer = makeTracer(context_, loaded_, part, stats, true);
     program->variant = stats.variant;
     program->bytes = stats.sceneBytes;
-    Film tiny(glm::ivec2{kTinyFilm});
+    Film tiny(kCompiledFor);
     program->tracer.renderer->setDrawTime(context_.software ? kSoftwareWishMs : kHardwareWishMs);
     program->tracer.renderer->compile(program->tracer.variant, tiny, loaded_.view);
   } catch (const ContextLost&) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "errors.h"
+#include "gl/driver_choice.h"
 #include "live/pick_text.h"
 #include "picture/denoising.h"
 #include "session/outputs.h"
@@ -94,9 +95,9 @@ void ViewTracer::run(const std::optional<OutsideContext>& shared) {
 void ViewTracer::enterContext(const std::optional<OutsideContext>& shared) {
   const Backend backend = start_.render.device.backend;
   shares_ = shared && backend == Backend::Auto;
-  if (shares_) context_ = makeContext(*shared);
+  context_ = shares_ ? makeContext(*shared) : makeContext(backend);
   // A window may be drawn by software though there is a GPU, as over a network.
-  if (shares_ && context_->software) {
+  if (shares_ && context_->software && mayHaveGpu()) {
     context_.reset();
     context_ = makeContext(backend);
     shares_ = context_->software;
@@ -105,7 +106,6 @@ void ViewTracer::enterContext(const std::optional<OutsideContext>& shared) {
       context_ = makeContext(*shared);
     }
   }
-  if (!context_) context_ = makeContext(backend);
   if (start_.render.output.verbose)
     exchange_.tell(shares_ ? "pictures stay on the device: " + context_->renderer
                            : "pictures are copied: they are drawn by " + context_->renderer + " (" +

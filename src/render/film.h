@@ -9,6 +9,10 @@
 
 namespace fragtrace {
 
+/// Pixels of a film for which programs are compiled. llvmpipe compiles anew for sizes that are a power of
+/// two, which pictures seldom have.
+inline constexpr glm::ivec2 kCompiledFor{7};
+
 /// Sum, compensation and counts of every pixel on the device (shaders/film.glsl), and what light paths add.
 class Film {
  public:

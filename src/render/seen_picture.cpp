@@ -25,14 +25,9 @@ SeenPasses::SeenPasses(const ShaderSource& source)
       reproject_(passProgram(source, "picture/reproject.frag")),
       join_(passProgram(source, "picture/join.frag")),
       show_(passProgram(source, "picture/show.frag")),
+      showFilm_(passProgram(source, "picture/show_film.frag")),
       totals_(passProgram(source, "picture/totals.frag")),
       sums_(source) {}
-
-void SeenPasses::read(const Film& film, const GlTexture& raw, PicturePasses& passes) {
-  const auto from = film.textures();
-  glProgramUniform1f(film_.name(), 1, float(film.lightPaths()));
-  passes.draw(film_, film.size(), {from[0], from[1], from[2], from[3]}, {&raw});
-}
 
 void SeenPasses::read(const Film& film, const Film& guides, const GlTexture& raw, const NoisyTextures& fresh,
                       const NoisyTextures& surfaces, PicturePasses& passes) {
@@ -65,11 +60,18 @@ void SeenPasses::join(const NoisyTextures& fresh, const SeenPicture& now, const 
   passes.draw(join_, now.size, {&fresh.radiance, &fresh.counts, &past_, &apart_}, {&a.radiance, &a.counts});
 }
 
-void SeenPasses::show(const GlTexture& raw, const GlTexture* filtered, double share, bool background,
+void SeenPasses::show(const GlTexture& raw, const GlTexture& filtered, double share, bool background,
                       glm::ivec2 size, const GlTexture& shown, PicturePasses& passes) {
-  glProgramUniform1f(show_.name(), 1, filtered ? float(share) : 0.0f);
+  glProgramUniform1f(show_.name(), 1, float(share));
   glProgramUniform1i(show_.name(), 2, background ? 1 : 0);
-  passes.draw(show_, size, {&raw, filtered}, {&shown});
+  passes.draw(show_, size, {&raw, &filtered}, {&shown});
+}
+
+void SeenPasses::show(const Film& film, bool background, const GlTexture& shown, PicturePasses& passes) {
+  const auto from = film.textures();
+  glProgramUniform1f(showFilm_.name(), 1, float(film.lightPaths()));
+  glProgramUniform1i(showFilm_.name(), 2, background ? 1 : 0);
+  passes.draw(showFilm_, film.size(), {from[0], from[1], from[2], from[3]}, {&shown});
 }
 
 void SeenPasses::count(const Film& film, const GlTexture& texel, PicturePasses& passes) {

@@ -24,9 +24,8 @@ class SeenPasses {
   /// Throws RenderError, as all others do.
   explicit SeenPasses(const ShaderSource& source);
 
-  /// The film's linear R, G, B and alpha into `raw`; with `guides`, a film of these, all else that a filter
-  /// needs, radiance and counts into `fresh`, albedo and normal into `surfaces`.
-  void read(const Film& film, const GlTexture& raw, PicturePasses& passes);
+  /// The film's linear R, G, B and alpha into `raw`; all else that a filter needs: radiance and counts into
+  /// `fresh`, albedo and normal, of a film of guides, into `surfaces`.
   void read(const Film& film, const Film& guides, const GlTexture& raw, const NoisyTextures& fresh,
             const NoisyTextures& surfaces, PicturePasses& passes);
 
@@ -39,10 +38,12 @@ class SeenPasses {
   void join(const NoisyTextures& fresh, const SeenPicture& now, const SeenPicture& past, double most,
             PicturePasses& passes);
 
-  /// What `share` of the filtered picture (may be null) and the rest of the raw one make, into `shown`;
-  /// opaque where the background is seen.
-  void show(const GlTexture& raw, const GlTexture* filtered, double share, bool background, glm::ivec2 size,
+  /// What `share` of the filtered picture and the rest of the raw one make, into `shown`; opaque where the
+  /// background is seen.
+  void show(const GlTexture& raw, const GlTexture& filtered, double share, bool background, glm::ivec2 size,
             const GlTexture& shown, PicturePasses& passes);
+  /// The film as it is.
+  void show(const Film& film, bool background, const GlTexture& shown, PicturePasses& passes);
 
   /// Into one texel: samples, rays, and pixels in which the driver ended a loop.
   void count(const Film& film, const GlTexture& texel, PicturePasses& passes);
@@ -52,6 +53,7 @@ class SeenPasses {
   GlProgram reproject_;
   GlProgram join_;
   GlProgram show_;
+  GlProgram showFilm_;
   GlProgram totals_;
   PictureSums sums_;
   glm::ivec2 room_{0};

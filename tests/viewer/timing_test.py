@@ -52,7 +52,7 @@ class Answers(Case):
     def test_while_the_camera_moves_the_event_loop_is_never_late(self):
         viewer = self.view("cornell-box", "--resolution", "1280,720", wait=False)
         viewer.window()
-        viewer.until(lambda s: s["answered"] > 0 and s["sides"][0]["samples"] > 0, "first picture")
+        viewer.until(lambda s: s.get("answered", 0) > 0 and s["sides"][0]["samples"] > 0, "first picture")
         began = time.monotonic()
         for i in range(3):
             viewer.drag((200, 300), (500, 350 + 40 * i), steps=40)

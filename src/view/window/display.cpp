@@ -109,6 +109,18 @@ void Display::map(Side& side, const DisplaySide& settings) {
   side.fresh = true;
 }
 
+void Display::prepare() {
+  if (shows(0)) return;
+  constexpr glm::ivec2 kSize{7};  // no power of two, for which llvmpipe compiles anew
+  const GlTexture nothing = makeTexture(GL_TEXTURE_2D);
+  glTextureStorage2D(nothing.name(), 1, GL_RGBA32F, kSize.x, kSize.y);
+  show(sides_[0], nothing.name(), kSize, false);
+  draw({.framebuffer = {8, 8}, .picture = {8, 8}}, {});
+  sides_[0].size = glm::ivec2(0);
+  sides_[0].traced = 0;
+  checkGl("preparing the display");
+}
+
 void Display::draw(const DisplayView& view, const std::array<DisplaySide, 2>& sides) {
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);

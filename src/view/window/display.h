@@ -43,6 +43,10 @@ class Display {
   /// Pixels of the picture that is shown.
   glm::ivec2 sizeOf(size_t side) const { return sides_[side].size; }
 
+  /// Has the driver compile what the first picture would wait for. Draws into the window, whose frame has
+  /// been shown.
+  void prepare();
+
   /// Fills the picture's area, and clears the rest.
   void draw(const DisplayView& view, const std::array<DisplaySide, 2>& sides);
 

@@ -90,6 +90,7 @@ class Window {
   double statusTime_ = -1.0;
   bool statusWaits_ = false;
   bool newReference_ = false;  ///< its size is not yet compared with the picture's
+  bool prepared_ = false;      ///< the display
   int frames_ = 0;             ///< still to be drawn
   double changed_ = -1.0;      ///< when the traced picture was last changed
   double again_ = 1e30;        ///< when a picture or its values may have come

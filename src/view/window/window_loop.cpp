@@ -127,6 +127,7 @@ void Window::run() {
     const double ms = 1000.0 * (glfwGetTime() - begin);
     keepTime(report_.times.loopMs, ms);
     report_.times.longestLoopMs = std::max(report_.times.longestLoopMs, ms);
+    if (!std::exchange(prepared_, true)) display_.prepare();
   }
   if (!state_.scene && !start_.options.scene.empty() && !facts_.error.empty()) throw InputError(facts_.error);
 }

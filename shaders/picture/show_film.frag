@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// The film as a window shows it, without a filter; its first row is at the top.
+#include "picture/film_means.glsl"
+
+layout(location = 2) uniform bool background;  // it is seen: nothing shows through
+
+layout(location = 0) out vec4 shown;
+
+void main() {
+  FilmMeans m = filmMeans(ivec2(gl_FragCoord.x, size.y - 1 - int(gl_FragCoord.y)));
+  shown = vec4(m.radiance, background ? 1.0 : m.alpha);
+}
