@@ -34,8 +34,9 @@ double sinceMs(Clock::time_point start) {
 /// Of films, and of pictures on their way to the window.
 size_t bytesPerPixel(const SideMemory& memory) {
   constexpr size_t kFilm = 48;
-  constexpr size_t kShown = kSlots * 16 + 16;
-  constexpr size_t kFiltered = kFilm + 3 * 56 + 76;  // guides; past, present and fresh; the filter's own
+  constexpr size_t kShown = kSlots * 16;
+  // Guides; past, present and fresh; what they differ by; the picture as it is; the filter's own.
+  constexpr size_t kFiltered = kFilm + 3 * 56 + 32 + 16 + 80;
   return kFilm + kShown + (memory.guides ? kFiltered : 0);
 }
 
