@@ -6,7 +6,7 @@ import json
 from support import SCENES, Case, main, run
 
 BOX = SCENES / "cornell-box.gltf"
-SHORT = ["--resolution", "32,24", "--pictures", "6", "--quiet"]
+SHORT = ["--resolution", "32,24", "--pictures", "6", "--interval", "1", "--quiet"]
 
 
 class BenchMotion(Case):
@@ -25,8 +25,10 @@ class BenchMotion(Case):
             self.assertIn(row["mode"], table)
             self.assertEqual((row["pictures"], len(row["gap_ms"]), row["compared"]), (6, 6, 2))
             self.assertTrue(0 < row["trace_cpu_ms"] and 0 < row["pixels"] <= 6 * 32 * 24, row)
-            self.assertTrue(row["latency_ms"] and min(row["latency_ms"]) > 0, row)
+            self.assertTrue(all(ms > 0 for ms in row["latency_ms"]), row)
             self.assertTrue(0 < row["flip"] < 0.3 and 0 < row["relmse"], row)
+        # A picture may come before the next move of the camera.
+        self.assertTrue(any(row["latency_ms"] for row in report["rows"]))
         self.assertIn("<svg", chart.read_text())
 
     def test_without_a_target_pictures_have_full_resolution(self):
