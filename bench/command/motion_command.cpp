@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <ranges>
 
 #include "bench/command/commands.h"
 #include "bench/command/configurations.h"
@@ -15,7 +13,6 @@
 #include "bench/report/chart.h"
 #include "bench/report/formatted.h"
 #include "bench/report/json.h"
-#include "bench/report/machine.h"
 #include "errors.h"
 #include "film/film_pixels.h"
 #include "image/compare/difference.h"
@@ -105,7 +102,7 @@ void settleMotion(const CLI::App&, MotionOptions& o) {
 
 /// The viewer's options in that mode.
 ViewOptions viewOptionsOf(const MotionOptions& o, const std::string& mode) {
-  ViewOptions view;
+  ViewOptions view = o.plan.view;
   view.render = o.render;
   view.render.sampling.spp = kMostSamples - o.render.sampling.sampleOffset;
   view.movingMs = o.targetMs;
@@ -167,8 +164,6 @@ class References {
     if (!complete) return std::nullopt;
     return imageOf(film_->read(), {});
   }
-
-  std::string machine() const { return context_->renderer; }
 
  private:
   const MotionOptions& options_;
@@ -250,8 +245,7 @@ std::string tableOf(const std::vector<MotionRow>& rows) {
   }
   return text +
          "pic/s: pictures a second; size: pixels of a picture; CPU: of the tracing thread, a picture; kB: "
-         "moved between "
-         "host and device\n";
+         "moved between host and device\n";
 }
 
 std::string chartOf(const std::vector<MotionRow>& rows, const std::string& scene) {
@@ -271,7 +265,6 @@ int runMotionCommand(const MotionOptions& o) {
     ProgressBar bar(mode, o.render.output.quiet);
     MotionPlan plan = o.plan;
     plan.view = viewOptionsOf(o, mode);
-    plan.view.waitsForPasses = o.plan.view.waitsForPasses;
     const auto goOn = [&](double fraction) {
       bar.show(fraction);
       return interrupts() == 0;

@@ -12,7 +12,7 @@
 
 namespace fragtrace {
 
-/// Where the camera is at a time in seconds, from where the scene's own camera is.
+/// Gives the camera at a time in seconds; the path begins near the scene's own camera.
 using CameraPath = std::function<CameraPose(const CameraPose& start, double seconds)>;
 
 /// "orbit": a turn about the focal point in `period` seconds; "dolly": towards it by half of the distance and

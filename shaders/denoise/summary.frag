@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the variance filter needs to know of the whole picture: the first pass of each step, which sums over blocks of
-// 16 x 16 pixels. sums.frag goes on until one texel is left.
+// The variance filter needs three sums over the whole picture. This is the first pass of each: it sums over blocks of
+// 16 x 16 pixels; sums.frag goes on until one texel is left.
 #include "denoise/denoise.glsl"
 
 layout(binding = 0) uniform sampler2D noisy;    // as in prepare.frag
@@ -12,7 +12,7 @@ layout(location = 1) uniform int part;          // kMeans, kLogarithms, kShares
 
 layout(location = 0) out vec4 sum;
 
-/// Of light without albedo; of no surface: 0. Not finite counts as nothing.
+/// A pixel's part of the sum. Light of no surface, and light that is not finite, counts as nothing.
 vec4 termOf(ivec2 pixel) {
   vec4 radiance = texelFetch(noisy, pixel, 0);
   vec4 albedo = texelFetch(albedos, pixel, 0);

@@ -50,12 +50,12 @@ void main() {
   vec4 past = texelFetch(pasts, pixel, 0);
   // The mean of n samples has the variance v; a past that is wrong by b counts as n v / b^2, for the least error.
   vec2 wrong = wrongness(pixel);
-  float noise = apart.y >= 0.0 ? max(apart.y - past.a, 0.0) : wrong.y;
+  float noise = count.x > 1.0 ? radiance.a : wrong.y;
   float worth = wrong.x > 0.0 ? count.x * noise / wrong.x : most;
   float counted = min(min(apart.z, most), worth);
   if (!(counted > 0.0)) return;
   float samples = count.x + counted;
-  // Of more samples than count, the variance is that of as many as do.
+  // Where the past has more samples than count, its variance becomes that of as many as do.
   float pastVariance = past.a * apart.z / counted;
   // Chan, Golub and LeVeque (1979).
   float m2 = radiance.a * count.x * (count.x - 1.0) + pastVariance * counted * max(counted - 1.0, 0.0) +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What passes over pictures share (src/render/picture_passes.h): pictures are textures of one texel a pixel, of which
+// Passes over pictures share this (src/render/picture_passes.h): pictures are textures of one texel a pixel, of which
 // the part from the corner counts.
 #include "layout.glsl"
 #include "luminance.glsl"
@@ -10,7 +10,7 @@ layout(location = 0) uniform ivec2 size;  // of what is read
 
 bool inside(ivec2 pixel) { return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, size)); }
 
-/// What a pixel's light is divided by, so that textures stay sharp; albedo and coverage are means over its samples.
+/// A pixel's light is divided by this, so that textures stay sharp; albedo and coverage are means over its samples.
 vec3 demodulation(vec4 albedo) {
   return albedo.a > 0.0 ? mix(max(albedo.rgb, vec3(0.0)), vec3(1.0), kAlbedoFloor) : vec3(1.0);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a past picture knows of the points that the present one shows (src/render/seen_picture.h). Places and points are
-// seen from the present camera's position.
+// A past picture tells what it knows of the points that the present one shows (src/render/seen_picture.h). Places and
+// points are seen from the present camera's position.
 #include "picture/picture.glsl"
 
 layout(binding = 0) uniform sampler2D radiances;  // of the present, as film.frag leaves these
@@ -27,7 +27,7 @@ const float kAlbedoApart = 0.15;   // a channel
 const float kCovered = 0.5;        // of the samples of a pixel: it shows a surface
 const float kEnoughOfFour = 0.25;  // weight of the taps that fit, for the past to count
 
-/// Of what was hit.
+/// The part of a pixel that was hit.
 struct Surface {
   vec3 albedo;
   float coverage;
@@ -56,7 +56,7 @@ bool showsTheSame(Surface now, float depth, Surface before) {
          max(max(apart.r, apart.g), apart.b) <= kAlbedoApart;
 }
 
-/// What the past knows of a point.
+/// The past's knowledge of a point.
 struct Known {
   vec3 light;  // without albedo
   float variance;

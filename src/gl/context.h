@@ -32,18 +32,19 @@ std::unique_ptr<Context> makeContext(Backend backend, VectorWidth width = Vector
 std::unique_ptr<Context> makeEglContext(std::string& tried);
 std::unique_ptr<Context> makeOsMesaContext(std::string& tried);
 
+using GetProcAddress = void (*(*)(const char*))();
+
 /// A context that somebody else has made, for one thread.
 struct OutsideContext {
   std::function<void()> enter;  ///< makes it current in the calling thread
   std::function<void()> leave;  ///< none is, any more
-  void (*(*functions)(const char* name))() = nullptr;
+  GetProcAddress functions = nullptr;
 };
 
-/// That context, current from now on until this is destroyed. Throws ContextError.
+/// Enters that context, which is current until the result is destroyed. Throws ContextError.
 std::unique_ptr<Context> makeContext(const OutsideContext& outside);
 
 /// Fills the function table and the context's facts; false with a reason when it is no OpenGL 4.5.
-using GetProcAddress = void (*(*)(const char*))();
 bool loadFunctions(Context& context, GetProcAddress getProcAddress, std::string& reason);
 
 }  // namespace fragtrace

@@ -19,8 +19,6 @@ constexpr double kNoneFrom = 256.0;
 constexpr int kGuideStep = 4;              // from one set of guides to the next, in samples
 constexpr double kMostPastSamples = 16.0;  // that the past counts for
 
-bool fits(glm::ivec2 size, glm::ivec2 room) { return glm::all(glm::lessThanEqual(size, room)); }
-
 void fit(ShownTexture& shown, glm::ivec2 size) {
   if (shown.size == size) return;
   shown.texture = makePictureTexture(GL_RGBA32F, size);
@@ -131,10 +129,7 @@ bool PictureMaker::show(const Film& film, const Showing& showing, const RenderOp
     clock_.end(Pass::Show);
     return true;
   }
-  if (!fits(size, room_)) {
-    room_ = glm::max(size, room_);
-    raw_ = makePictureTexture(GL_RGBA32F, room_);
-  }
+  if (grows(room_, size)) raw_ = makePictureTexture(GL_RGBA32F, room_);
   if (!drawGuides(showing.samples, size, tracer, view, memory, goOn)) return false;
   clock_.end(Pass::Guides);
   SeenPicture& present = memory.present;

@@ -115,8 +115,8 @@ bool ViewTracer::show(Side& side, bool past, const std::function<bool()>& goOn) 
 }
 
 void ViewTracer::count(Side& side) {
-  if (sinceMs(counted_) < kCountMs && !resting(side)) return;
-  counted_ = Clock::now();
+  if (sinceMs(side.counted) < kCountMs && !resting(side)) return;
+  side.counted = Clock::now();
   const glm::vec3 totals = maker_->count(*side.film);
   if (side.times.renderMs > 0.0) side.megaRaysPerSecond = double(totals.y) / side.times.renderMs / 1000.0;
   if (totals.z > 0.0f)

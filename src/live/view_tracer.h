@@ -54,6 +54,7 @@ class ViewTracer {
     int samples = 0;
     RenderTimes times;
     double megaRaysPerSecond = 0.0;
+    std::chrono::steady_clock::time_point counted{};  ///< when its rays were
     double error = -1.0;
     int errorAt = 0;    ///< samples when it was estimated
     bool stale = true;  ///< what the film holds is another picture
@@ -143,7 +144,6 @@ class ViewTracer {
   double publishMs_ = 0.0;          ///< what the latest publication took
   double filterMsPerPixel_ = 0.0;   ///< in it, of layers and filter
   std::chrono::steady_clock::time_point published_;
-  std::chrono::steady_clock::time_point counted_;
   FileWatch sceneFiles_;
   FileWatch shaderFiles_;
   std::chrono::steady_clock::time_point watched_;

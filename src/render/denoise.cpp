@@ -24,8 +24,7 @@ VarianceFilter::VarianceFilter(const ShaderSource& source)
 }
 
 void VarianceFilter::makeRoom(glm::ivec2 size) {
-  if (!glm::any(glm::greaterThan(size, room_))) return;
-  room_ = glm::max(size, room_);
+  if (!grows(room_, size)) return;
   light_ = makePictureTexture(GL_RGBA32F, room_);
   seenLight_ = makePictureTexture(GL_R32F, room_);
   guides_ = makePictureTexture(GL_RGBA32UI, room_);

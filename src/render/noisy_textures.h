@@ -17,8 +17,8 @@ struct NoisyTextures {
 
 /// Textures for that many pixels, where these are smaller.
 inline void makeRoom(NoisyTextures& noisy, glm::ivec2 size) {
-  if (!glm::any(glm::greaterThan(size, noisy.room))) return;
-  const glm::ivec2 room = glm::max(size, noisy.room);
+  glm::ivec2 room = noisy.room;
+  if (!grows(room, size)) return;
   noisy = {makePictureTexture(GL_RGBA32F, room), makePictureTexture(GL_RG32F, room),
            makePictureTexture(GL_RGBA32F, room), makePictureTexture(GL_RGBA32F, room), room};
 }

@@ -48,8 +48,7 @@ void PicturePasses::draw(const GlProgram& program, glm::ivec2 size, glm::ivec2 d
 glm::ivec2 PictureSums::blocksOf(glm::ivec2 size) { return (size + kBlock - 1) / kBlock; }
 
 const GlTexture& PictureSums::blocks(glm::ivec2 size) {
-  if (glm::any(glm::greaterThan(size, room_))) {
-    room_ = glm::max(size, room_);
+  if (grows(room_, size)) {
     blocks_ = makePictureTexture(GL_RGBA32F, blocksOf(room_));
     wider_ = makePictureTexture(GL_RGBA32F, blocksOf(blocksOf(room_)));
   }

@@ -20,6 +20,13 @@ inline GlTexture makePictureTexture(GLenum format, glm::ivec2 size) {
   return texture;
 }
 
+/// Returns true if a picture of that size has no room, which then grows: what is in it is to be made anew.
+inline bool grows(glm::ivec2& room, glm::ivec2 size) {
+  if (glm::all(glm::lessThanEqual(size, room))) return false;
+  room = glm::max(size, room);
+  return true;
+}
+
 /// All texels, row by row in the order of the device, of a format with so many channels of that type. `where`
 /// names the step in errors, as for checkGl().
 template <typename Value>

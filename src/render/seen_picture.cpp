@@ -43,8 +43,7 @@ void SeenPasses::join(const NoisyTextures& fresh, const SeenPicture& now, const 
   std::array<glm::vec4, 8> cameras{};
   putCamera(&cameras[0], now, now.camera.position);
   putCamera(&cameras[4], past, now.camera.position);
-  if (glm::any(glm::greaterThan(now.size, room_))) {
-    room_ = glm::max(now.size, room_);
+  if (grows(room_, now.size)) {
     past_ = makePictureTexture(GL_RGBA32F, room_);
     apart_ = makePictureTexture(GL_RGBA32F, room_);
   }
