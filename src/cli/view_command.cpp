@@ -59,7 +59,7 @@ int runView(const ViewOptions& asked) {
   ViewTracer tracer(options, std::move(oidn), exchange);
   std::promise<void> ended;
   std::thread tracing;
-  const auto begin = [&](const std::optional<OutsideContext>& shared) {
+  const auto begin = [&](const SharedContexts& shared) {
     tracing = std::thread([&, shared] {
       nameThread("trace");
       tracer.run(shared);

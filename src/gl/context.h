@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "stage/render_options.h"
@@ -39,6 +40,12 @@ struct OutsideContext {
   std::function<void()> enter;  ///< makes it current in the calling thread
   std::function<void()> leave;  ///< none is, any more
   GetProcAddress functions = nullptr;
+};
+
+/// Two that share their objects with somebody's, each for one thread at a time.
+struct SharedContexts {
+  std::optional<OutsideContext> draws;
+  std::optional<OutsideContext> compiles;  ///< none: programs are compiled by who draws
 };
 
 /// Enters that context, which is current until the result is destroyed. Throws ContextError.

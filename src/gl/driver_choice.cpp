@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace fragtrace {
 
@@ -28,6 +29,17 @@ bool mayHaveGpu() {
 
 bool isForGpu(Tune wanted, const Context& context) {
   return wanted == Tune::Auto ? !context.software : wanted == Tune::Gpu;
+}
+
+bool keepsCompiled(const Context& context) {
+  if (!context.software) return true;
+  // The texts that Mesa takes for a yes.
+  static constexpr std::array<std::string_view, 4> kYes{"1", "true", "y", "yes"};
+  return std::ranges::none_of(
+      std::array{"MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DISABLE"}, [](const char* name) {
+        const char* value = std::getenv(name);
+        return value && std::ranges::find(kYes, std::string_view(value)) != kYes.end();
+      });
 }
 
 void setVectorWidth(VectorWidth width) {

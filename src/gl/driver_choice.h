@@ -19,6 +19,10 @@ bool mayHaveGpu();
 /// cheap.
 bool isForGpu(Tune wanted, const Context& context);
 
+/// Returns true if the driver keeps what it has compiled, so that another context gets it at little cost. GPU
+/// drivers do; llvmpipe has a cache on disk that the user may have switched off.
+bool keepsCompiled(const Context& context);
+
 /// Tells Mesa's software driver the width, for all contexts of the process; has to come before the first.
 /// Auto leaves it as it is. Pictures are the same bits.
 void setVectorWidth(VectorWidth width);

@@ -62,6 +62,16 @@ bool isSignalled(void* fence) {
   return fence == nullptr || glClientWaitSync(static_cast<GLsync>(fence), 0, 0) != GL_TIMEOUT_EXPIRED;
 }
 
+void finishFence(void* fence) {
+  if (fence == nullptr) return glFinish();
+  constexpr GLuint64 kSecond = 1'000'000'000;
+  const auto sync = static_cast<GLsync>(fence);
+  GLenum state = GL_TIMEOUT_EXPIRED;
+  while (state == GL_TIMEOUT_EXPIRED) state = glClientWaitSync(sync, GL_SYNC_FLUSH_COMMANDS_BIT, kSecond);
+  if (state == GL_WAIT_FAILED) glFinish();
+  releaseFence(fence);
+}
+
 void releaseFence(void* fence) { glDeleteSync(static_cast<GLsync>(fence)); }
 
 void waitForDevice() { glFinish(); }
@@ -88,6 +98,12 @@ GlTexture makeTexture(GLenum target) {
   GLuint name = 0;
   glCreateTextures(target, 1, &name);
   return GlTexture(name);
+}
+
+GlQuery makeStamp() {
+  GLuint name = 0;
+  glCreateQueries(GL_TIMESTAMP, 1, &name);
+  return GlQuery(name);
 }
 
 GlQuery makeTimer() {

@@ -19,6 +19,8 @@ void* makeFence();
 /// What this context is told from now on waits for it, and it is released.
 void awaitFence(void* fence);
 bool isSignalled(void* fence);
+/// Waits for it, and releases it; for all that this context was told, where there is none.
+void finishFence(void* fence);
 void releaseFence(void* fence);
 
 /// Until all that this context was told is done.
@@ -72,5 +74,7 @@ GlVertexArray makeVertexArray();
 GlFramebuffer makeFramebuffer();
 /// A query of the time that draws take.
 GlQuery makeTimer();
+/// A query of the device's clock.
+GlQuery makeStamp();
 
 }  // namespace fragtrace

@@ -81,6 +81,11 @@ const GlProgram& ProgramCache::splatter(const ShaderVariant& variant) {
   return splatters_.emplace(variant.pixelFilter, std::move(program)).first->second;
 }
 
+void ProgramCache::clear() {
+  tracers_.clear();
+  splatters_.clear();
+}
+
 ShaderSource shaderSource(const std::filesystem::path& folder) {
   return {folder, GLAD_GL_ARB_shading_language_include != 0};
 }

@@ -21,6 +21,7 @@ class ProgramCache {
   const GlProgram& tracer(const ShaderVariant& variant);
   /// Adds light paths to a film through the pixel filter of the variant.
   const GlProgram& splatter(const ShaderVariant& variant);
+  void clear();
 
  private:
   ShaderSource source_;

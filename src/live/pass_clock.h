@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// How long each step of a picture takes the tracing thread.
+// How long each step of a picture takes the tracing thread, and the device.
 #pragma once
 
 #include <chrono>
+#include <deque>
+#include <optional>
 
+#include "gl/gl.h"
 #include "view/pass_times.h"
 
 namespace fragtrace {
@@ -12,6 +15,11 @@ class PassClock {
  public:
   /// With `waits`, each step ends when the device has done it: for measurements.
   explicit PassClock(bool waits) : waits_(waits) {}
+  /// From now on the wall's times are the device's own, by its clock, and come a picture late: for drivers
+  /// that go on with one step while they are told the next. Needs a context, as all calls do from then on.
+  void askDevice() { asksDevice_ = true; }
+  /// Before the context ends.
+  void forgetDevice();
   /// What comes now is no step.
   void restart();
   /// What has been done since the last call was this step.
@@ -20,7 +28,17 @@ class PassClock {
   PassTimes take();
 
  private:
+  struct Stamp {
+    GlQuery time;
+    std::optional<Pass> pass;  ///< that ends there
+  };
+  void stamp(std::optional<Pass> pass);
+  void readStamps();
+
   bool waits_;
+  bool asksDevice_ = false;
+  std::deque<Stamp> stamps_;  ///< the oldest first
+  uint64_t stampedAt_ = 0;    ///< nanoseconds, of the last that was read
   std::chrono::steady_clock::time_point wall_;
   double cpuMs_ = 0.0;
   PassTimes times_;

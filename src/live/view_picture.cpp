@@ -76,6 +76,21 @@ PictureMaker::PictureMaker(const std::filesystem::path& shaderFolder, const std:
   count(film);
 }
 
+void PictureMaker::prepareFilter() {
+  if (filter_) return;
+  filter_ = std::make_unique<VarianceFilter>(source_);
+  SeenPicture nothing;
+  makeRoom(nothing.noisy, kCompiledFor);
+  ShownTexture into;
+  fit(into, kCompiledFor);
+  GlTexture raw = makePictureTexture(GL_RGBA32F, kCompiledFor);
+  const Film film(kCompiledFor);
+  seen_.read(film, film, raw, nothing.noisy, nothing.noisy, passes_);
+  const GlTexture* filter = filter_->filtered(
+      nothing.noisy, kCompiledFor, false, [] { return true; }, passes_);
+  seen_.show(raw, *filter, 1.0, true, kCompiledFor, into.texture, passes_);
+}
+
 bool PictureMaker::drawGuides(int samples, glm::ivec2 size, Tracer& tracer, const View& view,
                               SideMemory& memory, const std::function<bool()>& goOn) {
   const int wanted = std::min(samples, kFewLayerSamples);

@@ -64,6 +64,9 @@ class PictureMaker {
   bool show(const Film& film, const Showing& showing, const RenderOptions& options, Tracer& tracer,
             const View& view, SideMemory& memory, ShownTexture& into, const std::function<bool()>& goOn);
 
+  /// Compiles the filter, if that was not done yet.
+  void prepareFilter();
+
   /// Shows R, G, B and, where it has that, A of the host's.
   void show(const Image& image, ShownTexture& into) const;
 

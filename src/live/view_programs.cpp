@@ -4,8 +4,10 @@
 #include <algorithm>
 
 #include "errors.h"
+#include "gl/debug_log.h"
 #include "options/option_row.h"
 #include "picture/denoising.h"
+#include "process/thread_name.h"
 
 namespace fragtrace {
 
@@ -18,6 +20,13 @@ constexpr double kHardwareWishMs = 10.0;
 constexpr size_t kLeastKept = 2;
 constexpr size_t kMostKept = 6;
 constexpr size_t kMostKeptBytes = size_t(1) << 29;
+
+/// The picture's program and those of its features; the picture's draws what comes next.
+void compileAll(Tracer& tracer, const View& view) {
+  Film tiny(kCompiledFor);
+  for (const ShaderVariant& feature : tracer.features) tracer.renderer->compile(feature, tiny, view);
+  tracer.renderer->compile(tracer.variant, tiny, view);
+}
 
 /// What of the options decides which program draws, and what it reads.
 RenderOptions programPart(const RenderOptions& options) {
@@ -46,7 +55,49 @@ std::shared_ptr<ViewProgram> ViewPrograms::of(const RenderOptions& options) {
     programs_.splice(programs_.begin(), programs_, found);
     return programs_.front();
   }
-  programs_.push_front(make(part));
+  if (!sameTree(treeOptions_, part)) {
+    settle();
+    loaded_.bvh = buildTree(loaded_.scene, part);
+  }
+  treeOptions_ = part;
+  keep(make(part));
+  return programs_.front();
+}
+
+std::shared_ptr<ViewProgram> ViewPrograms::soon(const RenderOptions& options) {
+  const RenderOptions part = programPart(options);
+  if (!aside_ || has(options) || !sameTree(treeOptions_, part)) return of(options);
+  if (compiling()) return nullptr;
+  std::packaged_task<std::shared_ptr<ViewProgram>()> task([this, part] { return makeAside(part); });
+  coming_ = task.get_future();
+  compiler_ = std::jthread([task = std::move(task), came = aside_->came]() mutable {
+    nameThread("compile");
+    task();
+    came();
+  });
+  return nullptr;
+}
+
+bool ViewPrograms::takeNews() {
+  if (compiling() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) settle();
+  return std::exchange(news_, false);
+}
+
+void ViewPrograms::settle() {
+  if (!compiling()) return;
+  news_ = true;
+  const std::shared_ptr<ViewProgram> program = coming_.get();
+  if (program->error.empty()) compileAll(program->tracer, loaded_.view);
+  keep(program);
+}
+
+void ViewPrograms::forget() {
+  settle();
+  programs_.clear();
+}
+
+void ViewPrograms::keep(std::shared_ptr<ViewProgram> program) {
+  programs_.push_front(std::move(program));
   size_t bytes = 0;
   size_t count = 0;
   for (auto p = programs_.begin(); p != programs_.end(); ++count) {
@@ -54,10 +105,10 @@ std::shared_ptr<ViewProgram> ViewPrograms::of(const RenderOptions& options) {
     const bool kept = count < kLeastKept || (count < kMostKept && bytes <= kMostKeptBytes);
     p = kept ? std::next(p) : programs_.erase(p);
   }
-  return programs_.front();
 }
 
 void ViewPrograms::showPose(const RenderOptions& options) {
+  settle();
   std::erase_if(programs_, [](const auto& p) { return p.use_count() == 1 || !p->error.empty(); });
   treeOptions_ = options;
   for (const std::shared_ptr<ViewProgram>& program : programs_) {
@@ -78,13 +129,25 @@ void ViewPrograms::showPose(const RenderOptions& options) {
   }
 }
 
-std::shared_ptr<ViewProgram> ViewPrograms::make(const RenderOptions& part) {
+std::shared_ptr<ViewProgram> ViewPrograms::makeAside(const RenderOptions& part) const {
+  std::shared_ptr<ViewProgram> program;
+  aside_->context->run([&] {
+    DebugLog log;
+    program = make(part);
+    if (program->error.empty()) compileAll(program->tracer, loaded_.view);
+    // Mesa crashes where programs are deleted that several contexts have drawn with (seen with 22.3): the
+    // context that draws makes its own, out of the driver's cache.
+    if (program->tracer.renderer) program->tracer.renderer->forgetPrograms();
+    program->driverLog = log.take();
+  });
+  return program;
+}
+
+std::shared_ptr<ViewProgram> ViewPrograms::make(const RenderOptions& part) const {
   auto program = std::make_shared<ViewProgram>();
   program->options = part;
   const auto fail = [&](const std::exception& error) { program->error = error.what(); };
   try {
-    if (!sameTree(treeOptions_, part)) loaded_.bvh = buildTree(loaded_.scene, part);
-    treeOptions_ = part;
     Statistics stats;
     program->tracer = makeTracer(context_, loaded_, part, stats, true);
     program->variant = stats.variant;

@@ -3,9 +3,14 @@
 // they draw the same, and kept for being asked for again.
 #pragma once
 
+#include <functional>
+#include <future>
 #include <list>
 #include <memory>
+#include <optional>
+#include <thread>
 
+#include "live/compile_context.h"
 #include "session/tracer.h"
 
 namespace fragtrace {
@@ -14,33 +19,57 @@ struct ViewProgram {
   RenderOptions options;  ///< as far as a program depends on them
   Tracer tracer;
   std::string variant;
-  size_t bytes = 0;   ///< on the device
-  std::string error;  ///< why it cannot be had; empty: it can
+  size_t bytes = 0;                    ///< on the device
+  std::string error;                   ///< why it cannot be had; empty: it can
+  std::vector<std::string> driverLog;  ///< of the context that it was compiled in, where that was another one
+};
+
+/// How programs are compiled while others draw.
+struct CompileAside {
+  CompileContext* context;     ///< not null
+  std::function<void()> came;  ///< called in the compiling thread, once a program is there
 };
 
 class ViewPrograms {
  public:
   /// The scene must outlive this, and its tree is changed to what the programs need.
-  ViewPrograms(const Context& context, LoadedScene& loaded, const RenderOptions& options)
-      : context_(context), loaded_(loaded), treeOptions_(options) {}
+  ViewPrograms(const Context& context, LoadedScene& loaded, const RenderOptions& options,
+               std::optional<CompileAside> aside)
+      : context_(context), loaded_(loaded), treeOptions_(options), aside_(std::move(aside)) {}
+  ViewPrograms(const ViewPrograms&) = delete;
+  ViewPrograms& operator=(const ViewPrograms&) = delete;
 
   bool has(const RenderOptions& options) const;
   /// Compiles it if it is not there; what failed stays failed until forget().
   std::shared_ptr<ViewProgram> of(const RenderOptions& options);
+  /// The same, but null where it is compiled aside, which begins now unless another one is being compiled.
+  std::shared_ptr<ViewProgram> soon(const RenderOptions& options);
+  /// Whether a program that was compiled aside has come since the last call.
+  bool takeNews();
+  /// While one is compiled aside, the scene must stay as it is.
+  bool compiling() const { return coming_.valid(); }
+  /// Waits for it.
+  void settle();
   /// Makes all anew when they are asked for again.
-  void forget() { programs_.clear(); }
+  void forget();
   /// The scene and its tree are those of another time of its animation, loaded with these options: programs
   /// that somebody holds draw it from now on, all others are made anew when they are asked for again. Throws
   /// as replaceScene().
   void showPose(const RenderOptions& options);
 
  private:
-  std::shared_ptr<ViewProgram> make(const RenderOptions& part);
+  std::shared_ptr<ViewProgram> make(const RenderOptions& part) const;
+  std::shared_ptr<ViewProgram> makeAside(const RenderOptions& part) const;
+  void keep(std::shared_ptr<ViewProgram> program);
 
   const Context& context_;
   LoadedScene& loaded_;
   RenderOptions treeOptions_;                         ///< that the scene's tree was built for
   std::list<std::shared_ptr<ViewProgram>> programs_;  ///< the latest used first
+  std::optional<CompileAside> aside_;
+  std::future<std::shared_ptr<ViewProgram>> coming_;
+  bool news_ = false;
+  std::jthread compiler_;  ///< ends before what it uses
 };
 
 }  // namespace fragtrace

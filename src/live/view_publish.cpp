@@ -135,7 +135,7 @@ void ViewTracer::publish(Side& side) {
   const glm::ivec2 size = side.film->size();
   TracedPicture picture;
   picture.side = size_t(&side - sides_.data());
-  picture.request = request_.number;
+  picture.request = awaitsProgram() ? answered_ : request_.number;
   picture.size = size;
   ShownTexture& shown = shownOf(side, side.shownIn);
   if (shares_) {
@@ -160,14 +160,14 @@ void ViewTracer::publish(Side& side) {
     s.filtered = filteredShare(side.samples);
     s.filterMs = side.filterMs;
   }
-  s.resting = !request_.moving && resolution_.step == 0 && resting(side);
+  s.resting = !request_.moving && resolution_.step == 0 && !side.awaited && resting(side);
   s.variant = side.program->variant;
   s.deviceBytes = side.program->bytes + size_t(size.x) * size_t(size.y) * bytesPerPixel(side.memory);
   s.copied = !shares_;
   s.passes = clock_.take();
   s.movedBytes = movedBytes() - std::exchange(side.movedBytes, movedBytes());
   exchange_.deliver(std::move(picture));
-  shows_ = Shows::Picture;
+  shows_ = side.previews ? Shows::Preview : Shows::Picture;
   losses_ = 0;
   published_ = Clock::now();
   publishMs_ = sinceMs(start);

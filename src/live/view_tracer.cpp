@@ -25,6 +25,7 @@ constexpr double kPublishMs = 100.0;
 constexpr double kPublishShare = 4.0;
 constexpr double kFilteredShare = 1.0;
 constexpr size_t kFrames = 64;        ///< whose times are summarised
+constexpr int kMeanwhileSamples = 4;  ///< of a picture that gives way to another soon
 constexpr double kLongWait = 3600.0;  ///< seconds
 constexpr double kWatchSeconds = 0.25;
 constexpr int kMostLosses = 3;  ///< of the context, without a picture between them
@@ -64,7 +65,7 @@ ViewTracer::ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn
   passOnWhatIsSaid([&exchange](const std::string& text) { exchange.tell(text); });
 }
 
-void ViewTracer::run(const std::optional<OutsideContext>& shared) {
+void ViewTracer::run(const SharedContexts& shared) {
   try {
     enterContext(shared);
     bool working = false;
@@ -74,6 +75,7 @@ void ViewTracer::run(const std::optional<OutsideContext>& shared) {
       try {
         obey(std::move(orders));
         adoptScene();
+        takeCompiled();
         watchFiles();
         if (loaded_ && sides_.empty() && !request_.sides.empty()) adopt(request_);
         working = work();
@@ -81,7 +83,7 @@ void ViewTracer::run(const std::optional<OutsideContext>& shared) {
         recover(error);
         working = true;
       }
-      exchange_.tellState(request_.number, !working && !request_.moving);
+      exchange_.tellState(request_.number, !working && !request_.moving && !awaitsProgram());
       tellDriver();
     }
   } catch (...) {
@@ -92,10 +94,10 @@ void ViewTracer::run(const std::optional<OutsideContext>& shared) {
   leaveContext();
 }
 
-void ViewTracer::enterContext(const std::optional<OutsideContext>& shared) {
+void ViewTracer::enterContext(const SharedContexts& shared) {
   const Backend backend = start_.render.device.backend;
-  shares_ = shared && backend == Backend::Auto;
-  context_ = shares_ ? makeContext(*shared) : makeContext(backend);
+  shares_ = shared.draws && backend == Backend::Auto;
+  context_ = shares_ ? makeContext(*shared.draws) : makeContext(backend);
   // A window may be drawn by software though there is a GPU, as over a network.
   if (shares_ && context_->software && mayHaveGpu()) {
     context_.reset();
@@ -103,13 +105,16 @@ void ViewTracer::enterContext(const std::optional<OutsideContext>& shared) {
     shares_ = context_->software;
     if (shares_) {
       context_.reset();
-      context_ = makeContext(*shared);
+      context_ = makeContext(*shared.draws);
     }
   }
+  compiles_.reset();
+  if (shares_ && shared.compiles && keepsCompiled(*context_)) compiles_.emplace(*shared.compiles);
   if (start_.render.output.verbose)
     exchange_.tell(shares_ ? "pictures stay on the device: " + context_->renderer
                            : "pictures are copied: they are drawn by " + context_->renderer + " (" +
                                  context_->backend + ")");
+  if (!context_->software) clock_.askDevice();
   driverLog_ = std::make_unique<DebugLog>();
   maker_ = std::make_unique<PictureMaker>(start_.render.device.shaderFolder, oidn_, clock_);
 }
@@ -120,7 +125,13 @@ void ViewTracer::recover(const ContextLost& error) {
   exchange_.tell(std::string(error.what()) + "; drawing anew");
   leaveContext();
   enterContext({});
-  if (loaded_) programs_ = std::make_unique<ViewPrograms>(*context_, *loaded_, loadedOptions_);
+  if (loaded_) makePrograms();
+}
+
+void ViewTracer::makePrograms() {
+  std::optional<CompileAside> aside;
+  if (compiles_) aside = CompileAside{&*compiles_, [this] { exchange_.nudge(); }};
+  programs_ = std::make_unique<ViewPrograms>(*context_, *loaded_, loadedOptions_, std::move(aside));
 }
 
 /// In the thread whose context it is.
@@ -128,6 +139,8 @@ void ViewTracer::leaveContext() {
   sides_.clear();
   shown_ = {};
   programs_.reset();
+  compiles_.reset();
+  clock_.forgetDevice();
   maker_.reset();
   driverLog_.reset();
   context_.reset();
@@ -168,7 +181,7 @@ void ViewTracer::adoptScene() {
   posedSize_ = result->scene->size;
   loaded_ = std::move(result->scene);
   loadedOptions_ = result->options;
-  programs_ = std::make_unique<ViewPrograms>(*context_, *loaded_, loadedOptions_);
+  makePrograms();
   exchange_.tellError({});
   ViewedScene viewed;
   viewed.options = loadedOptions_;
@@ -208,7 +221,7 @@ void ViewTracer::rebuildPrograms() {
   programs_->forget();
   maker_ = std::make_unique<PictureMaker>(start_.render.device.shaderFolder, oidn_, clock_);
   for (Side& side : sides_) {
-    const std::shared_ptr<ViewProgram> wanted = programFor(side.options);
+    const std::shared_ptr<ViewProgram> wanted = programFor(side.options, false);
     if (!wanted->error.empty()) return;
     side.program = wanted;
     side.stale = true;
@@ -282,6 +295,9 @@ void ViewTracer::adopt(const TraceRequest& request) {
   if (request.moving) keepMoving(resolution_, request.size);
   sides_.resize(request.sides.size());
   for (size_t i = 0; i < sides_.size(); ++i) adoptSide(sides_[i], request_.sides[i]);
+  if (awaitsProgram()) return;
+  answered_ = request_.number;
+  exchange_.tellNote({});
 }
 
 void ViewTracer::fitFilm(Side& side) {
@@ -304,6 +320,8 @@ void ViewTracer::fitFilm(Side& side) {
 bool ViewTracer::resting(const Side& side) const {
   if (!side.program) return true;
   if (side.stale || side.samples == 0) return false;
+  // Processors are left to the compiler.
+  if (side.awaited && side.samples >= kMeanwhileSamples) return true;
   const RenderOptions& o = side.options;
   const bool converged = o.sampling.noise > 0.0 && side.error >= 0.0 && side.error <= o.sampling.noise;
   return converged || side.samples >= o.sampling.spp ||
@@ -322,7 +340,7 @@ bool ViewTracer::work() {
   const bool settled = !request_.moving && resolution_.step == 0;
   // A film that has just become this large holds nothing yet.
   const bool whole = std::ranges::all_of(sides_, [](const Side& s) { return !s.program || s.samples > 0; });
-  if (settled && whole) {
+  if (settled && whole && !awaitsProgram() && !programs_->compiling()) {
     for (const SaveRequest& request : saves_) save(request);
     saves_.clear();
   }

@@ -40,7 +40,7 @@ class ViewTracer {
   /// Until the exchange says quit; to be called in the thread that is to draw. In a context that shares its
   /// objects with the window's, if that can be had and is no worse than one of its own: pictures then stay on
   /// the device.
-  void run(const std::optional<OutsideContext>& shared);
+  void run(const SharedContexts& shared);
 
   /// Whether a thread still loads what nobody waits for any more.
   bool loading() const { return loader_.busy() || thumbnails_.busy(); }
@@ -49,6 +49,8 @@ class ViewTracer {
   struct Side {
     RenderOptions options;
     std::shared_ptr<ViewProgram> program;
+    std::optional<RenderOptions> awaited;  ///< that it draws once their program is compiled
+    bool previews = false;                 ///< in Blinn-Phong, until then
     std::unique_ptr<Film> film;
     View view;
     int samples = 0;
@@ -65,7 +67,7 @@ class ViewTracer {
     uint64_t movedBytes = 0;  ///< by the thread, at the side's picture before
   };
 
-  void enterContext(const std::optional<OutsideContext>& shared);
+  void enterContext(const SharedContexts& shared);
   void leaveContext();
   void recover(const ContextLost& error);
   void obey(Orders orders);
@@ -83,9 +85,15 @@ class ViewTracer {
   /// With the filter that can be had; why not, the window is told.
   RenderOptions withFilter(RenderOptions options);
   void adoptSide(Side& side, const RenderOptions& options);
-  void preview(Side& side);
+  void preview(Side& side, const RenderOptions& wanted);
   View viewOf(const RenderOptions& options);
-  std::shared_ptr<ViewProgram> programFor(const RenderOptions& options);
+  /// Null where it is compiled while something else is drawn.
+  std::shared_ptr<ViewProgram> programFor(const RenderOptions& options, bool aside);
+  /// Sides draw what was compiled aside.
+  void takeCompiled();
+  /// Whether a side draws something else meanwhile.
+  bool awaitsProgram() const;
+  void makePrograms();
   /// A film of the size that is drawn at now; empty, if it was of another.
   void fitFilm(Side& side);
   bool resting(const Side& side) const;
@@ -132,10 +140,12 @@ class ViewTracer {
   PassClock clock_;
   std::unique_ptr<PictureMaker> maker_;
   TraceRequest request_;
-  Selected selected_;  ///< what was picked last
+  uint64_t answered_ = 0;  ///< the latest request that the sides draw
+  Selected selected_;      ///< what was picked last
   std::vector<Side> sides_;
   enum class Shows : uint8_t { Nothing, Preview, Picture } shows_ = Shows::Nothing;
   bool shares_ = false;                                    ///< objects with the window
+  std::optional<CompileContext> compiles_;                 ///< none: programs are compiled where they draw
   std::array<std::array<ShownTexture, kSlots>, 2> shown_;  ///< of the sides; without sharing the first
   ResolutionController resolution_;
   std::vector<SaveRequest> saves_;

@@ -2,6 +2,7 @@
 #include "render/film.h"
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 
 #include "errors.h"
@@ -14,10 +15,14 @@ namespace fragtrace {
 namespace {
 
 constexpr const char* kReading = "reading the film";
-constexpr GLint kSum = 0;  // draw buffers that are cleared
-constexpr GLint kCompensation = 1;
-constexpr GLint kCounts = 2;
 constexpr const char* kLoading = "loading the film";
+
+/// Drivers clear a framebuffer as they draw; llvmpipe clears a texture through the host.
+void clearByDrawing(const GlTexture& texture, const std::function<void(GLuint target)>& clear) {
+  const GlFramebuffer target = makeFramebuffer();
+  glNamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
+  clear(target.name());
+}
 
 }  // namespace
 
@@ -32,13 +37,6 @@ Film::Film(glm::ivec2 size) : size_(size), room_(size) {
   sum_ = makePictureTexture(GL_RGBA32F, size);
   compensation_ = makePictureTexture(GL_RGBA32F, size);
   counts_ = makePictureTexture(GL_RGBA32UI, size);
-  clearing_ = makeFramebuffer();
-  const std::array buffers{GLenum(GL_COLOR_ATTACHMENT0), GLenum(GL_COLOR_ATTACHMENT1),
-                           GLenum(GL_COLOR_ATTACHMENT2)};
-  const std::array textures{&sum_, &compensation_, &counts_};
-  for (size_t i = 0; i < buffers.size(); ++i)
-    glNamedFramebufferTexture(clearing_.name(), buffers[i], textures[i]->name(), 0);
-  glNamedFramebufferDrawBuffers(clearing_.name(), GLsizei(buffers.size()), buffers.data());
   clear();
 }
 
@@ -47,8 +45,8 @@ void Film::clear() {
   cut_ = 0.0;
   lightPaths_ = 0;
   if (splats_.name() != 0) glClearTexImage(splats_.name(), 0, GL_RGBA, GL_FLOAT, zero);
-  glClearNamedFramebufferfv(clearing_.name(), GL_COLOR, kSum, zero);
-  glClearNamedFramebufferfv(clearing_.name(), GL_COLOR, kCompensation, zero);
+  clearByDrawing(sum_, [&](GLuint target) { glClearNamedFramebufferfv(target, GL_COLOR, 0, zero); });
+  clearByDrawing(compensation_, [&](GLuint target) { glClearNamedFramebufferfv(target, GL_COLOR, 0, zero); });
   clearCounts();
   checkGl("clearing the film");
 }
@@ -64,7 +62,7 @@ void Film::restart(glm::ivec2 size) {
 
 void Film::clearCounts() {
   const GLuint none[4] = {};
-  glClearNamedFramebufferuiv(clearing_.name(), GL_COLOR, kCounts, none);
+  clearByDrawing(counts_, [&](GLuint target) { glClearNamedFramebufferuiv(target, GL_COLOR, 0, none); });
 }
 
 void Film::bind() const {

@@ -70,7 +70,6 @@ class Film {
   GlTexture sum_;
   GlTexture compensation_;
   GlTexture counts_;
-  GlFramebuffer clearing_;  ///< of these three: drivers clear it as they draw
   double cut_ = 0.0;
   GlTexture splats_;  ///< none where no light path has been added
   uint64_t lightPaths_ = 0;

@@ -81,9 +81,9 @@ void Renderer::splat(const RenderPass& pass, glm::ivec2 tile) {
   const glm::ivec2 size = film.size();
   const Placement placed = pass.view.placement.value_or(Placement{{0, 0}, size});
   const GLuint program = programs_.splatter(pass.variant).name();
-  if (splatTarget_.name() == 0) splatTarget_ = makeFramebuffer();
-  glNamedFramebufferTexture(splatTarget_.name(), GL_COLOR_ATTACHMENT0, film.splats().name(), 0);
-  glBindFramebuffer(GL_FRAMEBUFFER, splatTarget_.name());
+  const DrawTarget target;
+  glNamedFramebufferTexture(target.framebuffer.name(), GL_COLOR_ATTACHMENT0, film.splats().name(), 0);
+  target.bind();
   // Where no viewport is larger than the film, points beside it are lost.
   const int margin = std::max(size.x, size.y) + 2 * kMargin <= Film::mostSide() ? kMargin : 0;
   const glm::ivec2 viewport = size + 2 * margin;
@@ -100,7 +100,6 @@ void Renderer::splat(const RenderPass& pass, glm::ivec2 tile) {
   glDrawArrays(GL_POINTS, 0, tile.x * tile.y);
   glDisable(GL_BLEND);
   glDisable(GL_PROGRAM_POINT_SIZE);
-  glNamedFramebufferTexture(splatTarget_.name(), GL_COLOR_ATTACHMENT0, 0, 0);
   glFinish();
   checkGl("adding light paths to the film");
 }

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
+#include <deque>
 
 #include "errors.h"
 #include "render/draw_plan.h"
@@ -53,13 +55,17 @@ Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads, Pr
       buffers_(scene, reads),
       frameBuffer_(makeBuffer()),
       progressBuffer_(makeBuffer()),
-      vertexArray_(makeVertexArray()),
-      framebuffer_(makeFramebuffer()),
-      timer_(context.software ? GlQuery() : makeTimer()),
+      progressRead_(makeBuffer()),
       software_(context.software),
-      targetMs_(context.software ? kSoftwareDrawMs : kHardwareDrawMs) {
+      targetMs_(context.software ? kSoftwareDrawMs : kHardwareDrawMs),
+      inFlight_(context.software ? 1 : kMostInFlight) {
   glNamedBufferStorage(frameBuffer_.name(), sizeof(layout::Frame), nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferStorage(progressBuffer_.name(), sizeof(layout::Progress), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  constexpr GLbitfield kRead = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+  constexpr size_t kBytes = kMostInFlight * sizeof(layout::Progress);
+  glNamedBufferStorage(progressRead_.name(), kBytes, nullptr, kRead);
+  progressMapped_ =
+      static_cast<const layout::Progress*>(glMapNamedBufferRange(progressRead_.name(), 0, kBytes, kRead));
   checkGl("making buffers");
   describeScene(scene);
 }
@@ -113,20 +119,26 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.worldOrigin = glm::vec4(glm::vec3(origin), float((view.catcherHeight - origin.y) / view.space.unit));
 }
 
-void Renderer::begin(const RenderPass& pass) {
+DrawTarget Renderer::begin(const RenderPass& pass) {
+  DrawTarget target;
   setFrame(pass.film, pass.view);
   uploadFrame(0, sizeof frame_);
   pass.film.bind();
   buffers_.bind();
   const glm::ivec2 size = pass.film.size();
-  glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, size.x);
-  glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, size.y);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-  glBindVertexArray(vertexArray_.name());
+  glNamedFramebufferParameteri(target.framebuffer.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, size.x);
+  glNamedFramebufferParameteri(target.framebuffer.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, size.y);
+  target.bind();
   useProgram(pass.variant);
   if (pass.variant.neighbours) reservoirs_->bindTextures(layout::kReservoirTextures);
   glBindBufferBase(GL_UNIFORM_BUFFER, layout::kFrameBinding, frameBuffer_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kProgressBinding, progressBuffer_.name());
+  return target;
+}
+
+void Renderer::forgetPrograms() {
+  glUseProgram(0);
+  programs_.clear();
 }
 
 void Renderer::uploadFrame(size_t from, size_t to) {
@@ -178,12 +190,16 @@ void Renderer::adaptBudget(double ms) {
   waveBudget_ = std::clamp(int(waveBudget_ * std::clamp(targetMs_ / ms, 0.5, 2.0)), kLeastWaveBudget, most);
 }
 
-layout::Progress Renderer::draw(const ShaderVariant& variant) {
-  layout::Progress progress{};
-  movedBytes() += sizeof progress;
+Renderer::Flight Renderer::submit(const ShaderVariant& variant, const Work& tile, bool goesOn) {
+  Flight flight{tile, flights_++ % kMostInFlight, software_ ? GlQuery() : makeTimer(), nullptr, Clock::now()};
+  frame_.tile = {tile.corner, tile.size};
+  frame_.picture.z = tile.to;
+  frame_.sampling.z = goesOn ? 1 : 0;
+  frame_.limits.z = stepBudget(variant);
+  uploadFrame(offsetof(layout::Frame, picture), offsetof(layout::Frame, part));
+  glViewport(tile.corner.x, tile.corner.y, tile.size.x, tile.size.y);
   glClearNamedBufferData(progressBuffer_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
-  const auto start = Clock::now();
-  if (timer_.name() != 0) glBeginQuery(GL_TIME_ELAPSED, timer_.name());
+  if (!software_) glBeginQuery(GL_TIME_ELAPSED, flight.timer.name());
   if (variant.dispatch == Dispatch::Compute) {
     const uint32_t slots = variant.wavefront ? layout::kWaveSlots : 1;
     const glm::uvec2 lanes(frame_.tile.z, (uint32_t(frame_.tile.w) + slots - 1u) / slots);
@@ -193,39 +209,46 @@ layout::Progress Renderer::draw(const ShaderVariant& variant) {
   } else {
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
-  if (timer_.name() != 0) glEndQuery(GL_TIME_ELAPSED);
+  if (!software_) glEndQuery(GL_TIME_ELAPSED);
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
                   GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
-                  GL_TEXTURE_FETCH_BARRIER_BIT);
-  glFinish();
-  if (timer_.name() != 0) {
-    GLuint64 nanoseconds = 0;
-    glGetQueryObjectui64v(timer_.name(), GL_QUERY_RESULT, &nanoseconds);
-    drawnMs_ += 1e-6 * double(nanoseconds);
+                  GL_TEXTURE_FETCH_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
+  // The shader counts in the device's own memory.
+  glCopyNamedBufferSubData(progressBuffer_.name(), progressRead_.name(), 0,
+                           GLintptr(flight.slot * sizeof(layout::Progress)), sizeof(layout::Progress));
+  flight.done = makeFence();
+  return flight;
+}
+
+layout::Progress Renderer::land(Flight& flight) {
+  layout::Progress progress{};
+  movedBytes() += sizeof progress;
+  finishFence(std::exchange(flight.done, nullptr));
+  if (software_) {
+    drawnMs_ += milliseconds(flight.start, Clock::now());
   } else {
-    drawnMs_ += milliseconds(start, Clock::now());
+    GLuint64 nanoseconds = 0;
+    glGetQueryObjectui64v(flight.timer.name(), GL_QUERY_RESULT, &nanoseconds);
+    drawnMs_ += 1e-6 * double(nanoseconds);
   }
-  glGetNamedBufferSubData(progressBuffer_.name(), 0, sizeof progress, &progress);
+  if (progressMapped_)
+    std::memcpy(&progress, progressMapped_ + flight.slot, sizeof progress);
+  else
+    glGetNamedBufferSubData(progressRead_.name(), GLintptr(flight.slot * sizeof progress), sizeof progress,
+                            &progress);
   checkGl("drawing");
   return progress;
 }
 
-bool Renderer::drawTile(const RenderPass& pass, const Work& tile, const std::function<bool()>& goOn) {
+bool Renderer::finishTile(const RenderPass& pass, Flight flight, const std::function<bool()>& goOn) {
   ShaderVariant& variant = pass.variant;
-  frame_.tile = {tile.corner, tile.size};
-  frame_.picture.z = tile.to;
-  frame_.sampling.z = 0;
-  glViewport(tile.corner.x, tile.corner.y, tile.size.x, tile.size.y);
   overBudget_ = false;
   for (;;) {
-    const auto start = Clock::now();
-    frame_.limits.z = stepBudget(variant);
-    uploadFrame(offsetof(layout::Frame, picture), offsetof(layout::Frame, part));
-    const layout::Progress progress = draw(variant);
+    const layout::Progress progress = land(flight);
     pass.film.addCut((progress.cutHigh * 0x1p32 + progress.cutLow) / layout::kCutUnits);
     if (!goOn()) return false;
     if (progress.unfinished == 0) return true;
-    if (variant.wavefront) adaptBudget(milliseconds(start, Clock::now()));
+    if (variant.wavefront) adaptBudget(milliseconds(flight.start, Clock::now()));
     if (progress.stuck > 0 && !variant.resumable) {
       variant.resumable = true;
       variant.wavefront = false;
@@ -233,18 +256,30 @@ bool Renderer::drawTile(const RenderPass& pass, const Work& tile, const std::fun
       useProgram(variant);
     }
     overBudget_ = true;
-    frame_.sampling.z = 1;
+    flight = submit(variant, flight.tile, true);
   }
 }
 
 bool Renderer::drawPass(const RenderPass& pass, const GoOn& goOn) {
-  begin(pass);
+  const DrawTarget target = begin(pass);
   double done = 0.0;
-  for (const Work& tile : pass.work) {
-    if (!drawTile(pass, tile, [&] { return goOn(done); })) return false;
+  bool goesOn = true;
+  std::deque<Flight> flights;
+  const auto finish = [&] {
+    const Work tile = flights.front().tile;
+    goesOn = finishTile(pass, std::move(flights.front()), [&] { return goesOn && goOn(done); }) && goesOn;
+    flights.pop_front();
     done += pixelSamples(tile);
+  };
+  for (const Work& tile : pass.work) {
+    // States of suspended paths are kept for one tile at a time.
+    const bool alone = pass.variant.resumable || pass.variant.wavefront;
+    while (!flights.empty() && (alone || flights.size() >= inFlight_)) finish();
+    if (!goesOn) break;
+    flights.push_back(submit(pass.variant, tile, false));
   }
-  return true;
+  while (!flights.empty()) finish();
+  return goesOn;
 }
 
 double Renderer::compile(const ShaderVariant& variant, Film& film, const View& view) {

@@ -2,6 +2,8 @@
 // The one renderer behind every front end: it advances a film by samples, draw by draw.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <functional>
 #include <map>
 #include <optional>
@@ -13,6 +15,7 @@
 #include "gl/scene_buffers.h"
 #include "image/region.h"
 #include "render/draw_plan.h"
+#include "render/draw_target.h"
 #include "render/film.h"
 #include "stage/render_options.h"
 
@@ -85,6 +88,9 @@ class Renderer {
   /// Draws with such a variant, at the pace that it had.
   void use(const ShaderVariant& variant) { pace_ = &paces_.at(variant); }
 
+  /// All are built again when they are used next; none may be drawing.
+  void forgetPrograms();
+
   /// Called after each draw with the fraction of the work done, 0..1; false stops the work.
   using Progress = std::function<bool(double fraction)>;
   static bool toTheEnd(double) { return true; }
@@ -105,18 +111,21 @@ class Renderer {
 
   /// What measures RenderTimes::drawMs: the GPU's timer, or the wall's clock round glFinish where a software
   /// driver's timer is wrong.
-  const char* clock() const { return timer_.name() != 0 ? "gpu timer" : "wall clock"; }
+  const char* clock() const { return software_ ? "wall clock" : "gpu timer"; }
 
   /// How long a draw may take from now on; for benchmarks, whose frames are known to be short.
   void setDrawTime(double ms) { targetMs_ = ms; }
+
+  /// How many draws the device is told before the first is done: 1 or 2, by default 2 on hardware.
+  void setDrawsInFlight(size_t draws) { inFlight_ = std::clamp(draws, size_t(1), kMostInFlight); }
 
  private:
   /// What of a scene stands in the frame's block.
   void describeScene(const GpuScene& scene);
   /// What of a film and a view stands there.
   void setFrame(const Film& film, const View& view);
-  /// Binds all that the draws of a pass have in common.
-  void begin(const RenderPass& pass);
+  /// Binds all that the draws of a pass have in common; they draw to the result.
+  DrawTarget begin(const RenderPass& pass);
   /// These bytes of the frame's block, which the draws to come read.
   void uploadFrame(size_t from, size_t to);
   void useProgram(const ShaderVariant& variant);
@@ -125,13 +134,25 @@ class Renderer {
   int stepBudget(const ShaderVariant& variant) const;
   /// The wavefront's from the time of a draw that used it up.
   void adaptBudget(double ms);
-  layout::Progress draw(const ShaderVariant& variant);
+  /// A draw that the device may not have done yet.
+  struct Flight {
+    Work tile;
+    size_t slot = 0;  ///< of its progress
+    GlQuery timer;    ///< none: the wall's clock
+    void* done = nullptr;
+    std::chrono::steady_clock::time_point start;
+  };
+  static constexpr size_t kMostInFlight = 2;
+  /// Draws a tile; `goesOn`: it was drawn before and is not finished.
+  Flight submit(const ShaderVariant& variant, const Work& tile, bool goesOn);
+  /// Waits for it.
+  layout::Progress land(Flight& flight);
   /// Called after each draw with the pixel-samples that a pass has finished; false stops it.
   using GoOn = std::function<bool(double pixelSamples)>;
   /// Does the work of a pass; false when stopped.
   bool drawPass(const RenderPass& pass, const GoOn& goOn);
-  /// A part of it, in as many draws as its step budget takes.
-  bool drawTile(const RenderPass& pass, const Work& tile, const std::function<bool()>& goOn);
+  /// In as many more draws as its step budget takes.
+  bool finishTile(const RenderPass& pass, Flight flight, const std::function<bool()>& goOn);
   bool addParts(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
                 const Progress& progress);
   /// Brings the film's light paths up to so many passes, where its picture has any; false when stopped.
@@ -167,18 +188,18 @@ class Renderer {
   std::vector<glm::vec4> casters_;     ///< as in GpuScene
   std::optional<Film> lightPathFilm_;  ///< a texel a light path (storeRecord of film.glsl)
   std::optional<Film> reservoirs_;  ///< of the film's pixels in this sample (shaders/reuse/neighbours.glsl)
-  GlFramebuffer splatTarget_;
   GlBuffer frameBuffer_;
   GlBuffer progressBuffer_;
+  GlBuffer progressRead_;                             ///< copies of it, a slot a flight
+  const layout::Progress* progressMapped_ = nullptr;  ///< the same; null where the driver maps none
+  size_t flights_ = 0;
   GlBuffer pathStates_;
   GlTexture pathStateView_;  ///< of the same, as image
   int64_t pathStateRows_ = 0;
-  GlVertexArray vertexArray_;
-  GlFramebuffer framebuffer_;
-  GlQuery timer_;  ///< none: the wall's clock
   bool software_;
   double drawnMs_ = 0.0;  ///< by all draws
   double targetMs_;
+  size_t inFlight_;
   bool overBudget_ = false;  ///< the last tile needed more than one draw
   int waveBudget_ = kLeastWaveBudget;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace fragtrace {
 
@@ -50,6 +51,13 @@ void keepMoving(ResolutionController& controller, glm::ivec2 full) {
   controller.moving = true;
   const double cost = medianCost(controller);
   controller.step = cost > 0.0 ? finestWithin(full, cost, controller.targetMs) : kResolutionSteps.size() - 1;
+}
+
+void drawSomethingElse(ResolutionController& controller, glm::ivec2 full, double msPerPixel) {
+  controller.msPerPixel = {msPerPixel};
+  const bool moving = std::exchange(controller.moving, false);
+  keepMoving(controller, full);
+  controller.moving = moving;
 }
 
 void refine(ResolutionController& controller, glm::ivec2 full) {

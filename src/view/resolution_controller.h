@@ -27,6 +27,10 @@ glm::ivec2 sizeAtStep(glm::ivec2 full, size_t step);
 /// target, at the coarsest as long as nothing was measured.
 void keepMoving(ResolutionController& controller, glm::ivec2 full);
 
+/// Something else is drawn from now on, whose pixels take so long (0: not known): its first frame is at the
+/// step that keepMoving() would choose.
+void drawSomethingElse(ResolutionController& controller, glm::ivec2 full, double msPerPixel);
+
 /// Nothing moves any more: the next frame is one step finer than the last, or at full resolution if that is
 /// expected to take less than a tenth of a second.
 void refine(ResolutionController& controller, glm::ivec2 full);

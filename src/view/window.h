@@ -16,9 +16,9 @@ struct WindowStart {
   RenderOptions options;
   std::filesystem::path statusFile;  ///< see docs/viewer.md; empty: none
   std::filesystem::path reference;   ///< a picture to compare with; empty: none
-  /// Called once the window is there, with a context that shares its objects, if there can be one, and lives
-  /// as long as it; and before the window ends, by when nothing may be drawn there any more.
-  std::function<void(const std::optional<OutsideContext>& shared)> opened;
+  /// Called once the window is there, with contexts that share its objects, as far as there can be any, and
+  /// live as long as it; and before the window ends, by when nothing may be drawn there any more.
+  std::function<void(const SharedContexts& shared)> opened;
   std::function<void()> ending;
   // Options as text of the command line, and back (options/camera_text.h, options/command_text.h).
   std::function<std::string(const RenderOptions&)> cameraText;

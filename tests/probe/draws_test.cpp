@@ -121,6 +121,26 @@ TEST_P(Draws, TilesOfAnySizeInAnyOrder) {
   }
 }
 
+TEST_P(Draws, TwoInFlight) {
+  const std::vector<uint64_t> expected = bitsOf(atOnce());
+  renderer_->setDrawsInFlight(2);
+  for (const bool resumable : {false, true}) {
+    variant_.resumable = resumable;
+    // A sample of the least tile, or more.
+    for (const double ms : {1e-3, 60.0}) {
+      renderer_->setDrawTime(ms);
+      EXPECT_EQ(bitsOf(atOnce()), expected) << resumable << ms;
+    }
+    // Stopped after a draw, it goes on where it was.
+    EXPECT_EQ(
+        bitsOf(drawn([&](Film& film) {
+          EXPECT_FALSE(renderer_->addSamples(film, view_, 0, kSamples, times_, [](double) { return false; }));
+          add(film, 0, kSamples);
+        })),
+        expected);
+  }
+}
+
 TEST_P(Draws, PixelsWithTargetsOfTheirOwn) {
   const FilmPixels expected = atOnce();
   // Three samples everywhere, then a third of the pixels goes on to 7, then all to the end.

@@ -165,6 +165,19 @@ TEST(Resolution, StandingStillOnAFastMachineIsAtOnceAtFull) {
   EXPECT_EQ(controller.step, 0u);
 }
 
+TEST(Resolution, SomethingElseBeginsAtTheStepThatItsOwnTimesAllow) {
+  ResolutionController controller;
+  move({.msPerPixel = 1e-6}, 30, controller);
+  refine(controller, kFull);
+  ASSERT_EQ(controller.step, 0u);
+  drawSomethingElse(controller, kFull, 0.0);
+  EXPECT_EQ(controller.step, kResolutionSteps.size() - 1) << "not known";
+  drawSomethingElse(controller, kFull, 1e-6);
+  EXPECT_EQ(controller.step, 0u) << "drawn before, and cheap";
+  refine(controller, kFull);
+  EXPECT_FALSE(controller.moving);
+}
+
 TEST(Resolution, TimesThatAreNoneCountNothing) {
   ResolutionController controller;
   keepMoving(controller, kFull);

@@ -115,7 +115,7 @@ void Display::prepare() {
   const GlTexture nothing = makeTexture(GL_TEXTURE_2D);
   glTextureStorage2D(nothing.name(), 1, GL_RGBA32F, kSize.x, kSize.y);
   show(sides_[0], nothing.name(), kSize, false);
-  draw({.framebuffer = {8, 8}, .picture = {8, 8}}, {});
+  draw({.framebuffer = {8, 8}, .picture = {8, 8}, .magnifier = {}}, {});
   sides_[0].size = glm::ivec2(0);
   sides_[0].traced = 0;
   checkGl("preparing the display");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string_view>
 
 #include "view/window/text.h"
 
@@ -27,10 +28,30 @@ void row(const char* name, const char* format, Values... values) {
   ImGui::Text(format, values...);
 }
 
+/// Each step of a picture and the tracing thread's own work, in milliseconds. Software goes on with the steps
+/// after the trace while it is told more, so their own times are not known there.
+std::string passText(const PassTimes& times) {
+  std::string text;
+  double host = 0.0;
+  const auto add = [&](std::string_view name, double ms) {
+    char entry[48];
+    std::snprintf(entry, sizeof entry, "%s%.*s %.1f", text.empty() ? "" : ", ", int(name.size()), name.data(),
+                  ms);
+    text += entry;
+  };
+  for (size_t pass = 0; pass < kPassNames.size(); ++pass) {
+    if (times.wall[pass] >= 0.05) add(kPassNames[pass], times.wall[pass]);
+    host += times.cpu[pass];
+  }
+  add("host", host);
+  return text + " ms";
+}
+
 void drawCosts(const ViewState& state, const ViewFacts& facts, size_t side) {
   const SideStatistics& s = facts.statistics[side];
   row("frame", "%.1f ms, 95th %.1f ms", s.frameMs, s.frameP95Ms);
   row("rays", "%.2f million/s", s.megaRaysPerSecond);
+  row("steps", "%s", passText(s.passes).c_str());
   if (s.filtered > 0.0) row("denoised", "%.0f %%, %.0f ms", 100.0 * s.filtered, s.filterMs);
   if (!state.split) row("paths", "%.2f million/s", s.megaPathsPerSecond);
   const glm::ivec2 size = facts.pictureSize[side];

@@ -75,8 +75,14 @@ void drawSideNames(const ViewState& state, const ViewFacts& facts, const WindowL
   const auto textOf = [&](size_t side) {
     if (side == 1 && !state.reference.empty())
       return "B  " + shownText(state.reference.filename().string(), kMostNameCharacters);
-    return std::string(side == 0 ? "A  " : "B  ") + presetName(state.sides[side].stages) + ", " +
-           samplesText(facts.statistics[side].samples);
+    const RenderOptions& options = state.sides[side];
+    const SideStatistics& s = facts.statistics[side];
+    const DebugView view = options.output.debugView;
+    char time[32];
+    std::snprintf(time, sizeof time, s.frameMs < 10.0 ? ", %.1f ms" : ", %.0f ms", s.frameMs);
+    return std::string(side == 0 ? "A  " : "B  ") +
+           (view == DebugView::None ? presetName(options.stages) : std::string(rowOf(view).label)) + ", " +
+           samplesText(s.samples) + time;
   };
   const float bar = float(state.shownBar()) * picture.x;
   if (state.comparison == CompareMode::Difference) {

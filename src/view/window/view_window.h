@@ -28,7 +28,7 @@ class Window {
   /// that was asked for could never be shown.
   void run();
   /// For the tracing thread.
-  std::optional<OutsideContext> shared() const;
+  SharedContexts shared() const;
   /// The last of the status file: why the window is closed; empty: it was wanted.
   void end(const std::string& failure);
 
@@ -72,7 +72,8 @@ class Window {
   Exchange& exchange_;
   Glfw glfw_;
   WindowHandle window_;
-  WindowHandle sharing_;  ///< none: the tracing thread draws elsewhere
+  WindowHandle sharing_;    ///< none: the tracing thread draws elsewhere
+  WindowHandle compiling_;  ///< beside it
   DebugLog driverLog_;
   Input input_;
   Interface interface_;

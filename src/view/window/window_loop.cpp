@@ -90,6 +90,7 @@ Window::Window(const WindowStart& start, Exchange& exchange)
   if (start.options.device.backend == Backend::Auto) {
     try {
       sharing_ = openSharing(window_.get());
+      compiling_ = openSharing(window_.get());
     } catch (const std::exception& error) {
       say(std::string("pictures are copied, as drivers share none: ") + error.what());
     }
@@ -97,9 +98,11 @@ Window::Window(const WindowStart& start, Exchange& exchange)
   open();
 }
 
-std::optional<OutsideContext> Window::shared() const {
-  if (!sharing_) return std::nullopt;
-  return outsideContext(sharing_.get());
+SharedContexts Window::shared() const {
+  SharedContexts contexts;
+  if (sharing_) contexts.draws = outsideContext(sharing_.get());
+  if (compiling_) contexts.compiles = outsideContext(compiling_.get());
+  return contexts;
 }
 
 /// The first load, for a picture as large as it will be.

@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Programs are compiled while others draw: the window answers meanwhile, and nothing that is written is of another program."""
+from support import Case, main, pixels_of
+
+SIZE = ["--resolution", "320,240", "--spp", "1"]
+
+
+class Compiles(Case):
+    def start(self, *options, disabled=False):
+        """With nothing in the driver's cache, or without one."""
+        environment = {**self.screen.environment, "MESA_SHADER_CACHE_DIR": str(self.folder / "cache")}
+        if disabled:
+            environment["MESA_SHADER_CACHE_DISABLE"] = "true"
+        viewer = self.view("vitrine", *SIZE, *options, environment=environment, wait=False)
+        viewer.window()
+        return viewer
+
+    def test_a_preview_turns_while_the_picture_is_compiled(self):
+        viewer = self.start()
+        def previews(status):
+            return status["state"] == "compiling" and status["sides"] and "gi" not in status["sides"][0]["variant"]
+        first = viewer.until(lambda s: previews(s) and s["pictures"] > 0, "a preview")
+        viewer.key("F12")
+        viewer.key("4")
+        viewer.until(lambda s: previews(s) and s["pictures"] > first["pictures"] + 1 and s["camera"] != first["camera"], "a turned preview")
+        viewer.key("Return")
+        written = viewer.wait(lambda: next(iter(self.folder.glob("*.png")), None), 60, "a picture")
+        status = viewer.rest()
+        self.assertIn("gi", status["sides"][0]["variant"])
+        self.assertEqual(status["camera"], first["camera"])
+        self.same(pixels_of(written), pixels_of(self.render("vitrine", *SIZE)))
+        self.ends_well(viewer, viewer.close())
+
+    def test_the_old_picture_moves_until_another_stage_is_compiled(self):
+        viewer = self.start("--stage", "phong")
+        before = viewer.rest()
+        viewer.key("shift+F7")
+        viewer.until(lambda s: s["state"] == "compiling", "compiling")
+        viewer.key("4")
+        viewer.until(lambda s: s["state"] == "compiling" and s["pictures"] > before["pictures"], "the old picture, turned")
+        viewer.key("shift+F2")
+        back = viewer.rest(lambda s: s["pictures"] > before["pictures"], "the stage before")
+        self.assertNotIn("gi", back["sides"][0]["variant"])
+        viewer.key("shift+F7")
+        viewer.rest(lambda s: "gi" in s["sides"][0]["variant"], "the other stage")
+        self.ends_well(viewer, viewer.close())
+
+    def test_it_ends_while_it_compiles(self):
+        viewer = self.start()
+        viewer.until(lambda s: s["state"] == "compiling" and s["pictures"] > 0, "compiling")
+        self.assertEqual(viewer.close(), 0, viewer.stderr())
+
+    def test_without_a_cache_programs_are_compiled_where_they_draw(self):
+        viewer = self.start(disabled=True)
+        self.assertIn("gi", viewer.rest()["sides"][0]["variant"])
+        self.ends_well(viewer, viewer.close())
+
+
+if __name__ == "__main__":
+    main()
