@@ -73,7 +73,7 @@ void dropTraits(const StageSet& stages, bool heatmap, Surroundings surroundings,
   if (!hasNormalMaps(traits) && !has(traits, Trait::Anisotropy)) drop(traits, {Trait::Tangents});
   if (gi && !has(stages, Stage::LightSampling))
     drop(traits, {Trait::EmissiveTriangles, Trait::EnvironmentSampling});
-  // A constant environment is found by scattered rays; only the stages without them sample it.
+  // Scattered rays find a constant environment.
   if (gi && surroundings == Surroundings::DefaultLight) drop(traits, {Trait::EnvironmentSampling});
   const auto looksUp = [&](const TraitRow& row) { return readsTexcoords(row) && has(traits, row.trait); };
   if (std::ranges::none_of(traitRows(), looksUp)) drop(traits, {Trait::Texcoords, Trait::TextureTransforms});
@@ -302,6 +302,11 @@ std::optional<ShaderVariant> lightRecordVariant(const ShaderVariant& variant) {
   records.wavefront = false;
   records.waveUnit = -1;
   return records;
+}
+
+bool lightsByEnvironment(const ShaderVariant& variant) {
+  return has(variant.traits, Trait::Environment) && has(variant.stages, Stage::Phong) &&
+         !has(variant.stages, Stage::Gi);
 }
 
 bool keepsWeights(const ShaderVariant& variant) {

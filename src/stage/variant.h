@@ -78,6 +78,9 @@ std::optional<ShaderVariant> lightPathVariant(const ShaderVariant& variant);
 /// The variant that keeps the light samples that such a picture's pixels take of others, if they do.
 std::optional<ShaderVariant> lightRecordVariant(const ShaderVariant& variant);
 
+/// Whether the environment lights surfaces without sampling, as in the stages before gi (kEnvironmentLight).
+bool lightsByEnvironment(const ShaderVariant& variant);
+
 /// Whether hits keep their barycentric weights: only vertex attributes need them.
 bool keepsWeights(const ShaderVariant& variant);
 
