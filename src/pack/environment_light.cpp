@@ -13,17 +13,18 @@ namespace fragtrace {
 namespace {
 
 /// Rows of the maps that the levels are made of: two texels a standard deviation of the lobe at least.
-constexpr std::array<int, layout::kLobeLevels> kRowsOfLevel{18, 18, 18, 36, 72, 144};
+constexpr std::array<int, layout::kLobeLevels> kRowsOfLevel{28, 28, 28, 36, 72, 144};
 
 /// Weight of a texel of the map in a texel made of it.
 struct Share {
   size_t texel;
   double weight;
+  bool beyond = false;  ///< a row beyond a pole: half a turn away
 };
 
 /// Of `count` columns or rows those that make one of `parts`, by a tent as wide as two of whichever are
-/// wider: it leaves the middle of a sun where it is. Beyond the ends columns go round, and the last row is
-/// repeated.
+/// wider: it leaves the middle of a sun where it is. Beyond the ends columns go round, and rows of a map
+/// that gets finer repeat the last one.
 std::vector<Share> sharesOf(int part, int parts, int count, bool rows) {
   const double middle = (part + 0.5) * count / parts;
   const double reach = std::max(1.0, double(count) / parts);
@@ -32,10 +33,13 @@ std::vector<Share> sharesOf(int part, int parts, int count, bool rows) {
   for (int k = int(std::floor(middle - reach)); k <= int(std::ceil(middle + reach)); ++k) {
     double weight = reach - std::abs(k + 0.5 - middle);
     if (weight <= 0.0) continue;
-    const int texel = rows ? std::clamp(k, 0, count - 1) : ((k % count) + count) % count;
+    const bool inside = k >= 0 && k < count;
+    const bool beyond = rows && count > parts && !inside;
+    int texel = rows ? std::clamp(k, 0, count - 1) : ((k % count) + count) % count;
+    if (beyond) texel = k < 0 ? -1 - k : 2 * count - 1 - k;
     // Means are over solid angle.
     if (rows && count > parts) weight *= std::sin(glm::pi<double>() * (texel + 0.5) / count);
-    shares.push_back({size_t(texel), weight});
+    shares.push_back({size_t(texel), weight, beyond});
     sum += weight;
   }
   for (Share& share : shares) share.weight /= sum;
@@ -51,7 +55,9 @@ MapRows resizedFrom(glm::ivec2 size, const RadianceAt& radianceAt, int height) {
   forEachRowOf(height, [&](int y) {
     std::vector<glm::dvec3> line(size_t(size.x), glm::dvec3(0.0));
     for (const Share& share : sharesOf(y, height, size.y, true)) {
-      for (size_t x = 0; x < line.size(); ++x) line[x] += share.weight * radianceAt(share.texel, x);
+      const size_t turn = share.beyond ? line.size() / 2 : 0;
+      for (size_t x = 0; x < line.size(); ++x)
+        line[x] += share.weight * radianceAt(share.texel, x < turn ? x + line.size() - turn : x - turn);
     }
     for (size_t x = 0; x < columns.size(); ++x) {
       glm::dvec3 sum(0.0);
@@ -146,6 +152,12 @@ MapRows lobesOf(const MapRows& map, int level) {
   std::vector<double> polar;
   for (int y = 0; y <= map.height(); ++y) polar.push_back(glm::pi<double>() * y / map.height());
   return averagedMap(map, polar, lobe, 0.0, reach);
+}
+
+size_t mostLightWords() {
+  size_t rows = layout::kIrradianceRows + layout::kLobeLevels;
+  for (const int height : kRowsOfLevel) rows += size_t(2 * height) * size_t(height + 1);
+  return rows * 4;
 }
 
 void appendEnvironmentLight(const Image& image, Words& texels) {

@@ -30,6 +30,9 @@ double exponentOfLevel(int level);
 /// A level of the map, its first and last row at the poles; `map` is fine enough for it.
 MapRows lobesOf(const MapRows& map, int level);
 
+/// The most words that appendEnvironmentLight() appends.
+size_t mostLightWords();
+
 /// Appends the light of a map to the rows of the environment's buffer (layout.glsl).
 void appendEnvironmentLight(const Image& image, Words& texels);
 

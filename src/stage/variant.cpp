@@ -155,9 +155,11 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop) 
   return traits;
 }
 
-std::string whyOff(Stage stage, const TraitSet& present) {
+std::string whyOff(Stage stage, const TraitSet& present, bool gi) {
   if (stage == Stage::NormalMaps && !hasNormalMaps(present)) return "no normal map";
   if (stage == Stage::Shadows && !hasLight(present)) return "no light to cast shadows";
+  if (stage == Stage::Shadows && !gi && !hasLamps(present))
+    return "before gi, the environment casts no shadows";
   if (stage == Stage::LightSampling && !hasAreaLight(present))
     return "no emissive triangle and no environment";
   const std::optional<Trait> needed = stageRows()[size_t(stage)].needs;
