@@ -15,7 +15,8 @@ const uint kTexelsBinding = 8u;        // 1 uvec2 a texel: RGBA as linear half f
 const uint kEmittersBinding = 9u;      // kEmitterRows uvec4 an emitter
 const uint kLightsBinding = 10u;       // kLightRows vec4 a punctual light
 // 1 vec4 a texel: radiance, density over the area of the map (mean 1); behind them those of the backdrop, if there is
-// one that camera rays see in place of the map
+// one that camera rays see in place of the map, and before gi the environment's light: factors of the irradiance;
+// width, height and first row of each level of lobes; the levels (src/pack/environment_light.h)
 const uint kEnvironmentBinding = 11u;
 // 1 uvec4 a step: of the rows, then of each row (src/pack/inversion_table.h)
 const uint kEnvironmentInversionBinding = 12u;
@@ -168,6 +169,10 @@ const uint kTextureMirrorV = 64u;
 // The table of a row of the environment has half as many steps as the row has texels, but at least one and at most
 // these.
 const int kMostEnvironmentSteps = 1024;
+
+// Of the environment's light.
+const uint kIrradianceRows = 9u;
+const uint kLobeLevels = 6u;
 
 // Emitter rows: the first and the last emitter that its equal share of the numbers draws, the last number that draws
 // itself, probability (float); of an emissive triangle its first vertex and material, its edges from there with 1 /

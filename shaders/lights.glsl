@@ -319,12 +319,12 @@ float chanceOfLight(int emitter, vec3 point, uint normal) {
   return treeDensity(int(kind), point, normal, 1.0f, 1.0f) / uintBitsToFloat(emitterRow(emitter, 2).w);
 }
 
-/// How many light samples each shaded point takes: one with global illumination; else each punctual light, one point of
-/// the emissive triangles and one direction of the environment.
+/// How many light samples each shaded point takes: one with global illumination; else each punctual light, and one
+/// point of the emissive triangles.
 int lightSlotCount() {
   if (kGi) return kPunctualLights || kEmissiveTriangles || kEnvironmentSampling ? 1 : 0;
   int count = kPunctualLights ? int(frame.lightChoice.w) : 0;
-  return count + (kEmissiveTriangles ? 1 : 0) + (kEnvironmentSampling ? 1 : 0);
+  return count + (kEmissiveTriangles ? 1 : 0);
 }
 
 /// What draws a light of global illumination: numbers that choose it (kLightTree), and a point or direction.
@@ -381,7 +381,5 @@ LightSample lightOfSlot(int slot, vec3 point, uint normal, Sampler numbers, uint
   LightSample s = noLight();
   if (kPunctualLights && slot < punctual) s = punctualLight(slot, point);
   if (kEmissiveTriangles && slot == punctual) s = emitterLight(1.0f, point, drawPairBits(numbers, dimension), true);
-  if (kEnvironmentSampling && slot == lightSlotCount() - 1)
-    s = environmentLight(1.0f, drawPairBits(numbers, dimension + 2u));
   return s;
 }

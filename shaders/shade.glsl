@@ -143,14 +143,17 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   }
   vec3 outgoing = -p.direction;
   vec3 f0 = phongF0(m.baseColor, m.metallic, m.dielectricF0);
+  vec3 diffuse = (1.0 - m.metallic) * m.baseColor;
+  float exponent = phongExponent(m.roughness);
   if (p.lightSlot == 0) p.radiance += 0.03 * p.throughput * m.baseColor;
+  if (kEnvironmentLight && p.lightSlot == 0)
+    p.radiance += p.throughput * environmentReflected(diffuse, f0, exponent, normal, outgoing);
   int lights = lightSlotCount();
   if (p.lightSlot < lights) {
     uint dimension = kBounceDimensions * uint(p.bounce + 1);
     LightSample light = lightOfSlot(p.lightSlot, s.position, kNoNormal, p.numbers, dimension + kLightDimension);
-    vec3 diffuse = (1.0 - m.metallic) * m.baseColor;
     if (kVertexNormals) diffuse *= terminatorFade(s.geometricNormal, s.shadingNormal, light.direction);
-    vec3 value = phongValue(diffuse, f0, phongExponent(m.roughness), normal, outgoing, light.direction);
+    vec3 value = phongValue(diffuse, f0, exponent, normal, outgoing, light.direction);
     bool above = dot(light.direction, s.geometricNormal) > 0.0;
     if (kThinGlass) p.throughWalls = passesWalls(p, s, m, light.direction);
     p = connect(p, s, light, above ? p.throughput * light.irradiance * value : vec3(0.0));

@@ -70,6 +70,7 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "material_layers.glsl"
 #include "phong.glsl"
 #include "environment.glsl"
+#include "environment_light.glsl"
 #include "lights.glsl"
 #include "film_pixel.glsl"
 #include "film.glsl"

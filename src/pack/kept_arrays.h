@@ -34,6 +34,7 @@ struct KeptArrays {
     double power = 0.0;
     int draws = 0;            ///< EnvironmentDraws
     bool forCatcher = false;  ///< upwardIrradiance is known
+    bool light = false;       ///< appendEnvironmentLight()
   };
   std::optional<KeptEnvironment> environment;  ///< of the map; there is one a sequence
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "pack/environment_light.h"
 #include "pack/ggx_energy.h"
 #include "pack/glass_energy.h"
 #include "pack/gpu_scene.h"
@@ -165,8 +166,8 @@ size_t tableOf(const std::vector<float>& indices, const Material& m) {
 }
 
 EnvironmentDraws drawsOf(const ShaderVariant& variant) {
-  if (!has(variant.traits, Trait::EnvironmentSampling)) return EnvironmentDraws::Nothing;
-  return has(variant.stages, Stage::Gi) ? EnvironmentDraws::LightAndPaths : EnvironmentDraws::Light;
+  return has(variant.traits, Trait::EnvironmentSampling) ? EnvironmentDraws::LightAndPaths
+                                                         : EnvironmentDraws::Nothing;
 }
 
 std::vector<glm::vec3> meanRadiance(const Scene& scene, const TraitSet& traits, TexturePacker& textures) {
@@ -217,6 +218,7 @@ KeptArrays::KeptEnvironment packMap(const Environment& environment, const Shader
   const bool keeps = kept != nullptr && environment.kind == Surroundings::Map;
   const auto serves = [&](const KeptArrays::KeptEnvironment& packedBefore) {
     return packedBefore.draws == int(draws) && packedBefore.forCatcher == variant.shadowCatcher &&
+           packedBefore.light == lightsByEnvironment(variant) &&
            has(variant.traits, Trait::Backdrop) == (packedBefore.backdropSize.x > 0);
   };
   if (keeps && kept->environment && serves(*kept->environment)) {
@@ -225,14 +227,20 @@ KeptArrays::KeptEnvironment packMap(const Environment& environment, const Shader
     return *kept->environment;
   }
   PackedEnvironment map = packEnvironment(environment.image, draws);
-  KeptArrays::KeptEnvironment result{map.size,  {0, 0},     glm::vec3(0.0f),
-                                     map.power, int(draws), variant.shadowCatcher};
+  KeptArrays::KeptEnvironment result{map.size,
+                                     {0, 0},
+                                     glm::vec3(0.0f),
+                                     map.power,
+                                     int(draws),
+                                     variant.shadowCatcher,
+                                     lightsByEnvironment(variant)};
   if (has(variant.traits, Trait::Backdrop)) {
     // A program that is forced to have one (bench variants) draws the map itself.
     const Image& seen = environment.backdrop.values.empty() ? environment.image : environment.backdrop;
     result.backdropSize = {seen.width, seen.height};
     appendBackdrop(seen, map.texels);
   }
+  if (result.light) appendEnvironmentLight(environment.image, map.texels);
   if (variant.shadowCatcher) result.upwardIrradiance = upwardIrradiance(environment.image);
   packed.buffers[layout::kEnvironmentBinding] = std::move(map.texels);
   packed.buffers[layout::kEnvironmentInversionBinding] = std::move(map.inversion);

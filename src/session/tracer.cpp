@@ -163,8 +163,9 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
     stats.lightPathReason = whyCaustics(tracer.variant, present, options);
   warnOfNoEffect(tracer.variant, present, options, stats);
   if (tracer.variant.clampIndirect) stats.clampIndirect = options.sampling.clampIndirect;
+  const bool gi = has(tracer.variant.stages, Stage::Gi);
   for (const StageRow& row : stageRows()) {
-    const std::string reason = has(options.stages, row.stage) ? whyOff(row.stage, present) : "";
+    const std::string reason = has(options.stages, row.stage) ? whyOff(row.stage, present, gi) : "";
     if (!reason.empty()) stats.skipped.push_back(std::string(row.name) + ": " + reason);
   }
   const bool compensates = has(tracer.variant.stages, Stage::EnergyCompensation);

@@ -327,7 +327,7 @@ std::span<const TraitRow> traitRows() {
        .name = "environment-sampling",
        .constant = "kEnvironmentSampling",
        .absence = "no environment map",
-       .stages = setOf({Stage::Phong}),
+       .stages = setOf({Stage::Gi}),
        .brings = setOf({Trait::Environment})},
       {.trait = Trait::Backdrop,
        .name = "backdrop",

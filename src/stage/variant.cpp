@@ -73,7 +73,7 @@ void dropTraits(const StageSet& stages, bool heatmap, Surroundings surroundings,
   if (!hasNormalMaps(traits) && !has(traits, Trait::Anisotropy)) drop(traits, {Trait::Tangents});
   if (gi && !has(stages, Stage::LightSampling))
     drop(traits, {Trait::EmissiveTriangles, Trait::EnvironmentSampling});
-  // A constant environment is found by scattered rays; only the stages without them sample it.
+  // Scattered rays find a constant environment.
   if (gi && surroundings == Surroundings::DefaultLight) drop(traits, {Trait::EnvironmentSampling});
   const auto looksUp = [&](const TraitRow& row) { return readsTexcoords(row) && has(traits, row.trait); };
   if (std::ranges::none_of(traitRows(), looksUp)) drop(traits, {Trait::Texcoords, Trait::TextureTransforms});
@@ -155,9 +155,11 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop) 
   return traits;
 }
 
-std::string whyOff(Stage stage, const TraitSet& present) {
+std::string whyOff(Stage stage, const TraitSet& present, bool gi) {
   if (stage == Stage::NormalMaps && !hasNormalMaps(present)) return "no normal map";
   if (stage == Stage::Shadows && !hasLight(present)) return "no light to cast shadows";
+  if (stage == Stage::Shadows && !gi && !hasLamps(present))
+    return "before gi, the environment casts no shadows";
   if (stage == Stage::LightSampling && !hasAreaLight(present))
     return "no emissive triangle and no environment";
   const std::optional<Trait> needed = stageRows()[size_t(stage)].needs;
@@ -302,6 +304,11 @@ std::optional<ShaderVariant> lightRecordVariant(const ShaderVariant& variant) {
   records.wavefront = false;
   records.waveUnit = -1;
   return records;
+}
+
+bool lightsByEnvironment(const ShaderVariant& variant) {
+  return has(variant.traits, Trait::Environment) && has(variant.stages, Stage::Phong) &&
+         !has(variant.stages, Stage::Gi);
 }
 
 bool keepsWeights(const ShaderVariant& variant) {

@@ -42,8 +42,17 @@ def from_lamp(x, y, corners):
     return abs(total) / 2
 
 
-def from_sky(rows, parts=6):
-    """Irradiance of a plane that faces +z under a map that is filtered bilinearly (docs/design/conventions.md)."""
+def clamped_cosine(cosine):
+    return max(cosine, 0)
+
+
+def nine_harmonics(cosine):
+    """What is left of it by the bands 0 to 2 (Ramamoorthi and Hanrahan, 2001)."""
+    return 1 / 4 + cosine / 2 + 5 / 32 * (3 * cosine**2 - 1)
+
+
+def from_sky(rows, weight, parts=6):
+    """Irradiance of a plane that faces +z under a map that is filtered bilinearly (docs/design/conventions.md), by a weight of the cosine."""
     height, width = len(rows), len(rows[0])
     total = 0.0
     for j in range(height * parts):
@@ -51,13 +60,13 @@ def from_sky(rows, parts=6):
         y0, fy = math.floor(y), y - math.floor(y)
         top, bottom = rows[max(y0, 0)], rows[min(y0 + 1, height - 1)]
         theta = math.pi * (j + 0.5) / (height * parts)
-        for i in range(width * parts // 2, width * parts):  # the half in which z is positive
+        for i in range(width * parts):
             x = (i + 0.5) / parts - 0.5
             x0, fx = math.floor(x), x - math.floor(x)
             x1 = (x0 + 1) % width
             light = (1 - fy) * ((1 - fx) * top[x0] + fx * top[x1]) + fy * ((1 - fx) * bottom[x0] + fx * bottom[x1])
             phi = 2 * math.pi * ((i + 0.5) / (width * parts) - 0.5)
-            total += light * math.sin(phi) * math.sin(theta)**2
+            total += light * weight(math.sin(phi) * math.sin(theta)) * math.sin(theta)
     return total * 2 * math.pi**2 / (width * height * parts**2)
 
 
@@ -86,8 +95,8 @@ class KnownLight(Case):
         print(f"{self.id()}: {seen * math.pi / irradiance - 1:+.4%}")
         self.assertAlmostEqual(seen * math.pi / irradiance, 1, delta=part)
 
-    def sky(self):
-        return from_sky([[pixel[0] for pixel in row] for row in read_pfm(SCENES / "sky.pfm")])
+    def sky(self, weight=clamped_cosine):
+        return from_sky([[pixel[0] for pixel in row] for row in read_pfm(SCENES / "sky.pfm")], weight)
 
     def test_two_lamps(self):
         lamps = [((-0.5, 0, 0.8), 0.9, 1.0), ((1.2, 0.5, 0.6), 0.5, 3.0)]
@@ -143,11 +152,21 @@ class KnownLight(Case):
             cone = (cosine - math.cos(outer)) / (math.cos(inner) - math.cos(outer))
             return total + 1.5 * min(max(cone, 0), 1)**2 * cosine / squared
 
-        expected = over_ground(irradiance) + self.sky()
+        lamps = over_ground(irradiance)
         options = ["--hdri-file", SCENES / "sky.pfm"]
-        self.near(self.mean([], lights, *options, spp=256), expected, 6e-3)
-        # Before gi each light is asked for at every point, and there is ambient light of 0.03 / pi.
-        self.near(self.mean([], lights, *options, "--stage", "shadows", spp=64), expected + 0.03 * math.pi, 1.5e-3)
+        self.near(self.mean([], lights, *options, spp=256), lamps + self.sky(), 6e-3)
+        # Before gi each lamp is asked for at every point, the sky is a sum of harmonics, and there is ambient light of 0.03 / pi.
+        expected = lamps + self.sky(nine_harmonics) + 0.03 * math.pi
+        self.near(self.mean([], lights, *options, "--stage", "shadows", spp=64), expected, 1.5e-3)
+
+    def test_rough_metal_in_white_surroundings_before_gi(self):
+        """Ambient light, and what the highlight of each exponent reflects at right angles, in one sample as in many (docs/design/surfaces.md)."""
+        for roughness in (1, 0.6, 0.3, 0):
+            metal = quad({"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": roughness}})
+            picture = self.in_white(metal, "--stage", "phong", "--resolution", "65,65", "--spp", 1)
+            n = 2 / max(roughness**4, 1e-3) - 2
+            expected = 0.03 + (n + 8) * (n + 2**(-n / 2)) / ((n + 2) * (n + 4))
+            self.assertAlmostEqual(picture[32][32][0] / expected, 1, delta=2e-3)
 
     def white_sky(self):
         path = self.folder / "white.pfm"

@@ -155,6 +155,7 @@ ROWS = [
     F("fresnel.thinReflectance", "2.0f * single", "float(2.04) * single", "thin walls reflect 2 % too much"),
     F("phong.phongF0", "mix(dielectricF0", "mix(dielectricF0 * float(1.02)", "the gloss of dielectrics is 2 % too bright in phong"),
     F("phong.phongExponent", "return 2.0f /", "return float(2.04) /", "highlights are 2 % too narrow"),
+    F("phong.phongAlbedo", "return facing *", "return float(1.02) * facing *", "highlights of the environment are 2 % too bright"),
     F("phong.phongValue", "kInversePi * diffuse", "float(1.02) * kInversePi * diffuse", "diffuse light is 2 % too bright in phong"),
     F("phong.phongValue highlight", "pow(nh, exponent)", "float(1.02) * pow(nh, exponent)", "highlights are 2 % too bright"),
 ]

@@ -8,6 +8,7 @@
 namespace fragtrace::glsl_variant {
 
 inline bool kGi = true;
+inline bool kPhong = true;
 inline bool kEnvironment = true;
 inline bool kEnvironmentSampling = true;
 inline bool kPunctualLights = true;

@@ -25,6 +25,7 @@ inline vec4 interpolate(vec4 a, vec4 b, vec4 c, vec2 weights) {
 
 // clang-format off
 #include "environment.glsl"
+#include "environment_light.glsl"
 #include "lights.glsl"
 #include "reuse/candidates.glsl"
 #include "reuse/reservoir.glsl"

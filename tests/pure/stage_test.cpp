@@ -92,6 +92,27 @@ TEST(Variant, WhatTheSceneLacksIsOffWithItsReason) {
   EXPECT_TRUE(has(v.stages, Stage::Gi));
 }
 
+TEST(Variant, BeforeGiTheEnvironmentIsNotSampledAndCastsNoShadows) {
+  TraitSet present;
+  for (const Trait t : {Trait::Triangles, Trait::Environment, Trait::EnvironmentSampling})
+    present.set(size_t(t));
+  const ShaderVariant before = variantOf(Stage::NormalMaps, present);
+  EXPECT_TRUE(has(before.traits, Trait::Environment));
+  EXPECT_FALSE(has(before.traits, Trait::EnvironmentSampling));
+  EXPECT_FALSE(has(before.stages, Stage::Shadows));
+  EXPECT_FALSE(whyOff(Stage::Shadows, present, false).empty());
+  EXPECT_TRUE(lightsByEnvironment(before));
+  const ShaderVariant gi = variantOf(Stage::Gi, present);
+  EXPECT_TRUE(has(gi.traits, Trait::EnvironmentSampling));
+  EXPECT_TRUE(has(gi.stages, Stage::Shadows));
+  EXPECT_TRUE(whyOff(Stage::Shadows, present).empty());
+  EXPECT_FALSE(lightsByEnvironment(gi));
+  EXPECT_FALSE(lightsByEnvironment(variantOf(Stage::Flat, present)));
+  present.set(size_t(Trait::PunctualLights));
+  EXPECT_TRUE(has(variantOf(Stage::Shadows, present).stages, Stage::Shadows));
+  EXPECT_TRUE(whyOff(Stage::Shadows, present, false).empty());
+}
+
 TEST(Variant, ReducingAVariantTwiceChangesNothing) {
   for (const StageRow& row : stageRows()) {
     RenderOptions options;

@@ -20,6 +20,7 @@ import gltf_bsdf  # noqa: F401, registers its materials
 import gltf_layers  # noqa: F401, too
 from gltf_scene import read_scene, unit
 from reference_files import FOLDER, write_reference
+from surroundings import environment_radiance, read_pfm
 
 REPOSITORY = FOLDER.parent.parent
 SCENES = REPOSITORY / "scenes"
@@ -207,28 +208,6 @@ def punctual(light, traced):
     return {"type": "punctual", "position": light.position.tolist(), "direction": light.direction.tolist(),
             "radiant": light.radiant.tolist(), "range": float(min(light.range, 1e6)), "spot": light.kind == "spot",
             "inner_cosine": float(light.inner_cosine), "outer_cosine": float(light.outer_cosine)}
-
-
-def read_pfm(path):
-    kind, size, scale, body = Path(path).read_bytes().split(b"\n", 3)
-    assert kind == b"PF" and float(scale) < 0
-    width, height = map(int, size.split())
-    return np.frombuffer(body, "<f4").reshape(height, width, 3)[::-1].astype(float)
-
-
-def environment_radiance(texels, rotation_degrees, direction):
-    """The environment along unit directions: bilinear between texel centres, wrapping in u, clamped in v."""
-    angle = np.radians(rotation_degrees)
-    # Turning the environment by +R about y means looking it up along the direction turned by -R.
-    x = np.cos(angle) * direction[..., 0] - np.sin(angle) * direction[..., 2]
-    z = np.sin(angle) * direction[..., 0] + np.cos(angle) * direction[..., 2]
-    height, width = texels.shape[:2]
-    u = (np.arctan2(z, x) / (2 * np.pi) + 0.5) * width - 0.5
-    v = np.clip(np.arccos(np.clip(direction[..., 1], -1, 1)) / np.pi * height - 0.5, 0, height - 1)
-    i, j = np.floor(u).astype(int), np.minimum(np.floor(v).astype(int), height - 2)
-    fu, fv = (u - i)[..., None], (v - j)[..., None]
-    rows = [texels[j + k, i % width] * (1 - fu) + texels[j + k, (i + 1) % width] * fu for k in (0, 1)]
-    return rows[0] * (1 - fv) + rows[1] * fv
 
 
 def environment(texels, rotation_degrees, width=576, height=321):

@@ -17,6 +17,7 @@ mi.set_variant("scalar_rgb")
 
 from gltf_scene import read_scene, unit
 from reference_files import FOLDER, write_reference
+from surroundings import Surroundings
 from textures_and_noise import perlin_normal, sample
 
 STAGES = ["flat", "phong", "shadows", "reflections", "refraction", "normal-maps"]
@@ -52,8 +53,9 @@ class Points:
 
 
 class Tracer:
-    def __init__(self, scene, stage, bounces=16, background=(0, 0, 0), seed=0):
+    def __init__(self, scene, stage, bounces=16, background=(0, 0, 0), surroundings=None, seed=0):
         self.scene, self.bounces, self.background = scene, bounces, np.array(background, float)
+        self.surroundings = surroundings
         self.items = scene.meshes + scene.spheres
         level = STAGES.index(stage)
         self.phong, self.shadows, self.reflections, self.refraction, self.normal_maps = (level >= k for k in range(1, 6))
@@ -209,6 +211,9 @@ class Tracer:
                 start = points.position + RAY_LEAVES_BY * points.geometric_normal
                 lit[lit] = ~self.blocked(start[lit], towards[lit], distance[lit])
             result = result + np.where(lit[:, None], irradiance * cosine[:, None] * reflected, 0)
+        if self.surroundings:
+            assert not f0.any(), "highlights of the environment have no reference"
+            result = result + (1 - material.metallic) * points.color / np.pi * self.surroundings.irradiance(normal)
         return result
 
     @staticmethod
@@ -231,8 +236,12 @@ class Tracer:
         weight, scatterings, splits = np.ones((len(origin), 3)), np.zeros(len(origin), int), np.zeros(len(origin), int)
         while len(ray):
             distance, groups = self.solid_hits(origin, direction)
-            missed = np.isinf(distance) & (scatterings == 0)
-            result[ray[missed]] += weight[missed] * self.background
+            missed = np.isinf(distance)
+            if self.surroundings:
+                result[ray[missed]] += weight[missed] * self.surroundings.radiance(direction[missed])
+            else:
+                seen = missed & (scatterings == 0)
+                result[ray[seen]] += weight[seen] * self.background
             children = []
             for chosen, points in groups:
                 state = ray[chosen], weight[chosen], scatterings[chosen], splits[chosen]
@@ -348,8 +357,11 @@ def make_reference(entry):
     stage, options = entry.get("traced_as", entry["stage"]), entry["options"]
     background = [float(x) for x in option_value(options, "--background-color", "0,0,0").split(",")]
     width, height = entry["resolution"]
+    surroundings = None
+    if "--hdri-file" in options:
+        surroundings = Surroundings(SCENES.parent / option_value(options, "--hdri-file", ""), float(option_value(options, "--hdri-rotation", 0)))
     batches = [render(scene, stage, width, height, entry["strata"], seed, int(option_value(options, "--camera-index", 0)),
-                      background=background, bounces=int(option_value(options, "--bounces", 16)))
+                      background=background, surroundings=surroundings, bounces=int(option_value(options, "--bounces", 16)))
                for seed in range(entry["batches"])]
     return write_reference(entry["name"], batches)
 
