@@ -130,7 +130,8 @@ RenderOptions resetAll(ViewState& state, const RenderOptions& start) {
 }
 
 std::string whyGrey(const ViewState& state, Stage stage) {
-  return state.scene ? whyOff(stage, state.scene->present) : std::string();
+  return state.scene ? whyOff(stage, state.scene->present, has(state.options().stages, Stage::Gi))
+                     : std::string();
 }
 
 }  // namespace fragtrace

@@ -185,9 +185,15 @@ TEST(ViewState, TheSplitViewBeginsWithTwoOfTheSameAndTogglesTheActiveOne) {
 }
 
 TEST(ViewState, WhatTheSceneLacksIsGreyWithTheReason) {
-  const ViewState state = someState();
+  ViewState state = someState();
   EXPECT_EQ(whyGrey(state, Stage::Refraction), "no transmissive material");
   EXPECT_EQ(whyGrey(state, Stage::Gi), "");
+  // The one light of such a scene casts shadows in gi alone.
+  state.scene->present = {};
+  state.scene->present.set(size_t(Trait::EnvironmentSampling));
+  EXPECT_EQ(whyGrey(state, Stage::Shadows), "");
+  state.options().stages = stagesUpTo(Stage::Shadows);
+  EXPECT_EQ(whyGrey(state, Stage::Shadows), "before gi, the environment casts no shadows");
 }
 
 TEST(ViewState, AReloadedSceneKeepsTheViewAndAnotherOneDoesNot) {
