@@ -11,6 +11,7 @@
 #include "cli/leave.h"
 #include "errors.h"
 #include "image/files/process.h"
+#include "math/count_text.h"
 #include "options/config_file.h"
 #include "options/parse_render.h"
 #include "picture/denoising.h"
@@ -48,11 +49,12 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
   // Standard output is the statistics' or the picture's alone.
   const bool taken = isStandardOutput(options.output.statsFile) || options.output.toStandardOutput;
   if (options.output.quiet || (taken ? reportsAsJson() : standardOutputIsClosed())) return;
-  std::fprintf(taken ? stderr : stdout,
-               "%s: %d x %d, %.4g samples per pixel in %.2f s (%.2f million paths/s)%s\n",
+  char samples[32];
+  std::snprintf(samples, sizeof samples, "%.4g", samplesPerPixel(stats));
+  std::fprintf(taken ? stderr : stdout, "%s: %d x %d, %s per pixel in %.2f s (%.2f million paths/s)%s\n",
                options.output.toStandardOutput ? "standard output" : options.output.file.string().c_str(),
-               stats.size.x, stats.size.y, samplesPerPixel(stats), stats.times.renderMs / 1000.0,
-               megaPathsPerSecond(stats), noise.c_str());
+               stats.size.x, stats.size.y, countText(samples, "sample").c_str(),
+               stats.times.renderMs / 1000.0, megaPathsPerSecond(stats), noise.c_str());
 }
 
 /// What becomes of a picture: it is written, written as far as it was drawn, or not at all.
@@ -242,13 +244,23 @@ int runSequence(const RenderOptions& options) {
       ++failed;
     }
   }
-  const std::string all = " of " + std::to_string(count) + " pictures ";
+  const std::string all = " of " + countText(size_t(count), "picture") + " ";
   const int missing = count - skipped - drawn - failed;
   if (skipped > 0) say(options, std::to_string(skipped) + all + "were there already");
   if (failed > 0) reportError(std::to_string(failed) + all + "failed");
   if (missing > 0)
     say(options, "interrupted: " + std::to_string(missing) + all + "are missing; --continue draws them");
   return leave(missing > 0 ? kInterruptedStatus : failed > 0 ? 1 : 0);
+}
+
+int runAny(const RenderOptions& options) {
+  if (options.output.file.empty()) throw UsageError("--output is required; --help says more");
+  checkEncoding(options.output.encoding, options.output.file);
+  checkSequence(options);
+  if (options.output.progress == ProgressForm::Json) reportAsJson(options.output.quiet);
+  if (options.output.toStandardOutput && isatty(STDOUT_FILENO) != 0)
+    throw UsageError("--output -: standard output is a terminal; send it to a file or a program");
+  return isSequence(options) ? runSequence(options) : runRender(options);
 }
 
 }  // namespace
@@ -265,16 +277,7 @@ RunCommand addRender(CLI::App& app) {
                                   OptionGroup::Sequence, OptionGroup::Filter})
     addOptions(app, group, raw->render);
   addConfigOption(app, raw->config);
-  return [raw, &app] {
-    const RenderOptions options = finishConfigured(raw->render, raw->config, app);
-    if (options.output.file.empty()) throw UsageError("--output is required; --help says more");
-    checkEncoding(options.output.encoding, options.output.file);
-    checkSequence(options);
-    if (options.output.progress == ProgressForm::Json) reportAsJson(options.output.quiet);
-    if (options.output.toStandardOutput && isatty(STDOUT_FILENO) != 0)
-      throw UsageError("--output -: standard output is a terminal; send it to a file or a program");
-    return isSequence(options) ? runSequence(options) : runRender(options);
-  };
+  return [raw, &app] { return runConfigured(raw->render, raw->config, app, runAny); };
 }
 
 }  // namespace fragtrace

@@ -18,17 +18,17 @@ namespace fragtrace {
 
 namespace {
 
-/// A view that nobody has chosen and that shows nothing is likely to be a mistake: of ours, or a surface's
-/// back.
+/// A view that shows nothing is likely to be a mistake: of who chose it, of ours, or a surface's back.
 void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, const ShaderVariant& variant,
                       const Statistics& stats) {
   const bool chosen = !loaded.scene.cameras.empty() || options.camera.overrides != CameraOverrides();
   const bool nothing = stats.scene.triangles == 0 && stats.scene.spheres == 0;
   const bool seen = stats.film.hitPixels > 0 || stats.film.samples == 0;
-  if (chosen || options.camera.region || nothing || seen || variant.heatmap) return;
-  say(options,
-      "warning: the default view shows nothing of the scene; --camera-position and --camera-focal-point "
-      "choose another");
+  if (options.camera.region || nothing || seen || variant.heatmap) return;
+  say(options, std::string("warning: ") + (chosen ? "this" : "the default") +
+                   " view shows nothing of the scene; " +
+                   (chosen ? "--fit moves the camera until it does"
+                           : "--camera-position and --camera-focal-point choose another"));
 }
 
 /// What --bounces cut is missing from the picture.
