@@ -66,7 +66,7 @@ OptionRow fitRow() {
   OptionRow row = memberRow(
       "--fit",
       "move the camera, without turning it, until the scene fills the picture except for a narrow margin; "
-      "with --turntable, all pictures use the same distance",
+      "with --turntable, all pictures use the same distance, with --frames the same camera",
       FRAGTRACE_MEMBER(camera.overrides.fit), {.effect = Effect::View});
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     app.add_flag_callback(

@@ -104,8 +104,11 @@ std::vector<OptionRow> inputRows() {
       timeRow(),
       word("--animation", "name or index of the animation for --animation-time; by default the first",
            FRAGTRACE_MEMBER(selection.animation), kScene),
-      word("--material-variant", "name or index of the material variant; `fragtrace info` lists the variants",
-           FRAGTRACE_MEMBER(selection.materialVariant), kScene),
+      word(
+          "--material-variant",
+          "name or index of the material variant; `fragtrace info` lists the variants; `render` draws all of "
+          "them by 'all', each to --output with its name in place of #",
+          FRAGTRACE_MEMBER(selection.materialVariant), kScene),
       hiddenRow(),
       memoryRow(),
       limit<int>("--texture-limit",

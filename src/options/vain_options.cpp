@@ -52,7 +52,7 @@ constexpr VainRow kRows[] = {
      [](const Options& o) {
        return !isSequence(o) && o.output.file.filename().string().find('#') != std::string::npos;
      },
-     "# stands for the number of a picture only with --frames or --turntable"},
+     "# stands for a number or name only with --frames, --turntable or --material-variant all"},
 };
 
 }  // namespace

@@ -38,7 +38,7 @@ void checkPair(const Part& first, const Part& second) {
   const std::string lone = channelsOfOneAlone(first.image, second.image);
   if (!lone.empty()) throw InputError(both + ": differ in layers, only one of them has " + lone);
   if (first.made.settings != second.made.settings)
-    throw InputError(both + ": were made with different settings: " +
+    throw InputError(both + ": were made with different settings (of the first and of the second): " +
                      differenceOf(first.made.settings, second.made.settings));
   std::vector<SampleRange> ranges = rangesOf(first.made);
   const std::vector<SampleRange> others = rangesOf(second.made);

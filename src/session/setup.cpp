@@ -50,21 +50,6 @@ void checkDistance(const Camera& camera, const LocalSpace& space, const RenderOp
   }
 }
 
-/// The camera as --fit moves it, then zoomed as --camera-orbit says.
-Camera fitCamera(const Camera& camera, const Scene& scene, const RenderOptions& options, glm::ivec2 size) {
-  std::vector<glm::dvec3> points = outlineOf(scene);
-  if (options.camera.overrides.fit == Fit::AllAround)
-    points = sweptAbout(turningPoint(camera, options.camera.overrides, scene.bounds), points);
-  return zoomed(fitted(camera, points, double(size.x) / size.y),
-                options.camera.overrides.orbit.value_or(Orbit()).zoom);
-}
-
-glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options) {
-  if (options.camera.resolution) return *options.camera.resolution;
-  if (camera.aspectRatio <= 0.0) return {1280, 720};
-  return {std::clamp(int(std::lround(720.0 * camera.aspectRatio)), 1, 16384), 720};
-}
-
 /// The region asked for, else all of the picture.
 Region chooseRegion(glm::ivec2 size, const RenderOptions& options) {
   const Region region = options.camera.region.value_or(Region{{0, 0}, size});
@@ -141,6 +126,18 @@ bool besideAllowed(const RenderOptions& options) {
 
 }  // namespace
 
+Camera fitCamera(const Camera& camera, std::span<const glm::dvec3> points, const RenderOptions& options,
+                 glm::ivec2 size) {
+  return zoomed(fitted(camera, points, double(size.x) / size.y),
+                options.camera.overrides.orbit.value_or(Orbit()).zoom);
+}
+
+glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options) {
+  if (options.camera.resolution) return *options.camera.resolution;
+  if (camera.aspectRatio <= 0.0) return {1280, 720};
+  return {std::clamp(int(std::lround(720.0 * camera.aspectRatio)), 1, 16384), 720};
+}
+
 double pathsOf(const RenderOptions& options, glm::ivec2 size) {
   const bool adaptive = isAdaptive(options);
   return double(size.x) * size.y *
@@ -215,8 +212,6 @@ bool sameTree(const RenderOptions& a, const RenderOptions& b) {
   return iterative(a) == iterative(b) && besideAllowed(a) == besideAllowed(b);
 }
 
-namespace {
-
 GltfOptions gltfOptionsOf(const RenderOptions& options) {
   GltfOptions loading;
   loading.recenterOn =
@@ -228,6 +223,8 @@ GltfOptions gltfOptionsOf(const RenderOptions& options) {
   loading.limits = options.limits;
   return loading;
 }
+
+namespace {
 
 /// What a shadow catcher cannot do with the scene's lights.
 void checkCatcher(const RenderOptions& options, Scene& scene) {
@@ -279,8 +276,12 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
   loaded.camera = chooseCamera(scene.cameras, loaded.cameraIndex, options.camera.overrides, scene.bounds,
                                framedAspect(options));
   loaded.size = chooseSize(loaded.camera, options);
-  if (options.camera.overrides.fit != Fit::None)
-    loaded.camera = fitCamera(loaded.camera, scene, options, loaded.size);
+  if (options.camera.overrides.fit != Fit::None) {
+    std::vector<glm::dvec3> points = outlineOf(scene);
+    if (options.camera.overrides.fit == Fit::AllAround)
+      points = sweptAbout(turningPoint(loaded.camera, options.camera.overrides, scene.bounds), points);
+    loaded.camera = fitCamera(loaded.camera, points, options, loaded.size);
+  }
   if (options.camera.lens.fStop && !loaded.camera.perspective)
     throw UsageError("--f-stop: the camera is orthographic, and has no lens");
   checkDistance(loaded.camera, scene.space, options);
