@@ -9,6 +9,7 @@
 
 #include "options/choose.h"
 #include "options/option_text.h"
+#include "options/parse_words.h"
 #include "session/outputs.h"
 
 namespace fragtrace {
@@ -63,26 +64,46 @@ GivenOptions givenOptions(const CLI::App& app) {
   return given;
 }
 
+/// Throws UsageError for options that measurements have no use for.
+void checkShared(const GivenOptions& shared) {
+  constexpr std::pair<const char*, const char*> kUseless[] = {
+      {"--stats", "--json holds what was measured"}, {"--verbose", "--json says what the program has chosen"},
+      {"--exposure", "no picture is written"},       {"--tone-map", "no picture is written"},
+      {"--tree-level", "no picture is written"},
+  };
+  for (const auto& [name, why] : kUseless) {
+    if (shared.contains(name)) throw UsageError(std::string(name) + ": " + why);
+  }
+}
+
+/// Throws UsageError.
+std::vector<std::string> wordsOf(const BenchConfiguration& c) {
+  try {
+    return splitWords(c.text);
+  } catch (const UsageError& error) {
+    throw UsageError("configuration '" + c.name + "': " + error.what());
+  }
+}
+
 /// Fills in the options of one configuration: its own, and those given for all where it has none. What both
 /// turn on or off adds up.
 void parseRender(const GivenOptions& shared, BenchConfiguration& c, const std::string& scene,
                  const char* defaultSamples) {
   const auto parsed = [&](std::vector<std::string> arguments, const auto& use) {
-    CLI::App app;
+    CLI::App app("", "render");
+    app.set_help_flag();
     RawRender raw;
     raw.options.scene = scene;
     addOptions(app, OptionGroup::Tracing, raw);
-    std::reverse(arguments.begin(), arguments.end());  // last first, as the library wants them
     try {
-      app.parse(arguments);
-    } catch (const CLI::ParseError& error) {
+      parseWords(app, std::move(arguments), "; `fragtrace render --help` says more");
+      return use(app, raw);
+    } catch (const UsageError& error) {
       throw UsageError("configuration '" + c.name + "': " + error.what());
     }
-    return use(app, raw);
   };
-  std::vector<std::string> arguments = withNumbersSettled(CLI::detail::split_up(c.text));
   GivenOptions given =
-      parsed(arguments, [](const CLI::App& app, const RawRender&) { return givenOptions(app); });
+      parsed(wordsOf(c), [](const CLI::App& app, const RawRender&) { return givenOptions(app); });
   for (const auto& [name, option] : shared) {
     const auto [own, isNew] = given.try_emplace(name, option);
     const bool addsUp = name == "--enable" || name == "--disable";
@@ -92,7 +113,7 @@ void parseRender(const GivenOptions& shared, BenchConfiguration& c, const std::s
   // An adaptive one goes on until its goal.
   if (defaultSamples != nullptr && !given.contains("--noise") && !given.contains("--time"))
     given.try_emplace("--spp", std::vector<std::string>{"--spp", defaultSamples});
-  arguments.clear();
+  std::vector<std::string> arguments;
   c.fullText.clear();
   for (const auto& [name, option] : given) {
     arguments.insert(arguments.end(), option.begin(), option.end());
@@ -118,6 +139,7 @@ std::vector<BenchConfiguration> configurationsOf(const RawConfigurations& raw, c
                                                  const std::vector<std::string>& defaults,
                                                  const char* defaultSamples) {
   const GivenOptions shared = givenOptions(app);
+  checkShared(shared);
   std::vector<BenchConfiguration> configurations;
   std::vector<std::string> names = raw.names;
   if (names.empty()) names = {"default"};
@@ -141,17 +163,15 @@ std::vector<BenchConfiguration> configurationsOf(const RawConfigurations& raw, c
       if (&other != &c && other.name == c.name) throw UsageError("--config: '" + c.name + "' stands twice");
     }
   }
-  if (!raw.shared.options.output.statsFile.empty())
-    throw UsageError("--stats: --json holds what was measured");
   return configurations;
 }
 
-BenchConfiguration configurationOf(const RawConfigurations& raw, const CLI::App& app, const std::string& name,
+BenchConfiguration configurationOf(const CLI::App& app, const std::string& name,
                                    const std::string& text, const std::string& scene) {
   BenchConfiguration c{name, text, {}, {}, false};
-  parseRender(givenOptions(app), c, scene, nullptr);
-  if (!raw.shared.options.output.statsFile.empty())
-    throw UsageError("--stats: --json holds what was measured");
+  const GivenOptions shared = givenOptions(app);
+  checkShared(shared);
+  parseRender(shared, c, scene, nullptr);
   return c;
 }
 

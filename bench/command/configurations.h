@@ -42,7 +42,7 @@ std::vector<BenchConfiguration> configurationsOf(const RawConfigurations& raw, c
                                                  const char* defaultSamples);
 
 /// One configuration of the program's own, with what was given for all where it has none. Throws UsageError.
-BenchConfiguration configurationOf(const RawConfigurations& raw, const CLI::App& app, const std::string& name,
+BenchConfiguration configurationOf(const CLI::App& app, const std::string& name,
                                    const std::string& text, const std::string& scene);
 
 /// The files that they read, but for the pictures that scenes refer to.

@@ -54,7 +54,7 @@ void declareError(CLI::App& app, ErrorOptions& o) {
       ->check(wholeNumber(1, 1000))
       ->capture_default_str();
   app.add_option("--goal", o.goal, "relative MSE at which times are compared")
-      ->check(CLI::Range(1e-12, 1e3))
+      ->check(realNumber(1e-12, 1e3))
       ->capture_default_str();
   addJsonOption(app, o.files, "write all measurements to this JSON file");
   app.add_option("--csv", o.files.csv, "write all measurements to this table")->type_name("FILE");

@@ -13,6 +13,7 @@
 #include "bench/report/baseline.h"
 #include "errors.h"
 #include "image/files/whole_file.h"
+#include "options/numbers.h"
 
 namespace fragtrace {
 
@@ -47,7 +48,7 @@ void declareFrame(CLI::App& app, FrameOptions& o) {
       ->type_name("FILE");
   app.add_option("--tolerance", o.tolerance,
                  "allowed slowdown for --baseline, as a fraction of the earlier time")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(realNumber(0.0, 100.0))
       ->capture_default_str();
   addConfigurationOptions(app, o.raw, "default");
   app.get_option("--spp")->description("frames per round; by default as many as fit into --round-time");

@@ -12,7 +12,10 @@ namespace {
 
 using namespace fragtrace;
 
-RunCommand addBenchmarks(CLI::App& app) { return addCommands(app, kBenchRows); }
+RunCommand addBenchmarks(CLI::App& app) {
+  addVersion(app);
+  return addCommands(app, kBenchRows);
+}
 
 /// The words are read as the user has given them to `fragtrace`, so messages and help name the command so.
 int run(int argc, const char* const* argv) {

@@ -53,14 +53,14 @@ void declareMotion(CLI::App& app, MotionOptions& o) {
                  "file of camera options, a line a place, as the viewer copies these")
       ->capture_default_str();
   app.add_option("--period", o.period, "seconds that the path takes before it begins again")
-      ->check(CLI::Range(0.1, 1e4))
+      ->check(realNumber(0.1, 1e4))
       ->capture_default_str();
   app.add_option("--interval", o.plan.intervalMs, "milliseconds from one move of the camera to the next")
-      ->check(CLI::Range(1.0, 1e5))
+      ->check(realNumber(1.0, 1e5))
       ->default_str("16.7");
   app.add_option("--target", o.targetMs,
                  "milliseconds that a picture may take before its resolution is lowered; 0: never")
-      ->check(CLI::Range(0.0, 1e5))
+      ->check(realNumber(0.0, 1e5))
       ->capture_default_str();
   app.add_option("--pictures", o.plan.pictures, "pictures that are measured")
       ->check(wholeNumber(1, 100'000))
@@ -78,7 +78,7 @@ void declareMotion(CLI::App& app, MotionOptions& o) {
                  "what is measured in turn: filtered, as the options say; raw, without the filter; no-past, "
                  "without what the camera saw before; spatial, with light samples of neighbours")
       ->delimiter(',')
-      ->check(CLI::IsMember(kModes))
+      ->check(oneOf({kModes.begin(), kModes.end()}))
       ->capture_default_str();
   app.add_flag("--wait", o.plan.view.waitsForPasses,
                "wait for the device after each step of a picture, so that each has its time");

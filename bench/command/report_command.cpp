@@ -59,7 +59,7 @@ void settleReport(const CLI::App& app, ReportOptions& o) {
     if (o.noIterative && row.iterative()) continue;
     const std::string name = std::string(row.subject) + ", " + row.method;
     const std::string scene = (std::filesystem::path(o.folder) / row.scene).string();
-    o.rows.push_back({&row, configurationOf(o.raw, app, name, row.options + size, scene)});
+    o.rows.push_back({&row, configurationOf(app, name, row.options + size, scene)});
     checkTimed(o.rows.back().configuration);
   }
   checkChart(o.files);

@@ -68,7 +68,7 @@ void declareScale(CLI::App& app, ScaleOptions& o) {
       ->capture_default_str();
   app.add_option("--longest", o.longest,
                  "skip the iterative traversal if its frame takes longer than this many seconds")
-      ->check(CLI::Range(0.001, 1e6))
+      ->check(realNumber(0.001, 1e6))
       ->capture_default_str();
   addJsonOption(app, o.files, "write all measurements to this file, one JSON line per size");
   addChartOption(app, o.files, "write a chart of time against triangles, an .svg");

@@ -22,6 +22,7 @@
 #include "bench/report/scratch_folder.h"
 #include "cli/own_program.h"
 #include "errors.h"
+#include "math/count_text.h"
 #include "math/summary.h"
 #include "options/command_text.h"
 #include "options/numbers.h"
@@ -51,7 +52,7 @@ void declareStart(CLI::App& app, StartOptions& o) {
       ->check(wholeNumber(1, 1000))
       ->capture_default_str();
   app.add_option("--format", o.format, "format of the picture: png, jpg, exr, hdr, pfm")
-      ->check(CLI::IsMember({"png", "jpg", "exr", "hdr", "pfm"}))
+      ->check(oneOf({"png", "jpg", "exr", "hdr", "pfm"}))
       ->capture_default_str();
   addJsonOption(app, o.files, "write all measurements to this JSON file");
   addOptions(app, OptionGroup::Tracing, o.raw);
@@ -198,11 +199,11 @@ void addStart(Json& report, const EndedProcess& process, const Json& statistics)
 std::string startTable(const Json& report) {
   const auto textOf = [](const Json& json) { return json.get<std::string>(); };
   const double whole = medianOf(listOf(report["written_ms"]));
-  std::string text = formatted("%s, %d x %d, %s, %zu cold starts%s\n%s\n\n", textOf(report["scene"]).c_str(),
-                               report["width"].get<int>(), report["height"].get<int>(),
-                               textOf(report["gl_renderer"]).c_str(), report["written_ms"].size(),
-                               report["quick_compilation"] ? ", compiled without optimising" : "",
-                               textOf(report["variant"]).c_str());
+  std::string text = formatted(
+      "%s, %d x %d, %s, %s%s\n%s\n\n", textOf(report["scene"]).c_str(), report["width"].get<int>(),
+      report["height"].get<int>(), textOf(report["gl_renderer"]).c_str(),
+      countText(report["written_ms"].size(), "cold start").c_str(),
+      report["quick_compilation"] ? ", compiled without optimising" : "", textOf(report["variant"]).c_str());
   text += formatted("%-14s %-12s %10s %10s %10s %10s %8s\n", "phase", "thread", "begin ms", "end ms",
                     "wall ms", "CPU ms", "share");
   for (const Json& row : report["phases"]) {

@@ -84,7 +84,7 @@ void addTimingOptions(CLI::App& app, FrameTiming& timing) {
       ->check(wholeNumber(1, 100000))
       ->capture_default_str();
   app.add_option("--round-time", timing.roundSeconds, "seconds per round")
-      ->check(CLI::Range(0.001, 3600.0))
+      ->check(realNumber(0.001, 3600.0))
       ->capture_default_str();
   app.add_option("--samples-per-draw", timing.samplesPerDraw,
                  "maximum samples per draw; with 1, each frame is drawn on its own, as in a viewer; by "

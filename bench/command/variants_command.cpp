@@ -51,7 +51,7 @@ void declareVariants(CLI::App& app, VariantsOptions& o) {
 void settleVariants(const CLI::App& app, VariantsOptions& o) {
   for (const std::string& name : o.only) choose<size_t>("--only", name, forcedNames());
   for (const std::string& scene : o.sceneNames) {
-    o.scenes.push_back(configurationOf(o.raw, app, "own variant", "", scene));
+    o.scenes.push_back(configurationOf(app, "own variant", "", scene));
     checkTimed(o.scenes.back());
   }
 }

@@ -14,8 +14,12 @@ namespace fragtrace {
 class ScratchFolder {
  public:
   ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "fragtrace-bench-XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw RenderError(name + ": cannot be made");
+    std::error_code error;
+    const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
+    std::string name = (parent / "fragtrace-bench-XXXXXX").string();
+    if (error || !::mkdtemp(name.data()))
+      throw RenderError("no folder for temporary files can be made" + (error ? "" : " as " + name) +
+                        "; TMPDIR names the folder that is to hold it");
     path_ = name;
   }
   ScratchFolder(const ScratchFolder&) = delete;

@@ -2,6 +2,7 @@
 #include "bench/report/traversal_report.h"
 
 #include "bench/report/formatted.h"
+#include "math/count_text.h"
 #include "math/summary.h"
 
 namespace fragtrace {
@@ -17,8 +18,10 @@ std::string traversalTable(std::span<const Json> kinds) {
     const auto number = [&](const char* key) { return kind.at(key).get<double>(); };
     const auto word = [&](const char* key) { return kind.at(key).get<std::string>(); };
     if (text.empty()) {
-      text += formatted("%s, %.0f triangles, %.0f spheres, %.0f x %.0f rays\n", word("scene").c_str(),
-                        number("triangles"), number("spheres"), number("width"), number("height"));
+      text += formatted("%s, %s, %s, %.0f x %.0f rays\n", word("scene").c_str(),
+                        countText(size_t(number("triangles")), "triangle").c_str(),
+                        countText(size_t(number("spheres")), "sphere").c_str(), number("width"),
+                        number("height"));
       text += formatted("%s, %s\nSAH cost %.2f, GPU memory %.1f bytes per triangle\n\n",
                         word("gl_renderer").c_str(), word("clock").c_str(), number("sah_cost"),
                         number("gpu_bytes_per_triangle"));

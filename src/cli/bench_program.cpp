@@ -24,14 +24,14 @@ bool asksForHelp(std::string_view word) { return word == "--help" || word == "-h
 
 }  // namespace
 
-void becomeBenchProgram(int argc, const char* const* argv) {
-  const char* const* const end = argv + argc;
+void becomeBenchProgram(std::span<const char* const> asked) {
   // `fragtrace --help bench` is a question to `bench`, too.
-  const char* const* const command = std::find_if_not(argv + std::min(argc, 1), end, asksForHelp);
-  if (command == end || *command != std::string_view("bench")) return;
+  const auto first = asked.begin() + std::ptrdiff_t(std::min(asked.size(), size_t(1)));
+  const auto command = std::find_if_not(first, asked.end(), asksForHelp);
+  if (command == asked.end() || *command != std::string_view("bench")) return;
   const std::string path = ownProgram(kName, "bench").string();
   std::vector<char*> words{const_cast<char*>(kName)};
-  for (const char* const* word = argv + 1; word != end; ++word) {
+  for (auto word = first; word != asked.end(); ++word) {
     if (word != command) words.push_back(const_cast<char*>(*word));
   }
   words.push_back(nullptr);

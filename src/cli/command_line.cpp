@@ -11,22 +11,15 @@
 #include <utility>
 #include <vector>
 
-#include "cli/suggestion.h"
 #include "errors.h"
 #include "options/choose.h"
-#include "options/option_text.h"
+#include "options/parse_words.h"
+#include "options/suggestion.h"
 #include "version_text.h"
 
 namespace fragtrace {
 
 namespace {
-
-std::vector<std::string> argumentsOf(std::span<const char* const> words) {
-  const auto first = words.begin() + std::ptrdiff_t(std::min(words.size(), size_t(1)));
-  std::vector<std::string> arguments = withNumbersSettled({first, words.end()});
-  std::ranges::reverse(arguments);  // last first, as the library wants them
-  return arguments;
-}
 
 std::vector<std::string> commandNames(const CLI::App& app) {
   std::vector<std::string> names;
@@ -41,33 +34,17 @@ void checkCommand(const CLI::App& app, std::optional<std::string> word) {
   if (!word) throw UsageError(app.get_name() + " needs a command: " + joined(names) + "; --help says more");
   if (word->starts_with('-') || std::ranges::find(names, *word) != names.end()) return;
   const bool atFirst = app.get_parent() == nullptr;
+  const std::string meant = nearestName(*word, names);
   throw UsageError("'" + *word + "' is no command of " + app.get_name() +
-                   (atFirst ? ", and no file: " : ": ") + joined(names));
-}
-
-/// The command that was given.
-const CLI::App& chosenCommand(const CLI::App& app) {
-  const CLI::App* command = &app;
-  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
-  return *command;
-}
-
-/// What the library calls arguments that were not expected.
-std::string whatIsUnknown(const CLI::App& app) {
-  const CLI::App& command = chosenCommand(app);
-  const std::vector<std::string> left = app.remaining(true);
-  const auto option =
-      std::ranges::find_if(left, [](const std::string& word) { return word.starts_with('-'); });
-  if (option == left.end()) return "'" + left.front() + "' is an argument too many; --help says more";
-  std::vector<std::string> known;
-  for (const CLI::Option* one : command.get_options()) known.push_back(one->get_name());
-  const std::string unknown = option->substr(0, option->find('='));
-  const std::string meant = suggestedOption(unknown, known);
-  return unknown + " is no option of " + command.get_name() +
-         (meant.empty() ? "; --help lists them" : "; did you mean " + meant + "?");
+                   (atFirst ? ", and no file: " : ": ") + joined(names) +
+                   (meant.empty() ? "" : "; did you mean " + meant + "?"));
 }
 
 }  // namespace
+
+void addVersion(CLI::App& app) {
+  app.set_version_flag("--version", std::string("fragtrace ") + kVersionText);
+}
 
 RunCommand addCommands(CLI::App& app, std::span<const CommandRow> rows) {
   app.require_subcommand(1);
@@ -81,9 +58,13 @@ RunCommand addCommands(CLI::App& app, std::span<const CommandRow> rows) {
   };
 }
 
-std::vector<const char*> withView(std::span<const CommandRow> rows, int argc, const char* const* argv) {
+std::vector<const char*> withCommand(std::span<const CommandRow> rows, int argc, const char* const* argv) {
   std::vector<const char*> words(argv, argv + argc);
   if (argc < 2 || argv[1][0] == '-') return words;
+  if (argv[1] == std::string_view("help")) {
+    words.erase(words.begin() + 1);
+    words.push_back("--help");
+  }
   const auto named = [&](const CommandRow& row) { return row.name == std::string_view(argv[1]); };
   std::error_code error;
   const bool isFile = std::filesystem::is_regular_file(argv[1], error);
@@ -102,7 +83,7 @@ bool asksForJson(std::span<const char* const> words) {
 
 int runCommandLine(std::span<const CommandRow> rows, std::span<const char* const> words) {
   CLI::App app("A path tracer for glTF whose tracing runs in an OpenGL shader.", "fragtrace");
-  app.set_version_flag("--version", std::string("fragtrace ") + kVersionText);
+  addVersion(app);
   const RunCommand run = addCommands(app, rows);
   const auto word = [&](size_t i) {
     return i < words.size() ? std::optional<std::string>(words[i]) : std::nullopt;
@@ -111,13 +92,10 @@ int runCommandLine(std::span<const CommandRow> rows, std::span<const char* const
   const CLI::App* command = word(1)->starts_with('-') ? nullptr : app.get_subcommand(*word(1));
   if (command != nullptr && !commandNames(*command).empty()) checkCommand(*command, word(2));
   try {
-    app.parse(argumentsOf(words));
+    const auto first = words.begin() + std::ptrdiff_t(std::min(words.size(), size_t(1)));
+    parseWords(app, {first, words.end()}, "; --help says more");
   } catch (const CLI::Success& success) {
     return app.exit(success, std::cout, std::cerr);
-  } catch (const CLI::ExtrasError&) {
-    throw UsageError(whatIsUnknown(app));
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(plainText(error) + "; --help says more");
   }
   return run();
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "image/format.h"
 #include "image/image.h"
 #include "options/choose.h"
+#include "options/numbers.h"
 #include "session/outputs.h"
 
 namespace fragtrace {
@@ -65,15 +65,14 @@ RunCommand addDiff(CLI::App& app) {
       ->required();
   app.add_option("--metric", raw->metric, "error metric: rmse, mse, relmse, psnr, max, flip")
       ->capture_default_str();
-  app.add_option("--threshold", raw->options.threshold, "exit with status 1 if the error is worse than this");
+  app.add_option("--threshold", raw->options.threshold, "exit with status 1 if the error is worse than this")
+      ->check(realNumber());
   app.add_option("--outfile", raw->options.outfile,
                  "write a picture of the absolute differences, or of the FLIP error")
       ->type_name("FILE");
   return [raw] {
     DiffOptions options = raw->options;
     options.metric = choose<Metric>("--metric", raw->metric, metricNames());
-    if (options.threshold && !std::isfinite(*options.threshold))
-      throw UsageError("--threshold: not a finite number");
     if (!options.outfile.empty() && !isWritableImageName(options.outfile)) {
       throw UsageError("--outfile: '" + options.outfile.string() +
                        "' ends in none of .png, .jpg, .exr, .hdr, .pfm");

@@ -2,8 +2,10 @@
 #include "cli/leave.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -13,12 +15,26 @@
 
 namespace fragtrace {
 
+namespace {
+
+/// Whether standard output is a pipe that nobody reads any more.
+bool readerHasLeft() {
+  pollfd stream{STDOUT_FILENO, 0, 0};
+  return ::poll(&stream, 1, 0) == 1 && (stream.revents & POLLERR) != 0;
+}
+
+}  // namespace
+
 bool standardOutputIsClosed() { return (::fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) == O_RDONLY; }
 
 void checkPrinted() {
   std::cout.flush();
-  if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout))
-    throw RenderError("cannot write to standard output");
+  if (std::cout && std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
+  if (readerHasLeft()) {  // as `| head` does: nothing is wrong, and other programs end so, too
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+  }
+  throw RenderError("cannot write to standard output");
 }
 
 int leave(int status) {

@@ -9,8 +9,8 @@
 namespace {
 
 int run(int argc, const char* const* argv) {
-  fragtrace::becomeBenchProgram(argc, argv);
-  const std::vector<const char*> words = fragtrace::withView(fragtrace::kCommandRows, argc, argv);
+  const std::vector<const char*> words = fragtrace::withCommand(fragtrace::kCommandRows, argc, argv);
+  fragtrace::becomeBenchProgram(words);
   return fragtrace::runCommandLine(fragtrace::kCommandRows, words);
 }
 

@@ -10,7 +10,10 @@
 #include "cli/commands.h"
 #include "cli/leave.h"
 #include "errors.h"
+#include "gltf/gltf.h"
 #include "image/files/process.h"
+#include "math/count_text.h"
+#include "options/camera_text.h"
 #include "options/config_file.h"
 #include "options/parse_render.h"
 #include "picture/denoising.h"
@@ -20,6 +23,7 @@
 #include "process/report.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
+#include "session/sequence_camera.h"
 #include "session/tracer.h"
 
 namespace fragtrace {
@@ -32,7 +36,8 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
     char text[96];
     std::snprintf(text, sizeof text, ", 95 %% of the pixels within %.3g %% (estimated)",
                   100.0 * stats.adaptive->error);
-    noise = stats.adaptive->known ? text : ", error unknown";
+    const bool tells = stats.adaptive->known && stats.adaptive->error <= 1.0;
+    noise = tells ? text : stats.adaptive->known ? ", noise above 100 % (estimated)" : ", error unknown";
   }
   if (stats.denoise && !stats.denoise->filter.empty()) {
     char text[32];
@@ -48,11 +53,12 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
   // Standard output is the statistics' or the picture's alone.
   const bool taken = isStandardOutput(options.output.statsFile) || options.output.toStandardOutput;
   if (options.output.quiet || (taken ? reportsAsJson() : standardOutputIsClosed())) return;
-  std::fprintf(taken ? stderr : stdout,
-               "%s: %d x %d, %.4g samples per pixel in %.2f s (%.2f million paths/s)%s\n",
+  char samples[32];
+  std::snprintf(samples, sizeof samples, "%.4g", samplesPerPixel(stats));
+  std::fprintf(taken ? stderr : stdout, "%s: %d x %d, %s per pixel in %.2f s (%.2f million paths/s)%s\n",
                options.output.toStandardOutput ? "standard output" : options.output.file.string().c_str(),
-               stats.size.x, stats.size.y, samplesPerPixel(stats), stats.times.renderMs / 1000.0,
-               megaPathsPerSecond(stats), noise.c_str());
+               stats.size.x, stats.size.y, countText(samples, "sample").c_str(),
+               stats.times.renderMs / 1000.0, megaPathsPerSecond(stats), noise.c_str());
 }
 
 /// What becomes of a picture: it is written, written as far as it was drawn, or not at all.
@@ -95,7 +101,8 @@ nlohmann::ordered_json eventContext(const RenderOptions& options) {
   return {{"output", options.output.toStandardOutput ? "-" : options.output.file.string()}};
 }
 
-int runRender(const RenderOptions& asked) {
+/// Returns the status.
+int renderOne(const RenderOptions& asked) {
   setReportContext(eventContext(asked));
   checkOutputs(outputsOf(asked), inputsOf(asked));
   if (isFinished(asked)) return 0;
@@ -120,7 +127,25 @@ int runRender(const RenderOptions& asked) {
     say(options, "interrupted, nothing is written");
     return kInterruptedStatus;
   }
-  return leave(outcome == Outcome::Complete ? 0 : kInterruptedStatus);
+  return outcome == Outcome::Complete ? 0 : kInterruptedStatus;
+}
+
+/// A picture of each of the scene's variants, with its name (or its index, where that is no name of a file)
+/// in the place of #. Returns the status.
+int renderVariants(const RenderOptions& options) {
+  RenderOptions own = options;
+  own.selection.materialVariant.clear();
+  const std::vector<std::string> names = loadGltf(own.scene, gltfOptionsOf(own)).materialVariants;
+  if (names.empty()) throw UsageError("--material-variant: " + own.scene.string() + " has no variants");
+  int status = 0;
+  for (size_t i = 0; i < names.size() && status == 0; ++i) {
+    own.selection.materialVariant = std::to_string(i);
+    own.output.file = namedFile(options.output.file, names[i], int(i));
+    if (!options.output.statsFile.empty())
+      own.output.statsFile = namedFile(options.output.statsFile, names[i], int(i));
+    status = renderOne(own);
+  }
+  return status;
 }
 
 /// What the pictures of a sequence share, and what the one before leaves to the next.
@@ -211,6 +236,11 @@ int runSequence(const RenderOptions& options) {
   const SequenceOptions& sequence = options.output.sequence;
   SequenceRun run;
   RenderOptions settled = options;
+  if (sequence.frames) {
+    settled.camera.overrides = overridesOfAllPoses(options);
+    if (settled.camera.overrides != options.camera.overrides)
+      say(options, "one camera shows the whole animation: " + cameraText(settled));
+  }
   run.device.oidn = openDenoiser(settled);
   passOnWhatIsSaid([](const std::string&) {});  // what all of them say, once
   countInterrupts();
@@ -242,13 +272,25 @@ int runSequence(const RenderOptions& options) {
       ++failed;
     }
   }
-  const std::string all = " of " + std::to_string(count) + " pictures ";
+  const std::string all = " of " + countText(size_t(count), "picture") + " ";
   const int missing = count - skipped - drawn - failed;
   if (skipped > 0) say(options, std::to_string(skipped) + all + "were there already");
   if (failed > 0) reportError(std::to_string(failed) + all + "failed");
   if (missing > 0)
     say(options, "interrupted: " + std::to_string(missing) + all + "are missing; --continue draws them");
   return leave(missing > 0 ? kInterruptedStatus : failed > 0 ? 1 : 0);
+}
+
+int runAny(const RenderOptions& options) {
+  if (options.output.file.empty()) throw UsageError("--output is required; --help says more");
+  checkEncoding(options.output.encoding, options.output.file);
+  checkSequence(options);
+  if (options.output.progress == ProgressForm::Json) reportAsJson(options.output.quiet);
+  if (options.output.toStandardOutput && isatty(STDOUT_FILENO) != 0)
+    throw UsageError("--output -: standard output is a terminal; send it to a file or a program");
+  if (isSequence(options)) return runSequence(options);
+  return leave(options.selection.materialVariant == kAllVariants ? renderVariants(options)
+                                                                 : renderOne(options));
 }
 
 }  // namespace
@@ -265,16 +307,7 @@ RunCommand addRender(CLI::App& app) {
                                   OptionGroup::Sequence, OptionGroup::Filter})
     addOptions(app, group, raw->render);
   addConfigOption(app, raw->config);
-  return [raw, &app] {
-    const RenderOptions options = finishConfigured(raw->render, raw->config, app);
-    if (options.output.file.empty()) throw UsageError("--output is required; --help says more");
-    checkEncoding(options.output.encoding, options.output.file);
-    checkSequence(options);
-    if (options.output.progress == ProgressForm::Json) reportAsJson(options.output.quiet);
-    if (options.output.toStandardOutput && isatty(STDOUT_FILENO) != 0)
-      throw UsageError("--output -: standard output is a terminal; send it to a file or a program");
-    return isSequence(options) ? runSequence(options) : runRender(options);
-  };
+  return [raw, &app] { return runConfigured(raw->render, raw->config, app, runAny); };
 }
 
 }  // namespace fragtrace

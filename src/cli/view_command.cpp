@@ -34,7 +34,9 @@ const WindowLibrary& windowLibrary() {
   const Plugin plugin = openPlugin(kLibraryName, kWindowLibraryEntry);
   if (plugin.entry == nullptr)
     throw ContextError(std::string("no window: ") + kLibraryName + " cannot be opened (" + plugin.error +
-                       ")" + (plugin.found ? std::string("; ") + kWindowAdvice : ""));
+                       ")" +
+                       (plugin.found ? std::string("; ") + kWindowAdvice
+                                     : "; the package fragtrace holds it, and scripts/build makes it"));
   return *reinterpret_cast<WindowLibraryEntry>(plugin.entry)();
 }
 

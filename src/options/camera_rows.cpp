@@ -9,18 +9,10 @@ namespace fragtrace {
 
 namespace {
 
-/// Throws UsageError.
-void checkFinite(const std::string& option, const std::vector<double>& values) {
-  for (const double value : values) {
-    if (!std::isfinite(value)) throw UsageError(option + ": not a finite number");
-  }
-}
-
 /// X,Y,Z of a place, or of a direction, which is not zero.
 template <typename Member>
 OptionRow vectorRow(const char* name, std::string help, Member member, bool isPlace, OptionTraits traits) {
   const auto take = [name, isPlace](const std::vector<double>& values) {
-    checkFinite(name, values);
     const glm::dvec3 v(values[0], values[1], values[2]);
     if (isPlace && glm::length(v) > kFarthest)
       throw UsageError(std::string(name) + ": farther than 1e30 m from the origin");
@@ -33,7 +25,6 @@ OptionRow vectorRow(const char* name, std::string help, Member member, bool isPl
 }
 
 Orbit orbitOf(const std::vector<double>& values) {
-  checkFinite("--camera-orbit", values);
   const Orbit orbit{values[0], values[1], values.size() > 2 ? values[2] : 1.0};
   if (std::abs(orbit.elevationDegrees) > 90.0)
     throw UsageError("--camera-orbit: the elevation is not between -90 and 90 degrees");
@@ -58,6 +49,7 @@ OptionRow orbitRow() {
            r.help)
         ->delimiter(',')
         ->expected(2, 3)
+        ->check(realNumber())
         ->allow_extra_args(false)
         ->option_text("AZIMUTH,ELEVATION[,ZOOM] Excludes: --camera-position")
         ->excludes(r.traits.excludes);
@@ -74,7 +66,7 @@ OptionRow fitRow() {
   OptionRow row = memberRow(
       "--fit",
       "move the camera, without turning it, until the scene fills the picture except for a narrow margin; "
-      "with --turntable, all pictures use the same distance",
+      "with --turntable, all pictures use the same distance, with --frames the same camera",
       FRAGTRACE_MEMBER(camera.overrides.fit), {.effect = Effect::View});
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
     app.add_flag_callback(

@@ -5,6 +5,7 @@
 
 #include "options/option_text.h"
 #include "options/parse_render.h"
+#include "options/parse_words.h"
 
 namespace fragtrace {
 

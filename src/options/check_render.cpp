@@ -102,6 +102,19 @@ void checkReuse(const RenderOptions& o) {
     throw UsageError(refused + "emission, diffuse, specular (--aov): they would not add up to the picture");
 }
 
+bool isNumbered(const std::filesystem::path& file) {
+  return file.filename().string().find('#') != std::string::npos;
+}
+
+/// Of all variants, each of which has a file.
+void checkVariants(const OutputOptions& o) {
+  for (const auto& [name, file] : {std::pair("--output", &o.file), std::pair("--stats", &o.statsFile)}) {
+    if (!file->empty() && !isNumbered(*file))
+      throw UsageError("--material-variant all: the name of " + std::string(name) +
+                       " needs # where the name of the variant goes");
+  }
+}
+
 }  // namespace
 
 RenderOptions finishRender(const RawRender& raw) {
@@ -128,7 +141,9 @@ void checkEncoding(const Encoding& encoding, const std::filesystem::path& output
 
 void checkSequence(const RenderOptions& options) {
   const SequenceOptions& sequence = options.output.sequence;
+  const bool allVariants = options.selection.materialVariant == kAllVariants;
   if (!isSequence(options)) {
+    if (allVariants) checkVariants(options.output);
     if (sequence.keep) throw UsageError("--continue: goes with --frames or --turntable");
     return;
   }
@@ -136,17 +151,12 @@ void checkSequence(const RenderOptions& options) {
   const auto refuse = [&](const std::string& why) {
     throw UsageError(std::string(isTurntable ? "--turntable" : "--frames") + ": " + why);
   };
-  const auto isNumbered = [](const std::filesystem::path& file) {
-    return file.filename().string().find('#') != std::string::npos;
-  };
+  if (allVariants) refuse("goes with one variant, not with --material-variant all");
   if (!isNumbered(options.output.file))
     refuse("the name of --output needs #### where the number of the picture goes");
   if (!options.output.statsFile.empty() && !isNumbered(options.output.statsFile))
     refuse("the name of --stats needs #### where the number of the picture goes");
   if (options.selection.animationTime && !isTurntable) refuse("--animation-time is of a single picture");
-  if (options.camera.overrides.fit != Fit::None && !isTurntable)
-    refuse(
-        "--fit would place another camera for each picture; --camera-orbit or --camera-position place one");
   if (options.output.checkpointSeconds > 0.0 || options.output.resume)
     refuse("--checkpoint and --resume are of a single picture; --continue goes on with a sequence");
   if (options.device.traversal == TraversalMethod::Literals)

@@ -17,6 +17,12 @@ std::string joined(const Names& names) {
   return text;
 }
 
+/// "'x' is none of a, b, c"
+template <typename Names>
+std::string whyNoneOf(const std::string& name, const Names& names) {
+  return "'" + name + "' is none of " + joined(names);
+}
+
 /// The value of a name in a list of names whose order is that of the values. Throws UsageError.
 template <typename Value, typename Names>
 Value choose(const char* option, const std::string& name, const Names& names) {
@@ -25,7 +31,7 @@ Value choose(const char* option, const std::string& name, const Names& names) {
     if (name == candidate) return Value(index);
     ++index;
   }
-  throw UsageError(std::string(option) + ": '" + name + "' is none of " + joined(names));
+  throw UsageError(std::string(option) + ": " + whyNoneOf(name, names));
 }
 
 }  // namespace fragtrace

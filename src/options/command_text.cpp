@@ -9,6 +9,7 @@
 #include "options/config_file.h"
 #include "options/option_table.h"
 #include "options/option_text.h"
+#include "options/parse_words.h"
 #include "options/view_options.h"
 
 namespace fragtrace {

@@ -10,7 +10,7 @@
 
 #include "errors.h"
 #include "image/files/whole_file.h"
-#include "options/option_text.h"
+#include "options/parse_words.h"
 
 namespace fragtrace {
 
@@ -104,13 +104,14 @@ std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& com
     if (name == "resolution") {
       for (std::string& size : values) size = withNumberSettled(size, "--resolution");
     }
+    if (std::ranges::find(values, "") != values.end()) throw InputError(place + ": its value is empty");
     if (overruled || (isFlag && !value.get<bool>())) continue;
     try {
       if (isSwitch) option->clear();
       option->add_result(values);
       option->run_callback();
     } catch (const CLI::ParseError& error) {
-      throw InputError(place + ": " + plainText(error));
+      throw InputError(place + afterName(plainText(error, command), name));
     } catch (const UsageError& error) {
       throw InputError(place + afterName(error.what(), name));
     }
@@ -126,24 +127,35 @@ void addConfigOption(CLI::App& app, std::string& file) {
       ->type_name("FILE");
 }
 
-RenderOptions finishConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command) {
-  if (config.empty()) return finishRender(raw);
+int runConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command,
+                  const std::function<int(const RenderOptions&)>& run) {
+  if (config.empty()) return run(finishRender(raw));
   std::vector<std::string> enable = std::exchange(raw.enable, {});
   std::vector<std::string> disable = std::exchange(raw.disable, {});
   const std::set<std::string> taken = applyFile(config, command);
   raw.fileEnable = std::exchange(raw.enable, std::move(enable));
   raw.fileDisable = std::exchange(raw.disable, std::move(disable));
   try {
-    return finishRender(raw);
+    return run(finishRender(raw));
   } catch (const UsageError& error) {
-    // Options are named first in what finishRender() says of them.
+    // Options are named first in what is said of them: "--region: ..." or "--output -: ...".
     const std::string text = error.what();
     for (const std::string& name : taken) {
-      if (text.starts_with("--" + name + ": "))
+      const std::string option = "--" + name;
+      if (text.starts_with(option + ": ") || text.starts_with(option + " "))
         throw InputError(placeOf(config, name) + afterName(text, name));
     }
     throw;
   }
+}
+
+RenderOptions finishConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command) {
+  RenderOptions finished;
+  runConfigured(raw, config, command, [&](const RenderOptions& options) {
+    finished = options;
+    return 0;
+  });
+  return finished;
 }
 
 }  // namespace fragtrace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "options/parse_render.h"
@@ -11,9 +12,15 @@ namespace fragtrace {
 
 void addConfigOption(CLI::App& app, std::string& file);
 
-/// finishRender() of a parsed command, with all options of the file (none: an empty path) that its command
-/// line has not given, nor one that excludes them. Names of files in it mean what they mean on the command
-/// line. Throws InputError that names the file and the line, or the member as a JSON pointer, and UsageError.
+/// Runs a parsed command with its settled options (finishRender()), with all options of the file (none: an
+/// empty path) that its command line has not given, nor one that excludes them. Names of files in it mean
+/// what they mean on the command line. Returns the command's status. Throws InputError that names the file
+/// and the line, or the member as a JSON pointer, also where `run` throws UsageError about an option of the
+/// file; and what else `run` throws.
+int runConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command,
+                  const std::function<int(const RenderOptions&)>& run);
+
+/// The same for a caller that runs nothing yet: the options.
 RenderOptions finishConfigured(RawRender& raw, const std::filesystem::path& config, CLI::App& command);
 
 }  // namespace fragtrace

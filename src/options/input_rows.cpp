@@ -36,7 +36,8 @@ OptionRow timeRow() {
       FRAGTRACE_MEMBER(selection.animationTime), {.effect = Effect::Picture, .renewal = Renewal::Scene});
   row.examples = {"0", "1.2500000000000002"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
-    app.add_option(r.name, raw.options.selection.animationTime, r.help)->check(finiteSeconds());
+    app.add_option(r.name, raw.options.selection.animationTime, r.help)
+        ->check(realNumberFrom(0.0, "SECONDS"));
   };
   row.words = [](const RenderOptions& o) { return std::vector{exactText(*o.selection.animationTime)}; };
   return row;
@@ -75,19 +76,13 @@ OptionRow memoryRow() {
 }
 
 OptionRow missingRow() {
-  OptionRow row = memberRow(
+  constexpr std::array<const char*, 2> kNames{"error", "warn"};
+  return choice(
       "--missing-textures",
-      "what to do if the image of a texture cannot be read: error (default) ends the program; warn prints a "
+      "what to do if the image of a texture cannot be read: {}; error ends the program; warn prints a "
       "warning, replaces a missing base colour with magenta, and omits the effects of other missing textures",
-      FRAGTRACE_MEMBER(limits.drawMissingTextures), {.effect = Effect::Picture, .renewal = Renewal::Scene});
-  row.examples = {"error", "warn"};
-  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
-    addWord(app, r, raw,
-            [](RenderOptions& o, const std::string& text) { o.limits.drawMissingTextures = text == "warn"; });
-    app.get_option(r.name)->check(CLI::IsMember({"error", "warn"}));
-  };
-  row.words = [](const RenderOptions&) { return std::vector<std::string>{"warn"}; };
-  return row;
+      FRAGTRACE_MEMBER(limits.drawMissingTextures), kNames,
+      {.effect = Effect::Picture, .renewal = Renewal::Scene});
 }
 
 }  // namespace
@@ -109,8 +104,11 @@ std::vector<OptionRow> inputRows() {
       timeRow(),
       word("--animation", "name or index of the animation for --animation-time; by default the first",
            FRAGTRACE_MEMBER(selection.animation), kScene),
-      word("--material-variant", "name or index of the material variant; `fragtrace info` lists the variants",
-           FRAGTRACE_MEMBER(selection.materialVariant), kScene),
+      word(
+          "--material-variant",
+          "name or index of the material variant; `fragtrace info` lists the variants; `render` draws all of "
+          "them by 'all', each to --output with its name in place of #",
+          FRAGTRACE_MEMBER(selection.materialVariant), kScene),
       hiddenRow(),
       memoryRow(),
       limit<int>("--texture-limit",

@@ -10,11 +10,13 @@ namespace fragtrace {
 
 namespace {
 
+constexpr double kMostIntensity = 1e6;
+
 void chooseCatcher(RenderOptions& o, const std::string& text) {
   o.light.shadowCatcher = true;
   if (text == "bottom") return;
-  double height = 0.0;
-  if (!CLI::detail::lexical_cast(text, height) || !std::isfinite(height))
+  const std::optional<double> height = numberIn(text);
+  if (!height || !std::isfinite(*height))
     throw UsageError("--shadow-catcher: '" + text + "' is neither a height nor 'bottom'");
   o.light.catcherHeight = height;
 }
@@ -42,7 +44,7 @@ OptionRow catcherRow() {
 OptionRow noDefaultLightRow() {
   OptionRow row{.name = "--no-default-light", .help = "short for --default-light none"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
-    app.add_flag(r.name, raw.noDefaultLight, r.help);
+    app.add_flag(r.name, raw.noDefaultLight, r.help)->excludes("--default-light");
   };
   row.isDefault = [](const RenderOptions&) { return true; };
   row.words = [](const RenderOptions&) { return std::vector<std::string>(); };
@@ -70,8 +72,8 @@ OptionRow catcherHeightRow() {
 
 glm::vec3 colorOf(const std::vector<double>& values) {
   for (const double value : values) {
-    if (!std::isfinite(float(value))) throw UsageError("--background-color: not a finite number");
     if (value < 0.0) throw UsageError("--background-color: below 0");
+    if (value > kMostIntensity) throw UsageError("--background-color: above " + numberText(kMostIntensity));
   }
   return {values[0], values[1], values[2]};
 }
@@ -81,7 +83,6 @@ glm::vec3 colorOf(const std::vector<double>& values) {
 std::vector<OptionRow> lightRows() {
   constexpr OptionTraits kScene{.effect = Effect::Picture, .renewal = Renewal::Scene};
   constexpr OptionTraits kEstimator{.effect = Effect::Noise, .renewal = Renewal::Program};
-  constexpr double kMostIntensity = 1e6;
   return {
       choice("--light-selection",
              "how global illumination chooses a light to sample: by what it may send to the point (tree), by "
@@ -101,9 +102,9 @@ std::vector<OptionRow> lightRows() {
       word("--hdri-file", "equirectangular environment map: .hdr, .exr, .pfm",
            FRAGTRACE_MEMBER(light.hdriFile),
            {.effect = Effect::Picture, .renewal = Renewal::Scene, .attribute = "hdri"}, "FILE"),
-      numberRow<double>("--hdri-rotation", "rotation of the environment map about +Y, in degrees",
-                        FRAGTRACE_MEMBER(light.hdriRotationDegrees), std::nullopt, true,
-                        {.effect = Effect::Picture, .attribute = "hdri_rotation"}),
+      number<double>("--hdri-rotation", "rotation of the environment map about +Y, in degrees",
+                     FRAGTRACE_MEMBER(light.hdriRotationDegrees), {-1e6, 1e6},
+                     {.effect = Effect::Picture, .attribute = "hdri_rotation"}),
       number<double>(
           "--hdri-intensity",
           "multiply the light of the environment by this factor: of a map, of the studio, or of what lights "

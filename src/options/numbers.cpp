@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "options/numbers.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <string>
+#include <cstdio>
+#include <utility>
+
+#include "options/choose.h"
 
 namespace fragtrace {
 
@@ -26,7 +30,25 @@ bool parseSize(std::string text, uint64_t& bytes) {
   }
 }
 
+/// What is wrong with a text that is to be a finite number; empty: nothing.
+std::string whyNoNumber(const std::string& text) {
+  const std::optional<double> value = numberIn(text);
+  if (!value) return "'" + text + "' is no number";
+  return std::isfinite(*value) ? "" : "'" + text + "' is not a finite number";
+}
+
+std::string shortText(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
 }  // namespace
+
+std::optional<double> numberIn(const std::string& text) {
+  double value = 0.0;
+  return CLI::detail::lexical_cast(text, value) ? std::optional(value) : std::nullopt;
+}
 
 CLI::Validator wholeNumber(int64_t least, int64_t most) {
   const std::string wanted = "whole number from " + std::to_string(least) + " to " + std::to_string(most);
@@ -39,23 +61,39 @@ CLI::Validator wholeNumber(int64_t least, int64_t most) {
       "");
 }
 
-CLI::Validator finiteNumber() {
-  return CLI::Validator(
-      [](const std::string& text) -> std::string {
-        double value = 0.0;
-        return CLI::detail::lexical_cast(text, value) && !std::isfinite(value) ? "not a finite number" : "";
-      },
-      "");
+CLI::Validator realNumber() {
+  return CLI::Validator([](const std::string& text) { return whyNoNumber(text); }, "");
 }
 
-CLI::Validator finiteSeconds() {
+CLI::Validator realNumberFrom(double least, const char* type) {
   return CLI::Validator(
-      [](const std::string& text) -> std::string {
-        double seconds = 0.0;
-        const bool isNumber = CLI::detail::lexical_cast(text, seconds);
-        return isNumber && std::isfinite(seconds) && seconds >= 0.0 ? "" : "is no finite number from 0 on";
+      [=](const std::string& text) -> std::string {
+        const std::optional<double> value = numberIn(text);
+        if (!value) return whyNoNumber(text);
+        const bool good = std::isfinite(*value) && *value >= least;
+        return good ? "" : "'" + text + "' is no finite number from " + shortText(least) + " on";
       },
-      "SECONDS");
+      type);
+}
+
+CLI::Validator realNumber(double least, double most) {
+  const std::string bounds = shortText(least) + " to " + shortText(most);
+  return CLI::Validator(
+      [=](const std::string& text) -> std::string {
+        const std::string wrong = whyNoNumber(text);
+        if (!wrong.empty()) return wrong;
+        const double value = *numberIn(text);
+        return value >= least && value <= most ? "" : "'" + text + "' is not in the range " + bounds;
+      },
+      "FLOAT in [" + shortText(least) + " - " + shortText(most) + "]");
+}
+
+CLI::Validator oneOf(std::vector<std::string> names) {
+  return CLI::Validator(
+      [names = std::move(names)](const std::string& text) -> std::string {
+        return std::ranges::find(names, text) != names.end() ? "" : whyNoneOf(text, names);
+      },
+      "");
 }
 
 CLI::Validator memorySize(uint64_t least) {

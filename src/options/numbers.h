@@ -4,17 +4,29 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace fragtrace {
+
+/// The number that a text is, as the command line reads it; none where it is no number.
+std::optional<double> numberIn(const std::string& text);
 
 /// A whole number within these bounds.
 CLI::Validator wholeNumber(int64_t least, int64_t most);
 
-/// Neither infinite nor NaN, which the library's ranges let pass.
-CLI::Validator finiteNumber();
+/// A number that is neither infinite nor NaN.
+CLI::Validator realNumber();
 
-/// The same from 0 on, in seconds.
-CLI::Validator finiteSeconds();
+/// The same from `least` on; `type` is what --help calls it.
+CLI::Validator realNumberFrom(double least, const char* type);
+
+/// The same within these bounds, which --help says.
+CLI::Validator realNumber(double least, double most);
+
+/// One of these names.
+CLI::Validator oneOf(std::vector<std::string> names);
 
 /// Bytes, as a number with or without a unit (MB or MiB); the text becomes the plain number.
 CLI::Validator memorySize(uint64_t least);

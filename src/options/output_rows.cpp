@@ -84,9 +84,10 @@ OptionRow pngDepthRow() {
                 {.effect = Effect::Display, .group = OptionGroup::Encoding});
   row.examples = {"8", "16"};
   row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
-    app.add_option(r.name, raw.options.output.encoding.pngBits, r.help)
-        ->check(CLI::IsMember({8, 16}))
-        ->capture_default_str();
+    addWord(app, r, raw, [known = r.examples](RenderOptions& o, const std::string& text) {
+      o.output.encoding.pngBits = choose<int>("--png-depth", text, known) == 0 ? 8 : 16;
+    });
+    app.get_option(r.name)->default_str(std::to_string(raw.options.output.encoding.pngBits));
   };
   row.words = [](const RenderOptions& o) { return std::vector{std::to_string(o.output.encoding.pngBits)}; };
   return row;
@@ -175,8 +176,8 @@ std::vector<OptionRow> outputRows() {
           "--tree-level",
           "draw the boxes of this level of the bounding-volume hierarchy over a .png or .jpg; 0 is the root",
           FRAGTRACE_MEMBER(output.treeLevel), {0, int(kMaxBvhDepth)}, kDisplay),
-      numberRow<double>("--exposure", "exposure in stops (EV), for .png and .jpg",
-                        FRAGTRACE_MEMBER(output.exposure), std::nullopt, true, kDisplay),
+      number<double>("--exposure", "exposure in stops (EV), for .png and .jpg",
+                     FRAGTRACE_MEMBER(output.exposure), {-100.0, 100.0}, kDisplay),
       choice("--tone-map", "tone curve of .png and .jpg", FRAGTRACE_MEMBER(output.toneMap), toneMapNames(),
              kDisplay),
       word("--stats",

@@ -19,6 +19,9 @@ namespace fragtrace {
 /// The most samples of a pixel: sample indices have 32 bits, targets of the film 30.
 inline constexpr int kMostSamples = 1 << 29;
 
+/// A value of --material-variant: each of them.
+inline constexpr const char* kAllVariants = "all";
+
 /// The options as a command has parsed them, and the words that finishRender() settles them by.
 struct RawRender {
   RenderOptions options{};

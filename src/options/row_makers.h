@@ -75,8 +75,7 @@ OptionRow numberRow(const char* name, std::string help, Member member,
   row.add = [member, range, shown](CLI::App& app, const OptionRow& r, RawRender& raw) {
     CLI::Option* option = app.add_option(r.name, member(raw.options), r.help);
     if constexpr (std::floating_point<Number>) {
-      if (range) option->check(CLI::Range(range->least, range->most));
-      option->check(finiteNumber());
+      option->check(range ? realNumber(range->least, range->most) : realNumber());
     } else if (range) {
       option->check(wholeNumber(range->least, range->most));
     }
@@ -182,7 +181,10 @@ OptionRow numbers(const char* name, std::string help, Member member, int count, 
         [take, member, &raw](const std::vector<Number>& values) { member(raw.options) = take(values); },
         r.help);
     option->delimiter(',')->expected(count);
-    if (range) option->check(wholeNumber(range->least, range->most));
+    if constexpr (std::floating_point<Number>)
+      option->check(realNumber());
+    else if (range)
+      option->check(wholeNumber(range->least, range->most));
   };
   row.words = [member, write](const RenderOptions& o) { return std::vector<std::string>{write(*member(o))}; };
   return row;

@@ -16,8 +16,7 @@ std::vector<std::string> stageNames(bool cumulativeOnly) {
 
 Stage stageNamed(const char* option, const std::string& name) {
   const std::optional<Stage> stage = parseStage(name);
-  if (!stage)
-    throw UsageError(std::string(option) + ": '" + name + "' is none of " + joined(stageNames(false)));
+  if (!stage) throw UsageError(std::string(option) + ": " + whyNoneOf(name, stageNames(false)));
   return *stage;
 }
 

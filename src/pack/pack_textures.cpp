@@ -68,7 +68,7 @@ const PlacedTexels& TexturePacker::place(uint32_t image, TransferCurve curve) {
   PlacedTexels& placed = entry->second;
   if (!isNew) return placed;
   const EncodedImage& encoded = scene_.images[image];
-  const TexelImage texels = decodeTexels(encoded.bytes, encoded.name);
+  const TexelImage texels = decodeTexels(encoded.bytes, nameOf(encoded));
   placed.first = uint32_t(texels_.size() / 2);
   const glm::ivec2 stored(texels.width, texels.height);
   const glm::ivec2 size =

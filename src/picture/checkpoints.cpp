@@ -45,13 +45,19 @@ bool isWholePicture(const RenderOptions& options) {
   if (picture.attributes.contains(kInterruptedAttribute)) return false;
   if (!picture.attributes.contains(kSettingsAttribute)) return true;
   const Provenance made = provenanceOf(picture, options.output.file);
-  const auto check = [&](const char* option, int64_t there, int64_t asked) {
+  const auto check = [&](const char* option, int64_t there, int64_t asked, const std::string& more = "") {
     if (there != asked)
       throw UsageError("--resume: " + options.output.file.string() + " is finished with " + option + " " +
-                       std::to_string(there) + ", not " + std::to_string(asked));
+                       std::to_string(there) + ", not " + std::to_string(asked) + more);
   };
   check("--seed", made.seed, options.sampling.seed);
-  if (made.uniform) check("--spp", made.samples, options.sampling.spp);
+  const int64_t missing = options.sampling.spp - made.samples;
+  if (made.uniform)
+    check("--spp", made.samples, options.sampling.spp,
+          missing <= 0
+              ? ""
+              : "; `render --sample-offset " + std::to_string(made.sampleOffset + made.samples) + " --spp " +
+                    std::to_string(missing) + "` to another file draws what is missing, and `merge` adds it");
   return true;
 }
 
@@ -76,6 +82,18 @@ void checkShape(const Checkpoint& c, const PictureJob& job, const DrawingPlan& p
   const bool first = c.part == 0;
   check(first == c.picture.values.empty());
   check(first || glm::ivec2(c.picture.width, c.picture.height) == job.loaded.region.size);
+}
+
+/// Whether the render asked for only has more samples than the one that the checkpoint is of: then it goes on
+/// to these. What filters look at on the way, and parts that are done, have the samples that were asked for.
+bool growsTo(const Checkpoint& checkpoint, const std::string& asked) {
+  auto there = nlohmann::json::parse(checkpoint.job, nullptr, false);
+  auto wanted = nlohmann::json::parse(asked, nullptr, false);
+  if (!there.is_object() || !wanted.is_object() || !there["spp"].is_number_integer()) return false;
+  const bool more = wanted["spp"].get<int>() > there["spp"].get<int>();
+  const bool adaptive = wanted["noise"] != 0.0 || wanted["time"] != 0.0;
+  there["spp"] = wanted["spp"];
+  return more && !adaptive && checkpoint.part == 0 && checkpoint.looks.empty() && there == wanted;
 }
 
 nlohmann::json totalsJson(const FilmTotals& t) {
@@ -149,9 +167,10 @@ std::optional<Checkpoint> readCheckpoint(const PictureJob& job, const DrawingPla
     throw InputError(path.string() + ": " + error.what());
   }
   const std::string text = jobText(job, plan);
-  if (checkpoint->job != text)
-    throw UsageError("--resume: " + path.string() +
-                     " is of another render: " + differenceOf(checkpoint->job, text));
+  if (checkpoint->job != text && !growsTo(*checkpoint, text))
+    throw UsageError(
+        "--resume: " + path.string() +
+        " is of another render (its settings and those asked for): " + differenceOf(checkpoint->job, text));
   checkShape(*checkpoint, job, plan);
   return checkpoint;
 }

@@ -2,11 +2,13 @@
 #include "picture/draw_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <span>
 
 #include "errors.h"
 #include "image/channels.h"
+#include "math/count_text.h"
 #include "picture/checkpoints.h"
 #include "picture/denoising.h"
 #include "picture/draw_picture.h"
@@ -15,6 +17,7 @@
 #include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/progress_bar.h"
+#include "session/say.h"
 
 namespace fragtrace {
 
@@ -36,6 +39,12 @@ struct Share {
 
   double of(double fraction) const { return done + own * fraction; }
 };
+
+/// Where a render of several parts goes on; nothing for a picture in one.
+std::string placeOfPart(const Share& share) {
+  if (share.own == 1.0) return "";
+  return ", where " + std::to_string(int(100.0 * share.done)) + " % of the picture are done";
+}
 
 std::vector<Share> sharesOf(std::span<const Region> parts, glm::ivec2 size) {
   std::vector<Share> shares;
@@ -187,6 +196,11 @@ Drawing drawAdaptively(const PartRun& part, glm::ivec2 size) {
   if (part.from != nullptr) {
     for (size_t half : {0, 1}) run.films[half].load(part.from->films[half]);
     run.state = part.from->adaptive;
+    const std::vector<int32_t>& counts = run.state.samples;
+    const double sum = std::accumulate(counts.begin(), counts.end(), 0.0);
+    const long mean = std::lround(2.0 * sum / double(std::max(size_t(1), counts.size())));
+    say(options, "--resume: goes on after about " + countText(size_t(mean), "sample") + " per pixel" +
+                     placeOfPart(part.share));
   }
   const auto keep = [&] { part.keep({run.films[0].save(), run.films[1].save()}, {}, run.state); };
   AdaptivePicture picture = renderAdaptively(*part.job.tracer.renderer, run, part.view,
@@ -207,8 +221,10 @@ Drawing drawEvenly(const PartRun& part, Film film) {
     const FilmState& state = part.from->films.front();
     sampled.film.load(state);
     sampled.looks = part.from->looks;
-    sampled.fewest = int(std::min<uint32_t>(totalsOf(sampled.film.read()).fewestSamples,
-                                            uint32_t(part.job.options.sampling.spp)));
+    const int spp = part.job.options.sampling.spp;
+    sampled.fewest = int(std::min<uint32_t>(totalsOf(sampled.film.read()).fewestSamples, uint32_t(spp)));
+    say(part.job.options, "--resume: goes on after " + std::to_string(sampled.fewest) + " of " +
+                              countText(size_t(spp), "sample") + " per pixel" + placeOfPart(part.share));
   }
   const auto keep = [&] { part.keep({sampled.film.save()}, sampled.looks, {}); };
   Drawing drawing;

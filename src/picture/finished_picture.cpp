@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "picture/finished_picture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "errors.h"
 #include "gl/driver_choice.h"
+#include "image/channels.h"
 #include "picture/denoising.h"
 #include "picture/picture_file.h"
 #include "picture/picture_header.h"
@@ -18,17 +20,51 @@ namespace fragtrace {
 
 namespace {
 
-/// A view that nobody has chosen and that shows nothing is likely to be a mistake: of ours, or a surface's
-/// back.
+/// A view that shows nothing is likely to be a mistake: of who chose it, of ours, or a surface's back.
 void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, const ShaderVariant& variant,
                       const Statistics& stats) {
   const bool chosen = !loaded.scene.cameras.empty() || options.camera.overrides != CameraOverrides();
   const bool nothing = stats.scene.triangles == 0 && stats.scene.spheres == 0;
   const bool seen = stats.film.hitPixels > 0 || stats.film.samples == 0;
-  if (chosen || options.camera.region || nothing || seen || variant.heatmap) return;
+  if (options.camera.region || nothing || seen || variant.heatmap) return;
+  say(options, std::string("warning: ") + (chosen ? "this" : "the default") +
+                   " view shows nothing of the scene; " +
+                   (chosen ? "--fit moves the camera until it does"
+                           : "--camera-position and --camera-focal-point choose another"));
+}
+
+/// The pixels that are exactly black, 0..1.
+double blackShare(const Image& picture) {
+  const auto colors = findColorChannels(picture);
+  if (!colors || picture.values.empty()) return 0.0;
+  size_t black = 0;
+  for (size_t i = 0; i < picture.values.size(); i += picture.channelCount())
+    black +=
+        std::ranges::all_of(*colors, [&](size_t channel) { return picture.values[i + channel] == 0.0f; });
+  return double(black) * double(picture.channelCount()) / double(picture.values.size());
+}
+
+/// A picture that is nearly black although surfaces fill it, and why: most likely the camera stands in a
+/// shell.
+void sayWhatIsDark(const RenderOptions& options, const LoadedScene& loaded, const Image& picture,
+                   const Statistics& stats) {
+  constexpr double kNearlyAll = 0.95;
+  constexpr double kEnoughSamples = 16.0;  // that chance explains no black pixel
+  const double pixels = double(stats.size.x) * stats.size.y;
+  const bool isLit = has(options.stages, Stage::Gi) && options.output.debugView == DebugView::None;
+  const bool filled = double(stats.film.hitPixels) >= kNearlyAll * pixels;
+  if (!isLit || !filled || samplesPerPixel(stats) < kEnoughSamples) return;
+  const double share = blackShare(picture);
+  if (share < kNearlyAll) return;
+  const BoundsDouble& bounds = loaded.scene.bounds;
+  const glm::dvec3& place = loaded.camera.position;
+  const bool inside = glm::all(glm::lessThanEqual(bounds.minimum, place)) &&
+                      glm::all(glm::lessThanEqual(place, bounds.maximum));
   say(options,
-      "warning: the default view shows nothing of the scene; --camera-position and --camera-focal-point "
-      "choose another");
+      "warning: " + std::to_string(int(100.0 * share)) +
+          " % of the pixels are black: nearly all camera paths end in the dark; " +
+          (inside ? "the camera stands inside the scene, perhaps in a closed shell; --fit moves it out"
+                  : "no light reaches what it sees (--studio, --hdri-file)"));
 }
 
 /// What --bounces cut is missing from the picture.
@@ -116,6 +152,7 @@ std::optional<Image> drawSamples(const PictureJob& job, DrawingPlan& plan, Devic
   if (interrupts() > most) return std::nullopt;
   sayWhatWentWrong(options, stats.film);
   sayWhatIsNotSeen(options, job.loaded, job.tracer.variant, stats);
+  sayWhatIsDark(options, job.loaded, picture, stats);
   checkSamples(options, stats);
   return picture;
 }

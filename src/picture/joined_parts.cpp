@@ -8,6 +8,7 @@
 
 #include "errors.h"
 #include "image/channels.h"
+#include "math/count_text.h"
 #include "math/luminance.h"
 #include "picture/denoising.h"
 
@@ -37,7 +38,7 @@ void checkPair(const Part& first, const Part& second) {
   const std::string lone = channelsOfOneAlone(first.image, second.image);
   if (!lone.empty()) throw InputError(both + ": differ in layers, only one of them has " + lone);
   if (first.made.settings != second.made.settings)
-    throw InputError(both + ": were made with different settings: " +
+    throw InputError(both + ": were made with different settings (of the first and of the second): " +
                      differenceOf(first.made.settings, second.made.settings));
   std::vector<SampleRange> ranges = rangesOf(first.made);
   const std::vector<SampleRange> others = rangesOf(second.made);
@@ -213,13 +214,15 @@ Part joinedParts(std::vector<Part> parts) {
 
 std::string describeParts(size_t count, const Part& joined) {
   const Spread spread = spreadOf(joined);
-  char text[128];
-  if (spread.fewest == spread.most)
-    std::snprintf(text, sizeof text, "%zu parts, %.0f samples per pixel", count, spread.most);
-  else
-    std::snprintf(text, sizeof text, "%zu parts, %.0f to %.0f samples per pixel, %.1f on average", count,
-                  spread.fewest, spread.most, spread.mean);
-  std::string all = text;
+  std::string all = countText(count, "part") + ", ";
+  if (spread.fewest == spread.most) {
+    all += countText(size_t(spread.most), "sample") + " per pixel";
+  } else {
+    char text[128];
+    std::snprintf(text, sizeof text, "%.0f to %.0f samples per pixel, %.1f on average", spread.fewest,
+                  spread.most, spread.mean);
+    all += text;
+  }
   const std::vector<SampleRange> ranges = rangesOf(joined.made);
   std::set<uint32_t> seeds;
   for (const SampleRange& range : ranges) seeds.insert(range.seed);

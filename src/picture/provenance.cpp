@@ -128,14 +128,19 @@ std::string differenceOf(const std::string& settings, const std::string& others)
   const auto b = nlohmann::json::parse(others, nullptr, false);
   if (!a.is_object() || !b.is_object()) return "they are not written as this version writes them";
   std::string text;
+  const auto add = [&](std::string key, const std::string& values) {
+    std::ranges::replace(key, '_', ' ');
+    text += (text.empty() ? "" : ", ") + key + " " + values;
+  };
   for (const auto& [key, value] : a.items()) {
     const auto other = b.find(key);
-    if (other != b.end() && *other == value) continue;
-    text += (text.empty() ? "" : ", ") + key + " " +
-            (other == b.end() ? value.dump() + " and none" : bothValues(key, value, *other));
+    if (other == b.end())
+      add(key, value.dump() + " and none");
+    else if (*other != value)
+      add(key, bothValues(key, value, *other));
   }
   for (const auto& [key, value] : b.items()) {
-    if (!a.contains(key)) text += (text.empty() ? "" : ", ") + key + " none and " + value.dump();
+    if (!a.contains(key)) add(key, "none and " + value.dump());
   }
   return text.empty() ? "of another version" : text;
 }

@@ -1,23 +1,41 @@
 // SPDX-License-Identifier: MIT
 #include "picture/sequence.h"
 
+#include <algorithm>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtx/rotate_vector.hpp>
 #include <string>
 
 namespace fragtrace {
 
-std::filesystem::path numberedName(const std::filesystem::path& pattern, int number) {
+namespace {
+
+/// The pattern with what `wordFor(width)` gives in place of its last run of #.
+template <typename WordFor>
+std::filesystem::path filled(const std::filesystem::path& pattern, const WordFor& wordFor) {
   std::string name = pattern.filename().string();
   const size_t last = name.rfind('#');
   if (last == std::string::npos) return pattern;
   size_t first = last;
   while (first > 0 && name[first - 1] == '#') --first;
-  std::string digits = std::to_string(number);
   const size_t width = last - first + 1;
-  if (digits.size() < width) digits.insert(0, width - digits.size(), '0');
-  name.replace(first, width, digits);
+  name.replace(first, width, wordFor(width));
   return std::filesystem::path(pattern).replace_filename(name);
+}
+
+}  // namespace
+
+std::filesystem::path numberedName(const std::filesystem::path& pattern, int number) {
+  return filled(pattern, [&](size_t width) {
+    const std::string digits = std::to_string(number);
+    return std::string(width - std::min(width, digits.size()), '0') + digits;
+  });
+}
+
+std::filesystem::path namedFile(const std::filesystem::path& pattern, const std::string& word, int number) {
+  const auto isPlain = [](unsigned char c) { return c >= 0x20 && c != 0x7f && c != '/' && c != '#'; };
+  const bool isName = !word.empty() && std::ranges::all_of(word, isPlain);
+  return isName ? filled(pattern, [&](size_t) { return word; }) : numberedName(pattern, number);
 }
 
 FrameRange rangeOf(const SequenceOptions& sequence) {

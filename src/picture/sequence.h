@@ -19,6 +19,10 @@ struct SequenceFrame {
 /// The name with the number in place of its last run of #, with at least as many digits.
 std::filesystem::path numberedName(const std::filesystem::path& pattern, int number);
 
+/// The name with that word in place of its last run of #, but with the number where the word is empty or
+/// holds what a name of a file should not.
+std::filesystem::path namedFile(const std::filesystem::path& pattern, const std::string& word, int number);
+
 /// The numbers of its pictures; there are some (isSequence).
 FrameRange rangeOf(const SequenceOptions& sequence);
 

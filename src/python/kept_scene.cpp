@@ -7,7 +7,7 @@
 #include "errors.h"
 #include "options/config_file.h"
 #include "options/option_row.h"
-#include "options/option_text.h"
+#include "options/parse_words.h"
 #include "picture/denoising.h"
 
 namespace fragtrace {
@@ -141,6 +141,7 @@ struct RawWords {
 };
 
 void addWords(CLI::App& app, RawWords& raw) {
+  app.set_help_flag();
   raw.render.anyOutput = true;
   addOption(app, "file", raw.render)->required();
   for (const OptionGroup group : {OptionGroup::Tracing, OptionGroup::Output, OptionGroup::Filter})
@@ -165,7 +166,7 @@ RenderOptions optionsOfWords(std::vector<std::string> words) {
   RawWords raw;
   CLI::App app("", "fragtrace.render");
   addWords(app, raw);
-  parseWords(app, withNumbersSettled(std::move(words)));
+  parseWords(app, std::move(words));
   RenderOptions options = finishConfigured(raw.render, raw.config, app);
   if (options.output.checkpointSeconds > 0.0 || options.output.resume)
     throw UsageError("--checkpoint: needs a file, so the command `fragtrace render`");

@@ -8,6 +8,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <thread>
@@ -142,6 +143,7 @@ double differenceOfArrays(const GivenValues& picture, const GivenValues& referen
 nb::tuple displayed(const GivenValues& values, const std::vector<std::string>& channels, double exposure,
                     const std::string& curve) {
   const std::optional<ToneMap> toneMap = parseToneMap(curve);
+  if (!std::isfinite(exposure)) throw UsageError("exposure: is not a finite number");
   if (!toneMap) throw UsageError("tone_map: '" + curve + "' is none of " + joined(toneMapNames()));
   Image display = toDisplay(imageOfArray(values, channels), exposure, *toneMap);
   return pictureTuple(display);

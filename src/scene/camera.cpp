@@ -7,6 +7,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "errors.h"
+#include "math/count_text.h"
 #include "math/finite.h"
 #include "scene/parts.h"
 
@@ -103,12 +104,12 @@ Camera withOverrides(Camera camera, const CameraOverrides& overrides, const Boun
   const glm::dvec3 position = overrides.position.value_or(camera.position);
   const glm::dvec3 up = overrides.viewUp.value_or(camera.up);
   if (!isFinite(focalPoint) || !isFinite(position) || !isFinite(up)) {
-    throw UsageError("the camera's position, focal point and view-up must be finite");
+    throw UsageError("--camera-position, --camera-focal-point and --camera-view-up: are not all finite");
   }
   if (overrides.position || overrides.focalPoint) {
     const glm::dvec3 view = focalPoint - position;
     const double distance = glm::length(view);
-    if (!(distance > 0.0)) throw UsageError("the camera's position and focal point are the same");
+    if (!(distance > 0.0)) throw UsageError("--camera-position: is the focal point, too");
     camera.forward = view / distance;
     camera.position = position;
   }
@@ -117,7 +118,7 @@ Camera withOverrides(Camera camera, const CameraOverrides& overrides, const Boun
   if (overrides.viewAngleDegrees) {
     const double degrees = *overrides.viewAngleDegrees;
     if (!(degrees > 0.0 && degrees < 180.0))
-      throw UsageError("the view angle must be between 0 and 180 degrees");
+      throw UsageError("--camera-view-angle: is not between 0 and 180 degrees");
     camera.fovY = glm::radians(degrees);
     camera.perspective = true;
   }
@@ -125,8 +126,8 @@ Camera withOverrides(Camera camera, const CameraOverrides& overrides, const Boun
     const double scale = *overrides.parallelScale;
     if (overrides.viewAngleDegrees)
       throw UsageError(
-          "a view angle is that of a perspective, a parallel scale that of an orthographic view");
-    if (!(scale > 0.0 && std::isfinite(scale))) throw UsageError("the parallel scale must be above 0");
+          "--camera-parallel-scale: is of an orthographic view, --camera-view-angle of a perspective");
+    if (!(scale > 0.0 && std::isfinite(scale))) throw UsageError("--camera-parallel-scale: is not above 0");
     camera.halfHeight = scale;
     camera.perspective = false;
   }
@@ -162,7 +163,7 @@ Camera chooseCamera(std::span<const Camera> cameras, std::optional<int> index,
                     const CameraOverrides& overrides, const BoundsDouble& bounds, double aspectRatio) {
   if (index && (*index < 0 || size_t(*index) >= cameras.size())) {
     throw UsageError("--camera-index: " + std::to_string(*index) + ", but the scene has " +
-                     std::to_string(cameras.size()) + " cameras (counted from 0)");
+                     countText(cameras.size(), "camera") + " (counted from 0)");
   }
   const Camera camera = index             ? cameras[size_t(*index)]
                         : cameras.empty() ? frameScene(bounds, aspectRatio)

@@ -31,6 +31,16 @@ std::string listOfParts(const std::vector<std::string>& names) {
   return list;
 }
 
+namespace {
+
+/// Of ASCII letters; all others stay.
+std::string inLowerCase(std::string text) {
+  std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  return text;
+}
+
+}  // namespace
+
 size_t indexOfPart(const char* option, const std::string& wanted, const std::vector<std::string>& names) {
   const auto named = std::find(names.begin(), names.end(), wanted);
   if (named != names.end()) return size_t(named - names.begin());
@@ -38,6 +48,9 @@ size_t indexOfPart(const char* option, const std::string& wanted, const std::vec
   const char* end = wanted.data() + wanted.size();
   const auto parsed = std::from_chars(wanted.data(), end, index);
   if (parsed.ec == std::errc{} && parsed.ptr == end && index < names.size()) return index;
+  const auto isAlike = [&](const std::string& name) { return inLowerCase(name) == inLowerCase(wanted); };
+  if (std::ranges::count_if(names, isAlike) == 1)
+    return size_t(std::ranges::find_if(names, isAlike) - names.begin());
   const std::string known = listOfParts(names);
   throw UsageError(std::string(option) + ": " + inQuotes(wanted) + " is not in the file, which has " +
                    (known.empty() ? "none" : known));

@@ -34,11 +34,18 @@ struct LocalSpace {
 /// An encoded picture (PNG, JPEG, ...) as it stood in the file, a buffer view or a data URI; decoded when
 /// packed.
 struct EncodedImage {
-  std::string name;  ///< for messages: a file path, or the JSON pointer of the image
+  std::string name;  ///< a file path, or the place
   std::vector<uint8_t> bytes;
   int width = 0;  ///< to be scaled down to once decoded; 0: as it is
   int height = 0;
+  std::string place{};  ///< "scene.gltf: /images/0"
 };
+
+/// For messages: the file, if it is one of its own, and the place.
+inline std::string nameOf(const EncodedImage& image) {
+  const bool isFile = image.name != image.place && !image.place.empty();
+  return isFile ? image.name + " (" + image.place + ")" : image.name;
+}
 
 /// What a picture takes on the device: four half floats a texel.
 inline size_t texelBytes(const EncodedImage& image) { return size_t(image.width) * size_t(image.height) * 8; }

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <future>
+#include <iterator>
 
 #include "bvh/large_first.h"
 #include "bvh/two_level.h"
@@ -14,6 +16,9 @@
 #include "image/files/process.h"
 #include "image/format.h"
 #include "image/image.h"
+#include "math/count_text.h"
+#include "options/option_row.h"
+#include "options/vain_options.h"
 #include "pack/literals.h"
 #include "pack/own_light.h"
 #include "pack/pack_textures.h"
@@ -38,26 +43,11 @@ void checkDistance(const Camera& camera, const LocalSpace& space, const RenderOp
   if (!(std::max(glm::length(camera.position - space.origin), size) <= kFarthest * space.unit)) {
     const std::string reason =
         "the camera is too far away for a scene of this size, or sees too much of its surroundings";
-    if (options.camera.overrides.position || options.camera.overrides.parallelScale ||
-        options.camera.sceneOrigin)
-      throw UsageError(reason);
+    for (const char* name : {"--camera-position", "--camera-parallel-scale", "--scene-origin"}) {
+      if (!rowOf(name).isDefault(options)) throw UsageError(std::string(name) + ": " + reason);
+    }
     throw InputError(options.scene.string() + ": " + reason);
   }
-}
-
-/// The camera as --fit moves it, then zoomed as --camera-orbit says.
-Camera fitCamera(const Camera& camera, const Scene& scene, const RenderOptions& options, glm::ivec2 size) {
-  std::vector<glm::dvec3> points = outlineOf(scene);
-  if (options.camera.overrides.fit == Fit::AllAround)
-    points = sweptAbout(turningPoint(camera, options.camera.overrides, scene.bounds), points);
-  return zoomed(fitted(camera, points, double(size.x) / size.y),
-                options.camera.overrides.orbit.value_or(Orbit()).zoom);
-}
-
-glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options) {
-  if (options.camera.resolution) return *options.camera.resolution;
-  if (camera.aspectRatio <= 0.0) return {1280, 720};
-  return {std::clamp(int(std::lround(720.0 * camera.aspectRatio)), 1, 16384), 720};
 }
 
 /// The region asked for, else all of the picture.
@@ -71,14 +61,22 @@ Region chooseRegion(glm::ivec2 size, const RenderOptions& options) {
                    " is not inside the picture of " + text(size, " x ") + " pixels");
 }
 
-/// Throws InputError for the first pixel that is NaN or infinite.
-void checkFinite(const Image& image, const std::filesystem::path& path) {
+/// Throws InputError for the first pixel that is NaN or infinite. Values below 0, which filters leave and
+/// which are no light, become 0. Returns how many did.
+size_t settleRadiance(Image& image, const std::filesystem::path& path) {
+  size_t negative = 0;
   for (size_t i = 0; i < image.values.size(); ++i) {
-    if (std::isfinite(image.values[i])) continue;
+    float& value = image.values[i];
+    if (value < 0.0f && std::isfinite(value)) {
+      value = 0.0f;
+      ++negative;
+    }
+    if (std::isfinite(value)) continue;
     const size_t pixel = i / image.channelCount();
     throw InputError(path.string() + ": pixel (" + std::to_string(pixel % size_t(image.width)) + ", " +
                      std::to_string(pixel / size_t(image.width)) + ") is not finite");
   }
+  return negative;
 }
 
 void warn(const RenderOptions& options, const std::string& what, std::vector<std::string>& warnings) {
@@ -93,9 +91,12 @@ Environment makeEnvironment(const RenderOptions& options, std::future<LinearImag
     LinearImage read = map.get();
     environment.kind = Surroundings::Map;
     environment.image = std::move(read.image);
-    const Image& image = environment.image;
+    Image& image = environment.image;
     if (image.channelCount() < 3) throw InputError(options.light.hdriFile.string() + ": has no colour");
-    checkFinite(image, options.light.hdriFile);
+    const size_t negative = settleRadiance(image, options.light.hdriFile);
+    if (negative > 0)
+      warn(options, ": " + countText(negative, "value") + " below 0, which is no light, taken as 0",
+           warnings);
     if (read.wasEncoded)
       warn(options, ": holds no light above 1, so no sun and no lamp; an .hdr, .exr or .pfm does", warnings);
     // Mirror balls and faces of cubes are square; there is one reading of an environment here.
@@ -124,6 +125,18 @@ bool besideAllowed(const RenderOptions& options) {
 }
 
 }  // namespace
+
+Camera fitCamera(const Camera& camera, std::span<const glm::dvec3> points, const RenderOptions& options,
+                 glm::ivec2 size) {
+  return zoomed(fitted(camera, points, double(size.x) / size.y),
+                options.camera.overrides.orbit.value_or(Orbit()).zoom);
+}
+
+glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options) {
+  if (options.camera.resolution) return *options.camera.resolution;
+  if (camera.aspectRatio <= 0.0) return {1280, 720};
+  return {std::clamp(int(std::lround(720.0 * camera.aspectRatio)), 1, 16384), 720};
+}
 
 double pathsOf(const RenderOptions& options, glm::ivec2 size) {
   const bool adaptive = isAdaptive(options);
@@ -199,8 +212,6 @@ bool sameTree(const RenderOptions& a, const RenderOptions& b) {
   return iterative(a) == iterative(b) && besideAllowed(a) == besideAllowed(b);
 }
 
-namespace {
-
 GltfOptions gltfOptionsOf(const RenderOptions& options) {
   GltfOptions loading;
   loading.recenterOn =
@@ -212,6 +223,8 @@ GltfOptions gltfOptionsOf(const RenderOptions& options) {
   loading.limits = options.limits;
   return loading;
 }
+
+namespace {
 
 /// What a shadow catcher cannot do with the scene's lights.
 void checkCatcher(const RenderOptions& options, Scene& scene) {
@@ -228,6 +241,20 @@ void checkCatcher(const RenderOptions& options, Scene& scene) {
   if (std::ranges::any_of(scene.triangles, emits) || std::ranges::any_of(scene.spheres, emits))
     scene.warnings.push_back(options.scene.string() +
                              ": the light of emissive surfaces does not count for --shadow-catcher");
+}
+
+/// A plane that catches no shadow, most likely, since it is farther away than the scene is large.
+void checkCatcherPlace(const RenderOptions& options, Scene& scene) {
+  const std::optional<double>& height = options.light.catcherHeight;
+  if (!options.light.shadowCatcher || !height || scene.bounds.empty()) return;
+  const double below = scene.bounds.minimum.y - *height;
+  const double size = glm::length(scene.bounds.extent());
+  if (std::abs(below) <= size) return;
+  char text[128];
+  std::snprintf(text, sizeof text,
+                "--shadow-catcher: the plane is %.3g m %s the bottom of the scene, which is %.3g m large",
+                std::abs(below), below > 0.0 ? "below" : "above", size);
+  scene.warnings.emplace_back(text);
 }
 
 void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& stats) {
@@ -249,8 +276,12 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
   loaded.camera = chooseCamera(scene.cameras, loaded.cameraIndex, options.camera.overrides, scene.bounds,
                                framedAspect(options));
   loaded.size = chooseSize(loaded.camera, options);
-  if (options.camera.overrides.fit != Fit::None)
-    loaded.camera = fitCamera(loaded.camera, scene, options, loaded.size);
+  if (options.camera.overrides.fit != Fit::None) {
+    std::vector<glm::dvec3> points = outlineOf(scene);
+    if (options.camera.overrides.fit == Fit::AllAround)
+      points = sweptAbout(turningPoint(loaded.camera, options.camera.overrides, scene.bounds), points);
+    loaded.camera = fitCamera(loaded.camera, points, options, loaded.size);
+  }
   if (options.camera.lens.fStop && !loaded.camera.perspective)
     throw UsageError("--f-stop: the camera is orthographic, and has no lens");
   checkDistance(loaded.camera, scene.space, options);
@@ -291,10 +322,13 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   aim(loaded, options, film);
   addStrokes(loaded.scene, loaded.camera, loaded.size.y, options.camera.lineWidth);
   checkCatcher(options, loaded.scene);
+  checkCatcherPlace(options, loaded.scene);
+  std::ranges::move(vainOptions(options), std::back_inserter(loaded.scene.warnings));
   for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
   if (scene.triangles.empty() && scene.spheres.empty()) {
-    say(options,
-        "warning: " + options.scene.string() + ": no triangle, sphere, point or line: nothing to draw");
+    const bool hidden = !options.selection.hiddenNodes.empty();
+    say(options, "warning: " + options.scene.string() + ": no triangle, sphere, point or line: " +
+                     (hidden ? "--hide leaves nothing to draw" : "nothing to draw"));
   }
   stats.loadMs = watch.lap();
   step("building the tree", 0.5);

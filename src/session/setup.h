@@ -5,8 +5,10 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <span>
 
 #include "bvh/refit.h"
+#include "gltf/gltf.h"
 #include "render/renderer.h"
 #include "session/say.h"
 #include "session/statistics.h"
@@ -50,6 +52,16 @@ inline constexpr size_t kLeastBesideLarge = 256;
 
 /// Chooses camera, size and region of a scene that is there. Throws as loadScene() does for these.
 void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film);
+
+/// How the options have a scene read.
+GltfOptions gltfOptionsOf(const RenderOptions& options);
+
+/// The picture's size in pixels.
+glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options);
+
+/// The camera as --fit moves it about these points of the world, then zoomed as --camera-orbit says.
+Camera fitCamera(const Camera& camera, std::span<const glm::dvec3> points, const RenderOptions& options,
+                 glm::ivec2 size);
 
 /// Camera paths that the picture takes; infinite where time or noise ends it.
 double pathsOf(const RenderOptions& options, glm::ivec2 size);

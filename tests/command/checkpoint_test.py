@@ -124,11 +124,20 @@ class Checkpoints(Broken):
         options = [word for setting in settings.items() for word in setting]
         self.assertEqual(self.interrupted_after_a_checkpoint(*options), 130)
         kept = self.checkpoint.read_bytes()
-        for other, says in (({"--spp": 100001}, "spp 100000 and 100001"), ({"--bounces": 3}, "bounces 16 and 3"), ({"--seed": 5}, "seed 0 and 5"),
+        for other, says in (({"--spp": 99999}, "spp 100000 and 99999"), ({"--bounces": 3}, "bounces 16 and 3"), ({"--seed": 5}, "seed 0 and 5"),
                             ({"--resolution": "90,120"}, "width 120 and 90")):
             changed = [word for setting in (settings | other).items() for word in setting]
             self.fails(2, *self.arguments(*changed, "--resume"), says=["--resume", self.checkpoint, "another render", says])
         self.assertEqual(self.checkpoint.read_bytes(), kept)
+
+    def test_more_samples_than_at_first_are_drawn_on(self):
+        size = ["--resolution", "24,18", "--spp"]
+        whole, _ = self.unbroken(*size, 2000)
+        self.assertEqual(self.interrupted_after_a_checkpoint(*size, 1500), 130)
+        said = run(*[a for a in self.arguments("--resume", *size, 2000) if a != "--quiet"])
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertRegex(said.stderr, r"(?m)^fragtrace: --resume: goes on after \d+ of 2000 samples per pixel$")
+        self.assertEqual(self.output.read_bytes(), whole)
 
     def test_broken_checkpoints_are_refused(self):
         options = ["--resolution", "20,10", "--spp", 1000000]

@@ -43,6 +43,14 @@ class MissingTextures(Case):
             self.assertEqual(info.returncode, 0)
             self.assertIn(name, info.stderr + info.stdout)
 
+    def test_what_is_broken_is_named_by_file_and_by_place(self):
+        whole = png(4, 4, [10, 200, 10, 255] * 16)
+        webp = b"RIFF\x20\0\0\0WEBPVP8 \x14\0\0\0\x30\x01\0\x9d\x01\x2a\x04\0\x04\0" + bytes(10)
+        for name, data in (("head.png", whole[:20]), ("cut.png", whole[:-30]), ("odd.png", b"no picture"), ("cut.webp", webp)):
+            (self.folder / name).write_bytes(data)
+            self.fails(3, "render", self.scene(self.BASE, [name]), "-o", self.folder / "y.pfm", "--resolution", "9,9", "--spp", 1, "--quiet",
+                       says=[name, "scene.gltf: /images/0"])
+
     def test_one_that_is_there_is_drawn(self):
         (self.folder / "there.png").write_bytes(png(4, 4, [0, 255, 0, 255] * 16))
         color, said = self.middle(self.scene(self.BASE, ["there.png"]))

@@ -9,7 +9,7 @@ import struct
 import subprocess
 import time
 
-from support import FRAGTRACE, SCENES, Case, main, run
+from support import FRAGTRACE, SCENES, Case, Exr, main, run
 
 PLANE = SCENES / "mapped-plane.gltf"
 SMALL = ["--resolution", "40,30", "--spp", "2", "--traversal", "front-to-back"]
@@ -124,6 +124,53 @@ class Sequences(Case):
         self.assertLess(len(pictures), 91)
         for path in pictures:
             self.assertIn(b"fragtrace:uniform\0string\0\1\0\0\0" + b"1", path.read_bytes())
+
+    def test_one_camera_shows_all_frames_of_a_scene_without_one(self):
+        """Its place is that of the whole animation, whichever frames are asked for, so that machines may share a film."""
+        root = json.loads(self.scene.read_text())
+        root.pop("cameras", None)
+        for node in root["nodes"]:
+            node.pop("camera", None)
+        self.scene.write_text(json.dumps(root))
+        places = lambda: [Exr(self.folder / f"x.{k:02}.exr").numbers["worldToCamera"] for k in (0, 12, 24)]
+        for options in ([], ["--fit"], ["--camera-orbit", "30,20"], ["--camera-orbit", "30,20", "--fit"]):
+            said = self.draw("--frames", "0:24:12", *options).stderr
+            self.assertEqual(said.count("one camera shows the whole animation: --camera-position "), 1, said)
+            first, *others = places()
+            self.assertEqual(others, [first] * 2, options)
+            self.draw("--frames", "12:12", *options)
+            self.assertEqual(places()[1], first, options)
+            # What is said draws the same.
+            view = said.split("animation: ")[1].splitlines()[0].split(" ")
+            self.renders(self.scene, "-o", self.folder / "x.00.exr", "--quiet", *SMALL[2:], *view, "--animation-time", 0)
+            self.assertEqual(places()[0], first, options)
+        # The plane, 2 m wide, goes 1 m to the right: all of that is in the picture.
+        self.draw("--frames", "0:24:12", "--fit", "--no-background", "--stage", "flat")
+        for k in (0, 12, 24):
+            alpha = Exr(self.folder / f"x.{k:02}.exr").layers["A"]
+            self.assertEqual((max(alpha[0]), max(alpha[-1]), max(row[0] for row in alpha), max(row[-1] for row in alpha)), (0, 0, 0, 0), k)
+        self.assertNotIn("one camera", self.draw("--frames", "0:0", "--camera-position", "0,0,5").stderr)
+
+    def test_all_variants_are_drawn_each_to_its_name(self):
+        root = json.loads(self.scene.read_text())
+        root.pop("animations")
+        names = ["Midnight Blue", "a/b"]
+        root["extensionsUsed"] = root.get("extensionsUsed", []) + ["KHR_materials_variants"]
+        root.setdefault("extensions", {})["KHR_materials_variants"] = {"variants": [{"name": name} for name in names]}
+        root["materials"] += [{"pbrMetallicRoughness": {"baseColorFactor": color}} for color in ([0, 0, 1, 1], [1, 0, 0, 1])]
+        count = len(root["materials"])
+        for mesh in root["meshes"]:
+            for primitive in mesh["primitives"]:
+                primitive["extensions"] = {"KHR_materials_variants": {"mappings": [{"material": count - 2 + i, "variants": [i]} for i in range(2)]}}
+        self.scene.write_text(json.dumps(root))
+        output = self.folder / "x.#.exr"
+        self.renders(self.scene, "-o", output, "--quiet", *SMALL, "--material-variant", "all", "--stats", self.folder / "s.#.json")
+        self.assertEqual(sorted(p.name for p in self.folder.glob("[xs].*")), ["s.1.json", "s.Midnight Blue.json", "x.1.exr", "x.Midnight Blue.exr"])
+        for name, variant in (("Midnight Blue", "midnight blue"), ("1", "A/B")):
+            self.assertEqual((self.folder / f"x.{name}.exr").read_bytes(), self.single("--material-variant", variant), variant)
+        self.fails(2, "render", self.scene, "-o", self.folder / "y.exr", "--material-variant", "all", says=["--material-variant all: ", "#"])
+        self.fails(2, "render", self.scene, "-o", self.folder / "y#.exr", "--turntable", 2, "--material-variant", "all", says=["--material-variant all"])
+        self.fails(2, "render", PLANE, "-o", self.folder / "y#.exr", "--material-variant", "all", "--quiet", says=["has no variants"])
 
     def test_what_is_no_sequence_is_refused(self):
         for options, says in ((["--frames", "3:1"], "--frames"), (["--frames", "1"], "--frames"), (["--frames", "0:4:0"], "--frames"),

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "errors.h"
-#include "options/option_text.h"
+#include "options/parse_words.h"
 #include "view/camera_controller.h"
 
 namespace fragtrace {

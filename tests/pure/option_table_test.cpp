@@ -14,6 +14,7 @@
 #include "options/config_file.h"
 #include "options/option_text.h"
 #include "options/parse_render.h"
+#include "options/parse_words.h"
 
 namespace fragtrace {
 namespace {

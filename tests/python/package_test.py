@@ -160,7 +160,9 @@ class Errors(Package):
         with self.assertRaisesRegex(fragtrace.UsageError, "--spp"):
             fragtrace.render(SCENES / "cornell-box.gltf", spp=-1)
         for keywords, says in (({"sppp": 4}, "sppp: .*did you mean spp?"), ({"camera": {"pos": (0, 1, 4)}}, "camera_pos: .*camera_position"),
-                               ({"resolution": 160}, "resolution"), ({"exposure": 1}, "save"), ({"frames": "0:3"}, "animation_time")):
+                               ({"resolution": 160}, "resolution"), ({"exposure": 1}, "save"), ({"frames": "0:3"}, "animation_time"), ({"help": True}, "help\\(fragtrace.render\\)"), ({"output": "a.png"}, "save"),
+                               ({"format": "png"}, "save"), ({"quiet": True}, "messages"), ({"stats": "s.json"}, "statistics"), ({"seed": {}}, "no dict"),
+                               ({"seed": {"a": 1}}, "no dict"), ({"fit": "yes"}, "--fit: takes no value")):
             with self.assertRaisesRegex(ValueError, says):
                 fragtrace.render(SCENES / "cornell-box.gltf", **keywords)
         for wrong in ([], "a.exr"):
@@ -176,7 +178,9 @@ class Errors(Package):
             fragtrace.render(SCENES / "cornell-box.gltf", **SMALL).save(self.folder / "nowhere/a.png")
         with self.assertRaises(fragtrace.UsageError):
             fragtrace.tonemap(np.zeros(3))
-        with self.assertRaises(fragtrace.RenderError):
+        with self.assertRaisesRegex(fragtrace.UsageError, "exposure"):
+            fragtrace.tonemap(np.zeros((2, 2, 3)), exposure=float("nan"))
+        with self.assertRaisesRegex(fragtrace.UsageError, "2 x 2 pixels, the other 2 x 3"):
             fragtrace.diff(np.zeros((2, 2, 3)), np.zeros((3, 2, 3)))
         # And the next picture is drawn.
         fragtrace.render(SCENES / "cornell-box.gltf", **SMALL)

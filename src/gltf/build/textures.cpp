@@ -53,6 +53,15 @@ void warnMediaType(std::string_view declared, ImageFormat format, const std::str
   }
 }
 
+/// Names the file, if it is one, in what is thrown.
+ImageHeader headerOf(const std::vector<uint8_t>& bytes, const std::string& file) {
+  try {
+    return readImageHeader(bytes);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error((file.empty() ? "" : file + ": ") + error.what());
+  }
+}
+
 EncodedImage readImage(Document& document, int index) {
   const ImageSource& source = document.images.at(size_t(index));
   const std::string place = pointerTo("images", index);
@@ -60,9 +69,10 @@ EncodedImage readImage(Document& document, int index) {
   const bool isFile = source.bufferView < 0 && !isDataUri(source.uri);
   result.name =
       isFile ? pathOfUri(document.access, source.uri).string() : document.diagnostics.file() + ": " + place;
+  result.place = document.diagnostics.file() + ": " + place;
   result.bytes = imageBytes(document, index);
   const ImageHeader header =
-      document.diagnostics.attempt(place, [&] { return readImageHeader(result.bytes); });
+      document.diagnostics.attempt(place, [&] { return headerOf(result.bytes, isFile ? source.uri : ""); });
   if (header.format == ImageFormat::Pfm || header.format == ImageFormat::Hdr ||
       header.format == ImageFormat::OpenExr)
     document.diagnostics.refuse(place, "is no picture that a texture may have: PNG, JPEG, WebP");
@@ -113,7 +123,8 @@ uint32_t TextureTable::useImage(int image) {
   if (known != kMissIndex || lost_[size_t(image)]) return known;
   try {
     EncodedImage encoded = readImage(document_, image);
-    if (document_.drawMissingTextures) decodeTexels(encoded.bytes, encoded.name);  // a fault shows only then
+    if (document_.drawMissingTextures)
+      decodeTexels(encoded.bytes, nameOf(encoded));  // a fault shows only then
     known = uint32_t(scene_.images.size());
     scene_.images.push_back(std::move(encoded));
   } catch (const InputError& error) {

@@ -29,8 +29,10 @@ def _color(picture):
 def diff(picture, reference, metric="rmse"):
     """How far a picture is from its reference, as a number: rmse, mse, relmse, psnr (dB), max, or flip (of what a display shows).
 
-    Both are arrays of linear colours (height, width, 3 or 4), or files of such. Alpha is not compared. Raises RenderError for other sizes."""
+    Both are arrays of linear colours (height, width, 3 or 4), or files of such. Alpha is not compared. Raises UsageError for other sizes."""
     a, b = (np.ascontiguousarray(_planes(np.asarray(_color(one)))[0][:, :, :3]) for one in (picture, reference))
+    if a.shape[:2] != b.shape[:2]:
+        raise _core.UsageError("diff: one picture has {1} x {0} pixels, the other {3} x {2}".format(*a.shape[:2], *b.shape[:2]))
     if a.shape[2] != b.shape[2]:
         raise _core.UsageError("one picture is grey, and the other is not")
     return _core.difference(a, b, ["Y"] if a.shape[2] == 1 else ["R", "G", "B"], metric)

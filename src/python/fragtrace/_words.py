@@ -9,7 +9,12 @@ from fragtrace import _core
 
 SHORT = {"hdri": "hdri-file"}
 OF_FILES = ("exposure", "tone_map", "half", "png_depth")
-OF_COMMAND = ("output", "format", "checkpoint", "resume", "stats", "frames", "fps", "turntable", "continue", "quiet", "verbose")
+SINGLE = "only the command `fragtrace render` has it; animation_time and camera_orbit draw single pictures"
+ENDS = "only the command `fragtrace render` has it, since a picture in memory leaves no file to go on from"
+SAID = "nothing is printed here; `messages` of the picture has what the command says"
+ELSEWHERE = {"output": "save() of the picture writes a file", "format": "save() of the picture chooses the format by the file's name",
+             "checkpoint": ENDS, "resume": ENDS, "stats": "`statistics` of the picture has them", "frames": SINGLE, "fps": SINGLE,
+             "turntable": SINGLE, "continue": SINGLE, "quiet": SAID, "verbose": SAID, "help": "help(fragtrace.render) tells of keywords"}
 KNOWN = frozenset(_core.option_names())
 
 
@@ -28,8 +33,8 @@ def option_of(keyword):
     option = SHORT.get(keyword, keyword.replace("_", "-"))
     if keyword in OF_FILES:
         raise _core.UsageError(f"{keyword}: only files have it, so it is a keyword of save()")
-    if keyword in OF_COMMAND:
-        raise _core.UsageError(f"{keyword}: only the command `fragtrace render` has it; animation_time and camera_orbit draw single pictures")
+    if keyword in ELSEWHERE:
+        raise _core.UsageError(f"{keyword}: {ELSEWHERE[keyword]}")
     if option not in KNOWN:
         close = difflib.get_close_matches(option, KNOWN, 1)
         raise _core.UsageError(f"{keyword}: no keyword of render()" + (f"; did you mean {close[0].replace('-', '_')}?" if close else ""))
@@ -42,7 +47,11 @@ def words_of(scene, keywords):
     path = os.fspath(scene)
     words = ["./" + path if path.startswith("-") else path]
     for name, value in keywords.items():
+        if isinstance(value, np.bool_):
+            value = bool(value)
         if isinstance(value, dict):
+            if not any(option.startswith(f"{name.replace('_', '-')}-") for option in KNOWN):
+                raise _core.UsageError(f"{name}: takes no dict")
             words += words_of("", {f"{name}_{member}": one for member, one in value.items()})[1:]
             continue
         option = option_of(name)

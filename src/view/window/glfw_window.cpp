@@ -47,7 +47,10 @@ Glfw::Glfw() {
 #endif
   if (glfwInit()) return;
   const bool told = std::getenv("WAYLAND_DISPLAY") != nullptr && !noWayland.empty();
-  throw std::runtime_error(takeGlfwErrors() + (told ? "; Wayland: " + noWayland : ""));
+  const char* display = std::getenv("DISPLAY");
+  const bool named = display != nullptr && *display != '\0';
+  throw std::runtime_error((named ? takeGlfwErrors() : "X11: there is no display (DISPLAY is not set)") +
+                           (told ? "; Wayland: " + noWayland : ""));
 }
 
 Glfw::~Glfw() { glfwTerminate(); }

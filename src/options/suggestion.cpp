@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/suggestion.h"
+#include "options/suggestion.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ struct OtherName {
 };
 
 /// As other renderers have it.
-constexpr std::array<OtherName, 14> kOtherNames = {{
+constexpr std::array<OtherName, 18> kOtherNames = {{
     {"--samples", "--spp"},
     {"--samples-per-pixel", "--spp"},
     {"--size", "--resolution"},
@@ -31,6 +31,10 @@ constexpr std::array<OtherName, 14> kOtherNames = {{
     {"--fov", "--camera-view-angle"},
     {"--integrator", "--stage"},
     {"--tonemap", "--tone-map"},
+    {"-v", "--version"},
+    {"-V", "--version"},
+    {"-v", "--verbose"},
+    {"-q", "--quiet"},
 }};
 
 /// Letters to insert, remove or replace (Levenshtein).
@@ -51,6 +55,14 @@ size_t editDistance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+std::string nearestName(std::string_view unknown, const std::vector<std::string>& known) {
+  const size_t letters = unknown.size() - std::min(unknown.find_first_not_of('-'), unknown.size());
+  const auto distance = [&](const std::string& name) { return editDistance(unknown, name); };
+  const auto nearest = std::ranges::min_element(known, {}, distance);
+  const bool isNear = nearest != known.end() && distance(*nearest) <= letters / 3;
+  return isNear ? *nearest : std::string();
+}
+
 std::string suggestedOption(const std::string& unknown, const std::vector<std::string>& known) {
   const auto isKnown = [&](std::string_view name) { return std::ranges::find(known, name) != known.end(); };
   for (const OtherName& name : kOtherNames) {
@@ -60,12 +72,7 @@ std::string suggestedOption(const std::string& unknown, const std::vector<std::s
   for (const std::string& name : known) {
     if (unknown.size() > kDashes && name.starts_with(unknown)) return name;
   }
-  const auto distance = [&](const std::string& name) { return editDistance(unknown, name); };
-  const auto nearest = std::ranges::min_element(known, {}, distance);
-  // As many letters may be wrong as a third of the name has.
-  const bool isNear = nearest != known.end() && unknown.size() > kDashes &&
-                      distance(*nearest) <= (unknown.size() - kDashes) / 3;
-  return isNear ? *nearest : std::string();
+  return nearestName(unknown, known);
 }
 
 }  // namespace fragtrace

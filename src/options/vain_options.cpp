@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "options/vain_options.h"
+
+#include <glm/gtx/component_wise.hpp>
+
+#include "image/format.h"
+#include "options/option_row.h"
+
+namespace fragtrace {
+
+namespace {
+
+using Options = RenderOptions;
+
+/// Is said where the option is given and the condition holds.
+struct VainRow {
+  const char* option;
+  bool (*isVain)(const Options&);
+  const char* why;
+};
+
+/// Whether a file is written whose name ends so.
+bool writes(const Options& o, std::initializer_list<ImageFormat> formats) {
+  const auto format = o.output.file.empty() ? std::nullopt : formatOfName(o.output.file);
+  return format && std::ranges::find(formats, *format) != formats.end();
+}
+
+bool isLinear(const Options& o) {
+  return writes(o, {ImageFormat::OpenExr, ImageFormat::Hdr, ImageFormat::Pfm});
+}
+
+bool hasNoAlpha(const Options& o) {
+  return writes(o, {ImageFormat::Jpeg, ImageFormat::Hdr, ImageFormat::Pfm});
+}
+
+bool mayHaveMap(const Options& o) { return hasMap(o) || o.light.defaultLight == DefaultLight::Studio; }
+
+constexpr VainRow kRows[] = {
+    {"--fps", [](const Options& o) { return !o.output.sequence.frames; }, "goes with --frames"},
+    {"--background-blur", [](const Options& o) { return o.light.hdriFile.empty(); },
+     "there is no --hdri-file to blur"},
+    {"--hdri-rotation", [](const Options& o) { return !mayHaveMap(o); },
+     "there is neither an --hdri-file nor --studio to turn"},
+    {"--no-background", hasNoAlpha,
+     "a file of this format has no alpha, so the background is black; .png and .exr have it"},
+    {"--background-color", [](const Options& o) { return !o.light.background; }, "--no-background hides it"},
+    {"--background-color", [](const Options& o) { return glm::compMax(*o.light.backgroundColor) > 1.0f; },
+     "values above 1 are brighter than white; those from 0 to 255 are divided by 255 first"},
+    {"--exposure", isLinear, "changes .png and .jpg only; this file holds linear radiance"},
+    {"--tone-map", isLinear, "changes .png and .jpg only; this file holds linear radiance"},
+    {"--output",
+     [](const Options& o) {
+       return !isSequence(o) && o.output.file.filename().string().find('#') != std::string::npos;
+     },
+     "# stands for a number or name only with --frames, --turntable or --material-variant all"},
+};
+
+}  // namespace
+
+std::vector<std::string> vainOptions(const RenderOptions& options) {
+  std::vector<std::string> sentences;
+  for (const VainRow& row : kRows) {
+    if (!rowOf(row.option).isDefault(options) && row.isVain(options))
+      sentences.push_back(std::string(row.option) + ": " + row.why);
+  }
+  return sentences;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Options that were given and change nothing, or hardly what was meant.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "stage/render_options.h"
+
+namespace fragtrace {
+
+/// One sentence for each such option, which begins with its name. Only what options alone tell: the scene is
+/// not looked at.
+std::vector<std::string> vainOptions(const RenderOptions& options);
+
+}  // namespace fragtrace

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "session/sequence_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "gltf/gltf.h"
+#include "scene/fit.h"
+#include "scene/parts.h"
+#include "session/setup.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// What the poses fill together, world space.
+struct Filled {
+  BoundsDouble bounds;
+  std::vector<glm::dvec3> points;  ///< whose hull is that of all, nearly
+};
+
+/// Of many points those that are farthest in some direction.
+void appendHull(std::vector<glm::dvec3> points, std::vector<glm::dvec3>& hull) {
+  constexpr size_t kFew = 4096;
+  constexpr int kDirections = 512;
+  if (points.size() <= kFew) {
+    hull.insert(hull.end(), points.begin(), points.end());
+    return;
+  }
+  const double goldenAngle = glm::pi<double>() * (3.0 - std::sqrt(5.0));
+  for (int i = 0; i < kDirections; ++i) {
+    const double y = 1.0 - 2.0 * (i + 0.5) / kDirections;
+    const double r = std::sqrt(1.0 - y * y);
+    const glm::dvec3 direction(r * std::cos(goldenAngle * i), y, r * std::sin(goldenAngle * i));
+    hull.push_back(*std::ranges::max_element(
+        points, {}, [&](const glm::dvec3& point) { return glm::dot(point, direction); }));
+  }
+}
+
+/// Seconds, over all of the animation; where its length is not known, those of the pictures asked for.
+std::vector<double> timesOf(const Scene& scene, const RenderOptions& options) {
+  constexpr double kPerSecond = 12.0;
+  constexpr int kFewest = 8;
+  constexpr int kMost = 48;
+  const SequenceOptions& sequence = options.output.sequence;
+  const std::string& name = options.selection.animation;
+  const size_t index = name.empty() ? 0 : indexOfPart("--animation", name, scene.animationNames);
+  const std::optional<double> length =
+      index < scene.animationSeconds.size() ? scene.animationSeconds[index] : std::nullopt;
+  const double first = length ? 0.0 : sequence.frames->first / sequence.fps;
+  const double last = length.value_or(sequence.frames->last / sequence.fps);
+  const int count = int(std::clamp(std::ceil((last - first) * kPerSecond), double(kFewest), double(kMost)));
+  std::vector<double> times;
+  for (int i = 0; i <= count; ++i) times.push_back(first + (last - first) * i / count);
+  return times;
+}
+
+}  // namespace
+
+CameraOverrides overridesOfAllPoses(const RenderOptions& options) {
+  const CameraOverrides& asked = options.camera.overrides;
+  const bool fits = asked.fit != Fit::None;
+  const bool placed = fits || asked.orbit;
+  if (asked.position && !placed) return asked;
+  RenderOptions posed = options;
+  posed.selection.animationTime = 0.0;
+  const Scene first = loadGltf(posed.scene, gltfOptionsOf(posed));
+  if (first.animationNames.empty() || (!first.cameras.empty() && !placed)) return asked;
+  Filled filled;
+  for (const double time : timesOf(first, options)) {
+    posed.selection.animationTime = time;
+    const Scene scene = loadGltf(posed.scene, gltfOptionsOf(posed));
+    if (scene.bounds.empty()) continue;
+    filled.bounds.include(scene.bounds);
+    if (fits) appendHull(outlineOf(scene), filled.points);
+  }
+  Camera camera = chooseCamera(first.cameras,
+                               cameraIndexOf(options.camera.index, options.selection.camera, first.cameras),
+                               asked, filled.bounds, framedAspect(options));
+  if (fits) camera = fitCamera(camera, filled.points, options, chooseSize(camera, options));
+  CameraOverrides all;
+  all.position = camera.position;
+  all.focalPoint = focalPointOf(camera, filled.bounds);
+  all.viewUp = camera.up;
+  if (camera.perspective)
+    all.viewAngleDegrees = glm::degrees(camera.fovY);
+  else
+    all.parallelScale = camera.halfHeight;
+  return all;
+}
+
+}  // namespace fragtrace

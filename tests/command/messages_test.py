@@ -1,0 +1,202 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What the command line says: of values that are none, of words that it does not know, of options that change nothing."""
+import json
+import os
+import re
+import struct
+import subprocess
+import sys
+from pathlib import Path
+
+from support import FRAGTRACE, SCENES, SMALL, Case, main, run
+
+sys.path.insert(0, str(SCENES.parent / "scripts"))
+from help_text import command, kind_of, readable  # noqa: E402
+
+BOX = SCENES / "cornell-box.gltf"
+TINY = ["--resolution", "8,8", "--spp", "1"]
+
+
+class Values(Case):
+    """Every option that takes a number, of every command, says the same of what is none."""
+
+    COMMANDS = (["render", BOX, "-o", "x.png"], ["view", BOX], ["diff", BOX, BOX], ["denoise", "x.exr", "-o", "y.exr"], ["bench", "frame", BOX],
+                ["bench", "error", BOX], ["bench", "start", BOX], ["bench", "motion", BOX], ["bench", "scale"])
+
+    def test_what_is_no_number_is_said_so_by_name(self):
+        tried = set()
+        for words in self.COMMANDS:
+            names = [word for word in words if isinstance(word, str) and not word.startswith("-") and "." not in word]
+            for name, _ in command(FRAGTRACE, names).options:
+                option = next(one for one in readable(name)[0].split(",") if one.startswith("--"))
+                if kind_of(name) not in ("FLOAT", "INT", "UINT", "SECONDS") or (option, names[0]) in tried:
+                    continue
+                tried.add((option, names[0]))
+                for value in ("10s", "5%") if names[0] == "render" else ("10s",):
+                    said = self.fails(2, *words, f"{option}={value}", cwd=self.folder).stderr
+                    self.assertRegex(said, rf"^fragtrace: {option}: '{value}' is no (whole )?number", f"{words} {said}")
+        self.assertGreater(len(tried), 60)
+
+    def test_a_number_that_is_too_large_is_told_the_range_in_few_digits(self):
+        for option, value, bounds in (("--focus-distance", "1e40", "1e-09 to 1e+30"), ("--hdri-rotation", "1e39", "-1e+06 to 1e+06"),
+                                      ("--exposure", "1e39", "-100 to 100"), ("--noise", "5", "1e-05 to 1")):
+            self.fails(2, "render", BOX, "-o", self.folder / "x.png", option, value, says=[f"{option}: '{value}' is not in the range {bounds}"])
+        self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--background-color", "1e30,1,1", says=["--background-color: above 1000000"])
+
+    def test_elements_of_lists_are_named_one_by_one(self):
+        for option, value, said in (("--camera-position", "a,b,c", "'a' is no number"), ("--camera-orbit", "1,x", "'x' is no number"),
+                                    ("--camera-orbit", "1", "takes 2 or 3 values, not 1"), ("--camera-orbit", "1,2,3,4", "takes 2 or 3 values, not 4")):
+            self.fails(2, "render", BOX, "-o", self.folder / "x.png", option, value, says=[f"{option}: {said}"])
+
+    def test_an_empty_value_is_none(self):
+        for words in (["--exposure", ""], ["--exposure=", "--quiet"], ["--hdri-file", ""], ["--camera="]):
+            option = words[0].rstrip("=")
+            self.fails(2, "render", BOX, "-o", self.folder / "x.png", *words, says=[f"{option}: its value is empty"])
+        self.fails(2, "render", "", "-o", self.folder / "x.png", says=["an argument is empty"])
+
+    def test_a_name_that_is_none_is_told_those_that_are(self):
+        for option, names in (("--png-depth", "8, 16"), ("--missing-textures", "error, warn"), ("--tone-map", "linear, ")):
+            self.fails(2, "render", BOX, "-o", self.folder / "x.png", option, "foo", says=[f"{option}: 'foo' is none of {names}"])
+        self.fails(2, "bench", "start", BOX, "--format", "gif", says=["--format: 'gif' is none of png, jpg"])
+
+    def test_a_lens_that_cannot_be_is_named_by_its_option(self):
+        for option, value in (("--camera-view-angle", "400"), ("--camera-parallel-scale", "-1")):
+            self.fails(2, "render", BOX, "-o", self.folder / "x.png", option, value, says=[f"{option}: is not "])
+        self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--camera-position", "1e20,0,0", says=["--camera-position: the camera is too far"])
+
+    def test_a_switch_takes_no_value(self):
+        for switch in ("--fit=yes", "--half=0", "--quiet=maybe"):
+            self.fails(2, "render", BOX, "-o", self.folder / "x.png", switch, says=[f"{switch.split('=')[0]}: takes no value"])
+
+    def test_two_that_contradict_each_other_are_refused(self):
+        self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--default-light", "studio", "--no-default-light",
+                   says=["--default-light: does not go with --no-default-light"])
+
+
+class UnknownWords(Case):
+    def test_help_and_version_have_the_names_that_people_try(self):
+        for words in (["--verison"], ["-v"], ["-V"]):
+            self.fails(2, *words, says=["did you mean --version?"])
+        for words, own in ((["help"], ["--help"]), (["help", "render"], ["render", "--help"]), (["help", "bench", "frame"], ["bench", "frame", "--help"])):
+            self.assertEqual(run(*words).stdout, run(*own).stdout)
+            self.assertEqual(run(*words).returncode, 0)
+        version = run("--version").stdout
+        self.assertEqual(run("bench", "--version").stdout, version)
+        self.assertEqual(subprocess.run([f"{FRAGTRACE}-bench", "--version"], capture_output=True, text=True).stdout, version)
+
+    def test_a_command_is_suggested(self):
+        self.fails(2, "rendr", BOX, says=["did you mean render?"])
+        self.fails(2, BOX, "-o", self.folder / "a.png", says=["-o is no option of view; did you mean the command render?"])
+        self.fails(2, "render", BOX, "-v", says=["did you mean --verbose?"])
+
+    def test_a_setting_of_a_benchmark_is_told_as_the_command_is(self):
+        for setting, said in (("x=--nope", "--nope is no option of render"), ("x=--samples 2", "did you mean --spp?"), ("x='--spp 2", "has no end"),
+                              ("x=--spp foo", "--spp: 'foo' is no whole number")):
+            self.fails(2, "bench", "frame", BOX, "--config", setting, says=["configuration 'x': ", said])
+        for option in (["--exposure", "1"], ["--tree-level", "1"], ["--verbose"], ["--tone-map", "agx"]):
+            self.fails(2, "bench", "frame", BOX, *option, says=[f"{option[0]}: "])
+
+
+class ConfigFaults(Case):
+    def test_what_is_wrong_with_an_option_of_the_file_is_the_file_s(self):
+        config = self.folder / "c.json"
+        for name, value in (("half", True), ("region", "0,0,99,99"), ("camera", "none"), ("frames", "0:3"), ("exposure", ""), ("seed", "x"),
+                            ("camera-position", "1e20,0,0"), ("png-depth", 16), ("continue", True)):
+            config.write_text(json.dumps({name: value}))
+            self.fails(3, "render", BOX, "-o", self.folder / "x.jpg", *SMALL, "--config", config, says=[f"{config}: /{name}"])
+
+
+class InVain(Case):
+    """Options that change nothing are said, once, and the picture is drawn."""
+
+    def warned(self, says, *options, name="x.png", scene=BOX, json_too=False):
+        stats = self.folder / "s.json"
+        result = run("render", scene, "-o", self.folder / name, *TINY[:2], *([] if "--spp" in options else TINY[2:]), *options, "--stats", stats)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr.count(f"warning: {says}"), 1, (options, result.stderr))
+        if json_too:
+            self.assertIn(says, " ".join(json.loads(stats.read_text())["warnings"]))
+
+    def test_options_that_miss_another(self):
+        for options in (["--fps", "30"], ["--background-blur", "3"], ["--hdri-rotation", "30", "--default-light", "white"],
+                        ["--background-color", "1,1,1", "--no-background"], ["--background-color", "255,0,0"]):
+            self.warned(options[0] + ": ", *options, json_too=True)
+
+    def test_options_that_the_file_s_format_has_no_use_for(self):
+        for name, options in (("x.jpg", ["--no-background"]), ("x.pfm", ["--no-background"]), ("x.exr", ["--exposure", "1"]),
+                              ("x.hdr", ["--tone-map", "agx"]), ("x##.png", [])):
+            self.warned((options or ["--output"])[0] + ": ", *options, name=name)
+
+    def test_nothing_is_said_of_those_that_do(self):
+        for name, options in (("x.png", ["--exposure", "1", "--tone-map", "agx", "--no-background"]), ("x.exr", ["--no-background"]),
+                              ("x.png", ["--studio", "--hdri-rotation", "30"]), ("x.png", ["--background-color", "1,0.5,0"])):
+            self.assertEqual(self.renders(BOX, "-o", self.folder / name, *TINY, *options).stderr, "", options)
+
+    def test_a_catcher_far_away(self):
+        self.warned("--shadow-catcher: the plane is ", "--shadow-catcher", "-1000")
+        result = self.renders(BOX, "-o", self.folder / "x.png", *TINY, "--shadow-catcher", "-1")
+        self.assertNotIn("the plane is", result.stderr)
+
+    def test_a_scene_of_which_all_is_hidden(self):
+        nodes = json.loads(run("info", "--nodes", "--json", BOX).stdout)["nodes"]
+        hide = [word for node in nodes for word in ("--hide", node["index"])]
+        self.warned(f"{BOX}: no triangle, sphere, point or line: --hide leaves nothing", *hide)
+
+    def test_a_view_of_nothing(self):
+        self.warned("this view shows nothing of the scene", "--camera-position", "0,0,5", "--camera-focal-point", "0,0,10")
+
+    def test_a_camera_in_a_closed_shell(self):
+        root = json.loads((SCENES / "furnace.gltf").read_text())
+        for material in root["materials"]:
+            material["doubleSided"] = True
+        scene = self.folder / "shell.gltf"
+        scene.write_text(json.dumps(root))
+        inside = ["--camera-position", "0,0,0.1", "--camera-focal-point", "0,0,1", "--spp", "16"]
+        self.warned("100 % of the pixels are black: nearly all camera paths end in the dark; the camera stands inside", *inside, scene=scene)
+
+    def test_light_below_zero_is_taken_as_none(self):
+        path = self.folder / "map.pfm"
+        pictures = []
+        for value in (-1, 0):
+            path.write_bytes(b"PF\n4 2\n-1.0\n" + struct.pack("<3f", value, 1, 1) * 8)
+            result = self.renders(SCENES / "environment-diffuse.gltf", "-o", self.folder / "x.pfm", *TINY, "--hdri-file", path)
+            self.assertEqual("map.pfm: 8 values below 0" in result.stderr, value < 0, result.stderr)
+            pictures.append((self.folder / "x.pfm").read_bytes())
+        self.assertEqual(*pictures)
+
+
+class Ends(Case):
+    def test_one_is_one(self):
+        result = self.renders(BOX, "-o", self.folder / "x.exr", *TINY)
+        self.assertIn(", 1 sample per pixel ", result.stdout)
+        self.assertIn(": 1 part, 1 sample per pixel\n", run("merge", self.folder / "x.exr", "-o", self.folder / "m.exr").stdout)
+        self.assertRegex(run("bench", "start", BOX, *TINY, "--starts", "1").stdout, ", 1 cold start[,\n]")
+        self.assertIn("36 triangles, 0 spheres, ", run("bench", "traversal", BOX, "--resolution", "8,8", "--rounds", "1").stdout)
+
+    def test_a_reader_that_leaves_is_no_error(self):
+        for words in (["--help"], ["render", "--help"], ["info", "--json", BOX]):
+            result = subprocess.run(["bash", "-c", 'exec 3>&1; { "$@"; echo $? >&3; } | true', "-", FRAGTRACE, *words], capture_output=True, text=True)
+            self.assertEqual(result.stderr, "")
+            self.assertIn(result.stdout.strip(), ("0", "141"))  # 0: all was written before
+
+    def test_a_missing_folder_for_temporary_files_is_named(self):
+        result = self.fails(1, "bench", "start", BOX, env={**os.environ, "TMPDIR": "/none"})
+        self.assertIn("TMPDIR", result.stderr)
+
+    def test_a_window_that_cannot_be_opened(self):
+        environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        self.fails(4, "view", BOX, says=["X11: there is no display (DISPLAY is not set)"], env=environment)
+
+    def test_a_library_of_windows_that_is_not_there(self):
+        program = self.folder / "fragtrace"
+        program.write_bytes(Path(FRAGTRACE).read_bytes())
+        program.chmod(0o755)
+        environment = {name: value for name, value in os.environ.items() if name != "FRAGTRACE_LIBRARY_PATH"}
+        result = subprocess.run([program, "view", BOX], capture_output=True, text=True, env=environment)
+        self.assertEqual(result.returncode, 4)
+        self.assertTrue(re.search("libfragtrace_window.so.*the package fragtrace holds it", result.stderr), result.stderr)
+
+
+if __name__ == "__main__":
+    main()

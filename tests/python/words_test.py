@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Keywords as words, without the compiled module and NumPy: stand-ins name the options and the types. usage: words_test.py FRAGTRACE SOURCE_FOLDER"""
+import subprocess
+import sys
+import types
+import unittest
+from pathlib import Path
+
+PROGRAM, SOURCE = sys.argv.pop(1), Path(sys.argv.pop(1)).resolve()
+sys.path.insert(0, str(SOURCE / "scripts"))
+from help_text import command, readable  # noqa: E402
+
+
+class UsageError(ValueError):
+    pass
+
+
+names = [readable(name)[0].split(",")[-1].removeprefix("--") for name, _ in command(PROGRAM, ["render"]).options]
+core = types.SimpleNamespace(UsageError=UsageError, option_names=lambda: [name for name in names if name not in ("help", "output", "config")])
+numpy = types.SimpleNamespace(ndarray=type("ndarray", (), {}), generic=type("generic", (), {}), bool_=type("bool_", (int,), {}))
+package = types.ModuleType("fragtrace")
+package.__path__ = [str(SOURCE / "src/python/fragtrace")]
+package._core = core
+sys.modules.update({"numpy": numpy, "fragtrace": package, "fragtrace._core": core})
+from fragtrace._words import words_of  # noqa: E402
+
+
+class Keywords(unittest.TestCase):
+    def test_what_only_the_command_has_is_told_where_it_is_here(self):
+        for keywords, says in (({"help": True}, "help\\(fragtrace.render\\)"), ({"output": "a.png"}, "save\\(\\)"), ({"format": "png"}, "save\\(\\)"),
+                               ({"quiet": True}, "messages"), ({"verbose": True}, "messages"), ({"stats": "s.json"}, "statistics"),
+                               ({"frames": "0:3"}, "animation_time"), ({"checkpoint": 3}, "go on from")):
+            with self.assertRaisesRegex(UsageError, f"^{next(iter(keywords))}: .*{says}"):
+                words_of("a.gltf", keywords)
+
+    def test_a_dict_is_of_options_that_begin_with_its_name(self):
+        self.assertEqual(words_of("a.gltf", {"camera": {"position": (0, 1, 4)}})[1:], ["--camera-position=0,1,4"])
+        self.assertEqual(words_of("a.gltf", {"camera": {}})[1:], [])
+        for value in ({}, {"a": 1}):
+            with self.assertRaisesRegex(UsageError, "^seed: takes no dict"):
+                words_of("a.gltf", {"seed": value})
+
+    def test_switches(self):
+        self.assertEqual(words_of("a.gltf", {"fit": numpy.bool_(True)})[1:], ["--fit"])
+        words = words_of("a.gltf", {"fit": "yes"})
+        refused = subprocess.run([PROGRAM, "render", *words, "-o", "a.png"], capture_output=True, text=True)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("--fit: takes no value", refused.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
