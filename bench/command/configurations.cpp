@@ -166,8 +166,8 @@ std::vector<BenchConfiguration> configurationsOf(const RawConfigurations& raw, c
   return configurations;
 }
 
-BenchConfiguration configurationOf(const CLI::App& app, const std::string& name,
-                                   const std::string& text, const std::string& scene) {
+BenchConfiguration configurationOf(const CLI::App& app, const std::string& name, const std::string& text,
+                                   const std::string& scene) {
   BenchConfiguration c{name, text, {}, {}, false};
   const GivenOptions shared = givenOptions(app);
   checkShared(shared);

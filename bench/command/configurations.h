@@ -42,8 +42,8 @@ std::vector<BenchConfiguration> configurationsOf(const RawConfigurations& raw, c
                                                  const char* defaultSamples);
 
 /// One configuration of the program's own, with what was given for all where it has none. Throws UsageError.
-BenchConfiguration configurationOf(const CLI::App& app, const std::string& name,
-                                   const std::string& text, const std::string& scene);
+BenchConfiguration configurationOf(const CLI::App& app, const std::string& name, const std::string& text,
+                                   const std::string& scene);
 
 /// The files that they read, but for the pictures that scenes refer to.
 std::vector<std::filesystem::path> inputsOf(std::span<const BenchConfiguration> configurations);
