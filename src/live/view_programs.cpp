@@ -21,11 +21,19 @@ constexpr size_t kLeastKept = 2;
 constexpr size_t kMostKept = 6;
 constexpr size_t kMostKeptBytes = size_t(1) << 29;
 
-/// The picture's program and those of its features; the picture's draws what comes next.
-void compileAll(Tracer& tracer, const View& view) {
-  Film tiny(kCompiledFor);
-  for (const ShaderVariant& feature : tracer.features) tracer.renderer->compile(feature, tiny, view);
-  tracer.renderer->compile(tracer.variant, tiny, view);
+/// The picture's program, if it can be had, and those of its features; the picture's draws what comes next.
+void compileAll(ViewProgram& program, const View& view) {
+  if (!program.error.empty()) return;
+  Tracer& tracer = program.tracer;
+  try {
+    Film tiny(kCompiledFor);
+    for (const ShaderVariant& feature : tracer.features) tracer.renderer->compile(feature, tiny, view);
+    tracer.renderer->compile(tracer.variant, tiny, view);
+  } catch (const ContextLost&) {
+    throw;
+  } catch (const RenderError& error) {
+    program.error = error.what();
+  }
 }
 
 /// What of the options decides which program draws, and what it reads.
@@ -87,7 +95,7 @@ void ViewPrograms::settle() {
   if (!compiling()) return;
   news_ = true;
   const std::shared_ptr<ViewProgram> program = coming_.get();
-  if (program->error.empty()) compileAll(program->tracer, loaded_.view);
+  compileAll(*program, loaded_.view);
   keep(program);
 }
 
@@ -134,7 +142,7 @@ std::shared_ptr<ViewProgram> ViewPrograms::makeAside(const RenderOptions& part) 
   aside_->context->run([&] {
     DebugLog log;
     program = make(part);
-    if (program->error.empty()) compileAll(program->tracer, loaded_.view);
+    compileAll(*program, loaded_.view);
     // Mesa crashes where programs are deleted that several contexts have drawn with (seen with 22.3): the
     // context that draws makes its own, out of the driver's cache.
     if (program->tracer.renderer) program->tracer.renderer->forgetPrograms();

@@ -61,7 +61,6 @@ ViewTracer::ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn
       thumbnails_(exchange),
       oidn_(std::move(oidn)),
       clock_(start.waitsForPasses) {
-  resolution_.targetMs = start.movingMs > 0.0 ? start.movingMs : std::numeric_limits<double>::infinity();
   passOnWhatIsSaid([&exchange](const std::string& text) { exchange.tell(text); });
 }
 
@@ -115,6 +114,10 @@ void ViewTracer::enterContext(const SharedContexts& shared) {
                            : "pictures are copied: they are drawn by " + context_->renderer + " (" +
                                  context_->backend + ")");
   if (!context_->software) clock_.askDevice();
+  resolution_ = controllerFor(context_->software);
+  if (start_.movingMs)
+    resolution_.targetMs =
+        *start_.movingMs > 0.0 ? *start_.movingMs : std::numeric_limits<double>::infinity();
   driverLog_ = std::make_unique<DebugLog>();
   maker_ = std::make_unique<PictureMaker>(start_.render.device.shaderFolder, oidn_, clock_);
 }
@@ -361,21 +364,26 @@ bool ViewTracer::work() {
   clock_.restart();
   // A frame of a moving picture is short, and worth its end: else nothing would be seen before the hand
   // rests.
-  const bool complete = renderer.addSamples(
-      *side->film, side->view, side->samples, side->samples + count, side->times,
-      [&](double) { return !(request_.moving ? exchange_.ending() : exchange_.interrupted()); });
+  int added = 0;
+  do {
+    const bool complete = renderer.addSamples(
+        *side->film, side->view, side->samples, side->samples + count, side->times,
+        [&](double) { return !(request_.moving ? exchange_.ending() : exchange_.interrupted()); });
+    if (!complete) return true;
+    side->samples += count;
+    added += count;
+  } while (request_.moving && side->samples < side->options.sampling.spp &&
+           fitsOneMore(resolution_, (side->times.renderMs - before) * double(sides_.size()), added));
   clock_.end(Pass::Trace);
-  if (!complete) return true;
-  side->samples += count;
   const double filterMs = denoises(*side) && !settled ? filterMsPerPixel_ * size.x * size.y : 0.0;
   frameTaken(resolution_, request_.size, size,
-             ((side->times.renderMs - before) / count + filterMs) * double(sides_.size()));
+             ((side->times.renderMs - before) / added + filterMs) * double(sides_.size()));
   std::vector<double>& frames = side->times.frameMs;
   if (frames.size() > kFrames) frames.erase(frames.begin(), frames.end() - kFrames);
   const double pause = (denoises(*side) ? kFilteredShare : kPublishShare) * publishMs_;
   const bool due = denoisesByOidn(*side) ? side->samples >= 2 * side->shownAt
                                          : millisecondsSince(published_) > std::max(kPublishMs, pause);
-  if (!settled || side->samples == count || due || resting(*side)) publish(*side);
+  if (!settled || side->samples == added || due || resting(*side)) publish(*side);
   return true;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "options/parse_render.h"
 
 namespace fragtrace {
@@ -11,7 +13,8 @@ struct ViewOptions {
   std::filesystem::path statusFile;
   std::filesystem::path reference;  ///< a picture that is shown as side B; empty: none
   // Of measurements alone.
-  double movingMs = 100.0;      ///< that a picture in motion may take; 0: it has full resolution
+  /// That a picture in motion may take; 0: it has full resolution; none: what the device can do.
+  std::optional<double> movingMs{};
   bool waitsForPasses = false;  ///< so that each has its time
   bool keepsPast = true;        ///< what the camera saw before is taken over
 };

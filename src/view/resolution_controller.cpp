@@ -53,6 +53,21 @@ void keepMoving(ResolutionController& controller, glm::ivec2 full) {
   controller.step = cost > 0.0 ? finestWithin(full, cost, controller.targetMs) : kResolutionSteps.size() - 1;
 }
 
+ResolutionController controllerFor(bool software) {
+  constexpr double kRefreshMs = 1000.0 / 60.0;
+  constexpr int kMostSamples = 16;
+  ResolutionController controller;
+  if (software) return controller;
+  controller.targetMs = kRefreshMs;
+  controller.mostSamples = kMostSamples;
+  return controller;
+}
+
+bool fitsOneMore(const ResolutionController& controller, double elapsedMs, int samples) {
+  if (!controller.moving || controller.step > 0 || samples >= controller.mostSamples) return false;
+  return elapsedMs * (samples + 1) / samples <= kFinerShare * controller.targetMs;
+}
+
 void drawSomethingElse(ResolutionController& controller, glm::ivec2 full, double msPerPixel) {
   controller.msPerPixel = {msPerPixel};
   const bool moving = std::exchange(controller.moving, false);

@@ -15,6 +15,7 @@ inline constexpr std::array<double, 5> kResolutionSteps{1.0, 1.5, 2.0, 3.0, 4.0}
 /// Its state, changed by the functions below alone. Steps are indices into kResolutionSteps.
 struct ResolutionController {
   double targetMs = 1000.0 / 10.0;  ///< of one frame while moving
+  int mostSamples = 1;              ///< of such a frame, where it has full resolution
   size_t step = 0;                  ///< of the next frame
   bool moving = false;
   std::array<double, 8> msPerPixel{};  ///< of the latest frames, the newest first; 0: none yet
@@ -26,6 +27,13 @@ glm::ivec2 sizeAtStep(glm::ivec2 full, size_t step);
 /// Something begins, or goes on, to move: the next frame is at the finest step that is expected to hold the
 /// target, at the coarsest as long as nothing was measured.
 void keepMoving(ResolutionController& controller, glm::ivec2 full);
+
+/// The controller of a device: on a GPU a frame for each refresh of a usual display, with as many samples as
+/// it can have; ten frames a second where software draws, since there samples are worth more than frames.
+ResolutionController controllerFor(bool software);
+
+/// Whether a moving frame that has so many samples, after so long, may have one more within the target.
+bool fitsOneMore(const ResolutionController& controller, double elapsedMs, int samples);
 
 /// Something else is drawn from now on, whose pixels take so long (0: not known): its first frame is at the
 /// step that keepMoving() would choose.

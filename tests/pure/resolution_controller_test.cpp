@@ -178,6 +178,49 @@ TEST(Resolution, SomethingElseBeginsAtTheStepThatItsOwnTimesAllow) {
   EXPECT_FALSE(controller.moving);
 }
 
+/// Moving frames of a device: samples until no more fits, each as long as the machine takes.
+Frames moveWithSamples(double msPerPixel, int frames, ResolutionController& controller,
+                       std::vector<int>& samples) {
+  Frames run;
+  for (int i = 0; i < frames; ++i) {
+    keepMoving(controller, kFull);
+    const glm::ivec2 size = sizeAtStep(kFull, controller.step);
+    const double sampleMs = msPerPixel * size.x * size.y;
+    int taken = 1;
+    while (fitsOneMore(controller, taken * sampleMs, taken)) ++taken;
+    frameTaken(controller, kFull, size, sampleMs);
+    run.ms.push_back(taken * sampleMs);
+    run.steps.push_back(controller.step);
+    samples.push_back(taken);
+  }
+  return run;
+}
+
+TEST(Resolution, AGpuFillsARefreshWithSamplesAndNoMore) {
+  ResolutionController controller = controllerFor(false);
+  std::vector<int> samples;
+  const double pixels = double(kFull.x) * kFull.y;
+  const Frames fast = moveWithSamples(0.3 / pixels, 30, controller, samples);
+  EXPECT_EQ(controller.step, 0u);
+  EXPECT_EQ(samples.back(), 16) << "the most";
+  const Frames medium = moveWithSamples(4.0 / pixels, 30, controller, samples);
+  EXPECT_EQ(samples.back(), 3);
+  // A view that takes ten times as long costs one frame, below 50 ms, of one sample.
+  const Frames dear = moveWithSamples(40.0 / pixels, 30, controller, samples);
+  EXPECT_LT(*std::ranges::max_element(dear.ms), 50.0);
+  EXPECT_LE(dear.ms.back(), controller.targetMs);
+  EXPECT_GT(controller.step, 0u);
+  for (const Frames& run : {fast, medium}) EXPECT_LE(run.ms.back(), controller.targetMs);
+}
+
+TEST(Resolution, SoftwareTakesOneSampleOfAMovingFrame) {
+  ResolutionController controller = controllerFor(true);
+  std::vector<int> samples;
+  moveWithSamples(1e-7, 20, controller, samples);
+  EXPECT_EQ(controller.step, 0u);
+  EXPECT_EQ(*std::ranges::max_element(samples), 1);
+}
+
 TEST(Resolution, TimesThatAreNoneCountNothing) {
   ResolutionController controller;
   keepMoving(controller, kFull);
