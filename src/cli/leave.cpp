@@ -5,7 +5,6 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -30,10 +29,7 @@ bool standardOutputIsClosed() { return (::fcntl(STDOUT_FILENO, F_GETFL) & O_ACCM
 void checkPrinted() {
   std::cout.flush();
   if (std::cout && std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
-  if (readerHasLeft()) {  // as `| head` does: nothing is wrong, and other programs end so, too
-    std::signal(SIGPIPE, SIG_DFL);
-    std::raise(SIGPIPE);
-  }
+  if (readerHasLeft()) std::_Exit(1);  // as `| head` does, which nobody wants to read about
   throw RenderError("cannot write to standard output");
 }
 

@@ -7,8 +7,8 @@ namespace fragtrace {
 /// is of no use there; a result is an error (checkPrinted).
 bool standardOutputIsClosed();
 
-/// Throws RenderError where standard output could not take all that was printed; ends the process by SIGPIPE,
-/// without a word, where that is a pipe whose reader has left.
+/// Throws RenderError where standard output could not take all that was printed; ends the process with
+/// status 1, without a word, where that is a pipe whose reader has left.
 void checkPrinted();
 
 /// Ends the process, once all is written, with this status. The system takes back at once what the driver and
