@@ -166,8 +166,8 @@ size_t tableOf(const std::vector<float>& indices, const Material& m) {
 }
 
 EnvironmentDraws drawsOf(const ShaderVariant& variant) {
-  return has(variant.traits, Trait::EnvironmentSampling) ? EnvironmentDraws::LightAndPaths
-                                                         : EnvironmentDraws::Nothing;
+  if (!has(variant.traits, Trait::EnvironmentSampling)) return EnvironmentDraws::Nothing;
+  return has(variant.stages, Stage::Gi) ? EnvironmentDraws::LightAndPaths : EnvironmentDraws::Light;
 }
 
 std::vector<glm::vec3> meanRadiance(const Scene& scene, const TraitSet& traits, TexturePacker& textures) {
