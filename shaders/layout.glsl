@@ -170,7 +170,7 @@ const uint kTextureMirrorV = 64u;
 // these.
 const int kMostEnvironmentSteps = 1024;
 
-// Of the environment's light.
+// The environment's light has so many rows of factors, and levels of lobes.
 const uint kIrradianceRows = 9u;
 const uint kLobeLevels = 6u;
 

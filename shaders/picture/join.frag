@@ -55,7 +55,7 @@ void main() {
   float counted = min(min(apart.z, most), worth);
   if (!(counted > 0.0)) return;
   float samples = count.x + counted;
-  // Where the past has more samples than count, its variance becomes that of as many as do.
+  // A past of more samples than count gets the variance of as many as do.
   float pastVariance = past.a * apart.z / counted;
   // Chan, Golub and LeVeque (1979).
   float m2 = radiance.a * count.x * (count.x - 1.0) + pastVariance * counted * max(counted - 1.0, 0.0) +

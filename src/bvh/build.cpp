@@ -4,7 +4,6 @@
 #include "bvh/build.h"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cassert>
 #include <memory>
@@ -74,12 +73,10 @@ void collectParts(TopNode& node, std::vector<TopNode*>& parts) {
 void buildParts(std::vector<TopNode*> parts, const SplitRules& rules, uint32_t threadCount) {
   std::stable_sort(parts.begin(), parts.end(),
                    [](const TopNode* a, const TopNode* b) { return a->items.size() > b->items.size(); });
-  std::atomic<size_t> next = 0;
-  runOnThreads(std::min(threadCount, uint32_t(parts.size())), [&](uint32_t) {
-    for (size_t i = next++; i < parts.size(); i = next++) {
-      parts[i]->part = buildSubtree(parts[i]->items, rules, parts[i]->level);
-    }
-  });
+  const auto build = [&](size_t i) {
+    parts[i]->part = buildSubtree(parts[i]->items, rules, parts[i]->level);
+  };
+  forEachIndex(parts.size(), build, std::min(threadCount, uint32_t(parts.size())));
 }
 
 // Appends a part, whose indices count from its own start, and gives its memory back.

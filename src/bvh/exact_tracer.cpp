@@ -186,11 +186,7 @@ std::vector<ExactHit> ExactTracer::nearest(std::span<const Ray> rays) const {
 
 std::vector<ExactHit> ExactTracer::nearestOfAll(std::span<const Ray> rays) const {
   std::vector<ExactHit> hits(rays.size());
-  // Each takes long: one after the other, so that all cores are busy to the end.
-  std::atomic<size_t> next = 0;
-  runOnThreads(std::max(std::thread::hardware_concurrency(), 1u), [&](uint32_t) {
-    for (size_t i = next++; i < rays.size(); i = next++) hits[i] = nearestOfAll(rays[i]);
-  });
+  forEachIndex(rays.size(), [&](size_t i) { hits[i] = nearestOfAll(rays[i]); });
   return hits;
 }
 

@@ -16,7 +16,7 @@ namespace fragtrace {
 
 namespace {
 
-/// Whether standard output is a pipe that nobody reads any more.
+/// Returns true if standard output is a pipe that nobody reads any more.
 bool readerHasLeft() {
   pollfd stream{STDOUT_FILENO, 0, 0};
   return ::poll(&stream, 1, 0) == 1 && (stream.revents & POLLERR) != 0;

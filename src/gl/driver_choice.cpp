@@ -22,7 +22,7 @@ Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals) 
 
 bool mayHaveGpu() {
   std::error_code error;
-  // Of Linux's own drivers, NVIDIA's, and those of a Windows that runs it.
+  // The first is of Linux's own drivers, then come NVIDIA's, and those of a Windows that runs Linux.
   return std::ranges::any_of(std::array{"/dev/dri", "/dev/nvidiactl", "/dev/dxg"},
                              [&](const char* path) { return std::filesystem::exists(path, error); });
 }

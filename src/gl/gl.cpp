@@ -100,15 +100,9 @@ GlTexture makeTexture(GLenum target) {
   return GlTexture(name);
 }
 
-GlQuery makeStamp() {
+GlQuery makeQuery(GLenum target) {
   GLuint name = 0;
-  glCreateQueries(GL_TIMESTAMP, 1, &name);
-  return GlQuery(name);
-}
-
-GlQuery makeTimer() {
-  GLuint name = 0;
-  glCreateQueries(GL_TIME_ELAPSED, 1, &name);
+  glCreateQueries(target, 1, &name);
   return GlQuery(name);
 }
 

@@ -72,9 +72,7 @@ GlBuffer makeBuffer();
 GlTexture makeTexture(GLenum target);
 GlVertexArray makeVertexArray();
 GlFramebuffer makeFramebuffer();
-/// A query of the time that draws take.
-GlQuery makeTimer();
-/// A query of the device's clock.
-GlQuery makeStamp();
+/// GL_TIME_ELAPSED: the time that draws take; GL_TIMESTAMP: the device's clock.
+GlQuery makeQuery(GLenum target);
 
 }  // namespace fragtrace

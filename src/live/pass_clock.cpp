@@ -23,7 +23,7 @@ void PassClock::forgetDevice() {
 
 void PassClock::stamp(std::optional<Pass> pass) {
   if (!asksDevice_) return;
-  stamps_.push_back({makeStamp(), pass});
+  stamps_.push_back({makeQuery(GL_TIMESTAMP), pass});
   glQueryCounter(stamps_.back().time.name(), GL_TIMESTAMP);
 }
 

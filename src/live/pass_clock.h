@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How long each step of a picture takes the tracing thread, and the device.
+// The steps of a picture take the tracing thread, and the device, so long.
 #pragma once
 
 #include <chrono>
@@ -15,10 +15,10 @@ class PassClock {
  public:
   /// With `waits`, each step ends when the device has done it: for measurements.
   explicit PassClock(bool waits) : waits_(waits) {}
-  /// From now on the wall's times are the device's own, by its clock, and come a picture late: for drivers
+  /// Makes the wall's times the device's own, by its clock, a picture late: for drivers
   /// that go on with one step while they are told the next. Needs a context, as all calls do from then on.
   void askDevice() { asksDevice_ = true; }
-  /// Before the context ends.
+  /// Has to come before the context ends.
   void forgetDevice();
   /// What comes now is no step.
   void restart();

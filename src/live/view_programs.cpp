@@ -5,6 +5,7 @@
 
 #include "errors.h"
 #include "gl/debug_log.h"
+#include "live/run_in.h"
 #include "options/option_row.h"
 #include "picture/denoising.h"
 #include "process/thread_name.h"
@@ -139,7 +140,7 @@ void ViewPrograms::showPose(const RenderOptions& options) {
 
 std::shared_ptr<ViewProgram> ViewPrograms::makeAside(const RenderOptions& part) const {
   std::shared_ptr<ViewProgram> program;
-  aside_->context->run([&] {
+  runIn(aside_->context, [&] {
     DebugLog log;
     program = make(part);
     compileAll(*program, loaded_.view);

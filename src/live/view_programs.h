@@ -10,7 +10,7 @@
 #include <optional>
 #include <thread>
 
-#include "live/compile_context.h"
+#include "gl/context.h"
 #include "session/tracer.h"
 
 namespace fragtrace {
@@ -24,9 +24,9 @@ struct ViewProgram {
   std::vector<std::string> driverLog;  ///< of the context that it was compiled in, where that was another one
 };
 
-/// How programs are compiled while others draw.
+/// Lets programs be compiled while others draw.
 struct CompileAside {
-  CompileContext* context;     ///< not null
+  OutsideContext context;      ///< shares its objects with the one that draws
   std::function<void()> came;  ///< called in the compiling thread, once a program is there
 };
 
@@ -44,7 +44,7 @@ class ViewPrograms {
   std::shared_ptr<ViewProgram> of(const RenderOptions& options);
   /// The same, but null where it is compiled aside, which begins now unless another one is being compiled.
   std::shared_ptr<ViewProgram> soon(const RenderOptions& options);
-  /// Whether a program that was compiled aside has come since the last call.
+  /// Returns true if a program that was compiled aside has come since the last call.
   bool takeNews();
   /// While one is compiled aside, the scene must stay as it is.
   bool compiling() const { return coming_.valid(); }

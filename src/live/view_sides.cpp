@@ -132,6 +132,10 @@ void ViewTracer::takeCompiled() {
   for (Side& side : sides_) {
     if (side.awaited) adoptSide(side, RenderOptions(*side.awaited));
   }
+  noteAnswered();
+}
+
+void ViewTracer::noteAnswered() {
   if (awaitsProgram()) return;
   answered_ = request_.number;
   exchange_.tellNote({});

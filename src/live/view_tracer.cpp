@@ -107,8 +107,7 @@ void ViewTracer::enterContext(const SharedContexts& shared) {
       context_ = makeContext(*shared.draws);
     }
   }
-  compiles_.reset();
-  if (shares_ && shared.compiles && keepsCompiled(*context_)) compiles_.emplace(*shared.compiles);
+  compiles_ = shares_ && keepsCompiled(*context_) ? shared.compiles : std::nullopt;
   if (start_.render.output.verbose)
     exchange_.tell(shares_ ? "pictures stay on the device: " + context_->renderer
                            : "pictures are copied: they are drawn by " + context_->renderer + " (" +
@@ -133,7 +132,7 @@ void ViewTracer::recover(const ContextLost& error) {
 
 void ViewTracer::makePrograms() {
   std::optional<CompileAside> aside;
-  if (compiles_) aside = CompileAside{&*compiles_, [this] { exchange_.nudge(); }};
+  if (compiles_) aside = CompileAside{*compiles_, [this] { exchange_.nudge(); }};
   programs_ = std::make_unique<ViewPrograms>(*context_, *loaded_, loadedOptions_, std::move(aside));
 }
 
@@ -142,7 +141,6 @@ void ViewTracer::leaveContext() {
   sides_.clear();
   shown_ = {};
   programs_.reset();
-  compiles_.reset();
   clock_.forgetDevice();
   maker_.reset();
   driverLog_.reset();
@@ -298,9 +296,7 @@ void ViewTracer::adopt(const TraceRequest& request) {
   if (request.moving) keepMoving(resolution_, request.size);
   sides_.resize(request.sides.size());
   for (size_t i = 0; i < sides_.size(); ++i) adoptSide(sides_[i], request_.sides[i]);
-  if (awaitsProgram()) return;
-  answered_ = request_.number;
-  exchange_.tellNote({});
+  noteAnswered();
 }
 
 void ViewTracer::fitFilm(Side& side) {

@@ -91,9 +91,11 @@ class ViewTracer {
   std::shared_ptr<ViewProgram> programFor(const RenderOptions& options, bool aside);
   /// Sides draw what was compiled aside.
   void takeCompiled();
-  /// Whether a side draws something else meanwhile.
+  /// Returns true if a side draws something else meanwhile.
   bool awaitsProgram() const;
   void makePrograms();
+  /// The sides draw what the latest request asks for, unless one still awaits its program.
+  void noteAnswered();
   /// A film of the size that is drawn at now; empty, if it was of another.
   void fitFilm(Side& side);
   bool resting(const Side& side) const;
@@ -145,7 +147,7 @@ class ViewTracer {
   std::vector<Side> sides_;
   enum class Shows : uint8_t { Nothing, Preview, Picture } shows_ = Shows::Nothing;
   bool shares_ = false;                                    ///< objects with the window
-  std::optional<CompileContext> compiles_;                 ///< none: programs are compiled where they draw
+  std::optional<OutsideContext> compiles_;                 ///< none: programs are compiled where they draw
   std::array<std::array<ShownTexture, kSlots>, 2> shown_;  ///< of the sides; without sharing the first
   ResolutionController resolution_;
   std::vector<SaveRequest> saves_;

@@ -106,7 +106,7 @@ bool isNumbered(const std::filesystem::path& file) {
   return file.filename().string().find('#') != std::string::npos;
 }
 
-/// Of all variants, each of which has a file.
+/// Checks that names of files have a place for the variant. Throws UsageError.
 void checkVariants(const OutputOptions& o) {
   for (const auto& [name, file] : {std::pair("--output", &o.file), std::pair("--stats", &o.statsFile)}) {
     if (!file->empty() && !isNumbered(*file))

@@ -30,7 +30,7 @@ bool parseSize(std::string text, uint64_t& bytes) {
   }
 }
 
-/// What is wrong with a text that is to be a finite number; empty: nothing.
+/// Says why a text is no finite number; empty: it is one.
 std::string whyNoNumber(const std::string& text) {
   const std::optional<double> value = numberIn(text);
   if (!value) return "'" + text + "' is no number";

@@ -42,7 +42,7 @@ void refuseValuesOfSwitches(CLI::App& app) {
     refuseValuesOfSwitches(*command);
 }
 
-/// Of the other commands the first that has the option.
+/// Finds the first of the other commands that has the option.
 std::string commandWith(const std::string& option, const CLI::App& command) {
   if (command.get_parent() == nullptr) return "";
   for (const CLI::App* other : command.get_parent()->get_subcommands([](const CLI::App*) { return true; })) {
@@ -51,7 +51,7 @@ std::string commandWith(const std::string& option, const CLI::App& command) {
   return "";
 }
 
-/// What the library calls arguments that were not expected.
+/// Names the arguments that the library did not expect.
 std::string whatIsUnknown(const CLI::App& app, const std::vector<std::string>& left) {
   const CLI::App& command = chosenCommand(app);
   const auto option =
@@ -118,7 +118,7 @@ std::string plainText(const CLI::ParseError& error, const CLI::App& app) {
 }
 
 void parseWords(CLI::App& app, std::vector<std::string> words, const char* more) {
-  // From the last one on, so that the word before is still as it was given.
+  // The last one comes first, so that the word before is still as it was given.
   for (size_t i = words.size(); i-- > 0;)
     words[i] = withNumberSettled(words[i], i > 0 ? std::string_view(words[i - 1]) : std::string_view());
   checkValues(words);

@@ -19,7 +19,7 @@ struct VainRow {
   const char* why;
 };
 
-/// Whether a file is written whose name ends so.
+/// Returns true if a file is written whose name ends so.
 bool writes(const Options& o, std::initializer_list<ImageFormat> formats) {
   const auto format = o.output.file.empty() ? std::nullopt : formatOfName(o.output.file);
   return format && std::ranges::find(formats, *format) != formats.end();

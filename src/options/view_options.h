@@ -13,7 +13,7 @@ struct ViewOptions {
   std::filesystem::path statusFile;
   std::filesystem::path reference;  ///< a picture that is shown as side B; empty: none
   // Of measurements alone.
-  /// That a picture in motion may take; 0: it has full resolution; none: what the device can do.
+  /// A picture in motion may take so long; 0: it has full resolution; none: the device decides.
   std::optional<double> movingMs{};
   bool waitsForPasses = false;  ///< so that each has its time
   bool keepsPast = true;        ///< what the camera saw before is taken over

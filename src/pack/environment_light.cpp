@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pack/words.h"
+#include "process/parallel.h"
 
 namespace fragtrace {
 
@@ -22,7 +23,7 @@ struct Share {
   bool beyond = false;  ///< a row beyond a pole: half a turn away
 };
 
-/// Of `count` columns or rows those that make one of `parts`, by a tent as wide as two of whichever are
+/// Finds those of `count` columns or rows that make one of `parts`, by a tent as wide as two of whichever are
 /// wider: it leaves the middle of a sun where it is. Beyond the ends columns go round, and rows of a map
 /// that gets finer repeat the last one.
 std::vector<Share> sharesOf(int part, int parts, int count, bool rows) {
@@ -46,15 +47,15 @@ std::vector<Share> sharesOf(int part, int parts, int count, bool rows) {
   return shares;
 }
 
-/// Of a map of this size whose texels `radianceAt` gives by row and column.
+/// Resizes a map of this size, whose texels `radianceAt` gives by row and column.
 template <typename RadianceAt>
 MapRows resizedFrom(glm::ivec2 size, const RadianceAt& radianceAt, int height) {
   MapRows result(2 * height, height);
   std::vector<std::vector<Share>> columns;
   for (int x = 0; x < result.width; ++x) columns.push_back(sharesOf(x, result.width, size.x, false));
-  forEachRowOf(height, [&](int y) {
+  forEachIndex(size_t(height), [&](size_t y) {
     std::vector<glm::dvec3> line(size_t(size.x), glm::dvec3(0.0));
-    for (const Share& share : sharesOf(y, height, size.y, true)) {
+    for (const Share& share : sharesOf(int(y), height, size.y, true)) {
       const size_t turn = share.beyond ? line.size() / 2 : 0;
       for (size_t x = 0; x < line.size(); ++x)
         line[x] += share.weight * radianceAt(share.texel, x < turn ? x + line.size() - turn : x - turn);
@@ -62,7 +63,7 @@ MapRows resizedFrom(glm::ivec2 size, const RadianceAt& radianceAt, int height) {
     for (size_t x = 0; x < columns.size(); ++x) {
       glm::dvec3 sum(0.0);
       for (const Share& share : columns[x]) sum += share.weight * line[share.texel];
-      for (size_t channel = 0; channel < 3; ++channel) result.rows[size_t(y)][channel][x] = sum[int(channel)];
+      for (size_t channel = 0; channel < 3; ++channel) result.rows[y][channel][x] = sum[int(channel)];
     }
   });
   return result;
@@ -80,7 +81,7 @@ void appendMap(const MapRows& map, Words& texels) {
   }
 }
 
-/// Of a map of one colour.
+/// Reads a map of one colour.
 MapRows onlyTexel(const Image& image) {
   MapRows map(1, 1);
   for (size_t channel = 0; channel < 3; ++channel) map.rows[0][channel][0] = double(image.values[channel]);

@@ -21,7 +21,7 @@ using Irradiance = std::array<glm::dvec3, layout::kIrradianceRows>;
 /// between coarser ones as shaders/environment.glsl reads them. Uses all processors.
 MapRows resized(const Image& image, int height);
 
-/// Of a map's texels over the solid angles that they have.
+/// Sums a map's texels over the solid angles that they have.
 Irradiance irradianceOf(const MapRows& map);
 
 /// Exponent of the lobe of a level: lobes are twice as narrow from one to the next.

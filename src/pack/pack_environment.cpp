@@ -120,7 +120,7 @@ PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws) {
   const bool drawn = draws != EnvironmentDraws::Nothing;
   // Step: two large arrays, whose pages are made at once.
   runOnThreads(2, [&](uint32_t part) {
-    // What is not drawn from may get its light appended, which must not copy it all.
+    // A map that is not drawn from may get its light appended, which must not copy it all.
     if (part == 0 && !drawn) packed.texels.reserve(rows * rowWords + mostLightWords());
     if (part == 0) packed.texels.resize(rows * rowWords);
     if (part == 1 && drawn) packed.inversion.resize(rows * 4 + rows * stepWords);

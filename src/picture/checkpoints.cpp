@@ -84,7 +84,7 @@ void checkShape(const Checkpoint& c, const PictureJob& job, const DrawingPlan& p
   check(first || glm::ivec2(c.picture.width, c.picture.height) == job.loaded.region.size);
 }
 
-/// Whether the render asked for only has more samples than the one that the checkpoint is of: then it goes on
+/// Returns true if the render asked for only has more samples than that of the checkpoint: then it goes on
 /// to these. What filters look at on the way, and parts that are done, have the samples that were asked for.
 bool growsTo(const Checkpoint& checkpoint, const std::string& asked) {
   auto there = nlohmann::json::parse(checkpoint.job, nullptr, false);

@@ -40,7 +40,7 @@ struct Share {
   double of(double fraction) const { return done + own * fraction; }
 };
 
-/// Where a render of several parts goes on; nothing for a picture in one.
+/// Says where a render of several parts goes on; nothing for a picture in one.
 std::string placeOfPart(const Share& share) {
   if (share.own == 1.0) return "";
   return ", where " + std::to_string(int(100.0 * share.done)) + " % of the picture are done";

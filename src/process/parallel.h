@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <future>
+#include <thread>
 #include <vector>
 
 namespace fragtrace {
@@ -21,6 +25,17 @@ void runOnThreads(uint32_t count, const Work& work) {
   }
   if (count > 0) work(count - 1);
   for (std::future<void>& other : others) other.get();
+}
+
+/// Calls work(0) ... work(count - 1), each once, on so many threads that are all busy to the end; by default
+/// as many as there are processors.
+template <typename Work>
+void forEachIndex(size_t count, const Work& work,
+                  uint32_t threads = std::max(std::thread::hardware_concurrency(), 1u)) {
+  std::atomic<size_t> next = 0;
+  runOnThreads(threads, [&](uint32_t) {
+    for (size_t i = next++; i < count; i = next++) work(i);
+  });
 }
 
 }  // namespace fragtrace

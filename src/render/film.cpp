@@ -2,7 +2,8 @@
 #include "render/film.h"
 
 #include <algorithm>
-#include <functional>
+#include <array>
+#include <initializer_list>
 #include <stdexcept>
 
 #include "errors.h"
@@ -17,11 +18,18 @@ namespace {
 constexpr const char* kReading = "reading the film";
 constexpr const char* kLoading = "loading the film";
 
-/// Drivers clear a framebuffer as they draw; llvmpipe clears a texture through the host.
-void clearByDrawing(const GlTexture& texture, const std::function<void(GLuint target)>& clear) {
-  const GlFramebuffer target = makeFramebuffer();
-  glNamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
-  clear(target.name());
+/// A framebuffer to clear these by, in their order: drivers do so as they draw; llvmpipe clears a texture
+/// through the host.
+GlFramebuffer targetOf(std::initializer_list<const GlTexture*> textures) {
+  GlFramebuffer target = makeFramebuffer();
+  std::array<GLenum, 3> buffers{};
+  size_t count = 0;
+  for (const GlTexture* texture : textures) {
+    buffers.at(count) = GLenum(GL_COLOR_ATTACHMENT0 + count);
+    glNamedFramebufferTexture(target.name(), buffers[count++], texture->name(), 0);
+  }
+  glNamedFramebufferDrawBuffers(target.name(), GLsizei(count), buffers.data());
+  return target;
 }
 
 }  // namespace
@@ -45,8 +53,8 @@ void Film::clear() {
   cut_ = 0.0;
   lightPaths_ = 0;
   if (splats_.name() != 0) glClearTexImage(splats_.name(), 0, GL_RGBA, GL_FLOAT, zero);
-  clearByDrawing(sum_, [&](GLuint target) { glClearNamedFramebufferfv(target, GL_COLOR, 0, zero); });
-  clearByDrawing(compensation_, [&](GLuint target) { glClearNamedFramebufferfv(target, GL_COLOR, 0, zero); });
+  const GlFramebuffer target = targetOf({&sum_, &compensation_});
+  for (const GLint buffer : {0, 1}) glClearNamedFramebufferfv(target.name(), GL_COLOR, buffer, zero);
   clearCounts();
   checkGl("clearing the film");
 }
@@ -62,7 +70,7 @@ void Film::restart(glm::ivec2 size) {
 
 void Film::clearCounts() {
   const GLuint none[4] = {};
-  clearByDrawing(counts_, [&](GLuint target) { glClearNamedFramebufferuiv(target, GL_COLOR, 0, none); });
+  glClearNamedFramebufferuiv(targetOf({&counts_}).name(), GL_COLOR, 0, none);
 }
 
 void Film::bind() const {

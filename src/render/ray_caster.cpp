@@ -64,7 +64,7 @@ RayCaster::RayCaster(const Context& context, GpuScene scene, const ShaderVariant
       hitBuffer_(makeBuffer()),
       vertexArray_(makeVertexArray()),
       framebuffer_(makeFramebuffer(size)),
-      timer_(makeTimer()),
+      timer_(makeQuery(GL_TIME_ELAPSED)),
       size_(size),
       software_(context.software) {
   glNamedBufferStorage(hitBuffer_.name(), GLsizeiptr(size.x) * size.y * GLsizeiptr(sizeof(TracedRay)),

@@ -191,7 +191,8 @@ void Renderer::adaptBudget(double ms) {
 }
 
 Renderer::Flight Renderer::submit(const ShaderVariant& variant, const Work& tile, bool goesOn) {
-  Flight flight{tile, flights_++ % kMostInFlight, software_ ? GlQuery() : makeTimer(), nullptr, Clock::now()};
+  Flight flight{tile, flights_++ % kMostInFlight, software_ ? GlQuery() : makeQuery(GL_TIME_ELAPSED), nullptr,
+                Clock::now()};
   frame_.tile = {tile.corner, tile.size};
   frame_.picture.z = tile.to;
   frame_.sampling.z = goesOn ? 1 : 0;

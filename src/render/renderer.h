@@ -116,7 +116,7 @@ class Renderer {
   /// How long a draw may take from now on; for benchmarks, whose frames are known to be short.
   void setDrawTime(double ms) { targetMs_ = ms; }
 
-  /// How many draws the device is told before the first is done: 1 or 2, by default 2 on hardware.
+  /// Sets how many draws the device is told before the first is done: 1 or 2, by default 2 on hardware.
   void setDrawsInFlight(size_t draws) { inFlight_ = std::clamp(draws, size_t(1), kMostInFlight); }
 
  private:
@@ -151,7 +151,7 @@ class Renderer {
   using GoOn = std::function<bool(double pixelSamples)>;
   /// Does the work of a pass; false when stopped.
   bool drawPass(const RenderPass& pass, const GoOn& goOn);
-  /// In as many more draws as its step budget takes.
+  /// Waits for the draw, and draws on until the tile is finished. False when stopped.
   bool finishTile(const RenderPass& pass, Flight flight, const std::function<bool()>& goOn);
   bool addParts(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
                 const Progress& progress);

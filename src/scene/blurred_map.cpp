@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>
 
+#include "process/parallel.h"
 #include "scene/map_filter.h"
 
 namespace fragtrace {
@@ -36,15 +37,15 @@ MapRows scaled(const Image& map, int width, int height) {
   const int across = (map.width + width - 1) / width;
   const int down = (map.height + height - 1) / height;
   MapRows result(width, height);
-  forEachRowOf(height, [&](int y) {
+  forEachIndex(size_t(height), [&](size_t y) {
     for (int x = 0; x < width; ++x) {
       glm::dvec3 sum(0.0);
       for (int j = 0; j < down; ++j) {
         for (int i = 0; i < across; ++i)
-          sum += bilinear(map, (x + (i + 0.5) / across) / width, (y + (j + 0.5) / down) / height);
+          sum += bilinear(map, (x + (i + 0.5) / across) / width, (double(y) + (j + 0.5) / down) / height);
       }
       sum /= double(across * down);
-      for (int c = 0; c < 3; ++c) result.rows[size_t(y)][size_t(c)][size_t(x)] = sum[c];
+      for (int c = 0; c < 3; ++c) result.rows[y][size_t(c)][size_t(x)] = sum[c];
     }
   });
   return result;

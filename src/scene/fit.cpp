@@ -13,18 +13,11 @@
 namespace fragtrace {
 namespace {
 
-/// About the sphere: the golden angle apart, a little outside, so that their hull holds it.
+/// About the sphere, a little outside, so that their hull holds it.
 void appendSphere(const glm::dvec3& center, double radius, std::vector<glm::dvec3>& points) {
-  constexpr int kPoints = 512;
   constexpr double kOutside = 1.01;
-  const double goldenAngle = glm::pi<double>() * (3.0 - std::sqrt(5.0));
-  for (int i = 0; i < kPoints; ++i) {
-    const double y = 1.0 - 2.0 * (i + 0.5) / kPoints;
-    const double r = std::sqrt(1.0 - y * y);
-    points.push_back(center +
-                     kOutside * radius *
-                         glm::dvec3(r * std::cos(goldenAngle * i), y, r * std::sin(goldenAngle * i)));
-  }
+  for (const glm::dvec3& direction : directionsAllAround())
+    points.push_back(center + kOutside * radius * direction);
 }
 
 /// Vertices of these triangles, each once.
@@ -145,6 +138,18 @@ glm::dvec3 perspectivePlace(std::span<const glm::dvec3> points, const glm::dvec2
 }
 
 }  // namespace
+
+std::vector<glm::dvec3> directionsAllAround() {
+  constexpr int kDirections = 512;
+  const double goldenAngle = glm::pi<double>() * (3.0 - std::sqrt(5.0));
+  std::vector<glm::dvec3> directions;
+  for (int i = 0; i < kDirections; ++i) {
+    const double y = 1.0 - 2.0 * (i + 0.5) / kDirections;
+    const double r = std::sqrt(1.0 - y * y);
+    directions.emplace_back(r * std::cos(goldenAngle * i), y, r * std::sin(goldenAngle * i));
+  }
+  return directions;
+}
 
 std::vector<glm::dvec3> outlineOf(const Scene& scene) {
   std::vector<glm::dvec3> points = verticesOf(scene, 0, flatTriangleCount(scene) - scene.strokeTriangles);

@@ -13,6 +13,9 @@ namespace fragtrace {
 /// How much of the picture's width or height a fitted scene takes.
 inline constexpr double kFitted = 0.95;
 
+/// 512 unit vectors, the golden angle apart.
+std::vector<glm::dvec3> directionsAllAround();
+
 /// Points in world space whose convex hull is that of all triangles, spheres, and strokes without their
 /// width; a little larger where spheres or very many instances are.
 std::vector<glm::dvec3> outlineOf(const Scene& scene);

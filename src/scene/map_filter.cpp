@@ -2,10 +2,8 @@
 #include "scene/map_filter.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <thread>
 
 #include "process/parallel.h"
 
@@ -47,23 +45,16 @@ MapRows::MapRows(int columns, int rowCount) : width(columns), rows(size_t(rowCou
   for (Row& row : rows) row.fill(std::vector<double>(size_t(columns), 0.0));
 }
 
-void forEachRowOf(int rows, const std::function<void(int)>& work) {
-  std::atomic<int> next = 0;
-  runOnThreads(std::max(1u, std::thread::hardware_concurrency()), [&](uint32_t) {
-    for (int y = next++; y < rows; y = next++) work(y);
-  });
-}
-
 MapRows averagedMap(const MapRows& map, const std::vector<double>& polar, const Lobe& lobe, double least,
                     double reach) {
   const std::vector<double> middles = middlesOfRows(map.height());
   MapRows result(map.width, int(polar.size()));
-  forEachRowOf(result.height(), [&](int y) {
-    MapRows::Row& row = result.rows[size_t(y)];
+  forEachIndex(polar.size(), [&](size_t y) {
+    MapRows::Row& row = result.rows[y];
     double weights = 0.0;
     for (size_t other = 0; other < middles.size(); ++other) {
-      if (std::abs(middles[other] - polar[size_t(y)]) > reach) continue;
-      weights += addRow(map.rows[other], middles[other], polar[size_t(y)], lobe, least, row);
+      if (std::abs(middles[other] - polar[y]) > reach) continue;
+      weights += addRow(map.rows[other], middles[other], polar[y], lobe, least, row);
     }
     for (std::vector<double>& channel : row) {
       for (double& value : channel) value /= weights;

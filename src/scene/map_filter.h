@@ -18,9 +18,6 @@ struct MapRows {
   int height() const { return int(rows.size()); }
 };
 
-/// Calls work(y) for each row, on all processors.
-void forEachRowOf(int rows, const std::function<void(int)>& work);
-
 /// Weight, at most 1, of what lies at an angle of this cosine. It falls with the angle.
 using Lobe = std::function<double(double cosine)>;
 

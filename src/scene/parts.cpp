@@ -33,7 +33,7 @@ std::string listOfParts(const std::vector<std::string>& names) {
 
 namespace {
 
-/// Of ASCII letters; all others stay.
+/// Changes ASCII letters; all others stay.
 std::string inLowerCase(std::string text) {
   std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
   return text;

@@ -41,7 +41,7 @@ struct EncodedImage {
   std::string place{};  ///< "scene.gltf: /images/0"
 };
 
-/// For messages: the file, if it is one of its own, and the place.
+/// Names, for messages, the file, if it is one of its own, and the place.
 inline std::string nameOf(const EncodedImage& image) {
   const bool isFile = image.name != image.place && !image.place.empty();
   return isFile ? image.name + " (" + image.place + ")" : image.name;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 
 #include "gltf/gltf.h"
 #include "scene/fit.h"
@@ -14,25 +13,20 @@ namespace fragtrace {
 
 namespace {
 
-/// What the poses fill together, world space.
+/// The space that the poses fill together, world space.
 struct Filled {
   BoundsDouble bounds;
   std::vector<glm::dvec3> points;  ///< whose hull is that of all, nearly
 };
 
-/// Of many points those that are farthest in some direction.
+/// Appends the points; of many, those that are farthest in some direction.
 void appendHull(std::vector<glm::dvec3> points, std::vector<glm::dvec3>& hull) {
   constexpr size_t kFew = 4096;
-  constexpr int kDirections = 512;
   if (points.size() <= kFew) {
     hull.insert(hull.end(), points.begin(), points.end());
     return;
   }
-  const double goldenAngle = glm::pi<double>() * (3.0 - std::sqrt(5.0));
-  for (int i = 0; i < kDirections; ++i) {
-    const double y = 1.0 - 2.0 * (i + 0.5) / kDirections;
-    const double r = std::sqrt(1.0 - y * y);
-    const glm::dvec3 direction(r * std::cos(goldenAngle * i), y, r * std::sin(goldenAngle * i));
+  for (const glm::dvec3& direction : directionsAllAround()) {
     hull.push_back(*std::ranges::max_element(
         points, {}, [&](const glm::dvec3& point) { return glm::dot(point, direction); }));
   }

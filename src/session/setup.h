@@ -53,7 +53,7 @@ inline constexpr size_t kLeastBesideLarge = 256;
 /// Chooses camera, size and region of a scene that is there. Throws as loadScene() does for these.
 void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film);
 
-/// How the options have a scene read.
+/// The options have a scene read so.
 GltfOptions gltfOptionsOf(const RenderOptions& options);
 
 /// The picture's size in pixels.

@@ -154,16 +154,15 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
         chooseFeatureVariant(options, present, loaded.environment.kind, depth, undecided, feature));
     everything.traits |= tracer.features.back().traits;
   }
+  const bool gi = has(tracer.variant.stages, Stage::Gi);
   describeLightSelection(tracer.variant, loaded, options.light.selection, stats);
-  if (has(tracer.variant.stages, Stage::Gi))
+  if (gi)
     stats.lightReuse = tracer.variant.neighbours        ? "spatial"
                        : tracer.variant.lightCandidates ? "candidates"
                                                         : "none";
-  if (has(tracer.variant.stages, Stage::Gi))
-    stats.lightPathReason = whyCaustics(tracer.variant, present, options);
+  if (gi) stats.lightPathReason = whyCaustics(tracer.variant, present, options);
   warnOfNoEffect(tracer.variant, present, options, stats);
   if (tracer.variant.clampIndirect) stats.clampIndirect = options.sampling.clampIndirect;
-  const bool gi = has(tracer.variant.stages, Stage::Gi);
   for (const StageRow& row : stageRows()) {
     const std::string reason = has(options.stages, row.stage) ? whyOff(row.stage, present, gi) : "";
     if (!reason.empty()) stats.skipped.push_back(std::string(row.name) + ": " + reason);

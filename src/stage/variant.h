@@ -78,7 +78,7 @@ std::optional<ShaderVariant> lightPathVariant(const ShaderVariant& variant);
 /// The variant that keeps the light samples that such a picture's pixels take of others, if they do.
 std::optional<ShaderVariant> lightRecordVariant(const ShaderVariant& variant);
 
-/// Whether the environment lights surfaces without sampling, as in the stages before gi (kEnvironmentLight).
+/// Returns true if the environment lights surfaces without sampling, as before gi (kEnvironmentLight).
 bool lightsByEnvironment(const ShaderVariant& variant);
 
 /// Whether hits keep their barycentric weights: only vertex attributes need them.
@@ -90,7 +90,7 @@ bool passesSurfaces(const ShaderVariant& variant);
 /// The variant by name: what is on, separated by "+", for the statistics.
 std::string variantName(const ShaderVariant& variant);
 
-/// Why a stage or switch that was asked for is off in a scene of these traits; empty when it is on. `gi`:
+/// Says why a stage or switch that was asked for is off in a scene of these traits; empty: it is on. `gi`:
 /// with stage gi, which alone sends shadow rays to the environment.
 std::string whyOff(Stage stage, const TraitSet& present, bool gi = true);
 

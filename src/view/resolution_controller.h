@@ -32,7 +32,8 @@ void keepMoving(ResolutionController& controller, glm::ivec2 full);
 /// it can have; ten frames a second where software draws, since there samples are worth more than frames.
 ResolutionController controllerFor(bool software);
 
-/// Whether a moving frame that has so many samples, after so long, may have one more within the target.
+/// Returns true if a moving frame that has so many samples, after so long, may have one more within the
+/// target.
 bool fitsOneMore(const ResolutionController& controller, double elapsedMs, int samples);
 
 /// Something else is drawn from now on, whose pixels take so long (0: not known): its first frame is at the
