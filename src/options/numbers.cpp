@@ -80,7 +80,7 @@ CLI::Validator realNumber(double least, double most) {
   const std::string bounds = shortText(least) + " to " + shortText(most);
   return CLI::Validator(
       [=](const std::string& text) -> std::string {
-        const std::string wrong = whyNoNumber(text);
+        std::string wrong = whyNoNumber(text);
         if (!wrong.empty()) return wrong;
         const double value = *numberIn(text);
         return value >= least && value <= most ? "" : "'" + text + "' is not in the range " + bounds;

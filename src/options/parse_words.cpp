@@ -102,7 +102,7 @@ std::string plainText(const CLI::ParseError& error, const CLI::App& app) {
       {std::regex("Could not convert: (\\S+) = (.*)"), "$1: '$2' is no value of this option"},
       {std::regex("(\\S+) excludes (\\S+)"), "$1: does not go with $2"},
   };
-  const std::string text = error.what();
+  std::string text = error.what();
   std::smatch found;
   if (std::regex_match(text, found, kCount)) {
     const CLI::Option* option = chosenCommand(app).get_option_no_throw(found[1]);

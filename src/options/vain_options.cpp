@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "options/vain_options.h"
 
+#include <algorithm>
 #include <glm/gtx/component_wise.hpp>
 
 #include "image/format.h"

@@ -52,6 +52,7 @@ template <typename RadianceAt>
 MapRows resizedFrom(glm::ivec2 size, const RadianceAt& radianceAt, int height) {
   MapRows result(2 * height, height);
   std::vector<std::vector<Share>> columns;
+  columns.reserve(size_t(result.width));
   for (int x = 0; x < result.width; ++x) columns.push_back(sharesOf(x, result.width, size.x, false));
   forEachIndex(size_t(height), [&](size_t y) {
     std::vector<glm::dvec3> line(size_t(size.x), glm::dvec3(0.0));

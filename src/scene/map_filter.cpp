@@ -65,6 +65,7 @@ MapRows averagedMap(const MapRows& map, const std::vector<double>& polar, const 
 
 std::vector<double> middlesOfRows(int rows) {
   std::vector<double> middles;
+  middles.reserve(size_t(rows));
   for (int y = 0; y < rows; ++y) middles.push_back(glm::pi<double>() * (y + 0.5) / rows);
   return middles;
 }
