@@ -6,7 +6,7 @@ struct FilmPixel {
   vec3 sum;
   float alpha;
   vec3 compensation;
-  float m2;          // sum of squared deviations of the luminance from its mean
+  float m2;          // sum of squared deviations of seenLuminance() from its mean
   uint samples;
   uint rays;
   uint nonfinite;
@@ -17,6 +17,12 @@ struct FilmPixel {
 /// bits, since a compiler may take isnan() for false.
 bool isNonfinite(float x) { return (floatBitsToUint(x) & 0x7f800000u) >= 0x6f800000u; }
 
+/// Luminance of light and alpha, up to a constant: of a shadow that is in alpha alone, as laid over white.
+float seenLuminance(FilmPixel f, vec3 light, float alpha) {
+  bool overWhite = kShadowCatcher && (f.flags & kPixelOverWhite) != 0u;
+  return overWhite ? luminance(light) - alpha : luminance(light);
+}
+
 /// Adds one sample (Kahan, Further Remarks on Reducing Truncation Errors, 1965; Welford, 1962). One that is not finite
 /// is counted and adds black.
 FilmPixel addSample(FilmPixel f, vec3 radiance, float alpha) {
@@ -24,7 +30,7 @@ FilmPixel addSample(FilmPixel f, vec3 radiance, float alpha) {
     f.nonfinite += 1u;
     radiance = vec3(0.0f);
   }
-  float before = f.samples > 0u ? luminance(f.sum) / float(f.samples) : 0.0f;
+  float before = f.samples > 0u ? seenLuminance(f, f.sum, f.alpha) / float(f.samples) : 0.0f;
   precise vec3 y = radiance - f.compensation;
   precise vec3 t = f.sum + y;
   precise vec3 lost = (t - f.sum) - y;
@@ -32,8 +38,8 @@ FilmPixel addSample(FilmPixel f, vec3 radiance, float alpha) {
   f.sum = t;
   f.alpha += alpha;
   f.samples += 1u;
-  float value = luminance(radiance);
-  float after = luminance(f.sum) / float(f.samples);
+  float value = seenLuminance(f, radiance, alpha);
+  float after = seenLuminance(f, f.sum, f.alpha) / float(f.samples);
   // Its square may be infinite where the value is not.
   f.m2 = min(f.m2 + (value - before) * (value - after), float(3.0e38));
   return f;

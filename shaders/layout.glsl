@@ -67,7 +67,8 @@ const int kFeatureGuides = 13;
 // Film flags.
 const uint kPixelSuspended = 1u;  // the path of this pixel goes on in the next draw
 const uint kPixelBudgetHit = 2u;  // a loop was ended by something other than its own condition
-const uint kPixelTargetShift = 2u;  // above: the most samples this pixel is to have; 0: what the draw says
+const uint kPixelOverWhite = 4u;    // its luminance is that of the pixel laid over white: the shadow is in alpha alone
+const uint kPixelTargetShift = 3u;  // above: the most samples this pixel is to have; 0: what the draw says
 
 // Traversal: an inner node is its index, a leaf the complement of its index, the end this sentinel.
 const int kTraversalDone = -2147483647 - 1;
@@ -217,7 +218,7 @@ struct Frame {
   vec4 cameraForward;   // unit; w: metres a unit of local space
   vec4 gridOrigin;      // of the quantised boxes, local space
   vec4 gridCell;        // local space, a step
-  vec4 background;      // radiance that camera rays see; w: 1 when the environment is seen by camera rays
+  vec4 background;      // radiance that camera rays see; w: 1 when they see the environment; -1 when nothing
   vec4 environment;     // width, height, cosine and sine of the rotation
   // probability of sampling the environment, emitter count, row of the energy table among the materials, punctual
   // lights

@@ -165,7 +165,7 @@ void reportCut(float cut) {
 
 /// What the camera sees where its ray meets nothing.
 vec3 seenBehind(vec3 direction) {
-  if (!kEnvironment || frame.background.w == 0.0) return frame.background.rgb;
+  if (!kEnvironment || frame.background.w <= 0.0) return frame.background.rgb;
   if (kBackdrop) return backdropAlong(direction);
   return environmentAlong(direction).rgb;
 }

@@ -114,6 +114,7 @@ FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
   } else if (kFeature == kFeatureGuides) {
     film = addGuides(film, p.radiance, p.contribution, p.shadowLimit, alpha);
   } else {
+    if (kShadowCatcher && frame.background.w < 0.0) film.flags |= kPixelOverWhite;
     film = addSample(film, p.radiance, alpha);
   }
   return film;

@@ -3,9 +3,16 @@
 
 #include <algorithm>
 
+#include "image/over_white.h"
 #include "shader/layout.h"
 
 namespace fragtrace {
+
+double FilmPixel::luminance() const {
+  const double light = fragtrace::luminance(mean());
+  const bool overWhite = (flags & layout::kPixelOverWhite) != 0 && samples > 0;
+  return overWhite ? light + 1.0 - alpha / samples : light;
+}
 
 FilmTotals totalsOf(const FilmPixels& film) {
   FilmTotals totals;
@@ -56,11 +63,13 @@ Image imageOf(const FilmPixels& film, const Layers& layers, std::span<const doub
   if (layers.alpha) image.channels.emplace_back("A");
   if (layers.samples) image.channels.emplace_back("samples.Y");
   if (layers.variance) image.channels.emplace_back("variance.Y");
+  bool overWhite = false;
   image.values.resize(film.pixels.size() * image.channelCount());
   for (int y = 0; y < film.size.y; ++y) {
     for (int x = 0; x < film.size.x; ++x) {
       const size_t i = size_t(film.size.y - 1 - y) * size_t(film.size.x) + size_t(x);
       const FilmPixel& from = film.pixels[i];
+      overWhite = overWhite || (from.flags & layout::kPixelOverWhite) != 0;
       const glm::dvec3 mean = from.mean();
       float* to = image.pixel(x, y);
       for (int c = 0; c < 3; ++c) *to++ = float(mean[c]);
@@ -69,6 +78,7 @@ Image imageOf(const FilmPixels& film, const Layers& layers, std::span<const doub
       if (layers.variance) *to = float(variance.empty() ? from.variance() : variance[i]);
     }
   }
+  if (overWhite) image.attributes[kOverWhiteAttribute] = "1";
   return image;
 }
 

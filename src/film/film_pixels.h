@@ -16,14 +16,15 @@ namespace fragtrace {
 struct FilmPixel {
   glm::dvec3 sum{0.0};  ///< of radiance, or of a feature
   double alpha = 0.0;   ///< sum
-  double m2 = 0.0;      ///< sum of squared deviations of the samples' luminance from its mean
+  double m2 = 0.0;      ///< sum of squared deviations of the samples' luminance() from its mean
   uint32_t samples = 0;
   uint32_t rays = 0;
   uint32_t nonfinite = 0;
   uint32_t flags = 0;
 
   glm::dvec3 mean() const { return sum / double(samples > 0 ? samples : 1); }
-  double luminance() const { return fragtrace::luminance(mean()); }
+  /// Of the pixel as it is, or laid over white where its shadow is in alpha alone (image/over_white.h).
+  double luminance() const;
   /// Of the mean's luminance, from samples taken as independent; 0 below two samples.
   double variance() const { return samples > 1 ? m2 / (double(samples) * (double(samples) - 1.0)) : 0.0; }
 };
@@ -62,7 +63,7 @@ struct Layers {
 };
 
 /// Means of the samples, the first row at the top. `variance`, if not empty, holds a better estimate than
-/// FilmPixel::variance, in the order of the pixels.
+/// FilmPixel::variance, in the order of the pixels. Says whether its luminance is that over white.
 Image imageOf(const FilmPixels& film, const Layers& layers, std::span<const double> variance = {});
 
 /// One channel, Y: number(i) of pixel i of a film of that size, the first row at the top.

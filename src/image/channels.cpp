@@ -68,8 +68,13 @@ Image onlyChannels(const Image& image, const std::vector<std::string>& names) {
 }
 
 void replaceColor(Image& image, const Image& color) {
+  const auto from = findChannel(color, "A");
+  const auto to = findChannel(image, "A");
   for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) std::copy_n(color.pixel(x, y), 3, image.pixel(x, y));
+    for (int x = 0; x < image.width; ++x) {
+      std::copy_n(color.pixel(x, y), 3, image.pixel(x, y));
+      if (from && to) image.pixel(x, y)[*to] = color.pixel(x, y)[*from];
+    }
   }
 }
 

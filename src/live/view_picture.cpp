@@ -88,7 +88,7 @@ void PictureMaker::prepareFilter() {
   seen_.read(film, film, raw, nothing.noisy, nothing.noisy, passes_);
   const GlTexture* filter = filter_->filtered(
       nothing.noisy, kCompiledFor, false, [] { return true; }, passes_);
-  seen_.show(raw, *filter, 1.0, true, kCompiledFor, into.texture, passes_);
+  seen_.show(raw, *filter, 1.0, Behind::Background, kCompiledFor, into.texture, passes_);
 }
 
 bool PictureMaker::drawGuides(int samples, glm::ivec2 size, Tracer& tracer, const View& view,
@@ -164,7 +164,10 @@ bool PictureMaker::show(const Film& film, const Showing& showing, const RenderOp
   if (!filter) return false;
   clock_.end(Pass::Filter);
   fit(into, size);
-  seen_.show(raw_, *filter, share, background, size, into.texture, passes_);
+  const Behind behind = background                     ? Behind::Background
+                        : tracer.variant.shadowCatcher ? Behind::White
+                                                       : Behind::Nothing;
+  seen_.show(raw_, *filter, share, behind, size, into.texture, passes_);
   clock_.end(Pass::Show);
   return true;
 }

@@ -60,7 +60,7 @@ Image denoisedFile(const Image& drawn, const std::filesystem::path& name, const 
   replaceColor(result, *denoised);
   if (!rest.empty()) appendChannels(result, onlyChannels(drawn, rest), rest);
   result.numbers = drawn.numbers;
-  keepNoisy(result, onlyChannels(layers, {"R", "G", "B"}), stats.filter);
+  keepNoisy(result, layers, stats.filter);
   return result;
 }
 

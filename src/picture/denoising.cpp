@@ -9,6 +9,7 @@
 #include "errors.h"
 #include "gl/program.h"
 #include "image/channels.h"
+#include "image/over_white.h"
 #include "options/same_picture.h"
 #include "render/denoise.h"
 #include "session/interrupt.h"
@@ -22,7 +23,14 @@ namespace fragtrace {
 namespace {
 
 constexpr const char* kFilterAttribute = "fragtrace:denoise";
-std::vector<std::string> noisyNames() { return {"noisy.R", "noisy.G", "noisy.B"}; }
+constexpr const char* kNoisy = "noisy.";
+
+/// What a filter changes of a picture.
+Image seenChannels(const Image& picture) {
+  std::vector<std::string> channels{"R", "G", "B"};
+  if (isOverWhite(picture)) channels.emplace_back("A");
+  return onlyChannels(picture, channels);
+}
 
 /// Whether the channel is there for the filter alone.
 bool isForTheFilter(const std::string& channel, const RenderOptions& options) {
@@ -95,11 +103,13 @@ std::optional<Image> filtered(const Image& picture, const RenderOptions& options
                               const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats) {
   const PictureFilter filter = makeFilter(options, oidn);
   const double start = steadyMilliseconds();
-  std::optional<Image> result = filter.apply(picture);
+  std::optional<Image> result =
+      isOverWhite(picture) ? filter.apply(laidOverWhite(picture)) : filter.apply(picture);
   if (!result) {
     stats.skipped = "interrupted";
     return result;
   }
+  if (isOverWhite(picture)) result = liftedFromWhite(picture, *result);
   stats.filter = filter.name;
   stats.compileMs = filter.compileMs;
   stats.filterMs = steadyMilliseconds() - start;
@@ -111,7 +121,10 @@ std::optional<Image> filtered(const Image& picture, const RenderOptions& options
 }
 
 void keepNoisy(Image& picture, const Image& noisy, const std::string& filter) {
-  appendChannels(picture, noisy, noisyNames());
+  const Image seen = seenChannels(noisy);
+  std::vector<std::string> names;
+  for (const std::string& channel : seen.channels) names.push_back(kNoisy + channel);
+  appendChannels(picture, seen, names);
   picture.attributes[kFilterAttribute] = filter;
 }
 
@@ -131,7 +144,7 @@ void denoise(Image& picture, const RenderOptions& options, const std::optional<O
     stats.complete = false;
     stats.denoise->skipped = "interrupted";
   }
-  const Image noisy = onlyChannels(picture, {"R", "G", "B"});
+  const Image noisy = seenChannels(picture);
   if (denoised) replaceColor(picture, *denoised);
   std::vector<std::string> asked = picture.channels;
   std::erase_if(asked, [&](const std::string& channel) { return isForTheFilter(channel, options); });
@@ -140,13 +153,19 @@ void denoise(Image& picture, const RenderOptions& options, const std::optional<O
 }
 
 Image asDrawn(const Image& picture) {
-  for (const char* name : {"R", "G", "B", "noisy.R", "noisy.G", "noisy.B"}) {
-    if (!findChannel(picture, name)) return picture;
+  std::vector<std::string> seen;
+  std::vector<std::string> noisy;
+  std::vector<std::string> rest;
+  for (const std::string& channel : picture.channels) {
+    const bool isNoisy = channel.starts_with(kNoisy);
+    if (isNoisy) seen.push_back(channel.substr(std::string_view(kNoisy).size()));
+    (isNoisy ? noisy : rest).push_back(channel);
   }
-  std::vector<std::string> rest = picture.channels;
-  std::erase_if(rest, [](const std::string& channel) { return channel.starts_with("noisy."); });
+  if (noisy.size() < 3 || !findChannel(picture, "R")) return picture;
   Image drawn = onlyChannels(picture, rest);
-  replaceColor(drawn, onlyChannels(picture, noisyNames()));
+  Image before = onlyChannels(picture, noisy);
+  before.channels = seen;
+  replaceColor(drawn, before);
   drawn.attributes.erase(kFilterAttribute);
   return drawn;
 }

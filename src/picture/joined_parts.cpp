@@ -8,6 +8,7 @@
 
 #include "errors.h"
 #include "image/channels.h"
+#include "image/over_white.h"
 #include "math/count_text.h"
 #include "math/luminance.h"
 #include "picture/denoising.h"
@@ -50,7 +51,10 @@ void checkPair(const Part& first, const Part& second) {
   }
 }
 
-double luminanceOf(const float* pixel) { return luminance({pixel[0], pixel[1], pixel[2]}); }
+/// As FilmPixel::luminance() has it, but for a constant. `alpha`: of a picture that is to lie over white.
+double luminanceOf(const float* pixel, std::optional<size_t> alpha) {
+  return luminance({pixel[0], pixel[1], pixel[2]}) - (alpha ? double(pixel[*alpha]) : 0.0);
+}
 
 /// The parts' values at a place, and how many samples they stand for.
 struct Sources {
@@ -67,11 +71,12 @@ std::vector<size_t> placesOf(const std::vector<std::string>& channels, const Ima
   return places;
 }
 
-double joinedVariance(const Sources& sources, const std::vector<double>& variances, double mean) {
+double joinedVariance(const Sources& sources, const std::vector<double>& variances, double mean,
+                      std::optional<size_t> alpha) {
   double m2 = 0.0;
   for (size_t i = 0; i < sources.values.size(); ++i) {
     const double n = sources.samples[i];
-    const double apart = luminanceOf(sources.values[i]) - mean;
+    const double apart = luminanceOf(sources.values[i], alpha) - mean;
     m2 += variances[i] * n * std::max(0.0, n - 1.0) + n * apart * apart;
   }
   return m2 / (sources.total * std::max(1.0, sources.total - 1.0));
@@ -100,6 +105,7 @@ Image joinedPicture(const std::vector<Part>& parts, bool withSamples) {
   const size_t channels = result.channelCount();
   const auto counts = findChannel(result, kSamplesChannel);
   const auto variance = findChannel(result, "variance.Y");
+  const auto alpha = isOverWhite(result) ? findChannel(result, "A") : std::nullopt;
   const auto observed = findChannel(result, kObservedChannel);
   std::vector<std::vector<size_t>> places;
   std::vector<std::optional<size_t>> ownCounts;
@@ -131,7 +137,8 @@ Image joinedPicture(const std::vector<Part>& parts, bool withSamples) {
       else if (c == observed)
         joined[c] = float(joinedObservation(sources, own));
       else if (c == variance)
-        joined[c] = float(joinedVariance(sources, own, luminanceOf(joined)));  // the colours come first
+        joined[c] =
+            float(joinedVariance(sources, own, luminanceOf(joined, alpha), alpha));  // colours come first
       else
         joined[c] = float(sum / sources.total);
     }

@@ -100,7 +100,7 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.cameraRight = glm::vec4(glm::vec3(right * half.x), 0.0f);
   frame_.cameraUp = glm::vec4(glm::vec3(up * half.y), 0.0f);
   frame_.cameraForward = glm::vec4(glm::vec3(camera.forward), float(view.space.unit));
-  frame_.background = glm::vec4(view.background, view.showEnvironment ? 1.0f : 0.0f);
+  frame_.background = glm::vec4(view.background, view.seesNothing ? -1.0f : float(view.showEnvironment));
   frame_.environment.z = float(std::cos(view.hdriRotation));
   frame_.environment.w = float(std::sin(view.hdriRotation));
   frame_.lens = glm::vec4(float(view.lens.radius / view.space.unit),

@@ -40,6 +40,7 @@ struct View {
   double hdriIntensity = 1.0;   ///< factor of the environment's radiance
   glm::vec3 background{0.0f};   ///< seen by camera rays that miss
   bool showEnvironment = true;  ///< camera rays that miss see the environment map instead, or its backdrop
+  bool seesNothing = false;     ///< they see nothing: the picture is to be laid over another one
   double catcherHeight = 0.0;   ///< Y of the shadow catcher in world space, when the variant has one
   int bounces = 16;
   int rouletteDepth = 6;

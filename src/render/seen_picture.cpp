@@ -59,10 +59,11 @@ void SeenPasses::join(const NoisyTextures& fresh, const SeenPicture& now, const 
   passes.draw(join_, now.size, {&fresh.radiance, &fresh.counts, &past_, &apart_}, {&a.radiance, &a.counts});
 }
 
-void SeenPasses::show(const GlTexture& raw, const GlTexture& filtered, double share, bool background,
+void SeenPasses::show(const GlTexture& raw, const GlTexture& filtered, double share, Behind behind,
                       glm::ivec2 size, const GlTexture& shown, PicturePasses& passes) {
   glProgramUniform1f(show_.name(), 1, float(share));
-  glProgramUniform1i(show_.name(), 2, background ? 1 : 0);
+  glProgramUniform1i(show_.name(), 2, behind == Behind::Background ? 1 : 0);
+  glProgramUniform1i(show_.name(), 3, behind == Behind::White ? 1 : 0);
   passes.draw(show_, size, {&raw, &filtered}, {&shown});
 }
 

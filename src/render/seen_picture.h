@@ -17,6 +17,10 @@ struct SeenPicture {
   Camera camera;       ///< world space
 };
 
+/// What is behind the surfaces of a picture: a background, which makes it opaque; nothing; or nothing, and a
+/// shadow is in alpha alone, so that it was filtered as laid over white.
+enum class Behind { Background, Nothing, White };
+
 /// Its programs, which one context holds. Rows of films and of what is made of them go up; those of what is
 /// shown go down.
 class SeenPasses {
@@ -38,9 +42,8 @@ class SeenPasses {
   void join(const NoisyTextures& fresh, const SeenPicture& now, const SeenPicture& past, double most,
             PicturePasses& passes);
 
-  /// What `share` of the filtered picture and the rest of the raw one make, into `shown`; opaque where the
-  /// background is seen.
-  void show(const GlTexture& raw, const GlTexture& filtered, double share, bool background, glm::ivec2 size,
+  /// What `share` of the filtered picture and the rest of the raw one make, into `shown`.
+  void show(const GlTexture& raw, const GlTexture& filtered, double share, Behind behind, glm::ivec2 size,
             const GlTexture& shown, PicturePasses& passes);
   /// The film as it is.
   void show(const Film& film, bool background, const GlTexture& shown, PicturePasses& passes);

@@ -174,6 +174,7 @@ View makeView(const RenderOptions& options, const LoadedScene& loaded, const Cam
   if (options.light.background) view.background = options.light.backgroundColor.value_or(glm::vec3(0.0f));
   const bool map = loaded.environment.kind == Surroundings::Map;
   view.showEnvironment = map && options.light.background && !options.light.backgroundColor;
+  view.seesNothing = !options.light.background;
   view.catcherHeight =
       options.light.catcherHeight.value_or(scene.bounds.empty() ? 0.0 : scene.bounds.minimum.y);
   view.bounces = options.sampling.bounces;

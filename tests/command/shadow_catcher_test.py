@@ -6,7 +6,7 @@ import math
 import struct
 
 from materials_test import quad
-from support import SCENES, SMALL, Case, main
+from support import SCENES, SMALL, Case, Exr, main, run
 
 BLACK = {"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [0, 0, 0, 1]},
          "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}
@@ -120,6 +120,42 @@ class ShadowCatcher(CatcherCase):
             result = self.renders(SCENES / "cornell-box.gltf", "-o", self.folder / "x.pfm", *SMALL[:-1], "--shadow-catcher", "bottom", *options)
             self.assertIn("warning: ", result.stderr)
             self.assertIn(told, result.stderr)
+
+
+class CutOutShadow(CatcherCase):
+    """Without a background a shadow is in alpha alone; filters and goals of noise look at the picture as laid over white."""
+    VIEW = ["--resolution", "96,72", "--studio", "--no-background", "--shadow-catcher", "bottom"]
+
+    def error_of_alpha(self, exr, reference):
+        """Squared, where no surface is seen."""
+        return sum((a - b)**2 for a, b, light in zip(exr.values("A"), reference.values("A"), reference.values("G")) if light == 0)
+
+    def test_the_filter_takes_the_noise_out_of_alpha(self):
+        reference = self.picture("mesh-15743", "r.exr", *self.VIEW, "--spp", 512, "--seed", 5)
+        noisy = self.picture("mesh-15743", "n.exr", *self.VIEW, "--spp", 16, "--aov", "denoising")
+        clean = self.picture("mesh-15743", "d.exr", *self.VIEW, "--spp", 16, "--denoise", "variance")
+        self.assertLess(self.error_of_alpha(clean, reference), 0.25 * self.error_of_alpha(noisy, reference))
+        self.assertAlmostEqual(sum(clean.values("A")) / sum(noisy.values("A")), 1, delta=0.003)
+        self.assertEqual(clean.values("noisy.A"), noisy.values("A"))
+        # A surface that covers the pixel stays opaque, and where nothing is met nothing is.
+        for before, after in zip(noisy.values("A"), clean.values("A")):
+            if before == 1:
+                self.assertEqual(after, 1)
+        self.assertEqual(run("denoise", self.folder / "n.exr", "-o", self.folder / "f.exr", "--denoise", "variance").returncode, 0)
+        self.assertEqual(Exr(self.folder / "f.exr").values("A"), clean.values("A"))
+
+    def test_the_variance_is_that_over_white(self):
+        """Of the catcher's alpha over many seeds, where nothing but the shadow is seen."""
+        options = [*self.VIEW, "--disable", "sobol", "--spp", 4, "--aov", "variance"]
+        shots = [self.picture("mesh-15743", "v.exr", *options, "--seed", seed) for seed in range(12)]
+        shadow = [i for i, alpha in enumerate(shots[0].values("A")) if all(s.values("G")[i] == 0 for s in shots) and alpha > 0]
+        told = sum(shot.values("variance.Y")[i] for shot in shots for i in shadow) / len(shots)
+        seen = 0
+        for i in shadow:
+            values = [shot.values("A")[i] for shot in shots]
+            mean = sum(values) / len(values)
+            seen += sum((v - mean)**2 for v in values) / (len(values) - 1)
+        self.assertAlmostEqual(told / seen, 1, delta=0.1)
 
 
 class CatcherAndPlane(CatcherCase):

@@ -165,6 +165,7 @@ ROWS = [
     F("film_pixel.addSample", "y = radiance -", "y = radiance * float(1.02) -", "each sample adds 2 % too much"),
     F("film_pixel.addGuides", "f.sum += albedo", "f.sum += albedo * float(1.02)", "guides have an albedo 2 % too bright"),
     F("film_pixel.addSample alpha", "f.alpha += alpha", "f.alpha += alpha * float(0.98)", "alpha adds up to 2 % too little"),
+    F("film_pixel.seenLuminance", "luminance(light) - alpha", "luminance(light) - float(0.98) * alpha", "2 % of a shadow's noise is not counted"),
     F("film_pixel.addSample variance", "f.m2 + (value", "f.m2 + float(1.02) * (value", "the variance is 2 % too large"),
     F("camera.makeCameraRay x", "x * right", "x * right * float(1.02)", "the view is 2 % too wide"),
     F("camera.makeCameraRay y", "y * up", "y * up * float(1.02)", "the view is 2 % too high"),

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "film_samples.h"
+#include "image/over_white.h"
 #include "shader/layout.h"
 
 namespace fragtrace {
@@ -21,6 +22,41 @@ TEST(FilmPixel, MeanAndVarianceAreThoseOfItsSamples) {
   EXPECT_NEAR(p.luminance(), 2 * 0.2126 + 3 * 0.7152 + 4 * 0.0722, 1e-15);
   // Luminances 2 apart: a variance of 2 of the samples, of half as much of the mean.
   EXPECT_NEAR(p.variance(), 1.0, 1e-14);
+}
+
+/// A shadow that is there in one of two samples, behind half a surface of radiance 0.2.
+FilmPixels shadowOverNothing() {
+  FilmPixels film = emptyFilm({3, 1});
+  for (FilmPixel& pixel : film.pixels) {
+    pixel.samples = 2;
+    pixel.flags = layout::kPixelOverWhite;
+  }
+  film.pixels[0].alpha = 1.0;
+  film.pixels[1].alpha = 2.0;
+  film.pixels[1].sum = glm::dvec3(0.4);
+  film.pixels[2].alpha = 1.5;
+  film.pixels[2].sum = glm::dvec3(0.2);
+  return film;
+}
+
+TEST(FilmPixels, AShadowInAlphaAloneIsSeenOverWhite) {
+  const FilmPixels film = shadowOverNothing();
+  EXPECT_NEAR(film.pixels[0].luminance(), 0.5, 1e-12);
+  EXPECT_NEAR(film.pixels[1].luminance(), 0.2, 1e-12);
+  EXPECT_NEAR(film.pixels[2].luminance(), 0.1 + 0.25, 1e-12);
+  EXPECT_FALSE(isOverWhite(imageOf(emptyFilm({1, 1}), {true})));
+  EXPECT_FALSE(isOverWhite(imageOf(film, {false})));
+  const Image picture = imageOf(film, {true});
+  ASSERT_TRUE(isOverWhite(picture));
+  Image seen = laidOverWhite(picture);
+  for (size_t x = 0; x < 3; ++x) EXPECT_NEAR(seen.pixel(int(x), 0)[0], film.pixels[x].luminance(), 1e-6);
+  const Image same = liftedFromWhite(picture, seen);
+  for (size_t i = 0; i < picture.values.size(); ++i) EXPECT_NEAR(same.values[i], picture.values[i], 1e-6);
+  for (float& value : seen.values) value *= 0.5f;
+  const Image lifted = liftedFromWhite(picture, seen);
+  // A shadow alone gets darker, a surface keeps its alpha, and no light is negative.
+  const std::vector<float> expected{0, 0, 0, 0.75f, 0.1f, 0.1f, 0.1f, 1, 0, 0, 0, 0.75f};
+  for (size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(lifted.values[i], expected[i], 1e-6) << i;
 }
 
 TEST(FilmPixels, PooledFilmsAreOneFilmOfAllSamples) {

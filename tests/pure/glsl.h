@@ -46,6 +46,7 @@ inline bool kSlivers = false;
 inline bool kPassing = false;
 inline bool kLightPaths = false;
 inline bool kRoughGlass = true;
+inline bool kShadowCatcher = false;
 inline int kStackSize = 32;
 
 inline std::span<const uint32_t> nodes;

@@ -41,6 +41,19 @@ TEST(ShaderFilm, ABrightLightAndADarkWallInOnePixel) {
   EXPECT_NEAR(meanOf(f) * 1e6 - 1e9, sum - 1e9, 0.01 * 999.0);
 }
 
+TEST(ShaderFilm, AShadowInAlphaAloneHasTheVarianceOfThePictureOverWhite) {
+  const glsl_variant::With catcher(glsl_variant::kShadowCatcher, true);
+  for (const bool overWhite : {true, false}) {
+    glsl_float::FilmPixel f = emptyPixel();
+    f.flags = overWhite ? layout::kPixelOverWhite : 0u;
+    f = glsl_float::addSample(f, vec3(0.0f), 0.25f);
+    f = glsl_float::addSample(f, vec3(0.0f), 0.75f);
+    f = glsl_float::addSample(f, vec3(0.5f), 1.0f);
+    // Over white: 0.75, 0.25 and 0.5.
+    EXPECT_NEAR(f.m2, overWhite ? 0.125f : 1.0f / 6.0f, 1e-6f);
+  }
+}
+
 TEST(ShaderFilm, WhatIsNoNumberIsCountedAndBlack) {
   for (const float bad : {std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
                           std::numeric_limits<float>::quiet_NaN(), 3e38f}) {
