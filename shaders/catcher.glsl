@@ -104,12 +104,8 @@ Path endShadow(Path p) {
 /// The guides of the catcher, which keep a filter from taking it for empty surroundings: white, and level.
 Path guideAtCatcher(Path p) {
   float t = catcherDistance(p.origin, p.direction);
-  p.shadowLimit = t * dot(p.direction, frame.cameraForward.xyz) * frame.cameraForward.w;
-  p.contribution = vec3(0.0, 1.0, 0.0);
-  p.radiance = vec3(1.0);
-  p.covered = true;
-  p.phase = kPhaseEnd;
-  return p;
+  p = takeGuide(p, t * dot(p.direction, frame.cameraForward.xyz) * frame.cameraForward.w, vec3(0.0, 1.0, 0.0));
+  return guideStop(p, vec3(1.0));
 }
 
 Path meetCatcher(Path p) {
@@ -121,6 +117,7 @@ Path meetCatcher(Path p) {
 /// Alpha of the finished sample; of a shadow on the catcher the luminance of the share of light that is not there.
 float coverageOf(Path p) {
   if (kShadowCatcher && p.caught) return luminance(p.radiance);
+  if (kFeature == kFeatureGuides && kAlpha && !p.covered) return p.shadowOrigin.x;
   return p.covered ? 1.0 : 0.0;
 }
 

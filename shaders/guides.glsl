@@ -1,28 +1,68 @@
 // SPDX-License-Identifier: MIT
 // What a filter tells surfaces apart by (kFeatureGuides): albedo and normal of the first surface that is not seen by
 // way of smooth glass or a smooth metal alone, so that what stands behind these stays sharp, and depth of the first
-// surface of all, which tells these from the rest. No shadow ray is traced meanwhile, so its members keep them, also
-// from draw to draw: contribution the normal, shadowLimit depth.
+// surface of all, which tells these from the rest. Where alpha lets a part of the light pass, surfaces count by their
+// shares, without chance. No shadow ray is traced meanwhile, so its members keep the state, also from draw to draw:
+// radiance and contribution are sums of albedo and normal, shadowLimit is that of depth, shadowOrigin.x that of the
+// shares; shadowDirection is the normal of what takes the rest.
 
 const float kGuideAlpha = 0.01;    // the roughest that is followed: what it shows is hardly blurred
 const int kGuideScatterings = 16;  // at most
+const float kGuideRest = 0.01;     // of a ray: what is behind no longer counts
+
+/// The share of the ray that alpha has let pass so far.
+float guideRest(Path p) { return kAlpha ? 1.0 - p.shadowOrigin.x : 1.0; }
+
+/// A share of the ray ends at a surface of this albedo.
+Path addGuide(Path p, float share, vec3 albedo, vec3 normal) {
+  p.radiance += share * albedo;
+  p.contribution += share * normal;
+  p.shadowOrigin.x += share;
+  return p;
+}
+
+/// What glass around the point makes of radiance is no matter of its colour.
+vec3 guideTint(Path p) { return kPassesLight ? p.throughput * p.compression : p.throughput; }
+
+/// What is left of the ray ends here, or goes on from here without chance.
+Path takeGuide(Path p, float depth, vec3 normal) {
+  if (p.cameraRay) p.shadowLimit += guideRest(p) * depth;
+  p.shadowDirection = normal;
+  p.covered = true;
+  p.phase = kPhaseEnd;
+  return p;
+}
+
+Path guideStop(Path p, vec3 albedo) {
+  p.throughput = guideTint(p) * albedo;
+  p.compression = 1.0;
+  return p;
+}
 
 /// One surface along the camera path: what it shows, or where it leads. Of reflection and refraction the stronger one
-/// is followed, without chance, since noise of the guides would be noise of the picture.
-Path guideAt(Path p, Surface s, vec3 baseColor) {
-  if (p.cameraRay) p.shadowLimit = depthOf(s);
+/// is followed, since noise of the guides would be noise of the picture.
+Path guideAt(Path p, Surface s, uint flags, vec4 base) {
   vec3 normal = facingNormal(mappedNormal(s), -p.direction);
-  p.contribution = normal;
-  // What glass around the point makes of radiance is no matter of its colour.
-  vec3 tint = kPassesLight ? p.throughput * p.compression : p.throughput;
-  p.radiance = tint;
-  p.phase = kPhaseEnd;
+  bool blends = kAlpha && (flags & (kMaterialMask | kMaterialBlend)) != 0u;
+  float share = blends ? guideRest(p) * alphaAt(s.material, flags, base.a) : 1.0;
+  if (blends && guideRest(p) - share > kGuideRest) {
+    if (p.cameraRay) p.shadowLimit += share * depthOf(s);
+    p = addGuide(p, share, guideTint(p) * base.rgb, normal);
+    p.phase = kPhaseExtend;
+    return tracePast(p, kFarAway, p.hitT, p.hitSlot);
+  }
+  p = takeGuide(p, depthOf(s), normal);
   SurfaceMaterial m;
-  if (kSmoothSurfaces) m = materialAt(s.material, baseColor, s.texcoords);
+  if (kSmoothSurfaces) m = materialAt(s.material, base.rgb, s.texcoords);
   bool follows = kSmoothSurfaces && p.bounce < kGuideScatterings && m.roughness * m.roughness < kGuideAlpha;
   bool refracts = kRefraction && follows && m.transmission * (1.0 - m.metallic) > 0.5;
   if (kRefraction && refracts) return proceed(scatterGlass(p, s, m, normal, 0.5));
   if (kReflections && follows && m.metallic > 0.5) return proceed(scatterMirror(p, s, m, normal, 1.0));
-  p.radiance = tint * baseColor;
+  return guideStop(p, base.rgb);
+}
+
+/// The path has ended: its last surface takes the rest.
+Path endGuide(Path p) {
+  if (p.covered) p = addGuide(p, guideRest(p), guideTint(p), p.shadowDirection);
   return p;
 }

@@ -220,12 +220,12 @@ Path shade(Path p) {
   uint flags = materialFlags(s.material);
   vec4 base = baseColorAt(s.material, s.texcoords, s.color);
   bool first = p.lightSlot == 0;
+  if (kFeature == kFeatureGuides) return guideAt(p, s, flags, base);
   if (kAlpha && first && passesThrough(flags, alphaAt(s.material, flags, base.a), p.numbers, nextCrossing(p))) {
     p.phase = kPhaseExtend;
     return tracePast(p, kFarAway, p.hitT, p.hitSlot);
   }
   if (p.cameraRay) p.covered = true;
-  if (kFeature == kFeatureGuides) return guideAt(p, s, base.rgb);
   if (!kDrawsLight) {
     p.radiance = featureAt(s, p.hitSlot, p.hitInstance, base.rgb, -p.direction);
     p.phase = kPhaseEnd;

@@ -112,6 +112,7 @@ FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
   } else if (kLightRecords) {
     film.samples += 1u;
   } else if (kFeature == kFeatureGuides) {
+    p = endGuide(p);
     film = addGuides(film, p.radiance, p.contribution, p.shadowLimit, alpha);
   } else {
     if (kShadowCatcher && frame.background.w < 0.0) film.flags |= kPixelOverWhite;

@@ -4,6 +4,7 @@
 import json
 import unittest
 
+from materials_test import quad
 from support import BACKENDS, SCENES, Case, Exr, main, read_pfm, run
 
 BOX = SCENES / "cornell-box.gltf"
@@ -94,6 +95,24 @@ class Denoising(Denoised):
                     self.assertAlmostEqual(a, b, delta=1e-3)
                 self.assertNotEqual(seen, picture.pixel(*pixel, *("albedo." + c for c in "RGB")))
                 self.assertEqual(picture.pixel(*pixel, "denoising.depth.Z"), picture.pixel(*pixel, "depth.Z"))
+
+    def test_guides_see_what_alpha_shows_without_chance(self):
+        """A red sheet of alpha 0.25 above, 1 m before a blue wall that is half as wide."""
+        def matt(color, **more):
+            return {"pbrMetallicRoughness": {"baseColorFactor": color, "metallicFactor": 0}, **more}
+        gltf = quad(matt([1, 0, 0, 0.25], alphaMode="BLEND"))
+        gltf["materials"].append(matt([0, 0, 1, 1]))
+        gltf["meshes"].append({"primitives": [gltf["meshes"][0]["primitives"][0] | {"material": 1}]})
+        gltf["nodes"] = [{"mesh": 0}, {"mesh": 1, "scale": [0.5, 1, 1], "translation": [0, 0, -1]}]
+        gltf["scenes"] = [{"nodes": [0, 1]}]
+        path = self.folder / "sheet.gltf"
+        path.write_text(json.dumps(gltf))
+        view = ["--camera-position", "0,0,3", "--camera-focal-point", "0,0,0", "--camera-parallel-scale", 1]
+        exr = Exr(self.draw("g.exr", *view, "--resolution", "16,16", "--spp", 1, "--aov", "denoising", scene=path))
+        names = [*("denoising.albedo." + c for c in "RGBA"), "denoising.normal.Z", "denoising.depth.Z"]
+        for x, expected in ((8, (0.25, 0, 0.75, 1, 1, 0.25 * 3 + 0.75 * 4)), (1, (0.25, 0, 0, 0.25, 0.25, 0.25 * 3))):
+            for name, seen, there in zip(names, exr.pixel(x, 8, *names), expected):
+                self.assertAlmostEqual(seen, there, delta=1e-5, msg=f"{name} at {x}")
 
     def test_what_has_no_noise_is_left_alone_and_says_so(self):
         for options, reason in ((["--stage", "shadows"], "stages before gi"), (["--debug-view", "normal"], "debug view")):

@@ -137,6 +137,7 @@ class CutOutShadow(CatcherCase):
         self.assertLess(self.error_of_alpha(clean, reference), 0.25 * self.error_of_alpha(noisy, reference))
         self.assertAlmostEqual(sum(clean.values("A")) / sum(noisy.values("A")), 1, delta=0.003)
         self.assertEqual(clean.values("noisy.A"), noisy.values("A"))
+        self.assertEqual(noisy.pixel(2, 70, *("denoising.albedo." + c for c in "RGBA"), "denoising.normal.Y"), (1,) * 5)
         # A surface that covers the pixel stays opaque, and where nothing is met nothing is.
         for before, after in zip(noisy.values("A"), clean.values("A")):
             if before == 1:

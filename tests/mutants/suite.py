@@ -46,6 +46,7 @@ LIKELY = {
     "path.addLight": ("command.LightParts",),
     "layers.diffuseUnderLayers": ("command.LightParts",),
     "shade.depthOf": ("command.FirstHits",),
+    "catcher.": ("command.CutOutShadow", "command.ShadowCatcher", "command.CatcherAndPlane"),
     "guides.": ("command.Denoising",),
     "lights.treeDensity": ("pure.light_tree_test",),
     "lights.lightWord": ("pure.light_tree_test",),
