@@ -68,7 +68,7 @@ void finishFence(void* fence) {
   const auto sync = static_cast<GLsync>(fence);
   GLenum state = GL_TIMEOUT_EXPIRED;
   while (state == GL_TIMEOUT_EXPIRED) state = glClientWaitSync(sync, GL_SYNC_FLUSH_COMMANDS_BIT, kSecond);
-  if (state == GL_WAIT_FAILED) glFinish();
+  if (state != GL_ALREADY_SIGNALED && state != GL_CONDITION_SATISFIED) glFinish();
   releaseFence(fence);
 }
 

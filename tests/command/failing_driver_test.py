@@ -21,6 +21,7 @@ def real_egl():
 class Failing(Case):
     scene = "sphere-textured"  # with a tree, textures and several lights
     options = ("--quiet",)
+    samples = 2
 
     def drawn(self, **faults):
         """`render` over a file that is there."""
@@ -28,7 +29,7 @@ class Failing(Case):
         self.path.write_bytes(OLD)
         settings = {f"FRAGTRACE_{name.upper()}": str(value) for name, value in faults.items()}
         paths = ":".join(filter(None, [str(STAND_IN), os.environ.get("LD_LIBRARY_PATH")]))
-        return run("render", SCENES / f"{self.scene}.gltf", "-o", self.path, "--resolution", "16,16", "--spp", "2", *self.options,
+        return run("render", SCENES / f"{self.scene}.gltf", "-o", self.path, "--resolution", "16,16", "--spp", str(self.samples), *self.options,
                    "--rendering-backend", "egl", timeout=60,
                    env={**os.environ, **settings, "LD_LIBRARY_PATH": paths, "FRAGTRACE_REAL_EGL": real_egl()})
 
@@ -81,6 +82,14 @@ class FailingDriver(Failing):
     def test_light_paths_that_fail_are_seen(self):
         self.scene = "caustics"
         self.fail_each("memory", 1, ("glGetInternalformativ", "glGetFloatv", "glProgramUniform4fv", "glProgramUniform2f", "glBlendFunc", "glDisable"))
+
+    def test_without_fences_or_mapped_memory_the_picture_is_the_same(self):
+        self.scene, self.samples = "cornell-box", 1024  # more than one draw takes
+        self.calls("memory")
+        for name in ("glFenceSync", "glClientWaitSync", "glMapNamedBufferRange"):
+            result = self.drawn(fail_name=name)
+            self.assertEqual((result.returncode, result.stderr), (0, ""), name)
+            self.assertEqual(self.path.read_bytes(), self.right, name)
 
     def test_where_nothing_can_be_blended_camera_paths_bring_caustics(self):
         self.scene, self.options = "caustics", ()

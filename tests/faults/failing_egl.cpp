@@ -6,6 +6,7 @@
 //                        build: it is the glCompileShader or glLinkProgram of that number that fails
 //                        lost: the context is lost from then on, until another one is made
 //                        blend: none fails, but no format can be blended
+//   FRAGTRACE_FAIL_NAME  a function that does nothing and gives no error, as often as it is called
 //   FRAGTRACE_FAIL_WHEN  a file: once it is there it is removed, and the context is lost
 //   FRAGTRACE_FAIL_LOG   a file that gets the name of each call, a line each
 #include <EGL/egl.h>
@@ -31,6 +32,7 @@ struct Faults {
   bool lostKind = std::strcmp(setting("FRAGTRACE_FAIL_KIND"), "lost") == 0;
   bool buildKind = std::strcmp(setting("FRAGTRACE_FAIL_KIND"), "build") == 0;
   const char* when = setting("FRAGTRACE_FAIL_WHEN");
+  const char* never = setting("FRAGTRACE_FAIL_NAME");
   FILE* log = *setting("FRAGTRACE_FAIL_LOG") ? std::fopen(setting("FRAGTRACE_FAIL_LOG"), "w") : nullptr;
   void* real = dlopen(setting("FRAGTRACE_REAL_EGL"), RTLD_NOW | RTLD_LOCAL);
   long calls = 0;
@@ -51,7 +53,7 @@ bool allowed(const char* name) {
   const std::lock_guard lock(f.mutex);
   logHeap();
   if (*f.when && std::remove(f.when) == 0) f.lost = true;
-  if (f.lost) return false;
+  if (f.lost || std::strcmp(name, f.never) == 0) return false;
   const bool builds = std::strcmp(name, "glCompileShader") == 0 || std::strcmp(name, "glLinkProgram") == 0;
   if (f.buildKind && !builds) return true;
   ++f.calls;
