@@ -12,8 +12,8 @@
 namespace fragtrace {
 
 void Worker::start() {
-  const std::lock_guard lock(mutex_);
-  startLocked();
+  // Where somebody has work for it, it is there, and may be busy for long.
+  if (const std::unique_lock lock(mutex_, std::try_to_lock); lock) startLocked();
 }
 
 const std::string& Worker::whyNot() {

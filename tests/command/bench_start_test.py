@@ -7,7 +7,7 @@ import signal
 import subprocess
 from pathlib import Path
 
-from support import FRAGTRACE, SCENES, Case, main, run
+from support import FRAGTRACE, SCENES, SMALL, Case, main, run
 
 BOX = SCENES / "cornell-box.gltf"
 TINY = ["--resolution", "8,8", "--spp", "1"]
@@ -42,6 +42,13 @@ class BenchStart(Case):
                                "--hdri-file", SCENES / "sky.pfm")
         threads = {phase["phase"]: phase["thread"] for phase in report["phases"]}
         self.assertEqual((threads["environment"], threads["scene"]), ("second", "main"))
+
+    def test_the_tree_does_not_wait_for_the_environment(self):
+        """Though the scene's textures are read by the same process."""
+        self.renders(SCENES / "environment-diffuse.gltf", "-o", self.folder / "sky.hdr", *SMALL)
+        _, report = self.start(SCENES / "sphere-textured.gltf", *TINY, "--starts", 1, "--stage", "flat", "--hdri-file", self.folder / "sky.hdr")
+        phases = {phase["phase"]: phase for phase in report["phases"]}
+        self.assertLess(phases["tree"]["begin_ms"][0], phases["environment"]["end_ms"][0])
 
     def test_nothing_is_left_behind(self):
         environment = dict(os.environ, TMPDIR=str(self.folder))
