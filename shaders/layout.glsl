@@ -213,7 +213,9 @@ const float kLightDirectional = 2.0f;
 // What is constant in one draw; std140, each row 16 bytes.
 struct Frame {
   vec4 cameraPosition;  // local space; w: 1 when orthographic
-  vec4 cameraRight;     // half of the view's width (at distance 1, or in local space when orthographic)
+  // half of the view's width (at distance 1, or in local space when orthographic); w: 1 when the first sample is in the
+  // middle of its pixel
+  vec4 cameraRight;
   vec4 cameraUp;        // half of its height
   vec4 cameraForward;   // unit; w: metres a unit of local space
   vec4 gridOrigin;      // of the quantised boxes, local space

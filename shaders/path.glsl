@@ -106,7 +106,9 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   vec2 place = vec2(inPicture(pixel)) + 0.5;
   if (!kCountsParts) {
     vec2 jitter = drawPair(numbers, kCameraDimensions);
-    place += samplePixelFilter(kPixelFilter, jitter.x, jitter.y);
+    // A coarse picture's first sample is in the middle: edges with chance would be ragged.
+    bool middle = frame.cameraRight.w > 0.0 && sampleIndex == uint(frame.sampling.x);
+    if (!middle) place += samplePixelFilter(kPixelFilter, jitter.x, jitter.y);
   }
   vec2 point = place / vec2(frame.picture.xy) * 2.0 - 1.0;
   CameraRay ray = makeCameraRay(frame.cameraPosition.xyz, frame.cameraRight.xyz, frame.cameraUp.xyz,

@@ -2,6 +2,7 @@
 // The picture's part of the window: left of the bar one displayed picture, right of it the other, whatever their
 // resolutions; or how far two traced ones differ.
 #include "srgb.glsl"
+#include "picture/enlarge.glsl"
 
 layout(binding = 0) uniform sampler2D leftPicture;
 layout(binding = 1) uniform sampler2D rightPicture;
@@ -13,6 +14,12 @@ layout(location = 4) uniform float difference;  // factor of the difference of r
 
 layout(location = 0) out vec4 shown;
 
+/// A picture that is coarser than the window while something moves is enlarged along its edges.
+vec4 shownOf(sampler2D picture, vec2 uv) {
+  bool coarse = part.z == 1.0 && textureSize(picture, 0).x < int(pictureSize.x);
+  return coarse ? enlarged(picture, uv) : texture(picture, uv);
+}
+
 void main() {
   // Pictures have their first row at the top.
   vec2 place = vec2(gl_FragCoord.x, pictureSize.y - (gl_FragCoord.y - bottom));
@@ -22,7 +29,7 @@ void main() {
     shown = vec4(encoded(clamp(apart * difference, 0.0, 1.0)), 1.0);
     return;
   }
-  vec4 color = place.x >= bar ? texture(rightPicture, uv) : texture(leftPicture, uv);
+  vec4 color = place.x >= bar ? shownOf(rightPicture, uv) : shownOf(leftPicture, uv);
   // Where nothing is, a checkerboard, as picture editors show it.
   ivec2 square = ivec2(place) >> 3;
   float board = ((square.x ^ square.y) & 1) == 0 ? 0.35 : 0.45;

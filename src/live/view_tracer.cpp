@@ -301,6 +301,7 @@ void ViewTracer::adopt(const TraceRequest& request) {
 
 void ViewTracer::fitFilm(Side& side) {
   const glm::ivec2 size = sizeAtStep(request_.size, resolution_.step);
+  side.view.firstInMiddle = resolution_.step > 0;
   const bool fits = side.film && side.film->size() == size;
   if (fits && !side.stale) return;
   if (!fits) side.memory.turn();

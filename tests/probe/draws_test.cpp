@@ -174,6 +174,22 @@ TEST_P(Draws, AnOffsetIsWhereAnEarlierPartEnded) {
   EXPECT_LT(largest, 1e-6);
 }
 
+TEST_P(Draws, TheFirstSampleOfACoarsePictureIsInTheMiddleOfItsPixel) {
+  RenderOptions flat;
+  flat.stages.reset();
+  open("cornell-box.gltf", flat);
+  for (const int samples : {1, 2}) {
+    for (const bool middle : {true, false}) {
+      view_.firstInMiddle = middle;
+      view_.seed = 1;
+      const FilmPixels one = drawn([&](Film& film) { add(film, 0, samples); });
+      view_.seed = 2;
+      const FilmPixels other = drawn([&](Film& film) { add(film, 0, samples); });
+      EXPECT_EQ(bitsOf(one) == bitsOf(other), middle && samples == 1);
+    }
+  }
+}
+
 /// Draws of ever more samples end at their budget of steps, in the middle of a sample, which then begins
 /// anew.
 TEST_P(Draws, SamplesThatBeginAnew) {

@@ -22,7 +22,7 @@ inline std::string probePrelude() {
   std::string text =
       "#version 450 core\nconst bool kAnisotropy = false;\nconst bool kSobol = true;\nconst bool kWatertight "
       "= true;\nconst bool kIterative = "
-      "true;\n";
+      "true;\nconst bool kShadowCatcher = false;\nconst uint kPixelOverWhite = 4u;\n";
   for (const char* file : {"random.glsl", "sampling.glsl", "luminance.glsl", "intersect.glsl", "perlin.glsl",
                            "fresnel.glsl", "ggx.glsl", "film_pixel.glsl"}) {
     text += shaderText(file);
