@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Containers, URIs, pictures, extensions, and what is said of files that cannot be loaded.
+#include <chrono>
+#include <filesystem>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -119,6 +121,31 @@ TEST(GltfFiles, WhatIsNotGltfIsRefused) {
   EXPECT_EQ(refusalOf(folder.write("a.gltf", "{}")), "a.gltf: \"asset\" is missing");
   EXPECT_TRUE(refusalOf(folder.write("a.gltf", "{\"asset\":")).starts_with("a.gltf: the JSON is broken: "));
   EXPECT_NE(refusalOf(folder.write("a.gltf", "{\"asset\":{\"version\":\"1.0\"}}")).find("/asset/version"),
+            std::string::npos);
+}
+
+TEST(GltfFiles, WhatIsNotGltfIsRefusedBeforeItIsRead) {
+  const TemporaryFolder folder;
+  constexpr uint64_t kSize = uint64_t(6) << 30;  // sparse: it takes no room on the disk
+  const auto refusal = [&](const std::string& beginning) {
+    const std::filesystem::path path = folder.write("large.glb", beginning);
+    std::filesystem::resize_file(path, kSize);
+    GltfOptions options;
+    options.limits.memoryBytes = 2 * kSize;
+    const auto start = std::chrono::steady_clock::now();
+    std::string text;
+    try {
+      loadGltf(path, options);
+    } catch (const InputError& error) {
+      text = error.what();
+    }
+    // To fill so much memory takes more than a second.
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(500)) << text;
+    return text.substr(text.rfind("large.glb"));
+  };
+  EXPECT_EQ(refusal(""), "large.glb: is not glTF: neither JSON nor a .glb");
+  EXPECT_EQ(refusal(std::string("glTF\1\0\0\0\x20\0\0\0", 12)), "large.glb: .glb version 1 is not supported");
+  EXPECT_NE(refusal(std::string("glTF\2\0\0\0\x14\0\0\0\0\0\0\0BIN\0", 20)).find("first chunk is not JSON"),
             std::string::npos);
 }
 

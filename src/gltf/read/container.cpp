@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/read/container.h"
 
+#include <algorithm>
 #include <cstring>
+#include <limits>
+#include <span>
 #include <string_view>
 
 #include "image/files/whole_file.h"
@@ -15,22 +18,46 @@ constexpr size_t kChunkAlignment = 4;
 constexpr uint32_t kJsonChunk = 0x4e4f534a;
 constexpr uint32_t kBinaryChunk = 0x004e4942;
 
-uint32_t readLittleEndian(const std::vector<uint8_t>& bytes, size_t offset) {
+uint32_t readLittleEndian(std::span<const uint8_t> bytes, size_t offset) {
   return uint32_t(bytes[offset]) | uint32_t(bytes[offset + 1]) << 8 | uint32_t(bytes[offset + 2]) << 16 |
          uint32_t(bytes[offset + 3]) << 24;
 }
 
-/// Takes a .glb apart: a header, a JSON chunk, perhaps a BIN chunk, perhaps chunks that no one knows.
-Container splitGlb(const std::vector<uint8_t>& bytes, Diagnostics& diagnostics) {
+bool isBinary(std::span<const uint8_t> bytes) {
+  return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+}
+
+/// Refuses what is not glTF by its first bytes, and a .glb by its header. Returns how many bytes of the file
+/// are worth reading: a .glb's length, and one more byte, which tells that there are more.
+uint64_t checkBeginning(std::span<const uint8_t> bytes, uint64_t size, const Diagnostics& diagnostics) {
+  if (!isBinary(bytes)) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const size_t mark = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
+    const size_t start = text.find_first_not_of(" \t\r\n", mark);
+    const bool mayFollow = start == std::string_view::npos && size != bytes.size();
+    if (!mayFollow && (start == std::string_view::npos || text[start] != '{'))
+      diagnostics.refuse("", bytes.empty() ? "is empty, not glTF" : "is not glTF: neither JSON nor a .glb");
+    return std::numeric_limits<uint64_t>::max();
+  }
   if (bytes.size() < kHeaderSize) diagnostics.refuse("", "truncated .glb: it ends inside its header");
   const uint32_t version = readLittleEndian(bytes, 4);
-  const size_t length = readLittleEndian(bytes, 8);
+  const uint64_t length = readLittleEndian(bytes, 8);
   if (version != 2) diagnostics.refuse("", ".glb version " + std::to_string(version) + " is not supported");
-  if (length > bytes.size()) {
+  if (size > 0 && length > size) {
+    diagnostics.refuse("", "truncated .glb: its header says " + std::to_string(length) +
+                               " bytes, the file has " + std::to_string(size));
+  }
+  return std::max<uint64_t>(length, kHeaderSize) + 1;
+}
+
+/// Takes a .glb apart whose beginning is checked: a header, a JSON chunk, perhaps a BIN chunk, perhaps chunks
+/// that no one knows.
+Container splitGlb(const std::vector<uint8_t>& bytes, Diagnostics& diagnostics) {
+  const size_t length = readLittleEndian(bytes, 8);
+  if (length > bytes.size()) {  // of a pipe, whose size is not known before
     diagnostics.refuse("", "truncated .glb: its header says " + std::to_string(length) +
                                " bytes, the file has " + std::to_string(bytes.size()));
   }
-
   if (length < bytes.size()) diagnostics.warn("", "holds more bytes than its header says; they are ignored");
 
   Container container;
@@ -69,17 +96,15 @@ Container splitGlb(const std::vector<uint8_t>& bytes, Diagnostics& diagnostics) 
 }  // namespace
 
 Container readContainer(const std::filesystem::path& path, uint64_t memoryLimit, Diagnostics& diagnostics) {
-  const std::vector<uint8_t> bytes = diagnostics.attempt("", [&] { return readBytes(path, memoryLimit); });
-  if (bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0) return splitGlb(bytes, diagnostics);
-
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const size_t mark = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
-  const size_t start = text.find_first_not_of(" \t\r\n", mark);
-  if (start == std::string_view::npos || text[start] != '{') {
-    diagnostics.refuse("", bytes.empty() ? "is empty, not glTF" : "is not glTF: neither JSON nor a .glb");
-  }
+  const std::vector<uint8_t> bytes = diagnostics.attempt("", [&] {
+    return readBytes(path, memoryLimit, [&](std::span<const uint8_t> first, uint64_t size) {
+      return checkBeginning(first, size, diagnostics);
+    });
+  });
+  if (isBinary(bytes)) return splitGlb(bytes, diagnostics);
+  checkBeginning(bytes, bytes.size(), diagnostics);  // now that all is there
   Container container;
-  container.json = text;
+  container.json.assign(bytes.begin(), bytes.end());
   return container;
 }
 

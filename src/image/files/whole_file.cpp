@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -74,7 +75,7 @@ std::filesystem::path partOf(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::vector<uint8_t> readOpenFile(int file, uint64_t limit) {
+std::vector<uint8_t> readOpenFile(int file, uint64_t limit, const BeginningCheck& check) {
   struct Closing {
     int file;
     ~Closing() { ::close(file); }
@@ -86,26 +87,36 @@ std::vector<uint8_t> readOpenFile(int file, uint64_t limit) {
     throw std::runtime_error("is a device, neither a file nor a pipe");
 
   // The size is only a hint: a pipe has none, and a file may grow meanwhile.
-  const uint64_t expected = S_ISREG(status.st_mode) ? uint64_t(status.st_size) : 0;
+  const uint64_t size = S_ISREG(status.st_mode) ? uint64_t(status.st_size) : 0;
+  constexpr size_t kBlock = 1 << 16;
+  uint64_t most = std::numeric_limits<uint64_t>::max();
+  bool isChecked = !check;
   std::vector<uint8_t> bytes;
-  if (expected <= limit) bytes.reserve(expected + 1);
   for (;;) {
-    MemoryBudget(limit).take(std::max(expected, uint64_t(bytes.size())));
-    constexpr size_t kBlock = 1 << 16;
+    MemoryBudget(limit).take(std::max(size, uint64_t(bytes.size())));
     const size_t before = bytes.size();
-    bytes.resize(bytes.capacity() > before ? bytes.capacity() : before + kBlock);
+    if (isChecked && size > before) bytes.reserve(size_t(std::min(size + 1, most)));
+    const size_t room = isChecked && bytes.capacity() > before ? bytes.capacity() : before + kBlock;
+    bytes.resize(size_t(std::min<uint64_t>(room, most)));
     const ssize_t count = ::read(file, bytes.data() + before, bytes.size() - before);
     const int code = errno;
     bytes.resize(before + size_t(std::max<ssize_t>(count, 0)));
-    if (count == 0) return bytes;
     if (count < 0 && code != EINTR) throw std::runtime_error("cannot be read: " + systemReason(code));
+    const bool ended = count == 0;
+    if (!isChecked && (ended || bytes.size() >= kBlock)) {
+      most = check(bytes, size);
+      isChecked = true;
+      if (bytes.size() > most) bytes.resize(size_t(most));
+    }
+    if (ended || bytes.size() >= most) return bytes;
   }
 }
 
-std::vector<uint8_t> readBytes(const std::filesystem::path& path, uint64_t limit) {
+std::vector<uint8_t> readBytes(const std::filesystem::path& path, uint64_t limit,
+                               const BeginningCheck& check) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
   if (file < 0) throw std::runtime_error("cannot be opened: " + systemReason(errno));
-  return readOpenFile(file, limit);
+  return readOpenFile(file, limit, check);
 }
 
 std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, uint64_t limit) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -11,12 +12,17 @@
 
 namespace fragtrace {
 
+/// Looks at the first bytes of a file (64 KiB, or all that it has) before more is read. `size` is the file's,
+/// or 0 for a pipe. Returns how many bytes are to be read at most; it may throw.
+using BeginningCheck = std::function<uint64_t(std::span<const uint8_t> first, uint64_t size)>;
+
 /// All bytes of an open regular file or pipe, which is closed. Throws std::runtime_error with the bare reason
-/// when it is something else, has more than `limit` bytes, or cannot be read.
-std::vector<uint8_t> readOpenFile(int file, uint64_t limit);
+/// when it is something else, has more than `limit` bytes, or cannot be read; and as `check` does.
+std::vector<uint8_t> readOpenFile(int file, uint64_t limit, const BeginningCheck& check = {});
 
 /// The same of the file at a path.
-std::vector<uint8_t> readBytes(const std::filesystem::path& path, uint64_t limit);
+std::vector<uint8_t> readBytes(const std::filesystem::path& path, uint64_t limit,
+                               const BeginningCheck& check = {});
 /// The same, but throws InputError naming the path, too.
 std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, uint64_t limit = defaultMemoryLimit());
 
