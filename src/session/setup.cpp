@@ -25,6 +25,7 @@
 #include "pack/pack_tree.h"
 #include "process/parallel.h"
 #include "scene/blurred_map.h"
+#include "scene/first_view.h"
 #include "scene/fit.h"
 #include "scene/strokes.h"
 #include "scene/studio.h"
@@ -126,10 +127,9 @@ bool besideAllowed(const RenderOptions& options) {
 
 }  // namespace
 
-Camera fitCamera(const Camera& camera, std::span<const glm::dvec3> points, const RenderOptions& options,
+Camera fitCamera(const Camera& camera, std::span<const glm::dvec3> points, const CameraOverrides& overrides,
                  glm::ivec2 size) {
-  return zoomed(fitted(camera, points, double(size.x) / size.y),
-                options.camera.overrides.orbit.value_or(Orbit()).zoom);
+  return zoomed(fitted(camera, points, double(size.x) / size.y), overrides.orbit.value_or(Orbit()).zoom);
 }
 
 glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options) {
@@ -274,14 +274,15 @@ void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& s
 void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
   const Scene& scene = loaded.scene;
   loaded.cameraIndex = cameraIndexOf(options.camera.index, options.selection.camera, scene.cameras);
-  loaded.camera = chooseCamera(scene.cameras, loaded.cameraIndex, options.camera.overrides, scene.bounds,
+  const CameraOverrides& overrides = loaded.overrides = settledOverrides(options.camera.overrides, scene);
+  loaded.camera = chooseCamera(scene.cameras, loaded.cameraIndex, overrides, scene.bounds,
                                framedAspect(options));
   loaded.size = chooseSize(loaded.camera, options);
-  if (options.camera.overrides.fit != Fit::None) {
+  if (overrides.fit) {
     std::vector<glm::dvec3> points = outlineOf(scene);
-    if (options.camera.overrides.fit == Fit::AllAround)
-      points = sweptAbout(turningPoint(loaded.camera, options.camera.overrides, scene.bounds), points);
-    loaded.camera = fitCamera(loaded.camera, points, options, loaded.size);
+    if (overrides.turns)
+      points = sweptAbout(turningPoint(loaded.camera, overrides, scene.bounds), points);
+    loaded.camera = fitCamera(loaded.camera, points, overrides, loaded.size);
   }
   if (options.camera.lens.fStop && !loaded.camera.perspective)
     throw UsageError("--f-stop: the camera is orthographic, and has no lens");

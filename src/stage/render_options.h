@@ -146,7 +146,7 @@ struct LightOptions {
   double backgroundBlur = 0.0;  ///< of the environment map as the camera sees it: standard deviation, degrees
   std::optional<glm::vec3> backgroundColor;  ///< none: the environment map, black without one
   bool background = true;
-  DefaultLight defaultLight = DefaultLight::White;
+  DefaultLight defaultLight = DefaultLight::Studio;
   bool studio = false;                  ///< the built-in environment (scene/studio.h)
   bool shadowCatcher = false;           ///< a plane that shows nothing but shadows
   std::optional<double> catcherHeight;  ///< its Y in world space, metres; none: the bottom of the scene
