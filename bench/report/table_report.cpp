@@ -52,12 +52,12 @@ constexpr std::array<ReportRow, 22> kRows = {{
     primitive(kThree, kMirror, "Blinn-Phong", "--stage phong"),
     primitive(kThree, kMirror, "shadow rays", "--stage shadows"),
     primitive(kThree, kMirror, "reflections", "--stage reflections"),
-    mesh(kSmall, kSmallMesh, "iterative", "--stage flat --traversal iterative", 55, 15743),
-    mesh(kLarge, kLargeMesh, "iterative", "--stage flat --traversal iterative", 226, 62975),
-    mesh(kSmall, kSmallMesh, "bvh", "--stage flat --traversal bvh", 0.66, 15743),
-    mesh(kLarge, kLargeMesh, "bvh", "--stage flat --traversal bvh", 0.91, 62975),
-    mesh(kSmall, kSmallMesh, "front-to-back", "--stage flat --traversal front-to-back", 0.38, 15743),
-    mesh(kLarge, kLargeMesh, "front-to-back", "--stage flat --traversal front-to-back", 0.43, 62975),
+    mesh(kSmall, kSmallMesh, "iterative", "--stage flat --traversal iterative --default-light white", 55, 15743),
+    mesh(kLarge, kLargeMesh, "iterative", "--stage flat --traversal iterative --default-light white", 226, 62975),
+    mesh(kSmall, kSmallMesh, "bvh", "--stage flat --traversal bvh --default-light white", 0.66, 15743),
+    mesh(kLarge, kLargeMesh, "bvh", "--stage flat --traversal bvh --default-light white", 0.91, 62975),
+    mesh(kSmall, kSmallMesh, "front-to-back", "--stage flat --traversal front-to-back --default-light white", 0.38, 15743),
+    mesh(kLarge, kLargeMesh, "front-to-back", "--stage flat --traversal front-to-back --default-light white", 0.43, 62975),
     {ReportPart::Gi, "Cornell box", "128 samples", "cornell-box.gltf", "--stage gi", 125, 125, 128},
 }};
 
