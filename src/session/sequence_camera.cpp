@@ -20,19 +20,6 @@ struct Filled {
   std::vector<glm::dvec3> points;  ///< whose hull is that of all, nearly
 };
 
-/// Appends the points; of many, those that are farthest in some direction.
-void appendHull(std::vector<glm::dvec3> points, std::vector<glm::dvec3>& hull) {
-  constexpr size_t kFew = 4096;
-  if (points.size() <= kFew) {
-    hull.insert(hull.end(), points.begin(), points.end());
-    return;
-  }
-  for (const glm::dvec3& direction : directionsAllAround()) {
-    hull.push_back(*std::ranges::max_element(
-        points, {}, [&](const glm::dvec3& point) { return glm::dot(point, direction); }));
-  }
-}
-
 /// Seconds, over all of the animation; where its length is not known, those of the pictures asked for.
 std::vector<double> timesOf(const Scene& scene, const RenderOptions& options) {
   constexpr double kPerSecond = 12.0;
@@ -68,7 +55,7 @@ CameraOverrides overridesOfAllPoses(const RenderOptions& options) {
     const Scene scene = loadGltf(posed.scene, gltfOptionsOf(posed));
     if (scene.bounds.empty()) continue;
     filled.bounds.include(scene.bounds);
-    if (overrides.fit) appendHull(outlineOf(scene), filled.points);
+    if (overrides.fit) std::ranges::copy(farthest(outlineOf(scene)), std::back_inserter(filled.points));
   }
   Camera camera = chooseCamera(first.cameras,
                                cameraIndexOf(options.camera.index, options.selection.camera, first.cameras),

@@ -60,6 +60,9 @@ GltfOptions gltfOptionsOf(const RenderOptions& options);
 /// The picture's size in pixels.
 glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options);
 
+/// The height of the shadow catcher's plane (Y, metres).
+double catcherHeightOf(const RenderOptions& options, const BoundsDouble& bounds);
+
 /// The camera as --fit moves it about these points of the world, then zoomed as the orbit says.
 Camera fitCamera(const Camera& camera, std::span<const glm::dvec3> points, const CameraOverrides& overrides,
                  glm::ivec2 size);
