@@ -93,8 +93,8 @@ std::vector<OptionRow> cameraRows() {
           {.effect = Effect::Picture, .kept = true}, NumberRange<int>{1, 65536}),
       regionRow(),
       limit<int>("--camera-index",
-                 "index of the scene's camera, from 0; by default the first camera, or a view of the whole "
-                 "scene if the file has no camera",
+                 "index of the scene's camera, from 0; by default the first camera, or, if the file has no "
+                 "camera, as by --camera-orbit 35,20 --fit",
                  FRAGTRACE_MEMBER(camera.index), {0, std::numeric_limits<int>::max()}, kView),
       word("--camera", "name or index of the camera; `fragtrace info` lists the cameras",
            FRAGTRACE_MEMBER(selection.camera),
@@ -103,8 +103,8 @@ std::vector<OptionRow> cameraRows() {
                 FRAGTRACE_MEMBER(camera.overrides.position), true, kView),
       orbitRow(),
       flag("--fit",
-           "move the camera, without turning it, until the scene fills the picture except for a narrow margin; "
-           "with --turntable, all pictures use the same distance, with --frames the same camera",
+           "move the camera, without turning it, until the scene, and the shadow on --shadow-catcher, fill the "
+           "picture except for a narrow margin; with --turntable, all pictures use the same distance, with --frames the same camera",
            FRAGTRACE_MEMBER(camera.overrides.fit), {.effect = Effect::View}),
       vectorRow("--camera-focal-point", "X,Y,Z of the point that the camera looks at",
                 FRAGTRACE_MEMBER(camera.overrides.focalPoint), true, kView),
