@@ -149,7 +149,9 @@ TEST(ToneMap, AlphaForBlendedValuesShowsOverWhiteWhatLightShows) {
       EXPECT_LE(value, 1);
       EXPECT_NEAR(alpha * value + 1 - alpha, encodeSrgb(light.values[i + c] + 1 - light.values[i + 3]), 1e-6);
       // What has no colour is right over black, too, and so is what is opaque.
-      if (i != 4) EXPECT_NEAR(alpha * value, encodeSrgb(light.values[i + c]), 1e-6);
+      if (i != 4) {
+        EXPECT_NEAR(alpha * value, encodeSrgb(light.values[i + c]), 1e-6);
+      }
     }
   }
 }
