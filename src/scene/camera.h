@@ -37,8 +37,8 @@ struct CameraOverrides {
   std::optional<double> parallelScale{};  ///< half of the picture's height: an orthographic view
   std::optional<Orbit> orbit{};
   bool fit = false;  ///< the camera is moved until the scene fills the picture; left to fitted() of fit.h
-  /// A fit holds all that the scene fills while it turns about the vertical axis through what the camera looks
-  /// at.
+  /// A fit holds all that the scene fills while it turns about the vertical axis through what the camera
+  /// looks at.
   bool turns = false;
 
   bool operator==(const CameraOverrides&) const = default;
@@ -81,9 +81,9 @@ std::optional<int> cameraIndexOf(std::optional<int> index, const std::string& na
                                  std::span<const Camera> cameras);
 
 /// The camera of that index, or without one the first, with its overrides but the fit. Without any, the scene
-/// is seen from kFirstView unless an orbit or a position is given. An orbit takes only the lens of the camera,
-/// stands as far away as one that frames the scene in a picture of that width / height, and is zoomed unless it
-/// is to be fitted. Throws UsageError if there is none of that index.
+/// is seen from kFirstView unless an orbit or a position is given. An orbit takes only the lens of the
+/// camera, stands as far away as one that frames the scene in a picture of that width / height, and is zoomed
+/// unless it is to be fitted. Throws UsageError if there is none of that index.
 Camera chooseCamera(std::span<const Camera> cameras, std::optional<int> index,
                     const CameraOverrides& overrides, const BoundsDouble& bounds, double aspectRatio = 1.0);
 

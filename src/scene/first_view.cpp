@@ -9,8 +9,8 @@ namespace fragtrace {
 
 namespace {
 
-/// The sum of area * n * n^T over the triangles, n being the unit normal. Seen along d, the mean squared cosine
-/// of the surfaces is d^T * sum * d / trace(sum).
+/// The sum of area * n * n^T over the triangles, n being the unit normal. Seen along d, the mean squared
+/// cosine of the surfaces is d^T * sum * d / trace(sum).
 struct Facing {
   glm::dmat3 sum{0.0};
 
@@ -44,8 +44,7 @@ Facing facingOf(const Scene& scene) {
     const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                                glm::cross(linear[0], linear[1]));
     const double scale = std::cbrt(std::abs(glm::determinant(cofactors)));
-    if (scale > 0.0)
-      facing.sum += cofactors * meshes[instance.mesh].sum * glm::transpose(cofactors) / scale;
+    if (scale > 0.0) facing.sum += cofactors * meshes[instance.mesh].sum * glm::transpose(cofactors) / scale;
   }
   for (const Sphere& sphere : scene.spheres)
     facing.sum += glm::dmat3(double(sphere.radius) * sphere.radius);  // alike from all sides
@@ -64,11 +63,11 @@ double meanSquaredCosine(const Facing& facing, const Orbit& orbit) {
 Orbit firstView(const Scene& scene) {
   // An edge: 14 degrees or less to the surface. A level floor is seen at 20.
   constexpr double kEdge = 0.06;
-  constexpr std::array<Orbit, 3> kOthers{{{.azimuthDegrees = -kFirstView.azimuthDegrees,
-                                           .elevationDegrees = kFirstView.elevationDegrees},
-                                          {.azimuthDegrees = kFirstView.azimuthDegrees, .elevationDegrees = 55.0},
-                                          {.azimuthDegrees = 180.0 + kFirstView.azimuthDegrees,
-                                           .elevationDegrees = kFirstView.elevationDegrees}}};
+  constexpr std::array<Orbit, 3> kOthers{
+      {{.azimuthDegrees = -kFirstView.azimuthDegrees, .elevationDegrees = kFirstView.elevationDegrees},
+       {.azimuthDegrees = kFirstView.azimuthDegrees, .elevationDegrees = 55.0},
+       {.azimuthDegrees = 180.0 + kFirstView.azimuthDegrees,
+        .elevationDegrees = kFirstView.elevationDegrees}}};
   const Facing facing = facingOf(scene);
   const auto seen = [&](const Orbit& orbit) { return meanSquaredCosine(facing, orbit); };
   return seen(kFirstView) >= kEdge ? kFirstView : *std::ranges::max_element(kOthers, {}, seen);

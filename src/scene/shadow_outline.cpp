@@ -18,8 +18,9 @@ double turnOf(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
 
 /// The convex hull, to the left of each of its edges (Andrew's monotone chain).
 Polygon hullOf(Polygon points) {
-  std::ranges::sort(points,
-                    [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::ranges::sort(points, [](const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x < b.x || (a.x == b.x && a.y < b.y);
+  });
   Polygon hull;
   const auto append = [&](const glm::dvec2& p, size_t begin) {
     while (hull.size() >= begin + 2 && turnOf(hull[hull.size() - 2], hull.back(), p) <= 0.0) hull.pop_back();

@@ -15,8 +15,8 @@ inline bool fitsShadow(const RenderOptions& options, const CameraOverrides& over
   return overrides.fit && options.light.shadowCatcher && has(options.stages, Stage::Gi);
 }
 
-/// The environment, coarsely, and the punctual lights, as the plane of that height (Y, metres) gets them in the
-/// middle of the scene.
+/// The environment, coarsely, and the punctual lights, as the plane of that height (Y, metres) gets them in
+/// the middle of the scene.
 std::vector<PlaneLight> caughtLights(const Scene& scene, const Environment& environment,
                                      const RenderOptions& options, double height);
 

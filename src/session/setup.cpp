@@ -279,19 +279,18 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
   const Scene& scene = loaded.scene;
   loaded.cameraIndex = cameraIndexOf(options.camera.index, options.selection.camera, scene.cameras);
   const CameraOverrides& overrides = loaded.overrides = settledOverrides(options.camera.overrides, scene);
-  loaded.camera = chooseCamera(scene.cameras, loaded.cameraIndex, overrides, scene.bounds,
-                               framedAspect(options));
+  loaded.camera =
+      chooseCamera(scene.cameras, loaded.cameraIndex, overrides, scene.bounds, framedAspect(options));
   loaded.size = chooseSize(loaded.camera, options);
   if (overrides.fit) {
     std::vector<glm::dvec3> points = outlineOf(scene);
     if (fitsShadow(options, overrides)) {
       const double height = catcherHeightOf(options, scene.bounds);
-      const std::vector<glm::dvec3> shadow = shadowOutline(
-          farthest(points), height, caughtLights(scene, loaded.environment, options, height));
+      const std::vector<glm::dvec3> shadow =
+          shadowOutline(farthest(points), height, caughtLights(scene, loaded.environment, options, height));
       points.insert(points.end(), shadow.begin(), shadow.end());
     }
-    if (overrides.turns)
-      points = sweptAbout(turningPoint(loaded.camera, overrides, scene.bounds), points);
+    if (overrides.turns) points = sweptAbout(turningPoint(loaded.camera, overrides, scene.bounds), points);
     loaded.camera = fitCamera(loaded.camera, points, overrides, loaded.size);
   }
   if (options.camera.lens.fStop && !loaded.camera.perspective)

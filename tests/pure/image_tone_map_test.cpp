@@ -136,9 +136,9 @@ TEST(ImageToneMap, NamesAreThoseOfTheCommandLine) {
 
 TEST(ToneMap, AlphaForBlendedValuesShowsOverWhiteWhatLightShows) {
   const std::vector<std::string> channels{"R", "G", "B", "A"};
-  const Image light = pictureOf({0, 0, 0, 0.32F, 0.3F, 0.1F, 0.02F, 0.4F, 0.2F, 0.9F, 0.5F, 1, 0, 0, 0, 0,
-                                 0.25F, 0.25F, 0.25F, 0.5F},
-                                channels);
+  const Image light = pictureOf(
+      {0, 0, 0, 0.32F, 0.3F, 0.1F, 0.02F, 0.4F, 0.2F, 0.9F, 0.5F, 1, 0, 0, 0, 0, 0.25F, 0.25F, 0.25F, 0.5F},
+      channels);
   const Image before = toDisplay(light, 0, ToneMap::Linear);
   const Image blended = forBlendedValues(before);
   for (size_t i = 0; i < light.values.size(); i += 4) {

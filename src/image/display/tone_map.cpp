@@ -162,10 +162,10 @@ Image forBlendedValues(Image display) {
   for (size_t i = 0; i < display.values.size(); i += display.channelCount()) {
     float* const pixel = display.values.data() + i;
     const double alpha = pixel[*alphaChannel];
-    // Blending light over white gives the value w of a channel, over black b. Blending values with colour c and
-    // alpha a gives a c + 1 - a and a c. Both are met by a = 1 - w + b, which is a shadow's alpha, too, but
-    // channels differ where the surface has a colour. So alpha is their mean, at least what keeps c above 0, and
-    // the colour is chosen so that white is met exactly.
+    // Blending light over white gives the value w of a channel, over black b. Blending values with colour c
+    // and alpha a gives a c + 1 - a and a c. Both are met by a = 1 - w + b, which is a shadow's alpha, too,
+    // but channels differ where the surface has a colour. So alpha is their mean, at least what keeps c above
+    // 0, and the colour is chosen so that white is met exactly.
     double mean = 0.0;
     double least = 0.0;
     std::array<double, 3> missing{};
