@@ -30,7 +30,7 @@ STEPS = (1, 4, 16, 64, 256, 1024)
 GOALS = (1e-2, 1e-3)
 BASELINE = "cornell-box-baseline"
 TITLES = {"cornell-box": "Cornell box", "matt-ball": "matt ball under lightroom_14b", "many-lights": "many lights",
-          "rough-glass": "rough glass (default light)", "glass-sphere": "glass sphere",
+          "rough-glass": "rough glass (--default-light white)", "glass-sphere": "glass sphere",
           "boom-box": "BoomBoxWithAxes under lightroom_14b", "flight-helmet": "FlightHelmet under lightroom_14b"}
 
 
@@ -41,10 +41,10 @@ def scenes(assets, folder):
     return {"cornell-box": [own / "cornell-box.gltf"],
             "matt-ball": [folder / "matt-ball.gltf", *room],
             "many-lights": [own / "many-lights.gltf"],
-            "rough-glass": [own / "rough-glass.gltf"],
+            "rough-glass": [own / "rough-glass.gltf", "--default-light", "white"],
             "glass-sphere": [own / "glass-sphere.gltf"],
-            "boom-box": [assets / "scenes/BoomBoxWithAxes/BoomBoxWithAxes.gltf", *room],
-            "flight-helmet": [assets / "scenes/FlightHelmet/FlightHelmet.gltf", *room]}
+            "boom-box": [assets / "scenes/BoomBoxWithAxes/BoomBoxWithAxes.gltf", "--camera-orbit", "0,0", *room],
+            "flight-helmet": [assets / "scenes/FlightHelmet/FlightHelmet.gltf", "--camera-orbit", "0,0", *room]}
 
 
 def run(program, *arguments):

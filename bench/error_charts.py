@@ -10,7 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-BOOM_BOX = ["{assets}/scenes/BoomBoxWithAxes/BoomBoxWithAxes.gltf", "--hdri-file", "{assets}/env/lightroom_14b.hdr"]
+BOOM_BOX = ["{assets}/scenes/BoomBoxWithAxes/BoomBoxWithAxes.gltf", "--camera-orbit", "0,0", "--hdri-file", "{assets}/env/lightroom_14b.hdr"]
 RUNS = {
     "cornell-box": ["scenes/cornell-box.gltf", "--reference", "tests/reference/cornell-box.gi.exr", "--spp", "1024",
                     "--configs", "default,random,bsdf,baseline,adaptive,light-candidates,light-spatial"],

@@ -53,7 +53,7 @@ def draw(program, scene, options, folder):
     shutil.rmtree(folder, ignore_errors=True)
     capture = folder / "capture"
     capture.mkdir(parents=True)
-    result = subprocess.run([program, "render", scene, *options, "--quiet", "--resolution", "48,48", "--spp", "8", "-o", folder / "x.pfm", "--stats",
+    result = subprocess.run([program, "render", scene, *options, "--quiet", "--default-light", "white", "--resolution", "48,48", "--spp", "8", "-o", folder / "x.pfm", "--stats",
                              folder / "s.json"], capture_output=True, text=True, check=False, env={**os.environ, "MESA_SHADER_CAPTURE_PATH": str(capture)})
     texts = captured(capture)
     if result.returncode != 0:

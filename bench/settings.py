@@ -17,8 +17,8 @@ SCENES = Path(__file__).resolve().parents[1] / "scenes"
 SKY = ("--hdri-file", SCENES / "sky.pfm")
 TREE = ("--traversal", "front-to-back")
 SETTINGS = {
-    "mesh-flat": ("mesh-62975", ("--stage", "flat")),
-    "mesh-bvh": ("mesh-62975", ("--stage", "flat", "--traversal", "bvh")),
+    "mesh-flat": ("mesh-62975", ("--stage", "flat", "--default-light", "white")),
+    "mesh-bvh": ("mesh-62975", ("--stage", "flat", "--traversal", "bvh", "--default-light", "white")),
     "mirror-reflections": ("sphere-plane-mirror", ("--stage", "reflections")),
     "box-literals": ("cornell-box", ("--traversal", "literals")),
     "box-tree": ("cornell-box", (*TREE, "--schedule", "megakernel")),

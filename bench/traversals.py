@@ -19,7 +19,7 @@ MESHES = ("mesh-15743", "mesh-62975")
 
 def frame_ms(program, scene, traversal, spp, folder):
     picture, stats = folder / f"{scene.stem}.{traversal}.pfm", folder / "stats.json"
-    subprocess.run([program, "render", scene, "-o", picture, "--stage", "flat", "--resolution", "500,500", "--spp", str(spp),
+    subprocess.run([program, "render", scene, "-o", picture, "--stage", "flat", "--default-light", "white", "--resolution", "500,500", "--spp", str(spp),
                     "--traversal", traversal, "--quiet", "--stats", stats], check=True,
                    env={**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"})
     return json.loads(stats.read_text())["frame_ms"]["median"], picture

@@ -46,7 +46,6 @@ struct MotionOptions {
 
 void declareMotion(CLI::App& app, MotionOptions& o) {
   o.raw.options.output.denoise = Denoise::Variance;
-  o.raw.options.light.defaultLight = DefaultLight::Studio;
   addOption(app, "file", o.raw)->required();
   app.add_option("--path", o.path,
                  "path of the camera: orbit, a turn about what it looks at; dolly, towards it and back; or a "

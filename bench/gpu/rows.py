@@ -59,7 +59,7 @@ def box(part, title, options, wants):
 
 
 def mesh(title, options, wants):
-    return Frame("mesh", f"62,975 triangles, flat, front to back, {title}", "scenes/mesh-62975.gltf", ["--stage", "flat", *TREE, *options],
+    return Frame("mesh", f"62,975 triangles, flat, front to back, {title}", "scenes/mesh-62975.gltf", ["--stage", "flat", "--default-light", "white", *TREE, *options],
                  wants, MESH_AIM)
 
 
@@ -68,7 +68,7 @@ def ball(title, options, wants):
 
 
 def helmet(title, options, wants):
-    return Frame("helmet", f"FlightHelmet under lightroom_14b, {title}", HELMET[0], ["--hdri-file", HELMET[1], *options], wants, needs=HELMET)
+    return Frame("helmet", f"FlightHelmet under lightroom_14b, {title}", HELMET[0], ["--camera-orbit", "0,0", "--hdri-file", HELMET[1], *options], wants, needs=HELMET)
 
 
 FRAMES = (

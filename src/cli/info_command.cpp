@@ -175,7 +175,7 @@ int inform(const InfoOptions& options) {
   const Bvh tree = buildSceneBvh(scene);
   const BvhQuality bvh = bvhQuality(tree);
   for (const std::string& warning : scene.warnings) std::cerr << "fragtrace: warning: " << warning << '\n';
-  const Surroundings surroundings = hasOwnLight(scene) ? Surroundings::None : Surroundings::DefaultLight;
+  const Surroundings surroundings = hasOwnLight(scene) ? Surroundings::None : Surroundings::Map;
   const TraitSet traits = traitsOf(scene, surroundings);
   const double bytesPerTriangle =
       scene.triangles.empty() ? 0.0 : gpuBytesPerTriangle(scene, tree, traits, surroundings);

@@ -213,7 +213,7 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
   LoadedScene& loaded = *run.loaded;
   const Camera camera = loaded.camera;
   if (sequence.turntable > 0) {
-    const glm::dvec3 focalPoint = turningPoint(camera, options.camera.overrides, loaded.scene.bounds);
+    const glm::dvec3 focalPoint = turningPoint(camera, loaded.overrides, loaded.scene.bounds);
     loaded.camera = turnedCamera(camera, focalPoint, frame.turn);
     loaded.view = makeView(options, loaded, loaded.camera);
   }

@@ -16,18 +16,6 @@ namespace {
 
 struct Cancelled {};
 
-/// Three quarters to the right of the front, as in photographs of products.
-constexpr Orbit kFirstView{.azimuthDegrees = 35.0, .elevationDegrees = 20.0};
-
-/// A scene without a camera is seen from the side and from above, where its shape shows best.
-void standAside(LoadedScene& loaded, RenderOptions& options) {
-  if (!loaded.scene.cameras.empty() || options.camera.overrides != CameraOverrides() || options.camera.index)
-    return;
-  options.camera.overrides.orbit = kFirstView;
-  options.camera.overrides.fit = Fit::View;
-  aim(loaded, options, FilmOf::Picture);
-}
-
 }  // namespace
 
 struct SceneLoader::Job {
@@ -41,7 +29,7 @@ void SceneLoader::start(const RenderOptions& options) {
   job_ = std::make_shared<Job>();
   ++*threads_;
   // Detached: a load that nobody waits for any more ends at its next step.
-  std::thread([job = job_, threads = threads_, options, asRendered = asRendered_, &exchange = exchange_] {
+  std::thread([job = job_, threads = threads_, options, &exchange = exchange_] {
     nameThread("load");
     LoadResult result;
     result.options = options;
@@ -55,12 +43,11 @@ void SceneLoader::start(const RenderOptions& options) {
       result.ownLight =
           known ? !result.stats.defaultLight : ownLight(result.scene->scene) == OwnLight::Enough;
       result.environments = environmentsNear(options);
-      if (!asRendered) standAside(*result.scene, result.options);
       // From now on it is told by its index, as others are that are chosen in the window.
       result.options.camera.index = result.scene->cameraIndex;
       result.options.selection.camera.clear();
       // So is a camera that was placed by the scene's vertices.
-      if (result.options.camera.overrides.fit != Fit::None)
+      if (result.scene->overrides.fit)
         result.options.camera.overrides =
             overridesOf(poseOf(result.scene->camera, result.scene->scene.bounds));
       progress("packing", 0.9);

@@ -24,8 +24,7 @@ struct LoadResult {
 
 class SceneLoader {
  public:
-  /// With `asRendered`, a scene without a camera is seen as `render` sees it.
-  SceneLoader(Exchange& exchange, bool asRendered) : exchange_(exchange), asRendered_(asRendered) {}
+  explicit SceneLoader(Exchange& exchange) : exchange_(exchange) {}
 
   /// Begins; what was being loaded before is dropped.
   void start(const RenderOptions& options);
@@ -38,7 +37,6 @@ class SceneLoader {
  private:
   struct Job;
   Exchange& exchange_;
-  bool asRendered_;
   std::shared_ptr<Job> job_;
   std::shared_ptr<std::atomic<int>> threads_ = std::make_shared<std::atomic<int>>(0);
 };

@@ -57,7 +57,7 @@ std::string whatFailed(const std::exception_ptr& error) {
 ViewTracer::ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn, Exchange& exchange)
     : start_(start),
       exchange_(exchange),
-      loader_(exchange, !start.reference.empty()),
+      loader_(exchange),
       thumbnails_(exchange),
       oidn_(std::move(oidn)),
       clock_(start.waitsForPasses) {

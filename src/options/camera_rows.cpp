@@ -62,19 +62,6 @@ OptionRow orbitRow() {
   return row;
 }
 
-OptionRow fitRow() {
-  OptionRow row = memberRow(
-      "--fit",
-      "move the camera, without turning it, until the scene fills the picture except for a narrow margin; "
-      "with --turntable, all pictures use the same distance, with --frames the same camera",
-      FRAGTRACE_MEMBER(camera.overrides.fit), {.effect = Effect::View});
-  row.add = [](CLI::App& app, const OptionRow& r, RawRender& raw) {
-    app.add_flag_callback(
-        r.name, [&raw] { raw.options.camera.overrides.fit = Fit::View; }, r.help);
-  };
-  return row;
-}
-
 OptionRow regionRow() {
   const auto take = [](const std::vector<int>& n) {
     const Region region{{n[0], n[1]}, {n[2], n[3]}};
@@ -106,8 +93,8 @@ std::vector<OptionRow> cameraRows() {
           {.effect = Effect::Picture, .kept = true}, NumberRange<int>{1, 65536}),
       regionRow(),
       limit<int>("--camera-index",
-                 "index of the scene's camera, from 0; by default the first camera, or a view of the whole "
-                 "scene if the file has no camera",
+                 "index of the scene's camera, from 0; by default the first camera, or, if the file has no "
+                 "camera, as by --camera-orbit 35,20 --fit",
                  FRAGTRACE_MEMBER(camera.index), {0, std::numeric_limits<int>::max()}, kView),
       word("--camera", "name or index of the camera; `fragtrace info` lists the cameras",
            FRAGTRACE_MEMBER(selection.camera),
@@ -115,7 +102,12 @@ std::vector<OptionRow> cameraRows() {
       vectorRow("--camera-position", "X,Y,Z of the camera in world space, in metres",
                 FRAGTRACE_MEMBER(camera.overrides.position), true, kView),
       orbitRow(),
-      fitRow(),
+      flag("--fit",
+           "move the camera, without turning it, until the scene, and the shadow on --shadow-catcher, fill "
+           "the "
+           "picture except for a narrow margin; with --turntable, all pictures use the same distance, with "
+           "--frames the same camera",
+           FRAGTRACE_MEMBER(camera.overrides.fit), {.effect = Effect::View}),
       vectorRow("--camera-focal-point", "X,Y,Z of the point that the camera looks at",
                 FRAGTRACE_MEMBER(camera.overrides.focalPoint), true, kView),
       vectorRow("--camera-view-up", "X,Y,Z of the direction that points up in the picture",

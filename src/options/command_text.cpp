@@ -25,11 +25,7 @@ RenderOptions parseCommand(const std::string& name, std::vector<std::string> wor
   RawView raw;
   raw.render.anyOutput = true;
   addViewOptions(app, raw);
-  if (name == "render") {  // its defaults
-    const RenderOptions standard;
-    raw.render.options.output.denoise = standard.output.denoise;
-    raw.render.options.light.defaultLight = standard.light.defaultLight;
-  }
+  if (name == "render") raw.render.options.output.denoise = RenderOptions().output.denoise;  // its default
   addOption(app, "--output", raw.render);
   addOptions(app, OptionGroup::Encoding, raw.render);
   parseWords(app, std::move(words));

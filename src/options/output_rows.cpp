@@ -194,6 +194,12 @@ std::vector<OptionRow> outputRows() {
            FRAGTRACE_MEMBER(output.encoding.half),
            {.effect = Effect::Display, .group = OptionGroup::Encoding}),
       pngDepthRow(),
+      choice("--alpha",
+             "how the program that shows a .png lays it over a background: it adds light (linear), or sRGB "
+             "values, as browsers do (display), for which colour and alpha are chosen so that a white page "
+             "shows what light would",
+             FRAGTRACE_MEMBER(output.alpha), kAlphaNames,
+             {.effect = Effect::Display, .group = OptionGroup::Encoding}),
       limit<double>(
           "--checkpoint",
           "write the state of the render to OUTPUT.checkpoint every this many seconds, and when the render "

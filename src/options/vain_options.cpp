@@ -47,6 +47,8 @@ constexpr VainRow kRows[] = {
     {"--background-color", [](const Options& o) { return !o.light.background; }, "--no-background hides it"},
     {"--background-color", [](const Options& o) { return glm::compMax(*o.light.backgroundColor) > 1.0f; },
      "values above 1 are brighter than white; those from 0 to 255 are divided by 255 first"},
+    {"--alpha", [](const Options& o) { return o.light.background || !writes(o, {ImageFormat::Png}); },
+     "changes a .png with --no-background only"},
     {"--exposure", isLinear, "changes .png and .jpg only; this file holds linear radiance"},
     {"--tone-map", isLinear, "changes .png and .jpg only; this file holds linear radiance"},
     {"--output",

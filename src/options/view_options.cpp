@@ -20,7 +20,6 @@ constexpr int kMostWindowPixels = 16384;
 void addViewOptions(CLI::App& app, RawView& raw) {
   RenderOptions& shown = raw.render.options;
   shown.output.denoise = Denoise::Variance;
-  shown.light.defaultLight = DefaultLight::Studio;
   addOption(app, "file", raw.render,
             "scene: a .gltf or .glb file; without one, the window waits for a file to be dropped on it");
   addOptions(app, OptionGroup::Tracing, raw.render);
@@ -52,9 +51,6 @@ void addViewOptions(CLI::App& app, RawView& raw) {
 ViewOptions finishView(RawView& raw, CLI::App& command) {
   ViewOptions options;
   raw.render.anyOutput = true;
-  // Compared with what `render` draws, the scene is lit as there.
-  if (!raw.reference.empty() && command.get_option("--default-light")->empty())
-    raw.render.options.light.defaultLight = DefaultLight::White;
   options.render = finishConfigured(raw.render, raw.config, command);
   const glm::ivec2 size = options.render.camera.resolution.value_or(glm::ivec2(1));
   if (size.x > kMostWindowPixels || size.y > kMostWindowPixels)

@@ -16,7 +16,6 @@ namespace fragtrace {
 
 namespace {
 
-constexpr double kPi = glm::pi<double>();
 /// Bounds are wider by so much, for what the shader computes in single precision.
 constexpr double kMargin = 2e-3;
 constexpr int kBuckets = 12;
@@ -27,9 +26,9 @@ constexpr int kDeepest = 40;  ///< deeper nodes are split by count
 /// a little.
 double costOf(const LightBounds& b) {
   const double spread = b.spread;
-  const double wide = std::min(spread + b.falloff, kPi);
-  const double directions = 2.0 * kPi * (1.0 - std::cos(spread)) +
-                            kPi / 2.0 *
+  const double wide = std::min(spread + b.falloff, glm::pi<double>());
+  const double directions = 2.0 * glm::pi<double>() * (1.0 - std::cos(spread)) +
+                            glm::pi<double>() / 2.0 *
                                 (2.0 * wide * std::sin(spread) - std::cos(spread - 2.0 * wide) -
                                  2.0 * spread * std::sin(spread) + std::cos(spread));
   const glm::dvec3 d = b.high - b.low;

@@ -23,7 +23,7 @@ namespace {
 /// A view that shows nothing is likely to be a mistake: of who chose it, of ours, or a surface's back.
 void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, const ShaderVariant& variant,
                       const Statistics& stats) {
-  const bool chosen = !loaded.scene.cameras.empty() || options.camera.overrides != CameraOverrides();
+  const bool chosen = loaded.overrides == options.camera.overrides;
   const bool nothing = stats.scene.triangles == 0 && stats.scene.spheres == 0;
   const bool seen = stats.film.hitPixels > 0 || stats.film.samples == 0;
   if (options.camera.region || nothing || seen || variant.heatmap) return;

@@ -112,6 +112,7 @@ void writePicture(const RenderOptions& options, const Image& linear, std::span<c
   Image display =
       toDisplay(keepsAlpha ? linear : withoutAlpha(linear), colors ? 0.0 : options.output.exposure,
                 colors ? ToneMap::Linear : options.output.toneMap);
+  if (options.output.alpha == AlphaOf::Display) display = forBlendedValues(std::move(display));
   drawLines(display, lines, linear.placement.value_or(Placement{{0, 0}, {linear.width, linear.height}}));
   writeOut(options, display);
 }

@@ -56,7 +56,7 @@ SequenceFrame frameOf(const RenderOptions& options, int index) {
     frame.options.output.statsFile = numberedName(options.output.statsFile, frame.number);
   if (sequence.turntable > 0) {
     frame.turn = 2.0 * glm::pi<double>() * frame.number / sequence.turntable;
-    if (options.camera.overrides.fit != Fit::None) frame.options.camera.overrides.fit = Fit::AllAround;
+    frame.options.camera.overrides.turns = true;
   } else {
     frame.options.selection.animationTime = frame.number / sequence.fps;
   }

@@ -44,18 +44,22 @@ double framingDistance(double fovY, double aspectRatio, const BoundsDouble& boun
 
 glm::dvec3 centerOf(const BoundsDouble& bounds) { return bounds.empty() ? glm::dvec3(0.0) : bounds.center(); }
 
+constexpr glm::dvec3 kVertical{0.0, 1.0, 0.0};
+
+glm::dvec3 levelOutwards(const Orbit& orbit) {
+  const double azimuth = glm::radians(orbit.azimuthDegrees);
+  return {std::sin(azimuth), 0.0, std::cos(azimuth)};
+}
+
 /// The camera's lens on the sphere about what is looked at.
-Camera orbiting(const Camera& lens, const CameraOverrides& overrides, const BoundsDouble& bounds,
-                double aspectRatio) {
+Camera orbiting(const Camera& lens, const Orbit& orbit, const CameraOverrides& overrides,
+                const BoundsDouble& bounds, double aspectRatio) {
   const CameraOverrides ofLens{.viewAngleDegrees = overrides.viewAngleDegrees,
                                .parallelScale = overrides.parallelScale};
   Camera camera = withOverrides(lens, ofLens, bounds);
-  const double azimuth = glm::radians(overrides.orbit->azimuthDegrees);
-  const double elevation = glm::radians(overrides.orbit->elevationDegrees);
-  const glm::dvec3 outwards(std::sin(azimuth), 0.0, std::cos(azimuth));
-  const glm::dvec3 vertical(0.0, 1.0, 0.0);
-  camera.forward = -(std::cos(elevation) * outwards + std::sin(elevation) * vertical);
-  camera.up = std::cos(elevation) * vertical - std::sin(elevation) * outwards;
+  const double elevation = glm::radians(orbit.elevationDegrees);
+  camera.forward = -outwardsOf(orbit);
+  camera.up = std::cos(elevation) * kVertical - std::sin(elevation) * levelOutwards(orbit);
   if (overrides.viewUp) camera.up = orthogonalUp(*overrides.viewUp, camera.forward);
   double distance = 2.0 * radiusOf(bounds);
   if (camera.perspective)
@@ -63,10 +67,15 @@ Camera orbiting(const Camera& lens, const CameraOverrides& overrides, const Boun
   else if (!overrides.parallelScale)
     camera.halfHeight = radiusOf(bounds) / std::min(1.0, aspectRatio);
   camera.position = overrides.focalPoint.value_or(centerOf(bounds)) - camera.forward * distance;
-  return overrides.fit == Fit::None ? zoomed(camera, overrides.orbit->zoom) : camera;
+  return overrides.fit ? camera : zoomed(camera, orbit.zoom);
 }
 
 }  // namespace
+
+glm::dvec3 outwardsOf(const Orbit& orbit) {
+  const double elevation = glm::radians(orbit.elevationDegrees);
+  return std::cos(elevation) * levelOutwards(orbit) + std::sin(elevation) * kVertical;
+}
 
 Camera frameScene(const BoundsDouble& bounds, double aspectRatio) {
   Camera camera;
@@ -140,6 +149,7 @@ double focalLengthOf(double viewAngle) {
 }
 
 Camera zoomed(Camera camera, double zoom) {
+  if (zoom == 1.0) return camera;  // to the bit
   camera.fovY = 2.0 * std::atan(std::tan(0.5 * camera.fovY) / zoom);
   camera.halfHeight /= zoom;
   return camera;
@@ -147,7 +157,7 @@ Camera zoomed(Camera camera, double zoom) {
 
 glm::dvec3 turningPoint(const Camera& camera, const CameraOverrides& overrides, const BoundsDouble& bounds) {
   if (overrides.focalPoint) return *overrides.focalPoint;
-  const bool placed = overrides.orbit || overrides.fit != Fit::None;
+  const bool placed = overrides.orbit || overrides.fit;
   return placed ? centerOf(bounds) : focalPointOf(camera, bounds);
 }
 
@@ -168,8 +178,10 @@ Camera chooseCamera(std::span<const Camera> cameras, std::optional<int> index,
   const Camera camera = index             ? cameras[size_t(*index)]
                         : cameras.empty() ? frameScene(bounds, aspectRatio)
                                           : cameras.front();
-  return overrides.orbit ? orbiting(camera, overrides, bounds, aspectRatio)
-                         : withOverrides(camera, overrides, bounds);
+  const bool first = cameras.empty() && !overrides.position;
+  if (overrides.orbit || first)
+    return orbiting(camera, overrides.orbit.value_or(kFirstView), overrides, bounds, aspectRatio);
+  return withOverrides(camera, overrides, bounds);
 }
 
 }  // namespace fragtrace

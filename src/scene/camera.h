@@ -21,9 +21,12 @@ struct Orbit {
   bool operator==(const Orbit&) const = default;
 };
 
-/// Whether the camera is moved until the scene fills the picture: as it is seen, or as it is seen from all
-/// sides while it turns about the vertical axis through what the camera looks at.
-enum class Fit : uint8_t { None, View, AllAround };
+/// Three quarters to the right of the front, as in photographs of products: where a scene without a camera is
+/// seen from.
+inline constexpr Orbit kFirstView{.azimuthDegrees = 35.0, .elevationDegrees = 20.0};
+
+/// The unit vector from what is looked at to the camera, world space.
+glm::dvec3 outwardsOf(const Orbit& orbit);
 
 /// World space, metres; the view angle is vertical.
 struct CameraOverrides {
@@ -33,7 +36,10 @@ struct CameraOverrides {
   std::optional<double> viewAngleDegrees{};
   std::optional<double> parallelScale{};  ///< half of the picture's height: an orthographic view
   std::optional<Orbit> orbit{};
-  Fit fit = Fit::None;  ///< left to fitted() of fit.h
+  bool fit = false;  ///< the camera is moved until the scene fills the picture; left to fitted() of fit.h
+  /// A fit holds all that the scene fills while it turns about the vertical axis through what the camera
+  /// looks at.
+  bool turns = false;
 
   bool operator==(const CameraOverrides&) const = default;
 };
@@ -74,10 +80,10 @@ glm::dvec3 turningPoint(const Camera& camera, const CameraOverrides& overrides, 
 std::optional<int> cameraIndexOf(std::optional<int> index, const std::string& name,
                                  std::span<const Camera> cameras);
 
-/// The camera of that index, or without one the first, or one that frames the scene in a picture of that
-/// width / height, with its overrides but the fit. An orbit takes only the lens of that camera, stands as far
-/// away as the camera that frames the scene, and is zoomed unless it is to be fitted. Throws UsageError if
-/// there is none of that index.
+/// The camera of that index, or without one the first, with its overrides but the fit. Without any, the scene
+/// is seen from kFirstView unless an orbit or a position is given. An orbit takes only the lens of the
+/// camera, stands as far away as one that frames the scene in a picture of that width / height, and is zoomed
+/// unless it is to be fitted. Throws UsageError if there is none of that index.
 Camera chooseCamera(std::span<const Camera> cameras, std::optional<int> index,
                     const CameraOverrides& overrides, const BoundsDouble& bounds, double aspectRatio = 1.0);
 

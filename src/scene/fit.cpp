@@ -166,6 +166,17 @@ std::vector<glm::dvec3> outlineOf(const Scene& scene) {
   return points;
 }
 
+std::vector<glm::dvec3> farthest(std::vector<glm::dvec3> points) {
+  constexpr size_t kFew = 4096;
+  if (points.size() <= kFew) return points;
+  std::vector<glm::dvec3> hull;
+  for (const glm::dvec3& direction : directionsAllAround()) {
+    hull.push_back(*std::ranges::max_element(
+        points, {}, [&](const glm::dvec3& point) { return glm::dot(point, direction); }));
+  }
+  return hull;
+}
+
 std::vector<glm::dvec3> sweptAbout(const glm::dvec3& point, std::span<const glm::dvec3> points) {
   // Only the hull of the profile, distance from the axis over height, counts (Andrew's monotone chain).
   std::vector<glm::dvec2> profile;  // height, distance

@@ -20,6 +20,9 @@ std::vector<glm::dvec3> directionsAllAround();
 /// width; a little larger where spheres or very many instances are.
 std::vector<glm::dvec3> outlineOf(const Scene& scene);
 
+/// The points, or, of many, those that are farthest in some of directionsAllAround().
+std::vector<glm::dvec3> farthest(std::vector<glm::dvec3> points);
+
 /// The same of what they sweep as they turn about the vertical axis, +Y, through `point`.
 std::vector<glm::dvec3> sweptAbout(const glm::dvec3& point, std::span<const glm::dvec3> points);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gltf/gltf.h"
+#include "scene/first_view.h"
 #include "scene/fit.h"
 #include "scene/parts.h"
 #include "session/setup.h"
@@ -18,19 +19,6 @@ struct Filled {
   BoundsDouble bounds;
   std::vector<glm::dvec3> points;  ///< whose hull is that of all, nearly
 };
-
-/// Appends the points; of many, those that are farthest in some direction.
-void appendHull(std::vector<glm::dvec3> points, std::vector<glm::dvec3>& hull) {
-  constexpr size_t kFew = 4096;
-  if (points.size() <= kFew) {
-    hull.insert(hull.end(), points.begin(), points.end());
-    return;
-  }
-  for (const glm::dvec3& direction : directionsAllAround()) {
-    hull.push_back(*std::ranges::max_element(
-        points, {}, [&](const glm::dvec3& point) { return glm::dot(point, direction); }));
-  }
-}
 
 /// Seconds, over all of the animation; where its length is not known, those of the pictures asked for.
 std::vector<double> timesOf(const Scene& scene, const RenderOptions& options) {
@@ -54,25 +42,25 @@ std::vector<double> timesOf(const Scene& scene, const RenderOptions& options) {
 
 CameraOverrides overridesOfAllPoses(const RenderOptions& options) {
   const CameraOverrides& asked = options.camera.overrides;
-  const bool fits = asked.fit != Fit::None;
-  const bool placed = fits || asked.orbit;
+  const bool placed = asked.fit || asked.orbit;
   if (asked.position && !placed) return asked;
   RenderOptions posed = options;
   posed.selection.animationTime = 0.0;
   const Scene first = loadGltf(posed.scene, gltfOptionsOf(posed));
   if (first.animationNames.empty() || (!first.cameras.empty() && !placed)) return asked;
+  const CameraOverrides overrides = settledOverrides(asked, first);
   Filled filled;
   for (const double time : timesOf(first, options)) {
     posed.selection.animationTime = time;
     const Scene scene = loadGltf(posed.scene, gltfOptionsOf(posed));
     if (scene.bounds.empty()) continue;
     filled.bounds.include(scene.bounds);
-    if (fits) appendHull(outlineOf(scene), filled.points);
+    if (overrides.fit) std::ranges::copy(farthest(outlineOf(scene)), std::back_inserter(filled.points));
   }
   Camera camera = chooseCamera(first.cameras,
                                cameraIndexOf(options.camera.index, options.selection.camera, first.cameras),
-                               asked, filled.bounds, framedAspect(options));
-  if (fits) camera = fitCamera(camera, filled.points, options, chooseSize(camera, options));
+                               overrides, filled.bounds, framedAspect(options));
+  if (overrides.fit) camera = fitCamera(camera, filled.points, overrides, chooseSize(camera, options));
   CameraOverrides all;
   all.position = camera.position;
   all.focalPoint = focalPointOf(camera, filled.bounds);

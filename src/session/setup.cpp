@@ -25,9 +25,11 @@
 #include "pack/pack_tree.h"
 #include "process/parallel.h"
 #include "scene/blurred_map.h"
+#include "scene/first_view.h"
 #include "scene/fit.h"
 #include "scene/strokes.h"
 #include "scene/studio.h"
+#include "session/caught_light.h"
 #include "session/outputs.h"
 #include "session/picture_memory.h"
 
@@ -126,10 +128,13 @@ bool besideAllowed(const RenderOptions& options) {
 
 }  // namespace
 
-Camera fitCamera(const Camera& camera, std::span<const glm::dvec3> points, const RenderOptions& options,
+double catcherHeightOf(const RenderOptions& options, const BoundsDouble& bounds) {
+  return options.light.catcherHeight.value_or(bounds.empty() ? 0.0 : bounds.minimum.y);
+}
+
+Camera fitCamera(const Camera& camera, std::span<const glm::dvec3> points, const CameraOverrides& overrides,
                  glm::ivec2 size) {
-  return zoomed(fitted(camera, points, double(size.x) / size.y),
-                options.camera.overrides.orbit.value_or(Orbit()).zoom);
+  return zoomed(fitted(camera, points, double(size.x) / size.y), overrides.orbit.value_or(Orbit()).zoom);
 }
 
 glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options) {
@@ -175,8 +180,7 @@ View makeView(const RenderOptions& options, const LoadedScene& loaded, const Cam
   const bool map = loaded.environment.kind == Surroundings::Map;
   view.showEnvironment = map && options.light.background && !options.light.backgroundColor;
   view.seesNothing = !options.light.background;
-  view.catcherHeight =
-      options.light.catcherHeight.value_or(scene.bounds.empty() ? 0.0 : scene.bounds.minimum.y);
+  view.catcherHeight = catcherHeightOf(options, scene.bounds);
   view.bounces = options.sampling.bounces;
   view.rouletteDepth = options.sampling.rouletteDepth;
   view.seed = options.sampling.seed;
@@ -274,14 +278,20 @@ void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& s
 void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
   const Scene& scene = loaded.scene;
   loaded.cameraIndex = cameraIndexOf(options.camera.index, options.selection.camera, scene.cameras);
-  loaded.camera = chooseCamera(scene.cameras, loaded.cameraIndex, options.camera.overrides, scene.bounds,
-                               framedAspect(options));
+  const CameraOverrides& overrides = loaded.overrides = settledOverrides(options.camera.overrides, scene);
+  loaded.camera =
+      chooseCamera(scene.cameras, loaded.cameraIndex, overrides, scene.bounds, framedAspect(options));
   loaded.size = chooseSize(loaded.camera, options);
-  if (options.camera.overrides.fit != Fit::None) {
+  if (overrides.fit) {
     std::vector<glm::dvec3> points = outlineOf(scene);
-    if (options.camera.overrides.fit == Fit::AllAround)
-      points = sweptAbout(turningPoint(loaded.camera, options.camera.overrides, scene.bounds), points);
-    loaded.camera = fitCamera(loaded.camera, points, options, loaded.size);
+    if (fitsShadow(options, overrides)) {
+      const double height = catcherHeightOf(options, scene.bounds);
+      const std::vector<glm::dvec3> shadow =
+          shadowOutline(farthest(points), height, caughtLights(scene, loaded.environment, options, height));
+      points.insert(points.end(), shadow.begin(), shadow.end());
+    }
+    if (overrides.turns) points = sweptAbout(turningPoint(loaded.camera, overrides, scene.bounds), points);
+    loaded.camera = fitCamera(loaded.camera, points, overrides, loaded.size);
   }
   if (options.camera.lens.fStop && !loaded.camera.perspective)
     throw UsageError("--f-stop: the camera is orthographic, and has no lens");
@@ -320,6 +330,16 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   if (!loaded.scene.images.empty()) startImageProcess();
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));
+  const bool isAsked = !hasMap(options) && options.light.defaultLight != DefaultLight::None;
+  const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
+  std::vector<std::string> ofEnvironment;  // warnings, which are said as they come
+  const auto settleEnvironment = [&] {
+    loaded.environment = before.environment ? std::move(*before.environment)
+                                            : makeEnvironment(options, map, light, ofEnvironment);
+  };
+  // The tree is built while the map is decoded, unless the camera depends on the map.
+  const bool early = fitsShadow(options, settledOverrides(options.camera.overrides, scene));
+  if (early) settleEnvironment();
   aim(loaded, options, film);
   addStrokes(loaded.scene, loaded.camera, loaded.size.y, options.camera.lineWidth);
   checkCatcher(options, loaded.scene);
@@ -342,10 +362,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   stats.bvh = bvhQuality(loaded.bvh);
   stats.bvhBuildMs = watch.lap();
   step("reading the environment", 0.9);
-  const bool isAsked = !hasMap(options) && options.light.defaultLight != DefaultLight::None;
-  const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
-  loaded.environment = before.environment ? std::move(*before.environment)
-                                          : makeEnvironment(options, map, light, loaded.scene.warnings);
+  if (!early) settleEnvironment();
+  std::ranges::move(ofEnvironment, std::back_inserter(loaded.scene.warnings));
   loaded.view = makeView(options, loaded, loaded.camera);
   if (reads) stats.phases.push_back(reading);
   stats.scene = describe(scene);

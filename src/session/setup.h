@@ -21,6 +21,7 @@ struct LoadedScene {
   Scene scene;
   Environment environment;
   Camera camera;
+  CameraOverrides overrides;       ///< that it was chosen by (settledOverrides())
   std::optional<int> cameraIndex;  ///< which of the scene's that is, if one was asked for
   glm::ivec2 size{0};              ///< of the picture
   Region region;                   ///< of it, that is drawn
@@ -59,8 +60,11 @@ GltfOptions gltfOptionsOf(const RenderOptions& options);
 /// The picture's size in pixels.
 glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options);
 
-/// The camera as --fit moves it about these points of the world, then zoomed as --camera-orbit says.
-Camera fitCamera(const Camera& camera, std::span<const glm::dvec3> points, const RenderOptions& options,
+/// The height of the shadow catcher's plane (Y, metres).
+double catcherHeightOf(const RenderOptions& options, const BoundsDouble& bounds);
+
+/// The camera as --fit moves it about these points of the world, then zoomed as the orbit says.
+Camera fitCamera(const Camera& camera, std::span<const glm::dvec3> points, const CameraOverrides& overrides,
                  glm::ivec2 size);
 
 /// Camera paths that the picture takes; infinite where time or noise ends it.

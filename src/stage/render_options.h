@@ -73,6 +73,9 @@ inline constexpr std::array<std::string_view, 4> kDenoiseNames{"none", "variance
 /// (process/report.h); nothing.
 enum class ProgressForm : uint8_t { Auto, Json, None };
 inline constexpr std::array<std::string_view, 3> kProgressNames{"auto", "json", "none"};
+/// How programs are expected to lay a .png with alpha over something: by its light, or by its sRGB values.
+enum class AlphaOf : uint8_t { Linear, Display };
+inline constexpr std::array<std::string_view, 2> kAlphaNames{"linear", "display"};
 /// How camera samples spread about the middle of their pixel (shaders/pixel_filter.glsl).
 enum class PixelFilter : uint8_t { Box, Gaussian, BlackmanHarris };
 inline constexpr std::array<std::string_view, 3> kPixelFilterNames{"box", "gaussian", "blackman-harris"};
@@ -146,7 +149,7 @@ struct LightOptions {
   double backgroundBlur = 0.0;  ///< of the environment map as the camera sees it: standard deviation, degrees
   std::optional<glm::vec3> backgroundColor;  ///< none: the environment map, black without one
   bool background = true;
-  DefaultLight defaultLight = DefaultLight::White;
+  DefaultLight defaultLight = DefaultLight::Studio;
   bool studio = false;                  ///< the built-in environment (scene/studio.h)
   bool shadowCatcher = false;           ///< a plane that shows nothing but shadows
   std::optional<double> catcherHeight;  ///< its Y in world space, metres; none: the bottom of the scene
@@ -167,6 +170,7 @@ struct OutputOptions {
   ToneMap toneMap = ToneMap::Neutral;
   Encoding encoding;
   std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
+  AlphaOf alpha = AlphaOf::Linear;
   DebugView debugView = DebugView::None;
   Denoise denoise = Denoise::None;
   ProgressForm progress = ProgressForm::Auto;

@@ -29,7 +29,7 @@ std::vector<EnvironmentChoice> environmentChoices(const ViewedScene& scene) {
   std::vector<EnvironmentChoice> choices;
   if (scene.defaultLight) {
     choices.push_back({.name = "None", .light = DefaultLight::None});
-    choices.push_back({.name = "White"});
+    choices.push_back({.name = "White", .light = DefaultLight::White});
   } else {
     choices.push_back({.name = "The scene's own light"});
   }

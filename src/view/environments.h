@@ -18,7 +18,7 @@ struct EnvironmentChoice {
   std::string name;
   std::filesystem::path file{};  ///< of an environment map; empty: none
   bool studio = false;
-  DefaultLight light = DefaultLight::White;  ///< where the scene has no light of its own
+  DefaultLight light = DefaultLight::Studio;  ///< where the scene has no light of its own
 
   bool operator==(const EnvironmentChoice&) const = default;
 };

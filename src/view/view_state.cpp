@@ -95,7 +95,8 @@ void takeOptions(ViewState& state, const RenderOptions& options) {
   state.treeBoxes = options.output.treeLevel.has_value();
   state.treeLevel = options.output.treeLevel.value_or(state.treeLevel);
   state.pose = poseOf(camera, state.scene->bounds);
-  state.posed = false;
+  // Without the scene's points here, a default view is held as it is shown.
+  state.posed = state.scene->cameras.empty();
 }
 
 bool sameScene(const RenderOptions& a, const RenderOptions& b) {

@@ -23,29 +23,30 @@ SIGNIFICANCE = 1e-3  # of a picture's whole comparison, two-sided, shared betwee
 ROUNDING = 1e-3  # half floats, and drivers that round otherwise
 MEAN_BIAS = 0.01
 
+FRONT = ("--camera-orbit", "0,0")
 # Name of the picture: file, options. Light is the repository's sky, and what the files bring.
 PLACES = {
-    "AlphaBlendModeTest": ("AlphaBlendModeTest/AlphaBlendModeTest.glb",),
-    "Avocado": ("Avocado/Avocado.gltf",),
-    "BoomBoxWithAxes": ("BoomBoxWithAxes/BoomBoxWithAxes.gltf",),
+    "AlphaBlendModeTest": ("AlphaBlendModeTest/AlphaBlendModeTest.glb", *FRONT),
+    "Avocado": ("Avocado/Avocado.gltf", *FRONT),
+    "BoomBoxWithAxes": ("BoomBoxWithAxes/BoomBoxWithAxes.gltf", *FRONT),
     "Cameras-0": ("Cameras/Cameras.gltf", "--camera-index", 0),
     "Cameras-1": ("Cameras/Cameras.gltf", "--camera-index", 1),
-    "CornellBox": ("CornellBox/CornellBox.glb",),
-    "FlightHelmet": ("FlightHelmet/FlightHelmet.gltf",),
-    "Fox-1s": ("Fox/Fox.glb", "--animation-time", 1),
-    "GlassVaseFlowers": ("GlassVaseFlowers/GlassVaseFlowers.glb",),
-    "LightsPunctualLamp": ("LightsPunctualLamp/LightsPunctualLamp.gltf",),
-    "MetalRoughSpheresNoTextures": ("MetalRoughSpheresNoTextures/MetalRoughSpheresNoTextures.glb",),
+    "CornellBox": ("CornellBox/CornellBox.glb", *FRONT),
+    "FlightHelmet": ("FlightHelmet/FlightHelmet.gltf", *FRONT),
+    "Fox-1s": ("Fox/Fox.glb", "--animation-time", 1, *FRONT),
+    "GlassVaseFlowers": ("GlassVaseFlowers/GlassVaseFlowers.glb", *FRONT),
+    "LightsPunctualLamp": ("LightsPunctualLamp/LightsPunctualLamp.gltf", *FRONT),
+    "MetalRoughSpheresNoTextures": ("MetalRoughSpheresNoTextures/MetalRoughSpheresNoTextures.glb", *FRONT),
     "MultiUVTest": ("MultiUVTest/MultiUVTest.gltf",),
-    "NormalTangentTest": ("NormalTangentTest/NormalTangentTest.glb",),
-    "SimpleSparseAccessor": ("SimpleSparseAccessor/SimpleSparseAccessor.gltf",),
-    "Suzanne": ("Suzanne/Suzanne.gltf",),
-    "TextureSettingsTest": ("TextureSettingsTest/TextureSettingsTest.glb",),
+    "NormalTangentTest": ("NormalTangentTest/NormalTangentTest.glb", *FRONT),
+    "SimpleSparseAccessor": ("SimpleSparseAccessor/SimpleSparseAccessor.gltf", *FRONT),
+    "Suzanne": ("Suzanne/Suzanne.gltf", *FRONT),
+    "TextureSettingsTest": ("TextureSettingsTest/TextureSettingsTest.glb", *FRONT),
     "ToyCar": ("ToyCar/ToyCar.gltf",),
     "TransmissionTest": ("TransmissionTest/TransmissionTest.glb",),
-    "TwoSidedPlane": ("TwoSidedPlane/TwoSidedPlane.gltf",),
-    "VertexColorTest": ("VertexColorTest/VertexColorTest.gltf",),
-    "WaterBottle": ("WaterBottle/WaterBottle.gltf",),
+    "TwoSidedPlane": ("TwoSidedPlane/TwoSidedPlane.gltf", "--camera-orbit", "0,90"),
+    "VertexColorTest": ("VertexColorTest/VertexColorTest.gltf", *FRONT),
+    "WaterBottle": ("WaterBottle/WaterBottle.gltf", *FRONT),
 }
 
 

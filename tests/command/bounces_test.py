@@ -38,7 +38,7 @@ class Bounces(Case):
         return statistics.fmean(p[0] for row in read_pfm(picture) for p in row), json.loads(stats.read_text()), result.stderr
 
     def assert_white(self, count, index, *options):
-        mean, stats, said = self.draw(self.write(nested_glass(count, index)), *options)
+        mean, stats, said = self.draw(self.write(nested_glass(count, index)), "--default-light", "white", *options)
         self.assertAlmostEqual(mean, 1, delta=0.005, msg=(count, options))
         self.assertEqual(stats["cut_share"], 0)
         self.assertNotIn("cut_share", said)

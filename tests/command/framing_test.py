@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Scenes without a camera: all of the object is in the picture, and something of it is seen, or that is said."""
 import json
+import math
 import os
 import unittest
 from pathlib import Path
@@ -39,8 +40,8 @@ class FramingCase(Case):
 class Framing(FramingCase):
     def test_no_pixel_of_the_edge_shows_the_object(self):
         for scale in ((3, 1, 1), (1, 3, 1), (1, 1, 1)):
-            for size in ("20,40", "40,20", "24,96"):
-                for backend in BACKENDS if size == "20,40" else ("egl",):
+            for size in ("60,120", "120,60", "48,192"):
+                for backend in BACKENDS if size == "60,120" else ("egl",):
                     alphas, said = self.alphas(self.write(scale), "--resolution", size, "--rendering-backend", backend)
                     self.assert_inside(alphas)
                     self.assertNotIn("shows nothing", said)
@@ -61,12 +62,32 @@ class Framing(FramingCase):
             result = run("render", self.write((1, 1, 1)), "-o", self.folder / "x.##.png", "--camera-orbit", "1,2", *options)
             self.assertEqual(result.returncode, 2, result.stderr)
 
-    def test_a_flat_object_is_seen_from_where_it_shows_most(self):
+    def test_the_default_view_is_three_quarters_and_fills_the_frame(self):
+        scene = self.write((1, 1, 0.2))
+        asked = ["--resolution", "48,32"]
+        default, _ = self.alphas(scene, *asked)
+        self.assertEqual(default, self.alphas(scene, *asked, "--camera-orbit", "35,20", "--fit")[0])
+        self.assertEqual(default, self.alphas(scene, *asked, "--fit")[0])
+        angle = ["--camera-view-angle", 20]
+        self.assertEqual(self.alphas(scene, *asked, *angle)[0], self.alphas(scene, *asked, *angle, "--camera-orbit", "35,20", "--fit")[0])
+        # A point or a scale leaves nothing to fit.
+        for own in (["--camera-focal-point", "0.5,0,0"], ["--camera-parallel-scale", 2]):
+            self.assertEqual(self.alphas(scene, *asked, *own)[0], self.alphas(scene, *asked, *own, "--camera-orbit", "35,20")[0])
+
+    def test_a_flat_object_is_not_seen_along_its_edge(self):
+        """A floor, a wall, and a wall and a ceiling that hold the direction of the usual view, with a small thing on each."""
         half = 0.70710678
-        for rotation in ((-half, 0, 0, half), (0, half, 0, half)):
-            alphas, said = self.alphas(self.write((1, 1, 1), rotation), "--resolution", "24,24")
+        azimuth = math.radians(125 / 2)
+        slope = math.radians((90 + 19.4) / -2)
+        for rotation in ((-half, 0, 0, half), (0, half, 0, half), (0, math.sin(azimuth), 0, math.cos(azimuth)), (math.sin(slope), 0, 0, -math.cos(slope))):
+            scene = self.write((1, 1, 1), rotation)
+            root = json.loads(scene.read_text())
+            root["nodes"] += [{"mesh": 0, "scale": [0.04, 0.04, 0.04]}, {"mesh": 0, "scale": [0.04, 0.04, 0.04], "rotation": [-half, 0, 0, half]}]
+            root["scenes"] = [{"nodes": [0, 1, 2]}]
+            scene.write_text(json.dumps(root))
+            alphas, said = self.alphas(scene, "--resolution", "48,48")
             self.assert_inside(alphas)
-            self.assertGreater(sum(map(sum, alphas)), 0.2 * 24 * 24)
+            self.assertGreater(sum(map(sum, alphas)), 0.12 * 48 * 48, rotation)
             self.assertNotIn("shows nothing", said)
 
     def test_a_default_view_that_shows_nothing_is_said(self):

@@ -118,7 +118,7 @@ class FirstHits(Case):
                         ["--seed", "9", "--sample-offset", "1000"]):
             for scene in ("sphere-plane", "sphere-textured"):
                 with self.subTest(scene=scene, options=options):
-                    exr = self.layers(scene, 16, "--stage", "flat", "--resolution", "24,16", *options)
+                    exr = self.layers(scene, 16, "--stage", "flat", "--default-light", "white", "--resolution", "24,16", *options)
                     for channel in "RGB":
                         self.assertEqual(exr.values(channel), exr.values("albedo." + channel))
 

@@ -140,7 +140,8 @@ class Materials(Case):
         gltf = self.spheres(materials)
         path = self.folder / "furnace.gltf"
         path.write_text(json.dumps(gltf))
-        picture = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", f"{count * size},{size}", "--spp", "256", "--bounces", "200")
+        picture = self.picture(str(path.with_suffix("")), "x.pfm", "--resolution", f"{count * size},{size}", "--spp", "256", "--bounces", "200",
+                               "--default-light", "white")
         for i in range(count):
             pixels = [picture[y][i * size + x] for y in range(4, 12) for x in range(4, 12)]
             for c in range(3):

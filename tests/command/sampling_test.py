@@ -119,7 +119,7 @@ class Filters(Case):
         for name, below in BELOW.items():
             for edge in (0, 0.3):
                 for up in ("0,1,0", "1,0,0"):  # the edge upright, and lying with the white half above
-                    self.renders(self.half_plane(edge), "-o", self.folder / "x.pfm", "--quiet", "--stage", "flat", "--resolution", "16,16",
+                    self.renders(self.half_plane(edge), "-o", self.folder / "x.pfm", "--quiet", "--stage", "flat", "--default-light", "white", "--resolution", "16,16",
                                  "--spp", spp, "--pixel-filter", name, "--camera-view-up", up)
                     picture = read_pfm(self.folder / "x.pfm")
                     for column in range(16):

@@ -72,13 +72,24 @@ class ShadowCatcher(CatcherCase):
 
         pixels = beside_the_ball()
         near = [p for p in pixels if math.hypot(*place_of(p[0] + 0.5, p[1] + 0.5)) < 1]
-        for sky in ([], ["--hdri-file", white], ["--hdri-file", white, "--disable", "light-sampling"]):
+        for sky in (["--default-light", "white"], ["--hdri-file", white], ["--hdri-file", white, "--disable", "light-sampling"]):
             shots = [self.picture(scene, "x.exr", *FROM_ABOVE, *sky, "--no-background", "--shadow-catcher", "0", "--spp", 256, "--seed", seed)
                      for seed in range(SEEDS)]
             self.assertEqual(max(max(map(abs, shots[0].layers[c][0])) for c in "RGB"), 0)
             for part in (pixels, near):
                 self.near([sum(shot.layers["A"][y][x] for x, y in part) / len(part) for shot in shots],
                           sum(hidden(x, y) for x, y in part) / len(part))
+
+    def test_fit_holds_the_shadow(self):
+        """Under the studio, under a low sun, and from all sides; no pixel of the edge misses a tenth of the light."""
+        sun = {"rotation": [-0.354, 0, 0, 0.935]}, {"type": "directional", "intensity": 3}
+        for lights, options in (((), ["--studio"]), ((sun,), []), ((sun,), ["--camera-orbit", "180,60"])):
+            alpha = self.picture(self.ball(lights), "x.exr", "--resolution", "48,48", "--spp", 64, "--no-background", "--shadow-catcher", "0.3", "--fit", *options).layers["A"]
+            edge = [*alpha[0], *alpha[-1], *(row[0] for row in alpha), *(row[-1] for row in alpha)]
+            self.assertLess(max(edge), 0.15, options)
+            self.assertGreater(max(map(max, alpha)), 0.9)
+        exr = self.picture(self.ball(), "x.exr", "--resolution", "48,48", "--spp", 4, "--no-background", "--fit", "--studio")
+        self.assertGreater(max(exr.layers["A"][24][:3]) + max(exr.layers["A"][1]), 0)  # without a catcher, the ball alone fills it
 
     def test_what_is_half_there_casts_half_a_shadow(self):
         """A sheet of alpha 0.5 over the camera."""

@@ -58,7 +58,7 @@ TEST(CameraText, ReadsBackAsItselfBitForBit) {
     if (i % 5 == 0) {
       options.camera.overrides.position.reset();
       options.camera.overrides.orbit = Orbit{number(), i % 90 - 45.0, i % 10 == 0 ? 1.0 : 0.5 + i};
-      options.camera.overrides.fit = i % 4 == 0 ? Fit::View : Fit::None;
+      options.camera.overrides.fit = i % 4 == 0;
     }
     const RenderOptions read = withCameraText(RenderOptions(), cameraText(options));
     ASSERT_EQ(read.camera.overrides, options.camera.overrides) << cameraText(options);

@@ -133,4 +133,27 @@ TEST(ImageToneMap, NamesAreThoseOfTheCommandLine) {
 }
 
 }  // namespace
+
+TEST(ToneMap, AlphaForBlendedValuesShowsOverWhiteWhatLightShows) {
+  const std::vector<std::string> channels{"R", "G", "B", "A"};
+  const Image light = pictureOf(
+      {0, 0, 0, 0.32F, 0.3F, 0.1F, 0.02F, 0.4F, 0.2F, 0.9F, 0.5F, 1, 0, 0, 0, 0, 0.25F, 0.25F, 0.25F, 0.5F},
+      channels);
+  const Image before = toDisplay(light, 0, ToneMap::Linear);
+  const Image blended = forBlendedValues(before);
+  for (size_t i = 0; i < light.values.size(); i += 4) {
+    const double alpha = blended.values[i + 3];
+    for (size_t c = 0; c < 3; ++c) {
+      const double value = blended.values[i + c];
+      EXPECT_GE(value, 0);
+      EXPECT_LE(value, 1);
+      EXPECT_NEAR(alpha * value + 1 - alpha, encodeSrgb(light.values[i + c] + 1 - light.values[i + 3]), 1e-6);
+      // What has no colour is right over black, too, and so is what is opaque.
+      if (i != 4) {
+        EXPECT_NEAR(alpha * value, encodeSrgb(light.values[i + c]), 1e-6);
+      }
+    }
+  }
+}
+
 }  // namespace fragtrace

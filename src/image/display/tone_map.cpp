@@ -155,6 +155,34 @@ Image toDisplay(const Image& linear, double exposureEv, ToneMap toneMap) {
   return display;
 }
 
+Image forBlendedValues(Image display) {
+  const auto alphaChannel = findChannel(display, "A");
+  if (!alphaChannel) return display;
+  const auto channels = findColorChannels(display).value();  // toDisplay() has put them there
+  for (size_t i = 0; i < display.values.size(); i += display.channelCount()) {
+    float* const pixel = display.values.data() + i;
+    const double alpha = pixel[*alphaChannel];
+    // Blending light over white gives the value w of a channel, over black b. Blending values with colour c
+    // and alpha a gives a c + 1 - a and a c. Both are met by a = 1 - w + b, which is a shadow's alpha, too,
+    // but channels differ where the surface has a colour. So alpha is their mean, at least what keeps c above
+    // 0, and the colour is chosen so that white is met exactly.
+    double mean = 0.0;
+    double least = 0.0;
+    std::array<double, 3> missing{};
+    for (size_t c = 0; c < 3; ++c) {
+      const double light = alpha * decodeSrgb(pixel[channels[c]]);
+      missing[c] = 1.0 - encodeSrgb(std::min(light + 1.0 - alpha, 1.0));
+      mean += (missing[c] + encodeSrgb(light)) / 3.0;
+      least = std::max(least, missing[c]);
+    }
+    const double blended = std::clamp(mean, least, 1.0);
+    for (size_t c = 0; c < 3; ++c)
+      pixel[channels[c]] = blended > 0.0 ? float(1.0 - missing[c] / blended) : 0.0f;
+    pixel[*alphaChannel] = float(blended);
+  }
+  return display;
+}
+
 Image toDefaultDisplay(const Image& linear) {
   Image display = toDisplay(linear, 0, ToneMap::Neutral);
   for (float& value : display.values) value = std::round(value * 255.0F) * (1 / 255.0F);  // as it is read
