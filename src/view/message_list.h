@@ -9,7 +9,6 @@ namespace fragtrace {
 
 struct Message {
   std::string text;
-  int times = 1;        ///< that it was said
   double latest = 0.0;  ///< when it was said last, seconds
   bool closed = false;
 };
@@ -17,7 +16,7 @@ struct Message {
 /// The latest last; at most 16, older ones are forgotten.
 using MessageList = std::deque<Message>;
 
-/// A text that is there already moves to the end, and counts once more.
+/// A text that is there already moves to the end. "wrote FILE" takes the place of "writing FILE ...".
 void addMessage(MessageList& messages, const std::string& text, double now);
 
 void closeMessages(MessageList& messages);
@@ -27,8 +26,5 @@ double opacityOf(const Message& message, double now);
 
 /// Seconds until one of them is seen less; infinite when none is seen.
 double secondsToFade(const MessageList& messages, double now);
-
-/// The text, and how often it was said when that was more than once.
-std::string lineOf(const Message& message);
 
 }  // namespace fragtrace

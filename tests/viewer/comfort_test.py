@@ -28,6 +28,7 @@ class FirstPicture(Case):
     def test_a_model_alone_is_seen_from_the_side_in_the_studio_and_the_command_draws_the_same(self):
         viewer = self.view(animated(self.folder), *FEW, "--default-light", "studio")
         status = viewer.rest()
+        self.assertIn("no light in the scene: the built-in studio lights it", status["messages"])
         position = [float(v) for v in shlex.split(status["camera"])[1].split(",")]
         self.assertGreater(position[0], 0)  # from the right,
         self.assertGreater(position[1], 0)  # and from above

@@ -109,7 +109,7 @@ void drawNewsLines(const ViewFacts& facts, double now) {
     const float opacity = float(opacityOf(message, now));
     if (opacity <= 0.0f) continue;
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, opacity);
-    drawText(lineOf(message), kMostLineCharacters);
+    drawText(message.text, kMostLineCharacters);
     ImGui::PopStyleVar();
   }
   if (!facts.pick) return;

@@ -148,7 +148,7 @@ void drawCompare(ViewState& state, Places& places, Task& task) {
   }
   state.comparison = CompareMode(comparison);
   if (state.comparison == CompareMode::Difference) {
-    label(places, "Times");
+    label(places, "Amplify");
     float stops = float(state.differenceStops);
     char factor[32];
     std::snprintf(factor, sizeof factor, "%.3g", std::exp2(stops));

@@ -55,7 +55,7 @@ void drawHistogram(const ViewState& state, ViewFacts& facts) {
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("radiance from 2^%g to 2^%g with the exposure; the line is at 1", kLowestStop,
                       kHighestStop);
-  ImGui::TextDisabled("mean %.3g   most %.3g   above 1: %.2g %%", histogram.mean, histogram.most,
+  ImGui::TextDisabled("mean %.3g   max %.3g   above 1: %.2g %%", histogram.mean, histogram.most,
                       100.0 * histogram.above);
 }
 

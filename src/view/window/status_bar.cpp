@@ -25,13 +25,12 @@ std::string printed(const char* format, Values... values) {
   return text;
 }
 
-/// One word for what the viewer does.
-std::string activity(const ViewState& state, const ViewFacts& facts, const ViewProgress& progress) {
+/// A word or two for what the viewer does.
+std::string activity(const ViewState& state, const ViewFacts& facts) {
   if (facts.load.busy) return "loading";
   if (!state.scene) return "no scene";
   if (!facts.note.empty()) return facts.note;
-  if (facts.statistics[state.active].resting) return "finished";
-  return progress.seconds ? printed("%.0f %%", 100.0 * progress.fraction) : "drawing";
+  return progressText(facts.statistics[state.active], state.options());
 }
 
 std::vector<std::string> progressTexts(const ViewState& state, const ViewFacts& facts,
@@ -93,7 +92,7 @@ void drawStatusBar(const ViewState& state, ViewFacts& facts, const WindowLayout&
     const float line = std::max(0.5f * (display.y - top - height), 0.0f);
     ImGui::SetCursorPosY(line);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
-    const std::string word = activity(state, facts, progress);
+    const std::string word = activity(state, facts);
     ImGui::ProgressBar(float(facts.load.busy ? facts.load.fraction : progress.fraction),
                        {kProgressWidth * layout.scale, height}, word.c_str());
     ImGui::PopStyleVar();

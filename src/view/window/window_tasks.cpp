@@ -133,7 +133,7 @@ void Window::openFiles(const std::vector<std::filesystem::path>& files) {
 
 void Window::save(const char* extension) {
   const RenderOptions& o = state_.options();
-  const std::filesystem::path name = freePictureName(o.scene, extension);
+  const std::filesystem::path name = std::filesystem::absolute(freePictureName(o.scene, extension));
   // A file for a display is what is seen, one of radiance what the active side's samples say.
   const bool seen = isDisplayFormat(name);
   const bool both = state_.split && seen;
