@@ -38,11 +38,6 @@ class Window {
   void wait();
   void take();
   void adoptScene(ViewedScene scene);
-  void takePictures(std::vector<TracedPicture> pictures);
-  void takeReference(const TracedPicture& picture);
-  void compareSizes();
-  void takeThumbnail(const EnvironmentThumbnail& thumbnail);
-  void askForThumbnails();
   void takeState(const Delivery& news);
   void forgetBrokenEnvironment();
   void ask();
@@ -51,6 +46,13 @@ class Window {
   void writeStatus();
   void say(const std::string& message);
   bool iconified() const;
+
+  // window_pictures.cpp
+  void takePictures(std::vector<TracedPicture> pictures);
+  void takeReference(const TracedPicture& picture);
+  void compareSizes();
+  void takeThumbnail(const EnvironmentThumbnail& thumbnail);
+  void askForThumbnails();
 
   // window_tasks.cpp
   void execute(const Task& task);
