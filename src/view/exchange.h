@@ -185,6 +185,7 @@ class Exchange {
 
   // The window's thread.
   uint64_t ask(std::vector<RenderOptions> sides, glm::ivec2 size, bool moving, bool values = true);
+  /// What went wrong before is forgotten.
   void load(const RenderOptions& options);
   void cancelLoad();
   void save(SaveRequest request);

@@ -126,7 +126,8 @@ void addWindow(std::vector<Control>& rows) {
   add(Press, key::kF12, 0, Action::Screenshot, "write the picture as .png");
   add(Press, key::kF12, kShift, Action::WriteExr, "write the accumulated radiance as .exr");
   add(Press, key::kEscape, 0, Action::Close,
-      "close what is open: a list, the sheet, magnified pixels, a load, full screen; else quit");
+      "close what is open: a list, the sheet, magnified pixels, a load, the selection, full screen; else "
+      "quit, if pressed twice");
   add(Press, 'Q', kControl, Action::Quit, "quit");
 }
 

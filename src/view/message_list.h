@@ -21,6 +21,9 @@ void addMessage(MessageList& messages, const std::string& text, double now);
 
 void closeMessages(MessageList& messages);
 
+/// Whether that text is there, and still seen.
+bool isSeen(const MessageList& messages, const std::string& text, double now);
+
 /// How much of a message is still seen, 0..1: it fades in steps, which cost one frame each.
 double opacityOf(const Message& message, double now);
 

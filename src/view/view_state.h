@@ -90,7 +90,7 @@ enum class Errand : uint8_t {
   Reload,
   Screenshot,
   WriteExr,
-  Close,  ///< what is open beside the sheet; where nothing is, the viewer
+  Close,  ///< what is open beside the sheet, or the selection; where nothing is, asks whether to quit
   Quit
 };
 

@@ -27,7 +27,7 @@ class Escape(Case):
         viewer.until(lambda s: s["sheet"], "the sheet")
         viewer.key("Escape")
         viewer.until(lambda s: not s["sheet"], "no sheet")
-        viewer.key("Escape")
+        viewer.key("Escape", "Escape")
         self.ends_well(viewer, viewer.end())
         self.assertEqual(viewer.status()["state"], "closed")
 

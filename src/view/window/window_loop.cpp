@@ -26,6 +26,7 @@ constexpr double kFrameSeconds = 1.0 / 60;
 /// meanwhile; so an event is late by this at most. Ten looks a second are no load.
 constexpr double kLongestSleep = 0.1;
 constexpr double kStatusSeconds = 0.05;  // between two status files
+constexpr const char* kStarting = "starting";
 constexpr glm::ivec2 kWindowSize{1280, 720};
 
 float primaryScale(GLFWmonitor* monitor) {
@@ -113,7 +114,7 @@ void Window::open() {
   if (!start_.reference.empty()) exchange_.compareWith(start_.reference);
   if (start_.options.scene.empty()) return;
   load(start_.options);
-  facts_.load = {true, start_.options.scene.filename().string(), "starting", 0.0};
+  facts_.load = {true, start_.options.scene.filename().string(), kStarting, 0.0};
 }
 
 void Window::run() {
@@ -209,7 +210,9 @@ void Window::takeState(const Delivery& news) {
   const bool changed = news.load.busy != facts_.load.busy || news.load.step != facts_.load.step ||
                        news.load.fraction != facts_.load.fraction || news.note != facts_.note ||
                        news.error != facts_.error || news.resting != facts_.resting;
-  if (!changed || (!state_.scene && !news.load.busy && news.error.empty())) return;
+  // The tracing thread may not know of the first load yet.
+  const bool silent = !news.load.busy && news.error.empty();
+  if (!changed || (silent && !state_.scene && facts_.load.step == kStarting)) return;
   facts_.load = news.load;
   facts_.note = news.note;
   if (news.error != facts_.error) facts_.errorClosed = false;
@@ -218,7 +221,10 @@ void Window::takeState(const Delivery& news) {
     wanted_ = state_.scene->options;
     pasted_.reset();
   }
-  if (!facts_.error.empty() && !facts_.load.busy && !state_.scene) forgetBrokenEnvironment();
+  if (!facts_.error.empty() && !facts_.load.busy && !state_.scene) {
+    forgetBrokenEnvironment();
+    glfwSetWindowTitle(window_.get(), windowTitle({}).c_str());
+  }
   facts_.resting = news.resting;
   frames_ = std::max(frames_, 2);
 }

@@ -13,6 +13,13 @@
 
 namespace fragtrace {
 
+namespace {
+
+/// Stands before the user as long as Escape answers it.
+constexpr const char* kQuitQuestion = "press Escape again to quit";
+
+}  // namespace
+
 void Window::execute(const Task& task) {
   switch (task.errand) {
     case Errand::None:
@@ -37,7 +44,9 @@ void Window::execute(const Task& task) {
         return;
       }
       if (facts_.load.busy && state_.scene) return cancelLoad();
+      if (facts_.pick) return executeOnScene({.errand = Errand::Deselect});
       if (state_.fullscreen) return toggleFullscreen();
+      if (!isSeen(facts_.messages, kQuitQuestion, glfwGetTime())) return say(kQuitQuestion);
       [[fallthrough]];
     case Errand::Quit:
       glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
@@ -98,6 +107,7 @@ void Window::load(RenderOptions options) {
   options.camera.resolution = state_.size;
   wanted_ = options;
   pasted_.reset();
+  facts_.error.clear();
   exchange_.load(options);
 }
 
