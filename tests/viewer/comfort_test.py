@@ -84,6 +84,9 @@ class Panel(Case):
             viewer.click(name)
             status = viewer.rest(lambda s: s["sides"][0]["stages"][-1] != "x" and last in s["sides"][0]["stages"], name)
         self.assertNotIn("shadows", status["sides"][0]["stages"])
+        # The last one clicked is still under the cursor; what explains it stands beside the panel.
+        places = viewer.until(lambda s: "tip" in s["places"], "what it does")["places"]
+        self.assertLessEqual(places["tip"][0] + places["tip"][2], places["panel"][0])
         self.assertIn("finished; 1 sample per pixel", status["status"])
         self.assertIn("640 x 700", status["status"])
         viewer.at(320, 350)
@@ -208,7 +211,14 @@ class Compare(Case):
         viewer.until(lambda s: "|A - B| 50, 50: " in s["status"], "the difference under the cursor")
         self.assertTrue(any(pixel != (0, 0, 0) for pixel in self.middle(viewer)))
         viewer.key("i")
-        viewer.until(lambda s: s["comparison"] == "bar", "the bar")
+        viewer.until(lambda s: s["comparison"] == "bar" and s["status"].split("; ")[1].startswith("B: "), "the bar, side B")
+        viewer.at(100, 240)
+        viewer.xdotool("click", 1)
+        status = viewer.rest(lambda s: s["status"].split("; ")[1].startswith("A: "), "side A is chosen")
+        self.assertIsNone(status["pick"], "and no object")
+        time.sleep(0.5)  # or it would be a double click
+        viewer.xdotool("click", 1)
+        viewer.until(lambda s: s["pick"], "an object is selected on it")
         self.ends_well(viewer, viewer.close())
 
     def middle(self, viewer):

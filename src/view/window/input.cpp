@@ -169,7 +169,10 @@ void Input::release(const Event& event, ViewState& state, const RunTask& run) {
   if (event.code != button_.code) return;
   const Button button = std::exchange(button_, {});
   if (button.dragging || button.bar || button.edge) return;
-  if (state.tracedCount() == 2 && state.comparison == CompareMode::Bar) state.active = sideAt(state, place());
+  const size_t side = sideAt(state, place());
+  const bool chooses =
+      state.tracedCount() == 2 && state.comparison == CompareMode::Bar && state.active != side;
+  if (chooses) state.active = side;
   const double now = glfwGetTime();
   const bool twice = lastClickTime_ >= 0.0 && now - lastClickTime_ <= kDoubleClickSeconds &&
                      glm::length(cursor_ - lastClick_) <= 2.0 * kDragPixels;
@@ -177,7 +180,8 @@ void Input::release(const Event& event, ViewState& state, const RunTask& run) {
   lastClick_ = cursor_;
   const Control* control =
       controlFor(twice ? Gesture::DoubleClick : Gesture::Click, button.code, button.modifiers);
-  if (!control) return;
+  // What chooses a side selects nothing.
+  if (!control || (chooses && control->action == Action::Inspect)) return;
   const Errand errand = apply(state, *control, {});
   if (errand != Errand::None) run({errand, place()});
 }

@@ -32,12 +32,12 @@ void drawPresets(ViewState& state, Places& places) {
       apply(state, *controlOf(Action::StagesUpTo, int(preset.last)), {});
     if (chosen) ImGui::PopStyleColor();
     addItemPlace(places, preset.name);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", preset.sentence);
+    tip(places, preset.sentence);
   }
 }
 
 /// Those that build on each other, or the switches.
-void drawStages(ViewState& state, bool cumulative) {
+void drawStages(ViewState& state, Places& places, bool cumulative) {
   RenderOptions& o = state.options();
   for (const StageRow& row : stageRows()) {
     if (row.cumulative != cumulative) continue;
@@ -46,7 +46,7 @@ void drawStages(ViewState& state, bool cumulative) {
     ImGui::BeginDisabled(!reason.empty());
     if (ImGui::Checkbox(row.label, &on)) o.stages.set(size_t(row.stage), on);
     ImGui::EndDisabled();
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", row.sentence);
+    tip(places, row.sentence);
     dimAtEnd(reason.empty() ? keyOf(Action::ToggleStage, int(row.stage)) : reason);
   }
 }
@@ -134,9 +134,7 @@ void drawCompare(ViewState& state, Places& places, Task& task) {
   if (ImGui::Checkbox("Denoise", &denoise)) apply(state, *controlOf(Action::ToggleDenoise), {});
   ImGui::EndDisabled();
   addItemPlace(places, "Denoise");
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-    ImGui::SetTooltip(
-        "%s", reason.empty() ? "all of it up to 64 samples per pixel, nothing from 256 on" : reason.c_str());
+  tip(places, reason.empty() ? "all of it up to 64 samples per pixel, nothing from 256 on" : reason);
   dimAtEnd(keyOf(Action::ToggleSplit) + ", " + keyOf(Action::ToggleDenoise));
   if (!state.split) return;
   int comparison = int(state.comparison);
@@ -250,8 +248,8 @@ Task drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
     if (open("Light and display")) part(drawLight(state, facts));
     if (open("Histogram", false)) drawHistogram(state, facts);
     if (open("Camera")) part(drawCamera(state, facts));
-    if (open("Stages")) drawStages(state, true);
-    if (open("Switches", false)) drawStages(state, false);
+    if (open("Stages")) drawStages(state, places, true);
+    if (open("Switches", false)) drawStages(state, places, false);
     if (open("Sampling", false)) drawSampling(state, places);
     if (open("Advanced", false)) drawAdvanced(state, facts);
     drawButtons(places, facts, task);

@@ -2,6 +2,7 @@
 // How often which radiance occurs in the active side's picture.
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 #include "view/window/panel_parts.h"
 
@@ -52,9 +53,10 @@ void drawHistogram(const ViewState& state, ViewFacts& facts) {
   plot(histogram, ImGui::GetCursorScreenPos(), size);
   ImGui::Dummy(size);
   addItemPlace(facts.places, "histogram");
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("radiance from 2^%g to 2^%g with the exposure; the line is at 1", kLowestStop,
-                      kHighestStop);
+  char text[96];
+  std::snprintf(text, sizeof text, "radiance from 2^%g to 2^%g with the exposure; the line is at 1", kLowestStop,
+                kHighestStop);
+  tip(facts.places, text);
   ImGui::TextDisabled("mean %.3g   max %.3g   above 1: %.2g %%", histogram.mean, histogram.most,
                       100.0 * histogram.above);
 }
