@@ -258,6 +258,7 @@ bool changeWindow(ViewState& state, const Control& control, const Movement& m) {
       return true;
     case Action::TogglePanel:
       state.panel = !state.panel;
+      state.panelWaits = false;
       return true;
     case Action::ToggleHud:
       state.figures = !state.figures;

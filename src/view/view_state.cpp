@@ -24,6 +24,15 @@ double ViewState::shownBar() const {
   return comparison == CompareMode::Right ? 0.0 : bar;
 }
 
+void fitPanel(ViewState& state, bool hasRoom) {
+  if (std::exchange(state.panelHasRoom, hasRoom) == hasRoom) return;
+  if (hasRoom) {
+    state.panel = state.panel || std::exchange(state.panelWaits, false);
+  } else {
+    state.panelWaits = std::exchange(state.panel, false);
+  }
+}
+
 glm::dvec2 magnifiedPlace(const ViewState& state, const glm::dvec2& place) {
   return state.magnifier.center + (place - 0.5) * std::exp2(-state.magnifier.steps);
 }

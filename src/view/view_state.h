@@ -49,6 +49,8 @@ struct ViewState {
   double flySpeed = 1.0;
 
   bool panel = true;
+  bool panelHasRoom = true;  ///< beside the picture
+  bool panelWaits = false;   ///< for room: it was open while it had some
   float panelWidth = 0.0f;  ///< pixels at 96 dots an inch; 0: the standard width
   bool figures = false;
   bool sheet = false;
@@ -138,6 +140,9 @@ bool isHidden(const ViewState& state, size_t node);
 
 /// Hides it with all that is below it, or shows it again, on both sides. Others of its name stay as they are.
 void hideNode(ViewState& state, size_t node, bool hidden);
+
+/// Closes a panel that has lost its room beside the picture, and opens it again with the room.
+void fitPanel(ViewState& state, bool hasRoom);
 
 /// Makes the options load the same scene and light as others: what one side has, both have.
 void takeScene(RenderOptions& side, const RenderOptions& from);

@@ -210,6 +210,23 @@ TEST(ViewState, AReloadedSceneKeepsTheViewAndAnotherOneDoesNot) {
   EXPECT_EQ(state.sides[0].scene, "other.gltf");
 }
 
+TEST(ViewState, ThePanelClosesWithoutRoomAndOpensWithIt) {
+  ViewState state = someState();
+  fitPanel(state, true);
+  EXPECT_TRUE(state.panel);
+  fitPanel(state, false);
+  EXPECT_FALSE(state.panel);
+  fitPanel(state, true);
+  EXPECT_TRUE(state.panel);
+  fitPanel(state, false);
+  press(state, Action::TogglePanel);  // over the picture, as it was asked for
+  fitPanel(state, false);
+  EXPECT_TRUE(state.panel);
+  press(state, Action::TogglePanel);
+  fitPanel(state, true);
+  EXPECT_FALSE(state.panel);
+}
+
 TEST(ViewState, EscapeClosesTheSheetBeforeItQuits) {
   ViewState state = someState();
   press(state, Action::ToggleSheet);

@@ -76,14 +76,24 @@ class Panel(Case):
         viewer.key("Tab")
         viewer.rest(lambda s: s["width"] == 640 + width, "all of the window")
         self.assertNotIn("panel", viewer.status()["places"])
+        viewer.click("Panel")
+        viewer.rest(lambda s: "panel" in s["places"], "the panel again")
+        for size in ((420, 700), (300, 200)):
+            viewer.xdotool("windowsize", "--sync", viewer.id, *size)
+            status = viewer.rest(lambda s: s["width"] == size[0] and "panel" not in s["places"], f"a picture alone in {size}")
+            for name in ("stage flat", "stage gi", "Panel"):
+                x, y, w, h = status["places"][name]
+                self.assertTrue(0 <= x and x + w <= size[0] and status["height"] <= y and y + h <= size[1], (name, status["places"]))
+        viewer.xdotool("windowsize", "--sync", viewer.id, 1280, 800)
+        viewer.rest(lambda s: "panel" in s["places"], "the panel with its room")
         self.ends_well(viewer, viewer.close())
 
     def test_presets_and_the_status_bar(self):
         viewer = self.view("furnace", *PANEL)
-        for name, last in (("Phong", "normal-maps"), ("Path traced", "gi"), ("Preview", "phong")):
+        cumulative = ["flat", "phong", "shadows", "reflections", "refraction", "normal-maps", "gi"]
+        for name, last in (("Phong", 5), ("Path traced", 6), ("stage reflections", 3), ("stage gi", 6), ("Preview", 1)):
             viewer.click(name)
-            status = viewer.rest(lambda s: s["sides"][0]["stages"][-1] != "x" and last in s["sides"][0]["stages"], name)
-        self.assertNotIn("shadows", status["sides"][0]["stages"])
+            status = viewer.rest(lambda s: [n for n in s["sides"][0]["stages"] if n in cumulative] == cumulative[:last + 1], name)
         # The last one clicked is still under the cursor; what explains it stands beside the panel.
         places = viewer.until(lambda s: "tip" in s["places"], "what it does")["places"]
         self.assertLessEqual(places["tip"][0] + places["tip"][2], places["panel"][0])

@@ -12,6 +12,7 @@
 #include "view/progress.h"
 #include "view/window/figures.h"
 #include "view/window/pixel_values.h"
+#include "view/window/stage_bar.h"
 #include "view/window/status_bar.h"
 #include "view/window/text.h"
 #include "view/window/theme.h"
@@ -274,6 +275,7 @@ Task drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout,
   if (!state.scene && !facts.load.busy) task = drawWelcome(facts, layout);
   if (!facts.error.empty() && !facts.errorClosed) drawError(facts, layout);
   drawStatusBar(state, facts, layout);
+  if (const Task pressed = drawStageBar(state, facts, layout); pressed.errand != Errand::None) task = pressed;
   if (state.sheet) drawSheet(state, facts, layout);
   if (facts.load.busy && task.errand == Errand::None) task.errand = drawLoading(facts.load, layout);
   return task;

@@ -192,19 +192,14 @@ void drawEdge(const WindowLayout& layout) {
   if (near) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 }
 
-void drawButtons(Places& places, const ViewFacts& facts, Task& task) {
+void drawButtons(Places& places, Task& task) {
   ImGui::Separator();
-  const auto next = [&](const char* text, Errand errand, bool enabled = true) {
+  const auto next = [&](const char* text, Errand errand) {
     stayOnLineFor(text);
-    ImGui::BeginDisabled(!enabled);
     errandButton(places, text, errand, task);
-    ImGui::EndDisabled();
   };
-  errandButton(places, "Screenshot", Errand::Screenshot, task);
-  next("Write .exr", Errand::WriteExr);
+  errandButton(places, "Write .exr", Errand::WriteExr, task);
   next("Reload", Errand::Reload);
-  next("Undo", Errand::Undo, facts.canUndo);
-  next("Redo", Errand::Redo, facts.canRedo);
   next("Reset all", Errand::ResetAll);
   next("Full screen", Errand::Fullscreen);
   ImGui::TextDisabled("%s: all keys   %s: this panel", keyOf(Action::ToggleSheet).c_str(),
@@ -252,7 +247,7 @@ Task drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
     if (open("Switches", false)) drawStages(state, places, false);
     if (open("Sampling", false)) drawSampling(state, places);
     if (open("Advanced", false)) drawAdvanced(state, facts);
-    drawButtons(places, facts, task);
+    drawButtons(places, task);
   }
   ImGui::End();
   ImGui::PopStyleVar();

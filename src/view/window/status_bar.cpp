@@ -29,7 +29,8 @@ std::string printed(const char* format, Values... values) {
 std::string activity(const ViewState& state, const ViewFacts& facts) {
   if (facts.load.busy) return "loading";
   if (!state.scene) return "no scene";
-  if (!facts.note.empty()) return facts.note;
+  // The news have all of it.
+  if (!facts.note.empty()) return facts.note.substr(0, facts.note.find(" ("));
   return progressText(facts.statistics[state.active], state.options());
 }
 
@@ -75,7 +76,7 @@ std::string pixelText(const ViewState& state, const ViewFacts& facts) {
 
 void drawStatusBar(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float top = float(layout.picture.y);
+  const float top = float(layout.picture.y) + layout.stagesHeight;
   ImGui::SetNextWindowPos({0.0f, top});
   ImGui::SetNextWindowSize({display.x, display.y - top});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(layout.margin, 0.0f));

@@ -271,6 +271,7 @@ void Window::draw() {
   glm::ivec2 size(0);
   glfwGetFramebufferSize(window_.get(), &size.x, &size.y);
   if (size.x <= 0 || size.y <= 0) return;
+  fitPanel(state_, layoutOf(glm::vec2(size), interface_.scale(), {.panel = true}).docked);
   const bool panel = state_.panel && state_.scene;
   const WindowLayout layout =
       layoutOf(glm::vec2(size), interface_.scale(), {panel, state_.panelWidth, state_.split});
