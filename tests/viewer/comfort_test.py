@@ -113,6 +113,10 @@ class Panel(Case):
         viewer.click("environment sky.pfm")
         status = viewer.rest(lambda s: s["environment"].endswith("sky.pfm"), "chosen")
         self.assertEqual(status["camera"], before["camera"])
+        viewer.key("ctrl+z")
+        viewer.rest(lambda s: s["environment"] == "", "undone")
+        viewer.key("ctrl+y")
+        viewer.rest(lambda s: s["environment"].endswith("sky.pfm"), "done again")
         self.ends_well(viewer, viewer.close())
 
 
@@ -128,6 +132,9 @@ class Parts(Case):
         gltf["scenes"].append({"nodes": [1], "name": "aside"})
         path.write_text(json.dumps(gltf))
         viewer = self.view(path, *PANEL)
+        first = viewer.status()["camera"]
+        viewer.drag((200, 300), (300, 350))
+        turned = viewer.rest(lambda s: s["camera"] != first, "turned")["camera"].split(" --scene-origin")[0]
         for name, down, option in (("Variant", 2, ["--material-variant", "1"]), ("Scene", 2, ["--scene", "1"])):
             viewer.click(name)
             viewer.until(lambda s: s["focus"] == "popup", "the list")
@@ -139,6 +146,12 @@ class Parts(Case):
             words = copied_command(self, viewer) if viewer.rest() else []
             self.assertEqual(words[words.index(option[0]) + 1], option[1])
             viewer.click("close news")
+            if name == "Variant":
+                viewer.key("ctrl+z")
+                viewer.rest(lambda s: s["variant"] == "", "none is undone")
+                self.assertEqual(viewer.status()["camera"].split(" --scene-origin")[0], turned)
+                viewer.key("ctrl+y")
+                viewer.rest(lambda s: s["variant"] == "1", "chosen again")
         self.ends_well(viewer, viewer.close())
 
 

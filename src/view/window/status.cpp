@@ -77,6 +77,7 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["state"] = stateName(state, facts, report);
   json["scene"] = state.scene ? state.scene->options.scene.string() : "";
   json["environment"] = state.scene ? state.scene->options.light.hdriFile.string() : "";
+  json["variant"] = state.scene ? state.scene->options.selection.materialVariant : "";
   json["width"] = state.size.x;
   json["height"] = state.size.y;
   json["asked"] = report.asked;

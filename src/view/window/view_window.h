@@ -59,6 +59,7 @@ class Window {
   void executeOnScene(const Task& task);
   void executeOnBookmark(const Task& task);
   void load(RenderOptions options);
+  void loadStep();
   void cancelLoad();
   void takeDrops();
   void openFiles(const std::vector<std::filesystem::path>& files);

@@ -194,6 +194,7 @@ void Window::adoptScene(ViewedScene scene) {
   glfwSetWindowTitle(window_.get(), windowTitle(state_.scene->options.scene).c_str());
   wanted_ = state_.scene->options;
   if (pasted_ && sameScene(*pasted_, wanted_)) takeOptions(state_, *std::exchange(pasted_, {}));
+  history_.waits = false;
   if (otherNodes) restart(history_, state_);
   if (another) {
     remember([&](Remembered& r) { addRecent(r, wanted_.scene); });
@@ -220,6 +221,7 @@ void Window::takeState(const Delivery& news) {
   if (!facts_.error.empty() && !facts_.load.busy && state_.scene) {
     wanted_ = state_.scene->options;
     pasted_.reset();
+    history_.waits = false;
   }
   if (!facts_.error.empty() && !facts_.load.busy && !state_.scene) {
     forgetBrokenEnvironment();

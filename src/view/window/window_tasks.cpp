@@ -77,15 +77,17 @@ void Window::executeOnScene(const Task& task) {
     case Errand::PasteCommand:
       return pasteCommand();
     case Errand::Undo:
-      if (!undo(history_, state_)) say("there is nothing to undo");
-      return;
+      if (!undo(history_, state_)) return say("there is nothing to undo");
+      return loadStep();
     case Errand::Redo:
-      if (!redo(history_, state_)) say("there is nothing to redo");
-      return;
+      if (!redo(history_, state_)) return say("there is nothing to redo");
+      return loadStep();
     case Errand::ResetAll:
       if (const RenderOptions wanted = resetAll(state_, start_.options);
-          !sameScene(wanted, state_.scene->options))
+          !sameScene(wanted, state_.scene->options)) {
         load(wanted);
+        history_.waits = true;
+      }
       return;
     case Errand::Load:
       return load(*task.load);
@@ -111,9 +113,17 @@ void Window::load(RenderOptions options) {
   exchange_.load(options);
 }
 
+/// The light or the variant of a step that was undone, if another one is shown.
+void Window::loadStep() {
+  if (withLight(history_, wanted_) == wanted_) return;
+  load(withLight(history_, state_.scene->options));
+  history_.waits = true;
+}
+
 void Window::cancelLoad() {
   exchange_.cancelLoad();
   pasted_.reset();
+  history_.waits = false;
   if (state_.scene) wanted_ = state_.scene->options;
 }
 
