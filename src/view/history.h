@@ -30,7 +30,8 @@ struct History {
   std::deque<Settings> past;  ///< the latest last
   std::deque<Settings> future;
   std::optional<Settings> now;
-  bool waits = false;  ///< for a scene that belongs to the latest step; until it is loaded, nothing is recorded
+  bool waits =
+      false;  ///< for a scene that belongs to the latest step; until it is loaded, nothing is recorded
 };
 
 /// Forgets all steps: what was set before belongs to another scene.

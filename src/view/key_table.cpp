@@ -108,6 +108,8 @@ void addWindow(std::vector<Control>& rows) {
     rows.push_back({gesture, code, modifiers, action, argument, sentence});
   };
   add(Click, mouse::kLeft, 0, Action::Inspect, "select what is under the cursor, and say what it is");
+  add(Press, 'O', 0, Action::ToggleOverview,
+      "all seven stages side by side, with the times of their frames, on or off");
   add(Press, 'C', 0, Action::ToggleSplit, "compare: split view on or off");
   add(Press, 'R', 0, Action::FlipSides, "compare: the left side alone, then the right one");
   add(Press, 'U', 0, Action::ToggleDifference, "compare: the difference between the two sides");

@@ -41,8 +41,8 @@ void closeMessages(MessageList& messages) {
 double opacityOf(const Message& message, double now) { return 1.0 - double(stepsOf(message, now)) / kSteps; }
 
 bool isSeen(const MessageList& messages, const std::string& text, double now) {
-  return std::ranges::any_of(
-      messages, [&](const Message& m) { return m.text == text && stepsOf(m, now) < kSteps; });
+  return std::ranges::any_of(messages,
+                             [&](const Message& m) { return m.text == text && stepsOf(m, now) < kSteps; });
 }
 
 double secondsToFade(const MessageList& messages, double now) {

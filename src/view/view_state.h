@@ -36,8 +36,10 @@ struct ViewState {
   CompareMode comparison = CompareMode::Bar;
   double differenceStops = 0.0;  ///< the difference is shown times 2^this
   Magnifier magnifier;
+  /// All stages are shown side by side, with the active side's settings: the pictures of kMostSides cells.
+  bool overview = false;
 
-  glm::ivec2 size{1280, 720};  ///< pixels of the picture
+  glm::ivec2 size{1280, 720};  ///< pixels of the picture; of one cell in the overview
   std::optional<ViewedScene> scene;
   BoundsDouble selected;                 ///< of what was clicked on, world space; empty: nothing
   std::optional<uint32_t> selectedNode;  ///< that it is (SceneNode::index)
@@ -51,7 +53,7 @@ struct ViewState {
   bool panel = true;
   bool panelHasRoom = true;  ///< beside the picture
   bool panelWaits = false;   ///< for room: it was open while it had some
-  float panelWidth = 0.0f;  ///< pixels at 96 dots an inch; 0: the standard width
+  float panelWidth = 0.0f;   ///< pixels at 96 dots an inch; 0: the standard width
   bool figures = false;
   bool sheet = false;
   std::optional<float> blur;  ///< of the backdrop, degrees, while its slider is held
@@ -63,8 +65,13 @@ struct ViewState {
 
   RenderOptions& options() { return sides[active]; }
   const RenderOptions& options() const { return sides[active]; }
-  /// Sides that are traced: 2 where the split view compares two of them, rather than one and a file.
-  size_t tracedCount() const { return split && reference.empty() ? 2 : 1; }
+  /// Sides that are traced: 2 where the split view compares two of them, rather than one and a file; all
+  /// stages in the overview.
+  size_t tracedCount() const { return overview ? kMostSides : split && reference.empty() ? 2 : 1; }
+  /// Whether two pictures meet at a bar, or are compared otherwise.
+  bool compares() const { return split && !overview; }
+  /// The traced side whose progress and values are shown: the active one, or that of its last stage.
+  size_t shownSide() const;
   /// Where the bar stands: 1 where the left side alone is shown.
   double shownBar() const;
 };
@@ -173,7 +180,10 @@ bool sameNodes(const RenderOptions& a, const RenderOptions& b);
 /// area.
 glm::dvec2 magnifiedPlace(const ViewState& state, const glm::dvec2& place);
 
-/// Which side is shown there.
+/// Cells of the overview in a row and in a column: as many, so that each has the picture's proportions.
+inline constexpr int kCells = 3;
+
+/// Which side is shown there; kMostSides or more: none.
 size_t sideAt(const ViewState& state, const glm::dvec2& place);
 
 /// All settings of both sides as the viewer was started with, and the scene's first camera. Returns what the

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where picture, panel, stages, status bar, figures and news have room in a window, so that none covers another.
+// Where picture, panel, stages, status bar, figures and news have room in a window, so that none covers
+// another.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +18,8 @@ struct LayoutWishes {
   bool split = false;       ///< both sides have figures
 };
 
-/// Lengths in pixels. The picture stands at the top left, the panel beside it at the right; below them, as wide
-/// as the window, the bar of the stages, and below that the status bar.
+/// Lengths in pixels. The picture stands at the top left, the panel beside it at the right; below them, as
+/// wide as the window, the bar of the stages, and below that the status bar.
 struct WindowLayout {
   float scale = 1.0f;  ///< of a length at 96 dots an inch
   float margin = 0.0f;

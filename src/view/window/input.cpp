@@ -161,8 +161,8 @@ void Input::press(const Event& event, const ViewState& state) {
              .start = cursor_};
   button_.edge = event.code == GLFW_MOUSE_BUTTON_LEFT && onEdge();
   const double away = std::abs(place().x - state.bar) * layout_.picture.x;
-  button_.bar = state.split && state.comparison == CompareMode::Bar && event.code == GLFW_MOUSE_BUTTON_LEFT &&
-                away <= kBarPixels * layout_.scale;
+  button_.bar = state.compares() && state.comparison == CompareMode::Bar &&
+                event.code == GLFW_MOUSE_BUTTON_LEFT && away <= kBarPixels * layout_.scale;
 }
 
 void Input::release(const Event& event, ViewState& state, const RunTask& run) {
@@ -170,6 +170,11 @@ void Input::release(const Event& event, ViewState& state, const RunTask& run) {
   const Button button = std::exchange(button_, {});
   if (button.dragging || button.bar || button.edge) return;
   const size_t side = sideAt(state, place());
+  if (state.overview && button.code == GLFW_MOUSE_BUTTON_LEFT) {
+    const Control* stage = controlOf(Action::StagesUpTo, int(side));
+    if (stage) apply(state, *stage, {});
+    return;
+  }
   const bool chooses =
       state.tracedCount() == 2 && state.comparison == CompareMode::Bar && state.active != side;
   if (chooses) state.active = side;

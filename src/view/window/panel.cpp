@@ -178,7 +178,7 @@ void drawAdvanced(ViewState& state, ViewFacts& facts) {
   dimAtEnd(keyOf(Action::ToggleHud));
   ImGui::TextDisabled("Features in the shader");
   ImGui::PushTextWrapPos(0.0f);
-  std::string variant = facts.statistics[state.active].variant;
+  std::string variant = facts.statistics[state.shownSide()].variant;
   std::ranges::replace(variant, '+', ' ');
   drawText(variant, kMostLineCharacters);
   ImGui::PopTextWrapPos();

@@ -16,9 +16,9 @@ constexpr std::array<ImU32, 3> kPlotColors{IM_COL32(220, 70, 70, 150), IM_COL32(
 
 /// Computed anew only for another picture or exposure.
 const Histogram& current(const ViewState& state, ViewFacts& facts) {
-  const size_t side = state.active;
+  const size_t side = state.shownSide();
   ShownHistogram& shown = facts.histogram;
-  const double exposure = state.sides[side].output.exposure;
+  const double exposure = state.options().output.exposure;
   const PictureValues& values = facts.values[side];
   facts.wantsHistogram = true;
   const bool whole = values.whole.x > 0 && values.area.size == values.whole;
@@ -54,8 +54,8 @@ void drawHistogram(const ViewState& state, ViewFacts& facts) {
   ImGui::Dummy(size);
   addItemPlace(facts.places, "histogram");
   char text[96];
-  std::snprintf(text, sizeof text, "radiance from 2^%g to 2^%g with the exposure; the line is at 1", kLowestStop,
-                kHighestStop);
+  std::snprintf(text, sizeof text, "radiance from 2^%g to 2^%g with the exposure; the line is at 1",
+                kLowestStop, kHighestStop);
   tip(facts.places, text);
   ImGui::TextDisabled("mean %.3g   max %.3g   above 1: %.2g %%", histogram.mean, histogram.most,
                       100.0 * histogram.above);

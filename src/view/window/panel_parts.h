@@ -22,8 +22,8 @@ void dimAtEnd(const std::string& text);
 /// A label, and room for a control up to the end of the row, which has the label's place.
 void label(Places& places, const char* text);
 
-/// A sentence on the latest item, while the cursor is over it, even if that is greyed: beside the panel, or else above the
-/// item, so that no other control is covered.
+/// A sentence on the latest item, while the cursor is over it, even if that is greyed: beside the panel, or
+/// else above the item, so that no other control is covered.
 void tip(Places& places, const std::string& text);
 
 /// The next button on the same line, if that has room for it.

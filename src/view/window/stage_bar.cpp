@@ -55,8 +55,9 @@ struct EndButton {
   int rank;                      ///< 0: the last to be left out
   Errand errand = Errand::None;  ///< none: the state alone changes
 };
-constexpr std::array kEndButtons{EndButton{"Undo", Action::Undo, 2, Errand::Undo},
-                                 EndButton{"Redo", Action::Redo, 3, Errand::Redo},
+constexpr std::array kEndButtons{EndButton{"All", Action::ToggleOverview, 2},
+                                 EndButton{"Undo", Action::Undo, 3, Errand::Undo},
+                                 EndButton{"Redo", Action::Redo, 4, Errand::Redo},
                                  EndButton{"Screenshot", Action::Screenshot, 1, Errand::Screenshot},
                                  EndButton{"Panel", Action::TogglePanel, 0}};
 
@@ -84,7 +85,8 @@ Task drawEndButtons(ViewState& state, ViewFacts& facts, float left, float right)
     else
       errandButton(facts.places, button.text, button.errand, task);
     ImGui::EndDisabled();
-    tip(facts.places, keyOf(button.action));
+    const Control& control = *controlOf(button.action);
+    tip(facts.places, controlName(control) + ": " + control.sentence);
   }
   return task;
 }

@@ -6,8 +6,8 @@
 
 namespace fragtrace {
 
-/// Draws it into Dear ImGui's frame, between picture and status bar; what has no room is left out, the least important
-/// first. Returns what is left to be done.
+/// Draws it into Dear ImGui's frame, between picture and status bar; what has no room is left out, the least
+/// important first. Returns what is left to be done.
 Task drawStageBar(ViewState& state, ViewFacts& facts, const WindowLayout& layout);
 
 }  // namespace fragtrace

@@ -263,7 +263,7 @@ void Window::ask() {
 void Window::readValues() {
   const double now = glfwGetTime();
   again_ = display_.waits() ? now : std::numeric_limits<double>::infinity();
-  for (size_t i = 0; i < 2; ++i) {
+  for (size_t i = 0; i < kMostSides; ++i) {
     const PixelArea area = wantedArea(state_, facts_, i, display_.sizeOf(i));
     again_ = std::min(again_, display_.keepValues(i, facts_.values[i], area, now));
   }
@@ -276,8 +276,8 @@ void Window::draw() {
   fitPanel(state_, layoutOf(glm::vec2(size), interface_.scale(), {.panel = true}).docked);
   const bool panel = state_.panel && state_.scene;
   const WindowLayout layout =
-      layoutOf(glm::vec2(size), interface_.scale(), {panel, state_.panelWidth, state_.split});
-  state_.size = layout.picture;
+      layoutOf(glm::vec2(size), interface_.scale(), {panel, state_.panelWidth, state_.compares()});
+  state_.size = state_.overview ? glm::max(layout.picture / kCells, 1) : layout.picture;
   interface_.begin();
   facts_.cursor = input_.update(state_, layout, [this](const Task& task) { execute(task); });
   takeDrops();
@@ -291,10 +291,14 @@ void Window::draw() {
   if (panel) execute(drawPanel(state_, facts_, layout));
   execute(said);
   askForThumbnails();
-  std::array<DisplaySide, 2> sides;
-  for (size_t i = 0; i < 2; ++i) sides[i] = {state_.sides[i].output.exposure, state_.sides[i].output.toneMap};
-  display_.draw({size, layout.picture, state_.shownBar(), state_.magnifier,
-                 state_.split && state_.comparison == CompareMode::Difference, state_.differenceStops},
+  std::array<DisplaySide, kMostSides> sides;
+  for (size_t i = 0; i < kMostSides; ++i) {
+    const OutputOptions& output =
+        i < 2 && !state_.overview ? state_.sides[i].output : state_.options().output;
+    sides[i] = {output.exposure, output.toneMap};
+  }
+  display_.draw({size, layout.picture, state_.shownBar(), state_.magnifier, state_.overview,
+                 state_.compares() && state_.comparison == CompareMode::Difference, state_.differenceStops},
                 sides);
   readValues();
   facts_.focus = Interface::focus();

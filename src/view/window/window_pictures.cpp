@@ -68,6 +68,7 @@ void Window::askForThumbnails() {
 void Window::takeReference(const TracedPicture& picture) {
   state_.reference = picture.file;
   state_.split = true;
+  state_.overview = false;
   state_.active = 0;
   if (state_.sides[1].scene.empty()) state_.sides[1] = state_.sides[0];
   newReference_ = true;

@@ -62,6 +62,7 @@ void Window::executeOnScene(const Task& task) {
   switch (task.errand) {
     case Errand::CenterOn:
     case Errand::Inspect: {
+      if (sideAt(state_, task.place) >= kMostSides) return;
       const glm::dvec2 place = magnifiedPlace(state_, task.place);
       return exchange_.pick({sideAt(state_, task.place), place, task.errand == Errand::CenterOn});
     }
@@ -156,12 +157,12 @@ void Window::save(const char* extension) {
   const std::filesystem::path name = std::filesystem::absolute(freePictureName(o.scene, extension));
   // A file for a display is what is seen, one of radiance what the active side's samples say.
   const bool seen = isDisplayFormat(name);
-  const bool both = state_.split && seen;
-  const char* side = !state_.split || both ? "" : state_.active == 0 ? " of side A" : " of side B";
+  const bool both = state_.compares() && seen;
+  const char* side = !state_.compares() || both ? "" : state_.active == 0 ? " of side A" : " of side B";
   if (!facts_.resting) say("writing " + name.string() + side + " as soon as all of the picture is drawn");
   SaveRequest request;
   request.path = name;
-  request.side = state_.active;
+  request.side = state_.shownSide();
   if (both) request.both = state_.comparison;
   request.bar = state_.shownBar();
   request.differenceStops = state_.differenceStops;
@@ -175,7 +176,7 @@ RenderOptions Window::shownOptions() const {
   RenderOptions o = renderOptionsOf(state_, state_.active);
   o.camera.resolution = state_.size;
   o.camera.sceneOrigin = state_.scene->description.origin;
-  o.sampling.spp = std::max(facts_.statistics[state_.active].samples, 1);
+  o.sampling.spp = std::max(facts_.statistics[state_.shownSide()].samples, 1);
   // What lights the scene without need is not said.
   if (!state_.scene->defaultLight && o.light.defaultLight == DefaultLight::Studio)
     o.light.defaultLight = DefaultLight::White;
