@@ -39,7 +39,7 @@ std::string shownText(std::string_view text, size_t most) {
   return shown;
 }
 
-std::string withoutOptions(std::string text) {
+std::string withoutOptions(const std::string& text) {
   static const std::regex option(R"( \(--[a-z-]+\))");
   return std::regex_replace(text, option, "");
 }

@@ -17,6 +17,6 @@ inline constexpr size_t kMostPageCharacters = 4000;
 std::string shownText(std::string_view text, size_t most);
 
 /// Text for the command line, as a window says it: without options in brackets, " (--option)".
-std::string withoutOptions(std::string text);
+std::string withoutOptions(const std::string& text);
 
 }  // namespace fragtrace

@@ -50,7 +50,7 @@ glm::dvec2 magnifiedPlace(const ViewState& state, const glm::dvec2& place) {
 size_t sideAt(const ViewState& state, const glm::dvec2& place) {
   if (state.overview) {
     const glm::ivec2 cell(glm::clamp(place, 0.0, 1.0 - 1e-9) * double(kCells));
-    return size_t(cell.y * kCells + cell.x);
+    return size_t(cell.y) * size_t(kCells) + size_t(cell.x);
   }
   return state.split && place.x >= state.shownBar() ? 1 : 0;
 }

@@ -31,13 +31,13 @@ struct ViewState {
   std::array<RenderOptions, 2> sides;  ///< the second is that of the split view
   size_t active = 0;                   ///< the side that stages and settings are changed of
   bool split = false;
+  /// All stages are shown side by side, with the active side's settings: the pictures of kMostSides cells.
+  bool overview = false;
   std::filesystem::path reference;  ///< a picture that is side B; empty: B is traced
   double bar = 0.5;                 ///< where the sides meet, as a part of the width
   CompareMode comparison = CompareMode::Bar;
   double differenceStops = 0.0;  ///< the difference is shown times 2^this
   Magnifier magnifier;
-  /// All stages are shown side by side, with the active side's settings: the pictures of kMostSides cells.
-  bool overview = false;
 
   glm::ivec2 size{1280, 720};  ///< pixels of the picture; of one cell in the overview
   std::optional<ViewedScene> scene;
@@ -53,12 +53,12 @@ struct ViewState {
   bool panel = true;
   bool panelHasRoom = true;  ///< beside the picture
   bool panelWaits = false;   ///< for room: it was open while it had some
-  float panelWidth = 0.0f;   ///< pixels at 96 dots an inch; 0: the standard width
   bool figures = false;
-  bool sheet = false;
+  float panelWidth = 0.0f;    ///< pixels at 96 dots an inch; 0: the standard width
   std::optional<float> blur;  ///< of the backdrop, degrees, while its slider is held
   std::array<char, 64> bookmarkName{};
   std::array<char, 64> search{};  ///< what the sheet is searched for; ends with a 0
+  bool sheet = false;
   bool fullscreen = false;
   bool treeBoxes = false;
   int treeLevel = 4;
