@@ -12,7 +12,6 @@
 #include "view/progress.h"
 #include "view/window/figures.h"
 #include "view/window/pixel_values.h"
-#include "view/window/stage_bar.h"
 #include "view/window/status_bar.h"
 #include "view/window/text.h"
 #include "view/window/theme.h"

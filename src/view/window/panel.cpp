@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "view/window/panel.h"
 
 #include <algorithm>
 #include <array>

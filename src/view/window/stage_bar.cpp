@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/window/stage_bar.h"
+#include "view/window/status_bar.h"
 
 #include <algorithm>
 #include <array>

@@ -47,14 +47,12 @@ class Window {
   void say(const std::string& message);
   bool iconified() const;
 
-  // window_pictures.cpp
+  // window_tasks.cpp
   void takePictures(std::vector<TracedPicture> pictures);
   void takeReference(const TracedPicture& picture);
   void compareSizes();
   void takeThumbnail(const EnvironmentThumbnail& thumbnail);
   void askForThumbnails();
-
-  // window_tasks.cpp
   void execute(const Task& task);
   void executeOnScene(const Task& task);
   void executeOnBookmark(const Task& task);

@@ -12,7 +12,7 @@
 #include "errors.h"
 #include "gl/gl.h"
 #include "view/shown_names.h"
-#include "view/window/panel.h"
+#include "view/window/panel_parts.h"
 #include "view/window/pixel_values.h"
 
 namespace fragtrace {
