@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The picture's part of the window: left of the bar one displayed picture, right of it the other, whatever their
-// resolutions; or how far two traced ones differ.
+// The picture's part of the window, or a cell of it: left of the bar one displayed picture, right of it the other,
+// whatever their resolutions; or how far two traced ones differ.
 #include "srgb.glsl"
 #include "picture/enlarge.glsl"
 
@@ -8,7 +8,7 @@ layout(binding = 0) uniform sampler2D leftPicture;
 layout(binding = 1) uniform sampler2D rightPicture;
 layout(location = 0) uniform vec2 pictureSize;  // pixels
 layout(location = 1) uniform float bar;         // pixels from the left
-layout(location = 2) uniform float bottom;      // pixels of the window below the picture
+layout(location = 2) uniform vec2 corner;       // of the pictures, pixels from the bottom left of the window
 layout(location = 3) uniform vec3 part;         // of the pictures that is shown: its middle, and how large it is
 layout(location = 4) uniform float difference;  // factor of the difference of radiances; 0: pictures are shown
 
@@ -22,7 +22,8 @@ vec4 shownOf(sampler2D picture, vec2 uv) {
 
 void main() {
   // Pictures have their first row at the top.
-  vec2 place = vec2(gl_FragCoord.x, pictureSize.y - (gl_FragCoord.y - bottom));
+  vec2 place = gl_FragCoord.xy - corner;
+  place.y = pictureSize.y - place.y;
   vec2 uv = part.xy + (place / pictureSize - 0.5) * part.z;
   if (difference > 0.0) {
     vec3 apart = abs(texture(leftPicture, uv).rgb - texture(rightPicture, uv).rgb);

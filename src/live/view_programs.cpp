@@ -111,7 +111,9 @@ void ViewPrograms::keep(std::shared_ptr<ViewProgram> program) {
   size_t count = 0;
   for (auto p = programs_.begin(); p != programs_.end(); ++count) {
     bytes += (*p)->bytes;
-    const bool kept = count < kLeastKept || (count < kMostKept && bytes <= kMostKeptBytes);
+    // One that a side draws with would only be made again.
+    const bool kept =
+        p->use_count() > 1 || count < kLeastKept || (count < kMostKept && bytes <= kMostKeptBytes);
     p = kept ? std::next(p) : programs_.erase(p);
   }
 }

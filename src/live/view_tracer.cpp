@@ -10,6 +10,7 @@
 #include "live/pick_text.h"
 #include "picture/denoising.h"
 #include "session/outputs.h"
+#include "view/shown_text.h"
 
 namespace fragtrace {
 
@@ -61,7 +62,7 @@ ViewTracer::ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn
       thumbnails_(exchange),
       oidn_(std::move(oidn)),
       clock_(start.waitsForPasses) {
-  passOnWhatIsSaid([&exchange](const std::string& text) { exchange.tell(text); });
+  passOnWhatIsSaid([&exchange](const std::string& text) { exchange.tell(withoutOptions(text)); });
 }
 
 void ViewTracer::run(const SharedContexts& shared) {

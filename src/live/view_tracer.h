@@ -146,9 +146,10 @@ class ViewTracer {
   Selected selected_;      ///< what was picked last
   std::vector<Side> sides_;
   enum class Shows : uint8_t { Nothing, Preview, Picture } shows_ = Shows::Nothing;
-  bool shares_ = false;                                    ///< objects with the window
-  std::optional<OutsideContext> compiles_;                 ///< none: programs are compiled where they draw
-  std::array<std::array<ShownTexture, kSlots>, 2> shown_;  ///< of the sides; without sharing the first
+  bool shares_ = false;                     ///< objects with the window
+  std::optional<OutsideContext> compiles_;  ///< none: programs are compiled where they draw
+  std::array<std::array<ShownTexture, kSlots>, kMostSides>
+      shown_;  ///< of the sides; without sharing the first
   ResolutionController resolution_;
   std::vector<SaveRequest> saves_;
   std::optional<Image> reference_;  ///< that the window shows as side B

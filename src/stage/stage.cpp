@@ -61,6 +61,13 @@ std::optional<Stage> parseStage(std::string_view name) {
   return std::nullopt;
 }
 
+StageSet withStagesUpTo(StageSet set, Stage stage) {
+  for (const StageRow& row : stageRows()) {
+    if (row.cumulative) set.set(size_t(row.stage), row.stage <= stage);
+  }
+  return set;
+}
+
 StageSet stagesUpTo(Stage stage) {
   StageSet set;
   for (const StageRow& row : stageRows()) {

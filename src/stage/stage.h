@@ -52,6 +52,9 @@ std::optional<Stage> parseStage(std::string_view name);
 /// What --stage NAME turns on: the stages up to it, and the switches that are on unless turned off.
 StageSet stagesUpTo(Stage stage);
 
+/// The set with the stages up to that one, and its switches as they are.
+StageSet withStagesUpTo(StageSet set, Stage stage);
+
 template <typename Set, typename Member>
 bool has(const Set& set, Member member) {
   return set.test(size_t(member));

@@ -156,9 +156,8 @@ bool changePicture(ViewState& state, const Control& control, const Movement& m) 
       o.stages.flip(size_t(control.argument));
       return true;
     case Action::StagesUpTo:
-      for (const StageRow& row : stageRows()) {
-        if (row.cumulative) o.stages.set(size_t(row.stage), int(row.stage) <= control.argument);
-      }
+      o.stages = withStagesUpTo(o.stages, Stage(control.argument));
+      state.overview = false;
       return true;
     case Action::ToggleDebugView: {
       const auto view = DebugView(control.argument);
@@ -224,7 +223,13 @@ void magnify(ViewState& state, int steps, const glm::dvec2& cursor) {
 
 bool changeWindow(ViewState& state, const Control& control, const Movement& m) {
   switch (control.action) {
+    case Action::ToggleOverview:
+      // A reference has the place of a side.
+      state.overview = !state.overview && state.reference.empty();
+      state.magnifier = {};
+      return true;
     case Action::ToggleSplit:
+      state.overview = false;
       state.split = !state.split;
       // The second side begins as the first, and keeps what was set there.
       if (state.split && state.sides[1].scene.empty()) state.sides[1] = state.sides[0];
@@ -244,6 +249,7 @@ bool changeWindow(ViewState& state, const Control& control, const Movement& m) {
       state.comparison = CompareMode::Bar;
       return true;
     case Action::Magnify:
+      if (state.overview) return true;
       magnify(state, m.notches > 0.0 ? 1 : m.notches < 0.0 ? -1 : control.argument, m.place);
       return true;
     case Action::MoveMagnifier: {
@@ -258,6 +264,7 @@ bool changeWindow(ViewState& state, const Control& control, const Movement& m) {
       return true;
     case Action::TogglePanel:
       state.panel = !state.panel;
+      state.panelWaits = false;
       return true;
     case Action::ToggleHud:
       state.figures = !state.figures;
@@ -306,6 +313,7 @@ Errand apply(ViewState& state, const Control& control, const Movement& movement)
       return Errand::WriteExr;
     case Action::Close:
       if (std::exchange(state.sheet, false)) return Errand::None;
+      if (std::exchange(state.overview, false)) return Errand::None;
       if (state.magnifier.steps == 0) return Errand::Close;
       state.magnifier = {};
       return Errand::None;

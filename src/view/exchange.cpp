@@ -57,7 +57,10 @@ uint64_t Exchange::ask(std::vector<RenderOptions> sides, glm::ivec2 size, bool m
 }
 
 void Exchange::load(const RenderOptions& options) {
-  order([&](Orders& o) { o.load = options; });
+  order([&](Orders& o) {
+    o.load = options;
+    delivery_.error.clear();
+  });
 }
 
 void Exchange::cancelLoad() {

@@ -28,7 +28,7 @@ inline constexpr std::array kComparisonNames{"bar", "left", "right", "difference
 /// What the window wants to show.
 struct TraceRequest {
   uint64_t number = 0;               ///< counts requests
-  std::vector<RenderOptions> sides;  ///< one, or both sides of the split view; with their cameras
+  std::vector<RenderOptions> sides;  ///< one, both of the split view, or one a stage; with their cameras
   glm::ivec2 size{0};                ///< pixels
   bool moving = false;               ///< frames at the resolution that can be had now, rather than samples
   bool values = true;                ///< pictures that are not shared are copied to the host
@@ -58,6 +58,9 @@ struct SideStatistics {
   PassTimes passes;         ///< since then
   bool copied = false;      ///< through the host, as the window's driver is another one
 };
+
+/// Pictures that are shown at once at most: one of each stage.
+inline constexpr size_t kMostSides = 7;
 
 /// A texture that the contexts of both threads see: RGBA32F, linear, the first row at the top.
 struct SharedTexture {
@@ -185,6 +188,7 @@ class Exchange {
 
   // The window's thread.
   uint64_t ask(std::vector<RenderOptions> sides, glm::ivec2 size, bool moving, bool values = true);
+  /// What went wrong before is forgotten.
   void load(const RenderOptions& options);
   void cancelLoad();
   void save(SaveRequest request);
@@ -232,8 +236,8 @@ class Exchange {
   bool ending_ = false;
   Orders orders_;
   Delivery delivery_;
-  std::array<std::array<bool, kSlots>, 2> taken_{};  ///< by the window
-  std::array<std::array<void*, kSlots>, 2> doneAt_{};
+  std::array<std::array<bool, kSlots>, kMostSides> taken_{};  ///< by the window
+  std::array<std::array<void*, kSlots>, kMostSides> doneAt_{};
 };
 
 }  // namespace fragtrace

@@ -12,14 +12,15 @@ Settings settingsOf(const ViewState& state) {
   Settings settings{state.sides, state.pose,   state.posed,     state.sceneCamera,
                     state.split, state.active, state.treeBoxes, state.treeLevel};
   for (RenderOptions& side : settings.sides) {
-    RenderOptions bare;
-    bare.scene = side.scene;
-    bare.selection.hiddenNodes = side.selection.hiddenNodes;
-    takeScene(side, bare);
+    SceneSelection kept;
+    kept.hiddenNodes = side.selection.hiddenNodes;
+    kept.materialVariant = side.selection.materialVariant;
+    side.selection = kept;
   }
   return settings;
 }
 
+/// All but what has to be loaded.
 void take(ViewState& state, const Settings& settings) {
   const std::array<RenderOptions, 2> before = std::exchange(state.sides, settings.sides);
   for (size_t i = 0; i < 2; ++i) {
@@ -50,6 +51,7 @@ bool step(History& history, ViewState& state, std::deque<Settings>& from, std::d
 void restart(History& history, const ViewState& state) { history = {{}, {}, settingsOf(state)}; }
 
 void record(History& history, const ViewState& state) {
+  if (history.waits) return;
   Settings settings = settingsOf(state);
   if (!history.now || settings == *history.now) {
     history.now = std::move(settings);
@@ -63,5 +65,14 @@ void record(History& history, const ViewState& state) {
 bool undo(History& history, ViewState& state) { return step(history, state, history.past, history.future); }
 
 bool redo(History& history, ViewState& state) { return step(history, state, history.future, history.past); }
+
+RenderOptions withLight(const History& history, RenderOptions options) {
+  const RenderOptions before = options;
+  takeScene(options, history.now->sides[0]);
+  options.scene = before.scene;
+  options.selection = before.selection;
+  options.selection.materialVariant = history.now->sides[0].selection.materialVariant;
+  return options;
+}
 
 }  // namespace fragtrace

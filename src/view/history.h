@@ -8,8 +8,8 @@
 
 namespace fragtrace {
 
-/// What undo brings back: camera and settings of both sides, not the scene, its lighting files or its
-/// animation's time.
+/// What undo brings back: camera and settings of both sides, the light and the material variant of the scene;
+/// not the scene, or its animation's time.
 struct Settings {
   std::array<RenderOptions, 2> sides;
   CameraPose pose;
@@ -30,6 +30,8 @@ struct History {
   std::deque<Settings> past;  ///< the latest last
   std::deque<Settings> future;
   std::optional<Settings> now;
+  bool waits =
+      false;  ///< for a scene that belongs to the latest step; until it is loaded, nothing is recorded
 };
 
 /// Forgets all steps: what was set before belongs to another scene.
@@ -41,5 +43,9 @@ void record(History& history, const ViewState& state);
 /// Goes back one step, or forward again; false: there is none.
 bool undo(History& history, ViewState& state);
 bool redo(History& history, ViewState& state);
+
+/// The options with the light and the material variant of the latest step, which undo and redo leave to be
+/// loaded.
+RenderOptions withLight(const History& history, RenderOptions options);
 
 }  // namespace fragtrace

@@ -108,6 +108,8 @@ void addWindow(std::vector<Control>& rows) {
     rows.push_back({gesture, code, modifiers, action, argument, sentence});
   };
   add(Click, mouse::kLeft, 0, Action::Inspect, "select what is under the cursor, and say what it is");
+  add(Press, 'O', 0, Action::ToggleOverview,
+      "all seven stages side by side, with the times of their frames, on or off");
   add(Press, 'C', 0, Action::ToggleSplit, "compare: split view on or off");
   add(Press, 'R', 0, Action::FlipSides, "compare: the left side alone, then the right one");
   add(Press, 'U', 0, Action::ToggleDifference, "compare: the difference between the two sides");
@@ -126,7 +128,8 @@ void addWindow(std::vector<Control>& rows) {
   add(Press, key::kF12, 0, Action::Screenshot, "write the picture as .png");
   add(Press, key::kF12, kShift, Action::WriteExr, "write the accumulated radiance as .exr");
   add(Press, key::kEscape, 0, Action::Close,
-      "close what is open: a list, the sheet, magnified pixels, a load, full screen; else quit");
+      "close what is open: a list, the sheet, magnified pixels, a load, the selection, full screen; else "
+      "quit, if pressed twice");
   add(Press, 'Q', kControl, Action::Quit, "quit");
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace fragtrace {
 
@@ -14,6 +13,8 @@ constexpr size_t kMostMessages = 16;
 constexpr double kWholeSeconds = 10.0;
 constexpr double kStepSeconds = 0.1;
 constexpr int kSteps = 5;
+const std::string kWrote = "wrote ";
+const std::string kWriting = "writing ";
 
 /// Steps that have been taken, from 0 (all of it is seen) to kSteps (nothing is).
 int stepsOf(const Message& message, double now) {
@@ -25,13 +26,11 @@ int stepsOf(const Message& message, double now) {
 }  // namespace
 
 void addMessage(MessageList& messages, const std::string& text, double now) {
-  Message message{.text = text, .latest = now};
-  const auto same = std::ranges::find(messages, text, &Message::text);
-  if (same != messages.end()) {
-    message.times += same->times;
-    messages.erase(same);
-  }
-  messages.push_back(std::move(message));
+  const std::string promise = text.starts_with(kWrote) ? kWriting + text.substr(kWrote.size()) : "";
+  std::erase_if(messages, [&](const Message& message) {
+    return message.text == text || (!promise.empty() && message.text.starts_with(promise));
+  });
+  messages.push_back({.text = text, .latest = now});
   if (messages.size() > kMostMessages) messages.pop_front();
 }
 
@@ -41,6 +40,11 @@ void closeMessages(MessageList& messages) {
 
 double opacityOf(const Message& message, double now) { return 1.0 - double(stepsOf(message, now)) / kSteps; }
 
+bool isSeen(const MessageList& messages, const std::string& text, double now) {
+  return std::ranges::any_of(messages,
+                             [&](const Message& m) { return m.text == text && stepsOf(m, now) < kSteps; });
+}
+
 double secondsToFade(const MessageList& messages, double now) {
   double least = std::numeric_limits<double>::infinity();
   for (const Message& message : messages) {
@@ -49,10 +53,6 @@ double secondsToFade(const MessageList& messages, double now) {
     least = std::min(least, message.latest + kWholeSeconds + kStepSeconds * steps - now);
   }
   return std::max(least, 0.0);
-}
-
-std::string lineOf(const Message& message) {
-  return message.times == 1 ? message.text : message.text + " (" + std::to_string(message.times) + " times)";
 }
 
 }  // namespace fragtrace

@@ -9,7 +9,6 @@ namespace fragtrace {
 
 struct Message {
   std::string text;
-  int times = 1;        ///< that it was said
   double latest = 0.0;  ///< when it was said last, seconds
   bool closed = false;
 };
@@ -17,18 +16,18 @@ struct Message {
 /// The latest last; at most 16, older ones are forgotten.
 using MessageList = std::deque<Message>;
 
-/// A text that is there already moves to the end, and counts once more.
+/// A text that is there already moves to the end. "wrote FILE" takes the place of "writing FILE ...".
 void addMessage(MessageList& messages, const std::string& text, double now);
 
 void closeMessages(MessageList& messages);
+
+/// Whether that text is there, and still seen.
+bool isSeen(const MessageList& messages, const std::string& text, double now);
 
 /// How much of a message is still seen, 0..1: it fades in steps, which cost one frame each.
 double opacityOf(const Message& message, double now);
 
 /// Seconds until one of them is seen less; infinite when none is seen.
 double secondsToFade(const MessageList& messages, double now);
-
-/// The text, and how often it was said when that was more than once.
-std::string lineOf(const Message& message);
 
 }  // namespace fragtrace

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kNoSampleGoal = 1 << 24;  // above, samples are limited by their number alone
 constexpr double kLongest = 99.0 * 3600.0;
+constexpr double kLongestForNoise = 600.0;
 
 }  // namespace
 
@@ -17,20 +18,27 @@ ViewProgress progressOf(const SideStatistics& side, const RenderOptions& options
   ViewProgress progress;
   if (side.resting) return {1.0, 0.0};
   if (side.samples <= 0) return progress;
-  bool known = false;
-  const auto goal = [&](double fraction) {
+  double longest = 0.0;  // that the nearest goal may be away to be told
+  const auto goal = [&](double fraction, double told) {
+    if (fraction > progress.fraction) longest = told;
     progress.fraction = std::max(progress.fraction, std::clamp(fraction, 0.0, 1.0));
-    known = true;
   };
-  if (options.sampling.spp < kNoSampleGoal) goal(double(side.samples) / options.sampling.spp);
-  if (options.sampling.seconds > 0.0) goal(side.seconds / options.sampling.seconds);
+  if (options.sampling.spp < kNoSampleGoal) goal(double(side.samples) / options.sampling.spp, kLongest);
+  if (options.sampling.seconds > 0.0) goal(side.seconds / options.sampling.seconds, kLongest);
   if (options.sampling.noise > 0.0 && side.error > 0.0) {
     const double ratio = options.sampling.noise / side.error;
-    goal(ratio * ratio);
+    goal(ratio * ratio, kLongestForNoise);
   }
-  if (!known || progress.fraction <= 0.0) return progress;
-  progress.seconds = std::min(side.seconds * (1.0 / progress.fraction - 1.0) / share, kLongest);
+  if (progress.fraction <= 0.0) return progress;
+  const double seconds = side.seconds * (1.0 / progress.fraction - 1.0) / share;
+  if (seconds <= longest) progress.seconds = seconds;
   return progress;
+}
+
+std::string progressText(const SideStatistics& side, const RenderOptions& options) {
+  if (!side.resting) return side.samples > 0 ? "refining" : "drawing";
+  const bool clean = side.error >= 0.0 && side.error <= options.sampling.noise;
+  return options.sampling.noise > 0.0 && clean ? "clean enough" : "finished";
 }
 
 std::string samplesText(int samples) {

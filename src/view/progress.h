@@ -16,7 +16,11 @@ struct ViewProgress {
 
 /// The goals are samples, seconds and the relative error, which falls as 1 / sqrt(samples) (numbers.md);
 /// the first to be reached counts. `share`: of the time that this side gets, 1 or, beside another, 0.5.
+/// Seconds until the error's goal are told in its last ten minutes only: nobody waits for more.
 ViewProgress progressOf(const SideStatistics& side, const RenderOptions& options, double share);
+
+/// A word or two for that: a picture is worth a look from its first sample on, and only gets better.
+std::string progressText(const SideStatistics& side, const RenderOptions& options);
 
 /// "1 sample", "12 samples".
 std::string samplesText(int samples);

@@ -6,6 +6,7 @@
 namespace fragtrace {
 
 std::string windowTitle(const std::filesystem::path& scene) {
+  if (scene.empty()) return "fragtrace";
   return "fragtrace: " + shownText(scene.filename().string(), kMostNameCharacters);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "view/shown_text.h"
 
+#include <regex>
 #include <vector>
 
 namespace fragtrace {
@@ -36,6 +37,11 @@ std::string shownText(std::string_view text, size_t most) {
     if (static_cast<unsigned char>(c) < ' ' && c != '\n') c = ' ';
   }
   return shown;
+}
+
+std::string withoutOptions(const std::string& text) {
+  static const std::regex option(R"( \(--[a-z-]+\))");
+  return std::regex_replace(text, option, "");
 }
 
 }  // namespace fragtrace

@@ -16,4 +16,7 @@ inline constexpr size_t kMostPageCharacters = 4000;
 /// out counted between them. Other control characters than line feeds become spaces.
 std::string shownText(std::string_view text, size_t most);
 
+/// Text for the command line, as a window says it: without options in brackets, " (--option)".
+std::string withoutOptions(const std::string& text);
+
 }  // namespace fragtrace

@@ -20,15 +20,38 @@ void resetCamera(ViewState& state) {
 }
 
 double ViewState::shownBar() const {
-  if (!split || comparison == CompareMode::Left || comparison == CompareMode::Difference) return 1.0;
+  if (!compares() || comparison == CompareMode::Left || comparison == CompareMode::Difference) return 1.0;
   return comparison == CompareMode::Right ? 0.0 : bar;
 }
 
+void fitPanel(ViewState& state, bool hasRoom) {
+  if (std::exchange(state.panelHasRoom, hasRoom) == hasRoom) return;
+  if (hasRoom) {
+    state.panel = state.panel || std::exchange(state.panelWaits, false);
+  } else {
+    state.panelWaits = std::exchange(state.panel, false);
+  }
+}
+
+size_t ViewState::shownSide() const {
+  if (!overview) return active;
+  size_t last = 0;
+  for (const StageRow& row : stageRows()) {
+    if (row.cumulative && has(options().stages, row.stage)) last = size_t(row.stage);
+  }
+  return last;
+}
+
 glm::dvec2 magnifiedPlace(const ViewState& state, const glm::dvec2& place) {
+  if (state.overview) return glm::fract(place * double(kCells));
   return state.magnifier.center + (place - 0.5) * std::exp2(-state.magnifier.steps);
 }
 
 size_t sideAt(const ViewState& state, const glm::dvec2& place) {
+  if (state.overview) {
+    const glm::ivec2 cell(glm::clamp(place, 0.0, 1.0 - 1e-9) * double(kCells));
+    return size_t(cell.y) * size_t(kCells) + size_t(cell.x);
+  }
   return state.split && place.x >= state.shownBar() ? 1 : 0;
 }
 
@@ -65,8 +88,9 @@ RenderOptions renderOptionsOf(const ViewState& state, size_t side) {
 std::vector<RenderOptions> tracedSides(const ViewState& state) {
   std::vector<RenderOptions> sides;
   for (size_t i = 0; i < state.tracedCount(); ++i) {
-    sides.push_back(renderOptionsOf(state, i));
+    sides.push_back(renderOptionsOf(state, state.overview ? state.active : i));
     sides.back().camera.resolution.reset();
+    if (state.overview) sides.back().stages = withStagesUpTo(sides.back().stages, Stage(i));
   }
   return sides;
 }
@@ -116,6 +140,7 @@ RenderOptions resetAll(ViewState& state, const RenderOptions& start) {
     takeScene(side, before);
   }
   state.split = false;
+  state.overview = false;
   state.active = 0;
   state.comparison = CompareMode::Bar;
   state.magnifier = {};

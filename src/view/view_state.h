@@ -31,13 +31,15 @@ struct ViewState {
   std::array<RenderOptions, 2> sides;  ///< the second is that of the split view
   size_t active = 0;                   ///< the side that stages and settings are changed of
   bool split = false;
+  /// All stages are shown side by side, with the active side's settings: the pictures of kMostSides cells.
+  bool overview = false;
   std::filesystem::path reference;  ///< a picture that is side B; empty: B is traced
   double bar = 0.5;                 ///< where the sides meet, as a part of the width
   CompareMode comparison = CompareMode::Bar;
   double differenceStops = 0.0;  ///< the difference is shown times 2^this
   Magnifier magnifier;
 
-  glm::ivec2 size{1280, 720};  ///< pixels of the picture
+  glm::ivec2 size{1280, 720};  ///< pixels of the picture; of one cell in the overview
   std::optional<ViewedScene> scene;
   BoundsDouble selected;                 ///< of what was clicked on, world space; empty: nothing
   std::optional<uint32_t> selectedNode;  ///< that it is (SceneNode::index)
@@ -49,20 +51,27 @@ struct ViewState {
   double flySpeed = 1.0;
 
   bool panel = true;
-  float panelWidth = 0.0f;  ///< pixels at 96 dots an inch; 0: the standard width
+  bool panelHasRoom = true;  ///< beside the picture
+  bool panelWaits = false;   ///< for room: it was open while it had some
   bool figures = false;
-  bool sheet = false;
+  float panelWidth = 0.0f;    ///< pixels at 96 dots an inch; 0: the standard width
   std::optional<float> blur;  ///< of the backdrop, degrees, while its slider is held
   std::array<char, 64> bookmarkName{};
   std::array<char, 64> search{};  ///< what the sheet is searched for; ends with a 0
+  bool sheet = false;
   bool fullscreen = false;
   bool treeBoxes = false;
   int treeLevel = 4;
 
   RenderOptions& options() { return sides[active]; }
   const RenderOptions& options() const { return sides[active]; }
-  /// Sides that are traced: 2 where the split view compares two of them, rather than one and a file.
-  size_t tracedCount() const { return split && reference.empty() ? 2 : 1; }
+  /// Sides that are traced: 2 where the split view compares two of them, rather than one and a file; all
+  /// stages in the overview.
+  size_t tracedCount() const { return overview ? kMostSides : split && reference.empty() ? 2 : 1; }
+  /// Whether two pictures meet at a bar, or are compared otherwise.
+  bool compares() const { return split && !overview; }
+  /// The traced side whose progress and values are shown: the active one, or that of its last stage.
+  size_t shownSide() const;
   /// Where the bar stands: 1 where the left side alone is shown.
   double shownBar() const;
 };
@@ -90,7 +99,7 @@ enum class Errand : uint8_t {
   Reload,
   Screenshot,
   WriteExr,
-  Close,  ///< what is open beside the sheet; where nothing is, the viewer
+  Close,  ///< what is open beside the sheet, or the selection; where nothing is, asks whether to quit
   Quit
 };
 
@@ -139,6 +148,9 @@ bool isHidden(const ViewState& state, size_t node);
 /// Hides it with all that is below it, or shows it again, on both sides. Others of its name stay as they are.
 void hideNode(ViewState& state, size_t node, bool hidden);
 
+/// Closes a panel that has lost its room beside the picture, and opens it again with the room.
+void fitPanel(ViewState& state, bool hasRoom);
+
 /// Makes the options load the same scene and light as others: what one side has, both have.
 void takeScene(RenderOptions& side, const RenderOptions& from);
 
@@ -168,7 +180,10 @@ bool sameNodes(const RenderOptions& a, const RenderOptions& b);
 /// area.
 glm::dvec2 magnifiedPlace(const ViewState& state, const glm::dvec2& place);
 
-/// Which side is shown there.
+/// Cells of the overview in a row and in a column: as many, so that each has the picture's proportions.
+inline constexpr int kCells = 3;
+
+/// Which side is shown there; kMostSides or more: none.
 size_t sideAt(const ViewState& state, const glm::dvec2& place);
 
 /// All settings of both sides as the viewer was started with, and the scene's first camera. Returns what the

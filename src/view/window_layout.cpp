@@ -14,6 +14,7 @@ constexpr float kMargin = 8.0f;
 constexpr float kPanelWidth = 352.0f;
 constexpr float kLeastPanel = 240.0f;
 constexpr float kMostPanel = 640.0f;
+constexpr float kStagesHeight = 28.0f;
 constexpr float kStatusHeight = 24.0f;
 constexpr float kLeastPicture = 300.0f;   // beside the panel; where less is left, the panel covers it
 constexpr float kLeastRoom = 180.0f;      // that anything beside a panel over the picture needs
@@ -23,11 +24,13 @@ constexpr float kLeastNews = 60.0f;       // or this, up to half of it
 constexpr float kNewsWidth = 400.0f;      // or half of the picture's
 constexpr glm::vec2 kAllFigures{258.0f, 190.0f};
 constexpr glm::vec2 kBriefFigures{180.0f, 56.0f};
-constexpr float kSideRow = 20.0f;  // says which side it is
+constexpr float kSideRow = 20.0f;    // says which side it is
+constexpr float kSideNames = 31.0f;  // above the figures of both sides
 
 bool fits(glm::vec2 size, glm::vec2 room) { return size.x <= room.x && size.y <= room.y; }
 
-float statusHeight(float scale) { return std::round(kStatusHeight * scale); }
+/// Of the stages' bar and the status bar.
+glm::vec2 barHeights(float scale) { return glm::round(scale * glm::vec2(kStagesHeight, kStatusHeight)); }
 
 }  // namespace
 
@@ -37,11 +40,13 @@ WindowLayout layoutOf(glm::vec2 window, float scale, const LayoutWishes& wishes)
   WindowLayout layout;
   layout.scale = scale;
   layout.margin = kMargin * scale;
-  layout.statusHeight = std::min(statusHeight(scale), std::floor(0.25f * window.y));
+  const glm::vec2 bars = glm::min(barHeights(scale), std::floor(0.25f * window.y));
+  layout.stagesHeight = bars.x;
+  layout.statusHeight = bars.y;
   const float wanted = readablePanelWidth(wishes.panelWidth > 0.0f ? wishes.panelWidth : kPanelWidth);
   const float docked = std::round(wanted * scale);
   layout.docked = wishes.panel && window.x - docked >= kLeastPicture * scale;
-  layout.picture = glm::ivec2(window.x - (layout.docked ? docked : 0.0f), window.y - layout.statusHeight);
+  layout.picture = glm::ivec2(window.x - (layout.docked ? docked : 0.0f), window.y - bars.x - bars.y);
   layout.picture = glm::max(layout.picture, 1);
   // Of the picture, at 96 dots an inch.
   const glm::vec2 whole = glm::vec2(layout.picture) / scale;
@@ -54,7 +59,7 @@ WindowLayout layoutOf(glm::vec2 window, float scale, const LayoutWishes& wishes)
   const float panelHeight = std::max(beside ? whole.y - 2 * kMargin : upper, 1.0f);
   layout.panel =
       layout.docked ? glm::vec2(docked, float(layout.picture.y)) : scale * glm::vec2(width, panelHeight);
-  glm::vec2 figures(room, wishes.split ? 0.5f * (upper - kMargin) : upper);
+  glm::vec2 figures(room, wishes.split ? 0.5f * (upper - kMargin - kSideNames) : upper);
   const glm::vec2 brief = kBriefFigures + glm::vec2(0.0f, wishes.split ? kSideRow : 0.0f);
   layout.figures = fits(kAllFigures, figures) ? FigureDetail::All
                    : fits(brief, figures)     ? FigureDetail::Brief
@@ -67,7 +72,8 @@ WindowLayout layoutOf(glm::vec2 window, float scale, const LayoutWishes& wishes)
 
 glm::ivec2 windowFor(glm::ivec2 picture, float scale, bool panel) {
   const float width = panel ? std::round(kPanelWidth * scale) : 0.0f;
-  return picture + glm::ivec2(width, statusHeight(scale));
+  const glm::vec2 bars = barHeights(scale);
+  return picture + glm::ivec2(width, bars.x + bars.y);
 }
 
 bool fitsPanel(glm::vec2 picture, float scale) { return picture.x >= kLeastForPanel * scale; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where picture, panel, status bar, figures and news have room in a window, so that none covers another.
+// Where picture, panel, stages, status bar, figures and news have room in a window, so that none covers
+// another.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +18,13 @@ struct LayoutWishes {
   bool split = false;       ///< both sides have figures
 };
 
-/// Lengths in pixels. The picture stands at the top left, the status bar below it as wide as the window, the
-/// panel beside it at the right.
+/// Lengths in pixels. The picture stands at the top left, the panel beside it at the right; below them, as
+/// wide as the window, the bar of the stages, and below that the status bar.
 struct WindowLayout {
   float scale = 1.0f;  ///< of a length at 96 dots an inch
   float margin = 0.0f;
   glm::ivec2 picture{0};
+  float stagesHeight = 0.0f;
   float statusHeight = 0.0f;
   bool docked = false;  ///< there is a panel beside the picture; else, if any, it is over it at the top right
   glm::vec2 panel{0.0f};  ///< its width, and the most of its height

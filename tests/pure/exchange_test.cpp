@@ -28,6 +28,15 @@ TEST(Exchange, OnlyTheLatestWishCounts) {
   EXPECT_FALSE(exchange.wait(0.0).request);
 }
 
+TEST(Exchange, ANewLoadForgetsTheErrorOfTheOneBefore) {
+  Exchange exchange;
+  exchange.tellError("it is no scene");
+  EXPECT_EQ(exchange.take().error, "it is no scene");
+  EXPECT_EQ(exchange.take().error, "it is no scene");
+  exchange.load({});
+  EXPECT_EQ(exchange.take().error, "");
+}
+
 TEST(Exchange, FilesToBeWrittenAreAllKept) {
   Exchange exchange;
   exchange.save({"a.png"});

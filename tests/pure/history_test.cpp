@@ -69,25 +69,50 @@ TEST(History, SceneLightAndTimeStay) {
   EXPECT_EQ(state.sides[1].light.hdriFile, "sky.hdr");
 }
 
-TEST(History, StepsFitTheSceneUnderAnotherLight) {
+/// As the loaded scene comes back with it.
+void loadAs(ViewState& state, const char* environment, const char* variant) {
+  ViewedScene scene = *state.scene;
+  scene.options.light.hdriFile = environment;
+  scene.options.light.backgroundBlur = 5.0;
+  scene.options.selection.materialVariant = variant;
+  showScene(state, scene);
+}
+
+TEST(History, LightAndVariantAreStepsOfTheirOwn) {
   ViewState state = shownState();
   History history;
   restart(history, state);
-  state.sides[0].output.exposure = 2.0;
+  state.pose.viewAngleDegrees = 30.0;
   record(history, state);
-  // As the loaded scene comes back with it.
-  for (RenderOptions& side : state.sides) {
-    if (side.scene.empty()) continue;
-    side.light.hdriFile = "other.hdr";
-    side.light.backgroundBlur = 5.0;
-    side.selection.materialVariant = "red";
-  }
+  loadAs(state, "other.hdr", "red");
   record(history, state);
-  ASSERT_EQ(history.past.size(), 1u);
+  ASSERT_EQ(history.past.size(), 2u);
+  EXPECT_EQ(withLight(history, state.scene->options), state.scene->options);
   EXPECT_TRUE(undo(history, state));
-  EXPECT_EQ(state.sides[0].output.exposure, 0.0);
+  EXPECT_EQ(state.pose.viewAngleDegrees, 30.0);
+  // What is shown stays until the other is loaded.
   EXPECT_EQ(state.sides[0].light.hdriFile, "other.hdr");
-  EXPECT_EQ(state.sides[0].selection.materialVariant, "red");
+  const RenderOptions wanted = withLight(history, state.scene->options);
+  EXPECT_EQ(wanted.scene, "a.gltf");
+  EXPECT_EQ(wanted.light.hdriFile, "sky.hdr");
+  EXPECT_EQ(wanted.light.backgroundBlur, 0.0);
+  EXPECT_EQ(wanted.selection.materialVariant, "");
+  history.waits = true;
+  record(history, state);
+  EXPECT_EQ(history.future.size(), 1u);
+  state.scene->options = wanted;
+  showScene(state, *state.scene);
+  history.waits = false;
+  record(history, state);
+  EXPECT_EQ(history.future.size(), 1u);
+  EXPECT_TRUE(redo(history, state));
+  EXPECT_EQ(withLight(history, state.scene->options).light.hdriFile, "other.hdr");
+  EXPECT_EQ(withLight(history, state.scene->options).selection.materialVariant, "red");
+}
+
+TEST(History, NodesAreThoseOfTheFilesSceneUnderAnyLight) {
+  ViewState state = shownState();
+  loadAs(state, "other.hdr", "red");
   EXPECT_TRUE(sameNodes(state.sides[0], shownState().sides[0]));
   RenderOptions other = state.sides[0];
   other.selection.scene = "second";

@@ -38,6 +38,36 @@ TEST(ViewProgress, IsNotToldWhereTheErrorIsNotKnown) {
   EXPECT_FALSE(progressOf(side, options, 1.0).seconds);
 }
 
+TEST(ViewProgress, HoursUntilTheErrorsGoalAreNotTold) {
+  RenderOptions options;
+  options.sampling.spp = 1 << 29;
+  options.sampling.noise = 0.01;
+  SideStatistics side;
+  side.samples = 64;
+  side.seconds = 60.0;
+  side.error = 0.03;
+  EXPECT_DOUBLE_EQ(*progressOf(side, options, 1.0).seconds, 480.0);
+  side.error = 0.2;
+  EXPECT_FALSE(progressOf(side, options, 1.0).seconds);
+  EXPECT_GT(progressOf(side, options, 1.0).fraction, 0.0);
+  options.sampling.seconds = 7200.0;  // somebody wants to wait
+  EXPECT_DOUBLE_EQ(*progressOf(side, options, 1.0).seconds, 7140.0);
+}
+
+TEST(ViewProgress, IsNamedByWhatIsReached) {
+  RenderOptions options;
+  options.sampling.noise = 0.005;
+  SideStatistics side;
+  EXPECT_EQ(progressText(side, options), "drawing");
+  side.samples = 64;
+  side.error = 0.02;
+  EXPECT_EQ(progressText(side, options), "refining");
+  side.resting = true;
+  EXPECT_EQ(progressText(side, options), "finished");  // all samples that were asked for
+  side.error = 0.004;
+  EXPECT_EQ(progressText(side, options), "clean enough");
+}
+
 TEST(ViewProgress, DurationsReadAsPeopleSayThem) {
   EXPECT_EQ(durationText(0.2), "1 s");
   EXPECT_EQ(durationText(59.0), "59 s");

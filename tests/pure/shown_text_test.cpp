@@ -25,6 +25,11 @@ TEST(ShownText, CharactersStayWhole) {
   EXPECT_LT(shownText(std::string(30000, '\x80'), 100).size(), 500u);
 }
 
+TEST(ShownText, AWindowNamesNoOptions) {
+  EXPECT_EQ(withoutOptions("no light: the studio lights it (--default-light); more (--a b) (c)"),
+            "no light: the studio lights it; more (--a b) (c)");
+}
+
 TEST(ShownText, ControlCharactersAreSpaces) { EXPECT_EQ(shownText("a\tb\r\x1b[0m\nc", 99), "a b  [0m\nc"); }
 
 }  // namespace

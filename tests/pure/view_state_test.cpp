@@ -210,6 +210,45 @@ TEST(ViewState, AReloadedSceneKeepsTheViewAndAnotherOneDoesNot) {
   EXPECT_EQ(state.sides[0].scene, "other.gltf");
 }
 
+TEST(ViewState, ThePanelClosesWithoutRoomAndOpensWithIt) {
+  ViewState state = someState();
+  fitPanel(state, true);
+  EXPECT_TRUE(state.panel);
+  fitPanel(state, false);
+  EXPECT_FALSE(state.panel);
+  fitPanel(state, true);
+  EXPECT_TRUE(state.panel);
+  fitPanel(state, false);
+  press(state, Action::TogglePanel);  // over the picture, as it was asked for
+  fitPanel(state, false);
+  EXPECT_TRUE(state.panel);
+  press(state, Action::TogglePanel);
+  fitPanel(state, true);
+  EXPECT_FALSE(state.panel);
+}
+
+TEST(ViewState, TheOverviewHasAPictureOfEachStage) {
+  ViewState state = someState();
+  press(state, Action::ToggleOverview);
+  const std::vector<RenderOptions> sides = tracedSides(state);
+  ASSERT_EQ(sides.size(), kMostSides);
+  for (size_t i = 0; i < sides.size(); ++i)
+    EXPECT_EQ(sides[i].stages, withStagesUpTo(state.options().stages, Stage(i))) << i;
+  EXPECT_EQ(sideAt(state, {0.0, 0.0}), 0u);
+  EXPECT_EQ(sideAt(state, {0.5, 0.5}), 4u);
+  EXPECT_EQ(sideAt(state, {0.1, 0.9}), 6u);
+  EXPECT_GE(sideAt(state, {0.5, 0.9}), kMostSides);
+  EXPECT_NEAR(magnifiedPlace(state, {0.5, 0.4}).x, 0.5, 1e-9);
+  EXPECT_NEAR(magnifiedPlace(state, {0.5, 0.4}).y, 0.2, 1e-9);
+  apply(state, *controlOf(Action::StagesUpTo, int(Stage::Shadows)));
+  EXPECT_FALSE(state.overview);
+  EXPECT_EQ(state.shownSide(), 0u);
+  press(state, Action::ToggleOverview);
+  EXPECT_EQ(state.shownSide(), size_t(Stage::Shadows));
+  EXPECT_EQ(press(state, Action::Close), Errand::None);
+  EXPECT_EQ(tracedSides(state).size(), 1u);
+}
+
 TEST(ViewState, EscapeClosesTheSheetBeforeItQuits) {
   ViewState state = someState();
   press(state, Action::ToggleSheet);

@@ -16,7 +16,7 @@ TEST(WindowLayout, NothingCoversAnything) {
           SCOPED_TRACE(testing::Message()
                        << window.x << " x " << window.y << " at " << scale << panel << split);
           const glm::vec2 picture(l.picture);
-          EXPECT_LE(picture.y + l.statusHeight, window.y + 0.1f);
+          EXPECT_LE(picture.y + l.stagesHeight + l.statusHeight, window.y + 0.1f);
           if (panel && l.docked) {
             EXPECT_FLOAT_EQ(picture.x + l.panel.x, window.x);
           }
@@ -26,12 +26,13 @@ TEST(WindowLayout, NothingCoversAnything) {
           EXPECT_LE(figures, panelLeft + 0.1f);
           const float newsTop = picture.y - l.margin - l.newsMost.y;
           const bool newsBeside = l.margin + l.newsMost.x <= panelLeft + 0.1f;
-          if (over && l.panel.y > 1.0f) {
+          if (over && l.panel.y > l.scale) {
             EXPECT_TRUE(newsBeside || l.margin + l.panel.y <= newsTop + 0.1f);
           }
           const float sides = split ? 2.0f : 1.0f;
           if (l.figures != FigureDetail::None) {
-            EXPECT_LE(sides * (l.margin + l.figuresMost.y), newsTop + 0.1f);
+            const float names = split ? 31.0f * scale : 0.0f;
+            EXPECT_LE(names + sides * (l.margin + l.figuresMost.y), newsTop + 0.1f);
           }
         }
       }
@@ -46,7 +47,7 @@ TEST(WindowLayout, APanelThatLeavesTooLittleStandsOverThePicture) {
   EXPECT_TRUE(docked({1280, 720}, 1.0f));
   EXPECT_FALSE(docked({1280, 720}, 2.0f));
   EXPECT_FALSE(docked({640, 400}, 1.0f));
-  EXPECT_EQ(layoutOf({640, 400}, 1.0f, {.panel = true}).picture, glm::ivec2(640, 376));
+  EXPECT_EQ(layoutOf({640, 400}, 1.0f, {.panel = true}).picture, glm::ivec2(640, 348));
 }
 
 TEST(WindowLayout, APictureAskedForHasItsSize) {

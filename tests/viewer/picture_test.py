@@ -40,8 +40,7 @@ class Toggles(Case):
                 asked = viewer.status()["asked"]
                 viewer.key(key)
                 viewer.rest(lambda s: s["asked"] > asked, f"rest after {key} again")
-        viewer.key("Escape")
-        self.ends_well(viewer, viewer.end())
+        self.ends_well(viewer, viewer.close())
 
 
 class Display(Case):
@@ -88,8 +87,7 @@ class Camera(Case):
         viewer.rest(lambda s: s["camera"] == status["camera"], "pasted")
         viewer.key("Return")
         viewer.rest(lambda s: s["camera"] == before, "reset")
-        viewer.key("Escape")
-        self.ends_well(viewer, viewer.end())
+        self.ends_well(viewer, viewer.close())
 
     def test_a_picture_asked_for_while_the_camera_moves_is_of_all_samples(self):
         # So large that moving frames are coarse.

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The scene's parts in the panel, and a picture from a file beside the one that is traced."""
+"""The scene's parts in the panel, a picture from a file beside the one that is traced, and all stages side by side."""
 import shutil
 import subprocess
+import time
 
 from comfort_test import copied_command
-from support import FRAGTRACE, SCENES, Case, main, pixels_of
+from support import FRAGTRACE, SCENES, Case, largest_difference, main, pixels_of
 from xdnd import drop
 
 PANEL = ["--resolution", "640,700", "--spp", "1", "--stage", "flat"]
@@ -103,6 +104,28 @@ class Reference(Case):
         result = subprocess.run([FRAGTRACE, "view", SCENES / "furnace.gltf", "--reference", picture], capture_output=True, text=True)
         self.assertEqual(result.returncode, 3)
         self.assertIn("display.png", result.stderr)
+
+
+class Overview(Case):
+    def test_all_stages_side_by_side(self):
+        viewer = self.view("plastics", "--resolution", "480,360", "--spp", "2", "--tone-map", "linear")
+        viewer.key("o")
+        stages = ["flat", "phong", "shadows", "reflections", "refraction", "normal-maps", "gi"]
+        viewer.rest(lambda s: [side["stages"][:i + 1] == stages[:i + 1] and side["samples"] == 2 and side["width"] == 160
+                               for i, side in enumerate(s["sides"])] == [True] * 7, "seven pictures")
+        time.sleep(0.3)
+        width, _, shown = viewer.grab()
+        for i in (0, 6):  # below the labels
+            rendered = pixels_of(self.render("plastics", "--resolution", "160,120", "--spp", 2, "--tone-map", "linear", "--stage", stages[i],
+                                             name=f"{i}.png"))
+            x, y = i % 3 * 160, i // 3 * 120
+            cell = [shown[width * (y + v) + x + u] for v in range(40, 110) for u in range(160)]
+            self.assertLessEqual(largest_difference(cell, rendered[160 * 40:160 * 110]), 1, stages[i])
+        viewer.at(400, 60)
+        viewer.xdotool("click", 1)
+        status = viewer.rest(lambda s: not s["overview"], "the stage that was clicked on")
+        self.assertEqual([n for n in status["sides"][0]["stages"] if n in stages], stages[:3])
+        self.ends_well(viewer, viewer.close())
 
 
 if __name__ == "__main__":

@@ -66,7 +66,7 @@ class Wayland(Case):
         self.assertRegex(libraries, r"/libdecor/.*\.so", "a plugin draws the title bar")
         viewer.key("3")
         viewer.until(lambda s: s["camera"] != status["camera"], "a key is taken")
-        viewer.key("Escape")
+        viewer.key("Escape", "Escape")
         self.ends_well(viewer, viewer.end())
         self.assertEqual(viewer.stderr(), "")
 

@@ -19,6 +19,15 @@ FEW = [*SIZE, "--spp", "2"]
 class Ends(Case):
     def test_escape_and_the_close_button_end_with_0(self):
         viewer = self.view("furnace", *FEW)
+        viewer.at(160, 120)
+        viewer.xdotool("click", 1)
+        viewer.until(lambda s: s["selected"], "selected")
+        viewer.key("Escape")
+        status = viewer.rest(lambda s: s["selected"] is None and s["pick"] is None, "nothing is selected")
+        ask = "press Escape again to quit"
+        self.assertNotIn(ask, status["messages"])
+        viewer.key("Escape")
+        viewer.until(lambda s: ask in s["messages"], "the question")
         viewer.key("Escape")
         self.ends_well(viewer, viewer.end())
         viewer = self.view("furnace", *FEW)
@@ -95,8 +104,8 @@ class Ends(Case):
         viewer.until(lambda s: "error" in s["places"], "the error is shown")
         viewer.key("Escape")
         viewer.until(lambda s: "error" not in s["places"], "it is closed")
-        viewer.key("Escape")
-        self.assertEqual(viewer.end(), 3)
+        self.assertEqual(self.title(viewer), "fragtrace")
+        self.assertEqual(viewer.close(), 3)
         self.assertIn("broken.gltf", viewer.stderr())
         viewer = self.view(broken, *FEW, wait=False)
         viewer.window()
@@ -104,9 +113,13 @@ class Ends(Case):
         shutil.copy(SCENES / "furnace.gltf", broken)
         viewer.key("Up")
         viewer.rest(lambda s: s["scene"].endswith("broken.gltf") and not s["error"], "the mended scene")
+        self.assertEqual(self.title(viewer), "fragtrace: broken.gltf")
         drop(self.screen, viewer.id, SCENES / "sphere-plane.gltf")
         viewer.rest(lambda s: s["scene"].endswith("sphere-plane.gltf") and not s["error"], "the other scene")
         self.ends_well(viewer, viewer.close())
+
+    def title(self, viewer):
+        return self.screen.call("xdotool", "getwindowname", viewer.id).strip()
 
     def test_what_cannot_be_is_2(self):
         for options in (["--spp", "0"], ["--nonsense"], ["-o", "x.png"], ["--camera-index", "7"],
@@ -121,15 +134,15 @@ class Sizes(Case):
     def test_resizing_draws_at_the_new_size_and_minimising_draws_nothing(self):
         viewer = self.view("furnace", *FEW)
         viewer.xdotool("windowsize", "--sync", viewer.id, 400, 200)
-        status = viewer.rest(lambda s: (s["width"], s["height"]) == (400, 176), "resized")
-        self.assertEqual((status["sides"][0]["width"], status["sides"][0]["height"]), (400, 176))
+        status = viewer.rest(lambda s: (s["width"], s["height"]) == (400, 148), "resized")
+        self.assertEqual((status["sides"][0]["width"], status["sides"][0]["height"]), (400, 148))
         shown = viewer.press_for_file("F12", ".png")
-        self.same(pixels_of(shown), pixels_of(self.render("furnace", "--resolution", "400,176", "--spp", 2)))
+        self.same(pixels_of(shown), pixels_of(self.render("furnace", "--resolution", "400,148", "--spp", 2)))
 
         viewer.xdotool("windowminimize", "--sync", viewer.id)
         time.sleep(0.3)
         status = viewer.rest()
-        self.assertEqual((status["width"], status["height"]), (400, 176))
+        self.assertEqual((status["width"], status["height"]), (400, 148))
         viewer.xdotool("windowmap", "--sync", viewer.id)
         viewer.xdotool("windowactivate", "--sync", viewer.id)
         time.sleep(0.3)
@@ -242,8 +255,7 @@ class Files(Case):
         self.same(pixels_of(viewer.press_for_file("F12", ".png")), pixels_of(self.render(scene, *SIZE, "--spp", 2)))
         exr = viewer.press_for_file("shift+F12", ".exr")
         self.assertGreater(exr.stat().st_size, 1000)
-        viewer.key("Escape")
-        self.ends_well(viewer, viewer.end())
+        self.ends_well(viewer, viewer.close())
 
 
 if __name__ == "__main__":

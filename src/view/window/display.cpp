@@ -17,7 +17,7 @@ constexpr GLint kFactor = 0;
 constexpr GLint kToneMap = 1;
 constexpr GLint kPictureSize = 0;
 constexpr GLint kBar = 1;
-constexpr GLint kBottom = 2;
+constexpr GLint kCorner = 2;
 constexpr GLint kPart = 3;
 constexpr GLint kDifference = 4;
 
@@ -121,16 +121,16 @@ void Display::prepare() {
   checkGl("preparing the display");
 }
 
-void Display::draw(const DisplayView& view, const std::array<DisplaySide, 2>& sides) {
+void Display::draw(const DisplayView& view, const std::array<DisplaySide, kMostSides>& sides) {
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_DEPTH_TEST);
   glBindSampler(0, 0);
   glBindSampler(1, 0);
   glBindVertexArray(vertexArray_.name());
-  for (size_t i = 0; i < 2; ++i) {
+  for (size_t i = 0; i < kMostSides; ++i) {
     adopt(i);
-    if (shows(i)) map(sides_[i], sides[i]);
+    if (shows(i) && (i < 2 || view.cells)) map(sides_[i], sides[i]);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, view.framebuffer.x, view.framebuffer.y);
@@ -142,23 +142,33 @@ void Display::draw(const DisplayView& view, const std::array<DisplaySide, 2>& si
 }
 
 void Display::drawPictures(const DisplayView& view) {
-  const glm::ivec2 picture = view.picture;
-  const bool difference = view.difference && shows(1);
-  for (size_t i = 0; i < 2; ++i) {
-    const Side& side = shows(i) ? sides_[i] : sides_[0];
+  if (!view.cells) return drawCell(view, 0, shows(1) ? 1 : 0, {0, 0}, view.picture);
+  const glm::ivec2 size = view.picture / kCells;
+  for (int i = 0; i < int(kMostSides); ++i) {
+    if (shows(size_t(i)))
+      drawCell(view, size_t(i), size_t(i), glm::ivec2(i % kCells, i / kCells) * size, size);
+  }
+}
+
+/// Two pictures, or the same, at a place of the window from its top left.
+void Display::drawCell(const DisplayView& view, size_t left, size_t right, glm::ivec2 corner,
+                       glm::ivec2 size) {
+  const bool difference = view.difference && left != right;
+  for (const size_t unit : {0u, 1u}) {
+    const Side& side = sides_[unit == 0 ? left : right];
     const GLuint shown = difference ? side.traced : side.displayed.name();
     // Pixels of a picture that fits, or is enlarged, are shown as they are.
-    const GLint filter = side.size == picture || view.magnifier.steps > 0 ? GL_NEAREST : GL_LINEAR;
+    const GLint filter = side.size == size || view.magnifier.steps > 0 ? GL_NEAREST : GL_LINEAR;
     glTextureParameteri(shown, GL_TEXTURE_MIN_FILTER, filter);
     glTextureParameteri(shown, GL_TEXTURE_MAG_FILTER, filter);
-    glBindTextureUnit(GLuint(i), shown);
+    glBindTextureUnit(GLuint(unit), shown);
   }
-  const int bottom = view.framebuffer.y - picture.y;
-  glViewport(0, bottom, picture.x, picture.y);
+  const int bottom = view.framebuffer.y - corner.y - size.y;
+  glViewport(corner.x, bottom, size.x, size.y);
   glUseProgram(window_.name());
-  glUniform2f(kPictureSize, float(picture.x), float(picture.y));
-  glUniform1f(kBar, float(std::round(view.bar * picture.x)));
-  glUniform1f(kBottom, float(bottom));
+  glUniform2f(kPictureSize, float(size.x), float(size.y));
+  glUniform1f(kBar, float(std::round(view.bar * size.x)));
+  glUniform2f(kCorner, float(corner.x), float(bottom));
   const glm::dvec2 center = view.magnifier.center;
   glUniform3f(kPart, float(center.x), float(center.y), float(std::exp2(-view.magnifier.steps)));
   glUniform1f(kDifference, difference ? float(std::exp2(view.differenceStops)) : 0.0f);

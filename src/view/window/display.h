@@ -25,6 +25,7 @@ struct DisplayView {
   glm::ivec2 picture{1};  ///< its area, at the top left
   double bar = 1.0;       ///< a part of its width; 1: the left side alone
   Magnifier magnifier;
+  bool cells = false;       ///< all sides in cells (kCells), rather than two
   bool difference = false;  ///< of both sides' radiance, absolute, times 2^differenceStops
   double differenceStops = 0.0;
 };
@@ -48,7 +49,7 @@ class Display {
   void prepare();
 
   /// Fills the picture's area, and clears the rest.
-  void draw(const DisplayView& view, const std::array<DisplaySide, 2>& sides);
+  void draw(const DisplayView& view, const std::array<DisplaySide, kMostSides>& sides);
 
  private:
   struct Side {
@@ -73,12 +74,13 @@ class Display {
   void giveBack(size_t side, SharedTexture& texture);
   void map(Side& side, const DisplaySide& settings);
   void drawPictures(const DisplayView& view);
+  void drawCell(const DisplayView& view, size_t left, size_t right, glm::ivec2 corner, glm::ivec2 size);
 
   Exchange& exchange_;
   GlProgram mapping_;
   GlProgram window_;
   GlVertexArray vertexArray_;
-  std::array<Side, 2> sides_;
+  std::array<Side, kMostSides> sides_;
 };
 
 }  // namespace fragtrace

@@ -161,15 +161,23 @@ void Input::press(const Event& event, const ViewState& state) {
              .start = cursor_};
   button_.edge = event.code == GLFW_MOUSE_BUTTON_LEFT && onEdge();
   const double away = std::abs(place().x - state.bar) * layout_.picture.x;
-  button_.bar = state.split && state.comparison == CompareMode::Bar && event.code == GLFW_MOUSE_BUTTON_LEFT &&
-                away <= kBarPixels * layout_.scale;
+  button_.bar = state.compares() && state.comparison == CompareMode::Bar &&
+                event.code == GLFW_MOUSE_BUTTON_LEFT && away <= kBarPixels * layout_.scale;
 }
 
 void Input::release(const Event& event, ViewState& state, const RunTask& run) {
   if (event.code != button_.code) return;
   const Button button = std::exchange(button_, {});
   if (button.dragging || button.bar || button.edge) return;
-  if (state.tracedCount() == 2 && state.comparison == CompareMode::Bar) state.active = sideAt(state, place());
+  const size_t side = sideAt(state, place());
+  if (state.overview && button.code == GLFW_MOUSE_BUTTON_LEFT) {
+    const Control* stage = controlOf(Action::StagesUpTo, int(side));
+    if (stage) apply(state, *stage, {});
+    return;
+  }
+  const bool chooses =
+      state.tracedCount() == 2 && state.comparison == CompareMode::Bar && state.active != side;
+  if (chooses) state.active = side;
   const double now = glfwGetTime();
   const bool twice = lastClickTime_ >= 0.0 && now - lastClickTime_ <= kDoubleClickSeconds &&
                      glm::length(cursor_ - lastClick_) <= 2.0 * kDragPixels;
@@ -177,7 +185,8 @@ void Input::release(const Event& event, ViewState& state, const RunTask& run) {
   lastClick_ = cursor_;
   const Control* control =
       controlFor(twice ? Gesture::DoubleClick : Gesture::Click, button.code, button.modifiers);
-  if (!control) return;
+  // What chooses a side selects nothing.
+  if (!control || (chooses && control->action == Action::Inspect)) return;
   const Errand errand = apply(state, *control, {});
   if (errand != Errand::None) run({errand, place()});
 }

@@ -40,18 +40,36 @@ void drawBar(const ViewState& state, const WindowLayout& layout) {
   list.AddCircleFilled({x, 0.5f * picture.y}, kHandleRadius * layout.scale, color);
 }
 
+/// Where a side's picture stands, and which part of it is seen.
+struct SidePlace {
+  ImVec2 corner;
+  ImVec2 size;
+  float from = 0.0f;  ///< pixels from the left of the window
+  float to = 0.0f;
+};
+
+SidePlace placeOf(const ViewState& state, const WindowLayout& layout, size_t side) {
+  const ImVec2 picture = sizeOf(layout);
+  if (state.overview) {
+    const glm::vec2 size(layout.picture / kCells);
+    const glm::vec2 corner = size * glm::vec2(glm::ivec2(int(side) % kCells, int(side) / kCells));
+    return {{corner.x, corner.y}, {size.x, size.y}, corner.x, corner.x + size.x};
+  }
+  const float bar = float(state.shownBar()) * picture.x;
+  return {{0.0f, 0.0f}, picture, side == 0 ? 0.0f : bar, side == 0 ? bar : picture.x};
+}
+
 /// Boxes of the tree, each side's within its part.
 void drawLines(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout) {
-  const ImVec2 picture = sizeOf(layout);
-  const float bar = float(state.shownBar()) * picture.x;
   const glm::dvec2 center = state.magnifier.center;
   const double factor = std::exp2(state.magnifier.steps);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  for (size_t side = 0; side < (state.split ? 2u : 1u); ++side) {
-    list.PushClipRect({side == 0 ? 0.0f : bar, 0.0f}, {side == 0 ? bar : picture.x, picture.y});
+  for (size_t side = 0; side < (state.compares() ? 2u : state.tracedCount()); ++side) {
+    const SidePlace p = placeOf(state, layout, side);
+    list.PushClipRect({p.from, p.corner.y}, {p.to, p.corner.y + p.size.y});
     const auto at = [&](const glm::dvec2& place) {
       const glm::dvec2 part = 0.5 + ((glm::dvec2(0.5) + glm::dvec2(0.5, -0.5) * place) - center) * factor;
-      return ImVec2(float(part.x) * picture.x, float(part.y) * picture.y);
+      return ImVec2(p.corner.x + float(part.x) * p.size.x, p.corner.y + float(part.y) * p.size.y);
     };
     for (const PictureLine& line : facts.lines[side])
       list.AddLine(at(line.from), at(line.to), IM_COL32(255, 194, 89, 255));
@@ -59,39 +77,55 @@ void drawLines(const ViewState& state, const ViewFacts& facts, const WindowLayou
   }
 }
 
+/// At the top right of a picture.
+void drawName(const std::string& text, ImVec2 topRight, bool chosen, const WindowLayout& layout) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const float pad = 0.5f * layout.margin;
+  const ImVec2 corner{topRight.x - size.x - 2 * pad - layout.margin, topRight.y + layout.margin};
+  list.AddRectFilled(corner, {corner.x + size.x + 2 * pad, corner.y + size.y + 2 * pad},
+                     ImGui::GetColorU32(chosen ? kAccent : ImGui::GetStyleColorVec4(ImGuiCol_WindowBg)),
+                     3.0f * layout.scale);
+  list.AddText({corner.x + pad, corner.y + pad}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+}
+
+/// ", 12 samples, 3.5 ms"
+std::string costText(const SideStatistics& s) {
+  char time[32];
+  std::snprintf(time, sizeof time, s.frameMs < 10.0 ? ", %.1f ms" : ", %.0f ms", s.frameMs);
+  return ", " + samplesText(s.samples) + time;
+}
+
+void drawStageNames(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout) {
+  for (const StageRow& row : stageRows()) {
+    if (!row.cumulative) continue;
+    const auto side = size_t(row.stage);
+    const SidePlace place = placeOf(state, layout, side);
+    drawName(row.label + costText(facts.statistics[side]), {place.to, place.corner.y},
+             side == state.shownSide(), layout);
+  }
+}
+
 /// What each half of the split view is, at its top.
 void drawSideNames(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout) {
-  const ImVec2 picture = sizeOf(layout);
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const auto name = [&](const std::string& text, float right, bool chosen) {
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    const float pad = 0.5f * layout.margin;
-    const ImVec2 corner{right - size.x - 2 * pad - layout.margin, layout.margin};
-    list.AddRectFilled(corner, {corner.x + size.x + 2 * pad, corner.y + size.y + 2 * pad},
-                       ImGui::GetColorU32(chosen ? kAccent : ImGui::GetStyleColorVec4(ImGuiCol_WindowBg)),
-                       3.0f * layout.scale);
-    list.AddText({corner.x + pad, corner.y + pad}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
-  };
+  const float right = float(layout.picture.x);
   const auto textOf = [&](size_t side) {
     if (side == 1 && !state.reference.empty())
       return "B  " + shownText(state.reference.filename().string(), kMostNameCharacters);
     const RenderOptions& options = state.sides[side];
-    const SideStatistics& s = facts.statistics[side];
     const DebugView view = options.output.debugView;
-    char time[32];
-    std::snprintf(time, sizeof time, s.frameMs < 10.0 ? ", %.1f ms" : ", %.0f ms", s.frameMs);
     return std::string(side == 0 ? "A  " : "B  ") +
-           (view == DebugView::None ? presetName(options.stages) : std::string(rowOf(view).label)) + ", " +
-           samplesText(s.samples) + time;
+           (view == DebugView::None ? presetName(options.stages) : std::string(rowOf(view).label)) +
+           costText(facts.statistics[side]);
   };
-  const float bar = float(state.shownBar()) * picture.x;
+  const float bar = float(state.shownBar()) * right;
   if (state.comparison == CompareMode::Difference) {
     char text[64];
     std::snprintf(text, sizeof text, "|A - B| x %g", std::exp2(state.differenceStops));
-    return name(text, picture.x, false);
+    return drawName(text, {right, 0.0f}, false, layout);
   }
-  if (bar > 0.0f) name(textOf(0), bar, state.active == 0);
-  if (bar < picture.x) name(textOf(1), picture.x, state.active == 1);
+  if (bar > 0.0f) drawName(textOf(0), {bar, 0.0f}, state.active == 0, layout);
+  if (bar < right) drawName(textOf(1), {right, 0.0f}, state.active == 1, layout);
 }
 
 /// Left of what is said next.
@@ -109,7 +143,7 @@ void drawNewsLines(const ViewFacts& facts, double now) {
     const float opacity = float(opacityOf(message, now));
     if (opacity <= 0.0f) continue;
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, opacity);
-    drawText(lineOf(message), kMostLineCharacters);
+    drawText(message.text, kMostLineCharacters);
     ImGui::PopStyleVar();
   }
   if (!facts.pick) return;
@@ -267,13 +301,15 @@ Task drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout,
   Task task;
   drawLines(state, facts, layout);
   drawPixelValues(state, facts, layout);
-  if (state.split && state.comparison == CompareMode::Bar) drawBar(state, layout);
-  if (state.split) drawSideNames(state, facts, layout);
-  if (state.figures && state.scene) drawFigures(state, facts, layout);
+  if (state.compares() && state.comparison == CompareMode::Bar) drawBar(state, layout);
+  if (state.compares()) drawSideNames(state, facts, layout);
+  if (state.overview) drawStageNames(state, facts, layout);
+  if (state.figures && state.scene && !state.overview) drawFigures(state, facts, layout);
   task.errand = drawNews(facts, layout, now);
   if (!state.scene && !facts.load.busy) task = drawWelcome(facts, layout);
   if (!facts.error.empty() && !facts.errorClosed) drawError(facts, layout);
   drawStatusBar(state, facts, layout);
+  if (const Task pressed = drawStageBar(state, facts, layout); pressed.errand != Errand::None) task = pressed;
   if (state.sheet) drawSheet(state, facts, layout);
   if (facts.load.busy && task.errand == Errand::None) task.errand = drawLoading(facts.load, layout);
   return task;

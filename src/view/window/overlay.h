@@ -27,10 +27,12 @@ struct ShownHistogram {
 
 /// What the window knows beside the state that its user sets.
 struct ViewFacts {
-  std::array<SideStatistics, 2> statistics;
-  std::array<glm::ivec2, 2> pictureSize{};  ///< of the pictures shown; lower than the window's while moving
-  std::array<std::vector<PictureLine>, 2> lines;
-  std::array<PictureValues, 2> values;  ///< of what is looked at: under the cursor, enlarged, the whole
+  std::array<SideStatistics, kMostSides> statistics;
+  std::array<glm::ivec2, kMostSides>
+      pictureSize{};  ///< of the pictures shown; lower than the window's while moving
+  std::array<std::vector<PictureLine>, kMostSides> lines;
+  std::array<PictureValues, kMostSides>
+      values;  ///< of what is looked at: under the cursor, enlarged, the whole
   ShownHistogram histogram;
   std::map<std::filesystem::path, unsigned> thumbnails;  ///< textures, of environments; empty: the studio
   std::optional<glm::dvec2> cursor;  ///< over the picture: parts of its width and height, from the top left

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "view/window/panel.h"
 
 #include <algorithm>
 #include <array>
@@ -32,12 +31,12 @@ void drawPresets(ViewState& state, Places& places) {
       apply(state, *controlOf(Action::StagesUpTo, int(preset.last)), {});
     if (chosen) ImGui::PopStyleColor();
     addItemPlace(places, preset.name);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", preset.sentence);
+    tip(places, preset.sentence);
   }
 }
 
 /// Those that build on each other, or the switches.
-void drawStages(ViewState& state, bool cumulative) {
+void drawStages(ViewState& state, Places& places, bool cumulative) {
   RenderOptions& o = state.options();
   for (const StageRow& row : stageRows()) {
     if (row.cumulative != cumulative) continue;
@@ -46,7 +45,7 @@ void drawStages(ViewState& state, bool cumulative) {
     ImGui::BeginDisabled(!reason.empty());
     if (ImGui::Checkbox(row.label, &on)) o.stages.set(size_t(row.stage), on);
     ImGui::EndDisabled();
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", row.sentence);
+    tip(places, row.sentence);
     dimAtEnd(reason.empty() ? keyOf(Action::ToggleStage, int(row.stage)) : reason);
   }
 }
@@ -134,9 +133,7 @@ void drawCompare(ViewState& state, Places& places, Task& task) {
   if (ImGui::Checkbox("Denoise", &denoise)) apply(state, *controlOf(Action::ToggleDenoise), {});
   ImGui::EndDisabled();
   addItemPlace(places, "Denoise");
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-    ImGui::SetTooltip(
-        "%s", reason.empty() ? "all of it up to 64 samples per pixel, nothing from 256 on" : reason.c_str());
+  tip(places, reason.empty() ? "all of it up to 64 samples per pixel, nothing from 256 on" : reason);
   dimAtEnd(keyOf(Action::ToggleSplit) + ", " + keyOf(Action::ToggleDenoise));
   if (!state.split) return;
   int comparison = int(state.comparison);
@@ -148,7 +145,7 @@ void drawCompare(ViewState& state, Places& places, Task& task) {
   }
   state.comparison = CompareMode(comparison);
   if (state.comparison == CompareMode::Difference) {
-    label(places, "Times");
+    label(places, "Amplify");
     float stops = float(state.differenceStops);
     char factor[32];
     std::snprintf(factor, sizeof factor, "%.3g", std::exp2(stops));
@@ -180,7 +177,7 @@ void drawAdvanced(ViewState& state, ViewFacts& facts) {
   dimAtEnd(keyOf(Action::ToggleHud));
   ImGui::TextDisabled("Features in the shader");
   ImGui::PushTextWrapPos(0.0f);
-  std::string variant = facts.statistics[state.active].variant;
+  std::string variant = facts.statistics[state.shownSide()].variant;
   std::ranges::replace(variant, '+', ' ');
   drawText(variant, kMostLineCharacters);
   ImGui::PopTextWrapPos();
@@ -194,19 +191,14 @@ void drawEdge(const WindowLayout& layout) {
   if (near) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 }
 
-void drawButtons(Places& places, const ViewFacts& facts, Task& task) {
+void drawButtons(Places& places, Task& task) {
   ImGui::Separator();
-  const auto next = [&](const char* text, Errand errand, bool enabled = true) {
+  const auto next = [&](const char* text, Errand errand) {
     stayOnLineFor(text);
-    ImGui::BeginDisabled(!enabled);
     errandButton(places, text, errand, task);
-    ImGui::EndDisabled();
   };
-  errandButton(places, "Screenshot", Errand::Screenshot, task);
-  next("Write .exr", Errand::WriteExr);
+  errandButton(places, "Write .exr", Errand::WriteExr, task);
   next("Reload", Errand::Reload);
-  next("Undo", Errand::Undo, facts.canUndo);
-  next("Redo", Errand::Redo, facts.canRedo);
   next("Reset all", Errand::ResetAll);
   next("Full screen", Errand::Fullscreen);
   ImGui::TextDisabled("%s: all keys   %s: this panel", keyOf(Action::ToggleSheet).c_str(),
@@ -250,11 +242,11 @@ Task drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
     if (open("Light and display")) part(drawLight(state, facts));
     if (open("Histogram", false)) drawHistogram(state, facts);
     if (open("Camera")) part(drawCamera(state, facts));
-    if (open("Stages")) drawStages(state, true);
-    if (open("Switches", false)) drawStages(state, false);
+    if (open("Stages")) drawStages(state, places, true);
+    if (open("Switches", false)) drawStages(state, places, false);
     if (open("Sampling", false)) drawSampling(state, places);
     if (open("Advanced", false)) drawAdvanced(state, facts);
-    drawButtons(places, facts, task);
+    drawButtons(places, task);
   }
   ImGui::End();
   ImGui::PopStyleVar();

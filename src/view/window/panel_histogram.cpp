@@ -2,6 +2,7 @@
 // How often which radiance occurs in the active side's picture.
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 #include "view/window/panel_parts.h"
 
@@ -15,9 +16,9 @@ constexpr std::array<ImU32, 3> kPlotColors{IM_COL32(220, 70, 70, 150), IM_COL32(
 
 /// Computed anew only for another picture or exposure.
 const Histogram& current(const ViewState& state, ViewFacts& facts) {
-  const size_t side = state.active;
+  const size_t side = state.shownSide();
   ShownHistogram& shown = facts.histogram;
-  const double exposure = state.sides[side].output.exposure;
+  const double exposure = state.options().output.exposure;
   const PictureValues& values = facts.values[side];
   facts.wantsHistogram = true;
   const bool whole = values.whole.x > 0 && values.area.size == values.whole;
@@ -52,10 +53,11 @@ void drawHistogram(const ViewState& state, ViewFacts& facts) {
   plot(histogram, ImGui::GetCursorScreenPos(), size);
   ImGui::Dummy(size);
   addItemPlace(facts.places, "histogram");
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("radiance from 2^%g to 2^%g with the exposure; the line is at 1", kLowestStop,
-                      kHighestStop);
-  ImGui::TextDisabled("mean %.3g   most %.3g   above 1: %.2g %%", histogram.mean, histogram.most,
+  char text[96];
+  std::snprintf(text, sizeof text, "radiance from 2^%g to 2^%g with the exposure; the line is at 1",
+                kLowestStop, kHighestStop);
+  tip(facts.places, text);
+  ImGui::TextDisabled("mean %.3g   max %.3g   above 1: %.2g %%", histogram.mean, histogram.most,
                       100.0 * histogram.above);
 }
 

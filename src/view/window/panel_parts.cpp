@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "view/window/panel_parts.h"
 
+#include <algorithm>
+
 #include "view/window/text.h"
 
 namespace fragtrace {
@@ -8,6 +10,7 @@ namespace fragtrace {
 namespace {
 
 constexpr float kLabelWidth = 0.42f;  // of the row, before its control
+constexpr float kTipWidth = 30.0f;    // of a tip at most, in heights of the font
 
 }  // namespace
 
@@ -28,6 +31,22 @@ void label(Places& places, const char* text) {
   ImGui::SetNextItemWidth(-1.0f);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   places[text] = {at.x, at.y, ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight()};
+}
+
+void tip(Places& places, const std::string& text) {
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  const float left = ImGui::GetWindowPos().x - ImGui::GetStyle().ItemSpacing.x;
+  const ImVec2 item = ImGui::GetItemRectMin();
+  const float width = std::min(ImGui::CalcTextSize(text.c_str()).x, kTipWidth * ImGui::GetFontSize());
+  const bool beside = width + 2 * ImGui::GetStyle().WindowPadding.x <= left;
+  ImGui::SetNextWindowPos(beside ? ImVec2(left, item.y) : ImVec2(item.x, item.y), ImGuiCond_Always,
+                          beside ? ImVec2(1.0f, 0.0f) : ImVec2(0.0f, 1.0f));
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(kTipWidth * ImGui::GetFontSize());
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  addWindowPlace(places, "tip");
+  ImGui::EndTooltip();
 }
 
 void stayOnLineFor(const char* text) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parts of the panel, and what they are made of.
+// The panel: every stage, switch and setting, in the order of the tables they stand in; its parts, and what
+// they are made of.
 #pragma once
 
 #include <imgui.h>
@@ -21,6 +22,10 @@ void dimAtEnd(const std::string& text);
 
 /// A label, and room for a control up to the end of the row, which has the label's place.
 void label(Places& places, const char* text);
+
+/// A sentence on the latest item, while the cursor is over it, even if that is greyed: beside the panel, or
+/// else above the item, so that no other control is covered.
+void tip(Places& places, const std::string& text);
 
 /// The next button on the same line, if that has room for it.
 void stayOnLineFor(const char* text);
@@ -60,5 +65,9 @@ void drawHistogram(const ViewState& state, ViewFacts& facts);
 
 /// Whether the file has scenes or material variants to choose from.
 bool hasParts(const ViewState& state);
+
+/// Draws the whole panel into the frame that Dear ImGui is making; what is changed there changes the state.
+/// Adds the places of the panel and its controls. Returns what is left to be done.
+Task drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout);
 
 }  // namespace fragtrace

@@ -46,7 +46,7 @@ std::optional<glm::dvec3> shownValue(const ViewFacts& facts, size_t side, bool d
 
 PixelArea wantedArea(const ViewState& state, const ViewFacts& facts, size_t side, glm::ivec2 whole) {
   if (whole.x <= 0) return {};
-  if (facts.wantsHistogram && side == state.active) return {{0, 0}, whole};
+  if (facts.wantsHistogram && side == state.shownSide()) return {{0, 0}, whole};
   const auto between = [&](const glm::dvec2& from, const glm::dvec2& to) {
     const glm::ivec2 corner = pixelAt(whole, from);
     return PixelArea{corner, pixelAt(whole, to) - corner + 1};
@@ -55,7 +55,7 @@ PixelArea wantedArea(const ViewState& state, const ViewFacts& facts, size_t side
     const glm::dvec2 corner = magnifiedPlace(state, glm::dvec2(0.0));
     return between(corner, corner + std::exp2(-state.magnifier.steps));
   }
-  if (!facts.cursor) return {};
+  if (!facts.cursor || (state.overview && sideAt(state, *facts.cursor) != side)) return {};
   const glm::dvec2 place = magnifiedPlace(state, *facts.cursor + 0.5 / glm::dvec2(state.size));
   return between(place, place);
 }
@@ -67,7 +67,7 @@ bool showsPixelValues(const ViewState& state) {
 void drawPixelValues(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout) {
   if (!showsPixelValues(state)) return;
   const double factor = std::exp2(state.magnifier.steps);
-  const bool difference = state.split && state.comparison == CompareMode::Difference;
+  const bool difference = state.compares() && state.comparison == CompareMode::Difference;
   const glm::dvec2 size(layout.picture);
   // In parts of the picture, from its top left.
   const glm::dvec2 corner = magnifiedPlace(state, glm::dvec2(0.0));

@@ -22,11 +22,11 @@ Json timesJson(const std::deque<double>& ms) {
   return {{"median", s.median}, {"p95", s.p95}, {"max", *std::ranges::max_element(ms)}, {"count", ms.size()}};
 }
 
-Json sideJson(const ViewState& state, const ViewFacts& facts, size_t side) {
+Json sideJson(const RenderOptions& options, const ViewFacts& facts, size_t side) {
   const SideStatistics& s = facts.statistics[side];
   Json stages = Json::array();
   for (const StageRow& row : stageRows()) {
-    if (has(state.sides[side].stages, row.stage)) stages.push_back(row.name);
+    if (has(options.stages, row.stage)) stages.push_back(row.name);
   }
   Json json;
   json["samples"] = s.samples;
@@ -77,11 +77,13 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["state"] = stateName(state, facts, report);
   json["scene"] = state.scene ? state.scene->options.scene.string() : "";
   json["environment"] = state.scene ? state.scene->options.light.hdriFile.string() : "";
+  json["variant"] = state.scene ? state.scene->options.selection.materialVariant : "";
   json["width"] = state.size.x;
   json["height"] = state.size.y;
   json["asked"] = report.asked;
   json["answered"] = report.answered;
   json["pictures"] = report.pictures;
+  json["overview"] = state.overview;
   json["split"] = state.split;
   json["bar"] = state.bar;
   json["comparison"] = kComparisonNames[size_t(state.comparison)];
@@ -93,7 +95,8 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["sheet"] = state.sheet;
   json["sheet_lines"] = facts.sheetLines;
   json["sides"] = Json::array();
-  for (size_t i = 0; i < state.tracedCount(); ++i) json["sides"].push_back(sideJson(state, facts, i));
+  const std::vector<RenderOptions> sides = tracedSides(state);
+  for (size_t i = 0; i < sides.size(); ++i) json["sides"].push_back(sideJson(sides[i], facts, i));
   json["camera"] = report.camera;
   json["exposure"] = state.sides[0].output.exposure;
   json["tone_map"] = toneMapNames()[size_t(state.sides[0].output.toneMap)];

@@ -25,22 +25,22 @@ std::string printed(const char* format, Values... values) {
   return text;
 }
 
-/// One word for what the viewer does.
-std::string activity(const ViewState& state, const ViewFacts& facts, const ViewProgress& progress) {
+/// A word or two for what the viewer does.
+std::string activity(const ViewState& state, const ViewFacts& facts) {
   if (facts.load.busy) return "loading";
   if (!state.scene) return "no scene";
-  if (!facts.note.empty()) return facts.note;
-  if (facts.statistics[state.active].resting) return "finished";
-  return progress.seconds ? printed("%.0f %%", 100.0 * progress.fraction) : "drawing";
+  // The news have all of it.
+  if (!facts.note.empty()) return facts.note.substr(0, facts.note.find(" ("));
+  return progressText(facts.statistics[state.shownSide()], state.options());
 }
 
 std::vector<std::string> progressTexts(const ViewState& state, const ViewFacts& facts,
                                        const ViewProgress& progress) {
-  const size_t side = state.active;
+  const size_t side = state.shownSide();
   const SideStatistics& s = facts.statistics[side];
-  const RenderOptions& o = state.sides[side];
+  const RenderOptions& o = state.options();
   std::vector<std::string> texts;
-  const std::string name = state.split ? (side == 0 ? "A: " : "B: ") : "";
+  const std::string name = state.compares() ? (side == 0 ? "A: " : "B: ") : "";
   texts.push_back(name + samplesText(s.samples) + " per pixel");
   if (s.error >= 0.0) {
     texts.push_back(o.sampling.noise > 0.0
@@ -60,15 +60,16 @@ std::vector<std::string> progressTexts(const ViewState& state, const ViewFacts& 
 /// The pixel under the cursor, of the picture at its full resolution, and what it holds.
 std::string pixelText(const ViewState& state, const ViewFacts& facts) {
   if (!facts.cursor) return "";
-  const bool difference = state.split && state.comparison == CompareMode::Difference;
+  const bool difference = state.compares() && state.comparison == CompareMode::Difference;
   const size_t side = difference ? 0 : sideAt(state, *facts.cursor);
+  if (side >= kMostSides) return "";
   // The middle of the pixel, since places of whole pixels are rounded.
   const glm::dvec2 place = magnifiedPlace(state, *facts.cursor + 0.5 / glm::dvec2(state.size));
   const glm::ivec2 pixel =
       glm::clamp(glm::ivec2(place * glm::dvec2(state.size)), glm::ivec2(0), state.size - 1);
   const auto value = shownValue(facts, side, difference, place);
   if (!value) return "";
-  const char* name = !state.split ? "" : difference ? "|A - B| " : side == 0 ? "A " : "B ";
+  const char* name = !state.compares() ? "" : difference ? "|A - B| " : side == 0 ? "A " : "B ";
   return printed("%s%d, %d: %.4g %.4g %.4g", name, pixel.x, pixel.y, value->x, value->y, value->z);
 }
 
@@ -76,7 +77,7 @@ std::string pixelText(const ViewState& state, const ViewFacts& facts) {
 
 void drawStatusBar(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float top = float(layout.picture.y);
+  const float top = float(layout.picture.y) + layout.stagesHeight;
   ImGui::SetNextWindowPos({0.0f, top});
   ImGui::SetNextWindowSize({display.x, display.y - top});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(layout.margin, 0.0f));
@@ -86,14 +87,14 @@ void drawStatusBar(const ViewState& state, ViewFacts& facts, const WindowLayout&
                    (kLabelFlags & ~ImGuiWindowFlags_AlwaysAutoResize) | ImGuiWindowFlags_NoScrollWithMouse)) {
     addWindowPlace(facts.places, "status");
     const bool known = state.scene.has_value();
-    const ViewProgress progress =
-        known ? progressOf(facts.statistics[state.active], state.options(), 1.0 / double(state.tracedCount()))
-              : ViewProgress{};
+    const ViewProgress progress = known ? progressOf(facts.statistics[state.shownSide()], state.options(),
+                                                     1.0 / double(state.tracedCount()))
+                                        : ViewProgress{};
     const float height = ImGui::GetTextLineHeight();
     const float line = std::max(0.5f * (display.y - top - height), 0.0f);
     ImGui::SetCursorPosY(line);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
-    const std::string word = activity(state, facts, progress);
+    const std::string word = activity(state, facts);
     ImGui::ProgressBar(float(facts.load.busy ? facts.load.fraction : progress.fraction),
                        {kProgressWidth * layout.scale, height}, word.c_str());
     ImGui::PopStyleVar();

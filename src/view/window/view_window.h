@@ -38,11 +38,6 @@ class Window {
   void wait();
   void take();
   void adoptScene(ViewedScene scene);
-  void takePictures(std::vector<TracedPicture> pictures);
-  void takeReference(const TracedPicture& picture);
-  void compareSizes();
-  void takeThumbnail(const EnvironmentThumbnail& thumbnail);
-  void askForThumbnails();
   void takeState(const Delivery& news);
   void forgetBrokenEnvironment();
   void ask();
@@ -53,10 +48,16 @@ class Window {
   bool iconified() const;
 
   // window_tasks.cpp
+  void takePictures(std::vector<TracedPicture> pictures);
+  void takeReference(const TracedPicture& picture);
+  void compareSizes();
+  void takeThumbnail(const EnvironmentThumbnail& thumbnail);
+  void askForThumbnails();
   void execute(const Task& task);
   void executeOnScene(const Task& task);
   void executeOnBookmark(const Task& task);
   void load(RenderOptions options);
+  void loadStep();
   void cancelLoad();
   void takeDrops();
   void openFiles(const std::vector<std::filesystem::path>& files);

@@ -12,7 +12,7 @@
 #include "errors.h"
 #include "gl/gl.h"
 #include "view/shown_names.h"
-#include "view/window/panel.h"
+#include "view/window/panel_parts.h"
 #include "view/window/pixel_values.h"
 
 namespace fragtrace {
@@ -26,6 +26,7 @@ constexpr double kFrameSeconds = 1.0 / 60;
 /// meanwhile; so an event is late by this at most. Ten looks a second are no load.
 constexpr double kLongestSleep = 0.1;
 constexpr double kStatusSeconds = 0.05;  // between two status files
+constexpr const char* kStarting = "starting";
 constexpr glm::ivec2 kWindowSize{1280, 720};
 
 float primaryScale(GLFWmonitor* monitor) {
@@ -113,7 +114,7 @@ void Window::open() {
   if (!start_.reference.empty()) exchange_.compareWith(start_.reference);
   if (start_.options.scene.empty()) return;
   load(start_.options);
-  facts_.load = {true, start_.options.scene.filename().string(), "starting", 0.0};
+  facts_.load = {true, start_.options.scene.filename().string(), kStarting, 0.0};
 }
 
 void Window::run() {
@@ -193,6 +194,7 @@ void Window::adoptScene(ViewedScene scene) {
   glfwSetWindowTitle(window_.get(), windowTitle(state_.scene->options.scene).c_str());
   wanted_ = state_.scene->options;
   if (pasted_ && sameScene(*pasted_, wanted_)) takeOptions(state_, *std::exchange(pasted_, {}));
+  history_.waits = false;
   if (otherNodes) restart(history_, state_);
   if (another) {
     remember([&](Remembered& r) { addRecent(r, wanted_.scene); });
@@ -204,85 +206,14 @@ void Window::adoptScene(ViewedScene scene) {
   frames_ = kSettleFrames;
 }
 
-void Window::takePictures(std::vector<TracedPicture> pictures) {
-  const double now = glfwGetTime();
-  for (TracedPicture& picture : pictures) {
-    const size_t side = picture.side;
-    if (!picture.file.empty())
-      takeReference(picture);
-    else if (side == 1 && !state_.reference.empty())
-      continue;  // it was on its way when the reference took its place
-    display_.take(picture);
-    ++report_.pictures;
-    if (side == 0) arrivals_.push_back(now);
-    facts_.statistics[side] = picture.statistics;
-    facts_.pictureSize[side] = picture.size;
-    facts_.lines[side] = std::move(picture.lines);
-    report_.answered = std::max(report_.answered, picture.request);
-    while (!unanswered_.empty() && unanswered_.front().first <= picture.request) {
-      keepTime(report_.times.answerMs, 1000.0 * (now - unanswered_.front().second));
-      unanswered_.pop_front();
-    }
-    frames_ = std::max(frames_, 1);
-  }
-  while (!arrivals_.empty() && arrivals_.front() < now - 1.0) arrivals_.pop_front();
-  const bool moves = askedMoving_ && arrivals_.size() > 1;
-  facts_.picturesPerSecond =
-      moves ? double(arrivals_.size() - 1) / (arrivals_.back() - arrivals_.front()) : 0.0;
-  compareSizes();
-}
-
-void Window::takeThumbnail(const EnvironmentThumbnail& thumbnail) {
-  const Image& image = thumbnail.image;
-  if (image.values.empty()) return;
-  GlTexture texture = makeTexture(GL_TEXTURE_2D);
-  glTextureStorage2D(texture.name(), 1, GL_RGBA8, image.width, image.height);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTextureSubImage2D(texture.name(), 0, 0, 0, image.width, image.height, GL_RGB, GL_FLOAT,
-                      image.values.data());
-  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  checkGl("uploading a thumbnail");
-  facts_.thumbnails[thumbnail.file] = texture.name();
-  thumbnails_[thumbnail.file] = std::move(texture);
-  frames_ = std::max(frames_, 1);
-}
-
-/// Once for each environment that the list offers.
-void Window::askForThumbnails() {
-  if (!std::exchange(facts_.wantsThumbnails, false) || !state_.scene) return;
-  std::vector<std::filesystem::path> wanted = state_.scene->environments;
-  wanted.emplace_back();
-  if (!state_.scene->options.light.hdriFile.empty()) wanted.push_back(state_.scene->options.light.hdriFile);
-  std::erase_if(wanted, [&](const auto& file) { return !askedThumbnails_.insert(file).second; });
-  if (!wanted.empty()) exchange_.makeThumbnails(std::move(wanted));
-}
-
-/// It is side B from now on.
-void Window::takeReference(const TracedPicture& picture) {
-  state_.reference = picture.file;
-  state_.split = true;
-  state_.active = 0;
-  if (state_.sides[1].scene.empty()) state_.sides[1] = state_.sides[0];
-  newReference_ = true;
-}
-
-/// Once the picture of the scene has its size.
-void Window::compareSizes() {
-  const glm::ivec2 size = facts_.pictureSize[1];
-  if (!newReference_ || state_.reference.empty() || facts_.pictureSize[0] != state_.size) return;
-  newReference_ = false;
-  if (size == state_.size) return;
-  const auto text = [](glm::ivec2 s) { return std::to_string(s.x) + " x " + std::to_string(s.y); };
-  say(state_.reference.filename().string() + " has " + text(size) + " pixels, the picture " +
-      text(state_.size) + ": it is scaled to compare");
-}
-
 void Window::takeState(const Delivery& news) {
   report_.seen = news.request;
   const bool changed = news.load.busy != facts_.load.busy || news.load.step != facts_.load.step ||
                        news.load.fraction != facts_.load.fraction || news.note != facts_.note ||
                        news.error != facts_.error || news.resting != facts_.resting;
-  if (!changed || (!state_.scene && !news.load.busy && news.error.empty())) return;
+  // The tracing thread may not know of the first load yet.
+  const bool silent = !news.load.busy && news.error.empty();
+  if (!changed || (silent && !state_.scene && facts_.load.step == kStarting)) return;
   facts_.load = news.load;
   facts_.note = news.note;
   if (news.error != facts_.error) facts_.errorClosed = false;
@@ -290,8 +221,12 @@ void Window::takeState(const Delivery& news) {
   if (!facts_.error.empty() && !facts_.load.busy && state_.scene) {
     wanted_ = state_.scene->options;
     pasted_.reset();
+    history_.waits = false;
   }
-  if (!facts_.error.empty() && !facts_.load.busy && !state_.scene) forgetBrokenEnvironment();
+  if (!facts_.error.empty() && !facts_.load.busy && !state_.scene) {
+    forgetBrokenEnvironment();
+    glfwSetWindowTitle(window_.get(), windowTitle({}).c_str());
+  }
   facts_.resting = news.resting;
   frames_ = std::max(frames_, 2);
 }
@@ -328,7 +263,7 @@ void Window::ask() {
 void Window::readValues() {
   const double now = glfwGetTime();
   again_ = display_.waits() ? now : std::numeric_limits<double>::infinity();
-  for (size_t i = 0; i < 2; ++i) {
+  for (size_t i = 0; i < kMostSides; ++i) {
     const PixelArea area = wantedArea(state_, facts_, i, display_.sizeOf(i));
     again_ = std::min(again_, display_.keepValues(i, facts_.values[i], area, now));
   }
@@ -338,10 +273,11 @@ void Window::draw() {
   glm::ivec2 size(0);
   glfwGetFramebufferSize(window_.get(), &size.x, &size.y);
   if (size.x <= 0 || size.y <= 0) return;
+  fitPanel(state_, layoutOf(glm::vec2(size), interface_.scale(), {.panel = true}).docked);
   const bool panel = state_.panel && state_.scene;
   const WindowLayout layout =
-      layoutOf(glm::vec2(size), interface_.scale(), {panel, state_.panelWidth, state_.split});
-  state_.size = layout.picture;
+      layoutOf(glm::vec2(size), interface_.scale(), {panel, state_.panelWidth, state_.compares()});
+  state_.size = state_.overview ? glm::max(layout.picture / kCells, 1) : layout.picture;
   interface_.begin();
   facts_.cursor = input_.update(state_, layout, [this](const Task& task) { execute(task); });
   takeDrops();
@@ -355,10 +291,14 @@ void Window::draw() {
   if (panel) execute(drawPanel(state_, facts_, layout));
   execute(said);
   askForThumbnails();
-  std::array<DisplaySide, 2> sides;
-  for (size_t i = 0; i < 2; ++i) sides[i] = {state_.sides[i].output.exposure, state_.sides[i].output.toneMap};
-  display_.draw({size, layout.picture, state_.shownBar(), state_.magnifier,
-                 state_.split && state_.comparison == CompareMode::Difference, state_.differenceStops},
+  std::array<DisplaySide, kMostSides> sides;
+  for (size_t i = 0; i < kMostSides; ++i) {
+    const OutputOptions& output =
+        i < 2 && !state_.overview ? state_.sides[i].output : state_.options().output;
+    sides[i] = {output.exposure, output.toneMap};
+  }
+  display_.draw({size, layout.picture, state_.shownBar(), state_.magnifier, state_.overview,
+                 state_.compares() && state_.comparison == CompareMode::Difference, state_.differenceStops},
                 sides);
   readValues();
   facts_.focus = Interface::focus();

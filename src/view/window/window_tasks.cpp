@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: MIT
-// What the window does beyond its state: files, clipboard, undo, bookmarks, the screen.
+// Window tasks beyond its state: files, clipboard, undo, bookmarks, the screen, pictures as they come in.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "errors.h"
+#include "gl/gl.h"
 #include "image/image.h"
 #include "view/dropped_file.h"
 #include "view/shown_names.h"
 #include "view/window/view_window.h"
 
 namespace fragtrace {
+
+namespace {
+
+/// Stands before the user as long as Escape answers it.
+constexpr const char* kQuitQuestion = "press Escape again to quit";
+
+}  // namespace
 
 void Window::execute(const Task& task) {
   switch (task.errand) {
@@ -37,7 +46,9 @@ void Window::execute(const Task& task) {
         return;
       }
       if (facts_.load.busy && state_.scene) return cancelLoad();
+      if (facts_.pick) return executeOnScene({.errand = Errand::Deselect});
       if (state_.fullscreen) return toggleFullscreen();
+      if (!isSeen(facts_.messages, kQuitQuestion, glfwGetTime())) return say(kQuitQuestion);
       [[fallthrough]];
     case Errand::Quit:
       glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
@@ -53,6 +64,7 @@ void Window::executeOnScene(const Task& task) {
   switch (task.errand) {
     case Errand::CenterOn:
     case Errand::Inspect: {
+      if (sideAt(state_, task.place) >= kMostSides) return;
       const glm::dvec2 place = magnifiedPlace(state_, task.place);
       return exchange_.pick({sideAt(state_, task.place), place, task.errand == Errand::CenterOn});
     }
@@ -68,15 +80,17 @@ void Window::executeOnScene(const Task& task) {
     case Errand::PasteCommand:
       return pasteCommand();
     case Errand::Undo:
-      if (!undo(history_, state_)) say("there is nothing to undo");
-      return;
+      if (!undo(history_, state_)) return say("there is nothing to undo");
+      return loadStep();
     case Errand::Redo:
-      if (!redo(history_, state_)) say("there is nothing to redo");
-      return;
+      if (!redo(history_, state_)) return say("there is nothing to redo");
+      return loadStep();
     case Errand::ResetAll:
       if (const RenderOptions wanted = resetAll(state_, start_.options);
-          !sameScene(wanted, state_.scene->options))
+          !sameScene(wanted, state_.scene->options)) {
         load(wanted);
+        history_.waits = true;
+      }
       return;
     case Errand::Load:
       return load(*task.load);
@@ -98,12 +112,21 @@ void Window::load(RenderOptions options) {
   options.camera.resolution = state_.size;
   wanted_ = options;
   pasted_.reset();
+  facts_.error.clear();
   exchange_.load(options);
+}
+
+/// The light or the variant of a step that was undone, if another one is shown.
+void Window::loadStep() {
+  if (withLight(history_, wanted_) == wanted_) return;
+  load(withLight(history_, state_.scene->options));
+  history_.waits = true;
 }
 
 void Window::cancelLoad() {
   exchange_.cancelLoad();
   pasted_.reset();
+  history_.waits = false;
   if (state_.scene) wanted_ = state_.scene->options;
 }
 
@@ -133,15 +156,15 @@ void Window::openFiles(const std::vector<std::filesystem::path>& files) {
 
 void Window::save(const char* extension) {
   const RenderOptions& o = state_.options();
-  const std::filesystem::path name = freePictureName(o.scene, extension);
+  const std::filesystem::path name = std::filesystem::absolute(freePictureName(o.scene, extension));
   // A file for a display is what is seen, one of radiance what the active side's samples say.
   const bool seen = isDisplayFormat(name);
-  const bool both = state_.split && seen;
-  const char* side = !state_.split || both ? "" : state_.active == 0 ? " of side A" : " of side B";
+  const bool both = state_.compares() && seen;
+  const char* side = !state_.compares() || both ? "" : state_.active == 0 ? " of side A" : " of side B";
   if (!facts_.resting) say("writing " + name.string() + side + " as soon as all of the picture is drawn");
   SaveRequest request;
   request.path = name;
-  request.side = state_.active;
+  request.side = state_.shownSide();
   if (both) request.both = state_.comparison;
   request.bar = state_.shownBar();
   request.differenceStops = state_.differenceStops;
@@ -155,7 +178,7 @@ RenderOptions Window::shownOptions() const {
   RenderOptions o = renderOptionsOf(state_, state_.active);
   o.camera.resolution = state_.size;
   o.camera.sceneOrigin = state_.scene->description.origin;
-  o.sampling.spp = std::max(facts_.statistics[state_.active].samples, 1);
+  o.sampling.spp = std::max(facts_.statistics[state_.shownSide()].samples, 1);
   // What lights the scene without need is not said.
   if (!state_.scene->defaultLight && o.light.defaultLight == DefaultLight::Studio)
     o.light.defaultLight = DefaultLight::White;
@@ -231,6 +254,80 @@ void Window::takeText(const std::string& text, const std::string& otherwise) {
   } catch (const std::exception& error) {
     say(otherwise + error.what());
   }
+}
+
+void Window::takePictures(std::vector<TracedPicture> pictures) {
+  const double now = glfwGetTime();
+  for (TracedPicture& picture : pictures) {
+    const size_t side = picture.side;
+    if (!picture.file.empty())
+      takeReference(picture);
+    else if (side == 1 && !state_.reference.empty())
+      continue;  // it was on its way when the reference took its place
+    display_.take(picture);
+    ++report_.pictures;
+    if (side == 0) arrivals_.push_back(now);
+    facts_.statistics[side] = picture.statistics;
+    facts_.pictureSize[side] = picture.size;
+    facts_.lines[side] = std::move(picture.lines);
+    report_.answered = std::max(report_.answered, picture.request);
+    while (!unanswered_.empty() && unanswered_.front().first <= picture.request) {
+      keepTime(report_.times.answerMs, 1000.0 * (now - unanswered_.front().second));
+      unanswered_.pop_front();
+    }
+    frames_ = std::max(frames_, 1);
+  }
+  while (!arrivals_.empty() && arrivals_.front() < now - 1.0) arrivals_.pop_front();
+  const bool moves = askedMoving_ && arrivals_.size() > 1;
+  facts_.picturesPerSecond =
+      moves ? double(arrivals_.size() - 1) / (arrivals_.back() - arrivals_.front()) : 0.0;
+  compareSizes();
+}
+
+void Window::takeThumbnail(const EnvironmentThumbnail& thumbnail) {
+  const Image& image = thumbnail.image;
+  if (image.values.empty()) return;
+  GlTexture texture = makeTexture(GL_TEXTURE_2D);
+  glTextureStorage2D(texture.name(), 1, GL_RGBA8, image.width, image.height);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, image.width, image.height, GL_RGB, GL_FLOAT,
+                      image.values.data());
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  checkGl("uploading a thumbnail");
+  facts_.thumbnails[thumbnail.file] = texture.name();
+  thumbnails_[thumbnail.file] = std::move(texture);
+  frames_ = std::max(frames_, 1);
+}
+
+/// Once for each environment that the list offers.
+void Window::askForThumbnails() {
+  if (!std::exchange(facts_.wantsThumbnails, false) || !state_.scene) return;
+  std::vector<std::filesystem::path> wanted = state_.scene->environments;
+  wanted.emplace_back();
+  if (!state_.scene->options.light.hdriFile.empty()) wanted.push_back(state_.scene->options.light.hdriFile);
+  std::erase_if(wanted, [&](const auto& file) { return !askedThumbnails_.insert(file).second; });
+  if (!wanted.empty()) exchange_.makeThumbnails(std::move(wanted));
+}
+
+/// It is side B from now on.
+void Window::takeReference(const TracedPicture& picture) {
+  state_.reference = picture.file;
+  state_.split = true;
+  state_.overview = false;
+  state_.active = 0;
+  if (state_.sides[1].scene.empty()) state_.sides[1] = state_.sides[0];
+  newReference_ = true;
+}
+
+/// Once the picture of the scene has its size.
+void Window::compareSizes() {
+  const glm::ivec2 size = facts_.pictureSize[1];
+  if (!newReference_ || state_.reference.empty() || facts_.pictureSize[0] != state_.size) return;
+  newReference_ = false;
+  if (size == state_.size) return;
+  const auto text = [](glm::ivec2 s) { return std::to_string(s.x) + " x " + std::to_string(s.y); };
+  say(state_.reference.filename().string() + " has " + text(size) + " pixels, the picture " +
+      text(state_.size) + ": it is scaled to compare");
 }
 
 }  // namespace fragtrace

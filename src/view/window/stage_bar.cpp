@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "view/window/status_bar.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "view/window/panel_parts.h"
+#include "view/window/text.h"
+#include "view/window/theme.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// How a button is called where it has more or less room.
+enum class Naming : uint8_t { Label, Name, Number };
+
+std::string nameOf(const StageRow& row, Naming naming) {
+  return naming == Naming::Label  ? row.label
+         : naming == Naming::Name ? row.name
+                                  : std::to_string(int(row.stage) + 1);
+}
+
+float widthOf(const std::string& text) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  return ImGui::CalcTextSize(text.c_str()).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+}
+
+float widthOf(Naming naming) {
+  float width = 0.0f;
+  for (const StageRow& row : stageRows()) width += row.cumulative ? widthOf(nameOf(row, naming)) : 0.0f;
+  return width;
+}
+
+void drawStage(ViewState& state, Places& places, const StageRow& row, Naming naming) {
+  const std::string reason = whyGrey(state, row.stage);
+  const bool on = has(state.options().stages, row.stage) && reason.empty();
+  if (on) ImGui::PushStyleColor(ImGuiCol_Button, kAccent);
+  if (!reason.empty()) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  const Control& control = *controlOf(Action::StagesUpTo, int(row.stage));
+  if (ImGui::Button(nameOf(row, naming).c_str())) apply(state, control, {});
+  ImGui::PopStyleColor(int(on) + int(!reason.empty()));
+  addItemPlace(places, std::string("stage ") + row.name);
+  const char* upTo = row.stage == Stage::Flat ? "" : "All stages up to ";
+  tip(places, controlName(control) + ": " + upTo + row.label + ": " + row.sentence +
+                  (reason.empty() ? "" : " (" + reason + ")"));
+  ImGui::SameLine();
+}
+
+/// What stands at the right end.
+struct EndButton {
+  const char* text;
+  Action action;
+  int rank;                      ///< 0: the last to be left out
+  Errand errand = Errand::None;  ///< none: the state alone changes
+};
+constexpr std::array kEndButtons{EndButton{"All", Action::ToggleOverview, 2},
+                                 EndButton{"Undo", Action::Undo, 3, Errand::Undo},
+                                 EndButton{"Redo", Action::Redo, 4, Errand::Redo},
+                                 EndButton{"Screenshot", Action::Screenshot, 1, Errand::Screenshot},
+                                 EndButton{"Panel", Action::TogglePanel, 0}};
+
+/// Of the first so many ranks.
+float widthOf(int ranks) {
+  float width = 0.0f;
+  for (const EndButton& button : kEndButtons) width += button.rank < ranks ? widthOf(button.text) : 0.0f;
+  return width;
+}
+
+Task drawEndButtons(ViewState& state, ViewFacts& facts, float left, float right) {
+  Task task;
+  int ranks = int(kEndButtons.size());
+  while (ranks > 0 && widthOf(ranks) > right - left) --ranks;
+  float place = right - widthOf(ranks);
+  for (const EndButton& button : kEndButtons) {
+    if (button.rank >= ranks) continue;
+    ImGui::SameLine(place);
+    place += widthOf(button.text);
+    const bool off = (button.errand == Errand::Undo && !facts.canUndo) ||
+                     (button.errand == Errand::Redo && !facts.canRedo);
+    ImGui::BeginDisabled(off);
+    if (button.errand == Errand::None)
+      controlButton(state, facts.places, button.text, button.action);
+    else
+      errandButton(facts.places, button.text, button.errand, task);
+    ImGui::EndDisabled();
+    const Control& control = *controlOf(button.action);
+    tip(facts.places, controlName(control) + ": " + control.sentence);
+  }
+  return task;
+}
+
+/// Names count for more than most of what stands behind them.
+Naming namingFor(float room) {
+  if (widthOf(Naming::Label) + widthOf(int(kEndButtons.size())) <= room) return Naming::Label;
+  return widthOf(Naming::Name) + widthOf(2) <= room ? Naming::Name : Naming::Number;
+}
+
+}  // namespace
+
+Task drawStageBar(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  Task task;
+  ImGui::SetNextWindowPos({0.0f, float(layout.picture.y)});
+  ImGui::SetNextWindowSize({display.x, layout.stagesHeight});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(layout.margin, 0.0f));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1.0f, 1.0f));
+  const bool shown =
+      ImGui::Begin("stages", nullptr,
+                   (kLabelFlags & ~ImGuiWindowFlags_AlwaysAutoResize) | ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::PopStyleVar(3);
+  if (shown) {
+    addWindowPlace(facts.places, "stages");
+    ImGui::SetCursorPosY(std::max(0.5f * (layout.stagesHeight - ImGui::GetFrameHeight()), 0.0f));
+    ImGui::BeginDisabled(!state.scene);
+    const float right = display.x - layout.margin + ImGui::GetStyle().ItemSpacing.x;
+    const Naming naming = namingFor(right - layout.margin);
+    for (const StageRow& row : stageRows()) {
+      if (row.cumulative) drawStage(state, facts.places, row, naming);
+    }
+    task = drawEndButtons(state, facts, layout.margin + widthOf(naming), right);
+    ImGui::EndDisabled();
+  }
+  ImGui::End();
+  return task;
+}
+
+}  // namespace fragtrace
