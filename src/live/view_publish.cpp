@@ -169,7 +169,7 @@ void ViewTracer::publish(Side& side) {
   exchange_.deliver(std::move(picture));
   shows_ = side.previews ? Shows::Preview : Shows::Picture;
   losses_ = 0;
-  published_ = Clock::now();
+  side.published = Clock::now();
   publishMs_ = sinceMs(start);
 }
 

@@ -57,6 +57,7 @@ class ViewTracer {
     RenderTimes times;
     double megaRaysPerSecond = 0.0;
     std::chrono::steady_clock::time_point counted{};  ///< when its rays were
+    std::chrono::steady_clock::time_point published{};  ///< its latest picture
     double error = -1.0;
     int errorAt = 0;    ///< samples when it was estimated
     bool stale = true;  ///< what the film holds is another picture
@@ -156,7 +157,6 @@ class ViewTracer {
   int losses_ = 0;                  ///< of the context since the latest publication
   double publishMs_ = 0.0;          ///< what the latest publication took
   double filterMsPerPixel_ = 0.0;   ///< in it, of layers and filter
-  std::chrono::steady_clock::time_point published_;
   FileWatch sceneFiles_;
   FileWatch shaderFiles_;
   std::chrono::steady_clock::time_point watched_;

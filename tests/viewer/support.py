@@ -269,5 +269,7 @@ class Case(unittest.TestCase):
         path = self.folder / "rendered" / name
         path.parent.mkdir(exist_ok=True)
         scene = scene if isinstance(scene, Path) else SCENES / (scene + ".gltf")
+        if "--default-light" not in options:
+            options += ("--default-light", "white")  # as Viewer
         subprocess.run([FRAGTRACE, "render", scene, "-o", path, "--quiet", *map(str, options)], check=True, timeout=300)
         return path

@@ -179,9 +179,6 @@ RenderOptions Window::shownOptions() const {
   o.camera.resolution = state_.size;
   o.camera.sceneOrigin = state_.scene->description.origin;
   o.sampling.spp = std::max(facts_.statistics[state_.shownSide()].samples, 1);
-  // What lights the scene without need is not said.
-  if (!state_.scene->defaultLight && o.light.defaultLight == DefaultLight::Studio)
-    o.light.defaultLight = DefaultLight::White;
   return o;
 }
 
