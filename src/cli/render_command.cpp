@@ -152,9 +152,10 @@ int renderVariants(const RenderOptions& options) {
 struct SequenceRun {
   Device device;
   Tracer tracer;
-  std::optional<LoadedScene> loaded;   ///< as of the picture before
-  std::optional<RefittableTree> tree;  ///< that was built last, where the next may take it over
-  Statistics prepared;                 ///< of a turntable's scene
+  std::optional<LoadedScene> loaded;       ///< as of the picture before
+  std::optional<RefittableTree> tree;      ///< that was built last, where the next may take it over
+  std::shared_ptr<KeptDocument> document;  ///< that is posed for each picture
+  Statistics prepared;                     ///< of a turntable's scene
 };
 
 /// Whether the next picture may refit this one's tree. What is merged later tells scenes apart by their
@@ -181,6 +182,7 @@ Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const Sequ
     before.environment = &environment;
   }
   if (run.tree) before.tree = &*run.tree;
+  if (!turntable) before.document = &run.document;
   run.loaded.reset();
   run.loaded = loadScene(drawn, stats, {}, FilmOf::Part, before);
   if (!stats.treeRefitted) {
@@ -237,7 +239,7 @@ int runSequence(const RenderOptions& options) {
   SequenceRun run;
   RenderOptions settled = options;
   if (sequence.frames) {
-    settled.camera.overrides = overridesOfAllPoses(options);
+    settled.camera.overrides = overridesOfAllPoses(options, run.document);
     if (settled.camera.overrides != options.camera.overrides)
       say(options, "one camera shows the whole animation: " + cameraText(settled));
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "image/limits.h"
@@ -19,9 +20,15 @@ struct GltfOptions {
   InputLimits limits{};
 };
 
+/// An animated file as it was read, for further poses: its bytes are not looked at again.
+struct KeptDocument;
+
 /// Reads a .gltf (with files beside it or data URIs) or .glb into a Scene whose geometry is recentred.
 /// Throws InputError naming the file, the JSON pointer and the reason, and UsageError for a selection that is
 /// not in the file; what is skipped lands in Scene::warnings.
-Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options = {});
+/// With `kept`, an animated file is left there, and the next call takes it from there: a call for the same
+/// file, with options that differ in pose, camera and origin alone. What throws may leave nothing there.
+Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options = {},
+               std::shared_ptr<KeptDocument>* kept = nullptr);
 
 }  // namespace fragtrace

@@ -38,7 +38,10 @@ void SceneLoader::start(const RenderOptions& options) {
       exchange.tellLoad({true, options.scene.filename().string(), step, fraction});
     };
     try {
-      result.scene = std::make_unique<LoadedScene>(loadScene(options, result.stats, progress));
+      SceneBefore before;
+      before.document = &result.document;
+      result.scene =
+          std::make_unique<LoadedScene>(loadScene(options, result.stats, progress, FilmOf::Picture, before));
       const bool known = !hasMap(options) && options.light.defaultLight != DefaultLight::None;
       result.ownLight =
           known ? !result.stats.defaultLight : ownLight(result.scene->scene) == OwnLight::Enough;

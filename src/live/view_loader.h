@@ -16,6 +16,7 @@ namespace fragtrace {
 struct LoadResult {
   RenderOptions options;
   std::unique_ptr<LoadedScene> scene;
+  std::shared_ptr<KeptDocument> document;  ///< for poses, if it is animated
   Statistics stats;
   std::exception_ptr error;
   bool ownLight = true;                             ///< it needs no default light

@@ -182,6 +182,7 @@ void ViewTracer::adoptScene() {
   posedCameraIndex_ = result->options.camera.index;
   posedSize_ = result->scene->size;
   loaded_ = std::move(result->scene);
+  document_ = std::move(result->document);
   loadedOptions_ = result->options;
   makePrograms();
   exchange_.tellError({});
@@ -270,6 +271,7 @@ void ViewTracer::pose(const TraceRequest& request) {
     if (loaded_->environment.kind == Surroundings::Map && (sameNodes || hasMap(loadedOptions_)))
       before.environment = &loaded_->environment;
     if (tree_ && sameNodes) before.tree = &*tree_;
+    before.document = &document_;
     *loaded_ = loadScene(options, stats, {}, FilmOf::Picture, before);
     if (!stats.treeRefitted && loaded_->scene.instances.empty())
       tree_ = refittable(loaded_->bvh, loaded_->scene);

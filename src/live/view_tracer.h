@@ -133,8 +133,9 @@ class ViewTracer {
   std::unique_ptr<Context> context_;
   std::unique_ptr<DebugLog> driverLog_;
   std::unique_ptr<LoadedScene> loaded_;
-  RenderOptions loadedOptions_;  ///< of the scene
-  CameraOverrides posedCamera_;  ///< that lines have their width of
+  std::shared_ptr<KeptDocument> document_;  ///< that it is posed from
+  RenderOptions loadedOptions_;             ///< of the scene
+  CameraOverrides posedCamera_;             ///< that lines have their width of
   std::optional<int> posedCameraIndex_;
   glm::ivec2 posedSize_{0};
   std::optional<RefittableTree> tree_;  ///< that was built last for a moving scene

@@ -40,19 +40,19 @@ std::vector<double> timesOf(const Scene& scene, const RenderOptions& options) {
 
 }  // namespace
 
-CameraOverrides overridesOfAllPoses(const RenderOptions& options) {
+CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_ptr<KeptDocument>& kept) {
   const CameraOverrides& asked = options.camera.overrides;
   const bool placed = asked.fit || asked.orbit;
   if (asked.position && !placed) return asked;
   RenderOptions posed = options;
   posed.selection.animationTime = 0.0;
-  const Scene first = loadGltf(posed.scene, gltfOptionsOf(posed));
+  const Scene first = loadGltf(posed.scene, gltfOptionsOf(posed), &kept);
   if (first.animationNames.empty() || (!first.cameras.empty() && !placed)) return asked;
   const CameraOverrides overrides = settledOverrides(asked, first);
   Filled filled;
   for (const double time : timesOf(first, options)) {
     posed.selection.animationTime = time;
-    const Scene scene = loadGltf(posed.scene, gltfOptionsOf(posed));
+    const Scene scene = loadGltf(posed.scene, gltfOptionsOf(posed), &kept);
     if (scene.bounds.empty()) continue;
     filled.bounds.include(scene.bounds);
     if (overrides.fit) std::ranges::copy(farthest(outlineOf(scene)), std::back_inserter(filled.points));

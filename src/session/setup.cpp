@@ -323,7 +323,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
     });
   }
   PhaseTimer sceneTimer("scene");
-  loaded.scene = loadGltf(options.scene, gltfOptionsOf(options));
+  loaded.scene = loadGltf(options.scene, gltfOptionsOf(options), before.document);
   stats.phases.push_back(sceneTimer.end());
   if (options.device.instancing == Instancing::Share && !walksTree(options))
     loaded.scene.warnings.emplace_back("--instancing share: only trees hold shared meshes; all are copied");

@@ -35,11 +35,12 @@ using LoadProgress = std::function<void(const char* step, double fraction)>;
 /// Whether one film is to hold all of a picture, or only a part at a time (picture/picture_parts.h).
 enum class FilmOf : uint8_t { Picture, Part };
 
-/// What the scene of one picture of an animation leaves to the next; both may be none.
+/// What the scene of one picture of an animation leaves to the next; each may be none.
 struct SceneBefore {
   Environment* environment =
       nullptr;  ///< the map of the options; it is moved into the next scene, if there is one
   const RefittableTree* tree = nullptr;
+  std::shared_ptr<KeptDocument>* document = nullptr;  ///< as loadGltf() wants it
 };
 
 /// Loads scene and environment, chooses camera and size, builds the tree; fills in the statistics of that.

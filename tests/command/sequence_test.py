@@ -65,6 +65,22 @@ class Sequences(Case):
         for k, picture in zip((0, 3, 6), pictures):
             self.assertEqual(picture, self.single("--animation-time", k / 8, *layers), k)
 
+    def test_the_scene_is_read_once(self):
+        """It may come through a pipe; the camera for all frames is chosen from the same document."""
+        root = json.loads(self.scene.read_text())
+        for node in root["nodes"]:
+            node.pop("camera", None)
+        for part in [*root["images"], *root["buffers"]]:
+            if not part["uri"].startswith("data:"):
+                part["uri"] = "data:;base64," + base64.b64encode((SCENES / part["uri"]).read_bytes()).decode()
+        self.scene.write_text(json.dumps(root))
+        frames = ["--frames", "0:2", "--fps", 2, "--quiet"]
+        self.draw(*frames)
+        self.renders("/dev/stdin", "-o", self.folder / "p.##.exr", *SMALL, *frames, input=self.scene.read_text())
+        for k in range(3):
+            layers = [Exr(self.folder / f"{name}.{k:02}.exr").layers for name in "xp"]
+            self.assertEqual(*layers, k)
+
     def test_a_turntable_begins_with_the_view_of_a_single_command_and_goes_round(self):
         self.draw("--turntable", 4)
         first, *others = ((self.folder / f"x.{k:02}.exr").read_bytes() for k in range(4))

@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <memory>
 
 #include "gltf/build/animation.h"
 #include "gltf_builder.h"
+#include "image_samples.h"
 
 namespace fragtrace::gltf_test {
 namespace {
@@ -256,6 +259,92 @@ TEST(GltfAnimation, ASamplerThatIsNotThereIsRefused) {
   builder.addTriangle();
   animate(builder, "translation", "VEC3", {0}, {0, 0, 0})["sampler"] = 1;
   EXPECT_TRUE(refusalOf(builder).starts_with("test.gltf: /animations/0/channels/0/sampler: index 1"));
+}
+
+/// A triangle with a picture, whose node moves and whose material changes.
+GltfBuilder movingAndChanging() {
+  GltfBuilder builder;
+  const int corners = builder.addAccessor<float>("VEC2", {0, 0, 1, 0, 0, 1});
+  json& triangle = builder.addTriangle();
+  triangle["material"] = 0;
+  triangle["attributes"]["TEXCOORD_0"] = corners;
+  builder.root["images"] = {{{"uri", "picture.png"}}};
+  builder.root["textures"] = {{{"source", 0}}};
+  builder.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  animate(builder, "translation", "VEC3", {0, 1}, {0, 0, 0, 4, 0, 0});
+  animatePointer(builder, "/materials/0/pbrMetallicRoughness/roughnessFactor", "SCALAR", {0, 1});
+  return builder;
+}
+
+/// As three files: document, buffer and picture.
+std::filesystem::path writeFiles(GltfBuilder& builder, const TemporaryFolder& folder) {
+  builder.root["buffers"] = {{{"byteLength", builder.buffer().size()}, {"uri", "data.bin"}}};
+  folder.write("data.bin", builder.buffer());
+  folder.write("picture.png", std::string(std::begin(samples::kRgba8Png), std::end(samples::kRgba8Png)));
+  return folder.write("a.gltf", builder.text());
+}
+
+void expectSame(const Scene& a, const Scene& b) {
+  EXPECT_EQ(a.space.origin, b.space.origin);
+  EXPECT_EQ(a.vertices.position, b.vertices.position);
+  EXPECT_EQ(a.vertices.texcoord0, b.vertices.texcoord0);
+  EXPECT_EQ(a.bounds.minimum, b.bounds.minimum);
+  EXPECT_EQ(a.materials.at(0).roughnessFactor, b.materials.at(0).roughnessFactor);
+  EXPECT_EQ(a.images.at(0).bytes, b.images.at(0).bytes);
+  EXPECT_EQ(a.images.at(0).name, b.images.at(0).name);
+  EXPECT_EQ(a.animationNames, b.animationNames);
+  EXPECT_EQ(a.warnings, b.warnings);
+}
+
+TEST(GltfAnimation, PosesOfAKeptDocumentNeedNoFile) {
+  const TemporaryFolder folder;
+  GltfBuilder builder = movingAndChanging();
+  builder.root["extensionsUsed"].push_back("EXT_unknown");  // a warning
+  const std::filesystem::path path = writeFiles(builder, folder);
+  std::vector<GltfOptions> poses(4);
+  poses[1].selection.animationTime = 0.5;
+  poses[2].selection.animationTime = 1.0;
+  poses[2].recenterOn = glm::dvec3(1, 2, 3);
+  std::vector<Scene> expected;
+  expected.reserve(poses.size());
+  for (const GltfOptions& pose : poses) expected.push_back(loadGltf(path, pose));
+  EXPECT_NE(expected[0].bounds.minimum, expected[1].bounds.minimum);
+  EXPECT_FALSE(expected[0].warnings.empty());
+
+  for (const size_t first : {0, 1}) {
+    std::shared_ptr<KeptDocument> kept;
+    expectSame(loadGltf(path, poses[first], &kept), expected[first]);
+    for (const char* file : {"a.gltf", "data.bin", "picture.png"})
+      std::filesystem::rename(folder.path() / file, folder.path() / (std::string(file) + ".away"));
+    for (size_t i = 0; i < poses.size(); ++i) expectSame(loadGltf(path, poses[i], &kept), expected[i]);
+    EXPECT_THROW(loadGltf(path, poses[0]), InputError);
+    for (const char* file : {"a.gltf", "data.bin", "picture.png"})
+      std::filesystem::rename(folder.path() / (std::string(file) + ".away"), folder.path() / file);
+  }
+}
+
+TEST(GltfAnimation, AfterAPoseThatFailsTheNextIsRight) {
+  const TemporaryFolder folder;
+  GltfBuilder builder = movingAndChanging();
+  animate(builder, "rotation", "VEC4", {0, 1}, {0, 0, 0, 1, 0, 0, 0, 0});
+  const std::filesystem::path path = writeFiles(builder, folder);
+  GltfOptions right;
+  right.selection.animationTime = 0.5;
+  GltfOptions wrong;
+  wrong.selection.animationTime = 1.0;
+  std::shared_ptr<KeptDocument> kept;
+  const Scene expected = loadGltf(path, right, &kept);
+  EXPECT_THROW(loadGltf(path, wrong, &kept), InputError);
+  expectSame(loadGltf(path, right, &kept), expected);
+}
+
+TEST(GltfAnimation, OnlyAnimatedDocumentsAreKept) {
+  GltfBuilder builder;
+  builder.addTriangle();
+  const TemporaryFolder folder;
+  std::shared_ptr<KeptDocument> kept;
+  EXPECT_EQ(loadGltf(folder.write("still.gltf", builder.text()), {}, &kept).triangles.size(), 1u);
+  EXPECT_EQ(kept, nullptr);
 }
 
 }  // namespace

@@ -42,17 +42,22 @@ class Animation(Case):
         return viewer.until(lambda s: s["animation"]["playing"] == playing, f"playing: {playing}")["animation"]
 
     def test_space_plays_and_pauses_and_the_picture_is_that_of_the_command(self):
-        viewer = self.view(animated(self.folder), *FEW)
+        path = animated(self.folder)
+        viewer = self.view(path, *FEW)
         first = viewer.status()
         self.assertEqual(first["animation"], {"index": 0, "playing": False, "length": 2.0, "time": None})
         viewer.key("space")
         self.playing(viewer)
         moved = viewer.until(lambda s: s["animation"]["time"] > 0.3 and s["answered"] >= first["answered"] + 3, "it moves")
         self.assertLess(moved["animation"]["time"], 2.0)
+        away = path.rename(self.folder / "away")  # the document has been read
+        moved = viewer.until(lambda s: s["error"] or s["answered"] >= moved["answered"] + 5, "it still moves")
+        self.assertEqual(moved["error"], "")
         viewer.key("space")
         time = self.playing(viewer, False)["time"]
         status = viewer.rest(lambda s: s["sides"][0]["samples"] == 2 and s["sides"][0]["width"] == 900)
         self.assertEqual(status["animation"]["time"], time)
+        away.rename(path)
         words = self.shows_the_copied_command(viewer)
         self.assertIn(f"{time:.17g}"[:6], words[words.index("--animation-time") + 1])
         self.assertEqual(status["error"], "")
@@ -98,7 +103,7 @@ class Animation(Case):
         self.assertEqual(self.playing(viewer, False)["time"], 0.5)
 
     def test_a_time_and_a_clip_can_be_chosen(self):
-        viewer = self.view(animated(self.folder), *FEW)
+        viewer = self.view(animated(self.folder), *FEW, "--stage", "flat", "--watch")
         viewer.key("space")
         self.playing(viewer)
         viewer.click("Time")
@@ -111,6 +116,12 @@ class Animation(Case):
         self.assertGreater(after["answered"], before["answered"])
         viewer.key("shift+p")
         self.assertEqual(viewer.rest(lambda s: s["animation"]["index"] == 0)["animation"]["time"], 0)
+        # Poses are those of the file that is watched, as it is now.
+        animated(self.folder, 4.0)
+        viewer.until(lambda s: s["animation"]["length"] == 4.0, "it is loaded again")
+        viewer.click("Time")
+        viewer.rest(lambda s: abs((s["animation"]["time"] or 0) - 2.0) < 0.2 and s["sides"][0]["samples"] == 2 and s["sides"][0]["width"] == 900)
+        self.shows_the_copied_command(viewer)
 
     def test_without_animations_nothing_plays(self):
         viewer = self.view("furnace", *FEW)

@@ -107,8 +107,12 @@ std::vector<SceneNode> namedNodes(const Document& document, const std::vector<Pl
   return nodes;
 }
 
-Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) {
-  Document document = readDocument(path, options);
+Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
+                 std::shared_ptr<KeptDocument>* kept) {
+  std::shared_ptr<KeptDocument> read = kept != nullptr ? std::move(*kept) : nullptr;
+  if (!read) read = std::make_shared<KeptDocument>(readDocument(path, options));
+  const bool keeps = kept != nullptr && !read->animations.empty();
+  Document document = posed(keeps ? lend(*read) : std::move(*read), options.selection);
   Scene scene;
   scene.extensionsUsed = document.model.extensionsUsed;
   scene.sceneNames = document.sceneNames;
@@ -121,6 +125,10 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
   const std::vector<PlacedNode> nodes = placeNodes(document, options.selection.hiddenNodes);
   scene.nodes = namedNodes(document, nodes);
   ShownMeshes shown = showMeshes(document, scene.materials, nodes);
+  if (keeps) {
+    takeBack(document, *read);
+    *kept = std::move(read);
+  }
   document.model.buffers.clear();
   std::vector<PlacedSphere> spheres;
   for (const PlacedNode& node : nodes) {
@@ -160,9 +168,10 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options) 
 
 }  // namespace
 
-Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
+Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options,
+               std::shared_ptr<KeptDocument>* kept) {
   try {
-    return buildScene(path, options);
+    return buildScene(path, options, kept);
   } catch (const InputError&) {
     throw;
   } catch (const UsageError&) {

@@ -289,7 +289,7 @@ void pose(const std::vector<Animation>& animations, const SceneSelection& select
 
 }  // namespace
 
-Document readDocument(const std::filesystem::path& path, const GltfOptions& options) {
+KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& options) {
   Document document(path.string(), options.limits);
   document.access = {path.parent_path(), options.limits.allowExternalFiles};
   Diagnostics& diagnostics = document.diagnostics;
@@ -312,17 +312,36 @@ Document readDocument(const std::filesystem::path& path, const GltfOptions& opti
   decompressPrimitives(root, buffers, codecs, document);
   addDefaultCones(root);
   document.skins = takeSkins(root);
-  const std::vector<Animation> animations = takeAnimations(root);
+  std::vector<Animation> animations = takeAnimations(root);
   document.images = takeImages(root, diagnostics);
   nameBuffers(root, buffers);
   document.model = parseModel(root, buffers, diagnostics);
   checkAccessors(document);
-  if (options.selection.animationTime) {
-    pose(animations, options.selection, root, document);
-  } else if (!options.selection.animation.empty()) {
+  return {std::move(document), std::move(root), std::move(animations)};
+}
+
+Document posed(KeptDocument read, const SceneSelection& selection) {
+  if (selection.animationTime) {
+    pose(read.animations, selection, read.root, read.document);
+  } else if (!selection.animation.empty()) {
     throw UsageError("--animation: needs --animation-time");
   }
-  return document;
+  return std::move(read.document);
+}
+
+KeptDocument lend(KeptDocument& kept) {
+  std::vector<tinygltf::Buffer> buffers = std::move(kept.document.model.buffers);
+  std::vector<ImageSource> images = std::move(kept.document.images);
+  KeptDocument lent = kept;
+  lent.document.model.buffers = std::move(buffers);
+  lent.document.images = std::move(images);
+  lent.document.keepsPictures = true;
+  return lent;
+}
+
+void takeBack(Document& lent, KeptDocument& kept) {
+  kept.document.model.buffers = std::move(lent.model.buffers);
+  kept.document.images = std::move(lent.images);
 }
 
 }  // namespace fragtrace

@@ -1,12 +1,29 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <nlohmann/json.hpp>
+#include <vector>
+
 #include "gltf/gltf.h"
 #include "gltf/read/document.h"
+#include "gltf/read/motion.h"
 
 namespace fragtrace {
 
+struct KeptDocument {
+  Document document;  ///< as the file stands, not posed
+  nlohmann::json root;
+  std::vector<Animation> animations;
+};
+
 /// Reads and checks the document; pictures beside it are not read yet. Throws InputError.
-Document readDocument(const std::filesystem::path& path, const GltfOptions& options);
+KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& options);
+
+/// The document in the pose of the selection. Throws InputError and UsageError.
+Document posed(KeptDocument read, const SceneSelection& selection);
+
+/// A copy for posed(). It takes buffers and pictures with it, since they are large: takeBack() returns them.
+KeptDocument lend(KeptDocument& kept);
+void takeBack(Document& lent, KeptDocument& kept);
 
 }  // namespace fragtrace

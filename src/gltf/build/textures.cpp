@@ -28,14 +28,17 @@ Wrap wrapOf(int mode, const std::string& place, Diagnostics& diagnostics) {
 
 /// The bytes of a picture where it stands, not decoded.
 std::vector<uint8_t> imageBytes(Document& document, int index) {
-  const ImageSource& source = document.images.at(size_t(index));
+  ImageSource& source = document.images.at(size_t(index));
   if (source.bufferView >= 0) {
     const std::span<const uint8_t> bytes = bytesOf(document, source.bufferView);
     return {bytes.begin(), bytes.end()};
   }
-  return document.diagnostics.attempt(pointerTo("images", index, "uri"), [&] {
+  if (!source.bytes.empty()) return source.bytes;
+  std::vector<uint8_t> bytes = document.diagnostics.attempt(pointerTo("images", index, "uri"), [&] {
     return readUri(document.access, source.uri, document.memory.left());
   });
+  if (document.keepsPictures) source.bytes = bytes;
+  return bytes;
 }
 
 /// Warns of a media type, declared for the picture, that its bytes are not of.

@@ -25,6 +25,7 @@ struct ImageSource {
   std::string uri;
   int bufferView = -1;
   std::string mimeType;
+  std::vector<uint8_t> bytes{};  ///< of the URI, where Document::keepsPictures; empty until it is read
 };
 
 struct Document {
@@ -41,9 +42,10 @@ struct Document {
   std::vector<std::string> sceneNames, animationNames, materialVariants;
   std::vector<std::optional<double>> animationSeconds;  ///< as in Scene
   Diagnostics diagnostics;
-  int textureSide;           ///< larger pictures are scaled down
-  bool drawMissingTextures;  ///< pictures that cannot be read are warned of
-  MemoryBudget memory;       ///< what loading may still take
+  int textureSide;             ///< larger pictures are scaled down
+  bool drawMissingTextures;    ///< pictures that cannot be read are warned of
+  bool keepsPictures = false;  ///< their bytes are read once for all poses
+  MemoryBudget memory;         ///< what loading may still take
 };
 
 /// The bytes of a buffer view. Throws InputError if its buffer has none, as a buffer without URI may.
