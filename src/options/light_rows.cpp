@@ -90,9 +90,9 @@ std::vector<OptionRow> lightRows() {
              FRAGTRACE_MEMBER(light.selection), kLightSelectionNames, kEstimator),
       choice(
           "--light-reuse",
-          "how global illumination takes the light sample of a point: one alone (none), one of four by the "
-          "light that they may bring (candidates), or, for what the camera sees, one of those of pixels "
-          "nearby (spatial)",
+          "how a point of global illumination gets its light sample: it draws one (none); it draws four, and "
+          "keeps one by the light that each may bring (candidates); the same, and points that the camera sees "
+          "choose among those of pixels nearby, too (spatial)",
           FRAGTRACE_MEMBER(light.reuse), kLightReuseNames, kEstimator),
       choice("--caustics",
              "trace paths from lamps to smooth glass and metal for the light that these throw on rough "
