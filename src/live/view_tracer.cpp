@@ -382,7 +382,8 @@ bool ViewTracer::work() {
   if (frames.size() > kFrames) frames.erase(frames.begin(), frames.end() - kFrames);
   const double pause = (denoises(*side) ? kFilteredShare : kPublishShare) * publishMs_;
   const bool due = denoisesByOidn(*side) ? side->samples >= 2 * side->shownAt
-                                         : millisecondsSince(side->published) > std::max(kPublishMs, pause) * double(sides_.size());
+                                         : millisecondsSince(side->published) >
+                                               std::max(kPublishMs, pause) * double(sides_.size());
   if (!settled || side->samples == added || due || resting(*side)) publish(*side);
   return true;
 }

@@ -56,7 +56,7 @@ class ViewTracer {
     int samples = 0;
     RenderTimes times;
     double megaRaysPerSecond = 0.0;
-    std::chrono::steady_clock::time_point counted{};  ///< when its rays were
+    std::chrono::steady_clock::time_point counted{};    ///< when its rays were
     std::chrono::steady_clock::time_point published{};  ///< its latest picture
     double error = -1.0;
     int errorAt = 0;    ///< samples when it was estimated

@@ -91,7 +91,8 @@ std::vector<OptionRow> lightRows() {
       choice(
           "--light-reuse",
           "how a point of global illumination gets its light sample: it draws one (none); it draws four, and "
-          "keeps one by the light that each may bring (candidates); the same, and points that the camera sees "
+          "keeps one by the light that each may bring (candidates); the same, and points that the camera "
+          "sees "
           "choose among those of pixels nearby, too (spatial)",
           FRAGTRACE_MEMBER(light.reuse), kLightReuseNames, kEstimator),
       choice("--caustics",
