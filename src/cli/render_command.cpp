@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -130,8 +131,8 @@ int renderOne(const RenderOptions& asked) {
   return outcome == Outcome::Complete ? 0 : kInterruptedStatus;
 }
 
-/// A picture of each of the scene's variants, with its name (or its index, where that is no name of a file)
-/// in the place of #. Returns the status.
+/// A picture of each of the scene's variants, with its name in the place of #, or with its index, where that
+/// is no name of a file, or of several. Returns the status.
 int renderVariants(const RenderOptions& options) {
   RenderOptions own = options;
   own.selection.materialVariant.clear();
@@ -140,9 +141,10 @@ int renderVariants(const RenderOptions& options) {
   int status = 0;
   for (size_t i = 0; i < names.size() && status == 0; ++i) {
     own.selection.materialVariant = std::to_string(i);
-    own.output.file = namedFile(options.output.file, names[i], int(i));
+    const std::string name = std::ranges::count(names, names[i]) == 1 ? names[i] : std::to_string(i);
+    own.output.file = namedFile(options.output.file, name, int(i));
     if (!options.output.statsFile.empty())
-      own.output.statsFile = namedFile(options.output.statsFile, names[i], int(i));
+      own.output.statsFile = namedFile(options.output.statsFile, name, int(i));
     status = renderOne(own);
   }
   return status;

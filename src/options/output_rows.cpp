@@ -195,9 +195,9 @@ std::vector<OptionRow> outputRows() {
            {.effect = Effect::Display, .group = OptionGroup::Encoding}),
       pngDepthRow(),
       choice("--alpha",
-             "how the program that shows a .png lays it over a background: it adds light (linear), or sRGB "
-             "values, as browsers do (display), for which colour and alpha are chosen so that a white page "
-             "shows what light would",
+             "for which programs a .png is: those that blend light (linear), or those that blend sRGB "
+             "values, as "
+             "browsers do (display); then shadows look right over white, and are weaker over dark pages",
              FRAGTRACE_MEMBER(output.alpha), kAlphaNames,
              {.effect = Effect::Display, .group = OptionGroup::Encoding}),
       limit<double>(

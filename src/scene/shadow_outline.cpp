@@ -62,7 +62,7 @@ Polygon thrown(std::span<const glm::dvec3> points, double height, const PlaneLig
 
 std::vector<glm::dvec3> shadowOutline(std::span<const glm::dvec3> points, double height,
                                       std::span<const PlaneLight> lights) {
-  constexpr double kSeen = 0.05;  // share of the light that is missing
+  constexpr double kSeen = 0.1;  // share of the light that is missing
   constexpr int kAngles = 32;
   constexpr int kSteps = 96;
   constexpr double kReach = 6.0;  // in sizes of the scene: longer shadows are cut

@@ -16,7 +16,7 @@ struct PlaneLight {
 };
 
 /// Points on the plane of height `height` (Y, metres, world space) about the shadow that the convex hull of
-/// `points` casts on it: outside of them at least 95 % of the light is there. Empty where there is no shadow.
+/// `points` casts on it: outside of them at least 90 % of the light is there. Empty where there is no shadow.
 std::vector<glm::dvec3> shadowOutline(std::span<const glm::dvec3> points, double height,
                                       std::span<const PlaneLight> lights);
 

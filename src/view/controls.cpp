@@ -145,6 +145,8 @@ void playOrPause(ViewState& state) {
   const int shown = shownAnimation(state);
   if (shown < 0) return;
   state.playback.playing = !state.playback.playing;
+  // Seven pictures a pose would take too long.
+  if (state.playback.playing) state.overview = false;
   const double time = state.sides[0].selection.animationTime.value_or(0.0);
   if (state.playback.playing && time >= animationLength(state)) showAnimation(state, shown, 0.0);
 }
@@ -226,6 +228,7 @@ bool changeWindow(ViewState& state, const Control& control, const Movement& m) {
     case Action::ToggleOverview:
       // A reference has the place of a side.
       state.overview = !state.overview && state.reference.empty();
+      if (state.overview) state.playback.playing = false;
       state.magnifier = {};
       return true;
     case Action::ToggleSplit:

@@ -184,6 +184,11 @@ class Sequences(Case):
         self.assertEqual(sorted(p.name for p in self.folder.glob("[xs].*")), ["s.1.json", "s.Midnight Blue.json", "x.1.exr", "x.Midnight Blue.exr"])
         for name, variant in (("Midnight Blue", "midnight blue"), ("1", "A/B")):
             self.assertEqual((self.folder / f"x.{name}.exr").read_bytes(), self.single("--material-variant", variant), variant)
+        names = root["extensions"]["KHR_materials_variants"]["variants"]
+        names[1]["name"] = names[0]["name"]
+        self.scene.write_text(json.dumps(root))
+        self.renders(self.scene, "-o", self.folder / "z.#.exr", "--quiet", *SMALL, "--material-variant", "all")
+        self.assertEqual(sorted(p.name for p in self.folder.glob("z.*")), ["z.0.exr", "z.1.exr"])
         self.fails(2, "render", self.scene, "-o", self.folder / "y.exr", "--material-variant", "all", says=["--material-variant all: ", "#"])
         self.fails(2, "render", self.scene, "-o", self.folder / "y#.exr", "--turntable", 2, "--material-variant", "all", says=["--material-variant all"])
         self.fails(2, "render", PLANE, "-o", self.folder / "y#.exr", "--material-variant", "all", "--quiet", says=["has no variants"])

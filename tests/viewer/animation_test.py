@@ -53,6 +53,10 @@ class Animation(Case):
         away = path.rename(self.folder / "away")  # the document has been read
         moved = viewer.until(lambda s: s["error"] or s["answered"] >= moved["answered"] + 5, "it still moves")
         self.assertEqual(moved["error"], "")
+        viewer.key("o")  # all stages stand still
+        viewer.until(lambda s: s["overview"] and not s["animation"]["playing"], "all stages")
+        viewer.key("space")
+        viewer.until(lambda s: not s["overview"] and s["animation"]["playing"], "it goes on")
         viewer.key("space")
         time = self.playing(viewer, False)["time"]
         status = viewer.rest(lambda s: s["sides"][0]["samples"] == 2 and s["sides"][0]["width"] == 900)

@@ -28,6 +28,9 @@ class Ends(Case):
         self.assertNotIn(ask, status["messages"])
         viewer.key("Escape")
         viewer.until(lambda s: ask in s["messages"], "the question")
+        viewer.key("j", "j", "Escape")  # another key has taken it back
+        time.sleep(0.5)
+        self.assertIsNone(viewer.process.poll())
         viewer.key("Escape")
         self.ends_well(viewer, viewer.end())
         viewer = self.view("furnace", *FEW)

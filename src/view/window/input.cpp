@@ -80,6 +80,8 @@ std::optional<glm::dvec2> Input::update(ViewState& state, const WindowLayout& la
   layout_ = layout;
   const ImGuiIO& io = ImGui::GetIO();
   for (const Event& event : std::exchange(events_, {})) {
+    const bool isPressed = event.kind == Kind::Key || event.kind == Kind::Button;
+    presses_ += isPressed && event.action == GLFW_PRESS;
     switch (event.kind) {
       case Kind::Key:
         if (!io.WantTextInput || event.action == GLFW_RELEASE) key(event, state, run);

@@ -36,6 +36,8 @@ class Input {
   /// Whether a key is held or something dragged, so that the next frame is not the last.
   bool active() const { return !held_.empty() || button_.code >= 0; }
   std::vector<std::filesystem::path> takeDrops();
+  /// How many keys and buttons have been pressed so far.
+  int presses() const { return presses_; }
 
  private:
   enum class Kind : uint8_t { Key, Button, Cursor, Wheel };
@@ -76,6 +78,7 @@ class Input {
   double lastClickTime_ = -1.0;  ///< seconds; negative: the next click is the first
   double lastUpdate_ = 0.0;
   bool woken_ = true;
+  int presses_ = 0;
   WindowLayout layout_;  ///< of the latest update()
 };
 

@@ -100,6 +100,7 @@ class Window {
   std::vector<RenderOptions> askedSides_;
   glm::ivec2 askedSize_{0};
   bool askedMoving_ = false;
+  int quitAskedAt_ = -2;                                ///< Input::presses() when Escape last asked
   std::deque<double> arrivals_;                         ///< of the first side's pictures in the last second
   std::deque<std::pair<uint64_t, double>> unanswered_;  ///< requests, and when they were made
 };

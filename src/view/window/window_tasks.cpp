@@ -48,7 +48,10 @@ void Window::execute(const Task& task) {
       if (facts_.load.busy && state_.scene) return cancelLoad();
       if (facts_.pick) return executeOnScene({.errand = Errand::Deselect});
       if (state_.fullscreen) return toggleFullscreen();
-      if (!isSeen(facts_.messages, kQuitQuestion, glfwGetTime())) return say(kQuitQuestion);
+      // The press that has come here counts, too.
+      if (input_.presses() != std::exchange(quitAskedAt_, input_.presses()) + 1 ||
+          !isSeen(facts_.messages, kQuitQuestion, glfwGetTime()))
+        return say(kQuitQuestion);
       [[fallthrough]];
     case Errand::Quit:
       glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
