@@ -21,10 +21,10 @@ Path addGuide(Path p, float share, vec3 albedo, vec3 normal) {
   return p;
 }
 
-/// What glass around the point makes of radiance is no matter of its colour.
+/// The tint of the way so far, without what glass around the point makes of radiance.
 vec3 guideTint(Path p) { return kPassesLight ? p.throughput * p.compression : p.throughput; }
 
-/// What is left of the ray ends here, or goes on from here without chance.
+/// The rest of the ray ends here, or goes on from here without chance.
 Path takeGuide(Path p, float depth, vec3 normal) {
   if (p.cameraRay) p.shadowLimit += guideRest(p) * depth;
   p.shadowDirection = normal;

@@ -23,7 +23,8 @@ struct FilmPixel {
   uint32_t flags = 0;
 
   glm::dvec3 mean() const { return sum / double(samples > 0 ? samples : 1); }
-  /// Of the pixel as it is, or laid over white where its shadow is in alpha alone (image/over_white.h).
+  /// The pixel counts as it is, or as laid over white where its shadow is in alpha alone
+  /// (image/over_white.h).
   double luminance() const;
   /// Of the mean's luminance, from samples taken as independent; 0 below two samples.
   double variance() const { return samples > 1 ? m2 / (double(samples) * (double(samples) - 1.0)) : 0.0; }

@@ -12,7 +12,7 @@ namespace fragtrace {
 /// An attribute that such a picture has: its variances are of that luminance.
 inline constexpr const char* kOverWhiteAttribute = "fragtrace:over-white";
 
-/// Whether the picture is one, and has its alpha.
+/// Returns true if the picture is one, and has its alpha.
 bool isOverWhite(const Image& picture);
 
 /// The picture with R, G and B as laid over white.

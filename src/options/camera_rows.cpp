@@ -105,8 +105,7 @@ std::vector<OptionRow> cameraRows() {
       flag("--fit",
            "move the camera, without turning it, until the scene, and the shadow on --shadow-catcher, fill "
            "the picture except for a narrow margin; with --turntable, all pictures use the same distance, "
-           "with "
-           "--frames the same camera, for the scene alone",
+           "with --frames the same camera, for the scene alone",
            FRAGTRACE_MEMBER(camera.overrides.fit), {.effect = Effect::View}),
       vectorRow("--camera-focal-point", "X,Y,Z of the point that the camera looks at",
                 FRAGTRACE_MEMBER(camera.overrides.focalPoint), true, kView),

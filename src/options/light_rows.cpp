@@ -92,8 +92,7 @@ std::vector<OptionRow> lightRows() {
           "--light-reuse",
           "how a point of global illumination gets its light sample: it draws one (none); it draws four, and "
           "keeps one by the light that each may bring (candidates); the same, and points that the camera "
-          "sees "
-          "choose among those of pixels nearby, too (spatial)",
+          "sees choose among those of pixels nearby, too (spatial)",
           FRAGTRACE_MEMBER(light.reuse), kLightReuseNames, kEstimator),
       choice("--caustics",
              "trace paths from lamps to smooth glass and metal for the light that these throw on rough "

@@ -196,8 +196,8 @@ std::vector<OptionRow> outputRows() {
       pngDepthRow(),
       choice("--alpha",
              "for which programs a .png is: those that blend light (linear), or those that blend sRGB "
-             "values, as "
-             "browsers do (display); then shadows look right over white, and are weaker over dark pages",
+             "values, as browsers do (display); then shadows look right over white, and are weaker over dark "
+             "pages",
              FRAGTRACE_MEMBER(output.alpha), kAlphaNames,
              {.effect = Effect::Display, .group = OptionGroup::Encoding}),
       limit<double>(

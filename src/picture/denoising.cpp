@@ -25,7 +25,7 @@ namespace {
 constexpr const char* kFilterAttribute = "fragtrace:denoise";
 constexpr const char* kNoisy = "noisy.";
 
-/// What a filter changes of a picture.
+/// A filter changes these channels of a picture.
 Image seenChannels(const Image& picture) {
   std::vector<std::string> channels{"R", "G", "B"};
   if (isOverWhite(picture)) channels.emplace_back("A");

@@ -12,7 +12,7 @@
 namespace fragtrace {
 
 void Worker::start() {
-  // Where somebody has work for it, it is there, and may be busy for long.
+  // It is there if somebody has work for it, and may be busy for long.
   if (const std::unique_lock lock(mutex_, std::try_to_lock); lock) startLocked();
 }
 

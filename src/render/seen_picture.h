@@ -17,8 +17,8 @@ struct SeenPicture {
   Camera camera;       ///< world space
 };
 
-/// What is behind the surfaces of a picture: a background, which makes it opaque; nothing; or nothing, and a
-/// shadow is in alpha alone, so that it was filtered as laid over white.
+/// A picture has behind its surfaces: a background, which makes it opaque; nothing; or nothing, and a shadow
+/// is in alpha alone, so that it was filtered as laid over white.
 enum class Behind { Background, Nothing, White };
 
 /// Its programs, which one context holds. Rows of films and of what is made of them go up; those of what is
@@ -42,7 +42,7 @@ class SeenPasses {
   void join(const NoisyTextures& fresh, const SeenPicture& now, const SeenPicture& past, double most,
             PicturePasses& passes);
 
-  /// What `share` of the filtered picture and the rest of the raw one make, into `shown`.
+  /// Mixes `share` of the filtered picture with the rest of the raw one, into `shown`.
   void show(const GlTexture& raw, const GlTexture& filtered, double share, Behind behind, glm::ivec2 size,
             const GlTexture& shown, PicturePasses& passes);
   /// The film as it is.

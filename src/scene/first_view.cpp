@@ -32,7 +32,7 @@ Facing facingOf(const Scene& scene, size_t first, size_t count) {
   return facing;
 }
 
-/// Of all that is drawn but strokes, which face the camera anyway; local space, whose axes are the world's.
+/// Strokes do not count, which face the camera anyway. The space is local, its axes are the world's.
 Facing facingOf(const Scene& scene) {
   Facing facing = facingOf(scene, 0, flatTriangleCount(scene) - scene.strokeTriangles);
   std::vector<Facing> meshes;

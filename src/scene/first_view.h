@@ -10,8 +10,9 @@ namespace fragtrace {
 /// show would be seen along its edge there.
 Orbit firstView(const Scene& scene);
 
-/// What is asked for; in a scene without a camera, for which neither a position nor an orbit is asked for,
-/// with firstView(). The scene then fills the picture, unless a focal point or a scale is asked for.
+/// The overrides that are asked for. firstView() is added where the scene has no camera, and neither a
+/// position nor an orbit is asked for. The scene then fills the picture, unless a focal point or a scale is
+/// asked for.
 CameraOverrides settledOverrides(CameraOverrides asked, const Scene& scene);
 
 }  // namespace fragtrace
