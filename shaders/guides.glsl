@@ -56,6 +56,8 @@ Path guideAt(Path p, Surface s, uint flags, vec4 base) {
   if (kSmoothSurfaces) m = materialAt(s.material, base.rgb, s.texcoords);
   bool follows = kSmoothSurfaces && p.bounce < kGuideScatterings && m.roughness * m.roughness < kGuideAlpha;
   bool refracts = kRefraction && follows && m.transmission * (1.0 - m.metallic) > 0.5;
+  // Milk hides what is behind it.
+  if (kScattering) refracts = refracts && (flags & kMaterialScatters) == 0u;
   if (kRefraction && refracts) return proceed(scatterGlass(p, s, m, normal, 0.5));
   if (kReflections && follows && m.metallic > 0.5) return proceed(scatterMirror(p, s, m, normal, 1.0));
   return guideStop(p, base.rgb);

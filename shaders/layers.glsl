@@ -86,9 +86,11 @@ vec3 diffuseUnderLayers(Bsdf b, vec3 outgoing, vec3 incoming) {
   return value * ((1.0f - coatShare(b, outgoing)) * underSheen(b, outgoing, incoming));
 }
 
-/// Weight of the light that a smooth thin wall lets straight through, as often as sampleBsdf draws that direction.
+/// Weight of the light that a smooth thin wall, or a boundary between equal indices, lets straight through, as often as
+/// sampleBsdf draws that direction.
 vec3 straightThrough(Bsdf b, vec3 outgoing) {
-  if (!kTransmission || b.solid || !isSmoothGlass(b)) return vec3(0.0f);
+  bool bends = b.solid && !(kMatchedGlass && abs(b.eta - 1.0f) < kEqualIndices);
+  if (!kTransmission || bends || !isSmoothGlass(b)) return vec3(0.0f);
   vec3 weight = (b.glass * (1.0f - glassFresnel(b, outgoing.z))) * b.baseColor;
   return weight * ((1.0f - coatShare(b, outgoing)) * underSheen(b, outgoing, -outgoing));
 }

@@ -45,8 +45,9 @@ const uint kWaveLaneRows = kWaveSlots * kPathRows + 1u;
 // A draw of the compute entries has a multiple of so many work groups (work_group.glsl).
 const uint kWorkGroupHands = 8u;
 
-// The uniform block of one draw.
+// The uniform block of one draw, and that of the scene's fog.
 const uint kFrameBinding = 0u;
+const uint kFogBinding = 1u;
 
 // What a program draws in place of radiance (kFeature); as enum Feature of src/stage/feature.h.
 const int kFeatureNone = 0;
@@ -111,7 +112,7 @@ const uint kMaterialBaseColor = 0u;    // base colour factor
 const uint kMaterialEmission = 1u;     // radiance, alpha cutoff
 const uint kMaterialSurface = 2u;      // metallic, roughness, index of refraction, transmission
 const uint kMaterialSpecular = 3u;     // specular colour, specular factor
-const uint kMaterialVolume = 4u;       // absorption coefficient (1 / local space), 1 + table of rough glass or 0: thin
+const uint kMaterialVolume = 4u;       // extinction coefficient (1 / local space), 1 + table of rough glass or 0: thin
 // normal scale, occlusion strength, emitter density (1 / area in local space), flags
 const uint kMaterialMaps = 5u;
 const uint kMaterialPerlin = 6u;       // frequency, amplitude, octaves; and the number of the glTF material, from 1
@@ -133,14 +134,19 @@ const uint kSlotIridescence = 13u;
 const uint kSlotIridescenceThickness = 14u;
 const uint kSlotDiffuseTransmission = 15u;
 const uint kSlotDiffuseTransmissionColor = 16u;
-const uint kSlotCount = 17u;
+const uint kSlotScatterStrength = 17u;
+const uint kSlotMultiscatterColor = 18u;
+const uint kSlotCount = 19u;
 // What extensions add; read only where a material of the scene has them.
 const uint kMaterialClearcoat = kMaterialTextures + kSlotCount;       // weight, roughness, normal scale, dispersion
 const uint kMaterialSheen = kMaterialClearcoat + 1u;                  // colour, roughness
 const uint kMaterialAnisotropy = kMaterialSheen + 1u;                 // strength, cosine and sine of the rotation
 const uint kMaterialIridescence = kMaterialAnisotropy + 1u;           // weight, index, least and largest thickness (nm)
 const uint kMaterialDiffuseTransmission = kMaterialIridescence + 1u;  // colour, weight
-const uint kMaterialRows = kMaterialDiffuseTransmission + 1u;
+// Of a solid: albedo of one scattering, anisotropy. Of a thin wall: multiscatter colour, anisotropy.
+const uint kMaterialScatter = kMaterialDiffuseTransmission + 1u;
+const uint kMaterialScatterStrength = kMaterialScatter + 1u;  // of a thin wall
+const uint kMaterialRows = kMaterialScatterStrength + 1u;
 
 // Cells along each axis of the tables of energy and of sheen, which stand behind the materials and the transforms of
 // textures. Behind them all are the numbers of objects (kObjectNumbers), four a row: one a leaf slot, then one an
@@ -153,6 +159,7 @@ const uint kMaterialBlend = 2u;
 const uint kMaterialDoubleSided = 4u;
 const uint kMaterialUnlit = 8u;
 const uint kMaterialSpecularGlossiness = 16u;
+const uint kMaterialScatters = 64u;  // a solid inside of which light is scattered
 const uint kMaterialCaster = 32u;  // its single directions make caustics that light paths draw (src/scene/casters.h)
 
 const int kMostCasters = 16;  // balls round what makes caustics
@@ -238,6 +245,13 @@ struct Frame {
   // radiance
   vec4 catcherLight;
   vec4 lens;            // of the camera, local space: radius, distance in focus along the view; blades
+};
+
+// Fog in a ball round the scene (media/fog.glsl); std140.
+struct Fog {
+  vec4 ball;     // local space: middle, radius
+  vec4 medium;   // albedo of one scattering, anisotropy
+  vec4 density;  // extinction at the base and below (1 / local space); 1 / the height in which it falls by e; base
 };
 
 // What one draw reports.

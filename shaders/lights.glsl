@@ -9,8 +9,6 @@ struct LightSample {
   float density;    // over solid angle, the chance of choosing this light counted in
 };
 
-const float kFarAway = float(3.0e38);
-
 LightSample makeLight(vec3 direction, float distance, vec3 irradiance, float density) {
   LightSample s;
   s.direction = direction;

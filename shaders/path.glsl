@@ -4,9 +4,6 @@
 /// Paths scatter, so that --bounces can end them.
 const bool kScatters = kGi || kReflections || kRefraction;
 
-/// Radiance, or a part of it: paths are traced to their ends.
-const bool kDrawsLight = kFeature == kFeatureNone || kLightPart;
-
 /// What is drawn are numbers of parts of the scene, which have no mean: they are those of the pixel's middle.
 const bool kCountsParts = kFeature == kFeatureObject || kFeature == kFeatureMaterial;
 
@@ -21,12 +18,15 @@ const uint kRouletteDimension = 3u;
 const uint kLightDimension = 4u;  // to 7
 const uint kReuseDimension = 8u;  // to 10
 const uint kGlassDimension = 12u;
+const uint kFlightDimension = 13u;
+const uint kFlightDimensions = 0x80000000u;  // hashed; 4,096 a bounce
 
 /// The most that roulette lets a path at smooth glass survive by, and the scattering from which on it always decides.
 /// Paths through glass that absorbs nothing get fewer by a factor from each scattering to the next; were that factor
 /// above the survival, their variance would be infinite.
 const float kClearSurvival = 0.99;
 const int kLatestRoulette = 1000;
+const float kMediumSurvival = 0.999;  // from kLatestRoulette on
 
 /// Of light paths; those of their bounces are those of camera paths.
 const uint kAimDimensions = 0u;     // to 1
@@ -54,6 +54,8 @@ float dispersedIor(Path p, uint material) {
   return max(1.0, ior + float(pathChannel(p) - 1) * halfSpread);
 }
 
+#include "media/medium.glsl"
+
 /// Starts a traversal of a ray up to its limit, keeping the step count of this draw.
 Path traceAnew(Path p, float limit) {
   int steps = p.traversal.steps;
@@ -76,7 +78,7 @@ Path tracePast(Path p, float limit, float t, int slot) {
 Path extend(Path p) {
   p.phase = kPhaseExtend;
   p.lightSlot = 0;
-  p = traceAnew(p, kFarAway);
+  p = traceAnew(p, kMedia ? flightLimit(p, 0.0) : kFarAway);
   if (kCreases) p.traversal.tie = p.tie;
   if (kLightPaths) p.traversal.both = true;
   return p;
@@ -137,16 +139,17 @@ vec3 clampIndirect(vec3 light, int scatterings) {
 
 /// Scatterings that --bounces limits. Those at smooth glass end by roulette alone: a thick rim or nested glasses take
 /// dozens.
-int limitedScatterings(Path p) { return kTransmission ? p.bounce - p.clear : p.bounce; }
+int limitedScatterings(Path p) { return kTransmission || kMedia ? p.bounce - p.clear : p.bounce; }
 
 /// Those that --clamp-indirect counts: what is seen straight through thin walls is as direct as without them.
-int countedScatterings(Path p) { return kThinGlass ? p.bounce - p.walls : p.bounce; }
+int countedScatterings(Path p) { return kThroughGlass ? p.bounce - p.walls : p.bounce; }
 
 /// Whether the shadow ray of a light sample passes thin walls: where the path itself could go there, and go on behind
 /// them. Inside of a solid it does not, since paths there lose light from wall to wall.
 bool passesWalls(Path p, Surface s, SurfaceMaterial m, vec3 direction) {
   bool crosses = m.solid && dot(direction, s.geometricNormal) < 0.0;
   bool inside = crosses ? s.front : p.medium != kPrimitiveNone;
+  if (kMatchedGlass) inside = !isOpen(mediumTowards(p, s, direction));
   return !inside && limitedScatterings(p) < frame.limits.x;
 }
 
@@ -237,6 +240,7 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
   p.after = kPhaseEnd;
   if (maxComponent(p.throughput) <= 0.0) return p;
   bool clear = kTransmission && density == 0.0 && m.transmission * (1.0 - m.metallic) > 0.0;
+  bool open = !kMatchedGlass || isOpen(p.medium);
   if (transmitted && m.solid) {
     p.medium = s.front ? s.material : kPrimitiveNone;
     float squared = m.ior * m.ior;
@@ -257,6 +261,7 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
   if (roulette) p.throughput /= survival;
   p.cameraRay = false;
   bool wall = kThinGlass && clear && transmitted && !m.solid && p.medium == kPrimitiveNone;
+  if (kMatchedGlass) wall = clear && transmitted && open && (!m.solid || isMatched(s.material));
   if (kCaustics) p.chain = nextChain(p, s.material, density == 0.0, wall);
   // Straight through a thin wall the path keeps its ray, and the density that light sampling shares with it.
   if (wall) {
@@ -279,10 +284,10 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
 Path proceed(Path p) {
   p.phase = p.after;
   if (p.phase == kPhaseExtend) p = extend(p);
-  if (kThinGlass && p.phase == kPhasePass) {
+  if (kThroughGlass && p.phase == kPhasePass) {
     p.phase = kPhaseExtend;
     p.lightSlot = 0;
-    p = tracePast(p, kFarAway, p.hitT, p.hitSlot);
+    p = tracePast(p, kMedia ? flightLimit(p, p.hitT) : kFarAway, p.hitT, p.hitSlot);
   }
   return p;
 }
@@ -302,18 +307,20 @@ vec3 emittedAt(Path p, Surface s, uint flags) {
   return radiance * misWeight(p.density, density);
 }
 
-/// Sets up the shadow ray of a light sample that would add `value`; without shadows it is added at once.
-Path connect(Path p, Surface s, LightSample light, vec3 value) {
+/// Sets up the shadow ray of a light sample of a point that would add `value`; without shadows it is added at once. The
+/// ray begins at `origin`, beside the point.
+Path connectFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3 value) {
   if (maxComponent(value) <= 0.0) return p;
   value = clampIndirect(value, countedScatterings(p) + 1);
+  if (kMedia && !kShadows) value *= transmittance(p.shadowMedium, point, light.direction, 0.0, light.distance);
   if (!kShadows) return addLight(p, value);
   p.contribution = kLightPart ? p.part * value : value;
-  p.shadowOrigin = offsetOrigin(s.position, s.positionError, s.geometricNormal, light.direction);
+  p.shadowOrigin = origin;
   p.shadowDirection = light.direction;
   p.shadowLimit = kFarAway;
   if (light.distance < kFarAway) {
     // The ray begins beside the point, and is aimed anew: near a light, a parallel one would end behind it.
-    vec3 towards = light.distance * light.direction - (p.shadowOrigin - s.position);
+    vec3 towards = light.distance * light.direction - (origin - point);
     float distance = length(towards);
     p.shadowDirection = distance > 0.0 ? towards / distance : light.direction;
     // The light's own surface is kept out by a relative margin above the rounding of the point chosen on it.
@@ -321,4 +328,11 @@ Path connect(Path p, Surface s, LightSample light, vec3 value) {
   }
   p.phase = kPhaseShadow;
   return traceAnew(p, p.shadowLimit);
+}
+
+/// The same of a point of a surface.
+Path connect(Path p, Surface s, LightSample light, vec3 value) {
+  if (kMedia) p.shadowMedium = mediumTowards(p, s, light.direction);
+  vec3 origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, light.direction);
+  return connectFrom(p, s.position, origin, light, value);
 }

@@ -16,14 +16,14 @@ const int kRowContribution = 8;     // contribution, instance of the hit
 // kPassingRows:
 const int kRowShadowHit = 9;        // of the shadow ray, or of a traversal that is suspended: distance, slot, weights
 const int kRowPast = 10;            // what the ray and the shadow ray have passed through: distance and slot of each
-const int kRowCrossings = 11;       // crossings, instance of the row of the shadow ray's hit, instance that is walked
+const int kRowCrossings = 11;       // crossings, instance of the row of the shadow ray's hit, that is walked; shadow medium
 // kResumable:
 const int kRowSuspended = 12;       // node of the traversal, light slot, more flags, visits
 const int kRowStack = 13;
 const int kRowPart = kRowStack + kStackSize / 4;  // kPartRow
 
 const bool kShadowRows = kShadows || kPassesLight || kInstances || kResumable;
-const bool kPassingRows = kPassing || kResumable;
+const bool kPassingRows = kPassing || kResumable || kMedia;
 
 /// Path.part is kept from draw to draw.
 const bool kPartRow = kLightPart || kLightPaths;
@@ -35,13 +35,13 @@ const int kSuspendedRows = kRowPart + (kPartRow ? 1 : 0);
 uint scatteringsOf(Path p) { return uint(p.bounce) | (kCaustics ? uint(p.chain) << 30 : 0u); }
 
 /// Both counts in a word: roulette ends a path long before either is 65,535.
-uint clearOf(Path p) { return uint(p.clear) | (kThinGlass ? uint(p.walls) << 16 : 0u); }
+uint clearOf(Path p) { return uint(p.clear) | (kThroughGlass ? uint(p.walls) << 16 : 0u); }
 
 Path withCounts(Path p, uint scatterings, uint clear) {
   p.bounce = int(kCaustics ? scatterings & 0x3fffffffu : scatterings);
   p.chain = int(kCaustics ? scatterings >> 30 : 0u);
-  p.clear = int(kThinGlass ? clear & 0xffffu : clear);
-  p.walls = int(kThinGlass ? clear >> 16 : 0u);
+  p.clear = int(kThroughGlass ? clear & 0xffffu : clear);
+  p.walls = int(kThroughGlass ? clear >> 16 : 0u);
   return p;
 }
 
@@ -66,7 +66,7 @@ void savePath(Path p, int row, bool begins) {
   if (kPassingRows) {
     Traversal t = p.traversal;
     pathStates[row + kRowPast] = uvec4(floatBitsToUint(t.past), uint(t.pastSlot), 0u, 0u);
-    pathStates[row + kRowCrossings] = uvec4(uint(p.crossings), uint(t.hitInstance), uint(t.instance), 0u);
+    pathStates[row + kRowCrossings] = uvec4(uint(p.crossings), uint(t.hitInstance), uint(t.instance), p.shadowMedium);
   }
 }
 
@@ -106,6 +106,10 @@ Path loadPath(int row, uint key) {
     p.hitInstance = int(a.w);
   }
   if (kPassingRows) p.crossings = int(readPathStates(row + kRowCrossings).x);
+  if (kMedia) {
+    p.shadowMedium = readPathStates(row + kRowCrossings).w;
+    p.traversal.past = uintBitsToFloat(readPathStates(row + kRowPast).x);
+  }
   return p;
 }
 

@@ -16,13 +16,23 @@ const int kChainNone = 0;
 const int kChainRough = 1;   // scattered by a rough surface first, and only straight through thin walls since
 const int kChainSingle = 2;  // and by casters of caustics since, each a single direction
 
+/// Radiance, or a part of it: paths are traced to their ends.
+const bool kLightPart = kFeature == kFeatureEmission || kFeature == kFeatureDiffuse || kFeature == kFeatureSpecular;
+const bool kDrawsLight = kFeature == kFeatureNone || kLightPart;
+
+/// Light may be scattered between surfaces (media/).
+const bool kMedia = (kScattering || kFog) && kDrawsLight;
+
+/// Light may go straight through smooth glass, and shadow rays with it.
+const bool kThroughGlass = kThinGlass || kMatchedGlass;
+
 struct Path {
   int phase;
   int after;       // the phase that follows once the shadow ray is settled
   int lightSlot;
   int bounce;      // scatterings so far
-  int clear;       // of these, at smooth glass (kTransmission)
-  int walls;       // of these, straight through thin walls (kThinGlass)
+  int clear;       // of these, at smooth glass (kTransmission) and in media: --bounces does not limit them
+  int walls;       // of these, straight through glass (kThroughGlass)
   int crossings;   // meetings with surfaces, where there is alpha; see nextCrossing
   int rays;        // traced so far
   ivec2 pixel;     // of the film (kLightRecords, kNeighbours)
@@ -30,7 +40,7 @@ struct Path {
   bool oneChannel; // dispersion has left one of red, green and blue (kDispersion)
   bool cameraRay;  // nothing but alpha has touched the path yet
   bool caught;     // it has met the shadow catcher (kShadowCatcher)
-  bool throughWalls;  // the shadow ray passes thin walls (kThinGlass)
+  bool throughWalls;  // the shadow ray passes glass that does not bend it (kThroughGlass)
   int chain;          // how far it is one whose end light paths find, kChain* (kCaustics)
   bool clearFirst;    // of a light path: it has met smooth glass first (kLightPaths)
   bool covered;    // a camera ray has hit a surface
@@ -46,6 +56,7 @@ struct Path {
   vec3 shadowOrigin;
   vec3 shadowDirection;
   float shadowLimit;
+  uint shadowMedium;  // that the shadow ray is inside of, as `medium` (kMedia)
   // of the light that is still to come, how much belongs to the part that is drawn (kLightPart); of a light path, where
   // in the picture the camera sees its end (kLightPaths)
   vec3 part;
@@ -56,9 +67,6 @@ struct Path {
   vec2 hitWeights;  // barycentric (kWeights)
   Traversal traversal;
 };
-
-/// What is drawn is a part of the radiance.
-const bool kLightPart = kFeature == kFeatureEmission || kFeature == kFeatureDiffuse || kFeature == kFeatureSpecular;
 
 /// A path on which nothing has happened; its ray is still to be set.
 Path newPath() {
@@ -89,6 +97,7 @@ Path newPath() {
   p.shadowOrigin = vec3(0.0);
   p.shadowDirection = vec3(0.0, 0.0, 1.0);
   p.shadowLimit = 0.0;
+  p.shadowMedium = kPrimitiveNone;
   p.part = vec3(kFeature == kFeatureDiffuse || kFeature == kFeatureSpecular ? 0.0 : 1.0);
   p.contribution = vec3(0.0);
   p.hitSlot = -1;

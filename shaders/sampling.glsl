@@ -4,6 +4,9 @@
 const float kPi = float(3.14159265358979324);
 const float kInversePi = float(0.318309886183790672);
 
+/// The distance of what is not at any place.
+const float kFarAway = float(3.0e38);
+
 struct Frame3 {
   vec3 tangent;
   vec3 bitangent;

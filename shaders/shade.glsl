@@ -103,7 +103,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
       weight = environment ? balanceWeight(light.density, value.density) : misWeight(light.density, value.density);
     }
     if (kLightPart && p.bounce == 0) p.part = partScattered(b, outgoing, incoming);
-    if (kThinGlass) p.throughWalls = passesWalls(p, s, m, light.direction);
+    if (kThroughGlass) p.throughWalls = passesWalls(p, s, m, light.direction);
     p = connect(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
   }
   BsdfSample next = sampleBsdf(b, outgoing, choice, uv.x, uv.y);
@@ -174,7 +174,8 @@ vec3 normalFacing(Surface s, vec3 outgoing) {
 /// What of the light on a shadow ray a surface lets straight through: the weight with which a path along it would pass.
 vec3 lightThrough(Surface s, vec3 baseColor, vec3 direction) {
   SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
-  if (m.solid || m.transmission * (1.0 - m.metallic) <= 0.0) return vec3(0.0);
+  if (m.transmission * (1.0 - m.metallic) <= 0.0) return vec3(0.0);
+  if (m.solid && !(kMatchedGlass && isMatched(s.material))) return vec3(0.0);
   if (kUnlit && (materialFlags(s.material) & kMaterialUnlit) != 0u) return vec3(0.0);
   Bsdf b = baseBsdf(m, s.front);
   vec3 anisotropy = kAnisotropy ? anisotropyAt(s.material, s.texcoords) : vec3(0.0);
@@ -214,6 +215,14 @@ vec3 featureAt(Surface s, int slot, int instance, vec3 baseColor, vec3 outgoing)
 #include "guides.glsl"
 #include "caustics/light_path.glsl"
 
+/// A path whose ray has been inside of a solid without knowing it.
+Path standInside(Path p, uint medium) {
+  float ior = dispersedIor(p, medium);
+  if (p.cameraRay) p.compression = ior * ior;
+  p.medium = medium;
+  return p;
+}
+
 /// One step at the point hit. The first visit also settles alpha, absorption and emission.
 Path shade(Path p) {
   Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights);
@@ -221,9 +230,22 @@ Path shade(Path p) {
   vec4 base = baseColorAt(s.material, s.texcoords, s.color);
   bool first = p.lightSlot == 0;
   if (kFeature == kFeatureGuides) return guideAt(p, s, flags, base);
+  if (kMedia && first) {
+    // The flight has not known of this medium: it begins where the ray does.
+    uint medium = mediumBefore(s, p.medium);
+    bool unknown = kScattering && medium != p.medium;
+    if (unknown) p = standInside(p, medium);
+    float end = kFarAway;
+    if (unknown) end = flightEnd(p, flightBegin(p), hashFloat(p.numbers, kFlightDimensions + 0xfffu));
+    if (end < p.hitT) {
+      p.hitT = end;
+      return scatterInMedium(p);
+    }
+    p = passMedium(p);
+  }
   if (kAlpha && first && passesThrough(flags, alphaAt(s.material, flags, base.a), p.numbers, nextCrossing(p))) {
     p.phase = kPhaseExtend;
-    return tracePast(p, kFarAway, p.hitT, p.hitSlot);
+    return tracePast(p, kMedia ? flightLimit(p, p.hitT) : kFarAway, p.hitT, p.hitSlot);
   }
   if (p.cameraRay) p.covered = true;
   if (!kDrawsLight) {
@@ -236,7 +258,7 @@ Path shade(Path p) {
     float ior = dispersedIor(p, s.material);
     p.compression = ior * ior;
   }
-  if (kAbsorption && first) {
+  if (kAbsorption && !kMedia && first) {
     // A back face of a solid says what the segment went through even if the camera stands inside.
     bool leaving = !s.front && materialFloats(s.material, kMaterialVolume).w > 0.0;
     uint medium = leaving ? s.material : p.medium;
@@ -276,12 +298,17 @@ Path settleShadow(Path p) {
     uint flags = materialFlags(s.material);
     vec4 base = baseColorAt(s.material, s.texcoords, s.color);
     passes = kAlpha && passesThrough(flags, alphaAt(s.material, flags, base.a), p.numbers, nextCrossing(p));
-    if (kThinGlass && p.throughWalls && !passes) {
+    bool holes = passes;
+    if (kThroughGlass && p.throughWalls && !passes) {
       p.contribution *= lightThrough(s, base.rgb, p.shadowDirection);
       passes = maxComponent(p.contribution) > 0.0;
     }
+    if (kMedia && passes) {
+      p.contribution *= shadowTransmittance(p, mediumBefore(s, p.shadowMedium), p.traversal.t);
+      if (!holes && isSolid(s.material)) p.shadowMedium = s.front ? s.material : kPrimitiveNone;
+    }
   }
   if (kPassing && passes) return tracePast(p, p.shadowLimit, p.traversal.t, slot);
-  if (slot < 0) p.radiance += p.contribution;
+  if (slot < 0) p.radiance += kMedia ? arrivingLight(p) : p.contribution;
   return proceed(p);
 }

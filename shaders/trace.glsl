@@ -76,7 +76,12 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "film.glsl"
 #include "path_state.glsl"
 #include "path_rows.glsl"
+#include "media/phase.glsl"
+#include "media/flight.glsl"
+#include "media/fog.glsl"
+#include "media/fog_block.glsl"
 #include "path.glsl"
+#include "media/scatter.glsl"
 #include "reuse/candidates.glsl"
 #include "reuse/reservoir.glsl"
 #include "reuse/neighbours.glsl"
@@ -127,6 +132,8 @@ Path meet(Path p) {
     p.phase = kPhaseEnd;
   } else if (kShadowCatcher && meetsCatcher(p, p.hitSlot < 0 ? kFarAway : p.hitT)) {
     p = meetCatcher(p);
+  } else if (kMedia && p.hitSlot < 0 && p.hitT < kFarAway) {
+    p = scatterInMedium(p);
   } else if (p.hitSlot < 0) {
     p = meetSurroundings(p);
   } else {

@@ -7,7 +7,7 @@
 // pictures are the same bits where a compiler keeps to the text.
 
 /// Rows of a path.
-const int kWaveRows = int(kPassing ? kPathRows : kPathRows - kPathPassingRows);
+const int kWaveRows = int(kPassingRows ? kPathRows : kPathRows - kPathPassingRows);
 
 const int kWaveSamples = 64;  // the most samples a round that end in the surroundings at once
 
@@ -34,12 +34,21 @@ int rowOf(Wave v, int k) { return v.first + k * kWaveRows; }
 
 uint keyOf(Wave v, int k) { return keyOfPixel(v.corner + ivec2(0, k)); }
 
+/// What the shadow ray has passed.
+Path loadShadowPast(Path p, int row) {
+  p.traversal.past = uintBitsToFloat(readPathStates(row + kRowPast).z);
+  return p;
+}
+
 /// The path of pixel k, with what its shadow ray has let through.
 Path takeUp(inout Wave v, int k) {
   Path p = loadPath(rowOf(v, k), keyOf(v, k));
   uint bit = 1u << k;
   bool waited = (v.waiting & bit) != 0u;
-  p.radiance += waited && (v.blocked & bit) == 0u ? p.contribution : vec3(0.0);
+  bool arrives = waited && (v.blocked & bit) == 0u;
+  vec3 light = p.contribution;
+  if (kMedia && arrives) light = arrivingLight(loadShadowPast(loadShadow(p, rowOf(v, k)), rowOf(v, k)));
+  p.radiance += arrives ? light : vec3(0.0);
   p.rays += waited ? 1 : 0;
   v.waiting &= ~bit;
   v.blocked &= ~bit;
@@ -73,6 +82,9 @@ Traversal beginShadow(Path p, TreeFrame tree) {
   return beginRay(p.shadowOrigin, p.shadowDirection, p.shadowLimit, p.traversal, !kPassing, tree);
 }
 
+/// A ray has met a surface, or may be scattered by a medium: it is shaded.
+bool isMeeting(Traversal t) { return t.slot >= 0 || kMedia; }
+
 /// Notes what a shadow ray has met before the tree, and whether it is to be traced. Where light may pass what it has
 /// met, it is done when that was asked, in the next round.
 Wave sendShadow(Wave v, uint bit, int row, Traversal t) {
@@ -89,8 +101,8 @@ Wave sendShadow(Wave v, uint bit, int row, Traversal t) {
 Wave sendRay(Wave v, uint bit, Traversal t) {
   bool done = t.node == kTraversalDone;
   v.rays |= done ? 0u : bit;
-  v.hits |= done && t.slot >= 0 ? bit : 0u;
-  v.misses |= done && t.slot < 0 ? bit : 0u;
+  v.hits |= done && isMeeting(t) ? bit : 0u;
+  v.misses |= done && !isMeeting(t) ? bit : 0u;
   return v;
 }
 
@@ -102,10 +114,12 @@ Wave passShadows(Wave v, uint left, TreeFrame tree) {
     int row = rowOf(v, k);
     v.steps += 1;
     Path p = loadShadow(loadPath(row, keyOf(v, k)), row);
+    if (kMedia) p = loadShadowPast(p, row);
     p.phase = kPhaseShadow;
     p = settleShadow(p);
     pathStates[row + kRowCrossings].x = uint(p.crossings);
-    if (kThinGlass) pathStates[row + kRowContribution].xyz = floatBitsToUint(p.contribution);
+    if (kThroughGlass || kMedia) pathStates[row + kRowContribution].xyz = floatBitsToUint(p.contribution);
+    if (kMedia) pathStates[row + kRowCrossings].w = p.shadowMedium;
     if (p.phase == kPhaseShadow) {
       uint bit = 1u << k;
       pathStates[row + kRowCounts].y += 1u;
@@ -128,7 +142,7 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
     Path p = takeUp(v, k);
     p.rays += 1;
     p.pixel = v.corner + ivec2(0, k);
-    p = shade(p);
+    p = kMedia ? meet(p) : shade(p);
     v.cut += cutThroughput(p);
     bool shadow = kShadows && p.phase == kPhaseShadow;
     Traversal s = p.traversal;
@@ -182,7 +196,7 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
       p = beginSample(film, pixel, keyOf(v, k), 0);
       Traversal t = beginExtension(p, tree);
       samples += 1;
-      more = t.node == kTraversalDone && t.slot < 0 && samples < kWaveSamples;
+      more = t.node == kTraversalDone && !isMeeting(t) && samples < kWaveSamples;
       if (!more) {
         p.traversal = t;
         savePath(withHit(p, t), row, true);
@@ -200,8 +214,8 @@ Wave settleRay(Wave v, Traversal t, int current, bool isShadow) {
   int row = rowOf(v, current);
   bool met = t.slot >= 0;
   v.blocked |= isShadow && met ? bit : 0u;
-  v.hits |= !isShadow && met ? bit : 0u;
-  v.misses |= !isShadow && !met ? bit : 0u;
+  v.hits |= !isShadow && isMeeting(t) ? bit : 0u;
+  v.misses |= !isShadow && !isMeeting(t) ? bit : 0u;
   if (kPassing || !isShadow) {
     pathStates[row + (isShadow ? kRowShadowHit : kRowHit)] = metBy(t);
     if (kInstances && !isShadow) pathStates[row + kRowContribution].w = uint(t.hitInstance);
@@ -230,6 +244,7 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
       origin = a.xyz;
       direction = uintBitsToFloat(readPathStates(row + (isShadow ? kRowShadowDirection : kRowDirection))).xyz;
       limit = isShadow ? a.w : kFarAway;
+      if (kMedia && !isShadow) limit = uintBitsToFloat(readPathStates(row + kRowHit).x);
       t = startTraversal(limit, frame.limits.w);
       if (kCreases) t.tie = isShadow ? 0.0 : a.w;
       if (kPassing) {

@@ -73,6 +73,15 @@ void checkLens(const LensOptions& lens) {
   if (!lens.fStop && lens.blades > 0) throw UsageError("--aperture-blades: goes with --f-stop");
 }
 
+void checkFog(const RenderOptions& o) {
+  FogOptions more = o.fog;
+  more.density = 0.0;
+  if (o.fog.density <= 0.0 && more != FogOptions())
+    throw UsageError("--fog-color, --fog-anisotropy, --fog-height, --fog-distance: go with --fog-density");
+  if (o.fog.density > 0.0 && o.light.shadowCatcher)
+    throw UsageError("--fog-density: a shadow catcher stands in clear air (--shadow-catcher)");
+}
+
 void checkStudio(const LightOptions& o) {
   if (o.studio && !o.hdriFile.empty()) throw UsageError("--studio: there is an --hdri-file, too");
   if (o.studio && o.backgroundBlur > 0.0)
@@ -125,6 +134,7 @@ RenderOptions finishRender(const RawRender& raw) {
   o.sampling.spp = samplesOf(raw);
   checkLens(o.camera.lens);
   checkStudio(o.light);
+  checkFog(o);
   checkOutput(o, raw.anyOutput);
   checkLightPaths(o);
   checkReuse(o);

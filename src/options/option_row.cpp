@@ -27,7 +27,7 @@ std::span<const OptionRow> optionRows() {
   static const std::vector<OptionRow> rows = [] {
     std::vector<OptionRow> all;
     for (std::vector<OptionRow> (*part)() :
-         {&fileRows, &cameraRows, &samplingRows, &lightRows, &deviceRows, &inputRows, &outputRows})
+         {&fileRows, &cameraRows, &samplingRows, &lightRows, &fogRows, &deviceRows, &inputRows, &outputRows})
       std::ranges::move(part(), std::back_inserter(all));
     return all;
   }();
@@ -65,6 +65,8 @@ RenderOptions sceneOptions(RenderOptions options) {
 
 RenderOptions programOptions(RenderOptions options) {
   reset(options, [](const OptionRow& row) { return row.traits.renewal == Renewal::None; });
+  // A program has fog or has none; how dense it is depends on the draw.
+  if (options.fog.density > 0.0) options.fog.density = 1.0;
   return options;
 }
 

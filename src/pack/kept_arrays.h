@@ -14,12 +14,12 @@
 
 namespace fragtrace {
 
-/// Where a picture lies among the texels, and its mean linear colour.
+/// Where a picture lies among the texels, and its mean linear colour and alpha.
 struct PlacedTexels {
   uint32_t first = 0;
   int width = 0;
   int height = 0;
-  glm::vec3 mean{1.0f};
+  glm::vec4 mean{1.0f};
 };
 /// By the index of the scene's image.
 using PlacedTextures = std::map<std::pair<uint32_t, TransferCurve>, PlacedTexels>;

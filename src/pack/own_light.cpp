@@ -47,8 +47,8 @@ OwnLight ownLight(const Scene& scene) {
   for (size_t i = 0; i < areas.size(); ++i) {
     if (areas[i] == 0.0) continue;
     const Material& m = scene.materials[i];
-    const glm::vec3 radiance =
-        m.emissiveFactor * m.emissiveStrength * textures.mean(m.emissiveTexture, TransferCurve::Srgb);
+    const glm::vec3 radiance = m.emissiveFactor * m.emissiveStrength *
+                               glm::vec3(textures.mean(m.emissiveTexture, TransferCurve::Srgb));
     light += areas[i] * luminance(glm::dvec3(radiance));
     if (light >= enough) return OwnLight::Enough;
   }

@@ -67,12 +67,25 @@ glm::vec3 absorption(const Material& m, double unit) {
   return glm::vec3(glm::clamp(lost, glm::dvec3(0.0), glm::dvec3(kMost)));
 }
 
+/// Albedo of one scattering inside of a solid, whose textures count by their mean (KHR_materials_scatter,
+/// after Kulla and Conty, Revisiting Physically Based Shading at Imageworks, 2017).
+glm::vec3 scatteringAlbedo(const Material& m, TexturePacker& textures) {
+  const float strength = m.scatterStrength * textures.mean(m.scatterStrengthTexture, TransferCurve::Linear).a;
+  const glm::vec3 color =
+      m.multiscatterColor * glm::vec3(textures.mean(m.multiscatterColorTexture, TransferCurve::Srgb));
+  const glm::dvec3 rho = glm::clamp(glm::dvec3(strength * color), 0.0, 1.0);
+  const glm::dvec3 s = 4.09712 + 4.20863 * rho - glm::sqrt(9.59217 + 41.6808 * rho + 17.7126 * rho * rho);
+  const double g = m.scatterOfDraft ? 0.0 : double(m.scatterAnisotropy);
+  return glm::vec3(glm::clamp((1.0 - s * s) / (1.0 - g * s * s), 0.0, 1.0));
+}
+
 uint32_t materialFlags(const Material& m) {
   uint32_t flags = 0;
   if (m.alphaMode == AlphaMode::Mask) flags |= layout::kMaterialMask;
   if (m.alphaMode == AlphaMode::Blend) flags |= layout::kMaterialBlend;
   if (m.doubleSided) flags |= layout::kMaterialDoubleSided;
   if (m.unlit) flags |= layout::kMaterialUnlit;
+  if (m.scattersInside()) flags |= layout::kMaterialScatters;
   if (castsCaustics(m)) flags |= layout::kMaterialCaster;
   if (m.specularGlossiness) flags |= layout::kMaterialSpecularGlossiness;
   return flags;
@@ -90,7 +103,7 @@ const std::array<const TraitRow*, layout::kSlotCount>& traitsOfSlots() {
 }
 
 /// The rows of extensions.
-void appendLayers(Words& words, const Material& m) {
+void appendLayers(Words& words, const Material& m, TexturePacker& textures) {
   appendRow(words,
             glm::vec4(m.clearcoatFactor, m.clearcoatRoughnessFactor, m.clearcoatNormalScale, m.dispersion));
   appendRow(words, m.sheenColorFactor, m.sheenRoughnessFactor);
@@ -99,6 +112,9 @@ void appendLayers(Words& words, const Material& m) {
   appendRow(words, glm::vec4(m.iridescenceFactor, m.iridescenceIor, m.iridescenceThicknessMinimum,
                              m.iridescenceThicknessMaximum));
   appendRow(words, m.diffuseTransmissionColorFactor, m.diffuseTransmissionFactor);
+  appendRow(words, m.scattersInside() ? scatteringAlbedo(m, textures) : m.multiscatterColor,
+            m.scatterAnisotropy);
+  appendRow(words, glm::vec4(m.scattersThinly() ? m.scatterStrength : 0.0f, 0.0f, 0.0f, 0.0f));
 }
 
 void appendMaterial(Words& words, const Material& m, double unit, double emitterDensity, size_t glassTable,
@@ -120,7 +136,7 @@ void appendMaterial(Words& words, const Material& m, double unit, double emitter
     const glm::uvec4 use = read ? textures.slot(m.*ref, curve) : glm::uvec4(0u);
     words.insert(words.end(), {use.x, use.y, use.z, use.w});
   }
-  appendLayers(words, m);
+  appendLayers(words, m, textures);
   if (words.size() - first != layout::kMaterialRows * 4)
     throw std::logic_error("a packed material has other rows than layout.glsl says");
 }
@@ -176,8 +192,8 @@ std::vector<glm::vec3> meanRadiance(const Scene& scene, const TraitSet& traits, 
   for (size_t i = 0; i < radiance.size(); ++i) {
     const Material& m = scene.materials[i];
     if (!m.emissive()) continue;
-    radiance[i] =
-        m.emissiveFactor * m.emissiveStrength * textures.mean(m.emissiveTexture, TransferCurve::Srgb);
+    radiance[i] = m.emissiveFactor * m.emissiveStrength *
+                  glm::vec3(textures.mean(m.emissiveTexture, TransferCurve::Srgb));
   }
   return radiance;
 }

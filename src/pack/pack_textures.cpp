@@ -77,15 +77,15 @@ const PlacedTexels& TexturePacker::place(uint32_t image, TransferCurve curve) {
   placed.height = size.y;
   const size_t count = size_t(placed.width) * size_t(placed.height);
   if (texels_.empty()) texels_.reserve(size_t(bytesWithin(scene_, side_)) / sizeof(uint32_t));
-  const glm::dvec3 sum = size == stored ? append(texels, curve) : appendScaled(texels, curve, size);
-  placed.mean = glm::vec3(sum / double(std::max<size_t>(count, 1)));
+  const glm::dvec4 sum = size == stored ? append(texels, curve) : appendScaled(texels, curve, size);
+  placed.mean = glm::vec4(sum / double(std::max<size_t>(count, 1)));
   return placed;
 }
 
-glm::dvec3 TexturePacker::append(const TexelImage& texels, TransferCurve curve) {
+glm::dvec4 TexturePacker::append(const TexelImage& texels, TransferCurve curve) {
   const CurveTable& color = curveTable(curve);
   const CurveTable& alpha = curveTable(TransferCurve::Linear);
-  glm::dvec3 sum(0.0);
+  glm::dvec4 sum(0.0);
   const size_t first = texels_.size();
   texels_.resize(first + texels.rgba.size() / 2);
   uint32_t* word = texels_.data() + first;
@@ -93,16 +93,16 @@ glm::dvec3 TexturePacker::append(const TexelImage& texels, TransferCurve curve) 
     const uint16_t* t = &texels.rgba[i];
     *word++ = uint32_t(color.half[t[0]]) | uint32_t(color.half[t[1]]) << 16;
     *word++ = uint32_t(color.half[t[2]]) | uint32_t(alpha.half[t[3]]) << 16;
-    sum += glm::dvec3(color.linear[t[0]], color.linear[t[1]], color.linear[t[2]]);
+    sum += glm::dvec4(color.linear[t[0]], color.linear[t[1]], color.linear[t[2]], alpha.linear[t[3]]);
   }
   return sum;
 }
 
-glm::dvec3 TexturePacker::appendScaled(const TexelImage& texels, TransferCurve curve, glm::ivec2 size) {
+glm::dvec4 TexturePacker::appendScaled(const TexelImage& texels, TransferCurve curve, glm::ivec2 size) {
   const CurveTable& color = curveTable(curve);
   const CurveTable& alpha = curveTable(TransferCurve::Linear);
   const auto begin = [](int i, int from, int to) { return int(int64_t(i) * from / to); };
-  glm::dvec3 total(0.0);
+  glm::dvec4 total(0.0);
   for (int y = 0; y < size.y; ++y) {
     const int top = begin(y, texels.height, size.y);
     const int bottom = begin(y + 1, texels.height, size.y);
@@ -119,7 +119,7 @@ glm::dvec3 TexturePacker::appendScaled(const TexelImage& texels, TransferCurve c
       const glm::vec4 mean = sum / float((bottom - top) * (right - left));
       texels_.push_back(glm::packHalf2x16(glm::vec2(mean)));
       texels_.push_back(glm::packHalf2x16(glm::vec2(mean.z, mean.w)));
-      total += glm::dvec3(mean);
+      total += glm::dvec4(mean);
     }
   }
   return total;
@@ -154,8 +154,8 @@ void TexturePacker::appendTransforms(Words& materials) const {
   }
 }
 
-glm::vec3 TexturePacker::mean(const TextureRef& ref, TransferCurve curve) {
-  if (!ref.present() || scene_.textures[ref.texture].image == kMissIndex) return glm::vec3(1.0f);
+glm::vec4 TexturePacker::mean(const TextureRef& ref, TransferCurve curve) {
+  if (!ref.present() || scene_.textures[ref.texture].image == kMissIndex) return glm::vec4(1.0f);
   return place(scene_.textures[ref.texture].image, curve).mean;
 }
 

@@ -21,8 +21,8 @@ class TexturePacker {
   /// The slot row (shaders/layout.glsl) of a use of a texture; all zero for none.
   glm::uvec4 slot(const TextureRef& ref, TransferCurve curve);
 
-  /// Mean of a texture's linear colour, 1 for none.
-  glm::vec3 mean(const TextureRef& ref, TransferCurve curve);
+  /// Mean of a texture's linear colour and alpha, 1 for none.
+  glm::vec4 mean(const TextureRef& ref, TransferCurve curve);
 
   /// The rows of the transforms, which stand behind those of all materials.
   void appendTransforms(Words& materials) const;
@@ -35,9 +35,9 @@ class TexturePacker {
  private:
   const PlacedTexels& place(uint32_t image, TransferCurve curve);
   /// Both append the texels and return the sum of their linear colours.
-  glm::dvec3 append(const TexelImage& texels, TransferCurve curve);
+  glm::dvec4 append(const TexelImage& texels, TransferCurve curve);
   /// Each texel is the mean of those that it stands for, in linear light.
-  glm::dvec3 appendScaled(const TexelImage& texels, TransferCurve curve, glm::ivec2 size);
+  glm::dvec4 appendScaled(const TexelImage& texels, TransferCurve curve, glm::ivec2 size);
 
   const Scene& scene_;
   int side_;

@@ -44,6 +44,13 @@ glm::dvec2 halfExtents(const Camera& camera, double unit, glm::ivec2 size) {
   return {height * size.x / size.y, height};
 }
 
+layout::Fog packFog(const Fog& fog, const LocalSpace& space) {
+  const double falls = std::isfinite(fog.height) ? space.unit / fog.height : 0.0;
+  return {glm::vec4(space.localOf(fog.center), fog.radius / space.unit),
+          glm::vec4(fog.albedo, fog.anisotropy),
+          glm::vec4(fog.extinction * space.unit, falls, (fog.base - space.origin.y) / space.unit, 0.0)};
+}
+
 }  // namespace
 
 Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads,
@@ -54,12 +61,14 @@ Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads, Pr
     : programs_(std::move(programs)),
       buffers_(scene, reads),
       frameBuffer_(makeBuffer()),
+      fogBuffer_(makeBuffer()),
       progressBuffer_(makeBuffer()),
       progressRead_(makeBuffer()),
       software_(context.software),
       targetMs_(context.software ? kSoftwareDrawMs : kHardwareDrawMs),
       inFlight_(context.software ? 1 : kMostInFlight) {
   glNamedBufferStorage(frameBuffer_.name(), sizeof(layout::Frame), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferStorage(fogBuffer_.name(), sizeof(layout::Fog), nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferStorage(progressBuffer_.name(), sizeof(layout::Progress), nullptr, GL_DYNAMIC_STORAGE_BIT);
   constexpr GLbitfield kRead = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
   constexpr size_t kBytes = kMostInFlight * sizeof(layout::Progress);
@@ -132,6 +141,12 @@ DrawTarget Renderer::begin(const RenderPass& pass) {
   useProgram(pass.variant);
   if (pass.variant.neighbours) reservoirs_->bindTextures(layout::kReservoirTextures);
   glBindBufferBase(GL_UNIFORM_BUFFER, layout::kFrameBinding, frameBuffer_.name());
+  if (has(pass.variant.traits, Trait::Fog)) {
+    const layout::Fog fog = packFog(pass.view.fog, pass.view.space);
+    movedBytes() += sizeof fog;
+    glNamedBufferSubData(fogBuffer_.name(), 0, sizeof fog, &fog);
+    glBindBufferBase(GL_UNIFORM_BUFFER, layout::kFogBinding, fogBuffer_.name());
+  }
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kProgressBinding, progressBuffer_.name());
   return target;
 }

@@ -17,6 +17,7 @@
 #include "render/draw_plan.h"
 #include "render/draw_target.h"
 #include "render/film.h"
+#include "scene/fog.h"
 #include "stage/render_options.h"
 
 namespace fragtrace {
@@ -41,6 +42,7 @@ struct View {
   glm::vec3 background{0.0f};   ///< seen by camera rays that miss
   bool showEnvironment = true;  ///< camera rays that miss see the environment map instead, or its backdrop
   bool seesNothing = false;     ///< they see nothing: the picture is to be laid over another one
+  Fog fog;                      ///< when the variant has one
   double catcherHeight = 0.0;   ///< Y of the shadow catcher in world space, when the variant has one
   bool firstInMiddle = false;   ///< the first sample of each pixel is in its middle, for edges without chance
   int bounces = 16;
@@ -191,6 +193,7 @@ class Renderer {
   std::optional<Film> lightPathFilm_;  ///< a texel a light path (storeRecord of film.glsl)
   std::optional<Film> reservoirs_;  ///< of the film's pixels in this sample (shaders/reuse/neighbours.glsl)
   GlBuffer frameBuffer_;
+  GlBuffer fogBuffer_;
   GlBuffer progressBuffer_;
   GlBuffer progressRead_;                             ///< copies of it, a slot a flight
   const layout::Progress* progressMapped_ = nullptr;  ///< the same; null where the driver maps none

@@ -136,6 +136,11 @@ struct Material {
   float diffuseTransmissionFactor = 0.0f;
   glm::vec3 diffuseTransmissionColorFactor{1.0f};
   float dispersion = 0.0f;  ///< 20 over the Abbe number
+  /// Of KHR_materials_scatter. A solid scatters inside; a thin wall, where the light comes through.
+  float scatterStrength = 0.0f;
+  glm::vec3 multiscatterColor{1.0f};  ///< albedo of a thick layer, all scatterings counted
+  float scatterAnisotropy = 0.0f;     ///< mean cosine of a scattering; above 0 forward
+  bool scatterOfDraft = false;  ///< of KHR_materials_volume_scatter, whose albedo is that without anisotropy
   PerlinNormal perlinNormal;
   TextureRef baseColorTexture;
   TextureRef metallicRoughnessTexture;
@@ -155,6 +160,8 @@ struct Material {
   TextureRef iridescenceThicknessTexture;
   TextureRef diffuseTransmissionTexture;
   TextureRef diffuseTransmissionColorTexture;
+  TextureRef scatterStrengthTexture;
+  TextureRef multiscatterColorTexture;
 
   bool transmissive() const { return transmissionFactor > 0.0f; }
   /// Light of any kind goes through, so that the back is there.
@@ -170,6 +177,18 @@ struct Material {
     return specularFactor != 1.0f || specularColorFactor != glm::vec3(1.0f) || specularTexture.present() ||
            specularColorTexture.present();
   }
+  /// Its boundary does not bend light (kEqualIndices of shaders/bsdf.glsl).
+  bool indexMatched() const { return transmissive() && std::abs(ior - 1.0f) < 0.001f; }
+  bool solid() const { return thicknessFactor > 0.0f; }
+  /// Light on its way through the solid is lost, at least in one channel.
+  bool attenuates() const {
+    return passesLight() && solid() && attenuationColor != glm::vec3(1.0f) &&
+           std::isfinite(attenuationDistance);
+  }
+  bool scattersAtAll() const { return scatterStrength > 0.0f && multiscatterColor != glm::vec3(0.0f); }
+  bool scattersInside() const { return attenuates() && scattersAtAll(); }
+  /// A thin wall whose light comes through diffusely, at least a part of it.
+  bool scattersThinly() const { return transmissive() && !solid() && scatterStrength > 0.0f; }
   bool disperses() const { return transmissive() && thicknessFactor > 0.0f && dispersion > 0.0f; }
   bool emissive() const {
     return !unlit && emissiveStrength > 0.0f &&
@@ -204,6 +223,8 @@ inline constexpr std::array kTextureRefs = std::to_array<TextureRefRow>({
     {&Material::iridescenceThicknessTexture, TransferCurve::Linear},  // G
     {&Material::diffuseTransmissionTexture, TransferCurve::Linear},   // A
     {&Material::diffuseTransmissionColorTexture, TransferCurve::Srgb},
+    {&Material::scatterStrengthTexture, TransferCurve::Linear},  // A
+    {&Material::multiscatterColorTexture, TransferCurve::Srgb},
     {&Material::occlusionTexture, TransferCurve::Linear},  // R; not traced
 });
 

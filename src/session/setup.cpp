@@ -149,46 +149,6 @@ double pathsOf(const RenderOptions& options, glm::ivec2 size) {
          (adaptive ? std::numeric_limits<double>::infinity() : options.sampling.spp);
 }
 
-namespace {
-
-Lens lensOf(const RenderOptions& options, const Camera& camera, const BoundsDouble& bounds,
-            const LocalSpace& space) {
-  Lens lens;
-  if (!options.camera.lens.fStop || !camera.perspective) return lens;
-  lens.radius = 0.5 * focalLengthOf(camera.fovY) / *options.camera.lens.fStop;
-  const glm::dvec3 focalPoint = options.camera.overrides.focalPoint.value_or(focalPointOf(camera, bounds));
-  lens.focusDistance =
-      options.camera.lens.focusDistance.value_or(glm::dot(focalPoint - camera.position, camera.forward));
-  // Beyond, rays are parallel, and the squares of longer ones are no floats.
-  constexpr double kParallel = 0x1p50;  // local space
-  lens.focusDistance = std::min(lens.focusDistance, kParallel * space.unit);
-  lens.blades = options.camera.lens.blades;
-  return lens;
-}
-
-}  // namespace
-
-View makeView(const RenderOptions& options, const LoadedScene& loaded, const Camera& camera) {
-  const Scene& scene = loaded.scene;
-  View view;
-  view.camera = camera;
-  view.lens = lensOf(options, camera, scene.bounds, scene.space);
-  view.space = scene.space;
-  view.hdriRotation = glm::radians(options.light.hdriRotationDegrees);
-  view.hdriIntensity = options.light.hdriIntensity;
-  if (options.light.background) view.background = options.light.backgroundColor.value_or(glm::vec3(0.0f));
-  const bool map = loaded.environment.kind == Surroundings::Map;
-  view.showEnvironment = map && options.light.background && !options.light.backgroundColor;
-  view.seesNothing = !options.light.background;
-  view.catcherHeight = catcherHeightOf(options, scene.bounds);
-  view.bounces = options.sampling.bounces;
-  view.rouletteDepth = options.sampling.rouletteDepth;
-  view.seed = options.sampling.seed;
-  view.sampleOffset = options.sampling.sampleOffset;
-  view.clampIndirect = float(options.sampling.clampIndirect);
-  return view;
-}
-
 bool isInStudio(const RenderOptions& options, const LoadedScene& loaded) {
   return loaded.environment.kind == Surroundings::Map && options.light.hdriFile.empty();
 }

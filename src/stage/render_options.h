@@ -157,6 +157,18 @@ struct LightOptions {
   bool operator==(const LightOptions&) const = default;
 };
 
+/// Fog in a ball round the scene (scene/fog.h).
+struct FogOptions {
+  double density = 0.0;            ///< extinction, 1/m; 0: there is none
+  std::optional<glm::vec3> color;  ///< albedo of one scattering; none: 1
+  double anisotropy = 0.0;
+  std::optional<double> height;    ///< in which it falls by e, metres; none: it does not
+  std::optional<double> base;      ///< from which it falls, Y in metres; none: the bottom of the scene
+  std::optional<double> distance;  ///< radius, metres; none: in proportion to the scene
+
+  bool operator==(const FogOptions&) const = default;
+};
+
 /// The files that are written, what they show, and what is said meanwhile.
 struct OutputOptions {
   std::filesystem::path file;
@@ -207,6 +219,7 @@ struct RenderOptions {
   CameraOptions camera;
   SamplingOptions sampling;
   LightOptions light;
+  FogOptions fog;
   OutputOptions output;
   DeviceOptions device;
 

@@ -50,6 +50,11 @@ enum class Trait : uint8_t {
   ThinGlass,
   RoughGlass,
   Absorption,
+  Scattering,
+  MatchedGlass,
+  ThinScattering,
+  ThinScatteringTexture,
+  Fog,
   Unlit,
   Emission,
   EmissiveTriangles,
@@ -97,6 +102,11 @@ bool readsTexcoords(const TraitRow& row);
 /// Whether there are lamps that light samples choose among: emissive triangles or punctual lights.
 inline bool hasLamps(const TraitSet& traits) {
   return traits[size_t(Trait::EmissiveTriangles)] || traits[size_t(Trait::PunctualLights)];
+}
+
+/// Whether light may be scattered between surfaces.
+inline bool hasMedia(const TraitSet& traits) {
+  return traits[size_t(Trait::Scattering)] || traits[size_t(Trait::Fog)];
 }
 
 /// The row that lists the texture; std::logic_error where none does.

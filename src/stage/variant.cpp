@@ -69,7 +69,7 @@ void dropTraits(const StageSet& stages, bool heatmap, Surroundings surroundings,
   if (!has(traits, Trait::Specular) && !has(traits, Trait::SpecularGlossiness))
     drop(traits, {Trait::SpecularTexture});
   if (!has(traits, Trait::Transmission) && !has(traits, Trait::DiffuseTransmission))
-    drop(traits, {Trait::Absorption});
+    drop(traits, {Trait::Absorption, Trait::Scattering, Trait::MatchedGlass});
   if (!hasNormalMaps(traits) && !has(traits, Trait::Anisotropy)) drop(traits, {Trait::Tangents});
   if (gi && !has(stages, Stage::LightSampling))
     drop(traits, {Trait::EmissiveTriangles, Trait::EnvironmentSampling});
@@ -95,6 +95,8 @@ void dropIdle(ShaderVariant& v) {
   // Its light would be looked for by shadow rays.
   if (!stage(Stage::Shadows)) drop(v.traits, {Trait::ThinGlass});
   if (!hasLamps(v.traits)) drop(v.traits, {Trait::LightTree, Trait::Caustics});
+  // Light paths do not know of media.
+  if (hasMedia(v.traits)) drop(v.traits, {Trait::Caustics});
   if (!hasNormalMaps(v.traits)) off(Stage::NormalMaps);
   if (!has(v.traits, Trait::Triangles)) off(Stage::Watertight);
   const bool leavesSurfaces = stage(Stage::Gi) || stage(Stage::Shadows) || stage(Stage::Reflections) ||
@@ -188,6 +190,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   v.reads = reads;
   if (options.light.selection != LightSelection::Auto)
     v.traits.set(size_t(Trait::LightTree), options.light.selection != LightSelection::Power);
+  v.traits.set(size_t(Trait::Fog), options.fog.density > 0.0);
   if (options.light.caustics == Caustics::Off || !whyNoLightPaths(options).empty())
     v.traits.reset(size_t(Trait::Caustics));
   v.heatmap = options.output.debugView == DebugView::Visits;
@@ -245,7 +248,7 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
   TraitSet kept = present;
   for (Trait t :
        {Trait::PunctualLights, Trait::EmissiveTriangles, Trait::EnvironmentSampling, Trait::Environment,
-        Trait::Emission, Trait::EmissionTexture, Trait::Absorption, Trait::Unlit}) {
+        Trait::Emission, Trait::EmissionTexture, Trait::Absorption, Trait::Unlit, Trait::Fog}) {
     kept.reset(size_t(t));
   }
   if (!follows) {
@@ -271,6 +274,7 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
   if (roughnessTexture) keep(Trait::TextureTransforms);
   if (roughnessTexture || feature == Feature::Texcoords) keep(Trait::Texcoords);
   if (follows) keep(Trait::SmoothSurfaces);
+  if (follows) keep(Trait::Scattering);
   if (feature == Feature::Object) v.traits.set(size_t(Trait::ObjectNumbers));
   v.shadowCatcher = guides && has(options.stages, Stage::Gi) && options.light.shadowCatcher;
   v.feature = feature;
@@ -318,7 +322,8 @@ bool keepsWeights(const ShaderVariant& variant) {
 }
 
 bool passesSurfaces(const ShaderVariant& variant) {
-  return has(variant.traits, Trait::Alpha) || has(variant.traits, Trait::ThinGlass);
+  return has(variant.traits, Trait::Alpha) || has(variant.traits, Trait::ThinGlass) ||
+         has(variant.traits, Trait::MatchedGlass);
 }
 
 std::string variantName(const ShaderVariant& variant) {

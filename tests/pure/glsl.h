@@ -44,6 +44,7 @@ inline bool kInstances = false;
 inline bool kCreases = false;
 inline bool kSlivers = false;
 inline bool kPassing = false;
+inline bool kMatchedGlass = false;
 inline bool kLightPaths = false;
 inline bool kRoughGlass = true;
 inline bool kShadowCatcher = false;

@@ -103,6 +103,32 @@ void readDispersion(const MaterialPart& part, Material& m) {
   m.dispersion = part.factor("dispersion", 0.0, 0.0f, kMost);
 }
 
+/// The anisotropies that the phase function still has digits for.
+constexpr float kMostAnisotropy = 0.99f;
+
+/// KHR_materials_volume_scatter, the draft before KHR_materials_scatter, whose colour had two names.
+void readVolumeScatter(const MaterialPart& part, Material& m) {
+  m.scatterStrength = 1.0f;
+  m.scatterOfDraft = true;
+  const char* color =
+      part.object().Has("multiscatterColorFactor") ? "multiscatterColorFactor" : "multiscatterColor";
+  m.multiscatterColor = part.color(color, {0.0, 0.0, 0.0}, 1.0f);
+  m.scatterAnisotropy = part.factor("scatterAnisotropy", 0.0, -kMostAnisotropy, kMostAnisotropy);
+  if (!m.solid()) m.scatterStrength = 0.0f;
+}
+
+void readScatter(const MaterialPart& part, Material& m) {
+  m.scatterStrength = part.factor("scatterStrengthFactor", 0.0, 0.0f, 1.0f);
+  m.multiscatterColor = part.color("multiscatterColorFactor", kWhite, 1.0f);
+  m.scatterAnisotropy = part.factor("scatterAnisotropy", 0.0, -kMostAnisotropy, kMostAnisotropy);
+  m.scatterOfDraft = false;
+  if (m.scatterStrength <= 0.0f) return;
+  m.scatterStrengthTexture = part.texture("scatterStrengthTexture");
+  if (m.scatterStrengthTexture.lost) m.scatterStrength = 0.0f;
+  m.multiscatterColorTexture = part.texture("multiscatterColorTexture");
+  if (m.multiscatterColorTexture.lost) m.multiscatterColor = kMagenta;
+}
+
 /// A dielectric of infinite index reflects what its specular colour says, which is all that the extension's
 /// two colours need.
 void readSpecularGlossiness(const MaterialPart& part, Material& m) {
@@ -139,6 +165,8 @@ constexpr ExtensionRow kMaterialExtensions[] = {
     {"KHR_materials_iridescence", readIridescence},
     {"KHR_materials_diffuse_transmission", readDiffuseTransmission},
     {"KHR_materials_dispersion", readDispersion},
+    {"KHR_materials_volume_scatter", readVolumeScatter},
+    {"KHR_materials_scatter", readScatter},
     {kSpecularGlossiness, readSpecularGlossiness, true},
 };
 

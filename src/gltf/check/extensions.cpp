@@ -44,6 +44,8 @@ constexpr Extension kExtensions[] = {
     {"KHR_materials_iridescence", Supported, "build/material_extensions.cpp", kInMaterials},
     {"KHR_materials_dispersion", Supported, "build/material_extensions.cpp", kInMaterials},
     {"KHR_materials_diffuse_transmission", Supported, "build/material_extensions.cpp", kInMaterials},
+    {"KHR_materials_scatter", Supported, "build/material_extensions.cpp", kInMaterials},
+    {"KHR_materials_volume_scatter", Supported, "build/material_extensions.cpp", kInMaterials},
     {"KHR_materials_pbrSpecularGlossiness", Supported, "build/material_extensions.cpp", kInMaterials},
 };
 

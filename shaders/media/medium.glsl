@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Paths in participating media. A path's ray ends where its flight does (flightLimit), unless it meets a surface before:
+// a ray that has met nothing, but has an end, is scattered there. Shadow rays are dimmed by what lies between the
+// surfaces that they pass.
+
+Medium mediumOf(uint material) {
+  vec4 scatter = materialFloats(material, kMaterialScatter);
+  return Medium(materialFloats(material, kMaterialVolume).rgb, scatter.rgb, scatter.w);
+}
+
+bool isSolid(uint material) { return materialFloats(material, kMaterialVolume).w > 0.0; }
+
+/// The medium in front of a point that the path's ray has hit: a back face of a solid says what the way led through,
+/// even if the camera stands inside.
+uint mediumBefore(Surface s, uint known) { return !s.front && isSolid(s.material) ? s.material : known; }
+
+/// The medium of a ray that leaves a surface.
+uint mediumTowards(Path p, Surface s, vec3 direction) {
+  bool crosses = dot(direction, s.geometricNormal) < 0.0 && isSolid(s.material);
+  if (!crosses) return p.medium;
+  return s.front ? s.material : kPrimitiveNone;
+}
+
+/// Whether light gets straight into a medium: there is none, or its boundary does not bend it.
+bool isOpen(uint medium) { return medium == kPrimitiveNone || (kMatchedGlass && isMatched(medium)); }
+
+/// The distance at which the flight that begins at `from` along the path's ray ends; kFarAway where it need not.
+float flightEnd(Path p, float from, float u) {
+  float end = kFarAway;
+  if (kFog && p.medium == kPrimitiveNone) end = fogFlight(fog, p.origin, p.direction, from, u);
+  if (kScattering && p.medium != kPrimitiveNone) {
+    Medium m = mediumOf(p.medium);
+    if (scattersLight(m)) end = from + flightDistance(m, channelChances(p.throughput), u);
+  }
+  return end;
+}
+
+/// The same, with a number of this bounce, or of this meeting with a surface that lets the ray pass.
+float flightLimit(Path p, float from) {
+  uint flight = kFlightDimensions + (uint(p.bounce) << 12) + uint(p.crossings);
+  float u = p.crossings > 0 ? hashFloat(p.numbers, flight) : pathRandom(p, kFlightDimension);
+  return flightEnd(p, from, u);
+}
+
+/// Where the flight along the path's ray has begun: behind what the ray has passed.
+float flightBegin(Path p) { return kPassing ? p.traversal.past : 0.0; }
+
+/// A flight has come to a surface.
+Path passMedium(Path p) {
+  if (!kScattering || p.medium == kPrimitiveNone) return p;
+  p.throughput *= passWeight(mediumOf(p.medium), channelChances(p.throughput), p.hitT - flightBegin(p));
+  return p;
+}
+
+/// Transmittance of a medium along a ray between two distances.
+vec3 transmittance(uint medium, vec3 origin, vec3 direction, float from, float to) {
+  if (kFog && medium == kPrimitiveNone) return vec3(exp(-fogDepth(fog, origin, direction, from, to)));
+  if (!kAbsorption || medium == kPrimitiveNone) return vec3(1.0);
+  return exp(-(to - from) * materialFloats(medium, kMaterialVolume).rgb);
+}
+
+/// Of the shadow ray, from what it has passed last up to a distance.
+vec3 shadowTransmittance(Path p, uint medium, float to) {
+  float from = kPassing ? p.traversal.past : 0.0;
+  return transmittance(medium, p.shadowOrigin, p.shadowDirection, from, to);
+}
+
+/// Of the light sample, what has come along the shadow ray, which has met nothing more.
+vec3 arrivingLight(Path p) { return p.contribution * shadowTransmittance(p, p.shadowMedium, p.shadowLimit); }

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "session/setup.h"
+
+namespace fragtrace {
+
+namespace {
+
+Lens lensOf(const RenderOptions& options, const Camera& camera, const BoundsDouble& bounds,
+            const LocalSpace& space) {
+  Lens lens;
+  if (!options.camera.lens.fStop || !camera.perspective) return lens;
+  lens.radius = 0.5 * focalLengthOf(camera.fovY) / *options.camera.lens.fStop;
+  const glm::dvec3 focalPoint = options.camera.overrides.focalPoint.value_or(focalPointOf(camera, bounds));
+  lens.focusDistance =
+      options.camera.lens.focusDistance.value_or(glm::dot(focalPoint - camera.position, camera.forward));
+  // Beyond, rays are parallel, and the squares of longer ones are no floats.
+  constexpr double kParallel = 0x1p50;  // local space
+  lens.focusDistance = std::min(lens.focusDistance, kParallel * space.unit);
+  lens.blades = options.camera.lens.blades;
+  return lens;
+}
+
+/// A ball round the box of the scene, times this.
+constexpr double kFogReach = 1.5;
+
+Fog fogOf(const FogOptions& options, const BoundsDouble& bounds) {
+  Fog fog;
+  fog.extinction = options.density;
+  fog.albedo = options.color.value_or(glm::vec3(1.0f));
+  fog.anisotropy = float(options.anisotropy);
+  fog.height = options.height.value_or(fog.height);
+  fog.base = options.base.value_or(bounds.empty() ? 0.0 : bounds.minimum.y);
+  if (!bounds.empty()) fog.center = bounds.center();
+  fog.radius = options.distance.value_or(kFogReach * 0.5 * glm::length(bounds.extent()));
+  return fog;
+}
+
+}  // namespace
+
+View makeView(const RenderOptions& options, const LoadedScene& loaded, const Camera& camera) {
+  const Scene& scene = loaded.scene;
+  View view;
+  view.camera = camera;
+  view.lens = lensOf(options, camera, scene.bounds, scene.space);
+  view.space = scene.space;
+  view.hdriRotation = glm::radians(options.light.hdriRotationDegrees);
+  view.hdriIntensity = options.light.hdriIntensity;
+  if (options.light.background) view.background = options.light.backgroundColor.value_or(glm::vec3(0.0f));
+  const bool map = loaded.environment.kind == Surroundings::Map;
+  view.showEnvironment = map && options.light.background && !options.light.backgroundColor;
+  view.seesNothing = !options.light.background;
+  view.fog = fogOf(options.fog, scene.bounds);
+  view.catcherHeight = catcherHeightOf(options, scene.bounds);
+  view.bounces = options.sampling.bounces;
+  view.rouletteDepth = options.sampling.rouletteDepth;
+  view.seed = options.sampling.seed;
+  view.sampleOffset = options.sampling.sampleOffset;
+  view.clampIndirect = float(options.sampling.clampIndirect);
+  return view;
+}
+
+}  // namespace fragtrace
