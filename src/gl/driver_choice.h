@@ -9,7 +9,7 @@ namespace fragtrace {
 /// Fragments, but compute in two cases: on software for scenes that are literals, where it was measured to
 /// be faster (docs/design/architecture.md, "The shader"); and on NVIDIA's data-centre GPUs, known by their
 /// names. Those are expected to run fragment shaders on a small part of the chip only; that compute is faster
-/// there has not been measured (docs/design/gpu.md).
+/// there has not been measured (docs/measurements/gpu.md).
 Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals);
 
 /// Returns true if this machine has a device that may be a GPU; without one, no driver need be asked.
@@ -31,7 +31,7 @@ void setVectorWidth(VectorWidth width);
 int vectorWidthOf(const std::string& renderer);
 
 /// Tells llvmpipe not to optimise what it compiles, if that saves more time than drawing so many paths then
-/// takes longer (docs/design/benchmarks.md); pictures are the same bits. For processes that draw once: it
+/// takes longer (docs/measurements/benchmarks.md); pictures are the same bits. For processes that draw once: it
 /// holds for all of their contexts, and has to come before the first. What GALLIVM_PERF says already stays.
 /// Returns whether it was told so.
 bool preferQuickCompilation(double paths);

@@ -29,7 +29,7 @@ PICTURES = {
     "lobes": SKY,
     "sun-sky": ["--hdri-file", SCENES / "sun-sky.pfm"],
 }
-# Where the filter falls short of that (docs/design/denoising.md), and what it must not get worse than.
+# Where the filter falls short of that (docs/measurements/denoising.md), and what it must not get worse than.
 FALLS_SHORT = {("lobes", 1024): 1.13, ("sphere-textured", 64): 1.08, ("sphere-textured", 256): 1.12}
 
 

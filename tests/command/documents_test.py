@@ -60,7 +60,7 @@ class Documents(Case):
 
 
 class Tables(Case):
-    """Of measurements: bench/tables.py makes them of docs/design/data."""
+    """Of measurements: bench/tables.py makes them of docs/measurements/data."""
     ROOT = SCENES.parent
 
     def setUp(self):
