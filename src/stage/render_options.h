@@ -42,7 +42,7 @@ enum class Tune : uint8_t { Auto, Software, Gpu };
 inline constexpr std::array<std::string_view, 3> kTuneNames{"auto", "software", "gpu"};
 /// Bits of the vectors that Mesa's software driver computes with, and so how many invocations run in
 /// lockstep: 8 or 16. Auto: as the driver has it, 256 today. Mesa 22.3 to 26.1 crash on some shaders with 512
-/// (docs/design/drivers.md).
+/// (docs/design/platforms.md).
 enum class VectorWidth : uint8_t { Auto, Bits256, Bits512 };
 inline constexpr std::array<std::string_view, 3> kVectorWidthNames{"auto", "256", "512"};
 /// How paths share the lanes of a draw: one pixel a lane, or many, whose rays are traced together
