@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What can be drawn in place of radiance: layers of .exr files, and debug views, which are layers or counts
-// as colours (docs/design/output.md).
+// as colours (docs/output.md).
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a picture is from its reference, by the formulas of docs/design/output.md.
+// How far a picture is from its reference, by the formulas of docs/output.md.
 #pragma once
 
 #include <optional>
