@@ -12,7 +12,7 @@ float catcherDistance(vec3 origin, vec3 direction) {
   return above > 0.0 && direction.y < 0.0 ? above / -direction.y : 0.0;
 }
 
-/// Whether what the path's ray has met at distance t, or not met, is the catcher's business.
+/// Returns true if the path's ray meets the catcher before anything else; t is the distance of what it has hit.
 bool meetsCatcher(Path p, float t) {
   if (!p.cameraRay) return p.caught;
   float there = catcherDistance(p.origin, p.direction);

@@ -30,8 +30,8 @@ float ggxAverageLoss(float alpha) {
   return mix(ends.x, ends.y, y - float(j));
 }
 
-/// What rough solid glass gives back under single scattering, seen at `cosine` from before its front or behind it.
-/// Tables of all indices follow the other ones, two each.
+/// The albedo of rough solid glass under single scattering, seen at `cosine` from its front or from behind it. The
+/// tables of all indices of refraction follow the other tables, two for each index.
 float glassAlbedo(int table, bool front, float cosine, float alpha) {
   const int rows = int(kEnergyCells * kEnergyCells);
   int first = kEnergyRows + (kSheen ? rows : 0) + (2 * table + (front ? 0 : 1)) * rows;

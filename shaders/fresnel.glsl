@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much a boundary reflects, and where light goes through it.
+// Fresnel reflectances, and directions of reflection and refraction.
 
 /// Schlick, An Inexpensive BRDF Model for Physically-based Rendering, 1994.
 vec3 fresnelSchlick(vec3 f0, float f90, float cosine) {

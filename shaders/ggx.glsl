@@ -58,7 +58,7 @@ vec3 sampleFacet(vec3 outgoing, float alpha, float stretch, float u, float v) {
   return kAnisotropy ? normalize(alongFacets(h, stretch)) : h;
 }
 
-/// What masking and shadowing leave of the light that masking alone leaves.
+/// The quotient of masking and shadowing together over masking alone.
 float facetShadowing(vec3 outgoing, vec3 incoming, float alpha, float stretch) {
   vec3 o = alongFacets(outgoing, stretch);
   return ggxMaskingShadowing(o, alongFacets(incoming, stretch), alpha) / ggxMasking(o, alpha);
@@ -70,7 +70,7 @@ float facetMean(float stretch) {
   return kAnisotropy ? sqrt(0.5f * (stretch * stretch + 1.0f / (stretch * stretch))) : 1.0f;
 }
 
-/// How much of it is given back (stretch >= 1), so that nowhere more than 1 % is gained.
+/// Compensation returns this share of the lost light (stretch >= 1), so that no direction gains more than 1 %.
 float facetsGiveBack(float stretch) {
   float fourth = stretch * stretch * stretch * stretch;
   return 1.0f - float(0.1) * (fourth - 1.0f) / (fourth + 1.0f);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What a filter tells surfaces apart by (kFeatureGuides): albedo and normal of the first surface that is not seen by
-// way of smooth glass or a smooth metal alone, so that what stands behind these stays sharp, and depth of the first
-// surface of all, which tells these from the rest. Where alpha lets a part of the light pass, surfaces count by their
-// shares, without chance. No shadow ray is traced meanwhile, so its members keep the state, also from draw to draw:
-// radiance and contribution are sums of albedo and normal, shadowLimit is that of depth, shadowOrigin.x that of the
-// shares; shadowDirection is the normal of what takes the rest.
+// Guides (kFeatureGuides), by which a filter distinguishes surfaces. Albedo and normal are those of the first surface
+// that is not just smooth glass or a smooth metal, so that what is seen through or in these stays sharp. Depth is that
+// of the first surface of all, which separates these from the rest. Where alpha lets a part of the light pass, surfaces
+// count by their shares, not by chance. No shadow ray is traced meanwhile, so its members keep the state, also from
+// draw to draw: radiance and contribution are the sums of albedo and normal, shadowLimit is the sum of depth,
+// shadowOrigin.x that of the shares, and shadowDirection the normal of the surface that takes the rest.
 
 const float kGuideAlpha = 0.01;    // the roughest that is followed: what it shows is hardly blurred
 const int kGuideScatterings = 16;  // at most

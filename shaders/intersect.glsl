@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rays against triangles and spheres, and origins moved off the surface they start on.
 
-/// What all triangle tests of one ray share: its largest axis is rotated to z, and x and y are sheared along it
-/// (Woop, Benthin and Wald, Watertight Ray/Triangle Intersection, 2013).
+/// All triangle tests of one ray share this: its largest axis is rotated to z, and x and y are sheared along it (Woop,
+/// Benthin and Wald, Watertight Ray/Triangle Intersection, 2013).
 struct RayShear {
   int axis;
   float x;
@@ -38,7 +38,8 @@ struct TriangleHit {
   float weight2;  // of v2
 };
 
-/// Whether zero lies outside of what three numbers span; a product that underflows lets it lie inside.
+/// Returns true if all three numbers are above zero or all are below it. A product that underflows counts as zero, and
+/// the result is then false.
 bool zeroBeyond(float a, float b, float c) { return a * b > 0.0f && b * c > 0.0f; }
 
 /// Watertight: two triangles that share an edge see the same edge function with opposite sign, and zero counts as
@@ -116,7 +117,7 @@ TriangleHit intersectTriangleFast(vec3 origin, vec3 direction, vec3 v0, vec3 v1,
   return h;
 }
 
-/// Whether t lies behind a distance, or at it where that counts, too.
+/// Returns true if t is larger than the distance, or equal to it and `at` is true.
 bool liesBehind(float t, float distance, bool at) { return t > distance || (at && t == distance); }
 
 /// Distance to the sphere's nearest surface that may be hit and lies behind `past` (or at it); `inside`: its inner side

@@ -3,8 +3,8 @@
 // Modeling of Varying Iridescence, 2017), with the approximations of KHR_materials_iridescence: Schlick's reflectances,
 // real indices, two orders of interference.
 
-/// How much three sensors for red, green and blue see of a wave with this optical path difference (nm) and phase
-/// shifts: their sensitivities are Gaussians over the wave number, whose Fourier transforms these are.
+/// The response of three sensors for red, green and blue to a wave with this optical path difference (nm) and phase
+/// shifts. Their sensitivities are Gaussians over the wave number; this evaluates the Fourier transforms of these.
 vec3 filmInterference(float pathDifference, vec3 shift) {
   float phase = 2.0f * kPi * pathDifference * float(1e-9);
   float squared = phase * phase;

@@ -14,7 +14,7 @@ float coatShare(Bsdf b, vec3 outgoing) {
 
 bool isSmoothCoat(Bsdf b) { return b.coatAlpha < kMirrorAlpha; }
 
-/// What sheen lets pass between two directions to and from the base.
+/// The share of light that sheen lets pass between two directions to and from the base.
 float underSheen(Bsdf b, vec3 outgoing, vec3 incoming) {
   if (!kSheen) return 1.0f;
   float strongest = maxComponent(b.sheenColor);
@@ -78,7 +78,7 @@ BsdfValue evaluateBsdf(Bsdf b, vec3 outgoing, vec3 incoming) {
   return r;
 }
 
-/// What of evaluateBsdf() is diffuse light, reflected or passed through, seen under sheen and clearcoat.
+/// The diffuse part of evaluateBsdf(), reflected and transmitted, as seen under sheen and clearcoat.
 vec3 diffuseUnderLayers(Bsdf b, vec3 outgoing, vec3 incoming) {
   vec3 value = vec3(0.0f);
   if (kDiffuseTransmission && incoming.z < 0.0f) value = evaluateThrough(b, outgoing, incoming, 1.0f).value;
@@ -132,7 +132,7 @@ BsdfSample drawLayered(Bsdf b, vec3 outgoing, float choice, float u, float v) {
     return s;
   }
   s = drawBase(b, outgoing, choice, u, v);
-  // Of a single direction.
+  // The direction is of a delta lobe and has its weight already.
   s.weight = s.weight * ((1.0f - coatShare(b, outgoing)) * underSheen(b, outgoing, s.incoming) / chances.z);
   return s;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where in and about its pixel a camera sample lies: drawn with the density of the pixel filter, so that all samples
-// weigh the same (Ernst, Stamminger and Greiner, Filter Importance Sampling, 2006).
+// Places of camera samples within and around their pixel. They are drawn with the density of the pixel filter, so that
+// all samples have the same weight (Ernst, Stamminger and Greiner, Filter Importance Sampling, 2006).
 
 const int kBoxFilter = 0;
 const int kGaussianFilter = 1;

@@ -11,7 +11,7 @@ uint mixBits(uint x) {
   return x;
 }
 
-/// What all random numbers of a pixel derive from.
+/// The key from which all random numbers of a pixel derive.
 uint pixelKey(uint pixelX, uint pixelY, uint seed) { return mixBits(pixelX + mixBits(pixelY + mixBits(seed))); }
 
 /// The same for one path.

@@ -54,7 +54,7 @@ vec2 sampleDisk(float u, float v) {
   bool wide = abs(x) > abs(y);
   float radius = wide ? x : y;
   float ratio = radius == 0.0f ? 0.0f : (wide ? y / x : x / y);
-  // Where it is steep, the angle is pi/2 minus this one.
+  // In the steep half, the angle is pi/2 minus this one.
   vec2 p = cosSinOctant(0.25f * kPi * ratio);
   return wide ? vec2(radius * p.x, radius * p.y) : vec2(radius * p.y, radius * p.x);
 }
@@ -83,8 +83,8 @@ float misWeight(float own, float other) {
 /// stratified points reward.
 float balanceWeight(float own, float other) { return own > 0.0f ? own / (own + other) : 0.0f; }
 
-/// How much of a diffuse reflection is left towards `incoming`: where an interpolated normal sees light that is near
-/// the horizon of its flat triangle, light fades, which would else end at once, triangle by triangle (Chiang, Li and
+/// The share of a diffuse reflection that is left towards `incoming`. Where an interpolated normal sees light near the
+/// horizon of its flat triangle, light fades; otherwise it would end abruptly, triangle by triangle (Chiang, Li and
 /// Burley, Taming the Shadow Terminator, 2019). At most 1.
 float terminatorFade(vec3 faceNormal, vec3 vertexNormal, vec3 incoming) {
   float above = dot(vertexNormal, incoming) * dot(vertexNormal, faceNormal);

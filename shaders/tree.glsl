@@ -51,7 +51,7 @@ LeafPair loadLeaf(int index) {
   return l;
 }
 
-/// Where an instance stands.
+/// The transform of an instance, from local space to its mesh's space.
 struct InstanceSpace {
   vec3 place;  // the mesh's origin in local space
   vec3 row0;   // of the matrix from local space into the mesh's

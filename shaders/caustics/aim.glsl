@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where light paths are aimed: at the balls round all that makes caustics.
+// Light paths are aimed at the balls that enclose everything that makes caustics.
 
 /// A ray towards a caster, and its density: over solid angle, or over the area across parallel rays. 0: there is none.
 struct Aim {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where light paths begin (kLightPaths): at a lamp drawn by its power, aimed at what makes caustics. Balls enclose all
-// casters, so that no path that meets one first is left out.
+// Light paths (kLightPaths) begin at a lamp that is drawn by its power, and are aimed at casters of caustics. Balls
+// enclose all casters, so that no path that meets one first is left out.
 
 layout(location = 0) uniform vec4 casters[kMostCasters];  // local space: middle, radius
 layout(location = kMostCasters) uniform int casterCount;
@@ -85,7 +85,7 @@ Emission drawEmission(Sampler numbers) {
   return e;
 }
 
-/// Of the random numbers of a pass of light paths, which has Sobol points of its own.
+/// The key of the random numbers of a pass of light paths, which has Sobol points of its own.
 uint keyOfLightPaths() { return pixelKey(uint(frame.sampling.x), 0xfffffffeu, uint(frame.picture.w)); }
 
 /// A light path. Until it is seen by the camera, `contribution` is its flux and `shadowLimit` the range of its light.

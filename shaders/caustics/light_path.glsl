@@ -46,7 +46,7 @@ SeenFrom cameraFrom(vec3 point, vec2 lens) {
   return c;
 }
 
-/// Whether --bounces lets a camera path go the same way back.
+/// Returns true if --bounces lets a camera path go the same way back.
 bool withinBounces(Path p) {
   int most = kTransmission && p.clearFirst ? frame.limits.x : frame.limits.x + 1;
   return 1 + limitedScatterings(p) <= most;
@@ -97,7 +97,7 @@ Path splat(Path p, Surface s, SurfaceMaterial m, float times) {
   return traceAnew(p, p.shadowLimit);
 }
 
-/// Whether the back of a surface is not there.
+/// Returns true if rays do not see the back of the surface.
 bool isSingleSided(uint material, uint flags) {
   bool passes = materialFloats(material, kMaterialSurface).w > 0.0 ||
                 (kDiffuseTransmission && materialFloats(material, kMaterialDiffuseTransmission).w > 0.0);
@@ -113,7 +113,7 @@ Path passOn(Path p, Surface s, float times) {
   return extend(p);
 }
 
-/// Of the light paths that a single-sided surface could scatter, the part that goes on behind it.
+/// A single-sided surface sends this share of the light paths that it could scatter on behind itself.
 const float kPassedOn = 0.125;
 
 /// One step of a light path. Camera paths go the other way: what single-sided surfaces show them, the front, stops
@@ -158,7 +158,7 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   bool straight = wall && next.transmitted;
   if (next.density != 0.0 || !(caster || straight)) return p;
   vec3 direction = ontoSide(normalize(toWorld(at.around, next.incoming)), s.geometricNormal, next.transmitted);
-  // Where normals are bent, flux turns otherwise than radiance (Veach, section 5.3).
+  // Bent normals weigh flux in another way than radiance (Veach, section 5.3).
   float before = abs(dot(p.direction, s.geometricNormal)) * abs(next.incoming.z);
   float after = abs(dot(direction, s.geometricNormal)) * abs(at.outgoing.z);
   vec3 weight = next.weight * (after / max(before, 1e-9) / (1.0 - splats));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Of the variance filter: how far each pixel was moved, and how much of that is noise; both relative to its light,
-// squared, as x / (1 + x): else the few brightest samples of a window would speak for all of it.
+// A pass of the variance filter: it compares how far each pixel was moved with its noise. Both are squared, relative to
+// the pixel's light, and mapped by x / (1 + x), so that the few brightest samples of a window do not decide alone.
 #include "denoise/denoise.glsl"
 
 layout(binding = 0) uniform sampler2D lights;    // noisy

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the passes of the variance filter share (src/render/denoise.h). Pictures are textures of one texel a pixel;
-// light is divided by the albedo, so that textures stay sharp, and is in units of the picture's mean.
+// The passes of the variance filter share these functions (src/render/denoise.h). Pictures are textures of one texel a
+// pixel. Light is divided by the albedo, so that textures stay sharp, and is in units of the picture's mean.
 #include "picture/picture.glsl"
 
 const float kDarkSquared = 0.01;   // of light: what relative differences are relative to at least, squared
@@ -26,7 +26,7 @@ float scaledVariance(float variance, float scale) {
   return clamp(variance * scale * scale, 0.0, kBrightest * kBrightest);
 }
 
-/// What tells surfaces apart: of the part of the samples that hit something.
+/// The properties by which a filter distinguishes surfaces, as means over the samples that hit something.
 struct Guide {
   vec4 albedo;  // and coverage
   vec3 normal;
@@ -58,5 +58,5 @@ float likeness(Guide own, Guide other, vec2 away) {
            coverage * tinted.a * tinted.a);
 }
 
-/// That the picture's background is there, which has no noise: nothing is filtered.
+/// Returns true if the pixel shows only the background, which has no noise and is not filtered.
 bool empty(Guide g) { return g.albedo.a <= 0.0; }

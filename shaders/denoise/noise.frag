@@ -24,7 +24,7 @@ void main() {
   float shown = 0.0;
   float squares = 0.0;
   float variance = 0.0;
-  // Of relative variance, so that the brightest pixels do not drown the rest.
+  // These are sums of relative variance, so that the brightest pixels do not outweigh the rest.
   float independent = 0.0;
   float independentSquares = 0.0;
   float observations = 0.0;

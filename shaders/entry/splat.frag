@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one light path adds to one pixel, and the square of its luminance.
+// Writes the light that one light path adds to one pixel, and the square of its luminance.
 #include "sampling.glsl"
 #include "pixel_filter.glsl"
 #include "luminance.glsl"

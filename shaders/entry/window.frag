@@ -31,7 +31,7 @@ void main() {
     return;
   }
   vec4 color = place.x >= bar ? shownOf(rightPicture, uv) : shownOf(leftPicture, uv);
-  // Where nothing is, a checkerboard, as picture editors show it.
+  // Empty places show a checkerboard, as in picture editors.
   ivec2 square = ivec2(place) >> 3;
   float board = ((square.x ^ square.y) & 1) == 0 ? 0.35 : 0.45;
   shown = vec4(mix(vec3(board), color.rgb, color.a), 1.0);

@@ -17,8 +17,8 @@ LightNumbers shifted(LightNumbers n, int index) {
   return n;
 }
 
-/// What a light sample may bring to a surface of this normal, which may be a rounded one (unpackNormal): a guess that
-/// is never zero where the BSDF is not. through: the surface takes light from behind, too.
+/// Estimates the light that a sample brings to a surface of this normal, which may be a rounded one (unpackNormal). The
+/// estimate is never zero where the BSDF is not. through: the surface also takes light from behind.
 float candidateWeight(LightSample s, vec3 normal, bool through) {
   float cosine = dot(s.direction, normal);
   if (through) cosine = abs(cosine);

@@ -23,7 +23,7 @@ Path keepLight(Path p, Surface s, SurfaceMaterial m) {
   return p;
 }
 
-/// Where neighbour `index` is: one in each of as many sectors of a disc that is turned by chance.
+/// The pixel of neighbour `index`: one in each of as many sectors of a disc that is turned by chance.
 ivec2 neighbourOf(ivec2 pixel, int index, vec2 uv) {
   float angle = 2.0 * kPi * (float(index) + uv.x) / float(kReuseNeighbours);
   float radius = kReuseRadius * sqrt(fract(uv.y + float(index) * 0.61803399));

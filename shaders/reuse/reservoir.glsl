@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What spatial reuse keeps of the light sample of a surface, and how the surfaces of pixels near it take it: ReSTIR
-// (Bitterli et al., Spatiotemporal Reservoir Resampling for Real-Time Ray Tracing with Dynamic Direct Lighting, 2020)
-// without reuse in time, unbiased by pairwise multiple importance sampling (Bitterli, Correlations and Reuse for Fast
-// and Accurate Physically Based Light Transport, 2022).
+// Spatial reuse keeps the light sample of a surface as a reservoir, and lets the surfaces of nearby pixels take it:
+// ReSTIR (Bitterli et al., Spatiotemporal Reservoir Resampling for Real-Time Ray Tracing with Dynamic Direct Lighting,
+// 2020) without reuse in time, unbiased by pairwise multiple importance sampling (Bitterli, Correlations and Reuse for
+// Fast and Accurate Physically Based Light Transport, 2022).
 
 /// A surface as light samples are weighed for it.
 struct LitSurface {
@@ -51,7 +51,8 @@ Reservoir reservoirOf(vec4 first, vec4 second) {
   return r;
 }
 
-/// What a light sample, as densely as it was drawn by one whose every number has density 1, may bring to a surface.
+/// The target function of resampling: an estimate of the light that a sample brings to a surface, per unit of the
+/// random numbers that draw the sample.
 float targetOf(LightChoice light, LitSurface on) {
   light.chance = 1.0f;
   return candidateWeight(lightOfChoice(light, on.point), unpackNormal(on.normal), on.through);

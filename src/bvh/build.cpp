@@ -120,7 +120,7 @@ struct WholeTree {
   std::unique_ptr<TopNode> top;
   std::vector<TopNode*> parts;
 
-  // Of all boxes, which the heuristic's cost goes with.
+  // The sum over all boxes, to which the heuristic's cost is proportional.
   double area() const { return areaOf(top->bounds) + areaOfTop(*top); }
   uint32_t depth() const {
     uint32_t depth = 0;

@@ -17,8 +17,8 @@ namespace {
 
 using glm::dvec3;
 
-/// How far apart such faces are to be, in bounds of what rounding does to hit points: an offset is 1 to 1.25
-/// of them, and from either face the other one must still be in front.
+/// The distance that such faces get, in units of the bound on a hit point's rounding error. An offset is 1 to
+/// 1.25 units, and from either face the other one must still lie in front.
 constexpr double kGap = 4.0;
 
 /// Faces whose normals are less parallel meet in a line at most.
@@ -40,7 +40,7 @@ Face faceOf(const Scene& scene, uint32_t triangle) {
   return face;
 }
 
-/// Whether the two cover the same place, seen along their common normal: no edge parts them, by more than
+/// Returns true if the two overlap as seen along their common normal: no edge separates them by more than
 /// `least`.
 bool overlap(const Face& a, const Face& b, double least) {
   for (const Face* of : {&a, &b}) {
@@ -68,7 +68,7 @@ double apart(const Face& plane, const Face& from) {
   return most;
 }
 
-/// How an opaque face is to be moved.
+/// The direction and distance by which an opaque face is moved.
 struct Move {
   dvec3 direction{0.0};
   double by = 0.0;
@@ -78,7 +78,7 @@ struct Move {
 Move moveOff(const Face& glass, bool solid, const Face& opaque) {
   const double gap = kGap * std::max(glass.error, opaque.error);
   if (!(std::abs(glm::dot(glass.normal, opaque.normal)) > kParallel)) return {};
-  // Of a small face and a large one that is nearly parallel, the plane of the large one tells.
+  // The larger of two faces that are nearly parallel decides by its plane.
   const bool byGlass = apart(glass, opaque) <= gap;
   if (!byGlass && !(apart(opaque, glass) <= gap)) return {};
   if (!overlap(glass, opaque, gap)) return {};
@@ -89,7 +89,7 @@ Move moveOff(const Face& glass, bool solid, const Face& opaque) {
   return {direction, gap - now};
 }
 
-/// What is in the way of a box, of the primitives of a tree.
+/// Calls `meet` for each primitive of a tree whose box overlaps the box.
 template <typename Meet>
 void meetAll(const Bvh& bvh, const Bounds& box, const Meet& meet) {
   const auto meets = [&](const Bounds& b) {

@@ -55,7 +55,7 @@ double crossSphere(const ExactRay& ray, const Sphere& sphere, bool inside) {
   return inside && b + root > 0.0 ? b + root : kMiss;
 }
 
-/// Where the ray enters the box, widened against rounding, or kMiss.
+/// The distance at which the ray enters the box, widened against rounding, or kMiss.
 double enterBox(const ExactRay& ray, const glm::dvec3& inverse, const Bounds& box, double farthest) {
   constexpr double kWiden = 1e-9;
   double enter = 0.0;

@@ -12,7 +12,7 @@
 
 namespace fragtrace {
 
-/// What a ray meets first, or kMissIndex.
+/// The nearest hit of a ray, or kMissIndex.
 struct ExactHit {
   double t = 0.0;  ///< local space
   uint32_t primitive = kMissIndex;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What lies under a place of the picture.
+// Picking: finds what is drawn at a place of the picture.
 #pragma once
 
 #include <optional>

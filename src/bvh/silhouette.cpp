@@ -82,7 +82,7 @@ void useAll(const Scene& scene, const NodeSet& nodes, std::span<const Part> part
   }
 }
 
-/// Which middles of pixels are covered.
+/// The set of pixels whose middles are covered.
 class Coverage {
  public:
   explicit Coverage(glm::ivec2 size) : size_(size), covered_(size_t(size.x) * size_t(size.y)) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What nodes of the file draw, taken together: its box, and its outline in a picture.
+// The box of what some nodes of the file draw together, and its outline in a picture.
 #pragma once
 
 #include <vector>

@@ -9,8 +9,8 @@
 
 namespace fragtrace {
 
-/// Whether both levels fit kMaxTwoLevelDepth: a tree over so many primitives and instances, and one over so
-/// many triangles of a mesh.
+/// Returns true if both levels together fit kMaxTwoLevelDepth: a tree over so many primitives and instances,
+/// and a tree over so many triangles of a mesh.
 bool fitsTwoLevels(uint64_t topPrimitives, uint64_t meshTriangles);
 
 /// In one level where the scene has no instances, as buildBvh(primitiveBounds()) does it. What an instance

@@ -16,7 +16,8 @@ namespace fragtrace {
 
 using Words = std::vector<uint32_t>;
 
-/// What surrounds the scene: kind and, unless there is none, an equirectangular picture with R, G, B.
+/// The surroundings of the scene: their kind and, unless there are none, an equirectangular picture with R,
+/// G, B.
 struct Environment {
   Surroundings kind = Surroundings::None;
   Image image;
@@ -29,7 +30,7 @@ struct BoxGrid {
   glm::vec3 cell{1.0f};
 };
 
-/// What light samples in gi choose between, in one unit of power.
+/// The powers between which light samples in gi choose, in one unit.
 struct LightShare {
   bool samplesEnvironment = false;
   double environment = 0.0;  ///< at an intensity of 1
@@ -57,7 +58,7 @@ struct GpuScene {
   std::array<bool, layout::kSceneBufferCount> unchanged{};  ///< those that are as packed before: empty here
 
   size_t bytes() const;
-  /// Of these, what the primitives take: tree, leaves, faces and vertex attributes.
+  /// The part of these that the primitives take: tree, leaves, faces and vertex attributes.
   size_t geometryBytes() const;
 };
 

@@ -27,8 +27,8 @@ static_assert(sizeof(InversionStep) == 16);
 /// sum.
 double makeInversionTable(std::span<float> weights, std::span<InversionStep> steps);
 
-/// Where an index drawn by its weight begins and ends among 2^32 equally likely numbers, with a guide table
-/// (Chen and Asau, On Generating Random Variates from an Empirical Distribution, 1974).
+/// The range of an index among 2^32 equally likely numbers, by its weight, with a guide table (Chen and Asau,
+/// On Generating Random Variates from an Empirical Distribution, 1974).
 struct InversionEntry {
   uint32_t first = 0;  ///< the index that the first number of the entry's equal share of the numbers draws
   uint32_t last = 0;   ///< that its last number draws

@@ -35,7 +35,7 @@ double costOf(const LightBounds& b) {
   return b.intensity * directions * (2.0 * (d.x * d.y + d.y * d.z + d.z * d.x) + 0.01 * glm::dot(d, d));
 }
 
-/// Of lights whose middles lie between two places: the bucket along an axis.
+/// Sorts lights whose middles lie between two places into buckets along an axis.
 struct Buckets {
   glm::dvec3 low{INFINITY};
   glm::dvec3 high{-INFINITY};

@@ -29,10 +29,11 @@ double largestCoordinate(const LiteralFace& f, const std::vector<glm::vec3>& poi
   return largest;
 }
 
-/// What corners may be off by, in parts of the largest coordinate, for their rounding.
+/// The rounding error that corners may have, in parts of the largest coordinate.
 constexpr double kTolerance = 0x1p-22;
-/// What the last corner may be off the others' plane by, in parts of the least height of a corner over the
-/// diagonal beside it: seen so nearly edge-on that this shows, the quadrilateral is no longer convex.
+/// The largest distance of the last corner from the others' plane, in parts of the least height of a corner
+/// over the diagonal beside it. From directions so nearly edge-on that a larger distance shows, the
+/// quadrilateral would not be convex.
 constexpr double kBend = 0x1p-20;
 
 bool isFlatAndConvex(const LiteralFace& f, const std::vector<glm::vec3>& points) {

@@ -29,7 +29,7 @@ struct LiteralMesh {
   std::vector<LiteralFace> faces;
 };
 
-/// What two triangles of the same plane, material and sides may be joined to.
+/// The shapes that two triangles of the same plane, material and sides may form.
 enum class Joining : uint8_t { None, Parallelograms, ConvexQuadrilaterals };
 
 /// The triangles in the leaves from firstLeaf on. emissiveApart: those that emit light are not joined.

@@ -161,8 +161,9 @@ class TraversalText {
     return {variable(xi + " * " + yj + " - " + yi + " * " + xj), i > j};
   }
 
-  /// Whether the face is so small beside the mesh, or some corner's sides so close, that the edge functions
-  /// are rounding for rays that pass far away (docs/design/numerics.md, "Zero from far away").
+  /// Returns true if the face is so small beside the mesh, or the sides at a corner so close together, that
+  /// the edge functions are only rounding for rays that pass far away (docs/design/numerics.md, "Zero from
+  /// far away").
   bool isTiny(const LiteralFace& f) const {
     constexpr double kShare = 0x1p-18;
     constexpr double kSmall = 0x1p-10;
@@ -189,7 +190,7 @@ class TraversalText {
     return text;
   }
 
-  /// Whether distances are to be those to the face's plane (shaders/intersect.glsl, distanceToPlane).
+  /// Returns true if distances are measured to the face's plane (shaders/intersect.glsl, distanceToPlane).
   bool isSliverFace(const LiteralFace& f) const {
     const auto at = [&](size_t i) { return mesh_.points[f.corner[i]]; };
     return isSliver({at(0), at(1), at(2)}) || (f.quad && isSliver({at(0), at(2), at(3)}));
@@ -209,8 +210,8 @@ class TraversalText {
     return text;
   }
 
-  /// Where it is the better one (shaders/intersect.glsl, distanceToPlane) the distance to the face's plane
-  /// replaces t over sum; `area` keeps the sum of the edges.
+  /// The distance to the face's plane replaces t over sum where it is the better one (shaders/intersect.glsl,
+  /// distanceToPlane). `area` keeps the sum of the edges.
   void planeDistance(const LiteralFace& f) {
     const auto at = [&](size_t i) { return mesh_.points[f.corner[i]]; };
     const glm::dvec4 plane(planeOf(at(0), at(1), at(2)));
@@ -305,7 +306,7 @@ class TraversalText {
     return "(2.0 * vec2(" + text + "))";
   }
 
-  /// Which of both triangles a line that meets the parallelogram meets.
+  /// Decides which of both triangles a line meets that meets the parallelogram.
   void tellTriangle(const LiteralFace& f) {
     if (!f.quad || !weights_) return;
     const Term diagonal = edge(f.corner[0], f.corner[2]);
@@ -313,8 +314,8 @@ class TraversalText {
         "  inFirst = (" + diagonal.name + (diagonal.negated ? " <= 0.0" : " >= 0.0") + ") == (sum >= 0.0);\n";
   }
 
-  /// What is hit, at t over sum, replaces the best if it is nearer; `weights` over sum are the barycentric
-  /// ones.
+  /// A hit at t over sum replaces the best one if it is nearer; `weights` over sum are the barycentric
+  /// weights.
   void keepNearest(const LiteralFace& f, const std::string& weights) {
     if (isTiny(f)) {
       for (const std::string row : {"rx", "ry"})

@@ -71,8 +71,8 @@ uvec4 literalEmitter(int emitter, int row) { return uvec4(0u); }
 constexpr double kFace = 55.0;
 constexpr double kVisit = 260.0;
 constexpr double kLockstep = 1.6;
-// Of the same machine, two cores: what was saved in the Cornell box, over the instructions above; what a face
-// adds to the compilation.
+// Measured on the same machine with two cores: the time saved in the Cornell box over the instructions above,
+// and the time by which a face makes compilation longer.
 constexpr double kNanosecondsAnInstruction = 0.25;
 constexpr double kCompilationOfAFace = 4e6;  // nanoseconds
 constexpr double kRaysAPath = 7.0;

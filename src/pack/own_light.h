@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether a scene lights itself.
+// Decides if a scene lights itself.
 #pragma once
 
 #include <cstdint>

@@ -5,7 +5,7 @@
 
 namespace fragtrace {
 
-/// What draws directions from the environment.
+/// The distribution by which directions to the environment are drawn.
 enum class EnvironmentDraws {
   Nothing,
   Light,          ///< light samples alone: each direction by its luminance

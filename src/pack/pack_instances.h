@@ -5,8 +5,8 @@
 
 namespace fragtrace {
 
-/// How an offset that keeps a ray off its triangle in the mesh's space grows to one in local space:
-/// scale * that + base (docs/design/numerics.md).
+/// An offset that keeps a ray off its triangle in the mesh's space becomes scale * offset + base in local
+/// space (docs/design/numerics.md).
 struct InstanceOffset {
   double scale = 1.0;
   double base = 0.0;

@@ -29,7 +29,7 @@ class TexturePacker {
 
   Words takeTexels() { return std::move(texels_); }
   const PlacedTextures& placed() const { return placed_; }
-  /// Whether all were known.
+  /// Returns true if all were known.
   bool allKnown() const { return placed_.size() == known_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much light the lobe of KHR_materials_sheen sends back, as a table for the shader.
+// The albedo of the lobe of KHR_materials_sheen, as a table for the shader.
 #pragma once
 
 #include <vector>
