@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a render that was broken off goes on from, as a file.
+// The file from which an interrupted render continues.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,8 @@ struct FilmState {
   uint64_t lightPaths = 0;
 };
 
-/// How far adaptive sampling is: of each block of pixels the samples of a half before the round under way,
-/// and after it. Without blocks it has not begun.
+/// The progress of adaptive sampling: for each block of pixels, the samples of a half before the current
+/// round and after it. Without blocks it has not begun.
 struct AdaptiveState {
   std::vector<int32_t> samples;
   std::vector<int32_t> targets;
@@ -44,7 +44,7 @@ struct Checkpoint {
   AdaptiveState adaptive;
 };
 
-/// Of this machine's byte order and layout.
+/// The bytes have this machine's byte order and layout.
 std::vector<uint8_t> encodeCheckpoint(const Checkpoint& checkpoint);
 
 /// Throws std::runtime_error with the bare reason when the bytes are not what encodeCheckpoint() makes.

@@ -12,7 +12,7 @@
 
 namespace fragtrace {
 
-/// What one pixel holds (shaders/film.glsl).
+/// The sums and counts of one pixel (shaders/film.glsl).
 struct FilmPixel {
   glm::dvec3 sum{0.0};  ///< of radiance, or of a feature
   double alpha = 0.0;   ///< sum
@@ -26,7 +26,7 @@ struct FilmPixel {
   /// The pixel counts as it is, or as laid over white where its shadow is in alpha alone
   /// (image/over_white.h).
   double luminance() const;
-  /// Of the mean's luminance, from samples taken as independent; 0 below two samples.
+  /// The variance of the mean's luminance, as if samples were independent; 0 below two samples.
   double variance() const { return samples > 1 ? m2 / (double(samples) * (double(samples) - 1.0)) : 0.0; }
 };
 
@@ -38,7 +38,7 @@ struct FilmPixels {
   uint64_t lightPaths = 0;  ///< whose light is in the sums
 };
 
-/// What the film counted, over all pixels.
+/// The film's counts, summed over all pixels.
 struct FilmTotals {
   uint64_t samples = 0;
   uint64_t rays = 0;

@@ -11,7 +11,7 @@ namespace fragtrace {
 namespace {
 
 constexpr int kWindow = 16;  // pixels a side of one cell of the windows' grid; a window is 3 x 3 cells
-/// How many pixels' worth of the whole picture's ratio stand beside a window's own.
+/// The ratio of the whole picture counts as much as so many pixels of a window.
 constexpr double kPrior = 24.0;
 
 /// Sums over pixels, by which a ratio of variances and its reliability are known.
@@ -129,8 +129,9 @@ std::vector<double> observedVariance(const FilmPixels& quarter, const FilmPixels
     first += weight * std::pow(quarter.pixels[i].luminance() - middle, 2.0);
     second += weight * observed[i];
   }
-  // Where the variance falls as N^-p, the distance from half to whole is 2^p - 1 of it, and the distances
-  // fall as 2^p. Independent samples have p = 1; beyond 2 the ratio is one of small numbers.
+  // If the variance falls as N^-p, the squared distance from half to whole is on average 2^p - 1 times the
+  // variance, and these distances fall as 2^p. Independent samples have p = 1; beyond 2 the ratio is one of
+  // small numbers.
   const double ratio = second > 0.0 ? std::clamp(first / second, 2.0, 4.0) : 2.0;
   for (double& value : observed) value /= ratio - 1.0;
   return observed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far the film still is from the picture it converges to, estimated from its samples alone.
+// Estimates the distance of the film from the picture to which it converges, from its samples alone.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ struct Halves {
   FilmPixels b;
 };
 
-/// Whether a goal of noise looks at the pixel: a camera sample has hit something there, or its samples
+/// Returns true if a noise goal counts the pixel: a camera sample has hit something there, or its samples
 /// differ.
 inline bool canBeNoisy(const FilmPixel& pixel) { return pixel.alpha > 0.0 || pixel.m2 > 0.0; }
 
@@ -42,8 +42,8 @@ std::vector<double> observedVariance(const FilmPixels& quarter, const FilmPixels
 /// black.
 std::vector<double> relativeErrors(const FilmPixels& pooled, const std::vector<double>& variance);
 
-/// How far a picture is from a goal of noise, of the pixels that can be noisy and of those of them that light
-/// has met, whichever is farther: what is black would else hide the little that is lit.
+/// The distance of a picture from a noise goal: of the pixels that can be noisy, or of those among them that
+/// light has reached, whichever is larger. Otherwise black pixels would hide the few that are lit.
 struct GoalDistance {
   double error = 0.0;  ///< that 95 % of the pixels do not exceed; 0 without any
   double share = 1.0;  ///< of the pixels, at or below the goal

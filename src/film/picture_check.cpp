@@ -14,9 +14,9 @@ namespace {
 constexpr int kBlock = 8;
 constexpr double kRounding = 1e-4;  // of what is shown, in sums of floats
 
-/// Of the difference of two means of luminance. Pooled over both pictures, so that one rare bright sample
-/// widens it on whichever side it falls; each picture's own where that is more, since they may sample in
-/// different ways.
+/// The variance of the difference of two means of luminance. It is pooled over both pictures, so that one
+/// rare bright sample widens it on whichever side it falls. Where a picture's own variance is larger, that is
+/// used, since the two may sample in different ways.
 double varianceOfDifference(const FilmPixel& a, const FilmPixel& b, CheckAgainst against) {
   const double na = a.samples;
   const double nb = b.samples;
@@ -110,7 +110,7 @@ void measure(const FilmPixels& picture, const FilmPixels& other, CheckAgainst ag
   check.meanErrors = all.difference != 0.0 ? all.errors(kRounding * std::abs(shown)) : 0.0;
 }
 
-/// What is wrong by these figures; empty: nothing.
+/// Says what these figures show to be wrong; empty if nothing is.
 std::string verdict(const PictureCheck& check, CheckAgainst against, bool oneSample) {
   if (against == CheckAgainst::SameSamples) {
     if (check.differing <= kMostDiffering) return "";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is known of drivers: which stage of the pipeline runs the tracer fastest.
+// Choices by driver, such as the stage of the pipeline that runs the tracer fastest.
 #pragma once
 
 #include "gl/context.h"
@@ -31,9 +31,9 @@ void setVectorWidth(VectorWidth width);
 int vectorWidthOf(const std::string& renderer);
 
 /// Tells llvmpipe not to optimise what it compiles, if that saves more time than drawing so many paths then
-/// takes longer (docs/measurements/benchmarks.md); pictures are the same bits. For processes that draw once: it
-/// holds for all of their contexts, and has to come before the first. What GALLIVM_PERF says already stays.
-/// Returns whether it was told so.
+/// takes longer (docs/measurements/benchmarks.md); pictures are the same bits. For processes that draw once:
+/// it holds for all of their contexts, and has to come before the first. What GALLIVM_PERF says already
+/// stays. Returns whether it was told so.
 bool preferQuickCompilation(double paths);
 
 }  // namespace fragtrace

@@ -16,7 +16,7 @@ void checkGl(const char* where);
 /// Fences between contexts that share objects, as GLsync; null, where the driver makes none, is signalled.
 /// One after all that this context was told, which is sent on its way.
 void* makeFence();
-/// What this context is told from now on waits for it, and it is released.
+/// Commands of this context that follow wait for the fence, which is released.
 void awaitFence(void* fence);
 bool isSignalled(void* fence);
 /// Waits for it, and releases it; for all that this context was told, where there is none.

@@ -29,13 +29,13 @@ class SceneBuffers {
   BufferReads reads_;
 };
 
-/// How much a driver reads each way.
+/// The largest arrays that a driver reads in each way.
 struct ReadLimits {
   int64_t texels = 0;  ///< of image and texel buffers
   int64_t storageBytes = 0;
   int64_t imageUnits = 0;
 };
-/// Of the current context.
+/// The limits of the current context.
 ReadLimits readLimits();
 
 /// Bytes of texels that can be read in the way that is wanted; for Auto, in the way that reads the most.
@@ -46,8 +46,8 @@ struct ReadChoice {
   std::string fallback;  ///< why it is not the read that is fastest on this driver; empty when it is
 };
 
-/// What was asked for; for Auto the read that is fastest on this driver (image buffers on software, storage
-/// buffers on GPUs), or the other one when only that reads arrays of this size.
+/// Returns the read asked for. For Auto it is the fastest on this driver (image buffers on software, storage
+/// buffers on GPUs), or the other one if only that reads arrays of this size.
 ReadChoice chooseReads(BufferReads wanted, bool software, const GpuScene& scene, const ReadLimits& limits);
 
 }  // namespace fragtrace

@@ -41,7 +41,8 @@ struct Block {
     return above > kOver * noisy || litAbove > kOver * lit;
   }
 
-  /// What a sample takes from the picture's squared error; it falls with the square of the samples.
+  /// The amount by which one more sample lowers the picture's squared error; it falls with the square of the
+  /// samples.
   double worth() const { return error / (double(samples) * pixels); }
 };
 
@@ -102,7 +103,7 @@ double chooseTargets(Blocks& blocks, const AdaptiveGoal& goal, double affordable
     cost += own;
   }
   if (cost > 0.0) return cost;
-  // What is left of the time is too short to double any: all get a part of it.
+  // The time that is left is too short to double any block, so all get a part of it.
   for (Block* b : candidates) {
     b->target = b->samples + int((b->next(goal.mostSamples) - b->samples) * (affordable / all));
     cost += b->cost(b->target);
@@ -110,7 +111,7 @@ double chooseTargets(Blocks& blocks, const AdaptiveGoal& goal, double affordable
   return cost;
 }
 
-/// Of all pixels.
+/// The numbers of samples that all pixels should have.
 std::vector<uint32_t> targetsOf(Blocks& blocks) {
   std::vector<uint32_t> targets;
   targets.reserve(size_t(blocks.picture.x) * size_t(blocks.picture.y));

@@ -35,11 +35,12 @@ struct AdaptiveRun {
   AdaptiveState state;
 
   explicit AdaptiveRun(glm::ivec2 size) : films{Film(size), Film(size)} {}
-  /// Of the state of a picture of that size.
+  /// The number of blocks in the state of a picture of that size.
   static size_t blocksOf(glm::ivec2 size);
 };
 
-/// Of the second half of an adaptive picture. No involution, so that two seeds never give the same picture.
+/// The seed of the second half of an adaptive picture. The function is not its own inverse, so two seeds
+/// never give the same picture.
 uint32_t seedOfOtherHalf(uint32_t seed);
 
 /// Draws two halves of the samples in rounds. The number of samples doubles in blocks of 8 x 8 pixels, so

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How work is cut into draws: small enough that none nears a driver's limits, large enough to keep it busy.
+// Cuts work into draws: small enough that none nears a driver's limits, large enough to keep it busy.
 #pragma once
 
 #include <algorithm>

@@ -105,7 +105,7 @@ void Film::addSplats(FilmPixels& film) const {
     const double samples = pixel.samples;
     const glm::dvec3 mean = glm::dvec3(splats[p * 4], splats[p * 4 + 1], splats[p * 4 + 2]) / paths;
     const double value = luminance(mean);
-    // Of the mean of independent paths, most of which bring nothing.
+    // The variance of the mean of independent paths, most of which bring no light.
     const double variance =
         std::max(0.0, splats[p * 4 + 3] / paths - value * value) / std::max(paths - 1.0, 1.0);
     pixel.sum += samples * mean;

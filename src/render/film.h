@@ -17,7 +17,7 @@ inline constexpr glm::ivec2 kCompiledFor{7};
 class Film {
  public:
   explicit Film(glm::ivec2 size);
-  /// Of the pixels that this driver's films can have a side.
+  /// The largest number of pixels per side that a film can have with this driver.
   static int mostSide();
   void clear();
   /// Empty, and of another size, of which it keeps its textures where these have room for it.
@@ -34,7 +34,7 @@ class Film {
   FilmState save() const;
   void load(const FilmState& state);
 
-  /// What a program that draws guides has summed: kGuideChannels, and the counts of the pixels.
+  /// The sums of a program that draws guides: kGuideChannels, and the counts of the pixels.
   struct Guides {
     Image layers;
     FilmPixels counts;

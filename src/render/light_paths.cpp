@@ -10,7 +10,7 @@ namespace {
 
 /// Light paths of a draw, a side. The same for every picture and driver, so that sums have the same bits.
 constexpr int kRecordSide = 256;
-/// Of a column of these, at most so many are drawn by a lane one after the other, so that none waits for the
+/// A lane draws at most so many light paths of a column one after the other, so that no lane waits for the
 /// longest path of the others. A row of lanes is as wide as the tile, since llvmpipe's threads share squares
 /// of 64 pixels, and rows are even, since it draws two at a time.
 constexpr int kSoftwarePathsPerLane = 16;
@@ -84,7 +84,7 @@ void Renderer::splat(const RenderPass& pass, glm::ivec2 tile) {
   const DrawTarget target;
   glNamedFramebufferTexture(target.framebuffer.name(), GL_COLOR_ATTACHMENT0, film.splats().name(), 0);
   target.bind();
-  // Where no viewport is larger than the film, points beside it are lost.
+  // If no viewport can be larger than the film, points beside it are lost.
   const int margin = std::max(size.x, size.y) + 2 * kMargin <= Film::mostSide() ? kMargin : 0;
   const glm::ivec2 viewport = size + 2 * margin;
   glViewport(-margin, -margin, viewport.x, viewport.y);

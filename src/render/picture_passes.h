@@ -10,7 +10,7 @@
 
 namespace fragtrace {
 
-/// Of a fragment shader alone. Throws RenderError.
+/// Makes a program of a fragment shader alone. Throws RenderError.
 GlProgram passProgram(const ShaderSource& source, const char* entry);
 
 /// A framebuffer and its draws; changes framebuffer, viewport, program and texture units of the context.
@@ -33,14 +33,14 @@ class PicturePasses {
   size_t attached_ = 0;
 };
 
-/// What is left of a picture after sums over blocks, block by block down to a texel.
+/// Sums a picture over blocks, and these sums again, down to one texel.
 class PictureSums {
  public:
   PictureSums(const ShaderSource& source) : sums_(passProgram(source, "picture/sums.frag")) {}
 
   /// The size after one sum.
   static glm::ivec2 blocksOf(glm::ivec2 size);
-  /// Where a program leaves its sums over blocks of a picture of that size.
+  /// The texture into which a program writes its sums over blocks of a picture of that size.
   const GlTexture& blocks(glm::ivec2 size);
   /// Sums these, into one texel of RGBA32F.
   void into(const GlTexture& texel, glm::ivec2 size, PicturePasses& passes);

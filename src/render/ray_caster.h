@@ -14,7 +14,7 @@
 
 namespace fragtrace {
 
-/// What a ray met: its leaf slot (leaf * 2 + side) or -1, and how far away.
+/// The hit of a ray: its leaf slot (leaf * 2 + side) or -1, and its distance.
 struct TracedRay {
   int32_t slot = -1;
   float t = 0.0f;
@@ -41,10 +41,10 @@ class RayCaster {
   /// milliseconds: by the wall clock round glFinish on software, by the device's own timer elsewhere.
   double trace(const RaySet& rays, bool anyHit);
 
-  /// What the latest trace found. Throws RenderError when a ray took more steps than one draw allows.
+  /// The hits of the latest trace. Throws RenderError when a ray took more steps than one draw allows.
   std::vector<TracedRay> hits() const;
 
-  /// Which clock trace() reads: "wall clock" or "gpu timer".
+  /// The clock that trace() reads: "wall clock" or "gpu timer".
   const char* clockName() const { return software_ ? "wall clock" : "gpu timer"; }
 
  private:

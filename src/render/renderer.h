@@ -28,10 +28,10 @@ struct Lens {
   int blades = 0;              ///< of a polygonal aperture; 0: a round one
 };
 
-/// Whether this driver can add points to a film of 32-bit floats, as caustics are drawn.
+/// Returns true if this driver can add points to a film of 32-bit floats, as caustics need.
 bool canSplat();
 
-/// What can change from picture to picture without touching program or buffers.
+/// Settings that can change from picture to picture without touching program or buffers.
 struct View {
   Camera camera;                ///< world space
   LocalSpace space;             ///< of the scene
@@ -85,7 +85,7 @@ class Renderer {
   /// follow use it. The film ends up cleared. Returns milliseconds.
   double compile(const ShaderVariant& variant, Film& film, const View& view);
 
-  /// Whether compile() has seen the variant.
+  /// Returns true if compile() has seen the variant.
   bool knows(const ShaderVariant& variant) const { return paces_.contains(variant); }
   /// Draws with such a variant, at the pace that it had.
   void use(const ShaderVariant& variant) { pace_ = &paces_.at(variant); }
@@ -111,20 +111,20 @@ class Renderer {
   /// Milliseconds that one sample of one pixel takes, as measured by the latest work; 0: not yet known.
   double msPerSample() const { return pace_ ? pace_->msPerSample : 0.0; }
 
-  /// What measures RenderTimes::drawMs: the GPU's timer, or the wall's clock round glFinish where a software
+  /// The clock of RenderTimes::drawMs: the GPU's timer, or the wall clock around glFinish where a software
   /// driver's timer is wrong.
   const char* clock() const { return software_ ? "wall clock" : "gpu timer"; }
 
-  /// How long a draw may take from now on; for benchmarks, whose frames are known to be short.
+  /// Sets the time that a draw may take from now on; for benchmarks, whose frames are known to be short.
   void setDrawTime(double ms) { targetMs_ = ms; }
 
   /// Sets how many draws the device is told before the first is done: 1 or 2, by default 2 on hardware.
   void setDrawsInFlight(size_t draws) { inFlight_ = std::clamp(draws, size_t(1), kMostInFlight); }
 
  private:
-  /// What of a scene stands in the frame's block.
+  /// Sets the members of the uniform block that depend on the scene.
   void describeScene(const GpuScene& scene);
-  /// What of a film and a view stands there.
+  /// Sets the members of the uniform block that depend on a film and a view.
   void setFrame(const Film& film, const View& view);
   /// Binds all that the draws of a pass have in common; they draw to the result.
   DrawTarget begin(const RenderPass& pass);
@@ -165,12 +165,12 @@ class Renderer {
   /// Keeps the light samples of all pixels in their sample `index`, where the picture's pixels take those of
   /// others; false when stopped.
   bool keepLight(const Film& film, const View& view, int index, const GoOn& goOn);
-  /// What a tile of the records holds, through the pixel filter.
+  /// Draws the records of a tile into the film of splats, through the pixel filter.
   void splat(const RenderPass& pass, glm::ivec2 tile);
   /// More samples a draw as long as the step budget takes them.
   void adaptPace(int samples);
 
-  /// How much of a variant's work goes into a draw.
+  /// The amount of a variant's work that goes into one draw.
   struct Pace {
     ShaderVariant drawn;  ///< resumable where it had to be
     double msPerSample = 0.0;

@@ -49,8 +49,8 @@ struct CameraOverrides {
 /// their edge.
 Camera frameScene(const BoundsDouble& bounds, double aspectRatio = 1.0);
 
-/// What the camera looks at: the point on its axis that is as deep as the centre of the bounds, or, if that
-/// is not in front of it, as far away as the bounds are large.
+/// The point at which the camera looks: on its axis, as deep as the centre of the bounds, or, if that is not
+/// in front of it, as far away as the bounds are large.
 glm::dvec3 focalPointOf(const Camera& camera, const BoundsDouble& bounds);
 
 /// The point on which geometry is best recentred for a picture from `camera`: the nearest point of the
@@ -65,14 +65,15 @@ glm::dvec3 recentringPoint(const std::optional<glm::dvec3>& camera, const Bounds
 /// the angle is not between 0 and 180 degrees, the scale is not above 0, or both are given.
 Camera withOverrides(Camera camera, const CameraOverrides& overrides, const BoundsDouble& bounds = {});
 
-/// Of a lens that sees a vertical angle (radians) on a sensor of 35 mm film, 24 mm high; metres.
+/// The focal length of a lens that sees a vertical angle (radians) on a sensor of 35 mm film, 24 mm high;
+/// metres.
 double focalLengthOf(double viewAngle);
 
 /// A camera with a narrower lens, so that what is in the middle of its picture is so many times as large.
 Camera zoomed(Camera camera, double zoom);
 
-/// What a turntable turns about, the point on its axis: the focal point asked for, else that of the camera,
-/// else, where the camera was placed by the scene's bounds (orbit, fit), their centre.
+/// A point on the axis about which a turntable turns: the focal point asked for, else that of the camera,
+/// else, where the scene's bounds placed the camera (orbit, fit), their centre.
 glm::dvec3 turningPoint(const Camera& camera, const CameraOverrides& overrides, const BoundsDouble& bounds);
 
 /// The index asked for, or that of the camera asked for by name (indexOfPart()); none where neither is.

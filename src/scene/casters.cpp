@@ -88,7 +88,8 @@ struct Cut {
   float squared = std::numeric_limits<float>::infinity();  ///< radii of balls round both boxes, squared
 };
 
-/// Of the planes between equal slices of the box of the middles, the one whose sides have the smallest balls.
+/// The best of the planes between equal slices of the box of the middles: the one whose sides have the
+/// smallest balls.
 Cut bestCut(const std::vector<Ball>& balls) {
   constexpr int kSlices = 16;
   Bounds middles;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What throws caustics: surfaces that send the light of lamps on in single directions.
+// Finds the casters of caustics: surfaces that reflect or refract the light of lamps in single directions.
 #pragma once
 
 #include <vector>

@@ -15,12 +15,12 @@ namespace fragtrace {
 
 namespace {
 
-/// What the next ray's own rounding needs of a height over a plane, in offsets: 22 of 32
+/// The height over a plane that the rounding of the next ray needs, in offsets: 22 of 32
 /// (docs/design/ray-origins.md).
 constexpr double kClearance = 22.0 / 32.0;
-/// What a grazing ray leaves unknown of where in the plane its point is, in offsets: 16 of 32, for the floats
-/// of the ray's point and a sine of 1/16 (pointOnPlane of shaders/intersect.glsl). Of slivers also what the
-/// weighted distance is off by (isSliver).
+/// The uncertainty of a point within its plane when the ray grazes, in offsets: 16 of 32, for the floats of
+/// the ray's point and a sine of 1/16 (pointOnPlane of shaders/intersect.glsl). For slivers the error of the
+/// weighted distance is added (isSliver).
 constexpr double kGrazing = 0.5;
 /// Offsets are packed with a few bits, rounded up by at most this.
 constexpr double kPackedOffset = 1.25;
@@ -46,15 +46,15 @@ struct Fans {
 };
 
 size_t hashOf(const glm::vec3& p) {
-  // Of -0 + 0 comes 0: both are one place.
+  // -0 + 0 is 0, so both have the same place.
   uint64_t h = 0;
   for (int axis = 0; axis < 3; ++axis)
     h = (h ^ std::bit_cast<uint32_t>(p[axis] + 0.0f)) * 0x9e3779b97f4a7c15u;
   return size_t(h ^ (h >> 29));
 }
 
-/// Of vertices, which space they are in: 0 is local space, a shared mesh's is its index + 1. Empty without
-/// those.
+/// The space of each vertex: 0 is local space, that of a shared mesh is its index + 1. Empty without shared
+/// meshes.
 std::vector<uint32_t> spacesOf(const Scene& scene) {
   std::vector<uint32_t> spaces;
   if (scene.sharedMeshes.empty()) return spaces;
@@ -69,7 +69,7 @@ std::vector<uint32_t> spacesOf(const Scene& scene) {
   return spaces;
 }
 
-/// Of each vertex the first one at the same place of the same space.
+/// For each vertex, the first one at the same place of the same space.
 std::vector<uint32_t> placesOf(const Scene& scene) {
   const std::vector<glm::vec3>& positions = scene.vertices.position;
   const std::vector<uint32_t> spaces = spacesOf(scene);
@@ -150,7 +150,7 @@ double nearest(const glm::dvec3& direction, const Sector& s) {
   return std::max(glm::dot(direction, s.toSecond), glm::dot(direction, s.toThird));
 }
 
-/// What is asked of a triangle's points, and whether the crease that asks is sharp.
+/// The distances that the points of a triangle need, and if the crease that asks for them is sharp.
 struct Asked {
   double distance = 0.0;  // from the edge or vertex
   bool sharp = false;
@@ -243,8 +243,8 @@ void askBeside(const Sector& face, const Sector& other, uint32_t place, bool wou
   codes.ask(face, 3 + face.corner, altitude, asked);
 }
 
-/// Whether no two triangles round a place run along an edge in the same direction: else normals do not tell
-/// how they bend.
+/// Returns true if no two triangles around a place run along an edge in the same direction. If two do,
+/// normals do not tell how they bend.
 bool areWoundAlike(const Fans& fans, uint32_t place) {
   const auto nextOf = [&](uint32_t i, uint32_t steps) {
     const uint32_t corner = fans.corner[i];

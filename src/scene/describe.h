@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is in a scene, as counts, for `fragtrace info` and the statistics.
+// Counts the content of a scene, for `fragtrace info` and the statistics.
 #pragma once
 
 #include <cstddef>

@@ -80,8 +80,8 @@ struct ViewAxes {
   glm::dvec3 worldOf(const glm::dvec3& v) const { return v.x * right + v.y * up + v.z * forward; }
 };
 
-/// Where a perspective camera stands so that all points lie between two planes through it, of slope `slope`
-/// to both sides: the depth of the place nearest to them, and what it is across there.
+/// The place of a perspective camera that puts all points between two planes through it, of slope `slope` to
+/// both sides: the depth of the place nearest to the points, and its position across.
 struct Wedge {
   double depth = 0.0;
   double across = 0.0;
@@ -222,7 +222,8 @@ Camera fitted(Camera camera, std::span<const glm::dvec3> points, double aspectRa
   if (!(size > 0.0)) return camera;
   glm::dvec3 place = bounds.center();
   if (camera.perspective) {
-    // What is flat and seen from its edge has neither width nor height, and a tip may reach up to the lens.
+    // A flat scene that is seen from its edge has neither width nor height, and a tip may reach up to the
+    // lens.
     constexpr double kNearest = 0.01;  // of the size
     const double slope = std::tan(0.5 * camera.fovY) * kFitted;
     place = perspectivePlace(seen, {slope * aspectRatio, slope}, bounds.minimum.z - kNearest * size);

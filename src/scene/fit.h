@@ -10,7 +10,7 @@
 
 namespace fragtrace {
 
-/// How much of the picture's width or height a fitted scene takes.
+/// The share of the picture's width or height that a fitted scene fills.
 inline constexpr double kFitted = 0.95;
 
 /// 512 unit vectors, the golden angle apart.

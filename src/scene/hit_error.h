@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What rounding does to hit points on a triangle of 32-bit floats (docs/design/ray-origins.md).
+// Bounds on the rounding of hit points on a triangle of 32-bit floats (docs/design/ray-origins.md).
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ double hitPointError(const std::array<glm::vec3, 3>& v);
 /// "Distance along the ray").
 double sliverLength(const std::array<glm::vec3, 3>& v);
 
-/// Whether the weighted depths of the vertices are too rough a distance for a ray that starts beside the
-/// triangle: half of 2^-24 sliverLength() is asked to be at most 4 units of 2^-24 of the largest coordinate.
+/// Returns true if the weighted depths of the vertices are too rough a distance for a ray that starts beside
+/// the triangle: half of 2^-24 sliverLength() is more than 4 units of 2^-24 of the largest coordinate.
 bool isSliver(const std::array<glm::vec3, 3>& v);
 
 }  // namespace fragtrace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where lights are and which way they shine, and what they send to a point at most (Conty Estevez and Kulla,
-// Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018; Pharr, Jakob and Humphreys,
-// Physically Based Rendering, 4th edition, 12.6.3).
+// Bounds on the places and directions of lights, and on the light that they send to a point (Conty Estevez
+// and Kulla, Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018; Pharr, Jakob and
+// Humphreys, Physically Based Rendering, 4th edition, 12.6.3).
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace fragtrace {
 
-/// Where lights are and which way they shine, in local space. Their intensity falls with the cosine of the
-/// angle beyond `spread` of the axis, and is 0 from `spread` + `falloff` on (radians).
+/// Bounds on the places and directions of lights, in local space. Their intensity falls with the cosine of
+/// the angle beyond `spread` of the axis, and is 0 from `spread` + `falloff` on (radians).
 struct LightBounds {
   glm::dvec3 low{0.0};
   glm::dvec3 high{0.0};

@@ -21,7 +21,7 @@ struct Projection {
   bool operator==(const Projection&) const = default;
 };
 
-/// Of a picture of that width / height.
+/// The projection of a picture of that width / height.
 Projection projectionOf(const Camera& camera, double aspectRatio);
 
 /// The ray through a place, without a limit, in local space.

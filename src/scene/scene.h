@@ -47,7 +47,7 @@ inline std::string nameOf(const EncodedImage& image) {
   return isFile ? image.name + " (" + image.place + ")" : image.name;
 }
 
-/// What a picture takes on the device: four half floats a texel.
+/// The bytes of a picture on the device: four half floats a texel.
 inline size_t texelBytes(const EncodedImage& image) { return size_t(image.width) * size_t(image.height) * 8; }
 
 enum class Wrap : uint8_t { Repeat, ClampToEdge, MirroredRepeat };
@@ -60,7 +60,7 @@ struct Texture {
   bool linear = true;  ///< magnification filter: linear, else nearest
 };
 
-/// Where a texture is read: the first two rows of a matrix that multiplies (u, v, 1)
+/// The transform of texture coordinates: the first two rows of a matrix that multiplies (u, v, 1)
 /// (KHR_texture_transform).
 struct TextureTransform {
   glm::vec3 u{1.0f, 0.0f, 0.0f};
@@ -112,8 +112,8 @@ struct Material {
   float alphaCutoff = 0.5f;
   bool doubleSided = false;
   bool unlit = false;
-  /// Of KHR_materials_pbrSpecularGlossiness: the diffuse colour gives way to the specular one, and
-  /// specularColorTexture holds the glossiness (1 - roughness) in its alpha.
+  /// The material is of KHR_materials_pbrSpecularGlossiness: the diffuse colour gives way to the specular
+  /// one, and specularColorTexture holds the glossiness (1 - roughness) in its alpha.
   bool specularGlossiness = false;
   float ior = 1.5f;  ///< kInfiniteIor: a Fresnel factor of 1 (KHR_materials_ior's 0)
   float transmissionFactor = 0.0f;
@@ -177,7 +177,7 @@ struct Material {
   }
 };
 
-/// How the colour channels of a texture are encoded.
+/// The encoding of a texture's colour channels.
 enum class TransferCurve : uint8_t { Linear, Srgb };
 
 struct TextureRefRow {
@@ -250,8 +250,8 @@ struct Camera {
   double aspectRatio = 0.0;            ///< width / height; 0: not given
 };
 
-/// How the triangles of meshes that stand in the scene several times are kept: Auto shares them where that
-/// saves much memory.
+/// The way in which meshes that appear several times in the scene are kept: Auto shares them where that saves
+/// much memory.
 enum class Instancing : uint8_t { Auto, Flatten, Share };
 inline constexpr std::array<std::string_view, 3> kInstancingNames{"auto", "flatten", "share"};
 
@@ -269,8 +269,8 @@ struct Instance {
   uint32_t nodeIndex = 0;   ///< as in PrimitiveOrigin
 };
 
-/// Where triangles came from: one entry a (node, mesh primitive), in order of firstTriangle. Those of shared
-/// meshes have no node.
+/// The origin of triangles in the file: one entry for each (node, mesh primitive), in order of firstTriangle.
+/// Triangles of shared meshes have no node.
 struct PrimitiveOrigin {
   std::string node;
   std::string mesh;

@@ -46,7 +46,7 @@ struct Shadow {
   double share = 0.0;  ///< of all light
 };
 
-/// What lies below the plane casts no shadow on it, nor what is as high as a lamp.
+/// Points below the plane cast no shadow on it, nor do points at or above the height of a lamp.
 Polygon thrown(std::span<const glm::dvec3> points, double height, const PlaneLight& light) {
   Polygon places;
   for (const glm::dvec3& p : points) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far the shadow of a scene reaches on a level plane, for framing.
+// Finds the extent of a scene's shadow on a level plane, for framing.
 #pragma once
 
 #include <glm/glm.hpp>

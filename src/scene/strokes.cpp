@@ -31,8 +31,8 @@ class StrokeSize {
     radius_ = rounder * 0.5 * pixels * 2.0 * halfHeight / pictureHeight;
   }
 
-  /// Of a point: its solid covers as many pixels as the circle. Seen at an angle c to the axis it is longer
-  /// by 1 / cos c.
+  /// The radius at a point: its solid covers as many pixels as the circle. Seen at an angle c to the axis it
+  /// is longer by 1 / cos c.
   double atPoint(const glm::dvec3& point) const {
     if (!perspective_) return radius_;
     const double depth = std::abs(depthOf(point));
@@ -40,7 +40,7 @@ class StrokeSize {
     return distance > 0.0 ? radius_ * depth * std::sqrt(depth / distance) : 0.0;
   }
 
-  /// Of a line along `axis`, unit: as wide as asked across the line, in the picture's plane.
+  /// The radius of a line along `axis`, unit: as wide as asked across the line, in the picture's plane.
   double acrossLine(const glm::dvec3& point, const glm::dvec3& axis) const {
     if (!perspective_) return radius_;
     const glm::dvec3 way = point - position_;
@@ -48,7 +48,7 @@ class StrokeSize {
     const glm::dvec3 across = glm::cross(axis, way);
     const double length = glm::length(across);
     if (depth == 0.0 || length == 0.0) return radius_ * std::abs(depth);
-    // How far a step of that length goes in the plane at depth 1.
+    // The length of that step in the plane at depth 1.
     const glm::dvec3 step = across / length;
     const double along = glm::dot(step, forward_);
     const glm::dvec3 sideways = (step - along * forward_) - (way / depth - forward_) * along;
@@ -74,8 +74,8 @@ class StrokeSize {
   double radius_ = 0.0;  ///< of a perspective camera: at depth 1
 };
 
-/// What the solid of a point or of a line is drawn with. Without normals it shows the sum of base colour and
-/// emission (glTF 2.0, section 3.7.2.1); a texture of emission is left out then.
+/// The material of the solid of a point or line. Without normals it shows the sum of base colour and emission
+/// (glTF 2.0, section 3.7.2.1); a texture of emission is then left out.
 Material strokeMaterial(const Material& given, bool lit) {
   Material m = given;
   if (!lit && !m.unlit) {

@@ -12,7 +12,7 @@ inline constexpr size_t kTrianglesOfALine = 24;
 /// Vertices of the larger of them.
 inline constexpr size_t kMostStrokeVertices = 14;
 
-/// What the solids of a list take; a line that passes the camera takes twice as much.
+/// The number of triangles of the solids of a list; a line that passes the camera takes twice as many.
 size_t trianglesOf(const Strokes& strokes);
 
 /// Appends a solid for each point and line segment of scene.strokes, as wide as `pixels` pixels of a picture

@@ -48,7 +48,8 @@ double shareOf(const SoftBox& box, const glm::dvec3& direction) {
   return 1.0 - smoothStep(glm::length(beyond) / soft);
 }
 
-/// Of the backdrop at a height (the direction's Y): lightest at the horizon, darker above than below.
+/// The radiance of the backdrop at a height (the direction's Y): lightest at the horizon, darker above than
+/// below.
 double gradientAt(double height) {
   constexpr double kHorizon = 0.34;
   const double far = height > 0.0 ? 0.14 : 0.22;

@@ -10,7 +10,7 @@
 namespace fragtrace {
 namespace {
 
-/// Which way texture space lies on a triangle. In glTF, with v downwards, an unmirrored map has negative
+/// The orientation of texture space on a triangle. In glTF, with v downwards, an unmirrored map has negative
 /// area.
 enum Orientation : uint32_t { kUnmirrored = 0, kMirrored = 1, kUndecided = 2 };
 
