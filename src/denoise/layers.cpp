@@ -63,7 +63,7 @@ std::optional<FoundLayer> findColor(const Image& file) {
   return findLayer(file, {"Noisy Image", "Combined"});
 }
 
-/// What is taken of a file, in the order of the result.
+/// The layers that are taken from a file, in the order of the result.
 struct Taken {
   std::vector<std::string> from;  ///< channels of the file
   std::vector<std::string> names;

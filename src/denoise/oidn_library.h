@@ -58,7 +58,7 @@ struct OidnLibrary {
 /// Throws UsageError that says what was looked for, or why a file that was named does not serve.
 OidnLibrary openOidn(const std::filesystem::path& chosen);
 
-/// Whether openOidn() opens one file that the user has named, or looks for any.
+/// Returns true if openOidn() opens one file that the user has named, false if it looks for any.
 bool namesOidn(const std::filesystem::path& chosen);
 
 }  // namespace fragtrace

@@ -31,9 +31,9 @@ bool isFile(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path, error);
 }
 
-/// Whether the output is a whole picture. An .exr says whether its render was interrupted, and by how many
-/// samples of which seed; throws UsageError when these are others. Pictures of other formats only have to be
-/// readable.
+/// Returns true if the output is a whole picture. An .exr says if its render was interrupted, and how many
+/// samples of which seed it has; throws UsageError when these are others. Pictures of other formats only have
+/// to be readable.
 bool isWholePicture(const RenderOptions& options) {
   Image picture;
   try {

@@ -32,7 +32,7 @@ Image seenChannels(const Image& picture) {
   return onlyChannels(picture, channels);
 }
 
-/// Whether the channel is there for the filter alone.
+/// Returns true if the channel is there for the filter alone.
 bool isForTheFilter(const std::string& channel, const RenderOptions& options) {
   if (channel == "samples.Y") return !options.output.aovSamples;
   if (channel == "variance.Y") return !options.output.aovVariance;

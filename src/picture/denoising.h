@@ -13,7 +13,7 @@
 
 namespace fragtrace {
 
-/// Whether the layers that are asked for hold what filters tell surfaces apart by (Feature::Guides).
+/// Returns true if the layers that are asked for hold the guides of filters (Feature::Guides).
 bool hasGuides(const RenderOptions& options);
 
 /// Why such a picture is not denoised though that is asked for; empty: it is.
@@ -34,7 +34,7 @@ struct PictureFilter {
   /// RenderError.
   std::function<std::optional<Image>(const Image&)> apply;
 };
-/// Of options that openDenoiser() has settled; `oidn` is what that gave.
+/// Makes the filter from options that openDenoiser() has settled; `oidn` is its result.
 PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn);
 
 /// Puts the denoised colours in the place of the noisy ones, which an .exr keeps as noisy.R, noisy.G and
@@ -48,7 +48,7 @@ void denoise(Image& picture, const RenderOptions& options, const std::optional<O
 std::optional<Image> filtered(const Image& picture, const RenderOptions& options,
                               const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats);
 
-/// What an .exr of a filtered picture has more: the noisy colours, and the filter's name.
+/// Adds to the .exr of a filtered picture: the noisy colours, and the filter's name.
 void keepNoisy(Image& picture, const Image& noisy, const std::string& filter);
 
 /// A picture as before denoise(): its noisy colours in their place. Unchanged where it has none.

@@ -32,7 +32,7 @@ bool hidesProgress(const PictureJob& job) {
 
 double areaOf(glm::ivec2 size) { return double(size.x) * size.y; }
 
-/// Of a picture of several parts, how much was done before one of them and how much that brings.
+/// The share of a picture that was done before one of its parts, and the share of that part.
 struct Share {
   double done = 0.0;
   double own = 1.0;
@@ -81,8 +81,8 @@ std::vector<double> measureFeatures(const PictureJob& job, Film& film, const Vie
   return seconds;
 }
 
-/// What layers will take: those of an adaptive picture have the fewest samples of any pixel, which is not yet
-/// known, but these at least.
+/// The time that layers will take at least: those of an adaptive picture have the fewest samples of any
+/// pixel, a number that is not yet known.
 double secondsOfFeatures(std::span<const double> secondsPerSample, const RenderOptions& options) {
   constexpr int kLeastAdaptive = 64;
   const int samples =
@@ -190,7 +190,7 @@ struct PartRun {
 /// Until the goal; a part of the picture has its share of the time.
 Drawing drawAdaptively(const PartRun& part, glm::ivec2 size) {
   const RenderOptions& options = part.job.options;
-  // What a part leaves of its time is no other's, which would have less noise than the rest.
+  // Time that a part does not use goes to no other part, which would then have less noise than the rest.
   const double seconds = options.sampling.seconds * part.share.own;
   AdaptiveRun run(size);
   if (part.from != nullptr) {

@@ -12,7 +12,7 @@
 
 namespace fragtrace {
 
-/// What is drawn, and with what.
+/// The task of drawing one picture, and the device that draws it.
 struct PictureJob {
   const RenderOptions& options;
   const LoadedScene& loaded;
@@ -22,7 +22,7 @@ struct PictureJob {
   std::function<void(double fraction)> told = {};
 };
 
-/// What is made and measured before the first sample that counts.
+/// Everything that is made and measured before the first sample that counts.
 struct DrawingPlan {
   std::vector<Region> parts;
   Film film;                         ///< of the first part, empty

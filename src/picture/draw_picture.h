@@ -12,7 +12,7 @@
 
 namespace fragtrace {
 
-/// What was drawn, before it is a picture.
+/// The result of drawing, before it is a picture.
 struct Drawing {
   FilmPixels pixels;
   std::vector<double> variance;  ///< a better estimate than the pixels' own; may be empty
@@ -26,8 +26,8 @@ struct SampledFilm {
   int fewest = 0;                 ///< samples that each pixel has
 };
 
-/// Whether the film is looked at on the way, which tells how fast the sequence converges: where the picture
-/// is filtered, or a file of it may be (`--aov denoising`).
+/// Returns true if the film is read on the way, which tells how fast the sequence converges: where the
+/// picture is filtered, or a file of it may be (`--aov denoising`).
 bool looksOnTheWay(const RenderOptions& options);
 
 /// Adds samples up to options.spp and reads the film. False when progress stopped it.

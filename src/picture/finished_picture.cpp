@@ -67,7 +67,7 @@ void sayWhatIsDark(const RenderOptions& options, const LoadedScene& loaded, cons
                   : "no light reaches what it sees (--studio, --hdri-file)"));
 }
 
-/// What --bounces cut is missing from the picture.
+/// Says that light is missing from the picture because --bounces ended paths.
 void sayWhatWasCut(const RenderOptions& options, const Statistics& stats) {
   constexpr double kNoticed = 0.01;
   if (cutShare(stats) <= kNoticed) return;
@@ -78,7 +78,7 @@ void sayWhatWasCut(const RenderOptions& options, const Statistics& stats) {
                    " of the light (cut_share); a larger value makes the picture brighter");
 }
 
-/// Whether every pixel has the same samples: neither adaptive nor interrupted.
+/// Returns true if every pixel has the same samples: the picture is neither adaptive nor interrupted.
 bool isUniform(const Statistics& stats) {
   return stats.complete && stats.film.fewestSamples == stats.film.mostSamples && !stats.adaptive;
 }

@@ -14,7 +14,7 @@
 
 namespace fragtrace {
 
-/// What pictures share.
+/// The device and the filter, which several pictures share.
 struct Device {
   std::unique_ptr<Context> context;
   std::optional<DebugLog> driverLog;  ///< of the context
@@ -35,7 +35,7 @@ std::optional<Image> drawSamples(const PictureJob& job, DrawingPlan& plan, Devic
 bool finishPicture(Image& picture, const PictureJob& job, const DrawingPlan& plan, Device& device, int most,
                    Statistics& stats);
 
-/// What --bounces has cut, and what ended the samples, where that is worth a line.
+/// Says how much light --bounces has cut, and what ended the samples, where that is worth a line.
 void sayHowItEnded(const RenderOptions& options, const Statistics& stats);
 
 }  // namespace fragtrace

@@ -63,7 +63,7 @@ struct Sources {
   double total = 0.0;
 };
 
-/// Where the channels of a picture are in another.
+/// The indices of channels in another picture.
 std::vector<size_t> placesOf(const std::vector<std::string>& channels, const Image& image) {
   std::vector<size_t> places;
   places.reserve(channels.size());

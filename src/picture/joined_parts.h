@@ -29,7 +29,8 @@ Part readPart(const std::filesystem::path& path);
 /// sample.
 Part joinedParts(std::vector<Part> parts);
 
-/// What a picture consists of, in a line: numbers of samples, seeds, and samples that are missing in between.
+/// Describes in a line of what a picture consists: numbers of samples, seeds, and samples that are missing in
+/// between.
 std::string describeParts(size_t count, const Part& joined);
 
 }  // namespace fragtrace

@@ -35,7 +35,7 @@ std::filesystem::path rescuePath(std::filesystem::path output) {
   return output;
 }
 
-/// What a picture has that a .pfm has not: "the layers albedo, A and what merge needs".
+/// Names what a picture loses in a .pfm: "the layers albedo, A and what merge needs".
 std::string lostInPfm(const RenderOptions& options, const Image& linear) {
   std::set<std::string> layers;
   for (const std::string& channel : linear.channels) {

@@ -12,10 +12,10 @@
 
 namespace fragtrace {
 
-/// Whether the picture's colours are those of a debug view, to be displayed as they are.
+/// Returns true if the picture's colours are those of a debug view, to be displayed as they are.
 bool showsColors(const RenderOptions& options);
 
-/// What the film holds as a picture: linear radiance, or the colours of a debug view. `variance` is as for
+/// Makes a picture of the film: linear radiance, or the colours of a debug view. `variance` is as for
 /// imageOf().
 Image shownPicture(const RenderOptions& options, const FilmPixels& pixels, const Layers& layers,
                    std::span<const double> variance = {});

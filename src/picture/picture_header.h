@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the header of an .exr says of its camera and colours, in standard attributes of OpenEXR.
+// The camera and the colours in the header of an .exr, as standard attributes of OpenEXR.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a rendered .exr says of its own making, so that parts of one render can be joined.
+// Records in a rendered .exr how it was made, so that parts of one render can be joined.
 #pragma once
 
 #include <tuple>
@@ -35,7 +35,7 @@ struct Provenance {
 };
 
 inline constexpr const char* kSettingsAttribute = "fragtrace:settings";
-/// Of an .exr whose render was interrupted: "1".
+/// The attribute of an .exr whose render was interrupted: "1".
 inline constexpr const char* kInterruptedAttribute = "fragtrace:interrupted";
 
 /// The ranges as they are, or as the other members say.
@@ -47,7 +47,7 @@ std::vector<SampleRange> joinedRanges(std::vector<SampleRange> ranges);
 /// The settings of a render as JSON, in one line.
 std::string settingsText(const RenderOptions& options, const LoadedScene& loaded, const Tracer& tracer);
 
-/// What differs in two settings: "bounces 16 and 4, ...".
+/// Describes the difference between two settings: "bounces 16 and 4, ...".
 std::string differenceOf(const std::string& settings, const std::string& others);
 
 void setProvenance(Image& image, const Provenance& provenance);

@@ -59,7 +59,8 @@ bool addressesAreLimited() {
   return ::getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY;
 }
 
-/// How a process ends that got no memory: the loader gives up, the libraries abort, or go on with nothing.
+/// Returns true if a process may have ended for lack of memory: the loader gives up, and libraries abort or
+/// go on with nothing.
 bool isWantOfMemory(int status) {
   if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGABRT || WTERMSIG(status) == SIGSEGV;
   return WEXITSTATUS(status) == kNotLoaded;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the process tells on stderr beside its results: lines of text, or for other programs JSON, one object
-// a line (docs/recipes.md, "Use fragtrace in a program").
+// Messages on stderr beside the results: lines of text, or JSON for other programs, one object a line
+// (docs/recipes.md, "Use fragtrace in a program").
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

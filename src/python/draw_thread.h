@@ -23,7 +23,7 @@ struct DrawJob {
   std::exception_ptr error;          ///< likewise
 
   void end();
-  /// Whether it has ended within that time.
+  /// Returns true if it has ended within that time.
   bool wait(int milliseconds);
 
  private:

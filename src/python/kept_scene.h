@@ -13,7 +13,7 @@
 
 namespace fragtrace {
 
-/// What is loaded and uploaded, and for which options.
+/// A scene that is loaded and uploaded, and the options for which it is.
 struct KeptScene {
   std::optional<LoadedScene> loaded;
   RenderOptions loadedFor;

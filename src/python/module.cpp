@@ -38,7 +38,7 @@ Values arrayOf(Image& image) {
   return Values(values->data(), {size_t(image.height), size_t(image.width), image.channels.size()}, owner);
 }
 
-/// What Python gives and gets beside the channels' names and values: the strings and numbers of an .exr.
+/// The strings and numbers of an .exr, which Python gives and gets beside the channels' names and values.
 nb::tuple attributesOf(const Image& image) { return nb::make_tuple(image.attributes, image.numbers); }
 
 /// Channels' names, values and attributes.

@@ -65,7 +65,7 @@ void dropTraits(const StageSet& stages, bool heatmap, Surroundings surroundings,
       if ((row.stages & ~stages).any() || (row.needs & ~traits).any()) drop(traits, {row.trait});
     }
   }
-  // Of specular-glossiness the diffuse colour gives way to the specular one, reflected or not.
+  // In specular-glossiness the diffuse colour gives way to the specular one, reflected or not.
   if (!has(traits, Trait::Specular) && !has(traits, Trait::SpecularGlossiness))
     drop(traits, {Trait::SpecularTexture});
   if (!has(traits, Trait::Transmission) && !has(traits, Trait::DiffuseTransmission))
@@ -141,7 +141,7 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop) 
   mark(Trait::Texcoords, !scene.vertices.texcoord0.empty() || !scene.vertices.texcoord1.empty());
   mark(Trait::EmissiveTriangles, emissiveTriangles);
   mark(Trait::PunctualLights, !scene.lights.empty());
-  // What has no light of its own to speak of is lit by default.
+  // A scene without a noticeable light of its own gets the default light.
   const bool lamps =
       surroundings != Surroundings::DefaultLight && (emissiveTriangles || !scene.lights.empty());
   mark(Trait::LightTree, lamps && gainByPlace(scene) >= kLeastGainByPlace);

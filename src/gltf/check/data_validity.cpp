@@ -199,7 +199,7 @@ class DataChecker {
                    place + "/material");
   }
 
-  /// Of a primitive, or of a morph target of a primitive with the attributes `base`.
+  /// Checks the attributes of a primitive, or of a morph target of a primitive with the attributes `base`.
   void checkAttributes(const json& attributes, const json* base, const std::string& place) {
     std::map<std::string, std::vector<unsigned>> sets;
     std::map<size_t, size_t> usesOfView;

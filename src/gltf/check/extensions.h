@@ -31,7 +31,7 @@ std::span<const Extension> extensions();
 /// Null for one that is not in the table.
 const Extension* extensionNamed(std::string_view name);
 
-/// Whether the loader reads it.
+/// Returns true if the loader reads the extension.
 bool isApplied(std::string_view name);
 
 }  // namespace fragtrace

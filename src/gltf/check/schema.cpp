@@ -242,7 +242,7 @@ constexpr Rule kRules[] = {
     {"/scene", Kind::Index, "/scenes"},
 };
 
-/// Where a material may use a texture.
+/// The members of a material that name a texture.
 constexpr const char* kTextureSlots[] = {
     "/materials/*/pbrMetallicRoughness/baseColorTexture",
     "/materials/*/pbrMetallicRoughness/metallicRoughnessTexture",
@@ -267,7 +267,7 @@ constexpr const char* kTextureSlots[] = {
     "/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture",
 };
 
-/// What such a use may hold.
+/// The members of such a use of a texture.
 constexpr Rule kTextureInfoRules[] = {
     {"", Kind::Object},
     {"/index!", Kind::Index, "/textures"},

@@ -24,7 +24,8 @@ struct NumberRule {
   bool isFlag = false;  ///< 0: false
 };
 
-/// What the loader reads at a JSON pointer, if that is numbers, or a flag that can be animated.
+/// The rule for the value at a JSON pointer, if the loader reads numbers there, or a flag that can be
+/// animated.
 std::optional<NumberRule> numberRuleAt(std::string_view pointer);
 
 }  // namespace fragtrace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How one rule of the schema is held against a document.
+// Checks a document against one rule of the schema.
 #pragma once
 
 #include <cstddef>

@@ -14,7 +14,7 @@ namespace fragtrace {
 /// In the order of the document; empty where a buffer has no data.
 using Buffers = std::vector<std::vector<uint8_t>>;
 
-/// Whether a buffer only stands in for readers that cannot decode EXT_ or KHR_meshopt_compression.
+/// Returns true if a buffer only stands in for readers that cannot decode EXT_ or KHR_meshopt_compression.
 bool isFallback(const nlohmann::json& buffer);
 
 /// Decode all buffer views with EXT_ or KHR_meshopt_compression, and all primitives with

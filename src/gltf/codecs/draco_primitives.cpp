@@ -27,7 +27,7 @@ class PrimitiveDecoder {
         place_(std::move(place)),
         document_(document) {}
 
-  /// Whether the file holds all of it uncompressed, too.
+  /// Returns true if the file also holds all of it uncompressed.
   bool hasFallback() const {
     for (const auto& attribute : extension_["attributes"].items()) {
       const auto accessor = primitive_["attributes"].find(attribute.key());

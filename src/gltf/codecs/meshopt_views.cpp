@@ -24,7 +24,7 @@ const json* viewExtension(const json& object, std::string_view name) {
   return extension != extensions->end() ? &*extension : nullptr;
 }
 
-/// What of both extensions an object has.
+/// The members of both extensions that an object has.
 struct Meshopt {
   std::string_view name = kExt;
   const json* object = nullptr;  ///< none
@@ -51,7 +51,7 @@ std::optional<MeshoptFilter> filterNamed(const std::string& filter, bool isKhr) 
   return std::nullopt;
 }
 
-/// What the extension demands of strides and counts, which the library takes for granted.
+/// Checks the strides and counts that the extension demands and that the library takes for granted.
 void checkSizes(const CodecRequest& request, const std::string& place, const Diagnostics& diagnostics) {
   constexpr uint64_t kLargestStride = 256;
   const uint64_t stride = request.stride;

@@ -126,7 +126,7 @@ struct SparseElements {
   Elements values;
 };
 
-/// Of a type for which isIndexType() is true.
+/// Component is a type for which isIndexType() is true.
 template <typename Component>
 uint32_t indexOf(Component value) {
   if constexpr (std::is_unsigned_v<Component>) return value;

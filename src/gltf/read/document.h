@@ -20,7 +20,7 @@
 
 namespace fragtrace {
 
-/// Where a picture is, as the file says: a URI as written, or a buffer view.
+/// The place of a picture as the file gives it: a URI as written, or a buffer view.
 struct ImageSource {
   std::string uri;
   int bufferView = -1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a picture is from its reference, by the formulas of docs/output.md.
+// Metrics of the difference between a picture and its reference, by the formulas of docs/numbers.md.
 #pragma once
 
 #include <optional>

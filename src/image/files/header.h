@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the header of an encoded picture says, read by our own code before any library sees the file.
+// The header of an encoded picture, read by our own code before any library sees the file.
 #pragma once
 
 #include <cstdint>

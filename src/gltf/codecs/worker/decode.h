@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the worker's module for compressed geometry does. Its input is a request and the encoded bytes, its
-// output the decoded ones.
+// The worker's module for compressed geometry. Its input is a request and the encoded bytes, its output the
+// decoded bytes.
 #pragma once
 
 #include <array>
