@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The GGX microfacet distribution in a frame whose z is the normal (glTF 2.0, appendix B), isotropic, or stretched
-// along x: facets of width alpha x stretch along x and alpha / stretch along y. In a space that is stretched the other
-// way these are isotropic ones (kAnisotropy).
+// The GGX microfacet distribution in a frame whose z is the normal (glTF 2.0, appendix B): isotropic, or stretched
+// along x (kAnisotropy), with facets of width alpha x stretch along x and alpha / stretch along y. In a space that is
+// stretched the other way, stretched facets are isotropic.
 
 /// Trowbridge-Reitz density of half vectors, in the form that keeps its digits at small alpha.
 float ggxDensity(vec3 h, float alpha) {
@@ -40,10 +40,10 @@ float visibleGgxDensity(vec3 outgoing, vec3 h, float alpha) {
          max(outgoing.z, float(1e-12));
 }
 
-/// A direction where its masking is that of isotropic facets of width alpha.
+/// The direction in the space where facets are isotropic of width alpha, for masking.
 vec3 alongFacets(vec3 v, float stretch) { return kAnisotropy ? vec3(v.x * stretch, v.y / stretch, v.z) : v; }
 
-/// A half vector where its density is that of isotropic facets.
+/// The half vector in the space where facets are isotropic, for their density.
 vec3 acrossFacets(vec3 h, float stretch) { return kAnisotropy ? vec3(h.x / stretch, h.y * stretch, h.z) : h; }
 
 /// Density of the half vectors visible from `outgoing` (z > 0).

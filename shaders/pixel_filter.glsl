@@ -6,8 +6,8 @@ const int kBoxFilter = 0;
 const int kGaussianFilter = 1;
 const int kBlackmanHarrisFilter = 2;
 
-/// Pixels: standard deviation of the Gaussian, which is cut off at 4 of them; width of the window of Blackman and
-/// Harris.
+/// In pixels: the standard deviation of the Gaussian, which is cut off at 4 of them, and the width of the window of
+/// Blackman and Harris.
 const float kGaussianDeviation = float(0.5);
 const float kBlackmanHarrisWidth = float(3.0);
 const float kGaussianKept = float(0.99966453737209749);  // 1 - exp(-4^2 / 2), within the cut

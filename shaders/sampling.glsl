@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Directions and points drawn from densities, and frames round a normal.
+// Directions and points drawn from densities, and frames around a normal.
 
 const float kPi = float(3.14159265358979324);
 const float kInversePi = float(0.318309886183790672);
@@ -10,7 +10,7 @@ struct Frame3 {
   vec3 normal;
 };
 
-/// A right-handed orthonormal frame round a unit normal (Duff et al., Building an Orthonormal Basis, Revisited, 2017).
+/// A right-handed orthonormal frame around a unit normal (Duff et al., Building an Orthonormal Basis, Revisited, 2017).
 Frame3 frameAround(vec3 normal) {
   float signZ = normal.z >= 0.0f ? 1.0f : -1.0f;
   float a = -1.0f / (signZ + normal.z);
@@ -79,8 +79,8 @@ float misWeight(float own, float other) {
   return 1.0f / (1.0f + ratio * ratio);
 }
 
-/// The same by the balance heuristic, for which MIS compensation of the environment is made; it is smooth, which
-/// stratified points reward.
+/// The same by the balance heuristic, for which the MIS compensation of the environment is derived. It is smooth, which
+/// preserves stratification.
 float balanceWeight(float own, float other) { return own > 0.0f ? own / (own + other) : 0.0f; }
 
 /// The share of a diffuse reflection that is left towards `incoming`. Where an interpolated normal sees light near the

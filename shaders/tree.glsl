@@ -72,7 +72,7 @@ InstanceSpace loadInstanceSpace(int instance) {
   return s;
 }
 
-/// The way back out of an instance's mesh.
+/// The transform of an instance from its mesh's space to local space.
 struct InstanceReturn {
   vec3 row0;  // of the matrix into local space
   vec3 row1;

@@ -13,7 +13,7 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec3 before = texelFetch(lights, pixel, 0).rgb;
   vec3 after = texelFetch(filtered, pixel, 0).rgb;
-  // Light that leaks into a dark place counts for what it does there.
+  // Light that leaks into a dark place counts relative to that place.
   vec3 light = min(after, 0.5 * (before + after));
   vec3 away = (after - before) * (after - before) / (light * light + kDarkSquared);
   float bright = luminance(light);

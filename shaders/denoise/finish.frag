@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The last pass of the variance filter: what is filtered counts as far as its distance from the noisy light is noise
-// (James and Stein 1961, over a window of like surfaces), and the albedo comes back.
+// The last pass of the variance filter. Filtered light counts only as far as its distance from the noisy light is noise
+// (James and Stein 1961, over a window of like surfaces). Then the albedo is multiplied back in.
 #include "denoise/denoise.glsl"
 
 layout(binding = 0) uniform sampler2D lights;    // noisy

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The second pass of the variance filter: how much noise each pixel has. Samples of a sequence are not independent, so
-// the variance that they tell is multiplied by what observations leave of it in a window of like surfaces, drawn
+// The second pass of the variance filter: the noise of each pixel. Samples of a sequence are not independent, so their
+// variance is multiplied by the share that observations confirm in a window of like surfaces. That share is pulled
 // towards the whole picture's share where the window is small.
 #include "denoise/denoise.glsl"
 

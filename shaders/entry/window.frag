@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The picture's part of the window, or a cell of it: left of the bar one displayed picture, right of it the other,
-// whatever their resolutions; or how far two traced ones differ.
+// Draws the picture's part of the window, or a cell of it: left of the bar one displayed picture, right of it the
+// other, whatever their resolutions; or the difference of two traced ones.
 #include "srgb.glsl"
 #include "picture/enlarge.glsl"
 
