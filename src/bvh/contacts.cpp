@@ -21,7 +21,7 @@ using glm::dvec3;
 /// 1.25 units, and from either face the other one must still lie in front.
 constexpr double kGap = 4.0;
 
-/// Faces whose normals are less parallel meet in a line at most.
+/// Faces whose normals are less parallel meet at most in a line.
 constexpr double kParallel = 0.99;
 
 struct Face {
@@ -60,7 +60,7 @@ bool overlap(const Face& a, const Face& b, double least) {
   return true;
 }
 
-/// The greatest distance of corners from a plane.
+/// The largest distance of corners from a plane.
 double apart(const Face& plane, const Face& from) {
   double most = 0.0;
   for (const dvec3& c : from.corners)
@@ -74,7 +74,7 @@ struct Move {
   double by = 0.0;
 };
 
-/// Off the glass, where the two touch.
+/// Moves the opaque face off the glass where the two touch.
 Move moveOff(const Face& glass, bool solid, const Face& opaque) {
   const double gap = kGap * std::max(glass.error, opaque.error);
   if (!(std::abs(glm::dot(glass.normal, opaque.normal)) > kParallel)) return {};
@@ -100,7 +100,7 @@ void meetAll(const Bvh& bvh, const Bounds& box, const Meet& meet) {
   while (!open.empty()) {
     const BvhNode& node = bvh.nodes[open.back()];
     open.pop_back();
-    // A root of one leaf has it twice.
+    // A root with one leaf has it as both children.
     const size_t sides = node.child[0] == node.child[1] ? 1 : 2;
     for (size_t side = 0; side < sides; ++side) {
       if (!meets(node.bounds[side])) continue;
@@ -114,10 +114,10 @@ void meetAll(const Bvh& bvh, const Bounds& box, const Meet& meet) {
   }
 }
 
-/// By place, so that faces that meet stay together.
+/// Moves by place, so that faces that meet stay together.
 class Moves {
  public:
-  /// Lets the place go at least so far in this direction.
+  /// Moves the place at least so far in this direction.
   void add(const glm::vec3& place, const Move& move) {
     dvec3& sum = moves_[keyOf(place)];
     sum += std::max(0.0, move.by - glm::dot(sum, move.direction)) * move.direction;

@@ -13,7 +13,7 @@ BvhQuality bvhQuality(const Bvh& bvh) {
   quality.depth = bvh.depth;
 
   // A ray through a convex box meets a convex box inside it with the ratio of their areas as probability.
-  // Every child but the root is the child of one node. A root without area counts all as visited.
+  // Every node but the root is the child of one node. If the root has no area, all count as visited.
   const double rootArea = areaOf(bvh.bounds);
   double visits = 1.0;
   // Of two levels only the upper one counts, and an instance is one visit.

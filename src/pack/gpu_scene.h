@@ -64,11 +64,10 @@ struct GpuScene {
 
 struct KeptArrays;
 
-/// Packs what the variant reads; textures wider or higher than `textureSide` are scaled down. The tree may be
-/// a plain list of leaves without nodes (iterative traversal). Throws InputError when a texture cannot be
-/// decoded.
-/// With `kept`, pictures that stand there are not packed again (GpuScene::unchanged), and it learns of those
-/// that are.
+/// Packs the arrays that the variant reads. Textures wider or higher than `textureSide` are scaled down. The
+/// tree may be a plain list of leaves without nodes (iterative traversal). Throws InputError when a texture
+/// cannot be decoded. With `kept`, pictures that it holds are not packed again (GpuScene::unchanged), and it
+/// learns of those that are.
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
                    const ShaderVariant& variant, int textureSide = kLargestTextureSide,
                    KeptArrays* kept = nullptr);

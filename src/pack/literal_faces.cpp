@@ -55,13 +55,13 @@ bool isParallelogram(const LiteralFace& f, const std::vector<glm::vec3>& points)
   return glm::length(at(0) - at(1) + at(2) - at(3)) <= kTolerance * largestCoordinate(f, points);
 }
 
-/// Two triangles that share an edge, as a flat and convex quadrilateral.
+/// Joins two triangles that share an edge to a flat and convex quadrilateral.
 std::optional<LiteralFace> joined(const LiteralFace& a, const LiteralFace& b, Joining joining,
                                   const std::vector<glm::vec3>& points) {
   for (uint32_t i = 0; i < 3; ++i) {
     for (uint32_t j = 0; j < 3; ++j) {
-      // The first's edge (i + 2, i) is the second's (j + 1, j + 2) the other way round; j is the corner
-      // opposite.
+      // The first one's edge (i + 2, i) is the second one's (j + 1, j + 2) the other way round; j is the
+      // corner opposite.
       if (a.corner[(i + 2) % 3] != b.corner[(j + 2) % 3] || a.corner[i] != b.corner[(j + 1) % 3]) continue;
       LiteralFace quad = a;
       quad.quad = true;

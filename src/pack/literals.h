@@ -21,12 +21,12 @@ bool paysAsLiterals(const Scene& scene, const Bvh& bvh, const GpuScene& packed, 
 /// tree of all.
 bool paysBeside(const Bvh& tree, const Bvh& beside);
 
-/// The text for a tree beside which there are triangles (Bvh::besideTree): only these are literals.
+/// The text for a tree with triangles beside it (Bvh::besideTree): only these are literals.
 std::string largeFirst(const Scene& scene, const Bvh& bvh, const ShaderVariant& variant);
 
-/// The text that takes the place of shaders/literals.glsl for this scene: triangles that share a vertex share
-/// its projection, those that share an edge its edge function, so that the tests are as watertight as those
-/// of the tree; two triangles that make a parallelogram are one test.
+/// The text that replaces shaders/literals.glsl for this scene. Triangles that share a vertex share its
+/// projection, and those that share an edge share its edge function, so the tests are as watertight as those
+/// of the tree. Two triangles that make a parallelogram are one test.
 std::string literalScene(const Scene& scene, const Bvh& bvh, const GpuScene& packed,
                          const ShaderVariant& variant);
 

@@ -12,11 +12,10 @@ struct InstanceOffset {
   double base = 0.0;
 };
 
-/// toMesh: what shaders use as the inverse of toLocal's linear part; both rounded to floats.
+/// toMesh: the matrix that shaders use as the inverse of toLocal's linear part; both are rounded to floats.
 InstanceOffset instanceOffset(const glm::dmat3& toLocal, const glm::dmat3& toMesh, const glm::dvec3& place);
 
-/// The number by which shaders know the first instance: its rows stand behind the nodes, in blocks
-/// (layout.glsl).
+/// The number of the first instance in shaders: its rows come after the nodes, in blocks (layout.glsl).
 uint32_t firstInstanceBlock(const Bvh& bvh);
 
 /// Appends the instances to the packed nodes.

@@ -36,7 +36,7 @@ uint32_t wrapFlags(Wrap wrap, uint32_t clamp, uint32_t mirror) {
   return wrap == Wrap::ClampToEdge ? clamp : wrap == Wrap::MirroredRepeat ? mirror : 0u;
 }
 
-/// The size scaled down until both sides are at most `side`.
+/// Scales the size down until both sides are at most `side`.
 glm::ivec2 within(glm::ivec2 size, int side) {
   const int larger = std::max(size.x, size.y);
   if (larger <= side) return size;
