@@ -12,10 +12,11 @@ namespace fragtrace {
 /// The packed scene on the device, bound as storage buffers, image buffers or texel buffers.
 class SceneBuffers {
  public:
-  /// Frees each array of the scene as soon as the driver has it. Throws RenderError when one is larger than
-  /// this driver reads that way, or memory runs out.
+  /// Frees each array of the scene as soon as the driver has it. Throws RenderError if an array is larger
+  /// than this driver can read in that way, or if memory runs out.
   SceneBuffers(GpuScene& scene, BufferReads reads);
-  /// The same for the next scene, but for arrays that are unchanged. Throws the same, and then holds neither.
+  /// Does the same for the next scene, and leaves out unchanged arrays. Throws the same, and then holds
+  /// neither scene.
   void replace(GpuScene& scene);
   void bind() const;
 
@@ -38,7 +39,7 @@ struct ReadLimits {
 /// The limits of the current context.
 ReadLimits readLimits();
 
-/// Bytes of texels that can be read in the way that is wanted; for Auto, in the way that reads the most.
+/// Bytes of texels that can be read in the way asked for; for Auto, in the way that reads the most.
 int64_t mostTexelBytes(BufferReads wanted, const ReadLimits& limits);
 
 struct ReadChoice {

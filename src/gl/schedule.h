@@ -15,7 +15,7 @@ struct ScheduleWork {
   size_t nodes = 0;       ///< of the tree
 };
 
-/// Settles between the megakernel and the wavefront, once reads and dispatch are known. Returns why it is the
+/// Chooses the megakernel or the wavefront, once reads and dispatch are known. Returns the reason for the
 /// megakernel, or nothing.
 std::string chooseSchedule(ShaderVariant& variant, const RenderOptions& options, const ScheduleWork& work);
 

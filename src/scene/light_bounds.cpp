@@ -19,7 +19,7 @@ struct Cone {
   double spread;
 };
 
-/// The smallest cone about both (pbrt, 3.8.4).
+/// The smallest cone about both cones (pbrt, 3.8.4).
 Cone uniteCones(Cone a, Cone b) {
   if (a.spread < b.spread) std::swap(a, b);
   const double between = std::acos(std::clamp(glm::dot(a.axis, b.axis), -1.0, 1.0));
@@ -79,7 +79,7 @@ double importanceOf(const LightBounds& lights, const glm::dvec3& point) {
 
 double powerOf(const LightBounds& lights, double radius) {
   if (lights.everywhere) return lights.intensity * kPi * radius * radius;
-  // A surface's falls with the cosine.
+  // The light of a surface falls with the cosine.
   if (lights.spread <= 0.0) return lights.intensity * kPi;
   return lights.intensity * 2.0 * kPi * (1.0 - std::cos(lights.spread));
 }

@@ -31,11 +31,11 @@ double thicknessOf(const LightBounds& lights);
 /// The bounds of both.
 LightBounds unite(const LightBounds& a, const LightBounds& b);
 
-/// About what the lights send to a point, in units of irradiance: 0 only where none of them can shine. As
-/// lightNodeFrom of shaders/lights.glsl has it.
+/// An estimate of the irradiance that the lights send to a point. It is 0 only if none of them can shine
+/// there. It is the same as lightNodeFrom of shaders/lights.glsl.
 double importanceOf(const LightBounds& lights, const glm::dvec3& point);
 
-/// Luminous power; what shines everywhere does so through the cross-section of a scene of that radius.
+/// Luminous power. Lights that shine everywhere do so through the cross-section of a scene of that radius.
 double powerOf(const LightBounds& lights, double radius);
 
 LightBounds boundsOfTriangle(const std::array<glm::dvec3, 3>& corners, double radiance, bool bothSides);

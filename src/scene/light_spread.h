@@ -11,7 +11,7 @@ namespace fragtrace {
 /// are left out. 1 with less than two lights.
 double gainByPlace(const Scene& scene);
 
-/// The gain from which on a tree over the lights pays for its descent.
+/// From this gain on, a tree over the lights pays for its descent.
 inline constexpr double kLeastGainByPlace = 1.25;
 
 }  // namespace fragtrace

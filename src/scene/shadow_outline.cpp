@@ -16,7 +16,7 @@ double turnOf(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// The convex hull, to the left of each of its edges (Andrew's monotone chain).
+/// The convex hull, counter-clockwise (Andrew's monotone chain).
 Polygon hullOf(Polygon points) {
   std::ranges::sort(points, [](const glm::dvec2& a, const glm::dvec2& b) {
     return a.x < b.x || (a.x == b.x && a.y < b.y);

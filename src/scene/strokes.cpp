@@ -55,12 +55,12 @@ class StrokeSize {
     return radius_ * std::abs(depth) / std::max(glm::length(sideways), 1e-3);
   }
 
-  /// Along the view's axis; negative behind a perspective camera.
+  /// The depth along the view's axis; negative behind a perspective camera.
   double depthOf(const glm::dvec3& point) const {
     return perspective_ ? glm::dot(point - position_, forward_) : 1.0;
   }
 
-  /// Unit, to the camera.
+  /// The unit vector to the camera.
   glm::dvec3 towardsCamera(const glm::dvec3& point) const {
     const glm::dvec3 way = position_ - point;
     const double length = glm::length(way);
@@ -92,7 +92,7 @@ Material strokeMaterial(const Material& given, bool lit) {
   return m;
 }
 
-/// Attributes: so far on the way from one vertex to another.
+/// The attributes at a share of the way from one vertex to another.
 struct Blend {
   uint32_t from = 0;
   uint32_t to = 0;
@@ -111,7 +111,7 @@ class StrokeBuilder {
                         uint32_t(triangles_.size() - before), strokes.nodeIndex});
   }
 
-  /// Behind the other triangles in local space, before those of shared meshes.
+  /// Puts the solids after the other triangles in local space, before those of shared meshes.
   void finish() {
     const uint32_t flat = flatTriangleCount(scene_);
     const auto count = uint32_t(triangles_.size());
@@ -135,7 +135,7 @@ class StrokeBuilder {
     return entry->second;
   }
 
-  /// A vertex at a place, with attributes so far between those of two others.
+  /// A vertex at a place, with attributes blended between those of two others.
   uint32_t vertexBetween(const Blend& like, const glm::dvec3& position) {
     Vertices& v = scene_.vertices;
     const auto append = [&](auto& attribute) {
@@ -153,7 +153,7 @@ class StrokeBuilder {
     return uint32_t(v.position.size() - 1);
   }
 
-  /// The hexagon's corners, counter-clockwise seen from where `axis` points.
+  /// The hexagon's corners, counter-clockwise as seen from the point of `axis`.
   Ring addRing(const Blend& like, const glm::dvec3& center, const glm::dvec3& axis, double radius) {
     const glm::dvec3 side(anyPerpendicular(glm::vec3(axis)));
     const glm::dvec3 first = glm::normalize(side - glm::dot(side, axis) * axis);
@@ -169,7 +169,7 @@ class StrokeBuilder {
 
   void addTriangle(uint32_t a, uint32_t b, uint32_t c) { triangles_.push_back({{a, b, c}, material_, true}); }
 
-  /// Two pyramids, with a prism between them unless they share their ring.
+  /// Adds two pyramids, with a prism between them unless they share their ring.
   void addSolid(uint32_t apexA, const Ring& ringA, const Ring& ringB, uint32_t apexB) {
     for (size_t i = 0; i < kSides; ++i) {
       const size_t next = (i + 1) % kSides;
@@ -193,7 +193,7 @@ class StrokeBuilder {
     addSolid(behind, ring, ring, before);
   }
 
-  /// A line that passes the camera is two: its width is nothing where its depth is.
+  /// A line that passes the camera becomes two, because its width is 0 where its depth is 0.
   void addLine(uint32_t from, uint32_t to) {
     const glm::dvec3 a(scene_.vertices.position[from]);
     const glm::dvec3 b(scene_.vertices.position[to]);
