@@ -33,7 +33,7 @@ struct AdaptiveState {
   double seconds = 0.0;  ///< that drawing has taken
 };
 
-/// A render between two draws. What it is a render of, and what was measured, are texts of whoever writes it.
+/// A render between two draws. The caller writes the texts that say what is rendered and what was measured.
 struct Checkpoint {
   std::string job;                ///< JSON of all that its samples depend on
   std::string statistics;         ///< JSON of the parts before the one under way
@@ -47,7 +47,8 @@ struct Checkpoint {
 /// The bytes have this machine's byte order and layout.
 std::vector<uint8_t> encodeCheckpoint(const Checkpoint& checkpoint);
 
-/// Throws std::runtime_error with the bare reason when the bytes are not what encodeCheckpoint() makes.
+/// Reads a checkpoint. Throws std::runtime_error with the bare reason if encodeCheckpoint() did not make
+/// these bytes.
 Checkpoint decodeCheckpoint(std::span<const uint8_t> bytes);
 
 }  // namespace fragtrace

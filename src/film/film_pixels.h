@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The film on the host: what was summed in each pixel, and what follows from it.
+// The film on the host: the sums of each pixel, and values that follow from them.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct FilmPixel {
   uint32_t flags = 0;
 
   glm::dvec3 mean() const { return sum / double(samples > 0 ? samples : 1); }
-  /// The pixel counts as it is, or as laid over white where its shadow is in alpha alone
+  /// The luminance of the pixel as it is, or as laid over white if its shadow is in alpha alone
   /// (image/over_white.h).
   double luminance() const;
   /// The variance of the mean's luminance, as if samples were independent; 0 below two samples.
@@ -63,8 +63,8 @@ struct Layers {
   bool variance = false;  ///< variance.Y: of the mean's luminance
 };
 
-/// Means of the samples, the first row at the top. `variance`, if not empty, holds a better estimate than
-/// FilmPixel::variance, in the order of the pixels. Says whether its luminance is that over white.
+/// Means of the samples, the first row at the top. If `variance` is not empty, it holds a better estimate
+/// than FilmPixel::variance, in the order of the pixels. The image says if its luminance is that over white.
 Image imageOf(const FilmPixels& film, const Layers& layers, std::span<const double> variance = {});
 
 /// One channel, Y: number(i) of pixel i of a film of that size, the first row at the top.

@@ -11,7 +11,7 @@ namespace fragtrace {
 namespace {
 
 constexpr int kCell = 8;  // pixels a side; neighbours are those in 3 x 3 cells
-/// From so much evidence on a pixel counts for itself alone.
+/// From this evidence on, a pixel counts for itself alone.
 constexpr double kEnoughEvidence = 8.0;
 
 /// The share of evidence that a pixel lacks, 0 to 1.
@@ -35,7 +35,7 @@ struct Pooled {
     light += other.light;
     squares += other.squares;
   }
-  /// Relative variance of one sample.
+  /// The relative variance of one sample.
   double relative(double floor) const {
     if (!(samples > 0.0)) return 0.0;
     const double scale = std::abs(light) / samples + floor;

@@ -11,10 +11,9 @@ namespace fragtrace {
 /// samples that all bring the same light, so k of n samples that alone see a lamp count as k.
 double evidenceOf(const FilmPixel& pixel);
 
-/// `variance`, that of each pixel's mean as its own samples tell it, drawn towards what its neighbours tell
-/// the more the less evidence it has. `floor` is that of relative errors (noise.h), and what is shared is
-/// relative. A caustic that most samples miss thus counts in the pixels, too, whose samples have all missed
-/// it.
+/// Pulls `variance`, that of each pixel's mean by its own samples, towards that of its neighbours: the less
+/// evidence the pixel has, the more. `floor` is that of relative errors (noise.h), and the shared variance is
+/// relative. So a caustic that most samples miss also counts in the pixels whose samples have all missed it.
 std::vector<double> drawnTowardsNeighbours(const FilmPixels& film, const std::vector<double>& variance,
                                            double floor);
 

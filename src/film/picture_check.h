@@ -33,12 +33,13 @@ inline constexpr double kMostFarBlocks =
 inline constexpr double kMostMeanErrors = 5.0;  ///< standard errors of the mean: one of 1.7 million by chance
 inline constexpr double kMostDiffering = 0.005;  ///< part of the pixels; the same samples only
 
-/// Pixels that are no numbers, that have no sample, and pictures of different sizes are wrong. Without two
-/// samples per pixel its noise is not known: only SameSamples can then be judged, and the rest is wrong.
+/// Checks a picture. Pixels that are not numbers or have no sample, and pictures of different sizes, are
+/// wrong. The noise of a picture with less than two samples per pixel is not known: only SameSamples can then
+/// be judged, and the rest is wrong.
 PictureCheck checkPicture(const FilmPixels& picture, const FilmPixels& other, CheckAgainst against);
 
-/// A picture file as film, of as many samples as its layers samples.Y and variance.Y say; without these of
-/// one sample. True in `noiseFree` for the latter.
+/// A picture file as a film, with as many samples as its layers samples.Y and variance.Y say. Without these
+/// it has one sample, and `noiseFree` becomes true.
 FilmPixels filmOf(const Image& picture, bool& noiseFree);
 
 }  // namespace fragtrace

@@ -18,8 +18,8 @@ namespace {
 constexpr const char* kReading = "reading the film";
 constexpr const char* kLoading = "loading the film";
 
-/// A framebuffer to clear these by, in their order: drivers do so as they draw; llvmpipe clears a texture
-/// through the host.
+/// A framebuffer by which these textures are cleared, in their order. Drivers clear framebuffers as they
+/// draw; llvmpipe clears a texture through the host.
 GlFramebuffer targetOf(std::initializer_list<const GlTexture*> textures) {
   GlFramebuffer target = makeFramebuffer();
   std::array<GLenum, 3> buffers{};

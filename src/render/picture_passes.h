@@ -13,12 +13,12 @@ namespace fragtrace {
 /// Makes a program of a fragment shader alone. Throws RenderError.
 GlProgram passProgram(const ShaderSource& source, const char* entry);
 
-/// A framebuffer and its draws; changes framebuffer, viewport, program and texture units of the context.
+/// A framebuffer and its draws. Changes framebuffer, viewport, program and texture units of the context.
 class PicturePasses {
  public:
   PicturePasses() : vertexArray_(makeVertexArray()), framebuffer_(makeFramebuffer()) {}
 
-  /// Over `into.front()`'s first `drawn` pixels; `size` is what the program takes for its own. Throws
+  /// Draws over the first `drawn` pixels of `into.front()`. `size` is the size that the program sees. Throws
   /// RenderError.
   void draw(const GlProgram& program, glm::ivec2 size, glm::ivec2 drawn,
             std::initializer_list<const GlTexture*> from, std::initializer_list<const GlTexture*> into);
@@ -42,7 +42,7 @@ class PictureSums {
   static glm::ivec2 blocksOf(glm::ivec2 size);
   /// The texture into which a program writes its sums over blocks of a picture of that size.
   const GlTexture& blocks(glm::ivec2 size);
-  /// Sums these, into one texel of RGBA32F.
+  /// Sums the blocks into one texel of RGBA32F.
   void into(const GlTexture& texel, glm::ivec2 size, PicturePasses& passes);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Traversal alone on the device: rays in, what they hit out, for measurements.
+// Traversal alone on the device, for measurements: rays go in, and hits come out.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ struct TracedRay {
 
 class RayCaster {
  public:
-  /// Uploads the scene for the variant's traversal and reads; the size is that of all sets of rays. Throws
-  /// RenderError when an array is larger than the driver reads.
+  /// Uploads the scene for the variant's traversal and reads. The size is that of all sets of rays. Throws
+  /// RenderError if an array is larger than the driver can read.
   RayCaster(const Context& context, GpuScene scene, const ShaderVariant& variant, glm::ivec2 size,
             const std::filesystem::path& shaderFolder = {});
 
@@ -37,8 +37,8 @@ class RayCaster {
     GlBuffer buffer_;
   };
 
-  /// Traces a set, one ray a pixel. anyHit: any hit ends a ray, else the nearest is found. Returns
-  /// milliseconds: by the wall clock round glFinish on software, by the device's own timer elsewhere.
+  /// Traces a set, one ray a pixel. anyHit: any hit ends a ray; otherwise the nearest one is found. Returns
+  /// milliseconds, by the wall clock around glFinish on software, by the device's own timer elsewhere.
   double trace(const RaySet& rays, bool anyHit);
 
   /// The hits of the latest trace. Throws RenderError when a ray took more steps than one draw allows.
