@@ -28,7 +28,7 @@ using OidnProgressMonitor = bool (*)(void* user, double fraction);
 struct OidnFunctions {
   OidnDeviceHandle* (*newDevice)(int type);
   void (*commitDevice)(OidnDeviceHandle*);
-  /// The first error since the last call, and what it says; of the calling thread where there is no device.
+  /// The first error since the last call, and its message. Without a device it is that of the calling thread.
   int (*getDeviceError)(OidnDeviceHandle*, const char** message);
   int (*getDeviceInt)(OidnDeviceHandle*, const char* name);
   void (*releaseDevice)(OidnDeviceHandle*);

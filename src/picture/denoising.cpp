@@ -136,7 +136,7 @@ void denoise(Image& picture, const RenderOptions& options, const std::optional<O
     say(options, "the picture is not filtered: " + stats.denoise->skipped);
     return;
   }
-  // Somebody who has interrupted the samples does not wait for seconds more.
+  // A user who has interrupted the samples does not wait for more seconds.
   const bool waits = !oidn || stats.complete;
   const std::optional<Image> denoised =
       waits ? filtered(picture, options, oidn, *stats.denoise) : std::nullopt;

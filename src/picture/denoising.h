@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `render --denoise`: what it needs beside the picture, and what becomes of both.
+// `render --denoise`: the layers that it needs, and the filtered picture.
 #pragma once
 
 #include <functional>

@@ -23,7 +23,7 @@ namespace fragtrace {
 
 namespace {
 
-/// A sequence has no bars, but its pictures' progress is told to other programs.
+/// A sequence has no bars, but other programs are told the progress of its pictures.
 bool hidesProgress(const PictureJob& job) {
   const ProgressForm form = job.options.output.progress;
   return job.options.output.quiet || form == ProgressForm::None ||

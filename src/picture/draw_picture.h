@@ -44,7 +44,7 @@ inline constexpr int kFewLayerSamples = 16;
 /// Samples of a layer of a picture of so many: a filter needs no more than a few.
 int samplesOfLayer(const RenderOptions& options, Feature feature, int ofPicture);
 
-/// A layer, what it took and counted.
+/// A layer, with its time and its counts.
 struct LayerDraw {
   Image image;  ///< with the names that its channels have in a file
   bool complete = true;
@@ -53,8 +53,8 @@ struct LayerDraw {
   FilmTotals totals;
 };
 
-/// Draws a layer of first hits; an incomplete one when progress stopped it. The renderer goes on with that
-/// variant. Compiles what it does not know yet.
+/// Draws a layer of first hits; an incomplete one if progress stopped it. The renderer keeps that variant.
+/// Compiles the variant if it is new.
 LayerDraw drawLayer(glm::ivec2 size, Renderer& renderer, const ShaderVariant& variant, const View& view,
                     int samples, const Renderer::Progress& progress = Renderer::toTheEnd);
 

@@ -20,7 +20,7 @@ namespace fragtrace {
 
 namespace {
 
-/// A view that shows nothing is likely to be a mistake: of who chose it, of ours, or a surface's back.
+/// A view that shows nothing is likely to be a mistake: the user's, ours, or the back of a surface.
 void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, const ShaderVariant& variant,
                       const Statistics& stats) {
   const bool chosen = loaded.overrides == options.camera.overrides;

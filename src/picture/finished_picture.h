@@ -30,8 +30,8 @@ void openContext(const RenderOptions& options, double paths, Device& device, Sta
 std::optional<Image> drawSamples(const PictureJob& job, DrawingPlan& plan, Device& device,
                                  CheckpointKeeper& keeper, int most, Statistics& stats);
 
-/// Adds layers, filters, and puts the provenance into what drawSamples() gave. False when the thread was
-/// interrupted more than `most` times. Throws RenderError; the picture stays as far as it came.
+/// Adds layers, filters, and puts the provenance into the picture of drawSamples(). False if the thread was
+/// interrupted more than `most` times. Throws RenderError; the picture then keeps what was done.
 bool finishPicture(Image& picture, const PictureJob& job, const DrawingPlan& plan, Device& device, int most,
                    Statistics& stats);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A drawn picture as it is written: what it shows, and how.
+// Writes a drawn picture: its content and its form.
 #pragma once
 
 #include <span>
@@ -27,10 +27,9 @@ std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedSce
 /// To be asked before the first sample: throws RenderError when a picture of that size could not be written.
 void checkPictureWritable(const RenderOptions& options, glm::ivec2 size);
 
-/// A finished picture whose output cannot be written for that reason is not lost: writes its colours alone
-/// to NAME.pfm beside it, or to a name of which there is no file yet. Returns what to say: the reason, where
-/// the picture is and what it lacks. Nothing is written in place of a .pfm
-/// or of standard output.
+/// Rescues a finished picture whose output cannot be written for that reason: writes its colours alone to
+/// NAME.pfm beside it, or to a name that does not exist yet. Returns the message: the reason, where the
+/// picture is and what it lacks. Nothing replaces a .pfm or standard output.
 std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason);
 
 /// Says how many values of the output 16-bit floats could not hold, if any.

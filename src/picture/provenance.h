@@ -52,7 +52,7 @@ std::string differenceOf(const std::string& settings, const std::string& others)
 
 void setProvenance(Image& image, const Provenance& provenance);
 
-/// Throws InputError naming the file when an attribute is missing or is not what it should be.
+/// Reads the provenance. Throws InputError that names the file if an attribute is missing or wrong.
 Provenance provenanceOf(const Image& image, const std::filesystem::path& path);
 
 }  // namespace fragtrace

@@ -32,7 +32,7 @@ int frameCount(const SequenceOptions& sequence);
 /// so that one program draws all pictures.
 SequenceFrame frameOf(const RenderOptions& options, int index);
 
-/// The camera turned by an angle (radians, to the right of who looks through it) about the vertical axis, +Y,
+/// The camera turned by an angle (radians, to the right as seen through it) about the vertical axis, +Y,
 /// through its focal point.
 Camera turnedCamera(Camera camera, const glm::dvec3& focalPoint, double angle);
 

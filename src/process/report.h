@@ -8,7 +8,7 @@
 
 namespace fragtrace {
 
-/// From now on all that is told is JSON; quiet: errors alone.
+/// From now on all messages are JSON; quiet: errors alone.
 void reportAsJson(bool quiet);
 /// From any thread or signal handler.
 bool reportsAsJson();
@@ -20,10 +20,12 @@ void reportError(const std::string& text);
 
 /// Members that events have from now on, such as the picture that is drawn.
 void setReportContext(const nlohmann::ordered_json& members);
-/// An object of that type with `members`, the seconds since the process began, and the context. Nothing where
-/// text is told, or when quiet. Of "progress" one is told in a tenth of a second. From any thread.
+/// Reports an object of that type with `members`, the seconds since the process began, and the context. Does
+/// nothing if messages are text, or if quiet. Of type "progress" it reports at most one in a tenth of a
+/// second. Any thread may call it.
 void reportEvent(const char* type, const nlohmann::ordered_json& members);
-/// The last line where JSON is told, with the exit status, also when quiet; only the first call tells it.
+/// Reports the last line if messages are JSON, with the exit status, also if quiet. Only the first call does
+/// so.
 void reportEnd(int status);
 
 }  // namespace fragtrace

@@ -14,7 +14,7 @@
 
 namespace fragtrace {
 
-/// Work for the drawing thread, and how far it is. Shared by who waits for it and who does it.
+/// Work for the drawing thread, and its progress. The waiting thread and the drawing thread share it.
 struct DrawJob {
   std::function<void(DrawJob&)> work;
   std::atomic<int> interrupts = 0;   ///< interrupts() of the work

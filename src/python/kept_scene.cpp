@@ -29,7 +29,7 @@ DrawingState& drawing() {
 /// The context is the process's: all scenes share it.
 Device& deviceFor(const RenderOptions& options, Statistics& stats) {
   DrawingState& state = drawing();
-  // The driver's compiler is told once how hard to try, and nobody knows what is drawn later.
+  // The driver's compiler learns once how much to optimise, before anybody knows what will be drawn.
   constexpr double kManyPaths = std::numeric_limits<double>::infinity();
   if (!state.device.context) openContext(options, kManyPaths, state.device, stats);
   const std::string& name = state.device.context->backend;

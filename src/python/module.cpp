@@ -58,8 +58,8 @@ Image imageOfArray(const GivenValues& values, std::vector<std::string> channels)
   return image;
 }
 
-/// Waits for a job as Python wants it: with the interpreter free, but heeding Ctrl-C. `told` is called with
-/// the fraction done.
+/// Waits for a job with Python's interpreter free, but reacts to Ctrl-C. `told` is called with the fraction
+/// done.
 void await(DrawJob& job, const nb::object& told) {
   constexpr int kLookMs = 40;
   constexpr int kLeaveMs = 120;  // what is compiled just now goes on, and is not waited for

@@ -102,7 +102,7 @@ inline bool hasLamps(const TraitSet& traits) {
 /// The row that lists the texture; std::logic_error where none does.
 const TraitRow& traitOfTexture(TextureRef Material::*texture);
 
-/// The trait, what it needs, and what brings it to light: what a scene that has it would have, too.
+/// The trait, the traits that it needs, and those that a scene with it would also have.
 TraitSet withNeeded(Trait trait);
 
 }  // namespace fragtrace

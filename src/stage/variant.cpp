@@ -195,8 +195,8 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   dropTraits(v.stages, v.heatmap, surroundings, v.traits);
   dropIdle(v);
 
-  // Step: how rays find triangles.
-  // Literals need the packed scene; who has it puts them in (useLiterals of src/session/setup.cpp).
+  // Step: choose how rays find triangles. Literals need the packed scene, and useLiterals of
+  // src/session/setup.cpp adds them.
   const bool named = options.device.traversal != TraversalMethod::Auto &&
                      options.device.traversal != TraversalMethod::Literals;
   v.traversal = named ? options.device.traversal : TraversalMethod::FrontToBack;

@@ -23,7 +23,7 @@ struct Extension {
   std::string_view advice = {};            ///< what to do with a file that requires it, where it is ignored
 };
 
-/// For what has no object of its own, and for a second place that there is not.
+/// The place of extensions without an object of their own, and a second place that does not exist.
 inline constexpr std::string_view kNowhere = "nowhere";
 
 std::span<const Extension> extensions();

@@ -12,8 +12,8 @@
 
 namespace fragtrace {
 
-/// Throws InputError with the place of the first member that is read by the loader and has the wrong type, is
-/// missing though required, or refers to something that is not there. Whole numbers written as 1.0 become
+/// Throws InputError with the place of the first member that the loader reads and that has the wrong type, is
+/// missing though required, or refers to something that does not exist. Whole numbers written as 1.0 become
 /// integers.
 void checkSchema(nlohmann::json& root, const Diagnostics& diagnostics);
 

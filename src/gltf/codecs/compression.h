@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compressed geometry, replaced in the document by what it decodes to before anything reads it.
+// Replaces compressed geometry in the document by its decoded form, before anything reads it.
 #pragma once
 
 #include <cstdint>
