@@ -24,7 +24,8 @@
 namespace fragtrace {
 namespace {
 
-/// The error of posix_spawn, or 0. Signals of the terminal do not reach the child, whose output is dropped.
+/// Starts a process. Returns the error of posix_spawn, or 0. Signals of the terminal do not reach the child,
+/// whose output is dropped.
 int spawn(const std::filesystem::path& path, std::string argument, int socket, pid_t& process) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
@@ -123,7 +124,7 @@ bool awaitReply(const Child& child, std::span<uint8_t> reply, int patienceMs) {
 
 std::string endChild(Child& child) {
   ::close(child.socket);
-  // One that has ended by itself keeps its own status.
+  // A child that has ended by itself keeps its own status.
   constexpr int kPatienceMs = 20;
   int status = 0;
   pid_t ended = 0;

@@ -10,12 +10,12 @@ namespace fragtrace {
 
 /// From now on all messages are JSON; quiet: errors alone.
 void reportAsJson(bool quiet);
-/// From any thread or signal handler.
+/// Any thread or signal handler may call it.
 bool reportsAsJson();
 
 /// "warning: ...", "note: ..." or another message. As JSON its type is that word, or "message".
 void reportMessage(const std::string& text);
-/// Also when quiet.
+/// Reports an error, also if quiet.
 void reportError(const std::string& text);
 
 /// Members that events have from now on, such as the picture that is drawn.

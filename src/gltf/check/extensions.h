@@ -11,7 +11,7 @@ namespace fragtrace {
 
 enum class Support : uint8_t { Supported, Partly, Ignored };
 
-/// A place that is any use of a texture, of whatever name.
+/// The place of any use of a texture, whatever its name.
 inline constexpr std::string_view kTextureInfo = "a texture info";
 
 struct Extension {
@@ -28,7 +28,7 @@ inline constexpr std::string_view kNowhere = "nowhere";
 
 std::span<const Extension> extensions();
 
-/// Null for one that is not in the table.
+/// Returns null for an extension that is not in the table.
 const Extension* extensionNamed(std::string_view name);
 
 /// Returns true if the loader reads the extension.

@@ -199,7 +199,7 @@ class MotionChecker {
       warn(place, "has a node without morph targets, which nothing would weigh; it changes nothing");
   }
 
-  /// Sizes and types that follow from the channel's path (glTF 2.0, section 3.11).
+  /// Checks sizes and types that follow from the channel's path (glTF 2.0, section 3.11).
   void checkOutput(const json& target, const json& sampler, const std::string& place) {
     if (!target.contains("node") || !isPath(target["path"].get_ref<const std::string&>())) return;
     const json& output = accessorAt(sampler["output"]);

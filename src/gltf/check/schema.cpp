@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Everything that the loader reads; the rule of a container stands before those of its members.
+/// Rules for everything that the loader reads; the rule of a container comes before those of its members.
 constexpr Rule kRules[] = {
     {"/asset!", Kind::Object},
     {"/asset/version!", Kind::Text},

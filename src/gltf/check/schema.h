@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Types and references of a glTF document, checked before tinygltf sees it: tinygltf drops members of a wrong
-// type without a word, and does not check an index before it uses it.
+// Checks types and references of a glTF document before tinygltf sees it. tinygltf silently drops members of
+// a wrong type, and does not check an index before it uses it.
 #pragma once
 
 #include <cstddef>

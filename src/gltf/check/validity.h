@@ -14,7 +14,7 @@ namespace fragtrace {
 /// cameras, lights, nodes. Refuses versions that are not supported.
 void checkValidity(const nlohmann::json& root, Diagnostics& diagnostics);
 
-/// The same of buffer views, accessors, images and mesh primitives.
+/// The same for buffer views, accessors, images and mesh primitives.
 void checkDataValidity(const nlohmann::json& root, Diagnostics& diagnostics);
 
 }  // namespace fragtrace

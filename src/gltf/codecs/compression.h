@@ -18,9 +18,9 @@ using Buffers = std::vector<std::vector<uint8_t>>;
 bool isFallback(const nlohmann::json& buffer);
 
 /// Decode all buffer views with EXT_ or KHR_meshopt_compression, and all primitives with
-/// KHR_draco_mesh_compression: the document gets more buffers, buffer views and accessors. Where the
-/// libraries are missing and the file holds the data uncompressed, too, these are taken, with a warning.
-/// Throw InputError.
+/// KHR_draco_mesh_compression. The document gets more buffers, buffer views and accessors. If the libraries
+/// are missing and the file also holds the data uncompressed, these are used, with a warning. Throw
+/// InputError.
 void decompressViews(nlohmann::json& root, Buffers& buffers, Worker& codecs, Document& document);
 void decompressPrimitives(nlohmann::json& root, Buffers& buffers, Worker& codecs, Document& document);
 

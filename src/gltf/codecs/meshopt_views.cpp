@@ -85,7 +85,7 @@ CodecRequest requestOf(const json& extension, bool isKhr, uint64_t viewBytes, co
   request.stride = extension["byteStride"].get<uint64_t>();
   request.outputBytes = viewBytes;
   checkSizes(request, place, diagnostics);
-  // Divided rather than multiplied, so that no count is large enough to wrap round.
+  // The check divides instead of multiplying, so that no count is large enough to wrap around.
   if (viewBytes % request.stride != 0 || viewBytes / request.stride != request.count) {
     diagnostics.refuse(place + "/count", "times byteStride is not the " + std::to_string(viewBytes) +
                                              " bytes of the buffer view");

@@ -39,15 +39,15 @@ struct Animation {
 std::vector<Skin> takeSkins(nlohmann::json& root);
 std::vector<Animation> takeAnimations(nlohmann::json& root);
 
-/// Warns of what breaks glTF's rules for skins, animations, morph weights and variants, and refuses samplers
-/// that are not there.
+/// Warns about violations of glTF's rules for skins, animations, morph weights and variants, and refuses
+/// samplers that do not exist.
 void checkMotion(const nlohmann::json& root, Diagnostics& diagnostics);
 
 /// The names of an array's elements, "" where one has none.
 std::vector<std::string> namesOf(const nlohmann::json& array);
 
-/// Seconds at which an animation's last key stands, as the accessors of its times say; none where one does
-/// not.
+/// The time of an animation's last key in seconds, by the accessors of its times; none if one does not say
+/// it.
 std::optional<double> durationOf(const nlohmann::json& animation, const nlohmann::json& accessors);
 
 /// Makes the chosen scene the default one and gives primitives the materials of the chosen variant
