@@ -25,7 +25,7 @@ namespace {
 constexpr const char* kFilterAttribute = "fragtrace:denoise";
 constexpr const char* kNoisy = "noisy.";
 
-/// A filter changes these channels of a picture.
+/// The channels of a picture that a filter changes.
 Image seenChannels(const Image& picture) {
   std::vector<std::string> channels{"R", "G", "B"};
   if (isOverWhite(picture)) channels.emplace_back("A");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Drawing one whole picture, as `render` does: its samples, with the looks at the film that a filter wants,
-// and its layers of first hits.
+// Draws one whole picture, as `render` does: its samples, with readings of the film for a filter, and its
+// layers of first hits.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ struct Drawing {
   std::vector<double> observed;  ///< observedVariance(); may be empty
 };
 
-/// A film that gets samples, and what was seen of it on the way.
+/// A film that gets samples, and the copies of it that were read on the way.
 struct SampledFilm {
   Film film;
   std::vector<FilmPixels> looks;  ///< at a quarter and at half of the samples
@@ -30,18 +30,18 @@ struct SampledFilm {
 /// picture is filtered, or a file of it may be (`--aov denoising`).
 bool looksOnTheWay(const RenderOptions& options);
 
-/// Adds samples up to options.spp and reads the film. False when progress stopped it.
+/// Adds samples up to options.spp and reads the film. False if progress stopped it.
 bool drawAllSamples(Renderer& renderer, SampledFilm& sampled, const RenderOptions& options, const View& view,
                     RenderTimes& times, const Renderer::Progress& progress, Drawing& drawing);
 
-/// The drawing as a picture, with all that the options ask for and their filter needs but layers of first
-/// hits; with samples.Y also where it is wanted without being asked for.
+/// The drawing as a picture, with all layers that the options ask for and that their filter needs, except
+/// layers of first hits. withSamples: samples.Y is added even if nobody asks for it.
 Image pictureOf(const Drawing& drawing, const RenderOptions& options, bool withSamples = false);
 
-/// Samples of layers that nobody has asked for, or that somebody waits for.
+/// The number of samples of layers that nobody has asked for, or for which the user waits.
 inline constexpr int kFewLayerSamples = 16;
 
-/// Samples of a layer of a picture of so many: a filter needs no more than a few.
+/// The number of samples of a layer of a picture with so many: a filter needs no more than a few.
 int samplesOfLayer(const RenderOptions& options, Feature feature, int ofPicture);
 
 /// A layer, with its time and its counts.

@@ -33,7 +33,7 @@ void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, c
                            : "--camera-position and --camera-focal-point choose another"));
 }
 
-/// The pixels that are exactly black, 0..1.
+/// The share of pixels that are exactly black, 0..1.
 double blackShare(const Image& picture) {
   const auto colors = findColorChannels(picture);
   if (!colors || picture.values.empty()) return 0.0;
@@ -44,7 +44,7 @@ double blackShare(const Image& picture) {
   return double(black) * double(picture.channelCount()) / double(picture.values.size());
 }
 
-/// A picture that is nearly black although surfaces fill it, and why: most likely the camera stands in a
+/// Says that a picture is nearly black although surfaces fill it, and why: most likely the camera stands in a
 /// shell.
 void sayWhatIsDark(const RenderOptions& options, const LoadedScene& loaded, const Image& picture,
                    const Statistics& stats) {
@@ -83,7 +83,7 @@ bool isUniform(const Statistics& stats) {
   return stats.complete && stats.film.fewestSamples == stats.film.mostSamples && !stats.adaptive;
 }
 
-/// An .exr says how it was made, as merge needs it.
+/// Writes into an .exr how it was made, as merge needs it.
 void setProvenanceOf(Image& picture, const RenderOptions& options, const LoadedScene& loaded,
                      const Tracer& tracer, const Statistics& stats) {
   if (!holdsLayers(options) || options.output.debugView != DebugView::None) return;
@@ -117,7 +117,7 @@ void sayWhatIsChosen(const RenderOptions& options, const Context& context, const
   if (tracer.variant.clampIndirect) say(options, "indirect light is clamped (--clamp-indirect): biased");
 }
 
-/// Throws RenderError when the driver left out samples without a word.
+/// Throws RenderError if the driver silently left out samples.
 void checkSamples(const RenderOptions& options, const Statistics& stats) {
   if (!stats.complete || stats.adaptive || stats.film.fewestSamples >= unsigned(options.sampling.spp)) return;
   throw RenderError("the driver drew " + std::to_string(stats.film.fewestSamples) + " of " +

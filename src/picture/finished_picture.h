@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From a scene on the device to a picture with all that its file holds: what every front end that finishes
-// pictures shares.
+// Turns a scene on the device into a picture with all content of its file. All front ends that finish
+// pictures share this.
 #pragma once
 
 #include <memory>
@@ -21,12 +21,11 @@ struct Device {
   std::optional<OidnLibrary> oidn;
 };
 
-/// For so many camera paths in all. Throws ContextError.
+/// Opens a context for so many camera paths in all. Throws ContextError.
 void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats);
 
-/// Draws the picture's samples, and says what is odd about them. `plan` is what its layers need later.
-/// Nothing when the thread was interrupted more than `most` times. Throws what planDrawing() and
-/// drawPicture() throw.
+/// Draws the picture's samples, and says what is odd about them. Its layers need `plan` later. Nothing if the
+/// thread was interrupted more than `most` times. Throws what planDrawing() and drawPicture() throw.
 std::optional<Image> drawSamples(const PictureJob& job, DrawingPlan& plan, Device& device,
                                  CheckpointKeeper& keeper, int most, Statistics& stats);
 

@@ -24,7 +24,7 @@ Image shownPicture(const RenderOptions& options, const FilmPixels& pixels, const
 std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedScene& loaded,
                                    const Camera& camera, glm::ivec2 size);
 
-/// To be asked before the first sample: throws RenderError when a picture of that size could not be written.
+/// Must be called before the first sample: throws RenderError if a picture of that size could not be written.
 void checkPictureWritable(const RenderOptions& options, glm::ivec2 size);
 
 /// Rescues a finished picture whose output cannot be written for that reason: writes its colours alone to

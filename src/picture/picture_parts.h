@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture that is drawn part by part, because a film of all of it would be too large for the device or for
+// Divides a picture into parts if a film of all of it would be too large for the device or for
 // --memory-limit. Each part has the samples of the whole.
 #pragma once
 

@@ -115,7 +115,7 @@ std::string featuresOfOneAlone(const std::string& variant, const std::string& ot
   return text.empty() ? "none" : text;
 }
 
-/// Two values of one setting; of the shader's variants what they do not share.
+/// The two values of one setting; for shader variants, the features that they do not share.
 std::string bothValues(const std::string& key, const nlohmann::json& a, const nlohmann::json& b) {
   if (key != "variant" || !a.is_string() || !b.is_string()) return a.dump() + " and " + b.dump();
   return featuresOfOneAlone(a, b) + " and " + featuresOfOneAlone(b, a);

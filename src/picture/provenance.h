@@ -10,7 +10,7 @@
 
 namespace fragtrace {
 
-/// Samples of the sequence of a seed: all that any pixel may have.
+/// Samples of the sequence of a seed that any pixel may have.
 struct SampleRange {
   uint32_t seed = 0;
   int64_t first = 0;
@@ -22,8 +22,8 @@ struct SampleRange {
   }
 };
 
-/// Written as the string attributes fragtrace:settings, :seed, :sampleOffset, :samples, :uniform and, where
-/// these do not tell all ranges, :ranges, a JSON array of [seed, first, count].
+/// The string attributes fragtrace:settings, :seed, :sampleOffset, :samples, :uniform and, if these do not
+/// give all ranges, :ranges, a JSON array of [seed, first, count].
 struct Provenance {
   std::string settings;  ///< JSON of all that the picture depends on, but for the samples
   uint32_t seed = 0;
@@ -38,10 +38,10 @@ inline constexpr const char* kSettingsAttribute = "fragtrace:settings";
 /// The attribute of an .exr whose render was interrupted: "1".
 inline constexpr const char* kInterruptedAttribute = "fragtrace:interrupted";
 
-/// The ranges as they are, or as the other members say.
+/// The ranges, or, if they are empty, those that follow from the other members.
 std::vector<SampleRange> rangesOf(const Provenance& provenance);
 
-/// The same samples in as few ranges as can be. Throws std::invalid_argument when two of them overlap.
+/// The same samples in as few ranges as possible. Throws std::invalid_argument if two of them overlap.
 std::vector<SampleRange> joinedRanges(std::vector<SampleRange> ranges);
 
 /// The settings of a render as JSON, in one line.

@@ -35,7 +35,7 @@ struct DrawJob {
 /// Puts work into the queue. Throws std::runtime_error in a process that was forked from one that has drawn.
 std::shared_ptr<DrawJob> postJob(std::function<void(DrawJob&)> work);
 
-/// Interrupts all work and waits for its end; what is posted later is dropped. Before Python ends.
+/// Interrupts all work and waits for its end; later work is dropped. It must be called before Python ends.
 void stopDrawing();
 bool isDrawingStopped();
 

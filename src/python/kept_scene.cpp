@@ -14,7 +14,7 @@ namespace fragtrace {
 
 namespace {
 
-/// The device, and the scenes that have something there.
+/// The device, and the scenes that have data on it.
 struct DrawingState {
   Device device;
   std::vector<std::weak_ptr<KeptScene>> scenes;
@@ -26,7 +26,7 @@ DrawingState& drawing() {
   return *theOne;
 }
 
-/// The context is the process's: all scenes share it.
+/// The context belongs to the process: all scenes share it.
 Device& deviceFor(const RenderOptions& options, Statistics& stats) {
   DrawingState& state = drawing();
   // The driver's compiler learns once how much to optimise, before anybody knows what will be drawn.
@@ -62,7 +62,7 @@ RenderOptions loadedFor(const RenderOptions& options, const LoadedScene& loaded)
   return part;
 }
 
-/// The scene as loaded and uploaded for these options; the statistics say what of that was to be done.
+/// Loads and uploads the scene for these options; the statistics say which of that was necessary.
 Statistics prepare(KeptScene& kept, const RenderOptions& options) {
   Statistics stats;
   const bool isLoaded = kept.loaded && kept.loadedFor == loadedFor(options, *kept.loaded);
