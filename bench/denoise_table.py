@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The tables and charts of docs/design/denoising.md: what a filter brings, in error and in time.
+"""The tables and charts of docs/measurements/denoising.md: what a filter brings, in error and in time.
 
 usage: denoise_table.py FRAGTRACE [--assets DIR] --out FOLDER [--filters variance,oidn] [--names NAME,...] [--spp N]
                         [--repetitions N] [--references] [--print]
@@ -8,7 +8,7 @@ DIR holds scenes/ and env/lightroom_14b.hdr. Seven scenes of 250 x 250 pixels, 1
 --repetitions seeds, by `bench error --denoise`, against references of 4096 samples. FOLDER keeps NAME-FILTER.json and
 references: what stands there is not made again. --references: makes these alone, which needs no quiet machine as the
 rest does. --print: the tables of what is there. Writes FOLDER/denoise-NAME.svg, the charts of the variance filter.
-bench/tables.py puts the tables of docs/design/data/denoise into the document.
+bench/tables.py puts the tables of docs/measurements/data/denoise into the document.
 """
 
 import argparse

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Makes the charts and tables of docs/design/accuracy.md: error against time in seven scenes.
+"""Makes the charts and tables of docs/measurements/accuracy.md: error against time in seven scenes.
 
 usage: error_charts.py FRAGTRACE ASSETS_FOLDER OUTPUT_FOLDER [NAME ...]
 Run on a quiet machine, from the repository's root. Writes OUTPUT/error-NAME.svg and .json, prints the tables.

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes the tables of measurements into the documents, from what the benchmarks wrote into docs/design/data.
+"""Writes the tables of measurements into the documents, from what the benchmarks wrote into docs/measurements/data.
 
 usage: tables.py [--check] [--data FOLDER] [DOCUMENT...]
-Without DOCUMENT: all of docs/design. A document has a table between <!-- table: NAME --> and <!-- end of table -->.
+Without DOCUMENT: all of docs/measurements. A document has a table between <!-- table: NAME --> and <!-- end of table -->.
 --check: changes nothing, and ends with status 1 where a document has other tables than its data. With and without it,
 the status is also 1 where a mark has no data or no end, and where data have no mark. The data are benchmarks' files,
 whole:
@@ -32,7 +32,7 @@ import denoise_table  # noqa: E402
 import markdown  # noqa: E402
 import program_tables  # noqa: E402
 
-DOCUMENTS, DATA = REPOSITORY / "docs/design", REPOSITORY / "docs/design/data"
+DOCUMENTS, DATA = REPOSITORY / "docs/measurements", REPOSITORY / "docs/measurements/data"
 
 
 def facts(results):

@@ -6,7 +6,7 @@ struct CameraRay {
   vec3 direction;
 };
 
-/// The ray through a point of the picture; x and y in -1..1, y up. right and up span half of the view.
+/// The ray through a point of the picture; x and y are in -1..1, with y up. right and up span half of the view.
 CameraRay makeCameraRay(vec3 position, vec3 right, vec3 up, vec3 forward, bool orthographic, float x, float y) {
   vec3 offset = x * right + y * up;
   CameraRay r;
@@ -28,9 +28,9 @@ vec2 sampleAperture(float u, float v, int blades) {
   return vec2(outward * (a.y + side * (b.y - a.y)), outward * (a.x + side * (b.x - a.x)));
 }
 
-/// The ray of a pinhole camera, as a thin lens bends it: from a point of the lens, in units of length along right and
-/// up, to the point that the ray meets on the plane in focus, at a distance along forward (Cook, Porter and Carpenter,
-/// Distributed Ray Tracing, 1984).
+/// Bends the ray of a pinhole camera as a thin lens does: the ray starts at a point of the lens, in units of length
+/// along right and up, and passes through the point at which the pinhole's ray meets the plane in focus, at a distance
+/// along forward (Cook, Porter and Carpenter, Distributed Ray Tracing, 1984).
 CameraRay throughLens(CameraRay ray, vec3 right, vec3 up, vec3 forward, vec2 lens, float focus) {
   vec3 sharp = ray.direction * (focus / dot(ray.direction, forward));
   vec3 offset = lens.x * normalize(right) + lens.y * normalize(up);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The shadow catcher (kShadowCatcher): a horizontal plane that camera rays meet from above, and no other ray. It shows
-// which share of the light the scene keeps from it. While a path is caught, its radiance is that share so far, and its
-// throughput what the camera sees behind the plane.
+// The shadow catcher (kShadowCatcher): a horizontal plane that only camera rays meet, from above. It shows the share of
+// the light that the scene hides from it. While a path is caught, its radiance is that share so far, and its throughput
+// is the radiance that the camera sees behind the plane.
 
-/// A plane this much nearer, relative to the distance, is met before a surface: one that lies on it is seen.
+/// The plane wins against a surface only if it is nearer by this much, relative to the distance. So a surface that lies
+/// on it is seen.
 const float kCatcherMargin = 1e-4;
 
 /// Distance of the catcher along a ray, 0 where there is none.
@@ -12,14 +13,14 @@ float catcherDistance(vec3 origin, vec3 direction) {
   return above > 0.0 && direction.y < 0.0 ? above / -direction.y : 0.0;
 }
 
-/// Whether what the path's ray has met at distance t, or not met, is the catcher's business.
+/// Returns true if the path's ray meets the catcher before anything else; t is the distance of what it has hit.
 bool meetsCatcher(Path p, float t) {
   if (!p.cameraRay) return p.caught;
   float there = catcherDistance(p.origin, p.direction);
   return there > 0.0 && there < t * (1.0 - kCatcherMargin);
 }
 
-/// Irradiance of the catcher by environment and punctual lights with nothing in the way.
+/// The irradiance of the catcher by environment and punctual lights if nothing is in the way.
 vec3 freeIrradiance(vec3 point) {
   vec3 sum = frame.catcherLight.rgb * frame.catcherLight.w;
   if (!kPunctualLights) return sum;
@@ -37,8 +38,8 @@ vec3 shareOfLight(vec3 part, vec3 all) {
               all.z > 0.0 ? part.z / all.z : 0.0);
 }
 
-/// The camera ray meets the catcher: one light sample, and one direction in which the environment may be hidden. Light
-/// counts as hidden until its shadow ray meets nothing.
+/// The camera ray meets the catcher. The path takes one light sample, and one direction in which the environment may be
+/// hidden.
 Path beginShadow(Path p) {
   float t = catcherDistance(p.origin, p.direction);
   p.throughput *= seenBehind(p.direction);
@@ -58,12 +59,14 @@ Path beginShadow(Path p) {
   if (lightSlotCount() > 0) {
     LightSample light = lightOfSlot(0, s.position, kNoNormal, p.numbers, dimension + kLightDimension);
     float cosine = max(light.direction.y, 0.0);
-    // Emissive triangles are part of the scene that casts the shadow: what they give is not counted.
+    // The scene that casts the shadow includes emissive triangles, so their light does not count.
     bool counts = light.density <= 0.0 || light.distance == kFarAway;
     float weight = light.density > 0.0 ? balanceWeight(light.density, cosine * kInversePi) : 1.0;
     vec3 share = shareOfLight(light.irradiance * (counts ? cosine * weight : 0.0), all);
     if (kShadows) p = connect(p, s, light, share);
     if (p.phase == kPhaseShadow) {
+      // The hidden share is share * (1 - V), where V is 1 if the shadow ray meets nothing: it begins as `share`, and
+      // settleShadow() adds -share where V is 1.
       p.radiance = p.contribution;
       p.contribution = -p.contribution;
     }
@@ -78,7 +81,7 @@ Path beginShadow(Path p) {
   return p;
 }
 
-/// The direction drawn has met a surface, or nothing.
+/// The ray along the direction drawn has met a surface, or nothing.
 Path endShadow(Path p) {
   p.phase = kPhaseEnd;
   if (p.hitSlot < 0) return p;
@@ -101,7 +104,7 @@ Path endShadow(Path p) {
   return p;
 }
 
-/// The guides of the catcher, which keep a filter from taking it for empty surroundings: white, and level.
+/// The guides of the catcher are white and level, so that a filter does not take it for empty surroundings.
 Path guideAtCatcher(Path p) {
   float t = catcherDistance(p.origin, p.direction);
   p = takeGuide(p, t * dot(p.direction, frame.cameraForward.xyz) * frame.cameraForward.w, vec3(0.0, 1.0, 0.0));
@@ -114,18 +117,18 @@ Path meetCatcher(Path p) {
   return beginShadow(p);
 }
 
-/// Alpha of the finished sample; of a shadow on the catcher the luminance of the share of light that is not there.
+/// The alpha of the finished sample. For a shadow on the catcher it is the luminance of the hidden share.
 float coverageOf(Path p) {
   if (kShadowCatcher && p.caught) return luminance(p.radiance);
   if (kFeature == kFeatureGuides && kAlpha && !p.covered) return p.shadowOrigin.x;
   return p.covered ? 1.0 : 0.0;
 }
 
-/// The finished sample of a path that was caught: what is behind, as far as the light is there.
+/// The finished sample of a path that was caught: the background times the share of light that arrives.
 Path showShadow(Path p) {
   if (!p.caught) return p;
   p.radiance = p.throughput * (vec3(1.0) - p.radiance);
-  // The background, with or without a shadow on it, is what the camera sees: emission.
+  // The camera sees the background directly, with or without a shadow on it. So it is emission.
   if (kFeature == kFeatureDiffuse || kFeature == kFeatureSpecular) p.radiance = vec3(0.0);
   return p;
 }

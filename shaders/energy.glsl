@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Tables behind the materials: the energy that single scattering loses between GGX facets (src/pack/ggx_energy.cpp),
-// the albedo of sheen (src/pack/sheen_albedo.cpp) and that of rough glass (src/pack/glass_energy.cpp). Each has one
-// row a cell with the values at its corners, over the roots of cosine and alpha; the first goes on with one row a
+// the albedo of sheen (src/pack/sheen_albedo.cpp) and that of rough glass (src/pack/glass_energy.cpp). Each has one row
+// a cell with the values at its corners, over the roots of cosine and alpha. The first table continues with one row a
 // cell of the average loss.
 
 const int kEnergyRows = int(kEnergyCells * kEnergyCells + kEnergyCells);
 
-/// The value of a table that begins behind so many rows.
+/// The value of a table that begins after so many rows.
 float energyTableAt(int first, float cosine, float alpha) {
   const int cells = int(kEnergyCells);
   float x = sqrt(clamp(cosine, 0.0, 1.0)) * float(cells);
@@ -17,7 +17,7 @@ float energyTableAt(int first, float cosine, float alpha) {
   return mix(mix(corners.x, corners.y, x - float(i)), mix(corners.z, corners.w, x - float(i)), y - float(j));
 }
 
-/// 1 - albedo of a surface whose facets reflect all, seen at `cosine`.
+/// 1 - albedo of a surface whose facets reflect everything, seen at `cosine`.
 float ggxLoss(float cosine, float alpha) { return kCompensation ? energyTableAt(0, cosine, alpha) : 0.0; }
 
 /// Its cosine-weighted mean over all directions.
@@ -30,8 +30,8 @@ float ggxAverageLoss(float alpha) {
   return mix(ends.x, ends.y, y - float(j));
 }
 
-/// What rough solid glass gives back under single scattering, seen at `cosine` from before its front or behind it.
-/// Tables of all indices follow the other ones, two each.
+/// The albedo of rough solid glass under single scattering, seen at `cosine` from its front or from behind it. The
+/// tables of all indices of refraction follow the other tables, two for each index.
 float glassAlbedo(int table, bool front, float cosine, float alpha) {
   const int rows = int(kEnergyCells * kEnergyCells);
   int first = kEnergyRows + (kSheen ? rows : 0) + (2 * table + (front ? 0 : 1)) * rows;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The environment: an equirectangular map, bilinear; drawn from by inversion of its luminance, so that what is
-// stratified stays so.
+// The environment: an equirectangular map, bilinear. Directions are drawn by inversion of its luminance, so that
+// stratified numbers give stratified directions.
 
 /// Texture coordinates of a direction (docs/design/conventions.md); the rotation is undone first.
 vec2 environmentCoordinates(vec3 d) {
@@ -24,13 +24,13 @@ vec4 environmentTexel(ivec2 p, ivec2 size, int first) {
   return uintBitsToFloat(readEnvironment(first + p.y * size.x + p.x));
 }
 
-/// A map whose texels lie from `first` on, at a place in texels: the middle of the first at 0.5, from -0.5 to half a
-/// texel beyond the width.
+/// Reads a map whose texels begin at `first`, at a place in texels: the middle of the first texel is 0.5, and places
+/// reach from -0.5 to half a texel beyond the width.
 vec4 mapAt(vec2 place, ivec2 size, int first) {
   vec2 position = place - vec2(0.5f);
   vec2 base = floor(position);
   vec2 f = position - base;
-  // Round the seam without a division of integers, which llvmpipe does lane by lane.
+  // Wraps around the seam without a division of integers, which llvmpipe does lane by lane.
   int x0 = int(base.x) < 0 ? size.x - 1 : min(int(base.x), size.x - 1);
   int x1 = x0 + 1 == size.x ? 0 : x0 + 1;
   int y0 = clamp(int(base.y), 0, size.y - 1);
@@ -40,14 +40,14 @@ vec4 mapAt(vec2 place, ivec2 size, int first) {
   return mix(top, bottom, f.y);
 }
 
-/// Radiance and, relative to an even density over the map's area, the density at a place of the environment.
+/// Radiance and density at a place of the environment. The density is relative to an even one over the map's area.
 vec4 environmentAt(vec2 place) {
   vec4 there = mapAt(place, ivec2(frame.environment), 0);
   float intensity = frame.catcherLight.w;
   return vec4(vec3(there) * intensity, there.w);
 }
 
-/// The same of a direction.
+/// The same for a direction.
 vec4 environmentAlong(vec3 direction) {
   if (!kEnvironment) return vec4(0.0f);
   return environmentAt(environmentCoordinates(direction) * vec2(ivec2(frame.environment)));
@@ -61,13 +61,14 @@ vec3 backdropAlong(vec3 direction) {
   return vec3(mapAt(environmentCoordinates(direction) * vec2(size), size, lit.x * lit.y)) * intensity;
 }
 
-/// Density over solid angle with which sampleEnvironment draws a direction, of what environmentAlong gives of it.
+/// The density over solid angle with which sampleEnvironment draws a direction. along: environmentAlong of that
+/// direction.
 float environmentDensity(vec4 along, vec3 direction) {
   float sine = sqrt(max(0.0f, 1.0f - direction.y * direction.y));
   return along.w / max(2.0f * kPi * kPi * sine, float(1e-12));
 }
 
-/// One of `count` equal parts of the numbers of 32 bits, and where in it the bits fall, in [0, 1).
+/// One of `count` equal parts of the 32-bit numbers, and the place of the bits within it, in [0, 1).
 struct TablePlace {
   int index;
   float within;
@@ -83,7 +84,7 @@ TablePlace placeInTable(uint bits, uint count) {
   return place;
 }
 
-/// The place that bits draw by the `count` steps of a table from row `firstRow` on (src/pack/inversion_table.h).
+/// The place that bits draw, by the `count` steps of a table from row `firstRow` on (src/pack/inversion_table.h).
 float invertTable(int firstRow, uint count, uint bits) {
   TablePlace place = placeInTable(bits, count);
   uvec4 row = readEnvironmentInversion(firstRow + place.index);
@@ -93,7 +94,7 @@ float invertTable(int firstRow, uint count, uint bits) {
   float secondPlace = float(row.w >> 16);
   bool afterFirst = place.within >= first;
   bool afterSecond = place.within >= second;
-  // A change at 0 is none: the step's own place is where it begins.
+  // A change at 0 is no change: the step begins at its own place.
   float begin = afterSecond ? second : afterFirst ? first : 0.0f;
   float end = afterSecond ? 1.0f : afterFirst ? second : first;
   float low = begin == 0.0f ? uintBitsToFloat(row.x) : afterSecond ? secondPlace : firstPlace;
@@ -101,12 +102,12 @@ float invertTable(int firstRow, uint count, uint bits) {
   return mix(low, high, (place.within - begin) / (end - begin));
 }
 
-/// Drawn by the density 1 - |x|.
+/// Draws a number by the density 1 - |x|.
 float sampleTent(float u) { return u < 0.5f ? sqrt(2.0f * u) - 1.0f : 1.0f - sqrt(2.0f - 2.0f * u); }
 
-/// A place of the map in texels. Bilinear filtering makes of each texel a tent about its middle, so drawing a texel and
-/// a place in its tent has the density that environmentAt gives. What a row's tent has beyond a pole, clamping spreads
-/// over half a texel.
+/// Draws a place of the map, in texels. Bilinear filtering turns each texel into a tent about its middle. So drawing a
+/// texel and a place in its tent has the density that environmentAt gives. The part of a row's tent beyond a pole is
+/// spread over half a texel by clamping.
 vec2 sampleEnvironment(uvec2 bits) {
   ivec2 size = ivec2(frame.environment);
   float row = invertTable(0, uint(size.y), bits.y);

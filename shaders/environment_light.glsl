@@ -42,7 +42,8 @@ vec3 environmentLobe(vec3 direction, float exponent) {
   return mix(lobeAt(lower, coordinates), lobeAt(lower + 1, coordinates), level - float(lower)) * intensity;
 }
 
-/// A surface of these colours sends this to `outgoing`. The wider the lobe, the nearer its middle is to the normal.
+/// The light that a surface of these colours sends to `outgoing`. The wider the lobe, the nearer its middle is to the
+/// normal.
 vec3 environmentReflected(vec3 diffuse, vec3 f0, float exponent, vec3 normal, vec3 outgoing) {
   vec3 reflected = kInversePi * diffuse * environmentIrradiance(normal);
   if (!kSpecular) return reflected;

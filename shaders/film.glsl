@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the film is kept: three images, one texel a pixel.
+// The film is kept in three images, one texel a pixel.
 
 layout(rgba32f, binding = kFilmSumBinding) uniform restrict image2D filmSum;
 layout(rgba32f, binding = kFilmCompensationBinding) uniform restrict image2D filmCompensation;
@@ -20,10 +20,10 @@ void storeFilm(ivec2 pixel, FilmPixel f) {
   imageStore(filmCounts, pixel, uvec4(f.samples, f.rays, f.nonfinite, f.flags));
 }
 
-/// Of light paths the film is a record, a texel a path: a pixel counts those of its part of a column of texels.
+/// For light paths the film holds records, a texel a path. A pixel's records are its part of a column of texels.
 ivec2 recordOf(ivec2 pixel, uint path) { return ivec2(pixel.x, pixel.y * frame.picture.z + int(path)); }
 
-/// What a light path sends the camera, and where in the picture that is seen.
+/// Stores the light that a light path sends to the camera, and the place in the picture where it is seen.
 void storeRecord(ivec2 texel, vec3 light, vec2 place) {
   bool whole = !isNonfinite(light.x) && !isNonfinite(light.y) && !isNonfinite(light.z);
   imageStore(filmSum, texel, vec4(whole ? light : vec3(0.0), place.x));

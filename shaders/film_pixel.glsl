@@ -13,18 +13,18 @@ struct FilmPixel {
   uint flags;
 };
 
-/// Infinite, NaN, or so large (2^96) that the most samples per pixel can have would add up to infinity; told by its
-/// bits, since a compiler may take isnan() for false.
+/// Returns true for infinity, NaN, and values so large (2^96) that the sum of the most samples of a pixel would be
+/// infinite. It tests the bits, since a compiler may take isnan() for false.
 bool isNonfinite(float x) { return (floatBitsToUint(x) & 0x7f800000u) >= 0x6f800000u; }
 
-/// Luminance of light and alpha, up to a constant: of a shadow that is in alpha alone, as laid over white.
+/// Luminance of light and alpha, up to a constant. A shadow that is in alpha alone counts as laid over white.
 float seenLuminance(FilmPixel f, vec3 light, float alpha) {
   bool overWhite = kShadowCatcher && (f.flags & kPixelOverWhite) != 0u;
   return overWhite ? luminance(light) - alpha : luminance(light);
 }
 
-/// Adds one sample (Kahan, Further Remarks on Reducing Truncation Errors, 1965; Welford, 1962). One that is not finite
-/// is counted and adds black.
+/// Adds one sample (Kahan, Further Remarks on Reducing Truncation Errors, 1965; Welford, 1962). A sample that is not
+/// finite is counted and adds black.
 FilmPixel addSample(FilmPixel f, vec3 radiance, float alpha) {
   if (isNonfinite(radiance.x) || isNonfinite(radiance.y) || isNonfinite(radiance.z)) {
     f.nonfinite += 1u;
@@ -40,13 +40,13 @@ FilmPixel addSample(FilmPixel f, vec3 radiance, float alpha) {
   f.samples += 1u;
   float value = seenLuminance(f, radiance, alpha);
   float after = seenLuminance(f, f.sum, f.alpha) / float(f.samples);
-  // Its square may be infinite where the value is not.
+  // The square may be infinite where the value is not.
   f.m2 = min(f.m2 + (value - before) * (value - after), float(3.0e38));
   return f;
 }
 
-/// Adds what tells surfaces apart (kFeatureGuides), in plain sums: the normal in place of the compensation, depth in
-/// place of the squares (Film::readGuides).
+/// Adds guides (kFeatureGuides), in plain sums: the normal in place of the compensation, depth in place of the squares
+/// (Film::readGuides).
 FilmPixel addGuides(FilmPixel f, vec3 albedo, vec3 normal, float depth, float alpha) {
   f.samples += 1u;
   f.alpha += alpha;

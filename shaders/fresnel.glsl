@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much a boundary reflects, and where light goes through it.
+// Fresnel reflectances, and directions of reflection and refraction.
 
 /// Schlick, An Inexpensive BRDF Model for Physically-based Rendering, 1994.
 vec3 fresnelSchlick(vec3 f0, float f90, float cosine) {
@@ -18,15 +18,15 @@ float fresnelDielectric(float cosine, float eta) {
   float squared = refractedSquared(cosine, eta);
   if (squared < 0.0f) return 1.0f;
   float refracted = sqrt(squared);
-  // Both are zero in the plane of a boundary between equals, which reflects nothing.
+  // Both are zero in the plane of a boundary between equal indices, which reflects nothing.
   const float tiny = float(1e-30);
   float parallel = (eta * eta * cosine - refracted) / max(eta * eta * cosine + refracted, tiny);
   float perpendicular = (cosine - refracted) / max(cosine + refracted, tiny);
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
-/// Schlick's approximation of the same; inside the denser side it takes the refracted cosine, so that it, too, is 1
-/// at total internal reflection.
+/// Schlick's approximation of the same. Inside the denser side it uses the refracted cosine, so that it, too, is 1 at
+/// total internal reflection.
 float schlickDielectric(float cosine, float eta) {
   float root = (eta - 1.0f) / (eta + 1.0f);
   float f0 = root * root;
@@ -38,8 +38,8 @@ float schlickDielectric(float cosine, float eta) {
   return f0 + (1.0f - f0) * (m2 * m2 * m);
 }
 
-/// Snell: the direction behind the boundary. outgoing and normal are unit and on the same side; at total internal
-/// reflection, which who asks has ruled out but for rounding, along the boundary.
+/// Snell's law: the direction behind the boundary. outgoing and normal are unit and on the same side. The caller has
+/// excluded total internal reflection; where rounding still leads there, the direction runs along the boundary.
 vec3 refractThrough(vec3 outgoing, vec3 normal, float eta) {
   float cosine = dot(outgoing, normal);
   float refracted = sqrt(max(refractedSquared(cosine, eta), 0.0f));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The GGX microfacet distribution in a frame whose z is the normal (glTF 2.0, appendix B), isotropic, or stretched
-// along x: facets of width alpha x stretch along x and alpha / stretch along y. In a space that is stretched the other
-// way these are isotropic ones (kAnisotropy).
+// The GGX microfacet distribution in a frame whose z is the normal (glTF 2.0, appendix B): isotropic, or stretched
+// along x (kAnisotropy), with facets of width alpha x stretch along x and alpha / stretch along y. In a space that is
+// stretched the other way, stretched facets are isotropic.
 
 /// Trowbridge-Reitz density of half vectors, in the form that keeps its digits at small alpha.
 float ggxDensity(vec3 h, float alpha) {
@@ -40,10 +40,10 @@ float visibleGgxDensity(vec3 outgoing, vec3 h, float alpha) {
          max(outgoing.z, float(1e-12));
 }
 
-/// A direction where its masking is that of isotropic facets of width alpha.
+/// The direction in the space where facets are isotropic of width alpha, for masking.
 vec3 alongFacets(vec3 v, float stretch) { return kAnisotropy ? vec3(v.x * stretch, v.y / stretch, v.z) : v; }
 
-/// A half vector where its density is that of isotropic facets.
+/// The half vector in the space where facets are isotropic, for their density.
 vec3 acrossFacets(vec3 h, float stretch) { return kAnisotropy ? vec3(h.x / stretch, h.y * stretch, h.z) : h; }
 
 /// Density of the half vectors visible from `outgoing` (z > 0).
@@ -58,7 +58,7 @@ vec3 sampleFacet(vec3 outgoing, float alpha, float stretch, float u, float v) {
   return kAnisotropy ? normalize(alongFacets(h, stretch)) : h;
 }
 
-/// What masking and shadowing leave of the light that masking alone leaves.
+/// The quotient of masking and shadowing together over masking alone.
 float facetShadowing(vec3 outgoing, vec3 incoming, float alpha, float stretch) {
   vec3 o = alongFacets(outgoing, stretch);
   return ggxMaskingShadowing(o, alongFacets(incoming, stretch), alpha) / ggxMasking(o, alpha);
@@ -70,7 +70,7 @@ float facetMean(float stretch) {
   return kAnisotropy ? sqrt(0.5f * (stretch * stretch + 1.0f / (stretch * stretch))) : 1.0f;
 }
 
-/// How much of it is given back (stretch >= 1), so that nowhere more than 1 % is gained.
+/// Compensation returns this share of the lost light (stretch >= 1), so that no direction gains more than 1 %.
 float facetsGiveBack(float stretch) {
   float fourth = stretch * stretch * stretch * stretch;
   return 1.0f - float(0.1) * (fourth - 1.0f) / (fourth + 1.0f);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What a filter tells surfaces apart by (kFeatureGuides): albedo and normal of the first surface that is not seen by
-// way of smooth glass or a smooth metal alone, so that what stands behind these stays sharp, and depth of the first
-// surface of all, which tells these from the rest. Where alpha lets a part of the light pass, surfaces count by their
-// shares, without chance. No shadow ray is traced meanwhile, so its members keep the state, also from draw to draw:
-// radiance and contribution are sums of albedo and normal, shadowLimit is that of depth, shadowOrigin.x that of the
-// shares; shadowDirection is the normal of what takes the rest.
+// Guides (kFeatureGuides), by which a filter distinguishes surfaces. Albedo and normal are those of the first surface
+// that is not just smooth glass or a smooth metal, so that what is seen through or in these stays sharp. Depth is that
+// of the first surface of all, which separates these from the rest. Where alpha lets a part of the light pass, surfaces
+// count by their shares, not by chance. No shadow ray is traced meanwhile, so its members keep the state, also from
+// draw to draw: radiance and contribution are the sums of albedo and normal, shadowLimit is the sum of depth,
+// shadowOrigin.x that of the shares, and shadowDirection the normal of the surface that takes the rest.
 
 const float kGuideAlpha = 0.01;    // the roughest that is followed: what it shows is hardly blurred
 const int kGuideScatterings = 16;  // at most
@@ -13,7 +13,7 @@ const float kGuideRest = 0.01;     // of a ray: what is behind no longer counts
 /// The share of the ray that alpha has let pass so far.
 float guideRest(Path p) { return kAlpha ? 1.0 - p.shadowOrigin.x : 1.0; }
 
-/// A share of the ray ends at a surface of this albedo.
+/// Ends a share of the ray at a surface of this albedo.
 Path addGuide(Path p, float share, vec3 albedo, vec3 normal) {
   p.radiance += share * albedo;
   p.contribution += share * normal;
@@ -21,10 +21,10 @@ Path addGuide(Path p, float share, vec3 albedo, vec3 normal) {
   return p;
 }
 
-/// The tint of the way so far, without what glass around the point makes of radiance.
+/// The tint of the way so far, without the factor by which glass around the point scales radiance.
 vec3 guideTint(Path p) { return kPassesLight ? p.throughput * p.compression : p.throughput; }
 
-/// The rest of the ray ends here, or goes on from here without chance.
+/// The rest of the ray ends here, or continues from here without chance.
 Path takeGuide(Path p, float depth, vec3 normal) {
   if (p.cameraRay) p.shadowLimit += guideRest(p) * depth;
   p.shadowDirection = normal;
@@ -39,8 +39,8 @@ Path guideStop(Path p, vec3 albedo) {
   return p;
 }
 
-/// One surface along the camera path: what it shows, or where it leads. Of reflection and refraction the stronger one
-/// is followed, since noise of the guides would be noise of the picture.
+/// One surface along the camera path is a guide, or leads to the next one. The stronger of reflection and refraction is
+/// followed, since noise of the guides would be noise of the picture.
 Path guideAt(Path p, Surface s, uint flags, vec4 base) {
   vec3 normal = facingNormal(mappedNormal(s), -p.direction);
   bool blends = kAlpha && (flags & (kMaterialMask | kMaterialBlend)) != 0u;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Rays against triangles and spheres, and origins moved off the surface they start on.
+// Intersects rays with triangles and spheres, and moves origins off the surface on which they start.
 
-/// What all triangle tests of one ray share: its largest axis is rotated to z, and x and y are sheared along it
-/// (Woop, Benthin and Wald, Watertight Ray/Triangle Intersection, 2013).
+/// All triangle tests of one ray share this: its largest axis is rotated to z, and x and y are sheared along it (Woop,
+/// Benthin and Wald, Watertight Ray/Triangle Intersection, 2013).
 struct RayShear {
   int axis;
   float x;
@@ -28,7 +28,7 @@ RayShear makeShear(vec3 direction) {
   return s;
 }
 
-/// hit: the line of the ray meets the triangle, in front of the origin where t > 0. front: it is seen from its
+/// hit: the line of the ray meets the triangle, in front of the origin where t > 0. front: the ray sees its
 /// counter-clockwise side. Meaningless where hit is false.
 struct TriangleHit {
   bool hit;
@@ -38,7 +38,8 @@ struct TriangleHit {
   float weight2;  // of v2
 };
 
-/// Whether zero lies outside of what three numbers span; a product that underflows lets it lie inside.
+/// Returns true if all three numbers are above zero or all are below it. A product that underflows counts as zero, and
+/// the result is then false.
 bool zeroBeyond(float a, float b, float c) { return a * b > 0.0f && b * c > 0.0f; }
 
 /// Watertight: two triangles that share an edge see the same edge function with opposite sign, and zero counts as
@@ -63,8 +64,8 @@ TriangleHit intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2
   float inverse = 1.0f / sum;
   h.t = (u * a.z + v * b.z + w * c.z) * s.z * inverse;
   h.hit = (positive || negative) && sum != 0.0f;
-  // Edge functions of a triangle that is small beside its distance from the ray are rounding (docs/design/numerics.md,
-  // "Zero from far away").
+  // The edge functions of a triangle that is small beside its distance from the ray are only rounding
+  // (docs/design/numerics.md, "Zero from far away").
   h.hit = h.hit && !zeroBeyond(ax, bx, cx) && !zeroBeyond(ay, by, cy);
   h.front = (s.z > 0.0f) == (sum > 0.0f);
   h.weight1 = v * inverse;
@@ -72,11 +73,11 @@ TriangleHit intersectTriangle(vec3 origin, RayShear s, vec3 v0, vec3 v1, vec3 v2
   return h;
 }
 
-/// Distance along the ray to the plane dot(normal, x) = distance of a triangle, within the depths of its vertices. The
-/// weighted depths of a sliver are rounding times its aspect ratio: a ray that starts beside it could find it behind
-/// (docs/design/numerics.md, "Distance along the ray"). Farther away than a 64th of those depths, `weighted` is kept
-/// where it is the better one: off by eps L^3 / 4A, the plane's mostly by less than 1.5 eps times the largest
-/// coordinate over the cosine to the normal.
+/// The distance along the ray to the plane dot(normal, x) = distance of a triangle, within the depths of its vertices.
+/// The weighted depths of a sliver have an error of rounding times its aspect ratio, so a ray that starts beside it
+/// could find it behind itself (docs/design/numerics.md, "Distance along the ray"). Farther away than a 64th of those
+/// depths, `weighted` is kept where it is the better one: its error is eps L^3 / 4A, that of the plane mostly less than
+/// 1.5 eps times the largest coordinate over the cosine to the normal.
 float distanceToPlane(vec3 origin, vec3 direction, RayShear s, vec3 v0, vec3 v1, vec3 v2, vec3 normal, float distance,
                       float weighted) {
   float a = rotateToAxis(v0 - origin, s.axis).z * s.z;
@@ -96,8 +97,8 @@ float distanceToPlane(vec3 origin, vec3 direction, RayShear s, vec3 v0, vec3 v1,
   return rough || weighted <= 0.015625f * (farthest - nearest) ? max(nearest, min(t, farthest)) : weighted;
 }
 
-/// The test of Moller and Trumbore (Fast, Minimum Storage Ray/Triangle Intersection, 1997): each triangle rounds its
-/// edges by itself, so rays can pass between neighbours. What the watertight test is measured against (--disable
+/// The test of Moller and Trumbore (Fast, Minimum Storage Ray/Triangle Intersection, 1997). Each triangle rounds its
+/// edges by itself, so rays can pass between neighbours. The watertight test is compared with it (--disable
 /// watertight).
 TriangleHit intersectTriangleFast(vec3 origin, vec3 direction, vec3 v0, vec3 v1, vec3 v2) {
   vec3 e1 = v1 - v0;
@@ -116,12 +117,12 @@ TriangleHit intersectTriangleFast(vec3 origin, vec3 direction, vec3 v0, vec3 v1,
   return h;
 }
 
-/// Whether t lies behind a distance, or at it where that counts, too.
+/// Returns true if t is larger than the distance, or equal to it and `at` is true.
 bool liesBehind(float t, float distance, bool at) { return t > distance || (at && t == distance); }
 
-/// Distance to the sphere's nearest surface that may be hit and lies behind `past` (or at it); `inside`: its inner side
-/// counts. A miss is -1. The discriminant is taken from the distance of the centre to the ray, so that a far sphere
-/// keeps its digits (Hearn and Baker's form; Haines et al., Precision Improvements for Ray/Sphere Intersection, 2019).
+/// The distance to the sphere's nearest surface that may be hit and lies behind `past` (or at it). `inside`: its inner
+/// side counts. A miss is -1. The discriminant uses the distance of the centre from the ray, so that a far sphere keeps
+/// its digits (Hearn and Baker's form; Haines et al., Precision Improvements for Ray/Sphere Intersection, 2019).
 /// direction is unit length.
 float intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, bool inside, float past, bool at) {
   vec3 f = origin - center;
@@ -144,16 +145,16 @@ vec3 offsetOrigin(vec3 point, float error, vec3 normal, vec3 direction) {
   return point + (dot(direction, normal) < 0.0f ? -error : error) * normal;
 }
 
-/// The part of the way to a triangle's middle, where a weight is `middle`, that takes it up to times * 2^-code, at most
-/// a quarter; code 0 asks for nothing.
+/// The share of the way to a triangle's middle, where a weight is `middle`, that raises the weight to times * 2^-code,
+/// at most a quarter. A code of 0 asks for nothing.
 float insetPart(float weight, float middle, uint code, float times) {
   float least = code == 0u ? 0.0f : min(times * uintBitsToFloat((127u - code) << 23), 0.25f);
   return weight < least ? (least - weight) / (middle - weight) : 0.0f;
 }
 
-/// A point of a triangle, of these weights, moved towards its middle until it is as far from edges and vertices as its
-/// sharp creases ask (creaseInsets of src/scene/creases.h): else the offset along the normal could lead through the
-/// neighbour. `times`: of the triangle's own offset that the ray is moved by.
+/// Moves a point of a triangle, given by its weights, towards the middle until it is as far from edges and vertices as
+/// its sharp creases require (creaseInsets of src/scene/creases.h). Otherwise the offset along the normal could lead
+/// through the neighbour. `times`: the ray's offset over the triangle's own.
 vec3 insetFromCreases(vec3 point, vec2 weights, vec3 middle, uint inset, float times) {
   const float third = 1.0f / 3.0f;
   float w0 = 1.0f - weights.x - weights.y;
@@ -166,10 +167,10 @@ vec3 insetFromCreases(vec3 point, vec2 weights, vec3 middle, uint inset, float t
   return point + part * (middle - point);
 }
 
-/// The point at distance t along a ray, moved onto the plane dot(normal, x) = distance that it lies on but for
-/// rounding: off the plane its error no longer grows with the distance from the ray's origin. It is moved along the
-/// ray, on which the distance to a sliver is what is known worst; but along the normal where the ray grazes, which
-/// would carry the point's own rounding away.
+/// The point at distance t along a ray, moved onto the plane dot(normal, x) = distance on which it lies but for
+/// rounding. So its error off the plane does not grow with the distance from the ray's origin. It is moved along the
+/// ray, since the distance to a sliver is its least certain number. Where the ray grazes, it is moved along the normal,
+/// since a move along the ray would enlarge the point's own rounding.
 vec3 pointOnPlane(vec3 origin, vec3 direction, float t, vec3 normal, float distance) {
   vec3 point = origin + t * direction;
   float facing = dot(normal, direction);

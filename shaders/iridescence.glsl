@@ -3,8 +3,8 @@
 // Modeling of Varying Iridescence, 2017), with the approximations of KHR_materials_iridescence: Schlick's reflectances,
 // real indices, two orders of interference.
 
-/// How much three sensors for red, green and blue see of a wave with this optical path difference (nm) and phase
-/// shifts: their sensitivities are Gaussians over the wave number, whose Fourier transforms these are.
+/// The response of three sensors for red, green and blue to a wave with this optical path difference (nm) and phase
+/// shifts. Their sensitivities are Gaussians over the wave number; this evaluates the Fourier transforms of these.
 vec3 filmInterference(float pathDifference, vec3 shift) {
   float phase = 2.0f * kPi * pathDifference * float(1e-9);
   float squared = phase * phase;
@@ -12,7 +12,7 @@ vec3 filmInterference(float pathDifference, vec3 shift) {
   const vec3 width = vec3(float(4.3278e9), float(9.3046e9), float(6.6121e9));
   const vec3 height = vec3(float(5.4856e-13), float(4.4201e-13), float(5.2481e-13));
   vec3 xyz = height * sqrt(2.0f * kPi * width) * cos(place * phase + shift) * exp(-squared * width);
-  // The red sensor's second bump, in the blue.
+  // The red sensor has a second bump, in the blue.
   const float blueWidth = float(4.5282e9);
   xyz.x += float(9.7470e-14) * sqrt(2.0f * kPi * blueWidth) * cos(float(2.2399e6) * phase + shift.x) *
            exp(-squared * blueWidth);
@@ -22,8 +22,8 @@ vec3 filmInterference(float pathDifference, vec3 shift) {
               dot(xyz, vec3(float(0.0556434), float(-0.2040259), float(1.0572252))));
 }
 
-/// Reflectance seen at `cosine` from air, between 0 and 1. baseF0: what the surface would reflect without the film,
-/// seen from above; index and thickness (nm) are the film's.
+/// Reflectance seen at `cosine` from air, between 0 and 1. baseF0: the reflectance of the surface without the film, at
+/// normal incidence. index and thickness (nm) are the film's.
 vec3 filmReflectance(vec3 baseF0, float index, float thickness, float cosine) {
   float inside = sqrt(max(0.0f, 1.0f - (1.0f - cosine * cosine) / (index * index)));
   float root = (index - 1.0f) / (index + 1.0f);
@@ -32,7 +32,7 @@ vec3 filmReflectance(vec3 baseF0, float index, float thickness, float cosine) {
   vec3 baseIndex = (vec3(1.0f) + rootF0) / (vec3(1.0f) - rootF0);
   vec3 ratio = (baseIndex - index) / (baseIndex + index);
   vec3 bottom = fresnelSchlick(ratio * ratio, 1.0f, inside);
-  // The film is denser than air; light that meets something thinner behind it is not turned round.
+  // The film is denser than air. Light that meets a less dense material behind it keeps its phase.
   vec3 shift = vec3(kPi) + vec3(baseIndex.x < index ? kPi : 0.0f, baseIndex.y < index ? kPi : 0.0f,
                                 baseIndex.z < index ? kPi : 0.0f);
   vec3 both = clamp(top * bottom, float(1e-5), float(0.9999));

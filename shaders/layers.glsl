@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The whole surface: clearcoat (KHR_materials_clearcoat) over sheen (KHR_materials_sheen) over the base of bsdf.glsl. A
-// clearcoat of weight w with the reflectance F, seen at the angle of the viewer, is w F x its lobe + (1 - w F) x all
-// below; sheen s is s x its lobe + (1 - max(s) E) x the base, where E is the lobe's albedo in the direction, of both,
-// in which it is larger.
+// clearcoat of weight w and reflectance F, at the angle of the viewer, is w F x its lobe + (1 - w F) x all below. Sheen
+// s is s x its lobe + (1 - max(s) E) x the base, where E is the larger of the lobe's albedos in the two directions.
 
 const float kCoatF0 = float(0.04);  // of the index 1.5
 
@@ -14,7 +13,7 @@ float coatShare(Bsdf b, vec3 outgoing) {
 
 bool isSmoothCoat(Bsdf b) { return b.coatAlpha < kMirrorAlpha; }
 
-/// What sheen lets pass between two directions to and from the base.
+/// The share of light that sheen lets pass between two directions to and from the base.
 float underSheen(Bsdf b, vec3 outgoing, vec3 incoming) {
   if (!kSheen) return 1.0f;
   float strongest = maxComponent(b.sheenColor);
@@ -22,8 +21,8 @@ float underSheen(Bsdf b, vec3 outgoing, vec3 incoming) {
   return 1.0f - strongest * max(sheenShare(outgoing.z, b.sheenAlpha), sheenShare(incoming.z, b.sheenAlpha));
 }
 
-/// Chances of drawing from clearcoat (x), sheen (y) and the base (z); they add up to 1. No layer that is there is drawn
-/// too rarely.
+/// Chances of drawing from clearcoat (x), sheen (y) and the base (z); they add up to 1. No layer that is present is
+/// drawn too rarely.
 vec3 layerChances(Bsdf b, vec3 outgoing) {
   float coat = coatShare(b, outgoing);
   float sheen = kSheen ? maxComponent(b.sheenColor) * sheenShare(outgoing.z, b.sheenAlpha) : 0.0f;
@@ -78,7 +77,7 @@ BsdfValue evaluateBsdf(Bsdf b, vec3 outgoing, vec3 incoming) {
   return r;
 }
 
-/// What of evaluateBsdf() is diffuse light, reflected or passed through, seen under sheen and clearcoat.
+/// The diffuse part of evaluateBsdf(), reflected and transmitted, as seen under sheen and clearcoat.
 vec3 diffuseUnderLayers(Bsdf b, vec3 outgoing, vec3 incoming) {
   vec3 value = vec3(0.0f);
   if (kDiffuseTransmission && incoming.z < 0.0f) value = evaluateThrough(b, outgoing, incoming, 1.0f).value;
@@ -86,8 +85,8 @@ vec3 diffuseUnderLayers(Bsdf b, vec3 outgoing, vec3 incoming) {
   return value * ((1.0f - coatShare(b, outgoing)) * underSheen(b, outgoing, incoming));
 }
 
-/// Weight of the light that a smooth thin wall, or a boundary between equal indices, lets straight through, as often as
-/// sampleBsdf draws that direction.
+/// Weight of the light that a smooth thin surface, or a boundary between equal indices, lets straight through, as often
+/// as sampleBsdf draws that direction.
 vec3 straightThrough(Bsdf b, vec3 outgoing) {
   bool bends = b.solid && !(kMatchedGlass && abs(b.eta - 1.0f) < kEqualIndices);
   if (!kTransmission || bends || !isSmoothGlass(b)) return vec3(0.0f);
@@ -95,7 +94,7 @@ vec3 straightThrough(Bsdf b, vec3 outgoing) {
   return weight * ((1.0f - coatShare(b, outgoing)) * underSheen(b, outgoing, -outgoing));
 }
 
-/// Draws from the clearcoat, in the sense of drawBase.
+/// Draws from the clearcoat, as drawBase does from the base.
 BsdfSample drawCoat(Bsdf b, vec3 outgoing, float chance, float u, float v) {
   BsdfSample s;
   s.transmitted = false;
@@ -112,7 +111,7 @@ BsdfSample drawCoat(Bsdf b, vec3 outgoing, float chance, float u, float v) {
     s.weight = vec3(coatShare(b, outgoing) / chance);
     return s;
   }
-  // Below the base's horizon it is lost, too.
+  // A direction below the base's horizon is lost, too.
   if (s.incoming.z > 0.0f) s.density = kUnweighed;
   return s;
 }
@@ -134,12 +133,12 @@ BsdfSample drawLayered(Bsdf b, vec3 outgoing, float choice, float u, float v) {
     return s;
   }
   s = drawBase(b, outgoing, choice, u, v);
-  // Of a single direction.
+  // The direction is of a delta lobe and has its weight already.
   s.weight = s.weight * ((1.0f - coatShare(b, outgoing)) * underSheen(b, outgoing, s.incoming) / chances.z);
   return s;
 }
 
-/// (u, v) picks the lobe and the direction, so that each lobe gets its part of points that are stratified together;
+/// (u, v) picks the lobe and the direction, so that each lobe gets its share of points that are stratified together.
 /// choice decides between reflection and refraction at glass, and between both sides of diffuse light. Each is uniform
 /// in [0, 1).
 BsdfSample sampleBsdf(Bsdf b, vec3 outgoing, float choice, float u, float v) {

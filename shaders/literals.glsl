@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What src/pack/literals.cpp puts in place of this file when a scene is so small that it becomes part of the shader's
-// text: all its triangles are tested without a tree, and its faces, materials and emitters are constants to choose
-// from.
+// src/pack/literals.cpp replaces this file when a scene is so small that it becomes part of the shader's text. All its
+// triangles are then tested without a tree, and its faces, materials and emitters are constants to choose from.
 
 const bool kLiterals = false;    // the whole scene
 const bool kLargeFirst = false;  // its largest triangles, which the tree does not hold

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The procedural smooth normal map (docs/design/surfaces.md): Perlin, Improving Noise, 2002, in two dimensions.
+// The procedural smooth normal map (docs/gltf.md): Perlin, Improving Noise, 2002, in two dimensions.
 
 vec2 perlinGradient(int i, int j, int octave) {
   uint h = mixBits((uint(i) * 0x8da6b343u) ^ (uint(j) * 0xd8163841u) ^ (uint(octave) * 0xcb1ab31fu));

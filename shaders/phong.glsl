@@ -12,8 +12,8 @@ float phongExponent(float roughness) {
   return 2.0f / max(r2 * r2, float(0.001)) - 2.0f;
 }
 
-/// Light of all directions alike that the highlight of f0 = 1 reflects towards a cosine: exact at normal incidence,
-/// within 0.7 % elsewhere (fitted to numerical integrals).
+/// The albedo of the highlight of f0 = 1 under even light, seen at a cosine: exact at normal incidence, within 0.7 %
+/// elsewhere (fitted to numerical integrals).
 float phongAlbedo(float exponent, float cosine) {
   float n = exponent;
   float facing = (n + 8.0f) * (n + pow(float(0.5), 0.5f * n)) / ((n + 2.0f) * (n + 4.0f));

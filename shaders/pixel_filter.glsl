@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Where in and about its pixel a camera sample lies: drawn with the density of the pixel filter, so that all samples
-// weigh the same (Ernst, Stamminger and Greiner, Filter Importance Sampling, 2006).
+// Places of camera samples within and around their pixel. They are drawn with the density of the pixel filter, so that
+// all samples have the same weight (Ernst, Stamminger and Greiner, Filter Importance Sampling, 2006).
 
 const int kBoxFilter = 0;
 const int kGaussianFilter = 1;
 const int kBlackmanHarrisFilter = 2;
 
-/// Pixels: standard deviation of the Gaussian, which is cut off at 4 of them; width of the window of Blackman and
-/// Harris.
+/// In pixels: the standard deviation of the Gaussian, which is cut off at 4 of them, and the width of the window of
+/// Blackman and Harris.
 const float kGaussianDeviation = float(0.5);
 const float kBlackmanHarrisWidth = float(3.0);
 const float kGaussianKept = float(0.99966453737209749);  // 1 - exp(-4^2 / 2), within the cut

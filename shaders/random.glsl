@@ -11,7 +11,7 @@ uint mixBits(uint x) {
   return x;
 }
 
-/// What all random numbers of a pixel derive from.
+/// The key from which all random numbers of a pixel derive.
 uint pixelKey(uint pixelX, uint pixelY, uint seed) { return mixBits(pixelX + mixBits(pixelY + mixBits(seed))); }
 
 /// The same for one path.
@@ -66,8 +66,8 @@ uint dimensionSeed(Sampler s, uint dimension) { return mixBits(s.key ^ mixBits(d
 /// (Burley, Practical Hash-based Owen Scrambling, 2020).
 uint shuffledIndex(Sampler s, uint seed) { return bitfieldReverse(owenScramble(s.reversed, seed)); }
 
-/// 32 bits for one dimension: over the samples of a pixel an Owen-scrambled van der Corput sequence, or independent
-/// ones.
+/// 32 bits for one dimension. Over the samples of a pixel they are an Owen-scrambled van der Corput sequence, or
+/// independent.
 uint drawBits(Sampler s, uint dimension) {
   uint seed = dimensionSeed(s, dimension);
   return kSobol ? bitfieldReverse(owenScramble(shuffledIndex(s, seed), mixBits(seed + 1u))) : seed;
@@ -76,7 +76,7 @@ uint drawBits(Sampler s, uint dimension) {
 /// Uniform in [0, 1).
 float drawFloat(Sampler s, uint dimension) { return unitFloat(drawBits(s, dimension)); }
 
-/// Twice 32 bits that are stratified together, Owen-scrambled Sobol points; uses `dimension` and `dimension + 1`.
+/// Two 32-bit numbers that are stratified together, Owen-scrambled Sobol points; uses `dimension` and `dimension + 1`.
 uvec2 drawPairBits(Sampler s, uint dimension) {
   uint seed = dimensionSeed(s, dimension);
   uint other = dimensionSeed(s, dimension + 1u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Traversal alone: one ray a pixel out of a buffer, and what it hits into another.
+// Traversal alone: one ray a pixel comes from a buffer, and its hit goes into another.
 #include "layout.glsl"
 layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frame; };
 #include "read.glsl"
@@ -9,7 +9,7 @@ layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frame; };
 #include "tree.glsl"
 #include "traverse.glsl"
 
-// Bindings that the tracer uses for what is not here.
+// These buffers use bindings that the tracer uses for others.
 const uint kRaysBinding = kPathStatesBinding;
 const uint kRayHitsBinding = kProgressBinding;
 const uint kRayUnfinished = 0xfffffffeu;  // in place of a slot: the step limit ended it

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Directions and points drawn from densities, and frames round a normal.
+// Directions and points drawn from densities, and frames around a normal.
 
 const float kPi = float(3.14159265358979324);
 const float kInversePi = float(0.318309886183790672);
@@ -13,7 +13,7 @@ struct Frame3 {
   vec3 normal;
 };
 
-/// A right-handed orthonormal frame round a unit normal (Duff et al., Building an Orthonormal Basis, Revisited, 2017).
+/// A right-handed orthonormal frame around a unit normal (Duff et al., Building an Orthonormal Basis, Revisited, 2017).
 Frame3 frameAround(vec3 normal) {
   float signZ = normal.z >= 0.0f ? 1.0f : -1.0f;
   float a = -1.0f / (signZ + normal.z);
@@ -57,7 +57,7 @@ vec2 sampleDisk(float u, float v) {
   bool wide = abs(x) > abs(y);
   float radius = wide ? x : y;
   float ratio = radius == 0.0f ? 0.0f : (wide ? y / x : x / y);
-  // Where it is steep, the angle is pi/2 minus this one.
+  // In the steep half, the angle is pi/2 minus this one.
   vec2 p = cosSinOctant(0.25f * kPi * ratio);
   return wide ? vec2(radius * p.x, radius * p.y) : vec2(radius * p.y, radius * p.x);
 }
@@ -82,12 +82,12 @@ float misWeight(float own, float other) {
   return 1.0f / (1.0f + ratio * ratio);
 }
 
-/// The same by the balance heuristic, for which MIS compensation of the environment is made; it is smooth, which
-/// stratified points reward.
+/// The same by the balance heuristic, for which the MIS compensation of the environment is derived. It is smooth, which
+/// preserves stratification.
 float balanceWeight(float own, float other) { return own > 0.0f ? own / (own + other) : 0.0f; }
 
-/// How much of a diffuse reflection is left towards `incoming`: where an interpolated normal sees light that is near
-/// the horizon of its flat triangle, light fades, which would else end at once, triangle by triangle (Chiang, Li and
+/// The share of a diffuse reflection that is left towards `incoming`. Where an interpolated normal sees light near the
+/// horizon of its flat triangle, light fades; otherwise it would end abruptly, triangle by triangle (Chiang, Li and
 /// Burley, Taming the Shadow Terminator, 2019). At most 1.
 float terminatorFade(vec3 faceNormal, vec3 vertexNormal, vec3 incoming) {
   float above = dot(vertexNormal, incoming) * dot(vertexNormal, faceNormal);

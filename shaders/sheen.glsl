@@ -15,13 +15,13 @@ float sheenFit(float x, float alpha) {
 
 float sheenLambda(float cosine, float alpha) {
   if (cosine < 0.5f) return exp(sheenFit(cosine, alpha));
-  // Rounding makes cosines of 1 and a little more, whose power would be no number.
+  // Rounding makes cosines of 1 and a little more. The power of a negative number would be NaN.
   return exp(2.0f * sheenFit(0.5f, alpha) - sheenFit(max(0.0f, 1.0f - cosine), alpha));
 }
 
-/// Value times the cosine of `incoming`, for white sheen; both directions above the surface. Its albedo is sheenAlbedo,
-/// unless that is above 1: then the lobe, which gives out more than it gets at grazing angles of low roughness, is
-/// divided by it.
+/// Value times the cosine of `incoming`, for white sheen; both directions are above the surface. Its albedo is
+/// sheenAlbedo. At grazing angles of low roughness that is above 1: the lobe would reflect more light than it receives,
+/// and is divided by its albedo.
 float sheenValue(vec3 outgoing, vec3 incoming, float alpha) {
   vec3 h = normalize(outgoing + incoming);
   float sine2 = max(0.0f, h.x * h.x + h.y * h.y);
@@ -31,7 +31,7 @@ float sheenValue(vec3 outgoing, vec3 incoming, float alpha) {
   return distribution / (shadowing * 4.0f * max(outgoing.z, float(1e-6)) * most);
 }
 
-/// The share of light that white sheen sends back at most, seen at `cosine`.
+/// The largest share of light that white sheen sends back, seen at `cosine`.
 float sheenShare(float cosine, float alpha) { return min(1.0f, sheenAlbedo(abs(cosine), alpha)); }
 
 /// A direction above the surface with the same density everywhere, 1 / (2 pi).

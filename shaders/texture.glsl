@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Textures of any size and number, as texels in one buffer, filtered here: level 0, magnification filter.
+// Textures of any size and number, as texels in one buffer. This file filters them: level 0, magnification filter.
 
 vec4 readTexel(int index) {
   uvec2 t = readTexels(index);
   return vec4(unpackHalf2x16(t.x), unpackHalf2x16(t.y));
 }
 
-/// A texel coordinate from -1 to twice the size brought into 0..size-1 by repeating, clamping or mirroring. No
-/// division: llvmpipe divides integers lane by lane.
+/// Brings a texel coordinate from -1 to twice the size into 0..size-1 by repeating, clamping or mirroring. It does not
+/// divide, because llvmpipe divides integers lane by lane.
 int wrapTexel(int x, int size, bool clamped, bool mirrored) {
   int period = mirrored ? 2 * size : size;
   int m = x < 0 ? x + period : x;
@@ -34,7 +34,7 @@ vec4 sampleTexture(uvec4 slot, vec4 texcoords) {
   bool clampV = (flags & kTextureClampV) != 0u;
   bool mirrorU = (flags & kTextureMirrorU) != 0u;
   bool mirrorV = (flags & kTextureMirrorV) != 0u;
-  // Whole periods are taken off first, so that far coordinates keep their digits and fit an int.
+  // Whole periods are subtracted first, so that far coordinates keep their digits and fit an int.
   uv.x = clampU ? clamp(uv.x, -1.0, 2.0) : uv.x - 2.0 * floor(0.5 * uv.x);
   uv.y = clampV ? clamp(uv.y, -1.0, 2.0) : uv.y - 2.0 * floor(0.5 * uv.y);
   vec2 position = uv * vec2(size) - (linear ? 0.5 : 0.0);

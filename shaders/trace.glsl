@@ -150,7 +150,7 @@ Path meetShadow(Path p) {
 }
 
 /// One round of a path. A traversal that the budget ends leaves it in its phase. On GPUs a round is one ray of either
-/// kind, so that there is one traversal: a second one takes registers (docs/design/gpu.md).
+/// kind, so that there is one traversal: a second one takes registers (docs/measurements/gpu.md).
 Path advance(Path p, int budget, TreeFrame tree) {
   p.traversal.steps += 1;
 

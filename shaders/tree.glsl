@@ -51,7 +51,7 @@ LeafPair loadLeaf(int index) {
   return l;
 }
 
-/// Where an instance stands.
+/// The transform of an instance, from local space to its mesh's space.
 struct InstanceSpace {
   vec3 place;  // the mesh's origin in local space
   vec3 row0;   // of the matrix from local space into the mesh's
@@ -72,7 +72,7 @@ InstanceSpace loadInstanceSpace(int instance) {
   return s;
 }
 
-/// The way back out of an instance's mesh.
+/// The transform of an instance from its mesh's space to local space.
 struct InstanceReturn {
   vec3 row0;  // of the matrix into local space
   vec3 row1;

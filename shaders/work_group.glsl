@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Which lanes of a tile a work group has. llvmpipe gives each of its threads a run of successive groups, so these are
-// dealt out over the tile: what takes long often stands together in the picture, and all threads should get of it.
+// Maps work groups to lanes of a tile. llvmpipe gives each of its threads a run of successive groups, so groups are
+// dealt out over the tile: slow pixels are often neighbours, and every thread should get some of them.
 
-/// The lane of a tile of so many lanes; beyond it for lanes that have nothing to do.
+/// The lane of a tile of so many lanes. It is outside of the tile for lanes that have nothing to do.
 ivec2 laneOfTile(ivec2 lanes) {
   uint columns = uint(lanes.x + 7) / 8u;
   uint each = gl_NumWorkGroups.x / kWorkGroupHands;

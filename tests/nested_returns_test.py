@@ -3,7 +3,7 @@
 """No function of the shaders returns from deeper than one level: nested_returns_test.py ROOT.
 
 Mesa turns a nested return into `result = condition ? value : result`. In a loop, the other `result` is that of the round before, so the whole value
-is carried round the loop: for a struct that is up to 41 registers, and most of the spills (docs/design/gpu.md).
+is carried round the loop: for a struct that is up to 41 registers, and most of the spills (docs/measurements/gpu.md).
 """
 import re
 import sys

@@ -4,7 +4,7 @@
 
 usage: compare.py FRAGTRACE [--scenes NAME,...] [--only PEERS] [--spp N] [--rounds N] [--measure both] ...
 A peer that is not installed is said and left out. Times are those of drawing alone: without start-up, loading, building trees and
-compiling. Status 1: a picture is not that of the others. docs/design/peers.md says more. Run it on a quiet machine.
+compiling. Status 1: a picture is not that of the others. docs/measurements/peers.md says more. Run it on a quiet machine.
 """
 
 import argparse

@@ -3,7 +3,7 @@
 """Error per sample beside Mitsuba 3's samplers, from the spread of independent seeds on both sides, so that no reference is needed.
 
 usage: samplers.py FRAGTRACE [--assets DIR] [--only "NAME;..."] [--spp 16,64,256] [--seeds N] [--json FILE] [--chart FILE.svg]
-Run it with a Python that has mitsuba 3.9.1 and numpy. Prints a table: the relative MSE of each picture (docs/design/output.md), of the best of Mitsuba's
+Run it with a Python that has mitsuba 3.9.1 and numpy. Prints a table: the relative MSE of each picture (docs/output.md), of the best of Mitsuba's
 samplers, and their ratio, which is to be at most 1.1. Neither side uses Russian roulette; both have a box filter.
 """
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What `bench traversal` measured. A kind of rays is the line of JSON that is written of it;
-// docs/design/benchmark-figures.md explains its members.
+// docs/measurements/figures.md explains its members.
 #pragma once
 
 #include <span>

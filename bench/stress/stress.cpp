@@ -25,7 +25,7 @@ std::vector<StressRow> stressRows() {
   rows.push_back({"bad normals", "missing, backwards and tilted normals in a white furnace", 0.0, false,
                   shadeBadNormals});
   // Mirror directions along the surface: a few paths do not come back with all of their light
-  // (docs/design/stress.md).
+  // (docs/measurements/numerics.md).
   rows.push_back({"bad tangents", "paths by a steep map over tangents that do not fit, in a white furnace",
                   1e-4, false, shadeBadTangents});
   rows.push_back({"glass", "nested, touching, of index 1, from inside, in a white furnace", 0.0, false,

@@ -1,29 +1,32 @@
 // SPDX-License-Identifier: MIT
-// Where light paths are aimed: at the balls round all that makes caustics.
+// Light paths are aimed at the balls that enclose everything that makes caustics.
 
-/// A ray towards a caster, and its density: over solid angle, or over the area across parallel rays. 0: there is none.
+/// A ray towards a caster, and its density: over solid angle, or over the area across parallel rays. A density of 0
+/// means that there is no ray.
 struct Aim {
   vec3 origin;
   vec3 direction;
   float density;
 };
 
-/// 1 less the cosine of half the angle under which a ball is seen: its solid angle over 2 pi. All of the sphere from
-/// inside.
+/// 1 minus the cosine of half the angle under which a ball is seen, which is its solid angle over 2 pi. From inside the
+/// ball it is that of the whole sphere.
 float spreadOf(vec4 ball, vec3 point) {
   vec3 towards = vec3(ball) - point;
   float part = ball.w * ball.w / max(dot(towards, towards), float(1e-30));
   return part < 1.0f ? part / (1.0f + sqrt(1.0f - part)) : 2.0f;
 }
 
-/// The same, and 0 for a ball that lies behind the plane of a lamp that shines to one side; normal zero: to all.
+/// The same, but 0 for a ball that lies behind the plane of a lamp that shines to one side. A normal of zero means a
+/// lamp that shines to all sides.
 float seenSpread(int caster, vec3 point, vec3 normal) {
   vec4 ball = vec4(casters[caster]);
   bool behind = dot(normal, normal) > 0.0f && dot(normal, vec3(ball) - point) <= -ball.w;
   return behind ? 0.0f : spreadOf(ball, point);
 }
 
-/// From a point to a caster chosen by its solid angle: uniform over the cone of its ball.
+/// A ray from a point to a caster, which is chosen by its solid angle. The direction is uniform over the cone of the
+/// caster's ball.
 Aim aimFrom(vec3 point, vec3 normal, float choice, vec2 uv) {
   Aim a;
   a.origin = point;
@@ -59,7 +62,8 @@ Aim aimFrom(vec3 point, vec3 normal, float choice, vec2 uv) {
   return a;
 }
 
-/// Along a direction, from outside of the scene, through the disk of a caster chosen by its area.
+/// A ray along a direction that starts outside the scene and passes through the disk of a caster, which is chosen by
+/// its area.
 Aim aimAlong(vec3 direction, float choice, vec2 uv) {
   float sum = 0.0f;
   for (int i = 0; i < casterCount; ++i) sum += casters[i].w * casters[i].w;

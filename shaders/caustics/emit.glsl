@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Where light paths begin (kLightPaths): at a lamp drawn by its power, aimed at what makes caustics. Balls enclose all
-// casters, so that no path that meets one first is left out.
+// Light paths (kLightPaths) begin at a lamp that is drawn by its power, and are aimed at casters of caustics. Balls
+// enclose all casters, so that no path that meets one first is left out.
 
 layout(location = 0) uniform vec4 casters[kMostCasters];  // local space: middle, radius
 layout(location = kMostCasters) uniform int casterCount;
 
 #include "caustics/aim.glsl"
 
-/// A ray of light. flux: watts over the density with which it was drawn; zero where there is none.
+/// A ray of light. flux: watts divided by the density with which the ray was drawn; zero if there is no ray.
 struct Emission {
   vec3 origin;
   vec3 direction;
@@ -68,7 +68,7 @@ Emission punctualEmission(int index, float share, float choice, vec2 aim) {
   return e;
 }
 
-/// Draws a lamp by its power, a point of it, and a direction.
+/// Draws a lamp by its power, a point on it, and a direction.
 Emission drawEmission(Sampler numbers) {
   int emitter = emitterAt(drawBits(numbers, kLampDimension));
   float share = uintBitsToFloat(emitterRow(emitter, 0).w);
@@ -85,10 +85,10 @@ Emission drawEmission(Sampler numbers) {
   return e;
 }
 
-/// Of the random numbers of a pass of light paths, which has Sobol points of its own.
+/// The key of the random numbers of a pass of light paths, which has Sobol points of its own.
 uint keyOfLightPaths() { return pixelKey(uint(frame.sampling.x), 0xfffffffeu, uint(frame.picture.w)); }
 
-/// A light path. Until it is seen by the camera, `contribution` is its flux and `shadowLimit` the range of its light.
+/// Begins a light path. Until the camera sees it, `contribution` is its flux and `shadowLimit` the range of its light.
 /// A pass has as many rows of paths as its height asks for, each as wide as the picture.
 Path startLightPath(ivec2 record, uint key, int steps) {
   ivec2 place = inPicture(record);

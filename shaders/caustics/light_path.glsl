@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Light paths (kLightPaths): a lamp, scatterings by casters of caustics, each in a single direction, a rough surface,
-// the camera. Camera paths leave exactly these out (Path.chain). Particles carry flux, so that radiance compressed by
-// glass and shading normals weigh otherwise than on camera paths (Veach, Robust Monte Carlo Methods for Light Transport
-// Simulation, 1997, section 5.3).
+// Light paths (kLightPaths): a lamp, one or more scatterings at casters, each in a single direction, a rough surface,
+// the camera. Camera paths leave out exactly these (Path.chain). Particles carry flux, so glass and shading normals
+// weigh them in another way than camera paths (Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997,
+// section 5.3).
 
 /// The camera as seen from a point.
 struct SeenFrom {
@@ -12,7 +12,7 @@ struct SeenFrom {
   float importance;  // of the light it sends there, a unit of its area seen from there; 0: it is not seen
 };
 
-/// lens: point of the aperture, in local space along right and up. The film is the plane in focus as seen from there
+/// lens: a point of the aperture, in local space along right and up. The film is the plane in focus as seen from there
 /// (throughLens of camera.glsl).
 SeenFrom cameraFrom(vec3 point, vec2 lens) {
   vec3 right = frame.cameraRight.xyz;
@@ -24,7 +24,7 @@ SeenFrom cameraFrom(vec3 point, vec2 lens) {
   SeenFrom c;
   vec3 onFilm;  // in units of right and up
   if (frame.cameraPosition.w != 0.0) {
-    // It has no lens.
+    // An orthographic camera has no lens.
     onFilm = point - frame.cameraPosition.xyz;
     c.distance = dot(onFilm, forward);
     c.direction = -forward;
@@ -46,13 +46,15 @@ SeenFrom cameraFrom(vec3 point, vec2 lens) {
   return c;
 }
 
-/// Whether --bounces lets a camera path go the same way back.
+/// Returns true if --bounces lets a camera path go the same way back.
 bool withinBounces(Path p) {
   int most = kTransmission && p.clearFirst ? frame.limits.x : frame.limits.x + 1;
   return 1 + limitedScatterings(p) <= most;
 }
 
-/// Sends what the camera sees of the path at a rough surface, `times` as much, on its way.
+/// Sends the light that the camera sees of the path at a rough surface, `times` as much, on its way. With wi towards
+/// the path and wo towards the camera it is flux * throughput * f(wo, wi) |wi.Ns| * |wo.Ng| / |wi.Ng| * compression *
+/// importance. The quotient of cosines is there because particles carry flux (Veach, section 5.3).
 Path splat(Path p, Surface s, SurfaceMaterial m, float times) {
   p.phase = kPhaseEnd;
   vec2 lens = vec2(0.0);
@@ -84,7 +86,7 @@ Path splat(Path p, Surface s, SurfaceMaterial m, float times) {
   if (!(maxComponent(light) > 0.0)) return p;
   p.contribution = light;
   p.part = vec3(camera.place, 0.0);
-  // From the camera, since single-sided surfaces stop light one way only.
+  // The shadow ray starts at the camera, since single-sided surfaces stop light from one side only.
   vec3 target = offsetOrigin(s.position, s.positionError, s.geometricNormal, camera.direction);
   p.shadowOrigin = s.position + camera.distance * camera.direction;
   vec3 towards = target - p.shadowOrigin;
@@ -97,14 +99,14 @@ Path splat(Path p, Surface s, SurfaceMaterial m, float times) {
   return traceAnew(p, p.shadowLimit);
 }
 
-/// Whether the back of a surface is not there.
+/// Returns true if rays do not see the back of the surface.
 bool isSingleSided(uint material, uint flags) {
   bool passes = materialFloats(material, kMaterialSurface).w > 0.0 ||
                 (kDiffuseTransmission && materialFloats(material, kMaterialDiffuseTransmission).w > 0.0);
   return kCulling && (flags & kMaterialDoubleSided) == 0u && !passes;
 }
 
-/// Goes on behind the surface, as if it were not there.
+/// Continues behind the surface, as if it were not there.
 Path passOn(Path p, Surface s, float times) {
   p.throughput *= times;
   p.density += p.hitT;
@@ -113,12 +115,12 @@ Path passOn(Path p, Surface s, float times) {
   return extend(p);
 }
 
-/// Of the light paths that a single-sided surface could scatter, the part that goes on behind it.
+/// A single-sided surface sends this share of the light paths that it could scatter on behind itself.
 const float kPassedOn = 0.125;
 
-/// One step of a light path. Camera paths go the other way: what single-sided surfaces show them, the front, stops
-/// their light, and they pass the back. So a light path that meets the back ends, and one that meets the front is
-/// scattered there and passes, too, of which chance takes one.
+/// One step of a light path. Camera paths go the other way: they see single-sided surfaces from the front and pass
+/// through the back. So a light path that meets the back ends. One that meets the front is scattered there, and light
+/// also passes through; chance takes one of the two.
 Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   p.phase = kPhaseEnd;
   if (kUnlit && (flags & kMaterialUnlit) != 0u) return p;
@@ -142,7 +144,7 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   }
   Scattering at = scatteringAt(s, m, normalFacing(s, -p.direction), -p.direction);
 
-  // Step: what the surface may do to the path. Where it may scatter both ways, chance decides.
+  // Step: find what the surface may do to the path. Where it may scatter both ways, chance decides.
   bool glass = kTransmission && at.b.glass > 0.0;
   bool wall = kThinGlass && glass && !m.solid && isSmoothGlass(at.b) && p.medium == kPrimitiveNone;
   vec4 chances = lobeChances(at.b, at.outgoing.z);
@@ -151,14 +153,14 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   if (splats > 0.0 && pathRandom(p, kSplatDimension) < splats) return splat(p, s, m, 1.0 / splats);
   if (!caster && !wall) return p;
 
-  // Step: on, in a single direction.
+  // Step: continue in a single direction.
   float choice = pathRandom(p, kLobeDimension);
   vec2 uv = drawPair(p.numbers, kBounceDimensions * uint(p.bounce + 1) + kDirectionDimension);
   BsdfSample next = sampleBsdf(at.b, at.outgoing, choice, uv.x, uv.y);
   bool straight = wall && next.transmitted;
   if (next.density != 0.0 || !(caster || straight)) return p;
   vec3 direction = ontoSide(normalize(toWorld(at.around, next.incoming)), s.geometricNormal, next.transmitted);
-  // Where normals are bent, flux turns otherwise than radiance (Veach, section 5.3).
+  // Bent normals weigh flux in another way than radiance (Veach, section 5.3).
   float before = abs(dot(p.direction, s.geometricNormal)) * abs(next.incoming.z);
   float after = abs(dot(direction, s.geometricNormal)) * abs(at.outgoing.z);
   vec3 weight = next.weight * (after / max(before, 1e-9) / (1.0 - splats));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Of the variance filter: how far each pixel was moved, and how much of that is noise; both relative to its light,
-// squared, as x / (1 + x): else the few brightest samples of a window would speak for all of it.
+// A pass of the variance filter: it compares how far each pixel was moved with its noise. Both are squared, relative to
+// the pixel's light, and mapped by x / (1 + x), so that the few brightest samples of a window do not decide alone.
 #include "denoise/denoise.glsl"
 
 layout(binding = 0) uniform sampler2D lights;    // noisy
@@ -13,7 +13,7 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec3 before = texelFetch(lights, pixel, 0).rgb;
   vec3 after = texelFetch(filtered, pixel, 0).rgb;
-  // Light that leaks into a dark place counts for what it does there.
+  // Light that leaks into a dark place counts relative to that place.
   vec3 light = min(after, 0.5 * (before + after));
   vec3 away = (after - before) * (after - before) / (light * light + kDarkSquared);
   float bright = luminance(light);

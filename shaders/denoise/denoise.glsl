@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: MIT
-// What the passes of the variance filter share (src/render/denoise.h). Pictures are textures of one texel a pixel;
-// light is divided by the albedo, so that textures stay sharp, and is in units of the picture's mean.
+// The passes of the variance filter share these functions (src/render/denoise.h). Pictures are textures of one texel a
+// pixel. Light is divided by the albedo, so that textures stay sharp, and is in units of the picture's mean.
 #include "picture/picture.glsl"
 
 const float kDarkSquared = 0.01;   // of light: what relative differences are relative to at least, squared
 const float kBrightest = 1e12;     // of light
 const int kWindow = 2;             // pixels each way, of the passes that look at noise
 
-// The steps of summary.frag, and what they sum: light, pixels that have any, samples; logarithms of light; variance
-// that was observed, and that of independent samples.
+// The steps of summary.frag and their sums: light, pixels that have any, samples; logarithms of light; observed
+// variance, and that of independent samples.
 const int kMeans = 0;
 const int kLogarithms = 1;
 const int kShares = 2;
 
-/// A lamp that is a thousand times as bright as all else hardly counts in a geometric mean; nor does what is darker
-/// than a thousandth of the arithmetic one.
+/// The least light that counts in the geometric mean, a thousandth of the arithmetic one. A lamp that is a thousand
+/// times as bright as all else then hardly counts.
 float leastLight(vec4 means) { return 1e-3 * means.x / max(means.y, 1.0); }
 
-/// 1 / typical luminance of what has an albedo; 1 where all is black.
+/// 1 / typical luminance of the pixels that have an albedo; 1 if all are black.
 float scaleOf(vec4 means, vec4 logarithms) { return means.x > 0.0 ? exp(-logarithms.x / means.y) : 1.0; }
 
-/// In units of the mean, so that squares neither overflow nor vanish.
+/// Light in units of the mean, so that squares neither overflow nor vanish.
 vec3 scaledLight(vec3 light, float scale) { return clamp(light * scale, 0.0, kBrightest); }
 float scaledVariance(float variance, float scale) {
   return clamp(variance * scale * scale, 0.0, kBrightest * kBrightest);
 }
 
-/// What tells surfaces apart: of the part of the samples that hit something.
+/// The properties by which a filter distinguishes surfaces, as means over the samples that hit something.
 struct Guide {
   vec4 albedo;  // and coverage
   vec3 normal;
@@ -34,7 +34,8 @@ struct Guide {
   vec2 slope;   // of that, a pixel
 };
 
-/// Into one texel, since a tap costs as much as it fetches; 8 bits are finer than what counts as alike.
+/// All guides fit into one texel, since a tap costs as much as it fetches. 8 bits are finer than the differences that
+/// count.
 uvec4 packedGuide(Guide g) {
   return uvec4(packUnorm4x8(g.albedo), packSnorm4x8(vec4(g.normal, 0.0)), floatBitsToUint(g.depth),
                packHalf2x16(g.slope));
@@ -44,7 +45,7 @@ Guide guideOf(uvec4 bits) {
   return Guide(unpackUnorm4x8(bits.x), unpackSnorm4x8(bits.y).xyz, uintBitsToFloat(bits.z), unpackHalf2x16(bits.w));
 }
 
-/// The logarithm of the weight of a tap that is so many pixels away, 0 or less: how alike the surfaces are.
+/// The logarithm of the weight of a tap that is so many pixels away, 0 or less. It says how alike the surfaces are.
 float likeness(Guide own, Guide other, vec2 away) {
   const float albedo = 0.5 / (0.08 * 0.08);
   const float normal = 0.5 / (0.3 * 0.3);
@@ -58,5 +59,5 @@ float likeness(Guide own, Guide other, vec2 away) {
            coverage * tinted.a * tinted.a);
 }
 
-/// That the picture's background is there, which has no noise: nothing is filtered.
+/// Returns true if the pixel shows only the background, which has no noise and is not filtered.
 bool empty(Guide g) { return g.albedo.a <= 0.0; }

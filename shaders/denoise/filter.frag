@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One level of the variance filter: 5 x 5 taps `stride` pixels apart (edge-avoiding a-trous wavelets: Dammertz et al.
-// 2010), each weighed by how alike the surfaces are and by whether the light differs by more than its noise explains;
-// the variance of the mean is carried along (Schied et al. 2017 do both).
+// 2010). A tap's weight falls where surfaces differ, and where light differs by more than its noise explains. The
+// variance of the mean is carried along (Schied et al. 2017 do both).
 #include "denoise/denoise.glsl"
 
 layout(binding = 0) uniform sampler2D lights;  // light without albedo; variance of its luminance
@@ -11,14 +11,14 @@ layout(location = 1) uniform int stride;
 layout(location = 0) out vec4 filtered;
 
 const float kDeviationsSquared = 2.5 * 2.5;  // of light, in standard deviations
-// times the lesser of two variances: what a quiet pixel takes a noisy one's for, and the other way round, so that no
-// light is lost
+// A quiet pixel assumes at most so many times its own variance for a noisy one, and the other way round, so that no
+// light is lost.
 const float kUnlike = 20.0;
 const float kRounding = 1e-6;                // of light, squared: what is not noise
 const float kTint = 0.2;                     // of luminance: what a channel's difference is relative to at least
 
-/// Squared difference of luminance, or of what it would be if all channels differed as much relative to their size:
-/// noise is known of luminance alone, and most of it is as coloured as the light itself.
+/// The squared difference of luminance, or the one that it would be if all channels differed as much relative to their
+/// size, whichever is larger. Noise is known for luminance only, and most of it is as coloured as the light itself.
 float differenceOf(vec3 a, vec3 b) {
   float both = luminance(a) + luminance(b);
   float apart = luminance(a) - luminance(b);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The last pass of the variance filter: what is filtered counts as far as its distance from the noisy light is noise
-// (James and Stein 1961, over a window of like surfaces), and the albedo comes back.
+// The last pass of the variance filter. Filtered light counts only as far as its distance from the noisy light is noise
+// (James and Stein 1961, over a window of like surfaces). Then the albedo is multiplied back in.
 #include "denoise/denoise.glsl"
 
 layout(binding = 0) uniform sampler2D lights;    // noisy
@@ -13,8 +13,8 @@ layout(binding = 6) uniform sampler2D logarithms;
 
 layout(location = 0) out vec4 denoised;
 
-/// How many times the noise the filter may move a window's light. Distances scatter about their noise, and a share
-/// below 1 gives noise back; with many samples that matters less than what the filter takes for noise.
+/// The filter may move a window's light by this many times the noise. Distances scatter about the noise, and a share
+/// below 1 brings noise back. With many samples that matters less than structure that the filter mistakes for noise.
 float trustAt(float samples) {
   const float few = 16.0;
   return 1.0 + 0.5 * min(1.0, few / max(samples, 1.0));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The second pass of the variance filter: how much noise each pixel has. Samples of a sequence are not independent, so
-// the variance that they tell is multiplied by what observations leave of it in a window of like surfaces, drawn
+// The second pass of the variance filter: the noise of each pixel. Samples of a sequence are not independent, so their
+// variance is multiplied by the share that observations confirm in a window of like surfaces. That share is pulled
 // towards the whole picture's share where the window is small.
 #include "denoise/denoise.glsl"
 
@@ -24,7 +24,7 @@ void main() {
   float shown = 0.0;
   float squares = 0.0;
   float variance = 0.0;
-  // Of relative variance, so that the brightest pixels do not drown the rest.
+  // These are sums of relative variance, so that the brightest pixels do not outweigh the rest.
   float independent = 0.0;
   float independentSquares = 0.0;
   float observations = 0.0;

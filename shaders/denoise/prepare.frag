@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The first pass of the variance filter: light without albedo, its variance, and what tells surfaces apart.
+// The first pass of the variance filter: light without albedo, its variance, and the guides.
 #include "denoise/denoise.glsl"
 
 layout(binding = 0) uniform sampler2D noisy;    // radiance; variance of its luminance from independent samples
@@ -19,7 +19,7 @@ float logDepth(ivec2 pixel) {
   return log2(max(texelFetch(normals, pixel, 0).a / coverage, 1e-9));
 }
 
-/// The smaller of the steps to both neighbours: an edge is on one side.
+/// The smaller of the steps to both neighbours, because an edge is on one side only.
 float slopeAlong(ivec2 pixel, ivec2 axis, float depth) {
   float least = 1e4;
   if (inside(pixel - axis)) least = min(least, abs(logDepth(pixel - axis) - depth));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The variance filter needs three sums over the whole picture. This is the first pass of each: it sums over blocks of
-// 16 x 16 pixels; sums.frag goes on until one texel is left.
+// 16 x 16 pixels; sums.frag continues until one texel is left.
 #include "denoise/denoise.glsl"
 
 layout(binding = 0) uniform sampler2D noisy;    // as in prepare.frag

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A traced picture as a display shows it: exposure, tone map and sRGB, as src/image/display/tone_map.cpp has them,
-// whose curves and sources these are. Coverage stays in alpha.
+// Shows a traced picture as a display does: exposure, tone map and sRGB. The curves and their sources are those of
+// src/image/display/tone_map.cpp. Coverage stays in alpha.
 #include "srgb.glsl"
 
 layout(binding = 0) uniform sampler2D traced;
@@ -12,7 +12,7 @@ layout(location = 0) out vec4 displayed;
 vec3 aces(vec3 color) {
   const mat3 inputs = mat3(0.59719, 0.07600, 0.02840, 0.35458, 0.90834, 0.13383, 0.04823, 0.01566, 0.83777);
   const mat3 outputs = mat3(1.60475, -0.10208, -0.00327, -0.53108, 1.10813, -0.07276, -0.07367, -0.00605, 1.07602);
-  // Flat long before squares overflow.
+  // The curve is flat long before squares overflow.
   vec3 v = inputs * min(color, vec3(1e9));
   return outputs * ((v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081));
 }
@@ -45,7 +45,7 @@ vec3 neutral(vec3 color) {
 }
 
 vec3 mapped(vec3 color, int curve) {
-  // Above this all curves are flat; not a number compares false.
+  // All curves are flat above this. NaN compares false.
   color = mix(vec3(0.0), min(color, vec3(1e18)), greaterThan(color, vec3(0.0)));
   if (curve == 1) color = color / (1.0 + color);
   if (curve == 2) color = aces(color);

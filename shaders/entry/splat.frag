@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one light path adds to one pixel, and the square of its luminance.
+// Writes the light that one light path adds to one pixel, and the square of its luminance.
 #include "sampling.glsl"
 #include "pixel_filter.glsl"
 #include "luminance.glsl"
@@ -10,7 +10,7 @@ layout(location = 1) flat in vec2 place;
 layout(location = 0) out vec4 added;
 
 void main() {
-  // The point's pixel is the one that it lies in, whatever a rounded distance says of a filter as wide as that.
+  // The box filter covers exactly the pixel in which the point lies, whatever a rounded distance says.
   float density = kPixelFilter == kBoxFilter ? 1.0 : pixelFilterDensity(kPixelFilter, gl_FragCoord.xy - place);
   vec3 own = density * light;
   float value = luminance(own);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The picture's part of the window, or a cell of it: left of the bar one displayed picture, right of it the other,
-// whatever their resolutions; or how far two traced ones differ.
+// Draws the picture's part of the window, or a cell of it: left of the bar one displayed picture, right of it the
+// other, whatever their resolutions; or the difference of two traced ones.
 #include "srgb.glsl"
 #include "picture/enlarge.glsl"
 
@@ -31,7 +31,7 @@ void main() {
     return;
   }
   vec4 color = place.x >= bar ? shownOf(rightPicture, uv) : shownOf(leftPicture, uv);
-  // Where nothing is, a checkerboard, as picture editors show it.
+  // Empty places show a checkerboard, as in picture editors.
   ivec2 square = ivec2(place) >> 3;
   float board = ((square.x ^ square.y) & 1) == 0 ? 0.35 : 0.45;
   shown = vec4(mix(vec3(board), color.rgb, color.a), 1.0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A displayed picture at a place between its pixels. Where an edge passes, a kernel that is long along the edge and
-// short across it takes the stairs out of it. Its direction is that of the luma's structure tensor (Foerstner and
-// Guelch 1987). AMD's FSR 1 (2021) enlarges by the same idea, from the same twelve pixels.
+// Reads a displayed picture at a place between its pixels. At an edge, a kernel that is long along the edge and short
+// across it removes the stairs. Its direction is that of the luma's structure tensor (Foerstner and Guelch 1987). AMD's
+// FSR 1 (2021) enlarges by the same idea, from the same twelve pixels.
 
 const float kAlong = 0.4;    // of the distance that counts
 const float kAcross = 1.4;
@@ -9,14 +9,14 @@ const float kReach = 0.5;    // 1 / square of the distance, in pixels, at which 
 const float kFullStep = 0.25;  // of luma, over two pixels: an edge that counts in full
 const float kFlat = 0.02;      // of a channel: no edge passes
 
-// The twelve: four by four without corners, from the row before; the middle ones are 3, 4, 7 and 8.
+// The twelve pixels are four by four without corners, from the row before; the middle ones are 3, 4, 7 and 8.
 const int kTaps = 12;
 const ivec2 kTapAt[kTaps] = ivec2[](ivec2(0, -1), ivec2(1, -1), ivec2(-1, 0), ivec2(0, 0), ivec2(1, 0), ivec2(2, 0),
                                     ivec2(-1, 1), ivec2(0, 1), ivec2(1, 1), ivec2(2, 1), ivec2(0, 2), ivec2(1, 2));
 
 vec3 tensorOf(float x, float y) { return vec3(x * x, x * y, y * y); }
 
-/// A unit vector across the edge that passes the middle, and how much it counts (0 to 1).
+/// A unit vector across the edge that passes the middle, and its strength (0 to 1).
 vec3 edgeOf(vec4 colors[kTaps], vec4 weights) {
   float l[kTaps];
   for (int i = 0; i < kTaps; ++i) l[i] = dot(colors[i].rgb, vec3(0.299, 0.587, 0.114));

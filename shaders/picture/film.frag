@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The film as a picture for a filter, with the means of a film of guides.
+// Turns the film into a picture for a filter, with the means of a film of guides.
 #include "picture/film_means.glsl"
 
 layout(binding = 4) uniform sampler2D guideSums;
@@ -7,7 +7,7 @@ layout(binding = 5) uniform sampler2D guideCompensations;
 layout(binding = 6) uniform usampler2D guideCounts;
 
 layout(location = 0) out vec4 raw;       // linear R, G, B, and alpha
-// Laid over white where a shadow is in alpha alone; with the variance of the mean's luminance.
+// Radiance is laid over white where a shadow is in alpha alone; alpha holds the variance of the mean's luminance.
 layout(location = 1) out vec4 radiance;
 layout(location = 2) out vec2 counts;    // samples; of the variance nothing was observed: -1
 layout(location = 3) out vec4 albedo;    // with coverage

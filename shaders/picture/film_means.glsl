@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The film's means (film_pixel.glsl), and what light paths add.
+// The film's means (film_pixel.glsl), and the light of light paths.
 #include "picture/picture.glsl"
 
 layout(binding = 0) uniform sampler2D sums;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture with the samples of a past one added to its own, as far as noise explains how the two differ.
+// Adds the samples of a past picture to those of the present one, as far as noise explains their difference.
 #include "picture/picture.glsl"
 
 layout(binding = 0) uniform sampler2D radiances;  // of the present, as film.frag leaves these
@@ -13,8 +13,8 @@ layout(location = 1) out vec2 count;
 
 const int kReach = 2;  // pixels each way that tell whether the past still holds
 
-/// The square of what the past is wrong by, and the variance of one pixel's difference: over the pixels around, from
-/// the mean difference beyond its own noise, and from the squares of differences beyond theirs.
+/// The square of the past's error, and the variance of one pixel's difference, over the pixels around: from the mean
+/// difference beyond its own noise, and from the squares of differences beyond theirs.
 vec2 wrongness(ivec2 pixel) {
   vec2 sums = vec2(0.0);
   float pixels = 0.0;
@@ -48,14 +48,15 @@ void main() {
   vec4 apart = texelFetch(aparts, pixel, 0);
   if (!(apart.z > 0.0)) return;
   vec4 past = texelFetch(pasts, pixel, 0);
-  // The mean of n samples has the variance v; a past that is wrong by b counts as n v / b^2, for the least error.
+  // The mean of n samples has the variance v. A past with the error b counts as n v / b^2 samples, which gives the
+  // least error.
   vec2 wrong = wrongness(pixel);
   float noise = count.x > 1.0 ? radiance.a : wrong.y;
   float worth = wrong.x > 0.0 ? count.x * noise / wrong.x : most;
   float counted = min(min(apart.z, most), worth);
   if (!(counted > 0.0)) return;
   float samples = count.x + counted;
-  // A past of more samples than count gets the variance of as many as do.
+  // A past of more samples than count gets the variance of as many as count.
   float pastVariance = past.a * apart.z / counted;
   // Chan, Golub and LeVeque (1979).
   float m2 = radiance.a * count.x * (count.x - 1.0) + pastVariance * counted * max(counted - 1.0, 0.0) +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A past picture tells what it knows of the points that the present one shows (src/render/seen_picture.h). Places and
-// points are seen from the present camera's position.
+// Takes from a past picture its values at the points that the present one shows (src/render/seen_picture.h). Places and
+// points are relative to the present camera's position.
 #include "picture/picture.glsl"
 
 layout(binding = 0) uniform sampler2D radiances;  // of the present, as film.frag leaves these
@@ -12,13 +12,13 @@ layout(binding = 5) uniform sampler2D pastCounts;
 layout(binding = 6) uniform sampler2D pastAlbedos;
 layout(binding = 7) uniform sampler2D pastNormals;
 layout(location = 1) uniform ivec2 pastSize;
-// Position, half of the width at distance 1 or anywhere, half of the height, forward; in w of the last whether a
-// perspective: present, past.
+// Two cameras, present and past: position, half of the width (at distance 1 for a perspective), half of the height,
+// forward. w of the last is not 0 for a perspective.
 layout(location = 2) uniform vec4 cameras[8];
 
 layout(location = 0) out vec4 past;   // light at the present albedo, and the variance of its luminance
-// Luminance of the present light less that of the past's, and the variance that noise gives that, negative: not known;
-// samples of the past, 0: it knows nothing; how many like these are looked at (1 or 0).
+// Luminance of the present light minus that of the past; the variance that noise gives this difference, negative if not
+// known; samples of the past, 0 if it has no value here; 1 if such a pixel is compared, else 0.
 layout(location = 1) out vec4 apart;
 
 const float kDepthApart = 0.02;    // of the depth: the same surface
@@ -27,7 +27,7 @@ const float kAlbedoApart = 0.15;   // a channel
 const float kCovered = 0.5;        // of the samples of a pixel: it shows a surface
 const float kEnoughOfFour = 0.25;  // weight of the taps that fit, for the past to count
 
-/// The part of a pixel that was hit.
+/// The surface that a part of a pixel shows.
 struct Surface {
   vec3 albedo;
   float coverage;
@@ -42,7 +42,7 @@ Surface surfaceOf(vec4 albedo, vec4 normal) {
 
 vec3 divisorOf(Surface s) { return mix(max(s.albedo, vec3(0.0)), vec3(1.0), kAlbedoFloor); }
 
-/// The point that the middle of a pixel shows.
+/// The point in the middle of a pixel.
 vec3 pointAt(vec2 pixel, float depth) {
   vec2 place = 2.0 * pixel / vec2(size) - 1.0;
   vec3 aside = place.x * cameras[1].xyz + place.y * cameras[2].xyz;
@@ -56,7 +56,7 @@ bool showsTheSame(Surface now, float depth, Surface before) {
          max(max(apart.r, apart.g), apart.b) <= kAlbedoApart;
 }
 
-/// The past's knowledge of a point.
+/// The values of the past at a point.
 struct Known {
   vec3 light;  // without albedo
   float variance;

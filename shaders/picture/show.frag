@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A filtered picture as a window shows it, as far as the filter counts; its first row is at the top.
+// Shows a filtered picture in the window, mixed with the unfiltered one by the filter's share; its first row is at the
+// top.
 #include "picture/picture.glsl"
 
 layout(binding = 0) uniform sampler2D raw;       // linear R, G, B, and alpha
@@ -12,7 +13,7 @@ layout(location = 0) out vec4 shown;
 
 const float kRounding = 1e-6;  // of alpha: nothing
 
-/// As liftedFromWhite() of src/image/over_white.h.
+/// The same as liftedFromWhite() of src/image/over_white.h.
 vec4 liftedFromWhite(vec4 own, vec3 seen) {
   float alpha = 1.0 - luminance(seen);
   if (own.rgb == vec3(0.0)) return vec4(own.rgb, alpha > kRounding ? alpha : 0.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The film as a window shows it, without a filter; its first row is at the top.
+// Shows the film in the window, without a filter; its first row is at the top.
 #include "picture/film_means.glsl"
 
 layout(location = 2) uniform bool background;  // it is seen: nothing shows through

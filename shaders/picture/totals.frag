@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The film's counts, summed over blocks of 16 x 16 pixels; sums.frag goes on.
+// The film's counts, summed over blocks of 16 x 16 pixels; sums.frag continues.
 #include "picture/picture.glsl"
 
 layout(binding = 0) uniform usampler2D filmCounts;

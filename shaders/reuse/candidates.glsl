@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-// A light sample that is one of several candidates: resampled importance sampling (Talbot, Cline and Egbert,
+// Takes one of several candidates as the light sample: resampled importance sampling (Talbot, Cline and Egbert,
 // Importance Resampling for Global Illumination, 2005).
 
-/// Loop iterations that a scattering takes more, at most, and steps of the megakernel's budget, which stand for three
-/// each. With neighbours: these, and the way from a leaf of the light tree to its root.
+/// The loop iterations that a scattering takes more, at most, and steps of the megakernel's budget, each of which
+/// stands for three. Neighbours add the way from a leaf of the light tree to its root.
 const int kCandidateIterations = (kCandidates ? int(kLightCandidates) * (kLightTree ? 16 : 8) : 0) +
                                  (kNeighbours ? int(kReuseNeighbours) + (kLightTree ? 24 : 0) : 0);
 const int kCandidateSteps = kCandidateIterations / 3;
 
-/// The numbers of candidate `index`: those of the first one shifted, each dimension by its own part of the whole, so
-/// that all candidates of a point are one lattice (the plastic number's, Roberts 2018). Each alone is as random as the
-/// first, which is all that the estimate needs.
+/// The random numbers of candidate `index`: those of the first one, shifted. Each dimension has its own shift, so that
+/// all candidates of a point form one lattice (the plastic number's, Roberts 2018). Each alone is as random as the
+/// first, and the estimate needs no more.
 LightNumbers shifted(LightNumbers n, int index) {
   n.choice += uint(index) * (0xffffffffu / kLightCandidates);
   n.bits += uint(index) * uvec2(0xc13fa9a9u, 0x91e10da5u);
   return n;
 }
 
-/// What a light sample may bring to a surface of this normal, which may be a rounded one (unpackNormal): a guess that
-/// is never zero where the BSDF is not. through: the surface takes light from behind, too.
+/// Estimates the light that a sample brings to a surface of this normal, which may be a rounded one (unpackNormal). The
+/// estimate is never zero where the BSDF is not. through: the surface also takes light from behind.
 float candidateWeight(LightSample s, vec3 normal, bool through) {
   float cosine = dot(s.direction, normal);
   if (through) cosine = abs(cosine);
@@ -26,13 +26,14 @@ float candidateWeight(LightSample s, vec3 normal, bool through) {
   return cosine > float(-0.01) ? luminance(s.irradiance) * (max(cosine, 0.0f) + float(0.1)) : 0.0f;
 }
 
-/// A number in [0, 1) has chosen what has this share, if it is less: what is left of it chooses again.
+/// Rescales a number in [0, 1) after it has chosen between a part of this share and the rest, so that it can choose
+/// again.
 float numberLeft(float number, float share) {
   float left = number < share ? number / share : (number - share) / (1.0f - share);
   return min(left, float(0.99999994));
 }
 
-/// One of the candidates of a surface, chosen by what they may bring.
+/// One of the candidates of a surface, chosen by their target.
 struct Candidate {
   LightChoice light;
   LightSample lit;  // the same
@@ -67,7 +68,7 @@ Candidate chooseCandidate(vec3 point, vec3 normal, bool through, uint packedNorm
   return c;
 }
 
-/// The light sample of the chosen candidate, weighted by the mean of what all may bring over its own part.
+/// The light sample of the chosen candidate, weighted by the mean target of all over its own.
 LightSample lightOfCandidates(vec3 point, vec3 normal, bool through, uint packedNormal, Sampler numbers,
                               uint dimension) {
   Candidate c = chooseCandidate(point, normal, through, packedNormal, numbers, dimension);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Spatial reuse: a first program keeps what each pixel's light sample is (kLightRecords), a second one lets pixels take
-// those of others near them (kNeighbours).
+// Spatial reuse: a first program stores each pixel's light sample (kLightRecords), a second one lets pixels take those
+// of pixels near them (kNeighbours).
 
 layout(binding = kReservoirTextures) uniform sampler2D reservoirSurfaces;
 layout(binding = kReservoirTextures + 1u) uniform sampler2D reservoirLights;
@@ -14,7 +14,7 @@ void storeReservoir(ivec2 pixel, Reservoir r) {
   imageStore(filmCompensation, pixel, secondTexel(r));
 }
 
-/// Keeps the light sample of the first surface of a camera path, which ends there.
+/// Stores the light sample of the first surface of a camera path, which ends there.
 Path keepLight(Path p, Surface s, SurfaceMaterial m) {
   p.phase = kPhaseEnd;
   if (p.bounce > 0 || lightSlotCount() == 0) return p;
@@ -23,15 +23,15 @@ Path keepLight(Path p, Surface s, SurfaceMaterial m) {
   return p;
 }
 
-/// Where neighbour `index` is: one in each of as many sectors of a disc that is turned by chance.
+/// The pixel of neighbour `index`: one in each of as many sectors of a disc that is turned by chance.
 ivec2 neighbourOf(ivec2 pixel, int index, vec2 uv) {
   float angle = 2.0 * kPi * (float(index) + uv.x) / float(kReuseNeighbours);
   float radius = kReuseRadius * sqrt(fract(uv.y + float(index) * 0.61803399));
   return pixel + ivec2(floor(radius * vec2(cos(angle), sin(angle)) + 0.5));
 }
 
-/// The light sample of the pixel's first surface, one of its own and its neighbours'. own: what the first program kept
-/// of it.
+/// The light sample of the pixel's first surface: its own or one of its neighbours'. own: the reservoir that the first
+/// program stored.
 LightSample lightOfNeighbours(Path p, Reservoir own, vec3 point, uint normal) {
   vec2 uv = drawPair(p.numbers, kBounceDimensions + kReuseDimension);
   Reuse reuse = beginReuse(drawFloat(p.numbers, kBounceDimensions + kReuseDimension + 2u));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What spatial reuse keeps of the light sample of a surface, and how the surfaces of pixels near it take it: ReSTIR
-// (Bitterli et al., Spatiotemporal Reservoir Resampling for Real-Time Ray Tracing with Dynamic Direct Lighting, 2020)
-// without reuse in time, unbiased by pairwise multiple importance sampling (Bitterli, Correlations and Reuse for Fast
-// and Accurate Physically Based Light Transport, 2022).
+// Spatial reuse keeps the light sample of a surface as a reservoir, and lets the surfaces of nearby pixels take it:
+// ReSTIR (Bitterli et al., Spatiotemporal Reservoir Resampling for Real-Time Ray Tracing with Dynamic Direct Lighting,
+// 2020) without reuse in time, unbiased by pairwise multiple importance sampling (Bitterli, Correlations and Reuse for
+// Fast and Accurate Physically Based Light Transport, 2022).
 
-/// A surface as light samples are weighed for it.
+/// A surface, as far as the weights of light samples depend on it.
 struct LitSurface {
   vec3 point;
   uint normal;   // packNormal of its geometric normal, on the side of the camera
@@ -29,7 +29,7 @@ Reservoir makeReservoir(LitSurface on, uint packedNormal, Sampler numbers, uint 
   return r;
 }
 
-/// As two texels; all zero: not known.
+/// A reservoir takes two texels; all zero means not known.
 vec4 firstTexel(Reservoir r) { return vec4(r.surface.point, r.weight); }
 
 vec4 secondTexel(Reservoir r) {
@@ -51,13 +51,14 @@ Reservoir reservoirOf(vec4 first, vec4 second) {
   return r;
 }
 
-/// What a light sample, as densely as it was drawn by one whose every number has density 1, may bring to a surface.
+/// The target function of resampling: an estimate of the light that a sample brings to a surface, per unit of the
+/// random numbers that draw the sample.
 float targetOf(LightChoice light, LitSurface on) {
   light.chance = 1.0f;
   return candidateWeight(lightOfChoice(light, on.point), unpackNormal(on.normal), on.through);
 }
 
-/// Resampling on its way: the light that is chosen of those so far.
+/// The state of resampling: the light that is chosen of those so far.
 struct Reuse {
   LightChoice light;
   float target;  // on the pixel's own surface
@@ -88,8 +89,8 @@ Reuse addWeight(Reuse r, LightChoice light, float target, float weight) {
   return r;
 }
 
-/// Lets the sample of a neighbour take part. ownTarget: of the own sample on its own surface. One that is not known has
-/// no samples, as if it drew none that either surface could use.
+/// Adds the sample of a neighbour. ownTarget: the target of the own sample on its own surface. A reservoir that is not
+/// known counts as one whose samples neither surface could use.
 Reuse addNeighbour(Reuse r, Reservoir own, float ownTarget, Reservoir near) {
   const float count = float(kReuseNeighbours);
   float there = near.known && ownTarget > 0.0f ? targetOf(own.light, near.surface) : 0.0f;
@@ -101,7 +102,7 @@ Reuse addNeighbour(Reuse r, Reservoir own, float ownTarget, Reservoir near) {
   return addWeight(r, near.light, here, share * here * near.weight);
 }
 
-/// The light sample of what is chosen, once the own sample has taken part as well; normal: as lightFrom takes it.
+/// The light sample of the choice, once the own sample has been added as well; normal: as lightFrom takes it.
 LightSample endReuse(Reuse r, Reservoir own, float ownTarget, vec3 point, uint normal) {
   const float count = float(kReuseNeighbours);
   r = addWeight(r, own.light, ownTarget, (1.0f + r.share) / (count + 1.0f) * ownTarget * own.weight);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The uniform block for software drivers: once more as a variable. llvmpipe reads a uniform lane by lane, so each is
+// For software drivers the uniform block is copied to a variable. llvmpipe reads a uniform lane by lane, so each is
 // read once a draw.
 
 layout(std140, binding = kFrameBinding) uniform FrameBlock { Frame frameBlock; };
@@ -10,8 +10,8 @@ Frame frame = Frame(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(
 /// Pixels of the draw, before fetchFrame().
 ivec4 tileOfDraw() { return frameBlock.tile; }
 
-/// Fetches the block. A film's flags are never 0xffffffff, but compilers do not know: they would put the block's reads
-/// back to where they are used, inside of loops.
+/// Fetches the block. A film's flags are never 0xffffffff, but compilers do not know that. Without the test they would
+/// move the block's reads back into the loops.
 void fetchFrame(uint filmFlags) {
   if (filmFlags != 0xffffffffu) frame = frameBlock;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The traversal stack for compute on GPUs, with the functions of stack_text.h: entries lie in shared memory, so that a
-// stack takes one register. Each lane has one, so of a lane's traversals one alone may be under way.
+// The traversal stack for compute on GPUs, with the functions of stack_text.h. Entries lie in shared memory, so a stack
+// takes one register. Each lane has one stack, so only one of its traversals may be in progress.
 
 const int kGroupLanes = 64;  // of all compute entries
 

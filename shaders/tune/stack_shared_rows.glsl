@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A stack in shared memory in rows of the buffer of path states, as vectors are: from the top down, then
-// kTraversalDone.
+// Stores a stack in shared memory in rows of the buffer of path states, in the layout of vectors: from the top down,
+// then kTraversalDone.
 
 int entryOf(Stack s, int depth) {
   return depth < s.count ? stackEntries[stackPlace(s.count - 1 - depth)] : kTraversalDone;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The build across threads: split the top of the tree, build what is below in parts, put them together in
-// order.
+// Builds the tree on several threads: splits the top of the tree, builds what is below in parts, and joins
+// them in order.
 #include "bvh/build.h"
 
 #include <algorithm>
@@ -79,7 +79,7 @@ void buildParts(std::vector<TopNode*> parts, const SplitRules& rules, uint32_t t
   forEachIndex(parts.size(), build, std::min(threadCount, uint32_t(parts.size())));
 }
 
-// Appends a part, whose indices count from its own start, and gives its memory back.
+// Appends a part, whose indices count from its own start, and frees it.
 uint32_t appendPart(Subtree part, uint32_t level, Bvh& bvh) {
   const auto nodeOffset = uint32_t(bvh.nodes.size());
   const auto leafOffset = uint32_t(bvh.leaves.size());
@@ -120,7 +120,7 @@ struct WholeTree {
   std::unique_ptr<TopNode> top;
   std::vector<TopNode*> parts;
 
-  // Of all boxes, which the heuristic's cost goes with.
+  // The sum over all boxes, to which the heuristic's cost is proportional.
   double area() const { return areaOf(top->bounds) + areaOfTop(*top); }
   uint32_t depth() const {
     uint32_t depth = 0;
@@ -138,15 +138,16 @@ WholeTree buildWhole(std::span<BuildItem> items, const SplitRules& rules, uint32
   return tree;
 }
 
-// A tree that fits the next smaller stack, where that costs little: parts that are too deep are built again,
-// or all is, where they are too large for that. Whether it was done.
+// Makes the tree fit the next smaller stack where that costs little: it builds the parts that are too deep
+// again, or the whole tree if they are too large for that. Returns true if it did.
 bool flatten(WholeTree& tree, std::span<BuildItem> items, const SplitRules& rules, uint32_t threadCount) {
   constexpr double kWorthwhile = 1.03;  // a stack one step smaller gains more than this
   constexpr size_t kLargest = 2000000;  // primitives; a second build of more takes seconds
   SplitRules flatter = rules;
   flatter.maxDepth = 0;
   for (const uint32_t size : kBvhStackSizes) flatter.maxDepth = size < tree.depth() ? size : flatter.maxDepth;
-  // With less than one level to spare a tree would no longer be the heuristic's, but one of halves.
+  // With less than one level to spare, every split would have to be one into halves, and the heuristic would
+  // no longer decide.
   if (flatter.maxDepth == 0 || items.size() > flatter.capacityBelow(1)) return false;
   std::vector<TopNode*> deep;
   bool fits = true;
@@ -189,11 +190,11 @@ Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle, const Bv
   primitiveBounds = std::vector<Bounds>();
   WholeTree tree = buildWhole(items, rules, threadCount);
   while (settings.flatten && flatten(tree, items, rules, threadCount)) {
-    // One step after the other, as long as each is worth it.
+    // Take one step after the other, as long as each is worth it.
   }
   items = std::vector<BuildItem>();
 
-  // Put the parts together.
+  // Join the parts.
   size_t nodeCount = 1;
   size_t leafCount = 0;
   for (const TopNode* part : tree.parts) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The knobs behind buildBvh(), for tests and measurements.
+// The settings behind buildBvh(), for tests and measurements.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct BvhBuildSettings {
   uint32_t threadCount = 0;          ///< 0: all cores; the tree is the same for any number
   uint32_t maxDepth = kMaxBvhDepth;  ///< must leave room for the primitives: 2^maxDepth leaves
   bool flatten =
-      false;  ///< try for the stack size below the depth that the boxes want, as buildBvh() of bvh.h does
+      false;  ///< try for the stack size below the depth of the heuristic's tree, as buildBvh() of bvh.h does
 };
 
 Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle, const BvhBuildSettings& settings);

@@ -22,7 +22,7 @@ inline constexpr uint32_t kBvhInstanceBit = 0x40000000u;
 /// overflow.
 inline constexpr uint32_t kMaxBvhDepth = 32;
 
-/// The same of a path through an instance into the tree of its mesh, the way back counted as one more.
+/// The same for a path through an instance into the tree of its mesh; the way back counts as one more.
 inline constexpr uint32_t kMaxTwoLevelDepth = 48;
 
 struct BvhNode {
@@ -41,12 +41,12 @@ struct BvhMesh {
   Bounds bounds;
 };
 
-/// Node 0 is the root. Nodes are empty only when there are no primitives; with one leaf, both children of the
-/// root are that leaf. Children always stand behind their parent.
+/// Node 0 is the root. There are no nodes only if there are no primitives; with one leaf, both children of
+/// the root are that leaf. Children always come after their parent.
 struct Bvh {
   std::vector<BvhNode> nodes;
   std::vector<BvhLeaf> leaves;
-  uint32_t besideTree = 0;  ///< leaves at the end that no node holds: see large_first.h
+  uint32_t besideTree = 0;  ///< leaves at the end to which no node refers: see large_first.h
   uint32_t depth = 0;  ///< inner nodes on the longest path from the root, at most kMaxBvhDepth; with meshes
                        ///< kMaxTwoLevelDepth
   Bounds bounds;
@@ -65,7 +65,8 @@ inline uint32_t primitiveInSlot(const Bvh& bvh, int32_t slot) {
 
 /// Builds the tree by binned SAH over the primitives' boxes, on all cores. Primitives from firstSingle on
 /// (spheres) always get a leaf of their own. Deterministic: the same boxes give the same tree. Boxes that are
-/// moved in are freed before the tree is made, which takes another 40 bytes a primitive beside itself.
+/// moved in are freed before the nodes are made. The build takes another 40 bytes a primitive beside the
+/// tree.
 Bvh buildBvh(std::vector<Bounds> primitiveBounds, uint32_t firstSingle);
 
 /// Boxes of the scene's primitives: triangles first, then spheres.

@@ -17,11 +17,11 @@ namespace {
 
 using glm::dvec3;
 
-/// How far apart such faces are to be, in bounds of what rounding does to hit points: an offset is 1 to 1.25
-/// of them, and from either face the other one must still be in front.
+/// The distance that such faces get, in units of the bound on a hit point's rounding error. An offset is 1 to
+/// 1.25 units, and from either face the other one must still lie in front.
 constexpr double kGap = 4.0;
 
-/// Faces whose normals are less parallel meet in a line at most.
+/// Faces whose normals are less parallel meet at most in a line.
 constexpr double kParallel = 0.99;
 
 struct Face {
@@ -40,7 +40,7 @@ Face faceOf(const Scene& scene, uint32_t triangle) {
   return face;
 }
 
-/// Whether the two cover the same place, seen along their common normal: no edge parts them, by more than
+/// Returns true if the two overlap as seen along their common normal: no edge separates them by more than
 /// `least`.
 bool overlap(const Face& a, const Face& b, double least) {
   for (const Face* of : {&a, &b}) {
@@ -60,7 +60,7 @@ bool overlap(const Face& a, const Face& b, double least) {
   return true;
 }
 
-/// The greatest distance of corners from a plane.
+/// The largest distance of corners from a plane.
 double apart(const Face& plane, const Face& from) {
   double most = 0.0;
   for (const dvec3& c : from.corners)
@@ -68,17 +68,17 @@ double apart(const Face& plane, const Face& from) {
   return most;
 }
 
-/// How an opaque face is to be moved.
+/// The direction and distance by which an opaque face is moved.
 struct Move {
   dvec3 direction{0.0};
   double by = 0.0;
 };
 
-/// Off the glass, where the two touch.
+/// Moves the opaque face off the glass where the two touch.
 Move moveOff(const Face& glass, bool solid, const Face& opaque) {
   const double gap = kGap * std::max(glass.error, opaque.error);
   if (!(std::abs(glm::dot(glass.normal, opaque.normal)) > kParallel)) return {};
-  // Of a small face and a large one that is nearly parallel, the plane of the large one tells.
+  // The larger of two faces that are nearly parallel decides by its plane.
   const bool byGlass = apart(glass, opaque) <= gap;
   if (!byGlass && !(apart(opaque, glass) <= gap)) return {};
   if (!overlap(glass, opaque, gap)) return {};
@@ -89,7 +89,7 @@ Move moveOff(const Face& glass, bool solid, const Face& opaque) {
   return {direction, gap - now};
 }
 
-/// What is in the way of a box, of the primitives of a tree.
+/// Calls `meet` for each primitive of a tree whose box overlaps the box.
 template <typename Meet>
 void meetAll(const Bvh& bvh, const Bounds& box, const Meet& meet) {
   const auto meets = [&](const Bounds& b) {
@@ -100,7 +100,7 @@ void meetAll(const Bvh& bvh, const Bounds& box, const Meet& meet) {
   while (!open.empty()) {
     const BvhNode& node = bvh.nodes[open.back()];
     open.pop_back();
-    // A root of one leaf has it twice.
+    // A root with one leaf has it as both children.
     const size_t sides = node.child[0] == node.child[1] ? 1 : 2;
     for (size_t side = 0; side < sides; ++side) {
       if (!meets(node.bounds[side])) continue;
@@ -114,10 +114,10 @@ void meetAll(const Bvh& bvh, const Bounds& box, const Meet& meet) {
   }
 }
 
-/// By place, so that faces that meet stay together.
+/// Moves by place, so that faces that meet stay together.
 class Moves {
  public:
-  /// Lets the place go at least so far in this direction.
+  /// Moves the place at least so far in this direction.
   void add(const glm::vec3& place, const Move& move) {
     dvec3& sum = moves_[keyOf(place)];
     sum += std::max(0.0, move.by - glm::dot(sum, move.direction)) * move.direction;

@@ -8,11 +8,11 @@
 
 namespace fragtrace {
 
-/// A ray that leaves glass starts a little beyond its face (docs/design/ray-origins.md), and would start
-/// beyond an opaque face in the same place, too. So opaque triangles that lie on a triangle of glass, or
-/// nearer to it than four offsets, are moved that far off it, with all opaque triangles that share their
-/// corners: out of solid glass, and back from their own front where the glass is a thin wall. Instances of
-/// shared meshes and spheres stay where they are. Returns how many triangles lay on glass.
+/// A ray that leaves glass starts a little beyond its face (docs/design/ray-origins.md), and so beyond an
+/// opaque face in the same place. So opaque triangles that lie on a triangle of glass, or nearer to it than
+/// four offsets, are moved that far off it, with all opaque triangles that share their corners: outwards from
+/// solid glass, and back from their own front where the glass is thin. Instances of shared meshes and spheres
+/// stay where they are. Returns the number of triangles that lay on glass.
 size_t partFromGlass(Scene& scene);
 
 }  // namespace fragtrace

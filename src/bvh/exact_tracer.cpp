@@ -22,8 +22,8 @@ struct Crossing {
   bool front = false;
 };
 
-/// By the signs of the edges as the ray sees them, which two triangles with a common edge see alike (Woop,
-/// Benthin and Wald, Watertight Ray/Triangle Intersection, 2013).
+/// Decides by the signs of the edges as the ray sees them, which are the same for two triangles with a common
+/// edge (Woop, Benthin and Wald, Watertight Ray/Triangle Intersection, 2013).
 Crossing crossTriangle(const ExactRay& ray, const std::array<glm::dvec3, 3>& points) {
   const glm::dvec3& d = ray.direction;
   const glm::dvec3 size = glm::abs(d);
@@ -55,7 +55,7 @@ double crossSphere(const ExactRay& ray, const Sphere& sphere, bool inside) {
   return inside && b + root > 0.0 ? b + root : kMiss;
 }
 
-/// Where the ray enters the box, widened against rounding, or kMiss.
+/// The distance at which the ray enters the box, widened against rounding, or kMiss.
 double enterBox(const ExactRay& ray, const glm::dvec3& inverse, const Bounds& box, double farthest) {
   constexpr double kWiden = 1e-9;
   double enter = 0.0;
@@ -114,7 +114,7 @@ void ExactTracer::meet(const ExactRay& ray, uint32_t primitive, uint32_t instanc
 void ExactTracer::descend(const ExactRay& ray, uint32_t root, uint32_t instance, ExactHit& hit) const {
   glm::dvec3 inverse;
   for (int axis = 0; axis < 3; ++axis) {
-    // Far below what a direction of 24 bits can hold beside a larger component.
+    // This is far below what a direction of 24 bits can hold beside a larger component.
     const double d = ray.direction[axis];
     inverse[axis] = 1.0 / (std::abs(d) < 1e-30 ? std::copysign(1e-30, d) : d);
   }

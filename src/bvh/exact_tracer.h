@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hits in double precision on the processor: what measurements hold the device against.
+// Finds hits in double precision on the processor. Measurements compare the device with it.
 #pragma once
 
 #include <cstdint>
@@ -12,42 +12,43 @@
 
 namespace fragtrace {
 
-/// What a ray meets first, or kMissIndex.
+/// The nearest hit of a ray, or kMissIndex.
 struct ExactHit {
   double t = 0.0;  ///< local space
   uint32_t primitive = kMissIndex;
   uint32_t instance = kMissIndex;  ///< that shows it, if one does
 };
 
-/// A ray of any length of direction.
+/// A ray whose direction may have any length.
 struct ExactRay {
   glm::dvec3 origin{0.0};
   glm::dvec3 direction{0.0};
 };
 
-/// Alpha is not looked at; the back of single-sided surfaces is not there (docs/design/surfaces.md).
+/// Traces rays in double precision. It ignores alpha, and does not see the back of single-sided surfaces
+/// (docs/design/surfaces.md).
 class ExactTracer {
  public:
   /// Keeps references. The tree may be empty when nearest() is not called.
   ExactTracer(const Scene& scene, const Bvh& bvh);
 
-  /// By the tree's own boxes.
+  /// Walks the tree's own boxes.
   ExactHit nearest(const Ray& ray) const;
-  /// By testing every primitive.
+  /// Tests every primitive.
   ExactHit nearestOfAll(const Ray& ray) const;
 
-  /// nearest() of every ray, on all cores; rays that are not there give a miss.
+  /// nearest() of every ray, on all cores; a ray whose limit is 0 gives a miss.
   std::vector<ExactHit> nearest(std::span<const Ray> rays) const;
   std::vector<ExactHit> nearestOfAll(std::span<const Ray> rays) const;
 
-  /// Unit, on the front, in local space, as is the point.
+  /// The unit normal on the front, in local space, as the point is.
   glm::dvec3 normal(uint32_t primitive, const glm::dvec3& point, uint32_t instance = kMissIndex) const;
   /// A bound on the error of a 32-bit point on the primitive (hitPointError of src/scene/hit_error.h).
   double pointError(uint32_t primitive) const;
 
  private:
   void meet(const ExactRay& ray, uint32_t primitive, uint32_t instance, ExactHit& hit) const;
-  /// Goes down from a node of the tree in local space, or of an instance's mesh.
+  /// Descends from a node of the tree in local space, or of an instance's mesh.
   void descend(const ExactRay& ray, uint32_t root, uint32_t instance, ExactHit& hit) const;
   ExactRay inMesh(const ExactRay& ray, uint32_t instance) const;
 

@@ -9,7 +9,7 @@ namespace fragtrace {
 
 namespace {
 
-/// Where a triangle came from; null where that is not known.
+/// The place in the file from which a triangle comes; null if it is not known.
 const PrimitiveOrigin* originOf(const Scene& scene, uint32_t triangle) {
   const auto after = std::ranges::upper_bound(scene.origins, triangle, {}, &PrimitiveOrigin::firstTriangle);
   return after == scene.origins.begin() ? nullptr : &*std::prev(after);

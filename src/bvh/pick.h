@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What lies under a place of the picture.
+// Picking: finds what is drawn at a place of the picture.
 #pragma once
 
 #include <optional>
@@ -23,8 +23,8 @@ struct Pick {
   glm::dvec3 normal{0.0};          ///< geometric, unit, towards the camera
 };
 
-/// The surface nearest to the camera there, by the tree; nothing where there is none. Alpha is not looked at,
-/// and the back of single-sided surfaces is not there.
+/// The surface nearest to the camera there, by the tree; nothing where there is none. It ignores alpha, and
+/// does not see the back of single-sided surfaces.
 std::optional<Pick> pickAt(const Scene& scene, const Bvh& bvh, const Projection& projection,
                            const glm::dvec2& place);
 

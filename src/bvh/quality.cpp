@@ -13,10 +13,10 @@ BvhQuality bvhQuality(const Bvh& bvh) {
   quality.depth = bvh.depth;
 
   // A ray through a convex box meets a convex box inside it with the ratio of their areas as probability.
-  // Every child but the root is the child of one node. A root without area counts all as visited.
+  // Every node but the root is the child of one node. If the root has no area, all count as visited.
   const double rootArea = areaOf(bvh.bounds);
   double visits = 1.0;
-  // Of two levels, the upper one; an instance counts as one visit.
+  // Of two levels only the upper one counts, and an instance is one visit.
   for (size_t i = 0; i < topNodeCount(bvh); ++i) {
     const BvhNode& node = bvh.nodes[i];
     for (const Bounds& box : node.bounds) visits += rootArea > 0.0 ? areaOf(box) / rootArea : 1.0;

@@ -30,7 +30,7 @@ std::optional<Bvh> refitted(const RefittableTree& tree, const Scene& scene) {
   if (!same || tree.bvh.nodes.empty() || !tree.bvh.meshes.empty() || !scene.instances.empty())
     return std::nullopt;
   Bvh bvh = tree.bvh;
-  // Children stand behind their parent.
+  // Children come after their parent.
   for (size_t i = bvh.nodes.size(); i-- > 0;) {
     BvhNode& node = bvh.nodes[i];
     for (size_t side : {0, 1}) {

@@ -17,14 +17,14 @@ struct RefittableTree {
   size_t spheres = 0;      ///< and so many
 };
 
-/// Room for the cost to rise before another tree is better built.
+/// The cost may rise by this factor before a new tree is built.
 inline constexpr double kMostRefitCost = 1.2;
 
 RefittableTree refittable(Bvh bvh, const Scene& scene);
 
-/// The tree with the boxes that the scene's primitives have now, which are numbered as they were. Nothing
-/// where their number has changed, where the scene has instances, or where the cost is more than
-/// kMostRefitCost times that of the tree when it was built.
+/// The tree with the boxes that the scene's primitives have now; their numbers are the same. Nothing if their
+/// number has changed, if the scene has instances, or if the cost is more than kMostRefitCost times that of
+/// the tree when it was built.
 std::optional<Bvh> refitted(const RefittableTree& tree, const Scene& scene);
 
 }  // namespace fragtrace

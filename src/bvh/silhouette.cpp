@@ -42,7 +42,7 @@ std::vector<Part> partsOf(const Scene& scene, const NodeSet& nodes) {
   return parts;
 }
 
-/// In world space.
+/// Calls `use` for each triangle in world space.
 template <typename Use>
 void useTriangles(const Scene& scene, const Part& part, const Use& use) {
   const size_t end = std::min(part.firstTriangle + part.triangleCount, scene.triangles.size());
@@ -56,7 +56,7 @@ void useTriangles(const Scene& scene, const Part& part, const Use& use) {
   }
 }
 
-/// A sphere as triangles between rings of its poles.
+/// Calls `use` for the triangles of a sphere, between rings around its poles.
 template <typename Use>
 void useSphere(const Scene& scene, const Sphere& sphere, const Use& use) {
   const auto at = [&](int ring, int step) {
@@ -82,14 +82,14 @@ void useAll(const Scene& scene, const NodeSet& nodes, std::span<const Part> part
   }
 }
 
-/// Which middles of pixels are covered.
+/// The set of pixels whose middles are covered.
 class Coverage {
  public:
   explicit Coverage(glm::ivec2 size) : size_(size), covered_(size_t(size.x) * size_t(size.y)) {}
 
   bool at(int x, int y) const { return covered_[size_t(y) * size_t(size_.x) + size_t(x)]; }
 
-  /// A convex polygon, in pixels from the top left.
+  /// Covers a convex polygon, in pixels from the top left.
   void fill(const std::vector<glm::dvec2>& corners) {
     double top = size_.y;
     double bottom = 0.0;

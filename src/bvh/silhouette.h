@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What nodes of the file draw, taken together: its box, and its outline in a picture.
+// The box of what some nodes of the file draw together, and its outline in a picture.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace fragtrace {
 
-/// By its place in the file (SceneNode::index): whether a node is meant.
+/// By place in the file (SceneNode::index): true if the node is meant.
 using NodeSet = std::vector<bool>;
 
 /// The node, and all that is below it; nothing where the scene has no such node.
@@ -19,8 +19,8 @@ NodeSet nodesBelow(const Scene& scene, uint32_t node);
 BoundsDouble boundsOfNodes(const Scene& scene, const NodeSet& nodes);
 
 /// The outline of what they draw in a picture of that size, through whatever is in front of it, as lines
-/// along the edges of pixels. Nothing where it covers no middle of a pixel, where all of it is behind the
-/// camera, and where the nodes have more triangles than can be looked at while a camera moves.
+/// along the edges of pixels. Nothing if it covers no middle of a pixel, if all of it is behind the camera,
+/// or if the nodes have more triangles than can be drawn while a camera moves.
 std::vector<PictureLine> outlineOfNodes(const Scene& scene, const NodeSet& nodes,
                                         const Projection& projection, glm::ivec2 size);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where to cut a range of primitives in two: the part of the build that decides how good the tree is.
+// Chooses the place at which a range of primitives is cut in two. This decides how good the tree is.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct BuildItem {
   uint32_t primitive = 0;
 };
 
-/// What holds for a whole build.
+/// Rules for the whole of a build.
 struct SplitRules {
   uint32_t firstSingle = 0;  ///< primitives from here on need a leaf of their own
   uint32_t leafSize = 1;     ///< primitives that any leaf can hold: 2 when there is no single one

@@ -30,7 +30,7 @@ std::vector<Bounds> boxesAtLevel(const Bvh& bvh, uint32_t level) {
     for (const BoxedChild& c : current) {
       if ((c.child & kBvhLeafBit) != 0) continue;
       const BvhNode& node = bvh.nodes[c.child];
-      // A root of one leaf has it twice.
+      // A root with one leaf has it as both children.
       const int sides = node.child[0] == node.child[1] ? 1 : 2;
       for (int side = 0; side < sides; ++side) next.push_back({node.bounds[side], node.child[side]});
     }
@@ -61,7 +61,7 @@ std::vector<PictureLine> boxEdges(std::span<const Bounds> boxes, const Projectio
         glm::dvec3 b = corners[i | axis];
         if (a.z < b.z) std::swap(a, b);
         if (!(a.z > kNearest)) continue;
-        // Before the division all is linear, so what lies behind the camera is cut off there.
+        // Before the division all is linear, so the part behind the camera is cut off here.
         if (b.z < kNearest) b = glm::mix(a, b, (a.z - kNearest) / (a.z - b.z));
         lines.push_back({placeOf(a), placeOf(b)});
       }

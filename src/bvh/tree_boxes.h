@@ -11,8 +11,8 @@
 
 namespace fragtrace {
 
-/// The boxes of all nodes and leaves that so many steps down from the root lead to, in local space; the root,
-/// with the triangles beside the tree left out, is level 0. Instances are leaves.
+/// The boxes of all nodes and leaves so many steps below the root, in local space. The root, without the
+/// triangles beside the tree, is level 0. Instances are leaves.
 std::vector<Bounds> boxesAtLevel(const Bvh& bvh, uint32_t level);
 
 /// A line between two places of the picture (scene/projection.h); it may reach beyond.
@@ -21,7 +21,7 @@ struct PictureLine {
   glm::dvec2 to{0.0};
 };
 
-/// The edges of boxes of local space, as far as they are in front of the camera.
+/// The edges of boxes of local space, where they are in front of the camera.
 std::vector<PictureLine> boxEdges(std::span<const Bounds> boxes, const Projection& projection,
                                   const LocalSpace& space);
 

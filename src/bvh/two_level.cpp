@@ -29,7 +29,7 @@ std::vector<Bvh> buildMeshes(const Scene& scene, uint32_t maxDepth) {
   return trees;
 }
 
-/// Boxes that together hold a mesh, closer than its own: those a few levels down its tree.
+/// Boxes that together hold a mesh more closely than its own box: those a few levels down its tree.
 void collectParts(const Bvh& bvh, uint32_t node, uint32_t levels, std::vector<Bounds>& parts) {
   for (int side = 0; side < 2; ++side) {
     const uint32_t child = bvh.nodes[node].child[side];
@@ -54,8 +54,8 @@ BoundsDouble boxOf(const Instance& instance, const std::vector<Bounds>& parts) {
   return box;
 }
 
-/// Widens a box by what rounding moves a ray when it is taken into the mesh's space, from anywhere in a scene
-/// of that size and its surroundings (docs/design/numerics.md), and rounds it outwards.
+/// Widens a box by the distance by which rounding moves a ray that is transformed into the mesh's space, from
+/// anywhere in a scene of that size and its surroundings (docs/design/numerics.md). Rounds it outwards.
 Bounds padded(const BoundsDouble& box, const Instance& instance, double sceneSize) {
   constexpr double kUnit = 0x1p-24;
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -90,7 +90,7 @@ std::vector<Bounds> instanceBoxes(const Scene& scene, const std::vector<Bvh>& tr
   return result;
 }
 
-/// The upper level: its leaves of one instance become references to it.
+/// Builds the upper level, in which leaves of one instance become references to it.
 Bvh buildTop(const Scene& scene, const std::vector<Bvh>& trees, uint32_t maxDepth) {
   const uint32_t flat = flatTriangleCount(scene);
   const auto instances = uint32_t(scene.instances.size());

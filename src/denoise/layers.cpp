@@ -63,7 +63,7 @@ std::optional<FoundLayer> findColor(const Image& file) {
   return findLayer(file, {"Noisy Image", "Combined"});
 }
 
-/// What is taken of a file, in the order of the result.
+/// The layers that are taken from a file, in the order of the result.
 struct Taken {
   std::vector<std::string> from;  ///< channels of the file
   std::vector<std::string> names;
@@ -78,8 +78,8 @@ struct Taken {
   bool has(const char* name) const { return std::ranges::find(names, name) != names.end(); }
 };
 
-/// 1 where a pixel shows a surface. Pixels that show one in part get 1, too, which changes the light of a
-/// filtered pixel by 0.3 % on average at most (docs/design/denoising.md).
+/// 1 where a pixel shows a surface, also where it shows one only in part. That changes the light of a
+/// filtered pixel by at most 0.3 % on average (docs/measurements/denoising.md).
 Image coverageOf(const Image& file, size_t depth) {
   Image coverage{file.width, file.height, {"A"}, {}, {}};
   for (size_t first = 0; first < file.values.size(); first += file.channelCount())

@@ -7,11 +7,11 @@
 namespace fragtrace {
 
 /// R, G, B, A, samples.Y, variance.Y, kObservedChannel and kGuideChannels of a picture file, as far as it has
-/// them. Guides that it lacks are its layers of first hits: ours (albedo, normal, depth), or
-/// colours and guides of Cycles (ViewLayer.Combined.R, ViewLayer.Noisy Image.R, ViewLayer.Denoising Albedo.R,
-/// ...), Mitsuba (albedo.R, sh_normal.X, nn.X, ...) or pbrt (Albedo.R, Ns.X, N.X). Noisy colours of Cycles
-/// are taken before filtered ones; guides of the layer that the colours are of. Without a channel R where the
-/// file has no colour.
+/// them. Missing guides are taken from its layers of first hits: ours (albedo, normal, depth), or colours and
+/// guides of Cycles (ViewLayer.Combined.R, ViewLayer.Noisy Image.R, ViewLayer.Denoising Albedo.R, ...),
+/// Mitsuba (albedo.R, sh_normal.X, nn.X, ...) or pbrt (Albedo.R, Ns.X, N.X). Noisy colours of Cycles are
+/// preferred to filtered ones, and guides come from the layer of the colours. The result has no channel R if
+/// the file has no colour.
 Image layersForFilter(const Image& file);
 
 }  // namespace fragtrace

@@ -174,7 +174,7 @@ Image cutTo(const Image& image, int width, int height) {
   return part;
 }
 
-/// What shows no surface has no noise, where the picture says which that is.
+/// Restores the pixels that show no surface, where the picture says which these are: they have no noise.
 void keepBackground(Triples& output, const Triples& color, const Image& noisy) {
   const std::optional<size_t> coverage = findChannel(noisy, kGuideChannels[3]);
   if (!coverage) return;

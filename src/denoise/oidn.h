@@ -14,7 +14,8 @@ namespace fragtrace {
 /// Called with the part done, 0..1, from one thread at a time; false stops the filter. Must not throw.
 using OidnProgress = std::function<bool(double)>;
 
-/// Whether the filter can look at the surfaces: the picture has albedo and normal of kGuideChannels.
+/// Returns true if the picture has the albedo and normal of kGuideChannels, by which the filter sees
+/// surfaces.
 bool hasOidnGuides(const Image& picture);
 
 /// R, G and B of the picture that `noisy` converges to, estimated from its linear R, G and B, which it must

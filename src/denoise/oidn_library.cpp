@@ -46,7 +46,7 @@ std::vector<std::filesystem::path> packageFolders() {
   return folders;
 }
 
-/// Of the dynamic loader, since the last call.
+/// The error of the dynamic loader since the last call.
 std::string loaderError() {
   const char* reason = dlerror();
   return reason == nullptr ? "cannot be opened" : reason;

@@ -28,7 +28,7 @@ using OidnProgressMonitor = bool (*)(void* user, double fraction);
 struct OidnFunctions {
   OidnDeviceHandle* (*newDevice)(int type);
   void (*commitDevice)(OidnDeviceHandle*);
-  /// The first error since the last call, and what it says; of the calling thread where there is no device.
+  /// The first error since the last call, and its message. Without a device it is that of the calling thread.
   int (*getDeviceError)(OidnDeviceHandle*, const char** message);
   int (*getDeviceInt)(OidnDeviceHandle*, const char* name);
   void (*releaseDevice)(OidnDeviceHandle*);
@@ -58,7 +58,7 @@ struct OidnLibrary {
 /// Throws UsageError that says what was looked for, or why a file that was named does not serve.
 OidnLibrary openOidn(const std::filesystem::path& chosen);
 
-/// Whether openOidn() opens one file that the user has named, or looks for any.
+/// Returns true if openOidn() opens one file that the user has named, false if it looks for any.
 bool namesOidn(const std::filesystem::path& chosen);
 
 }  // namespace fragtrace

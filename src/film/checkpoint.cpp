@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A line that says what the file is, a line with the length of the header, the header in JSON, then the
-// arrays one after the other.
+// A checkpoint begins with a line that says what the file is, then a line with the length of the header, the
+// header in JSON, and the arrays one after the other.
 #include "film/checkpoint.h"
 
 #include <cstring>
@@ -63,7 +63,7 @@ class Reader {
 
 nlohmann::json sizeJson(glm::ivec2 size) { return {size.x, size.y}; }
 
-/// Throws std::runtime_error for one that no film can have.
+/// Reads the size of a film. Throws std::runtime_error for one that no film can have.
 glm::ivec2 sizeOf(const nlohmann::json& json) {
   const glm::ivec2 size(json.at(0).get<int>(), json.at(1).get<int>());
   checkImageSize(size.x, size.y, 4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a render that was broken off goes on from, as a file.
+// The file from which an interrupted render continues.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,8 @@ struct FilmState {
   uint64_t lightPaths = 0;
 };
 
-/// How far adaptive sampling is: of each block of pixels the samples of a half before the round under way,
-/// and after it. Without blocks it has not begun.
+/// The progress of adaptive sampling: for each block of pixels, the samples of a half before the current
+/// round and after it. Without blocks it has not begun.
 struct AdaptiveState {
   std::vector<int32_t> samples;
   std::vector<int32_t> targets;
@@ -33,7 +33,7 @@ struct AdaptiveState {
   double seconds = 0.0;  ///< that drawing has taken
 };
 
-/// A render between two draws. What it is a render of, and what was measured, are texts of whoever writes it.
+/// A render between two draws. The caller writes the texts that say what is rendered and what was measured.
 struct Checkpoint {
   std::string job;                ///< JSON of all that its samples depend on
   std::string statistics;         ///< JSON of the parts before the one under way
@@ -44,10 +44,11 @@ struct Checkpoint {
   AdaptiveState adaptive;
 };
 
-/// Of this machine's byte order and layout.
+/// The bytes have this machine's byte order and layout.
 std::vector<uint8_t> encodeCheckpoint(const Checkpoint& checkpoint);
 
-/// Throws std::runtime_error with the bare reason when the bytes are not what encodeCheckpoint() makes.
+/// Reads a checkpoint. Throws std::runtime_error with the bare reason if encodeCheckpoint() did not make
+/// these bytes.
 Checkpoint decodeCheckpoint(std::span<const uint8_t> bytes);
 
 }  // namespace fragtrace

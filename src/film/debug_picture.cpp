@@ -10,7 +10,8 @@ namespace fragtrace {
 
 namespace {
 
-/// Per cent, as --noise has it: of the pixel's mean and a hundredth of the picture's.
+/// Relative errors in per cent, as --noise defines them: relative to the pixel's mean plus a hundredth of the
+/// picture's mean.
 Image relativeErrors(const FilmPixels& film, std::span<const double> variance) {
   constexpr double kFloor = 0.01;
   double mean = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A debug view as a picture, from the film that was drawn for it.
+// Turns the film that was drawn for a debug view into a picture.
 #pragma once
 
 #include "film/film_pixels.h"
@@ -7,8 +7,8 @@
 
 namespace fragtrace {
 
-/// Colours R, G, B as they are to be displayed. The film holds the view's feature, node visits, or, for
-/// counts of samples and their variance, radiance. `variance` is as for imageOf().
+/// Colours R, G, B for display. The film holds the view's feature, node visits, or, for counts of samples and
+/// their variance, radiance. `variance` is as for imageOf().
 Image debugPicture(DebugView view, const FilmPixels& film, std::span<const double> variance = {});
 
 }  // namespace fragtrace

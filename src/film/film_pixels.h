@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The film on the host: what was summed in each pixel, and what follows from it.
+// The film on the host: the sums of each pixel, and values that follow from them.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace fragtrace {
 
-/// What one pixel holds (shaders/film.glsl).
+/// The sums and counts of one pixel (shaders/film.glsl).
 struct FilmPixel {
   glm::dvec3 sum{0.0};  ///< of radiance, or of a feature
   double alpha = 0.0;   ///< sum
@@ -23,10 +23,10 @@ struct FilmPixel {
   uint32_t flags = 0;
 
   glm::dvec3 mean() const { return sum / double(samples > 0 ? samples : 1); }
-  /// The pixel counts as it is, or as laid over white where its shadow is in alpha alone
+  /// The luminance of the pixel as it is, or as laid over white if its shadow is in alpha alone
   /// (image/over_white.h).
   double luminance() const;
-  /// Of the mean's luminance, from samples taken as independent; 0 below two samples.
+  /// The variance of the mean's luminance, as if samples were independent; 0 below two samples.
   double variance() const { return samples > 1 ? m2 / (double(samples) * (double(samples) - 1.0)) : 0.0; }
 };
 
@@ -38,7 +38,7 @@ struct FilmPixels {
   uint64_t lightPaths = 0;  ///< whose light is in the sums
 };
 
-/// What the film counted, over all pixels.
+/// The film's counts, summed over all pixels.
 struct FilmTotals {
   uint64_t samples = 0;
   uint64_t rays = 0;
@@ -63,8 +63,8 @@ struct Layers {
   bool variance = false;  ///< variance.Y: of the mean's luminance
 };
 
-/// Means of the samples, the first row at the top. `variance`, if not empty, holds a better estimate than
-/// FilmPixel::variance, in the order of the pixels. Says whether its luminance is that over white.
+/// Means of the samples, the first row at the top. If `variance` is not empty, it holds a better estimate
+/// than FilmPixel::variance, in the order of the pixels. The image says if its luminance is that over white.
 Image imageOf(const FilmPixels& film, const Layers& layers, std::span<const double> variance = {});
 
 /// One channel, Y: number(i) of pixel i of a film of that size, the first row at the top.

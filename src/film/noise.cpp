@@ -11,7 +11,7 @@ namespace fragtrace {
 namespace {
 
 constexpr int kWindow = 16;  // pixels a side of one cell of the windows' grid; a window is 3 x 3 cells
-/// How many pixels' worth of the whole picture's ratio stand beside a window's own.
+/// The ratio of the whole picture counts as much as so many pixels of a window.
 constexpr double kPrior = 24.0;
 
 /// Sums over pixels, by which a ratio of variances and its reliability are known.
@@ -37,8 +37,8 @@ struct Grid {
   Sums& at(int x, int y) { return cells[size_t(y) * size_t(size.x) + size_t(x)]; }
 };
 
-/// Variance that the sampler leaves over that of independent samples: the window's own, drawn towards the
-/// whole picture's the more the fewer pixels it rests on.
+/// The ratio of the variance that the sampler leaves to that of independent samples: the window's own ratio,
+/// pulled towards the whole picture's. The fewer pixels the window has, the stronger the pull.
 double sharesOf(const Sums& window, double overall) {
   if (window.independent <= 0.0) return overall;
   const double pixels = window.independent * window.independent / std::max(window.squares, 1e-300);
@@ -73,7 +73,8 @@ std::vector<double> varianceOfMean(const Halves& halves) {
       if (a.samples == 0 || b.samples == 0) continue;
       const double apart = a.luminance() - b.luminance();
       const double independent = a.variance() + b.variance();
-      // Relative to the pixel's own brightness, so that the brightest do not drown the rest.
+      // Differences are relative to the pixel's own brightness, so that the brightest do not outweigh the
+      // rest.
       const double scale =
           1.0 / std::max(1e-300, std::pow(0.5 * (a.luminance() + b.luminance()) + floor, 2.0));
       const Sums own{apart * apart * scale, independent * scale, independent * independent * scale * scale};
@@ -81,7 +82,8 @@ std::vector<double> varianceOfMean(const Halves& halves) {
       whole.add(own);
     }
   }
-  // The whole picture's ratio is drawn towards 1, that of independent samples: one pixel tells nothing.
+  // The whole picture's ratio is pulled towards 1, that of independent samples, since one pixel tells
+  // nothing.
   const double overall = whole.independent > 0.0 ? sharesOf(whole, 1.0) : 1.0;
 
   std::vector<double> shares(grid.cells.size());
@@ -129,8 +131,9 @@ std::vector<double> observedVariance(const FilmPixels& quarter, const FilmPixels
     first += weight * std::pow(quarter.pixels[i].luminance() - middle, 2.0);
     second += weight * observed[i];
   }
-  // Where the variance falls as N^-p, the distance from half to whole is 2^p - 1 of it, and the distances
-  // fall as 2^p. Independent samples have p = 1; beyond 2 the ratio is one of small numbers.
+  // If the variance falls as N^-p, the squared distance from half to whole is on average 2^p - 1 times the
+  // variance, and these distances fall as 2^p. Independent samples have p = 1; beyond 2 the ratio is one of
+  // small numbers.
   const double ratio = second > 0.0 ? std::clamp(first / second, 2.0, 4.0) : 2.0;
   for (double& value : observed) value /= ratio - 1.0;
   return observed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far the film still is from the picture it converges to, estimated from its samples alone.
+// Estimates the distance of the film from the picture to which it converges, from its samples alone.
 #pragma once
 
 #include <vector>
@@ -14,36 +14,35 @@ struct Halves {
   FilmPixels b;
 };
 
-/// Whether a goal of noise looks at the pixel: a camera sample has hit something there, or its samples
+/// Returns true if a noise goal counts the pixel: a camera sample has hit something there, or its samples
 /// differ.
 inline bool canBeNoisy(const FilmPixel& pixel) { return pixel.alpha > 0.0 || pixel.m2 > 0.0; }
 
-/// 0.01 x the mean luminance: keeps errors of dark pixels from counting for more than can be seen.
+/// 0.01 x the mean luminance. With it, errors of dark pixels count no more than can be seen.
 double floorOf(const FilmPixels& film);
 
-/// Variance of the luminance of every pixel's mean, from samples taken as independent and from what its
-/// neighbours tell (noise_neighbours.h).
+/// The variance of the luminance of every pixel's mean, as if samples were independent, improved by its
+/// neighbours (noise_neighbours.h).
 std::vector<double> independentVariance(const FilmPixels& film);
 
-/// Variance of the luminance of every pixel's mean over both halves. A pixel's samples say what independent
-/// ones would give; the squared differences between the halves say, over a window about the pixel, how much
-/// of that is left by the sampler, whose points are not independent (docs/design/accuracy.md).
+/// The variance of the luminance of every pixel's mean over both halves. A pixel's samples give the variance
+/// of independent samples. The squared differences between the halves tell, over a window about the pixel,
+/// how much of it the sampler leaves, whose points are not independent (docs/design/accuracy.md).
 std::vector<double> varianceOfMean(const Halves& halves);
 
-/// One observation of the variance of each pixel's mean luminance: its squared distance from what the first
-/// half of its samples gave, in units of what that distance is expected to be. Stratified samples converge
-/// faster than independent ones; how much faster, the step before it tells, from a quarter to a half. All are
-/// of one picture, `whole` with at least four samples per pixel. One observation is no estimate: average
-/// many.
+/// One observation of the variance of each pixel's mean luminance: the squared distance of all samples from
+/// the first half of them, divided by its expected value. Stratified samples converge faster than independent
+/// ones; the step from a quarter to a half tells how much faster. All are of one picture, `whole` with at
+/// least four samples per pixel. One observation is no estimate: average many.
 std::vector<double> observedVariance(const FilmPixels& quarter, const FilmPixels& half,
                                      const FilmPixels& whole);
 
-/// Standard error of each pixel over (its mean + 0.01 x the picture's mean), luminances both; 0 where all is
-/// black.
+/// The standard error of each pixel over (its mean + 0.01 x the picture's mean), both of luminance; 0 if all
+/// is black.
 std::vector<double> relativeErrors(const FilmPixels& pooled, const std::vector<double>& variance);
 
-/// How far a picture is from a goal of noise, of the pixels that can be noisy and of those of them that light
-/// has met, whichever is farther: what is black would else hide the little that is lit.
+/// The distance of a picture from a noise goal: of the pixels that can be noisy, or of those among them that
+/// light has reached, whichever is larger. Otherwise black pixels would hide the few that are lit.
 struct GoalDistance {
   double error = 0.0;  ///< that 95 % of the pixels do not exceed; 0 without any
   double share = 1.0;  ///< of the pixels, at or below the goal
@@ -52,7 +51,7 @@ GoalDistance distanceTo(double goal, const FilmPixels& film, const std::vector<d
 
 inline constexpr double kPartUnderGoal = 0.95;  ///< of these pixels
 
-/// The pixel in the order of size such that this part of all pixels is no larger.
+/// The smallest value that this part of all values does not exceed.
 double quantileOf(std::vector<double> values, double part);
 
 }  // namespace fragtrace

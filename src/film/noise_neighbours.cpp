@@ -11,13 +11,13 @@ namespace fragtrace {
 namespace {
 
 constexpr int kCell = 8;  // pixels a side; neighbours are those in 3 x 3 cells
-/// From so much evidence on a pixel counts for itself alone.
+/// From this evidence on, a pixel counts for itself alone.
 constexpr double kEnoughEvidence = 8.0;
 
-/// How much a pixel lacks, 0 to 1.
+/// The share of evidence that a pixel lacks, 0 to 1.
 double lackOf(const FilmPixel& p) { return std::max(0.0, 1.0 - evidenceOf(p) / kEnoughEvidence); }
 
-/// Of the samples of pixels, as far as these lack evidence: the edge of a lamp says nothing of the wall.
+/// Sums over pixels, each weighted by its lack of evidence: the edge of a lamp says nothing about the wall.
 struct Pooled {
   double samples = 0.0;
   double light = 0.0;    ///< sum of luminance
@@ -35,7 +35,7 @@ struct Pooled {
     light += other.light;
     squares += other.squares;
   }
-  /// Relative variance of one sample.
+  /// The relative variance of one sample.
   double relative(double floor) const {
     if (!(samples > 0.0)) return 0.0;
     const double scale = std::abs(light) / samples + floor;
@@ -57,7 +57,7 @@ struct Cells {
   }
   Pooled& at(int x, int y) { return sums[size_t(y) * size_t(size.x) + size_t(x)]; }
 
-  /// Of the cells round that one.
+  /// The relative variance over the cells around that one.
   double relative(int x, int y, double floor) {
     Pooled window;
     for (int ny = std::max(0, y - 1); ny <= std::min(size.y - 1, y + 1); ++ny) {

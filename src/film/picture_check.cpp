@@ -14,9 +14,9 @@ namespace {
 constexpr int kBlock = 8;
 constexpr double kRounding = 1e-4;  // of what is shown, in sums of floats
 
-/// Of the difference of two means of luminance. Pooled over both pictures, so that one rare bright sample
-/// widens it on whichever side it falls; each picture's own where that is more, since they may sample in
-/// different ways.
+/// The variance of the difference of two means of luminance. It is pooled over both pictures, so that one
+/// rare bright sample widens it on whichever side it falls. Where a picture's own variance is larger, that is
+/// used, since the two may sample in different ways.
 double varianceOfDifference(const FilmPixel& a, const FilmPixel& b, CheckAgainst against) {
   const double na = a.samples;
   const double nb = b.samples;
@@ -38,14 +38,15 @@ struct ApartSums {
     shown += s.shown;
     pixels += s.pixels;
   }
-  /// Standard errors that the means are apart, where `least` is what rounding and the eye allow, of one
-  /// pixel.
+  /// The number of standard errors between the means. `least` is the difference in one pixel that rounding
+  /// and the eye allow.
   double errors(double least) const {
     return std::abs(difference) / std::max(std::sqrt(variance), least * pixels);
   }
 };
 
-/// Both have samples everywhere, and only numbers.
+/// The reason why the pictures cannot be compared (their sizes, pixels without samples, values that are not
+/// finite); empty if they can.
 std::string whyNotComparable(const FilmPixels& picture, const FilmPixels& other) {
   if (picture.size != other.size || picture.pixels.empty()) return "it is not of the same size";
   for (size_t i = 0; i < picture.pixels.size(); ++i) {
@@ -64,13 +65,13 @@ std::string percent(double part) {
   return text;
 }
 
-/// Fills in all figures.
+/// Fills in all figures of the check.
 void measure(const FilmPixels& picture, const FilmPixels& other, CheckAgainst against, PictureCheck& check) {
   double shown = 0.0;
   for (const FilmPixel& p : other.pixels) shown += p.luminance();
   shown /= double(other.pixels.size());
 
-  // Step: blocks, and what they sum up to.
+  // Step: sum up blocks, and then all of them.
   ApartSums all;
   std::vector<ApartSums> blocks;
   double differing = 0.0;
@@ -96,10 +97,10 @@ void measure(const FilmPixels& picture, const FilmPixels& other, CheckAgainst ag
     }
   }
   for (ApartSums& block : blocks) {
-    // Few samples often miss what is rare, and then tell of no noise: the picture's is the least.
+    // Few samples often miss rare light, and then show no noise. So the picture's variance is the least.
     block.variance = std::max(block.variance, all.variance / all.pixels * block.pixels);
     const double least = kRounding * (std::abs(block.shown) / block.pixels + 0.01 * shown);
-    // All black in both: no error at all.
+    // If the block is black in both, there is no error at all.
     const double errors = block.difference != 0.0 ? block.errors(least) : 0.0;
     check.farBlocks += !(errors <= kBlockErrors);
     check.worstBlock = std::max(check.worstBlock, errors);
@@ -110,7 +111,7 @@ void measure(const FilmPixels& picture, const FilmPixels& other, CheckAgainst ag
   check.meanErrors = all.difference != 0.0 ? all.errors(kRounding * std::abs(shown)) : 0.0;
 }
 
-/// What is wrong by these figures; empty: nothing.
+/// Says what these figures show to be wrong; empty if nothing is.
 std::string verdict(const PictureCheck& check, CheckAgainst against, bool oneSample) {
   if (against == CheckAgainst::SameSamples) {
     if (check.differing <= kMostDiffering) return "";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether two noisy pictures show the same: what a benchmark asks of a picture before its time counts.
+// Decides if two noisy pictures show the same. Benchmarks check a picture in this way before its time counts.
 #pragma once
 
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace fragtrace {
 
-/// Which noise the other picture has.
+/// The kind of noise that the other picture has.
 enum class CheckAgainst : uint8_t {
   SameSamples,  ///< it was made of the very same samples: pixels are equal, but for rounding
   OtherSamples,
   NoiseFree,
 };
 
-/// How far a picture is from another of the same size. A block is 8 x 8 pixels; its standard error is
-/// estimated from the samples of both pictures, and at least that of the picture's mean block and a
-/// ten-thousandth of what it shows.
+/// The differences of a picture from another one of the same size. A block is 8 x 8 pixels. Its standard
+/// error is estimated from the samples of both pictures, and is at least that of the picture's mean block and
+/// a ten-thousandth of the block's value.
 struct PictureCheck {
   double rmse = 0.0;        ///< over pixels and colours
   double differing = 0.0;   ///< part of the pixels that are apart by more than rounding
@@ -33,12 +33,13 @@ inline constexpr double kMostFarBlocks =
 inline constexpr double kMostMeanErrors = 5.0;  ///< standard errors of the mean: one of 1.7 million by chance
 inline constexpr double kMostDiffering = 0.005;  ///< part of the pixels; the same samples only
 
-/// Pixels that are no numbers, that have no sample, and pictures of different sizes are wrong. Without two
-/// samples per pixel its noise is not known: only SameSamples can then be judged, and the rest is wrong.
+/// Checks a picture. Pixels that are not numbers or have no sample, and pictures of different sizes, are
+/// wrong. The noise of a picture with less than two samples per pixel is not known: only SameSamples can then
+/// be judged, and the rest is wrong.
 PictureCheck checkPicture(const FilmPixels& picture, const FilmPixels& other, CheckAgainst against);
 
-/// A picture file as film, of as many samples as its layers samples.Y and variance.Y say; without these of
-/// one sample. True in `noiseFree` for the latter.
+/// A picture file as a film, with as many samples as its layers samples.Y and variance.Y say. Without these
+/// it has one sample, and `noiseFree` becomes true.
 FilmPixels filmOf(const Image& picture, bool& noiseFree);
 
 }  // namespace fragtrace

@@ -25,33 +25,34 @@ class Context {
   bool software = false;  ///< a rasteriser on the processor
 };
 
-/// Makes a context: a GPU through EGL, else software EGL, else OSMesa; or only what `backend` names. `width`
-/// holds for the process (setVectorWidth). Throws ContextError saying what was tried and why each failed.
+/// Makes a context: a GPU through EGL, else software EGL, else OSMesa; or only the one that `backend` names.
+/// `width` holds for the process (setVectorWidth). Throws ContextError, which says what was tried and why
+/// each attempt failed.
 std::unique_ptr<Context> makeContext(Backend backend, VectorWidth width = VectorWidth::Auto);
 
-/// The two ways, each null on failure with the reasons appended to `tried`.
+/// The two ways. Each returns null on failure and appends the reasons to `tried`.
 std::unique_ptr<Context> makeEglContext(std::string& tried);
 std::unique_ptr<Context> makeOsMesaContext(std::string& tried);
 
 using GetProcAddress = void (*(*)(const char*))();
 
-/// A context that somebody else has made, for one thread.
+/// A context that other code has made, for one thread.
 struct OutsideContext {
   std::function<void()> enter;  ///< makes it current in the calling thread
-  std::function<void()> leave;  ///< none is, any more
+  std::function<void()> leave;  ///< leaves no context current
   GetProcAddress functions = nullptr;
 };
 
-/// Two that share their objects with somebody's, each for one thread at a time.
+/// Two contexts that share their objects with the window's, each for one thread at a time.
 struct SharedContexts {
   std::optional<OutsideContext> draws;
-  std::optional<OutsideContext> compiles;  ///< none: programs are compiled by who draws
+  std::optional<OutsideContext> compiles;  ///< none: programs are compiled where they draw
 };
 
 /// Enters that context, which is current until the result is destroyed. Throws ContextError.
 std::unique_ptr<Context> makeContext(const OutsideContext& outside);
 
-/// Fills the function table and the context's facts; false with a reason when it is no OpenGL 4.5.
+/// Fills the function table and the context's facts; false with a reason when it is not OpenGL 4.5.
 bool loadFunctions(Context& context, GetProcAddress getProcAddress, std::string& reason);
 
 }  // namespace fragtrace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// EGL without a display: devices by name first (hardware before software), then Mesa's surfaceless platform.
+// Makes contexts by EGL without a display: devices by name first (hardware before software), then Mesa's
+// surfaceless platform.
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
@@ -97,7 +98,7 @@ std::vector<Candidate> candidates(const EglFunctions& egl) {
   return hardware;
 }
 
-/// OpenGL 4.5 that says when it is lost, where the driver can tell.
+/// Makes a context of OpenGL 4.5 that reports when it is lost, where the driver can tell.
 EGLContext createContext(const EglFunctions& egl, EGLDisplay display, EGLConfig config) {
   std::vector<EGLint> wishes{EGL_CONTEXT_MAJOR_VERSION,       4,
                              EGL_CONTEXT_MINOR_VERSION,       5,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// OSMesa: Mesa's software rasteriser without any window system. Mesa 25.1 and later have neither the library
-// nor its header, so the part of the interface that is used stands here (Mesa 3D, OSMesa interface 11.2).
+// OSMesa is Mesa's software rasteriser without any window system. Mesa 25.1 and later have neither the
+// library nor its header, so this file declares the part of the interface that it uses (Mesa 3D, OSMesa
+// interface 11.2).
 #include <array>
 
 #include "gl/context.h"

@@ -6,8 +6,8 @@
 
 namespace fragtrace {
 
-/// Collects what the driver says through KHR_debug for as long as it lives (errors always; in debug builds
-/// everything above notifications). Call take() where the messages can be shown.
+/// Collects the driver's messages through KHR_debug while it lives (errors always; in debug builds everything
+/// above notifications). Call take() where the messages can be shown.
 class DebugLog {
  public:
   DebugLog();

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What is known of drivers: which stage of the pipeline runs the tracer fastest.
+// Choices by driver, such as the stage of the pipeline that runs the tracer fastest.
 #pragma once
 
 #include "gl/context.h"
 
 namespace fragtrace {
 
-/// Fragments, but compute in two cases: on software for scenes that are literals, where it was measured to
-/// be faster (docs/design/architecture.md, "The shader"); and on NVIDIA's data-centre GPUs, known by their
-/// names. Those are expected to run fragment shaders on a small part of the chip only; that compute is faster
-/// there has not been measured (docs/design/gpu.md).
+/// Chooses fragments, except in two cases: compute on software for scenes that are literals, where it was
+/// measured to be faster (docs/design/architecture.md, "The shader"); and compute on NVIDIA's data-centre
+/// GPUs, known by their names. These are expected to run fragment shaders on a small part of the chip only;
+/// that compute is faster there has not been measured (docs/measurements/gpu.md).
 Dispatch chooseDispatch(Dispatch wanted, const Context& context, bool literals);
 
 /// Returns true if this machine has a device that may be a GPU; without one, no driver need be asked.
@@ -23,17 +23,17 @@ bool isForGpu(Tune wanted, const Context& context);
 /// drivers do; llvmpipe has a cache on disk that the user may have switched off.
 bool keepsCompiled(const Context& context);
 
-/// Tells Mesa's software driver the width, for all contexts of the process; has to come before the first.
-/// Auto leaves it as it is. Pictures are the same bits.
+/// Tells Mesa's software driver the width, for all contexts of the process. It must be called before the
+/// first one is made. Auto leaves the width as it is. Pictures are the same bits.
 void setVectorWidth(VectorWidth width);
 
-/// The width that the driver computes with, by GL_RENDERER; 0: it does not say.
+/// The width with which the driver computes, by GL_RENDERER; 0 if it does not say.
 int vectorWidthOf(const std::string& renderer);
 
-/// Tells llvmpipe not to optimise what it compiles, if that saves more time than drawing so many paths then
-/// takes longer (docs/design/benchmarks.md); pictures are the same bits. For processes that draw once: it
-/// holds for all of their contexts, and has to come before the first. What GALLIVM_PERF says already stays.
-/// Returns whether it was told so.
+/// Tells llvmpipe not to optimise its programs, if that saves more time than drawing so many paths then takes
+/// longer (docs/measurements/benchmarks.md). Pictures are the same bits. It is for processes that draw once:
+/// it holds for all their contexts, and must be called before the first one is made. A GALLIVM_PERF that is
+/// already set stays. Returns true if llvmpipe was told.
 bool preferQuickCompilation(double paths);
 
 }  // namespace fragtrace

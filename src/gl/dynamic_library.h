@@ -8,7 +8,7 @@
 
 namespace fragtrace {
 
-/// A shared library opened by the first of its names that can be; stays open, since drivers do not survive
+/// A shared library, opened by the first of its names that works. It stays open, since drivers do not survive
 /// dlclose().
 class DynamicLibrary {
  public:
@@ -21,10 +21,10 @@ class DynamicLibrary {
     }
   }
   bool loaded() const { return handle_ != nullptr; }
-  /// Why the first of the names could not be opened.
+  /// The reason why the first of the names could not be opened.
   const std::string& error() const { return error_; }
 
-  /// Sets function to the symbol of that name; false when there is none.
+  /// Sets function to the symbol of that name; false when there is no such symbol.
   template <typename Function>
   bool find(const char* name, Function& function) const {
     function = reinterpret_cast<Function>(dlsym(handle_, name));

@@ -33,7 +33,7 @@ const char* errorName(GLenum error) {
 void checkGl(const char* where) {
   std::string errors;
   bool lost = false;
-  // A lost context reports its error for ever.
+  // A lost context reports its error without end.
   for (int i = 0; i < 8; ++i) {
     const GLenum error = glGetError();
     if (error == GL_NO_ERROR || lost) break;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OpenGL for the files of src/gl and src/render, and nobody else.
+// OpenGL, for the files of src/gl and src/render only.
 #pragma once
 
 #include <glad/gl.h>
@@ -10,23 +10,23 @@
 
 namespace fragtrace {
 
-/// Throws RenderError naming `where` and every pending OpenGL error; ContextLost if the context is.
+/// Throws RenderError that names `where` and every pending OpenGL error; ContextLost if the context is lost.
 void checkGl(const char* where);
 
-/// Fences between contexts that share objects, as GLsync; null, where the driver makes none, is signalled.
-/// One after all that this context was told, which is sent on its way.
+/// Fences between contexts that share objects, as GLsync. Null, which drivers without fences give, counts as
+/// signalled. makeFence() makes a fence after all commands of this context so far, and flushes them.
 void* makeFence();
-/// What this context is told from now on waits for it, and it is released.
+/// Commands of this context that follow wait for the fence, which is released.
 void awaitFence(void* fence);
 bool isSignalled(void* fence);
-/// Waits for it, and releases it; for all that this context was told, where there is none.
+/// Waits for the fence and releases it. Without a fence it waits for all commands of this context.
 void finishFence(void* fence);
 void releaseFence(void* fence);
 
-/// Until all that this context was told is done.
+/// Waits until all commands of this context are done.
 void waitForDevice();
 
-/// Bytes that this thread has moved between host and device, which who moves any counts.
+/// The number of bytes that this thread has moved between host and device. Code that moves bytes adds to it.
 uint64_t& movedBytes();
 
 /// A limit of the driver, such as GL_MAX_TEXTURE_SIZE. Throws as checkGl(): a lost context says 0.

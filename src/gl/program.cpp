@@ -7,8 +7,8 @@ namespace fragtrace {
 
 namespace {
 
-/// Its success is asked where a program does not link: drivers that compile in threads of their own
-/// would have to wait for it.
+/// The result is read only if a program does not link: drivers that compile in threads of their own would
+/// have to wait for it.
 GlShader compileShader(GLenum kind, const std::string& text) {
   GlShader shader(glCreateShader(kind));
   const char* pointer = text.c_str();

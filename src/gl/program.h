@@ -29,7 +29,7 @@ class ProgramCache {
   std::map<PixelFilter, GlProgram> splatters_;
 };
 
-/// What this driver's compiler understands; needs a current context.
+/// The source for this driver's compiler; needs a current context.
 ShaderSource shaderSource(const std::filesystem::path& folder);
 
 }  // namespace fragtrace

@@ -17,7 +17,7 @@ int64_t mostBytes(BufferReads reads, uint32_t binding, const ReadLimits& limits)
   return reads == BufferReads::Ssbo ? limits.storageBytes : limits.texels * texelBytes(binding);
 }
 
-/// Says what the driver has too little of to read the scene that way; empty when it has enough.
+/// Says which limit of the driver is too low to read the scene in that way; empty if none is.
 std::string whatIsTooLarge(const GpuScene& scene, BufferReads reads, const ReadLimits& limits) {
   constexpr int64_t kUnits = layout::kSceneImageBase + layout::kSceneBufferCount;
   if (reads == BufferReads::Image && limits.imageUnits < kUnits)

@@ -12,10 +12,11 @@ namespace fragtrace {
 /// The packed scene on the device, bound as storage buffers, image buffers or texel buffers.
 class SceneBuffers {
  public:
-  /// Frees each array of the scene as soon as the driver has it. Throws RenderError when one is larger than
-  /// this driver reads that way, or memory runs out.
+  /// Frees each array of the scene as soon as the driver has it. Throws RenderError if an array is larger
+  /// than this driver can read in that way, or if memory runs out.
   SceneBuffers(GpuScene& scene, BufferReads reads);
-  /// The same for the next scene, but for arrays that are unchanged. Throws the same, and then holds neither.
+  /// Does the same for the next scene, and leaves out unchanged arrays. Throws the same, and then holds
+  /// neither scene.
   void replace(GpuScene& scene);
   void bind() const;
 
@@ -29,16 +30,16 @@ class SceneBuffers {
   BufferReads reads_;
 };
 
-/// How much a driver reads each way.
+/// The largest arrays that a driver reads in each way.
 struct ReadLimits {
   int64_t texels = 0;  ///< of image and texel buffers
   int64_t storageBytes = 0;
   int64_t imageUnits = 0;
 };
-/// Of the current context.
+/// The limits of the current context.
 ReadLimits readLimits();
 
-/// Bytes of texels that can be read in the way that is wanted; for Auto, in the way that reads the most.
+/// Bytes of texels that can be read in the way asked for; for Auto, in the way that reads the most.
 int64_t mostTexelBytes(BufferReads wanted, const ReadLimits& limits);
 
 struct ReadChoice {
@@ -46,8 +47,8 @@ struct ReadChoice {
   std::string fallback;  ///< why it is not the read that is fastest on this driver; empty when it is
 };
 
-/// What was asked for; for Auto the read that is fastest on this driver (image buffers on software, storage
-/// buffers on GPUs), or the other one when only that reads arrays of this size.
+/// Returns the read asked for. For Auto it is the fastest on this driver (image buffers on software, storage
+/// buffers on GPUs), or the other one if only that reads arrays of this size.
 ReadChoice chooseReads(BufferReads wanted, bool software, const GpuScene& scene, const ReadLimits& limits);
 
 }  // namespace fragtrace

@@ -7,7 +7,7 @@ namespace fragtrace {
 
 namespace {
 
-/// An image unit of a scene buffer that the variant does not read; -1: there is none.
+/// An image unit of a scene buffer that the variant does not read; -1 if there is none.
 int freeImageUnit(const ShaderVariant& variant) {
   if (variant.reads != BufferReads::Image) return -1;
   const auto unit = [](uint32_t binding) { return int(layout::kSceneImageBase + binding); };
@@ -17,13 +17,14 @@ int freeImageUnit(const ShaderVariant& variant) {
   return -1;
 }
 
-/// On llvmpipe the wavefront takes 0.25 to 0.45 s longer to compile and saves 0.1 to 1.4 us of a processor a
-/// path: that is even at a quarter of a million paths in the room with the ball, at two million in Suzanne.
+/// On llvmpipe the wavefront takes 0.25 to 0.45 s longer to compile, and saves 0.1 to 1.4 us of processor
+/// time a path. That is even at a quarter of a million paths in the room with the ball, and at two million in
+/// Suzanne.
 constexpr double kFewPaths = 2e6;
-/// Rays of so few steps hardly wait for each other: many-lights, of 274 nodes, takes as long by both.
+/// Rays of so few steps hardly wait for each other: many-lights, of 274 nodes, takes equally long with both.
 constexpr size_t kSmallTree = 512;
 
-/// Why the megakernel draws; empty when the wavefront does.
+/// The reason why the megakernel draws; empty if the wavefront does.
 std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& options,
                           const ScheduleWork& work) {
   if (options.device.schedule == Schedule::Megakernel) return "--schedule";

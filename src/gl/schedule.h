@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which schedule draws a variant: the megakernel, or the wavefront of shaders/wavefront.glsl.
+// Chooses the schedule that draws a variant: the megakernel, or the wavefront of shaders/wavefront.glsl.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace fragtrace {
 
-/// What tells which schedule pays.
+/// The amount of work, by which a schedule is chosen.
 struct ScheduleWork {
   bool software = false;  ///< a rasteriser on the processor
   double paths = 0.0;     ///< that the picture will take
   size_t nodes = 0;       ///< of the tree
 };
 
-/// Settles between the megakernel and the wavefront, once reads and dispatch are known. Returns why it is the
+/// Chooses the megakernel or the wavefront, once reads and dispatch are known. Returns the reason for the
 /// megakernel, or nothing.
 std::string chooseSchedule(ShaderVariant& variant, const RenderOptions& options, const ScheduleWork& work);
 

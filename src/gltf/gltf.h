@@ -20,14 +20,14 @@ struct GltfOptions {
   InputLimits limits{};
 };
 
-/// An animated file as it was read, for further poses: its bytes are not looked at again.
+/// An animated file as it was read, for further poses: its bytes are not read again.
 struct KeptDocument;
 
-/// Reads a .gltf (with files beside it or data URIs) or .glb into a Scene whose geometry is recentred.
-/// Throws InputError naming the file, the JSON pointer and the reason, and UsageError for a selection that is
-/// not in the file; what is skipped lands in Scene::warnings.
-/// With `kept`, an animated file is left there, and the next call takes it from there: a call for the same
-/// file, with options that differ in pose, camera and origin alone. What throws may leave nothing there.
+/// Reads a .gltf (with files beside it or data URIs) or .glb into a Scene whose geometry is recentred. Throws
+/// InputError that names the file, the JSON pointer and the reason, and UsageError for a selection that is
+/// not in the file. Scene::warnings lists what is skipped. With `kept`, an animated file is stored there, and
+/// the next call reads it from there: a call for the same file, whose options differ only in pose, camera and
+/// origin. A call that throws may leave nothing there.
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options = {},
                std::shared_ptr<KeptDocument>* kept = nullptr);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which channels of a picture are its colour and its alpha, and what filters find beside them.
+// Names of a picture's channels: its colour, its alpha, and the guides of filters.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace fragtrace {
 
-/// What filters tell surfaces apart by, as means over the samples of a pixel: albedo, how much of the pixel
-/// shows a surface, normal, and depth in metres along the view axis (shaders/guides.glsl).
+/// The guides by which filters distinguish surfaces, as means over the samples of a pixel: albedo, the share
+/// of the pixel that shows a surface, normal, and depth in metres along the view axis (shaders/guides.glsl).
 inline constexpr std::array kGuideChannels{"denoising.albedo.R", "denoising.albedo.G", "denoising.albedo.B",
                                            "denoising.albedo.A", "denoising.normal.X", "denoising.normal.Y",
                                            "denoising.normal.Z", "denoising.depth.Z"};
@@ -19,9 +19,9 @@ inline constexpr std::array kGuideChannels{"denoising.albedo.R", "denoising.albe
 /// One observation of the variance (observedVariance() of film/noise.h).
 inline constexpr const char* kObservedChannel = "denoising.observed.Y";
 
-/// Whether 16-bit floats, with their 11 bits of precision up to 65504, do for a channel of that name: colours
-/// (.R .G .B .A), normals and roughness. All others keep 32 bits: numbers of samples, depths, variances,
-/// texture coordinates, and the identifiers of Cryptomatte.
+/// Returns true if 16-bit floats, with their 11 bits of precision up to 65504, suffice for a channel of that
+/// name: colours (.R .G .B .A), normals and roughness. All others keep 32 bits: numbers of samples, depths,
+/// variances, texture coordinates, and the identifiers of Cryptomatte.
 bool isStoredAsHalf(std::string_view channel);
 
 /// The index of the channel of that exact name.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the numbers of a picture file are stored, where its format leaves a choice.
+// The encoding of a picture file's numbers, where its format leaves a choice.
 #pragma once
 
 namespace fragtrace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a file may ask for before memory is given to it.
+// Limits on what a file may ask for, checked before memory is given to it.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ uint64_t defaultMemoryLimit();
 inline constexpr uint64_t kLeastMemoryBytes = 1'000'000;  // that --memory-limit takes
 inline constexpr int kLargestTextureSide = 65535;         // what the shader's slots hold
 
-/// What the user allows files from anywhere.
+/// The limits that the user sets for input files.
 struct InputLimits {
   uint64_t memoryBytes = defaultMemoryLimit();
   int textureSide = kLargestTextureSide;  ///< wider or higher textures are scaled down to this

@@ -18,8 +18,8 @@ bool isOverWhite(const Image& picture);
 /// The picture with R, G and B as laid over white.
 Image laidOverWhite(const Image& picture);
 
-/// R, G, B and A of a picture whose R, G and B, laid over white, are those of `seen`. Where the picture is
-/// black, alpha takes the difference; elsewhere colour does, as far as it stays positive.
+/// R, G, B and A of a picture whose colours, laid over white, are those of `seen`. Where the picture is
+/// black, alpha takes the difference; elsewhere the colour does, as far as it stays positive.
 Image liftedFromWhite(const Image& picture, const Image& seen);
 
 }  // namespace fragtrace

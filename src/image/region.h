@@ -13,7 +13,7 @@ struct Region {
   bool operator==(const Region&) const = default;
 };
 
-/// Where a picture lies in a larger one.
+/// The place of a picture in a larger one.
 struct Placement {
   glm::ivec2 corner{0};  ///< of its top left pixel, from the larger one's top left
   glm::ivec2 whole{0};   ///< size of the larger one

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// FNV-1a (Fowler, Noll and Vo), 64 bits: tells unequal contents apart and finds damage, not malice.
+// FNV-1a (Fowler, Noll and Vo), 64 bits. It distinguishes contents and finds damage, but does not protect
+// against malice.
 #pragma once
 
 #include <cstdint>

@@ -7,7 +7,8 @@
 
 namespace fragtrace {
 
-/// How much a matrix can at most enlarge the largest coordinate: the largest sum of a row's magnitudes.
+/// The largest factor by which a matrix can enlarge the largest coordinate: the largest sum of a row's
+/// magnitudes.
 inline double rowNorm(const glm::dmat3& m) {
   const glm::dvec3 sums = glm::abs(m[0]) + glm::abs(m[1]) + glm::abs(m[2]);
   return std::max({sums.x, sums.y, sums.z});

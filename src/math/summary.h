@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is said of a row of measurements.
+// Statistics of a series of measurements.
 #pragma once
 
 #include <span>

@@ -13,7 +13,7 @@ namespace fragtrace {
 
 namespace {
 
-/// Rows of the maps that the levels are made of: two texels a standard deviation of the lobe at least.
+/// Rows of the maps from which the levels are made: at least two texels for a standard deviation of the lobe.
 constexpr std::array<int, layout::kLobeLevels> kRowsOfLevel{28, 28, 28, 36, 72, 144};
 
 /// Weight of a texel of the map in a texel made of it.
@@ -23,8 +23,8 @@ struct Share {
   bool beyond = false;  ///< a row beyond a pole: half a turn away
 };
 
-/// Finds those of `count` columns or rows that make one of `parts`, by a tent as wide as two of whichever are
-/// wider: it leaves the middle of a sun where it is. Beyond the ends columns go round, and rows of a map
+/// Finds those of `count` columns or rows that make one of `parts`, by a tent twice as wide as the wider of
+/// the two. So the middle of a sun stays where it is. Beyond the ends columns wrap around, and rows of a map
 /// that gets finer repeat the last one.
 std::vector<Share> sharesOf(int part, int parts, int count, bool rows) {
   const double middle = (part + 0.5) * count / parts;
@@ -104,8 +104,8 @@ Irradiance irradianceOf(const MapRows& map) {
   // Moments of the radiance: integrals of 1, x, y, z, xy, yz, zx, x^2 - z^2 and y^2 times it.
   Irradiance moments{};
   for (int y = 0; y < map.height(); ++y) {
-    // A direction is (sin a cos b, cos a, sin a sin b). Integrals over the row's a of sin a times what
-    // depends on a.
+    // A direction is (sin a cos b, cos a, sin a sin b). These are integrals over the row's a of sin a times
+    // the factors that depend on a.
     const double from = kPi * y / map.height();
     const double to = kPi * (y + 1) / map.height();
     const auto over = [&](const auto& antiderivative) { return antiderivative(to) - antiderivative(from); };
@@ -115,8 +115,8 @@ Irradiance irradianceOf(const MapRows& map) {
     const double sine = over([](double a) { return 0.5 * a - 0.25 * std::sin(2.0 * a); });
     const double both = over([](double a) { return std::pow(std::sin(a), 3) / 3.0; });
     const double sine2 = over([](double a) { return std::pow(std::cos(a), 3) / 3.0 - std::cos(a); });
-    // Sums over the row of the radiance times integrals over the texels' b of 1, cos b, sin b, cos 2b, sin
-    // 2b.
+    // These are sums over the row of the radiance times integrals over the texels' b of 1, cos b, sin b, cos
+    // 2b, sin 2b.
     std::array<glm::dvec3, 5> sums{};
     for (int x = 0; x < map.width; ++x) {
       const glm::dvec3 radiance = texelOf(map, size_t(y), size_t(x));
@@ -145,7 +145,7 @@ double exponentOfLevel(int level) { return 2.0 * std::pow(4.0, level) - 2.0; }
 MapRows lobesOf(const MapRows& map, int level) {
   constexpr double kLeast = 1e-3;
   const double exponent = exponentOfLevel(level);
-  // It ends without a step, which a sun would show.
+  // The lobe ends without a step, which a sun would show.
   const auto lobe = [&](double cosine) {
     return cosine > 0.0 ? std::pow(0.5 + 0.5 * cosine, 0.5 * exponent) * cosine - kLeast : -1.0;
   };

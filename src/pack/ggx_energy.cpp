@@ -34,8 +34,8 @@ GgxEnergyTable makeTable() {
       table.loss.push_back(float(1.0 - albedo(x * x, y * y)));
     }
   }
-  // 2 * integral of loss(mu) mu dmu, through the same interpolation the shader uses, so that nothing is
-  // gained or lost by it.
+  // 2 * integral of loss(mu) mu dmu, by the same interpolation as in the shader, so that interpolation gains
+  // or loses no light.
   for (int j = 0; j < kNodes; ++j) {
     const double y = double(j) / kGgxEnergyCells;
     constexpr int kSteps = 1024;

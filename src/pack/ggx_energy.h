@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much energy single scattering loses between the facets of a GGX surface, as a table for the shader.
+// The energy that single scattering loses between the facets of a GGX surface, as a table for the shader.
 #pragma once
 
 #include <vector>

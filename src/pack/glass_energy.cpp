@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kSamplesASide = 20;  // of the unit square
 
-// The terms of shaders/fresnel.glsl, in double precision.
+// These are the terms of shaders/fresnel.glsl, in double precision.
 
 double refractedSquared(double cosine, double eta) { return (eta - 1.0) * (eta + 1.0) + cosine * cosine; }
 
@@ -30,8 +30,8 @@ double reflectance(double cosine, double eta) {
   return 0.5 * (parallel * parallel + perpendicular * perpendicular);
 }
 
-/// The mean over visible normals of what each facet reflects and transmits to the right side, times G2 / G1.
-/// `eta`: index behind over before.
+/// The mean over visible normals of the light that a facet reflects and transmits to the right side, times G2
+/// / G1. `eta`: index behind over before.
 double glassAlbedo(double cosine, double alpha, double eta) {
   if (alpha <= 0.0) return 1.0;
   return meanOverVisibleNormals(

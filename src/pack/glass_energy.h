@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much of the light rough glass gives back under single scattering, as a table for the shader.
+// The share of light that rough glass returns under single scattering, as a table for the shader.
 #pragma once
 
 #include <vector>
@@ -12,9 +12,9 @@ struct GlassAlbedoTable {
   std::vector<float> inside;
 };
 
-/// What a boundary of that index (above 0) reflects and transmits together, of white light from everywhere,
-/// by quadrature over visible normals; within 0.01 of the integral (tests/pure/glass_energy_test.cpp). Made
-/// when it is first asked for, and kept.
+/// The sum of the light that a boundary of that index (above 0) reflects and transmits, for white light from
+/// everywhere. It is integrated by quadrature over visible normals, within 0.01 of the integral
+/// (tests/pure/glass_energy_test.cpp). The first call makes a table, which is then kept.
 const GlassAlbedoTable& glassAlbedoTable(double ior);
 
 }  // namespace fragtrace

@@ -16,7 +16,8 @@ namespace fragtrace {
 
 using Words = std::vector<uint32_t>;
 
-/// What surrounds the scene: kind and, unless there is none, an equirectangular picture with R, G, B.
+/// The surroundings of the scene: their kind and, unless there are none, an equirectangular picture with R,
+/// G, B.
 struct Environment {
   Surroundings kind = Surroundings::None;
   Image image;
@@ -29,7 +30,7 @@ struct BoxGrid {
   glm::vec3 cell{1.0f};
 };
 
-/// What light samples in gi choose between, in one unit of power.
+/// The powers between which light samples in gi choose, in one unit.
 struct LightShare {
   bool samplesEnvironment = false;
   double environment = 0.0;  ///< at an intensity of 1
@@ -57,17 +58,16 @@ struct GpuScene {
   std::array<bool, layout::kSceneBufferCount> unchanged{};  ///< those that are as packed before: empty here
 
   size_t bytes() const;
-  /// Of these, what the primitives take: tree, leaves, faces and vertex attributes.
+  /// The part of these that the primitives take: tree, leaves, faces and vertex attributes.
   size_t geometryBytes() const;
 };
 
 struct KeptArrays;
 
-/// Packs what the variant reads; textures wider or higher than `textureSide` are scaled down. The tree may be
-/// a plain list of leaves without nodes (iterative traversal). Throws InputError when a texture cannot be
-/// decoded.
-/// With `kept`, pictures that stand there are not packed again (GpuScene::unchanged), and it learns of those
-/// that are.
+/// Packs the arrays that the variant reads. Textures wider or higher than `textureSide` are scaled down. The
+/// tree may be a plain list of leaves without nodes (iterative traversal). Throws InputError when a texture
+/// cannot be decoded. With `kept`, pictures that it holds are not packed again (GpuScene::unchanged), and it
+/// learns of those that are.
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
                    const ShaderVariant& variant, int textureSide = kLargestTextureSide,
                    KeptArrays* kept = nullptr);

@@ -13,8 +13,8 @@ namespace {
 constexpr uint64_t kUnits = 65536;  // numbers of a step
 constexpr size_t kMostChanges = 2;  // of the density within a step
 
-/// Parts of constant density: where each begins, and the number that draws its beginning; the end stands
-/// behind.
+/// Runs of constant density: the place where each begins, and the number that draws its beginning; the end
+/// comes last.
 struct Runs {
   std::vector<uint32_t> places;
   std::vector<uint64_t> numbers;
@@ -25,8 +25,8 @@ struct Runs {
   }
 };
 
-/// The number that draws the beginning of each place, and the count of numbers: by the weights, whose sum is
-/// given, and one number more for each that is not zero, so that none is left out.
+/// The number that draws the beginning of each place, and the count of numbers. They follow the weights,
+/// whose sum is given, with one number more for each weight that is not zero, so that none is left out.
 std::vector<uint64_t> numbersOf(std::span<const float> weights, double sum, uint64_t count) {
   uint64_t positive = 0;
   for (float w : weights) positive += w > 0.0f ? 1 : 0;
@@ -43,8 +43,8 @@ std::vector<uint64_t> numbersOf(std::span<const float> weights, double sum, uint
   return numbers;
 }
 
-/// Appends those of the places [first, last], at which the density changes within one step, where it changes
-/// most.
+/// Appends those of the places [first, last], at which the density changes within one step, at which it
+/// changes most.
 void appendChanges(Runs& runs, std::span<const float> weights, const std::vector<uint64_t>& numbers,
                    size_t first, size_t last) {
   static_assert(kMostChanges == 2);
@@ -89,7 +89,7 @@ Runs runsOf(std::span<const float> weights, const std::vector<uint64_t>& numbers
   return runs;
 }
 
-/// The place that a number draws, of a run that has numbers.
+/// The place that a number draws in a run that has numbers.
 float placeAt(const Runs& runs, size_t run, uint64_t number) {
   const double part = double(number - runs.numbers[run]) / double(runs.numbers[run + 1] - runs.numbers[run]);
   return float(double(runs.places[run]) + part * double(runs.places[run + 1] - runs.places[run]));

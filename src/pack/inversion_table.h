@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tables that invert distributions in constant time, so that numbers that are stratified stay so in what is
-// drawn: neighbouring numbers draw neighbours, which an alias table scatters.
+// Tables that invert distributions in constant time. Neighbouring numbers draw neighbouring places, so
+// stratified numbers give stratified places; an alias table would scatter them.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace fragtrace {
 
-/// One of the equal steps of a table over [0, 1): the place drawn is linear in the number between the step's
+/// One of the equal steps of a table over [0, 1). The place drawn is linear in the number between the step's
 /// ends and up to two places where the density changes (shaders/environment.glsl: invertTable).
 struct InversionStep {
   float first = 0.0f;  ///< place at the beginning of the step
@@ -21,14 +21,14 @@ struct InversionStep {
 static_assert(sizeof(InversionStep) == 16);
 
 /// Fills `steps` so that they draw a place in [0, weights.size()) by a density that is constant between whole
-/// numbers, and replaces the weights by that density (its mean is 1). It is proportional to the weights, but
-/// where the density changes more than twice within one step: it then does so where the weights differ most.
-/// Weights are finite and not negative, and there are at most 65,535; all zero: drawn evenly. Returns their
-/// sum.
+/// numbers, and replaces the weights by that density (its mean is 1). It is proportional to the weights,
+/// unless the density changes more than twice within one step: it then changes where the weights differ most.
+/// Weights are finite and not negative, and there are at most 65,535. If all are zero, places are drawn
+/// evenly. Returns their sum.
 double makeInversionTable(std::span<float> weights, std::span<InversionStep> steps);
 
-/// Where an index drawn by its weight begins and ends among 2^32 equally likely numbers, with a guide table
-/// (Chen and Asau, On Generating Random Variates from an Empirical Distribution, 1974).
+/// The range of an index among 2^32 equally likely numbers, by its weight, with a guide table (Chen and Asau,
+/// On Generating Random Variates from an Empirical Distribution, 1974).
 struct InversionEntry {
   uint32_t first = 0;  ///< the index that the first number of the entry's equal share of the numbers draws
   uint32_t last = 0;   ///< that its last number draws

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What need not be packed again for the next picture of a sequence: the pictures of textures and environment,
-// which stay on the device.
+// The pictures of textures and environment, which stay on the device and need not be packed again for the
+// next picture of a sequence.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -14,7 +14,7 @@
 
 namespace fragtrace {
 
-/// Where a picture lies among the texels, and its mean linear colour and alpha.
+/// The place of a picture among the texels, and its mean linear colour and alpha.
 struct PlacedTexels {
   uint32_t first = 0;
   int width = 0;

@@ -16,14 +16,14 @@ namespace fragtrace {
 
 namespace {
 
-/// Bounds are wider by so much, for what the shader computes in single precision.
+/// Bounds are wider by this, because the shader computes in single precision.
 constexpr double kMargin = 2e-3;
 constexpr int kBuckets = 12;
 constexpr int kDeepest = 40;  ///< deeper nodes are split by count
 
-/// The cost of lights below one node: how much they shine, over which directions, from where (Conty Estevez
-/// and Kulla 2018, equation 1; pbrt 12.6.3). The box of lights in a line has no area, so its diagonal counts
-/// a little.
+/// The cost of the lights below one node: their intensity, times a measure of their directions, times the
+/// area of their box (Conty Estevez and Kulla 2018, equation 1; pbrt 12.6.3). The box of lights in a line has
+/// no area, so its diagonal counts a little.
 double costOf(const LightBounds& b) {
   const double spread = b.spread;
   const double wide = std::min(spread + b.falloff, glm::pi<double>());
@@ -35,7 +35,7 @@ double costOf(const LightBounds& b) {
   return b.intensity * directions * (2.0 * (d.x * d.y + d.y * d.z + d.z * d.x) + 0.01 * glm::dot(d, d));
 }
 
-/// Of lights whose middles lie between two places: the bucket along an axis.
+/// Sorts lights whose middles lie between two places into buckets along an axis.
 struct Buckets {
   glm::dvec3 low{INFINITY};
   glm::dvec3 high{-INFINITY};
@@ -55,7 +55,7 @@ struct Border {
   int bucket = 0;  ///< the first beyond it
 };
 
-/// The cheapest border between these buckets, at a price for boxes that are split along a short side.
+/// The cheapest border between these buckets; boxes that are split along a short side cost more.
 Border cheapestOf(const std::array<std::optional<LightBounds>, kBuckets>& buckets, int axis, double price) {
   std::array<double, kBuckets> below{};
   std::optional<LightBounds> part;
@@ -104,7 +104,7 @@ Border Builder::cheapest(uint32_t first, uint32_t end, const Buckets& buckets) c
   return best;
 }
 
-/// Puts lights into two parts, and says where the second one begins.
+/// Divides lights into two parts, and returns where the second one begins.
 uint32_t Builder::split(uint32_t first, uint32_t end, int depth) {
   const auto begin = order.begin() + first;
   const auto last = order.begin() + end;
@@ -161,7 +161,7 @@ void appendLightNodes(std::vector<uint32_t>& words, std::span<const LightNode> n
     const LightBounds& b = node.bounds;
     const double radius = radiusOf(b);
     appendRow(words, glm::vec3(0.5 * (b.low + b.high)), float(b.intensity));
-    // A cosine of 1 stays 1: of one flat lamp, the direction is known.
+    // A cosine of 1 stays 1, because the direction of one flat lamp is known.
     const double cosine = std::cos(b.spread) - (b.spread > 0.0 ? kMargin : 0.0);
     const double thick = radius > 0.0 ? thicknessOf(b) / radius + kMargin : 0.0;
     const uint32_t kind = (node.light == kMissIndex ? 0u : layout::kLightLeaf) |

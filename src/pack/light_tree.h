@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A tree over lights, which the shader descends to choose one by what it may send to a point
+// A tree over lights. The shader descends it to choose one by what it may send to a point
 // (scene/light_bounds.h).
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace fragtrace {
 
-/// A node's children are neighbours, `child` and `child` + 1; of a leaf `light` is the index of its one
+/// A node's children are neighbours, `child` and `child` + 1. In a leaf, `light` is the index of its one
 /// light.
 struct LightNode {
   LightBounds bounds;

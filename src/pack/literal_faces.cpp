@@ -29,10 +29,11 @@ double largestCoordinate(const LiteralFace& f, const std::vector<glm::vec3>& poi
   return largest;
 }
 
-/// What corners may be off by, in parts of the largest coordinate, for their rounding.
+/// The rounding error that corners may have, in parts of the largest coordinate.
 constexpr double kTolerance = 0x1p-22;
-/// What the last corner may be off the others' plane by, in parts of the least height of a corner over the
-/// diagonal beside it: seen so nearly edge-on that this shows, the quadrilateral is no longer convex.
+/// The largest distance of the last corner from the others' plane, in parts of the least height of a corner
+/// over the diagonal beside it. From directions so nearly edge-on that a larger distance shows, the
+/// quadrilateral would not be convex.
 constexpr double kBend = 0x1p-20;
 
 bool isFlatAndConvex(const LiteralFace& f, const std::vector<glm::vec3>& points) {
@@ -54,13 +55,13 @@ bool isParallelogram(const LiteralFace& f, const std::vector<glm::vec3>& points)
   return glm::length(at(0) - at(1) + at(2) - at(3)) <= kTolerance * largestCoordinate(f, points);
 }
 
-/// Two triangles that share an edge, as a flat and convex quadrilateral.
+/// Joins two triangles that share an edge to a flat and convex quadrilateral.
 std::optional<LiteralFace> joined(const LiteralFace& a, const LiteralFace& b, Joining joining,
                                   const std::vector<glm::vec3>& points) {
   for (uint32_t i = 0; i < 3; ++i) {
     for (uint32_t j = 0; j < 3; ++j) {
-      // The first's edge (i + 2, i) is the second's (j + 1, j + 2) the other way round; j is the corner
-      // opposite.
+      // The first one's edge (i + 2, i) is the second one's (j + 1, j + 2) the other way round; j is the
+      // corner opposite.
       if (a.corner[(i + 2) % 3] != b.corner[(j + 2) % 3] || a.corner[i] != b.corner[(j + 1) % 3]) continue;
       LiteralFace quad = a;
       quad.quad = true;

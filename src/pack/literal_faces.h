@@ -29,10 +29,10 @@ struct LiteralMesh {
   std::vector<LiteralFace> faces;
 };
 
-/// What two triangles of the same plane, material and sides may be joined to.
+/// The shapes that two triangles of the same plane, material and sides may form.
 enum class Joining : uint8_t { None, Parallelograms, ConvexQuadrilaterals };
 
-/// The triangles in the leaves from firstLeaf on. emissiveApart: those that emit light are not joined.
+/// The triangles in the leaves from firstLeaf on. emissiveApart: triangles that emit light are not joined.
 LiteralMesh literalMesh(const Scene& scene, const Bvh& bvh, uint32_t firstLeaf, Joining joining,
                         bool emissiveApart = false);
 

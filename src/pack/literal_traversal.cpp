@@ -24,13 +24,14 @@ std::string number(double x) {
   return x < 0.0 ? "(" + s + ")" : s;
 }
 
-/// A number that is known by its name or by the name of its opposite: negating would cost an instruction.
+/// A number that is known by its name or by the name of its opposite, because negating would cost an
+/// instruction.
 struct Term {
   std::string name;
   bool negated = false;
 };
 
-/// The sum of products of terms and factors (none: the term alone), those that count as positive first.
+/// The sum of products of terms and factors (an empty factor: the term alone), positive ones first.
 std::string sumOf(std::vector<std::pair<Term, std::string>> products) {
   std::ranges::stable_sort(products, {}, [](const auto& p) { return p.first.negated; });
   std::string text;
@@ -43,9 +44,8 @@ std::string sumOf(std::vector<std::pair<Term, std::string>> products) {
 }
 
 /// The rows turn a point into the sheared plane (x mirrored, so that fronts count as positive) and into the
-/// distance along the ray; w is what the origin takes off. The plane is scaled by kLiteralScale, a power of
-/// two that makes the mesh about one wide, so that products of areas and distances neither overflow nor
-/// underflow.
+/// distance along the ray; w is the origin's part. The plane is scaled by kLiteralScale, a power of two that
+/// makes the mesh about one wide, so that products of areas and distances neither overflow nor underflow.
 constexpr const char* kHead = R"(
 vec4 literalRow(vec3 row, vec3 origin) { return vec4(row, -dot(row, origin)); }
 
@@ -91,7 +91,7 @@ class TraversalText {
  private:
   static constexpr const char* kAxes[3] = {".x", ".y", ".z"};
 
-  /// The axis along which most points share both other coordinates: their part of the projection is made
+  /// The axis along which most points share both other coordinates; their part of the projection is computed
   /// once.
   int singleAxis() const {
     int best = 0;
@@ -111,7 +111,8 @@ class TraversalText {
     return glm::length(box.extent());
   }
 
-  /// A variable that holds an expression, made where it is first needed, so that few are alive at a time.
+  /// A variable that holds an expression. It is made where it is first needed, so that few are alive at a
+  /// time.
   std::string variable(const std::string& expression) {
     const auto found = variables_.find(expression);
     if (found != variables_.end()) return found->second;
@@ -130,7 +131,7 @@ class TraversalText {
     return a.empty() || b.empty() ? a + b : a + " + " + b;
   }
 
-  /// A point's coordinate in a row.
+  /// The coordinate of a point in a row.
   std::string place(const std::string& row, uint32_t point) {
     const glm::vec3& p = mesh_.points[point];
     const int a = (single_ + 1) % 3;
@@ -161,8 +162,9 @@ class TraversalText {
     return {variable(xi + " * " + yj + " - " + yi + " * " + xj), i > j};
   }
 
-  /// Whether the face is so small beside the mesh, or some corner's sides so close, that the edge functions
-  /// are rounding for rays that pass far away (docs/design/numerics.md, "Zero from far away").
+  /// Returns true if the face is so small beside the mesh, or the sides at a corner so close together, that
+  /// the edge functions are only rounding for rays that pass far away (docs/design/numerics.md, "Zero from
+  /// far away").
   bool isTiny(const LiteralFace& f) const {
     constexpr double kShare = 0x1p-18;
     constexpr double kSmall = 0x1p-10;
@@ -179,7 +181,7 @@ class TraversalText {
     return !(least >= kShare * size_) || longest < kSmall * size_;
   }
 
-  /// True where a row of all corners has one sign: the ray passes outside of their box (zeroBeyond of
+  /// A condition: all corners have one sign in a row, so the ray passes outside their box (zeroBeyond of
   /// shaders/intersect.glsl).
   std::string sameSigns(const std::string& row, const LiteralFace& f, size_t corners) {
     std::string text;
@@ -189,13 +191,13 @@ class TraversalText {
     return text;
   }
 
-  /// Whether distances are to be those to the face's plane (shaders/intersect.glsl, distanceToPlane).
+  /// Returns true if distances are measured to the face's plane (shaders/intersect.glsl, distanceToPlane).
   bool isSliverFace(const LiteralFace& f) const {
     const auto at = [&](size_t i) { return mesh_.points[f.corner[i]]; };
     return isSliver({at(0), at(1), at(2)}) || (f.quad && isSliver({at(0), at(2), at(3)}));
   }
 
-  /// The cosine between ray and normal from which on the plane's distance is the better one
+  /// The plane's distance is the better one if the cosine between ray and normal exceeds this
   /// (distanceToPlane).
   static double roughFacing(const std::array<glm::vec3, 3>& v) {
     const double largest = hitPointError(v) * 0x1p19;
@@ -209,8 +211,8 @@ class TraversalText {
     return text;
   }
 
-  /// Where it is the better one (shaders/intersect.glsl, distanceToPlane) the distance to the face's plane
-  /// replaces t over sum; `area` keeps the sum of the edges.
+  /// The distance to the face's plane replaces t over sum where it is the better one (shaders/intersect.glsl,
+  /// distanceToPlane). `area` keeps the sum of the edges.
   void planeDistance(const LiteralFace& f) {
     const auto at = [&](size_t i) { return mesh_.points[f.corner[i]]; };
     const glm::dvec4 plane(planeOf(at(0), at(1), at(2)));
@@ -267,10 +269,10 @@ class TraversalText {
     tellTriangle(f);
     const bool sliver = isSliverFace(f);
     if (f.culled) {
-      // All edges zero make t zero, too, but for the plane's.
+      // If all edges are zero, t is zero too, except where it is the plane's.
       const std::string front = positive + (sliver ? "sum > 0.0" : "t > 0.0");
       if (backFaces_) {
-        // Light paths may ask for backs (Traversal.both of shaders/traverse.glsl).
+        // Light paths may need backs (Traversal.both of shaders/traverse.glsl).
         body_ += "  hit = " + front + " || (kLightPaths && s.both && (" + negative + "sum < 0.0));\n";
         body_ += "  t = sum < 0.0 ? -t : t;\n  sum = abs(sum);\n  hit = hit && t > 0.0;\n";
       } else {
@@ -287,7 +289,8 @@ class TraversalText {
   }
 
   /// The edge functions opposite to the second and third vertex of the triangle that is hit, as parts of the
-  /// sum of all edges; signs are left open. Of a parallelogram's two triangles `inFirst` tells which.
+  /// sum of all edges; their signs are not settled. `inFirst` tells which of a parallelogram's two triangles
+  /// is hit.
   std::string weightsOf(const LiteralFace& f, const std::vector<Term>& e) {
     if (!f.quad) return "vec2(" + e[2].name + ", " + e[0].name + ")";
     if (!weights_) return {};
@@ -305,7 +308,7 @@ class TraversalText {
     return "(2.0 * vec2(" + text + "))";
   }
 
-  /// Which of both triangles a line that meets the parallelogram meets.
+  /// Decides which of both triangles a line meets that meets the parallelogram.
   void tellTriangle(const LiteralFace& f) {
     if (!f.quad || !weights_) return;
     const Term diagonal = edge(f.corner[0], f.corner[2]);
@@ -313,8 +316,8 @@ class TraversalText {
         "  inFirst = (" + diagonal.name + (diagonal.negated ? " <= 0.0" : " >= 0.0") + ") == (sum >= 0.0);\n";
   }
 
-  /// What is hit, at t over sum, replaces the best if it is nearer; `weights` over sum are the barycentric
-  /// ones.
+  /// A hit at t over sum replaces the best one if it is nearer; `weights` over sum are the barycentric
+  /// weights.
   void keepNearest(const LiteralFace& f, const std::string& weights) {
     if (isTiny(f)) {
       for (const std::string row : {"rx", "ry"})

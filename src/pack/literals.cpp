@@ -18,8 +18,8 @@ std::string word(uint32_t x) {
   return text;
 }
 
-/// An expression that is values[index], by halves; equal values need no choice. Values nobody asks for are
-/// nothing.
+/// An expression for values[index], by bisection. Equal values need no choice, and values that nobody asks
+/// for may be anything.
 std::string chosen(const std::string& index, const std::vector<std::optional<uint32_t>>& values, size_t from,
                    size_t to) {
   std::optional<uint32_t> only;
@@ -71,16 +71,16 @@ uvec4 literalEmitter(int emitter, int row) { return uvec4(0u); }
 constexpr double kFace = 55.0;
 constexpr double kVisit = 260.0;
 constexpr double kLockstep = 1.6;
-// Of the same machine, two cores: what was saved in the Cornell box, over the instructions above; what a face
-// adds to the compilation.
+// Measured on the same machine with two cores: the time saved in the Cornell box over the instructions above,
+// and the time by which a face makes compilation longer.
 constexpr double kNanosecondsAnInstruction = 0.25;
 constexpr double kCompilationOfAFace = 4e6;  // nanoseconds
 constexpr double kRaysAPath = 7.0;
 
-/// Barycentric weights are told of both triangles of a parallelogram alike.
+/// Both triangles of a parallelogram have the same formula for barycentric weights.
 Joining joiningFor(bool weights) { return weights ? Joining::Parallelograms : Joining::ConvexQuadrilaterals; }
 
-/// The light tree tells the triangles of a lamp apart.
+/// The light tree needs the triangles of a lamp apart.
 bool partsLamps(const ShaderVariant& variant) { return has(variant.traits, Trait::LightTree); }
 
 LiteralOptions optionsOf(const ShaderVariant& variant, bool whole) {

@@ -12,20 +12,21 @@ namespace fragtrace {
 /// it can.
 std::string whyNoLiterals(const Scene& scene, const GpuScene& packed);
 
-/// Whether drawing so many paths with every triangle as a literal takes less time than walking the tree, by
-/// the expected instructions of both and the longer compilation (docs/design/traversal.md). Never for scenes
-/// with spheres, or whose faces, materials and emitters are too many to choose from.
+/// Returns true if drawing so many paths with every triangle as a literal takes less time than walking the
+/// tree. It weighs the expected instructions of both and the longer compilation (docs/design/traversal.md).
+/// Scenes with spheres, or with too many faces, materials or emitters to choose from, are never drawn so.
 bool paysAsLiterals(const Scene& scene, const Bvh& bvh, const GpuScene& packed, double paths);
 
-/// Whether a tree without the large triangles, which are tested first, takes less work than one of all.
+/// Returns true if a tree without the large triangles, which are then tested first, takes less work than a
+/// tree of all.
 bool paysBeside(const Bvh& tree, const Bvh& beside);
 
-/// The text for a tree beside which there are triangles (Bvh::besideTree): only these are literals.
+/// The text for a tree with triangles beside it (Bvh::besideTree): only these are literals.
 std::string largeFirst(const Scene& scene, const Bvh& bvh, const ShaderVariant& variant);
 
-/// The text that takes the place of shaders/literals.glsl for this scene: triangles that share a vertex share
-/// its projection, those that share an edge its edge function, so that the tests are as watertight as those
-/// of the tree; two triangles that make a parallelogram are one test.
+/// The text that replaces shaders/literals.glsl for this scene. Triangles that share a vertex share its
+/// projection, and those that share an edge share its edge function, so the tests are as watertight as those
+/// of the tree. Two triangles that make a parallelogram are one test.
 std::string literalScene(const Scene& scene, const Bvh& bvh, const GpuScene& packed,
                          const ShaderVariant& variant);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDimRadiance = 0.01;
 
-/// Of emissive surfaces by material, m^2 of local space.
+/// Areas of emissive surfaces by material, m^2 of local space.
 std::vector<double> emissiveAreas(const Scene& scene) {
   std::vector<double> areas(scene.materials.size(), 0.0);
   for (const Triangle& t : scene.triangles) {

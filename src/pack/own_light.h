@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether a scene lights itself.
+// Decides if a scene lights itself.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ enum class OwnLight : uint8_t {
   Enough,  ///< lights, emission without a texture, or textures that shine
 };
 
-/// Emissive textures are dim when their light, spread over the box round the scene, is less than a radiance
-/// of 0.01. They are decoded for that where nothing else shines. Throws InputError for a picture that cannot
-/// be decoded.
+/// Emissive textures are dim when their light, spread over the box around the scene, is less than a radiance
+/// of 0.01. They are decoded to find that out if nothing else shines. Throws InputError for a picture that
+/// cannot be decoded.
 OwnLight ownLight(const Scene& scene);
 
 }  // namespace fragtrace

@@ -36,7 +36,7 @@ void forEachRow(int rows, const Work& work) {
 
 double sineOfRow(const Image& image, int y) { return std::sin(glm::pi<double>() * (y + 0.5) / image.height); }
 
-/// Radiance and luminance of a row's texels; gives the sum of the luminance.
+/// Writes radiance and luminance of a row's texels; returns the sum of the luminance.
 double copyRow(const Image& image, int y, std::span<uint32_t> texels) {
   const float* p = image.pixel(0, y);
   double sum = 0.0;
@@ -57,7 +57,7 @@ std::vector<float> weightsOf(std::span<const uint32_t> texels, float level) {
   return weights;
 }
 
-/// The mean, unless the map is so even that hardly a texel is brighter.
+/// The mean, unless the map is so even that hardly any texel is brighter.
 float levelOf(const PackedEnvironment& packed, double mean) {
   constexpr double kEven = 1.01;
   for (size_t i = 3; i < packed.texels.size(); i += 4) {
@@ -118,9 +118,9 @@ PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws) {
   const size_t stepCount = size_t(std::clamp(image.width / 2, 1, layout::kMostEnvironmentSteps));
   const size_t stepWords = stepCount * 4;
   const bool drawn = draws != EnvironmentDraws::Nothing;
-  // Step: two large arrays, whose pages are made at once.
+  // Step: make two large arrays, whose pages are made at the same time.
   runOnThreads(2, [&](uint32_t part) {
-    // A map that is not drawn from may get its light appended, which must not copy it all.
+    // The light of a map that is not drawn from may be appended, which must not copy the whole array.
     if (part == 0 && !drawn) packed.texels.reserve(rows * rowWords + mostLightWords());
     if (part == 0) packed.texels.resize(rows * rowWords);
     if (part == 1 && drawn) packed.inversion.resize(rows * 4 + rows * stepWords);
@@ -129,7 +129,7 @@ PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws) {
     return std::span(packed.texels).subspan(size_t(y) * rowWords, rowWords);
   };
 
-  // Step: what is seen.
+  // Step: copy the radiance.
   std::vector<double> sums(rows);
   forEachRow(image.height, [&](int y) {
     sums[size_t(y)] = copyRow(image, y, texelsOf(y)) / image.width * sineOfRow(image, y);
@@ -138,7 +138,7 @@ PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws) {
   packed.power = 2.0 * glm::pi<double>() * glm::pi<double>() * glm::pi<double>() * sum / double(rows);
   if (!drawn) return packed;
 
-  // Step: each row's table, and the table of the rows.
+  // Step: make each row's table, and the table of the rows.
   double sines = 0.0;
   for (int y = 0; y < image.height; ++y) sines += sineOfRow(image, y);
   const std::span<uint32_t> inversion(packed.inversion);

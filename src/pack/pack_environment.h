@@ -5,7 +5,7 @@
 
 namespace fragtrace {
 
-/// What draws directions from the environment.
+/// The distribution by which directions to the environment are drawn.
 enum class EnvironmentDraws {
   Nothing,
   Light,          ///< light samples alone: each direction by its luminance
@@ -22,7 +22,7 @@ struct PackedEnvironment {
       0.0;  ///< luminance that falls on a disk of unit radius from all around: pi * integral over directions
 };
 
-/// Irradiance of a plane that faces up (+Y) by all of an equirectangular map with R, G, B.
+/// Irradiance of a plane that faces up (+Y), from all of an equirectangular map with R, G, B.
 glm::vec3 upwardIrradiance(const Image& image);
 
 /// Appends radiance and, in place of a density, 0.

@@ -9,9 +9,9 @@ namespace fragtrace {
 /// is no area. The distance belongs to the rounded normal, in the middle of the triangle.
 glm::vec4 planeOf(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2);
 
-/// What shading needs to know of each primitive, in the order of the tree's leaf slots (layout.glsl: face
-/// rows), with their insets where `creases`. Throws InputError when the materials are too many for a face
-/// word.
+/// Packs the data of each primitive that shading needs, in the order of the tree's leaf slots (layout.glsl:
+/// face rows), with insets where `creases`. Throws InputError when there are more materials than a face word
+/// can name.
 Words packFaces(const Scene& scene, const Bvh& bvh, bool creases);
 
 }  // namespace fragtrace

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kPi = glm::pi<double>();
 
-/// Rows 1 to 3 of an emissive triangle, but what it is.
+/// Appends rows 1 to 3 of an emissive triangle, without its kind.
 void appendEdges(Words& words, const Scene& scene, const Triangle& t) {
   const auto [v0, v1, v2] = cornersOf(scene, t);
   const uint32_t doubleSided = scene.materials[t.material].doubleSided ? layout::kEmitterDoubleSided : 0u;
@@ -39,7 +39,7 @@ struct Emitter {
 
 void appendEmissive(std::vector<Emitter>& emitters, const Scene& scene,
                     std::span<const glm::vec3> materialRadiance, std::span<const uint32_t> slots) {
-  // Far below what a ray can be aimed at; the shader divides by the area.
+  // A smaller triangle is far below what a ray can be aimed at; the shader divides by the area.
   constexpr double kLeastArea = 1e-30;
   for (size_t i = 0; i < scene.triangles.size(); ++i) {
     const Triangle& t = scene.triangles[i];
@@ -66,7 +66,8 @@ uint32_t spreadBits(uint32_t x) {
   return (x | x << 2) & 0x09249249u;
 }
 
-/// Along a Morton curve through their box, so that numbers that are close draw emitters that are.
+/// Orders emitters along a Morton curve through their box, so that numbers that are close draw emitters that
+/// are close.
 void orderInSpace(std::vector<Emitter>& emitters) {
   if (emitters.empty()) return;
   glm::dvec3 low(INFINITY);
@@ -94,7 +95,7 @@ LightBounds boundsOf(const Emitter& e, const Scene& scene, std::span<const glm::
                           scene.materials[t.material].doubleSided);
 }
 
-/// The nodes, and the leaf of each slot.
+/// Appends the nodes, and the leaf of each slot.
 void appendTree(Words& words, std::span<const Emitter> emitters, std::span<const LightBounds> bounds,
                 size_t slotCount) {
   const std::vector<LightNode> nodes = buildLightTree(bounds);
@@ -160,7 +161,7 @@ Words packLights(const Scene& scene) {
     const float type = light.type == LightType::Point  ? layout::kLightPoint
                        : light.type == LightType::Spot ? layout::kLightSpot
                                                        : layout::kLightDirectional;
-    // KHR_lights_punctual, reference code of the spot's angular attenuation.
+    // This is the reference code of KHR_lights_punctual for the spot's angular attenuation.
     const float cosOuter = std::cos(light.outerConeAngle);
     const float scale = 1.0f / std::max(0.001f, std::cos(light.innerConeAngle) - cosOuter);
     appendRow(words, light.intensity, type);

@@ -14,7 +14,7 @@ struct PackedEmitters {
 };
 
 /// materialRadiance: mean radiance of each material's surface; slots: leaf slot of each triangle; slotCount:
-/// of the tree; radius: of the scene.
+/// that of the tree; radius: that of the scene.
 PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> materialRadiance,
                             std::span<const uint32_t> slots, size_t slotCount, double radius,
                             const ShaderVariant& variant);
@@ -22,7 +22,7 @@ PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> mater
 /// Punctual lights, kLightRows vec4 each.
 Words packLights(const Scene& scene);
 
-/// In local space.
+/// The area of a triangle in local space.
 double triangleArea(const Scene& scene, const Triangle& t);
 
 }  // namespace fragtrace

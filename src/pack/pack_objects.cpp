@@ -9,7 +9,7 @@ namespace fragtrace {
 
 namespace {
 
-/// Of a triangle of a shared mesh 0: its instances have numbers.
+/// Triangles of a shared mesh have the number 0: their instances have numbers.
 uint32_t objectNumberOf(const Scene& scene, uint32_t primitive) {
   if (primitive == kMissIndex) return 0;
   if (primitive >= scene.triangles.size())

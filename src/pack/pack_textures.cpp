@@ -36,7 +36,7 @@ uint32_t wrapFlags(Wrap wrap, uint32_t clamp, uint32_t mirror) {
   return wrap == Wrap::ClampToEdge ? clamp : wrap == Wrap::MirroredRepeat ? mirror : 0u;
 }
 
-/// The size scaled down until both sides are at most `side`.
+/// Scales the size down until both sides are at most `side`.
 glm::ivec2 within(glm::ivec2 size, int side) {
   const int larger = std::max(size.x, size.y);
   if (larger <= side) return size;
@@ -44,7 +44,7 @@ glm::ivec2 within(glm::ivec2 size, int side) {
   return glm::max(glm::ivec2(glm::round(glm::dvec2(size) * scale)), glm::ivec2(1));
 }
 
-/// Of all of the scene's pictures, scaled down to `side`.
+/// The bytes of all pictures of the scene, each scaled down to at most `side`.
 int64_t bytesWithin(const Scene& scene, int side) {
   constexpr int64_t kTexelBytes = 8;
   int64_t sum = 0;
@@ -139,7 +139,7 @@ glm::uvec4 TexturePacker::slot(const TextureRef& ref, TransferCurve curve) {
           ref.transformed() ? transformRow(ref.transform) : 0u};
 }
 
-/// Of its first row; the same transform is kept once.
+/// The index of the transform's first row; the same transform is kept once.
 uint32_t TexturePacker::transformRow(const TextureTransform& transform) {
   const auto known = std::find(transforms_.begin(), transforms_.end(), transform);
   const size_t index = size_t(known - transforms_.begin());

@@ -10,11 +10,12 @@ namespace fragtrace {
 /// The largest width and height at which all of the scene's pictures together take at most so many bytes.
 int textureSideWithin(const Scene& scene, int64_t mostBytes);
 
-/// Decodes textures on demand into one array of texels (RGBA as linear half floats); each image once a curve.
+/// Decodes textures on demand into one array of texels (RGBA as linear half floats); each image once for each
+/// curve.
 class TexturePacker {
  public:
-  /// Wider or higher pictures than `side` are scaled down to it. `known` are in the array already, of a scene
-  /// with the same images; as long as no other is asked for, nothing is decoded.
+  /// Pictures wider or higher than `side` are scaled down to it. The array already holds `known`, of a scene
+  /// with the same images; as long as no other picture is asked for, nothing is decoded.
   TexturePacker(const Scene& scene, int side, PlacedTextures known = {})
       : scene_(scene), side_(side), placed_(std::move(known)), known_(placed_.size()) {}
 
@@ -24,19 +25,19 @@ class TexturePacker {
   /// Mean of a texture's linear colour and alpha, 1 for none.
   glm::vec4 mean(const TextureRef& ref, TransferCurve curve);
 
-  /// The rows of the transforms, which stand behind those of all materials.
+  /// Appends the rows of the transforms, which come after those of all materials.
   void appendTransforms(Words& materials) const;
 
   Words takeTexels() { return std::move(texels_); }
   const PlacedTextures& placed() const { return placed_; }
-  /// Whether all were known.
+  /// Returns true if all were known.
   bool allKnown() const { return placed_.size() == known_; }
 
  private:
   const PlacedTexels& place(uint32_t image, TransferCurve curve);
   /// Both append the texels and return the sum of their linear colours.
   glm::dvec4 append(const TexelImage& texels, TransferCurve curve);
-  /// Each texel is the mean of those that it stands for, in linear light.
+  /// Each texel is the mean of those that it replaces, in linear light.
   glm::dvec4 appendScaled(const TexelImage& texels, TransferCurve curve, glm::ivec2 size);
 
   const Scene& scene_;

@@ -16,10 +16,10 @@ Words packNodes(const Bvh& bvh, const BoxGrid& grid);
 /// Leaves as structure of arrays, padded with empty ones to a multiple of kLeafBlock.
 Words packLeaves(const Scene& scene, const Bvh& bvh);
 
-/// For each triangle, the leaf slot (leaf * 2 + side) it stands in.
+/// For each triangle, its leaf slot (leaf * 2 + side).
 std::vector<uint32_t> leafSlots(const Scene& scene, const Bvh& bvh);
 
-/// Leaves of two primitives in file order, without a tree: what the iterative traversal walks.
+/// Leaves of two primitives in file order, without a tree, for the iterative traversal.
 Bvh listLeaves(const Scene& scene);
 
 }  // namespace fragtrace

@@ -14,7 +14,7 @@ namespace {
 constexpr int kHeights = 32;  // of the quadrature
 constexpr int kTurns = 24;
 
-// The distribution and the fit of shaders/sheen.glsl, in double precision.
+// These are the distribution and the fit of shaders/sheen.glsl, in double precision.
 
 double fit(double x, double alpha) {
   const double t = (1.0 - alpha) * (1.0 - alpha);
@@ -53,7 +53,7 @@ double albedo(double cosine, double alpha, const std::array<Height, kHeights>& h
   for (const Height& in : heights) {
     double around = 0.0;
     for (int j = 0; j < kTurns; ++j) {
-      // The integrand is even in phi, so half of the circle does.
+      // The integrand is even in phi, so half of the circle is enough.
       const double phi = glm::pi<double>() * (j + 0.5) / kTurns;
       const glm::dvec3 h(sine + in.sine * std::cos(phi), in.sine * std::sin(phi), cosine + in.cosine);
       const double sine2 = (h.x * h.x + h.y * h.y) / glm::dot(h, h);

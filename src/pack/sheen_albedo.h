@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much light the lobe of KHR_materials_sheen sends back, as a table for the shader.
+// The albedo of the lobe of KHR_materials_sheen, as a table for the shader.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@ struct SheenAlbedoTable {
   std::vector<float> albedo;
 };
 
-/// The table by quadrature, within 0.1 % of the integral (tests/pure/sheen_albedo_test.cpp); it is made when
-/// first asked for, in some 50 ms.
+/// The table by quadrature, within 0.1 % of the integral (tests/pure/sheen_albedo_test.cpp). The first call
+/// makes it, in about 50 ms.
 const SheenAlbedoTable& sheenAlbedoTable();
 
 /// Bilinear look-up, as shaders/energy.glsl does it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Quadrature over the GGX facets that are seen from a direction, for tables of what they do with light.
+// Quadrature over the GGX facets that are visible from a direction, for tables of their light.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@ inline double smithLambda(const glm::dvec3& v, double alpha) {
 }
 
 /// The mean of valueOf(outgoing, half vector) over the visible normals (Dupuy and Benyoub, Sampling Visible
-/// GGX Normals with Spherical Caps, 2023), seen at `cosine`, by samplesASide x samplesASide of them; alpha
-/// above 0. For values that are even about the plane of the normal and the viewer.
+/// GGX Normals with Spherical Caps, 2023), seen at `cosine`, by samplesASide x samplesASide of them; alpha is
+/// above 0. The value must be even about the plane of the normal and the viewer.
 template <typename Value>
 double meanOverVisibleNormals(double cosine, double alpha, int samplesASide, const Value& valueOf) {
   const double mu = std::max(cosine, 1e-4);
@@ -26,9 +26,9 @@ double meanOverVisibleNormals(double cosine, double alpha, int samplesASide, con
   double sum = 0.0;
   for (int a = 0; a < samplesASide; ++a) {
     const double phi = glm::pi<double>() * (a + 0.5) / samplesASide;  // half of the circle
-    // Each column is shifted by another golden part of a step: the value falls to 0 where light would go
-    // below the horizon, and seen from above that edge would lie between two rows of a plain grid for all
-    // phi.
+    // Each column is shifted by another golden part of a step. The value falls to 0 where light would go
+    // below the horizon; on a plain grid, seen from above, that edge would lie between the same two rows for
+    // all phi.
     const double shift = glm::fract((a + 0.5) * 0.6180339887498949);
     for (int b = 0; b < samplesASide; ++b) {
       const double z = (1.0 - (b + shift) / samplesASide) * (1.0 + stretched.z) - stretched.z;

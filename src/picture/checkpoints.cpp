@@ -31,9 +31,9 @@ bool isFile(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path, error);
 }
 
-/// Whether the output is a whole picture. An .exr says whether its render was interrupted, and by how many
-/// samples of which seed; throws UsageError when these are others. Pictures of other formats only have to be
-/// readable.
+/// Returns true if the output is a whole picture. An .exr says if its render was interrupted, and how many
+/// samples of which seed it has; throws UsageError when these are others. Pictures of other formats only have
+/// to be readable.
 bool isWholePicture(const RenderOptions& options) {
   Image picture;
   try {
@@ -61,7 +61,7 @@ bool isWholePicture(const RenderOptions& options) {
   return true;
 }
 
-/// Throws InputError unless films, looks and blocks have the sizes of the part that is under way.
+/// Throws InputError unless films, looks and blocks have the sizes of the part in progress.
 void checkShape(const Checkpoint& c, const PictureJob& job, const DrawingPlan& plan) {
   const auto check = [&](bool right) {
     if (!right)
@@ -84,8 +84,9 @@ void checkShape(const Checkpoint& c, const PictureJob& job, const DrawingPlan& p
   check(first || glm::ivec2(c.picture.width, c.picture.height) == job.loaded.region.size);
 }
 
-/// Returns true if the render asked for only has more samples than that of the checkpoint: then it goes on
-/// to these. What filters look at on the way, and parts that are done, have the samples that were asked for.
+/// Returns true if the render asked for differs from the checkpoint's only by more samples: then it continues
+/// to these. Films read on the way for filters, and finished parts, have the samples that were asked for
+/// before.
 bool growsTo(const Checkpoint& checkpoint, const std::string& asked) {
   auto there = nlohmann::json::parse(checkpoint.job, nullptr, false);
   auto wanted = nlohmann::json::parse(asked, nullptr, false);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The checkpoint beside a picture that is being drawn: written now and then, read by the render that goes on,
-// removed when the picture is there.
+// The checkpoint beside a picture in progress. It is written now and then, read by the render that continues,
+// and removed when the picture is there.
 #pragma once
 
 #include <functional>
@@ -11,37 +11,38 @@
 
 namespace fragtrace {
 
-/// JSON of all that a picture's samples depend on, one member a setting: settingsText(), the samples asked
-/// for, the shader variant and the parts.
+/// JSON of everything on which a picture's samples depend, one member for each setting: settingsText(), the
+/// samples asked for, the shader variant and the parts.
 std::string jobText(const PictureJob& job, const DrawingPlan& plan);
 
-/// What was measured, as JSON: of the parts before the one under way, and how long drawing has taken.
+/// The measurements as JSON: those of the parts before the current one, and the time that drawing has taken.
 std::string measuredText(const Statistics& before, const RenderTimes& now);
 
-/// Puts back what measuredText() was given. Throws std::runtime_error.
+/// Restores what measuredText() saved. Throws std::runtime_error.
 void restoreMeasured(const std::string& text, Statistics& stats);
 
-/// The checkpoint to go on from. None: the picture begins anew, which is said. Throws UsageError with what
-/// differs when it is one of another job, InputError naming the file when it is broken.
+/// The checkpoint from which to continue. None: the picture begins anew, and a message says so. Throws
+/// UsageError that names the differences if it belongs to another job, and InputError that names the file if
+/// it is broken.
 std::optional<Checkpoint> readCheckpoint(const PictureJob& job, const DrawingPlan& plan);
 
-/// Whether --resume finds nothing to do: the output is there, whole, and no checkpoint beside it; says so.
-/// Says also when there is a checkpoint that is not asked for. Throws UsageError when the picture that is
-/// there has other samples.
+/// Returns true if --resume finds nothing to do: the output is there, whole, and no checkpoint beside it;
+/// says so. It also says when there is a checkpoint that is not asked for. Throws UsageError when the picture
+/// that is there has other samples.
 bool isFinished(const RenderOptions& options);
 
-/// Writes a checkpoint each time that --checkpoint says, and when a render is stopped.
+/// Writes a checkpoint at each interval of --checkpoint, and when a render is stopped.
 class CheckpointKeeper {
  public:
   explicit CheckpointKeeper(const RenderOptions& options);
 
-  /// Whether a checkpoint is wanted now; makes those that follow wait again.
+  /// Returns true if a checkpoint is wanted now; the next one is then due an interval later.
   bool isDue();
-  /// Whether a render that is stopped leaves one.
+  /// Returns true if a render that is stopped leaves a checkpoint.
   bool isKept() const { return kept_; }
-  /// Where that is not possible, the checkpoint before stays; says so once.
+  /// Writes the checkpoint. Where that is not possible, the one before stays; says so once.
   void write(const Checkpoint& checkpoint);
-  /// The picture is there. Throws RenderError.
+  /// Removes the checkpoint, since the picture is there. Throws RenderError.
   void remove() const;
 
  private:

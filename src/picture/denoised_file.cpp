@@ -15,7 +15,7 @@ namespace fragtrace {
 
 namespace {
 
-/// Throws InputError unless the variance filter has all that it reads.
+/// Throws InputError unless the picture has all layers that the variance filter reads.
 void checkVarianceLayers(const Image& layers, const std::filesystem::path& name) {
   constexpr std::array<std::pair<const char*, const char*>, 5> kNeeded{{{kGuideChannels[0], "albedo"},
                                                                         {kGuideChannels[4], "normal"},
@@ -31,7 +31,7 @@ void checkVarianceLayers(const Image& layers, const std::filesystem::path& name)
                    " (render with --aov denoising; --denoise oidn needs less: pip install pyoidn)");
 }
 
-/// With a context of its own, since a command for files has no other use for one.
+/// Filters with a context of its own, since a command for files has no other use for one.
 std::optional<Image> byVariance(const Image& layers, const std::filesystem::path& name,
                                 const RenderOptions& options, DenoiseStatistics& stats) {
   checkVarianceLayers(layers, name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures from files, filtered: what `denoise` and `merge --denoise` share.
+// Filters pictures of files; `denoise` and `merge --denoise` share this.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,9 @@
 
 namespace fragtrace {
 
-/// A picture as it was drawn (asDrawn) with filtered colours as R, G and B in front, all its other layers
-/// behind, and the noisy colours as noisy.R, noisy.G and noisy.B. `name` stands in messages. Says on stderr
-/// what the filter has to do without. Throws InputError naming the layers that are missing, ContextError,
-/// RenderError.
+/// A picture as it was drawn (asDrawn) with filtered colours as R, G and B in front, then all its other
+/// layers, and the noisy colours as noisy.R, noisy.G and noisy.B. `name` appears in messages. Says on stderr
+/// which layers the filter lacks. Throws InputError that names missing layers, ContextError, RenderError.
 Image denoisedFile(const Image& drawn, const std::filesystem::path& name, const RenderOptions& options,
                    const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats);
 

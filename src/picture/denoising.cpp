@@ -25,14 +25,14 @@ namespace {
 constexpr const char* kFilterAttribute = "fragtrace:denoise";
 constexpr const char* kNoisy = "noisy.";
 
-/// A filter changes these channels of a picture.
+/// The channels of a picture that a filter changes.
 Image seenChannels(const Image& picture) {
   std::vector<std::string> channels{"R", "G", "B"};
   if (isOverWhite(picture)) channels.emplace_back("A");
   return onlyChannels(picture, channels);
 }
 
-/// Whether the channel is there for the filter alone.
+/// Returns true if the channel is there for the filter alone.
 bool isForTheFilter(const std::string& channel, const RenderOptions& options) {
   if (channel == "samples.Y") return !options.output.aovSamples;
   if (channel == "variance.Y") return !options.output.aovVariance;
@@ -136,7 +136,7 @@ void denoise(Image& picture, const RenderOptions& options, const std::optional<O
     say(options, "the picture is not filtered: " + stats.denoise->skipped);
     return;
   }
-  // Somebody who has interrupted the samples does not wait for seconds more.
+  // A user who has interrupted the samples does not wait for more seconds.
   const bool waits = !oidn || stats.complete;
   const std::optional<Image> denoised =
       waits ? filtered(picture, options, oidn, *stats.denoise) : std::nullopt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `render --denoise`: what it needs beside the picture, and what becomes of both.
+// `render --denoise`: the layers that it needs, and the filtered picture.
 #pragma once
 
 #include <functional>
@@ -13,14 +13,14 @@
 
 namespace fragtrace {
 
-/// Whether the layers that are asked for hold what filters tell surfaces apart by (Feature::Guides).
+/// Returns true if the layers that are asked for hold the guides of filters (Feature::Guides).
 bool hasGuides(const RenderOptions& options);
 
-/// Why such a picture is not denoised though that is asked for; empty: it is.
+/// The reason why such a picture is not denoised although that is asked for; empty if it is.
 std::string whyNotDenoised(const RenderOptions& options);
 
-/// Opens Open Image Denoise if these options need it, and settles --denoise auto in them. To be called before
-/// anything is drawn: throws UsageError when it was asked for and cannot be opened.
+/// Opens Open Image Denoise if these options need it, and settles --denoise auto in them. It must be called
+/// before anything is drawn: it throws UsageError if the library was asked for and cannot be opened.
 std::optional<OidnLibrary> openDenoiser(RenderOptions& options);
 
 /// The options with all layers that the filter needs beside those asked for.
@@ -30,28 +30,28 @@ RenderOptions withGuides(const RenderOptions& options);
 struct PictureFilter {
   std::string name;        ///< and version
   double compileMs = 0.0;  ///< that building its programs took
-  /// R, G and B of a picture with all layers that it needs; nothing when it was interrupted. Throws
+  /// R, G and B of a picture with all layers that the filter needs; nothing if it was interrupted. Throws
   /// RenderError.
   std::function<std::optional<Image>(const Image&)> apply;
 };
-/// Of options that openDenoiser() has settled; `oidn` is what that gave.
+/// Makes the filter from options that openDenoiser() has settled; `oidn` is its result.
 PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn);
 
-/// Puts the denoised colours in the place of the noisy ones, which an .exr keeps as noisy.R, noisy.G and
-/// noisy.B, and leaves out the layers that were not asked for. `picture` was drawn with withGuides(options).
-/// Stays noisy where Open Image Denoise is interrupted, which the statistics then say.
+/// Replaces the noisy colours by the denoised ones. An .exr keeps the noisy ones as noisy.R, noisy.G and
+/// noisy.B. Layers that were not asked for are removed. `picture` was drawn with withGuides(options). It
+/// stays noisy if Open Image Denoise is interrupted, which the statistics then say.
 void denoise(Image& picture, const RenderOptions& options, const std::optional<OidnLibrary>& oidn,
              Statistics& stats);
 
-/// The filter's colours, from a picture with all layers that it needs; nothing when it was interrupted.
-/// Throws RenderError.
+/// The filter's colours for a picture with all layers that it needs; nothing if it was interrupted. Throws
+/// RenderError.
 std::optional<Image> filtered(const Image& picture, const RenderOptions& options,
                               const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats);
 
-/// What an .exr of a filtered picture has more: the noisy colours, and the filter's name.
+/// Adds to the .exr of a filtered picture: the noisy colours, and the filter's name.
 void keepNoisy(Image& picture, const Image& noisy, const std::string& filter);
 
-/// A picture as before denoise(): its noisy colours in their place. Unchanged where it has none.
+/// A picture as it was before denoise(), with its noisy colours in their place. Unchanged if it has none.
 Image asDrawn(const Image& picture);
 
 }  // namespace fragtrace

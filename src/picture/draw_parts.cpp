@@ -23,7 +23,7 @@ namespace fragtrace {
 
 namespace {
 
-/// A sequence has no bars, but its pictures' progress is told to other programs.
+/// A sequence has no bars, but other programs are told the progress of its pictures.
 bool hidesProgress(const PictureJob& job) {
   const ProgressForm form = job.options.output.progress;
   return job.options.output.quiet || form == ProgressForm::None ||
@@ -32,7 +32,7 @@ bool hidesProgress(const PictureJob& job) {
 
 double areaOf(glm::ivec2 size) { return double(size.x) * size.y; }
 
-/// Of a picture of several parts, how much was done before one of them and how much that brings.
+/// The share of a picture that was done before one of its parts, and the share of that part.
 struct Share {
   double done = 0.0;
   double own = 1.0;
@@ -40,7 +40,7 @@ struct Share {
   double of(double fraction) const { return done + own * fraction; }
 };
 
-/// Says where a render of several parts goes on; nothing for a picture in one.
+/// Says where a render of several parts continues; nothing for a picture in one part.
 std::string placeOfPart(const Share& share) {
   if (share.own == 1.0) return "";
   return ", where " + std::to_string(int(100.0 * share.done)) + " % of the picture are done";
@@ -57,8 +57,8 @@ std::vector<Share> sharesOf(std::span<const Region> parts, glm::ivec2 size) {
   return shares;
 }
 
-/// Seconds that a sample of each layer takes in all pixels, measured in the middle of the first part; all are
-/// compiled. The film ends up cleared.
+/// The seconds that a sample of each layer takes in all pixels, measured in the middle of the first part.
+/// Compiles all layers. The film is empty afterwards.
 std::vector<double> measureFeatures(const PictureJob& job, Film& film, const View& view, Statistics& stats) {
   constexpr int kSide = 256;
   Work work{{}, glm::min(film.size(), glm::ivec2(kSide)), 0, 1};
@@ -81,8 +81,8 @@ std::vector<double> measureFeatures(const PictureJob& job, Film& film, const Vie
   return seconds;
 }
 
-/// What layers will take: those of an adaptive picture have the fewest samples of any pixel, which is not yet
-/// known, but these at least.
+/// The time that layers will take at least: those of an adaptive picture have the fewest samples of any
+/// pixel, a number that is not yet known.
 double secondsOfFeatures(std::span<const double> secondsPerSample, const RenderOptions& options) {
   constexpr int kLeastAdaptive = 64;
   const int samples =
@@ -90,7 +90,7 @@ double secondsOfFeatures(std::span<const double> secondsPerSample, const RenderO
   return samples * std::accumulate(secondsPerSample.begin(), secondsPerSample.end(), 0.0);
 }
 
-/// The parts' worst, since a goal holds in each of them.
+/// The worst of both parts, since a goal holds in each of them.
 AdaptiveStatistics joined(const AdaptiveStatistics& a, const AdaptiveStatistics& b) {
   return {a.noise,
           a.seconds,
@@ -114,14 +114,14 @@ void add(FilmTotals& totals, const FilmTotals& part, bool first) {
   totals.lightPaths += part.lightPaths;
 }
 
-/// An image of all parts with the channels of one of them, black so far.
+/// An image of all parts with the channels of one of them, still black.
 Image imageOfAll(const Image& part, glm::ivec2 size) {
   Image all{size.x, size.y, part.channels, {}, {}};
   all.values.resize(size_t(size.x) * size_t(size.y) * all.channelCount());
   return all;
 }
 
-/// Adds a part to the picture of all of them, which is made by the first.
+/// Adds a part to the picture of all of them. The first part makes the picture.
 void addPart(Image& picture, Image part, const Region& place, const Region& all) {
   if (place == all) {
     picture = std::move(part);
@@ -164,19 +164,19 @@ DrawingPlan planDrawing(const PictureJob& job, Statistics& stats) {
 
 namespace {
 
-/// One part on its way.
+/// One part in progress.
 struct PartRun {
   const PictureJob& job;
   const View view;
   Share share;
   Statistics& stats;
   Renderer::Progress progress;
-  /// Writes a checkpoint of the part as it is.
+  /// Writes a checkpoint of the part in its present state.
   std::function<void(std::vector<FilmState>, const std::vector<FilmPixels>&, const AdaptiveState&)> keep;
   CheckpointKeeper& keeper;
   const Checkpoint* from;  ///< to go on from; may be none
 
-  /// Goes on with the progress, and keeps a checkpoint where one is due or the work is to stop.
+  /// Reports the progress, and keeps a checkpoint if one is due or the work is to stop.
   template <typename State>
   Renderer::Progress keeping(const State& state) const {
     return [this, state](double fraction) {
@@ -187,10 +187,10 @@ struct PartRun {
   }
 };
 
-/// Until the goal; a part of the picture has its share of the time.
+/// Draws until the goal is reached. A part of the picture has its share of the time.
 Drawing drawAdaptively(const PartRun& part, glm::ivec2 size) {
   const RenderOptions& options = part.job.options;
-  // What a part leaves of its time is no other's, which would have less noise than the rest.
+  // Time that a part does not use goes to no other part, which would then have less noise than the rest.
   const double seconds = options.sampling.seconds * part.share.own;
   AdaptiveRun run(size);
   if (part.from != nullptr) {
@@ -214,7 +214,7 @@ Drawing drawAdaptively(const PartRun& part, glm::ivec2 size) {
   return {std::move(picture.pixels), std::move(picture.variance), {}};
 }
 
-/// Up to --spp, on an empty film.
+/// Draws up to --spp samples into an empty film.
 Drawing drawEvenly(const PartRun& part, Film film) {
   SampledFilm sampled{std::move(film), {}, 0};
   if (part.from != nullptr) {
@@ -233,7 +233,7 @@ Drawing drawEvenly(const PartRun& part, Film film) {
   return drawing;
 }
 
-/// Without the numbers of samples, where nobody has asked for them and all are the same.
+/// The picture without the numbers of samples, if nobody has asked for them and all are the same.
 Image withoutNeedlessCounts(Image picture, const RenderOptions& options, const Statistics& stats) {
   const bool needed = stats.adaptive || !stats.complete || withGuides(options).output.aovSamples;
   if (needed || !findChannel(picture, "samples.Y")) return picture;
@@ -250,7 +250,7 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
   const std::string text = keeper.isKept() ? jobText(job, plan) : "";
   const std::vector<Share> shares = sharesOf(plan.parts, job.loaded.region.size);
   const double secondsAfter = secondsOfFeatures(plan.layerSeconds, options);
-  // merge needs the samples of each pixel where these differ.
+  // merge needs the samples of each pixel if these differ.
   const bool keepsCounts = holdsLayers(options) && !showsColors(options);
   ProgressBar bar("rendering", hidesProgress(job),
                   isAdaptive(options) ? std::nullopt : std::optional(options.sampling.spp));

@@ -20,7 +20,7 @@ namespace fragtrace {
 
 namespace {
 
-/// A view that shows nothing is likely to be a mistake: of who chose it, of ours, or a surface's back.
+/// A view that shows nothing is likely to be a mistake: the user's, ours, or the back of a surface.
 void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, const ShaderVariant& variant,
                       const Statistics& stats) {
   const bool chosen = loaded.overrides == options.camera.overrides;
@@ -33,7 +33,7 @@ void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, c
                            : "--camera-position and --camera-focal-point choose another"));
 }
 
-/// The pixels that are exactly black, 0..1.
+/// The share of pixels that are exactly black, 0..1.
 double blackShare(const Image& picture) {
   const auto colors = findColorChannels(picture);
   if (!colors || picture.values.empty()) return 0.0;
@@ -44,7 +44,7 @@ double blackShare(const Image& picture) {
   return double(black) * double(picture.channelCount()) / double(picture.values.size());
 }
 
-/// A picture that is nearly black although surfaces fill it, and why: most likely the camera stands in a
+/// Says that a picture is nearly black although surfaces fill it, and why: most likely the camera stands in a
 /// shell.
 void sayWhatIsDark(const RenderOptions& options, const LoadedScene& loaded, const Image& picture,
                    const Statistics& stats) {
@@ -67,7 +67,7 @@ void sayWhatIsDark(const RenderOptions& options, const LoadedScene& loaded, cons
                   : "no light reaches what it sees (--studio, --hdri-file)"));
 }
 
-/// What --bounces cut is missing from the picture.
+/// Says that light is missing from the picture because --bounces ended paths.
 void sayWhatWasCut(const RenderOptions& options, const Statistics& stats) {
   constexpr double kNoticed = 0.01;
   if (cutShare(stats) <= kNoticed) return;
@@ -78,12 +78,12 @@ void sayWhatWasCut(const RenderOptions& options, const Statistics& stats) {
                    " of the light (cut_share); a larger value makes the picture brighter");
 }
 
-/// Whether every pixel has the same samples: neither adaptive nor interrupted.
+/// Returns true if every pixel has the same samples: the picture is neither adaptive nor interrupted.
 bool isUniform(const Statistics& stats) {
   return stats.complete && stats.film.fewestSamples == stats.film.mostSamples && !stats.adaptive;
 }
 
-/// An .exr says how it was made, as merge needs it.
+/// Writes into an .exr how it was made, as merge needs it.
 void setProvenanceOf(Image& picture, const RenderOptions& options, const LoadedScene& loaded,
                      const Tracer& tracer, const Statistics& stats) {
   if (!holdsLayers(options) || options.output.debugView != DebugView::None) return;
@@ -117,7 +117,7 @@ void sayWhatIsChosen(const RenderOptions& options, const Context& context, const
   if (tracer.variant.clampIndirect) say(options, "indirect light is clamped (--clamp-indirect): biased");
 }
 
-/// Throws RenderError when the driver left out samples without a word.
+/// Throws RenderError if the driver silently left out samples.
 void checkSamples(const RenderOptions& options, const Statistics& stats) {
   if (!stats.complete || stats.adaptive || stats.film.fewestSamples >= unsigned(options.sampling.spp)) return;
   throw RenderError("the driver drew " + std::to_string(stats.film.fewestSamples) + " of " +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From a scene on the device to a picture with all that its file holds: what every front end that finishes
-// pictures shares.
+// Turns a scene on the device into a picture with all content of its file. All front ends that finish
+// pictures share this.
 #pragma once
 
 #include <memory>
@@ -14,28 +14,27 @@
 
 namespace fragtrace {
 
-/// What pictures share.
+/// The device and the filter, which several pictures share.
 struct Device {
   std::unique_ptr<Context> context;
   std::optional<DebugLog> driverLog;  ///< of the context
   std::optional<OidnLibrary> oidn;
 };
 
-/// For so many camera paths in all. Throws ContextError.
+/// Opens a context for so many camera paths in all. Throws ContextError.
 void openContext(const RenderOptions& options, double paths, Device& device, Statistics& stats);
 
-/// Draws the picture's samples, and says what is odd about them. `plan` is what its layers need later.
-/// Nothing when the thread was interrupted more than `most` times. Throws what planDrawing() and
-/// drawPicture() throw.
+/// Draws the picture's samples, and says what is odd about them. Its layers need `plan` later. Nothing if the
+/// thread was interrupted more than `most` times. Throws what planDrawing() and drawPicture() throw.
 std::optional<Image> drawSamples(const PictureJob& job, DrawingPlan& plan, Device& device,
                                  CheckpointKeeper& keeper, int most, Statistics& stats);
 
-/// Adds layers, filters, and puts the provenance into what drawSamples() gave. False when the thread was
-/// interrupted more than `most` times. Throws RenderError; the picture stays as far as it came.
+/// Adds layers, filters, and puts the provenance into the picture of drawSamples(). False if the thread was
+/// interrupted more than `most` times. Throws RenderError; the picture then keeps what was done.
 bool finishPicture(Image& picture, const PictureJob& job, const DrawingPlan& plan, Device& device, int most,
                    Statistics& stats);
 
-/// What --bounces has cut, and what ended the samples, where that is worth a line.
+/// Says how much light --bounces has cut, and what ended the samples, where that is worth a line.
 void sayHowItEnded(const RenderOptions& options, const Statistics& stats);
 
 }  // namespace fragtrace

@@ -19,7 +19,8 @@ namespace {
 
 constexpr const char* kSamplesChannel = "samples.Y";
 
-/// Separated by commas; that of numbers of samples may be anywhere.
+/// The channels that only one picture has, separated by commas. The channel of numbers of samples is left
+/// out.
 std::string channelsOfOneAlone(const Image& a, const Image& b) {
   std::string names;
   for (const auto& [from, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
@@ -31,7 +32,7 @@ std::string channelsOfOneAlone(const Image& a, const Image& b) {
   return names;
 }
 
-/// Both must be of one picture and hold other samples.
+/// Throws unless both belong to one picture and hold different samples.
 void checkPair(const Part& first, const Part& second) {
   const std::string both = first.path.string() + " and " + second.path.string();
   if (first.image.width != second.image.width || first.image.height != second.image.height)
@@ -51,19 +52,19 @@ void checkPair(const Part& first, const Part& second) {
   }
 }
 
-/// As FilmPixel::luminance() has it, but for a constant. `alpha`: of a picture that is to lie over white.
+/// FilmPixel::luminance(), up to a constant. `alpha`: that of a picture that will lie over white.
 double luminanceOf(const float* pixel, std::optional<size_t> alpha) {
   return luminance({pixel[0], pixel[1], pixel[2]}) - (alpha ? double(pixel[*alpha]) : 0.0);
 }
 
-/// The parts' values at a place, and how many samples they stand for.
+/// The parts' values at a place, and the number of samples that they represent.
 struct Sources {
   std::vector<const float*> values;
   std::vector<double> samples;
   double total = 0.0;
 };
 
-/// Where the channels of a picture are in another.
+/// The indices of channels in another picture.
 std::vector<size_t> placesOf(const std::vector<std::string>& channels, const Image& image) {
   std::vector<size_t> places;
   places.reserve(channels.size());

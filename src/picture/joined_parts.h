@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parts of one render, drawn with other samples each, joined into one picture.
+// Joins parts of one render, each drawn with other samples, into one picture.
 #pragma once
 
 #include <filesystem>
@@ -18,18 +18,18 @@ struct Part {
   Provenance made;
 };
 
-/// Throws InputError naming the file when it is no part of a render, or does not say how many samples its
-/// pixels have.
+/// Reads a part. Throws InputError that names the file if it is no part of a render, or does not say how many
+/// samples its pixels have.
 Part readPart(const std::filesystem::path& path);
 
-/// One part with the samples of all. Each pixel's means are weighted by its samples; counts are added;
-/// variances of the means are joined as if all samples had been seen (Chan, Golub and LeVeque, 1979), and
-/// those that were observed as those of parts that know nothing of each other. The same whatever the order of
-/// the parts. Throws InputError naming the files when two of them are not of one picture or hold the same
-/// sample.
+/// One part with the samples of all. Each pixel's means are weighted by its samples, and counts are added.
+/// Variances of the means are joined as if all samples had been seen (Chan, Golub and LeVeque, 1979),
+/// observed variances as those of independent parts. The order of the parts does not matter. Throws
+/// InputError that names the files if two of them do not belong to one picture or hold the same sample.
 Part joinedParts(std::vector<Part> parts);
 
-/// What a picture consists of, in a line: numbers of samples, seeds, and samples that are missing in between.
+/// Describes in a line of what a picture consists: numbers of samples, seeds, and samples that are missing in
+/// between.
 std::string describeParts(size_t count, const Part& joined);
 
 }  // namespace fragtrace

@@ -16,7 +16,7 @@ namespace fragtrace {
 
 namespace {
 
-/// Lines over what a display shows of a picture that lies there.
+/// Draws lines over the displayed picture, which lies at that place.
 void drawLines(Image& display, std::span<const PictureLine> lines, const Placement& placement) {
   const glm::vec3 orange(1.0f, 0.55f, 0.1f);
   const glm::dvec2 half = 0.5 * glm::dvec2(placement.whole) * glm::dvec2(1.0, -1.0);
@@ -25,7 +25,7 @@ void drawLines(Image& display, std::span<const PictureLine> lines, const Placeme
     drawLine(display, middle + line.from * half, middle + line.to * half, orange);
 }
 
-/// Beside the output, where nothing is overwritten.
+/// A name beside the output that does not exist yet.
 std::filesystem::path rescuePath(std::filesystem::path output) {
   const std::string stem = output.stem().string();
   output.replace_extension(".pfm");
@@ -35,7 +35,7 @@ std::filesystem::path rescuePath(std::filesystem::path output) {
   return output;
 }
 
-/// What a picture has that a .pfm has not: "the layers albedo, A and what merge needs".
+/// Names what a picture loses in a .pfm: "the layers albedo, A and what merge needs".
 std::string lostInPfm(const RenderOptions& options, const Image& linear) {
   std::set<std::string> layers;
   for (const std::string& channel : linear.channels) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A drawn picture as it is written: what it shows, and how.
+// Writes a drawn picture: its content and its form.
 #pragma once
 
 #include <span>
@@ -12,10 +12,10 @@
 
 namespace fragtrace {
 
-/// Whether the picture's colours are those of a debug view, to be displayed as they are.
+/// Returns true if the picture's colours are those of a debug view, to be displayed as they are.
 bool showsColors(const RenderOptions& options);
 
-/// What the film holds as a picture: linear radiance, or the colours of a debug view. `variance` is as for
+/// Makes a picture of the film: linear radiance, or the colours of a debug view. `variance` is as for
 /// imageOf().
 Image shownPicture(const RenderOptions& options, const FilmPixels& pixels, const Layers& layers,
                    std::span<const double> variance = {});
@@ -24,13 +24,12 @@ Image shownPicture(const RenderOptions& options, const FilmPixels& pixels, const
 std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedScene& loaded,
                                    const Camera& camera, glm::ivec2 size);
 
-/// To be asked before the first sample: throws RenderError when a picture of that size could not be written.
+/// Must be called before the first sample: throws RenderError if a picture of that size could not be written.
 void checkPictureWritable(const RenderOptions& options, glm::ivec2 size);
 
-/// A finished picture whose output cannot be written for that reason is not lost: writes its colours alone
-/// to NAME.pfm beside it, or to a name of which there is no file yet. Returns what to say: the reason, where
-/// the picture is and what it lacks. Nothing is written in place of a .pfm
-/// or of standard output.
+/// Rescues a finished picture whose output cannot be written for that reason: writes its colours alone to
+/// NAME.pfm beside it, or to a name that does not exist yet. Returns the message: the reason, where the
+/// picture is and what it lacks. Nothing replaces a .pfm or standard output.
 std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason);
 
 /// Says how many values of the output 16-bit floats could not hold, if any.

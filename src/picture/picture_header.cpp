@@ -9,7 +9,7 @@ namespace fragtrace {
 
 namespace {
 
-/// The four columns that a row vector is multiplied by, as rows of numbers.
+/// The four columns by which a row vector is multiplied, as rows of numbers.
 std::vector<float> matrixOf(const std::array<glm::dvec4, 4>& columns) {
   std::vector<float> numbers;
   for (int row = 0; row < 4; ++row) {
@@ -18,7 +18,7 @@ std::vector<float> matrixOf(const std::array<glm::dvec4, 4>& columns) {
   return numbers;
 }
 
-/// The coordinate of a point along an axis from an origin, of (x, y, z, 1).
+/// The coordinate of a point (x, y, z, 1) along an axis from an origin.
 glm::dvec4 along(const glm::dvec3& axis, const glm::dvec3& origin) { return {axis, -glm::dot(axis, origin)}; }
 
 }  // namespace

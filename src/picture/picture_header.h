@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the header of an .exr says of its camera and colours, in standard attributes of OpenEXR.
+// The camera and the colours in the header of an .exr, as standard attributes of OpenEXR.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,9 +10,9 @@
 namespace fragtrace {
 
 /// Sets worldToCamera and worldToNDC, and screenWindowWidth of a perspective. `size` is that of the whole
-/// picture, also where the image is a part of it. Matrices are for row vectors, (x, y, z, 1) M, of metres in
-/// world space: a camera's x is right, y up, z the way that it looks; NDC is (0, 0) at the upper left corner
-/// of the picture and (1, 1) at the lower right, once divided by w.
+/// picture, even if the image is a part of it. Matrices are for row vectors, (x, y, z, 1) M, of metres in
+/// world space. A camera's x is right, y up, and z the direction of view. NDC is (0, 0) at the upper left
+/// corner of the picture and (1, 1) at the lower right, after division by w.
 void setCamera(Image& image, const Camera& camera, glm::ivec2 size);
 
 /// Sets chromaticities: the primaries of Rec. 709 and sRGB, and their white, D65.

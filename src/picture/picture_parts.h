@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture that is drawn part by part, because a film of all of it would be too large for the device or for
+// Divides a picture into parts if a film of all of it would be too large for the device or for
 // --memory-limit. Each part has the samples of the whole.
 #pragma once
 
@@ -14,8 +14,8 @@ namespace fragtrace {
 /// `mostPixels` or a longer side than `mostSide`; both are at least 1.
 std::vector<Region> dividedRegion(const Region& region, int mostSide, uint64_t mostPixels);
 
-/// The parts in which a picture is to be drawn on this device: one, if it can be.
-/// Throws UsageError where the options need the whole at once.
+/// The parts in which a picture is drawn on this device: one, if possible. Throws UsageError if the options
+/// need the whole picture at once.
 std::vector<Region> partsOf(const RenderOptions& options, const LoadedScene& loaded);
 
 /// The view of a part of the picture.

@@ -70,8 +70,8 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
   if (options.camera.region)
     json["region"] = {options.camera.region->corner.x, options.camera.region->corner.y,
                       options.camera.region->size.x, options.camera.region->size.y};
-  // How rays find triangles, which depends on the number of samples, changes rounding alone; how buffers are
-  // read, and by which stage of the pipeline, nothing.
+  // The traversal depends on the number of samples and changes only rounding. The kind of buffer reads and
+  // the stage of the pipeline change nothing.
   ShaderVariant variant = tracer.variant;
   variant.traversal = ShaderVariant().traversal;
   variant.stackSize = ShaderVariant().stackSize;
@@ -104,7 +104,7 @@ std::string settingsText(const RenderOptions& options, const LoadedScene& loaded
 
 namespace {
 
-/// Of the features in a variant's name, those that another lacks.
+/// The features in a variant's name that another variant lacks.
 std::string featuresOfOneAlone(const std::string& variant, const std::string& other) {
   const std::string all = "+" + other + "+";
   std::istringstream features(variant);
@@ -115,7 +115,7 @@ std::string featuresOfOneAlone(const std::string& variant, const std::string& ot
   return text.empty() ? "none" : text;
 }
 
-/// Two values of one setting; of the shader's variants what they do not share.
+/// The two values of one setting; for shader variants, the features that they do not share.
 std::string bothValues(const std::string& key, const nlohmann::json& a, const nlohmann::json& b) {
   if (key != "variant" || !a.is_string() || !b.is_string()) return a.dump() + " and " + b.dump();
   return featuresOfOneAlone(a, b) + " and " + featuresOfOneAlone(b, a);

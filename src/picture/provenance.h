@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a rendered .exr says of its own making, so that parts of one render can be joined.
+// Records in a rendered .exr how it was made, so that parts of one render can be joined.
 #pragma once
 
 #include <tuple>
@@ -10,7 +10,7 @@
 
 namespace fragtrace {
 
-/// Samples of the sequence of a seed: all that any pixel may have.
+/// Samples of the sequence of a seed that any pixel may have.
 struct SampleRange {
   uint32_t seed = 0;
   int64_t first = 0;
@@ -22,8 +22,8 @@ struct SampleRange {
   }
 };
 
-/// Written as the string attributes fragtrace:settings, :seed, :sampleOffset, :samples, :uniform and, where
-/// these do not tell all ranges, :ranges, a JSON array of [seed, first, count].
+/// The string attributes fragtrace:settings, :seed, :sampleOffset, :samples, :uniform and, if these do not
+/// give all ranges, :ranges, a JSON array of [seed, first, count].
 struct Provenance {
   std::string settings;  ///< JSON of all that the picture depends on, but for the samples
   uint32_t seed = 0;
@@ -35,24 +35,24 @@ struct Provenance {
 };
 
 inline constexpr const char* kSettingsAttribute = "fragtrace:settings";
-/// Of an .exr whose render was interrupted: "1".
+/// The attribute of an .exr whose render was interrupted: "1".
 inline constexpr const char* kInterruptedAttribute = "fragtrace:interrupted";
 
-/// The ranges as they are, or as the other members say.
+/// The ranges, or, if they are empty, those that follow from the other members.
 std::vector<SampleRange> rangesOf(const Provenance& provenance);
 
-/// The same samples in as few ranges as can be. Throws std::invalid_argument when two of them overlap.
+/// The same samples in as few ranges as possible. Throws std::invalid_argument if two of them overlap.
 std::vector<SampleRange> joinedRanges(std::vector<SampleRange> ranges);
 
 /// The settings of a render as JSON, in one line.
 std::string settingsText(const RenderOptions& options, const LoadedScene& loaded, const Tracer& tracer);
 
-/// What differs in two settings: "bounces 16 and 4, ...".
+/// Describes the difference between two settings: "bounces 16 and 4, ...".
 std::string differenceOf(const std::string& settings, const std::string& others);
 
 void setProvenance(Image& image, const Provenance& provenance);
 
-/// Throws InputError naming the file when an attribute is missing or is not what it should be.
+/// Reads the provenance. Throws InputError that names the file if an attribute is missing or wrong.
 Provenance provenanceOf(const Image& image, const std::filesystem::path& path);
 
 }  // namespace fragtrace

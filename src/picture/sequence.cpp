@@ -10,7 +10,7 @@ namespace fragtrace {
 
 namespace {
 
-/// The pattern with what `wordFor(width)` gives in place of its last run of #.
+/// The pattern with the result of `wordFor(width)` in place of its last run of #.
 template <typename WordFor>
 std::filesystem::path filled(const std::filesystem::path& pattern, const WordFor& wordFor) {
   std::string name = pattern.filename().string();

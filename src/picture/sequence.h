@@ -19,20 +19,20 @@ struct SequenceFrame {
 /// The name with the number in place of its last run of #, with at least as many digits.
 std::filesystem::path numberedName(const std::filesystem::path& pattern, int number);
 
-/// The name with that word in place of its last run of #, but with the number where the word is empty or
-/// holds what a name of a file should not.
+/// The name with that word in place of its last run of #. The number takes its place if the word is empty or
+/// unsuitable for the name of a file.
 std::filesystem::path namedFile(const std::filesystem::path& pattern, const std::string& word, int number);
 
-/// The numbers of its pictures; there are some (isSequence).
+/// The numbers of the sequence's pictures; isSequence() must hold.
 FrameRange rangeOf(const SequenceOptions& sequence);
 
 int frameCount(const SequenceOptions& sequence);
 
-/// The picture of that index, from 0; the options are of a sequence. Small scenes are no shader text in it,
-/// so that one program draws all pictures.
+/// The picture of that index, from 0; the options are of a sequence. Small scenes do not become shader text
+/// in it, so that one program draws all pictures.
 SequenceFrame frameOf(const RenderOptions& options, int index);
 
-/// The camera turned by an angle (radians, to the right of who looks through it) about the vertical axis, +Y,
+/// The camera turned by an angle (radians, to the right as seen through it) about the vertical axis, +Y,
 /// through its focal point.
 Camera turnedCamera(Camera camera, const glm::dvec3& focalPoint, double angle);
 

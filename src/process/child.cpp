@@ -24,7 +24,8 @@
 namespace fragtrace {
 namespace {
 
-/// The error of posix_spawn, or 0. Signals of the terminal do not reach the child, whose output is dropped.
+/// Starts a process. Returns the error of posix_spawn, or 0. Signals of the terminal do not reach the child,
+/// whose output is dropped.
 int spawn(const std::filesystem::path& path, std::string argument, int socket, pid_t& process) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
@@ -59,7 +60,8 @@ bool addressesAreLimited() {
   return ::getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY;
 }
 
-/// How a process ends that got no memory: the loader gives up, the libraries abort, or go on with nothing.
+/// Returns true if a process may have ended for lack of memory: the loader gives up, and libraries abort or
+/// go on with nothing.
 bool isWantOfMemory(int status) {
   if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGABRT || WTERMSIG(status) == SIGSEGV;
   return WEXITSTATUS(status) == kNotLoaded;
@@ -122,7 +124,7 @@ bool awaitReply(const Child& child, std::span<uint8_t> reply, int patienceMs) {
 
 std::string endChild(Child& child) {
   ::close(child.socket);
-  // One that has ended by itself keeps its own status.
+  // A child that has ended by itself keeps its own status.
   constexpr int kPatienceMs = 20;
   int status = 0;
   pid_t ended = 0;

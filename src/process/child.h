@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A process of our own that is talked to through a socket and can be limited and ended.
+// A process of our own, with a socket to it, that can be limited and ended.
 #pragma once
 
 #include <sys/types.h>
@@ -11,7 +11,7 @@
 
 namespace fragtrace {
 
-/// Ended and waited for when it goes.
+/// The process is ended and waited for when this is destroyed.
 struct Child {
   pid_t process = -1;
   int socket = -1;
@@ -34,11 +34,11 @@ std::unique_ptr<Child> startChild(const std::string& name, const std::string& ar
 /// Sets how much data it may have, and how many more seconds of processor time it may take (0: any number).
 void limitChild(const Child& child, uint64_t dataBytes, unsigned cpuSeconds);
 
-/// Waits for a message of exactly that size; false when none comes in that time, or it has ended.
+/// Waits for a message of exactly that size; false if none comes in that time, or if the process has ended.
 bool awaitReply(const Child& child, std::span<uint8_t> reply, int patienceMs);
 
-/// Ends it if it has not ended, and says how: kOutOfTime, kLibraryMissing, "signal 11 (Segmentation fault)",
-/// "status 1", or that memory ran out, where the system lets processes have little of it.
+/// Ends the process if it is still running, and says how it ended: kOutOfTime, kLibraryMissing, "signal 11
+/// (Segmentation fault)", "status 1", or that memory ran out, where the system gives processes little of it.
 std::string endChild(Child& child);
 
 }  // namespace fragtrace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shared objects of our own, opened when they are first needed, so that runs that do not need them pay
-// nothing for the libraries that they bring.
+// Shared objects of our own. They are opened when they are first needed, so that other runs pay nothing for
+// their libraries.
 #pragma once
 
 #include <filesystem>

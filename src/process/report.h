@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the process tells on stderr beside its results: lines of text, or for other programs JSON, one object
-// a line (docs/recipes.md, "Use fragtrace in a program").
+// Messages on stderr beside the results: lines of text, or JSON for other programs, one object a line
+// (docs/recipes.md, "Use fragtrace in a program").
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,22 +8,24 @@
 
 namespace fragtrace {
 
-/// From now on all that is told is JSON; quiet: errors alone.
+/// From now on all messages are JSON; quiet: errors alone.
 void reportAsJson(bool quiet);
-/// From any thread or signal handler.
+/// Any thread or signal handler may call it.
 bool reportsAsJson();
 
 /// "warning: ...", "note: ..." or another message. As JSON its type is that word, or "message".
 void reportMessage(const std::string& text);
-/// Also when quiet.
+/// Reports an error, also if quiet.
 void reportError(const std::string& text);
 
 /// Members that events have from now on, such as the picture that is drawn.
 void setReportContext(const nlohmann::ordered_json& members);
-/// An object of that type with `members`, the seconds since the process began, and the context. Nothing where
-/// text is told, or when quiet. Of "progress" one is told in a tenth of a second. From any thread.
+/// Reports an object of that type with `members`, the seconds since the process began, and the context. Does
+/// nothing if messages are text, or if quiet. Of type "progress" it reports at most one in a tenth of a
+/// second. Any thread may call it.
 void reportEvent(const char* type, const nlohmann::ordered_json& members);
-/// The last line where JSON is told, with the exit status, also when quiet; only the first call tells it.
+/// Reports the last line if messages are JSON, with the exit status, also if quiet. Only the first call does
+/// so.
 void reportEnd(int status);
 
 }  // namespace fragtrace

@@ -35,7 +35,7 @@ struct Message {
 SharedMemory::SharedMemory(uint64_t size) : size_(size) {
   file_ = ::memfd_create("fragtrace", MFD_CLOEXEC | MFD_ALLOW_SEALING);
   if (file_ < 0 || ::ftruncate(file_, off_t(size)) != 0) fail();
-  // Else the other side could shorten it under our hands.
+  // Without the seals, the other side could shorten the file while this one uses it.
   if (::fcntl(file_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) != 0) fail();
   if (!map()) fail();
 }

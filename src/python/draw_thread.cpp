@@ -16,7 +16,7 @@ namespace fragtrace {
 
 namespace {
 
-/// Lives as long as the process, since the thread does.
+/// The queue lives as long as the process, since the thread does.
 struct Queue {
   std::mutex mutex;
   std::condition_variable changed;
@@ -75,7 +75,7 @@ bool DrawJob::wait(int milliseconds) {
 
 std::shared_ptr<DrawJob> postJob(std::function<void(DrawJob&)> work) {
   Queue& q = queue();
-  // A fork copies no threads, and perhaps a locked mutex.
+  // A fork copies no threads, but perhaps a locked mutex.
   if (q.process != 0 && q.process != ::getpid()) {
     throw std::runtime_error(
         "this process was forked from one that has drawn already, and OpenGL does not survive that; start "

@@ -14,7 +14,7 @@
 
 namespace fragtrace {
 
-/// Work for the drawing thread, and how far it is. Shared by who waits for it and who does it.
+/// Work for the drawing thread, and its progress. The waiting thread and the drawing thread share it.
 struct DrawJob {
   std::function<void(DrawJob&)> work;
   std::atomic<int> interrupts = 0;   ///< interrupts() of the work
@@ -23,7 +23,7 @@ struct DrawJob {
   std::exception_ptr error;          ///< likewise
 
   void end();
-  /// Whether it has ended within that time.
+  /// Returns true if it has ended within that time.
   bool wait(int milliseconds);
 
  private:
@@ -35,7 +35,7 @@ struct DrawJob {
 /// Puts work into the queue. Throws std::runtime_error in a process that was forked from one that has drawn.
 std::shared_ptr<DrawJob> postJob(std::function<void(DrawJob&)> work);
 
-/// Interrupts all work and waits for its end; what is posted later is dropped. Before Python ends.
+/// Interrupts all work and waits for its end; later work is dropped. It must be called before Python ends.
 void stopDrawing();
 bool isDrawingStopped();
 

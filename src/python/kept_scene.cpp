@@ -14,22 +14,22 @@ namespace fragtrace {
 
 namespace {
 
-/// The device, and the scenes that have something there.
+/// The device, and the scenes that have data on it.
 struct DrawingState {
   Device device;
   std::vector<std::weak_ptr<KeptScene>> scenes;
 };
 
-/// Of the drawing thread; never destroyed, since the driver may be gone before.
+/// The state of the drawing thread. It is never destroyed, since the driver may be gone before.
 DrawingState& drawing() {
   static auto* const theOne = new DrawingState;
   return *theOne;
 }
 
-/// The context is the process's: all scenes share it.
+/// The context belongs to the process: all scenes share it.
 Device& deviceFor(const RenderOptions& options, Statistics& stats) {
   DrawingState& state = drawing();
-  // The driver's compiler is told once how hard to try, and nobody knows what is drawn later.
+  // The driver's compiler learns once how much to optimise, before anybody knows what will be drawn.
   constexpr double kManyPaths = std::numeric_limits<double>::infinity();
   if (!state.device.context) openContext(options, kManyPaths, state.device, stats);
   const std::string& name = state.device.context->backend;
@@ -51,7 +51,8 @@ void forgetDevice() {
   state.device.context.reset();
 }
 
-/// What the scene is loaded for: points and lines get their size from the camera and the picture's.
+/// The options for which the scene is loaded: points and lines get their size from the camera and the
+/// picture's.
 RenderOptions loadedFor(const RenderOptions& options, const LoadedScene& loaded) {
   RenderOptions part = sceneOptions(options);
   if (loaded.scene.strokes.empty()) return part;
@@ -61,7 +62,7 @@ RenderOptions loadedFor(const RenderOptions& options, const LoadedScene& loaded)
   return part;
 }
 
-/// The scene as loaded and uploaded for these options; the statistics say what of that was to be done.
+/// Loads and uploads the scene for these options; the statistics say which of that was necessary.
 Statistics prepare(KeptScene& kept, const RenderOptions& options) {
   Statistics stats;
   const bool isLoaded = kept.loaded && kept.loadedFor == loadedFor(options, *kept.loaded);

@@ -13,7 +13,7 @@
 
 namespace fragtrace {
 
-/// What is loaded and uploaded, and for which options.
+/// A scene that is loaded and uploaded, and the options for which it is.
 struct KeptScene {
   std::optional<LoadedScene> loaded;
   RenderOptions loadedFor;
@@ -30,8 +30,8 @@ struct DrawnPicture {
   bool complete = true;
 };
 
-/// Draws a picture of the scene by options without an output; loads and uploads what is not there yet. Throws
-/// what `render` throws. Nothing when the job was interrupted.
+/// Draws a picture of the scene by options without an output; loads and uploads what is missing. Throws what
+/// `render` throws. Nothing if the job was interrupted.
 std::optional<DrawnPicture> drawKept(const std::shared_ptr<KeptScene>& scene, const RenderOptions& options,
                                      DrawJob& job);
 

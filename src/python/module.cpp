@@ -38,7 +38,7 @@ Values arrayOf(Image& image) {
   return Values(values->data(), {size_t(image.height), size_t(image.width), image.channels.size()}, owner);
 }
 
-/// What Python gives and gets beside the channels' names and values: the strings and numbers of an .exr.
+/// The strings and numbers of an .exr, which Python gives and gets beside the channels' names and values.
 nb::tuple attributesOf(const Image& image) { return nb::make_tuple(image.attributes, image.numbers); }
 
 /// Channels' names, values and attributes.
@@ -58,8 +58,8 @@ Image imageOfArray(const GivenValues& values, std::vector<std::string> channels)
   return image;
 }
 
-/// Waits for a job as Python wants it: with the interpreter free, but heeding Ctrl-C. `told` is called with
-/// the fraction done.
+/// Waits for a job with Python's interpreter free, but reacts to Ctrl-C. `told` is called with the fraction
+/// done.
 void await(DrawJob& job, const nb::object& told) {
   constexpr int kLookMs = 40;
   constexpr int kLeaveMs = 120;  // what is compiled just now goes on, and is not waited for

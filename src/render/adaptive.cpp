@@ -18,7 +18,7 @@ constexpr int kBlock = 8;          // pixels a side that share one number of sam
 constexpr int kTile = 256;         // pixels a side of one draw
 constexpr int kFirstSamples = 32;  // of each half
 
-/// One block of pixels: its samples in each half, and what the next ones are worth.
+/// One block of pixels: its samples in each half, and the worth of the next ones.
 struct Block {
   int samples = kFirstSamples;
   int target = kFirstSamples;  ///< samples after this round
@@ -29,11 +29,11 @@ struct Block {
   int litAbove = 0;
   double error = 0.0;  ///< sum of the squared relative errors
 
-  /// Samples after a round that has time enough: twice as many, so that Sobol sequences stay whole, or what
-  /// is left.
+  /// The samples after a round with enough time: twice as many, so that Sobol sequences stay whole, or as
+  /// many as are left.
   int next(int mostSamples) const { return int(std::min<int64_t>(int64_t(samples) * 2, mostSamples / 2)); }
 
-  /// Samples in both halves that it takes to get there.
+  /// The samples in both halves that are needed to get there.
   double cost(int to) const { return 2.0 * (to - samples) * pixels; }
 
   bool tooNoisy() const {
@@ -41,7 +41,8 @@ struct Block {
     return above > kOver * noisy || litAbove > kOver * lit;
   }
 
-  /// What a sample takes from the picture's squared error; it falls with the square of the samples.
+  /// The amount by which one more sample lowers the picture's squared error; it falls with the square of the
+  /// samples.
   double worth() const { return error / (double(samples) * pixels); }
 };
 
@@ -76,8 +77,8 @@ void weigh(Blocks& blocks, const FilmPixels& pixels, const std::vector<double>& 
   }
 }
 
-/// Sets the targets of the blocks that are to get more samples, anywhere if `blind`. Returns the samples that
-/// this takes in both halves; at most what is affordable.
+/// Sets the targets of the blocks that get more samples, anywhere if `blind`. Returns the number of samples
+/// in both halves, which is at most the affordable one.
 double chooseTargets(Blocks& blocks, const AdaptiveGoal& goal, double affordable, bool blind) {
   std::vector<Block*> candidates;
   double spent = 0.0;
@@ -92,7 +93,8 @@ double chooseTargets(Blocks& blocks, const AdaptiveGoal& goal, double affordable
   std::sort(candidates.begin(), candidates.end(), [](const Block* a, const Block* b) {
     return std::pair(-a->worth(), a->samples) < std::pair(-b->worth(), b->samples);
   });
-  // Without a noise to reach, half as much as so far at a time: worth changes as samples come in.
+  // Without a noise goal, a round draws half as many samples as so far, since their worth changes as samples
+  // come in.
   const double most = goal.noise > 0.0 ? affordable : std::min(affordable, 0.5 * spent);
   double cost = 0.0;
   for (Block* b : candidates) {
@@ -102,7 +104,7 @@ double chooseTargets(Blocks& blocks, const AdaptiveGoal& goal, double affordable
     cost += own;
   }
   if (cost > 0.0) return cost;
-  // What is left of the time is too short to double any: all get a part of it.
+  // The time that is left is too short to double any block, so all get a part of it.
   for (Block* b : candidates) {
     b->target = b->samples + int((b->next(goal.mostSamples) - b->samples) * (affordable / all));
     cost += b->cost(b->target);
@@ -110,7 +112,7 @@ double chooseTargets(Blocks& blocks, const AdaptiveGoal& goal, double affordable
   return cost;
 }
 
-/// Of all pixels.
+/// The numbers of samples that all pixels should have.
 std::vector<uint32_t> targetsOf(Blocks& blocks) {
   std::vector<uint32_t> targets;
   targets.reserve(size_t(blocks.picture.x) * size_t(blocks.picture.y));
@@ -139,7 +141,7 @@ std::vector<Work> workOf(Blocks& blocks) {
   return work;
 }
 
-/// Before the first round.
+/// A block before the first round.
 Block firstOf(const AdaptiveGoal& goal) {
   Block block;
   block.samples = 0;
@@ -147,7 +149,7 @@ Block firstOf(const AdaptiveGoal& goal) {
   return block;
 }
 
-/// Adds a round's samples to both halves; false when it was stopped. Where time may end the first one, all
+/// Adds a round's samples to both halves; false if it was stopped. If time may end the first round, all
 /// pixels get a sample before any gets many.
 bool drawRound(Renderer& renderer, AdaptiveRun& run, Blocks& blocks, std::span<const View> views,
                bool isTimed, RenderTimes& times, const Renderer::Progress& progress) {
@@ -224,7 +226,7 @@ AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const Vie
     // Step: draw the round.
     const bool more = drawRound(renderer, run, blocks, views, goal.seconds > 0.0, times, goOn);
 
-    // Step: how far is the picture from the goal?
+    // Step: find how far the picture is from the goal.
     const Halves halves{run.films[0].read(), run.films[1].read()};
     picture.pixels = pooled(halves.a, halves.b);
     picture.variance = varianceOfMean(halves);
@@ -235,7 +237,7 @@ AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const Vie
     const GoalDistance distance = distanceTo(goal.noise, picture.pixels, errors);
     picture.share = goal.noise > 0.0 ? distance.share : 0.0;
     picture.error = distance.error;
-    // Two samples a half are the fewest that tell an error.
+    // An error needs at least two samples in each half.
     const bool enough = totalsOf(picture.pixels).fewestSamples >= 4;
     if (!enough) {
       picture.share = 0.0;

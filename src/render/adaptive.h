@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Samples where they are needed: until the picture's noise or the time is what was asked for.
+// Places samples where they are needed, until the picture has the noise, or has taken the time, that was
+// asked for.
 #pragma once
 
 #include <array>
@@ -29,23 +30,25 @@ struct AdaptivePicture {
   bool stopped = false;  ///< by progress
 };
 
-/// An adaptive picture on its way. Whoever keeps a copy of it between two draws can go on from there.
+/// An adaptive picture in progress. A copy of it between two draws is enough to continue from there.
 struct AdaptiveRun {
   std::array<Film, 2> films;  ///< the halves
   AdaptiveState state;
 
   explicit AdaptiveRun(glm::ivec2 size) : films{Film(size), Film(size)} {}
-  /// Of the state of a picture of that size.
+  /// The number of blocks in the state of a picture of that size.
   static size_t blocksOf(glm::ivec2 size);
 };
 
-/// Of the second half of an adaptive picture. No involution, so that two seeds never give the same picture.
+/// The seed of the second half of an adaptive picture. The function is not its own inverse, so two seeds
+/// never give the same picture.
 uint32_t seedOfOtherHalf(uint32_t seed);
 
 /// Draws two halves of the samples in rounds. The number of samples doubles in blocks of 8 x 8 pixels, so
-/// that Sobol sequences stay whole (the last time to what mostSamples leaves): where more than 5 % of a
-/// block's pixels that can be noisy are above the noise asked for, or without such a goal where a sample
-/// brings most. The renderer's current variant is used. `run` is a new one, or goes on.
+/// that Sobol sequences stay whole (the last time it grows to what mostSamples leaves). A block gets more
+/// samples if more than 5 % of its pixels that can be noisy are above the noise goal; without such a goal,
+/// blocks come first where a sample brings most. Uses the renderer's current variant. `run` is a new one, or
+/// one to continue.
 AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const View& view,
                                  const AdaptiveGoal& goal, RenderTimes& times,
                                  const Renderer::Progress& progress = Renderer::toTheEnd);

@@ -14,25 +14,26 @@
 
 namespace fragtrace {
 
-/// Changes whenever the filter gives another picture.
+/// The version changes whenever the filter gives another picture.
 inline constexpr std::string_view kVarianceFilter = "variance 3";
 
-/// Its programs and textures, which one context holds. Needs that context to be current in every call, of
-/// which framebuffer, viewport, program and texture units are changed.
+/// The filter's programs and textures, which belong to one context. That context must be current in every
+/// call; framebuffer, viewport, program and texture units of it are changed.
 class VarianceFilter {
  public:
-  /// Throws RenderError when the driver fails, as filtered() does.
+  /// Throws RenderError if the driver fails, as filtered() does.
   explicit VarianceFilter(const ShaderSource& source);
 
-  /// R, G and B of the picture that `noisy`, of `size` pixels, converges to, until the next call. All values
-  /// must be finite. Without `observed` the samples count as independent. Null, when goOn(), which is asked
-  /// between passes that are waited for, says no; without one nothing is waited for.
+  /// R, G and B of the picture to which `noisy`, of `size` pixels, converges. They are valid until the next
+  /// call. All values must be finite. Without `observed` the samples count as independent. goOn() is called
+  /// between passes, which are then waited for; if it returns false, the result is null. Without goOn nothing
+  /// is waited for.
   const GlTexture* filtered(const NoisyTextures& noisy, glm::ivec2 size, bool observed,
                             const std::function<bool()>& goOn, PicturePasses& passes);
 
-  /// The same of linear R, G, B, its variance.Y and samples.Y, kGuideChannels, and kObservedChannel where it
+  /// Filters linear R, G, B, given its variance.Y and samples.Y, kGuideChannels, and kObservedChannel if it
   /// is there. Pixels whose colour is not finite are filled from their neighbours; other such values count as
-  /// 0. Throws RenderError naming a layer that is missing.
+  /// 0. Throws RenderError that names a layer if it is missing.
   Image filtered(const Image& noisy);
 
  private:

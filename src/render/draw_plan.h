@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How work is cut into draws: small enough that none nears a driver's limits, large enough to keep it busy.
+// Cuts work into draws: small enough that none nears a driver's limits, large enough to keep it busy.
 #pragma once
 
 #include <algorithm>
@@ -9,13 +9,13 @@
 
 namespace fragtrace {
 
-/// Largest tile, in pixels: the states of its suspended paths stand in one storage buffer, of 60 to 104 MiB
+/// The largest tile, in pixels. The states of its suspended paths are in one storage buffer of 60 to 104 MiB
 /// (kPathRows of layout.glsl; a row has 16 bytes).
 inline constexpr int kMaxTilePixels = 1 << 18;
 /// The most lanes of a draw of the wavefront.
 inline constexpr int kMaxWaveLanes = 1 << 12;
 
-/// A rectangle of the film (from the bottom left) and which samples its pixels are to get: [from, to).
+/// A rectangle of the film (from the bottom left) and the samples that its pixels get: [from, to).
 struct Work {
   glm::ivec2 corner{0};
   glm::ivec2 size{0};
@@ -48,10 +48,10 @@ struct DrawPlan {
   int samples = 1;
 };
 
-/// The plan whose draws take about targetMs at a measured cost of msPerSample a pixel-sample (<= 0: not yet
-/// known, a careful start). At most `remaining` samples, and at most `most` samples a draw. Small tiles with
-/// several samples come before large tiles with one: a pixel whose path ends early goes on with its next
-/// sample instead of waiting for its neighbours.
+/// The plan whose draws take about targetMs at a measured cost of msPerSample for a sample of a pixel (<= 0:
+/// not yet known, a careful start). It has at most `remaining` samples, and at most `most` samples a draw.
+/// Small tiles with several samples are preferred to large tiles with one: a pixel whose path ends early
+/// begins its next sample instead of waiting for its neighbours.
 inline DrawPlan planDraws(glm::ivec2 picture, int remaining, int most, double msPerSample, double targetMs) {
   constexpr int kSmallest = 128;  // pixels a side: some tiles of 64 for each core of a software rasteriser
   constexpr double kEnoughSamples = 16.0;
@@ -73,9 +73,9 @@ inline DrawPlan planDraws(glm::ivec2 picture, int remaining, int most, double ms
   return plan;
 }
 
-/// The same for the wavefront, whose draws are cut by steps: paths go on from draw to draw, so a tile gets
-/// many samples before the next one, and only its last paths leave lanes idle. Rounds double, up to 64
-/// samples, so that a picture that is stopped early has about as many everywhere.
+/// The same for the wavefront, whose draws are limited by steps. Paths continue from draw to draw, so a tile
+/// gets many samples before the next one, and only its last paths leave lanes idle. Rounds double, up to 64
+/// samples, so that a picture that is stopped early has about as many samples everywhere.
 inline DrawPlan planWaves(glm::ivec2 picture, int done, int remaining) {
   return {glm::min(picture, glm::ivec2(128, 256)), std::min(remaining, std::clamp(done, 1, 64))};
 }

@@ -5,8 +5,8 @@
 
 namespace fragtrace {
 
-/// The objects that no two contexts share. They are made for a pass, so that what draws it may do so in any
-/// context that shares the rest.
+/// The objects that no two contexts share. They are made for a pass, so that a pass may draw in any context
+/// that shares the other objects.
 struct DrawTarget {
   GlFramebuffer framebuffer = makeFramebuffer();
   GlVertexArray vertexArray = makeVertexArray();

@@ -18,8 +18,8 @@ namespace {
 constexpr const char* kReading = "reading the film";
 constexpr const char* kLoading = "loading the film";
 
-/// A framebuffer to clear these by, in their order: drivers do so as they draw; llvmpipe clears a texture
-/// through the host.
+/// A framebuffer by which these textures are cleared, in their order. Drivers clear framebuffers as they
+/// draw; llvmpipe clears a texture through the host.
 GlFramebuffer targetOf(std::initializer_list<const GlTexture*> textures) {
   GlFramebuffer target = makeFramebuffer();
   std::array<GLenum, 3> buffers{};
@@ -105,7 +105,7 @@ void Film::addSplats(FilmPixels& film) const {
     const double samples = pixel.samples;
     const glm::dvec3 mean = glm::dvec3(splats[p * 4], splats[p * 4 + 1], splats[p * 4 + 2]) / paths;
     const double value = luminance(mean);
-    // Of the mean of independent paths, most of which bring nothing.
+    // The variance of the mean of independent paths, most of which bring no light.
     const double variance =
         std::max(0.0, splats[p * 4 + 3] / paths - value * value) / std::max(paths - 1.0, 1.0);
     pixel.sum += samples * mean;

@@ -9,47 +9,48 @@
 
 namespace fragtrace {
 
-/// Pixels of a film for which programs are compiled. llvmpipe compiles anew for sizes that are a power of
+/// The size of the film for which programs are compiled. llvmpipe compiles anew for sizes that are a power of
 /// two, which pictures seldom have.
 inline constexpr glm::ivec2 kCompiledFor{7};
 
-/// Sum, compensation and counts of every pixel on the device (shaders/film.glsl), and what light paths add.
+/// Sum, compensation and counts of every pixel on the device (shaders/film.glsl), and the light of light
+/// paths.
 class Film {
  public:
   explicit Film(glm::ivec2 size);
-  /// Of the pixels that this driver's films can have a side.
+  /// The largest number of pixels per side that a film can have with this driver.
   static int mostSide();
   void clear();
-  /// Empty, and of another size, of which it keeps its textures where these have room for it.
+  /// Empties the film and changes its size. It keeps its textures if these have room for that.
   void restart(glm::ivec2 size);
-  /// The counts alone, where all else is written anew before it is read.
+  /// Clears the counts alone, where all else is written before it is read again.
   void clearCounts();
   void bind() const;
   glm::ivec2 size() const { return size_; }
 
   FilmPixels read() const;
 
-  /// All of it, and back again into a film of that size: what is drawn from then on has the bits that it
-  /// would have had. Paths that were suspended between draws begin anew.
+  /// save() returns all of the film, and load() restores it in a film of that size. Samples drawn after that
+  /// have the bits that they would have had. Paths that were suspended between draws begin anew.
   FilmState save() const;
   void load(const FilmState& state);
 
-  /// What a program that draws guides has summed: kGuideChannels, and the counts of the pixels.
+  /// The sums of a program that draws guides: kGuideChannels, and the counts of the pixels.
   struct Guides {
     Image layers;
     FilmPixels counts;
   };
   Guides readGuides() const;
 
-  /// Makes room for light paths, and is where these add their light and its square.
+  /// The texture to which light paths add their light and its square; makes room for it.
   const GlTexture& splats();
-  /// Light paths that have been added.
+  /// The number of light paths that have been added.
   uint64_t lightPaths() const { return lightPaths_; }
   void countLightPaths(uint64_t paths) { lightPaths_ += paths; }
-  /// Sum and compensation as two textures, the first on this unit.
+  /// Binds sum and compensation as two textures, the first on this unit.
   void bindTextures(GLuint first) const;
 
-  /// Sum, compensation, counts, and light of light paths, which is null where there are none.
+  /// Sum, compensation, counts, and the light of light paths, which is null if there is none.
   std::array<const GlTexture*, 4> textures() const {
     return {&sum_, &compensation_, &counts_, lightPaths_ > 0 ? &splats_ : nullptr};
   }
@@ -57,8 +58,8 @@ class Film {
   /// Adds to FilmPixels::cut, which is kept on the host.
   void addCut(double cut) { cut_ += cut; }
 
-  /// Limits the samples of each pixel from now on, in the order of `pixels`, which is what read() gave and
-  /// nothing has changed since; 0: no limit.
+  /// Limits the samples of each pixel from now on, in the order of `pixels`, which must be what read()
+  /// returned and nothing has changed since; 0 means no limit.
   void setTargets(const FilmPixels& pixels, std::span<const uint32_t> targets);
 
  private:

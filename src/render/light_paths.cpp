@@ -8,13 +8,15 @@ namespace fragtrace {
 
 namespace {
 
-/// Light paths of a draw, a side. The same for every picture and driver, so that sums have the same bits.
+/// Light paths of a draw along each side. It is the same for every picture and driver, so that sums have the
+/// same bits.
 constexpr int kRecordSide = 256;
-/// Of a column of these, at most so many are drawn by a lane one after the other, so that none waits for the
+/// A lane draws at most so many light paths of a column one after the other, so that no lane waits for the
 /// longest path of the others. A row of lanes is as wide as the tile, since llvmpipe's threads share squares
 /// of 64 pixels, and rows are even, since it draws two at a time.
 constexpr int kSoftwarePathsPerLane = 16;
-/// Pixels of the picture that a pass has a light path for: caustics are less noisy than the rest with fewer.
+/// A pass has one light path for so many pixels of the picture: caustics are less noisy than the rest even
+/// with fewer.
 constexpr int kPixelsPerPath = 4;
 constexpr int kMargin = 4;  // pixels about the film; filters reach 2
 
@@ -52,7 +54,7 @@ bool Renderer::addLightPaths(Film& film, const View& view, int passes, const GoO
     const uint64_t pass = film.lightPaths() / perPass;
     uint64_t before = pass * perPass;  // paths of the tiles before this one
     for (const Work& tile : tiles) {
-      // Tiles of a pass that was stopped are there already.
+      // Tiles of a pass that was stopped may be there already.
       const bool there = before < film.lightPaths();
       if (!there && !addLightTile({drawn(*light), film, view, {tile}}, whole, int(pass), goOn)) return false;
       before += uint64_t(tile.size.x) * uint64_t(tile.size.y);
@@ -65,7 +67,7 @@ bool Renderer::addLightTile(const RenderPass& pass, glm::ivec2 whole, int index,
   const Work& tile = pass.work.front();
   View seen = pass.view;
   seen.sampleOffset += index;
-  // The film of records is that part of the paths that begins at the tile.
+  // The film of records holds the part of the paths that begins at the tile.
   seen.placement = Placement{{tile.corner.x, whole.y - tile.corner.y - kRecordSide}, whole};
   lightPathFilm_->clearCounts();
   const int rows = software_ ? 2 * partsOf(tile.size.y, 2 * kSoftwarePathsPerLane) : tile.size.y;
@@ -84,7 +86,7 @@ void Renderer::splat(const RenderPass& pass, glm::ivec2 tile) {
   const DrawTarget target;
   glNamedFramebufferTexture(target.framebuffer.name(), GL_COLOR_ATTACHMENT0, film.splats().name(), 0);
   target.bind();
-  // Where no viewport is larger than the film, points beside it are lost.
+  // If no viewport can be larger than the film, points beside it are lost.
   const int margin = std::max(size.x, size.y) + 2 * kMargin <= Film::mostSide() ? kMargin : 0;
   const glm::ivec2 viewport = size + 2 * margin;
   glViewport(-margin, -margin, viewport.x, viewport.y);

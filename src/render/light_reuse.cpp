@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The part of the renderer that keeps light samples for the pixels near them.
+// The part of the renderer that stores light samples for the pixels near them.
 #include "render/renderer.h"
 
 namespace fragtrace {

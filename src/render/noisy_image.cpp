@@ -37,8 +37,8 @@ std::array<const char*, 4> guideChannels(size_t from) {
   return {kGuideChannels[from], kGuideChannels[from + 1], kGuideChannels[from + 2], kGuideChannels[from + 3]};
 }
 
-/// Pixels whose colour is not finite get the mean of those around them that are, from the rim of a hole to
-/// its middle.
+/// Pixels whose colour is not finite get the mean of their finite neighbours, from the rim of a hole to its
+/// middle.
 void fillHoles(std::vector<float>& texels, const Image& image) {
   std::vector<size_t> holes;
   const size_t pixels = texels.size() / 4;

@@ -5,8 +5,8 @@
 
 namespace fragtrace {
 
-/// A noisy picture on the device, with what tells its surfaces apart: means of its samples, a texel a pixel,
-/// in textures that may be larger.
+/// A noisy picture on the device with its guides: means of its samples, a texel a pixel, in textures that may
+/// be larger.
 struct NoisyTextures {
   GlTexture radiance;  ///< linear R, G, B; variance of the mean's luminance (Layers::variance)
   GlTexture counts;    ///< samples; one observation of that variance (observedVariance()), negative: none
@@ -15,7 +15,7 @@ struct NoisyTextures {
   glm::ivec2 room{0};  ///< pixels that they hold
 };
 
-/// Textures for that many pixels, where these are smaller.
+/// Makes textures for that many pixels if these are smaller.
 inline void makeRoom(NoisyTextures& noisy, glm::ivec2 size) {
   glm::ivec2 room = noisy.room;
   if (!grows(room, size)) return;

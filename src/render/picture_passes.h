@@ -10,15 +10,15 @@
 
 namespace fragtrace {
 
-/// Of a fragment shader alone. Throws RenderError.
+/// Makes a program of a fragment shader alone. Throws RenderError.
 GlProgram passProgram(const ShaderSource& source, const char* entry);
 
-/// A framebuffer and its draws; changes framebuffer, viewport, program and texture units of the context.
+/// A framebuffer and its draws. Changes framebuffer, viewport, program and texture units of the context.
 class PicturePasses {
  public:
   PicturePasses() : vertexArray_(makeVertexArray()), framebuffer_(makeFramebuffer()) {}
 
-  /// Over `into.front()`'s first `drawn` pixels; `size` is what the program takes for its own. Throws
+  /// Draws over the first `drawn` pixels of `into.front()`. `size` is the size that the program sees. Throws
   /// RenderError.
   void draw(const GlProgram& program, glm::ivec2 size, glm::ivec2 drawn,
             std::initializer_list<const GlTexture*> from, std::initializer_list<const GlTexture*> into);
@@ -33,16 +33,16 @@ class PicturePasses {
   size_t attached_ = 0;
 };
 
-/// What is left of a picture after sums over blocks, block by block down to a texel.
+/// Sums a picture over blocks, and these sums again, down to one texel.
 class PictureSums {
  public:
   PictureSums(const ShaderSource& source) : sums_(passProgram(source, "picture/sums.frag")) {}
 
   /// The size after one sum.
   static glm::ivec2 blocksOf(glm::ivec2 size);
-  /// Where a program leaves its sums over blocks of a picture of that size.
+  /// The texture into which a program writes its sums over blocks of a picture of that size.
   const GlTexture& blocks(glm::ivec2 size);
-  /// Sums these, into one texel of RGBA32F.
+  /// Sums the blocks into one texel of RGBA32F.
   void into(const GlTexture& texel, glm::ivec2 size, PicturePasses& passes);
 
  private:

@@ -10,7 +10,8 @@ namespace fragtrace {
 namespace {
 
 constexpr int32_t kUnfinished = -2;  // kRayUnfinished of shaders/rays.glsl
-/// llvmpipe ends all loops of an invocation after 65,535 iterations in sum; a step may take three of them.
+/// llvmpipe ends all loops of an invocation after 65,535 iterations in total, and a step may take three of
+/// them.
 constexpr int kStepLimit = 20000;
 
 GLuint makeFramebuffer(glm::ivec2 size) {

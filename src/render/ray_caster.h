@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Traversal alone on the device: rays in, what they hit out, for measurements.
+// Traversal alone on the device, for measurements: rays go in, and hits come out.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace fragtrace {
 
-/// What a ray met: its leaf slot (leaf * 2 + side) or -1, and how far away.
+/// The hit of a ray: its leaf slot (leaf * 2 + side) or -1, and its distance.
 struct TracedRay {
   int32_t slot = -1;
   float t = 0.0f;
@@ -22,8 +22,8 @@ struct TracedRay {
 
 class RayCaster {
  public:
-  /// Uploads the scene for the variant's traversal and reads; the size is that of all sets of rays. Throws
-  /// RenderError when an array is larger than the driver reads.
+  /// Uploads the scene for the variant's traversal and reads. The size is that of all sets of rays. Throws
+  /// RenderError if an array is larger than the driver can read.
   RayCaster(const Context& context, GpuScene scene, const ShaderVariant& variant, glm::ivec2 size,
             const std::filesystem::path& shaderFolder = {});
 
@@ -37,14 +37,14 @@ class RayCaster {
     GlBuffer buffer_;
   };
 
-  /// Traces a set, one ray a pixel. anyHit: any hit ends a ray, else the nearest is found. Returns
-  /// milliseconds: by the wall clock round glFinish on software, by the device's own timer elsewhere.
+  /// Traces a set, one ray a pixel. anyHit: any hit ends a ray; otherwise the nearest one is found. Returns
+  /// milliseconds, by the wall clock around glFinish on software, by the device's own timer elsewhere.
   double trace(const RaySet& rays, bool anyHit);
 
-  /// What the latest trace found. Throws RenderError when a ray took more steps than one draw allows.
+  /// The hits of the latest trace. Throws RenderError when a ray took more steps than one draw allows.
   std::vector<TracedRay> hits() const;
 
-  /// Which clock trace() reads: "wall clock" or "gpu timer".
+  /// The clock that trace() reads: "wall clock" or "gpu timer".
   const char* clockName() const { return software_ ? "wall clock" : "gpu timer"; }
 
  private:

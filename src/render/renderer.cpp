@@ -22,16 +22,16 @@ double milliseconds(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
-/// llvmpipe ends all loops of an invocation after 65,535 iterations in sum. It runs 8 pixels in lockstep,
-/// each iteration that any of them counts may bring up to two more that none counts: 65,535 / 24.
+/// llvmpipe ends all loops of an invocation after 65,535 iterations in total. It runs 8 pixels in lockstep,
+/// and each iteration that one of them counts may cause up to two more that none counts: 65,535 / 24.
 constexpr int kSoftwareStepBudget = 2700;
 /// GPUs have no such limit; time alone bounds a draw.
 constexpr int kHardwareStepBudget = 1 << 16;
-/// The wavefront counts all iterations but those of searches while shading, so 8 lanes that never iterate
+/// The wavefront counts all iterations except those of searches while shading, so 8 lanes that never iterate
 /// together stay below the limit.
 constexpr int kSoftwareWaveBudget = 7500;
 
-/// A draw's time: short enough to stop within a second and to stay far from a GPU's watchdog.
+/// The time of a draw: short enough to stop within a second, and far from a GPU's watchdog.
 constexpr double kSoftwareDrawMs = 200.0;
 constexpr double kHardwareDrawMs = 20.0;
 
@@ -336,8 +336,8 @@ bool Renderer::addParts(Film& film, const View& view, std::span<const Work> part
   ShaderVariant& variant = pace_->drawn;
   for (const Work& part : parts) {
     for (Work round = part; round.from < part.to; round.from = round.to) {
-      // Step: plan a round. Pixels take light samples of others in the same sample, which are kept for one at
-      // a time.
+      // Step: plan a round. Where pixels take light samples of others in the same sample, these are stored
+      // for one sample at a time.
       const int left = variant.neighbours ? 1 : part.to - round.from;
       const DrawPlan plan = variant.wavefront ? planWaves(part.size, round.from, left)
                                               : planDraws(part.size, left, pace_->mostSamplesPerDraw,
@@ -355,7 +355,7 @@ bool Renderer::addParts(Film& film, const View& view, std::span<const Work> part
       adaptPace(plan.samples);
       const bool lit = addLightPaths(film, view, round.to, stays);
 
-      // Step: note its time, where it is of whole frames.
+      // Step: note its time, if it is that of whole frames.
       const double frameMs = milliseconds(start, Clock::now()) / plan.samples;
       if (part.size == film.size() && part.busy == 1.0) {
         if (times.frameMs.empty()) times.firstFrameMs = frameMs;

@@ -29,10 +29,10 @@ struct Lens {
   int blades = 0;              ///< of a polygonal aperture; 0: a round one
 };
 
-/// Whether this driver can add points to a film of 32-bit floats, as caustics are drawn.
+/// Returns true if this driver can add points to a film of 32-bit floats, as caustics need.
 bool canSplat();
 
-/// What can change from picture to picture without touching program or buffers.
+/// Settings that can change from picture to picture without touching program or buffers.
 struct View {
   Camera camera;                ///< world space
   LocalSpace space;             ///< of the scene
@@ -53,7 +53,7 @@ struct View {
   std::optional<Placement> placement;  ///< of the film in the picture; none: it is the whole
 };
 
-/// Time of the draws so far; frames are one sample in every pixel.
+/// The times of the draws so far; a frame is one sample in every pixel.
 struct RenderTimes {
   double renderMs = 0.0;  ///< by the wall's clock, with all that is done between draws
   double drawMs = 0.0;    ///< of the draws alone, by Renderer::clock()
@@ -74,69 +74,70 @@ class Renderer {
   static constexpr int kLeastWaveBudget = 2000;  // a round of 32 pixels takes a few hundred steps
 
  public:
-  /// Uploads the scene, which must hold all that the variants to come read; its arrays are freed one by one.
+  /// Uploads the scene, which must hold all that later variants read. Its arrays are freed one by one.
   Renderer(const Context& context, GpuScene scene, BufferReads reads,
            const std::filesystem::path& shaderFolder = {});
   /// The same with programs that may have been built already.
   Renderer(const Context& context, GpuScene scene, BufferReads reads, ProgramCache programs);
 
-  /// The next scene of a sequence, read the same way; programs stay.
+  /// Replaces the scene by the next one of a sequence, which is read in the same way. Programs stay.
   void replaceScene(GpuScene scene);
 
-  /// Builds the variant's program and draws one tiny tile, which is where llvmpipe compiles; draws that
-  /// follow use it. The film ends up cleared. Returns milliseconds.
+  /// Builds the variant's program and draws one tiny tile, which makes llvmpipe compile. Later draws use it.
+  /// The film is empty afterwards. Returns milliseconds.
   double compile(const ShaderVariant& variant, Film& film, const View& view);
 
-  /// Whether compile() has seen the variant.
+  /// Returns true if compile() has seen the variant.
   bool knows(const ShaderVariant& variant) const { return paces_.contains(variant); }
-  /// Draws with such a variant, at the pace that it had.
+  /// Draws with such a variant from now on, at the pace that it had.
   void use(const ShaderVariant& variant) { pace_ = &paces_.at(variant); }
 
-  /// All are built again when they are used next; none may be drawing.
+  /// Forgets all programs, which are built again at their next use. None may be drawing.
   void forgetPrograms();
 
   /// Called after each draw with the fraction of the work done, 0..1; false stops the work.
   using Progress = std::function<bool(double fraction)>;
   static bool toTheEnd(double) { return true; }
 
-  /// Adds samples to parts of the film, one after the other. False when progress stopped it; the film then
-  /// holds what was finished. compile() or use() has said which variant draws.
+  /// Adds samples to parts of the film, one after the other. Returns false if progress stopped it; the film
+  /// then holds the finished samples. compile() or use() has chosen the variant.
   bool addSamples(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
                   const Progress& progress = toTheEnd);
-  /// Samples [from, to) of every pixel of the film.
+  /// Adds samples [from, to) to every pixel of the film.
   bool addSamples(Film& film, const View& view, int from, int to, RenderTimes& times,
                   const Progress& progress = toTheEnd) {
     const Work whole{{0, 0}, film.size(), from, to};
     return addSamples(film, view, {&whole, 1}, times, progress);
   }
 
-  /// Milliseconds that one sample of one pixel takes, as measured by the latest work; 0: not yet known.
+  /// The milliseconds that one sample of one pixel takes, as the latest work measured them; 0 if not yet
+  /// known.
   double msPerSample() const { return pace_ ? pace_->msPerSample : 0.0; }
 
-  /// What measures RenderTimes::drawMs: the GPU's timer, or the wall's clock round glFinish where a software
+  /// The clock of RenderTimes::drawMs: the GPU's timer, or the wall clock around glFinish where a software
   /// driver's timer is wrong.
   const char* clock() const { return software_ ? "wall clock" : "gpu timer"; }
 
-  /// How long a draw may take from now on; for benchmarks, whose frames are known to be short.
+  /// Sets the time that a draw may take from now on; for benchmarks, whose frames are known to be short.
   void setDrawTime(double ms) { targetMs_ = ms; }
 
-  /// Sets how many draws the device is told before the first is done: 1 or 2, by default 2 on hardware.
+  /// Sets how many draws are queued at a time: 1 or 2, by default 2 on hardware.
   void setDrawsInFlight(size_t draws) { inFlight_ = std::clamp(draws, size_t(1), kMostInFlight); }
 
  private:
-  /// What of a scene stands in the frame's block.
+  /// Sets the members of the uniform block that depend on the scene.
   void describeScene(const GpuScene& scene);
-  /// What of a film and a view stands there.
+  /// Sets the members of the uniform block that depend on a film and a view.
   void setFrame(const Film& film, const View& view);
   /// Binds all that the draws of a pass have in common; they draw to the result.
   DrawTarget begin(const RenderPass& pass);
-  /// These bytes of the frame's block, which the draws to come read.
+  /// Uploads these bytes of the uniform block for later draws.
   void uploadFrame(size_t from, size_t to);
   void useProgram(const ShaderVariant& variant);
   void bindPathStates(const ShaderVariant& variant);
   /// Loop iterations that a lane may take in one draw.
   int stepBudget(const ShaderVariant& variant) const;
-  /// The wavefront's from the time of a draw that used it up.
+  /// Adapts the wavefront's budget to the time of a draw that used it up.
   void adaptBudget(double ms);
   /// A draw that the device may not have done yet.
   struct Flight {
@@ -147,32 +148,32 @@ class Renderer {
     std::chrono::steady_clock::time_point start;
   };
   static constexpr size_t kMostInFlight = 2;
-  /// Draws a tile; `goesOn`: it was drawn before and is not finished.
+  /// Draws a tile. `goesOn`: the tile was drawn before and is not finished.
   Flight submit(const ShaderVariant& variant, const Work& tile, bool goesOn);
-  /// Waits for it.
+  /// Waits for the draw, and returns its progress.
   layout::Progress land(Flight& flight);
   /// Called after each draw with the pixel-samples that a pass has finished; false stops it.
   using GoOn = std::function<bool(double pixelSamples)>;
   /// Does the work of a pass; false when stopped.
   bool drawPass(const RenderPass& pass, const GoOn& goOn);
-  /// Waits for the draw, and draws on until the tile is finished. False when stopped.
+  /// Waits for the draw, and draws the tile again until it is finished. False if it was stopped.
   bool finishTile(const RenderPass& pass, Flight flight, const std::function<bool()>& goOn);
   bool addParts(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
                 const Progress& progress);
-  /// Brings the film's light paths up to so many passes, where its picture has any; false when stopped.
+  /// Traces light paths until the film has so many passes, if its picture has any; false if it was stopped.
   bool addLightPaths(Film& film, const View& view, int passes, const GoOn& goOn);
   void compileLightPaths(Film& film, const View& view);
-  /// A tile of light paths, whose pass has this index: `pass` is of the film that they add to.
+  /// Draws a tile of light paths of the pass with this index. `pass` has the film to which they are added.
   bool addLightTile(const RenderPass& pass, glm::ivec2 whole, int index, const GoOn& goOn);
-  /// Keeps the light samples of all pixels in their sample `index`, where the picture's pixels take those of
-  /// others; false when stopped.
+  /// Stores the light samples of all pixels in their sample `index`, if the picture's pixels take those of
+  /// others; false if it was stopped.
   bool keepLight(const Film& film, const View& view, int index, const GoOn& goOn);
-  /// What a tile of the records holds, through the pixel filter.
+  /// Draws the records of a tile into the film of splats, through the pixel filter.
   void splat(const RenderPass& pass, glm::ivec2 tile);
-  /// More samples a draw as long as the step budget takes them.
+  /// Allows more samples a draw as long as they fit into the step budget.
   void adaptPace(int samples);
 
-  /// How much of a variant's work goes into a draw.
+  /// The amount of a variant's work that goes into one draw.
   struct Pace {
     ShaderVariant drawn;  ///< resumable where it had to be
     double msPerSample = 0.0;

@@ -9,7 +9,8 @@ namespace fragtrace {
 
 namespace {
 
-/// As shaders/picture/reproject.frag has it, relative to a point, so that floats are exact about the camera.
+/// Writes the camera in the layout of shaders/picture/reproject.frag, relative to a point, so that floats are
+/// exact around the camera.
 void putCamera(glm::vec4* rows, const SeenPicture& picture, const glm::dvec3& origin) {
   const Projection p = projectionOf(picture.camera, double(picture.size.x) / picture.size.y);
   rows[0] = glm::vec4(glm::vec3(p.position - origin), 0.0f);

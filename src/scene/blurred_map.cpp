@@ -21,7 +21,7 @@ glm::dvec3 texelOf(const Image& map, int x, int y) {
   return {p[0], p[1], p[2]};
 }
 
-/// Between texels, as shaders/environment.glsl reads the map.
+/// Reads the map between texels, as shaders/environment.glsl does.
 glm::dvec3 bilinear(const Image& map, double u, double v) {
   const glm::dvec2 place(u * map.width - 0.5, v * map.height - 0.5);
   const glm::dvec2 base = glm::floor(place);
@@ -32,7 +32,7 @@ glm::dvec3 bilinear(const Image& map, double u, double v) {
                   glm::mix(texelOf(map, x, y + 1), texelOf(map, x + 1, y + 1), part.x), part.y);
 }
 
-/// The map in `width` by `height` texels, each the mean of the map in it.
+/// The map in `width` by `height` texels, each the mean of its part of the map.
 MapRows scaled(const Image& map, int width, int height) {
   const int across = (map.width + width - 1) / width;
   const int down = (map.height + height - 1) / height;

@@ -19,10 +19,10 @@ double radiusOf(const BoundsDouble& bounds) {
   return radius > 0.0 && std::isfinite(radius) ? radius : 1.0;
 }
 
-/// The part of `up` that is orthogonal to a unit `forward`, or of the first axis, y, z, x, that is not
-/// parallel to it.
+/// The part of `up` that is orthogonal to a unit `forward`. If `up` is parallel to it, the first of the axes
+/// y, z, x that is not takes its place.
 glm::dvec3 orthogonalUp(const glm::dvec3& up, const glm::dvec3& forward) {
-  // Sine of the angle below which two directions count as parallel: what is left then is mostly rounding.
+  // Below this sine of their angle, two directions count as parallel: what would be left is mostly rounding.
   constexpr double kParallelSine = 1e-9;
   const std::array<glm::dvec3, 4> candidates = {up, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
   for (const glm::dvec3& candidate : candidates) {
@@ -33,10 +33,11 @@ glm::dvec3 orthogonalUp(const glm::dvec3& up, const glm::dvec3& forward) {
   return {0, 1, 0};
 }
 
-/// From where a view of that angle, in a picture of that width / height, holds the sphere about the bounds.
+/// The distance from which a view of that angle, in a picture of that width / height, holds the sphere about
+/// the bounds.
 double framingDistance(double fovY, double aspectRatio, const BoundsDouble& bounds) {
-  // The narrower side of the picture decides. A narrow view of a sphere shows it up to its middle, so that
-  // what is wide would touch the picture's edge: a tenth stays free.
+  // The narrower side of the picture decides. A narrow view of a sphere shows it up to its middle, so wide
+  // scenes would touch the picture's edge: a tenth stays free.
   const double narrow = std::min(1.0, aspectRatio);
   const double filled = 1.0 - 0.1 * std::min(1.0, 2.0 * (1.0 - narrow));
   return radiusOf(bounds) / std::sin(std::atan(std::tan(0.5 * fovY) * narrow * filled));
@@ -51,7 +52,7 @@ glm::dvec3 levelOutwards(const Orbit& orbit) {
   return {std::sin(azimuth), 0.0, std::cos(azimuth)};
 }
 
-/// The camera's lens on the sphere about what is looked at.
+/// Puts the camera's lens on the sphere about the point at which it looks.
 Camera orbiting(const Camera& lens, const Orbit& orbit, const CameraOverrides& overrides,
                 const BoundsDouble& bounds, double aspectRatio) {
   const CameraOverrides ofLens{.viewAngleDegrees = overrides.viewAngleDegrees,

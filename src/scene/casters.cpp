@@ -11,7 +11,7 @@ namespace fragtrace {
 
 namespace {
 
-/// Two balls in place of one pay where they are seen under less of the sphere by so much.
+/// Two balls replace one only if together they cover at most this share of its solid angle.
 constexpr float kLeastSaving = 0.7f;
 
 struct Group {
@@ -28,7 +28,7 @@ Ball ballAround(const std::vector<Ball>& balls) {
   Ball around{box.center(), 0.0f};
   for (const Ball& b : balls)
     around.radius = std::max(around.radius, glm::distance(b.middle, around.middle) + b.radius);
-  // Sums of the shader round.
+  // This covers the rounding of sums in the shader.
   around.radius *= 1.0f + 1e-5f;
   return around;
 }
@@ -41,7 +41,7 @@ Ball ballOfTriangle(const std::array<glm::vec3, 3>& corners) {
   return ball;
 }
 
-/// As a matrix takes it: no direction is stretched by more than the matrix's norm.
+/// The ball after a matrix, which stretches no direction by more than its norm.
 Ball transformed(const Ball& ball, const glm::dmat4& matrix) {
   const glm::dmat3 turn(matrix);
   const double stretch =
@@ -75,20 +75,21 @@ std::vector<Ball> allBalls(const Scene& scene) {
   return balls;
 }
 
-/// Squared radius of a ball round a box.
+/// The squared radius of a ball around a box.
 float ballSquared(const Bounds& box) {
   const glm::vec3 half = box.extent() * 0.5f;
   return glm::dot(half, half);
 }
 
-/// A plane across an axis, that parts balls by their middles.
+/// A plane across an axis that divides balls by their middles.
 struct Cut {
   int axis = 0;
   float place = 0.0f;
   float squared = std::numeric_limits<float>::infinity();  ///< radii of balls round both boxes, squared
 };
 
-/// Of the planes between equal slices of the box of the middles, the one whose sides have the smallest balls.
+/// The best of the planes between equal slices of the box of the middles: the one whose sides have the
+/// smallest balls.
 Cut bestCut(const std::vector<Ball>& balls) {
   constexpr int kSlices = 16;
   Bounds middles;
@@ -140,7 +141,8 @@ std::vector<Ball> casterBalls(const Scene& scene, size_t most) {
   if (all.empty()) return {};
   std::vector<Group> groups{{std::move(all), {}}};
   groups[0].around = ballAround(groups[0].balls);
-  // Breadth first, so that the largest groups are parted before there are as many as may be.
+  // Groups are divided breadth first, so that the largest ones are divided before their number reaches the
+  // limit.
   for (size_t i = 0, tried = 0; groups.size() < most && tried < groups.size();) {
     const auto [first, second] = halves(groups[i]);
     const float whole = groups[i].around.radius * groups[i].around.radius;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What throws caustics: surfaces that send the light of lamps on in single directions.
+// Finds the casters of caustics: surfaces that reflect or refract the light of lamps in single directions.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace fragtrace {
 
-/// Smooth all over, and glass or metal at least in places. Light that scatters at such materials alone
-/// between a lamp and a rough surface is found by light paths (shaders/caustics/); where textures decide what
-/// is smooth, or clearcoat and sheen lie above, by camera paths as ever.
+/// Returns true if the material is smooth all over, and glass or metal at least in places. Light paths find
+/// the light that scatters at such materials alone between a lamp and a rough surface (shaders/caustics/).
+/// Where textures decide what is smooth, or clearcoat and sheen lie above, camera paths find it.
 bool castsCaustics(const Material& material);
 
 /// A ball in local space.
@@ -19,7 +19,7 @@ struct Ball {
   float radius = 0.0f;
 };
 
-/// At most so many balls that enclose all casters; near ones share one.
+/// At most so many balls that together enclose all casters; casters near each other share one.
 std::vector<Ball> casterBalls(const Scene& scene, size_t most);
 
 }  // namespace fragtrace

@@ -15,30 +15,31 @@ namespace fragtrace {
 
 namespace {
 
-/// What the next ray's own rounding needs of a height over a plane, in offsets: 22 of 32
+/// The height over a plane that the rounding of the next ray needs, in offsets: 22 of 32
 /// (docs/design/ray-origins.md).
 constexpr double kClearance = 22.0 / 32.0;
-/// What a grazing ray leaves unknown of where in the plane its point is, in offsets: 16 of 32, for the floats
-/// of the ray's point and a sine of 1/16 (pointOnPlane of shaders/intersect.glsl). Of slivers also what the
-/// weighted distance is off by (isSliver).
+/// The uncertainty of a point within its plane when the ray grazes, in offsets: 16 of 32, for the floats of
+/// the ray's point and a sine of 1/16 (pointOnPlane of shaders/intersect.glsl). For slivers the error of the
+/// weighted distance is added (isSliver).
 constexpr double kGrazing = 0.5;
-/// Offsets are packed with a few bits, rounded up by at most this.
+/// Offsets are packed with a few bits, rounded up by at most this factor.
 constexpr double kPackedOffset = 1.25;
-/// Neighbours whose unit normals have at least this dot product need nothing: the offset lifts off both.
+/// Neighbours whose unit normals have at least this dot product need no inset: the offset lifts points off
+/// both.
 constexpr float kGentle = float(kClearance);
-/// All within half of that angle of one normal: cos(acos(kGentle) / 2).
+/// All normals within half of that angle of one normal: cos(acos(kGentle) / 2).
 constexpr float kGentleCone = 0.9186f;
-/// The least cosine of a sharp crease, of 101 degrees: wider ones leave a fifth of the offset as a height
-/// over the other face, more than distances were ever found to be off.
+/// The least cosine of a sharp crease, of 101 degrees. Wider ones leave a fifth of the offset as a height
+/// over the other face, which is more than the largest error of a distance that was ever found.
 constexpr double kSharp = -0.2;
-/// Wedges below half a degree hold nothing that could be seen, and cards with two faces have one of 0.
+/// Nothing can be seen within wedges below half a degree, and cards with two faces have an angle of 0.
 constexpr double kLeastSine = 0x1p-7;
-/// The farthest that a point is moved, in offsets.
+/// The largest distance by which a point is moved, in offsets.
 constexpr double kMostInset = 256.0;
 constexpr size_t kMostFaces = 512;
 constexpr uint32_t kNone = 0xffffffffu;
 
-/// The triangles round each place: vertices at the same place count as one.
+/// The triangles around each place: vertices at the same place count as one.
 struct Fans {
   std::vector<uint32_t> place;   ///< of each corner, three a triangle
   std::vector<uint32_t> first;   ///< of each place, in `corner`; one more at the end
@@ -46,15 +47,15 @@ struct Fans {
 };
 
 size_t hashOf(const glm::vec3& p) {
-  // Of -0 + 0 comes 0: both are one place.
+  // -0 + 0 is 0, so both have the same place.
   uint64_t h = 0;
   for (int axis = 0; axis < 3; ++axis)
     h = (h ^ std::bit_cast<uint32_t>(p[axis] + 0.0f)) * 0x9e3779b97f4a7c15u;
   return size_t(h ^ (h >> 29));
 }
 
-/// Of vertices, which space they are in: 0 is local space, a shared mesh's is its index + 1. Empty without
-/// those.
+/// The space of each vertex: 0 is local space, that of a shared mesh is its index + 1. Empty without shared
+/// meshes.
 std::vector<uint32_t> spacesOf(const Scene& scene) {
   std::vector<uint32_t> spaces;
   if (scene.sharedMeshes.empty()) return spaces;
@@ -69,7 +70,7 @@ std::vector<uint32_t> spacesOf(const Scene& scene) {
   return spaces;
 }
 
-/// Of each vertex the first one at the same place of the same space.
+/// For each vertex, the first one at the same place of the same space.
 std::vector<uint32_t> placesOf(const Scene& scene) {
   const std::vector<glm::vec3>& positions = scene.vertices.position;
   const std::vector<uint32_t> spaces = spacesOf(scene);
@@ -111,7 +112,7 @@ struct Sector {
   std::array<double, 3> altitude;        // over the edge opposite to the corner, the second, the third vertex
   std::array<double, 2> length;          // of the edges to the second and to the third vertex
   double offset;
-  double grazing;          // what a grazing ray leaves unknown of where in the plane its point is
+  double grazing;          // the uncertainty of a point within the plane for a grazing ray
   uint32_t second, third;  // places
   uint32_t triangle, corner;
 };
@@ -150,15 +151,15 @@ double nearest(const glm::dvec3& direction, const Sector& s) {
   return std::max(glm::dot(direction, s.toSecond), glm::dot(direction, s.toThird));
 }
 
-/// What is asked of a triangle's points, and whether the crease that asks is sharp.
+/// The distances that the points of a triangle need, and if the crease that asks for them is sharp.
 struct Asked {
   double distance = 0.0;  // from the edge or vertex
   bool sharp = false;
 };
 
-/// From the edge at which the face and its neighbour meet, given the directions along the edge and to the
-/// third vertices: the height over the neighbour's plane, distance * sine - offset * cosine, is to be the
-/// clearance.
+/// The distance from the edge at which the face and its neighbour meet, given the directions along the edge
+/// and to the third vertices. The height over the neighbour's plane, distance * sine - offset * cosine, must
+/// be the clearance.
 Asked besideEdge(const Sector& face, const Sector& other, const glm::dvec3& edge, const glm::dvec3& inFace,
                  const glm::dvec3& inOther) {
   const glm::dvec3 a = inFace - edge * glm::dot(edge, inFace);
@@ -172,8 +173,8 @@ Asked besideEdge(const Sector& face, const Sector& other, const glm::dvec3& edge
   return {std::min(height / sine + face.grazing, kMostInset * face.offset), cosine > kSharp};
 }
 
-/// From a vertex at which two triangles without a common edge meet: a point at distance r is r times the sine
-/// of the angle between them away from the other.
+/// The distance from a vertex at which two triangles without a common edge meet. A point at distance r is r
+/// times the sine of the angle between them away from the other.
 Asked besideVertex(const Sector& face, const Sector& other, bool woundAlike) {
   const double cosine = std::max({nearest(face.toSecond, other), nearest(face.toThird, other),
                                   nearest(other.toSecond, face), nearest(other.toThird, face)});
@@ -184,9 +185,9 @@ Asked besideVertex(const Sector& face, const Sector& other, bool woundAlike) {
           !woundAlike || glm::dot(face.normal, other.normal) < 0.0};
 }
 
-/// The same where the triangles run along each other, so that no distance from the vertex would do: the
-/// distance from the line in which their planes meet. It is at least `altitude` times the part of the way
-/// from the vertex to the edge opposite; 0 where the line leads through the face.
+/// The same for triangles that run along each other, where no distance from the vertex is enough: the
+/// distance from the line in which their planes meet. It is at least `altitude` times the share of the way
+/// from the vertex to the edge opposite; 0 if the line leads through the face.
 Asked besideLine(const Sector& face, const Sector& other, double& altitude) {
   const glm::dvec3 across = glm::cross(face.normal, other.normal);
   const double sine = glm::length(across);
@@ -202,13 +203,13 @@ Asked besideLine(const Sector& face, const Sector& other, double& altitude) {
   return besideEdge(face, other, line, face.toSecond + face.toThird, other.toSecond + other.toThird);
 }
 
-/// The code of the next power of two; at most a quarter.
+/// The code of the next power of two, at most a quarter.
 uint8_t codeOf(double part) {
   if (!(part > 0.0)) return 0;
   return uint8_t(std::clamp(std::floor(-std::log2(part)), 2.0, 31.0));
 }
 
-/// The codes of all triangles; each is written by the place that its vertex or the lower end of its edge is.
+/// The codes of all triangles. Each is written by the place of its vertex, or of the lower end of its edge.
 struct Codes {
   std::vector<std::array<uint8_t, 6>> of;
   std::atomic<bool> sharp{false};
@@ -243,8 +244,8 @@ void askBeside(const Sector& face, const Sector& other, uint32_t place, bool wou
   codes.ask(face, 3 + face.corner, altitude, asked);
 }
 
-/// Whether no two triangles round a place run along an edge in the same direction: else normals do not tell
-/// how they bend.
+/// Returns true if no two triangles around a place run along an edge in the same direction. If two do,
+/// normals do not tell how they bend.
 bool areWoundAlike(const Fans& fans, uint32_t place) {
   const auto nextOf = [&](uint32_t i, uint32_t steps) {
     const uint32_t corner = fans.corner[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is in a scene, as counts, for `fragtrace info` and the statistics.
+// Counts the content of a scene, for `fragtrace info` and the statistics.
 #pragma once
 
 #include <cstddef>
@@ -43,7 +43,7 @@ struct SceneDescription {
   size_t cameras() const { return perspectiveCameras + orthographicCameras; }
 };
 
-/// Counts; unlit materials do not count as emissive, since they show their base colour only.
+/// Counts the content. Unlit materials do not count as emissive, since they only show their base colour.
 SceneDescription describe(const Scene& scene);
 
 }  // namespace fragtrace

@@ -14,7 +14,7 @@ namespace {
 struct Facing {
   glm::dmat3 sum{0.0};
 
-  /// `normal` is as long as the area.
+  /// Adds a surface whose `normal` is as long as its area.
   void add(const glm::dvec3& normal) {
     const double area = glm::length(normal);
     if (area > 0.0) sum += glm::outerProduct(normal, normal) / area;
@@ -32,7 +32,8 @@ Facing facingOf(const Scene& scene, size_t first, size_t count) {
   return facing;
 }
 
-/// Strokes do not count, which face the camera anyway. The space is local, its axes are the world's.
+/// Sums up the scene without strokes, which face the camera anyway. The space is local, its axes are the
+/// world's.
 Facing facingOf(const Scene& scene) {
   Facing facing = facingOf(scene, 0, flatTriangleCount(scene) - scene.strokeTriangles);
   std::vector<Facing> meshes;
@@ -40,7 +41,7 @@ Facing facingOf(const Scene& scene) {
     meshes.push_back(facingOf(scene, mesh.firstTriangle, mesh.triangleCount));
   for (const Instance& instance : scene.instances) {
     const glm::dmat3 linear(instance.toLocal);
-    // The cofactors take areas to areas, exactly so where the scale is the same along all axes.
+    // The cofactors transform areas, exactly if the scale is the same along all axes.
     const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                                glm::cross(linear[0], linear[1]));
     const double scale = std::cbrt(std::abs(glm::determinant(cofactors)));
@@ -51,7 +52,7 @@ Facing facingOf(const Scene& scene) {
   return facing;
 }
 
-/// 0 where all surfaces are seen along their edges, 1 where they face the camera.
+/// 0 if all surfaces are seen along their edges, 1 if they face the camera.
 double meanSquaredCosine(const Facing& facing, const Orbit& orbit) {
   const glm::dvec3 d = outwardsOf(orbit);
   const double trace = facing.sum[0][0] + facing.sum[1][1] + facing.sum[2][2];
@@ -61,7 +62,7 @@ double meanSquaredCosine(const Facing& facing, const Orbit& orbit) {
 }  // namespace
 
 Orbit firstView(const Scene& scene) {
-  // An edge: 14 degrees or less to the surface. A level floor is seen at 20.
+  // The limit for a view along the edge: 14 degrees or less to the surface. A level floor is seen at 20.
   constexpr double kEdge = 0.06;
   constexpr std::array<Orbit, 3> kOthers{
       {{.azimuthDegrees = -kFirstView.azimuthDegrees, .elevationDegrees = kFirstView.elevationDegrees},

@@ -13,14 +13,14 @@
 namespace fragtrace {
 namespace {
 
-/// About the sphere, a little outside, so that their hull holds it.
+/// Appends points around the sphere, a little outside, so that their hull holds it.
 void appendSphere(const glm::dvec3& center, double radius, std::vector<glm::dvec3>& points) {
   constexpr double kOutside = 1.01;
   for (const glm::dvec3& direction : directionsAllAround())
     points.push_back(center + kOutside * radius * direction);
 }
 
-/// Vertices of these triangles, each once.
+/// The vertices of these triangles, each once.
 std::vector<glm::dvec3> verticesOf(const Scene& scene, size_t first, size_t count) {
   std::vector<uint32_t> used;
   used.reserve(3 * count);
@@ -63,7 +63,7 @@ void appendInstances(const Scene& scene, std::vector<glm::dvec3>& points) {
   }
 }
 
-/// Right, up and depth, from the camera.
+/// The axes of the view, right, up and depth, from the camera.
 struct ViewAxes {
   glm::dvec3 right;
   glm::dvec3 up;
@@ -80,8 +80,8 @@ struct ViewAxes {
   glm::dvec3 worldOf(const glm::dvec3& v) const { return v.x * right + v.y * up + v.z * forward; }
 };
 
-/// Where a perspective camera stands so that all points lie between two planes through it, of slope `slope`
-/// to both sides: the depth of the place nearest to them, and what it is across there.
+/// The place of a perspective camera that puts all points between two planes through it, of slope `slope` to
+/// both sides: the depth of the place nearest to the points, and its position across.
 struct Wedge {
   double depth = 0.0;
   double across = 0.0;
@@ -97,8 +97,8 @@ Wedge wedgeAbout(std::span<const glm::dvec3> points, int axis, double slope) {
   return {-(right + left) / (2.0 * slope), (right - left) / 2.0};
 }
 
-/// The place across, at that depth, from which the points reach as far to both sides (Newton's method on what
-/// they reach to one side more).
+/// The place across, at that depth, from which the points reach equally far to both sides (Newton's method on
+/// the difference of the two).
 double middleAcross(std::span<const glm::dvec3> points, int axis, double depth, double across) {
   constexpr int kRounds = 12;
   for (int i = 0; i < kRounds; ++i) {
@@ -124,14 +124,14 @@ double middleAcross(std::span<const glm::dvec3> points, int axis, double depth, 
   return across;
 }
 
-/// Not beyond `mostDepth`.
+/// The place of the camera, not beyond `mostDepth`.
 glm::dvec3 perspectivePlace(std::span<const glm::dvec3> points, const glm::dvec2& slope, double mostDepth) {
   glm::dvec3 place(0.0);
   const std::array<Wedge, 2> wedges{wedgeAbout(points, 0, slope.x), wedgeAbout(points, 1, slope.y)};
   place.z = std::min({wedges[0].depth, wedges[1].depth, mostDepth});
   for (int axis = 0; axis < 2; ++axis) {
     const Wedge& wedge = wedges[size_t(axis)];
-    // From farther away than need be, the points are between the planes, too, but not in the middle.
+    // From farther away than necessary, the points are between the planes too, but not in the middle.
     place[axis] = wedge.depth > place.z ? middleAcross(points, axis, place.z, wedge.across) : wedge.across;
   }
   return place;
@@ -222,7 +222,8 @@ Camera fitted(Camera camera, std::span<const glm::dvec3> points, double aspectRa
   if (!(size > 0.0)) return camera;
   glm::dvec3 place = bounds.center();
   if (camera.perspective) {
-    // What is flat and seen from its edge has neither width nor height, and a tip may reach up to the lens.
+    // A flat scene that is seen from its edge has neither width nor height, and a tip may reach up to the
+    // lens.
     constexpr double kNearest = 0.01;  // of the size
     const double slope = std::tan(0.5 * camera.fovY) * kFitted;
     place = perspectivePlace(seen, {slope * aspectRatio, slope}, bounds.minimum.z - kNearest * size);

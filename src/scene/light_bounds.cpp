@@ -19,7 +19,7 @@ struct Cone {
   double spread;
 };
 
-/// The smallest cone about both (pbrt, 3.8.4).
+/// The smallest cone about both cones (pbrt, 3.8.4).
 Cone uniteCones(Cone a, Cone b) {
   if (a.spread < b.spread) std::swap(a, b);
   const double between = std::acos(std::clamp(glm::dot(a.axis, b.axis), -1.0, 1.0));
@@ -66,7 +66,7 @@ double importanceOf(const LightBounds& lights, const glm::dvec3& point) {
   const auto angleOf = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
   double beyond = 0.0;
   if (lights.falloff > 0.0) {
-    // How far they reach along the axis tells of those in one plane whether the point is in front. From
+    // For lights in one plane, their extent along the axis tells if the point is in front of them. From
     // behind, they may be twice as far away.
     const double front = along + thicknessOf(lights);
     beyond = angleOf(front / (front > 0.0 ? most : 2.0 * most)) - lights.spread;
@@ -79,7 +79,7 @@ double importanceOf(const LightBounds& lights, const glm::dvec3& point) {
 
 double powerOf(const LightBounds& lights, double radius) {
   if (lights.everywhere) return lights.intensity * kPi * radius * radius;
-  // A surface's falls with the cosine.
+  // The light of a surface falls with the cosine.
   if (lights.spread <= 0.0) return lights.intensity * kPi;
   return lights.intensity * 2.0 * kPi * (1.0 - std::cos(lights.spread));
 }

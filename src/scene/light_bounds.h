@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where lights are and which way they shine, and what they send to a point at most (Conty Estevez and Kulla,
-// Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018; Pharr, Jakob and Humphreys,
-// Physically Based Rendering, 4th edition, 12.6.3).
+// Bounds on the places and directions of lights, and on the light that they send to a point (Conty Estevez
+// and Kulla, Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018; Pharr, Jakob and
+// Humphreys, Physically Based Rendering, 4th edition, 12.6.3).
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace fragtrace {
 
-/// Where lights are and which way they shine, in local space. Their intensity falls with the cosine of the
-/// angle beyond `spread` of the axis, and is 0 from `spread` + `falloff` on (radians).
+/// Bounds on the places and directions of lights, in local space. Their intensity falls with the cosine of
+/// the angle beyond `spread` of the axis, and is 0 from `spread` + `falloff` on (radians).
 struct LightBounds {
   glm::dvec3 low{0.0};
   glm::dvec3 high{0.0};
@@ -31,11 +31,11 @@ double thicknessOf(const LightBounds& lights);
 /// The bounds of both.
 LightBounds unite(const LightBounds& a, const LightBounds& b);
 
-/// About what the lights send to a point, in units of irradiance: 0 only where none of them can shine. As
-/// lightNodeFrom of shaders/lights.glsl has it.
+/// An estimate of the irradiance that the lights send to a point. It is 0 only if none of them can shine
+/// there. It is the same as lightNodeFrom of shaders/lights.glsl.
 double importanceOf(const LightBounds& lights, const glm::dvec3& point);
 
-/// Luminous power; what shines everywhere does so through the cross-section of a scene of that radius.
+/// Luminous power. Lights that shine everywhere do so through the cross-section of a scene of that radius.
 double powerOf(const LightBounds& lights, double radius);
 
 LightBounds boundsOfTriangle(const std::array<glm::dvec3, 3>& corners, double radiance, bool bothSides);

@@ -75,7 +75,7 @@ double gainByPlace(const Scene& scene) {
       sum += sent;
       if (own > 0.0) moment += sent * sent / own;
     }
-    // Each place as a share, or the one nearest to a light would decide.
+    // Each place counts as a share, or the one nearest to a light would decide.
     if (sum <= 0.0) continue;
     byPower += power * moment / (sum * sum);
     byPlace += 1.0;

@@ -11,8 +11,8 @@ namespace fragtrace {
 
 namespace {
 
-/// Adds row `from` of a map to the sums of a row at another angle from +Y, whose texels are as wide: the
-/// weight of a texel depends on how many columns lie between them alone. Returns the sum of the weights.
+/// Adds row `from` of a map to the sums of a row at another angle from +Y, whose texels are as wide. So the
+/// weight of a texel depends only on the number of columns in between. Returns the sum of the weights.
 double addRow(const MapRows::Row& source, double from, double to, const Lobe& lobe, double least,
               MapRows::Row& sums) {
   double weights = 0.0;

@@ -8,7 +8,8 @@
 
 namespace fragtrace {
 
-/// An equirectangular map in doubles with each channel of a row apart, so that rows are summed as a whole.
+/// An equirectangular map in doubles, with each channel of a row separate, so that rows are summed as a
+/// whole.
 struct MapRows {
   using Row = std::array<std::vector<double>, 3>;  ///< red, green, blue
   int width = 0;
@@ -18,12 +19,12 @@ struct MapRows {
   int height() const { return int(rows.size()); }
 };
 
-/// Weight, at most 1, of what lies at an angle of this cosine. It falls with the angle.
+/// The weight, at most 1, of light at an angle of this cosine. It falls with the angle.
 using Lobe = std::function<double(double cosine)>;
 
-/// The map averaged with a lobe about each direction; weights below `least` do not count, and none is above
-/// it beyond `reach`, radians. The result has columns as the map has; `polar` are the angles of its rows from
-/// +Y. Uses all processors.
+/// The map averaged with a lobe about each direction. Weights below `least` do not count, and no weight
+/// beyond `reach` (radians) is above it. The result has as many columns as the map; `polar` are the angles of
+/// its rows from +Y. Uses all processors.
 MapRows averagedMap(const MapRows& map, const std::vector<double>& polar, const Lobe& lobe, double least,
                     double reach);
 

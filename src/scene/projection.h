@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A camera's picture as a map between places in it and rays and points of the scene. A place is -1..1 from
-// left to right and from the bottom to the top.
+// Maps between places in a camera's picture and rays and points of the scene. A place is -1..1 from left to
+// right and from the bottom to the top.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -21,14 +21,14 @@ struct Projection {
   bool operator==(const Projection&) const = default;
 };
 
-/// Of a picture of that width / height.
+/// The projection of a picture of that width / height.
 Projection projectionOf(const Camera& camera, double aspectRatio);
 
 /// The ray through a place, without a limit, in local space.
 Ray rayThrough(const Projection& projection, const LocalSpace& space, const glm::dvec2& place);
 
-/// A point as x, y, w: its place is (x, y) / w where w > 0. Metres along the view's axis are w of a
-/// perspective; an orthographic view has w = 1 everywhere, also behind the camera.
+/// A point as x, y, w: its place is (x, y) / w where w > 0. For a perspective, w is metres along the view's
+/// axis; an orthographic view has w = 1 everywhere, also behind the camera.
 glm::dvec3 projected(const Projection& projection, const glm::dvec3& point);
 
 }  // namespace fragtrace

@@ -5,7 +5,7 @@
 
 namespace fragtrace {
 
-/// A ray in the scene's local space, as the device gets it.
+/// A ray in the scene's local space, in the device's precision.
 struct Ray {
   glm::vec3 origin{0.0f};
   glm::vec3 direction{0.0f};  ///< unit

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The scene as plain structs joined by indices. Units are metres and radians, colours linear Rec.709.
-// World space is y up; "local" space is what shaders see of it (LocalSpace).
+// The scene as plain structs joined by indices. Units are metres and radians, colours linear Rec.709. World
+// space is y up; shaders see "local" space (LocalSpace).
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@
 
 namespace fragtrace {
 
-/// The one sentinel for "no such index".
+/// The one value that means "no such index".
 inline constexpr uint32_t kMissIndex = 0xffffffffu;
 
 /// World space recentred, in double precision. Scenes that are very small or very large are also measured in
-/// a power of two of metres, which rounds nothing, so that no number overflows or underflows, as drivers
-/// flush the smallest floats to zero.
+/// a power of two of metres. That rounds nothing, and no number overflows, or underflows where drivers flush
+/// the smallest floats to zero.
 struct LocalSpace {
   glm::dvec3 origin{0.0};  ///< world position of the local origin
   double unit = 1.0;       ///< metres a unit of local space
@@ -31,8 +31,8 @@ struct LocalSpace {
   glm::dvec3 worldOf(const glm::dvec3& local) const { return origin + unit * local; }
 };
 
-/// An encoded picture (PNG, JPEG, ...) as it stood in the file, a buffer view or a data URI; decoded when
-/// packed.
+/// An encoded picture (PNG, JPEG, ...) as it was in the file, a buffer view or a data URI. It is decoded when
+/// it is packed.
 struct EncodedImage {
   std::string name;  ///< a file path, or the place
   std::vector<uint8_t> bytes;
@@ -41,13 +41,13 @@ struct EncodedImage {
   std::string place{};  ///< "scene.gltf: /images/0"
 };
 
-/// Names, for messages, the file, if it is one of its own, and the place.
+/// The picture's name for messages: the file, if it has one of its own, and the place.
 inline std::string nameOf(const EncodedImage& image) {
   const bool isFile = image.name != image.place && !image.place.empty();
   return isFile ? image.name + " (" + image.place + ")" : image.name;
 }
 
-/// What a picture takes on the device: four half floats a texel.
+/// The bytes of a picture on the device: four half floats a texel.
 inline size_t texelBytes(const EncodedImage& image) { return size_t(image.width) * size_t(image.height) * 8; }
 
 enum class Wrap : uint8_t { Repeat, ClampToEdge, MirroredRepeat };
@@ -60,7 +60,7 @@ struct Texture {
   bool linear = true;  ///< magnification filter: linear, else nearest
 };
 
-/// Where a texture is read: the first two rows of a matrix that multiplies (u, v, 1)
+/// The transform of texture coordinates: the first two rows of a matrix that multiplies (u, v, 1)
 /// (KHR_texture_transform).
 struct TextureTransform {
   glm::vec3 u{1.0f, 0.0f, 0.0f};
@@ -93,7 +93,7 @@ struct PerlinNormal {
   int octaves = 1;
 };
 
-/// Stands for an index that reflects all: the reflectance seen from above is within 4e-6 of 1.
+/// An index that reflects everything: the reflectance at normal incidence is within 4e-6 of 1.
 inline constexpr float kInfiniteIor = 1e6f;
 
 /// Material of glTF 2.0 with the extensions named in docs/design/surfaces.md; defaults are the
@@ -112,8 +112,8 @@ struct Material {
   float alphaCutoff = 0.5f;
   bool doubleSided = false;
   bool unlit = false;
-  /// Of KHR_materials_pbrSpecularGlossiness: the diffuse colour gives way to the specular one, and
-  /// specularColorTexture holds the glossiness (1 - roughness) in its alpha.
+  /// The material is of KHR_materials_pbrSpecularGlossiness: the diffuse colour gives way to the specular
+  /// one, and specularColorTexture holds the glossiness (1 - roughness) in its alpha.
   bool specularGlossiness = false;
   float ior = 1.5f;  ///< kInfiniteIor: a Fresnel factor of 1 (KHR_materials_ior's 0)
   float transmissionFactor = 0.0f;
@@ -164,10 +164,10 @@ struct Material {
   TextureRef multiscatterColorTexture;
 
   bool transmissive() const { return transmissionFactor > 0.0f; }
-  /// Light of any kind goes through, so that the back is there.
+  /// Light of any kind passes through, so rays see the back.
   bool passesLight() const { return transmissive() || diffuseTransmissionFactor > 0.0f; }
-  /// As smooth as the roughness factor alone makes it, it sends light on in single directions (kMirrorAlpha
-  /// of shaders/bsdf.glsl).
+  /// By the roughness factor alone the surface is so smooth that it scatters light in single directions
+  /// (kMirrorAlpha of shaders/bsdf.glsl).
   bool mirrorLike() const { return roughnessFactor * roughnessFactor < 0.001f; }
   bool clearcoated() const { return clearcoatFactor > 0.0f; }
   bool hasSheen() const { return sheenColorFactor != glm::vec3(0.0f); }
@@ -196,7 +196,7 @@ struct Material {
   }
 };
 
-/// How the colour channels of a texture are encoded.
+/// The encoding of a texture's colour channels.
 enum class TransferCurve : uint8_t { Linear, Srgb };
 
 struct TextureRefRow {
@@ -204,7 +204,7 @@ struct TextureRefRow {
   TransferCurve curve;
 };
 
-/// All textures of a material; those that are traced in the order of their slots (shaders/layout.glsl).
+/// All textures of a material; those that are drawn, in the order of their slots (shaders/layout.glsl).
 inline constexpr std::array kTextureRefs = std::to_array<TextureRefRow>({
     {&Material::baseColorTexture, TransferCurve::Srgb},            // and alpha
     {&Material::metallicRoughnessTexture, TransferCurve::Linear},  // G roughness, B metallic
@@ -259,7 +259,7 @@ struct Light {
   float outerConeAngle = 0.7853981634f;
 };
 
-/// A camera in world space, double precision, so that nothing is lost before recentring.
+/// A camera in world space, in double precision, so that it loses no digits before recentring.
 struct Camera {
   std::string name;
   bool perspective = true;
@@ -271,8 +271,8 @@ struct Camera {
   double aspectRatio = 0.0;            ///< width / height; 0: not given
 };
 
-/// How the triangles of meshes that stand in the scene several times are kept: Auto shares them where that
-/// saves much memory.
+/// The way in which meshes that appear several times in the scene are kept: Auto shares them where that saves
+/// much memory.
 enum class Instancing : uint8_t { Auto, Flatten, Share };
 inline constexpr std::array<std::string_view, 3> kInstancingNames{"auto", "flatten", "share"};
 
@@ -290,8 +290,8 @@ struct Instance {
   uint32_t nodeIndex = 0;   ///< as in PrimitiveOrigin
 };
 
-/// Where triangles came from: one entry a (node, mesh primitive), in order of firstTriangle. Those of shared
-/// meshes have no node.
+/// The origin of triangles in the file: one entry for each (node, mesh primitive), in order of firstTriangle.
+/// Triangles of shared meshes have no node.
 struct PrimitiveOrigin {
   std::string node;
   std::string mesh;
@@ -300,8 +300,8 @@ struct PrimitiveOrigin {
   uint32_t nodeIndex = 0;  ///< the node's place in the file
 };
 
-/// Points and line segments of one mesh primitive, as a node places it. They become triangles once a camera
-/// tells their size (scene/strokes.h).
+/// Points and line segments of one mesh primitive, as a node places it. They become triangles once the camera
+/// is known, which gives their size (scene/strokes.h).
 struct Strokes {
   std::string node{};      ///< as in PrimitiveOrigin
   std::string mesh{};      ///< as in PrimitiveOrigin

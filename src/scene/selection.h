@@ -7,7 +7,8 @@
 
 namespace fragtrace {
 
-/// What of a file is shown. A part is named by its name or, where none has that name, by its index.
+/// The parts of a file that are shown. A part is selected by its name or, where none has that name, by its
+/// index.
 struct SceneSelection {
   std::string scene{};                     ///< empty: the file's default scene
   std::string animation{};                 ///< empty: the first one; only with a time
@@ -20,7 +21,7 @@ struct SceneSelection {
   bool operator==(const SceneSelection&) const = default;
 };
 
-/// Whether both show the same nodes at the same time of the same animation.
+/// Returns true if both show the same nodes at the same time of the same animation.
 inline bool samePose(const SceneSelection& a, const SceneSelection& b) {
   return a.animation == b.animation && a.animationTime == b.animationTime && a.hiddenNodes == b.hiddenNodes;
 }

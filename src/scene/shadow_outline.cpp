@@ -16,7 +16,7 @@ double turnOf(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// The convex hull, to the left of each of its edges (Andrew's monotone chain).
+/// The convex hull, counter-clockwise (Andrew's monotone chain).
 Polygon hullOf(Polygon points) {
   std::ranges::sort(points, [](const glm::dvec2& a, const glm::dvec2& b) {
     return a.x < b.x || (a.x == b.x && a.y < b.y);
@@ -46,7 +46,7 @@ struct Shadow {
   double share = 0.0;  ///< of all light
 };
 
-/// What lies below the plane casts no shadow on it, nor what is as high as a lamp.
+/// Points below the plane cast no shadow on it, nor do points at or above the height of a lamp.
 Polygon thrown(std::span<const glm::dvec3> points, double height, const PlaneLight& light) {
   Polygon places;
   for (const glm::dvec3& p : points) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far the shadow of a scene reaches on a level plane, for framing.
+// Finds the extent of a scene's shadow on a level plane, for framing.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,15 +8,15 @@
 
 namespace fragtrace {
 
-/// Light as a level plane gets it, world space.
+/// Light that reaches a level plane, world space.
 struct PlaneLight {
   glm::dvec3 from{0.0, 1.0, 0.0};  ///< where it comes from: a unit direction, or the place of a lamp
   bool isPlace = false;
   double irradiance = 0.0;  ///< of the plane, in any unit
 };
 
-/// Points on the plane of height `height` (Y, metres, world space) about the shadow that the convex hull of
-/// `points` casts on it: outside of them at least 90 % of the light is there. Empty where there is no shadow.
+/// Points on the plane of height `height` (Y, metres, world space) around the shadow that the convex hull of
+/// `points` casts on it: outside of them at least 90 % of the light arrives. Empty if there is no shadow.
 std::vector<glm::dvec3> shadowOutline(std::span<const glm::dvec3> points, double height,
                                       std::span<const PlaneLight> lights);
 

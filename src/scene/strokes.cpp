@@ -31,8 +31,8 @@ class StrokeSize {
     radius_ = rounder * 0.5 * pixels * 2.0 * halfHeight / pictureHeight;
   }
 
-  /// Of a point: its solid covers as many pixels as the circle. Seen at an angle c to the axis it is longer
-  /// by 1 / cos c.
+  /// The radius at a point: its solid covers as many pixels as the circle. Seen at an angle c to the axis it
+  /// is longer by 1 / cos c.
   double atPoint(const glm::dvec3& point) const {
     if (!perspective_) return radius_;
     const double depth = std::abs(depthOf(point));
@@ -40,7 +40,7 @@ class StrokeSize {
     return distance > 0.0 ? radius_ * depth * std::sqrt(depth / distance) : 0.0;
   }
 
-  /// Of a line along `axis`, unit: as wide as asked across the line, in the picture's plane.
+  /// The radius of a line along `axis`, unit: as wide as asked across the line, in the picture's plane.
   double acrossLine(const glm::dvec3& point, const glm::dvec3& axis) const {
     if (!perspective_) return radius_;
     const glm::dvec3 way = point - position_;
@@ -48,19 +48,19 @@ class StrokeSize {
     const glm::dvec3 across = glm::cross(axis, way);
     const double length = glm::length(across);
     if (depth == 0.0 || length == 0.0) return radius_ * std::abs(depth);
-    // How far a step of that length goes in the plane at depth 1.
+    // The length of that step in the plane at depth 1.
     const glm::dvec3 step = across / length;
     const double along = glm::dot(step, forward_);
     const glm::dvec3 sideways = (step - along * forward_) - (way / depth - forward_) * along;
     return radius_ * std::abs(depth) / std::max(glm::length(sideways), 1e-3);
   }
 
-  /// Along the view's axis; negative behind a perspective camera.
+  /// The depth along the view's axis; negative behind a perspective camera.
   double depthOf(const glm::dvec3& point) const {
     return perspective_ ? glm::dot(point - position_, forward_) : 1.0;
   }
 
-  /// Unit, to the camera.
+  /// The unit vector to the camera.
   glm::dvec3 towardsCamera(const glm::dvec3& point) const {
     const glm::dvec3 way = position_ - point;
     const double length = glm::length(way);
@@ -74,8 +74,8 @@ class StrokeSize {
   double radius_ = 0.0;  ///< of a perspective camera: at depth 1
 };
 
-/// What the solid of a point or of a line is drawn with. Without normals it shows the sum of base colour and
-/// emission (glTF 2.0, section 3.7.2.1); a texture of emission is left out then.
+/// The material of the solid of a point or line. Without normals it shows the sum of base colour and emission
+/// (glTF 2.0, section 3.7.2.1); a texture of emission is then left out.
 Material strokeMaterial(const Material& given, bool lit) {
   Material m = given;
   if (!lit && !m.unlit) {
@@ -92,7 +92,7 @@ Material strokeMaterial(const Material& given, bool lit) {
   return m;
 }
 
-/// Attributes: so far on the way from one vertex to another.
+/// The attributes at a share of the way from one vertex to another.
 struct Blend {
   uint32_t from = 0;
   uint32_t to = 0;
@@ -111,7 +111,7 @@ class StrokeBuilder {
                         uint32_t(triangles_.size() - before), strokes.nodeIndex});
   }
 
-  /// Behind the other triangles in local space, before those of shared meshes.
+  /// Puts the solids after the other triangles in local space, before those of shared meshes.
   void finish() {
     const uint32_t flat = flatTriangleCount(scene_);
     const auto count = uint32_t(triangles_.size());
@@ -135,7 +135,7 @@ class StrokeBuilder {
     return entry->second;
   }
 
-  /// A vertex at a place, with attributes so far between those of two others.
+  /// A vertex at a place, with attributes blended between those of two others.
   uint32_t vertexBetween(const Blend& like, const glm::dvec3& position) {
     Vertices& v = scene_.vertices;
     const auto append = [&](auto& attribute) {
@@ -153,7 +153,7 @@ class StrokeBuilder {
     return uint32_t(v.position.size() - 1);
   }
 
-  /// The hexagon's corners, counter-clockwise seen from where `axis` points.
+  /// The hexagon's corners, counter-clockwise as seen from the point of `axis`.
   Ring addRing(const Blend& like, const glm::dvec3& center, const glm::dvec3& axis, double radius) {
     const glm::dvec3 side(anyPerpendicular(glm::vec3(axis)));
     const glm::dvec3 first = glm::normalize(side - glm::dot(side, axis) * axis);
@@ -169,7 +169,7 @@ class StrokeBuilder {
 
   void addTriangle(uint32_t a, uint32_t b, uint32_t c) { triangles_.push_back({{a, b, c}, material_, true}); }
 
-  /// Two pyramids, with a prism between them unless they share their ring.
+  /// Adds two pyramids, with a prism between them unless they share their ring.
   void addSolid(uint32_t apexA, const Ring& ringA, const Ring& ringB, uint32_t apexB) {
     for (size_t i = 0; i < kSides; ++i) {
       const size_t next = (i + 1) % kSides;
@@ -193,7 +193,7 @@ class StrokeBuilder {
     addSolid(behind, ring, ring, before);
   }
 
-  /// A line that passes the camera is two: its width is nothing where its depth is.
+  /// A line that passes the camera becomes two, because its width is 0 where its depth is 0.
   void addLine(uint32_t from, uint32_t to) {
     const glm::dvec3 a(scene_.vertices.position[from]);
     const glm::dvec3 b(scene_.vertices.position[to]);

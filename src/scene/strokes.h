@@ -12,15 +12,15 @@ inline constexpr size_t kTrianglesOfALine = 24;
 /// Vertices of the larger of them.
 inline constexpr size_t kMostStrokeVertices = 14;
 
-/// What the solids of a list take; a line that passes the camera takes twice as much.
+/// The number of triangles of the solids of a list; a line that passes the camera takes twice as many.
 size_t trianglesOf(const Strokes& strokes);
 
 /// Appends a solid for each point and line segment of scene.strokes, as wide as `pixels` pixels of a picture
-/// of that height in pixels through the camera: a point is a double pyramid over a hexagon, a segment a
+/// of that height in pixels through the camera. A point is a double pyramid over a hexagon, a segment a
 /// hexagonal prism with pyramids at both ends; the hexagons have the area of the circle. The width of a
-/// segment goes from that of one end to that of the other. What lies behind the camera is as wide as at the
-/// same distance before it. Materials are as glTF 2.0 says (section 3.7.2.1): without textures of normals,
-/// and unlit where no normals were given. Sets scene.insets anew. Does nothing to a scene without strokes.
+/// segment changes evenly from one end to the other. Strokes behind the camera are as wide as at the same
+/// distance before it. Materials follow glTF 2.0 (section 3.7.2.1): without textures of normals, and unlit
+/// where no normals were given. Sets scene.insets anew. Does nothing to a scene without strokes.
 void addStrokes(Scene& scene, const Camera& camera, int pictureHeight, double pixels);
 
 }  // namespace fragtrace

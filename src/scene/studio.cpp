@@ -27,8 +27,8 @@ struct SoftBox {
   double radiance;
 };
 
-/// Key, fill and rim. They are large and not much brighter than white, so that what mirrors them stays below
-/// the shoulder of the tone curve over most of its area.
+/// Key, fill and rim. They are large and not much brighter than white, so that their mirror images stay below
+/// the shoulder of the tone curve over most of their area.
 constexpr std::array<SoftBox, 3> kBoxes{
     {{-42.0, 38.0, {0.55, 0.55}, 3.8}, {62.0, 12.0, {0.55, 0.75}, 0.8}, {152.0, 42.0, {0.34, 0.60}, 4.2}}};
 constexpr double kSoftPart = 0.5;  ///< of the shorter half that the edge takes to fade
@@ -48,7 +48,8 @@ double shareOf(const SoftBox& box, const glm::dvec3& direction) {
   return 1.0 - smoothStep(glm::length(beyond) / soft);
 }
 
-/// Of the backdrop at a height (the direction's Y): lightest at the horizon, darker above than below.
+/// The radiance of the backdrop at a height (the direction's Y): lightest at the horizon, darker above than
+/// below.
 double gradientAt(double height) {
   constexpr double kHorizon = 0.34;
   const double far = height > 0.0 ? 0.14 : 0.22;

@@ -6,12 +6,12 @@
 
 namespace fragtrace {
 
-/// What lights the scene: an equirectangular map (docs/design/conventions.md) with R, G, B. The key stands
+/// The map that lights the scene: equirectangular (docs/design/conventions.md) with R, G, B. The key stands
 /// left of a camera that looks along -Z, the fill right of it, the rim light behind the scene. A white
 /// diffuse surface has a radiance of about 0.75 towards that camera.
 Image studioLight();
 
-/// What the camera sees behind the scene: the gradient alone, one texel wide.
+/// The map that the camera sees behind the scene: the gradient alone, one texel wide.
 Image studioBackdrop();
 
 }  // namespace fragtrace

@@ -10,7 +10,7 @@
 namespace fragtrace {
 namespace {
 
-/// Which way texture space lies on a triangle. In glTF, with v downwards, an unmirrored map has negative
+/// The orientation of texture space on a triangle. In glTF, with v downwards, an unmirrored map has negative
 /// area.
 enum Orientation : uint32_t { kUnmirrored = 0, kMirrored = 1, kUndecided = 2 };
 
@@ -31,7 +31,7 @@ class TangentMaker {
       : vertices_(vertices),
         triangles_(triangles),
         texcoords_(texcoord == 0 ? vertices.texcoord0 : vertices.texcoord1) {
-    // A set that is not given is (0, 0) everywhere, so that no triangle has an orientation.
+    // A set that is missing is (0, 0) everywhere, so that no triangle has an orientation.
     if (texcoords_.empty()) texcoords_.assign(vertices.position.size(), glm::vec2(0.0f));
     if (transform == TextureTransform{}) return;
     for (glm::vec2& place : texcoords_) place = transform.of(place);
@@ -125,7 +125,8 @@ class TangentMaker {
     return frame.orientation;
   }
 
-  /// A triangle without area in texture space goes with the triangles that it shares most corners with.
+  /// A triangle without area in texture space takes the orientation of the triangles with which it shares
+  /// most corners.
   Orientation orientationOfNeighbours(const Triangle& triangle) const {
     std::array<int, 2> corners{};
     for (int corner = 0; corner < 3; ++corner) {
@@ -196,7 +197,7 @@ class TangentMaker {
 
 glm::vec3 anyPerpendicular(const glm::vec3& normal) {
   const glm::vec3 size = glm::abs(normal);
-  // Crossed with the axis along which the normal is shortest, so that the product is never near zero.
+  // The product is with the axis along which the normal is shortest, so that it is never near zero.
   const glm::vec3 axis = size.x <= size.y && size.x <= size.z ? glm::vec3(1, 0, 0)
                          : size.y <= size.z                   ? glm::vec3(0, 1, 0)
                                                               : glm::vec3(0, 0, 1);

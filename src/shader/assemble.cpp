@@ -41,7 +41,7 @@ struct Assembly {
     text << '\n';
   }
 
-  /// Of a file, or what is written from lists, or the scene as text.
+  /// The text of a file, a text that is written from lists, or the scene as text.
   std::string textOf(const std::string& name, const std::string& includedFrom) const {
     const int vectors = variant.stackSize / 4;
     const bool shared = variant.gpu && variant.dispatch == Dispatch::Compute;

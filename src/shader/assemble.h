@@ -8,7 +8,7 @@
 
 namespace fragtrace {
 
-/// Where shader text comes from and what the driver understands.
+/// The origin of shader text, and the abilities of the driver.
 struct ShaderSource {
   std::filesystem::path folder;  ///< read from disk when not empty, else the embedded text
   bool namedLines = false;       ///< #line takes file names (GL_ARB_shading_language_include)

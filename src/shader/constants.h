@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What constants of a shader's text make of its conditions.
+// Evaluates the conditions of a shader's text by its constants.
 #pragma once
 
 #include <map>
@@ -13,10 +13,10 @@ namespace fragtrace {
 /// The values of `const bool` and `const int` at the top of a shader, as far as they are known.
 using ShaderConstants = std::map<std::string_view, int>;
 
-/// Of a whole text.
+/// The constants of a whole text.
 ShaderConstants constantsOf(std::span<const Token> tokens);
 
-/// Whether a condition holds; nothing where constants alone do not tell.
+/// The value of a condition; nothing if constants alone do not decide it.
 std::optional<bool> conditionValue(std::span<const Token> condition, const ShaderConstants& constants);
 
 }  // namespace fragtrace

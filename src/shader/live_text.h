@@ -5,10 +5,9 @@
 
 namespace fragtrace {
 
-/// What the constants at the top of a shader leave of its text: branches that are never taken, functions that
-/// nothing calls and comments are gone; lines keep their numbers.
-/// Drivers read all of a text with care, so one in which half is dead takes them a fifth longer to compile.
-/// Text that it does not understand stays as it is.
+/// Removes branches that the constants at the top of a shader never take, functions that nothing calls, and
+/// comments. Lines keep their numbers. Drivers process all of a text: a program of which half is dead takes
+/// them a fifth longer to compile. Text that this function does not understand stays as it is.
 std::string liveText(const std::string& text);
 
 }  // namespace fragtrace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How the shader reads buffers: one function each, readNodes() and so on, in the way that the variant says.
+// Writes the functions that read buffers, one each, readNodes() and so on, for the kind of buffer that the
+// variant names.
 #pragma once
 
 #include <string>

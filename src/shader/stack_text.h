@@ -7,9 +7,9 @@
 
 namespace fragtrace {
 
-/// `struct Stack` with so many vectors e0, e1, ..., of which e0.x is the top; emptyStack() and stepStack().
-/// kStackSize says how many entries live: a multiple of four and at least eight. The tree is no deeper, so
-/// nothing is ever lost at the bottom.
+/// The text of `struct Stack` with so many vectors e0, e1, ..., where e0.x is the top, emptyStack() and
+/// stepStack(). kStackSize is the number of entries: a multiple of four and at least eight. The tree is no
+/// deeper, so nothing is ever lost at the bottom.
 std::string stackText(int vectors);
 
 /// saveStack() and loadStack(): a row of the buffer of path states a vector.

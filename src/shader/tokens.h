@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shader text as tokens, of which some can be taken out.
+// Splits shader text into tokens, some of which can be removed.
 #pragma once
 
 #include <cstddef>

@@ -5,7 +5,7 @@
 
 namespace fragtrace {
 
-/// What a change of an option or a stage changes.
+/// The kind of change that a change of an option or a stage makes.
 enum class Effect : uint8_t {
   Report,   ///< what is said, written beside the picture, or allowed
   Method,   ///< how the same samples are drawn: their time and rounding

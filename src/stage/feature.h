@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What can be drawn in place of radiance: layers of .exr files, and debug views, which are layers or counts
-// as colours (docs/design/output.md).
+// Values that can be drawn in place of radiance: layers of .exr files, and debug views, which show layers or
+// counts as colours (docs/output.md).
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace fragtrace {
 
-/// What a first hit is beside its radiance, and the parts of that.
+/// Properties of a first hit beside its radiance, and parts of that radiance.
 enum class Feature : uint8_t {
   None,
   Albedo,
@@ -53,12 +53,13 @@ inline constexpr std::array<FeatureRow, 14> kFeatureRows{{{"", ""},
 
 inline const FeatureRow& rowOf(Feature feature) { return kFeatureRows[size_t(feature)]; }
 
-/// Whether it is light, for which paths are traced to their ends, and not a property of the first hit.
+/// Returns true if the feature is light, for which paths are traced to their ends, and not a property of the
+/// first hit.
 inline bool isLightPart(Feature feature) {
   return feature == Feature::Emission || feature == Feature::Diffuse || feature == Feature::Specular;
 }
 
-/// What a picture shows; all but None are colours as they are to be displayed, without exposure and tone
+/// The content of a picture. All but None are colours to be displayed as they are, without exposure and tone
 /// curve.
 enum class DebugView : uint8_t {
   None,

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Which shaders give back what the facets of rough glass lose.
+// Decides which shaders compensate the light that the facets of rough glass lose.
 #pragma once
 
 #include "stage/variant.h"
 
 namespace fragtrace {
 
-/// Whether the tables of src/pack/glass_energy.h say what is lost. What these traits change of the facets is
-/// in no table: samples would not follow their density.
+/// Returns true if the tables of src/pack/glass_energy.h hold for the loss. No table knows the facets that
+/// these traits change, and samples would not follow their density.
 inline bool usesGlassTables(const ShaderVariant& v) {
   if (!has(v.traits, Trait::RoughGlass) || !has(v.stages, Stage::EnergyCompensation)) return false;
   return !has(v.traits, Trait::Anisotropy) && !has(v.traits, Trait::Iridescence) &&

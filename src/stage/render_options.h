@@ -23,60 +23,61 @@
 
 namespace fragtrace {
 
-/// How rays find triangles. Literals: a small scene's triangles are part of the shader's text
+/// The method by which rays find triangles. Literals: a small scene's triangles are part of the shader's text
 /// (src/pack/literals.h).
 enum class TraversalMethod : uint8_t { Auto, Iterative, Bvh, FrontToBack, Literals };
 inline constexpr std::array<std::string_view, 5> kTraversalNames{"auto", "iterative", "bvh", "front-to-back",
                                                                  "literals"};
 enum class Backend : uint8_t { Auto, Egl, OsMesa };
 inline constexpr std::array<std::string_view, 3> kBackendNames{"auto", "egl", "osmesa"};
-/// How the shader reads the scene: storage buffers, image buffers, texel buffers; the same buffers, bound
-/// otherwise.
+/// The way in which the shader reads the scene: storage buffers, image buffers or texel buffers. The buffers
+/// are the same, only bound in another way.
 enum class BufferReads : uint8_t { Auto, Ssbo, Image, Texel };
 inline constexpr std::array<std::string_view, 4> kBufferReadsNames{"auto", "ssbo", "image", "texel"};
-/// Which stage of the pipeline runs the tracer: one fragment or one compute invocation a pixel.
+/// The stage of the pipeline that runs the tracer: one fragment or one compute invocation a pixel.
 enum class Dispatch : uint8_t { Auto, Fragment, Compute };
 inline constexpr std::array<std::string_view, 3> kDispatchNames{"auto", "fragment", "compute"};
-/// The compilers that the shaders' text suits (docs/design/gpu.md). Pictures are the same bits.
+/// The compilers that the shaders' text suits (docs/measurements/gpu.md). Pictures are the same bits.
 enum class Tune : uint8_t { Auto, Software, Gpu };
 inline constexpr std::array<std::string_view, 3> kTuneNames{"auto", "software", "gpu"};
 /// Bits of the vectors that Mesa's software driver computes with, and so how many invocations run in
 /// lockstep: 8 or 16. Auto: as the driver has it, 256 today. Mesa 22.3 to 26.1 crash on some shaders with 512
-/// (docs/design/drivers.md).
+/// (docs/design/platforms.md).
 enum class VectorWidth : uint8_t { Auto, Bits256, Bits512 };
 inline constexpr std::array<std::string_view, 3> kVectorWidthNames{"auto", "256", "512"};
-/// How paths share the lanes of a draw: one pixel a lane, or many, whose rays are traced together
-/// (shaders/wavefront.glsl).
+/// The way in which paths share the lanes of a draw: one pixel a lane, or many, whose rays are traced
+/// together (shaders/wavefront.glsl).
 enum class Schedule : uint8_t { Auto, Megakernel, Wavefront };
 inline constexpr std::array<std::string_view, 3> kScheduleNames{"auto", "megakernel", "wavefront"};
-/// How light samples of gi choose a light: by what it may send to the point (pack/light_tree.h), by its
-/// power, or all alike.
+/// The way in which light samples of gi choose a light: by what it may send to the point (pack/light_tree.h),
+/// by its power, or all alike.
 enum class LightSelection : uint8_t { Auto, Tree, Power, Uniform };
 inline constexpr std::array<std::string_view, 4> kLightSelectionNames{"auto", "tree", "power", "uniform"};
-/// Of how many light samples a scattering takes one (shaders/reuse/): of one, of several candidates, or, at
-/// what the camera sees, of those of the pixel and of others near it.
+/// The light samples of which a scattering takes one (shaders/reuse/): a single one, several candidates, or,
+/// at the first surface, those of the pixel and of others near it.
 enum class LightReuse : uint8_t { None, Candidates, Spatial };
 inline constexpr std::array<std::string_view, 3> kLightReuseNames{"none", "candidates", "spatial"};
-/// Whether light paths bring the caustics of lamps (shaders/caustics/); auto: where there are lamps and
+/// Light paths bring the caustics of lamps, or not (shaders/caustics/); auto: where there are lamps and
 /// casters.
 enum class Caustics : uint8_t { Auto, On, Off };
 inline constexpr std::array<std::string_view, 3> kCausticsNames{"auto", "on", "off"};
-/// What lights a scene that has no light of its own: white from all sides, which the camera does not see, the
+/// The light of a scene that has none of its own: white from all sides, which the camera does not see, the
 /// built-in environment (scene/studio.h), or nothing.
 enum class DefaultLight : uint8_t { White, Studio, None };
 inline constexpr std::array<std::string_view, 3> kDefaultLightNames{"white", "studio", "none"};
-/// What takes the noise out of a finished picture (render/denoise.h, denoise/oidn.h). Auto: Open Image
+/// The filter that removes noise from a finished picture (render/denoise.h, denoise/oidn.h). Auto: Open Image
 /// Denoise where it is installed, else the variance filter.
 enum class Denoise : uint8_t { None, Variance, Oidn, Auto };
 inline constexpr std::array<std::string_view, 4> kDenoiseNames{"none", "variance", "oidn", "auto"};
-/// What stderr says of the work on its way: a bar or lines of text; JSON lines, all messages included
+/// The form of progress on stderr: a bar or lines of text; JSON lines, all messages included
 /// (process/report.h); nothing.
 enum class ProgressForm : uint8_t { Auto, Json, None };
 inline constexpr std::array<std::string_view, 3> kProgressNames{"auto", "json", "none"};
-/// How programs are expected to lay a .png with alpha over something: by its light, or by its sRGB values.
+/// The way in which programs are expected to lay a .png with alpha over something: by its light, or by its
+/// sRGB values.
 enum class AlphaOf : uint8_t { Linear, Display };
 inline constexpr std::array<std::string_view, 2> kAlphaNames{"linear", "display"};
-/// How camera samples spread about the middle of their pixel (shaders/pixel_filter.glsl).
+/// The distribution of camera samples about the middle of their pixel (shaders/pixel_filter.glsl).
 enum class PixelFilter : uint8_t { Box, Gaussian, BlackmanHarris };
 inline constexpr std::array<std::string_view, 3> kPixelFilterNames{"box", "gaussian", "blackman-harris"};
 
@@ -124,7 +125,7 @@ struct CameraOptions {
 
 inline constexpr int kUnlimitedBounces = std::numeric_limits<int>::max() - 1;
 
-/// How many paths, and how long they are.
+/// The number and the length of paths.
 struct SamplingOptions {
   int spp = 64;
   int sampleOffset = 0;  ///< index of the first sample in the seed's sequence
@@ -138,7 +139,7 @@ struct SamplingOptions {
   bool operator==(const SamplingOptions&) const = default;
 };
 
-/// What lights a scene, how its light is sampled, and what is around it.
+/// The light of a scene, its sampling, and the surroundings.
 struct LightOptions {
   LightSelection selection = LightSelection::Auto;
   LightReuse reuse = LightReuse::None;
@@ -196,7 +197,7 @@ struct OutputOptions {
   bool operator==(const OutputOptions&) const = default;
 };
 
-/// How the same picture is traced: its time and rounding alone.
+/// The device and the method that trace the picture. They change only its time and rounding.
 struct DeviceOptions {
   TraversalMethod traversal = TraversalMethod::Auto;
   Instancing instancing = Instancing::Auto;
@@ -226,13 +227,13 @@ struct RenderOptions {
   bool operator==(const RenderOptions&) const = default;
 };
 
-/// Whether an environment map lights the scene, of a file or built in.
+/// Returns true if an environment map lights the scene, of a file or built in.
 inline bool hasMap(const RenderOptions& o) { return o.light.studio || !o.light.hdriFile.empty(); }
 
-/// Whether noise or time ends a render, which places samples where they help most.
+/// Returns true if noise or time ends a render, which places samples where they help most.
 inline bool isAdaptive(const RenderOptions& o) { return o.sampling.noise > 0.0 || o.sampling.seconds > 0.0; }
 
-/// Whether numbered pictures are asked for.
+/// Returns true if numbered pictures are asked for.
 inline bool isSequence(const RenderOptions& o) {
   return o.output.sequence.frames || o.output.sequence.turntable > 0;
 }

@@ -49,7 +49,8 @@ std::span<const StageRow> stageRows();
 /// The row of a name as the command line spells it.
 std::optional<Stage> parseStage(std::string_view name);
 
-/// What --stage NAME turns on: the stages up to it, and the switches that are on unless turned off.
+/// The stages and switches that --stage NAME turns on: the stages up to it, and the switches that are on by
+/// default.
 StageSet stagesUpTo(Stage stage);
 
 /// The set with the stages up to that one, and its switches as they are.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a scene holds, as far as the shader can be cut down by it: one table row each, from which variants,
-// the shader prelude, benchmarks and statistics follow.
+// Features of scenes by which the shader can be cut down: one table row each, from which variants, the shader
+// prelude, benchmarks and statistics follow.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace fragtrace {
 
-/// What a scene holds, as far as the shader can be cut down by it.
+/// A feature of a scene by which the shader can be cut down.
 enum class Trait : uint8_t {
   Triangles,
   Spheres,
@@ -73,7 +73,7 @@ enum class Trait : uint8_t {
 };
 using TraitSet = std::bitset<size_t(Trait::Count)>;
 
-/// What primitives bring for their materials' maps; spheres bring all of it.
+/// The attributes that primitives bring for their materials' maps; spheres bring all of them.
 struct Coordinates {
   bool texcoord0 = true;
   bool tangents = true;
@@ -90,8 +90,8 @@ struct TraitRow {
   /// The textures that the shader reads where it is on; the rest null.
   std::array<TextureRef Material::*, 2> textures{};
   bool texcoords = false;  ///< it reads texture coordinates without a texture
-  /// Whether a material has it; null: one with one of its textures has it, and without textures the scene as
-  /// a whole has it or not (traitsOf).
+  /// Returns true if a material has the trait. Null: a material with one of the trait's textures has it, and
+  /// without textures the scene as a whole has it or not (traitsOf).
   bool (*ofMaterial)(const Material& material, const Coordinates& coordinates) = nullptr;
 };
 std::span<const TraitRow> traitRows();
@@ -99,7 +99,7 @@ std::span<const TraitRow> traitRows();
 bool isOfMaterial(const TraitRow& row, const Material& material, const Coordinates& coordinates);
 bool readsTexcoords(const TraitRow& row);
 
-/// Whether there are lamps that light samples choose among: emissive triangles or punctual lights.
+/// Returns true if there are lamps among which light samples choose: emissive triangles or punctual lights.
 inline bool hasLamps(const TraitSet& traits) {
   return traits[size_t(Trait::EmissiveTriangles)] || traits[size_t(Trait::PunctualLights)];
 }
@@ -112,7 +112,7 @@ inline bool hasMedia(const TraitSet& traits) {
 /// The row that lists the texture; std::logic_error where none does.
 const TraitRow& traitOfTexture(TextureRef Material::*texture);
 
-/// The trait, what it needs, and what brings it to light: what a scene that has it would have, too.
+/// The trait, the traits that it needs, and those that a scene with it would also have.
 TraitSet withNeeded(Trait trait);
 
 }  // namespace fragtrace

@@ -65,7 +65,7 @@ void dropTraits(const StageSet& stages, bool heatmap, Surroundings surroundings,
       if ((row.stages & ~stages).any() || (row.needs & ~traits).any()) drop(traits, {row.trait});
     }
   }
-  // Of specular-glossiness the diffuse colour gives way to the specular one, reflected or not.
+  // In specular-glossiness the diffuse colour gives way to the specular one, reflected or not.
   if (!has(traits, Trait::Specular) && !has(traits, Trait::SpecularGlossiness))
     drop(traits, {Trait::SpecularTexture});
   if (!has(traits, Trait::Transmission) && !has(traits, Trait::DiffuseTransmission))
@@ -143,7 +143,7 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop) 
   mark(Trait::Texcoords, !scene.vertices.texcoord0.empty() || !scene.vertices.texcoord1.empty());
   mark(Trait::EmissiveTriangles, emissiveTriangles);
   mark(Trait::PunctualLights, !scene.lights.empty());
-  // What has no light of its own to speak of is lit by default.
+  // A scene without a noticeable light of its own gets the default light.
   const bool lamps =
       surroundings != Surroundings::DefaultLight && (emissiveTriangles || !scene.lights.empty());
   mark(Trait::LightTree, lamps && gainByPlace(scene) >= kLeastGainByPlace);
@@ -198,8 +198,8 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   dropTraits(v.stages, v.heatmap, surroundings, v.traits);
   dropIdle(v);
 
-  // Step: how rays find triangles.
-  // Literals need the packed scene; who has it puts them in (useLiterals of src/session/setup.cpp).
+  // Step: choose how rays find triangles. Literals need the packed scene, and useLiterals of
+  // src/session/setup.cpp adds them.
   const bool named = options.device.traversal != TraversalMethod::Auto &&
                      options.device.traversal != TraversalMethod::Literals;
   v.traversal = named ? options.device.traversal : TraversalMethod::FrontToBack;

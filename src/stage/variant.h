@@ -49,13 +49,14 @@ struct ShaderVariant {
   bool operator==(const ShaderVariant& other) const { return key() == other.key(); }
 };
 
-/// What lights a scene from outside: an environment map, a constant default light, or nothing.
+/// The light from outside the scene: an environment map, a constant default light, or nothing.
 enum class Surroundings : uint8_t { None, DefaultLight, Map };
 
-/// What the scene holds, before anything is asked for. backdrop: the surroundings have one of their own.
+/// The features of the scene, before anything is asked for. backdrop: the surroundings have a backdrop of
+/// their own.
 TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop = false);
 
-/// Whether the scene has any light of its own: emission or punctual lights.
+/// Returns true if the scene has any light of its own: emission or punctual lights.
 bool hasOwnLight(const Scene& scene);
 
 /// Reduces any wish to a legal variant: all implications between stages and traits stand here, once.
@@ -81,10 +82,11 @@ std::optional<ShaderVariant> lightRecordVariant(const ShaderVariant& variant);
 /// Returns true if the environment lights surfaces without sampling, as before gi (kEnvironmentLight).
 bool lightsByEnvironment(const ShaderVariant& variant);
 
-/// Whether hits keep their barycentric weights: only vertex attributes need them.
+/// Returns true if hits keep their barycentric weights, which only vertex attributes need.
 bool keepsWeights(const ShaderVariant& variant);
 
-/// Whether rays may go on behind what they meet: through holes, and straight through thin walls.
+/// Returns true if rays may continue behind what they meet: through holes, and straight through thin
+/// surfaces.
 bool passesSurfaces(const ShaderVariant& variant);
 
 /// The variant by name: what is on, separated by "+", for the statistics.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// fragtrace_worker MODULE: does work with other people's libraries for the program, which starts it with a
-// socket and sets its limits. It links none of them; the module does. A module whose name does not end in .so
-// is a program that speaks the protocol itself.
+// fragtrace_worker MODULE runs other people's libraries for the program, which starts it with a socket and
+// sets its limits. It links none of them; the module does. A module whose name does not end in .so is a
+// program that speaks the protocol itself.
 #include <dlfcn.h>
 #include <sys/socket.h>
 #include <sys/stat.h>

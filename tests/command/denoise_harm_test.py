@@ -15,7 +15,7 @@ SAMPLES = (16, 64, 256, 1024)
 SEEDS = range(16)
 MOST = 1.02        # of filtered over noisy error
 STUDENT = 1.753    # 95 % of Student's t with fifteen degrees of freedom, one-sided
-DARK = 0.01        # of the mean, squared in relative errors as docs/design/output.md has it
+DARK = 0.01        # of the mean, squared in relative errors as docs/output.md has it
 SKY = ["--hdri-file", SCENES / "sky.pfm"]
 PICTURES = {
     "cornell-box": [],
@@ -29,7 +29,7 @@ PICTURES = {
     "lobes": SKY,
     "sun-sky": ["--hdri-file", SCENES / "sun-sky.pfm"],
 }
-# Where the filter falls short of that (docs/design/denoising.md), and what it must not get worse than.
+# Where the filter falls short of that (docs/measurements/denoising.md), and what it must not get worse than.
 FALLS_SHORT = {("lobes", 1024): 1.13, ("sphere-textured", 64): 1.08, ("sphere-textured", 256): 1.12}
 
 

@@ -58,9 +58,20 @@ class Documents(Case):
         self.assertEqual(len(found), 1)
         self.assertTrue(found[0].startswith("-: "))
 
+    def test_the_tour_names_functions_that_are_defined_there(self):
+        root = SCENES.parent
+        text = (root / "docs/design/tour.md").read_text()
+        steps = re.findall(r"`((?:src|shaders)/[^`: ]+): (\w+)`", text)
+        self.assertGreaterEqual(len(steps), 40)
+        self.assertLessEqual(len(text.split()), 1500)
+        for file, name in steps:
+            # A definition begins in the first column: type, name, parameters, body.
+            defined = re.compile(rf"^\w[^\n(=]*\b{name}\([^;{{}}]*\)[^;{{}}]*{{", re.MULTILINE)
+            self.assertTrue(defined.search((root / file).read_text()), f"{file}: {name}")
+
 
 class Tables(Case):
-    """Of measurements: bench/tables.py makes them of docs/design/data."""
+    """Of measurements: bench/tables.py makes them of docs/measurements/data."""
     ROOT = SCENES.parent
 
     def setUp(self):

@@ -11,7 +11,7 @@ ROOT = SCENES.parent
 sys.path.insert(0, str(ROOT / "bench/gpu"))
 import compiler_figures  # noqa: E402
 
-LIMITS = ROOT / "docs/design/data/gpu-compilers.json"
+LIMITS = ROOT / "docs/measurements/data/gpu-compilers.json"
 SKIPPED = 77
 
 

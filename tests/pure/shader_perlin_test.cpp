@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// shaders/perlin.glsl against the height field that docs/design/surfaces.md defines, written down here a
+// shaders/perlin.glsl against the height field that docs/gltf.md defines, written down here a
 // second time.
 #include <gtest/gtest.h>
 

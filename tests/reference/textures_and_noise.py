@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Texture look-ups and the Perlin normal map of docs/design/surfaces.md, in doubles over arrays of points."""
+"""Texture look-ups and the Perlin normal map of docs/gltf.md, in doubles over arrays of points."""
 
 import numpy as np
 

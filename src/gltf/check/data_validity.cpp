@@ -30,7 +30,7 @@ struct Semantic {
 constexpr std::array<std::string_view, 3> kSingleSemantics = {"POSITION", "NORMAL", "TANGENT"};
 constexpr std::array<std::string_view, 4> kIndexedSemantics = {"TEXCOORD", "COLOR", "JOINTS", "WEIGHTS"};
 
-/// Nothing if glTF knows no such name.
+/// Returns nothing if glTF does not know the name.
 std::optional<Semantic> semanticOf(const std::string& attribute) {
   if (std::find(kSingleSemantics.begin(), kSingleSemantics.end(), attribute) != kSingleSemantics.end())
     return Semantic{attribute, {}};
@@ -135,7 +135,7 @@ class DataChecker {
       warn(place, "does not begin at a multiple of its component's size; it is read all the same");
   }
 
-  /// The bytes themselves are checked later, and refused; not all buffers have any.
+  /// The bytes themselves are checked and refused later; not all buffers have any.
   void checkRange(const json& accessor, const std::string& place) {
     const std::string type = accessor.value("type", "");
     const uint64_t components = type.starts_with("VEC") ? uint64_t(type.back() - '0')
@@ -199,7 +199,7 @@ class DataChecker {
                    place + "/material");
   }
 
-  /// Of a primitive, or of a morph target of a primitive with the attributes `base`.
+  /// Checks the attributes of a primitive, or of a morph target of a primitive with the attributes `base`.
   void checkAttributes(const json& attributes, const json* base, const std::string& place) {
     std::map<std::string, std::vector<unsigned>> sets;
     std::map<size_t, size_t> usesOfView;

@@ -11,7 +11,7 @@ namespace fragtrace {
 
 enum class Support : uint8_t { Supported, Partly, Ignored };
 
-/// A place that is any use of a texture, of whatever name.
+/// The place of any use of a texture, whatever its name.
 inline constexpr std::string_view kTextureInfo = "a texture info";
 
 struct Extension {
@@ -23,15 +23,15 @@ struct Extension {
   std::string_view advice = {};            ///< what to do with a file that requires it, where it is ignored
 };
 
-/// For what has no object of its own, and for a second place that there is not.
+/// The place of extensions without an object of their own, and a second place that does not exist.
 inline constexpr std::string_view kNowhere = "nowhere";
 
 std::span<const Extension> extensions();
 
-/// Null for one that is not in the table.
+/// Returns null for an extension that is not in the table.
 const Extension* extensionNamed(std::string_view name);
 
-/// Whether the loader reads it.
+/// Returns true if the loader reads the extension.
 bool isApplied(std::string_view name);
 
 }  // namespace fragtrace

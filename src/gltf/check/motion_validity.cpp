@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Where nodes stand in their trees. What is in a loop, which is refused later, stands alone.
+/// The places of nodes in their trees. A node in a loop, which is refused later, stands alone.
 struct Ancestry {
   std::vector<size_t> root;         ///< by node
   std::vector<size_t> first, last;  ///< those below a node are numbered from its first to its last
@@ -60,7 +60,7 @@ Ancestry ancestryOf(const json& nodes) {
   return ancestry;
 }
 
-/// Whether it is of a node (glTF 2.0, section 3.11).
+/// Returns true if it is a path of a node (glTF 2.0, section 3.11).
 bool isPath(std::string_view path) {
   return path == "translation" || path == "rotation" || path == "scale" || path == "weights";
 }
@@ -84,7 +84,7 @@ class MotionChecker {
 
   const json& accessorAt(const json& index) const { return elementOf(root_, "accessors", index); }
 
-  /// Of a mesh's first primitive; the others must have as many.
+  /// The number of morph targets of a mesh's first primitive; the others must have as many.
   static size_t targetsOf(const json& mesh) {
     const json& primitives = memberOf(mesh, "primitives");
     return primitives.empty() ? 0 : memberOf(primitives[0], "targets").size();
@@ -199,7 +199,7 @@ class MotionChecker {
       warn(place, "has a node without morph targets, which nothing would weigh; it changes nothing");
   }
 
-  /// Sizes and types that follow from the channel's path (glTF 2.0, section 3.11).
+  /// Checks sizes and types that follow from the channel's path (glTF 2.0, section 3.11).
   void checkOutput(const json& target, const json& sampler, const std::string& place) {
     if (!target.contains("node") || !isPath(target["path"].get_ref<const std::string&>())) return;
     const json& output = accessorAt(sampler["output"]);

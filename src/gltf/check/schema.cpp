@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Everything that the loader reads; the rule of a container stands before those of its members.
+/// Rules for everything that the loader reads; the rule of a container comes before those of its members.
 constexpr Rule kRules[] = {
     {"/asset!", Kind::Object},
     {"/asset/version!", Kind::Text},
@@ -251,7 +251,7 @@ constexpr Rule kRules[] = {
     {"/scene", Kind::Index, "/scenes"},
 };
 
-/// Where a material may use a texture.
+/// The members of a material that name a texture.
 constexpr const char* kTextureSlots[] = {
     "/materials/*/pbrMetallicRoughness/baseColorTexture",
     "/materials/*/pbrMetallicRoughness/metallicRoughnessTexture",
@@ -278,7 +278,7 @@ constexpr const char* kTextureSlots[] = {
     "/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture",
 };
 
-/// What such a use may hold.
+/// The members of such a use of a texture.
 constexpr Rule kTextureInfoRules[] = {
     {"", Kind::Object},
     {"/index!", Kind::Index, "/textures"},

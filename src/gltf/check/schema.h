@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Types and references of a glTF document, checked before tinygltf sees it: tinygltf drops members of a wrong
-// type without a word, and does not check an index before it uses it.
+// Checks types and references of a glTF document before tinygltf sees it. tinygltf silently drops members of
+// a wrong type, and does not check an index before it uses it.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace fragtrace {
 
-/// Throws InputError with the place of the first member that is read by the loader and has the wrong type, is
-/// missing though required, or refers to something that is not there. Whole numbers written as 1.0 become
+/// Throws InputError with the place of the first member that the loader reads and that has the wrong type, is
+/// missing though required, or refers to something that does not exist. Whole numbers written as 1.0 become
 /// integers.
 void checkSchema(nlohmann::json& root, const Diagnostics& diagnostics);
 
@@ -24,7 +24,8 @@ struct NumberRule {
   bool isFlag = false;  ///< 0: false
 };
 
-/// What the loader reads at a JSON pointer, if that is numbers, or a flag that can be animated.
+/// The rule for the value at a JSON pointer, if the loader reads numbers there, or a flag that can be
+/// animated.
 std::optional<NumberRule> numberRuleAt(std::string_view pointer);
 
 }  // namespace fragtrace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How one rule of the schema is held against a document.
+// Checks a document against one rule of the schema.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +36,7 @@ struct Rule {
 /// become integers.
 void applyRule(const Rule& rule, nlohmann::json& root, const Diagnostics& diagnostics);
 
-/// The next part of a JSON pointer, which is cut off from it.
+/// Returns the next part of a JSON pointer, and removes it from the pointer.
 std::string_view cutPart(std::string_view& pointer);
 
 }  // namespace fragtrace

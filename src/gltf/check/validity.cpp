@@ -21,7 +21,7 @@ bool names(const json& list, const std::string& name) {
   return list.is_array() && std::find(list.begin(), list.end(), name) != list.end();
 }
 
-/// One that is not in the table may stand anywhere, unless its name says that it is of materials.
+/// An extension that is not in the table may be anywhere, unless its name says that it belongs to materials.
 bool isAtHome(std::string_view name, std::string_view place, std::string_view owner) {
   const Extension* extension = extensionNamed(name);
   if (extension == nullptr) return !name.starts_with("KHR_materials_") || place == "/materials/*";
@@ -29,7 +29,7 @@ bool isAtHome(std::string_view name, std::string_view place, std::string_view ow
   return std::ranges::find(extension->places, place) != extension->places.end();
 }
 
-/// Goes over everything but extras, which are the author's own.
+/// Visits everything except extras, which are the author's own.
 class Walk {
  public:
   Walk(const json& root, Diagnostics& diagnostics)
@@ -52,7 +52,8 @@ class Walk {
   }
 
  private:
-  /// Other objects may be empty; what is compressed without attributes is warned about when it is read.
+  /// Other objects may be empty. Compressed primitives without attributes are warned about when they are
+  /// read.
   void visitEmpty(std::string_view name) {
     if (pattern_ == "/meshes/*/primitives/*/attributes") {
       diagnostics_.warn(place_, "is empty, which glTF forbids; the primitive is left out");

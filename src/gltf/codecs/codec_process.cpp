@@ -10,7 +10,7 @@ const WorkerKind kGeometryCodecs{"libfragtrace_geometry.so", "the library that d
 
 std::vector<uint8_t> decodeByProcess(Worker& codecs, const CodecRequest& request,
                                      std::span<const uint8_t> encoded) {
-  // Draco's tables of corners take some hundred bytes per triangle, of which 24 come out.
+  // Draco's tables of corners take some hundred bytes for a triangle whose output is 24 bytes.
   constexpr uint64_t kLibraries = uint64_t(256) << 20;
   constexpr uint64_t kOfAByte = 64;
   constexpr uint64_t kBytesASecond = 5'000'000;

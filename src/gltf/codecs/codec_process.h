@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The libraries of compressed geometry in a worker process.
+// Runs the libraries of compressed geometry in a worker process.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compressed geometry, replaced in the document by what it decodes to before anything reads it.
+// Replaces compressed geometry in the document by its decoded form, before anything reads it.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ namespace fragtrace {
 /// In the order of the document; empty where a buffer has no data.
 using Buffers = std::vector<std::vector<uint8_t>>;
 
-/// Whether a buffer only stands in for readers that cannot decode EXT_ or KHR_meshopt_compression.
+/// Returns true if a buffer only stands in for readers that cannot decode EXT_ or KHR_meshopt_compression.
 bool isFallback(const nlohmann::json& buffer);
 
 /// Decode all buffer views with EXT_ or KHR_meshopt_compression, and all primitives with
-/// KHR_draco_mesh_compression: the document gets more buffers, buffer views and accessors. Where the
-/// libraries are missing and the file holds the data uncompressed, too, these are taken, with a warning.
-/// Throw InputError.
+/// KHR_draco_mesh_compression. The document gets more buffers, buffer views and accessors. If the libraries
+/// are missing and the file also holds the data uncompressed, these are used, with a warning. Throw
+/// InputError.
 void decompressViews(nlohmann::json& root, Buffers& buffers, Worker& codecs, Document& document);
 void decompressPrimitives(nlohmann::json& root, Buffers& buffers, Worker& codecs, Document& document);
 

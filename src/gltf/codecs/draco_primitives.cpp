@@ -17,7 +17,7 @@ constexpr const char* kExtension = "KHR_draco_mesh_compression";
 
 uint64_t paddedTo4(uint64_t bytes) { return (bytes + 3) / 4 * 4; }
 
-/// One primitive: what is asked of the library, and the accessors that its answer replaces.
+/// One primitive: the request to the library, and the accessors that its answer replaces.
 class PrimitiveDecoder {
  public:
   PrimitiveDecoder(json& root, json& primitive, std::string place, Document& document)
@@ -27,7 +27,7 @@ class PrimitiveDecoder {
         place_(std::move(place)),
         document_(document) {}
 
-  /// Whether the file holds all of it uncompressed, too.
+  /// Returns true if the file also holds all of it uncompressed.
   bool hasFallback() const {
     for (const auto& attribute : extension_["attributes"].items()) {
       const auto accessor = primitive_["attributes"].find(attribute.key());
@@ -36,7 +36,7 @@ class PrimitiveDecoder {
     return primitive_.contains("indices") && hasView(primitive_["indices"]);
   }
 
-  /// The extension's schema wants at least one attribute; some files have none, beside accessors with data.
+  /// The extension's schema requires at least one attribute; some files have none, but accessors with data.
   bool isEmpty() const { return extension_["attributes"].empty(); }
 
   void takeOwnData() {
@@ -115,7 +115,7 @@ class PrimitiveDecoder {
                                     view["byteLength"].get<uint64_t>());
   }
 
-  /// An accessor as the given one, at those bytes of the buffer; returns its index.
+  /// Adds an accessor like the given one, at those bytes of the buffer; returns its index.
   size_t addAccessor(json accessor, size_t buffer, uint64_t offset, uint64_t length) {
     root_["bufferViews"].push_back({{"buffer", buffer}, {"byteOffset", offset}, {"byteLength", length}});
     accessor["bufferView"] = root_["bufferViews"].size() - 1;
@@ -125,7 +125,7 @@ class PrimitiveDecoder {
     return root_["accessors"].size() - 1;
   }
 
-  /// Accessors may be shared with primitives that are not compressed: the primitive gets its own.
+  /// Primitives that are not compressed may share accessors with it, so the primitive gets its own.
   void putDecoded(size_t buffer) {
     constexpr int kTriangles = 4;
     json indices = {{"componentType", kUnsignedInt}, {"type", "SCALAR"}, {"count", request_.indexCount}};

@@ -24,7 +24,7 @@ const json* viewExtension(const json& object, std::string_view name) {
   return extension != extensions->end() ? &*extension : nullptr;
 }
 
-/// What of both extensions an object has.
+/// The members of both extensions that an object has.
 struct Meshopt {
   std::string_view name = kExt;
   const json* object = nullptr;  ///< none
@@ -51,7 +51,7 @@ std::optional<MeshoptFilter> filterNamed(const std::string& filter, bool isKhr) 
   return std::nullopt;
 }
 
-/// What the extension demands of strides and counts, which the library takes for granted.
+/// Checks the strides and counts that the extension demands and that the library takes for granted.
 void checkSizes(const CodecRequest& request, const std::string& place, const Diagnostics& diagnostics) {
   constexpr uint64_t kLargestStride = 256;
   const uint64_t stride = request.stride;
@@ -85,7 +85,7 @@ CodecRequest requestOf(const json& extension, bool isKhr, uint64_t viewBytes, co
   request.stride = extension["byteStride"].get<uint64_t>();
   request.outputBytes = viewBytes;
   checkSizes(request, place, diagnostics);
-  // Divided rather than multiplied, so that no count is large enough to wrap round.
+  // The check divides instead of multiplying, so that no count is large enough to wrap around.
   if (viewBytes % request.stride != 0 || viewBytes / request.stride != request.count) {
     diagnostics.refuse(place + "/count", "times byteStride is not the " + std::to_string(viewBytes) +
                                              " bytes of the buffer view");

@@ -84,7 +84,7 @@ Elements checkedRange(const Document& document, const std::string& place, int vi
     document.diagnostics.refuse(place, "elements of " + std::to_string(size) + " bytes lie " +
                                            std::to_string(elements.stride) + " bytes apart");
   }
-  // Divided rather than multiplied, so that no count is large enough to wrap round.
+  // The check divides instead of multiplying, so that no count is large enough to wrap around.
   if (offset > length || size > length - offset ||
       elements.count - 1 > (length - offset - size) / elements.stride) {
     document.diagnostics.refuse(place, std::to_string(elements.count) + " elements reach past the " +
@@ -112,7 +112,7 @@ Elements elementsOf(const Document& document, int index) {
   if (accessor.bufferView >= 0) {
     return checkedRange(document, place, accessor.bufferView, accessor.byteOffset, elements, true);
   }
-  // Zeros take no room in the file, so that only this bounds the memory they take.
+  // Zeros take no room in the file, so only this limits the memory that they take.
   constexpr size_t kMostZeros = size_t(1) << 26;
   if (accessor.count > kMostZeros) {
     document.diagnostics.refuse(place, std::to_string(accessor.count) + " elements without a buffer view");
@@ -120,13 +120,13 @@ Elements elementsOf(const Document& document, int index) {
   return elements;
 }
 
-/// The elements that a sparse accessor replaces, and by what.
+/// The elements that a sparse accessor replaces, and their new values.
 struct SparseElements {
   std::vector<uint32_t> indices;
   Elements values;
 };
 
-/// Of a type for which isIndexType() is true.
+/// Component is a type for which isIndexType() is true.
 template <typename Component>
 uint32_t indexOf(Component value) {
   if constexpr (std::is_unsigned_v<Component>) return value;
@@ -174,7 +174,8 @@ SparseElements sparseElementsOf(const Document& document, int index, const Eleme
   return result;
 }
 
-/// Refuses what a vertex attribute may not be: only with KHR_mesh_quantization may integers be unscaled.
+/// Refuses formats that a vertex attribute may not have: integers may be unscaled only with
+/// KHR_mesh_quantization.
 void checkAttribute(const Document& document, const Elements& elements, const std::string& place) {
   if (elements.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT || elements.normalized) return;
   const auto& used = document.model.extensionsUsed;

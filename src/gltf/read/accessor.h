@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Decoding of accessors: strided, normalised, sparse, or without any buffer view, and never past the end.
+// Decodes accessors: strided, normalised, sparse, or without any buffer view, and never past the end.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 namespace fragtrace {
 
 /// Refuses every accessor, used or not, that reaches out of its buffer view, and every sparse index past its
-/// elements; left out are those whose buffer an extension would bring.
+/// elements. Accessors whose buffer an extension would bring are left out.
 void checkAccessors(const Document& document);
 
 /// Number of elements of an accessor.
 size_t accessorCount(const Document& document, int accessor);
 
-/// All elements as floats, integers scaled if normalised. `components` is what each element must have.
-/// `place` is where the accessor is used, for messages. Throws InputError when type, component type or byte
-/// range are wrong.
+/// Reads all elements as floats, with integers scaled if normalised. `components` is the number that each
+/// element must have. `place` is where the accessor is used, for messages. Throws InputError if type,
+/// component type or byte range are wrong.
 template <glm::length_t components>
 std::vector<glm::vec<components, float>> readVectors(const Document& document, int accessor,
                                                      const std::string& place);
@@ -38,8 +38,8 @@ std::vector<glm::uvec4> readJoints(const Document& document, int accessor, const
 /// Matrices of type MAT4 and floats, which are finite.
 std::vector<glm::dmat4> readMatrices(const Document& document, int accessor, const std::string& place);
 
-/// All components of all elements one after the other, of any type of `components` of them: floats, or
-/// normalized integers, or any where `wholeNumbers` are asked for.
+/// Reads all components of all elements one after the other, of any type with `components` of them: floats,
+/// or normalised integers, or any integers if `wholeNumbers` are asked for.
 std::vector<float> readComponents(const Document& document, int accessor, int components,
                                   const std::string& place, bool wholeNumbers = false);
 

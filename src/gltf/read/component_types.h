@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an accessor's components are, by glTF's numbers (those of OpenGL).
+// The types of an accessor's components, by glTF's numbers (those of OpenGL).
 #pragma once
 
 #include <cstdint>

@@ -27,8 +27,8 @@ bool isBinary(std::span<const uint8_t> bytes) {
   return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
 }
 
-/// Refuses what is not glTF by its first bytes, and a .glb by its header. Returns how many bytes of the file
-/// are worth reading: a .glb's length, and one more byte, which tells that there are more.
+/// Refuses files that are not glTF by their first bytes, and a .glb by its header. Returns how many bytes of
+/// the file are worth reading: a .glb's length and one more byte, which shows that there are more.
 uint64_t checkBeginning(std::span<const uint8_t> bytes, uint64_t size, const Diagnostics& diagnostics) {
   if (!isBinary(bytes)) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -50,8 +50,8 @@ uint64_t checkBeginning(std::span<const uint8_t> bytes, uint64_t size, const Dia
   return std::max<uint64_t>(length, kHeaderSize) + 1;
 }
 
-/// Takes a .glb apart whose beginning is checked: a header, a JSON chunk, perhaps a BIN chunk, perhaps chunks
-/// that no one knows.
+/// Splits a .glb whose beginning is checked: a header, a JSON chunk, perhaps a BIN chunk, perhaps unknown
+/// chunks.
 Container splitGlb(const std::vector<uint8_t>& bytes, Diagnostics& diagnostics) {
   const size_t length = readLittleEndian(bytes, 8);
   if (length > bytes.size()) {  // of a pipe, whose size is not known before

@@ -18,8 +18,8 @@ struct Container {
   bool isGlb = false;
 };
 
-/// Reads the file and takes it apart; which container it is follows from its content, not from its name.
-/// Throws InputError when the file is missing, truncated, neither, or larger than the limit in bytes.
+/// Reads the file and splits it. Its content decides which container it is, not its name. Throws InputError
+/// if the file is missing, truncated, neither, or larger than the limit in bytes.
 Container readContainer(const std::filesystem::path& path, uint64_t memoryLimit, Diagnostics& diagnostics);
 
 }  // namespace fragtrace

@@ -43,7 +43,7 @@ class Diagnostics {
   /// Throws InputError "FILE: PLACE: REASON"; an empty place is left out.
   [[noreturn]] void refuse(std::string_view place, std::string_view reason) const;
 
-  /// Does something whose std::runtime_error is the reason to refuse that place.
+  /// Runs an action; a std::runtime_error of it is the reason to refuse that place.
   template <typename Action>
   auto attempt(std::string_view place, const Action& action) const {
     try {
@@ -55,11 +55,11 @@ class Diagnostics {
     }
   }
 
-  /// Notes something that is skipped or mended; the same reason at several places makes one line with a
-  /// count and the first of them.
+  /// Notes something that is skipped or repaired. The same reason at several places makes one line with a
+  /// count and the first place.
   void warn(std::string_view place, std::string_view reason, size_t count = 1);
 
-  /// One line a reason, in the order in which they came.
+  /// One line for each reason, in the order of their first appearance.
   std::vector<std::string> warnings() const;
 
   const std::string& file() const { return file_; }

@@ -20,7 +20,7 @@
 
 namespace fragtrace {
 
-/// Where a picture is, as the file says: a URI as written, or a buffer view.
+/// The place of a picture as the file gives it: a URI as written, or a buffer view.
 struct ImageSource {
   std::string uri;
   int bufferView = -1;
@@ -51,7 +51,7 @@ struct Document {
 /// The bytes of a buffer view. Throws InputError if its buffer has none, as a buffer without URI may.
 std::span<const uint8_t> bytesOf(const Document& document, int bufferView);
 
-/// Counts memory that `place` asks for. Throws InputError when it is too much.
+/// Counts memory that `place` asks for. Throws InputError if it is too much.
 void takeMemory(Document& document, const std::string& place, uint64_t bytes);
 
 }  // namespace fragtrace

@@ -14,7 +14,8 @@ struct Extent {
   size_t values = 0;  ///< at most
 };
 
-/// Counted before parsing, since the parser's destructor recurses, and a value takes more room than its text.
+/// Values are counted before parsing, since the parser's destructor recurses, and a value takes more memory
+/// than its text.
 Extent extentOf(std::string_view text) {
   Extent extent;
   size_t depth = 0;
@@ -41,7 +42,7 @@ nlohmann::json parseJson(std::string_view text, MemoryBudget& memory, Diagnostic
   if (extent.depth > kDeepestNesting) {
     diagnostics.refuse("", "the JSON is nested deeper than " + std::to_string(kDeepestNesting));
   }
-  // Ours and tinygltf's copies of each value and each text.
+  // This covers our copy and tinygltf's copies of each value and each text.
   constexpr uint64_t kBytesOfAValue = 256;
   constexpr uint64_t kCopiesOfTheText = 4;
   diagnostics.attempt("",

@@ -9,7 +9,7 @@
 
 namespace fragtrace {
 
-/// Parses JSON whose nesting and size in memory are bounded before. Throws InputError with line and column.
+/// Parses JSON whose nesting and size in memory are limited first. Throws InputError with line and column.
 nlohmann::json parseJson(std::string_view text, MemoryBudget& memory, Diagnostics& diagnostics);
 
 }  // namespace fragtrace

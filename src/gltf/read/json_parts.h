@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parts of a document's JSON that may not be there.
+// Parts of a document's JSON that may be missing.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -26,7 +26,7 @@ inline const nlohmann::json& elementOf(const nlohmann::json& root, const char* l
   return index.get<size_t>() < elements.size() ? elements[index.get<size_t>()] : kNone;
 }
 
-/// check(element, its JSON pointer) for all of the root's list.
+/// Calls check(element, its JSON pointer) for each element of the root's list.
 template <typename Check>
 void forEachIn(const nlohmann::json& root, const char* list, const Check& check) {
   const nlohmann::json& elements = memberOf(root, list);

@@ -24,7 +24,7 @@ json taken(json& object, const char* name) {
   return member;
 }
 
-/// Paths of nodes are pointers in short (KHR_animation_pointer).
+/// The paths of nodes are short forms of pointers (KHR_animation_pointer).
 std::string targetOf(const json& target) {
   const json::json_pointer pointer("/extensions/KHR_animation_pointer/pointer");
   const auto& path = target["path"].get_ref<const std::string&>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What may move or swap parts of a file, taken out of the document before tinygltf sees it: skins, animations
-// and material variants. tinygltf would refuse more of them than we need to.
+// Takes skins, animations and material variants, which may move or swap parts of a file, out of the document
+// before tinygltf sees it. tinygltf would refuse more of them than necessary.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -20,7 +20,7 @@ struct Skin {
   int inverseBindMatrices = -1;  ///< none: all are the identity
 };
 
-/// What a channel of an animation drives, and with which accessors.
+/// The property that a channel of an animation drives, and its accessors.
 struct Channel {
   std::string place;    ///< JSON pointer of the channel
   std::string target;   ///< JSON pointer of the numbers that it drives; empty: none that we know
@@ -35,19 +35,19 @@ struct Animation {
   std::vector<Channel> channels;
 };
 
-/// Of a document that has passed the schema. The document keeps none.
+/// Takes the skins out of a document that has passed the schema. The document keeps none.
 std::vector<Skin> takeSkins(nlohmann::json& root);
 std::vector<Animation> takeAnimations(nlohmann::json& root);
 
-/// Warns of what breaks glTF's rules for skins, animations, morph weights and variants, and refuses samplers
-/// that are not there.
+/// Warns about violations of glTF's rules for skins, animations, morph weights and variants, and refuses
+/// samplers that do not exist.
 void checkMotion(const nlohmann::json& root, Diagnostics& diagnostics);
 
 /// The names of an array's elements, "" where one has none.
 std::vector<std::string> namesOf(const nlohmann::json& array);
 
-/// Seconds at which an animation's last key stands, as the accessors of its times say; none where one does
-/// not.
+/// The time of an animation's last key in seconds, by the accessors of its times; none if one does not say
+/// it.
 std::optional<double> durationOf(const nlohmann::json& animation, const nlohmann::json& accessors);
 
 /// Makes the chosen scene the default one and gives primitives the materials of the chosen variant

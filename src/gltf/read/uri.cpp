@@ -78,7 +78,7 @@ bool hasScheme(std::string_view uri) {
   return false;
 }
 
-/// True when the path, its "." and ".." taken away, starts at the root or above the folder.
+/// True if the path, without its "." and "..", starts at the root or above the folder.
 bool leadsOut(const std::filesystem::path& path) {
   const std::filesystem::path normal = path.lexically_normal();
   return normal.is_absolute() || (!normal.empty() && *normal.begin() == "..");
@@ -146,7 +146,7 @@ std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, uin
                              " leads out of the scene's folder (--allow-external-files)");
   }
   const std::filesystem::path path = pathOfUri(access, uri);
-  // Opening a pipe that nobody writes to would wait for ever.
+  // Opening a pipe to which nobody writes would wait without end.
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   try {
     if (file < 0) throw std::runtime_error("cannot be opened: " + std::generic_category().message(errno));

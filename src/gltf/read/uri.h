@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a glTF URI stands for: bytes in the URI itself, or a file beside the scene.
+// Resolves a glTF URI: bytes in the URI itself, or a file beside the scene.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace fragtrace {
 
-/// Where a file's URIs may lead.
+/// The places to which a file's URIs may lead.
 struct FileAccess {
   std::filesystem::path folder;  ///< what relative URIs start from
   bool allowExternal = false;    ///< also out of the folder

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading of extensions and extras, which tinygltf hands on as generic values. The schema has checked their
+// Reads extensions and extras, which tinygltf passes on as generic values. The schema has checked their
 // types.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What all comparisons of two pictures begin with.
+// Checks with which all comparisons of two pictures begin.
 #pragma once
 
 #include <array>

@@ -37,7 +37,7 @@ Difference compare(const Image& picture, const Image& reference) {
       // A NaN is not equal to 0, so it passes into the sum; where the whole reference is black, x / 0 is
       // infinite.
       if (square != 0) relativeSum += square / (b(i, c) * b(i, c) + floor);
-      // Of two comparisons with NaN both are false: once maximum is NaN it stays so.
+      // Comparisons with NaN are false, so a maximum that is NaN stays so.
       if (difference > maximum || std::isnan(difference)) maximum = difference;
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a picture is from its reference, by the formulas of docs/design/output.md.
+// Metrics of the difference between a picture and its reference, by the formulas of docs/numbers.md.
 #pragma once
 
 #include <optional>
@@ -37,8 +37,8 @@ std::optional<Metric> parseMetric(std::string_view name);
 /// NaN for Flip, which looks at more than single pixels and is flipError's (image/flip.h).
 double metricValue(const Difference& difference, Metric metric);
 
-/// True when the value is at most the threshold, or for psnr, of which more is better, at least. NaN is never
-/// within.
+/// True if the value is at most the threshold, or for psnr, where more is better, at least the threshold. NaN
+/// is never within.
 bool isWithin(Metric metric, double value, double threshold);
 
 }  // namespace fragtrace

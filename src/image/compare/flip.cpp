@@ -199,7 +199,7 @@ Opponent opponentOf(const ColorReader& read) {
   return result;
 }
 
-/// What the eye makes of the picture, in the space in which colours are compared.
+/// The picture as the eye perceives it, in the space in which colours are compared.
 std::vector<glm::dvec3> perceivedColors(const Opponent& picture, double pixelsPerDegree) {
   const Plane y = filterSensitivity(picture.y, kAchromatic, pixelsPerDegree);
   const Plane cx = filterSensitivity(picture.cx, kRedGreen, pixelsPerDegree);
@@ -234,7 +234,7 @@ double redistribute(double distance) {
 
 // The feature pipeline
 
-/// How much of an edge and how much of a point every pixel is.
+/// The strengths of edges and of points at every pixel.
 struct Features {
   std::vector<double> edges;
   std::vector<double> points;

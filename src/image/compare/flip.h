@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How large the difference looks to somebody who flips between two pictures: LDR-FLIP. Andersson, Nilsson,
+// LDR-FLIP: the difference that somebody sees who flips between two pictures. Andersson, Nilsson,
 // Akenine-Moller, Oskarsson, Astrom and Fairchild, "FLIP: A Difference Evaluator for Alternating Images",
 // Proceedings of the ACM on Computer Graphics and Interactive Techniques 3 (2), HPG 2020.
 #pragma once
@@ -16,11 +16,11 @@ struct FlipError {
   double mean = 0;  ///< of the map, in double precision
 };
 
-/// Of display pictures: R, G and B (or grey) sRGB-encoded in 0..1, as toDisplay makes them and readImage
-/// returns .png and .jpg; values outside are clamped, other channels are left out. A NaN in either makes the
-/// map NaN around it, and the mean NaN. The measure is symmetric in both pictures; edges are continued by
-/// their last pixel. `pixelsPerDegree` of visual angle is from 1 to 1000. Throws RenderError when it
-/// is not, when the sizes differ or when a picture has no colour.
+/// Compares display pictures: R, G and B (or grey) sRGB-encoded in 0..1, as toDisplay makes them and
+/// readImage returns .png and .jpg. Values outside are clamped; other channels are left out. A NaN in either
+/// makes the map NaN around it, and the mean NaN. The measure is symmetric in both pictures; edges are
+/// continued by their last pixel. `pixelsPerDegree` of visual angle is from 1 to 1000. Throws RenderError
+/// when it is not, when the sizes differ or when a picture has no colour.
 FlipError flipError(const Image& picture, const Image& reference,
                     double pixelsPerDegree = kFlipPixelsPerDegree);
 

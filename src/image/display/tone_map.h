@@ -36,7 +36,7 @@ Image toDisplay(const Image& linear, double exposureEv, ToneMap toneMap);
 /// blending light shows. Unchanged where it has no channel A.
 Image forBlendedValues(Image display);
 
-/// What a .png holds of a linear picture by default, as readImage reads it: toDisplay at exposure 0 with the
+/// The .png of a linear picture with default options, as readImage reads it: toDisplay at exposure 0 with the
 /// neutral curve, rounded to 8 bits. Only colour that is not finite becomes NaN, so that no comparison takes
 /// a broken picture for a good one. Throws as toDisplay does.
 Image toDefaultDisplay(const Image& linear);

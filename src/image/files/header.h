@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the header of an encoded picture says, read by our own code before any library sees the file.
+// The header of an encoded picture, read by our own code before any library sees the file.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ struct ImageHeader {
   int channelCount = 0;  ///< at most, once decoded
 };
 
-/// Takes the header apart and checks that the file is long enough for what it promises. Throws
-/// std::runtime_error with the reason: unknown format, truncated, a size that is not supported, more work
-/// than its length can be worth.
+/// Parses the header and checks that the file is long enough for it. Throws std::runtime_error with the
+/// reason: unknown format, truncated, a size that is not supported, more work than the file's length can
+/// justify.
 ImageHeader readImageHeader(std::span<const uint8_t> bytes);
 
 }  // namespace fragtrace

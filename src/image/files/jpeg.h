@@ -16,7 +16,7 @@ struct JpegFrame {
   bool complete = false;
 };
 
-/// What the markers say, as far as they reach. Never throws.
+/// Reads the markers as far as they reach. Never throws.
 JpegFrame readJpegFrame(std::span<const uint8_t> bytes);
 
 }  // namespace fragtrace

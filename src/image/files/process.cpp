@@ -45,7 +45,8 @@ std::vector<uint8_t> encode(const PictureMessage& request, Bytes values, Bytes t
   return {result.output.begin(), result.output.end()};
 }
 
-/// Whether the picture, or the larger one that it lies in, has the header's size, and no more channels.
+/// Returns true if the picture, or the larger one in which it lies, has the header's size, and no more
+/// channels.
 bool isAsPromised(const PictureMessage& picture, const ImageHeader& header) {
   const glm::ivec2 size(picture.width, picture.height);
   const Placement placed = picture.placement.whole.x != 0 ? picture.placement : Placement{{0, 0}, size};

@@ -12,8 +12,8 @@
 
 namespace fragtrace {
 
-/// Looks at the first bytes of a file (64 KiB, or all that it has) before more is read. `size` is the file's,
-/// or 0 for a pipe. Returns how many bytes are to be read at most; it may throw.
+/// Checks the first bytes of a file (64 KiB, or all of a shorter one) before more is read. `size` is the
+/// file's, or 0 for a pipe. Returns the largest number of bytes to read; it may throw.
 using BeginningCheck = std::function<uint64_t(std::span<const uint8_t> first, uint64_t size)>;
 
 /// All bytes of an open regular file or pipe, which is closed. Throws std::runtime_error with the bare reason

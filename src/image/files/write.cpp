@@ -125,7 +125,7 @@ Encoded encodeNamed(const Image& image, const std::filesystem::path& path, const
   }
 }
 
-/// What a pixel takes that cannot be compressed.
+/// The bytes of a pixel that cannot be compressed.
 uint64_t bytesOfPixel(std::optional<ImageFormat> format, size_t channelCount, const Encoding& encoding) {
   if (format == ImageFormat::OpenExr) return (encoding.half ? 2 : 4) * channelCount;
   if (format == ImageFormat::Png && encoding.pngBits == 16) return 8;

@@ -32,7 +32,7 @@ PictureMessage messageOf(const Image& image, PictureTask task, ImageFormat forma
 /// of an attribute's name and its text; pairs of a name and the bytes of its numbers.
 std::vector<uint8_t> textsOf(const Image& image, int bits);
 
-/// A picture as it is sent, of which the values stay where they are.
+/// A picture as it is sent; its values stay where they are.
 struct SentImage {
   Image image;  ///< without values
   std::span<const float> values;

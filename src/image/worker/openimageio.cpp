@@ -83,7 +83,7 @@ std::map<std::string, std::string> stringAttributes(const OIIO::ImageSpec& spec)
   return attributes;
 }
 
-/// What the image library calls a standard attribute of OpenEXR.
+/// The image library's name of a standard attribute of OpenEXR.
 std::string libraryName(const std::string& name) {
   if (name == "worldToCamera") return "worldtocamera";
   if (name == "worldToNDC") return "worldtoNDC";

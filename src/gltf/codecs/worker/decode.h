@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the worker's module for compressed geometry does. Its input is a request and the encoded bytes, its
-// output the decoded ones.
+// The worker's module for compressed geometry. Its input is a request and the encoded bytes, its output the
+// decoded bytes.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ enum class Codec : uint32_t {
 };
 enum class MeshoptFilter : uint32_t { None, Octahedral, Quaternion, Exponential, Color };
 
-/// An attribute of a Draco mesh, and as what its values are wanted.
+/// An attribute of a Draco mesh, and the type in which its values are wanted.
 struct CodecAttribute {
   uint32_t id = 0;  ///< in the Draco stream
   uint32_t componentType = 0;
@@ -38,7 +38,7 @@ struct CodecRequest {
   std::array<CodecAttribute, kMostCodecAttributes> attributes{};
 };
 
-/// Decode into `output`, which they fill. Throw std::runtime_error when the bytes are not what was asked for.
+/// Decode into `output`, which they fill. Throw std::runtime_error if the bytes are not those of the request.
 void decodeDraco(const CodecRequest& request, std::span<const uint8_t> input, std::span<uint8_t> output);
 void decodeMeshopt(const CodecRequest& request, std::span<const uint8_t> input, std::span<uint8_t> output);
 

@@ -14,7 +14,7 @@ void expect(bool condition, const std::string& reason) {
   if (!condition) throw std::runtime_error(reason);
 }
 
-/// Values of all vertices as that type; returns the bytes that were written.
+/// Writes the values of all vertices as that type; returns the number of bytes written.
 template <typename Component>
 size_t writeValues(const draco::Mesh& mesh, const draco::PointAttribute& attribute, uint32_t components,
                    std::span<uint8_t> output) {

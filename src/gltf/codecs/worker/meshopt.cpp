@@ -25,7 +25,7 @@ std::string libraryText() {
          std::to_string(MESHOPTIMIZER_VERSION / 10 % 100);
 }
 
-/// Of streams that the library does not know, that is said.
+/// Refuses a stream, and says its version if the library does not know it.
 [[noreturn]] void refuse(const CodecRequest& request, std::span<const uint8_t> input) {
   constexpr uint8_t kVertices = 0xa0;  // with the version in the lower half
   const bool isVertices = request.codec == Codec::MeshoptVertices && !input.empty();
