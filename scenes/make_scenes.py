@@ -15,6 +15,7 @@ from scene_parts import SCENES, place_faces, place_quad, scene
 import feature_scene  # noqa: F401, registers its scene
 from gi_scenes import sky_radiance
 import lamp_scenes  # noqa: F401, registers its scenes
+import media_scenes  # noqa: F401, registers its scenes
 
 # Closed forms
 

@@ -223,7 +223,8 @@ struct Frame {
   // half of the view's width (at distance 1, or in local space when orthographic); w: 1 when the first sample is in the
   // middle of its pixel
   vec4 cameraRight;
-  vec4 cameraUp;        // half of its height
+  // half of its height; w: 1 + the material of the scattering solid that the camera stands in, or 0
+  vec4 cameraUp;
   vec4 cameraForward;   // unit; w: metres a unit of local space
   vec4 gridOrigin;      // of the quantised boxes, local space
   vec4 gridCell;        // local space, a step

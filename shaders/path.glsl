@@ -100,6 +100,7 @@ Path pathAlong(vec3 origin, vec3 direction, Sampler numbers, int steps) {
   p.origin = origin;
   p.direction = direction;
   p.traversal.steps = steps;
+  if (kScattering && kMedia && frame.cameraUp.w > 0.0) p = standInside(p, uint(frame.cameraUp.w) - 1u);
   return extend(p);
 }
 

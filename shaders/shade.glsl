@@ -215,14 +215,6 @@ vec3 featureAt(Surface s, int slot, int instance, vec3 baseColor, vec3 outgoing)
 #include "guides.glsl"
 #include "caustics/light_path.glsl"
 
-/// A path whose ray has been inside of a solid without knowing it.
-Path standInside(Path p, uint medium) {
-  float ior = dispersedIor(p, medium);
-  if (p.cameraRay) p.compression = ior * ior;
-  p.medium = medium;
-  return p;
-}
-
 /// One step at the point hit. The first visit also settles alpha, absorption and emission.
 Path shade(Path p) {
   Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights);

@@ -24,6 +24,14 @@ uint mediumTowards(Path p, Surface s, vec3 direction) {
 /// Whether light gets straight into a medium: there is none, or its boundary does not bend it.
 bool isOpen(uint medium) { return medium == kPrimitiveNone || (kMatchedGlass && isMatched(medium)); }
 
+/// A path whose ray has been inside of a solid without knowing it, or begins there.
+Path standInside(Path p, uint medium) {
+  float ior = dispersedIor(p, medium);
+  if (p.cameraRay) p.compression = ior * ior;
+  p.medium = medium;
+  return p;
+}
+
 /// The distance at which the flight that begins at `from` along the path's ray ends; kFarAway where it need not.
 float flightEnd(Path p, float from, float u) {
   float end = kFarAway;

@@ -107,7 +107,8 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.cameraPosition =
       glm::vec4(glm::vec3(view.space.localOf(camera.position)), camera.perspective ? 0.0f : 1.0f);
   frame_.cameraRight = glm::vec4(glm::vec3(right * half.x), view.firstInMiddle ? 1.0f : 0.0f);
-  frame_.cameraUp = glm::vec4(glm::vec3(up * half.y), 0.0f);
+  frame_.cameraUp =
+      glm::vec4(glm::vec3(up * half.y), view.cameraMedium ? float(*view.cameraMedium + 1) : 0.0f);
   frame_.cameraForward = glm::vec4(glm::vec3(camera.forward), float(view.space.unit));
   frame_.background = glm::vec4(view.background, view.seesNothing ? -1.0f : float(view.showEnvironment));
   frame_.environment.z = float(std::cos(view.hdriRotation));

@@ -43,8 +43,9 @@ struct View {
   bool showEnvironment = true;  ///< camera rays that miss see the environment map instead, or its backdrop
   bool seesNothing = false;     ///< they see nothing: the picture is to be laid over another one
   Fog fog;                      ///< when the variant has one
-  double catcherHeight = 0.0;   ///< Y of the shadow catcher in world space, when the variant has one
-  bool firstInMiddle = false;   ///< the first sample of each pixel is in its middle, for edges without chance
+  std::optional<uint32_t> cameraMedium{};  ///< material of the scattering solid that the camera stands in
+  double catcherHeight = 0.0;  ///< Y of the shadow catcher in world space, when the variant has one
+  bool firstInMiddle = false;  ///< the first sample of each pixel is in its middle, for edges without chance
   int bounces = 16;
   int rouletteDepth = 6;
   uint32_t seed = 0;

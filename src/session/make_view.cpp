@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "bvh/inside.h"
 #include "session/setup.h"
 
 namespace fragtrace {
@@ -51,6 +52,8 @@ View makeView(const RenderOptions& options, const LoadedScene& loaded, const Cam
   const bool map = loaded.environment.kind == Surroundings::Map;
   view.showEnvironment = map && options.light.background && !options.light.backgroundColor;
   view.seesNothing = !options.light.background;
+  if (std::ranges::any_of(scene.materials, &Material::scattersInside))
+    view.cameraMedium = solidAround(scene, loaded.bvh, scene.space.localOf(camera.position));
   view.fog = fogOf(options.fog, scene.bounds);
   view.catcherHeight = catcherHeightOf(options, scene.bounds);
   view.bounces = options.sampling.bounces;

@@ -55,6 +55,7 @@ class Material:
     thickness: float = 0.0
     attenuation_color: np.ndarray = None
     attenuation_distance: float = np.inf
+    scatter: dict = None  # KHR_materials_scatter
     perlin: dict = None
     layers: dict = None  # the extensions of gltf_layers.py, by name without KHR_materials_
 
@@ -193,6 +194,7 @@ class Reader:
             thickness=volume.get("thicknessFactor", 0),
             attenuation_color=np.array(volume.get("attenuationColor", [1, 1, 1]), float),
             attenuation_distance=volume.get("attenuationDistance", np.inf),
+            scatter=ext.get("KHR_materials_scatter"),
             perlin=m.get("extras", {}).get("perlinNormal"),
             layers={name: ext["KHR_materials_" + name] for name in LAYERS if "KHR_materials_" + name in ext})
 

@@ -93,6 +93,8 @@ def glass(material):
     assert material.metallic == 0
     if material.thickness > 0:
         assert (material.color == 1).all()
+        if material.ior == 1:
+            return {"type": "null"}
         indices = {"int_ior": material.ior, "ext_ior": 1.0}
         if material.roughness == 0:
             return {"type": "dielectric", **indices}
@@ -155,6 +157,40 @@ def covered(material, bsdf):
     return {"type": "mask", "opacity": opacity, "bsdf": bsdf}
 
 
+def single_albedo(multiscatter, anisotropy):
+    """Of one scattering, of the albedo of a thick layer (KHR_materials_scatter)."""
+    s = 4.09712 + 4.20863 * multiscatter - np.sqrt(9.59217 + 41.6808 * multiscatter + 17.7126 * multiscatter ** 2)
+    return (1 - s * s) / (1 - anisotropy * s * s)
+
+
+def homogeneous(sigma, albedo, anisotropy):
+    """Extinction coefficient in 1/m, albedo of one scattering, and Henyey and Greenstein's mean cosine."""
+    return {"type": "homogeneous", "sigma_t": rgb(sigma / sigma.max()), "scale": float(sigma.max()), "albedo": rgb(albedo),
+            "phase": {"type": "hg", "g": float(anisotropy)}}
+
+
+def interior(material):
+    sigma = -np.log(material.attenuation_color) / material.attenuation_distance
+    if not material.scatter:
+        return homogeneous(sigma, np.zeros(3), 0)
+    anisotropy = material.scatter["scatterAnisotropy"]
+    multiscatter = material.scatter["scatterStrengthFactor"] * np.array(material.scatter["multiscatterColorFactor"], float)
+    return homogeneous(sigma, single_albedo(multiscatter, anisotropy), anisotropy)
+
+
+def fog(options, scene):
+    """The fog of --fog-density in a ball round the scene that the camera is outside of."""
+    radius = float(options["--fog-distance"])
+    points = np.concatenate([mesh.positions.reshape(-1, 3) for mesh in scene.meshes])
+    center = (points.min(0) + points.max(0)) / 2
+    albedo = np.array(options["--fog-color"].split(","), float)
+    medium = homogeneous(np.full(3, float(options["--fog-density"])), albedo, float(options["--fog-anisotropy"]))
+    place = mi.ScalarTransform4f().translate(center.tolist()).scale([radius] * 3)
+    ball = {"type": "sphere", "to_world": place, "bsdf": {"type": "null"}}
+    assert np.linalg.norm(scene.cameras[0].to_world[:3, 3] - center) > radius
+    return {"fog": {**ball, "interior": medium}}
+
+
 def surface(material, compensated, vertex_colors=False):
     """The BSDF, the light, and the medium behind it if it is solid and absorbs."""
     if material.layers:
@@ -179,8 +215,7 @@ def surface(material, compensated, vertex_colors=False):
         bsdf = covered(material, bsdf)
     result = {"bsdf": bsdf}
     if np.isfinite(material.attenuation_distance):
-        sigma = -np.log(material.attenuation_color) / material.attenuation_distance
-        result["interior"] = {"type": "homogeneous", "sigma_t": rgb(sigma / sigma.max()), "scale": float(sigma.max()), "albedo": 0.0}
+        result["interior"] = interior(material)
     if material.emission.any():
         assert not material.double_sided
         result["emitter"] = {"type": "area", "radiance": colored(material.emission_texture, material.emission)}
@@ -243,12 +278,15 @@ def described(scene, entry, scratch):
         integrator = "volpath"
     if any(np.isfinite(m.attenuation_distance) for m in materials):
         integrator = "volpathmis"
+    if "--fog-density" in options:
+        integrator = "volpath"
     integrator = entry.get("integrator", integrator)
     traced = integrator == "ptracer"  # paths from the lamps; the camera sees no smooth surface
     camera = scene.cameras[0]
     result = {
         "type": "scene",
-        "integrator": {"type": integrator, "max_depth": int(options["--bounces"]) + 2, "rr_depth": 1000},
+        "integrator": {"type": integrator, "rr_depth": 1000,
+                       "max_depth": -1 if options["--bounces"] == "unlimited" else int(options["--bounces"]) + 2},
         # Mitsuba's cameras look along +z with +x to the left.
         "sensor": {"type": "perspective", "fov_axis": "y", "fov": float(np.degrees(camera.yfov)), "near_clip": 1e-3,
                    "to_world": mi.ScalarTransform4f(camera.to_world @ np.diag([-1.0, 1, -1, 1])),
@@ -266,6 +304,15 @@ def described(scene, entry, scratch):
         result["sphere%d" % i] = {"type": "sphere", "to_world": place, **surface(sphere.material, compensated)}
     for i, light in enumerate(scene.lights):
         result["light%d" % i] = punctual(light, traced)
+    if "--fog-density" in options:
+        result.update(fog(options, scene))
+    if "camera_in" in entry:  # the name of the mesh
+        number = [mesh.name for mesh in scene.meshes].index(entry["camera_in"])
+        around = {"around": result["mesh%d" % number]["interior"]}
+        result["mesh%d" % number]["interior"] = {"type": "ref", "id": "around"}
+        # What is referred to stands first.
+        result["sensor"]["medium"] = {"type": "ref", "id": "around"}
+        result = {"type": "scene", **around, **{key: value for key, value in result.items() if key != "type"}}
     return result
 
 
