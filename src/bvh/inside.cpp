@@ -28,7 +28,9 @@ std::optional<uint32_t> solidAround(const Scene& scene, const Bvh& bvh, const gl
   std::map<uint32_t, int> entered;
   glm::dvec3 origin = point;
   for (int hits = 0; hits < kMostHits; ++hits) {
-    const ExactHit hit = tracer.nearest(Ray{glm::vec3(origin), glm::vec3(direction), std::numeric_limits<float>::max()});
+    const Ray ray{glm::vec3(origin), glm::vec3(direction), std::numeric_limits<float>::max()};
+    // Without nodes there is no tree, but a list (listLeaves).
+    const ExactHit hit = bvh.nodes.empty() ? tracer.nearestOfAll(ray) : tracer.nearest(ray);
     if (hit.primitive == kMissIndex) return std::nullopt;
     const glm::dvec3 there = origin + hit.t * direction;
     const uint32_t index = materialOf(scene, hit.primitive);

@@ -18,7 +18,7 @@ using glm::vec3;
 constexpr int kSamples = 1 << 18;
 constexpr int kTests = 20;  // chi-square tests in this file
 constexpr double kLeastChance = kSignificance / kTests;
-constexpr double kFar = glsl_double::kFarAway;
+const double kFar = glsl_double::kFarAway;
 
 /// Chance of a cosine of at most c, by Henyey and Greenstein's phase function.
 double phaseBelow(double g, double c) {
@@ -53,7 +53,7 @@ TEST(ShaderPhase, DensityIsOneOverAllDirections) {
     double sum = 0.0;
     for (int i = 0; i < kSteps; ++i)
       sum += glsl_double::phaseDensity(g, 2.0 * (i + 0.5) / kSteps - 1.0) * 2.0 * M_PI * 2.0 / kSteps;
-    EXPECT_NEAR(sum, 1.0, 1e-6) << "g = " << g;
+    EXPECT_NEAR(sum, 1.0, 1e-5) << "g = " << g;
   }
 }
 
