@@ -19,15 +19,13 @@ struct Bsdf {
   vec3 faceNormal;    // of the flat triangle
   vec3 vertexNormal;  // interpolated, before any map (both kVertexNormals)
   float stretch;      // of the facets along x (kAnisotropy); see ggx.glsl
-  float film;         // weight, index and thickness (nm) of the thin film (kIridescence)
-  float filmIndex;
-  float filmThickness;
+  float film, filmIndex, filmThickness;  // weight, index and thickness (nm) of the thin film (kIridescence)
   float diffuseThrough;  // of the diffuse light, what goes through, and its colour (kDiffuseTransmission)
   vec3 throughColor;
+  vec3 diffuseColor;  // of diffuse light that is reflected (kThinScattering); else it is baseColor
   vec3 sheenColor;    // kSheen; see layers.glsl
   float sheenAlpha;
-  float coat;         // weight, GGX width and normal of the clearcoat (kClearcoat)
-  float coatAlpha;
+  float coat, coatAlpha;  // weight, GGX width and normal of the clearcoat (kClearcoat)
   vec3 coatNormal;
   // colour of light scattered more than once between the facets, over pi (1 - average albedo); see compensate
   vec3 between;
@@ -46,6 +44,8 @@ struct BsdfValue {
   vec3 value;
   float density;
 };
+
+vec3 diffuseColor(Bsdf b) { return kThinScattering ? b.diffuseColor : b.baseColor; }
 
 /// Below this width a lobe is taken as a single direction: it is narrower than 0.001 radians.
 const float kMirrorAlpha = float(0.001);
@@ -166,7 +166,7 @@ float throughChance(Bsdf b, float reflected, float through) {
 /// diffusely (w); they add up to 1.
 vec4 lobeChances(Bsdf b, float cosine) {
   float glass = kTransmission ? b.glass : 0.0f;
-  float reflected = maxComponent(b.baseColor);
+  float reflected = maxComponent(diffuseColor(b));
   float through = 0.0f;
   if (kDiffuseTransmission) {
     through = b.diffuseThrough * maxComponent(b.throughColor);
@@ -285,7 +285,7 @@ vec3 diffuseValue(Bsdf b, vec3 incoming, float oh) {
   float lit = b.opaque * throughLayer(b, oh) * kInversePi * incoming.z;
   if (kDiffuseTransmission) lit *= 1.0f - b.diffuseThrough;
   if (kVertexNormals) lit *= terminatorFade(b.faceNormal, b.vertexNormal, incoming);
-  return lit * b.baseColor;
+  return lit * diffuseColor(b);
 }
 
 /// Of all that lies under sheen and clearcoat.

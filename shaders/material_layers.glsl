@@ -56,6 +56,28 @@ Bsdf addDiffuseTransmission(Bsdf b, uint material, vec4 texcoords) {
   return b;
 }
 
+/// The part of the light that a thin wall transmits and scatters on the way (KHR_materials_scatter): as diffuse light of
+/// the multiscatter colour, forward and back by the anisotropy. It joins the diffuse base, which keeps its part.
+Bsdf addThinScattering(Bsdf b, uint material, vec4 texcoords) {
+  b.diffuseColor = b.baseColor;
+  float strength = materialFloats(material, kMaterialScatterStrength).x;
+  if (b.solid || strength <= 0.0) return b;
+  vec4 scatter = materialFloats(material, kMaterialScatter);
+  if (kThinScatteringTexture) {
+    strength *= sampleTexture(textureSlot(material, kSlotScatterStrength), texcoords).a;
+    scatter.rgb *= sampleTexture(textureSlot(material, kSlotMultiscatterColor), texcoords).rgb;
+  }
+  float scattered = b.glass * strength;
+  float through = scattered * (0.5 + 0.5 * scatter.w);
+  vec3 back = b.opaque * b.baseColor + (scattered - through) * scatter.rgb;
+  b.glass -= scattered;
+  b.opaque += scattered;
+  b.diffuseColor = back / max(b.opaque - through, 1e-12);
+  b.diffuseThrough = b.opaque > 0.0 ? through / b.opaque : 0.0;
+  b.throughColor = scatter.rgb;
+  return b;
+}
+
 /// Below this roughness sheen's lobe is narrower than its table.
 const float kLeastSheenRoughness = 0.05;
 
@@ -106,6 +128,7 @@ Bsdf addLayers(Bsdf b, Surface s, Frame3 around, vec3 outgoing, float strength) 
   if (kAnisotropy) b = stretchFacets(b, strength);
   if (kIridescence) b = addFilm(b, s.material, s.texcoords);
   if (kDiffuseTransmission) b = addDiffuseTransmission(b, s.material, s.texcoords);
+  if (kThinScattering) b = addThinScattering(b, s.material, s.texcoords);
   bool outside = s.front || !b.solid;
   if (kSheen) {
     b = addSheen(b, s.material, s.texcoords);

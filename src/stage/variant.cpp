@@ -190,7 +190,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   v.reads = reads;
   if (options.light.selection != LightSelection::Auto)
     v.traits.set(size_t(Trait::LightTree), options.light.selection != LightSelection::Power);
-  v.traits.set(size_t(Trait::Fog), options.fog.density > 0.0);
+  v.traits.set(size_t(Trait::Fog), options.fog.density > 0.0 && !options.light.shadowCatcher);
   if (options.light.caustics == Caustics::Off || !whyNoLightPaths(options).empty())
     v.traits.reset(size_t(Trait::Caustics));
   v.heatmap = options.output.debugView == DebugView::Visits;

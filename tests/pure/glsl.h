@@ -45,6 +45,7 @@ inline bool kCreases = false;
 inline bool kSlivers = false;
 inline bool kPassing = false;
 inline bool kMatchedGlass = false;
+inline bool kThinScattering = false;
 inline bool kLightPaths = false;
 inline bool kRoughGlass = true;
 inline bool kShadowCatcher = false;

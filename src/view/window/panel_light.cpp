@@ -14,7 +14,10 @@ namespace {
 
 constexpr float kMostColor = 1e4f;
 constexpr float kMostIntensity = 100.0f;  // the command line takes more
-constexpr float kMostBlur = 30.0f;        // degrees; the command line takes more
+constexpr float kMostFog = 10.0f;         // 1/m; as below, the command line takes more
+constexpr float kMostForward = 0.95f;
+constexpr float kMostFogHeight = 1000.0f;  // metres
+constexpr float kMostBlur = 30.0f;         // degrees; the command line takes more
 
 /// Twice as wide as high; room for it where there is none, or not yet.
 void drawThumbnail(const ViewFacts& facts, const EnvironmentChoice& choice, float height) {
@@ -50,6 +53,39 @@ std::optional<RenderOptions> chooseEnvironment(const ViewedScene& scene, ViewFac
   }
   ImGui::EndCombo();
   return chosen;
+}
+
+/// Fog round the scene, which path tracing alone shows; none where a shadow catcher stands.
+void drawFog(ViewState& state, Places& places) {
+  FogOptions fog = state.sides[0].fog;
+  const bool shown = has(state.options().stages, Stage::Gi) && !state.sides[0].light.shadowCatcher;
+  ImGui::BeginDisabled(!shown);
+  label(places, "Fog");
+  float density = float(fog.density);
+  if (ImGui::SliderFloat("##fog", &density, 0.0f, kMostFog, density > 0.0f ? "%.3f / m" : "none",
+                         kBoundedLogarithmic))
+    fog.density = density;
+  if (fog.density > 0.0) {
+    ImGui::SameLine();
+    glm::vec3 color = fog.color.value_or(glm::vec3(1.0f));
+    constexpr ImGuiColorEditFlags kColor = ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs;
+    if (ImGui::ColorEdit3("##fogcolor", glm::value_ptr(color), kColor))
+      fog.color = glm::clamp(color, glm::vec3(0.0f), glm::vec3(1.0f));
+    addItemPlace(places, "Fog colour");
+    label(places, "Fog forward");
+    float anisotropy = float(fog.anisotropy);
+    if (ImGui::SliderFloat("##foganisotropy", &anisotropy, -kMostForward, kMostForward, "%.2f", kBounded))
+      fog.anisotropy = anisotropy;
+    label(places, "Fog height");
+    float height = float(fog.height.value_or(0.0));
+    if (ImGui::SliderFloat("##fogheight", &height, 0.0f, kMostFogHeight,
+                           height > 0.0f ? "%.2f m" : "all alike", kBoundedLogarithmic))
+      fog.height = height > 0.0f ? std::optional(double(height)) : std::nullopt;
+  } else {
+    fog = FogOptions();
+  }
+  ImGui::EndDisabled();
+  for (RenderOptions& side : state.sides) side.fog = fog;
 }
 
 }  // namespace
@@ -98,6 +134,7 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
       state.blur.reset();
     }
   }
+  drawFog(state, places);
   label(places, "Background");
   bool background = o.light.background;
   if (ImGui::Checkbox("##background", &background))

@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Participating media: closed forms, what glTF says of them, and pictures that are put together."""
+import copy
+import json
+import math
+import statistics
+
+from support import SCENES, Case, main, run
+
+WHITE = ["--default-light", "white", "--background-color", "1,1,1", "--bounces", "unlimited"]
+
+
+def mean(picture, channel=0):
+    return statistics.fmean(pixel[channel] for row in picture for pixel in row)
+
+
+class Media(Case):
+    def ball(self, radius=0.6, **material):
+        """The ball of scenes/cloud.gltf alone before nothing, with other extensions of its material: None leaves one out."""
+        gltf = json.loads((SCENES / "cloud.gltf").read_text())
+        ball = next(node for node in gltf["nodes"] if "shape" in node.get("extras", {}))
+        camera = next(node for node in gltf["nodes"] if "camera" in node)
+        ball.pop("translation"), camera.pop("rotation", None)
+        camera["translation"] = [0, 0, 3]
+        gltf["nodes"], gltf["scenes"] = [ball, camera], [{"nodes": [0, 1]}]
+        gltf["extensions"]["KHR_implicit_shapes"]["shapes"][0]["sphere"]["radius"] = radius
+        glass = copy.deepcopy(gltf["materials"][ball["extras"]["material"]])
+        for name, value in material.items():
+            glass["extensions"].pop("KHR_materials_" + name, None)
+            if value is not None:
+                glass["extensions"]["KHR_materials_" + name] = value
+        gltf["materials"], ball["extras"]["material"] = [glass], 0
+        for key in ("meshes", "accessors", "bufferViews", "buffers"):
+            gltf.pop(key, None)
+        gltf["extensionsUsed"] = sorted(set(gltf.get("extensionsUsed", [])) | set(glass["extensions"]))
+        path = self.folder / "ball.gltf"
+        path.write_text(json.dumps(gltf))
+        return str(path.with_suffix(""))
+
+    def seen(self, scene, *options, spp=64, size="16,16"):
+        return self.picture(scene, "x.pfm", "--resolution", size, "--spp", spp, *options)
+
+    def volume(self, color=(0.3, 0.3, 0.3), distance=0.2):
+        return {"thicknessFactor": 1, "attenuationColor": list(color), "attenuationDistance": distance}
+
+    def test_fog_dims_what_is_behind_it_by_its_depth(self):
+        """Beer's law: fog that only absorbs, across its ball, which the camera sees from outside."""
+        scene = self.ball(1e-4, scatter=None)
+        seen = self.seen(scene, *WHITE, "--fog-density", 0.8, "--fog-color", "0,0,0", "--fog-distance", 1, "--camera-view-angle", 1,
+                         spp=2048, size="24,24")
+        self.assertAlmostEqual(mean(seen) / math.exp(-0.8 * 2), 1, delta=0.002)
+
+    def test_fog_thins_with_height(self):
+        scene = self.ball(1e-4, scatter=None)
+        below, above = (self.seen(scene, *WHITE, "--fog-density", 1, "--fog-color", "0,0,0", "--fog-distance", 1, "--camera-view-angle", 1,
+                                  "--fog-height", f"0.5,{base}", spp=1024) for base in (5, -1))
+        self.assertAlmostEqual(mean(below) / math.exp(-2), 1, delta=0.02)
+        self.assertAlmostEqual(mean(above) / math.exp(-2 * math.exp(-2)), 1, delta=0.01)
+
+    def test_white_media_are_not_seen_in_white_light(self):
+        """Scattered light is neither lost nor made, whatever the phase function, the boundary and the fog."""
+        white = {"scatterStrengthFactor": 1}
+        for material in ({"ior": {"ior": 1}}, {"ior": {"ior": 1.5}},
+                         {"specular": {"specularFactor": 0}, "volume": None}):
+            for anisotropy in (0, 0.7):
+                scene = self.ball(**({"volume": self.volume()} | material), scatter=white | {"scatterAnisotropy": anisotropy})
+                self.assertAlmostEqual(mean(self.seen(scene, *WHITE, spp=256)), 1, delta=0.002, msg=str((material, anisotropy)))
+        fog = ["--fog-density", 2, "--fog-height", 0.3, "--fog-anisotropy", 0.6]
+        self.assertAlmostEqual(mean(self.seen(self.ball(1e-4, scatter=None), *WHITE, *fog, "--fog-distance", 1)), 1, delta=1e-3)
+
+    def test_positive_anisotropy_is_forward(self):
+        """A light behind the ball is brighter with 0.9 than with -0.9, and one before it the other way round."""
+        for side, brighter in ((-1, 0.9), (1, -0.9)):
+            levels = {}
+            for anisotropy in (-0.9, 0.9):
+                scene = self.ball(volume=self.volume(distance=0.6), scatter={"scatterStrengthFactor": 1, "scatterAnisotropy": anisotropy})
+                path = self.folder / "ball.gltf"
+                gltf = json.loads(path.read_text())
+                gltf["extensions"]["KHR_lights_punctual"] = {"lights": [{"type": "directional", "intensity": 3}]}
+                gltf["nodes"].append({"rotation": [0, 1, 0, 0] if side < 0 else [0, 0, 0, 1], "extensions": {"KHR_lights_punctual": {"light": 0}}})
+                gltf["scenes"][0]["nodes"].append(2)
+                path.write_text(json.dumps(gltf))
+                levels[anisotropy] = mean(self.seen(scene, "--no-default-light", "--bounces", "unlimited"))
+            self.assertEqual(max(levels, key=levels.get), brighter, levels)
+            self.assertGreater(max(levels.values()), 1.5 * min(levels.values()))
+
+    def test_three_spellings(self):
+        color = [0.9, 0.6, 0.4]
+        drawn = [self.seen(self.ball(volume=self.volume(), **spelling), *WHITE, spp=4) for spelling in (
+            {"scatter": {"scatterStrengthFactor": 1, "multiscatterColorFactor": color}},
+            {"scatter": None, "volume_scatter": {"multiscatterColor": color}},
+            {"scatter": None, "volume_scatter": {"multiscatterColorFactor": color}},
+            {"scatter": {"multiscatterColorFactor": color}},
+            {"scatter": None})]
+        self.assertEqual(drawn[0], drawn[1])
+        self.assertEqual(drawn[1], drawn[2])
+        self.assertEqual(drawn[3], drawn[4])
+        self.assertNotEqual(drawn[0], drawn[4])
+
+    def test_thin_walls_that_scatter_all_are_diffuse_both_ways(self):
+        """(1 + g) / 2 of the light goes through, the rest comes back, as KHR_materials_diffuse_transmission says it, too."""
+        for anisotropy in (-0.5, 0.8):
+            color = [0.9, 0.6, 0.3]
+            scattered = self.seen(self.ball(volume=None, ior=None, scatter={
+                "scatterStrengthFactor": 1, "multiscatterColorFactor": color, "scatterAnisotropy": anisotropy}), "--default-light", "white", "--bounces", "unlimited", spp=1024)
+            diffuse = self.ball(volume=None, ior=None, scatter=None, transmission=None, diffuse_transmission={
+                "diffuseTransmissionFactor": (1 + anisotropy) / 2, "diffuseTransmissionColorFactor": color})
+            path = self.folder / "ball.gltf"
+            gltf = json.loads(path.read_text())
+            gltf["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = [*color, 1]
+            path.write_text(json.dumps(gltf))
+            wanted = self.seen(diffuse, "--default-light", "white", "--bounces", "unlimited", spp=1024)
+            for channel in range(3):
+                self.assertAlmostEqual(mean(scattered, channel), mean(wanted, channel), delta=3e-3)
+
+    def test_strength_mixes_straight_and_scattered_light(self):
+        """A dark background is seen through a thin wall by what it does not scatter."""
+        levels = [mean(self.seen(self.ball(volume=None, scatter={"scatterStrengthFactor": strength, "multiscatterColorFactor": [0, 0, 0]}),
+                                 *WHITE, "--camera-view-angle", 1)) for strength in (0, 0.25, 0.5, 1)]
+        for level, strength in zip(levels, (0, 0.25, 0.5, 1)):
+            self.assertAlmostEqual(level, levels[3] + (levels[0] - levels[3]) * (1 - strength)**2, delta=0.02)
+
+    def test_pictures_are_put_together(self):
+        """A region is that of the whole picture, and samples that are drawn in parts are those of the whole."""
+        whole = self.seen("foggy", "--fog-density", 0.5, "--seed", 3, spp=4)
+        region = self.seen("foggy", "--fog-density", 0.5, "--seed", 3, "--region", "4,2,8,6", spp=4)
+        self.assertEqual(region, [row[4:12] for row in whole[2:8]])
+
+    def test_bad_fog(self):
+        for options, reason in ((["--fog-color", "1,1,1"], "go with --fog-density"),
+                                (["--fog-density", "1", "--fog-color", "2,1,1"], "--fog-color: a colour is in the range 0 to 1"),
+                                (["--fog-density", "1", "--fog-height", "0"], "--fog-height: '0' is not a height above 0"),
+                                (["--fog-density", "1", "--fog-height", "1,x"], "--fog-height: '1,x' is not a height"),
+                                (["--fog-density", "1", "--shadow-catcher", "bottom"], "a shadow catcher stands in clear air"),
+                                (["--fog-density", "-1"], "--fog-density")):
+            done = run("render", SCENES / "foggy.gltf", "-o", self.folder / "x.pfm", *options)
+            self.assertEqual(done.returncode, 2, options)
+            self.assertIn(reason, done.stderr)
+
+
+if __name__ == "__main__":
+    main()
