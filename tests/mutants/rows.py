@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: MIT
 """All faults, and what they must cover: each function of these shaders that returns radiance, a weight, a density or a place."""
 import rows_of_light
+import rows_of_media
 import rows_of_surfaces
 from fault import functions_of, put_in
 
-ROWS = rows_of_light.ROWS + rows_of_surfaces.ROWS
+ROWS = rows_of_light.ROWS + rows_of_media.ROWS + rows_of_surfaces.ROWS
 
 COVERED = ("path", "shade", "lights", "environment", "environment_light", "material", "material_layers", "texture", "layers", "surface", "film", "film_pixel", "camera", "bsdf",
-           "ggx", "sheen", "iridescence", "fresnel", "phong", "sampling", "pixel_filter", "energy", "caustics/aim", "caustics/emit", "caustics/light_path")
+           "ggx", "sheen", "iridescence", "fresnel", "phong", "sampling", "pixel_filter", "energy", "caustics/aim", "caustics/emit", "caustics/light_path",
+           "media/phase", "media/flight", "media/fog", "media/medium", "media/scatter")
 # Types that hold none of these.
 PLAIN = ("void", "bool", "int", "uint", "uvec4")
 # Functions that only pass on what others return, or say nothing of light.

@@ -8,9 +8,15 @@ from pathlib import Path
 
 from fault import callers_of
 
-COMMANDS = ("Means", "Sheets", "KnownLight", "ThinGlass", "LightTree", "Caustics", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising")
+COMMANDS = ("Media", "Means", "Sheets", "KnownLight", "ThinGlass", "LightTree", "Caustics", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising")
 # Where to look first, before there is any experience: scenes of picture tests, test files and groups by the beginning of a fault's name.
 LIKELY = {
+    "media/phase.": ("pure.shader_media_test",),
+    "media/flight.": ("pure.shader_media_test",),
+    "media/fog.": ("pure.shader_media_test",),
+    "media/": ("command.Media", "milk.gi", "phase.gi", "inside.gi", "foggy.gi"),
+    "material_layers.addThinScattering": ("command.Media",),
+    "bsdf.diffuseColor": ("command.Media",),
     "reuse/neighbours.": ("command.LightTree",),
     "reuse/": ("pure.light_tree_test", "command.LightTree"),
     "shade.lightAt": ("command.LightTree",),
@@ -22,7 +28,7 @@ LIKELY = {
     "path.passesThrough": ("command.Sheets",),
     "path.emittedAt coat": ("command.Materials",),
     "path.tracePast": ("command.Sheets",),
-    "path.connect limit": ("command.Sheets",),
+    "path.connectFrom limit": ("command.Sheets",),
     "shade.": ("cornell-box.gi", "command.KnownSurfaces", "plastics.gi", "sphere-phong.phong", "command.KnownLight"),
     "shade.shade flat": ("sphere-textured.flat",),
     "shade.shade absorption": ("command.KnownSurfaces", "water-cube-plain.gi", "water-cube-plain.refraction"),

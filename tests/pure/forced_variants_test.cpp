@@ -52,11 +52,15 @@ TEST(ForcedVariants, InGiAllTraitsTogetherAreAllThatCanBe) {
     // One variant is drawn once: these bring each other.
     const bool twin = f.name == "base-color-texture" || f.name == "normal-texture";
     EXPECT_EQ(f.whyNot.starts_with("comes with t"), twin) << f.name;
-    const bool forLayers = f.name == "smooth-surfaces" || f.name == "object-numbers";  // no stage of gi
-    EXPECT_EQ(f.whyNot.empty(), !twin && !forLayers) << f.name;
+    // No stage of gi, and an option.
+    const bool elsewhere = f.name == "smooth-surfaces" || f.name == "object-numbers" || f.name == "fog";
+    EXPECT_EQ(f.whyNot.empty(), !twin && !elsewhere) << f.name;
   }
   TraitSet most = named(all, "all traits").variant.traits;
-  EXPECT_TRUE(most.set(size_t(Trait::SmoothSurfaces)).set(size_t(Trait::ObjectNumbers)).all());
+  for (const Trait t : {Trait::SmoothSurfaces, Trait::ObjectNumbers, Trait::Fog}) most.set(size_t(t));
+  // Light paths know no media.
+  EXPECT_FALSE(has(most, Trait::Caustics));
+  EXPECT_TRUE(most.set(size_t(Trait::Caustics)).all());
   EXPECT_TRUE(has(named(all, "transmission").variant.stages, Stage::Refraction));
   EXPECT_TRUE(has(named(all, "metals").variant.stages, Stage::Reflections));
   EXPECT_TRUE(named(all, "environment-sampling").otherSamples);

@@ -312,5 +312,80 @@ TEST(GltfLayers, AnisotropyAndTheClearcoatsNormalsMakeTangents) {
   }
 }
 
+/// A transmissive solid of which 10 % of the light is left after 0.5 m, with one more extension.
+json solidWith(const char* name, const json& extension) {
+  return {{"extensions",
+           {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+            {"KHR_materials_volume",
+             {{"thicknessFactor", 1}, {"attenuationDistance", 0.5}, {"attenuationColor", {0.1, 0.1, 0.1}}}},
+            {name, extension}}}};
+}
+
+TEST(GltfScatter, WithoutAStrengthNothingScatters) {
+  const Material m =
+      materialWith(solidWith("KHR_materials_scatter", {{"multiscatterColorFactor", {1, 0.5, 0.2}}}));
+  EXPECT_EQ(m.scatterStrength, 0.0f);
+  EXPECT_TRUE(m.attenuates());
+  EXPECT_FALSE(m.scattersInside());
+}
+
+TEST(GltfScatter, IsRead) {
+  const Material m = materialWith(
+      solidWith("KHR_materials_scatter", {{"scatterStrengthFactor", 0.75},
+                                          {"scatterStrengthTexture", {{"index", 1}}},
+                                          {"multiscatterColorFactor", {1, 0.5, 0.25}},
+                                          {"multiscatterColorTexture", {{"index", 2}, {"texCoord", 1}}},
+                                          {"scatterAnisotropy", -0.5}}));
+  EXPECT_EQ(m.scatterStrength, 0.75f);
+  EXPECT_EQ(m.multiscatterColor, glm::vec3(1.0f, 0.5f, 0.25f));
+  EXPECT_EQ(m.scatterAnisotropy, -0.5f);
+  EXPECT_TRUE(m.scatterStrengthTexture.present());
+  EXPECT_EQ(m.multiscatterColorTexture.texcoord, 1u);
+  EXPECT_TRUE(m.scattersInside());
+  EXPECT_FALSE(m.scattersThinly());
+  EXPECT_FALSE(m.scatterOfDraft);
+}
+
+TEST(GltfScatter, NeedsAnAttenuationDistanceInASolid) {
+  json material = solidWith("KHR_materials_scatter", {{"scatterStrengthFactor", 1}});
+  material["extensions"]["KHR_materials_volume"].erase("attenuationDistance");
+  EXPECT_FALSE(materialWith(material).scattersInside());
+  material["extensions"].erase("KHR_materials_volume");
+  EXPECT_TRUE(materialWith(material).scattersThinly());
+}
+
+TEST(GltfScatter, TheDraftBeforeHasTwoNamesOfItsColour) {
+  for (const char* name : {"multiscatterColor", "multiscatterColorFactor"}) {
+    const Material m = materialWith(
+        solidWith("KHR_materials_volume_scatter", {{name, {0.5, 0.25, 0}}, {"scatterAnisotropy", 0.5}}));
+    EXPECT_EQ(m.scatterStrength, 1.0f);
+    EXPECT_EQ(m.multiscatterColor, glm::vec3(0.5f, 0.25f, 0.0f));
+    EXPECT_TRUE(m.scatterOfDraft);
+  }
+  EXPECT_FALSE(materialWith(solidWith("KHR_materials_volume_scatter", json::object())).scattersInside());
+}
+
+TEST(GltfScatter, DoesNotGoWithDiffuseTransmissionNorUnlit) {
+  json material = solidWith("KHR_materials_scatter", {{"scatterStrengthFactor", 1}});
+  material["extensions"]["KHR_materials_diffuse_transmission"] = {{"diffuseTransmissionFactor", 0.5}};
+  EXPECT_FALSE(materialWith(material).scattersInside());
+  expectWarning(material, "extensions/KHR_materials_scatter/scatterStrengthFactor");
+  json unlit = solidWith("KHR_materials_scatter", {{"scatterStrengthFactor", 1}});
+  unlit["extensions"]["KHR_materials_unlit"] = json::object();
+  EXPECT_FALSE(materialWith(unlit).scattersInside());
+}
+
+TEST(GltfScatter, FactorsOutOfRangeAreBroughtBackAtTheirPlace) {
+  const auto at = [](const char* member, const json& value) {
+    json extension{{"scatterStrengthFactor", 1}};
+    extension[member] = value;
+    expectWarning(solidWith("KHR_materials_scatter", extension),
+                  std::string("extensions/KHR_materials_scatter/") + member);
+  };
+  at("scatterStrengthFactor", 2);
+  at("scatterAnisotropy", -1);
+  at("multiscatterColorFactor", {1, 2, 1});
+}
+
 }  // namespace
 }  // namespace fragtrace::gltf_test

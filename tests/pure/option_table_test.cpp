@@ -40,6 +40,10 @@ bool isOption(const OptionRow& row) { return row.name[0] == '-' && row.traits.gr
 Words companionsOf(const std::string& name) {
   static const std::map<std::string, Words> needed{{"--focus-distance", {"--f-stop=2.8"}},
                                                    {"--aperture-blades", {"--f-stop=2.8"}},
+                                                   {"--fog-color", {"--fog-density=0.5"}},
+                                                   {"--fog-anisotropy", {"--fog-density=0.5"}},
+                                                   {"--fog-height", {"--fog-density=0.5"}},
+                                                   {"--fog-distance", {"--fog-density=0.5"}},
                                                    {"--format", {"--output=-"}},
                                                    {"--sample-offset", {"--spp=1"}}};
   const auto found = needed.find(name);
@@ -144,24 +148,11 @@ TEST(OptionTable, TheViewersCommandSaysEachRowThatItIsToSay) {
 
 TEST(OptionTable, GoesRoundAsAWhole) {
   // Other rows exclude these.
-  const Words left{"--camera",
-                   "--camera-orbit",
-                   "--camera-view-angle",
-                   "--frames",
-                   "--hdri-file",
-                   "--format",
-                   "--resume",
-                   "--checkpoint",
-                   "--noise",
-                   "--time",
-                   "--caustics",
-                   "--light-reuse",
-                   "--stage",
-                   "--disable",
-                   "--sample-offset",
-                   "--no-default-light",
-                   "--tree-level",
-                   "--background-blur"};
+  const Words left{
+      "--camera",        "--camera-orbit",     "--camera-view-angle", "--frames",         "--hdri-file",
+      "--format",        "--resume",           "--checkpoint",        "--noise",          "--time",
+      "--caustics",      "--shadow-catcher",   "--light-reuse",       "--stage",          "--disable",
+      "--sample-offset", "--no-default-light", "--tree-level",        "--background-blur"};
   Words words{"a.gltf"};
   for (const OptionRow& row : optionRows()) {
     if (isOption(row) && std::ranges::find(left, row.name) == left.end()) words.push_back(uses(row).back());

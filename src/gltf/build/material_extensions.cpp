@@ -114,7 +114,7 @@ void readVolumeScatter(const MaterialPart& part, Material& m) {
       part.object().Has("multiscatterColorFactor") ? "multiscatterColorFactor" : "multiscatterColor";
   m.multiscatterColor = part.color(color, {0.0, 0.0, 0.0}, 1.0f);
   m.scatterAnisotropy = part.factor("scatterAnisotropy", 0.0, -kMostAnisotropy, kMostAnisotropy);
-  if (!m.solid()) m.scatterStrength = 0.0f;
+  if (!m.solid() || m.unlit) m.scatterStrength = 0.0f;
 }
 
 void readScatter(const MaterialPart& part, Material& m) {
@@ -122,6 +122,11 @@ void readScatter(const MaterialPart& part, Material& m) {
   m.multiscatterColor = part.color("multiscatterColorFactor", kWhite, 1.0f);
   m.scatterAnisotropy = part.factor("scatterAnisotropy", 0.0, -kMostAnisotropy, kMostAnisotropy);
   m.scatterOfDraft = false;
+  if (m.diffuseTransmissionFactor > 0.0f) {
+    part.warn("scatterStrengthFactor", "does not go with KHR_materials_diffuse_transmission, and is ignored");
+    m.scatterStrength = 0.0f;
+  }
+  if (m.unlit) m.scatterStrength = 0.0f;
   if (m.scatterStrength <= 0.0f) return;
   m.scatterStrengthTexture = part.texture("scatterStrengthTexture");
   if (m.scatterStrengthTexture.lost) m.scatterStrength = 0.0f;
