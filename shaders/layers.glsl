@@ -27,8 +27,8 @@ vec3 layerChances(Bsdf b, vec3 outgoing) {
   float coat = coatShare(b, outgoing);
   float sheen = kSheen ? maxComponent(b.sheenColor) * sheenShare(outgoing.z, b.sheenAlpha) : 0.0f;
   float glass = kTransmission ? b.glass : 0.0f;
-  float diffuse = kDiffuseTransmission ? mix(maxComponent(diffuseColor(b)), maxComponent(b.throughColor), b.diffuseThrough)
-                                       : maxComponent(diffuseColor(b));
+  float reflected = maxComponent(diffuseColor(b));
+  float diffuse = kDiffuseTransmission ? mix(reflected, maxComponent(b.throughColor), b.diffuseThrough) : reflected;
   float base = glass + b.opaque * diffuse + maxComponent(opaqueFresnel(b, outgoing.z));
   float below = sheen + (1.0f - sheen) * min(base, 1.0f);
   float coatChance = coat > 0.0f ? clamp(coat / (coat + (1.0f - coat) * below), 0.125f, 0.875f) : 0.0f;

@@ -56,8 +56,8 @@ Bsdf addDiffuseTransmission(Bsdf b, uint material, vec4 texcoords) {
   return b;
 }
 
-/// The part of the light that a thin wall transmits and scatters on the way (KHR_materials_scatter): as diffuse light of
-/// the multiscatter colour, forward and back by the anisotropy. It joins the diffuse base, which keeps its part.
+/// The part of the light that a thin wall transmits and scatters on the way (KHR_materials_scatter): as diffuse light
+/// of the multiscatter colour, forward and back by the anisotropy. It joins the diffuse base, which keeps its part.
 Bsdf addThinScattering(Bsdf b, uint material, vec4 texcoords) {
   b.diffuseColor = b.baseColor;
   float strength = materialFloats(material, kMaterialScatterStrength).x;

@@ -16,7 +16,8 @@ const int kRowContribution = 8;     // contribution, instance of the hit
 // kPassingRows:
 const int kRowShadowHit = 9;        // of the shadow ray, or of a traversal that is suspended: distance, slot, weights
 const int kRowPast = 10;            // what the ray and the shadow ray have passed through: distance and slot of each
-const int kRowCrossings = 11;       // crossings, instance of the row of the shadow ray's hit, that is walked; shadow medium
+// crossings, instance of the row of the shadow ray's hit, instance that is walked, medium of the shadow ray
+const int kRowCrossings = 11;
 // kResumable:
 const int kRowSuspended = 12;       // node of the traversal, light slot, more flags, visits
 const int kRowStack = 13;

@@ -222,19 +222,8 @@ Path shade(Path p) {
   vec4 base = baseColorAt(s.material, s.texcoords, s.color);
   bool first = p.lightSlot == 0;
   if (kFeature == kFeatureGuides) return guideAt(p, s, flags, base);
-  if (kMedia && first) {
-    // The flight has not known of this medium: it begins where the ray does.
-    uint medium = mediumBefore(s, p.medium);
-    bool unknown = kScattering && medium != p.medium;
-    if (unknown) p = standInside(p, medium);
-    float end = kFarAway;
-    if (unknown) end = flightEnd(p, flightBegin(p), hashFloat(p.numbers, kFlightDimensions + 0xfffu));
-    if (end < p.hitT) {
-      p.hitT = end;
-      return scatterInMedium(p);
-    }
-    p = passMedium(p);
-  }
+  if (kMedia && first) p = flyTo(p, s);
+  if (kMedia && p.hitSlot < 0) return scatterInMedium(p);
   if (kAlpha && first && passesThrough(flags, alphaAt(s.material, flags, base.a), p.numbers, nextCrossing(p))) {
     p.phase = kPhaseExtend;
     return tracePast(p, kMedia ? flightLimit(p, p.hitT) : kFarAway, p.hitT, p.hitSlot);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Free flights through homogeneous media. Distances are drawn for one channel, chosen by the throughput; all three share
-// the density of the choice (one-sample MIS: Wilkie et al., Hero Wavelength Spectral Sampling, 2014; Pharr, Jakob and
-// Humphreys, Physically Based Rendering, 2023, chapter 14).
+// Free flights through homogeneous media. Distances are drawn for one channel, chosen by the throughput; all three
+// share the density of the choice (one-sample MIS: Wilkie et al., Hero Wavelength Spectral Sampling, 2014; Pharr, Jakob
+// and Humphreys, Physically Based Rendering, 2023, chapter 14).
 
 struct Medium {
   vec3 extinction;  // 1 / local space

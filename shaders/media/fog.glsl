@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fog in a ball round the scene. Its extinction is grey, so that flights are drawn exactly: constant up to a height, and
-// falling exponentially above.
+// Fog in a ball round the scene. Its extinction is grey, so that flights are drawn exactly: constant up to a height,
+// and falling exponentially above.
 
 /// (1 - exp(-x)) / x.
 float fallingMean(float x) {

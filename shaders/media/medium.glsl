@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Paths in participating media. A path's ray ends where its flight does (flightLimit), unless it meets a surface before:
-// a ray that has met nothing, but has an end, is scattered there. Shadow rays are dimmed by what lies between the
-// surfaces that they pass.
+// Paths in participating media. A path's ray ends where its flight does (flightLimit), unless it meets a surface
+// before: a ray that has met nothing, but has an end, is scattered there. Shadow rays are dimmed by what lies between
+// the surfaces that they pass.
 
 Medium mediumOf(uint material) {
   vec4 scatter = materialFloats(material, kMaterialScatter);
@@ -57,6 +57,21 @@ float flightBegin(Path p) { return kPassing ? p.traversal.past : 0.0; }
 Path passMedium(Path p) {
   if (!kScattering || p.medium == kPrimitiveNone) return p;
   p.throughput *= passWeight(mediumOf(p.medium), channelChances(p.throughput), p.hitT - flightBegin(p));
+  return p;
+}
+
+/// The flight has come to a surface, or so it seemed: where it has not known of its medium, it is drawn once more. A
+/// flight that ends before the surface leaves no hit.
+Path flyTo(Path p, Surface s) {
+  uint medium = mediumBefore(s, p.medium);
+  bool unknown = kScattering && medium != p.medium;
+  if (unknown) p = standInside(p, medium);
+  float end = kFarAway;
+  if (unknown) end = flightEnd(p, flightBegin(p), hashFloat(p.numbers, kFlightDimensions + 0xfffu));
+  bool ends = end < p.hitT;
+  if (ends) p.hitT = end;
+  if (ends) p.hitSlot = -1;
+  if (!ends) p = passMedium(p);
   return p;
 }
 

@@ -177,8 +177,6 @@ struct Material {
     return specularFactor != 1.0f || specularColorFactor != glm::vec3(1.0f) || specularTexture.present() ||
            specularColorTexture.present();
   }
-  /// Its boundary does not bend light (kEqualIndices of shaders/bsdf.glsl).
-  bool indexMatched() const { return transmissive() && std::abs(ior - 1.0f) < 0.001f; }
   bool solid() const { return thicknessFactor > 0.0f; }
   /// Light on its way through the solid is lost, at least in one channel.
   bool attenuates() const {
@@ -187,6 +185,8 @@ struct Material {
   }
   bool scattersAtAll() const { return scatterStrength > 0.0f && multiscatterColor != glm::vec3(0.0f); }
   bool scattersInside() const { return attenuates() && scattersAtAll(); }
+  /// And its boundary does not bend light (kEqualIndices of shaders/bsdf.glsl).
+  bool scattersMatched() const { return scattersInside() && transmissive() && std::abs(ior - 1.0f) < 0.001f; }
   /// A thin wall whose light comes through diffusely, at least a part of it.
   bool scattersThinly() const { return transmissive() && !solid() && scatterStrength > 0.0f; }
   bool disperses() const { return transmissive() && thicknessFactor > 0.0f && dispersion > 0.0f; }

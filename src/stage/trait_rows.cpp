@@ -302,8 +302,7 @@ std::span<const TraitRow> traitRows() {
        .absence = "no volume that scatters behind a smooth boundary of index 1",
        .stages = setOf({Stage::Shadows}),
        .needs = setOf({Trait::Scattering, Trait::Transmission}),
-       .ofMaterial = [](const Material& m,
-                        const Coordinates&) { return m.scattersInside() && m.indexMatched(); }},
+       .ofMaterial = is<&Material::scattersMatched>},
       {.trait = Trait::ThinScattering,
        .name = "thin-scattering",
        .constant = "kThinScattering",
@@ -316,12 +315,7 @@ std::span<const TraitRow> traitRows() {
        .constant = "kThinScatteringTexture",
        .absence = "no texture of a thin wall's scattering",
        .needs = setOf({Trait::ThinScattering}),
-       .textures = {&Material::scatterStrengthTexture, &Material::multiscatterColorTexture},
-       .ofMaterial =
-           [](const Material& m, const Coordinates&) {
-             return m.scattersThinly() &&
-                    (m.scatterStrengthTexture.present() || m.multiscatterColorTexture.present());
-           }},
+       .textures = {&Material::scatterStrengthTexture, &Material::multiscatterColorTexture}},
       {.trait = Trait::Fog,
        .name = "fog",
        .constant = "kFog",
