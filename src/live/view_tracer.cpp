@@ -108,13 +108,20 @@ void ViewTracer::enterContext(const SharedContexts& shared) {
   maker_ = std::make_unique<PictureMaker>(start_.render.device.shaderFolder, oidn_, clock_);
 }
 
-/// What was in the context is made anew in another one.
-void ViewTracer::recover(const ContextLost& error) {
-  if (++losses_ > kMostLosses) throw error;
-  exchange_.tell(std::string(error.what()) + "; drawing anew");
-  leaveContext();
-  enterContext({});
-  if (loaded_) makePrograms();
+/// What was in the context is made anew in another one, which may be lost meanwhile, too.
+void ViewTracer::recover(ContextLost error) {
+  for (;;) {
+    if (++losses_ > kMostLosses) throw ContextLost(error);
+    exchange_.tell(std::string(error.what()) + "; drawing anew");
+    try {
+      leaveContext();
+      enterContext({});
+      if (loaded_) makePrograms();
+      return;
+    } catch (const ContextLost& again) {
+      error = again;
+    }
+  }
 }
 
 void ViewTracer::makePrograms() {

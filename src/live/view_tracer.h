@@ -69,7 +69,7 @@ class ViewTracer {
 
   void enterContext(const SharedContexts& shared);
   void leaveContext();
-  void recover(const ContextLost& error);
+  void recover(ContextLost error);
   void obey(Orders orders);
   void adoptScene();
   void watchFiles();

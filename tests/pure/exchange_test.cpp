@@ -125,7 +125,8 @@ TEST(Exchange, PicturesThatAreShownTogetherGiveWayTogether) {
         pictures[side].shared.slot = exchange.freeSlot(side, together).first;
       }
       exchange.deliver(std::move(pictures));
-      if (round + 1 < kSlots) EXPECT_EQ(exchange.take().pictures.size(), 2u);
+      if (round + 1 == kSlots) continue;
+      EXPECT_EQ(exchange.take().pictures.size(), 2u);
     }
     exchange.freeSlot(0, together);
     EXPECT_EQ(exchange.take().pictures.size(), together ? 0u : 1u);
