@@ -198,6 +198,7 @@ __eglMustCastToProperFunctionPointerType eglGetProcAddress(const char* name) {
   WRAP(glGetTextureSubImage)
   WRAP(glLinkProgram)
   WRAP(glMapNamedBufferRange)
+  WRAP(glMaxShaderCompilerThreadsKHR)
   WRAP(glMemoryBarrier)
   WRAP(glNamedBufferStorage)
   WRAP(glNamedBufferSubData)

@@ -26,8 +26,9 @@ constexpr GLint kDifference = 4;
 Display::Display(Exchange& exchange) : exchange_(exchange), vertexArray_(makeVertexArray()) {
   const ShaderSource source = shaderSource({});
   const std::string vertex = assembleShader(source, "entry/fullscreen.vert", {});
-  mapping_ = buildProgram(vertex, assembleShader(source, "entry/display.frag", {}));
+  StartedProgram mapping = startProgram(vertex, assembleShader(source, "entry/display.frag", {}));
   window_ = buildProgram(vertex, assembleShader(source, "entry/window.frag", {}));
+  mapping_ = finished(std::move(mapping));
   checkGl("building the display's programs");
 }
 
