@@ -18,6 +18,10 @@ constexpr double kPublishShare = 4.0;
 constexpr double kFilteredShare = 1.0;
 constexpr size_t kFrames = 64;        ///< whose times are summarised
 constexpr int kMeanwhileSamples = 4;  ///< of a picture that gives way to another soon
+/// The edges of fewer samples are ragged: the coarser picture before, which is smooth, stays until there are so many,
+/// but no longer than this.
+constexpr int kSmoothSamples = 4;
+constexpr double kSmoothMs = 500.0;
 
 }  // namespace
 
@@ -83,10 +87,12 @@ bool ViewTracer::draw(Side& side) {
 }
 
 bool ViewTracer::worthShowing(const Side& side) const {
-  if (side.shownAt == 0 || resting(side)) return true;
+  if (resting(side)) return true;
+  const double shownFor = steadyMilliseconds() - side.published;
+  if (side.shownAt == 0) return side.samples >= kSmoothSamples || shownFor > kSmoothMs;
   if (denoisesByOidn(side)) return side.samples >= 2 * side.shownAt;
   const double pause = (denoises(side) ? kFilteredShare : kPublishShare) * publishMs_;
-  return steadyMilliseconds() - side.published > std::max(kPublishMs, pause) * double(sides_.size());
+  return shownFor > std::max(kPublishMs, pause) * double(sides_.size());
 }
 
 bool ViewTracer::work() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tracing thread with two sides while an animation plays: both show the same moment.
+// The viewer's tracing thread: which pictures it gives the window, and when.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -25,19 +25,20 @@ std::filesystem::path moving(const gltf_test::TemporaryFolder& folder) {
   return folder.write("moving.gltf", builder.text());
 }
 
-class PlayedTwice : public testing::Test {
+class Viewed : public testing::Test {
  protected:
-  PlayedTwice() {
+  Viewed() {
     options_.render.scene = moving(folder_);
     options_.render.camera.resolution = kSize;
     options_.render.output.quiet = true;
     options_.render.device.backend = Backend::Egl;
+    options_.movingMs = 1e-6;  // what moves is as coarse as can be
     options_.render.stages = stagesUpTo(Stage::Phong);  // without a preview, which one side has alone
     tracer_.emplace(options_, std::nullopt, exchange_);
     thread_ = std::thread([this] { tracer_->run({}); });
     exchange_.load(options_.render);
   }
-  ~PlayedTwice() override {
+  ~Viewed() override {
     exchange_.quit();
     thread_.join();
   }
@@ -50,6 +51,15 @@ class PlayedTwice : public testing::Test {
     return news;
   }
 
+  /// The options of the scene once that is loaded, from in front of it.
+  RenderOptions shown() {
+    std::optional<ViewedScene> scene;
+    while (!scene && !HasFailure()) scene = news().scene;
+    RenderOptions options = scene ? scene->options : RenderOptions{};
+    options.camera.overrides.position = glm::dvec3(0.0, 0.0, 4.0);
+    return options;
+  }
+
   gltf_test::TemporaryFolder folder_;
   ViewOptions options_;
   Exchange exchange_;
@@ -57,13 +67,9 @@ class PlayedTwice : public testing::Test {
   std::thread thread_;
 };
 
-TEST_F(PlayedTwice, BothSidesShowTheSameMoment) {
-  std::optional<ViewedScene> scene;
-  while (!scene && !HasFailure()) scene = news().scene;
-  ASSERT_TRUE(scene);
-  RenderOptions side = scene->options;
+TEST_F(Viewed, BothSidesOfAPlaybackShowTheSameMoment) {
+  RenderOptions side = shown();
   side.selection.animation = "0";
-  side.camera.overrides.position = glm::dvec3(0.0, 0.0, 4.0);
   std::vector<Image> shown;
   // A new time is asked for again and again, as the window does, whether pictures come or not.
   for (int turn = 0; turn < 2000 && shown.size() < 6 && !HasFailure(); ++turn) {
@@ -78,6 +84,26 @@ TEST_F(PlayedTwice, BothSidesShowTheSameMoment) {
   }
   ASSERT_EQ(shown.size(), 6u);
   EXPECT_NE(shown.front().values, shown.back().values) << "nothing moves";
+}
+
+TEST_F(Viewed, ARestingPictureBecomesSharpWhenItsEdgesAreSmooth) {
+  RenderOptions side = shown();
+  side.sampling.spp = 8;
+  const auto next = [&] {
+    for (;;) {
+      Delivery delivery = news();
+      if (!delivery.pictures.empty() || HasFailure()) return std::move(delivery.pictures);
+    }
+  };
+  exchange_.ask({side}, kSize, true);
+  ASSERT_EQ(next().at(0).size, kSize / 4);
+  exchange_.ask({side}, kSize, false);
+  const auto began = std::chrono::steady_clock::now();
+  std::vector<TracedPicture> pictures = next();
+  while (pictures.at(0).size != kSize) pictures = next();
+  const bool soon = std::chrono::steady_clock::now() - began < std::chrono::milliseconds(400);
+  if (!soon) GTEST_SKIP() << "the machine is busy";
+  EXPECT_GE(pictures.at(0).statistics.samples, 4);
 }
 
 }  // namespace
