@@ -101,7 +101,8 @@ class ViewTracer {
   bool resting(const Side& side) const;
   /// Nothing moves, and the resolution is the full one.
   bool settled() const;
-  /// Some samples for the side that has the fewest, or a frame of each while something moves; false when all rest.
+  /// Some samples for the side that has the fewest, or a frame of each while something moves; false when all
+  /// rest.
   bool work();
   /// Adds samples to the side's film; false when there is something else to do.
   bool draw(Side& side);

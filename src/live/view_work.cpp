@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How the viewer's tracing thread spends its time: which side is drawn next, how finely, how many samples at once.
+// How the viewer's tracing thread spends its time: which side is drawn next, how finely, how many samples at
+// once.
 #include <algorithm>
 
 #include "live/view_tracer.h"
@@ -18,8 +19,8 @@ constexpr double kPublishShare = 4.0;
 constexpr double kFilteredShare = 1.0;
 constexpr size_t kFrames = 64;        ///< whose times are summarised
 constexpr int kMeanwhileSamples = 4;  ///< of a picture that gives way to another soon
-/// The edges of fewer samples are ragged: the coarser picture before, which is smooth, stays until there are so many,
-/// but no longer than this.
+/// The edges of fewer samples are ragged: the coarser picture before, which is smooth, stays until there are
+/// so many, but no longer than this.
 constexpr int kSmoothSamples = 4;
 constexpr double kSmoothMs = 500.0;
 

@@ -11,8 +11,8 @@
 
 namespace fragtrace {
 
-/// Makes programs of a fragment shader each, by the names of its file. All are started before one is waited for. Throws
-/// RenderError.
+/// Makes programs of a fragment shader each, by the names of its file. All are started before one is waited
+/// for. Throws RenderError.
 void makePasses(const ShaderSource& source,
                 std::initializer_list<std::pair<GlProgram*, const char*>> programs);
 

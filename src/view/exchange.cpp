@@ -122,9 +122,8 @@ std::pair<int, void*> Exchange::freeSlot(size_t side, bool together) {
     if (!taken_[side][size_t(slot)] && slot != reserved)
       return {slot, std::exchange(doneAt_[side][size_t(slot)], nullptr)};
   }
-  std::erase_if(delivery_.pictures, [&](const TracedPicture& p) {
-    return p.shared.slot >= 0 && (together || p.side == side);
-  });
+  std::erase_if(delivery_.pictures,
+                [&](const TracedPicture& p) { return p.shared.slot >= 0 && (together || p.side == side); });
   return {reserved, std::exchange(doneAt_[side][size_t(reserved)], nullptr)};
 }
 

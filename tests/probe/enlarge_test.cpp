@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// shaders/picture/enlarge.glsl: how far from a sharp edge a coarse picture of it is, once it is enlarged. `bench motion`
-// judges what it makes of a picture.
+// shaders/picture/enlarge.glsl: how far from a sharp edge a coarse picture of it is, once it is enlarged.
+// `bench motion` judges what it makes of a picture.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -64,7 +64,9 @@ double Display::keepValues(size_t number, PictureValues& values, const PixelArea
 
 /// Shows the pictures that wait, if all are ready: those of two sides show the same moment.
 void Display::adopt() {
-  const auto ready = [](const Side& side) { return side.waiting.slot < 0 || isSignalled(side.waiting.ready); };
+  const auto ready = [](const Side& side) {
+    return side.waiting.slot < 0 || isSignalled(side.waiting.ready);
+  };
   if (!std::ranges::all_of(sides_, ready)) return;
   for (size_t number = 0; number < kMostSides; ++number) {
     Side& side = sides_[number];

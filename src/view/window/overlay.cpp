@@ -81,7 +81,7 @@ void drawLines(const ViewState& state, const ViewFacts& facts, const WindowLayou
 struct Label {
   std::string name;
   std::string cost;
-  ImVec2 topRight;   ///< of the picture, and
+  ImVec2 topRight;     ///< of the picture, and
   float width = 0.0f;  ///< so wide it is
   bool chosen = false;
 };
@@ -97,9 +97,9 @@ void drawLabel(const Label& label, ViewFacts& facts, const std::string& place, c
   const ImVec2 from{label.topRight.x - width - 2 * pad - layout.margin, label.topRight.y + layout.margin};
   const ImVec2 to{label.topRight.x - layout.margin, from.y + size.y + 2 * pad};
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  list.AddRectFilled(
-      from, to, ImGui::GetColorU32(label.chosen ? kAccent : ImGui::GetStyleColorVec4(ImGuiCol_WindowBg)),
-      3.0f * layout.scale);
+  list.AddRectFilled(from, to,
+                     ImGui::GetColorU32(label.chosen ? kAccent : ImGui::GetStyleColorVec4(ImGuiCol_WindowBg)),
+                     3.0f * layout.scale);
   list.PushClipRect(from, {to.x - pad, to.y});
   list.AddText({from.x + pad, from.y + pad}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
   list.PopClipRect();
@@ -118,7 +118,10 @@ void drawStageNames(const ViewState& state, ViewFacts& facts, const WindowLayout
     if (!row.cumulative) continue;
     const auto side = size_t(row.stage);
     const SidePlace place = placeOf(state, layout, side);
-    drawLabel({row.label, costText(facts.statistics[side]), {place.to, place.corner.y}, place.size.x,
+    drawLabel({row.label,
+               costText(facts.statistics[side]),
+               {place.to, place.corner.y},
+               place.size.x,
                side == state.shownSide()},
               facts, "name " + std::string(row.name), layout);
   }
