@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What `--tune gpu` changes in the shaders, taken back one at a time, and work groups of other sizes: folders of shaders for rows of the bundle. A change
-that no longer finds its text ends with an error, so that a row cannot measure nothing."""
+"""Folders of shaders for rows of the bundle: the changes of `--tune gpu`, taken back one at a time, and work groups of other sizes. A
+change that no longer finds its text ends with an error, so that a row cannot measure nothing."""
 import shutil
 
 LANES = "const int kGroupLanes = 64;"

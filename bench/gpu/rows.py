@@ -113,7 +113,7 @@ MOTIONS = (
     ("FlightHelmet under lightroom_14b", [HELMET[0], "--hdri-file", HELMET[1]], HELMET),
 )
 MOTION_SECONDS = 60
-# How evenly they come at the pace of a display.
+# The same at the pace of a display.
 PACE = ["--resolution", "1280,720", "--interval", "16.667", "--target", "16.667", "--pictures", "300"]
 PACE_SECONDS = 20
 PACE_AIM = "60 pictures/s, none after more than 50 ms"

@@ -92,7 +92,7 @@ def motion_rows(name, lines):
 
 
 def pace_rows(name, lines):
-    """How long after the one before each picture of `bench motion` comes."""
+    """Times from one picture of `bench motion` to the next."""
     for line in lines:
         for row in line["rows"]:
             gaps = sorted(row["gap_ms"])

@@ -108,7 +108,7 @@ void ViewTracer::enterContext(const SharedContexts& shared) {
   maker_ = std::make_unique<PictureMaker>(start_.render.device.shaderFolder, oidn_, clock_);
 }
 
-/// What was in the context is made anew in another one, which may be lost meanwhile, too.
+/// Makes anew what was in the context, in another one, which may be lost meanwhile, too.
 void ViewTracer::recover(ContextLost error) {
   for (;;) {
     if (++losses_ > kMostLosses) throw ContextLost(error);

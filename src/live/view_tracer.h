@@ -106,7 +106,7 @@ class ViewTracer {
   bool work();
   /// Adds samples to the side's film; false when there is something else to do.
   bool draw(Side& side);
-  /// Whether its samples have changed enough, while nothing moves.
+  /// Returns true if the side's picture has changed enough, while nothing moves.
   bool worthShowing(const Side& side) const;
   void estimate(Side& side);
   void count(Side& side);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How the viewer's tracing thread spends its time: which side is drawn next, how finely, how many samples at
-// once.
+// One turn of the viewer's tracing thread: it chooses the side that is drawn next, the resolution and the
+// samples.
 #include <algorithm>
 
 #include "live/view_tracer.h"

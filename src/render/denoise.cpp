@@ -12,8 +12,8 @@ namespace {
 
 /// Pixels from tap to tap.
 constexpr std::array kStrides{1, 2, 4, 8};
-/// Of few samples, whose noise is rough: strides that are all even would leave a woven pattern, as odd and
-/// even pixels never meet.
+/// The same for few samples, whose noise is rough. Strides that are all even would leave a woven pattern,
+/// since odd and even pixels never meet.
 constexpr std::array kStridesOfFew{1, 2, 4, 8, 1};
 constexpr glm::ivec2 kTexel{1};
 

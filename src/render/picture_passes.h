@@ -30,8 +30,8 @@ class PicturePasses {
     draw(program, size, size, from, into);
   }
 
-  /// What a program that sums over blocks of 16 x 16 pixels makes of a picture of that size, summed over all
-  /// of these into `texel`, one of RGBA32F.
+  /// Draws a program that sums over blocks of 16 x 16 pixels of a picture of that size, and sums these blocks
+  /// into `texel`, one of RGBA32F.
   void sum(const GlProgram& program, glm::ivec2 size, std::initializer_list<const GlTexture*> from,
            const GlTexture& texel);
 

@@ -77,7 +77,7 @@ void drawLines(const ViewState& state, const ViewFacts& facts, const WindowLayou
   }
 }
 
-/// What a picture is, at its top right, with its cost where there is room for it.
+/// Says at the top right of a picture which one it is, with its cost where there is room for that.
 struct Label {
   std::string name;
   std::string cost;
