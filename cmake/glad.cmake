@@ -4,7 +4,7 @@ set(glad_dir ${CMAKE_BINARY_DIR}/glad)
 find_program(GLAD glad REQUIRED)
 add_custom_command(
   OUTPUT ${glad_dir}/src/gl.c ${glad_dir}/include/glad/gl.h
-  COMMAND ${GLAD} --quiet --api gl:core=4.5 --extensions GL_KHR_debug,GL_ARB_shading_language_include
+  COMMAND ${GLAD} --quiet --api gl:core=4.5 --extensions GL_KHR_debug,GL_ARB_shading_language_include,GL_KHR_parallel_shader_compile
           --reproducible --out-path ${glad_dir} c
   COMMENT "Generating the OpenGL loader"
   VERBATIM)

@@ -10,6 +10,7 @@
 #include "bench/command/configurations.h"
 #include "bench/command/motion_run.h"
 #include "bench/command/results.h"
+#include "bench/command/window_picture.h"
 #include "bench/report/chart.h"
 #include "bench/report/formatted.h"
 #include "bench/report/json.h"
@@ -111,7 +112,7 @@ ViewOptions viewOptionsOf(const MotionOptions& o, const std::string& mode) {
   return view;
 }
 
-/// As the window enlarges what is displayed: bilinear.
+/// Linear in light, as nothing is that a window shows.
 Image enlarged(const Image& image, glm::ivec2 size) {
   Image large{size.x, size.y, image.channels, {}, {}};
   const size_t channels = image.channelCount();
@@ -137,11 +138,12 @@ Image enlarged(const Image& image, glm::ivec2 size) {
   return large;
 }
 
-/// Draws what `render` draws of the pictures that were kept.
+/// Draws what `render` draws of the pictures that were kept, and what the window shows of these.
 class References {
  public:
   References(const MotionOptions& o)
       : options_(o), context_(contextOf(o.render)), loaded_(loadScene(o.render, stats_)) {
+    window_.emplace();
     RenderOptions plain = o.render;
     plain.output.denoise = Denoise::None;
     tracer_ = makeTracer(*context_, loaded_, plain, stats_);
@@ -164,6 +166,8 @@ class References {
     return imageOf(film_->read(), {});
   }
 
+  Image shown(const Image& display) const { return window_->of(display, options_.plan.size); }
+
  private:
   const MotionOptions& options_;
   Statistics stats_;
@@ -171,6 +175,7 @@ class References {
   LoadedScene loaded_;
   Tracer tracer_;
   std::optional<Film> film_;
+  std::optional<WindowPicture> window_;
 };
 
 /// Means over the pictures that were kept.
@@ -194,7 +199,7 @@ MotionError errorOf(const std::vector<KeptPicture>& kept, References& references
     const Image display = toDisplay(picture.image, output.exposure, output.toneMap);
     const Image wanted = toDisplay(*reference, output.exposure, output.toneMap);
     error.relmse += compare(enlarged(picture.image, size), *reference).relmse / double(kept.size());
-    error.flip += flipError(enlarged(display, size), wanted).mean / double(kept.size());
+    error.flip += flipError(references.shown(display), wanted).mean / double(kept.size());
     step();
   }
   return error;

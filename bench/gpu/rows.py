@@ -12,6 +12,8 @@ LITERALS = ["--traversal", "literals"]
 TREE = ["--traversal", "front-to-back"]
 WAVEFRONT = ["--schedule", "wavefront"]  # by a tree
 
+GPU_TEXT = ["--tune", "gpu"]
+
 # How reference pictures are drawn: the name, options of `render`, and the stage that it draws alone.
 ENTRIES = (
     ("fragment entry", FRAGMENT, None),
@@ -91,6 +93,10 @@ FRAMES = (
     helmet("wavefront", WAVEFRONT, {"wavefront"}),
     *(row(f"{entry}, text for software", [*options, "--tune", "software"], wants) for row in (mesh, ball, helmet)
       for entry, options, wants in (("fragment", FRAGMENT, {"fragment"}), ("compute", COMPUTE, {"compute"}))),
+    # By the folders of edits.py, beside "FlightHelmet ..., compute" and "room with the ball, compute".
+    *(row(f"compute, {title}", [*COMPUTE, *GPU_TEXT, "--shader-folder", f"edited/{name}"], {"compute", "gpu"}) for row in (ball, helmet)
+      for name, title in (("copied-frame", "uniforms copied"), ("kept-film", "film in registers"), ("two-traversals", "a traversal for each kind of ray"),
+                          ("array-stack", "stack in an array"), ("128-lanes", "groups of 128 lanes"), ("256-lanes", "groups of 256 lanes"))),
 )
 
 SCALE = ["--from", "10000000", "--to", "10000000", "--traversals", "front-to-back,bvh"]
@@ -107,6 +113,10 @@ MOTIONS = (
     ("FlightHelmet under lightroom_14b", [HELMET[0], "--hdri-file", HELMET[1]], HELMET),
 )
 MOTION_SECONDS = 60
+# The same at the pace of a display.
+PACE = ["--resolution", "1280,720", "--interval", "16.667", "--target", "16.667", "--pictures", "300"]
+PACE_SECONDS = 20
+PACE_AIM = "60 pictures/s, none after more than 50 ms"
 
 # To be looked at: the file, and arguments of `render`.
 PICTURES = (
@@ -114,4 +124,4 @@ PICTURES = (
     ("room-ball.png", ["scenes/room-ball.gltf", *SIZE, "--spp", "64"], []),
     ("helmet.png", [HELMET[0], *SIZE, "--spp", "64", "--hdri-file", HELMET[1]], HELMET),
 )
-PARTS = ("correctness", "report", *dict.fromkeys(frame.part for frame in FRAMES), "scale", "rays", "motion", "pictures")
+PARTS = ("correctness", "report", *dict.fromkeys(frame.part for frame in FRAMES), "scale", "rays", "motion", "pace", "pictures")

@@ -4,7 +4,7 @@ import os
 import statistics
 from pathlib import Path
 
-from rows import BOX_SAMPLES, RAY_AIMS, REPORT, REPORT_AIMS
+from rows import BOX_SAMPLES, PACE_AIM, RAY_AIMS, REPORT, REPORT_AIMS
 
 COLUMNS = ("part", "what", "measured", "beside it", "picture, notes")
 
@@ -89,6 +89,16 @@ def motion_rows(name, lines):
                         f"host {row['trace_cpu_ms'] / pictures:.2f} ms, {row['moved_bytes'] / pictures / 1000:.1f} kB a picture")
             beside = "aim 3 ms, 4 kB" if row["mode"] == "filtered" else "aim 1.5 ms, 4 kB" if row["mode"] == "raw" else ""
             yield f"{name}, {row['mode']}", measured, beside, f"FLIP {row['flip']:.4f}, relative MSE {row['relmse']:.4g}"
+
+
+def pace_rows(name, lines):
+    """Times from one picture of `bench motion` to the next."""
+    for line in lines:
+        for row in line["rows"]:
+            gaps = sorted(row["gap_ms"])
+            measured = (f"{row['pictures'] / row['seconds']:.1f} pictures/s of {row['pixels'] / max(row['pictures'], 1) / 1e6:.2f} Mpixels; one after "
+                        f"{statistics.median(gaps):.1f} ms, 95 % within {gaps[int(0.95 * (len(gaps) - 1))]:.1f}, all within {gaps[-1]:.1f}")
+            yield name, measured, aim_text(PACE_AIM), ""
 
 
 def scale_rows(lines):

@@ -29,35 +29,46 @@ void checkCompiled(const GlShader& shader) {
   throw RenderError("shader does not compile:\n" + std::string(log.c_str()));
 }
 
-GlProgram link(std::initializer_list<const GlShader*> shaders) {
+StartedProgram link(std::vector<GlShader> shaders) {
   GlProgram program(glCreateProgram());
-  for (const GlShader* shader : shaders) glAttachShader(program.name(), shader->name());
+  for (const GlShader& shader : shaders) glAttachShader(program.name(), shader.name());
   glLinkProgram(program.name());
-  GLint ok = 0;
-  glGetProgramiv(program.name(), GL_LINK_STATUS, &ok);
-  if (!ok) {
-    for (const GlShader* shader : shaders) checkCompiled(*shader);
-    checkGl("linking a shader program");
-    GLint length = 0;
-    glGetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &length);
-    std::string log(size_t(length) + 1, '\0');
-    glGetProgramInfoLog(program.name(), length, nullptr, log.data());
-    throw RenderError("shader program does not link:\n" + std::string(log.c_str()));
-  }
-  return program;
+  return {std::move(shaders), std::move(program)};
 }
 
 }  // namespace
 
+StartedProgram startProgram(const std::string& vertexText, const std::string& fragmentText) {
+  std::vector<GlShader> shaders;
+  shaders.push_back(compileShader(GL_VERTEX_SHADER, vertexText));
+  shaders.push_back(compileShader(GL_FRAGMENT_SHADER, fragmentText));
+  return link(std::move(shaders));
+}
+
+GlProgram finished(StartedProgram started) {
+  const GLuint program = started.program.name();
+  GLint ok = 0;
+  glGetProgramiv(program, GL_LINK_STATUS, &ok);
+  if (!ok) {
+    for (const GlShader& shader : started.shaders) checkCompiled(shader);
+    checkGl("linking a shader program");
+    GLint length = 0;
+    glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+    std::string log(size_t(length) + 1, '\0');
+    glGetProgramInfoLog(program, length, nullptr, log.data());
+    throw RenderError("shader program does not link:\n" + std::string(log.c_str()));
+  }
+  return std::move(started.program);
+}
+
 GlProgram buildProgram(const std::string& vertexText, const std::string& fragmentText) {
-  const GlShader vertex = compileShader(GL_VERTEX_SHADER, vertexText);
-  const GlShader fragment = compileShader(GL_FRAGMENT_SHADER, fragmentText);
-  return link({&vertex, &fragment});
+  return finished(startProgram(vertexText, fragmentText));
 }
 
 GlProgram buildComputeProgram(const std::string& text) {
-  const GlShader compute = compileShader(GL_COMPUTE_SHADER, text);
-  return link({&compute});
+  std::vector<GlShader> shaders;
+  shaders.push_back(compileShader(GL_COMPUTE_SHADER, text));
+  return finished(link(std::move(shaders)));
 }
 
 const GlProgram& ProgramCache::tracer(const ShaderVariant& variant) {

@@ -3,14 +3,23 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "gl/gl.h"
 #include "shader/assemble.h"
 
 namespace fragtrace {
 
-/// Compiles and links one program. Throws RenderError with the driver's log, which names shader file and
-/// line.
+/// A program that the driver compiles, perhaps in threads of its own: nothing is asked of it yet.
+struct StartedProgram {
+  std::vector<GlShader> shaders;
+  GlProgram program;
+};
+StartedProgram startProgram(const std::string& vertexText, const std::string& fragmentText);
+/// Waits for it. Throws RenderError with the driver's log, which names shader file and line.
+GlProgram finished(StartedProgram started);
+
+/// Both in turn, of one program. Throws as finished() does.
 GlProgram buildProgram(const std::string& vertexText, const std::string& fragmentText);
 GlProgram buildComputeProgram(const std::string& text);
 

@@ -66,6 +66,7 @@ PictureMaker::PictureMaker(const std::filesystem::path& shaderFolder, const std:
     : source_(shaderSource(shaderFolder)),
       oidn_(oidn),
       clock_(clock),
+      passes_(source_),
       seen_(source_),
       counted_(makePictureTexture(GL_RGBA32F, {1, 1})) {
   // llvmpipe compiles at the first draw: now, while a scene is loaded.

@@ -12,13 +12,12 @@
 #include "picture/denoising.h"
 #include "picture/picture_file.h"
 #include "picture/provenance.h"
+#include "session/phase_timer.h"
 #include "view/picture/composite.h"
 
 namespace fragtrace {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// The network makes little of fewer.
 constexpr int kFewestForOidn = 4;
@@ -26,10 +25,6 @@ constexpr int kFewestForOidn = 4;
 constexpr int kLeastForError = 32;
 constexpr double kErrorStep = 1.2;  ///< from one estimate of the error to the next, in samples
 constexpr double kCountMs = 200.0;  ///< from one look at the film's counts to the next
-
-double sinceMs(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 /// Of films, and of pictures on their way to the window.
 size_t bytesPerPixel(const SideMemory& memory) {
@@ -62,8 +57,7 @@ void ViewTracer::estimate(Side& side) {
 bool ViewTracer::denoises(const Side& side) { return whyNotDenoised(side.options).empty(); }
 
 bool ViewTracer::denoisesByOidn(const Side& side) const {
-  const bool still = !request_.moving && resolution_.step == 0;
-  return denoises(side) && oidn_ && side.options.output.denoise == Denoise::Oidn && still &&
+  return denoises(side) && oidn_ && side.options.output.denoise == Denoise::Oidn && settled() &&
          side.samples >= kFewestForOidn;
 }
 
@@ -71,7 +65,7 @@ int ViewTracer::nextSlot(Side& side) {
   const auto number = size_t(&side - sides_.data());
   side.shownIn = -1;
   if (!shares_) return 0;
-  const auto [slot, done] = exchange_.freeSlot(number);
+  const auto [slot, done] = exchange_.freeSlot(number, request_.moving);
   awaitFence(done);
   ShownTexture& shown = shown_[number][size_t(slot)];
   releaseFence(std::exchange(shown.ready, nullptr));
@@ -91,7 +85,7 @@ bool ViewTracer::show(Side& side, bool past, const std::function<bool()>& goOn) 
     side.shownIn = slot;
     return true;
   }
-  const auto start = Clock::now();
+  const double start = steadyMilliseconds();
   Tracer& tracer = side.program->tracer;
   const bool filtered = denoises(side);
   bool complete = false;
@@ -108,15 +102,15 @@ bool ViewTracer::show(Side& side, bool past, const std::function<bool()>& goOn) 
   }
   if (complete) side.shownIn = slot;
   if (!filtered) return complete;
-  side.filterMs = sinceMs(start);
+  side.filterMs = steadyMilliseconds() - start;
   if (!denoisesByOidn(side))
     filterMsPerPixel_ = side.filterMs / (double(side.film->size().x) * side.film->size().y);
   return complete;
 }
 
 void ViewTracer::count(Side& side) {
-  if (sinceMs(side.counted) < kCountMs && !resting(side)) return;
-  side.counted = Clock::now();
+  if (steadyMilliseconds() - side.counted < kCountMs && !resting(side)) return;
+  side.counted = steadyMilliseconds();
   const glm::vec3 totals = maker_->count(*side.film);
   if (side.times.renderMs > 0.0) side.megaRaysPerSecond = double(totals.y) / side.times.renderMs / 1000.0;
   if (totals.z > 0.0f)
@@ -124,11 +118,11 @@ void ViewTracer::count(Side& side) {
                         " pixels; the picture is wrong");
 }
 
-void ViewTracer::publish(Side& side) {
-  const auto start = Clock::now();
+std::optional<TracedPicture> ViewTracer::pictureOf(Side& side) {
+  const double start = steadyMilliseconds();
   if (!show(side, start_.keepsPast,
             [this] { return request_.moving ? !exchange_.ending() : !exchange_.interrupted(); }))
-    return;
+    return std::nullopt;
   estimate(side);
   count(side);
   side.shownAt = side.samples;
@@ -160,17 +154,21 @@ void ViewTracer::publish(Side& side) {
     s.filtered = filteredShare(side.samples);
     s.filterMs = side.filterMs;
   }
-  s.resting = !request_.moving && resolution_.step == 0 && !side.awaited && resting(side);
+  s.resting = settled() && !side.awaited && resting(side);
   s.variant = side.program->variant;
   s.deviceBytes = side.program->bytes + size_t(size.x) * size_t(size.y) * bytesPerPixel(side.memory);
   s.copied = !shares_;
   s.passes = clock_.take();
   s.movedBytes = movedBytes() - std::exchange(side.movedBytes, movedBytes());
-  exchange_.deliver(std::move(picture));
   shows_ = side.previews ? Shows::Preview : Shows::Picture;
   losses_ = 0;
-  side.published = Clock::now();
-  publishMs_ = sinceMs(start);
+  side.published = steadyMilliseconds();
+  publishMs_ = side.published - start;
+  return picture;
+}
+
+void ViewTracer::publish(Side& side) {
+  if (std::optional<TracedPicture> picture = pictureOf(side)) exchange_.deliver(std::move(*picture));
 }
 
 /// As the window shows it, but for what the camera saw before.

@@ -10,30 +10,16 @@
 #include "live/pick_text.h"
 #include "picture/denoising.h"
 #include "session/outputs.h"
+#include "session/phase_timer.h"
 #include "view/shown_text.h"
 
 namespace fragtrace {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-/// Samples between two looks at the clock, while nothing moves.
-constexpr double kRoundMs = 100.0;
-/// Pictures are published at most this often, and take at most a fifth of the time; half of it where they are
-/// filtered, which shows more than the samples that this time would bring.
-constexpr double kPublishMs = 100.0;
-constexpr double kPublishShare = 4.0;
-constexpr double kFilteredShare = 1.0;
-constexpr size_t kFrames = 64;        ///< whose times are summarised
-constexpr int kMeanwhileSamples = 4;  ///< of a picture that gives way to another soon
 constexpr double kLongWait = 3600.0;  ///< seconds
 constexpr double kWatchSeconds = 0.25;
 constexpr int kMostLosses = 3;  ///< of the context, without a picture between them
-
-double millisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 /// A command that cannot be carried out ends the program; another file may be shown.
 void endIfHopeless(const std::exception_ptr& error, const std::filesystem::path& scene) {
@@ -122,13 +108,20 @@ void ViewTracer::enterContext(const SharedContexts& shared) {
   maker_ = std::make_unique<PictureMaker>(start_.render.device.shaderFolder, oidn_, clock_);
 }
 
-/// What was in the context is made anew in another one.
-void ViewTracer::recover(const ContextLost& error) {
-  if (++losses_ > kMostLosses) throw error;
-  exchange_.tell(std::string(error.what()) + "; drawing anew");
-  leaveContext();
-  enterContext({});
-  if (loaded_) makePrograms();
+/// Makes anew what was in the context, in another one, which may be lost meanwhile, too.
+void ViewTracer::recover(ContextLost error) {
+  for (;;) {
+    if (++losses_ > kMostLosses) throw ContextLost(error);
+    exchange_.tell(std::string(error.what()) + "; drawing anew");
+    try {
+      leaveContext();
+      enterContext({});
+      if (loaded_) makePrograms();
+      return;
+    } catch (const ContextLost& again) {
+      error = again;
+    }
+  }
 }
 
 void ViewTracer::makePrograms() {
@@ -213,8 +206,8 @@ void ViewTracer::adoptScene() {
 }
 
 void ViewTracer::watchFiles() {
-  if (!start_.watch || !loaded_ || millisecondsSince(watched_) < 1000.0 * kWatchSeconds) return;
-  watched_ = Clock::now();
+  if (!start_.watch || !loaded_ || steadyMilliseconds() - watched_ < 1000.0 * kWatchSeconds) return;
+  watched_ = steadyMilliseconds();
   if (sceneFiles_.changed()) loader_.start(loadedOptions_);
   if (shaderFiles_.changed()) rebuildPrograms();
 }
@@ -300,92 +293,6 @@ void ViewTracer::adopt(const TraceRequest& request) {
   sides_.resize(request.sides.size());
   for (size_t i = 0; i < sides_.size(); ++i) adoptSide(sides_[i], request_.sides[i]);
   noteAnswered();
-}
-
-void ViewTracer::fitFilm(Side& side) {
-  const glm::ivec2 size = sizeAtStep(request_.size, resolution_.step);
-  side.view.firstInMiddle = resolution_.step > 0;
-  const bool fits = side.film && side.film->size() == size;
-  if (fits && !side.stale) return;
-  if (!fits) side.memory.turn();
-  side.shownAt = 0;
-  if (side.film)
-    side.film->restart(size);
-  else
-    side.film = std::make_unique<Film>(size);
-  side.stale = false;
-  side.samples = 0;
-  side.times = {};
-  side.error = -1.0;
-  side.errorAt = 0;
-}
-
-bool ViewTracer::resting(const Side& side) const {
-  if (!side.program) return true;
-  if (side.stale || side.samples == 0) return false;
-  // Processors are left to the compiler.
-  if (side.awaited && side.samples >= kMeanwhileSamples) return true;
-  const RenderOptions& o = side.options;
-  const bool converged = o.sampling.noise > 0.0 && side.error >= 0.0 && side.error <= o.sampling.noise;
-  return converged || side.samples >= o.sampling.spp ||
-         (o.sampling.seconds > 0.0 && side.times.renderMs >= 1000.0 * o.sampling.seconds);
-}
-
-bool ViewTracer::work() {
-  if (sides_.empty()) return false;
-  // Step: one frame at each resolution on the way to the full one.
-  const bool drawn =
-      std::ranges::all_of(sides_, [](const Side& s) { return !s.program || (!s.stale && s.samples > 0); });
-  if (drawn && !request_.moving) refine(resolution_, request_.size);
-  for (Side& side : sides_) {
-    if (side.program) fitFilm(side);
-  }
-  const bool settled = !request_.moving && resolution_.step == 0;
-  // A film that has just become this large holds nothing yet.
-  const bool whole = std::ranges::all_of(sides_, [](const Side& s) { return !s.program || s.samples > 0; });
-  if (settled && whole && !awaitsProgram() && !programs_->compiling()) {
-    for (const SaveRequest& request : saves_) save(request);
-    saves_.clear();
-  }
-  // Step: the side that has the fewest samples.
-  Side* side = nullptr;
-  for (Side& s : sides_) {
-    if (!resting(s) && (!side || s.samples < side->samples)) side = &s;
-  }
-  // A film of the next finer step may hold its frame already: one more turn then goes on to the step after.
-  if (!side) return !request_.moving && resolution_.step > 0;
-  Renderer& renderer = *side->program->tracer.renderer;
-  const glm::ivec2 size = side->film->size();
-  const double frameMs = renderer.msPerSample() * size.x * size.y;
-  const double affordable = frameMs > 0.0 ? kRoundMs / frameMs : 1.0;
-  const int most = std::max(1, std::min(side->samples, side->options.sampling.spp - side->samples));
-  const int count = settled ? int(std::clamp(affordable, 1.0, double(most))) : 1;
-  const double before = side->times.renderMs;
-  clock_.restart();
-  // A frame of a moving picture is short, and worth its end: else nothing would be seen before the hand
-  // rests.
-  int added = 0;
-  do {
-    const bool complete = renderer.addSamples(
-        *side->film, side->view, side->samples, side->samples + count, side->times,
-        [&](double) { return !(request_.moving ? exchange_.ending() : exchange_.interrupted()); });
-    if (!complete) return true;
-    side->samples += count;
-    added += count;
-  } while (request_.moving && side->samples < side->options.sampling.spp &&
-           fitsOneMore(resolution_, (side->times.renderMs - before) * double(sides_.size()), added));
-  clock_.end(Pass::Trace);
-  const double filterMs = denoises(*side) && !settled ? filterMsPerPixel_ * size.x * size.y : 0.0;
-  frameTaken(resolution_, request_.size, size,
-             ((side->times.renderMs - before) / added + filterMs) * double(sides_.size()));
-  std::vector<double>& frames = side->times.frameMs;
-  if (frames.size() > kFrames) frames.erase(frames.begin(), frames.end() - kFrames);
-  const double pause = (denoises(*side) ? kFilteredShare : kPublishShare) * publishMs_;
-  const bool due = denoisesByOidn(*side) ? side->samples >= 2 * side->shownAt
-                                         : millisecondsSince(side->published) >
-                                               std::max(kPublishMs, pause) * double(sides_.size());
-  if (!settled || side->samples == added || due || resting(*side)) publish(*side);
-  return true;
 }
 
 }  // namespace fragtrace

@@ -2,7 +2,6 @@
 // The viewer's tracing thread: a context and renderers of its own, wishes in, finished pictures out.
 #pragma once
 
-#include <chrono>
 #include <memory>
 
 #include "bvh/silhouette.h"
@@ -56,8 +55,8 @@ class ViewTracer {
     int samples = 0;
     RenderTimes times;
     double megaRaysPerSecond = 0.0;
-    std::chrono::steady_clock::time_point counted{};    ///< when its rays were
-    std::chrono::steady_clock::time_point published{};  ///< its latest picture
+    double counted = 0.0;    ///< when its rays were; this and the next by steadyMilliseconds()
+    double published = 0.0;  ///< its latest picture
     double error = -1.0;
     int errorAt = 0;    ///< samples when it was estimated
     bool stale = true;  ///< what the film holds is another picture
@@ -70,7 +69,7 @@ class ViewTracer {
 
   void enterContext(const SharedContexts& shared);
   void leaveContext();
-  void recover(const ContextLost& error);
+  void recover(ContextLost error);
   void obey(Orders orders);
   void adoptScene();
   void watchFiles();
@@ -100,8 +99,15 @@ class ViewTracer {
   /// A film of the size that is drawn at now; empty, if it was of another.
   void fitFilm(Side& side);
   bool resting(const Side& side) const;
-  /// Some samples for the side that has the fewest; false when all rest.
+  /// Nothing moves, and the resolution is the full one.
+  bool settled() const;
+  /// Some samples for the side that has the fewest, or a frame of each while something moves; false when all
+  /// rest.
   bool work();
+  /// Adds samples to the side's film; false when there is something else to do.
+  bool draw(Side& side);
+  /// Returns true if the side's picture has changed enough, while nothing moves.
+  bool worthShowing(const Side& side) const;
   void estimate(Side& side);
   void count(Side& side);
   /// Whether the side's picture is filtered.
@@ -113,6 +119,8 @@ class ViewTracer {
   /// Where the side's next picture goes.
   int nextSlot(Side& side);
   ShownTexture& shownOf(const Side& side, int slot);
+  /// For the window; none when there is something else to do.
+  std::optional<TracedPicture> pictureOf(Side& side);
   void publish(Side& side);
   Image seenOf(Side& side);
   void save(const SaveRequest& request);
@@ -160,7 +168,7 @@ class ViewTracer {
   double filterMsPerPixel_ = 0.0;   ///< in it, of layers and filter
   FileWatch sceneFiles_;
   FileWatch shaderFiles_;
-  std::chrono::steady_clock::time_point watched_;
+  double watched_ = 0.0;  ///< when they were looked at, by steadyMilliseconds()
 };
 
 }  // namespace fragtrace

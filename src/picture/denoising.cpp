@@ -80,9 +80,11 @@ RenderOptions withGuides(const RenderOptions& options) {
 PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn) {
   if (!oidn) {
     const double start = steadyMilliseconds();
-    const auto filter = std::make_shared<VarianceFilter>(shaderSource(options.device.shaderFolder));
+    const ShaderSource source = shaderSource(options.device.shaderFolder);
+    const auto filter = std::make_shared<VarianceFilter>(source);
+    const auto passes = std::make_shared<PicturePasses>(source);
     return {std::string(kVarianceFilter), steadyMilliseconds() - start,
-            [filter](const Image& picture) { return filter->filtered(picture); }};
+            [filter, passes](const Image& picture) { return filter->filtered(picture, *passes); }};
   }
   const auto apply = [library = *oidn, memory = options.limits.memoryBytes,
                       quiet = options.output.quiet ||

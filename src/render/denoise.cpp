@@ -1,25 +1,31 @@
 // SPDX-License-Identifier: MIT
 #include "render/denoise.h"
 
+#include <array>
+#include <span>
+
 #include "render/noisy_image.h"
 
 namespace fragtrace {
 
 namespace {
 
-constexpr int kLevels = 4;  // of taps 1, 2, 4 and 8 pixels apart
+/// Pixels from tap to tap.
+constexpr std::array kStrides{1, 2, 4, 8};
+/// The same for few samples, whose noise is rough. Strides that are all even would leave a woven pattern,
+/// since odd and even pixels never meet.
+constexpr std::array kStridesOfFew{1, 2, 4, 8, 1};
 constexpr glm::ivec2 kTexel{1};
 
 }  // namespace
 
-VarianceFilter::VarianceFilter(const ShaderSource& source)
-    : summary_(passProgram(source, "denoise/summary.frag")),
-      prepare_(passProgram(source, "denoise/prepare.frag")),
-      noise_(passProgram(source, "denoise/noise.frag")),
-      filter_(passProgram(source, "denoise/filter.frag")),
-      compare_(passProgram(source, "denoise/compare.frag")),
-      finish_(passProgram(source, "denoise/finish.frag")),
-      sums_(source) {
+VarianceFilter::VarianceFilter(const ShaderSource& source) {
+  makePasses(source, {{&summary_, "denoise/summary.frag"},
+                      {&prepare_, "denoise/prepare.frag"},
+                      {&noise_, "denoise/noise.frag"},
+                      {&filter_, "denoise/filter.frag"},
+                      {&compare_, "denoise/compare.frag"},
+                      {&finish_, "denoise/finish.frag"}});
   for (GlTexture& summary : summaries_) summary = makePictureTexture(GL_RGBA32F, kTexel);
 }
 
@@ -37,11 +43,10 @@ void VarianceFilter::summarize(const NoisyTextures& noisy, glm::ivec2 size, bool
                                PicturePasses& passes) {
   for (size_t step = 0; step < (observed ? 3u : 2u); ++step) {
     glProgramUniform1i(summary_.name(), 1, GLint(step));
-    passes.draw(summary_, size, PictureSums::blocksOf(size),
-                {&noisy.radiance, &noisy.albedo, &noisy.counts, step > 0 ? &summaries_[0] : nullptr,
-                 step > 1 ? &summaries_[1] : nullptr},
-                {&sums_.blocks(size)});
-    sums_.into(summaries_[step], size, passes);
+    passes.sum(summary_, size,
+               {&noisy.radiance, &noisy.albedo, &noisy.counts, step > 0 ? &summaries_[0] : nullptr,
+                step > 1 ? &summaries_[1] : nullptr},
+               summaries_[step]);
   }
 }
 
@@ -56,26 +61,29 @@ const GlTexture* VarianceFilter::filtered(const NoisyTextures& noisy, glm::ivec2
               {&light_, &seenLight_, &guides_});
   glProgramUniform1i(noise_.name(), 1, observed ? 1 : 0);
   passes.draw(noise_, size, {&light_, &seenLight_, &guides_, &summaries_[2]}, {&turns_[0], &variance_});
-  for (int level = 0; level < kLevels; ++level) {
-    glProgramUniform1i(filter_.name(), 1, 1 << level);
-    passes.draw(filter_, size, {&turns_[size_t(level) % 2], &guides_}, {&turns_[size_t(level + 1) % 2]});
+  const std::span<const int> strides =
+      observed ? std::span<const int>(kStrides) : std::span<const int>(kStridesOfFew);
+  size_t turn = 0;
+  for (const int stride : strides) {
+    glProgramUniform1i(filter_.name(), 1, stride);
+    passes.draw(filter_, size, {&turns_[turn], &guides_}, {&turns_[1 - turn]});
+    turn = 1 - turn;
     if (!goOn) continue;
     glFinish();
     if (!goOn()) return nullptr;
   }
-  const GlTexture& latest = turns_[size_t(kLevels) % 2];
-  const GlTexture& denoised = turns_[size_t(kLevels + 1) % 2];
+  const GlTexture& latest = turns_[turn];
+  const GlTexture& denoised = turns_[1 - turn];
   passes.draw(compare_, size, {&light_, &latest, &variance_}, {&moved_});
   passes.draw(finish_, size, {&light_, &latest, &moved_, &guides_, &noisy.albedo, &means, &logarithms},
               {&denoised});
   return &denoised;
 }
 
-Image VarianceFilter::filtered(const Image& noisy) {
+Image VarianceFilter::filtered(const Image& noisy, PicturePasses& passes) {
   const glm::ivec2 size(noisy.width, noisy.height);
   bool observed = false;
   const NoisyTextures textures = texturesOf(noisy, observed);
-  PicturePasses passes;
   const GlTexture& denoised = *filtered(textures, size, observed, {}, passes);
   return {size.x,
           size.y,

@@ -15,7 +15,7 @@
 namespace fragtrace {
 
 /// The version changes whenever the filter gives another picture.
-inline constexpr std::string_view kVarianceFilter = "variance 3";
+inline constexpr std::string_view kVarianceFilter = "variance 4";
 
 /// The filter's programs and textures, which belong to one context. That context must be current in every
 /// call; framebuffer, viewport, program and texture units of it are changed.
@@ -34,7 +34,7 @@ class VarianceFilter {
   /// Filters linear R, G, B, given its variance.Y and samples.Y, kGuideChannels, and kObservedChannel if it
   /// is there. Pixels whose colour is not finite are filled from their neighbours; other such values count as
   /// 0. Throws RenderError that names a layer if it is missing.
-  Image filtered(const Image& noisy);
+  Image filtered(const Image& noisy, PicturePasses& passes);
 
  private:
   void makeRoom(glm::ivec2 size);
@@ -46,7 +46,6 @@ class VarianceFilter {
   GlProgram filter_;
   GlProgram compare_;
   GlProgram finish_;
-  PictureSums sums_;
   std::array<GlTexture, 3> summaries_;  ///< a texel each, in the order of shaders/denoise/denoise.glsl
   glm::ivec2 room_{0};                  ///< of the following
   GlTexture light_;

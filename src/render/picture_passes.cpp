@@ -2,6 +2,8 @@
 #include "render/picture_passes.h"
 
 #include <array>
+#include <string>
+#include <vector>
 
 #include "gl/program.h"
 #include "render/picture_texture.h"
@@ -12,13 +14,24 @@ namespace {
 
 constexpr int kBlock = 16;  // as in shaders/picture/picture.glsl
 
+glm::ivec2 blocksOf(glm::ivec2 size) { return (size + kBlock - 1) / kBlock; }
+
 }  // namespace
 
-GlProgram passProgram(const ShaderSource& source, const char* entry) {
-  GlProgram program =
-      buildProgram(assembleShader(source, "entry/fullscreen.vert", {}), assembleShader(source, entry, {}));
+void makePasses(const ShaderSource& source,
+                std::initializer_list<std::pair<GlProgram*, const char*>> programs) {
+  const std::string vertex = assembleShader(source, "entry/fullscreen.vert", {});
+  std::vector<StartedProgram> started;
+  for (const auto& [program, entry] : programs)
+    started.push_back(startProgram(vertex, assembleShader(source, entry, {})));
+  auto next = started.begin();
+  for (const auto& [program, entry] : programs) *program = finished(std::move(*next++));
   checkGl("building the programs of pictures");
-  return program;
+}
+
+PicturePasses::PicturePasses(const ShaderSource& source)
+    : vertexArray_(makeVertexArray()), framebuffer_(makeFramebuffer()) {
+  makePasses(source, {{&sums_, "picture/sums.frag"}});
 }
 
 void PicturePasses::draw(const GlProgram& program, glm::ivec2 size, glm::ivec2 drawn,
@@ -45,27 +58,23 @@ void PicturePasses::draw(const GlProgram& program, glm::ivec2 size, glm::ivec2 d
   checkGl("drawing over a picture");
 }
 
-glm::ivec2 PictureSums::blocksOf(glm::ivec2 size) { return (size + kBlock - 1) / kBlock; }
-
-const GlTexture& PictureSums::blocks(glm::ivec2 size) {
+void PicturePasses::sum(const GlProgram& program, glm::ivec2 size,
+                        std::initializer_list<const GlTexture*> from, const GlTexture& texel) {
   if (grows(room_, size)) {
     blocks_ = makePictureTexture(GL_RGBA32F, blocksOf(room_));
     wider_ = makePictureTexture(GL_RGBA32F, blocksOf(blocksOf(room_)));
   }
-  return blocks_;
-}
-
-void PictureSums::into(const GlTexture& texel, glm::ivec2 size, PicturePasses& passes) {
   glm::ivec2 left = blocksOf(size);
-  const GlTexture* from = &blocks_;
+  draw(program, size, left, from, {&blocks_});
+  const GlTexture* latest = &blocks_;
   for (const GlTexture* turn = &wider_; left != glm::ivec2(1); left = blocksOf(left)) {
     const glm::ivec2 next = blocksOf(left);
     const bool last = next == glm::ivec2(1);
-    passes.draw(sums_, left, next, {from}, {last ? &texel : turn});
+    draw(sums_, left, next, {latest}, {last ? &texel : turn});
     if (last) return;
-    std::swap(from, turn);
+    std::swap(latest, turn);
   }
-  passes.draw(sums_, left, left, {from}, {&texel});
+  draw(sums_, left, left, {latest}, {&texel});
 }
 
 }  // namespace fragtrace

@@ -4,22 +4,25 @@
 
 #include <glm/glm.hpp>
 #include <initializer_list>
+#include <utility>
 
 #include "gl/gl.h"
 #include "shader/assemble.h"
 
 namespace fragtrace {
 
-/// Makes a program of a fragment shader alone. Throws RenderError.
-GlProgram passProgram(const ShaderSource& source, const char* entry);
+/// Makes programs of a fragment shader each, by the names of its file. All are started before one is waited
+/// for. Throws RenderError.
+void makePasses(const ShaderSource& source,
+                std::initializer_list<std::pair<GlProgram*, const char*>> programs);
 
 /// A framebuffer and its draws. Changes framebuffer, viewport, program and texture units of the context.
 class PicturePasses {
  public:
-  PicturePasses() : vertexArray_(makeVertexArray()), framebuffer_(makeFramebuffer()) {}
+  /// Throws RenderError, as all others do.
+  explicit PicturePasses(const ShaderSource& source);
 
-  /// Draws over the first `drawn` pixels of `into.front()`. `size` is the size that the program sees. Throws
-  /// RenderError.
+  /// Draws over the first `drawn` pixels of `into.front()`. `size` is the size that the program sees.
   void draw(const GlProgram& program, glm::ivec2 size, glm::ivec2 drawn,
             std::initializer_list<const GlTexture*> from, std::initializer_list<const GlTexture*> into);
   void draw(const GlProgram& program, glm::ivec2 size, std::initializer_list<const GlTexture*> from,
@@ -27,25 +30,15 @@ class PicturePasses {
     draw(program, size, size, from, into);
   }
 
+  /// Draws a program that sums over blocks of 16 x 16 pixels of a picture of that size, and sums these blocks
+  /// into `texel`, one of RGBA32F.
+  void sum(const GlProgram& program, glm::ivec2 size, std::initializer_list<const GlTexture*> from,
+           const GlTexture& texel);
+
  private:
   GlVertexArray vertexArray_;
   GlFramebuffer framebuffer_;
   size_t attached_ = 0;
-};
-
-/// Sums a picture over blocks, and these sums again, down to one texel.
-class PictureSums {
- public:
-  PictureSums(const ShaderSource& source) : sums_(passProgram(source, "picture/sums.frag")) {}
-
-  /// The size after one sum.
-  static glm::ivec2 blocksOf(glm::ivec2 size);
-  /// The texture into which a program writes its sums over blocks of a picture of that size.
-  const GlTexture& blocks(glm::ivec2 size);
-  /// Sums the blocks into one texel of RGBA32F.
-  void into(const GlTexture& texel, glm::ivec2 size, PicturePasses& passes);
-
- private:
   GlProgram sums_;
   glm::ivec2 room_{0};
   GlTexture blocks_;  ///< of pixels

@@ -21,14 +21,14 @@ void putCamera(glm::vec4* rows, const SeenPicture& picture, const glm::dvec3& or
 
 }  // namespace
 
-SeenPasses::SeenPasses(const ShaderSource& source)
-    : film_(passProgram(source, "picture/film.frag")),
-      reproject_(passProgram(source, "picture/reproject.frag")),
-      join_(passProgram(source, "picture/join.frag")),
-      show_(passProgram(source, "picture/show.frag")),
-      showFilm_(passProgram(source, "picture/show_film.frag")),
-      totals_(passProgram(source, "picture/totals.frag")),
-      sums_(source) {}
+SeenPasses::SeenPasses(const ShaderSource& source) {
+  makePasses(source, {{&film_, "picture/film.frag"},
+                      {&reproject_, "picture/reproject.frag"},
+                      {&join_, "picture/join.frag"},
+                      {&show_, "picture/show.frag"},
+                      {&showFilm_, "picture/show_film.frag"},
+                      {&totals_, "picture/totals.frag"}});
+}
 
 void SeenPasses::read(const Film& film, const Film& guides, const GlTexture& raw, const NoisyTextures& fresh,
                       const NoisyTextures& surfaces, PicturePasses& passes) {
@@ -76,9 +76,7 @@ void SeenPasses::show(const Film& film, bool background, const GlTexture& shown,
 }
 
 void SeenPasses::count(const Film& film, const GlTexture& texel, PicturePasses& passes) {
-  passes.draw(totals_, film.size(), PictureSums::blocksOf(film.size()), {film.textures()[2]},
-              {&sums_.blocks(film.size())});
-  sums_.into(texel, film.size(), passes);
+  passes.sum(totals_, film.size(), {film.textures()[2]}, texel);
 }
 
 }  // namespace fragtrace

@@ -58,7 +58,6 @@ class SeenPasses {
   GlProgram show_;
   GlProgram showFilm_;
   GlProgram totals_;
-  PictureSums sums_;
   glm::ivec2 room_{0};
   GlTexture past_;  ///< for the moment of a call
   GlTexture apart_;

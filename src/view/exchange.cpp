@@ -113,7 +113,7 @@ void Exchange::giveBack(size_t side, const SharedTexture& texture, void* done) {
   doneAt_[side][size_t(texture.slot)] = done;
 }
 
-std::pair<int, void*> Exchange::freeSlot(size_t side) {
+std::pair<int, void*> Exchange::freeSlot(size_t side, bool together) {
   const std::lock_guard lock(mutex_);
   const auto waiting = std::ranges::find_if(
       delivery_.pictures, [&](const TracedPicture& p) { return p.side == side && p.shared.slot >= 0; });
@@ -122,7 +122,8 @@ std::pair<int, void*> Exchange::freeSlot(size_t side) {
     if (!taken_[side][size_t(slot)] && slot != reserved)
       return {slot, std::exchange(doneAt_[side][size_t(slot)], nullptr)};
   }
-  delivery_.pictures.erase(waiting);
+  std::erase_if(delivery_.pictures,
+                [&](const TracedPicture& p) { return p.shared.slot >= 0 && (together || p.side == side); });
   return {reserved, std::exchange(doneAt_[side][size_t(reserved)], nullptr)};
 }
 
@@ -148,12 +149,21 @@ bool Exchange::ending() const {
 }
 
 void Exchange::deliver(TracedPicture picture) {
+  std::vector<TracedPicture> pictures;
+  pictures.push_back(std::move(picture));
+  deliver(std::move(pictures));
+}
+
+void Exchange::deliver(std::vector<TracedPicture> pictures) {
+  if (pictures.empty()) return;
   inform([&](Delivery& d) {
-    const auto old = std::ranges::find(d.pictures, picture.side, &TracedPicture::side);
-    if (old != d.pictures.end())
-      *old = std::move(picture);
-    else
-      d.pictures.push_back(std::move(picture));
+    for (TracedPicture& picture : pictures) {
+      const auto old = std::ranges::find(d.pictures, picture.side, &TracedPicture::side);
+      if (old != d.pictures.end())
+        *old = std::move(picture);
+      else
+        d.pictures.push_back(std::move(picture));
+    }
   });
 }
 

@@ -207,9 +207,12 @@ class Exchange {
   bool interrupted() const;
   bool ending() const;
   /// A slot of the side that the window neither shows nor waits for, with the GLsync that its last use ends
-  /// at (null: none), which becomes the caller's. The picture that the window has not yet taken gives way.
-  std::pair<int, void*> freeSlot(size_t side);
+  /// at (null: none), which becomes the caller's. The picture that the window has not yet taken gives way,
+  /// and where sides are shown together, so do those of the other sides.
+  std::pair<int, void*> freeSlot(size_t side, bool together);
   void deliver(TracedPicture picture);
+  /// The window gets these at once.
+  void deliver(std::vector<TracedPicture> pictures);
   void deliver(ViewedScene scene);
   void deliver(PickAnswer answer);
   void deliver(EnvironmentThumbnail thumbnail);

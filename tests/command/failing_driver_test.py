@@ -79,6 +79,15 @@ class FailingDriver(Failing):
         self.options = ("--quiet", "--denoise", "variance")
         self.fail_each("memory", 3, ("glNamedFramebufferTexture", "glNamedFramebufferDrawBuffers", "glUniform1i", "glUniform2i"))
 
+    def test_programs_of_passes_are_started_before_one_is_waited_for(self):
+        """So that drivers that compile in threads of their own (GL_KHR_parallel_shader_compile) do so at once."""
+        self.options = ("--quiet", "--denoise", "variance")
+        calls = self.calls("memory")
+        asks = "".join({"glLinkProgram": "l", "glGetProgramiv": "?", "glGetShaderiv": "?"}.get(name, "") for name in calls)
+        self.assertIn("llllll??????", asks)  # those of the filter
+        self.assertEqual(calls.count("glMaxShaderCompilerThreadsKHR"), 1)
+        self.assertLess(calls.index("glMaxShaderCompilerThreadsKHR"), calls.index("glCompileShader"))
+
     def test_light_paths_that_fail_are_seen(self):
         self.scene = "caustics"
         self.fail_each("memory", 1, ("glGetInternalformativ", "glGetFloatv", "glProgramUniform4fv", "glProgramUniform2f", "glBlendFunc", "glDisable"))

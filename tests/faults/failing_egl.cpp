@@ -8,6 +8,7 @@
 //                        blend: none fails, but no format can be blended
 //   FRAGTRACE_FAIL_NAME  a function that does nothing and gives no error, as often as it is called
 //   FRAGTRACE_FAIL_WHEN  a file: once it is there it is removed, and the context is lost
+//   FRAGTRACE_FAIL_AGAIN after so many calls the context that took a lost one's place is lost, too; once
 //   FRAGTRACE_FAIL_LOG   a file that gets the name of each call, a line each
 #include <EGL/egl.h>
 #include <dlfcn.h>
@@ -17,6 +18,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <utility>
 
 #include "heap_log.h"
 
@@ -33,6 +35,8 @@ struct Faults {
   bool buildKind = std::strcmp(setting("FRAGTRACE_FAIL_KIND"), "build") == 0;
   const char* when = setting("FRAGTRACE_FAIL_WHEN");
   const char* never = setting("FRAGTRACE_FAIL_NAME");
+  long again = std::atol(setting("FRAGTRACE_FAIL_AGAIN"));
+  long untilLost = 0;  // calls; 0: never
   FILE* log = *setting("FRAGTRACE_FAIL_LOG") ? std::fopen(setting("FRAGTRACE_FAIL_LOG"), "w") : nullptr;
   void* real = dlopen(setting("FRAGTRACE_REAL_EGL"), RTLD_NOW | RTLD_LOCAL);
   long calls = 0;
@@ -53,6 +57,7 @@ bool allowed(const char* name) {
   const std::lock_guard lock(f.mutex);
   logHeap();
   if (*f.when && std::remove(f.when) == 0) f.lost = true;
+  if (f.untilLost > 0 && --f.untilLost == 0) f.lost = true;
   if (f.lost || std::strcmp(name, f.never) == 0) return false;
   const bool builds = std::strcmp(name, "glCompileShader") == 0 || std::strcmp(name, "glLinkProgram") == 0;
   if (f.buildKind && !builds) return true;
@@ -193,6 +198,7 @@ __eglMustCastToProperFunctionPointerType eglGetProcAddress(const char* name) {
   WRAP(glGetTextureSubImage)
   WRAP(glLinkProgram)
   WRAP(glMapNamedBufferRange)
+  WRAP(glMaxShaderCompilerThreadsKHR)
   WRAP(glMemoryBarrier)
   WRAP(glNamedBufferStorage)
   WRAP(glNamedBufferSubData)
@@ -219,6 +225,7 @@ EGLContext eglCreateContext(EGLDisplay display, EGLConfig config, EGLContext sha
   Faults& f = faults();
   {
     const std::lock_guard lock(f.mutex);
+    if (f.lost) f.untilLost = std::exchange(f.again, 0);
     f.lost = false;
   }
   return realEgl<decltype(&eglCreateContext)>("eglCreateContext")(display, config, shared, wishes);

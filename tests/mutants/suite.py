@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fault import callers_of
 
-COMMANDS = ("Media", "Means", "Sheets", "KnownLight", "ThinGlass", "LightTree", "Caustics", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising")
+COMMANDS = ("Media", "Means", "Sheets", "KnownLight", "ThinGlass", "LightTree", "Caustics", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising", "ShadowCatcher", "CutOutShadow")
 # Where to look first, before there is any experience: scenes of picture tests, test files and groups by the beginning of a fault's name.
 LIKELY = {
     "media/phase.": ("pure.shader_media_test",),
@@ -81,6 +81,7 @@ LIKELY = {
     "layers.": ("command.KnownSurfaces", "pure.shader_layers_test", "lobes.gi", "mapped-layers.gi", "command.Materials"),
     "film.": ("sphere-black.flat", "command.Pictures"),
     "film_pixel.addGuides": ("command.Denoising",),
+    "film_pixel.seenLuminance": ("command.CutOutShadow", "pure.shader_film_test"),
     "film_pixel.": ("sphere-black.flat", "pure.shader_film_test"),
     "camera.": ("transforms.flat", "sphere-textured.flat"),
     "pixel_filter.": ("command.Filters",),

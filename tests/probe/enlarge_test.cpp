@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // shaders/picture/enlarge.glsl: how far from a sharp edge a coarse picture of it is, once it is enlarged.
+// `bench motion` judges what it makes of a picture.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 
+#include "bench/command/window_picture.h"
 #include "gl_probe.h"
 #include "probe_program.h"
 #include "render/picture_texture.h"
@@ -20,6 +22,14 @@ constexpr glm::ivec2 kFine = kCoarse * kTimes;
 float edgeAt(glm::dvec2 place, double angle) {
   const glm::dvec2 away = place - 0.5 * glm::dvec2(kCoarse) - 0.1;
   return std::cos(angle) * away.x + std::sin(angle) * away.y > 0.0 ? 0.9f : 0.1f;
+}
+
+std::vector<float> edge(double angle) {
+  std::vector<float> coarse;
+  for (int y = 0; y < kCoarse.y; ++y) {
+    for (int x = 0; x < kCoarse.x; ++x) coarse.push_back(edgeAt(glm::dvec2(x, y) + 0.5, angle));
+  }
+  return coarse;
 }
 
 struct Enlarged {
@@ -66,11 +76,7 @@ void main() {
   }
 
   Enlarged errors(double angle) {
-    std::vector<float> coarse;
-    for (int y = 0; y < kCoarse.y; ++y) {
-      for (int x = 0; x < kCoarse.x; ++x) coarse.push_back(edgeAt(glm::dvec2(x, y) + 0.5, angle));
-    }
-    const std::vector<float> values = enlarged(coarse);
+    const std::vector<float> values = enlarged(edge(angle));
     Enlarged sum;
     for (int y = 0; y < kFine.y; ++y) {
       for (int x = 0; x < kFine.x; ++x) {
@@ -97,6 +103,17 @@ TEST_P(Enlarging, EdgesOfAnyDirectionAreNearerToSharpOnes) {
 TEST_P(Enlarging, AnEvenPictureStaysAsItIs) {
   const auto pixels = size_t(kCoarse.x) * size_t(kCoarse.y);
   for (const float value : enlarged(std::vector<float>(pixels, 0.25f))) EXPECT_NEAR(value, 0.25f, 1e-6f);
+}
+
+TEST_P(Enlarging, TheBenchmarkOfMotionJudgesWhatTheWindowShows) {
+  const std::vector<float> coarse = edge(0.4);
+  Image image{kCoarse.x, kCoarse.y, {"R", "G", "B"}, {}, {}};
+  for (const float value : coarse) image.values.insert(image.values.end(), 3, value);
+  const Image shown = WindowPicture().of(image, kFine);
+  const std::vector<float> values = enlarged(coarse);
+  constexpr float kStep = 1.0f / 255.0f;
+  for (size_t i = 0; i < values.size() / 2; ++i) EXPECT_NEAR(shown.values[3 * i], values[2 * i], kStep) << i;
+  EXPECT_EQ(WindowPicture().of(shown, kFine).values, shown.values);
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, Enlarging, bothBackends(), backendName);

@@ -75,7 +75,7 @@ class Reprojection : public GlProbe {
  protected:
   static Image joined(const Seen& now, const Seen& past, double most) {
     SeenPasses seenPasses(shaderSource({}));
-    PicturePasses passes;
+    PicturePasses passes(shaderSource({}));
     const SeenPicture fresh = uploaded(now);
     const SeenPicture present = uploaded(now);
     seenPasses.join(fresh.noisy, present, uploaded(past), most, passes);

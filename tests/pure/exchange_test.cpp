@@ -93,7 +93,7 @@ TEST(Exchange, ASlotThatIsDrawnToBelongsToNobodyElse) {
   for (int turn = 0; turn < 10'000; ++turn) {
     const int choice = std::uniform_int_distribution(0, 2)(random);
     if (choice < 2) {
-      const auto [slot, done] = exchange.freeSlot(1);
+      const auto [slot, done] = exchange.freeSlot(1, false);
       ASSERT_TRUE(slot >= 0 && slot < int(kSlots));
       ASSERT_EQ(std::ranges::count(held, slot), 0) << turn;
       ASSERT_TRUE(done == nullptr || done == &fences[size_t(slot)]);
@@ -111,6 +111,25 @@ TEST(Exchange, ASlotThatIsDrawnToBelongsToNobodyElse) {
       exchange.giveBack(1, {*gone}, &fences[size_t(*gone)]);
       held.erase(gone);
     }
+  }
+}
+
+/// Else the window would show an old picture beside a new one.
+TEST(Exchange, PicturesThatAreShownTogetherGiveWayTogether) {
+  for (const bool together : {false, true}) {
+    Exchange exchange;
+    for (size_t round = 0; round < kSlots; ++round) {
+      std::vector<TracedPicture> pictures(2);
+      for (size_t side = 0; side < 2; ++side) {
+        pictures[side].side = side;
+        pictures[side].shared.slot = exchange.freeSlot(side, together).first;
+      }
+      exchange.deliver(std::move(pictures));
+      if (round + 1 == kSlots) continue;
+      EXPECT_EQ(exchange.take().pictures.size(), 2u);
+    }
+    exchange.freeSlot(0, together);
+    EXPECT_EQ(exchange.take().pictures.size(), together ? 0u : 1u);
   }
 }
 

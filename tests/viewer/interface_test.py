@@ -3,6 +3,7 @@
 """What is drawn over the picture: lists, sheet, messages, long texts, the clipboard, small windows and fine displays."""
 import json
 import shlex
+import struct
 import subprocess
 import time
 
@@ -169,7 +170,21 @@ class Overlaps(Case):
         viewer.xdotool("windowsize", "--sync", viewer.id, 480, 320)
         viewer.until(lambda s: s["height"] < 320, "a small window")
         self.everything(viewer, (480, 320), (), self.in_a_small_window)
+        self.names_stay_in_their_pictures(viewer)
         self.ends_well(viewer, viewer.close())
+
+    def names_stay_in_their_pictures(self, viewer):
+        viewer.key("o")
+        status = viewer.rest(lambda s: s["overview"] and sum(n.startswith("name ") for n in s["places"]) == 7, "all stages")
+        cell = status["places"]["stages"][2] / 3
+        for place in (place for name, place in status["places"].items() if name.startswith("name ")):
+            self.assertEqual(place[0] // cell, (place[0] + place[2]) // cell, status["places"])
+        viewer.key("o", "c")
+        viewer.until(lambda s: "name B" in s["places"] and not s["overview"], "two sides")
+        viewer.drag((240, 60), (40, 60))
+        a, b = (viewer.until(lambda s: s["bar"] < 0.1, "the bar at the left")["places"].get(name) for name in ("name A", "name B"))
+        self.assertGreaterEqual(b[0], 40)
+        self.assertTrue(a is None or (a[0] >= 0 and a[0] + a[2] <= 48), a)
 
     def everything(self, viewer, size, sides, one=("figures0",)):
         if not viewer.status()["panel"]:
@@ -205,6 +220,25 @@ class OverlapsAt192Dpi(Overlaps):
     dpi = 192
     scale = 2
     in_a_small_window = ()
+
+
+class LargeWindow(Case):
+    screen_size = "3840x2160"
+
+    def test_it_turns_compares_and_saves(self):
+        viewer = self.view("sphere-phong", "--stage", "phong", "--spp", "1")
+        viewer.xdotool("windowsize", viewer.id, 3840, 2160)
+        # The window manager keeps its borders.
+        status = viewer.rest(lambda s: s["width"] > 3400 and s["height"] > 2000, "the size")
+        viewer.drag((1200, 1000), (1500, 1050))
+        turned = viewer.rest(lambda s: s["camera"] != status["camera"] and s["sides"][0]["width"] == status["width"], "turned")
+        viewer.key("c", "F3")
+        viewer.rest(lambda s: s["split"] and "name B" in s["places"] and len(s["sides"]) == 2, "two sides")
+        saved = viewer.press_for_file("F12", ".png").read_bytes()
+        self.assertEqual(struct.unpack(">II", saved[16:24]), (turned["width"], turned["height"]))
+        viewer.key("c", "o")
+        viewer.rest(lambda s: s["overview"] and len(s["sides"]) == 7 and s["sides"][6]["samples"] == 1, "all stages")
+        self.ends_well(viewer, viewer.close())
 
 
 if __name__ == "__main__":

@@ -12,17 +12,20 @@ MOST_SECONDS = 2.0
 
 
 class LostContext(Case):
-    def test_it_draws_anew_within_two_seconds(self):
+    def losing(self, again=0):
+        """A viewer at rest, and the file that takes its context away."""
         libraries = subprocess.run(["/sbin/ldconfig", "-p"], capture_output=True, text=True, check=True).stdout
         trigger = self.folder / "lose"
         paths = [str(FRAGTRACE.parent / "failing_egl"), os.environ.get("LD_LIBRARY_PATH")]
-        faults = {"FRAGTRACE_REAL_EGL": re.search(r"libEGL\.so\.1 .*=> (\S+)", libraries).group(1),
-                  "FRAGTRACE_FAIL_WHEN": str(trigger), "LD_LIBRARY_PATH": ":".join(filter(None, paths))}
         whole = dict(self.screen.environment)
         self.addCleanup(self.screen.environment.update, whole)
-        self.screen.environment.update(faults)
-        options = ["--resolution", "320,240", "--spp", "8"]
-        viewer = self.view("cornell-box", "--rendering-backend", "egl", *options)
+        self.screen.environment.update({
+            "FRAGTRACE_REAL_EGL": re.search(r"libEGL\.so\.1 .*=> (\S+)", libraries).group(1),
+            "FRAGTRACE_FAIL_WHEN": str(trigger), "FRAGTRACE_FAIL_AGAIN": str(again), "LD_LIBRARY_PATH": ":".join(filter(None, paths))})
+        return self.view("cornell-box", "--rendering-backend", "egl", "--resolution", "320,240", "--spp", "8"), trigger
+
+    def test_it_draws_anew_within_two_seconds(self):
+        viewer, trigger = self.losing()
         answered = viewer.status()["answered"]
         trigger.touch()
         began = time.monotonic()
@@ -36,6 +39,16 @@ class LostContext(Case):
         self.assertEqual(len(pixels_of(saved)), 320 * 240)
         messages = viewer.status()["messages"]
         self.assertEqual(sum("drawing anew" in m for m in messages), 1, messages)
+        self.assertEqual(viewer.close(), 0, viewer.stderr())
+
+    def test_it_comes_back_where_the_next_context_is_lost_as_soon_as_it_is_made(self):
+        viewer, trigger = self.losing(again=20)
+        answered = viewer.status()["answered"]
+        trigger.touch()
+        viewer.key("m")
+        viewer.rest(lambda s: s["answered"] > answered and s["sides"][0]["samples"] == 8, "a picture of what was asked for")
+        messages = viewer.status()["messages"]
+        self.assertEqual(sum("drawing anew" in m for m in messages), 2, messages)
         self.assertEqual(viewer.close(), 0, viewer.stderr())
 
 

@@ -26,8 +26,9 @@ constexpr GLint kDifference = 4;
 Display::Display(Exchange& exchange) : exchange_(exchange), vertexArray_(makeVertexArray()) {
   const ShaderSource source = shaderSource({});
   const std::string vertex = assembleShader(source, "entry/fullscreen.vert", {});
-  mapping_ = buildProgram(vertex, assembleShader(source, "entry/display.frag", {}));
+  StartedProgram mapping = startProgram(vertex, assembleShader(source, "entry/display.frag", {}));
   window_ = buildProgram(vertex, assembleShader(source, "entry/window.frag", {}));
+  mapping_ = finished(std::move(mapping));
   checkGl("building the display's programs");
 }
 
@@ -61,13 +62,19 @@ double Display::keepValues(size_t number, PictureValues& values, const PixelArea
   return side.reader.keep(values, side.traced, side.number, side.size, area, now);
 }
 
-/// Shows the picture that waits, if it is ready.
-void Display::adopt(size_t number) {
-  Side& side = sides_[number];
-  if (side.waiting.slot < 0 || !isSignalled(side.waiting.ready)) return;
-  giveBack(number, side.shared);
-  side.shared = std::exchange(side.waiting, {});
-  show(side, side.shared.texture, side.waitingSize, side.waitingAsItIs);
+/// Shows the pictures that wait, if all are ready: those of two sides show the same moment.
+void Display::adopt() {
+  const auto ready = [](const Side& side) {
+    return side.waiting.slot < 0 || isSignalled(side.waiting.ready);
+  };
+  if (!std::ranges::all_of(sides_, ready)) return;
+  for (size_t number = 0; number < kMostSides; ++number) {
+    Side& side = sides_[number];
+    if (side.waiting.slot < 0) continue;
+    giveBack(number, side.shared);
+    side.shared = std::exchange(side.waiting, {});
+    show(side, side.shared.texture, side.waitingSize, side.waitingAsItIs);
+  }
 }
 
 void Display::take(const TracedPicture& picture) {
@@ -77,7 +84,7 @@ void Display::take(const TracedPicture& picture) {
     side.waiting = picture.shared;
     side.waitingSize = picture.size;
     side.waitingAsItIs = picture.asItIs;
-    return adopt(picture.side);
+    return;
   }
   const Image& image = picture.image;
   const glm::ivec2 size(image.width, image.height);
@@ -128,8 +135,8 @@ void Display::draw(const DisplayView& view, const std::array<DisplaySide, kMostS
   glBindSampler(0, 0);
   glBindSampler(1, 0);
   glBindVertexArray(vertexArray_.name());
+  adopt();
   for (size_t i = 0; i < kMostSides; ++i) {
-    adopt(i);
     if (shows(i) && (i < 2 || view.cells)) map(sides_[i], sides[i]);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, 0);

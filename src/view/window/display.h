@@ -69,7 +69,7 @@ class Display {
     bool fresh = false;    ///< what is displayed is of the traced picture,
     DisplaySide settings;  ///< shown like this
   };
-  void adopt(size_t side);
+  void adopt();
   static void show(Side& side, GLuint traced, glm::ivec2 size, bool asItIs);
   void giveBack(size_t side, SharedTexture& texture);
   void map(Side& side, const DisplaySide& settings);

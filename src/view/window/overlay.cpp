@@ -77,16 +77,33 @@ void drawLines(const ViewState& state, const ViewFacts& facts, const WindowLayou
   }
 }
 
-/// At the top right of a picture.
-void drawName(const std::string& text, ImVec2 topRight, bool chosen, const WindowLayout& layout) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+/// Says at the top right of a picture which one it is, with its cost where there is room for that.
+struct Label {
+  std::string name;
+  std::string cost;
+  ImVec2 topRight;     ///< of the picture, and
+  float width = 0.0f;  ///< so wide it is
+  bool chosen = false;
+};
+
+void drawLabel(const Label& label, ViewFacts& facts, const std::string& place, const WindowLayout& layout) {
   const float pad = 0.5f * layout.margin;
-  const ImVec2 corner{topRight.x - size.x - 2 * pad - layout.margin, topRight.y + layout.margin};
-  list.AddRectFilled(corner, {corner.x + size.x + 2 * pad, corner.y + size.y + 2 * pad},
-                     ImGui::GetColorU32(chosen ? kAccent : ImGui::GetStyleColorVec4(ImGuiCol_WindowBg)),
+  const float room = label.width - 2 * (layout.margin + pad);
+  if (room <= 0.0f) return;
+  std::string text = label.name + label.cost;
+  if (ImGui::CalcTextSize(text.c_str()).x > room) text = label.name;
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const float width = std::min(size.x, room);
+  const ImVec2 from{label.topRight.x - width - 2 * pad - layout.margin, label.topRight.y + layout.margin};
+  const ImVec2 to{label.topRight.x - layout.margin, from.y + size.y + 2 * pad};
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddRectFilled(from, to,
+                     ImGui::GetColorU32(label.chosen ? kAccent : ImGui::GetStyleColorVec4(ImGuiCol_WindowBg)),
                      3.0f * layout.scale);
-  list.AddText({corner.x + pad, corner.y + pad}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  list.PushClipRect(from, {to.x - pad, to.y});
+  list.AddText({from.x + pad, from.y + pad}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  list.PopClipRect();
+  facts.places[place] = {from.x, from.y, to.x - from.x, to.y - from.y};
 }
 
 /// ", 12 samples, 3.5 ms"
@@ -96,36 +113,43 @@ std::string costText(const SideStatistics& s) {
   return ", " + samplesText(s.samples) + time;
 }
 
-void drawStageNames(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout) {
+void drawStageNames(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
   for (const StageRow& row : stageRows()) {
     if (!row.cumulative) continue;
     const auto side = size_t(row.stage);
     const SidePlace place = placeOf(state, layout, side);
-    drawName(row.label + costText(facts.statistics[side]), {place.to, place.corner.y},
-             side == state.shownSide(), layout);
+    drawLabel({row.label,
+               costText(facts.statistics[side]),
+               {place.to, place.corner.y},
+               place.size.x,
+               side == state.shownSide()},
+              facts, "name " + std::string(row.name), layout);
   }
 }
 
 /// What each half of the split view is, at its top.
-void drawSideNames(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout) {
+void drawSideNames(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
   const float right = float(layout.picture.x);
-  const auto textOf = [&](size_t side) {
-    if (side == 1 && !state.reference.empty())
-      return "B  " + shownText(state.reference.filename().string(), kMostNameCharacters);
+  const float bar = float(state.shownBar()) * right;
+  const auto draw = [&](size_t side, float from, float to) {
     const RenderOptions& options = state.sides[side];
     const DebugView view = options.output.debugView;
-    return std::string(side == 0 ? "A  " : "B  ") +
-           (view == DebugView::None ? presetName(options.stages) : std::string(rowOf(view).label)) +
-           costText(facts.statistics[side]);
+    Label label{side == 0 ? "A  " : "B  ", "", {to, 0.0f}, to - from, state.active == side};
+    if (side == 1 && !state.reference.empty()) {
+      label.name += shownText(state.reference.filename().string(), kMostNameCharacters);
+    } else {
+      label.name += view == DebugView::None ? presetName(options.stages) : std::string(rowOf(view).label);
+      label.cost = costText(facts.statistics[side]);
+    }
+    drawLabel(label, facts, side == 0 ? "name A" : "name B", layout);
   };
-  const float bar = float(state.shownBar()) * right;
   if (state.comparison == CompareMode::Difference) {
     char text[64];
     std::snprintf(text, sizeof text, "|A - B| x %g", std::exp2(state.differenceStops));
-    return drawName(text, {right, 0.0f}, false, layout);
+    return drawLabel({text, "", {right, 0.0f}, right}, facts, "name difference", layout);
   }
-  if (bar > 0.0f) drawName(textOf(0), {bar, 0.0f}, state.active == 0, layout);
-  if (bar < right) drawName(textOf(1), {right, 0.0f}, state.active == 1, layout);
+  if (bar > 0.0f) draw(0, 0.0f, bar);
+  if (bar < right) draw(1, bar, right);
 }
 
 /// Left of what is said next.

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// The viewer's tracing thread: which pictures it gives the window, and when.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "gltf_builder.h"
+#include "live/view_tracer.h"
+
+namespace fragtrace {
+namespace {
+
+constexpr glm::ivec2 kSize{64, 48};
+
+/// A triangle that moves along x for two seconds.
+std::filesystem::path moving(const gltf_test::TemporaryFolder& folder) {
+  gltf_test::GltfBuilder builder;
+  builder.addTriangle();
+  const int times = builder.addAccessor<float>("SCALAR", {0, 2});
+  const int places = builder.addAccessor<float>("VEC3", {-1, 0, 0, 1, 0, 0});
+  builder.root["animations"][0] = {
+      {"samplers", {{{"input", times}, {"output", places}}}},
+      {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}};
+  return folder.write("moving.gltf", builder.text());
+}
+
+class Viewed : public testing::Test {
+ protected:
+  Viewed() {
+    options_.render.scene = moving(folder_);
+    options_.render.camera.resolution = kSize;
+    options_.render.output.quiet = true;
+    options_.render.device.backend = Backend::Egl;
+    options_.movingMs = 1e-6;                           // what moves is as coarse as can be
+    options_.render.stages = stagesUpTo(Stage::Phong);  // without a preview, which one side has alone
+    tracer_.emplace(options_, std::nullopt, exchange_);
+    thread_ = std::thread([this] { tracer_->run({}); });
+    exchange_.load(options_.render);
+  }
+  ~Viewed() override {
+    exchange_.quit();
+    thread_.join();
+  }
+
+  Delivery news() {
+    Delivery news = exchange_.take();
+    EXPECT_EQ(news.error, "");
+    if (news.failure) std::rethrow_exception(news.failure);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return news;
+  }
+
+  /// The options of the scene once that is loaded, from in front of it.
+  RenderOptions shown() {
+    std::optional<ViewedScene> scene;
+    while (!scene && !HasFailure()) scene = news().scene;
+    RenderOptions options = scene ? scene->options : RenderOptions{};
+    options.camera.overrides.position = glm::dvec3(0.0, 0.0, 4.0);
+    return options;
+  }
+
+  gltf_test::TemporaryFolder folder_;
+  ViewOptions options_;
+  Exchange exchange_;
+  std::optional<ViewTracer> tracer_;
+  std::thread thread_;
+};
+
+TEST_F(Viewed, BothSidesOfAPlaybackShowTheSameMoment) {
+  RenderOptions side = shown();
+  side.selection.animation = "0";
+  std::vector<Image> shown;
+  // A new time is asked for again and again, as the window does, whether pictures come or not.
+  for (int turn = 0; turn < 2000 && shown.size() < 6 && !HasFailure(); ++turn) {
+    side.selection.animationTime = 1e-3 * turn;
+    exchange_.ask({side, side}, kSize, true);
+    const Delivery delivery = news();
+    if (delivery.pictures.empty()) continue;
+    ASSERT_EQ(delivery.pictures.size(), 2u) << "one side alone has a new picture";
+    EXPECT_EQ(delivery.pictures[0].request, delivery.pictures[1].request);
+    EXPECT_EQ(delivery.pictures[0].image.values, delivery.pictures[1].image.values);
+    shown.push_back(delivery.pictures[0].image);
+  }
+  ASSERT_EQ(shown.size(), 6u);
+  EXPECT_NE(shown.front().values, shown.back().values) << "nothing moves";
+}
+
+TEST_F(Viewed, ARestingPictureBecomesSharpWhenItsEdgesAreSmooth) {
+  RenderOptions side = shown();
+  side.sampling.spp = 8;
+  const auto next = [&] {
+    for (;;) {
+      Delivery delivery = news();
+      if (!delivery.pictures.empty() || HasFailure()) return std::move(delivery.pictures);
+    }
+  };
+  exchange_.ask({side}, kSize, true);
+  ASSERT_EQ(next().at(0).size, kSize / 4);
+  exchange_.ask({side}, kSize, false);
+  auto before = std::chrono::steady_clock::now();
+  std::vector<TracedPicture> pictures = next();
+  while (pictures.at(0).size != kSize) {
+    before = std::chrono::steady_clock::now();
+    pictures = next();
+  }
+  const bool soon = std::chrono::steady_clock::now() - before < std::chrono::milliseconds(400);
+  if (!soon) GTEST_SKIP() << "the machine is busy";
+  EXPECT_GE(pictures.at(0).statistics.samples, 4);
+}
+
+}  // namespace
+}  // namespace fragtrace
