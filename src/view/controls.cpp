@@ -285,7 +285,7 @@ bool changeWindow(ViewState& state, const Control& control, const Movement& m) {
 bool isUsable(const ViewState& state, Action action) {
   if (state.scene && !state.sheet) return true;
   return action == Action::ToggleSheet || action == Action::Close || action == Action::Quit ||
-         action == Action::Fullscreen || (action == Action::Reload && !state.sheet);
+         action == Action::Fullscreen || ((action == Action::Reload || action == Action::Open) && !state.sheet);
 }
 
 Errand apply(ViewState& state, const Control& control, const Movement& movement) {
@@ -310,6 +310,10 @@ Errand apply(ViewState& state, const Control& control, const Movement& movement)
       return Errand::Fullscreen;
     case Action::Reload:
       return Errand::Reload;
+    case Action::Open:
+      return Errand::Open;
+    case Action::SaveAs:
+      return Errand::SaveAs;
     case Action::Screenshot:
       return Errand::Screenshot;
     case Action::WriteExr:

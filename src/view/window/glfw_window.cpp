@@ -4,6 +4,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <mutex>
 #include <stdexcept>
@@ -96,6 +97,19 @@ WindowHandle openSharing(GLFWwindow* window) {
 OutsideContext outsideContext(GLFWwindow* sharing) {
   return {[sharing] { glfwMakeContextCurrent(sharing); }, [] { glfwMakeContextCurrent(nullptr); },
           glfwGetProcAddress};
+}
+
+std::string portalName(GLFWwindow* window) {
+#ifdef GLFW_PLATFORM
+  if (glfwGetPlatform() != GLFW_PLATFORM_X11) return "";
+#endif
+  // A GLFW for Wayland alone has no such function.
+  unsigned long (*numberOf)(GLFWwindow*) = nullptr;
+  static const DynamicLibrary library({"libglfw.so.3"});
+  if (!library.loaded() || !library.find("glfwGetX11Window", numberOf)) return "";
+  char name[32];
+  std::snprintf(name, sizeof name, "x11:%lx", numberOf(window));
+  return name;
 }
 
 std::string takeGlfwErrors() {

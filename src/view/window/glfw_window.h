@@ -37,6 +37,9 @@ WindowHandle openWindow(glm::ivec2 size, const std::string& title);
 WindowHandle openSharing(GLFWwindow* window);
 OutsideContext outsideContext(GLFWwindow* sharing);
 
+/// A window's name for the desktop's portals, "x11:1a00002"; empty where it has none.
+std::string portalName(GLFWwindow* window);
+
 /// What GLFW has reported since the last call, from any thread; empty: nothing.
 std::string takeGlfwErrors();
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "view/window/text.h"
+#include "view/window/draw/text.h"
 
 namespace fragtrace {
 

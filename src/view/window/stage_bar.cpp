@@ -6,8 +6,8 @@
 #include <string>
 
 #include "view/window/panel_parts.h"
-#include "view/window/text.h"
-#include "view/window/theme.h"
+#include "view/window/draw/text.h"
+#include "view/window/draw/theme.h"
 
 namespace fragtrace {
 

@@ -9,7 +9,7 @@
 #include "view/picture/pixel_value.h"
 #include "view/progress.h"
 #include "view/window/pixel_values.h"
-#include "view/window/text.h"
+#include "view/window/draw/text.h"
 
 namespace fragtrace {
 

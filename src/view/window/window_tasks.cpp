@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Window tasks beyond its state: files, clipboard, undo, bookmarks, the screen, pictures as they come in.
+// Window tasks beyond its state: clipboard, undo, bookmarks, the screen, pictures as they come in.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -9,7 +9,6 @@
 #include "errors.h"
 #include "gl/gl.h"
 #include "image/image.h"
-#include "view/dropped_file.h"
 #include "view/shown_names.h"
 #include "view/window/view_window.h"
 
@@ -31,8 +30,12 @@ void Window::execute(const Task& task) {
       if (!state_.reference.empty()) exchange_.compareWith(state_.reference);
       if (state_.scene || !wanted_.scene.empty()) load(state_.scene ? state_.scene->options : wanted_);
       return;
+    case Errand::Open:
+      return askForFile(task);
     case Errand::OpenFile:
       return openFiles({task.file});
+    case Errand::ListKey:
+      return dialog_.press(int(task.index));
     case Errand::CancelLoad:
       return cancelLoad();
     case Errand::DropReference:
@@ -102,9 +105,11 @@ void Window::executeOnScene(const Task& task) {
     case Errand::RemoveBookmark:
       return executeOnBookmark(task);
     case Errand::Screenshot:
-      return save(".png");
+      return save(std::filesystem::absolute(freePictureName(state_.options().scene, ".png")));
+    case Errand::SaveAs:
+      return askForFile(task);
     case Errand::WriteExr:
-      return save(".exr");
+      return save(std::filesystem::absolute(freePictureName(state_.options().scene, ".exr")));
     default:
       return;
   }
@@ -133,49 +138,6 @@ void Window::cancelLoad() {
   if (state_.scene) wanted_ = state_.scene->options;
 }
 
-void Window::takeDrops() {
-  const std::vector<std::filesystem::path> files = input_.takeDrops();
-  if (!files.empty()) openFiles(files);
-}
-
-void Window::openFiles(const std::vector<std::filesystem::path>& files) {
-  std::vector<std::filesystem::path> toLoad;
-  for (const std::filesystem::path& file : files) {
-    if (state_.split && mayBeReference(file))
-      exchange_.compareWith(file);
-    else
-      toLoad.push_back(file);
-  }
-  if (toLoad.empty()) return;
-  const Drop drop = takeDrop(wanted_, toLoad);
-  for (const std::string& sentence : drop.refused) say(sentence);
-  if (!drop.load) return;
-  const bool hasScene =
-      std::ranges::any_of(toLoad, [](const auto& file) { return kindOfDropped(file) == DroppedFile::Scene; });
-  if (hasScene || state_.scene || facts_.load.busy) return load(*drop.load);
-  wanted_ = *drop.load;
-  say(wanted_.light.hdriFile.filename().string() + " will light the model that is dropped next");
-}
-
-void Window::save(const char* extension) {
-  const RenderOptions& o = state_.options();
-  const std::filesystem::path name = std::filesystem::absolute(freePictureName(o.scene, extension));
-  // A file for a display is what is seen, one of radiance what the active side's samples say.
-  const bool seen = isDisplayFormat(name);
-  const bool both = state_.compares() && seen;
-  const char* side = !state_.compares() || both ? "" : state_.active == 0 ? " of side A" : " of side B";
-  if (!facts_.resting) say("writing " + name.string() + side + " as soon as all of the picture is drawn");
-  SaveRequest request;
-  request.path = name;
-  request.side = state_.shownSide();
-  if (both) request.both = state_.comparison;
-  request.bar = state_.shownBar();
-  request.differenceStops = state_.differenceStops;
-  request.exposure = o.output.exposure;
-  request.toneMap = o.output.toneMap;
-  exchange_.save(std::move(request));
-}
-
 /// Of the active side, with all that its picture on the screen depends on.
 RenderOptions Window::shownOptions() const {
   RenderOptions o = renderOptionsOf(state_, state_.active);
@@ -198,18 +160,6 @@ void Window::toggleFullscreen() {
     glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
   }
   state_.fullscreen = !state_.fullscreen;
-}
-
-/// Reads what other viewers have remembered meanwhile, too.
-void Window::remember(const std::function<void(Remembered&)>& change) {
-  try {
-    const std::filesystem::path file = rememberedFile();
-    facts_.remembered = readRemembered(file);
-    change(facts_.remembered);
-    writeRemembered(file, facts_.remembered);
-  } catch (const std::exception& error) {
-    say(std::string("not remembered: ") + error.what());
-  }
 }
 
 void Window::executeOnBookmark(const Task& task) {
