@@ -20,8 +20,7 @@ constexpr int kMostWindowPixels = 16384;
 void addViewOptions(CLI::App& app, RawView& raw) {
   RenderOptions& shown = raw.render.options;
   shown.output.denoise = Denoise::Variance;
-  addOption(app, "file", raw.render,
-            "scene: a .gltf or .glb file; without one, the window waits for a file to be dropped on it");
+  addOption(app, "file", raw.render, "scene: a .gltf or .glb file; without one, the window waits for a file");
   addOptions(app, OptionGroup::Tracing, raw.render);
   addOptions(app, OptionGroup::Filter, raw.render);
   const auto describe = [&](const char* name, const char* text) { app.get_option(name)->description(text); };

@@ -285,7 +285,8 @@ bool changeWindow(ViewState& state, const Control& control, const Movement& m) {
 bool isUsable(const ViewState& state, Action action) {
   if (state.scene && !state.sheet) return true;
   return action == Action::ToggleSheet || action == Action::Close || action == Action::Quit ||
-         action == Action::Fullscreen || ((action == Action::Reload || action == Action::Open) && !state.sheet);
+         action == Action::Fullscreen ||
+         ((action == Action::Reload || action == Action::Open) && !state.sheet);
 }
 
 Errand apply(ViewState& state, const Control& control, const Movement& movement) {

@@ -36,7 +36,8 @@ std::string_view takeNumber(std::string_view& text) {
 fs::path typedPath(const FolderList& list) {
   const std::string text = list.text.data();
   const char* home = std::getenv("HOME");
-  if (home != nullptr && (text == "~" || text.starts_with("~/"))) return fs::path(home) / text.substr(std::min<size_t>(2, text.size()));
+  if (home != nullptr && (text == "~" || text.starts_with("~/")))
+    return fs::path(home) / text.substr(std::min<size_t>(2, text.size()));
   return list.content.folder / text;
 }
 
@@ -94,7 +95,8 @@ FolderContent readFolder(const fs::path& folder) {
   if (content.folder.filename().empty() && content.folder.has_relative_path())
     content.folder = content.folder.parent_path();  // a slash at the end
   std::error_code error;
-  for (fs::directory_iterator entry(content.folder, error), end; !error && entry != end; entry.increment(error)) {
+  for (fs::directory_iterator entry(content.folder, error), end; !error && entry != end;
+       entry.increment(error)) {
     std::string name = entry->path().filename().string();
     if (name.starts_with('.')) continue;
     if (content.entries.size() >= kMostEntries) {
@@ -167,10 +169,10 @@ ListStep press(FolderList& list, ListKey key) {
   if (key == ListKey::Accept) return accept(list);
   if (key == ListKey::Parent) return {.enter = list.content.folder.parent_path()};
   if (list.shown.empty()) return {};
-  const std::ptrdiff_t step = key == ListKey::Up         ? -1
-                              : key == ListKey::Down     ? 1
-                              : key == ListKey::PageUp   ? -kPage
-                                                         : kPage;
+  const std::ptrdiff_t step = key == ListKey::Up       ? -1
+                              : key == ListKey::Down   ? 1
+                              : key == ListKey::PageUp ? -kPage
+                                                       : kPage;
   const auto last = std::ptrdiff_t(list.shown.size()) - 1;
   const std::ptrdiff_t from = list.chosen ? std::ptrdiff_t(*list.chosen) : step > 0 ? -1 : last + 1;
   choose(list, size_t(std::clamp<std::ptrdiff_t>(from + step, 0, last)));

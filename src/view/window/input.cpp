@@ -86,7 +86,8 @@ std::optional<glm::dvec2> Input::update(ViewState& state, const WindowLayout& la
       case Kind::Key:
         if (state.fileList && event.action != GLFW_RELEASE)
           run({.errand = Errand::ListKey, .index = size_t(event.code)});
-        else if (!io.WantTextInput || event.action == GLFW_RELEASE) key(event, state, run);
+        else if (!io.WantTextInput || event.action == GLFW_RELEASE)
+          key(event, state, run);
         break;
       case Kind::Button:
         if (event.action == GLFW_RELEASE)

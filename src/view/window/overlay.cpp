@@ -10,12 +10,12 @@
 
 #include "view/presets.h"
 #include "view/progress.h"
+#include "view/window/draw/text.h"
+#include "view/window/draw/theme.h"
 #include "view/window/figures.h"
 #include "view/window/panel_parts.h"
 #include "view/window/pixel_values.h"
 #include "view/window/status_bar.h"
-#include "view/window/draw/text.h"
-#include "view/window/draw/theme.h"
 
 namespace fragtrace {
 

@@ -8,10 +8,10 @@
 
 #include "options/same_picture.h"
 #include "view/presets.h"
-#include "view/window/input.h"
-#include "view/window/panel_parts.h"
 #include "view/window/draw/text.h"
 #include "view/window/draw/theme.h"
+#include "view/window/input.h"
+#include "view/window/panel_parts.h"
 
 namespace fragtrace {
 
@@ -248,8 +248,7 @@ Task drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
     if (open("Switches", false)) drawStages(state, places, false);
     if (open("Sampling", false)) drawSampling(state, places);
     if (open("Advanced", false)) drawAdvanced(state, facts);
-    if (open("Shown before", false))
-      drawRecentFiles(facts.recent, facts.remembered.recent, places, task);
+    if (open("Shown before", false)) drawRecentFiles(facts.recent, facts.remembered.recent, places, task);
     drawButtons(places, task);
   }
   ImGui::End();

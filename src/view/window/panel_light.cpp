@@ -5,8 +5,8 @@
 #include "image/display/tone_map.h"
 #include "scene/blurred_map.h"
 #include "view/environments.h"
-#include "view/window/panel_parts.h"
 #include "view/window/draw/text.h"
+#include "view/window/panel_parts.h"
 
 namespace fragtrace {
 

@@ -87,7 +87,8 @@ void Window::takeFile() {
   std::filesystem::path file = news.file;
   if (file.extension().empty()) file += kPictureExtensions.front();
   const FileFilter filter = saveQuestion(file).filters.front();
-  if (!passes(filter, file)) return say("not written: " + file.extension().string() + " is not among " + filter.name);
+  if (!passes(filter, file))
+    return say("not written: " + file.extension().string() + " is not among " + filter.name);
   savedFolder_ = file.parent_path();
   ask();
   save(file);

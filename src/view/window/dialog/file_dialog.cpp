@@ -143,7 +143,8 @@ void FileDialog::drawEntries(Places& places, float height) {
         const FolderEntry& entry = list.shown[size_t(i)];
         const std::string text = shownText(entry.name, kMostLineCharacters) + (entry.isFolder ? "/" : "") +
                                  "##" + std::to_string(i);
-        if (ImGui::Selectable(text.c_str(), list.chosen == size_t(i), ImGuiSelectableFlags_AllowDoubleClick)) {
+        if (ImGui::Selectable(text.c_str(), list.chosen == size_t(i),
+                              ImGuiSelectableFlags_AllowDoubleClick)) {
           choose(list, size_t(i));
           ++field_;
           if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) step = accept(list);
@@ -198,8 +199,8 @@ void FileDialog::draw(Places& places, const WindowLayout& layout) {
   ImGui::SetNextWindowSize({std::min(kListWidth * layout.scale, display.x - 2 * layout.margin),
                             std::min(kListHeight * layout.scale, display.y - 2 * layout.margin)});
   if (!ImGui::BeginPopupModal(kPopup, nullptr,
-                              ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                  ImGuiWindowFlags_NoSavedSettings)) {
+                              ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings)) {
     popup_ = false;
     return close();
   }

@@ -17,19 +17,21 @@ enum class DialogKind : uint8_t { None, Desktop, List };
 
 class FileDialog {
  public:
-  /// Asks, over a window named as askPortal() takes it. While the desktop's dialog is open, the list takes its
-  /// place: that one may not be seen.
+  /// Asks, over a window named as askPortal() takes it. While the desktop's dialog is open, the list takes
+  /// its place: that one may not be seen.
   void ask(FileQuestion question, const std::string& window, double now);
   void close();
-  DialogKind kind() const { return desktop_.busy() ? DialogKind::Desktop : list_ ? DialogKind::List : DialogKind::None; }
+  DialogKind kind() const {
+    return desktop_.busy() ? DialogKind::Desktop : list_ ? DialogKind::List : DialogKind::None;
+  }
 
   /// For a key that the list takes, by its code of view/key_table.h.
   void press(int code);
 
   struct News {
-    bool changed = false;       ///< the list is to be drawn anew
-    std::filesystem::path file; ///< that was chosen; empty: none
-    std::string message;        ///< for the user; empty: none
+    bool changed = false;        ///< the list is to be drawn anew
+    std::filesystem::path file;  ///< that was chosen; empty: none
+    std::string message;         ///< for the user; empty: none
   };
   /// What has come of it since the last call.
   News take(double now);
@@ -51,10 +53,10 @@ class FileDialog {
   Background<FolderContent> reading_;
   std::optional<FolderList> list_;
   std::filesystem::path chosen_;
-  double asked_ = 0.0;   ///< when the desktop was, in seconds; infinite: and the user knows
-  bool popup_ = false;   ///< Dear ImGui has one open for the list
-  bool scrolls_ = false; ///< to the entry that is chosen
-  int field_ = 0;        ///< a new number makes Dear ImGui take the text that it edits from the list
+  double asked_ = 0.0;    ///< when the desktop was, in seconds; infinite: and the user knows
+  bool popup_ = false;    ///< Dear ImGui has one open for the list
+  bool scrolls_ = false;  ///< to the entry that is chosen
+  int field_ = 0;         ///< a new number makes Dear ImGui take the text that it edits from the list
 };
 
 }  // namespace fragtrace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Speaks to the session's bus by the functions of sd-bus that this takes. The library is opened when a dialog is
-// asked for first.
+// Speaks to the session's bus by the functions of sd-bus that this takes. The library is opened when a dialog
+// is asked for first.
 #include "view/window/dialog/portal.h"
 
 #include <cctype>
@@ -31,9 +31,10 @@ constexpr const char* kRequest = "org.freedesktop.portal.Request";
 constexpr const char* kResponses =
     "type='signal',sender='org.freedesktop.portal.Desktop',"
     "interface='org.freedesktop.portal.Request',member='Response'";
-constexpr uint64_t kPatience = 3000000;  // microseconds for a call: that a dialog will be shown is said at once
-constexpr uint64_t kLook = 50000;        // from one look at whether the question is given up to the next
-constexpr uint32_t kCancelled = 1;       // of the portal's responses; 0: chosen
+constexpr uint64_t kPatience =
+    2000000;                        // microseconds for a call: that a dialog will be shown is said at once
+constexpr uint64_t kLook = 50000;   // from one look at whether the question is given up to the next
+constexpr uint32_t kCancelled = 1;  // of the portal's responses; 0: chosen
 
 struct BusLibrary {
   int (*openUser)(Bus* bus) = nullptr;
@@ -44,8 +45,7 @@ struct BusLibrary {
   int (*call)(Bus bus, BusMessage message, uint64_t microseconds, BusError* error,
               BusMessage* reply) = nullptr;
   int (*callMethod)(Bus bus, const char* destination, const char* path, const char* interface,
-                    const char* member, BusError* error, BusMessage* reply, const char* types,
-                    ...) = nullptr;
+                    const char* member, BusError* error, BusMessage* reply, const char* types, ...) = nullptr;
   void (*freeError)(BusError* error) = nullptr;
   int (*newCall)(Bus bus, BusMessage* message, const char* destination, const char* path,
                  const char* interface, const char* member) = nullptr;
@@ -76,8 +76,7 @@ struct BusLibrary {
            library.find("sd_bus_message_is_signal", isSignal) &&
            library.find("sd_bus_message_get_path", pathOf) && library.find("sd_bus_message_read", read) &&
            library.find("sd_bus_message_enter_container", enter) &&
-           library.find("sd_bus_message_exit_container", exit) &&
-           library.find("sd_bus_message_skip", skip);
+           library.find("sd_bus_message_exit_container", exit) && library.find("sd_bus_message_skip", skip);
   }
 };
 
@@ -92,8 +91,8 @@ const BusLibrary* busLibrary() {
   return loaded.get();
 }
 
-/// A connection to the session's bus, and the functions for it; closed when it goes, on which the portal closes
-/// the dialog, too.
+/// A connection to the session's bus, and the functions for it; closed when it goes, on which the portal
+/// closes the dialog, too.
 struct Connection {
   const BusLibrary& library;
   Bus bus = nullptr;
@@ -224,7 +223,8 @@ std::string readUri(const BusLibrary& library, BusMessage response) {
 
 PortalAnswer readResponse(const BusLibrary& library, BusMessage response) {
   uint32_t code = 0;
-  if (library.read(response, "u", &code) < 0) return {.there = false, .why = "it answers with nonsense", .uri = {}};
+  if (library.read(response, "u", &code) < 0)
+    return {.there = false, .why = "it answers with nonsense", .uri = {}};
   if (code > kCancelled) return {.there = false, .why = "its dialog has ended", .uri = {}};
   return {.there = true, .why = {}, .uri = code == 0 ? readUri(library, response) : ""};
 }
@@ -239,8 +239,9 @@ PortalAnswer askPortal(const FileQuestion& question, const std::string& window,
   if (!to.bus) return {};
   library->setTimeout(to.bus, kPatience);
   BusError error;
-  const int result = library->callMethod(to.bus, "org.freedesktop.DBus", "/org/freedesktop/DBus",
-                                         "org.freedesktop.DBus", "AddMatch", &error, nullptr, "s", kResponses);
+  const int result =
+      library->callMethod(to.bus, "org.freedesktop.DBus", "/org/freedesktop/DBus", "org.freedesktop.DBus",
+                          "AddMatch", &error, nullptr, "s", kResponses);
   if (result < 0) return {.there = false, .why = reasonOf(*library, result, error), .uri = {}};
   std::string why;
   const std::string path = request(to, question, window, why);

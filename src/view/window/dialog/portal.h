@@ -15,8 +15,8 @@ struct PortalAnswer {
   std::string uri;     ///< what was chosen; empty: nothing
 };
 
-/// Shows the dialog over a window ("x11:" and its number in hexadecimal; empty: over none) and waits until the
-/// user has answered, or `givenUp` is true: then the dialog is closed. Does not throw.
+/// Shows the dialog over a window ("x11:" and its number in hexadecimal; empty: over none) and waits until
+/// the user has answered, or `givenUp` is true: then the dialog is closed. Does not throw.
 PortalAnswer askPortal(const FileQuestion& question, const std::string& window,
                        const std::atomic<bool>& givenUp);
 
