@@ -28,7 +28,9 @@ namespace {
 
 constexpr const char* kLibraryName = "libfragtrace_window.so";
 /// How long the end of the program may wait for the driver, which cannot be interrupted while it compiles.
-constexpr std::chrono::seconds kPatience{1};
+// With the tracing thread, when the window is closed: it may decode or compile for long.
+constexpr std::chrono::milliseconds kPatience{400};
+constexpr std::chrono::seconds kPatienceForFiles{20};
 
 const WindowLibrary& windowLibrary() {
   const Plugin plugin = openPlugin(kLibraryName, kWindowLibraryEntry);
@@ -72,7 +74,9 @@ int runView(const ViewOptions& asked) {
     exchange.quit();
     if (!tracing.joinable()) return;
     const bool failed = std::uncaught_exceptions() > 0;
-    const bool soon = failed || ended.get_future().wait_for(kPatience) == std::future_status::ready;
+    std::future<void> end = ended.get_future();
+    const auto endsWithin = [&](auto time) { return end.wait_for(time) == std::future_status::ready; };
+    const bool soon = failed || endsWithin(kPatience) || (tracer.saving() && endsWithin(kPatienceForFiles));
     if (!soon || (!failed && tracer.loading())) {
       // Nothing is being written; what is left the system ends sooner than we could.
       std::fflush(nullptr);

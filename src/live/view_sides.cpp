@@ -117,7 +117,7 @@ std::shared_ptr<ViewProgram> ViewTracer::programFor(const RenderOptions& options
   for (const std::string& message : std::exchange(program->driverLog, {}))
     exchange_.tell("driver: " + message);
   exchange_.tellNote({});
-  exchange_.tellError(program->error);
+  exchange_.tellError(program->error.empty() ? loadError_ : program->error);
   // It says the same again.
   if (!program->error.empty()) driverLog_->take();
   return program;

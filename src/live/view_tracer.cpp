@@ -157,7 +157,10 @@ void ViewTracer::obey(Orders orders) {
     loader_.cancel();
     exchange_.tellLoad({});
   }
-  if (orders.load) loader_.start(*orders.load);
+  if (orders.load) {
+    loadError_.clear();
+    loader_.start(*orders.load);
+  }
   if (orders.request && loaded_) adopt(*orders.request);
   if (!orders.thumbnails.empty()) thumbnails_.make(orders.thumbnails, start_.render.limits.memoryBytes);
   if (orders.reference) takeReference(*orders.reference);
@@ -171,7 +174,8 @@ void ViewTracer::adoptScene() {
   exchange_.tellLoad({});
   if (result->error) {
     if (!loaded_) endIfHopeless(result->error, result->options.scene);
-    exchange_.tellError(whatFailed(result->error));
+    loadError_ = whatFailed(result->error);
+    exchange_.tellError(loadError_);
     return;
   }
   sides_.clear();
@@ -184,7 +188,12 @@ void ViewTracer::adoptScene() {
   loaded_ = std::move(result->scene);
   document_ = std::move(result->document);
   loadedOptions_ = result->options;
+  loaded_->decoding = [this](size_t decoded, size_t count) {
+    exchange_.tellNote("compiling, " + std::to_string(decoded) + " of " + std::to_string(count) +
+                       " textures decoded");
+  };
   makePrograms();
+  loadError_.clear();
   exchange_.tellError({});
   ViewedScene viewed;
   viewed.options = loadedOptions_;
@@ -344,8 +353,10 @@ bool ViewTracer::work() {
   // A film that has just become this large holds nothing yet.
   const bool whole = std::ranges::all_of(sides_, [](const Side& s) { return !s.program || s.samples > 0; });
   if (settled && whole && !awaitsProgram() && !programs_->compiling()) {
+    saving_ = !saves_.empty();
     for (const SaveRequest& request : saves_) save(request);
     saves_.clear();
+    saving_ = false;
   }
   // Step: the side that has the fewest samples.
   Side* side = nullptr;

@@ -2,6 +2,7 @@
 // The viewer's tracing thread: a context and renderers of its own, wishes in, finished pictures out.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 
@@ -42,6 +43,8 @@ class ViewTracer {
   /// the device.
   void run(const SharedContexts& shared);
 
+  /// Whether a file is being written.
+  bool saving() const { return saving_; }
   /// Whether a thread still loads what nobody waits for any more.
   bool loading() const { return loader_.busy() || thumbnails_.busy(); }
 
@@ -153,6 +156,8 @@ class ViewTracer {
   std::array<std::array<ShownTexture, kSlots>, kMostSides>
       shown_;  ///< of the sides; without sharing the first
   ResolutionController resolution_;
+  std::atomic<bool> saving_ = false;
+  std::string loadError_;  ///< why the latest load failed; empty: it did not
   std::vector<SaveRequest> saves_;
   std::optional<Image> reference_;  ///< that the window shows as side B
   int losses_ = 0;                  ///< of the context since the latest publication

@@ -263,7 +263,7 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
 
 LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress,
                       FilmOf film, SceneBefore before) {
-  const auto step = [&](const char* name, double fraction) {
+  const auto step = [&](const std::string& name, double fraction) {
     if (progress) progress(name, fraction);
   };
   Stopwatch watch;
@@ -272,8 +272,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   // The environment is decoded in another process, so it is read meanwhile.
   Phase reading;  // outlives the thread that sets it
   std::future<LinearImage> map;
-  const bool reads = !options.light.hdriFile.empty() && !before.environment;
-  if (reads) {
+  const bool readsMap = !options.light.hdriFile.empty() && !before.environment;
+  if (readsMap) {
     map = std::async(kThreadIfGranted, [&] {
       PhaseTimer timer("environment", "second");
       LinearImage image = readLinearImage(options.light.hdriFile, options.limits.memoryBytes);
@@ -283,7 +283,9 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
     });
   }
   PhaseTimer sceneTimer("scene");
-  loaded.scene = loadGltf(options.scene, gltfOptionsOf(options), before.document);
+  GltfOptions loading = gltfOptionsOf(options);
+  loading.progress = progress;
+  loaded.scene = loadGltf(options.scene, loading, before.document);
   stats.phases.push_back(sceneTimer.end());
   if (options.device.instancing == Instancing::Share && !walksTree(options))
     loaded.scene.warnings.emplace_back("--instancing share: only trees hold shared meshes; all are copied");
@@ -325,7 +327,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   if (!early) settleEnvironment();
   std::ranges::move(ofEnvironment, std::back_inserter(loaded.scene.warnings));
   loaded.view = makeView(options, loaded, loaded.camera);
-  if (reads) stats.phases.push_back(reading);
+  if (readsMap) stats.phases.push_back(reading);
   stats.scene = describe(scene);
   stats.warnings = scene.warnings;
   stats.size = loaded.region.size;

@@ -27,10 +27,12 @@ struct LoadedScene {
   Region region;                   ///< of it, that is drawn
   Bvh bvh;
   View view;
+  DecodeProgress decoding{};  ///< told when the textures are, which is later
 };
 
-/// Called before each step with its name and the part of the work done, 0..1; what it throws ends loading.
-using LoadProgress = std::function<void(const char* step, double fraction)>;
+/// Called with what is done, before each step and within those that may be long, and the part of the work that
+/// is behind, 0..1; what it throws ends loading.
+using LoadProgress = GltfProgress;
 
 /// Whether one film is to hold all of a picture, or only a part at a time (picture/picture_parts.h).
 enum class FilmOf : uint8_t { Picture, Part };

@@ -156,6 +156,8 @@ bool changePicture(ViewState& state, const Control& control, const Movement& m) 
   switch (control.action) {
     case Action::ToggleStage:
       o.stages.flip(size_t(control.argument));
+      // Of all stages side by side, each has those up to its own.
+      if (stageRows()[size_t(control.argument)].cumulative) state.overview = false;
       return true;
     case Action::StagesUpTo:
       o.stages = withStagesUpTo(o.stages, Stage(control.argument));
@@ -164,11 +166,13 @@ bool changePicture(ViewState& state, const Control& control, const Movement& m) 
     case Action::ToggleDebugView: {
       const auto view = DebugView(control.argument);
       o.output.debugView = o.output.debugView == view ? DebugView::None : view;
+      state.overview = false;
       return true;
     }
     case Action::NextDebugView: {
       const int count = int(kDebugViewRows.size());
       o.output.debugView = DebugView((int(o.output.debugView) + control.argument + count) % count);
+      state.overview = false;
       return true;
     }
     case Action::ToggleTreeBoxes:

@@ -102,7 +102,14 @@ void drawStageNames(const ViewState& state, const ViewFacts& facts, const Window
     if (!row.cumulative) continue;
     const auto side = size_t(row.stage);
     const SidePlace place = placeOf(state, layout, side);
-    drawName(row.label + costText(facts.statistics[side]), {place.to, place.corner.y},
+    // Costs are left out first where a cell is narrow.
+    const std::array names{row.label + costText(facts.statistics[side]), std::string(row.label),
+                           std::string(row.name), std::to_string(side + 1)};
+    const auto fits = [&](const std::string& name) {
+      return ImGui::CalcTextSize(name.c_str()).x + 3 * layout.margin <= place.size.x;
+    };
+    const auto* name = std::ranges::find_if(names, fits);
+    drawName(name == names.end() ? names.back() : *name, {place.to, place.corner.y},
              side == state.shownSide(), layout);
   }
 }

@@ -221,7 +221,7 @@ void Window::takeState(const Delivery& news) {
   if (!facts_.error.empty() && !facts_.load.busy && state_.scene) {
     wanted_ = state_.scene->options;
     pasted_.reset();
-    history_.waits = false;
+    giveUp(history_, state_);
   }
   if (!facts_.error.empty() && !facts_.load.busy && !state_.scene) {
     forgetBrokenEnvironment();

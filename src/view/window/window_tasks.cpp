@@ -48,7 +48,7 @@ void Window::execute(const Task& task) {
         facts_.errorClosed = true;
         return;
       }
-      if (facts_.load.busy && state_.scene) return cancelLoad();
+      if (facts_.load.busy) return cancelLoad();
       if (facts_.pick) return executeOnScene({.errand = Errand::Deselect});
       if (state_.fullscreen) return toggleFullscreen();
       // The press that has come here counts, too.
@@ -96,6 +96,7 @@ void Window::executeOnScene(const Task& task) {
           !sameScene(wanted, state_.scene->options)) {
         load(wanted);
         history_.waits = true;
+        history_.step = 0;
       }
       return;
     case Errand::Load:
@@ -133,9 +134,11 @@ void Window::loadStep() {
 
 void Window::cancelLoad() {
   exchange_.cancelLoad();
+  facts_.load = {};
   pasted_.reset();
-  history_.waits = false;
+  giveUp(history_, state_);
   if (state_.scene) wanted_ = state_.scene->options;
+  if (!state_.scene) glfwSetWindowTitle(window_.get(), windowTitle({}).c_str());
 }
 
 /// Of the active side, with all that its picture on the screen depends on.
@@ -261,12 +264,14 @@ void Window::askForThumbnails() {
 
 /// It is side B from now on.
 void Window::takeReference(const TracedPicture& picture) {
+  record(history_, state_);
   state_.reference = picture.file;
   state_.split = true;
   state_.overview = false;
   state_.active = 0;
   if (state_.sides[1].scene.empty()) state_.sides[1] = state_.sides[0];
   newReference_ = true;
+  overlook(history_, state_);
 }
 
 /// Once the picture of the scene has its size.
