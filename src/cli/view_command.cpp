@@ -18,6 +18,7 @@
 #include "picture/denoising.h"
 #include "process/plugin.h"
 #include "process/thread_name.h"
+#include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/say.h"
 #include "view/window.h"
@@ -27,8 +28,8 @@ namespace fragtrace {
 namespace {
 
 constexpr const char* kLibraryName = "libfragtrace_window.so";
-/// How long the end of the program may wait for the driver, which cannot be interrupted while it compiles.
-// With the tracing thread, when the window is closed: it may decode or compile for long.
+/// How long the end of the program may wait for the tracing thread, which cannot be interrupted while the driver
+/// compiles and textures are decoded; and for files that are being written.
 constexpr std::chrono::milliseconds kPatience{400};
 constexpr std::chrono::seconds kPatienceForFiles{20};
 
@@ -80,14 +81,15 @@ int runView(const ViewOptions& asked) {
     if (!soon || (!failed && tracer.loading())) {
       // Nothing is being written; what is left the system ends sooner than we could.
       std::fflush(nullptr);
-      std::_Exit(0);
+      std::_Exit(interrupts() > 0 ? kInterruptedStatus : 0);
     }
     tracing.join();
   };
-  library.run({options.render, options.statusFile, options.reference, begin, end, cameraText, commandText,
-               withCommandText},
+  countOneInterrupt();
+  library.run({options.render, options.statusFile, options.reference, begin, end,
+               [] { return interrupts() > 0; }, cameraText, commandText, withCommandText},
               exchange);
-  return 0;
+  return interrupts() > 0 ? kInterruptedStatus : 0;
 }
 
 }  // namespace

@@ -26,10 +26,7 @@ std::vector<double> timesOf(const Scene& scene, const RenderOptions& options) {
   constexpr int kFewest = 8;
   constexpr int kMost = 48;
   const SequenceOptions& sequence = options.output.sequence;
-  const std::string& name = options.selection.animation;
-  const size_t index = name.empty() ? 0 : indexOfPart("--animation", name, scene.animationNames);
-  const std::optional<double> length =
-      index < scene.animationSeconds.size() ? scene.animationSeconds[index] : std::nullopt;
+  const std::optional<double> length = animationLength(scene, options.selection);
   const double first = length ? 0.0 : sequence.frames->first / sequence.fps;
   const double last = length.value_or(sequence.frames->last / sequence.fps);
   const int count = int(std::clamp(std::ceil((last - first) * kPerSecond), double(kFewest), double(kMost)));
@@ -39,6 +36,12 @@ std::vector<double> timesOf(const Scene& scene, const RenderOptions& options) {
 }
 
 }  // namespace
+
+std::optional<double> animationLength(const Scene& scene, const SceneSelection& selection) {
+  const std::string& name = selection.animation;
+  const size_t index = name.empty() ? 0 : indexOfPart("--animation", name, scene.animationNames);
+  return index < scene.animationSeconds.size() ? scene.animationSeconds[index] : std::nullopt;
+}
 
 CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_ptr<KeptDocument>& kept) {
   const CameraOverrides& asked = options.camera.overrides;

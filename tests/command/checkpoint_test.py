@@ -114,6 +114,10 @@ class Checkpoints(Broken):
         self.assertEqual(self.output.stat().st_mtime_ns, before.st_mtime_ns)
         self.fails(2, *self.arguments("--resolution", "16,16", "--spp", 3, "--resume", scene=BOX), says=["--resume", "--spp 2, not 3"])
         self.fails(3, *self.arguments(*options, scene=self.folder / "none.gltf"), says=["none.gltf"])
+        picture = self.folder / "x.png"
+        for spp, said in ((1, "the picture begins anew"), (2, "x.png is finished.*does not say with how many samples, and nothing is drawn")):
+            result = self.renders(BOX, "-o", picture, "--resolution", "16,16", "--spp", spp, "--resume")
+            self.assertRegex(result.stderr, said)
         # What a crash of others has left is no picture.
         self.output.write_bytes(b"")
         self.assertEqual(run(*self.arguments(*options, scene=BOX)).returncode, 0)

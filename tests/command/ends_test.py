@@ -7,6 +7,7 @@ import os
 import re
 import resource
 import shutil
+import signal
 import struct
 import subprocess
 from pathlib import Path
@@ -71,6 +72,19 @@ class AtTheEnd(Case):
             self.assertIn(text, said)
         self.assertGreater(sum(map(sum, sum(read_pfm(self.folder / "x-2.pfm"), []))), 0)
         self.assertEqual((self.folder / "x.pfm").stat().st_size, 16)
+
+    def test_a_folder_that_is_gone_is_said_once(self):
+        folder = self.folder / "gone"
+        folder.mkdir()
+        with subprocess.Popen([FRAGTRACE, "render", BOX, "-o", folder / "x.exr", "--resolution", "16,12", "--time", "9"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            self.assertIn("rendering", process.stderr.readline())
+            folder.rmdir()
+            process.send_signal(signal.SIGINT)
+            output, error = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, output), (1, ""))
+        self.assertEqual(error.count("No such file or directory"), 1, error)
+        self.assertIn("nor as .pfm", error)
 
     def test_layers_are_in_the_time_left(self):
         """Six layers of 64 samples take longer than what is left of two seconds."""

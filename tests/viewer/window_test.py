@@ -12,7 +12,7 @@ import threading
 import time
 from pathlib import Path
 
-from support import FRAGTRACE, SCENES, Case, main, pixels_of, wait_for
+from support import FRAGTRACE, SCENES, Case, Screen, Viewer, main, pixels_of, wait_for
 from xdnd import drop
 
 SIZE = ["--resolution", "320,240"]
@@ -78,6 +78,23 @@ class Ends(Case):
                                 env={**self.screen.environment, "LD_LIBRARY_PATH": str(self.folder)})
         self.assertEqual(result.returncode, 4, result.stderr)
         self.assertRegex(result.stderr, r"^fragtrace: no window: .*libGL\.so\.1: .*libgl1.*\n$")
+
+    def test_signals_and_the_end_of_the_display_are_told_in_one_line(self):
+        viewer = self.view("furnace", *FEW)
+        viewer.process.terminate()
+        self.assertEqual((viewer.end(), viewer.stderr().count("\n"), viewer.status()["state"]), (130, 1, "closed"))  # the light is said
+        screen = Screen()
+        for process in (screen.server, screen.manager):
+            self.addCleanup(process.wait)
+            self.addCleanup(process.kill)
+        self.addCleanup(screen.folder.cleanup)
+        viewer = Viewer(screen, self.folder, "furnace", *FEW)
+        screen.display.close()
+        screen.server.kill()
+        self.assertEqual(viewer.end(), 4)
+        self.assertEqual(viewer.stderr().splitlines()[1:], ["fragtrace: the display is gone"])
+        self.assertEqual((viewer.status()["state"], viewer.status()["error"]), ("failed", "the display is gone"))
+        viewer.errors.close()
 
     def test_profilers_tell_its_threads_apart(self):
         viewer = self.view("furnace", *FEW)

@@ -3,6 +3,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -13,11 +14,15 @@
 #include "advice.h"
 #include "gl/dynamic_library.h"
 #include "gl/gl.h"
+#include "process/report.h"
+#include "view/window/status.h"
 #include "view/window/wayland.h"
 
 namespace fragtrace {
 
 namespace {
+
+constexpr int kContextStatus = 4;  // of ContextError (cli/program.cpp)
 
 struct GlfwErrors {
   std::mutex mutex;
@@ -62,6 +67,25 @@ bool displayIsGone() {
 #else
   return false;
 #endif
+}
+
+void endWithDisplay(const std::filesystem::path& statusFile) {
+  static std::filesystem::path file;
+  file = statusFile;
+  using Handler = int (*)(void*);
+  Handler (*setHandler)(Handler) = nullptr;
+  static const DynamicLibrary library({"libX11.so.6"});
+  if (!library.loaded() || !library.find("XSetIOErrorHandler", setHandler)) return;
+  setHandler([](void*) {
+    try {
+      writeStatusFile(file, failureText(kDisplayIsGone));
+    } catch (const std::exception&) {
+      // There is nobody left to tell.
+    }
+    reportError(kDisplayIsGone);
+    _exit(kContextStatus);
+    return 0;
+  });
 }
 
 void CloseWindow::operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }

@@ -97,20 +97,37 @@ std::string costText(const SideStatistics& s) {
   return ", " + samplesText(s.samples) + time;
 }
 
+/// How much a label says of its stage: with its cost, or less of it where cells are narrow.
+std::string stageLabel(const StageRow& row, const SideStatistics& cost, int shortened) {
+  switch (shortened) {
+    case 0:
+      return row.label + costText(cost);
+    case 1:
+      return row.label;
+    case 2:
+      return row.name;
+    default:
+      return std::to_string(int(row.stage) + 1);
+  }
+}
+
 void drawStageNames(const ViewState& state, const ViewFacts& facts, const WindowLayout& layout) {
+  constexpr int kShortest = 3;
+  const auto labelOf = [&](const StageRow& row, int shortened) {
+    return stageLabel(row, facts.statistics[size_t(row.stage)], shortened);
+  };
+  const float room = placeOf(state, layout, 0).size.x - 3 * layout.margin;
+  const auto allFit = [&](int shortened) {
+    return std::ranges::all_of(stageRows(), [&](const StageRow& row) {
+      return !row.cumulative || ImGui::CalcTextSize(labelOf(row, shortened).c_str()).x <= room;
+    });
+  };
+  int shortened = 0;
+  while (shortened < kShortest && !allFit(shortened)) ++shortened;
   for (const StageRow& row : stageRows()) {
     if (!row.cumulative) continue;
-    const auto side = size_t(row.stage);
-    const SidePlace place = placeOf(state, layout, side);
-    // Costs are left out first where a cell is narrow.
-    const std::array names{row.label + costText(facts.statistics[side]), std::string(row.label),
-                           std::string(row.name), std::to_string(side + 1)};
-    const auto fits = [&](const std::string& name) {
-      return ImGui::CalcTextSize(name.c_str()).x + 3 * layout.margin <= place.size.x;
-    };
-    const auto* name = std::ranges::find_if(names, fits);
-    drawName(name == names.end() ? names.back() : *name, {place.to, place.corner.y},
-             side == state.shownSide(), layout);
+    const SidePlace place = placeOf(state, layout, size_t(row.stage));
+    drawName(labelOf(row, shortened), {place.to, place.corner.y}, size_t(row.stage) == state.shownSide(), layout);
   }
 }
 

@@ -117,7 +117,7 @@ void Window::open() {
 }
 
 void Window::run() {
-  while (!glfwWindowShouldClose(window_.get())) {
+  while (!glfwWindowShouldClose(window_.get()) && !start_.interrupted()) {
     wait();
     const double begin = glfwGetTime();
     take();
