@@ -23,6 +23,7 @@ void addViewOptions(CLI::App& app, RawView& raw) {
   addOption(app, "file", raw.render, "scene: a .gltf or .glb file; without one, the window waits for a file");
   addOptions(app, OptionGroup::Tracing, raw.render);
   addOptions(app, OptionGroup::Filter, raw.render);
+  app.remove_option(app.get_option("--stats"));  // there is no end that they could be of
   const auto describe = [&](const char* name, const char* text) { app.get_option(name)->description(text); };
   describe("--spp", "samples per pixel after which rendering stops; by default without limit");
   describe("--noise",

@@ -95,6 +95,14 @@ class AtTheEnd(Case):
             process.kill()
         self.assertGreater(60 * int(said[1]) + int(said[2]), 2)
 
+    def test_what_filters_read_is_in_the_time_left_with_its_few_samples(self):
+        stats = self.folder / "s.json"
+        said = self.renders(BOX, "-o", self.folder / "x.exr", "--resolution", "400,300", "--time", "1", "--denoise", "variance", "--progress", "json",
+                            "--stats", stats).stderr
+        events = [event for event in map(json.loads, said.splitlines()) if event.get("phase") == "rendering" and event["fraction"] < 1]
+        taken = json.loads(stats.read_text())["feature_ms"] / 1000
+        self.assertLess(events[-1]["seconds_left"] - (1 - events[-1]["fraction"]), 0.5 + 6 * taken)
+
 
 class StandardStreams(Case):
     def test_closed_ones_take_nothing_from_the_picture(self):

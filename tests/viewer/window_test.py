@@ -54,8 +54,9 @@ class Ends(Case):
         self.addCleanup(viewing.wait)
         self.addCleanup(viewing.kill)
         wait_for(lambda: "info: " in json.loads(status.read_text())["error"], 60, "the file is viewed")
-        for word, says in (("info", "file is required"), ("nothing", "'nothing' is no command of fragtrace, and no file: render")):
-            result = subprocess.run([FRAGTRACE, word], capture_output=True, text=True, cwd=self.folder, env=self.screen.environment, timeout=60)
+        for words, says in ((["info"], "file is required"), (["nothing"], "'nothing' is no command of fragtrace, and no file: render"),
+                            (["view", SCENES / "furnace.gltf", "--stats", "s.json"], "--stats is no option of view")):
+            result = subprocess.run([FRAGTRACE, *words], capture_output=True, text=True, cwd=self.folder, env=self.screen.environment, timeout=60)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(says, result.stderr)
 
