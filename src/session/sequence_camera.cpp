@@ -8,6 +8,9 @@
 #include "scene/first_view.h"
 #include "scene/fit.h"
 #include "scene/parts.h"
+#include "session/caught_light.h"
+#include "session/environment.h"
+#include "session/say.h"
 #include "session/setup.h"
 
 namespace fragtrace {
@@ -52,13 +55,25 @@ CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_pt
   const Scene first = loadGltf(posed.scene, gltfOptionsOf(posed), &kept);
   if (first.animationNames.empty() || (!first.cameras.empty() && !placed)) return asked;
   const CameraOverrides overrides = settledOverrides(asked, first);
+  const bool shadow = fitsShadow(options, overrides);
+  Environment environment;
+  if (shadow) {
+    std::vector<std::string> repeated;
+    const SaidHere silence(repeated);  // it is said with the first picture
+    std::future<LinearImage> map;
+    if (!options.light.hdriFile.empty()) map = std::async(std::launch::deferred, [&] { return readMap(options); });
+    environment = makeEnvironment(options, map, lightOf(options, first), repeated);
+  }
   Filled filled;
   for (const double time : timesOf(first, options)) {
     posed.selection.animationTime = time;
     const Scene scene = loadGltf(posed.scene, gltfOptionsOf(posed), &kept);
     if (scene.bounds.empty()) continue;
     filled.bounds.include(scene.bounds);
-    if (overrides.fit) std::ranges::copy(farthest(outlineOf(scene)), std::back_inserter(filled.points));
+    if (!overrides.fit) continue;
+    std::vector<glm::dvec3> points = outlineOf(scene);
+    if (shadow) addShadow(points, scene, environment, options);
+    std::ranges::copy(farthest(std::move(points)), std::back_inserter(filled.points));
   }
   Camera camera = chooseCamera(first.cameras,
                                cameraIndexOf(options.camera.index, options.selection.camera, first.cameras),

@@ -70,6 +70,10 @@ double catcherHeightOf(const RenderOptions& options, const BoundsDouble& bounds)
 Camera fitCamera(const Camera& camera, std::span<const glm::dvec3> points, const CameraOverrides& overrides,
                  glm::ivec2 size);
 
+/// Adds to the outline of the scene that of its shadow on the catcher.
+void addShadow(std::vector<glm::dvec3>& points, const Scene& scene, const Environment& environment,
+               const RenderOptions& options);
+
 /// Camera paths that the picture takes; infinite where time or noise ends it.
 double pathsOf(const RenderOptions& options, glm::ivec2 size);
 
