@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 #include <span>
 
@@ -229,8 +230,12 @@ Drawing drawEvenly(const PartRun& part, Film film) {
     sampled.film.load(state);
     sampled.looks = part.from->looks;
     const int spp = part.job.options.sampling.spp;
-    sampled.fewest = int(std::min<uint32_t>(totalsOf(sampled.film.read()).fewestSamples, uint32_t(spp)));
-    say(part.job.options, "--resume: goes on after " + std::to_string(sampled.fewest) + " of " +
+    const FilmTotals totals = totalsOf(sampled.film.read());
+    sampled.fewest = int(std::min<uint32_t>(totals.fewestSamples, uint32_t(spp)));
+    // Each pixel goes on from its own.
+    char mean[32];
+    std::snprintf(mean, sizeof mean, "%.4g", double(totals.samples) / areaOf(sampled.film.size()));
+    say(part.job.options, "--resume: goes on after " + std::string(mean) + " of " +
                               countText(size_t(spp), "sample") + " per pixel" + placeOfPart(part.share));
   }
   const auto keep = [&] { part.keep({sampled.film.save()}, sampled.looks, {}); };
