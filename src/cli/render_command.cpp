@@ -176,9 +176,10 @@ void warnBeyondEnd(const RenderOptions& options, const SequenceOptions& sequence
   const int last = rangeOf(sequence).last;
   if (!length || last <= std::ceil(*length * sequence.fps)) return;
   char text[128];
-  std::snprintf(text, sizeof text,
-                "warning: --frames: the animation ends after %.4g s, at picture %d; those after it show its end",
-                *length, int(std::ceil(*length * sequence.fps)));
+  std::snprintf(
+      text, sizeof text,
+      "warning: --frames: the animation ends after %.4g s, at picture %d; those after it show its end",
+      *length, int(std::ceil(*length * sequence.fps)));
   say(options, text);
 }
 

@@ -188,10 +188,7 @@ void ViewTracer::adoptScene() {
   loaded_ = std::move(result->scene);
   document_ = std::move(result->document);
   loadedOptions_ = result->options;
-  loaded_->decoding = [this](size_t decoded, size_t count) {
-    exchange_.tellNote("compiling, " + std::to_string(decoded) + " of " + std::to_string(count) +
-                       " textures decoded");
-  };
+  loaded_->decoding = [this](size_t decoded, size_t count) { tellDecoded(decoded, count); };
   makePrograms();
   loadError_.clear();
   exchange_.tellError({});

@@ -128,6 +128,7 @@ class ViewTracer {
   void tellDriver();
   /// What keeps the thread from drawing, and what is shown meanwhile.
   void tellWork(const std::string& what);
+  void tellDecoded(size_t decoded, size_t count);
 
   ViewOptions start_;
   Exchange& exchange_;

@@ -16,8 +16,8 @@ namespace fragtrace {
 /// The map of the options' file. Throws InputError.
 LinearImage readMap(const RenderOptions& options);
 
-/// The surroundings of a scene with such a light of its own; `map` is what readMap() gives, or invalid without
-/// a file. Says warnings, and adds them to `warnings`. Throws InputError.
+/// The surroundings of a scene with such a light of its own; `map` is what readMap() gives, or invalid
+/// without a file. Says warnings, and adds them to `warnings`. Throws InputError.
 Environment makeEnvironment(const RenderOptions& options, std::future<LinearImage>& map, OwnLight light,
                             std::vector<std::string>& warnings);
 

@@ -61,7 +61,8 @@ CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_pt
     std::vector<std::string> repeated;
     const SaidHere silence(repeated);  // it is said with the first picture
     std::future<LinearImage> map;
-    if (!options.light.hdriFile.empty()) map = std::async(std::launch::deferred, [&] { return readMap(options); });
+    if (!options.light.hdriFile.empty())
+      map = std::async(std::launch::deferred, [&] { return readMap(options); });
     environment = makeEnvironment(options, map, lightOf(options, first), repeated);
   }
   Filled filled;

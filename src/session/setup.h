@@ -30,8 +30,8 @@ struct LoadedScene {
   DecodeProgress decoding{};  ///< told when the textures are, which is later
 };
 
-/// Called with what is done, before each step and within those that may be long, and the part of the work that
-/// is behind, 0..1; what it throws ends loading.
+/// Called with what is done, before each step and within those that may be long, and the part of the work
+/// that is behind, 0..1; what it throws ends loading.
 using LoadProgress = GltfProgress;
 
 /// Whether one film is to hold all of a picture, or only a part at a time (picture/picture_parts.h).

@@ -31,7 +31,7 @@ struct History {
   std::deque<Settings> future;
   std::optional<Settings> now;
   bool waits =
-      false;  ///< for a scene that belongs to the latest step; until it is loaded, nothing is recorded
+      false;     ///< for a scene that belongs to the latest step; until it is loaded, nothing is recorded
   int step = 0;  ///< that the scene belongs to: -1 of undo(), 1 of redo(), 0 of neither
 };
 

@@ -154,7 +154,10 @@ TEST(GltfFiles, WhatIsNotGltfIsRefusedBeforeItIsRead) {
   std::string json("    JSON" + far);
   const auto size = uint32_t(far.size());
   std::memcpy(json.data(), &size, sizeof size);
-  EXPECT_EQ(refusal(header + json + std::string("\xf0\xff\xff\xff" "BIN\0", 8)),
+  EXPECT_EQ(refusal(header + json +
+                    std::string("\xf0\xff\xff\xff"
+                                "BIN\0",
+                                8)),
             "large.glb: broken .glb: chunk 1 of 4294967280 bytes reaches past the end of the file");
 }
 
@@ -174,7 +177,8 @@ TEST(GltfFiles, LoadingTellsHowFarItIsAndEndsWhenToldSo) {
     steps.push_back(step);
   };
   loadGltf(path, options);
-  for (const char* step : {"reading the scene, 16 of 40 MB", "reading the scene, 40 of 40 MB", "building the meshes"})
+  for (const char* step :
+       {"reading the scene, 16 of 40 MB", "reading the scene, 40 of 40 MB", "building the meshes"})
     EXPECT_NE(std::ranges::find(steps, step), steps.end()) << step;
 
   struct Enough {};

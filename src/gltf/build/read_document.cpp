@@ -100,10 +100,10 @@ Buffers readBuffers(json& root, Container& container, Worker& codecs, Document& 
       const auto& uri = buffer["uri"].get_ref<const std::string&>();
       const double step = (kBuffersPart - kContainerPart) / double(described.size());
       const double from = kContainerPart + double(i) * step;
-      document.access.progress = tellReading(
-          document.progress,
-          "reading buffer " + std::to_string(i + 1) + " of " + std::to_string(described.size()), from,
-          from + step);
+      document.access.progress =
+          tellReading(document.progress,
+                      "reading buffer " + std::to_string(i + 1) + " of " + std::to_string(described.size()),
+                      from, from + step);
       warnMediaType(uri, place, {"application/octet-stream", "application/gltf-buffer"}, diagnostics);
       bytes =
           diagnostics.attempt(place, [&] { return readUri(document.access, uri, document.memory.left()); });
@@ -320,8 +320,9 @@ KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& 
   document.access = {path.parent_path(), options.limits.allowExternalFiles};
   document.progress = options.progress;
   Diagnostics& diagnostics = document.diagnostics;
-  Container container = readContainer(path, options.limits.memoryBytes, diagnostics,
-                                      tellReading(options.progress, "reading the scene", 0.0, kContainerPart));
+  Container container =
+      readContainer(path, options.limits.memoryBytes, diagnostics,
+                    tellReading(options.progress, "reading the scene", 0.0, kContainerPart));
   takeMemory(document, "", container.binary.size());
   json root = parseJson(container.json, document.memory, diagnostics);
   container.json = std::string();

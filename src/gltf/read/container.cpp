@@ -66,7 +66,8 @@ void checkChunks(const std::filesystem::path& path, uint64_t length, const Diagn
     std::array<char, kChunkHeaderSize> header{};
     if (!file.seekg(std::streamoff(offset)) || !file.read(header.data(), header.size())) return;
     offset += kChunkHeaderSize;
-    const uint64_t size = readLittleEndian({reinterpret_cast<const uint8_t*>(header.data()), header.size()}, 0);
+    const uint64_t size =
+        readLittleEndian({reinterpret_cast<const uint8_t*>(header.data()), header.size()}, 0);
     if (size > length - offset) refuseChunk(chunk, size, diagnostics);
     offset += size;
   }

@@ -21,7 +21,8 @@ using BeginningCheck = std::function<uint64_t(std::span<const uint8_t> first, ui
 using ReadProgress = std::function<void(uint64_t read, uint64_t size)>;
 
 /// All bytes of an open regular file or pipe, which is closed. Throws std::runtime_error with the bare reason
-/// when it is something else, has more than `limit` bytes, or cannot be read; and as `check` and `progress` do.
+/// when it is something else, has more than `limit` bytes, or cannot be read; and as `check` and `progress`
+/// do.
 std::vector<uint8_t> readOpenFile(int file, uint64_t limit, const BeginningCheck& check = {},
                                   const ReadProgress& progress = {});
 

@@ -30,8 +30,8 @@ using WindowHandle = std::unique_ptr<GLFWwindow, CloseWindow>;
 bool displayIsGone();
 inline constexpr const char* kDisplayIsGone = "the display is gone";
 
-/// From then on, when an X server ends, the program says so, also in the status file, and ends with the status of
-/// ContextError: Xlib knows no other end.
+/// From then on, when an X server ends, the program says so, also in the status file, and ends with the
+/// status of ContextError: Xlib knows no other end.
 void endWithDisplay(const std::filesystem::path& statusFile);
 
 /// Throws std::runtime_error.

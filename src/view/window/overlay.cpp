@@ -127,7 +127,8 @@ void drawStageNames(const ViewState& state, const ViewFacts& facts, const Window
   for (const StageRow& row : stageRows()) {
     if (!row.cumulative) continue;
     const SidePlace place = placeOf(state, layout, size_t(row.stage));
-    drawName(labelOf(row, shortened), {place.to, place.corner.y}, size_t(row.stage) == state.shownSide(), layout);
+    drawName(labelOf(row, shortened), {place.to, place.corner.y}, size_t(row.stage) == state.shownSide(),
+             layout);
   }
 }
 
