@@ -73,8 +73,9 @@ bool redo(History& history, ViewState& state) {
 }
 
 void giveUp(History& history, ViewState& state) {
+  if (!std::exchange(history.waits, false)) return;
   const int undone = std::exchange(history.step, 0);
-  if (!std::exchange(history.waits, false) || undone == 0) return;
+  if (undone == 0) return;
   std::deque<Settings>& from = undone < 0 ? history.future : history.past;
   std::deque<Settings>& to = undone < 0 ? history.past : history.future;
   to.push_back(std::exchange(*history.now, from.back()));
