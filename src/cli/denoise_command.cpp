@@ -41,8 +41,8 @@ int runDenoise(const DenoiseOptions& asked) {
   result.placement = drawn.placement;
   writePicture(options, writable(result, options.output.file), {});
   if (!options.output.quiet && !standardOutputIsClosed()) {
-    std::printf("%s: %d x %d, %s in %.2f s\n", options.output.file.string().c_str(), result.width,
-                result.height, stats.filter.c_str(), (stats.filterMs + stats.compileMs) / 1000.0);
+    std::printf("%s: %d x %d, %s\n", options.output.file.string().c_str(), result.width, result.height,
+                filterText(stats).c_str());
   }
   return 0;
 }

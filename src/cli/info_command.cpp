@@ -25,6 +25,7 @@ struct InfoOptions {
   RenderOptions render;  ///< of it the file, and how it is read
   bool json = false;
   bool nodes = false;
+  bool decode = false;
 };
 
 /// What a scene takes on the device by default, textures and lights left out.
@@ -171,6 +172,9 @@ int inform(const InfoOptions& options) {
   loading.instancing = options.render.device.instancing;
   loading.limits = options.render.limits;
   const Scene scene = loadGltf(options.render.scene, loading);
+  if (options.decode) {
+    for (const EncodedImage& image : scene.images) decodeTexels(image.bytes, nameOf(image));
+  }
   const SceneDescription description = describe(scene);
   const Bvh tree = buildSceneBvh(scene);
   const BvhQuality bvh = bvhQuality(tree);
@@ -228,14 +232,16 @@ RunCommand addInfo(CLI::App& app) {
     RawRender render;
     bool json = false;
     bool nodes = false;
+    bool decode = false;
   };
   const auto raw = std::make_shared<Raw>();
   addOption(app, "file", raw->render)->required();
   app.add_flag("--json", raw->json, "print one JSON object");
   app.add_flag("--nodes", raw->nodes, "also list the nodes of the scene");
+  app.add_flag("--decode", raw->decode, "also decode the textures, so that a broken one is an error");
   for (const OptionRow& row : inputRows()) row.add(app, row, raw->render);
   addOption(app, "--instancing", raw->render);
-  return [raw] { return runInfo({raw->render.options, raw->json, raw->nodes}); };
+  return [raw] { return runInfo({raw->render.options, raw->json, raw->nodes, raw->decode}); };
 }
 
 }  // namespace fragtrace

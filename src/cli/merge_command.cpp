@@ -34,16 +34,18 @@ int runMerge(const MergeOptions& options) {
   for (const std::filesystem::path& path : options.parts) parts.push_back(readPart(path));
   const Part joined = joinedParts(std::move(parts));
   Image result = joined.image;
+  std::string filtered;
   if (filter.output.denoise != Denoise::None) {
     DenoiseStatistics stats;
     result = denoisedFile(result, options.parts.front(), filter, oidn, stats);
     result.placement = joined.image.placement;
+    filtered = ", " + filterText(stats);
   }
   filter.output.file = options.output;
   sayClamped(filter, writeImage(options.output, result, filter.output.encoding));
   if (!filter.output.quiet && !standardOutputIsClosed())
-    std::printf("%s: %s\n", options.output.string().c_str(),
-                describeParts(options.parts.size(), joined).c_str());
+    std::printf("%s: %s%s\n", options.output.string().c_str(),
+                describeParts(options.parts.size(), joined).c_str(), filtered.c_str());
   return 0;
 }
 

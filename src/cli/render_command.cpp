@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -169,6 +170,19 @@ bool keepsTree(const RenderOptions& options, const Scene& scene) {
          scene.triangles.size() >= kLeastTriangles;
 }
 
+/// Pictures after the end of an animation are all the same.
+void warnBeyondEnd(const RenderOptions& options, const SequenceOptions& sequence, const Scene& scene) {
+  const std::optional<double> length = animationLength(scene, options.selection);
+  const int last = rangeOf(sequence).last;
+  if (!length || last <= std::ceil(*length * sequence.fps)) return;
+  char text[128];
+  std::snprintf(
+      text, sizeof text,
+      "warning: --frames: the animation ends after %.4g s, at picture %d; those after it show its end",
+      *length, int(std::ceil(*length * sequence.fps)));
+  say(options, text);
+}
+
 /// The scene as the picture shows it, on the device. A turntable loads it once; else the environment stays.
 Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOptions& sequence) {
   const RenderOptions& options = frame.options;
@@ -195,6 +209,7 @@ Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const Sequ
   if (first) {
     if (!turntable && run.loaded->scene.animationNames.empty())
       throw UsageError("--frames: " + options.scene.string() + " has no animation");
+    if (!turntable) warnBeyondEnd(options, sequence, run.loaded->scene);
     openContext(options, frameCount(sequence) * pathsOf(options, run.loaded->region.size), run.device, stats);
     run.tracer = makeTracer(*run.device.context, *run.loaded, drawn, stats);
     run.prepared = stats;

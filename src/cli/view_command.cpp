@@ -18,6 +18,7 @@
 #include "picture/denoising.h"
 #include "process/plugin.h"
 #include "process/thread_name.h"
+#include "session/interrupt.h"
 #include "session/outputs.h"
 #include "session/say.h"
 #include "view/window.h"
@@ -27,8 +28,10 @@ namespace fragtrace {
 namespace {
 
 constexpr const char* kLibraryName = "libfragtrace_window.so";
-/// How long the end of the program may wait for the driver, which cannot be interrupted while it compiles.
-constexpr std::chrono::seconds kPatience{1};
+/// How long the end of the program may wait for the tracing thread, which cannot be interrupted while the
+/// driver compiles and textures are decoded; and for files that are being written.
+constexpr std::chrono::milliseconds kPatience{400};
+constexpr std::chrono::seconds kPatienceForFiles{20};
 
 const WindowLibrary& windowLibrary() {
   const Plugin plugin = openPlugin(kLibraryName, kWindowLibraryEntry);
@@ -72,18 +75,21 @@ int runView(const ViewOptions& asked) {
     exchange.quit();
     if (!tracing.joinable()) return;
     const bool failed = std::uncaught_exceptions() > 0;
-    const bool soon = failed || ended.get_future().wait_for(kPatience) == std::future_status::ready;
+    std::future<void> end = ended.get_future();
+    const auto endsWithin = [&](auto time) { return end.wait_for(time) == std::future_status::ready; };
+    const bool soon = failed || endsWithin(kPatience) || (tracer.saving() && endsWithin(kPatienceForFiles));
     if (!soon || (!failed && tracer.loading())) {
       // Nothing is being written; what is left the system ends sooner than we could.
       std::fflush(nullptr);
-      std::_Exit(0);
+      std::_Exit(interrupts() > 0 ? kInterruptedStatus : 0);
     }
     tracing.join();
   };
-  library.run({options.render, options.statusFile, options.reference, begin, end, cameraText, commandText,
-               withCommandText},
+  countOneInterrupt();
+  library.run({options.render, options.statusFile, options.reference, begin, end,
+               [] { return interrupts() > 0; }, cameraText, commandText, withCommandText},
               exchange);
-  return 0;
+  return interrupts() > 0 ? kInterruptedStatus : 0;
 }
 
 }  // namespace

@@ -2,14 +2,19 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "image/limits.h"
 #include "scene/scene.h"
 #include "scene/selection.h"
 
 namespace fragtrace {
+
+/// Called with what is done and the part of the work that is behind, 0..1; what it throws ends loading.
+using GltfProgress = std::function<void(const std::string& step, double part)>;
 
 struct GltfOptions {
   std::optional<glm::dvec3> recenterOn{};      ///< world position that becomes the local origin
@@ -18,6 +23,7 @@ struct GltfOptions {
   SceneSelection selection{};
   Instancing instancing = Instancing::Flatten;
   InputLimits limits{};
+  GltfProgress progress{};
 };
 
 /// An animated file as it was read, for further poses: its bytes are not read again.

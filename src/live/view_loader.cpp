@@ -33,7 +33,8 @@ void SceneLoader::start(const RenderOptions& options) {
     nameThread("load");
     LoadResult result;
     result.options = options;
-    const auto progress = [&](const char* step, double fraction) {
+    const auto progress = [&](const std::string& step, double fraction) {
+      const std::lock_guard lock(job->mutex);
       if (job->cancelled) throw Cancelled();
       exchange.tellLoad({true, options.scene.filename().string(), step, fraction});
     };
@@ -69,7 +70,11 @@ void SceneLoader::start(const RenderOptions& options) {
 }
 
 void SceneLoader::cancel() {
-  if (job_) job_->cancelled = true;
+  if (job_) {
+    // From here on it tells nothing more.
+    const std::lock_guard lock(job_->mutex);
+    job_->cancelled = true;
+  }
   job_.reset();
 }
 

@@ -110,6 +110,12 @@ void ViewTracer::tellWork(const std::string& what) {
   }
 }
 
+/// From any thread.
+void ViewTracer::tellDecoded(size_t decoded, size_t count) {
+  exchange_.tellNote("compiling, " + std::to_string(decoded) + " of " + std::to_string(count) +
+                     " textures decoded");
+}
+
 std::shared_ptr<ViewProgram> ViewTracer::programFor(const RenderOptions& options, bool aside) {
   if (!programs_->has(options)) tellWork("compiling");
   std::shared_ptr<ViewProgram> program = aside ? programs_->soon(options) : programs_->of(options);
@@ -117,7 +123,7 @@ std::shared_ptr<ViewProgram> ViewTracer::programFor(const RenderOptions& options
   for (const std::string& message : std::exchange(program->driverLog, {}))
     exchange_.tell("driver: " + message);
   exchange_.tellNote({});
-  exchange_.tellError(program->error);
+  exchange_.tellError(program->error.empty() ? loadError_ : program->error);
   // It says the same again.
   if (!program->error.empty()) driverLog_->take();
   return program;

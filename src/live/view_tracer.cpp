@@ -150,7 +150,10 @@ void ViewTracer::obey(Orders orders) {
     loader_.cancel();
     exchange_.tellLoad({});
   }
-  if (orders.load) loader_.start(*orders.load);
+  if (orders.load) {
+    loadError_.clear();
+    loader_.start(*orders.load);
+  }
   if (orders.request && loaded_) adopt(*orders.request);
   if (!orders.thumbnails.empty()) thumbnails_.make(orders.thumbnails, start_.render.limits.memoryBytes);
   if (orders.reference) takeReference(*orders.reference);
@@ -164,7 +167,8 @@ void ViewTracer::adoptScene() {
   exchange_.tellLoad({});
   if (result->error) {
     if (!loaded_) endIfHopeless(result->error, result->options.scene);
-    exchange_.tellError(whatFailed(result->error));
+    loadError_ = whatFailed(result->error);
+    exchange_.tellError(loadError_);
     return;
   }
   sides_.clear();
@@ -177,7 +181,9 @@ void ViewTracer::adoptScene() {
   loaded_ = std::move(result->scene);
   document_ = std::move(result->document);
   loadedOptions_ = result->options;
+  loaded_->decoding = [this](size_t decoded, size_t count) { tellDecoded(decoded, count); };
   makePrograms();
+  loadError_.clear();
   exchange_.tellError({});
   ViewedScene viewed;
   viewed.options = loadedOptions_;

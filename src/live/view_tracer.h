@@ -2,6 +2,7 @@
 // The viewer's tracing thread: a context and renderers of its own, wishes in, finished pictures out.
 #pragma once
 
+#include <atomic>
 #include <memory>
 
 #include "bvh/silhouette.h"
@@ -41,6 +42,8 @@ class ViewTracer {
   /// the device.
   void run(const SharedContexts& shared);
 
+  /// Whether a file is being written.
+  bool saving() const { return saving_; }
   /// Whether a thread still loads what nobody waits for any more.
   bool loading() const { return loader_.busy() || thumbnails_.busy(); }
 
@@ -133,6 +136,7 @@ class ViewTracer {
   void tellDriver();
   /// What keeps the thread from drawing, and what is shown meanwhile.
   void tellWork(const std::string& what);
+  void tellDecoded(size_t decoded, size_t count);
 
   ViewOptions start_;
   Exchange& exchange_;
@@ -161,6 +165,8 @@ class ViewTracer {
   std::array<std::array<ShownTexture, kSlots>, kMostSides>
       shown_;  ///< of the sides; without sharing the first
   ResolutionController resolution_;
+  std::atomic<bool> saving_ = false;
+  std::string loadError_;  ///< why the latest load failed; empty: it did not
   std::vector<SaveRequest> saves_;
   std::optional<Image> reference_;  ///< that the window shows as side B
   int losses_ = 0;                  ///< of the context since the latest publication

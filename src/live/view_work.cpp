@@ -109,8 +109,10 @@ bool ViewTracer::work() {
   // A film that has just become this large holds nothing yet.
   const bool whole = std::ranges::all_of(sides_, [](const Side& s) { return !s.program || s.samples > 0; });
   if (still && whole && !awaitsProgram() && !programs_->compiling()) {
+    saving_ = !saves_.empty();
     for (const SaveRequest& request : saves_) save(request);
     saves_.clear();
+    saving_ = false;
   }
   // Step: the side that has the fewest samples; while something moves, all of them.
   std::vector<Side*> next;

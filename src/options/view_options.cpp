@@ -20,10 +20,10 @@ constexpr int kMostWindowPixels = 16384;
 void addViewOptions(CLI::App& app, RawView& raw) {
   RenderOptions& shown = raw.render.options;
   shown.output.denoise = Denoise::Variance;
-  addOption(app, "file", raw.render,
-            "scene: a .gltf or .glb file; without one, the window waits for a file to be dropped on it");
+  addOption(app, "file", raw.render, "scene: a .gltf or .glb file; without one, the window waits for a file");
   addOptions(app, OptionGroup::Tracing, raw.render);
   addOptions(app, OptionGroup::Filter, raw.render);
+  app.remove_option(app.get_option("--stats"));  // there is no end that they could be of
   const auto describe = [&](const char* name, const char* text) { app.get_option(name)->description(text); };
   describe("--spp", "samples per pixel after which rendering stops; by default without limit");
   describe("--noise",

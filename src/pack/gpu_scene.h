@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "bvh/bvh.h"
@@ -64,12 +65,15 @@ struct GpuScene {
 
 struct KeptArrays;
 
+/// Told how many of how many pictures of the scene have been decoded. From any thread.
+using DecodeProgress = std::function<void(size_t decoded, size_t count)>;
+
 /// Packs the arrays that the variant reads. Textures wider or higher than `textureSide` are scaled down. The
 /// tree may be a plain list of leaves without nodes (iterative traversal). Throws InputError when a texture
 /// cannot be decoded. With `kept`, pictures that it holds are not packed again (GpuScene::unchanged), and it
 /// learns of those that are.
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
                    const ShaderVariant& variant, int textureSide = kLargestTextureSide,
-                   KeptArrays* kept = nullptr);
+                   KeptArrays* kept = nullptr, const DecodeProgress& progress = {});
 
 }  // namespace fragtrace

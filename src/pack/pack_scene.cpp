@@ -273,7 +273,8 @@ std::vector<std::pair<std::string, size_t>> imagesOf(const Scene& scene) {
 }  // namespace
 
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
-                   const ShaderVariant& variant, int textureSide, KeptArrays* kept) {
+                   const ShaderVariant& variant, int textureSide, KeptArrays* kept,
+                   const DecodeProgress& progress) {
   using namespace layout;
   GpuScene packed;
   const TraitSet& traits = variant.traits;
@@ -288,7 +289,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
 
   // Step: lights; the environment shares light samples with the rest by power.
   if (kept != nullptr && kept->images != imagesOf(scene)) *kept = {imagesOf(scene), {}, kept->environment};
-  TexturePacker textures(scene, textureSide, kept != nullptr ? kept->textures : PlacedTextures());
+  TexturePacker textures(scene, textureSide, kept != nullptr ? kept->textures : PlacedTextures(), progress);
   const std::vector<glm::vec3> radiance = meanRadiance(scene, traits, textures);
   std::vector<uint32_t> slots;
   if (has(traits, Trait::EmissiveTriangles)) slots = leafSlots(scene, bvh);
@@ -334,7 +335,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
     if (!textures.allKnown()) {  // one that no picture before has shown: all of them are placed anew
       kept->textures.clear();
       if (!packed.unchanged[kEnvironmentBinding]) kept->environment.reset();
-      return packScene(scene, bvh, environment, variant, textureSide, kept);
+      return packScene(scene, bvh, environment, variant, textureSide, kept, progress);
     }
     packed.unchanged[kTexelsBinding] = true;
     return packed;

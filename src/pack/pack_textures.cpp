@@ -78,6 +78,8 @@ const PlacedTexels& TexturePacker::place(uint32_t image, TransferCurve curve) {
   const size_t count = size_t(placed.width) * size_t(placed.height);
   if (texels_.empty()) texels_.reserve(size_t(bytesWithin(scene_, side_)) / sizeof(uint32_t));
   const glm::dvec4 sum = size == stored ? append(texels, curve) : appendScaled(texels, curve, size);
+  ++decoded_;
+  if (progress_) progress_(std::min(decoded_, scene_.images.size()), scene_.images.size());
   placed.mean = glm::vec4(sum / double(std::max<size_t>(count, 1)));
   return placed;
 }

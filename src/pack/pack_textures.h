@@ -16,8 +16,12 @@ class TexturePacker {
  public:
   /// Pictures wider or higher than `side` are scaled down to it. The array already holds `known`, of a scene
   /// with the same images; as long as no other picture is asked for, nothing is decoded.
-  TexturePacker(const Scene& scene, int side, PlacedTextures known = {})
-      : scene_(scene), side_(side), placed_(std::move(known)), known_(placed_.size()) {}
+  TexturePacker(const Scene& scene, int side, PlacedTextures known = {}, DecodeProgress progress = {})
+      : scene_(scene),
+        side_(side),
+        placed_(std::move(known)),
+        known_(placed_.size()),
+        progress_(std::move(progress)) {}
 
   /// The slot row (shaders/layout.glsl) of a use of a texture; all zero for none.
   glm::uvec4 slot(const TextureRef& ref, TransferCurve curve);
@@ -44,6 +48,8 @@ class TexturePacker {
   int side_;
   PlacedTextures placed_;
   size_t known_;
+  DecodeProgress progress_;
+  size_t decoded_ = 0;
   uint32_t transformRow(const TextureTransform& transform);
 
   std::vector<TextureTransform> transforms_;

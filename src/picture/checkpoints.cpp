@@ -84,17 +84,21 @@ void checkShape(const Checkpoint& c, const PictureJob& job, const DrawingPlan& p
   check(first || glm::ivec2(c.picture.width, c.picture.height) == job.loaded.region.size);
 }
 
-/// Returns true if the render asked for differs from the checkpoint's only by more samples: then it continues
-/// to these. Films read on the way for filters, and finished parts, have the samples that were asked for
-/// before.
-bool growsTo(const Checkpoint& checkpoint, const std::string& asked) {
+/// Returns true if the render asked for differs from the checkpoint's only by more samples.
+bool hasMoreSamples(const Checkpoint& checkpoint, const std::string& asked) {
   auto there = nlohmann::json::parse(checkpoint.job, nullptr, false);
   auto wanted = nlohmann::json::parse(asked, nullptr, false);
   if (!there.is_object() || !wanted.is_object() || !there["spp"].is_number_integer()) return false;
   const bool more = wanted["spp"].get<int>() > there["spp"].get<int>();
   const bool adaptive = wanted["noise"] != 0.0 || wanted["time"] != 0.0;
   there["spp"] = wanted["spp"];
-  return more && !adaptive && checkpoint.part == 0 && checkpoint.looks.empty() && there == wanted;
+  return more && !adaptive && there == wanted;
+}
+
+/// Returns why such a checkpoint cannot go on to more samples; nothing where it can.
+std::string whyNotMore(const Checkpoint& checkpoint) {
+  if (checkpoint.part > 0) return "parts of the picture are finished";
+  return checkpoint.looks.empty() ? "" : "what --denoise reads was kept at a quarter of the samples";
 }
 
 nlohmann::json totalsJson(const FilmTotals& t) {
@@ -168,7 +172,11 @@ std::optional<Checkpoint> readCheckpoint(const PictureJob& job, const DrawingPla
     throw InputError(path.string() + ": " + error.what());
   }
   const std::string text = jobText(job, plan);
-  if (checkpoint->job != text && !growsTo(*checkpoint, text))
+  const bool grows = checkpoint->job != text && hasMoreSamples(*checkpoint, text);
+  if (const std::string why = whyNotMore(*checkpoint); grows && !why.empty())
+    throw UsageError("--resume: " + path.string() + " cannot go on to more samples (" +
+                     differenceOf(checkpoint->job, text) + "): " + why);
+  if (checkpoint->job != text && !grows)
     throw UsageError(
         "--resume: " + path.string() +
         " is of another render (its settings and those asked for): " + differenceOf(checkpoint->job, text));
@@ -186,7 +194,10 @@ bool isFinished(const RenderOptions& options) {
   }
   const bool there = isFile(options.output.file) && isFile(options.scene);
   if (!options.output.resume || !there || !isWholePicture(options)) return false;
-  say(options, options.output.file.string() + " is finished: there is no checkpoint beside it");
+  // Of an .exr isWholePicture() has compared the samples.
+  const bool told = formatOfName(options.output.file) == ImageFormat::OpenExr;
+  say(options, options.output.file.string() + " is finished: there is no checkpoint beside it" +
+                   (told ? "" : "; it does not say with how many samples, and nothing is drawn"));
   return true;
 }
 

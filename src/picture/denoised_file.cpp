@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 #include "denoise/layers.h"
 #include "denoise/oidn.h"
@@ -62,6 +63,12 @@ Image denoisedFile(const Image& drawn, const std::filesystem::path& name, const 
   result.numbers = drawn.numbers;
   keepNoisy(result, layers, stats.filter);
   return result;
+}
+
+std::string filterText(const DenoiseStatistics& stats) {
+  char seconds[32];
+  std::snprintf(seconds, sizeof seconds, " in %.2f s", (stats.filterMs + stats.compileMs) / 1000.0);
+  return stats.filter + seconds;
 }
 
 }  // namespace fragtrace

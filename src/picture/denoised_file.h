@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "picture/denoising.h"
 
@@ -13,5 +14,8 @@ namespace fragtrace {
 /// which layers the filter lacks. Throws InputError that names missing layers, ContextError, RenderError.
 Image denoisedFile(const Image& drawn, const std::filesystem::path& name, const RenderOptions& options,
                    const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats);
+
+/// The filter and the seconds that it took, with the programs that were built for it.
+std::string filterText(const DenoiseStatistics& stats);
 
 }  // namespace fragtrace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 #include <span>
 
@@ -81,13 +82,20 @@ std::vector<double> measureFeatures(const PictureJob& job, Film& film, const Vie
   return seconds;
 }
 
+/// What the layers from the first on will take, where the picture has so many samples.
+double secondsOfFeatures(const PictureJob& job, const DrawingPlan& plan, size_t first, int samples) {
+  double seconds = 0.0;
+  for (size_t i = first; i < plan.layerSeconds.size(); ++i)
+    seconds += plan.layerSeconds[i] * samplesOfLayer(job.options, job.tracer.features[i].feature, samples);
+  return seconds;
+}
+
 /// The time that layers will take at least: those of an adaptive picture have the fewest samples of any
 /// pixel, a number that is not yet known.
-double secondsOfFeatures(std::span<const double> secondsPerSample, const RenderOptions& options) {
+double secondsOfFeatures(const PictureJob& job, const DrawingPlan& plan) {
   constexpr int kLeastAdaptive = 64;
-  const int samples =
-      isAdaptive(options) ? std::min(options.sampling.spp, kLeastAdaptive) : options.sampling.spp;
-  return samples * std::accumulate(secondsPerSample.begin(), secondsPerSample.end(), 0.0);
+  const int spp = job.options.sampling.spp;
+  return secondsOfFeatures(job, plan, 0, isAdaptive(job.options) ? std::min(spp, kLeastAdaptive) : spp);
 }
 
 /// The worst of both parts, since a goal holds in each of them.
@@ -222,8 +230,12 @@ Drawing drawEvenly(const PartRun& part, Film film) {
     sampled.film.load(state);
     sampled.looks = part.from->looks;
     const int spp = part.job.options.sampling.spp;
-    sampled.fewest = int(std::min<uint32_t>(totalsOf(sampled.film.read()).fewestSamples, uint32_t(spp)));
-    say(part.job.options, "--resume: goes on after " + std::to_string(sampled.fewest) + " of " +
+    const FilmTotals totals = totalsOf(sampled.film.read());
+    sampled.fewest = int(std::min<uint32_t>(totals.fewestSamples, uint32_t(spp)));
+    // Each pixel goes on from its own.
+    char mean[32];
+    std::snprintf(mean, sizeof mean, "%.4g", double(totals.samples) / areaOf(sampled.film.size()));
+    say(part.job.options, "--resume: goes on after " + std::string(mean) + " of " +
                               countText(size_t(spp), "sample") + " per pixel" + placeOfPart(part.share));
   }
   const auto keep = [&] { part.keep({sampled.film.save()}, sampled.looks, {}); };
@@ -249,7 +261,7 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
   std::optional<Checkpoint> from = readCheckpoint(job, plan);
   const std::string text = keeper.isKept() ? jobText(job, plan) : "";
   const std::vector<Share> shares = sharesOf(plan.parts, job.loaded.region.size);
-  const double secondsAfter = secondsOfFeatures(plan.layerSeconds, options);
+  const double secondsAfter = secondsOfFeatures(job, plan);
   // merge needs the samples of each pixel if these differ.
   const bool keepsCounts = holdsLayers(options) && !showsColors(options);
   ProgressBar bar("rendering", hidesProgress(job),
@@ -303,25 +315,24 @@ void addFeatures(Image& picture, const PictureJob& job, const DrawingPlan& plan,
   const int all = stats.complete ? drawn : std::min(drawn, kFewLayerSamples);
   const int before = interrupts();
   const std::vector<Share> shares = sharesOf(plan.parts, job.loaded.region.size);
-  std::span<const double> secondsPerSample = plan.layerSeconds;
-  for (const ShaderVariant& variant : job.tracer.features) {
-    secondsPerSample = secondsPerSample.subspan(1);
+  for (size_t i = 0; i < job.tracer.features.size(); ++i) {
+    const ShaderVariant& variant = job.tracer.features[i];
     const int samples = samplesOfLayer(job.options, variant.feature, all);
-    const double after = all * std::accumulate(secondsPerSample.begin(), secondsPerSample.end(), 0.0);
+    const double after = secondsOfFeatures(job, plan, i + 1, all);
     ProgressBar bar("layer " + std::string(rowOf(variant.feature).name), hidesProgress(job), samples);
     Image layer;
     FilmTotals totals;
-    for (size_t i = 0; i < plan.parts.size(); ++i) {
-      const Region& part = plan.parts[i];
+    for (size_t p = 0; p < plan.parts.size(); ++p) {
+      const Region& part = plan.parts[p];
       LayerDraw own = drawLayer(part.size, *job.tracer.renderer, variant, viewOf(job.loaded, part), samples,
                                 [&](double fraction) {
-                                  bar.show(shares[i].of(fraction), after);
+                                  bar.show(shares[p].of(fraction), after);
                                   return interrupts() == before;
                                 });
       stats.complete = stats.complete && own.complete;
       stats.compileMs += own.compileMs;
       stats.featureMs += own.drawMs;
-      add(totals, own.totals, i == 0);
+      add(totals, own.totals, p == 0);
       addPart(layer, std::move(own.image), part, job.loaded.region);
     }
     bar.clear();

@@ -83,7 +83,10 @@ std::string rescuePicture(const RenderOptions& options, const Image& linear, con
   try {
     writeImage(path, linear);
   } catch (const std::exception& error) {
-    return reason + "; nor as .pfm: " + error.what();
+    // Where the folder is gone, both say so.
+    const std::string other = error.what();
+    const auto cause = [](const std::string& text) { return text.substr(text.rfind(": ") + 1); };
+    return reason + "; nor as .pfm" + (cause(other) == cause(reason) ? "" : ": " + other);
   }
   const std::string lost = lostInPfm(options, linear);
   return reason + "; the " + (showsColors(options) ? "colours" : "radiance") + " alone is in " +

@@ -32,6 +32,7 @@ volatile std::sig_atomic_t lastSignal = 0;
 volatile std::sig_atomic_t lastMs = 0;
 volatile std::sig_atomic_t onTerminal = 0;
 
+volatile std::sig_atomic_t mostCounted = 0;  // 0: any number
 volatile std::sig_atomic_t isMeant = 0;
 thread_local const std::atomic<int>* ownCounter = nullptr;
 
@@ -89,9 +90,15 @@ void countInterrupts() {
     // `timeout` sends its signal to the process and to its group, so what follows at once is the same one.
     const bool same = interruptCount > 0 && signal == lastSignal && std::abs(ms - lastMs) < kSameInterruptMs;
     if (!same) interruptCount = interruptCount + 1;
+    if (mostCounted > 0 && interruptCount > mostCounted) _exit(kInterruptedStatus);
     lastSignal = signal;
     lastMs = ms;
   });
+}
+
+void countOneInterrupt() {
+  mostCounted = 1;
+  countInterrupts();
 }
 
 int interrupts() { return ownCounter != nullptr ? ownCounter->load() : interruptCount; }

@@ -11,6 +11,9 @@ inline constexpr int kInterruptedStatus = 130;  ///< of a program that was inter
 /// 130.
 void countInterrupts();
 
+/// The same, but the second ends the program with status 130 at once.
+void countOneInterrupt();
+
 /// How often the program was interrupted: once means stop and write what is finished, more means write
 /// nothing. In a thread with an InterruptSource: what that counts.
 int interrupts();

@@ -8,6 +8,9 @@
 #include "scene/first_view.h"
 #include "scene/fit.h"
 #include "scene/parts.h"
+#include "session/caught_light.h"
+#include "session/environment.h"
+#include "session/say.h"
 #include "session/setup.h"
 
 namespace fragtrace {
@@ -26,10 +29,7 @@ std::vector<double> timesOf(const Scene& scene, const RenderOptions& options) {
   constexpr int kFewest = 8;
   constexpr int kMost = 48;
   const SequenceOptions& sequence = options.output.sequence;
-  const std::string& name = options.selection.animation;
-  const size_t index = name.empty() ? 0 : indexOfPart("--animation", name, scene.animationNames);
-  const std::optional<double> length =
-      index < scene.animationSeconds.size() ? scene.animationSeconds[index] : std::nullopt;
+  const std::optional<double> length = animationLength(scene, options.selection);
   const double first = length ? 0.0 : sequence.frames->first / sequence.fps;
   const double last = length.value_or(sequence.frames->last / sequence.fps);
   const int count = int(std::clamp(std::ceil((last - first) * kPerSecond), double(kFewest), double(kMost)));
@@ -40,6 +40,12 @@ std::vector<double> timesOf(const Scene& scene, const RenderOptions& options) {
 
 }  // namespace
 
+std::optional<double> animationLength(const Scene& scene, const SceneSelection& selection) {
+  const std::string& name = selection.animation;
+  const size_t index = name.empty() ? 0 : indexOfPart("--animation", name, scene.animationNames);
+  return index < scene.animationSeconds.size() ? scene.animationSeconds[index] : std::nullopt;
+}
+
 CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_ptr<KeptDocument>& kept) {
   const CameraOverrides& asked = options.camera.overrides;
   const bool placed = asked.fit || asked.orbit;
@@ -49,13 +55,26 @@ CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_pt
   const Scene first = loadGltf(posed.scene, gltfOptionsOf(posed), &kept);
   if (first.animationNames.empty() || (!first.cameras.empty() && !placed)) return asked;
   const CameraOverrides overrides = settledOverrides(asked, first);
+  const bool shadow = fitsShadow(options, overrides);
+  Environment environment;
+  if (shadow) {
+    std::vector<std::string> repeated;
+    const SaidHere silence(repeated);  // it is said with the first picture
+    std::future<LinearImage> map;
+    if (!options.light.hdriFile.empty())
+      map = std::async(std::launch::deferred, [&] { return readMap(options); });
+    environment = makeEnvironment(options, map, lightOf(options, first), repeated);
+  }
   Filled filled;
   for (const double time : timesOf(first, options)) {
     posed.selection.animationTime = time;
     const Scene scene = loadGltf(posed.scene, gltfOptionsOf(posed), &kept);
     if (scene.bounds.empty()) continue;
     filled.bounds.include(scene.bounds);
-    if (overrides.fit) std::ranges::copy(farthest(outlineOf(scene)), std::back_inserter(filled.points));
+    if (!overrides.fit) continue;
+    std::vector<glm::dvec3> points = outlineOf(scene);
+    if (shadow) addShadow(points, scene, environment, options);
+    std::ranges::copy(farthest(std::move(points)), std::back_inserter(filled.points));
   }
   Camera camera = chooseCamera(first.cameras,
                                cameraIndexOf(options.camera.index, options.selection.camera, first.cameras),

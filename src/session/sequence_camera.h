@@ -9,6 +9,9 @@
 
 namespace fragtrace {
 
+/// Seconds that the animation of the options takes; none where its file does not say.
+std::optional<double> animationLength(const Scene& scene, const SceneSelection& selection);
+
 /// The camera of the options, in their place, where it stands by what the scene holds (no camera in the file,
 /// --camera-orbit, --fit), which moves: one that shows the scene as it is over the whole animation, so that
 /// machines that draw some of the frames each have the same. Otherwise the options' own overrides. Poses the

@@ -30,6 +30,7 @@
 #include "scene/strokes.h"
 #include "scene/studio.h"
 #include "session/caught_light.h"
+#include "session/environment.h"
 #include "session/outputs.h"
 #include "session/picture_memory.h"
 
@@ -61,59 +62,6 @@ Region chooseRegion(glm::ivec2 size, const RenderOptions& options) {
   };
   throw UsageError("--region: " + text(region.corner, ",") + "," + text(region.size, ",") +
                    " is not inside the picture of " + text(size, " x ") + " pixels");
-}
-
-/// Throws InputError for the first pixel that is NaN or infinite. Values below 0, which filters leave and
-/// which are no light, become 0. Returns how many did.
-size_t settleRadiance(Image& image, const std::filesystem::path& path) {
-  size_t negative = 0;
-  for (size_t i = 0; i < image.values.size(); ++i) {
-    float& value = image.values[i];
-    if (value < 0.0f && std::isfinite(value)) {
-      value = 0.0f;
-      ++negative;
-    }
-    if (std::isfinite(value)) continue;
-    const size_t pixel = i / image.channelCount();
-    throw InputError(path.string() + ": pixel (" + std::to_string(pixel % size_t(image.width)) + ", " +
-                     std::to_string(pixel / size_t(image.width)) + ") is not finite");
-  }
-  return negative;
-}
-
-void warn(const RenderOptions& options, const std::string& what, std::vector<std::string>& warnings) {
-  warnings.push_back(options.light.hdriFile.string() + what);
-  say(options, "warning: " + warnings.back());
-}
-
-Environment makeEnvironment(const RenderOptions& options, std::future<LinearImage>& map, OwnLight light,
-                            std::vector<std::string>& warnings) {
-  Environment environment;
-  if (map.valid()) {
-    LinearImage read = map.get();
-    environment.kind = Surroundings::Map;
-    environment.image = std::move(read.image);
-    Image& image = environment.image;
-    if (image.channelCount() < 3) throw InputError(options.light.hdriFile.string() + ": has no colour");
-    const size_t negative = settleRadiance(image, options.light.hdriFile);
-    if (negative > 0)
-      warn(options, ": " + countText(negative, "value") + " below 0, which is no light, taken as 0",
-           warnings);
-    if (read.wasEncoded)
-      warn(options, ": holds no light above 1, so no sun and no lamp; an .hdr, .exr or .pfm does", warnings);
-    // Mirror balls and faces of cubes are square; there is one reading of an environment here.
-    if (image.width == image.height && image.width > 1)
-      warn(options, ": is square, and drawn as latitude and longitude: 360 degrees wide, 180 high", warnings);
-    if (options.light.backgroundBlur > 0.0)
-      environment.backdrop = blurredMap(image, options.light.backgroundBlur);
-  } else if (options.light.studio ||
-             (light != OwnLight::Enough && options.light.defaultLight == DefaultLight::Studio)) {
-    environment = {Surroundings::Map, studioLight(), studioBackdrop()};
-  } else if (light != OwnLight::Enough && options.light.defaultLight == DefaultLight::White) {
-    environment.kind = Surroundings::DefaultLight;
-    environment.image = {1, 1, {"R", "G", "B"}, {1.0f, 1.0f, 1.0f}, {}};
-  }
-  return environment;
 }
 
 /// Only trees hold instances.
@@ -235,6 +183,14 @@ void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& s
 
 }  // namespace
 
+void addShadow(std::vector<glm::dvec3>& points, const Scene& scene, const Environment& environment,
+               const RenderOptions& options) {
+  const double height = catcherHeightOf(options, scene.bounds);
+  const std::vector<glm::dvec3> shadow =
+      shadowOutline(farthest(points), height, caughtLights(scene, environment, options, height));
+  points.insert(points.end(), shadow.begin(), shadow.end());
+}
+
 void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
   const Scene& scene = loaded.scene;
   loaded.cameraIndex = cameraIndexOf(options.camera.index, options.selection.camera, scene.cameras);
@@ -244,12 +200,7 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
   loaded.size = chooseSize(loaded.camera, options);
   if (overrides.fit) {
     std::vector<glm::dvec3> points = outlineOf(scene);
-    if (fitsShadow(options, overrides)) {
-      const double height = catcherHeightOf(options, scene.bounds);
-      const std::vector<glm::dvec3> shadow =
-          shadowOutline(farthest(points), height, caughtLights(scene, loaded.environment, options, height));
-      points.insert(points.end(), shadow.begin(), shadow.end());
-    }
+    if (fitsShadow(options, overrides)) addShadow(points, scene, loaded.environment, options);
     if (overrides.turns) points = sweptAbout(turningPoint(loaded.camera, overrides, scene.bounds), points);
     loaded.camera = fitCamera(loaded.camera, points, overrides, loaded.size);
   }
@@ -263,7 +214,7 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
 
 LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const LoadProgress& progress,
                       FilmOf film, SceneBefore before) {
-  const auto step = [&](const char* name, double fraction) {
+  const auto step = [&](const std::string& name, double fraction) {
     if (progress) progress(name, fraction);
   };
   Stopwatch watch;
@@ -272,26 +223,26 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   // The environment is decoded in another process, so it is read meanwhile.
   Phase reading;  // outlives the thread that sets it
   std::future<LinearImage> map;
-  const bool reads = !options.light.hdriFile.empty() && !before.environment;
-  if (reads) {
+  const bool readsMap = !options.light.hdriFile.empty() && !before.environment;
+  if (readsMap) {
     map = std::async(kThreadIfGranted, [&] {
       PhaseTimer timer("environment", "second");
-      LinearImage image = readLinearImage(options.light.hdriFile, options.limits.memoryBytes);
-      image.image = wholeOf(std::move(image.image));
+      LinearImage image = readMap(options);
       reading = timer.end();
       return image;
     });
   }
   PhaseTimer sceneTimer("scene");
-  loaded.scene = loadGltf(options.scene, gltfOptionsOf(options), before.document);
+  GltfOptions loading = gltfOptionsOf(options);
+  loading.progress = progress;
+  loaded.scene = loadGltf(options.scene, loading, before.document);
   stats.phases.push_back(sceneTimer.end());
   if (options.device.instancing == Instancing::Share && !walksTree(options))
     loaded.scene.warnings.emplace_back("--instancing share: only trees hold shared meshes; all are copied");
   if (!loaded.scene.images.empty()) startImageProcess();
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));
-  const bool isAsked = !hasMap(options) && options.light.defaultLight != DefaultLight::None;
-  const OwnLight light = isAsked ? ownLight(scene) : OwnLight::Enough;
+  const OwnLight light = lightOf(options, scene);
   std::vector<std::string> ofEnvironment;  // warnings, which are said as they come
   const auto settleEnvironment = [&] {
     loaded.environment = before.environment ? std::move(*before.environment)
@@ -325,7 +276,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   if (!early) settleEnvironment();
   std::ranges::move(ofEnvironment, std::back_inserter(loaded.scene.warnings));
   loaded.view = makeView(options, loaded, loaded.camera);
-  if (reads) stats.phases.push_back(reading);
+  if (readsMap) stats.phases.push_back(reading);
   stats.scene = describe(scene);
   stats.warnings = scene.warnings;
   stats.size = loaded.region.size;

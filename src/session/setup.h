@@ -27,10 +27,12 @@ struct LoadedScene {
   Region region;                   ///< of it, that is drawn
   Bvh bvh;
   View view;
+  DecodeProgress decoding{};  ///< told when the textures are, which is later
 };
 
-/// Called before each step with its name and the part of the work done, 0..1; what it throws ends loading.
-using LoadProgress = std::function<void(const char* step, double fraction)>;
+/// Called with what is done, before each step and within those that may be long, and the part of the work
+/// that is behind, 0..1; what it throws ends loading.
+using LoadProgress = GltfProgress;
 
 /// Whether one film is to hold all of a picture, or only a part at a time (picture/picture_parts.h).
 enum class FilmOf : uint8_t { Picture, Part };
@@ -67,6 +69,10 @@ double catcherHeightOf(const RenderOptions& options, const BoundsDouble& bounds)
 /// The camera as --fit moves it about these points of the world, then zoomed as the orbit says.
 Camera fitCamera(const Camera& camera, std::span<const glm::dvec3> points, const CameraOverrides& overrides,
                  glm::ivec2 size);
+
+/// Adds to the outline of the scene that of its shadow on the catcher.
+void addShadow(std::vector<glm::dvec3>& points, const Scene& scene, const Environment& environment,
+               const RenderOptions& options);
 
 /// Camera paths that the picture takes; infinite where time or noise ends it.
 double pathsOf(const RenderOptions& options, glm::ivec2 size);

@@ -235,8 +235,8 @@ Tracer makeTracer(const Context& context, const LoadedScene& loaded, const Rende
   Phase packing;  // outlives the thread that sets it
   std::future<GpuScene> packedLater = std::async(kThreadIfGranted, [&] {
     PhaseTimer timer("pack", "second");
-    GpuScene scene =
-        packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textureSide, &tracer.kept);
+    GpuScene scene = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textureSide,
+                               &tracer.kept, loaded.decoding);
     packing = timer.end();
     return scene;
   });
@@ -263,8 +263,8 @@ void replaceScene(Tracer& tracer, const Context& context, const LoadedScene& loa
                   const RenderOptions& options, Statistics& stats) {
   const ShaderVariant everything = chooseVariants(tracer, loaded, options, stats);
   PhaseTimer timer("pack");
-  GpuScene packed =
-      packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textureSide, &tracer.kept);
+  GpuScene packed = packScene(loaded.scene, loaded.bvh, loaded.environment, everything, tracer.textureSide,
+                              &tracer.kept, loaded.decoding);
   describe(stats, context, packed, timer.end());
   if (tracer.sceneHash != 0) tracer.sceneHash = sceneHash(packed, tracer.arrayHashes);
   settleVariants(tracer, loaded, packed, options, context, stats);

@@ -156,6 +156,8 @@ bool changePicture(ViewState& state, const Control& control, const Movement& m) 
   switch (control.action) {
     case Action::ToggleStage:
       o.stages.flip(size_t(control.argument));
+      // Of all stages side by side, each has those up to its own.
+      if (stageRows()[size_t(control.argument)].cumulative) state.overview = false;
       return true;
     case Action::StagesUpTo:
       o.stages = withStagesUpTo(o.stages, Stage(control.argument));
@@ -164,11 +166,13 @@ bool changePicture(ViewState& state, const Control& control, const Movement& m) 
     case Action::ToggleDebugView: {
       const auto view = DebugView(control.argument);
       o.output.debugView = o.output.debugView == view ? DebugView::None : view;
+      state.overview = false;
       return true;
     }
     case Action::NextDebugView: {
       const int count = int(kDebugViewRows.size());
       o.output.debugView = DebugView((int(o.output.debugView) + control.argument + count) % count);
+      state.overview = false;
       return true;
     }
     case Action::ToggleTreeBoxes:
@@ -285,7 +289,8 @@ bool changeWindow(ViewState& state, const Control& control, const Movement& m) {
 bool isUsable(const ViewState& state, Action action) {
   if (state.scene && !state.sheet) return true;
   return action == Action::ToggleSheet || action == Action::Close || action == Action::Quit ||
-         action == Action::Fullscreen || (action == Action::Reload && !state.sheet);
+         action == Action::Fullscreen ||
+         ((action == Action::Reload || action == Action::Open) && !state.sheet);
 }
 
 Errand apply(ViewState& state, const Control& control, const Movement& movement) {
@@ -310,6 +315,10 @@ Errand apply(ViewState& state, const Control& control, const Movement& movement)
       return Errand::Fullscreen;
     case Action::Reload:
       return Errand::Reload;
+    case Action::Open:
+      return Errand::Open;
+    case Action::SaveAs:
+      return Errand::SaveAs;
     case Action::Screenshot:
       return Errand::Screenshot;
     case Action::WriteExr:

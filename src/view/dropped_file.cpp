@@ -2,29 +2,27 @@
 #include "view/dropped_file.h"
 
 #include <algorithm>
-#include <cctype>
+
+#include "view/files/file_question.h"
 
 namespace fragtrace {
 
 namespace {
 
-std::string extensionOf(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return extension;
+bool isOneOf(std::span<const char* const> extensions, const std::filesystem::path& path) {
+  return std::ranges::find(extensions, lowerExtension(path)) != extensions.end();
 }
 
 }  // namespace
 
 bool mayBeReference(const std::filesystem::path& path) {
-  const std::string extension = extensionOf(path);
+  const std::string extension = lowerExtension(path);
   return extension == ".exr" || extension == ".pfm";
 }
 
 DroppedFile kindOfDropped(const std::filesystem::path& path) {
-  const std::string extension = extensionOf(path);
-  if (extension == ".gltf" || extension == ".glb") return DroppedFile::Scene;
-  if (extension == ".hdr" || extension == ".exr" || extension == ".pfm") return DroppedFile::Environment;
+  if (isOneOf(kSceneExtensions, path)) return DroppedFile::Scene;
+  if (isOneOf(kEnvironmentExtensions, path)) return DroppedFile::Environment;
   return DroppedFile::Unknown;
 }
 

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "view/file_watch.h"
 
+#include <algorithm>
 #include <string_view>
 
 namespace fragtrace {
+
+namespace {
+
+constexpr int kLooksAway = 4;  // that in turn miss a file make it gone
+
+}  // namespace
 
 std::optional<FileWatch::Look> FileWatch::lookAt(const std::filesystem::path& file) {
   std::error_code error;
@@ -22,7 +29,11 @@ bool FileWatch::changed() {
   bool any = false;
   for (auto& [file, before] : files_) {
     const std::optional<Look> now = lookAt(file);
-    if (!now || now == before) continue;
+    // Editors replace files, which are away for a moment.
+    int& away = away_[file];
+    away = now ? 0 : std::min(away + 1, kLooksAway + 1);
+    if (!now && (away != kLooksAway || !before)) continue;
+    if (now == before) continue;
     any = true;
     before = now;
   }

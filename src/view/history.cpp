@@ -62,9 +62,30 @@ void record(History& history, const ViewState& state) {
   history.future.clear();
 }
 
-bool undo(History& history, ViewState& state) { return step(history, state, history.past, history.future); }
+bool undo(History& history, ViewState& state) {
+  history.step = -1;
+  return step(history, state, history.past, history.future);
+}
 
-bool redo(History& history, ViewState& state) { return step(history, state, history.future, history.past); }
+bool redo(History& history, ViewState& state) {
+  history.step = 1;
+  return step(history, state, history.future, history.past);
+}
+
+void giveUp(History& history, ViewState& state) {
+  if (!std::exchange(history.waits, false)) return;
+  const int undone = std::exchange(history.step, 0);
+  if (undone == 0) return;
+  std::deque<Settings>& from = undone < 0 ? history.future : history.past;
+  std::deque<Settings>& to = undone < 0 ? history.past : history.future;
+  to.push_back(std::exchange(*history.now, from.back()));
+  from.pop_back();
+  take(state, *history.now);
+}
+
+void overlook(History& history, const ViewState& state) {
+  if (history.now) history.now = settingsOf(state);
+}
 
 RenderOptions withLight(const History& history, RenderOptions options) {
   const RenderOptions before = options;

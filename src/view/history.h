@@ -31,7 +31,8 @@ struct History {
   std::deque<Settings> future;
   std::optional<Settings> now;
   bool waits =
-      false;  ///< for a scene that belongs to the latest step; until it is loaded, nothing is recorded
+      false;     ///< for a scene that belongs to the latest step; until it is loaded, nothing is recorded
+  int step = 0;  ///< that the scene belongs to: -1 of undo(), 1 of redo(), 0 of neither
 };
 
 /// Forgets all steps: what was set before belongs to another scene.
@@ -43,6 +44,12 @@ void record(History& history, const ViewState& state);
 /// Goes back one step, or forward again; false: there is none.
 bool undo(History& history, ViewState& state);
 bool redo(History& history, ViewState& state);
+
+/// The scene of the latest step cannot be had: the step is taken back, and what is shown counts.
+void giveUp(History& history, ViewState& state);
+
+/// Takes what has changed since the last call, which the user did not do, as if it had been so.
+void overlook(History& history, const ViewState& state);
 
 /// The options with the light and the material variant of the latest step, which undo and redo leave to be
 /// loaded.

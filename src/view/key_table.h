@@ -65,6 +65,8 @@ enum class Action : uint8_t {
   ToggleHud,
   ToggleSheet,
   Reload,
+  Open,
+  SaveAs,
   Screenshot,
   WriteExr,
   Close,  ///< what is open; where nothing is, the viewer
@@ -89,6 +91,8 @@ inline constexpr int kSpace = 32;
 inline constexpr int kEscape = 256;
 inline constexpr int kEnter = 257;
 inline constexpr int kTab = 258;
+inline constexpr int kBackspace = 259;
+inline constexpr int kDown = 264;
 inline constexpr int kUp = 265;
 inline constexpr int kPageUp = 266;
 inline constexpr int kPageDown = 267;

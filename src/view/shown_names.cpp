@@ -11,8 +11,13 @@ std::string windowTitle(const std::filesystem::path& scene) {
 }
 
 std::filesystem::path freePictureName(const std::filesystem::path& scene, const char* extension) {
+  return freePictureName({}, scene, extension);
+}
+
+std::filesystem::path freePictureName(const std::filesystem::path& folder, const std::filesystem::path& scene,
+                                      const char* extension) {
   for (int i = 1;; ++i) {
-    std::filesystem::path path = scene.stem().string() + "-" + std::to_string(i) + extension;
+    std::filesystem::path path = folder / (scene.stem().string() + "-" + std::to_string(i) + extension);
     std::error_code error;
     if (!std::filesystem::exists(path, error)) return path;
   }

@@ -10,7 +10,10 @@ namespace fragtrace {
 /// The window's, bounded; without a scene the program's name alone.
 std::string windowTitle(const std::filesystem::path& scene);
 
-/// The first of SCENE-1.png, SCENE-2.png, ... that no file in the current folder has; without the folder.
+/// The first of SCENE-1.png, SCENE-2.png, ... that no file in the folder has.
+std::filesystem::path freePictureName(const std::filesystem::path& folder, const std::filesystem::path& scene,
+                                      const char* extension);
+/// The same in the current folder, without that.
 std::filesystem::path freePictureName(const std::filesystem::path& scene, const char* extension);
 
 }  // namespace fragtrace

@@ -90,7 +90,9 @@ std::vector<RenderOptions> tracedSides(const ViewState& state) {
   for (size_t i = 0; i < state.tracedCount(); ++i) {
     sides.push_back(renderOptionsOf(state, state.overview ? state.active : i));
     sides.back().camera.resolution.reset();
-    if (state.overview) sides.back().stages = withStagesUpTo(sides.back().stages, Stage(i));
+    if (!state.overview) continue;
+    sides.back().stages = withStagesUpTo(sides.back().stages, Stage(i));
+    sides.back().output.debugView = DebugView::None;
   }
   return sides;
 }

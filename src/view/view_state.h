@@ -59,6 +59,7 @@ struct ViewState {
   std::array<char, 64> bookmarkName{};
   std::array<char, 64> search{};  ///< what the sheet is searched for; ends with a 0
   bool sheet = false;
+  bool fileList = false;  ///< stands before all else, and takes the keys
   bool fullscreen = false;
   bool treeBoxes = false;
   int treeLevel = 4;
@@ -89,7 +90,9 @@ enum class Errand : uint8_t {
   Redo,
   ResetAll,
   Fullscreen,
+  Open,           ///< Task::index: 1 for an environment
   OpenFile,       ///< Task::file
+  ListKey,        ///< Task::index is its code
   DropReference,  ///< side B is traced again
   Load,           ///< Task::load
   CancelLoad,
@@ -98,6 +101,7 @@ enum class Errand : uint8_t {
   RemoveBookmark,  ///< Task::index
   Reload,
   Screenshot,
+  SaveAs,
   WriteExr,
   Close,  ///< what is open beside the sheet, or the selection; where nothing is, asks whether to quit
   Quit

@@ -20,6 +20,8 @@ struct WindowStart {
   /// live as long as it; and before the window ends, by when nothing may be drawn there any more.
   std::function<void(const SharedContexts& shared)> opened;
   std::function<void()> ending;
+  /// True from when the program is told to end.
+  std::function<bool()> interrupted;
   // Options as text of the command line, and back (options/camera_text.h, options/command_text.h).
   std::function<std::string(const RenderOptions&)> cameraText;
   std::function<std::string(const RenderOptions&)> commandText;

@@ -91,6 +91,8 @@ class Checkpoints(Broken):
         partly = Exr(self.output)
         self.assertEqual(partly.texts["fragtrace:interrupted"], "1")
         self.assertTrue(self.checkpoint.exists())
+        self.fails(2, *self.arguments("--resume", *SIZE, "--spp", 160, "--aov", "denoising"),
+                   says=["cannot go on to more samples (spp 150 and 160): what --denoise reads was kept at a quarter"])
         self.assertEqual(self.resumed(*options), whole)
         self.assertNotIn("fragtrace:interrupted", Exr(self.output).texts)
 
@@ -114,6 +116,10 @@ class Checkpoints(Broken):
         self.assertEqual(self.output.stat().st_mtime_ns, before.st_mtime_ns)
         self.fails(2, *self.arguments("--resolution", "16,16", "--spp", 3, "--resume", scene=BOX), says=["--resume", "--spp 2, not 3"])
         self.fails(3, *self.arguments(*options, scene=self.folder / "none.gltf"), says=["none.gltf"])
+        picture = self.folder / "x.png"
+        for spp, said in ((1, "the picture begins anew"), (2, "x.png is finished.*does not say with how many samples, and nothing is drawn")):
+            result = self.renders(BOX, "-o", picture, "--resolution", "16,16", "--spp", spp, "--resume")
+            self.assertRegex(result.stderr, said)
         # What a crash of others has left is no picture.
         self.output.write_bytes(b"")
         self.assertEqual(run(*self.arguments(*options, scene=BOX)).returncode, 0)
@@ -136,7 +142,7 @@ class Checkpoints(Broken):
         self.assertEqual(self.interrupted_after_a_checkpoint(*size, 1500), 130)
         said = run(*[a for a in self.arguments("--resume", *size, 2000) if a != "--quiet"])
         self.assertEqual(said.returncode, 0, said.stderr)
-        self.assertRegex(said.stderr, r"(?m)^fragtrace: --resume: goes on after \d+ of 2000 samples per pixel$")
+        self.assertRegex(said.stderr, r"(?m)^fragtrace: --resume: goes on after [\d.]+ of 2000 samples per pixel$")
         self.assertEqual(self.output.read_bytes(), whole)
 
     def test_broken_checkpoints_are_refused(self):

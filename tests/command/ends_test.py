@@ -7,6 +7,7 @@ import os
 import re
 import resource
 import shutil
+import signal
 import struct
 import subprocess
 from pathlib import Path
@@ -72,6 +73,19 @@ class AtTheEnd(Case):
         self.assertGreater(sum(map(sum, sum(read_pfm(self.folder / "x-2.pfm"), []))), 0)
         self.assertEqual((self.folder / "x.pfm").stat().st_size, 16)
 
+    def test_a_folder_that_is_gone_is_said_once(self):
+        folder = self.folder / "gone"
+        folder.mkdir()
+        with subprocess.Popen([FRAGTRACE, "render", BOX, "-o", folder / "x.exr", "--resolution", "16,12", "--time", "9"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            self.assertIn("rendering", process.stderr.readline())
+            folder.rmdir()
+            process.send_signal(signal.SIGINT)
+            output, error = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, output), (1, ""))
+        self.assertEqual(error.count("No such file or directory"), 1, error)
+        self.assertIn("nor as .pfm", error)
+
     def test_layers_are_in_the_time_left(self):
         """Six layers of 64 samples take longer than what is left of two seconds."""
         layers = "albedo,normal,depth,geometric-normal,roughness,texcoords"
@@ -80,6 +94,14 @@ class AtTheEnd(Case):
             said = re.fullmatch(r"rendering: \d+ %, (\d+):(\d\d) left\n", process.stderr.readline())
             process.kill()
         self.assertGreater(60 * int(said[1]) + int(said[2]), 2)
+
+    def test_what_filters_read_is_in_the_time_left_with_its_few_samples(self):
+        stats = self.folder / "s.json"
+        said = self.renders(BOX, "-o", self.folder / "x.exr", "--resolution", "400,300", "--time", "1", "--denoise", "variance", "--progress", "json",
+                            "--stats", stats).stderr
+        events = [event for event in map(json.loads, said.splitlines()) if event.get("phase") == "rendering" and event["fraction"] < 1]
+        taken = json.loads(stats.read_text())["feature_ms"] / 1000
+        self.assertLess(events[-1]["seconds_left"] - (1 - events[-1]["fraction"]), 0.5 + 6 * taken)
 
 
 class StandardStreams(Case):

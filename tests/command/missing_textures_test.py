@@ -50,6 +50,7 @@ class MissingTextures(Case):
             (self.folder / name).write_bytes(data)
             self.fails(3, "render", self.scene(self.BASE, [name]), "-o", self.folder / "y.pfm", "--resolution", "9,9", "--spp", 1, "--quiet",
                        says=[name, "scene.gltf: /images/0"])
+            self.fails(3, "info", self.scene(self.BASE, [name]), "--decode", says=[name, "scene.gltf: /images/0"])
 
     def test_one_that_is_there_is_drawn(self):
         (self.folder / "there.png").write_bytes(png(4, 4, [0, 255, 0, 255] * 16))

@@ -307,6 +307,7 @@ class DenoiseFiles(OidnCase):
         for output, options in ((plain, []), (filtered, ["--denoise", "oidn"])):
             result = run("merge", *parts, "-o", output, *options, env=surroundings(FRAGTRACE_OIDN_LIBRARY=str(FAKE)))
             self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertRegex(result.stdout, r", oidn 2\.77\.1 in \d+\.\d\d s\n$")
         self.assertNotIn("fragtrace:denoise", Exr(plain).texts)
         self.assertEqual(Exr(filtered).layers, Exr(self.denoises(plain, "d.exr")).layers)
         self.assertEqual(Exr(filtered).texts["fragtrace:denoise"], "oidn 2.77.1")

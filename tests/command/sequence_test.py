@@ -108,7 +108,8 @@ class Sequences(Case):
             self.assertEqual(result.stdout, "0\n", k)
 
     def test_continue_draws_what_is_missing(self):
-        self.draw("--frames", "0:3")
+        self.assertNotIn("ends after", self.draw("--frames", "0:3").stderr)
+        self.assertIn("warning: --frames: the animation ends after 1 s, at picture 24;", self.draw("--frames", "1000:1001").stderr)
         before = {k: (self.folder / f"x.{k:02}.exr").stat().st_mtime_ns for k in range(4)}
         (self.folder / "x.02.exr").write_bytes(b"")  # as a copy that crashed leaves it
         result = self.draw("--frames", "0:3", "--continue")

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """The shadow catcher against a closed form and against ordinary renders of a white plane; means within 5 standard errors."""
+import base64
 import json
 import math
 import struct
+from pathlib import Path
 
 from materials_test import quad
 from support import SCENES, SMALL, Case, Exr, main, run
@@ -80,13 +82,34 @@ class ShadowCatcher(CatcherCase):
                 self.near([sum(shot.layers["A"][y][x] for x, y in part) / len(part) for shot in shots],
                           sum(hidden(x, y) for x, y in part) / len(part))
 
+    def moved(self, scene):
+        """The ball goes a metre to the right in a second."""
+        root = json.loads(Path(scene + ".gltf").read_text())
+        data = struct.pack("<8f", 0, 1, 0, HEIGHT, 0, 1, HEIGHT, 0)
+        root["buffers"].append({"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()})
+        buffer, view, accessor = len(root["buffers"]) - 1, len(root["bufferViews"]), len(root["accessors"])
+        root["bufferViews"] += [{"buffer": buffer, "byteLength": 8}, {"buffer": buffer, "byteOffset": 8, "byteLength": 24}]
+        root["accessors"] += [{"bufferView": view, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
+                              {"bufferView": view + 1, "componentType": 5126, "count": 2, "type": "VEC3"}]
+        root["animations"] = [{"samplers": [{"input": accessor, "output": accessor + 1}],
+                               "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]
+        Path(scene + ".gltf").write_text(json.dumps(root))
+        return scene + ".gltf"
+
     def test_fit_holds_the_shadow(self):
-        """Under the studio, under a low sun, and from all sides; no pixel of the edge misses a tenth of the light."""
+        """Under the studio, under a low sun, from all sides, and of all frames; no pixel of the edge misses a tenth of the light."""
         sun = {"rotation": [-0.354, 0, 0, 0.935]}, {"type": "directional", "intensity": 3}
         for lights, options in (((), ["--studio"]), ((sun,), []), ((sun,), ["--camera-orbit", "180,60"])):
             alpha = self.picture(self.ball(lights), "x.exr", "--resolution", "48,48", "--spp", 64, "--no-background", "--shadow-catcher", "0.3", "--fit", *options).layers["A"]
             edge = [*alpha[0], *alpha[-1], *(row[0] for row in alpha), *(row[-1] for row in alpha)]
             self.assertLess(max(edge), 0.15, options)
+            self.assertGreater(max(map(max, alpha)), 0.9)
+        self.renders(self.moved(self.ball((sun,))), "-o", self.folder / "m.##.exr", "--quiet", "--resolution", "48,48", "--spp", 64,
+                     "--no-background", "--shadow-catcher", "0.3", "--fit", "--frames", "0:1", "--fps", 1)
+        for k in range(2):
+            alpha = Exr(self.folder / f"m.{k:02}.exr").layers["A"]
+            edge = [*alpha[0], *alpha[-1], *(row[0] for row in alpha), *(row[-1] for row in alpha)]
+            self.assertLess(max(edge), 0.15, k)
             self.assertGreater(max(map(max, alpha)), 0.9)
         exr = self.picture(self.ball(), "x.exr", "--resolution", "48,48", "--spp", 4, "--no-background", "--fit", "--studio")
         self.assertGreater(max(exr.layers["A"][24][:3]) + max(exr.layers["A"][1]), 0)  # without a catcher, the ball alone fills it

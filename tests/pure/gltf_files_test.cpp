@@ -147,6 +147,47 @@ TEST(GltfFiles, WhatIsNotGltfIsRefusedBeforeItIsRead) {
   EXPECT_EQ(refusal(std::string("glTF\1\0\0\0\x20\0\0\0", 12)), "large.glb: .glb version 1 is not supported");
   EXPECT_NE(refusal(std::string("glTF\2\0\0\0\x14\0\0\0\0\0\0\0BIN\0", 20)).find("first chunk is not JSON"),
             std::string::npos);
+  const std::string header("glTF\2\0\0\0\xfc\xff\xff\xff", 12);  // all that 32 bits can say
+  EXPECT_EQ(refusal(header + std::string("\xf8\xff\xff\xffJSON{}", 10)),
+            "large.glb: broken .glb: chunk 0 of 4294967288 bytes reaches past the end of the file");
+  const std::string far = "{\"asset\":{}}" + std::string(100000, ' ');
+  std::string json("    JSON" + far);
+  const auto size = uint32_t(far.size());
+  std::memcpy(json.data(), &size, sizeof size);
+  EXPECT_EQ(refusal(header + json +
+                    std::string("\xf0\xff\xff\xff"
+                                "BIN\0",
+                                8)),
+            "large.glb: broken .glb: chunk 1 of 4294967280 bytes reaches past the end of the file");
+}
+
+TEST(GltfFiles, LoadingTellsHowFarItIsAndEndsWhenToldSo) {
+  const TemporaryFolder folder;
+  GltfBuilder builder;
+  builder.addTriangle();
+  builder.addView(std::vector<uint8_t>(40'000'000));
+  const std::filesystem::path path = folder.write("large.glb", builder.glb());
+  GltfOptions options;
+  std::vector<std::string> steps;
+  double last = 0.0;
+  options.progress = [&](const std::string& step, double part) {
+    EXPECT_GE(part, last);
+    EXPECT_LE(part, 0.5);
+    last = part;
+    steps.push_back(step);
+  };
+  loadGltf(path, options);
+  for (const char* step :
+       {"reading the scene, 16 of 40 MB", "reading the scene, 40 of 40 MB", "building the meshes"})
+    EXPECT_NE(std::ranges::find(steps, step), steps.end()) << step;
+
+  struct Enough {};
+  size_t calls = 0;
+  options.progress = [&](const std::string&, double) {
+    if (++calls == 2) throw Enough();
+  };
+  EXPECT_THROW(loadGltf(path, options), Enough);
+  EXPECT_EQ(calls, 2u);
 }
 
 TEST(GltfFiles, JsonNestedTooDeeplyIsRefused) {

@@ -110,6 +110,44 @@ TEST(History, LightAndVariantAreStepsOfTheirOwn) {
   EXPECT_EQ(withLight(history, state.scene->options).selection.materialVariant, "red");
 }
 
+TEST(History, AStepWhoseSceneCannotBeHadIsTakenBack) {
+  ViewState state = shownState();
+  History history;
+  restart(history, state);
+  for (const double angle : {30.0, 20.0}) {
+    state.pose.viewAngleDegrees = angle;
+    record(history, state);
+  }
+  loadAs(state, "gone.hdr", "");
+  record(history, state);
+  EXPECT_TRUE(undo(history, state));
+  state.scene->options = withLight(history, state.scene->options);
+  showScene(state, *state.scene);
+  EXPECT_TRUE(redo(history, state));
+  history.waits = true;
+  giveUp(history, state);
+  record(history, state);
+  EXPECT_EQ(history.past.size(), 2u);
+  EXPECT_EQ(history.future.size(), 1u);
+  EXPECT_TRUE(undo(history, state));
+  EXPECT_EQ(state.pose.viewAngleDegrees, 30.0);
+  giveUp(history, state);  // nothing waits
+  EXPECT_EQ(state.pose.viewAngleDegrees, 30.0);
+  history.waits = true;
+  giveUp(history, state);
+  EXPECT_EQ(state.pose.viewAngleDegrees, 20.0);
+}
+
+TEST(History, WhatTheUserDidNotDoIsNoStep) {
+  ViewState state = shownState();
+  History history;
+  restart(history, state);
+  state.split = true;
+  overlook(history, state);
+  EXPECT_FALSE(undo(history, state));
+  EXPECT_TRUE(state.split);
+}
+
 TEST(History, NodesAreThoseOfTheFilesSceneUnderAnyLight) {
   ViewState state = shownState();
   loadAs(state, "other.hdr", "red");

@@ -22,7 +22,7 @@ SEED = int(os.environ.get("FRAGTRACE_RANDOM_SEED", "1"))
 KEYS = [*"fcrui123456789jklmnptvxz", "space", "Tab", "h", "F1", "question", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "F9", "F10", "shift+F11",
         "shift+F2", "shift+F4", "shift+F7", "Return", "Page_Up", "Page_Down", "ctrl+0", "ctrl+7", "ctrl+c", "ctrl+v", "ctrl+z", "ctrl+y",
         "ctrl+shift+z", "g", "b", "bracketleft", "bracketright", "shift+l", "shift+v", "shift+n", "shift+p", "Up", "equal", "minus", "w", "a", "s",
-        "d", "q", "e", "F11", "F12", "shift+F12"]
+        "d", "q", "e", "F11", "F12", "shift+F12", "ctrl+o"]
 DROPS = ["sphere-plane.gltf", "cornell-box.gltf", "water-cube.gltf", "furnace.gltf", "sky.pfm", "README.md"]
 MOST_GROWTH = 1.1  # of memory, from the tenth minute on
 

@@ -77,6 +77,8 @@ class Reference(Case):
         self.assertTrue(status["split"])
         self.assertEqual((status["width"], status["height"]), (160, 120))
         self.assertEqual(len(status["sides"]), 1)
+        viewer.key("ctrl+z")
+        viewer.until(lambda s: "there is nothing to undo" in s["messages"], "it is no step of undo")
         composite = pixels_of(viewer.press_for_file("F12", ".png"))
         left = pixels_of(self.render(scene, *SIZE, "--spp", 4))
         right = pixels_of(self.reference("right.png"))
@@ -121,6 +123,19 @@ class Overview(Case):
             x, y = i % 3 * 160, i // 3 * 120
             cell = [shown[width * (y + v) + x + u] for v in range(40, 110) for u in range(160)]
             self.assertLessEqual(largest_difference(cell, rendered[160 * 40:160 * 110]), 1, stages[i])
+        for key in ("F3", "v"):
+            viewer.key(key)
+            viewer.until(lambda s: not s["overview"], f"{key} is of one picture")
+            viewer.key("shift+" + key if key == "v" else key)
+            viewer.key("o")
+            viewer.rest(lambda s: s["overview"], "all stages again")
+        viewer.click("All")
+        viewer.until(lambda s: not s["overview"], "one picture")
+        tip = viewer.until(lambda s: "tip" in s["places"], "a tip")["places"]["tip"]
+        self.assertGreaterEqual(tip[0], 0)
+        self.assertLessEqual(tip[0] + tip[2], width)
+        viewer.key("o")
+        viewer.rest(lambda s: s["overview"], "all stages again")
         viewer.at(400, 60)
         viewer.xdotool("click", 1)
         status = viewer.rest(lambda s: not s["overview"], "the stage that was clicked on")

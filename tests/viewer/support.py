@@ -53,6 +53,7 @@ class Screen:
         self.name = ":" + number.decode().strip()
         self.folder = tempfile.TemporaryDirectory()
         self.environment = {**os.environ, "DISPLAY": self.name, "XDG_STATE_HOME": self.folder.name}
+        self.environment["DBUS_SESSION_BUS_ADDRESS"] = "disabled:"  # no dialog of the desktop that the tests run on
         self.environment.pop("WAYLAND_DISPLAY", None)
         if dpi:
             self.call("xprop", "-root", "-f", "RESOURCE_MANAGER", "8s", "-set", "RESOURCE_MANAGER", f"Xft.dpi:\t{dpi}\n")

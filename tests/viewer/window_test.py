@@ -3,13 +3,16 @@
 """The window's life: opening, size, minimising, files dropped and changed, errors, ends."""
 import json
 import os
+import re
 import shutil
+import struct
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
-from support import FRAGTRACE, SCENES, Case, main, pixels_of, wait_for
+from support import FRAGTRACE, SCENES, Case, Screen, Viewer, main, pixels_of, wait_for
 from xdnd import drop
 
 SIZE = ["--resolution", "320,240"]
@@ -51,8 +54,9 @@ class Ends(Case):
         self.addCleanup(viewing.wait)
         self.addCleanup(viewing.kill)
         wait_for(lambda: "info: " in json.loads(status.read_text())["error"], 60, "the file is viewed")
-        for word, says in (("info", "file is required"), ("nothing", "'nothing' is no command of fragtrace, and no file: render")):
-            result = subprocess.run([FRAGTRACE, word], capture_output=True, text=True, cwd=self.folder, env=self.screen.environment, timeout=60)
+        for words, says in ((["info"], "file is required"), (["nothing"], "'nothing' is no command of fragtrace, and no file: render"),
+                            (["view", SCENES / "furnace.gltf", "--stats", "s.json"], "--stats is no option of view")):
+            result = subprocess.run([FRAGTRACE, *words], capture_output=True, text=True, cwd=self.folder, env=self.screen.environment, timeout=60)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(says, result.stderr)
 
@@ -75,6 +79,23 @@ class Ends(Case):
                                 env={**self.screen.environment, "LD_LIBRARY_PATH": str(self.folder)})
         self.assertEqual(result.returncode, 4, result.stderr)
         self.assertRegex(result.stderr, r"^fragtrace: no window: .*libGL\.so\.1: .*libgl1.*\n$")
+
+    def test_signals_and_the_end_of_the_display_are_told_in_one_line(self):
+        viewer = self.view("furnace", *FEW)
+        viewer.process.terminate()
+        self.assertEqual((viewer.end(), viewer.stderr().count("\n"), viewer.status()["state"]), (130, 1, "closed"))  # the light is said
+        screen = Screen()
+        for process in (screen.server, screen.manager):
+            self.addCleanup(process.wait)
+            self.addCleanup(process.kill)
+        self.addCleanup(screen.folder.cleanup)
+        viewer = Viewer(screen, self.folder, "furnace", *FEW)
+        screen.display.close()
+        screen.server.kill()
+        self.assertEqual(viewer.end(), 4)
+        self.assertEqual(viewer.stderr().splitlines()[1:], ["fragtrace: the display is gone"])
+        self.assertEqual((viewer.status()["state"], viewer.status()["error"]), ("failed", "the display is gone"))
+        viewer.errors.close()
 
     def test_profilers_tell_its_threads_apart(self):
         viewer = self.view("furnace", *FEW)
@@ -206,6 +227,34 @@ class Empty(Case):
         self.assertTrue(viewer.rest(lambda s: s["scene"].endswith("furnace.gltf"), "a model")["environment"].endswith("sky.pfm"))
         self.ends_well(viewer, viewer.close())
 
+    def stalled(self, name):
+        """A .glb that gives two thirds of what it holds, and waits."""
+        pipe = self.folder / name
+        os.mkfifo(pipe)
+        beginning = b"glTF" + struct.pack("<III", 2, 60_000_020, 60_000_000) + b"JSON{" + bytes(40_000_000)
+        threading.Thread(target=lambda: os.write(os.open(pipe, os.O_RDWR), beginning), daemon=True).start()
+        return pipe
+
+    def test_a_load_says_how_far_it_is_and_can_be_cancelled(self):
+        def far(status):
+            return re.fullmatch("reading the scene, 3[0-9] MB", status.get("load_step", ""))
+
+        def lasts():
+            return time.monotonic() - began
+
+        viewer = self.view(self.stalled("one.glb"), *FEW, wait=False)
+        viewer.window()
+        viewer.until(far, "how far it is")
+        viewer.key("Escape")
+        began = time.monotonic()
+        viewer.until(lambda s: s["state"] == "empty" and "welcome" in s["places"], "the welcome")
+        self.assertLess(lasts(), 1)  # half a second, and what Xvfb takes
+        drop(self.screen, viewer.id, self.stalled("two.glb"))
+        viewer.until(lambda s: s["state"] == "loading" and far(s), "another load")
+        began = time.monotonic()
+        self.ends_well(viewer, viewer.close())
+        self.assertLess(lasts(), 1)
+
     def test_what_is_remembered_and_cannot_be_read_is_said_and_stays(self):
         file = self.folder / "state/fragtrace/viewer.json"
         file.parent.mkdir(parents=True)
@@ -252,6 +301,12 @@ class Files(Case):
         scene.write_text("{")
         status = viewer.until(lambda s: s["error"], "error of the scene")
         self.assertIn("scene.gltf", status["error"])
+        for stage in ("F3", "F3"):  # another program says nothing of the file
+            asked = viewer.status()["asked"]
+            viewer.key(stage)
+            self.assertIn("scene.gltf", viewer.rest(lambda s: s["asked"] > asked)["error"])
+        scene.unlink()
+        viewer.until(lambda s: "cannot be opened" in s["error"], "it is gone")
         shutil.copy(SCENES / "sphere-phong.gltf", scene)
         viewer.rest(lambda s: not s["error"], "repaired scene")
         # A new scene of the same name keeps its options, and so its picture is that of `render`.

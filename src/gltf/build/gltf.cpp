@@ -124,9 +124,13 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   // What nodes place, in world space.
   const std::vector<PlacedNode> nodes = placeNodes(document, options.selection.hiddenNodes);
   scene.nodes = namedNodes(document, nodes);
+  if (options.progress) options.progress("building the meshes", 0.45);
   ShownMeshes shown = showMeshes(document, scene.materials, nodes);
   if (keeps) {
     takeBack(document, *read);
+    // It outlives this load.
+    read->document.progress = {};
+    read->document.access.progress = {};
     *kept = std::move(read);
   }
   document.model.buffers.clear();

@@ -61,6 +61,26 @@ void checkExtensions(json& root, Diagnostics& diagnostics) {
   }
 }
 
+/// Tells how far files have been read, as a part of the load from one to another.
+ReadProgress tellReading(const GltfProgress& progress, const std::string& what, double from, double to) {
+  if (!progress) return {};
+  return [progress, what, from, to](uint64_t read, uint64_t size) {
+    constexpr uint64_t kMegabyte = 1'000'000;
+    constexpr uint64_t kWorthCounting = 32 * kMegabyte;
+    std::string text = what;
+    if (std::max(read, size) >= kWorthCounting) {
+      text += ", " + std::to_string(read / kMegabyte);
+      if (size > 0) text += " of " + std::to_string(size / kMegabyte);
+      text += " MB";
+    }
+    progress(text, from + (to - from) * (size > 0 ? std::min(double(read) / double(size), 1.0) : 0.0));
+  };
+}
+
+// Parts of a load, whose second half is the tree's (session/setup.cpp).
+constexpr double kContainerPart = 0.2;
+constexpr double kBuffersPart = 0.4;
+
 /// Brings every buffer into memory, exactly as long as the document says; one without URI stays empty.
 Buffers readBuffers(json& root, Container& container, Worker& codecs, Document& document) {
   Diagnostics& diagnostics = document.diagnostics;
@@ -78,6 +98,12 @@ Buffers readBuffers(json& root, Container& container, Worker& codecs, Document& 
     if (buffer.contains("uri")) {
       const std::string place = pointerTo("buffers", i, "uri");
       const auto& uri = buffer["uri"].get_ref<const std::string&>();
+      const double step = (kBuffersPart - kContainerPart) / double(described.size());
+      const double from = kContainerPart + double(i) * step;
+      document.access.progress =
+          tellReading(document.progress,
+                      "reading buffer " + std::to_string(i + 1) + " of " + std::to_string(described.size()),
+                      from, from + step);
       warnMediaType(uri, place, {"application/octet-stream", "application/gltf-buffer"}, diagnostics);
       bytes =
           diagnostics.attempt(place, [&] { return readUri(document.access, uri, document.memory.left()); });
@@ -292,8 +318,11 @@ void pose(const std::vector<Animation>& animations, const SceneSelection& select
 KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& options) {
   Document document(path.string(), options.limits);
   document.access = {path.parent_path(), options.limits.allowExternalFiles};
+  document.progress = options.progress;
   Diagnostics& diagnostics = document.diagnostics;
-  Container container = readContainer(path, options.limits.memoryBytes, diagnostics);
+  Container container =
+      readContainer(path, options.limits.memoryBytes, diagnostics,
+                    tellReading(options.progress, "reading the scene", 0.0, kContainerPart));
   takeMemory(document, "", container.binary.size());
   json root = parseJson(container.json, document.memory, diagnostics);
   container.json = std::string();
@@ -308,6 +337,8 @@ KeptDocument readDocument(const std::filesystem::path& path, const GltfOptions& 
   checkBufferViews(root, diagnostics);
   checkDataValidity(root, diagnostics);
   emptyUnknownAccessors(root, diagnostics);
+  document.access.progress = tellReading(options.progress, "reading textures", kBuffersPart, kBuffersPart);
+  if (options.progress) options.progress("unpacking", kBuffersPart);
   decompressViews(root, buffers, codecs, document);
   decompressPrimitives(root, buffers, codecs, document);
   addDefaultCones(root);

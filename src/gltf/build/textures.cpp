@@ -13,6 +13,8 @@
 namespace fragtrace {
 namespace {
 
+constexpr double kTexturesPart = 0.4;  // of a load, that is behind when they are read
+
 Wrap wrapOf(int mode, const std::string& place, Diagnostics& diagnostics) {
   switch (mode) {
     case TINYGLTF_TEXTURE_WRAP_REPEAT:
@@ -124,6 +126,10 @@ void TextureTable::warnLost(int image, const std::string& reason) {
 uint32_t TextureTable::useImage(int image) {
   uint32_t& known = images_.at(size_t(image));
   if (known != kMissIndex || lost_[size_t(image)]) return known;
+  if (document_.progress)
+    document_.progress("reading texture " + std::to_string(scene_.images.size() + 1) + " of " +
+                           std::to_string(images_.size()),
+                       kTexturesPart);
   try {
     EncodedImage encoded = readImage(document_, image);
     if (document_.drawMissingTextures)

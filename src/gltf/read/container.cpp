@@ -2,7 +2,9 @@
 #include "gltf/read/container.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -50,6 +52,27 @@ uint64_t checkBeginning(std::span<const uint8_t> bytes, uint64_t size, const Dia
   return std::max<uint64_t>(length, kHeaderSize) + 1;
 }
 
+[[noreturn]] void refuseChunk(size_t chunk, uint64_t size, const Diagnostics& diagnostics) {
+  diagnostics.refuse("", "broken .glb: chunk " + std::to_string(chunk) + " of " + std::to_string(size) +
+                             " bytes reaches past the end of the file");
+}
+
+/// Refuses a .glb whose first chunks are longer than the file: their headers alone are read.
+void checkChunks(const std::filesystem::path& path, uint64_t length, const Diagnostics& diagnostics) {
+  constexpr size_t kMostChunks = 16;
+  std::ifstream file(path, std::ios::binary);
+  uint64_t offset = kHeaderSize;
+  for (size_t chunk = 0; chunk < kMostChunks && offset + kChunkHeaderSize <= length; ++chunk) {
+    std::array<char, kChunkHeaderSize> header{};
+    if (!file.seekg(std::streamoff(offset)) || !file.read(header.data(), header.size())) return;
+    offset += kChunkHeaderSize;
+    const uint64_t size =
+        readLittleEndian({reinterpret_cast<const uint8_t*>(header.data()), header.size()}, 0);
+    if (size > length - offset) refuseChunk(chunk, size, diagnostics);
+    offset += size;
+  }
+}
+
 /// Splits a .glb whose beginning is checked: a header, a JSON chunk, perhaps a BIN chunk, perhaps unknown
 /// chunks.
 Container splitGlb(const std::vector<uint8_t>& bytes, Diagnostics& diagnostics) {
@@ -70,10 +93,7 @@ Container splitGlb(const std::vector<uint8_t>& bytes, Diagnostics& diagnostics) 
     const size_t size = readLittleEndian(bytes, offset);
     const uint32_t type = readLittleEndian(bytes, offset + 4);
     offset += kChunkHeaderSize;
-    if (size > length - offset) {
-      diagnostics.refuse("", "broken .glb: chunk " + std::to_string(chunk) + " of " + std::to_string(size) +
-                                 " bytes reaches past the end of the file");
-    }
+    if (size > length - offset) refuseChunk(chunk, size, diagnostics);
     const uint8_t* data = bytes.data() + offset;
     if (size % kChunkAlignment != 0)
       diagnostics.warn("", "chunk " + std::to_string(chunk) +
@@ -95,11 +115,15 @@ Container splitGlb(const std::vector<uint8_t>& bytes, Diagnostics& diagnostics) 
 
 }  // namespace
 
-Container readContainer(const std::filesystem::path& path, uint64_t memoryLimit, Diagnostics& diagnostics) {
+Container readContainer(const std::filesystem::path& path, uint64_t memoryLimit, Diagnostics& diagnostics,
+                        const ReadProgress& progress) {
   const std::vector<uint8_t> bytes = diagnostics.attempt("", [&] {
-    return readBytes(path, memoryLimit, [&](std::span<const uint8_t> first, uint64_t size) {
-      return checkBeginning(first, size, diagnostics);
-    });
+    const auto check = [&](std::span<const uint8_t> first, uint64_t size) {
+      const uint64_t most = checkBeginning(first, size, diagnostics);
+      if (size > 0 && isBinary(first)) checkChunks(path, readLittleEndian(first, 8), diagnostics);
+      return most;
+    };
+    return readBytes(path, memoryLimit, check, progress);
   });
   if (isBinary(bytes)) return splitGlb(bytes, diagnostics);
   checkBeginning(bytes, bytes.size(), diagnostics);  // now that all is there

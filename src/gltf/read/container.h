@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gltf/read/diagnostics.h"
+#include "image/files/whole_file.h"
 
 namespace fragtrace {
 
@@ -20,6 +21,8 @@ struct Container {
 
 /// Reads the file and splits it. Its content decides which container it is, not its name. Throws InputError
 /// if the file is missing, truncated, neither, or larger than the limit in bytes.
-Container readContainer(const std::filesystem::path& path, uint64_t memoryLimit, Diagnostics& diagnostics);
+/// Of a regular .glb the lengths of its chunks are checked before more than its beginning is read.
+Container readContainer(const std::filesystem::path& path, uint64_t memoryLimit, Diagnostics& diagnostics,
+                        const ReadProgress& progress = {});
 
 }  // namespace fragtrace

@@ -37,6 +37,7 @@ struct Document {
 
   tinygltf::Model model;  ///< without skins, animations and pictures
   FileAccess access;
+  GltfProgress progress{};  ///< of this load; a document that is kept has none
   std::vector<ImageSource> images;
   std::vector<Skin> skins;
   std::vector<std::string> sceneNames, animationNames, materialVariants;

@@ -104,7 +104,7 @@ std::vector<uint8_t> readRegularFile(int file, const FileAccess& access, uint64_
   } else if (!access.allowExternal && !isBelow(file, access.folder)) {
     reason = "is a link out of the scene's folder (--allow-external-files)";
   }
-  if (reason.empty()) return readOpenFile(file, limit);
+  if (reason.empty()) return readOpenFile(file, limit, {}, access.progress);
   ::close(file);
   throw std::runtime_error(reason);
 }

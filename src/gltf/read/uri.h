@@ -8,12 +8,15 @@
 #include <string_view>
 #include <vector>
 
+#include "image/files/whole_file.h"
+
 namespace fragtrace {
 
 /// The places to which a file's URIs may lead.
 struct FileAccess {
   std::filesystem::path folder;  ///< what relative URIs start from
   bool allowExternal = false;    ///< also out of the folder
+  ReadProgress progress{};       ///< of every file
 };
 
 /// "%20" to " ", byte by byte, so that UTF-8 stays UTF-8; what is no valid escape is kept as it is.

@@ -75,7 +75,8 @@ std::filesystem::path partOf(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::vector<uint8_t> readOpenFile(int file, uint64_t limit, const BeginningCheck& check) {
+std::vector<uint8_t> readOpenFile(int file, uint64_t limit, const BeginningCheck& check,
+                                  const ReadProgress& progress) {
   struct Closing {
     int file;
     ~Closing() { ::close(file); }
@@ -89,20 +90,26 @@ std::vector<uint8_t> readOpenFile(int file, uint64_t limit, const BeginningCheck
   // The size is only a hint: a pipe has none, and a file may grow meanwhile.
   const uint64_t size = S_ISREG(status.st_mode) ? uint64_t(status.st_size) : 0;
   constexpr size_t kBlock = 1 << 16;
+  constexpr size_t kMostAtOnce = 1 << 24;  // between two calls of `progress`
   uint64_t most = std::numeric_limits<uint64_t>::max();
   bool isChecked = !check;
+  uint64_t told = 0;
   std::vector<uint8_t> bytes;
   for (;;) {
     MemoryBudget(limit).take(std::max(size, uint64_t(bytes.size())));
     const size_t before = bytes.size();
     if (isChecked && size > before) bytes.reserve(size_t(std::min(size + 1, most)));
     const size_t room = isChecked && bytes.capacity() > before ? bytes.capacity() : before + kBlock;
-    bytes.resize(size_t(std::min<uint64_t>(room, most)));
+    bytes.resize(size_t(std::min<uint64_t>({room, most, before + kMostAtOnce})));
     const ssize_t count = ::read(file, bytes.data() + before, bytes.size() - before);
     const int code = errno;
     bytes.resize(before + size_t(std::max<ssize_t>(count, 0)));
     if (count < 0 && code != EINTR) throw std::runtime_error("cannot be read: " + systemReason(code));
     const bool ended = count == 0;
+    if (progress && (ended || bytes.size() - told >= kMostAtOnce)) {
+      told = bytes.size();
+      progress(told, size);
+    }
     if (!isChecked && (ended || bytes.size() >= kBlock)) {
       most = check(bytes, size);
       isChecked = true;
@@ -112,11 +119,11 @@ std::vector<uint8_t> readOpenFile(int file, uint64_t limit, const BeginningCheck
   }
 }
 
-std::vector<uint8_t> readBytes(const std::filesystem::path& path, uint64_t limit,
-                               const BeginningCheck& check) {
+std::vector<uint8_t> readBytes(const std::filesystem::path& path, uint64_t limit, const BeginningCheck& check,
+                               const ReadProgress& progress) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
   if (file < 0) throw std::runtime_error("cannot be opened: " + systemReason(errno));
-  return readOpenFile(file, limit, check);
+  return readOpenFile(file, limit, check, progress);
 }
 
 std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, uint64_t limit) {

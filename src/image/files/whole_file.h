@@ -16,13 +16,19 @@ namespace fragtrace {
 /// file's, or 0 for a pipe. Returns the largest number of bytes to read; it may throw.
 using BeginningCheck = std::function<uint64_t(std::span<const uint8_t> first, uint64_t size)>;
 
+/// Told after every 16 MB, and at the end, how many bytes of how many (0: of a pipe) have been read; what it
+/// throws ends reading.
+using ReadProgress = std::function<void(uint64_t read, uint64_t size)>;
+
 /// All bytes of an open regular file or pipe, which is closed. Throws std::runtime_error with the bare reason
-/// when it is something else, has more than `limit` bytes, or cannot be read; and as `check` does.
-std::vector<uint8_t> readOpenFile(int file, uint64_t limit, const BeginningCheck& check = {});
+/// when it is something else, has more than `limit` bytes, or cannot be read; and as `check` and `progress`
+/// do.
+std::vector<uint8_t> readOpenFile(int file, uint64_t limit, const BeginningCheck& check = {},
+                                  const ReadProgress& progress = {});
 
 /// The same of the file at a path.
 std::vector<uint8_t> readBytes(const std::filesystem::path& path, uint64_t limit,
-                               const BeginningCheck& check = {});
+                               const BeginningCheck& check = {}, const ReadProgress& progress = {});
 /// The same, but throws InputError naming the path, too.
 std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, uint64_t limit = defaultMemoryLimit());
 

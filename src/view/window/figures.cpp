@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "view/window/text.h"
+#include "view/window/draw/text.h"
 
 namespace fragtrace {
 

@@ -3,7 +3,9 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <mutex>
 #include <stdexcept>
@@ -12,11 +14,15 @@
 #include "advice.h"
 #include "gl/dynamic_library.h"
 #include "gl/gl.h"
+#include "process/report.h"
+#include "view/window/status.h"
 #include "view/window/wayland.h"
 
 namespace fragtrace {
 
 namespace {
+
+constexpr int kContextStatus = 4;  // of ContextError (cli/program.cpp)
 
 struct GlfwErrors {
   std::mutex mutex;
@@ -63,6 +69,25 @@ bool displayIsGone() {
 #endif
 }
 
+void endWithDisplay(const std::filesystem::path& statusFile) {
+  static std::filesystem::path file;
+  file = statusFile;
+  using Handler = int (*)(void*);
+  Handler (*setHandler)(Handler) = nullptr;
+  static const DynamicLibrary library({"libX11.so.6"});
+  if (!library.loaded() || !library.find("XSetIOErrorHandler", setHandler)) return;
+  setHandler([](void*) {
+    try {
+      writeStatusFile(file, failureText(kDisplayIsGone));
+    } catch (const std::exception&) {
+      // There is nobody left to tell.
+    }
+    reportError(kDisplayIsGone);
+    _exit(kContextStatus);
+    return 0;
+  });
+}
+
 void CloseWindow::operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
 
 WindowHandle openWindow(glm::ivec2 size, const std::string& title) {
@@ -96,6 +121,19 @@ WindowHandle openSharing(GLFWwindow* window) {
 OutsideContext outsideContext(GLFWwindow* sharing) {
   return {[sharing] { glfwMakeContextCurrent(sharing); }, [] { glfwMakeContextCurrent(nullptr); },
           glfwGetProcAddress};
+}
+
+std::string portalName(GLFWwindow* window) {
+#ifdef GLFW_PLATFORM
+  if (glfwGetPlatform() != GLFW_PLATFORM_X11) return "";
+#endif
+  // A GLFW for Wayland alone has no such function.
+  unsigned long (*numberOf)(GLFWwindow*) = nullptr;
+  static const DynamicLibrary library({"libglfw.so.3"});
+  if (!library.loaded() || !library.find("glfwGetX11Window", numberOf)) return "";
+  char name[32];
+  std::snprintf(name, sizeof name, "x11:%lx", numberOf(window));
+  return name;
 }
 
 std::string takeGlfwErrors() {

@@ -2,6 +2,7 @@
 // GLFW: the library's life, a window with a current context of OpenGL 4.5, and what went wrong.
 #pragma once
 
+#include <filesystem>
 #include <glm/vec2.hpp>
 #include <memory>
 #include <string>
@@ -25,9 +26,13 @@ struct CloseWindow {
 };
 using WindowHandle = std::unique_ptr<GLFWwindow, CloseWindow>;
 
-/// True once the compositor has ended, on which GLFW closes all windows. An X server that ends takes the
-/// process with it.
+/// True once the compositor has ended, on which GLFW closes all windows.
 bool displayIsGone();
+inline constexpr const char* kDisplayIsGone = "the display is gone";
+
+/// From then on, when an X server ends, the program says so, also in the status file, and ends with the
+/// status of ContextError: Xlib knows no other end.
+void endWithDisplay(const std::filesystem::path& statusFile);
 
 /// Throws std::runtime_error.
 WindowHandle openWindow(glm::ivec2 size, const std::string& title);
@@ -36,6 +41,9 @@ WindowHandle openWindow(glm::ivec2 size, const std::string& title);
 /// its own. Throws std::runtime_error.
 WindowHandle openSharing(GLFWwindow* window);
 OutsideContext outsideContext(GLFWwindow* sharing);
+
+/// A window's name for the desktop's portals, "x11:1a00002"; empty where it has none.
+std::string portalName(GLFWwindow* window);
 
 /// What GLFW has reported since the last call, from any thread; empty: nothing.
 std::string takeGlfwErrors();

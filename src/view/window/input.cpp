@@ -84,7 +84,10 @@ std::optional<glm::dvec2> Input::update(ViewState& state, const WindowLayout& la
     presses_ += isPressed && event.action == GLFW_PRESS;
     switch (event.kind) {
       case Kind::Key:
-        if (!io.WantTextInput || event.action == GLFW_RELEASE) key(event, state, run);
+        if (state.fileList && event.action != GLFW_RELEASE)
+          run({.errand = Errand::ListKey, .index = size_t(event.code)});
+        else if (!io.WantTextInput || event.action == GLFW_RELEASE)
+          key(event, state, run);
         break;
       case Kind::Button:
         if (event.action == GLFW_RELEASE)

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "view/window/theme.h"
+#include "view/window/draw/theme.h"
 
 namespace fragtrace {
 

@@ -10,11 +10,12 @@
 
 #include "view/presets.h"
 #include "view/progress.h"
+#include "view/window/draw/text.h"
+#include "view/window/draw/theme.h"
 #include "view/window/figures.h"
+#include "view/window/panel_parts.h"
 #include "view/window/pixel_values.h"
 #include "view/window/status_bar.h"
-#include "view/window/text.h"
-#include "view/window/theme.h"
 
 namespace fragtrace {
 
@@ -240,20 +241,14 @@ Task drawWelcome(ViewFacts& facts, const WindowLayout& layout) {
   ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x - 2 * layout.margin, display.y - 2 * layout.margin});
   if (ImGui::Begin("welcome", nullptr, kPageFlags)) {
     addWindowPlace(facts.places, "welcome");
-    ImGui::TextUnformatted("Drop a model here");
+    errandButton(facts.places, "Open...", Errand::Open, task);
+    ImGui::SameLine();
+    ImGui::TextUnformatted("or drop a model here");
     ImGui::TextDisabled(".gltf or .glb; with it, or later, an environment: .hdr, .exr or .pfm. H: help");
     if (!facts.remembered.recent.empty()) {
       ImGui::Separator();
       ImGui::TextDisabled("Shown before");
-    }
-    for (size_t i = 0; i < facts.remembered.recent.size(); ++i) {
-      const std::filesystem::path& file = facts.remembered.recent[i];
-      const std::string text =
-          shownText(file.filename().string(), kMostNameCharacters) + "##" + std::to_string(i);
-      if (ImGui::Selectable(text.c_str())) task = {.errand = Errand::OpenFile, .file = file};
-      addItemPlace(facts.places, "recent " + std::to_string(i));
-      if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s", shownText(file.string(), kMostLineCharacters).c_str());
+      drawRecentFiles(facts.recent, facts.remembered.recent, facts.places, task);
     }
   }
   ImGui::End();

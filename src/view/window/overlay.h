@@ -12,7 +12,9 @@
 #include "view/picture/pixel_value.h"
 #include "view/remembered.h"
 #include "view/view_state.h"
-#include "view/window/places.h"
+#include "view/window/dialog/file_dialog.h"
+#include "view/window/draw/places.h"
+#include "view/window/recent_files.h"
 #include "view/window_layout.h"
 
 namespace fragtrace {
@@ -50,6 +52,8 @@ struct ViewFacts {
   bool canRedo = false;
   std::string status;  ///< what the status bar says
   Remembered remembered;
+  RecentFiles recent;
+  DialogKind dialog = DialogKind::None;
   size_t sheetLines = 0;          ///< of the sheet, that the search has found
   const char* focus = "picture";  ///< what keys go to (Interface::focus)
   Places places;                  ///< of the latest frame

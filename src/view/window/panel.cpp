@@ -8,10 +8,10 @@
 
 #include "options/same_picture.h"
 #include "view/presets.h"
+#include "view/window/draw/text.h"
+#include "view/window/draw/theme.h"
 #include "view/window/input.h"
 #include "view/window/panel_parts.h"
-#include "view/window/text.h"
-#include "view/window/theme.h"
 
 namespace fragtrace {
 
@@ -197,7 +197,9 @@ void drawButtons(Places& places, Task& task) {
     stayOnLineFor(text);
     errandButton(places, text, errand, task);
   };
-  errandButton(places, "Write .exr", Errand::WriteExr, task);
+  errandButton(places, "Open...", Errand::Open, task);
+  next("Save as...", Errand::SaveAs);
+  next("Write .exr", Errand::WriteExr);
   next("Reload", Errand::Reload);
   next("Reset all", Errand::ResetAll);
   next("Full screen", Errand::Fullscreen);
@@ -246,6 +248,7 @@ Task drawPanel(ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
     if (open("Switches", false)) drawStages(state, places, false);
     if (open("Sampling", false)) drawSampling(state, places);
     if (open("Advanced", false)) drawAdvanced(state, facts);
+    if (open("Shown before", false)) drawRecentFiles(facts.recent, facts.remembered.recent, places, task);
     drawButtons(places, task);
   }
   ImGui::End();

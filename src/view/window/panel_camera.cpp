@@ -2,8 +2,8 @@
 // The camera: projection, cameras of the scene, views with a name.
 #include <algorithm>
 
+#include "view/window/draw/text.h"
 #include "view/window/panel_parts.h"
-#include "view/window/text.h"
 
 namespace fragtrace {
 

@@ -5,8 +5,8 @@
 #include "image/display/tone_map.h"
 #include "scene/blurred_map.h"
 #include "view/environments.h"
+#include "view/window/draw/text.h"
 #include "view/window/panel_parts.h"
-#include "view/window/text.h"
 
 namespace fragtrace {
 
@@ -31,10 +31,10 @@ void drawThumbnail(const ViewFacts& facts, const EnvironmentChoice& choice, floa
     ImGui::Image(ImTextureID(intptr_t(found->second)), size);  // NOLINT(performance-no-int-to-ptr)
 }
 
-/// A list of what can light the scene; what was chosen, with which it is to be loaded again.
-std::optional<RenderOptions> chooseEnvironment(const ViewedScene& scene, ViewFacts& facts) {
+/// A list of what can light the scene. Returns what is to be done for the one that was chosen.
+Task chooseEnvironment(const ViewedScene& scene, ViewFacts& facts) {
   Places& places = facts.places;
-  std::optional<RenderOptions> chosen;
+  Task chosen;
   const std::vector<EnvironmentChoice> choices = environmentChoices(scene);
   const size_t current = currentChoice(scene, choices);
   if (!ImGui::BeginCombo("##environment", shownText(choices[current].name, kMostNameCharacters).c_str()))
@@ -47,10 +47,12 @@ std::optional<RenderOptions> chooseEnvironment(const ViewedScene& scene, ViewFac
     ImGui::SameLine();
     const std::string name = shownText(choices[i].name, kMostNameCharacters);
     if (ImGui::Selectable(name.c_str(), i == current, 0, ImVec2(0.0f, height)))
-      chosen = withEnvironment(scene.options, choices[i]);
+      chosen = {.errand = Errand::Load, .load = withEnvironment(scene.options, choices[i])};
     addItemPlace(places, "environment " + choices[i].name);
     ImGui::PopID();
   }
+  if (ImGui::Selectable("Open...")) chosen = {.errand = Errand::Open, .index = 1};
+  addItemPlace(places, "environment Open...");
   ImGui::EndCombo();
   return chosen;
 }
@@ -104,10 +106,7 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
   for (RenderOptions& side : state.sides) side.output.toneMap = curve;
   const bool map = state.scene->map;
   label(places, "Environment");
-  if (const std::optional<RenderOptions> other = chooseEnvironment(*state.scene, facts)) {
-    task.errand = Errand::Load;
-    task.load = other;
-  }
+  task = chooseEnvironment(*state.scene, facts);
   label(places, "Rotation");
   ImGui::BeginDisabled(!map);
   float degrees = float(o.light.hdriRotationDegrees);

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "view/window/text.h"
+#include "view/window/draw/text.h"
 
 namespace fragtrace {
 
@@ -37,12 +37,16 @@ void tip(Places& places, const std::string& text) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   const float left = ImGui::GetWindowPos().x - ImGui::GetStyle().ItemSpacing.x;
   const ImVec2 item = ImGui::GetItemRectMin();
-  const float width = std::min(ImGui::CalcTextSize(text.c_str()).x, kTipWidth * ImGui::GetFontSize());
-  const bool beside = width + 2 * ImGui::GetStyle().WindowPadding.x <= left;
-  ImGui::SetNextWindowPos(beside ? ImVec2(left, item.y) : ImVec2(item.x, item.y), ImGuiCond_Always,
+  const float padding = 2 * ImGui::GetStyle().WindowPadding.x;
+  const float display = ImGui::GetIO().DisplaySize.x;
+  const float most = std::min(kTipWidth * ImGui::GetFontSize(), display - padding);
+  const float width = std::min(ImGui::CalcTextSize(text.c_str()).x, most);
+  const bool beside = width + padding <= left;
+  const float right = std::max(std::min(item.x, display - width - padding), 0.0f);
+  ImGui::SetNextWindowPos(beside ? ImVec2(left, item.y) : ImVec2(right, item.y), ImGuiCond_Always,
                           beside ? ImVec2(1.0f, 0.0f) : ImVec2(0.0f, 1.0f));
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(kTipWidth * ImGui::GetFontSize());
+  ImGui::PushTextWrapPos(most);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   addWindowPlace(places, "tip");

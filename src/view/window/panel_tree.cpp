@@ -2,8 +2,8 @@
 // The scene's nodes, which can be selected and hidden, and its materials.
 #include <algorithm>
 
+#include "view/window/draw/text.h"
 #include "view/window/panel_parts.h"
-#include "view/window/text.h"
 
 namespace fragtrace {
 

@@ -5,9 +5,9 @@
 #include <array>
 #include <string>
 
+#include "view/window/draw/text.h"
+#include "view/window/draw/theme.h"
 #include "view/window/panel_parts.h"
-#include "view/window/text.h"
-#include "view/window/theme.h"
 
 namespace fragtrace {
 

@@ -119,6 +119,9 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["error"] = facts.error;
   json["messages"] = Json::array();
   for (const Message& message : facts.messages) json["messages"].push_back(message.text);
+  json["dialog"] = facts.dialog == DialogKind::None   ? ""
+                   : facts.dialog == DialogKind::List ? "list"
+                                                      : "desktop";
   json["focus"] = facts.focus;
   json["places"] = facts.places;
   json["pick"] = facts.pick ? Json(facts.pick->lines) : Json();

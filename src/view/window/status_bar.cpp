@@ -8,8 +8,8 @@
 
 #include "view/picture/pixel_value.h"
 #include "view/progress.h"
+#include "view/window/draw/text.h"
 #include "view/window/pixel_values.h"
-#include "view/window/text.h"
 
 namespace fragtrace {
 

@@ -9,6 +9,7 @@
 #include "gl/debug_log.h"
 #include "view/history.h"
 #include "view/window.h"
+#include "view/window/dialog/file_dialog.h"
 #include "view/window/display.h"
 #include "view/window/glfw_window.h"
 #include "view/window/input.h"
@@ -17,6 +18,8 @@
 #include "view/window/status.h"
 
 namespace fragtrace {
+
+inline constexpr int kSettleFrames = 3;  ///< that Dear ImGui takes to come to rest after an event
 
 class Window {
  public:
@@ -59,15 +62,19 @@ class Window {
   void load(RenderOptions options);
   void loadStep();
   void cancelLoad();
-  void takeDrops();
-  void openFiles(const std::vector<std::filesystem::path>& files);
-  void save(const char* extension);
   void copyCommand();
   void pasteCommand();
   void toggleFullscreen();
   void takeText(const std::string& text, const std::string& otherwise);
-  void remember(const std::function<void(Remembered&)>& change);
   RenderOptions shownOptions() const;
+
+  // window_files.cpp
+  void takeDrops();
+  void openFiles(const std::vector<std::filesystem::path>& files);
+  void save(const std::filesystem::path& file);
+  void askForFile(const Task& task);
+  void takeFile();
+  void remember(const std::function<void(Remembered&)>& change);
 
   const WindowStart& start_;
   Exchange& exchange_;
@@ -79,6 +86,9 @@ class Window {
   Input input_;
   Interface interface_;
   Display display_;
+  FileDialog dialog_;
+  bool dialogSaves_ = false;           ///< it asks for the name of a picture
+  std::filesystem::path savedFolder_;  ///< of the picture that was written last; empty: none was
   std::map<std::filesystem::path, GlTexture> thumbnails_;
   std::set<std::filesystem::path> askedThumbnails_;
   ViewState state_;

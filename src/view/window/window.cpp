@@ -39,10 +39,11 @@ void runWindow(const WindowStart& start, Exchange& exchange) {
     const WindowStart& start;
     ~Ending() { start.ending(); }
   } ending{start};
+  endWithDisplay(start.statusFile);
   start.opened(window->shared());
   try {
     window->run();
-    if (displayIsGone()) throw ContextError("the display is gone");
+    if (displayIsGone()) throw ContextError(kDisplayIsGone);
   } catch (const std::exception& error) {
     writeFailure([&] { window->end(error.what()); });
     throw;

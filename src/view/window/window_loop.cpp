@@ -19,7 +19,6 @@ namespace fragtrace {
 
 namespace {
 
-constexpr int kSettleFrames = 3;        // that Dear ImGui takes to come to rest after an event
 constexpr double kMovingSeconds = 0.2;  // after the last change, before full resolution
 constexpr double kFrameSeconds = 1.0 / 60;
 /// GLFW 3.3 on X11 sleeps on what another thread's glfwPostEmptyEvent() has read from the connection
@@ -118,7 +117,7 @@ void Window::open() {
 }
 
 void Window::run() {
-  while (!glfwWindowShouldClose(window_.get())) {
+  while (!glfwWindowShouldClose(window_.get()) && !start_.interrupted()) {
     wait();
     const double begin = glfwGetTime();
     take();
@@ -185,6 +184,7 @@ void Window::take() {
   for (const std::string& message : news.messages) say(message);
   if (const std::string errors = takeGlfwErrors(); !errors.empty()) say("window: " + errors);
   takeState(news);
+  takeFile();
 }
 
 void Window::adoptScene(ViewedScene scene) {
@@ -221,7 +221,7 @@ void Window::takeState(const Delivery& news) {
   if (!facts_.error.empty() && !facts_.load.busy && state_.scene) {
     wanted_ = state_.scene->options;
     pasted_.reset();
-    history_.waits = false;
+    giveUp(history_, state_);
   }
   if (!facts_.error.empty() && !facts_.load.busy && !state_.scene) {
     forgetBrokenEnvironment();
@@ -286,6 +286,7 @@ void Window::draw() {
   facts_.canUndo = !history_.past.empty();
   facts_.canRedo = !history_.future.empty();
   const double now = glfwGetTime();
+  dialog_.draw(facts_.places, layout);
   const Task said = drawOverlay(state_, facts_, layout, now);
   fades_ = now + secondsToFade(facts_.messages, now);
   if (panel) execute(drawPanel(state_, facts_, layout));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Window tasks beyond its state: files, clipboard, undo, bookmarks, the screen, pictures as they come in.
+// Window tasks beyond its state: clipboard, undo, bookmarks, the screen, pictures as they come in.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -9,7 +9,6 @@
 #include "errors.h"
 #include "gl/gl.h"
 #include "image/image.h"
-#include "view/dropped_file.h"
 #include "view/shown_names.h"
 #include "view/window/view_window.h"
 
@@ -31,8 +30,12 @@ void Window::execute(const Task& task) {
       if (!state_.reference.empty()) exchange_.compareWith(state_.reference);
       if (state_.scene || !wanted_.scene.empty()) load(state_.scene ? state_.scene->options : wanted_);
       return;
+    case Errand::Open:
+      return askForFile(task);
     case Errand::OpenFile:
       return openFiles({task.file});
+    case Errand::ListKey:
+      return dialog_.press(int(task.index));
     case Errand::CancelLoad:
       return cancelLoad();
     case Errand::DropReference:
@@ -45,7 +48,7 @@ void Window::execute(const Task& task) {
         facts_.errorClosed = true;
         return;
       }
-      if (facts_.load.busy && state_.scene) return cancelLoad();
+      if (facts_.load.busy) return cancelLoad();
       if (facts_.pick) return executeOnScene({.errand = Errand::Deselect});
       if (state_.fullscreen) return toggleFullscreen();
       // The press that has come here counts, too.
@@ -93,6 +96,7 @@ void Window::executeOnScene(const Task& task) {
           !sameScene(wanted, state_.scene->options)) {
         load(wanted);
         history_.waits = true;
+        history_.step = 0;
       }
       return;
     case Errand::Load:
@@ -102,9 +106,11 @@ void Window::executeOnScene(const Task& task) {
     case Errand::RemoveBookmark:
       return executeOnBookmark(task);
     case Errand::Screenshot:
-      return save(".png");
+      return save(std::filesystem::absolute(freePictureName(state_.options().scene, ".png")));
+    case Errand::SaveAs:
+      return askForFile(task);
     case Errand::WriteExr:
-      return save(".exr");
+      return save(std::filesystem::absolute(freePictureName(state_.options().scene, ".exr")));
     default:
       return;
   }
@@ -128,52 +134,11 @@ void Window::loadStep() {
 
 void Window::cancelLoad() {
   exchange_.cancelLoad();
+  facts_.load = {};
   pasted_.reset();
-  history_.waits = false;
+  giveUp(history_, state_);
   if (state_.scene) wanted_ = state_.scene->options;
-}
-
-void Window::takeDrops() {
-  const std::vector<std::filesystem::path> files = input_.takeDrops();
-  if (!files.empty()) openFiles(files);
-}
-
-void Window::openFiles(const std::vector<std::filesystem::path>& files) {
-  std::vector<std::filesystem::path> toLoad;
-  for (const std::filesystem::path& file : files) {
-    if (state_.split && mayBeReference(file))
-      exchange_.compareWith(file);
-    else
-      toLoad.push_back(file);
-  }
-  if (toLoad.empty()) return;
-  const Drop drop = takeDrop(wanted_, toLoad);
-  for (const std::string& sentence : drop.refused) say(sentence);
-  if (!drop.load) return;
-  const bool hasScene =
-      std::ranges::any_of(toLoad, [](const auto& file) { return kindOfDropped(file) == DroppedFile::Scene; });
-  if (hasScene || state_.scene || facts_.load.busy) return load(*drop.load);
-  wanted_ = *drop.load;
-  say(wanted_.light.hdriFile.filename().string() + " will light the model that is dropped next");
-}
-
-void Window::save(const char* extension) {
-  const RenderOptions& o = state_.options();
-  const std::filesystem::path name = std::filesystem::absolute(freePictureName(o.scene, extension));
-  // A file for a display is what is seen, one of radiance what the active side's samples say.
-  const bool seen = isDisplayFormat(name);
-  const bool both = state_.compares() && seen;
-  const char* side = !state_.compares() || both ? "" : state_.active == 0 ? " of side A" : " of side B";
-  if (!facts_.resting) say("writing " + name.string() + side + " as soon as all of the picture is drawn");
-  SaveRequest request;
-  request.path = name;
-  request.side = state_.shownSide();
-  if (both) request.both = state_.comparison;
-  request.bar = state_.shownBar();
-  request.differenceStops = state_.differenceStops;
-  request.exposure = o.output.exposure;
-  request.toneMap = o.output.toneMap;
-  exchange_.save(std::move(request));
+  if (!state_.scene) glfwSetWindowTitle(window_.get(), windowTitle({}).c_str());
 }
 
 /// Of the active side, with all that its picture on the screen depends on.
@@ -198,18 +163,6 @@ void Window::toggleFullscreen() {
     glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
   }
   state_.fullscreen = !state_.fullscreen;
-}
-
-/// Reads what other viewers have remembered meanwhile, too.
-void Window::remember(const std::function<void(Remembered&)>& change) {
-  try {
-    const std::filesystem::path file = rememberedFile();
-    facts_.remembered = readRemembered(file);
-    change(facts_.remembered);
-    writeRemembered(file, facts_.remembered);
-  } catch (const std::exception& error) {
-    say(std::string("not remembered: ") + error.what());
-  }
 }
 
 void Window::executeOnBookmark(const Task& task) {
@@ -311,12 +264,14 @@ void Window::askForThumbnails() {
 
 /// It is side B from now on.
 void Window::takeReference(const TracedPicture& picture) {
+  record(history_, state_);
   state_.reference = picture.file;
   state_.split = true;
   state_.overview = false;
   state_.active = 0;
   if (state_.sides[1].scene.empty()) state_.sides[1] = state_.sides[0];
   newReference_ = true;
+  overlook(history_, state_);
 }
 
 /// Once the picture of the scene has its size.

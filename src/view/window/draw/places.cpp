@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/window/places.h"
+#include "view/window/draw/places.h"
 
 #include <imgui.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/window/theme.h"
+#include "view/window/draw/theme.h"
 
 namespace fragtrace {
 
@@ -53,6 +53,7 @@ ImGuiStyle themeStyle() {
   set(ImGuiCol_PlotHistogram, kAccent);
   set(ImGuiCol_TextSelectedBg, kAccent);
   set(ImGuiCol_TableRowBgAlt, grey(1.0f, 0.04f));
+  set(ImGuiCol_ModalWindowDimBg, grey(0.0f, 0.45f));
   return style;
 }
 

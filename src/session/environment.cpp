@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "session/environment.h"
+
+#include <cmath>
+#include <utility>
+
+#include "errors.h"
+#include "math/count_text.h"
+#include "scene/blurred_map.h"
+#include "scene/studio.h"
+#include "session/say.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// Throws InputError for the first pixel that is NaN or infinite. Values below 0, which filters leave and
+/// which are no light, become 0. Returns how many did.
+size_t settleRadiance(Image& image, const std::filesystem::path& path) {
+  size_t negative = 0;
+  for (size_t i = 0; i < image.values.size(); ++i) {
+    float& value = image.values[i];
+    if (value < 0.0f && std::isfinite(value)) {
+      value = 0.0f;
+      ++negative;
+    }
+    if (std::isfinite(value)) continue;
+    const size_t pixel = i / image.channelCount();
+    throw InputError(path.string() + ": pixel (" + std::to_string(pixel % size_t(image.width)) + ", " +
+                     std::to_string(pixel / size_t(image.width)) + ") is not finite");
+  }
+  return negative;
+}
+
+void warn(const RenderOptions& options, const std::string& what, std::vector<std::string>& warnings) {
+  warnings.push_back(options.light.hdriFile.string() + what);
+  say(options, "warning: " + warnings.back());
+}
+
+}  // namespace
+
+LinearImage readMap(const RenderOptions& options) {
+  LinearImage image = readLinearImage(options.light.hdriFile, options.limits.memoryBytes);
+  image.image = wholeOf(std::move(image.image));
+  return image;
+}
+
+OwnLight lightOf(const RenderOptions& options, const Scene& scene) {
+  const bool isAsked = !hasMap(options) && options.light.defaultLight != DefaultLight::None;
+  return isAsked ? ownLight(scene) : OwnLight::Enough;
+}
+
+Environment makeEnvironment(const RenderOptions& options, std::future<LinearImage>& map, OwnLight light,
+                            std::vector<std::string>& warnings) {
+  Environment environment;
+  if (map.valid()) {
+    LinearImage read = map.get();
+    environment.kind = Surroundings::Map;
+    environment.image = std::move(read.image);
+    Image& image = environment.image;
+    if (image.channelCount() < 3) throw InputError(options.light.hdriFile.string() + ": has no colour");
+    const size_t negative = settleRadiance(image, options.light.hdriFile);
+    if (negative > 0)
+      warn(options, ": " + countText(negative, "value") + " below 0, which is no light, taken as 0",
+           warnings);
+    if (read.wasEncoded)
+      warn(options, ": holds no light above 1, so no sun and no lamp; an .hdr, .exr or .pfm does", warnings);
+    // Mirror balls and faces of cubes are square; there is one reading of an environment here.
+    if (image.width == image.height && image.width > 1)
+      warn(options, ": is square, and drawn as latitude and longitude: 360 degrees wide, 180 high", warnings);
+    if (options.light.backgroundBlur > 0.0)
+      environment.backdrop = blurredMap(image, options.light.backgroundBlur);
+  } else if (options.light.studio ||
+             (light != OwnLight::Enough && options.light.defaultLight == DefaultLight::Studio)) {
+    environment = {Surroundings::Map, studioLight(), studioBackdrop()};
+  } else if (light != OwnLight::Enough && options.light.defaultLight == DefaultLight::White) {
+    environment.kind = Surroundings::DefaultLight;
+    environment.image = {1, 1, {"R", "G", "B"}, {1.0f, 1.0f, 1.0f}, {}};
+  }
+  return environment;
+}
+
+}  // namespace fragtrace

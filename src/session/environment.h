@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// What surrounds a scene, by the options: a map that is read, the studio, a default light.
+#pragma once
+
+#include <future>
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+#include "pack/gpu_scene.h"
+#include "pack/own_light.h"
+#include "stage/render_options.h"
+
+namespace fragtrace {
+
+/// The map of the options' file. Throws InputError.
+LinearImage readMap(const RenderOptions& options);
+
+/// The surroundings of a scene with such a light of its own; `map` is what readMap() gives, or invalid
+/// without a file. Says warnings, and adds them to `warnings`. Throws InputError.
+Environment makeEnvironment(const RenderOptions& options, std::future<LinearImage>& map, OwnLight light,
+                            std::vector<std::string>& warnings);
+
+/// Whether the scene has a light of its own, as far as the options let that count.
+OwnLight lightOf(const RenderOptions& options, const Scene& scene);
+
+}  // namespace fragtrace

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "view/files/file_question.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace fragtrace {
+
+namespace {
+
+/// "Scenes (.gltf, .glb)"
+FileFilter fileFilter(std::string name, std::vector<std::string> extensions) {
+  const char* separator = " (";
+  for (const std::string& extension : extensions) {
+    name.append(separator).append(extension);
+    separator = ", ";
+  }
+  return {name + ")", std::move(extensions)};
+}
+
+}  // namespace
+
+FileQuestion openQuestion(const std::filesystem::path& folder, bool environment) {
+  std::vector<std::string> all(kSceneExtensions.begin(), kSceneExtensions.end());
+  all.insert(all.end(), kEnvironmentExtensions.begin(), kEnvironmentExtensions.end());
+  FileQuestion question{
+      .title = "Open a scene or an environment", .folder = folder, .name = {}, .filters = {}};
+  question.filters = {
+      fileFilter("Scenes and environments", std::move(all)),
+      fileFilter("Scenes", {kSceneExtensions.begin(), kSceneExtensions.end()}),
+      fileFilter("Environments", {kEnvironmentExtensions.begin(), kEnvironmentExtensions.end()})};
+  if (environment) std::ranges::rotate(question.filters, question.filters.end() - 1);
+  return question;
+}
+
+FileQuestion saveQuestion(const std::filesystem::path& picture) {
+  return {.save = true,
+          .title = "Save the picture as",
+          .folder = picture.parent_path(),
+          .name = picture.filename().string(),
+          .filters = {fileFilter("Pictures", {kPictureExtensions.begin(), kPictureExtensions.end()})}};
+}
+
+std::string lowerExtension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return extension;
+}
+
+bool passes(const FileFilter& filter, const std::filesystem::path& file) {
+  return std::ranges::find(filter.extensions, lowerExtension(file)) != filter.extensions.end();
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// A question for a file, whoever asks it: the desktop's dialog, or a list in the window.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fragtrace {
+
+/// Extensions in lower case, with their dot.
+inline constexpr std::array kSceneExtensions{".gltf", ".glb"};
+inline constexpr std::array kEnvironmentExtensions{".hdr", ".exr", ".pfm"};
+/// Pictures that the viewer writes; the first is that of a name without any.
+inline constexpr std::array kPictureExtensions{".png", ".jpg", ".exr"};
+
+/// Files of one kind.
+struct FileFilter {
+  std::string name;
+  std::vector<std::string> extensions;  ///< as above
+};
+
+struct FileQuestion {
+  bool save = false;  ///< for a file that may be new
+  std::string title;
+  std::filesystem::path folder;  ///< to begin in; absolute
+  std::string name;              ///< to save under, unless another one is typed
+  std::vector<FileFilter> filters;
+};
+
+/// For something to show: the filter of environments stands first if they are wanted.
+FileQuestion openQuestion(const std::filesystem::path& folder, bool environment);
+
+/// For the name of a picture.
+FileQuestion saveQuestion(const std::filesystem::path& picture);
+
+/// The extension of a name, in lower case.
+std::string lowerExtension(const std::filesystem::path& path);
+
+/// Whether the filter lets the file pass.
+bool passes(const FileFilter& filter, const std::filesystem::path& file);
+
+}  // namespace fragtrace

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// The list of a folder's files, by which the window asks for one where the desktop has no dialog for it.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "view/files/file_question.h"
+
+namespace fragtrace {
+
+struct FolderEntry {
+  std::string name;
+  bool isFolder = false;
+
+  bool operator==(const FolderEntry&) const = default;
+};
+
+/// Without hidden files; folders first, each kind in natural order.
+struct FolderContent {
+  std::filesystem::path folder;  ///< absolute, without . and ..
+  std::vector<FolderEntry> entries;
+  std::string error;  ///< why they cannot be read, or not all of them
+};
+FolderContent readFolder(const std::filesystem::path& folder);
+
+/// Numbers in names by their value, letters whatever their case: "part 9.glb" before "Part 10.glb".
+bool naturallyBefore(std::string_view a, std::string_view b);
+
+/// What a key of the list does.
+enum class ListKey : uint8_t { Up, Down, PageUp, PageDown, Parent, Accept };
+
+struct FolderList {
+  FileQuestion question;
+  size_t filter = 0;                ///< of question.filters
+  FolderContent content;            ///< what has been read last
+  std::array<char, 1024> text{};    ///< to save under, or to be found in names; ends with a 0
+  std::vector<FolderEntry> shown;   ///< what filter and text leave
+  std::optional<size_t> chosen;     ///< of these
+  std::string note;                 ///< what is in the way of the choice; empty: nothing
+  std::filesystem::path toReplace;  ///< the file that is there already, when the user was asked
+};
+
+/// What the list asks for: a folder to be read, or the file that was chosen.
+struct ListStep {
+  std::filesystem::path enter{};
+  std::filesystem::path take{};
+};
+
+/// An empty list for the question; its folder is to be read.
+FolderList listFor(FileQuestion question);
+
+/// Shows what was read.
+void takeContent(FolderList& list, FolderContent content);
+
+/// After a change of the text or the filter.
+void findEntries(FolderList& list);
+
+/// An entry of those shown was chosen; of a name to save under, it takes the place.
+void choose(FolderList& list, size_t entry);
+
+/// Takes what is chosen or typed: a folder is entered; a file that would be replaced is asked about first.
+ListStep accept(FolderList& list);
+
+ListStep press(FolderList& list, ListKey key);
+
+}  // namespace fragtrace

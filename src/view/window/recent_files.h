@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// The files that were shown before, as a list to choose from.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "view/view_state.h"
+#include "view/window/draw/places.h"
+
+namespace fragtrace {
+
+/// What was seen of them when the list was opened: the disk is not asked in each frame.
+struct RecentFiles {
+  std::vector<std::filesystem::path> files;
+  std::vector<bool> gone;
+  int frame = -1;  ///< of Dear ImGui, in which the list was drawn last
+};
+
+/// A line for each file, grey where it is gone. One that is pressed becomes the task.
+void drawRecentFiles(RecentFiles& seen, const std::vector<std::filesystem::path>& files, Places& places,
+                     Task& task);
+
+}  // namespace fragtrace

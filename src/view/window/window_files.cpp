@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Files that the window opens and writes: dropped, chosen in a dialog, shown before.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+
+#include "image/image.h"
+#include "view/dropped_file.h"
+#include "view/shown_names.h"
+#include "view/window/view_window.h"
+
+namespace fragtrace {
+
+void Window::takeDrops() {
+  const std::vector<std::filesystem::path> files = input_.takeDrops();
+  if (!files.empty()) openFiles(files);
+}
+
+void Window::openFiles(const std::vector<std::filesystem::path>& files) {
+  std::vector<std::filesystem::path> toLoad;
+  for (const std::filesystem::path& file : files) {
+    if (state_.split && mayBeReference(file))
+      exchange_.compareWith(file);
+    else
+      toLoad.push_back(file);
+  }
+  if (toLoad.empty()) return;
+  const Drop drop = takeDrop(wanted_, toLoad);
+  for (const std::string& sentence : drop.refused) say(sentence);
+  if (!drop.load) return;
+  const bool hasScene =
+      std::ranges::any_of(toLoad, [](const auto& file) { return kindOfDropped(file) == DroppedFile::Scene; });
+  if (hasScene || state_.scene || facts_.load.busy) return load(*drop.load);
+  wanted_ = *drop.load;
+  say(wanted_.light.hdriFile.filename().string() + " will light the model that is dropped next");
+}
+
+void Window::save(const std::filesystem::path& name) {
+  const RenderOptions& o = state_.options();
+  // A file for a display is what is seen, one of radiance what the active side's samples say.
+  const bool seen = isDisplayFormat(name);
+  const bool both = state_.compares() && seen;
+  const char* side = !state_.compares() || both ? "" : state_.active == 0 ? " of side A" : " of side B";
+  if (!facts_.resting) say("writing " + name.string() + side + " as soon as all of the picture is drawn");
+  SaveRequest request;
+  request.path = name;
+  request.side = state_.shownSide();
+  if (both) request.both = state_.comparison;
+  request.bar = state_.shownBar();
+  request.differenceStops = state_.differenceStops;
+  request.exposure = o.output.exposure;
+  request.toneMap = o.output.toneMap;
+  exchange_.save(std::move(request));
+}
+
+/// To open, beside the scene that is shown; to save, where a picture was saved last.
+void Window::askForFile(const Task& task) {
+  dialogSaves_ = task.errand == Errand::SaveAs;
+  const RenderOptions& o = state_.options();
+  std::error_code error;
+  const std::filesystem::path here = std::filesystem::current_path(error);
+  FileQuestion question;
+  if (dialogSaves_) {
+    const std::filesystem::path folder = savedFolder_.empty() ? here : savedFolder_;
+    question = saveQuestion(freePictureName(folder, o.scene, ".png"));
+  } else {
+    const bool environment = task.index == 1;
+    const std::filesystem::path& beside =
+        environment && !o.light.hdriFile.empty() ? o.light.hdriFile : wanted_.scene;
+    question = openQuestion((here / beside).parent_path(), environment);
+    if (beside.empty()) question.folder = here;
+  }
+  dialog_.ask(std::move(question), portalName(window_.get()), glfwGetTime());
+}
+
+void Window::takeFile() {
+  const FileDialog::News news = dialog_.take(glfwGetTime());
+  facts_.dialog = dialog_.kind();
+  state_.fileList = facts_.dialog == DialogKind::List;
+  if (news.changed) frames_ = std::max(frames_, kSettleFrames);
+  if (!news.message.empty()) say(news.message);
+  if (news.file.empty()) return;
+  frames_ = std::max(frames_, kSettleFrames);
+  if (!dialogSaves_) return openFiles({news.file});
+  if (!state_.scene) return;
+  std::filesystem::path file = news.file;
+  if (file.extension().empty()) file += kPictureExtensions.front();
+  const FileFilter filter = saveQuestion(file).filters.front();
+  if (!passes(filter, file))
+    return say("not written: " + file.extension().string() + " is not among " + filter.name);
+  savedFolder_ = file.parent_path();
+  ask();
+  save(file);
+}
+
+/// Reads what other viewers have remembered meanwhile, too.
+void Window::remember(const std::function<void(Remembered&)>& change) {
+  try {
+    const std::filesystem::path file = rememberedFile();
+    facts_.remembered = readRemembered(file);
+    change(facts_.remembered);
+    writeRemembered(file, facts_.remembered);
+  } catch (const std::exception& error) {
+    say(std::string("not remembered: ") + error.what());
+  }
+}
+
+}  // namespace fragtrace
