@@ -6,11 +6,11 @@ import signal
 import subprocess
 import time
 
-from support import FRAGTRACE, SCENES, Case, Exr, main, run
+from support import FRAGTRACE, SCENES, Case, Exr, at_length, main, run
 
 BALL = SCENES / "room-ball.gltf"
 BOX = SCENES / "cornell-box.gltf"
-SIZE = ["--resolution", "100,80"]
+SIZE = ["--resolution", "70,56"]
 
 
 class Broken(Case):
@@ -81,11 +81,12 @@ class Broken(Case):
 
 
 class Checkpoints(Broken):
+    @at_length
     def test_killed_and_resumed(self):
         self.assertGreater(self.equal_after_kills(2, random.Random(3), *SIZE, "--spp", 150), 0)
 
     def test_an_interrupted_render_writes_what_it_has_and_goes_on(self):
-        options = [*SIZE, "--spp", 150, "--aov", "denoising"]
+        options = [*SIZE, "--spp", 80, "--aov", "denoising"]
         whole, seconds = self.unbroken(*options)
         self.assertEqual(self.broken(0.6 * seconds, *options, by=signal.SIGINT), 130)
         partly = Exr(self.output)
@@ -138,11 +139,11 @@ class Checkpoints(Broken):
 
     def test_more_samples_than_at_first_are_drawn_on(self):
         size = ["--resolution", "24,18", "--spp"]
-        whole, _ = self.unbroken(*size, 2000)
-        self.assertEqual(self.interrupted_after_a_checkpoint(*size, 1500), 130)
-        said = run(*[a for a in self.arguments("--resume", *size, 2000) if a != "--quiet"])
+        whole, _ = self.unbroken(*size, 1000)
+        self.assertEqual(self.interrupted_after_a_checkpoint(*size, 800), 130)
+        said = run(*[a for a in self.arguments("--resume", *size, 1000) if a != "--quiet"])
         self.assertEqual(said.returncode, 0, said.stderr)
-        self.assertRegex(said.stderr, r"(?m)^fragtrace: --resume: goes on after [\d.]+ of 2000 samples per pixel$")
+        self.assertRegex(said.stderr, r"(?m)^fragtrace: --resume: goes on after [\d.]+ of 1000 samples per pixel$")
         self.assertEqual(self.output.read_bytes(), whole)
 
     def test_broken_checkpoints_are_refused(self):

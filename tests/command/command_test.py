@@ -325,7 +325,7 @@ class Interruption(Case):
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.communicate)
         self.addCleanup(process.kill)
-        time.sleep(3)
+        time.sleep(2)
         return process
 
     def test_ctrl_c_stops_within_a_second_writes_what_is_finished_and_gives_130(self):

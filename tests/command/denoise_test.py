@@ -9,7 +9,7 @@ from materials_test import quad
 from support import BACKENDS, SCENES, Case, Exr, main, read_pfm, run
 
 BOX = SCENES / "cornell-box.gltf"
-SIZE = ["--resolution", "128,128"]
+SIZE = ["--resolution", "96,96"]
 FILTER = ["--denoise", "variance"]
 COLORS = ("R", "G", "B")
 

@@ -67,10 +67,10 @@ class Failing(Case):
 
 class FailingDriver(Failing):
     def test_calls_that_do_nothing_are_seen(self):
-        self.fail_each("memory", 17)
+        self.fail_each("memory", 31)
 
     def test_a_lost_context_is_seen(self):
-        self.fail_each("lost", 29)
+        self.fail_each("lost", 47)
 
     def test_shaders_that_are_not_built_are_seen(self):
         self.fail_each("build", 1)

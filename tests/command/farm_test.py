@@ -78,8 +78,8 @@ class FarmParts(Farm):
 
 
 class FarmParallel(Farm):
-    SIZE = ["--resolution", "100,80", "--spp", 300]
-    OFTEN = ["--checkpoint", 0.2]
+    SIZE = ["--resolution", "64,48", "--spp", 300]
+    OFTEN = ["--checkpoint", 0.1]
 
     def test_a_worker_that_is_killed_costs_nothing_but_time(self):
         def joined(kill):

@@ -84,13 +84,13 @@ class LightTree(Case):
                 self.assert_mean(self.means(scene, "--light-selection", name, "--light-reuse", reuse), expected, f"{reuse} by {name}")
 
     def test_candidates_in_every_block_of_a_picture(self):
-        """1,000 independent passes of one sample, with candidates and without: in blocks of 8 x 8 pixels the means differ as their
+        """500 independent passes of one sample, with candidates and without: in blocks of 8 x 8 pixels the means differ as their
         variances say; 24 blocks, chance 1e-5 each way."""
         self.assert_blocks_alike("many-lights")
         self.assert_blocks_alike("rough-glass", "--hdri-file", SCENES / "sun-sky.pfm")
 
     def assert_blocks_alike(self, scene, *options):
-        size = ("--resolution", "48,32", "--spp", 1000, "--disable", "sobol", "--aov", "variance", *options)
+        size = ("--resolution", "48,32", "--spp", 500, "--disable", "sobol", "--aov", "variance", *options)
         pictures = [self.picture(str(SCENES / scene), f"{name}.exr", *size, "--light-reuse", name, "--seed", seed)
                     for seed, name in enumerate(("none", "candidates"))]
         (means, others), (noise, less) = ([picture.luminances() for picture in pictures], [picture.values("variance.Y") for picture in pictures])
@@ -106,14 +106,14 @@ class LightTree(Case):
         self.assertGreater(mean, 0.195, scene)
 
     def test_neighbours_in_every_block_of_a_picture(self):
-        """1,000 independent passes of one sample in 10 parts, with neighbours and without. Pixels near each other err alike, so that the sum of z^2 over
+        """500 independent passes of one sample in 10 parts, with neighbours and without. Pixels near each other err alike, so that the sum of z^2 over
         blocks of 8 x 8 is compared with those of all signs that the parts' differences could have had: among the largest 1 % of 512 by a chance of 1 %."""
         self.assert_parts_alike("many-lights")
         self.assert_parts_alike("rough-glass", "--hdri-file", SCENES / "sun-sky.pfm")
 
     def assert_parts_alike(self, scene, *options):
         def blocks(name, seed):
-            picture = self.picture(str(SCENES / scene), "x.exr", "--resolution", "48,32", "--spp", 100, "--disable", "sobol", "--light-reuse", name, "--seed", seed, *options)
+            picture = self.picture(str(SCENES / scene), "x.exr", "--resolution", "48,32", "--spp", 50, "--disable", "sobol", "--light-reuse", name, "--seed", seed, *options)
             y = picture.luminances()
             return [sum(y[48 * (top + i) + left + j] for i in range(8) for j in range(8)) for top in range(0, 32, 8) for left in range(0, 48, 8)]
         parts = [[a - b for a, b in zip(blocks("none", seed), blocks("spatial", 100 + seed))] for seed in range(10)]

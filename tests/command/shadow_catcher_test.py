@@ -165,7 +165,7 @@ class CutOutShadow(CatcherCase):
         return sum((a - b)**2 for a, b, light in zip(exr.values("A"), reference.values("A"), reference.values("G")) if light == 0)
 
     def test_the_filter_takes_the_noise_out_of_alpha(self):
-        reference = self.picture("mesh-15743", "r.exr", *self.VIEW, "--spp", 512, "--seed", 5)
+        reference = self.picture("mesh-15743", "r.exr", *self.VIEW, "--spp", 192, "--seed", 5)
         noisy = self.picture("mesh-15743", "n.exr", *self.VIEW, "--spp", 16, "--aov", "denoising")
         clean = self.picture("mesh-15743", "d.exr", *self.VIEW, "--spp", 16, "--denoise", "variance")
         self.assertLess(self.error_of_alpha(clean, reference), 0.25 * self.error_of_alpha(noisy, reference))

@@ -51,7 +51,7 @@ TEST(GltfFiles, AnyFileNameWorksEscapedOrNot) {
 
 GltfBuilder withTexture(const json& image) {
   GltfBuilder builder;
-  builder.root["images"] = {image};
+  builder.root["images"] = nlohmann::json::array({image});
   builder.root["textures"] = {{{"source", 0}}};
   builder.root["materials"] = {{{"normalTexture", {{"index", 0}}}}};
   return builder;

@@ -16,7 +16,7 @@ GltfBuilder fileWith(const json& material) {
     builder.root["images"].push_back({{"uri", kPixelUri}});
     builder.root["textures"].push_back({{"source", i}});
   }
-  builder.root["materials"] = {material};
+  builder.root["materials"] = nlohmann::json::array({material});
   return builder;
 }
 

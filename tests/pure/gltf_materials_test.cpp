@@ -10,7 +10,7 @@ namespace {
 
 Material loadMaterial(const json& material) {
   GltfBuilder builder;
-  builder.root["materials"] = {material};
+  builder.root["materials"] = nlohmann::json::array({material});
   return load(builder).materials.at(0);
 }
 

@@ -16,7 +16,7 @@ GltfBuilder shining(double factor, bool isTextured) {
   builder.root["textures"] = {{{"source", 0}}};
   json material = {{"emissiveFactor", {factor, factor, factor}}};
   if (isTextured) material["emissiveTexture"] = {{"index", 0}};
-  builder.root["materials"] = {material};
+  builder.root["materials"] = nlohmann::json::array({material});
   json& primitive = builder.addTriangle();
   primitive["material"] = 0;
   primitive["attributes"]["TEXCOORD_0"] = builder.addAccessor<float>("VEC2", {0, 1, 1, 1, 0, 0});

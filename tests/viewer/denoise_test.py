@@ -20,7 +20,7 @@ def mean(picture, channel):
 
 class DenoisedView(Case):
     def reference(self):
-        return pixels_of(self.render("cornell-box", *SIZE, "--spp", 400, "--seed", 5))
+        return pixels_of(self.render("cornell-box", *SIZE, "--spp", 128, "--seed", 5))
 
     def shot(self, viewer):
         return pixels_of(viewer.press_for_file("F12", ".png"))
@@ -29,17 +29,17 @@ class DenoisedView(Case):
         viewer.until(lambda s: abs(s["sides"][0]["filtered"] - share) < 1e-6 and s["state"] == "resting", f"filtered {share}")
 
     def test_a_key_and_the_box_compare_it_with_the_raw_picture(self):
-        viewer = self.view("cornell-box", "--resolution", "760,620", "--tone-map", "linear", *FILTER, "--spp", "4")
+        viewer = self.view("cornell-box", "--resolution", "760,620", "--tone-map", "linear", *FILTER, "--spp", "2")
         self.filtered(viewer, 1)
         clean = self.shot(viewer)
         viewer.key("g")
         self.filtered(viewer, 0)
         raw = self.shot(viewer)
-        self.same(raw, pixels_of(self.render("cornell-box", "--resolution", "760,620", "--tone-map", "linear", "--spp", 4)))
+        self.same(raw, pixels_of(self.render("cornell-box", "--resolution", "760,620", "--tone-map", "linear", "--spp", 2)))
         viewer.click("Denoise")
         self.filtered(viewer, 1)
         self.same(clean, self.shot(viewer))
-        self.assertEqual(viewer.status()["sides"][0]["samples"], 4)
+        self.assertEqual(viewer.status()["sides"][0]["samples"], 2)
         viewer.key("F7")  # without gi there is nothing to filter
         self.filtered(viewer, 0)
         self.ends_well(viewer, viewer.close())
@@ -99,7 +99,7 @@ class DenoisedView(Case):
         self.filtered(viewer, 1)
         late = self.shot(viewer)
         camera = viewer.status()["camera"].split()
-        reference = pixels_of(self.render("cornell-box", *camera, "--tone-map", "linear", "--spp", 400, "--seed", 5))
+        reference = pixels_of(self.render("cornell-box", *camera, "--tone-map", "linear", "--spp", 160, "--seed", 5))
         raw = pixels_of(self.render("cornell-box", *camera, "--tone-map", "linear", "--spp", 32))
         self.assertLess(distance(late, reference), 0.5 * distance(raw, reference))
         self.ends_well(viewer, viewer.close())

@@ -5,7 +5,7 @@ import shlex
 import signal
 import time
 
-from support import Case, largest_difference, main, pixels_of, read_png
+from support import EXTENDED, Case, largest_difference, main, pixels_of, read_png
 
 SIZE = ["--resolution", "160,120"]
 FEW = [*SIZE, "--spp", "4"]
@@ -18,7 +18,8 @@ SWITCHES = {"F3": ["--disable", "shadows"], "F4": ["--disable", "reflections"], 
 
 class Toggles(Case):
     def test_each_toggle_gives_the_picture_that_render_gives(self):
-        self.toggle("water-cube", ("F3", "F4", "F5", "F6", "F7", "F8", "F10", "x"))
+        keys = ("F3", "F6", "F7", "x", "F4", "F5", "F8", "F10")
+        self.toggle("water-cube", keys if EXTENDED else keys[:4])
 
     def test_so_do_those_of_light_and_roughness(self):
         self.toggle("plastics", ("F9", "shift+F11"))
@@ -107,7 +108,7 @@ class Camera(Case):
         scale = min((600 / ms) ** 0.5, 1.8)
         viewer = self.view("plastics", "--resolution", f"{round(640 * scale)},{round(480 * scale)}", "--spp", "1")
         size = viewer.status()["width"]
-        for i in range(8):
+        for i in range(0, 8, 2):
             asked = viewer.status()["asked"]
             viewer.at(300, 200)
             viewer.xdotool("mousedown", 1)

@@ -17,7 +17,7 @@ from animation_test import animated
 from support import FRAGTRACE, SCENES, Case, main
 from xdnd import drop
 
-SECONDS = float(os.environ.get("FRAGTRACE_RANDOM_SECONDS", "20"))
+SECONDS = float(os.environ.get("FRAGTRACE_RANDOM_SECONDS", "10"))
 SEED = int(os.environ.get("FRAGTRACE_RANDOM_SEED", "1"))
 KEYS = [*"fcrui123456789jklmnptvxz", "space", "Tab", "h", "F1", "question", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "F9", "F10", "shift+F11",
         "shift+F2", "shift+F4", "shift+F7", "Return", "Page_Up", "Page_Down", "ctrl+0", "ctrl+7", "ctrl+c", "ctrl+v", "ctrl+z", "ctrl+y",

@@ -21,7 +21,7 @@ FRAGTRACE = Path(sys.argv[1]).resolve()
 SCENES = Path(sys.argv[2]).resolve() / "scenes"
 sys.path[:0] = [str(SCENES), str(Path(__file__).resolve().parent.parent)]
 from picture_files import read_png  # noqa: E402, F401
-from skips import main  # noqa: E402, F401
+from skips import EXTENDED, at_length, main  # noqa: E402, F401
 
 
 def pixels_of(path):
