@@ -23,6 +23,7 @@ ROWS = [
     F("media/medium.standInside", "p.compression = ior * ior", "p.compression = 1.02 * ior * ior", "a camera inside of glass takes roulette's survival 2 % too high", "roulette is right at any survival"),
     F("media/medium.flightEnd", "from + flightDistance", "1.02 * flightDistance", "flights behind what the ray has passed begin at its origin"),
     F("media/medium.flightLimit", "hashFloat(p.numbers, flight)", "pathRandom(p, kFlightDimension)", "a flight behind a hole has the number of the one before it"),
+    F("media/medium.flyTo", "bool ends = end < p.hitT", "bool ends = false", "light is not scattered in a medium that the path has not known of"),
     F("media/medium.flightBegin", "p.traversal.past", "0.0", "flights behind what the ray has passed begin at its origin"),
     F("media/medium.passMedium", "p.throughput *= passWeight", "p.throughput *= 1.02 * passWeight", "what passes a medium is 2 % too bright"),
     F("media/medium.transmittance fog", "vec3(exp(-fogDepth", "vec3(1.02 * exp(-fogDepth", "light samples through fog are 2 % too bright"),
