@@ -3,6 +3,7 @@
 
 import geometry
 from geometry import box_faces, ground, quad
+from gi_scenes import place_backed_lamp
 from scene_parts import place_faces, place_quad, scene
 
 
@@ -41,11 +42,11 @@ def skin(gltf):
 
 @scene("phase")
 def phase(gltf):
-    """Two balls that do not bend light, of which one scatters it backward and one forward, before a lamp."""
+    """Two balls that do not bend light, of which one scatters it backward and one forward, before a lamp; to be lit by sky.pfm, too."""
     add_ground(gltf)
     for x, anisotropy in ((-0.7, -0.8), (0.7, 0.9)):
         place_ball(gltf, medium(gltf, "phase", 0.4, (0.3, 0.3, 0.3), anisotropy=anisotropy, ior=1), 0.55, x)
-    place_quad(gltf, "lamp", geometry.flip(ground(0.5, 0.5)), gltf.add_lamp("lamp", (9, 8.5, 8)), translation=[0, 2.2, -1])
+    place_backed_lamp(gltf, 0.5, (9, 8.5, 8), [0, 2.2, -1])
     gltf.add_camera("camera", (0, 1.2, 4), (0, 0.5, 0), 30)
 
 
@@ -72,7 +73,7 @@ def inside(gltf):
 
 @scene("foggy")
 def foggy(gltf):
-    """A post under a spot, to stand in a ball of fog that holds neither the spot nor the camera."""
+    """A post under a spot, to stand in a ball of fog that holds neither the spot nor the camera; to be lit by sky.pfm, too."""
     add_ground(gltf)
     place_faces(gltf, "post", box_faces((-0.2, 0, -0.2), (0.2, 0.9, 0.2)), gltf.add_lambert("post", (0.8, 0.75, 0.4)))
     gltf.add_light("spot", "spot", 90, (1, 0.85, 0.7), eye=(2.2, 4, 0.4), direction=(-0.55, -1, -0.1),

@@ -93,7 +93,7 @@ class Checkpoints(Broken):
         self.assertEqual(partly.texts["fragtrace:interrupted"], "1")
         self.assertTrue(self.checkpoint.exists())
         self.fails(2, *self.arguments("--resume", *SIZE, "--spp", 160, "--aov", "denoising"),
-                   says=["cannot go on to more samples (spp 150 and 160): what --denoise reads was kept at a quarter"])
+                   says=["cannot go on to more samples (spp 80 and 160): what --denoise reads was kept at a quarter"])
         self.assertEqual(self.resumed(*options), whole)
         self.assertNotIn("fragtrace:interrupted", Exr(self.output).texts)
 

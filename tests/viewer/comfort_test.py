@@ -143,7 +143,9 @@ class Parts(Case):
             time.sleep(0.2)
             viewer.xdotool("click", 1)
             viewer.until(lambda s: s["focus"] == "picture", "chosen")
-            words = copied_command(self, viewer) if viewer.rest() else []
+            viewer.rest()
+            # The load may not have begun yet.
+            words = viewer.wait(lambda option=option: next((w for w in [copied_command(self, viewer)] if option[0] in w), None), 20, option[0])
             self.assertEqual(words[words.index(option[0]) + 1], option[1])
             viewer.click("close news")
             if name == "Variant":
