@@ -29,7 +29,7 @@ FileQuestion openQuestion(const std::filesystem::path& folder, bool environment)
       fileFilter("Scenes and environments", std::move(all)),
       fileFilter("Scenes", {kSceneExtensions.begin(), kSceneExtensions.end()}),
       fileFilter("Environments", {kEnvironmentExtensions.begin(), kEnvironmentExtensions.end()})};
-  if (environment) std::ranges::rotate(question.filters, question.filters.end() - 1);
+  if (environment) std::rotate(question.filters.begin(), question.filters.end() - 1, question.filters.end());
   return question;
 }
 
