@@ -143,7 +143,7 @@ const uint kMaterialSheen = kMaterialClearcoat + 1u;                  // colour,
 const uint kMaterialAnisotropy = kMaterialSheen + 1u;                 // strength, cosine and sine of the rotation
 const uint kMaterialIridescence = kMaterialAnisotropy + 1u;           // weight, index, least and largest thickness (nm)
 const uint kMaterialDiffuseTransmission = kMaterialIridescence + 1u;  // colour, weight
-// Of a solid: albedo of one scattering, anisotropy. Of a thin wall: multiscatter colour, anisotropy.
+// A solid has the albedo of one scattering here, a thin wall its multiscatter colour; w: anisotropy
 const uint kMaterialScatter = kMaterialDiffuseTransmission + 1u;
 const uint kMaterialScatterStrength = kMaterialScatter + 1u;  // of a thin wall
 const uint kMaterialRows = kMaterialScatterStrength + 1u;

@@ -20,6 +20,13 @@ LightSample makeLight(vec3 direction, float distance, vec3 irradiance, float den
 
 LightSample noLight() { return makeLight(vec3(0.0f, 0.0f, 1.0f), kFarAway, vec3(0.0f), 0.0f); }
 
+/// The MIS weight of a light sample that scattering would find with the other density.
+float lightWeight(LightSample s, float other) {
+  if (s.density <= 0.0f) return 1.0f;
+  bool environment = kEnvironmentSampling && s.distance == kFarAway;
+  return environment ? balanceWeight(s.density, other) : misWeight(s.density, other);
+}
+
 /// What the range of a punctual light (0: none) leaves at a squared distance, and a spot's cone, of its axis and scale,
 /// in a direction (KHR_lights_punctual).
 float rangeWindow(float squared, float range) {

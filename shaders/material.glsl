@@ -14,12 +14,6 @@ const bool kPassesLight = kTransmission || kDiffuseTransmission;
 
 uint materialFlags(uint material) { return materialRow(material, kMaterialMaps).w; }
 
-/// Whether the boundary of a solid does not bend light: its indices are equal (kEqualIndices of bsdf.glsl).
-bool isMatched(uint material) {
-  vec4 surface = materialFloats(material, kMaterialSurface);
-  return abs(surface.z - 1.0) < 0.001 && surface.w > 0.0;
-}
-
 /// Base colour and alpha at a point: factor x texture x vertex colour.
 vec4 baseColorAt(uint material, vec4 texcoords, vec4 vertexColor) {
   vec4 color = materialFloats(material, kMaterialBaseColor);

@@ -243,7 +243,7 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
   bool clear = kTransmission && density == 0.0 && m.transmission * (1.0 - m.metallic) > 0.0;
   bool open = !kMatchedGlass || isOpen(p.medium);
   if (transmitted && m.solid) {
-    p.medium = s.front ? s.material : kPrimitiveNone;
+    p.medium = mediumBehind(s);
     float squared = m.ior * m.ior;
     float before = p.compression;
     p.compression = s.front ? before * squared : max(before / squared, 1.0);

@@ -97,11 +97,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
     vec3 incoming = toFrame(around, light.direction);
     bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (incoming.z > 0.0);
     BsdfValue value = evaluateBsdf(b, outgoing, incoming);
-    float weight = 1.0;
-    if (light.density > 0.0) {
-      bool environment = kEnvironmentSampling && light.distance == kFarAway;
-      weight = environment ? balanceWeight(light.density, value.density) : misWeight(light.density, value.density);
-    }
+    float weight = lightWeight(light, value.density);
     if (kLightPart && p.bounce == 0) p.part = partScattered(b, outgoing, incoming);
     if (kThroughGlass) p.throughWalls = passesWalls(p, s, m, light.direction);
     p = connect(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
@@ -286,7 +282,7 @@ Path settleShadow(Path p) {
     }
     if (kMedia && passes) {
       p.contribution *= shadowTransmittance(p, mediumBefore(s, p.shadowMedium), p.traversal.t);
-      if (!holes && isSolid(s.material)) p.shadowMedium = s.front ? s.material : kPrimitiveNone;
+      if (!holes && isSolid(s.material)) p.shadowMedium = mediumBehind(s);
     }
   }
   if (kPassing && passes) return tracePast(p, p.shadowLimit, p.traversal.t, slot);

@@ -66,7 +66,7 @@ Path splat(Path p, Surface s, SurfaceMaterial m, float times) {
   if (camera.importance <= 0.0 || !withinBounces(p)) return p;
   // The surface as the camera sees it.
   bool through = dot(camera.direction, s.geometricNormal) < 0.0;
-  uint medium = through && m.solid ? (s.front ? s.material : kPrimitiveNone) : p.medium;
+  uint medium = through && m.solid ? mediumBehind(s) : p.medium;
   if (through) {
     s.front = !s.front;
     s.geometricNormal = -s.geometricNormal;

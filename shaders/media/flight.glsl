@@ -37,14 +37,14 @@ vec3 scaledTransmittance(Medium m, vec3 chances, float distance) {
   return exp(-distance * max(m.extinction - vec3(clearest), vec3(0.0f)));
 }
 
-/// What the throughput is multiplied by where a flight passes `distance`: transmittance / chance to pass.
+/// The factor of the throughput where a flight passes `distance`: transmittance / chance to pass.
 vec3 passWeight(Medium m, vec3 chances, float distance) {
   if (!scattersLight(m)) return exp(-distance * m.extinction);
   vec3 t = scaledTransmittance(m, chances, distance);
   return t / dot(chances, t);
 }
 
-/// What it is multiplied by where the flight ends at `distance`: scattering coefficient x transmittance / density.
+/// The factor where the flight ends at `distance`: scattering coefficient x transmittance / density.
 vec3 scatterWeight(Medium m, vec3 chances, float distance) {
   vec3 t = m.extinction * scaledTransmittance(m, chances, distance);
   return m.albedo * t / max(dot(chances, t), float(1e-37));

@@ -25,7 +25,8 @@ float meanFogDensity(float a, float b, float inverseHeight) {
   return high > low ? (below + above * falling) / (high - low) : exp(-start * inverseHeight);
 }
 
-/// Where a ray is inside of the ball: distances of entry, not below `from`, and exit; an exit before the entry is none.
+/// The part of a ray inside of the ball: distances of entry, not below `from`, and exit; an exit before the entry is
+/// none.
 vec2 insideFog(Fog f, vec3 origin, vec3 direction, float from) {
   vec3 towards = vec3(f.ball) - origin;
   float middle = dot(towards, direction);

@@ -8,20 +8,28 @@ Medium mediumOf(uint material) {
   return Medium(materialFloats(material, kMaterialVolume).rgb, scatter.rgb, scatter.w);
 }
 
+/// The boundary of such a solid does not bend light.
+bool isMatched(uint material) {
+  vec4 surface = materialFloats(material, kMaterialSurface);
+  return abs(surface.z - 1.0) < kEqualIndices && surface.w > 0.0;
+}
+
 bool isSolid(uint material) { return materialFloats(material, kMaterialVolume).w > 0.0; }
 
 /// The medium in front of a point that the path's ray has hit: a back face of a solid says what the way led through,
 /// even if the camera stands inside.
 uint mediumBefore(Surface s, uint known) { return !s.front && isSolid(s.material) ? s.material : known; }
 
+/// The medium on the far side of a solid's boundary.
+uint mediumBehind(Surface s) { return s.front ? s.material : kPrimitiveNone; }
+
 /// The medium of a ray that leaves a surface.
 uint mediumTowards(Path p, Surface s, vec3 direction) {
   bool crosses = dot(direction, s.geometricNormal) < 0.0 && isSolid(s.material);
-  if (!crosses) return p.medium;
-  return s.front ? s.material : kPrimitiveNone;
+  return crosses ? mediumBehind(s) : p.medium;
 }
 
-/// Whether light gets straight into a medium: there is none, or its boundary does not bend it.
+/// Light gets straight into such a medium: there is none, or its boundary does not bend it.
 bool isOpen(uint medium) { return medium == kPrimitiveNone || (kMatchedGlass && isMatched(medium)); }
 
 /// A path whose ray has been inside of a solid without knowing it, or begins there.
@@ -50,13 +58,14 @@ float flightLimit(Path p, float from) {
   return flightEnd(p, from, u);
 }
 
-/// Where the flight along the path's ray has begun: behind what the ray has passed.
-float flightBegin(Path p) { return kPassing ? p.traversal.past : 0.0; }
+/// The distance that the path's ray or its shadow ray, whichever is traced, has passed surfaces up to. A flight begins
+/// there.
+float passedBefore(Path p) { return kPassing ? p.traversal.past : 0.0; }
 
 /// A flight has come to a surface.
 Path passMedium(Path p) {
   if (!kScattering || p.medium == kPrimitiveNone) return p;
-  p.throughput *= passWeight(mediumOf(p.medium), channelChances(p.throughput), p.hitT - flightBegin(p));
+  p.throughput *= passWeight(mediumOf(p.medium), channelChances(p.throughput), p.hitT - passedBefore(p));
   return p;
 }
 
@@ -67,7 +76,7 @@ Path flyTo(Path p, Surface s) {
   bool unknown = kScattering && medium != p.medium;
   if (unknown) p = standInside(p, medium);
   float end = kFarAway;
-  if (unknown) end = flightEnd(p, flightBegin(p), hashFloat(p.numbers, kFlightDimensions + 0xfffu));
+  if (unknown) end = flightEnd(p, passedBefore(p), hashFloat(p.numbers, kFlightDimensions + 0xfffu));
   bool ends = end < p.hitT;
   if (ends) p.hitT = end;
   if (ends) p.hitSlot = -1;
@@ -82,11 +91,10 @@ vec3 transmittance(uint medium, vec3 origin, vec3 direction, float from, float t
   return exp(-(to - from) * materialFloats(medium, kMaterialVolume).rgb);
 }
 
-/// Of the shadow ray, from what it has passed last up to a distance.
+/// The same along the shadow ray, from what it has passed last up to a distance.
 vec3 shadowTransmittance(Path p, uint medium, float to) {
-  float from = kPassing ? p.traversal.past : 0.0;
-  return transmittance(medium, p.shadowOrigin, p.shadowDirection, from, to);
+  return transmittance(medium, p.shadowOrigin, p.shadowDirection, passedBefore(p), to);
 }
 
-/// Of the light sample, what has come along the shadow ray, which has met nothing more.
+/// The light sample, dimmed by the way along the shadow ray, which has met nothing more.
 vec3 arrivingLight(Path p) { return p.contribution * shadowTransmittance(p, p.shadowMedium, p.shadowLimit); }

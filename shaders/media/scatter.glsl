@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Where a path is scattered by a medium: one light sample, and one direction drawn from the phase function.
+// A medium scatters a path: it takes one light sample, and draws one direction from the phase function.
 
 /// The light sample of a point in a medium that light gets into.
 Path connectMedium(Path p, vec3 point, float g) {
   uint dimension = kBounceDimensions * uint(p.bounce + 1) + kLightDimension;
   LightSample light = lightOfSlot(0, point, kNoNormal, p.numbers, dimension);
   float value = phaseDensity(g, dot(p.direction, light.direction));
-  float weight = 1.0;
-  if (light.density > 0.0) {
-    bool environment = kEnvironmentSampling && light.distance == kFarAway;
-    weight = environment ? balanceWeight(light.density, value) : misWeight(light.density, value);
-  }
+  float weight = lightWeight(light, value);
   if (kThroughGlass) p.throughWalls = true;
   p.shadowMedium = p.medium;
   return connectFrom(p, point, point, light, p.throughput * light.irradiance * (value * weight));
 }
 
-/// Whether a path goes on after a scattering in a medium, which --bounces does not limit: in one that is white and
-/// dense, paths are long.
+/// Roulette decides if a path goes on after a scattering in a medium, which --bounces does not limit: in one that is
+/// white and dense, paths are long.
 Path decideInMedium(Path p) {
   p.after = kPhaseEnd;
   if (maxComponent(p.throughput) <= 0.0) return p;
@@ -37,7 +33,7 @@ Path scatterInMedium(Path p) {
   if (kFog && inFog) scatter = fog.medium;
   if (kScattering && !inFog) {
     Medium m = mediumOf(p.medium);
-    scatter = vec4(scatterWeight(m, channelChances(p.throughput), p.hitT - flightBegin(p)), m.g);
+    scatter = vec4(scatterWeight(m, channelChances(p.throughput), p.hitT - passedBefore(p)), m.g);
   }
   p.throughput *= scatter.rgb;
   if (p.cameraRay) p.covered = true;
