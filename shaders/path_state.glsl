@@ -21,7 +21,7 @@ const bool kLightPart = kFeature == kFeatureEmission || kFeature == kFeatureDiff
 const bool kDrawsLight = kFeature == kFeatureNone || kLightPart;
 
 /// Light may be scattered between surfaces (media/).
-const bool kMedia = (kScattering || kFog) && kDrawsLight;
+const bool kMedia = (kScattering || kFog || kDensityGrid) && kDrawsLight;
 
 /// Light may go straight through smooth glass, and shadow rays with it.
 const bool kThroughGlass = kThinGlass || kMatchedGlass;

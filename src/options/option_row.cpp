@@ -27,7 +27,7 @@ std::span<const OptionRow> optionRows() {
   static const std::vector<OptionRow> rows = [] {
     std::vector<OptionRow> all;
     for (std::vector<OptionRow> (*part)() :
-         {&fileRows, &cameraRows, &samplingRows, &lightRows, &fogRows, &deviceRows, &inputRows, &outputRows})
+         {&fileRows, &cameraRows, &samplingRows, &lightRows, &fogRows, &volumeRows, &deviceRows, &inputRows, &outputRows})
       std::ranges::move(part(), std::back_inserter(all));
     return all;
   }();
