@@ -174,7 +174,8 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
 /// The grids of a volume's file.
 int informOfVolume(const InfoOptions& options) {
   const std::filesystem::path& path = options.render.scene;
-  nlohmann::ordered_json json = {{"schema", 1}, {"file", path.string()}, {"grids", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json json = {
+      {"schema", 1}, {"file", path.string()}, {"grids", nlohmann::ordered_json::array()}};
   if (!options.json) std::printf("%s\n", path.string().c_str());
   for (const GridDescription& grid : listGrids(path, options.render.limits.memoryBytes)) {
     const glm::ivec3& v = grid.voxels;

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <glm/gtc/packing.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/packing.hpp>
 
 #include "pack/words.h"
 
@@ -14,14 +14,15 @@ namespace {
 
 static_assert(layout::kBrickTexels * 4 == kBrickVoxels);
 
-/// Largest values of a brick: of all voxels, and of those at its lower sides. Bit 0 of the index means X = 0, bit 1
-/// Y = 0, bit 2 Z = 0. Half floats that are not negative have the order of their bits.
+/// Largest values of a brick: of all voxels, and of those at its lower sides. Bit 0 of the index means X = 0,
+/// bit 1 Y = 0, bit 2 Z = 0. Half floats that are not negative have the order of their bits.
 using Largest = std::array<uint16_t, 8>;
 
 Largest largestOf(const uint16_t* values) {
   Largest largest{};
   for (int i = 0; i < int(kBrickVoxels); ++i) {
-    const uint32_t sides = uint32_t((i & 7) == 0) | uint32_t(((i >> 3) & 7) == 0) << 1 | uint32_t((i >> 6) == 0) << 2;
+    const uint32_t sides =
+        uint32_t((i & 7) == 0) | uint32_t(((i >> 3) & 7) == 0) << 1 | uint32_t((i >> 6) == 0) << 2;
     for (uint32_t s = 0; s < 8; ++s) {
       if ((s & ~sides) == 0) largest[s] = std::max(largest[s], values[i]);
     }
@@ -49,7 +50,8 @@ PackedGrid appendGrid(const VolumeGrid& grid, Words& texels) {
   std::vector<Largest> largest(stored);
   for (size_t i = 0; i < stored; ++i) largest[i] = largestOf(&grid.values[i * kBrickVoxels]);
   const auto numberAt = [&](glm::ivec3 brick) -> uint32_t {
-    if (glm::any(glm::lessThan(brick, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(brick, grid.bricks))) return 0;
+    if (glm::any(glm::lessThan(brick, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(brick, grid.bricks)))
+      return 0;
     return grid.table[(size_t(brick.z) * size_t(grid.bricks.y) + size_t(brick.y)) * size_t(grid.bricks.x) +
                       size_t(brick.x)];
   };
@@ -76,7 +78,8 @@ PackedGrid appendGrid(const VolumeGrid& grid, Words& texels) {
     appendHalves(texels, &grid.values[i * kBrickVoxels], kBrickVoxels);
     if (grid.radiance.empty()) continue;
     for (size_t v = i * kBrickVoxels; v < (i + 1) * kBrickVoxels; ++v) {
-      const std::array<uint16_t, 4> rgb{grid.radiance[3 * v], grid.radiance[3 * v + 1], grid.radiance[3 * v + 2], 0};
+      const std::array<uint16_t, 4> rgb{grid.radiance[3 * v], grid.radiance[3 * v + 1],
+                                        grid.radiance[3 * v + 2], 0};
       appendHalves(texels, rgb.data(), rgb.size());
     }
   }

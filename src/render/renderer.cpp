@@ -59,10 +59,10 @@ layout::Volume packVolume(const Volume& volume, const PackedGrid& grid, const Lo
   packed.toBricksX = glm::vec4(rows[0]);
   packed.toBricksY = glm::vec4(rows[1]);
   packed.toBricksZ = glm::vec4(rows[2]);
-  packed.medium = glm::vec4(volume.source.color.value_or(glm::vec3(1.0f)), float(volume.source.anisotropy.value_or(0.0)));
-  packed.extinction =
-      glm::vec4(volume.source.density.value_or(1.0) * grid.largest * space.unit,
-                volume.source.emission.value_or(0.0) * grid.brightest, 0.0, 0.0);
+  packed.medium =
+      glm::vec4(volume.source.color.value_or(glm::vec3(1.0f)), float(volume.source.anisotropy.value_or(0.0)));
+  packed.extinction = glm::vec4(volume.source.density.value_or(1.0) * grid.largest * space.unit,
+                                volume.source.emission.value_or(0.0) * grid.brightest, 0.0, 0.0);
   packed.table = glm::ivec4(grid.bricks, int(grid.firstTexel));
   return packed;
 }

@@ -41,6 +41,7 @@ SceneDescription describe(const Scene& scene) {
     result.imageBytes += image.bytes.size();
     result.texelBytes += texelBytes(image);
   }
+  if (scene.volume.grid) result.volumeBricks = scene.volume.grid->values.size() / kBrickVoxels;
   for (const Light& light : scene.lights) {
     switch (light.type) {
       case LightType::Point:

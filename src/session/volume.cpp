@@ -23,9 +23,10 @@ void placeVolume(Scene& scene, const RenderOptions& options, const Volume* befor
   if (source.file.empty()) return;
   volume.toWorld = glm::translate(volume.toWorld, source.position.value_or(glm::dvec3(0.0)));
   volume.toWorld = glm::scale(volume.toWorld, glm::dvec3(source.scale.value_or(1.0)));
-  volume.grid = before != nullptr && before->grid && sameGrid(before->source, source)
-                    ? before->grid
-                    : std::make_shared<const VolumeGrid>(readGrid(source, volume.file, options.limits.memoryBytes));
+  volume.grid =
+      before != nullptr && before->grid && sameGrid(before->source, source)
+          ? before->grid
+          : std::make_shared<const VolumeGrid>(readGrid(source, volume.file, options.limits.memoryBytes));
   volume.file = {};
   const VolumeGrid& grid = *volume.grid;
   if (grid.empty()) {

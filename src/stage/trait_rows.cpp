@@ -8,7 +8,6 @@
 #include "stage/traits.h"
 
 namespace fragtrace {
-
 namespace {
 
 template <typename Member>

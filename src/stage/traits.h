@@ -107,7 +107,8 @@ inline bool hasLamps(const TraitSet& traits) {
 
 /// Whether light may be scattered between surfaces.
 inline bool hasMedia(const TraitSet& traits) {
-  return traits[size_t(Trait::Scattering)] || traits[size_t(Trait::Fog)] || traits[size_t(Trait::DensityGrid)];
+  return traits[size_t(Trait::Scattering)] || traits[size_t(Trait::Fog)] ||
+         traits[size_t(Trait::DensityGrid)];
 }
 
 /// The row that lists the texture; std::logic_error where none does.

@@ -248,10 +248,9 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
   }
   if (normals) wanted.stages.set(size_t(Stage::Phong));
   TraitSet kept = present;
-  for (Trait t :
-       {Trait::PunctualLights, Trait::EmissiveTriangles, Trait::EnvironmentSampling, Trait::Environment,
-        Trait::Emission, Trait::EmissionTexture, Trait::Absorption, Trait::Unlit, Trait::Fog,
-        Trait::DensityGrid}) {
+  for (Trait t : {Trait::PunctualLights, Trait::EmissiveTriangles, Trait::EnvironmentSampling,
+                  Trait::Environment, Trait::Emission, Trait::EmissionTexture, Trait::Absorption,
+                  Trait::Unlit, Trait::Fog, Trait::DensityGrid}) {
     kept.reset(size_t(t));
   }
   if (!follows) {

@@ -25,8 +25,8 @@ Words texels;
 
 namespace glsl_float {
 namespace {
-using glm::ivec2;     // NOLINT: as the shader has them
-using glm::ivec3;     // NOLINT
+using glm::ivec2;      // NOLINT: as the shader has them
+using glm::ivec3;      // NOLINT
 using layout::Volume;  // NOLINT
 uvec2 readTexels(int index) { return {texels[2 * size_t(index)], texels[2 * size_t(index) + 1]}; }
 vec2 unpackHalf2x16(uint32_t word) { return glm::unpackHalf2x16(word); }
@@ -87,8 +87,12 @@ layout::Volume shaderVolume(const VolumeGrid& grid, double extinction) {
   const PackedGrid packed = appendGrid(grid, texels);
   const glm::dmat4 voxels = glm::scale(glm::dmat4(1.0), dvec3(1.0 / kSide));
   const glm::dmat4 rows = glm::transpose(packed.fromFile * voxels);
-  return {glm::vec4(rows[0]), glm::vec4(rows[1]), glm::vec4(rows[2]), glm::vec4(1.0f),
-          {float(extinction), 0.0f, 0.0f, 0.0f}, {packed.bricks, int(packed.firstTexel)}};
+  return {glm::vec4(rows[0]),
+          glm::vec4(rows[1]),
+          glm::vec4(rows[2]),
+          glm::vec4(1.0f),
+          {float(extinction), 0.0f, 0.0f, 0.0f},
+          {packed.bricks, int(packed.firstTexel)}};
 }
 
 struct RayCase {
@@ -99,7 +103,8 @@ struct RayCase {
 /// Towards the middle of the grid, from outside or inside; some along an axis.
 RayCase rayCase(Draw& draw, int i) {
   const dvec3 middle(0.4, 0.8, 2.4);
-  const dvec3 target = middle + dvec3(draw.between(-0.5, 0.5), draw.between(-0.5, 0.5), draw.between(-0.5, 0.5));
+  const dvec3 target =
+      middle + dvec3(draw.between(-0.5, 0.5), draw.between(-0.5, 0.5), draw.between(-0.5, 0.5));
   dvec3 direction = glm::normalize(dvec3(draw.between(-1, 1), draw.between(-1, 1), draw.between(-1, 1)));
   if (i % 4 == 0) direction = dvec3(i % 3 == 0, i % 3 == 1, i % 3 == 2);
   if (i % 8 == 4) direction = -direction;
@@ -127,8 +132,8 @@ TEST(ShaderVolume, WalksThroughHaveTheTransmittanceOfTheIntegral) {
     double squares = 0.0;
     for (uint32_t k = 0; k < kWalks; ++k) {
       const uint32_t seed = glsl_float::mixBits(k + 77u * uint32_t(i));
-      const auto walk = glsl_float::walkVolume(volume, vec3(ray.origin), vec3(ray.direction), 0.0f, float(to), true,
-                                               draw.unit(), seed);
+      const auto walk = glsl_float::walkVolume(volume, vec3(ray.origin), vec3(ray.direction), 0.0f, float(to),
+                                               true, draw.unit(), seed);
       sum += double(walk.transmittance);
       squares += double(walk.transmittance) * double(walk.transmittance);
       ASSERT_LT(walk.steps, layout::kMostVolumeSteps);
@@ -152,13 +157,15 @@ TEST(ShaderVolume, FlightsEndAsDenselyAsTheIntegralSays) {
     std::vector<double> expected(kBins + 1);
     double passed = 1.0;
     for (size_t bin = 0; bin <= kBins; ++bin) {
-      const double next = bin == kBins ? 0.0 : std::exp(-2.0 * depthAlong(grid, ray, to * double(bin + 1) / kBins));
+      const double next =
+          bin == kBins ? 0.0 : std::exp(-2.0 * depthAlong(grid, ray, to * double(bin + 1) / kBins));
       expected[bin] = kWalks * (passed - next);
       passed = next;
     }
     for (uint32_t k = 0; k < kWalks; ++k) {
-      const auto walk = glsl_float::walkVolume(volume, vec3(ray.origin), vec3(ray.direction), 0.0f, float(to), false,
-                                               draw.unit(), glsl_float::mixBits(k + 1000003u * uint32_t(i)));
+      const auto walk =
+          glsl_float::walkVolume(volume, vec3(ray.origin), vec3(ray.direction), 0.0f, float(to), false,
+                                 draw.unit(), glsl_float::mixBits(k + 1000003u * uint32_t(i)));
       const bool ends = walk.end < glsl_float::kFarAway;
       counted[ends ? std::min(kBins - 1, size_t(double(walk.end) / to * kBins)) : kBins] += 1.0;
     }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// make_grid SHAPE SIDE FILE.nvdb [none|zip] [float|fp8]: writes a grid of SIDE x SIDE x SIDE voxels over a cube with
-// sides of 1, whose middle is the origin. Shapes: box (1 in all but the outermost voxels), ball, torus, plume (with a
-// grid `temperature`), ember (the box at 2042 K), and empty, one, nan, infinite, levelset. FILE.raw gets the same densities as floats, X fastest.
+// make_grid SHAPE SIDE FILE.nvdb [none|zip] [float|fp8]: writes a grid of SIDE x SIDE x SIDE voxels over a
+// cube with sides of 1, whose middle is the origin. Shapes: box (1 in all but the outermost voxels), ball,
+// torus, plume (with a grid `temperature`), ember (the box at 2042 K), and empty, one, nan, infinite,
+// levelset. FILE.raw gets the same densities as floats, X fastest.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -48,7 +49,9 @@ float plume(const vec3& p) {
   return insidePlume(p) > 0.0f ? glm::clamp(1.6f * dense, 0.0f, 1.0f) * (1.2f - 0.7f * (p.y + 0.5f)) : 0.0f;
 }
 
-float heat(const vec3& p) { return plume(p) > 0.0f ? 2600.0f * glm::max(0.0f, 0.9f - 1.4f * (p.y + 0.5f)) : 0.0f; }
+float heat(const vec3& p) {
+  return plume(p) > 0.0f ? 2600.0f * glm::max(0.0f, 0.9f - 1.4f * (p.y + 0.5f)) : 0.0f;
+}
 
 Shape shapeOf(const std::string& name) {
   if (name == "ball") return [](const vec3& p) { return fading(glm::length(p) - 0.4f, 0.05f); };
@@ -69,16 +72,18 @@ Shape shapeOf(const std::string& name) {
 }
 
 template <typename Stored>
-nanovdb::GridHandle<> gridOf(const std::string& kind, const char* name, int side, const Shape& shape, bool inner, std::FILE* raw) {
+nanovdb::GridHandle<> gridOf(const std::string& kind, const char* name, int side, const Shape& shape,
+                             bool inner, std::FILE* raw) {
   const bool levelSet = kind == "levelset";
-  nanovdb::GridBuilder<float, Stored> builder(0.0f,
-                                              levelSet ? nanovdb::GridClass::LevelSet : nanovdb::GridClass::FogVolume);
+  nanovdb::GridBuilder<float, Stored> builder(
+      0.0f, levelSet ? nanovdb::GridClass::LevelSet : nanovdb::GridClass::FogVolume);
   auto voxels = builder.getAccessor();
   for (int z = 0; z < side; ++z) {
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
         const glm::ivec3 at(x, y, z);
-        const bool edge = glm::any(glm::equal(at, glm::ivec3(0))) || glm::any(glm::equal(at, glm::ivec3(side - 1)));
+        const bool edge =
+            glm::any(glm::equal(at, glm::ivec3(0))) || glm::any(glm::equal(at, glm::ivec3(side - 1)));
         const float value = inner && edge ? 0.0f : shape((vec3(at) + 0.5f) / float(side) - 0.5f);
         if (value != 0.0f) voxels.setValue({x, y, z}, value);
         if (raw != nullptr) std::fwrite(&value, sizeof value, 1, raw);
@@ -109,7 +114,8 @@ int main(int count, char** arguments) {
                         : gridOf<float>(name, "density", side, shape, inner, raw));
   std::fclose(raw);
   if (name == "ember")
-    grids.push_back(gridOf<float>(name, "temperature", side, [](const vec3&) { return 2042.0f; }, false, nullptr));
+    grids.push_back(gridOf<float>(
+        name, "temperature", side, [](const vec3&) { return 2042.0f; }, false, nullptr));
   if (name == "plume")
     grids.push_back(small ? gridOf<nanovdb::Fp8>(name, "temperature", side, heat, inner, nullptr)
                           : gridOf<float>(name, "temperature", side, heat, inner, nullptr));

@@ -31,7 +31,8 @@ class Numbers {
  private:
   double checked(const char* name, double value, double least, double most) const {
     if (!(value >= least && value <= most))
-      diagnostics_.refuse(place_ + "/" + name, "is not in the range " + numberText(least) + " to " + numberText(most));
+      diagnostics_.refuse(place_ + "/" + name,
+                          "is not in the range " + numberText(least) + " to " + numberText(most));
     return value;
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads NanoVDB files by the headers of OpenVDB. Its C interface follows a file's offsets with a check of each, so that
-// no offset leads out of the grid.
+// Reads NanoVDB files by the headers of OpenVDB. Its C interface follows a file's offsets with a check of
+// each, so that no offset leads out of the grid.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -45,7 +45,8 @@ class MemoryFile : public std::streambuf {
                           : from == std::ios_base::end ? egptr() - eback()
                                                        : 0;
     off_type place = 0;
-    if (__builtin_add_overflow(base, offset, &place) || place < 0 || place > egptr() - eback()) return pos_type(-1);
+    if (__builtin_add_overflow(base, offset, &place) || place < 0 || place > egptr() - eback())
+      return pos_type(-1);
     setg(eback(), eback() + place, egptr());
     return place;
   }
@@ -53,8 +54,8 @@ class MemoryFile : public std::streambuf {
 
 bool isDensityType(nanovdb::GridType type) {
   using nanovdb::GridType;
-  return type == GridType::Float || type == GridType::Double || type == GridType::Fp4 || type == GridType::Fp8 ||
-         type == GridType::Fp16 || type == GridType::FpN;
+  return type == GridType::Float || type == GridType::Double || type == GridType::Fp4 ||
+         type == GridType::Fp8 || type == GridType::Fp16 || type == GridType::FpN;
 }
 
 std::vector<nanovdb::io::GridMetaData> entriesOf(std::span<const uint8_t> bytes) {
@@ -78,7 +79,8 @@ void listGrids(std::span<const uint8_t> bytes, WorkOutput& output) {
     copyText(entry.name, grid.gridName);
     const bool known = grid.gridType < nanovdb::GridType::End;
     const bool levelSet = grid.gridClass == nanovdb::GridClass::LevelSet;
-    copyText(entry.type, std::string(known ? nanovdb::toStr(grid.gridType) : "unknown") + (levelSet ? ", a level set" : ""));
+    copyText(entry.type, std::string(known ? nanovdb::toStr(grid.gridType) : "unknown") +
+                             (levelSet ? ", a level set" : ""));
     entry.isDensity = isDensityType(grid.gridType) && !levelSet;
     entry.activeVoxels = grid.voxelCount;
     for (int axis = 0; axis < 3; ++axis) {
@@ -93,7 +95,8 @@ void listGrids(std::span<const uint8_t> bytes, WorkOutput& output) {
 class Grid {
  public:
   explicit Grid(std::span<uint8_t> bytes)
-      : buffer_(pnanovdb_make_buf(reinterpret_cast<uint32_t*>(bytes.data()), bytes.size() / sizeof(uint32_t))),
+      : buffer_(
+            pnanovdb_make_buf(reinterpret_cast<uint32_t*>(bytes.data()), bytes.size() / sizeof(uint32_t))),
         type_(pnanovdb_grid_get_grid_type(buffer_, {})) {
     if (!isDensityType(nanovdb::GridType(type_))) throw std::runtime_error("its grid holds no plain numbers");
     root_ = pnanovdb_tree_get_root(buffer_, pnanovdb_grid_get_tree(buffer_, {}));
@@ -157,8 +160,8 @@ class Grid {
 
 int brickOf(int voxel) { return voxel >> 3; }
 
-/// Its box in bricks. Throws where that is larger than any grid in use.
-void measure(const Grid& grid, GridHeader& header) {
+/// Its box in bricks. Throws where that is larger than any grid in use, or its table than the room for it.
+void measure(const Grid& grid, size_t room, GridHeader& header) {
   constexpr int64_t kMostSide = 1 << 15;
   constexpr int64_t kMostBricks = int64_t(1) << 28;
   const pnanovdb_coord_t low = grid.minimum();
@@ -167,7 +170,8 @@ void measure(const Grid& grid, GridHeader& header) {
   const std::array<int, 3> last{high.x, high.y, high.z};
   int64_t all = 1;
   for (size_t axis = 0; axis < 3; ++axis) {
-    const int64_t count = last[axis] < first[axis] ? 0 : int64_t(brickOf(last[axis])) - brickOf(first[axis]) + 1;
+    const int64_t count =
+        last[axis] < first[axis] ? 0 : int64_t(brickOf(last[axis])) - brickOf(first[axis]) + 1;
     if (count == 0) return;
     if (count > kMostSide || std::abs(int64_t(first[axis])) > (1 << 30))
       throw std::runtime_error("its grid reaches over " + std::to_string(count * kBrickSide) +
@@ -176,7 +180,8 @@ void measure(const Grid& grid, GridHeader& header) {
     header.bricks[axis] = int(count);
     all *= count;
   }
-  if (all > kMostBricks) throw std::runtime_error("its grid reaches over too many voxels");
+  if (all > kMostBricks || size_t(all) * sizeof(uint32_t) > room)
+    throw std::runtime_error("its grid reaches over more voxels than fit into memory");
 }
 
 /// Calls work(brick, its first voxel) for each brick in the order of the table.
@@ -205,13 +210,12 @@ double readBrick(Grid& grid, pnanovdb_coord_t first, std::array<double, kBrickVo
   return *std::ranges::max_element(values);
 }
 
-void decodeGrid(std::span<const uint8_t> bytes, const std::string& name, WorkOutput& output) {
-  MemoryFile file(bytes);
-  std::istream stream(&file);
-  nanovdb::GridHandle<nanovdb::HostBuffer> handle = nanovdb::io::readGrid(stream, name);
-  Grid grid(std::span(handle.data(), handle.size()));
+}  // namespace
+
+void decodeGrid(std::span<uint8_t> bytes, WorkOutput& output) {
+  Grid grid(bytes);
   GridHeader header;
-  measure(grid, header);
+  measure(grid, output.room.size(), header);
   grid.place(header);
   std::array<double, kBrickVoxels> values{};
   std::vector<uint32_t> table;
@@ -220,6 +224,9 @@ void decodeGrid(std::span<const uint8_t> bytes, const std::string& name, WorkOut
     header.largest = std::max(header.largest, largest);
     table.push_back(largest > 0.0 ? uint32_t(++header.stored) : 0);
   });
+  const size_t needed = sizeof header + table.size() * sizeof(uint32_t) + header.stored * kBrickVoxels * sizeof(uint16_t);
+  if (needed > output.room.size())
+    throw std::runtime_error("its grid takes " + std::to_string(needed / 1'000'000) + " MB, more than the memory limit");
   output.append(asMessage(std::as_const(header)));
   output.append({reinterpret_cast<const uint8_t*>(table.data()), table.size() * sizeof(uint32_t)});
   size_t next = 0;
@@ -233,13 +240,15 @@ void decodeGrid(std::span<const uint8_t> bytes, const std::string& name, WorkOut
   });
 }
 
-}  // namespace
-
 extern "C" void fragtraceWork(std::span<const uint8_t> input, WorkOutput& output) {
   if (input.empty()) return;
   const auto request = takeMessage<GridRequest>(input);
   const std::string name(request.name.data(), ::strnlen(request.name.data(), request.name.size()));
-  request.list != 0 ? listGrids(input, output) : decodeGrid(input, name, output);
+  if (request.list != 0) return listGrids(input, output);
+  MemoryFile file(input);
+  std::istream stream(&file);
+  nanovdb::GridHandle<nanovdb::HostBuffer> grid = nanovdb::io::readGrid(stream, name);
+  decodeGrid({grid.data(), grid.size()}, output);
 }
 
 }  // namespace fragtrace
