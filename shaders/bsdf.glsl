@@ -31,18 +31,18 @@ struct Bsdf {
   vec3 between;
 };
 
-/// A direction drawn from a Bsdf. weight = f |cos| / density; density 0 for a single direction; weight 0 ends the path.
+/// A direction drawn from a Bsdf. weight = f |cos| / pdf; pdf 0 for a single direction; weight 0 ends the path.
 struct BsdfSample {
   vec3 incoming;
   vec3 weight;
-  float density;
+  float pdf;
   bool transmitted;
 };
 
-/// f |cos| and the density with which sampleBsdf draws the direction, single directions left out.
+/// f |cos| and the pdf with which sampleBsdf draws the direction, single directions left out.
 struct BsdfValue {
   vec3 value;
-  float density;
+  float pdf;
 };
 
 vec3 diffuseColor(Bsdf b) { return kThinScattering ? b.diffuseColor : b.baseColor; }
@@ -209,16 +209,16 @@ BsdfValue scatteredGlass(Bsdf b, vec3 outgoing, vec3 incoming) {
   float back = scatteredBack(b);
   vec3 tint = transmitted ? b.baseColor : glassTint(b, outgoing.z);
   BsdfValue r;
-  r.density = b.glassLost * (transmitted ? 1.0f - back : back) * abs(incoming.z) * kInversePi;
-  r.value = tint * (transmitted && b.solid ? r.density / (b.eta * b.eta) : r.density);
+  r.pdf = b.glassLost * (transmitted ? 1.0f - back : back) * abs(incoming.z) * kInversePi;
+  r.value = tint * (transmitted && b.solid ? r.pdf / (b.eta * b.eta) : r.pdf);
   return r;
 }
 
-/// Value and density of the facets of rough glass in one direction.
+/// Value and pdf of the facets of rough glass in one direction.
 BsdfValue evaluateFacets(Bsdf b, vec3 outgoing, vec3 incoming) {
   BsdfValue none;
   none.value = vec3(0.0f);
-  none.density = 0.0f;
+  none.pdf = 0.0f;
   bool transmitted = incoming.z < 0.0f;
   // A thin wall transmits the mirror image of what it reflects.
   bool bends = transmitted && b.solid;
@@ -233,8 +233,8 @@ BsdfValue evaluateFacets(Bsdf b, vec3 outgoing, vec3 incoming) {
   float denominator = oh + b.eta * ih;
   if (oh <= 0.0f || (bends ? ih >= 0.0f || denominator == 0.0f : ih <= 0.0f)) return none;
   float fresnel = glassFresnel(b, oh);
-  float density = facetDensity(outgoing, h, b.alpha, b.stretch);
-  // The masking ratio turns the density of the visible normals into the value (both have D G1(o) / o.z).
+  float pdf = facetPdf(outgoing, h, b.alpha, b.stretch);
+  // The masking ratio turns the pdf of the visible normals into the value (both have D G1(o) / o.z).
   vec3 mirrored = vec3(image.x, image.y, abs(image.z));
   float ratio = facetShadowing(outgoing, mirrored, b.alpha, b.stretch);
   BsdfValue r;
@@ -251,10 +251,10 @@ BsdfValue evaluateFacets(Bsdf b, vec3 outgoing, vec3 incoming) {
       tint = tint / (b.eta * b.eta);
     }
   }
-  r.density = share * density * jacobian;
-  r.value = tint * (r.density * ratio);
+  r.pdf = share * pdf * jacobian;
+  r.value = tint * (r.pdf * ratio);
   // What masking takes is drawn elsewhere then (drawBase).
-  if (b.glassLost > 0.0f) r.density *= ratio;
+  if (b.glassLost > 0.0f) r.pdf *= ratio;
   return r;
 }
 
@@ -264,7 +264,7 @@ BsdfValue evaluateGlass(Bsdf b, vec3 outgoing, vec3 incoming) {
   if (!kCompensation || b.glassLost <= 0.0f) return r;
   BsdfValue again = scatteredGlass(b, outgoing, incoming);
   r.value = r.value + again.value;
-  r.density += again.density;
+  r.pdf += again.pdf;
   return r;
 }
 
@@ -275,7 +275,7 @@ BsdfValue evaluateThrough(Bsdf b, vec3 outgoing, vec3 incoming, float chance) {
   float lit = b.opaque * b.diffuseThrough * throughLayer(b, max(0.0f, dot(outgoing, h))) * kInversePi * -incoming.z;
   // Radiance is compressed by the denser side.
   r.value = (b.solid ? lit / (b.eta * b.eta) : lit) * b.throughColor;
-  r.density = chance * -incoming.z * kInversePi;
+  r.pdf = chance * -incoming.z * kInversePi;
   return r;
 }
 
@@ -292,29 +292,29 @@ vec3 diffuseValue(Bsdf b, vec3 incoming, float oh) {
 BsdfValue evaluateBase(Bsdf b, vec3 outgoing, vec3 incoming) {
   BsdfValue r;
   r.value = vec3(0.0f);
-  r.density = 0.0f;
+  r.pdf = 0.0f;
   vec4 chances = lobeChances(b, outgoing.z);
   if (kDiffuseTransmission && incoming.z < 0.0f) r = evaluateThrough(b, outgoing, incoming, chances.w);
   if (incoming.z > 0.0f) {
     vec3 h = normalize(outgoing + incoming);
     float oh = max(0.0f, dot(outgoing, h));
     r.value = diffuseValue(b, incoming, oh);
-    r.density = chances.z * incoming.z * kInversePi;
+    r.pdf = chances.z * incoming.z * kInversePi;
     if (kSpecular && !b.mirrorLike) {
-      float density = facetDensity(outgoing, h, b.alpha, b.stretch) / max(4.0f * oh, float(1e-12));
+      float pdf = facetPdf(outgoing, h, b.alpha, b.stretch) / max(4.0f * oh, float(1e-12));
       float ratio = facetShadowing(outgoing, incoming, b.alpha, b.stretch);
-      r.value = r.value + (density * ratio) * opaqueFresnel(b, oh);
+      r.value = r.value + (pdf * ratio) * opaqueFresnel(b, oh);
       if (kCompensation) {
         float lost = facetLoss(outgoing, b.alpha, b.stretch) * facetLoss(incoming, b.alpha, b.stretch);
         r.value = r.value + (lost * incoming.z) * b.between;
       }
-      r.density = r.density + chances.y * density;
+      r.pdf = r.pdf + chances.y * pdf;
     }
   }
   if (kRoughGlass && !isSmoothGlass(b)) {
     BsdfValue g = evaluateGlass(b, outgoing, incoming);
     r.value = r.value + b.glass * g.value;
-    r.density = r.density + chances.x * g.density;
+    r.pdf = r.pdf + chances.x * g.pdf;
   }
   return r;
 }
@@ -324,7 +324,7 @@ BsdfSample sampleSmoothGlass(Bsdf b, vec3 outgoing, float choice) {
   BsdfSample s;
   float fresnel = glassFresnel(b, outgoing.z);
   s.transmitted = choice >= fresnel;
-  s.density = 0.0f;
+  s.pdf = 0.0f;
   s.weight = glassTint(b, outgoing.z);
   s.incoming = vec3(-outgoing.x, -outgoing.y, outgoing.z);
   if (s.transmitted) {
@@ -334,7 +334,7 @@ BsdfSample sampleSmoothGlass(Bsdf b, vec3 outgoing, float choice) {
   return s;
 }
 
-/// The density of a sample whose direction is drawn, but not weighed yet.
+/// The pdf of a sample whose direction is drawn, but not weighed yet.
 const float kUnweighed = float(-1.0);
 
 const float kLowBits = float(4096.0);  // times this, a uniform number leaves a fraction that is one of its own
@@ -348,7 +348,7 @@ BsdfSample drawScattered(Bsdf b, float u, float v) {
   s.incoming = sampleCosineHemisphere(clamp(u, 0.0f, float(0.99999994)), v);
   s.incoming.z = (s.transmitted ? -1.0f : 1.0f) * max(s.incoming.z, float(1e-6));
   s.weight = vec3(0.0f);
-  s.density = kUnweighed;
+  s.pdf = kUnweighed;
   return s;
 }
 
@@ -357,7 +357,7 @@ BsdfSample drawScattered(Bsdf b, float u, float v) {
 BsdfSample drawBase(Bsdf b, vec3 outgoing, float choice, float u, float v) {
   BsdfSample s;
   s.weight = vec3(0.0f);
-  s.density = 0.0f;
+  s.pdf = 0.0f;
   s.transmitted = false;
   s.incoming = vec3(0.0f, 0.0f, 1.0f);
   vec4 chances = lobeChances(b, outgoing.z);
@@ -395,6 +395,6 @@ BsdfSample drawBase(Bsdf b, vec3 outgoing, float choice, float u, float v) {
     }
   }
   if (kCompensation && lost && drawnAgain) return drawScattered(b, fract(u * kLowBits), fract(v * kLowBits));
-  if (!lost) s.density = kUnweighed;
+  if (!lost) s.pdf = kUnweighed;
   return s;
 }

@@ -60,8 +60,8 @@ Path beginShadow(Path p) {
     LightSample light = lightOfSlot(0, s.position, kNoNormal, p.numbers, dimension + kLightDimension);
     float cosine = max(light.direction.y, 0.0);
     // The scene that casts the shadow includes emissive triangles, so their light does not count.
-    bool counts = light.density <= 0.0 || light.distance == kFarAway;
-    float weight = light.density > 0.0 ? balanceWeight(light.density, cosine * kInversePi) : 1.0;
+    bool counts = light.pdf <= 0.0 || light.distance == kFarAway;
+    float weight = light.pdf > 0.0 ? balanceWeight(light.pdf, cosine * kInversePi) : 1.0;
     vec3 share = shareOfLight(light.irradiance * (counts ? cosine * weight : 0.0), all);
     if (kShadows) p = connect(p, s, light, share);
     if (p.phase == kPhaseShadow) {
@@ -74,9 +74,9 @@ Path beginShadow(Path p) {
   vec3 lobe = sampleCosineHemisphere(uv.x, uv.y);
   p.direction = vec3(lobe.x, lobe.z, -lobe.y);
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
-  p.density = lobe.z * kInversePi;
+  p.pdf = lobe.z * kInversePi;
   if (kCreases) p.tie = 0.0;
-  p.after = kEnvironment && p.density > 0.0 ? kPhaseExtend : kPhaseEnd;
+  p.after = kEnvironment && p.pdf > 0.0 ? kPhaseExtend : kPhaseEnd;
   if (p.phase != kPhaseShadow) p = proceed(p);
   return p;
 }
@@ -99,7 +99,7 @@ Path endShadow(Path p) {
   vec4 hidden = environmentAlong(p.direction);
   float weight = 1.0;
   if (kEnvironmentSampling)
-    weight = balanceWeight(p.density, frame.lightChoice.x * environmentDensity(hidden, p.direction));
+    weight = balanceWeight(p.pdf, frame.lightChoice.x * environmentPdf(hidden, p.direction));
   p.radiance += shareOfLight(kPi * weight * hidden.rgb, freeIrradiance(p.origin));
   return p;
 }

@@ -40,7 +40,7 @@ vec4 mapAt(vec2 place, ivec2 size, int first) {
   return mix(top, bottom, f.y);
 }
 
-/// Radiance and density at a place of the environment. The density is relative to an even one over the map's area.
+/// Radiance and pdf at a place of the environment. The pdf is relative to an even one over the map's area.
 vec4 environmentAt(vec2 place) {
   vec4 there = mapAt(place, ivec2(frame.environment), 0);
   float intensity = frame.catcherLight.w;
@@ -61,9 +61,9 @@ vec3 backdropAlong(vec3 direction) {
   return vec3(mapAt(environmentCoordinates(direction) * vec2(size), size, lit.x * lit.y)) * intensity;
 }
 
-/// The density over solid angle with which sampleEnvironment draws a direction. along: environmentAlong of that
+/// The pdf over solid angle with which sampleEnvironment draws a direction. along: environmentAlong of that
 /// direction.
-float environmentDensity(vec4 along, vec3 direction) {
+float environmentPdf(vec4 along, vec3 direction) {
   float sine = sqrt(max(0.0f, 1.0f - direction.y * direction.y));
   return along.w / max(2.0f * kPi * kPi * sine, float(1e-12));
 }
@@ -102,11 +102,11 @@ float invertTable(int firstRow, uint count, uint bits) {
   return mix(low, high, (place.within - begin) / (end - begin));
 }
 
-/// Draws a number by the density 1 - |x|.
+/// Draws a number by the pdf 1 - |x|.
 float sampleTent(float u) { return u < 0.5f ? sqrt(2.0f * u) - 1.0f : 1.0f - sqrt(2.0f - 2.0f * u); }
 
 /// Draws a place of the map, in texels. Bilinear filtering turns each texel into a tent about its middle. So drawing a
-/// texel and a place in its tent has the density that environmentAt gives. The part of a row's tent beyond a pole is
+/// texel and a place in its tent has the pdf that environmentAt gives. The part of a row's tent beyond a pole is
 /// spread over half a texel by clamping.
 vec2 sampleEnvironment(uvec2 bits) {
   ivec2 size = ivec2(frame.environment);

@@ -3,8 +3,8 @@
 // along x (kAnisotropy), with facets of width alpha x stretch along x and alpha / stretch along y. In a space that is
 // stretched the other way, stretched facets are isotropic.
 
-/// Trowbridge-Reitz density of half vectors, in the form that keeps its digits at small alpha.
-float ggxDensity(vec3 h, float alpha) {
+/// The Trowbridge-Reitz distribution D(h) of half vectors, in the form that keeps its digits at small alpha.
+float ggxD(vec3 h, float alpha) {
   float a2 = alpha * alpha;
   float d = (h.x * h.x + h.y * h.y) / a2 + h.z * h.z;
   return kInversePi / (a2 * d * d);
@@ -24,7 +24,7 @@ float ggxMaskingShadowing(vec3 outgoing, vec3 incoming, float alpha) {
   return 1.0f / (1.0f + ggxLambda(outgoing, alpha) + ggxLambda(incoming, alpha));
 }
 
-/// A half vector visible from `outgoing` (z > 0), with density D(h) G1(o) max(0, o.h) / o.z (Dupuy and Benyoub,
+/// A half vector visible from `outgoing` (z > 0), with pdf D(h) G1(o) max(0, o.h) / o.z (Dupuy and Benyoub,
 /// Sampling Visible GGX Normals with Spherical Caps, 2023).
 vec3 sampleVisibleGgx(vec3 outgoing, float alpha, float u, float v) {
   vec3 stretched = normalize(vec3(alpha * outgoing.x, alpha * outgoing.y, outgoing.z));
@@ -35,21 +35,21 @@ vec3 sampleVisibleGgx(vec3 outgoing, float alpha, float u, float v) {
   return normalize(vec3(alpha * cap.x, alpha * cap.y, max(cap.z, float(1e-12))));
 }
 
-float visibleGgxDensity(vec3 outgoing, vec3 h, float alpha) {
-  return ggxDensity(h, alpha) * ggxMasking(outgoing, alpha) * max(0.0f, dot(outgoing, h)) /
+float visibleGgxPdf(vec3 outgoing, vec3 h, float alpha) {
+  return ggxD(h, alpha) * ggxMasking(outgoing, alpha) * max(0.0f, dot(outgoing, h)) /
          max(outgoing.z, float(1e-12));
 }
 
 /// The direction in the space where facets are isotropic of width alpha, for masking.
 vec3 alongFacets(vec3 v, float stretch) { return kAnisotropy ? vec3(v.x * stretch, v.y / stretch, v.z) : v; }
 
-/// The half vector in the space where facets are isotropic, for their density.
+/// The half vector in the space where facets are isotropic, for their pdf.
 vec3 acrossFacets(vec3 h, float stretch) { return kAnisotropy ? vec3(h.x / stretch, h.y * stretch, h.z) : h; }
 
-/// Density of the half vectors visible from `outgoing` (z > 0).
-float facetDensity(vec3 outgoing, vec3 h, float alpha, float stretch) {
-  if (!kAnisotropy) return visibleGgxDensity(outgoing, h, alpha);
-  float masked = ggxDensity(acrossFacets(h, stretch), alpha) * ggxMasking(alongFacets(outgoing, stretch), alpha);
+/// The pdf of the half vectors visible from `outgoing` (z > 0).
+float facetPdf(vec3 outgoing, vec3 h, float alpha, float stretch) {
+  if (!kAnisotropy) return visibleGgxPdf(outgoing, h, alpha);
+  float masked = ggxD(acrossFacets(h, stretch), alpha) * ggxMasking(alongFacets(outgoing, stretch), alpha);
   return masked * max(0.0f, dot(outgoing, h)) / max(outgoing.z, float(1e-12));
 }
 

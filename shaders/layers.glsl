@@ -37,19 +37,19 @@ vec3 layerChances(Bsdf b, vec3 outgoing) {
   return vec3(coatChance, (1.0f - coatChance) * sheenChance, (1.0f - coatChance) * (1.0f - sheenChance));
 }
 
-/// Value (without its share) and density of the rough clearcoat, about its own normal.
+/// Value (without its share) and pdf of the rough clearcoat, about its own normal.
 BsdfValue evaluateCoat(Bsdf b, vec3 outgoing, vec3 incoming) {
   BsdfValue r;
   r.value = vec3(0.0f);
-  r.density = 0.0f;
+  r.pdf = 0.0f;
   Frame3 around = frameAround(b.coatNormal);
   vec3 o = kNormalMaps ? toFrame(around, outgoing) : outgoing;
   vec3 i = kNormalMaps ? toFrame(around, incoming) : incoming;
   if (o.z <= 0.0f || i.z <= 0.0f) return r;
   vec3 h = normalize(o + i);
-  float density = visibleGgxDensity(o, h, b.coatAlpha) / max(4.0f * dot(o, h), float(1e-12));
-  r.value = vec3(density * ggxMaskingShadowing(o, i, b.coatAlpha) / ggxMasking(o, b.coatAlpha));
-  r.density = density;
+  float pdf = visibleGgxPdf(o, h, b.coatAlpha) / max(4.0f * dot(o, h), float(1e-12));
+  r.value = vec3(pdf * ggxMaskingShadowing(o, i, b.coatAlpha) / ggxMasking(o, b.coatAlpha));
+  r.pdf = pdf;
   return r;
 }
 
@@ -57,12 +57,12 @@ BsdfValue evaluateBsdf(Bsdf b, vec3 outgoing, vec3 incoming) {
   BsdfValue r = evaluateBase(b, outgoing, incoming);
   if (!kClearcoat && !kSheen) return r;
   vec3 chances = layerChances(b, outgoing);
-  r.density *= chances.z;
+  r.pdf *= chances.z;
   if (kSheen && chances.y > 0.0f) {
     r.value = r.value * underSheen(b, outgoing, incoming);
     if (incoming.z > 0.0f) {
       r.value = r.value + sheenValue(outgoing, incoming, b.sheenAlpha) * b.sheenColor;
-      r.density += chances.y * (0.5f * kInversePi);
+      r.pdf += chances.y * (0.5f * kInversePi);
     }
   }
   if (kClearcoat && chances.x > 0.0f) {
@@ -71,7 +71,7 @@ BsdfValue evaluateBsdf(Bsdf b, vec3 outgoing, vec3 incoming) {
     if (incoming.z > 0.0f && !isSmoothCoat(b)) {
       BsdfValue lobe = evaluateCoat(b, outgoing, incoming);
       r.value = r.value + share * lobe.value;
-      r.density += chances.x * lobe.density;
+      r.pdf += chances.x * lobe.pdf;
     }
   }
   return r;
@@ -98,7 +98,7 @@ vec3 straightThrough(Bsdf b, vec3 outgoing) {
 BsdfSample drawCoat(Bsdf b, vec3 outgoing, float chance, float u, float v) {
   BsdfSample s;
   s.transmitted = false;
-  s.density = 0.0f;
+  s.pdf = 0.0f;
   s.weight = vec3(0.0f);
   Frame3 around = frameAround(b.coatNormal);
   vec3 o = kNormalMaps ? toFrame(around, outgoing) : outgoing;
@@ -112,7 +112,7 @@ BsdfSample drawCoat(Bsdf b, vec3 outgoing, float chance, float u, float v) {
     return s;
   }
   // A direction below the base's horizon is lost, too.
-  if (s.incoming.z > 0.0f) s.density = kUnweighed;
+  if (s.incoming.z > 0.0f) s.pdf = kUnweighed;
   return s;
 }
 
@@ -129,7 +129,7 @@ BsdfSample drawLayered(Bsdf b, vec3 outgoing, float choice, float u, float v) {
     s.incoming = sampleHemisphere(u, v);
     s.transmitted = false;
     s.weight = vec3(0.0f);
-    s.density = s.incoming.z > 0.0f ? kUnweighed : 0.0f;
+    s.pdf = s.incoming.z > 0.0f ? kUnweighed : 0.0f;
     return s;
   }
   s = drawBase(b, outgoing, choice, u, v);
@@ -145,9 +145,9 @@ BsdfSample sampleBsdf(Bsdf b, vec3 outgoing, float choice, float u, float v) {
   BsdfSample s;
   if (kClearcoat || kSheen) s = drawLayered(b, outgoing, choice, u, v);
   if (!kClearcoat && !kSheen) s = drawBase(b, outgoing, choice, u, v);
-  if (s.density >= 0.0f) return s;
+  if (s.pdf >= 0.0f) return s;
   BsdfValue value = evaluateBsdf(b, outgoing, s.incoming);
-  s.density = value.density;
-  s.weight = value.density > 0.0f ? value.value / value.density : vec3(0.0f);
+  s.pdf = value.pdf;
+  s.weight = value.pdf > 0.0f ? value.value / value.pdf : vec3(0.0f);
   return s;
 }

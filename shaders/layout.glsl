@@ -14,7 +14,7 @@ const uint kMaterialsBinding = 7u;     // kMaterialRows uvec4 a material
 const uint kTexelsBinding = 8u;        // 1 uvec2 a texel: RGBA as linear half floats
 const uint kEmittersBinding = 9u;      // kEmitterRows uvec4 an emitter
 const uint kLightsBinding = 10u;       // kLightRows vec4 a punctual light
-// 1 vec4 a texel: radiance, density over the area of the map (mean 1); behind them those of the backdrop, if there is
+// 1 vec4 a texel: radiance, pdf over the area of the map (mean 1); behind them those of the backdrop, if there is
 // one that camera rays see in place of the map, and before gi the environment's light: factors of the irradiance;
 // width, height and first row of each level of lobes; the levels (src/pack/environment_light.h)
 const uint kEnvironmentBinding = 11u;
@@ -113,7 +113,7 @@ const uint kMaterialEmission = 1u;     // radiance, alpha cutoff
 const uint kMaterialSurface = 2u;      // metallic, roughness, index of refraction, transmission
 const uint kMaterialSpecular = 3u;     // specular colour, specular factor
 const uint kMaterialVolume = 4u;       // extinction coefficient (1 / local space), 1 + table of rough glass or 0: thin
-// normal scale, occlusion strength, emitter density (1 / area in local space), flags
+// normal scale, occlusion strength, emitter pdf (1 / area in local space), flags
 const uint kMaterialMaps = 5u;
 const uint kMaterialPerlin = 6u;       // frequency, amplitude, octaves; and the number of the glTF material, from 1
 const uint kMaterialTextures = 7u;     // then one row a texture slot

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT
 // Light sampling: punctual lights, emissive triangles by power or by a tree, and the environment.
 
-/// Light that reaches a point from one direction. density 0: no ray can find it (punctual), so it has no MIS partner.
+/// Light that reaches a point from one direction. pdf 0: no ray can find it (punctual), so it has no MIS partner.
 struct LightSample {
   vec3 direction;
   float distance;   // to the light, kFarAway for the environment and directional lights
-  vec3 irradiance;  // radiance / density, or the punctual light's intensity / d^2; zero when there is none
-  float density;    // over solid angle, the chance of choosing this light counted in
+  vec3 irradiance;  // radiance / pdf, or the punctual light's intensity / d^2; zero when there is none
+  float pdf;    // over solid angle, the chance of choosing this light counted in
 };
 
-LightSample makeLight(vec3 direction, float distance, vec3 irradiance, float density) {
+LightSample makeLight(vec3 direction, float distance, vec3 irradiance, float pdf) {
   LightSample s;
   s.direction = direction;
   s.distance = distance;
   s.irradiance = irradiance;
-  s.density = density;
+  s.pdf = pdf;
   return s;
 }
 
 LightSample noLight() { return makeLight(vec3(0.0f, 0.0f, 1.0f), kFarAway, vec3(0.0f), 0.0f); }
 
-/// The MIS weight of a light sample that scattering would find with the other density.
+/// The MIS weight of a light sample that scattering would find with the other pdf.
 float lightWeight(LightSample s, float other) {
-  if (s.density <= 0.0f) return 1.0f;
+  if (s.pdf <= 0.0f) return 1.0f;
   bool environment = kEnvironmentSampling && s.distance == kFarAway;
-  return environment ? balanceWeight(s.density, other) : misWeight(s.density, other);
+  return environment ? balanceWeight(s.pdf, other) : misWeight(s.pdf, other);
 }
 
 /// What the range of a punctual light (0: none) leaves at a squared distance, and a spot's cone, of its axis and scale,
@@ -57,8 +57,8 @@ LightSample punctualLight(int index, vec3 point) {
   return makeLight(direction, distance, vec3(intensity) * (window / squared), 0.0f);
 }
 
-/// Density over solid angle of choosing the point that a ray hit on an emissive triangle.
-float emitterDensity(uint material, float distance, float cosine) {
+/// The pdf over solid angle of choosing the point that a ray hit on an emissive triangle.
+float emitterPdf(uint material, float distance, float cosine) {
   float area = materialFloats(material, kMaterialMaps).z * (1.0f - frame.lightChoice.x);
   return area * distance * distance / max(cosine, float(1e-7));
 }
@@ -97,18 +97,18 @@ LightSample triangleLight(int emitter, float chance, vec3 point, float u, float 
   float cosine = -0.5f * inverseArea * dot(cross(e1, e2), direction);
   if ((corner.w & kEmitterDoubleSided) != 0u) cosine = abs(cosine);
   if (cosine <= 0.0f) return noLight();
-  float density = chance * inverseArea * squared / cosine;
+  float pdf = chance * inverseArea * squared / cosine;
   vec3 radiance = emittedFrom(corner.w & kFaceMaterialMask, int(edge2.w), w, cosine);
-  return makeLight(direction, distance, radiance / density, density);
+  return makeLight(direction, distance, radiance / pdf, pdf);
 }
 
 LightSample environmentLight(float chance, uvec2 bits) {
   vec2 place = sampleEnvironment(bits);
   vec4 there = environmentAt(place);
   vec3 direction = environmentDirection(place / vec2(ivec2(frame.environment)));
-  float density = chance * environmentDensity(there, direction);
-  if (density <= 0.0f) return noLight();
-  return makeLight(direction, kFarAway, vec3(there) / density, density);
+  float pdf = chance * environmentPdf(there, direction);
+  if (pdf <= 0.0f) return noLight();
+  return makeLight(direction, kFarAway, vec3(there) / pdf, pdf);
 }
 
 /// The emitter that bits draw by power: they are in the order of the numbers that draw them, and each tells which its
@@ -295,9 +295,9 @@ LightChoice emitterByTree(float chance, Receiver to, uint choice, uvec2 bits) {
   return makeChoice(int(child & kLightIndex), chance * own, bits, unitFloat(bits.x), unitFloat(bits.y));
 }
 
-/// Density over solid angle with which the tree chooses, from a point, the place that its ray hit on an emissive
+/// The pdf over solid angle with which the tree chooses, from a point, the place that its ray hit on an emissive
 /// triangle: a leaf knows its way to the root.
-float treeDensity(int slot, vec3 point, uint normal, float distance, float cosine) {
+float treePdf(int slot, vec3 point, uint normal, float distance, float cosine) {
   int count = 2 * int(frame.lightChoice.y) - 1;
   int parents = lightNodes() + count * int(kLightNodeRows);
   uint leaf = lightWord(parents + (count + 3) / 4, slot);
@@ -305,13 +305,13 @@ float treeDensity(int slot, vec3 point, uint normal, float distance, float cosin
   Receiver to = receiverOf(point, normal);
   int node = int(leaf);
   LightNode own = lightNodeFrom(node, to);
-  float density = uintBitsToFloat(emitterRow(int(own.child & kLightIndex), 2).w) * (1.0f - frame.lightChoice.x);
-  while (node > 0 && density > 0.0f) {
-    density *= shareOf(own, lightNodeFrom(node % 2 == 1 ? node + 1 : node - 1, to));
+  float pdf = uintBitsToFloat(emitterRow(int(own.child & kLightIndex), 2).w) * (1.0f - frame.lightChoice.x);
+  while (node > 0 && pdf > 0.0f) {
+    pdf *= shareOf(own, lightNodeFrom(node % 2 == 1 ? node + 1 : node - 1, to));
     node = int(lightWord(parents, node));
     if (node > 0) own = lightNodeFrom(node, to);
   }
-  return density * distance * distance / max(cosine, float(1e-7));
+  return pdf * distance * distance / max(cosine, float(1e-7));
 }
 
 /// The chance that a point's light sample is one of an emitter or, kFromEnvironment, of the environment; 1 for what no
@@ -321,7 +321,7 @@ float chanceOfLight(int emitter, vec3 point, uint normal) {
   uint kind = emitterRow(emitter, 3).w;
   if (kPunctualLights && (kind & kEmitterPunctual) != 0u) return 1.0f;
   if (!kLightTree) return uintBitsToFloat(emitterRow(emitter, 0).w) * (1.0f - frame.lightChoice.x);
-  return treeDensity(int(kind), point, normal, 1.0f, 1.0f) / uintBitsToFloat(emitterRow(emitter, 2).w);
+  return treePdf(int(kind), point, normal, 1.0f, 1.0f) / uintBitsToFloat(emitterRow(emitter, 2).w);
 }
 
 /// How many light samples each shaded point takes: one with global illumination; else each punctual light, and one

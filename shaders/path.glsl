@@ -186,8 +186,8 @@ Path meetSurroundings(Path p) {
   if (kPassesLight) p.throughput *= p.compression;
   vec4 seen = environmentAlong(p.direction);
   float weight = 1.0;
-  if (kGi && kEnvironmentSampling && p.density > 0.0) {
-    weight = balanceWeight(p.density, frame.lightChoice.x * environmentDensity(seen, p.direction));
+  if (kGi && kEnvironmentSampling && p.pdf > 0.0) {
+    weight = balanceWeight(p.pdf, frame.lightChoice.x * environmentPdf(seen, p.direction));
   }
   return addLight(p, clampIndirect(p.throughput * (weight * seen.rgb), countedScatterings(p)));
 }
@@ -236,11 +236,11 @@ int nextChain(Path p, uint material, bool single, bool wall) {
 
 /// Settles where the path goes on from the surface, once its shadow ray is done; weight multiplies the throughput, and
 /// zero ends the path.
-Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool transmitted, SurfaceMaterial m) {
+Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool transmitted, SurfaceMaterial m) {
   p.throughput *= weight;
   p.after = kPhaseEnd;
   if (maxComponent(p.throughput) <= 0.0) return p;
-  bool clear = kTransmission && density == 0.0 && m.transmission * (1.0 - m.metallic) > 0.0;
+  bool clear = kTransmission && pdf == 0.0 && m.transmission * (1.0 - m.metallic) > 0.0;
   bool open = !kMatchedGlass || isOpen(p.medium);
   if (transmitted && m.solid) {
     p.medium = mediumBehind(s);
@@ -263,14 +263,14 @@ Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool
   p.cameraRay = false;
   bool wall = kThinGlass && clear && transmitted && !m.solid && p.medium == kPrimitiveNone;
   if (kMatchedGlass) wall = clear && transmitted && open && (!m.solid || isMatched(s.material));
-  if (kCaustics) p.chain = nextChain(p, s.material, density == 0.0, wall);
-  // Straight through a thin wall the path keeps its ray, and the density that light sampling shares with it.
+  if (kCaustics) p.chain = nextChain(p, s.material, pdf == 0.0, wall);
+  // Straight through a thin wall the path keeps its ray, and the pdf that light sampling shares with it.
   if (wall) {
     p.walls += 1;
     p.after = kPhasePass;
     return p;
   }
-  p.density = density;
+  p.pdf = pdf;
   p.normal = normalOfLight(s, m);
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, direction);
   p.direction = direction;
@@ -302,10 +302,10 @@ vec3 emittedAt(Path p, Surface s, uint flags) {
   float cosine = abs(dot(s.geometricNormal, p.direction));
   vec3 radiance = emissionAt(s.material, s.texcoords);
   if (kClearcoat) radiance *= emissionUnderCoat(s.material, s.texcoords, cosine);
-  if (!kGi || !kEmissiveTriangles || !s.emitter || p.density <= 0.0) return radiance;
-  float density = kLightTree ? treeDensity(p.hitSlot, p.origin, p.normal, p.hitT, cosine)
-                             : emitterDensity(s.material, p.hitT, cosine);
-  return radiance * misWeight(p.density, density);
+  if (!kGi || !kEmissiveTriangles || !s.emitter || p.pdf <= 0.0) return radiance;
+  float pdf = kLightTree ? treePdf(p.hitSlot, p.origin, p.normal, p.hitT, cosine)
+                             : emitterPdf(s.material, p.hitT, cosine);
+  return radiance * misWeight(p.pdf, pdf);
 }
 
 /// Sets up the shadow ray of a light sample of a point that would add `value`; without shadows it is added at once. The

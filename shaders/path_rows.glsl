@@ -6,7 +6,7 @@
 const int kRowRay = 0;              // origin, tie
 const int kRowDirection = 1;        // direction, medium
 const int kRowHit = 2;              // of the ray: distance, slot, weights
-const int kRowThroughput = 3;       // throughput, density
+const int kRowThroughput = 3;       // throughput, pdf
 const int kRowRadiance = 4;         // radiance, flags
 const int kRowCounts = 5;           // sample, rays, scatterings (scatteringsOf), those at smooth glass (clearOf)
 // kShadowRows:
@@ -56,7 +56,7 @@ void savePath(Path p, int row, bool begins) {
   pathStates[row + kRowRay] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.tie));
   pathStates[row + kRowDirection] = uvec4(floatBitsToUint(p.direction), p.medium);
   pathStates[row + kRowHit] = uvec4(floatBitsToUint(p.hitT), uint(p.hitSlot), floatBitsToUint(p.hitWeights));
-  if (!begins) pathStates[row + kRowThroughput] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.density));
+  if (!begins) pathStates[row + kRowThroughput] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.pdf));
   pathStates[row + kRowRadiance] = uvec4(floatBitsToUint(p.radiance), flags);
   pathStates[row + kRowCounts] = uvec4(bitfieldReverse(p.numbers.reversed), uint(p.rays), scatteringsOf(p), clearOf(p));
   if (kShadowRows && !begins) {
@@ -95,7 +95,7 @@ Path loadPath(int row, uint key) {
   bool begins = !kResumable && p.cameraRay;
   f = uintBitsToFloat(readPathStates(row + kRowThroughput));
   p.throughput = begins ? vec3(1.0) : f.xyz;
-  p.density = begins ? 0.0 : f.w;
+  p.pdf = begins ? 0.0 : f.w;
   a = readPathStates(row + kRowCounts);
   p.numbers = makeSampler(key, a.x);
   p.rays = int(a.y);

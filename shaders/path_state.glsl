@@ -47,7 +47,7 @@ struct Path {
   vec3 radiance;
   vec3 throughput;
   float compression;  // undoes the radiance compression inside glass
-  float density;        // of the last scattering over solid angle; 0: a single direction or the camera
+  float pdf;        // of the last scattering over solid angle; 0: a single direction or the camera
   uint normal;          // of the surface that it left, as light sampling took it (kLightTree)
   uint medium;          // material of the solid the ray is inside of, or kPrimitiveNone
   vec3 origin;
@@ -90,7 +90,7 @@ Path newPath() {
   p.radiance = vec3(0.0);
   p.throughput = vec3(1.0);
   p.compression = 1.0;
-  p.density = 0.0;
+  p.pdf = 0.0;
   p.normal = kNoNormal;
   p.medium = kPrimitiveNone;
   p.tie = 0.0;

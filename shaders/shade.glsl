@@ -97,20 +97,20 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
     vec3 incoming = toFrame(around, light.direction);
     bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (incoming.z > 0.0);
     BsdfValue value = evaluateBsdf(b, outgoing, incoming);
-    float weight = lightWeight(light, value.density);
+    float weight = lightWeight(light, value.pdf);
     if (kLightPart && p.bounce == 0) p.part = partScattered(b, outgoing, incoming);
     if (kThroughGlass) p.throughWalls = passesWalls(p, s, m, light.direction);
     p = connect(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
   }
   BsdfSample next = sampleBsdf(b, outgoing, choice, uv.x, uv.y);
   if (kLightPart && p.bounce == 0) {
-    bool single = next.density == 0.0;
+    bool single = next.pdf == 0.0;
     p.part = single ? vec3(kFeature == kFeatureSpecular ? 1.0 : 0.0) : partScattered(b, outgoing, next.incoming);
   }
   vec3 direction = normalize(toWorld(around, next.incoming));
-  if (kSpecular && next.density == 0.0) direction = ontoSide(direction, s.geometricNormal, next.transmitted);
+  if (kSpecular && next.pdf == 0.0) direction = ontoSide(direction, s.geometricNormal, next.transmitted);
   bool wrongSide = (dot(direction, s.geometricNormal) < 0.0) != next.transmitted;
-  return scatter(p, s, direction, wrongSide ? vec3(0.0) : next.weight, next.density, next.transmitted, m);
+  return scatter(p, s, direction, wrongSide ? vec3(0.0) : next.weight, next.pdf, next.transmitted, m);
 }
 
 /// Smooth glass of the stages before global illumination: one ray, chosen by the reflectance.

@@ -34,7 +34,7 @@ float sheenValue(vec3 outgoing, vec3 incoming, float alpha) {
 /// The largest share of light that white sheen sends back, seen at `cosine`.
 float sheenShare(float cosine, float alpha) { return min(1.0f, sheenAlbedo(abs(cosine), alpha)); }
 
-/// A direction above the surface with the same density everywhere, 1 / (2 pi).
+/// A direction above the surface with the same pdf everywhere, 1 / (2 pi).
 vec3 sampleHemisphere(float u, float v) {
   vec2 around = unitCircle(u);
   float sine = sqrt(max(0.0f, 1.0f - v * v));

@@ -23,20 +23,20 @@
 //   meet(path, hit):
 //     the shadow catcher lies before it: catcher.glsl
 //     nothing is hit:
-//       radiance += throughput * environment * weight(density of scattering, density of light samples); end
+//       radiance += throughput * environment * weight(pdf of scattering, pdf of light samples); end
 //     else shade(path, hit)
 //
 //   shade(path, hit):                             shade.glsl
 //     surface, material = what is hit             surface.glsl, material.glsl
 //     alpha lets it pass: the same ray goes on behind the hit
 //     throughput *= absorption along the ray
-//     radiance += throughput * emission * weight(density of scattering, density of light samples)
+//     radiance += throughput * emission * weight(pdf of scattering, pdf of light samples)
 //     as many scatterings as may be: end
 //     light = a light by its power, a point of it   lights.glsl
-//     contribution = throughput * irradiance * BSDF * weight(density of the light sample, density of scattering)
+//     contribution = throughput * irradiance * BSDF * weight(pdf of the light sample, pdf of scattering)
 //     shadow ray = from the surface to the light
 //     direction = a direction drawn from the BSDF   bsdf.glsl, layers.glsl
-//     throughput *= BSDF * cosine / density
+//     throughput *= BSDF * cosine / pdf
 //     Russian roulette: end, or throughput /= chance to survive
 //     path.ray = from the surface along the direction
 //

@@ -7,7 +7,7 @@ layout(location = kMostCasters) uniform int casterCount;
 
 #include "caustics/aim.glsl"
 
-/// A ray of light. flux: watts divided by the density with which the ray was drawn; zero if there is no ray.
+/// A ray of light. flux: watts divided by the pdf with which the ray was drawn; zero if there is no ray.
 struct Emission {
   vec3 origin;
   vec3 direction;
@@ -38,13 +38,13 @@ Emission triangleEmission(int emitter, float share, float choice, vec2 uv, vec2 
   float cosine = dot(normal, a.direction);
   if (bothSides) cosine = abs(cosine);
   Emission e = noEmission();
-  if (a.density <= 0.0f || cosine <= 0.0f) return e;
+  if (a.pdf <= 0.0f || cosine <= 0.0f) return e;
   int slot = int(edge2.w);
   float error = uintBitsToFloat((faceRow(slot, 0).w >> kFaceErrorShift) << kFloatErrorShift);
   e.origin = offsetOrigin(point, error, normal, a.direction);
   e.direction = a.direction;
   vec3 radiance = emittedFrom(corner.w & kFaceMaterialMask, slot, w, cosine);
-  e.flux = radiance * (cosine / (share * uintBitsToFloat(edge1.w) * a.density));
+  e.flux = radiance * (cosine / (share * uintBitsToFloat(edge1.w) * a.pdf));
   return e;
 }
 
@@ -58,13 +58,13 @@ Emission punctualEmission(int index, float share, float choice, vec2 aim) {
   if (parallel) a = aimAlong(vec3(axis), choice, aim);
   if (!parallel) a = aimFrom(vec3(place), vec3(0.0f), choice, aim);
   Emission e = noEmission();
-  if (a.density <= 0.0f) return e;
+  if (a.pdf <= 0.0f) return e;
   e.origin = a.origin;
   e.direction = a.direction;
   e.range = parallel ? 0.0f : place.w;
   float cone = 1.0f;
   if (intensity.w == kLightSpot) cone = spotFalloff(axis, uintBitsToFloat(readLights(row + 3).x), a.direction);
-  e.flux = vec3(intensity) * (cone / (share * a.density));
+  e.flux = vec3(intensity) * (cone / (share * a.pdf));
   return e;
 }
 

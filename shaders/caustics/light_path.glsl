@@ -109,7 +109,7 @@ bool isSingleSided(uint material, uint flags) {
 /// Continues behind the surface, as if it were not there.
 Path passOn(Path p, Surface s, float times) {
   p.throughput *= times;
-  p.density += p.hitT;
+  p.pdf += p.hitT;
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
   if (kCreases) p.tie = s.front ? -kTie : kTie;
   return extend(p);
@@ -134,7 +134,7 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   if (passes) return passOn(p, s, mayScatter ? 1.0 / kPassedOn : 1.0);
   if (singleSided) p.throughput /= 1.0 - kPassedOn;
   if (p.bounce == 0) {
-    float travelled = p.density + p.hitT;
+    float travelled = p.pdf + p.hitT;
     p.contribution *= rangeWindow(travelled * travelled, p.shadowLimit);
   }
   SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
@@ -158,7 +158,7 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   vec2 uv = drawPair(p.numbers, kBounceDimensions * uint(p.bounce + 1) + kDirectionDimension);
   BsdfSample next = sampleBsdf(at.b, at.outgoing, choice, uv.x, uv.y);
   bool straight = wall && next.transmitted;
-  if (next.density != 0.0 || !(caster || straight)) return p;
+  if (next.pdf != 0.0 || !(caster || straight)) return p;
   vec3 direction = ontoSide(normalize(toWorld(at.around, next.incoming)), s.geometricNormal, next.transmitted);
   // Bent normals weigh flux in another way than radiance (Veach, section 5.3).
   float before = abs(dot(p.direction, s.geometricNormal)) * abs(next.incoming.z);

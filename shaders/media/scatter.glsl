@@ -5,7 +5,7 @@
 Path connectMedium(Path p, vec3 point, float g) {
   uint dimension = kBounceDimensions * uint(p.bounce + 1) + kLightDimension;
   LightSample light = lightOfSlot(0, point, kNoNormal, p.numbers, dimension);
-  float value = phaseDensity(g, dot(p.direction, light.direction));
+  float value = phasePdf(g, dot(p.direction, light.direction));
   float weight = lightWeight(light, value);
   if (kThroughGlass) p.throughWalls = true;
   p.shadowMedium = p.medium;
@@ -46,7 +46,7 @@ Path scatterInMedium(Path p) {
   if (open && lightSlotCount() > 0) p = connectMedium(p, point, scatter.w);
   vec3 before = p.direction;
   p.direction = samplePhase(scatter.w, before, uv.x, uv.y);
-  p.density = open ? phaseDensity(scatter.w, dot(before, p.direction)) : 0.0;
+  p.pdf = open ? phasePdf(scatter.w, dot(before, p.direction)) : 0.0;
   p.origin = point;
   p.normal = kNoNormal;
   p.tie = 0.0;

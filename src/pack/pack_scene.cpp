@@ -117,7 +117,7 @@ void appendLayers(Words& words, const Material& m, TexturePacker& textures) {
   appendRow(words, glm::vec4(m.scattersThinly() ? m.scatterStrength : 0.0f, 0.0f, 0.0f, 0.0f));
 }
 
-void appendMaterial(Words& words, const Material& m, double unit, double emitterDensity, size_t glassTable,
+void appendMaterial(Words& words, const Material& m, double unit, double emitterPdf, size_t glassTable,
                     const TraitSet& traits, TexturePacker& textures) {
   const size_t first = words.size();
   appendRow(words, m.baseColorFactor);
@@ -125,7 +125,7 @@ void appendMaterial(Words& words, const Material& m, double unit, double emitter
   appendRow(words, glm::vec4(m.metallicFactor, m.roughnessFactor, m.ior, m.transmissionFactor));
   appendRow(words, m.specularColorFactor, m.specularFactor);
   appendRow(words, absorption(m, unit), m.thicknessFactor > 0.0f ? 1.0f + float(glassTable) : 0.0f);
-  appendRow(words, glm::vec3(m.normalScale, m.occlusionStrength, float(emitterDensity)), 0.0f);
+  appendRow(words, glm::vec3(m.normalScale, m.occlusionStrength, float(emitterPdf)), 0.0f);
   words.back() = materialFlags(m);
   appendRow(words, glm::vec4(m.perlinNormal.frequency, m.perlinNormal.amplitude,
                              float(m.perlinNormal.octaves), float(m.number)));
@@ -316,7 +316,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   const std::vector<float> glass = indicesOfRoughGlass(scene, variant);
   Words& materials = packed.buffers[kMaterialsBinding];
   for (size_t i = 0; i < scene.materials.size(); ++i) {
-    appendMaterial(materials, scene.materials[i], scene.space.unit, emitters.materialDensity[i],
+    appendMaterial(materials, scene.materials[i], scene.space.unit, emitters.materialPdf[i],
                    tableOf(glass, scene.materials[i]), traits, textures);
   }
   textures.appendTransforms(materials);

@@ -3,7 +3,7 @@
 from fault import Fault as F
 
 ROWS = [
-    F("media/phase.phaseDensity", "0.25f * kInversePi", "0.255f * kInversePi", "the phase function is 2 % too bright"),
+    F("media/phase.phasePdf", "0.25f * kInversePi", "0.255f * kInversePi", "the phase function is 2 % too bright"),
     F("media/phase.samplePhaseCosine", "clamp(g < 0.0f ? -c : c", "clamp(g < 0.0f ? c : c", "light is scattered forward where it is to be scattered back"),
     F("media/phase.samplePhase", "vec3(sine * around.x, sine * around.y, cosine)", "vec3(sine * around.x, sine * around.y, -cosine)", "light is scattered back where it is to be scattered forward"),
     F("media/flight.channelChances", "throughput / sum", "throughput.yzx / sum", "distances are drawn for other channels than light is left in", "any chances give the right mean"),
@@ -33,7 +33,7 @@ ROWS = [
     F("media/scatter.connectMedium", "(value * weight)", "(1.02 * value * weight)", "light samples in media are 2 % too bright"),
     F("media/scatter.decideInMedium", "p.throughput /= survival", "p.throughput /= 0.98 * survival", "the weight of roulette in media is 2 % off"),
     F("media/scatter.scatterInMedium", "p.throughput *= scatter.rgb", "p.throughput *= 0.98 * scatter.rgb", "each scattering loses 2 %"),
-    F("media/scatter.scatterInMedium density", "open ? phaseDensity", "open ? 1.05 * phaseDensity", "the density that later weights know is 5 % off"),
+    F("media/scatter.scatterInMedium density", "open ? phasePdf", "open ? 1.05 * phasePdf", "the density that later weights know is 5 % off"),
     F("media/scatter.scatterInMedium closed", ": 0.0;\n  p.origin", ": 1.0;\n  p.origin", "light behind a boundary that bends it is weighed as if it could be sampled"),
     F("material_layers.addThinScattering", "0.5 + 0.5 * scatter.w", "0.52 + 0.5 * scatter.w", "2 % more of the light goes through thin walls"),
     F("material_layers.addThinScattering base", "b.opaque * b.baseColor +", "1.05 * b.opaque * b.baseColor +", "the diffuse base beside thin scattering is 5 % too bright"),

@@ -169,7 +169,7 @@ TEST(LightTree, WhatShinesOnASurfaceIsNeverLeftOut) {
       const bool faces = lit.scene.triangles[i].material == 0 ? std::abs(cosine) > 1e-3 : cosine > 1e-3;
       if (!faces || glm::dot(normal, towards) <= 0.0) continue;
       ++shone;
-      ASSERT_GT(glsl_float::treeDensity(int(slots[i]), vec3(point), glsl_float::packNormal(vec3(normal)),
+      ASSERT_GT(glsl_float::treePdf(int(slots[i]), vec3(point), glsl_float::packNormal(vec3(normal)),
                                         1.0f, 1.0f),
                 0.0f);
     }
@@ -248,20 +248,20 @@ TEST(LightTree, DensityOfASampleIsThatOfTheRayThatFindsIt) {
           glsl_double::lightOfChoice(glsl_double::emitterByTree(share, glsl_double::receiverOf(point, normal),
                                                                 uint32_t(draw.engine()), bits),
                                      point);
-      if (s.density <= 0.0) continue;
+      if (s.pdf <= 0.0) continue;
       const auto place = lit.placeOf(point + s.direction * s.distance);
       if (!place) continue;  // of two triangles at one place
       ++found;
       const double cosine = std::abs(glm::dot(lit.normalOf(place->triangle), s.direction));
-      EXPECT_NEAR(glsl_double::treeDensity(int(slots[place->triangle]), point, normal, s.distance, cosine),
-                  s.density,
-                  2e-4 * s.density);  // seen edge-on, edges of single precision tell
-      EXPECT_LE(glm::distance(s.irradiance * s.density, lit.radianceOf(place->triangle)),
+      EXPECT_NEAR(glsl_double::treePdf(int(slots[place->triangle]), point, normal, s.distance, cosine),
+                  s.pdf,
+                  2e-4 * s.pdf);  // seen edge-on, edges of single precision tell
+      EXPECT_LE(glm::distance(s.irradiance * s.pdf, lit.radianceOf(place->triangle)),
                 1e-5 * glm::length(lit.radianceOf(place->triangle)));
     }
     EXPECT_GT(found, 5000);
     // What is no light has no density.
-    EXPECT_EQ(glsl_double::treeDensity(int(slots[7]), kOrigin, layout::kNoNormal, 1.0, 1.0), 0.0);
+    EXPECT_EQ(glsl_double::treePdf(int(slots[7]), kOrigin, layout::kNoNormal, 1.0, 1.0), 0.0);
   }
 }
 
@@ -344,7 +344,7 @@ Estimate lightOnSurface(const LitPlace& place, LightReuse by, bool tree) {
             ? glsl_double::lightOfCandidates(place.point, place.normal, place.through, packed, numbers, 5)
             : glsl_double::lightOfSlot(0, place.point, packed, numbers, 5);
     const double cosine = glm::dot(s.direction, place.normal);
-    const double weight = s.density > 0.0 ? s.density / (s.density + 0.3) : 1.0;
+    const double weight = s.pdf > 0.0 ? s.pdf / (s.pdf + 0.3) : 1.0;
     // From behind light comes through as red glass lets it.
     const double part = cosine > 0.0 ? cosine : place.through ? -0.3 * cosine : 0.0;
     estimate.add(luminanceOf(s.irradiance) * part * weight);

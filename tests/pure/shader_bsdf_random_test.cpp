@@ -195,7 +195,7 @@ double lostByDrawing(const Bsdf& b, const dvec3& outgoing) {
   int lost = 0;
   for (int i = 0; i < kSamples; ++i) {
     const dvec3 u = glm::fract(dvec3(0.5) + double(i) * step);
-    lost += glsl_double::sampleBsdf(b, outgoing, u.x, u.y, u.z).density <= 0.0 ? 1 : 0;
+    lost += glsl_double::sampleBsdf(b, outgoing, u.x, u.y, u.z).pdf <= 0.0 ? 1 : 0;
   }
   return double(lost) / kSamples;
 }
@@ -207,10 +207,10 @@ TEST(ShaderBsdfAtRandom, DensityAndWhatIsLostAddUpToOne) {
       const Boundary b = randomBoundary(draw, kKinds[k % 5], 0.35, false);
       const Bsdf& side = k % 2 == 0 ? b.front : b.back;
       const dvec3 o = draw.directionAbove();
-      const double density =
-          total(integrateBins([&](const dvec3& i) { return glsl_double::evaluateBsdf(side, o, i).density; }));
+      const double pdf =
+          total(integrateBins([&](const dvec3& i) { return glsl_double::evaluateBsdf(side, o, i).pdf; }));
       // Draws and the integral near grazing directions are each good to 2e-3.
-      EXPECT_NEAR(density + lostByDrawing(side, o), 1.0, 4e-3) << b.name << ", elevation " << o.z;
+      EXPECT_NEAR(pdf + lostByDrawing(side, o), 1.0, 4e-3) << b.name << ", elevation " << o.z;
     }
   });
 }

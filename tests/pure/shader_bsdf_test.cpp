@@ -17,7 +17,7 @@ void expectSamplesFollowTheDensity(const Case& c, double elevation, size_t tests
   constexpr int kSamples = 1 << 17;
   const dvec3 outgoing = atElevation(elevation);
   std::vector<double> expected =
-      integrateBins([&](const dvec3& i) { return glsl_double::evaluateBsdf(c.bsdf, outgoing, i).density; });
+      integrateBins([&](const dvec3& i) { return glsl_double::evaluateBsdf(c.bsdf, outgoing, i).pdf; });
   expected.push_back(std::max(0.0, 1.0 - total(expected)));
   for (double& e : expected) e *= kSamples;
   std::vector<double> counts(expected.size());
@@ -27,7 +27,7 @@ void expectSamplesFollowTheDensity(const Case& c, double elevation, size_t tests
     const float choice = draw.unit();
     const float u = draw.unit();
     const auto s = glsl_float::sampleBsdf(b, vec3(outgoing), choice, u, draw.unit());
-    if (s.density <= 0.0f) {
+    if (s.pdf <= 0.0f) {
       ASSERT_EQ(s.weight, vec3(0.0f));
       ++counts.back();
       continue;
@@ -63,7 +63,7 @@ double lostByFacets(const Bsdf& mixed, double elevation) {
   b.glassLost = 1e-12;  // its density is that of what is kept then
   const dvec3 outgoing = atElevation(elevation);
   return 1.0 - total(integrateBins(
-                   [&](const dvec3& i) { return glsl_double::evaluateBsdf(b, outgoing, i).density; }));
+                   [&](const dvec3& i) { return glsl_double::evaluateBsdf(b, outgoing, i).pdf; }));
 }
 
 TEST(ShaderBsdf, SamplesOfGlassThatLosesNothingFollowTheirDensity) {
@@ -95,7 +95,7 @@ TEST(ShaderBsdf, DiffuseDensityIntegratesToOne) {
   for (double z : kElevations) {
     const dvec3 o = atElevation(z);
     EXPECT_NEAR(total(integrateBins(
-                    [&](const dvec3& i) { return glsl_double::evaluateBsdf(lambert(), o, i).density; })),
+                    [&](const dvec3& i) { return glsl_double::evaluateBsdf(lambert(), o, i).pdf; })),
                 1.0, 1e-5);
   }
 }
@@ -106,7 +106,7 @@ TEST(ShaderBsdf, DensitiesIntegrateToAtMostOneAndToOneWhereNoFacetLosesLight) {
     for (double z : kElevations) {
       const dvec3 o = atElevation(z);
       const double sum = total(
-          integrateBins([&](const dvec3& i) { return glsl_double::evaluateBsdf(c.bsdf, o, i).density; }));
+          integrateBins([&](const dvec3& i) { return glsl_double::evaluateBsdf(c.bsdf, o, i).pdf; }));
       EXPECT_LE(sum, 1.0 + 1e-3) << c.name << ", elevation " << z;
       if (c.bsdf.alpha < 0.1 && z > 0.5) {
         EXPECT_GE(sum, 0.99) << c.name << ", elevation " << z;
@@ -123,10 +123,10 @@ TEST(ShaderBsdf, WeightIsTheValueOverTheDensity) {
       const double choice = draw.unit();
       const double u = draw.unit();
       const auto s = glsl_double::sampleBsdf(c.bsdf, o, choice, u, draw.unit());
-      if (s.density == 0.0) continue;
+      if (s.pdf == 0.0) continue;
       const auto v = glsl_double::evaluateBsdf(c.bsdf, o, s.incoming);
-      EXPECT_NEAR(v.density, s.density, 1e-9 * s.density) << c.name;
-      EXPECT_LE(glm::distance(s.weight * s.density, v.value), 1e-9 * glm::length(v.value)) << c.name;
+      EXPECT_NEAR(v.pdf, s.pdf, 1e-9 * s.pdf) << c.name;
+      EXPECT_LE(glm::distance(s.weight * s.pdf, v.value), 1e-9 * glm::length(v.value)) << c.name;
     }
   }
 }
@@ -164,7 +164,7 @@ TEST(ShaderBsdf, SmoothGlassReflectsWithTheChanceOfItsReflectance) {
         int reflected = 0;
         for (int k = 0; k < kChoices; ++k) {
           const auto s = glsl_double::sampleBsdf(b, o, (k + 0.5) / kChoices, 0.3, 0.6);
-          EXPECT_EQ(s.density, 0.0);
+          EXPECT_EQ(s.pdf, 0.0);
           if (s.transmitted) {
             EXPECT_LT(s.incoming.z, 0.0);
             EXPECT_LE(glm::distance(s.weight, b.baseColor / (solid ? b.eta * b.eta : 1.0)), 1e-12);
@@ -186,7 +186,7 @@ TEST(ShaderBsdf, SmoothMetalReflectsSchlicksShare) {
   const Bsdf b = makeBsdf(1, 0, 0.0, 1.5, false, true);
   for (double z : {1.0, 0.5, 0.1}) {
     const auto s = glsl_double::sampleBsdf(b, atElevation(z), 0.4, 0.3, 0.6);
-    EXPECT_EQ(s.density, 0.0);
+    EXPECT_EQ(s.pdf, 0.0);
     EXPECT_LE(glm::distance(s.weight, schlick(b.baseColor, 1.0, z)), 1e-12);
   }
 }
@@ -212,7 +212,7 @@ TEST(ShaderBsdf, SmoothLobesHaveNoValueInAnyDirection) {
     const dvec3 i = draw.direction();
     EXPECT_EQ(glsl_double::evaluateBsdf(metal, o, i).value, dvec3(0.0));
     EXPECT_EQ(glsl_double::evaluateBsdf(glass, o, i).value, dvec3(0.0));
-    EXPECT_EQ(glsl_double::evaluateBsdf(glass, o, i).density, 0.0);
+    EXPECT_EQ(glsl_double::evaluateBsdf(glass, o, i).pdf, 0.0);
   }
 }
 
@@ -231,8 +231,8 @@ TEST(ShaderBsdf, FloatValuesAreFiniteAndNearDouble) {
       const vec3 incoming(draw.direction());
       const auto value = glsl_float::evaluateBsdf(b, outgoing, incoming);
       const auto expected = glsl_double::evaluateBsdf(c.bsdf, dvec3(outgoing), dvec3(incoming));
-      ASSERT_TRUE(std::isfinite(value.value.x + value.value.y + value.value.z + value.density)) << c.name;
-      ASSERT_GE(std::min({value.value.x, value.value.y, value.value.z, value.density}), 0.0f) << c.name;
+      ASSERT_TRUE(std::isfinite(value.value.x + value.value.y + value.value.z + value.pdf)) << c.name;
+      ASSERT_GE(std::min({value.value.x, value.value.y, value.value.z, value.pdf}), 0.0f) << c.name;
       ++count;
       // Near the edge of what refraction can reach, the half vector's side is decided by rounding.
       if (glm::distance(dvec3(value.value), expected.value) > 2e-3 * glm::length(expected.value) + 1e-6)
@@ -255,7 +255,7 @@ TEST(ShaderBsdf, FloatSamplesAreFiniteAtGrazingDirections) {
         const float choice = draw.unit();
         const float u = draw.unit();
         const auto s = glsl_float::sampleBsdf(b, o, choice, u, draw.unit());
-        ASSERT_TRUE(std::isfinite(s.weight.x + s.weight.y + s.weight.z + s.density)) << c.name << ", z " << z;
+        ASSERT_TRUE(std::isfinite(s.weight.x + s.weight.y + s.weight.z + s.pdf)) << c.name << ", z " << z;
         ASSERT_GE(std::min({s.weight.x, s.weight.y, s.weight.z}), 0.0f) << c.name << ", z " << z;
         ASSERT_NEAR(glm::length(dvec3(s.incoming)), 1.0, 1e-3) << c.name << ", z " << z;
       }

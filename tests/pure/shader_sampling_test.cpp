@@ -201,7 +201,7 @@ dvec3 atElevation(double z) { return {std::sqrt(1.0 - z * z) * 0.8, -std::sqrt(1
 
 TEST(ShaderGgx, FacetsCoverTheSurfaceOnce) {
   for (double alpha : {0.05, 0.3, 1.0}) {
-    EXPECT_NEAR(integrateHemisphere([&](const dvec3& h) { return glsl_double::ggxDensity(h, alpha) * h.z; }),
+    EXPECT_NEAR(integrateHemisphere([&](const dvec3& h) { return glsl_double::ggxD(h, alpha) * h.z; }),
                 1.0, 1e-4);
   }
 }
@@ -212,12 +212,12 @@ TEST(ShaderGgx, FacetsSeenFromAnywhereFillItsView) {
     for (double z : {1.0, 0.6, 0.2}) {
       const dvec3 o = atElevation(z);
       const double seen = integrateHemisphere([&](const dvec3& h) {
-        return glsl_double::ggxDensity(h, alpha) * glsl_double::ggxMasking(o, alpha) *
+        return glsl_double::ggxD(h, alpha) * glsl_double::ggxMasking(o, alpha) *
                std::max(0.0, glm::dot(o, h));
       });
       EXPECT_NEAR(seen, z, 2e-3 * z) << "alpha " << alpha << ", z " << z;
       EXPECT_NEAR(
-          integrateHemisphere([&](const dvec3& h) { return glsl_double::visibleGgxDensity(o, h, alpha); }),
+          integrateHemisphere([&](const dvec3& h) { return glsl_double::visibleGgxPdf(o, h, alpha); }),
           1.0, 2e-3);
     }
   }
@@ -249,7 +249,7 @@ TEST(ShaderGgx, VisibleNormalsHaveTheirDensity) {
           const double phi = 2.0 * M_PI * ((double(turn) + 0.5) / (kTurns * kInner) - 0.5);
           const dvec3 h(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
           expected[band / kInner * kTurns + turn / kInner] +=
-              kSamples * area * glsl_double::visibleGgxDensity(outgoing, h, alpha);
+              kSamples * area * glsl_double::visibleGgxPdf(outgoing, h, alpha);
         }
       }
       EXPECT_GT(chiSquareChance(expected, counts), kLeastChance) << "alpha " << alpha << ", z " << z;

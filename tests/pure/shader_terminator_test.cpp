@@ -50,13 +50,13 @@ TEST(ShaderTerminator, ABsdfOnlyLosesLightAndSamplesWhatItEvaluates) {
       c.bsdf.faceNormal = glm::normalize(dvec3(0.0, 0.0, 1.0) + draw.inCube(0.5));
       const auto s = glsl_double::sampleBsdf(c.bsdf, outgoing, draw.unit(), draw.unit(), draw.unit());
       const auto faded = glsl_double::evaluateBsdf(c.bsdf, outgoing, s.incoming);
-      if (s.density > 0.0) {
-        EXPECT_LE(glm::distance(s.weight * s.density, faded.value), 1e-9 * (1.0 + faded.density)) << c.name;
+      if (s.pdf > 0.0) {
+        EXPECT_LE(glm::distance(s.weight * s.pdf, faded.value), 1e-9 * (1.0 + faded.pdf)) << c.name;
       }
       glsl_variant::kVertexNormals = false;
       const auto whole = glsl_double::evaluateBsdf(c.bsdf, outgoing, s.incoming);
       glsl_variant::kVertexNormals = true;
-      EXPECT_EQ(faded.density, whole.density) << c.name;
+      EXPECT_EQ(faded.pdf, whole.pdf) << c.name;
       for (int k = 0; k < 3; ++k) EXPECT_LE(faded.value[k], whole.value[k]) << c.name;
     }
   }
