@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Guides (kFeatureGuides), by which a filter distinguishes surfaces. Albedo and normal are those of the first surface
+// Guides (kAovGuides), by which a filter distinguishes surfaces. Albedo and normal are those of the first surface
 // that is not just smooth glass or a smooth metal, so that what is seen through or in these stays sharp. Depth is that
 // of the first surface of all, which separates these from the rest. Where alpha lets a part of the light pass, surfaces
 // count by their shares, not by chance. No shadow ray is traced meanwhile, so its members keep the state, also from
@@ -22,7 +22,7 @@ Path addGuide(Path p, float share, vec3 albedo, vec3 normal) {
 }
 
 /// The tint of the way so far, without the factor by which glass around the point scales radiance.
-vec3 guideTint(Path p) { return kPassesLight ? p.throughput * p.compression : p.throughput; }
+vec3 guideTint(Path p) { return kPassesLight ? p.throughput * p.etaScale : p.throughput; }
 
 /// The rest of the ray ends here, or continues from here without chance.
 Path takeGuide(Path p, float depth, vec3 normal) {
@@ -35,7 +35,7 @@ Path takeGuide(Path p, float depth, vec3 normal) {
 
 Path guideStop(Path p, vec3 albedo) {
   p.throughput = guideTint(p) * albedo;
-  p.compression = 1.0;
+  p.etaScale = 1.0;
   return p;
 }
 

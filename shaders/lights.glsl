@@ -59,7 +59,7 @@ LightSample punctualLight(int index, vec3 point) {
 
 /// The pdf over solid angle of choosing the point that a ray hit on an emissive triangle.
 float emitterPdf(uint material, float distance, float cosine) {
-  float area = materialFloats(material, kMaterialMaps).z * (1.0f - frame.lightChoice.x);
+  float area = materialFloats(material, kMaterialMaps).z * (1.0f - frame.environmentChance);
   return area * distance * distance / max(cosine, float(1e-7));
 }
 
@@ -105,7 +105,7 @@ LightSample triangleLight(int emitter, float chance, vec3 point, float u, float 
 LightSample environmentLight(float chance, uvec2 bits) {
   vec2 place = sampleEnvironment(bits);
   vec4 there = environmentAt(place);
-  vec3 direction = environmentDirection(place / vec2(ivec2(frame.environment)));
+  vec3 direction = environmentDirection(place / vec2(ivec2(frame.environmentSize)));
   float pdf = chance * environmentPdf(there, direction);
   if (pdf <= 0.0f) return noLight();
   return makeLight(direction, kFarAway, vec3(there) / pdf, pdf);
@@ -114,7 +114,7 @@ LightSample environmentLight(float chance, uvec2 bits) {
 /// The emitter that bits draw by power: they are in the order of the numbers that draw them, and each tells which its
 /// equal share of these can draw.
 int emitterAt(uint bits) {
-  uvec4 entry = emitterRow(placeInTable(bits, uint(frame.lightChoice.y)).index, 0);
+  uvec4 entry = emitterRow(placeInTable(bits, uint(frame.emitterCount)).index, 0);
   int low = int(entry.x);
   int high = int(entry.y);
   while (low < high) {
@@ -214,7 +214,7 @@ Receiver receiverOf(vec3 point, uint normal) {
 }
 
 /// The row behind the emitters.
-int lightNodes() { return int(frame.lightChoice.y) * int(kEmitterRows); }
+int lightNodes() { return int(frame.emitterCount) * int(kEmitterRows); }
 
 /// One word of four a row.
 uint lightWord(int firstRow, int index) {
@@ -298,14 +298,14 @@ LightChoice emitterByTree(float chance, Receiver to, uint choice, uvec2 bits) {
 /// The pdf over solid angle with which the tree chooses, from a point, the place that its ray hit on an emissive
 /// triangle: a leaf knows its way to the root.
 float treePdf(int slot, vec3 point, uint normal, float distance, float cosine) {
-  int count = 2 * int(frame.lightChoice.y) - 1;
+  int count = 2 * int(frame.emitterCount) - 1;
   int parents = lightNodes() + count * int(kLightNodeRows);
   uint leaf = lightWord(parents + (count + 3) / 4, slot);
   if (leaf == kNoLightNode) return 0.0f;
   Receiver to = receiverOf(point, normal);
   int node = int(leaf);
   LightNode own = lightNodeFrom(node, to);
-  float pdf = uintBitsToFloat(emitterRow(int(own.child & kLightIndex), 2).w) * (1.0f - frame.lightChoice.x);
+  float pdf = uintBitsToFloat(emitterRow(int(own.child & kLightIndex), 2).w) * (1.0f - frame.environmentChance);
   while (node > 0 && pdf > 0.0f) {
     pdf *= shareOf(own, lightNodeFrom(node % 2 == 1 ? node + 1 : node - 1, to));
     node = int(lightWord(parents, node));
@@ -317,10 +317,10 @@ float treePdf(int slot, vec3 point, uint normal, float distance, float cosine) {
 /// The chance that a point's light sample is one of an emitter or, kFromEnvironment, of the environment; 1 for what no
 /// ray can find.
 float chanceOfLight(int emitter, vec3 point, uint normal) {
-  if (emitter == kFromEnvironment) return frame.lightChoice.x;
+  if (emitter == kFromEnvironment) return frame.environmentChance;
   uint kind = emitterRow(emitter, 3).w;
   if (kPunctualLights && (kind & kEmitterPunctual) != 0u) return 1.0f;
-  if (!kLightTree) return uintBitsToFloat(emitterRow(emitter, 0).w) * (1.0f - frame.lightChoice.x);
+  if (!kLightTree) return uintBitsToFloat(emitterRow(emitter, 0).w) * (1.0f - frame.environmentChance);
   return treePdf(int(kind), point, normal, 1.0f, 1.0f) / uintBitsToFloat(emitterRow(emitter, 2).w);
 }
 
@@ -328,7 +328,7 @@ float chanceOfLight(int emitter, vec3 point, uint normal) {
 /// point of the emissive triangles.
 int lightSlotCount() {
   if (kGi) return kPunctualLights || kEmissiveTriangles || kEnvironmentSampling ? 1 : 0;
-  int count = kPunctualLights ? int(frame.lightChoice.w) : 0;
+  int count = kPunctualLights ? int(frame.punctualCount) : 0;
   return count + (kEmissiveTriangles ? 1 : 0);
 }
 
@@ -338,17 +338,17 @@ struct LightNumbers {
   uvec2 bits;
 };
 
-LightNumbers lightNumbers(Sampler numbers, uint dimension) {
+LightNumbers lightNumbers(Sampler sampler, uint dimension) {
   LightNumbers n;
-  n.choice = kLightTree ? drawBits(numbers, dimension) : 0u;
-  n.bits = drawPairBits(numbers, dimension + 1u);
+  n.choice = kLightTree ? drawBits(sampler, dimension) : 0u;
+  n.bits = drawPairBits(sampler, dimension + 1u);
   return n;
 }
 
 /// What these numbers choose for a point of global illumination.
 LightChoice chooseLight(LightNumbers n, vec3 point, uint normal) {
   bool emitters = kPunctualLights || kEmissiveTriangles;
-  float chance = frame.lightChoice.x;
+  float chance = frame.environmentChance;
   LightChoice c = makeChoice(kFromEnvironment, chance, n.bits, 0.0f, 0.0f);
   bool environment = kEnvironmentSampling;
   if (kEnvironmentSampling && emitters) {
@@ -380,11 +380,11 @@ LightSample lightFrom(LightNumbers n, vec3 point, uint normal) {
 
 /// The light sample of one slot; uses four dimensions from `dimension` on. normal: of the surface, where it takes light
 /// from one side alone (Receiver).
-LightSample lightOfSlot(int slot, vec3 point, uint normal, Sampler numbers, uint dimension) {
-  if (kGi) return lightFrom(lightNumbers(numbers, dimension), point, normal);
-  int punctual = kPunctualLights ? int(frame.lightChoice.w) : 0;
+LightSample lightOfSlot(int slot, vec3 point, uint normal, Sampler sampler, uint dimension) {
+  if (kGi) return lightFrom(lightNumbers(sampler, dimension), point, normal);
+  int punctual = kPunctualLights ? int(frame.punctualCount) : 0;
   LightSample s = noLight();
   if (kPunctualLights && slot < punctual) s = punctualLight(slot, point);
-  if (kEmissiveTriangles && slot == punctual) s = emitterLight(1.0f, point, drawPairBits(numbers, dimension), true);
+  if (kEmissiveTriangles && slot == punctual) s = emitterLight(1.0f, point, drawPairBits(sampler, dimension), true);
   return s;
 }

@@ -11,14 +11,15 @@ const int kPhasePass = 6;    // of `after` alone: the ray goes on behind the thi
 
 const float kTie = 9.5367431640625e-7;  // 2^-20: 16 roundings of a distance
 
-// Of camera paths whose light light paths bring (shaders/caustics/):
-const int kChainNone = 0;
-const int kChainRough = 1;   // scattered by a rough surface first, and only straight through thin walls since
-const int kChainSingle = 2;  // and by casters of caustics since, each a single direction
+// Light paths (shaders/caustics/) bring the light of the camera paths E D S+ L, in Heckbert's notation. A camera path
+// begins like one of them, or not; straight passages through thin walls do not count.
+const int kPrefixNone = 0;
+const int kPrefixDiffuse = 1;  // E D: a rough surface
+const int kPrefixCaustic = 2;  // E D S+: delta lobes of casters of caustics since
 
-/// Radiance, or a part of it: paths are traced to their ends.
-const bool kLightPart = kFeature == kFeatureEmission || kFeature == kFeatureDiffuse || kFeature == kFeatureSpecular;
-const bool kDrawsLight = kFeature == kFeatureNone || kLightPart;
+/// An AOV that is a part of the radiance: paths are traced to their ends.
+const bool kLightAov = kAov == kAovEmission || kAov == kAovDiffuse || kAov == kAovSpecular;
+const bool kDrawsLight = kAov == kAovNone || kLightAov;
 
 /// Light may be scattered between surfaces (media/).
 const bool kMedia = (kScattering || kFog) && kDrawsLight;
@@ -31,23 +32,23 @@ struct Path {
   int after;       // the phase that follows once the shadow ray is settled
   int lightSlot;
   int bounce;      // scatterings so far
-  int clear;       // of these, at smooth glass (kTransmission) and in media: --bounces does not limit them
-  int walls;       // of these, straight through glass (kThroughGlass)
+  int freeBounces;  // of these, at smooth glass (kTransmission) and in media: --bounces does not limit them
+  int straightBounces;  // of these, straight through glass (kThroughGlass)
   int crossings;   // meetings with surfaces, where there is alpha; see nextCrossing
   int rays;        // traced so far
   ivec2 pixel;     // of the film (kLightRecords, kNeighbours)
-  Sampler numbers;
+  Sampler sampler;
   bool oneChannel; // dispersion has left one of red, green and blue (kDispersion)
   bool cameraRay;  // nothing but alpha has touched the path yet
   bool caught;     // it has met the shadow catcher (kShadowCatcher)
-  bool throughWalls;  // the shadow ray passes glass that does not bend it (kThroughGlass)
-  int chain;          // how far it is one whose end light paths find, kChain* (kCaustics)
-  bool clearFirst;    // of a light path: it has met smooth glass first (kLightPaths)
+  bool throughGlass;  // the shadow ray passes glass that does not bend it (kThroughGlass)
+  int prefix;         // kPrefix* (kCaustics)
+  bool glassFirst;    // of a light path: it has met smooth glass first (kLightPaths)
   bool covered;    // a camera ray has hit a surface
   vec3 radiance;
   vec3 throughput;
-  float compression;  // undoes the radiance compression inside glass
-  float pdf;        // of the last scattering over solid angle; 0: a single direction or the camera
+  float etaScale;       // the product of squared indices by which refraction has scaled radiance down
+  float pdf;            // of the last scattering over solid angle; 0: a delta lobe or the camera
   uint normal;          // of the surface that it left, as light sampling took it (kLightTree)
   uint medium;          // material of the solid the ray is inside of, or kPrimitiveNone
   vec3 origin;
@@ -57,9 +58,8 @@ struct Path {
   vec3 shadowDirection;
   float shadowLimit;
   uint shadowMedium;  // that the shadow ray is inside of, as `medium` (kMedia)
-  // of the light that is still to come, how much belongs to the part that is drawn (kLightPart); of a light path, where
-  // in the picture the camera sees its end (kLightPaths)
-  vec3 part;
+  vec3 aovWeight;       // the share of the light still to come that belongs to the AOV (kLightAov)
+  vec2 splatPixel;      // the place in the picture at which the camera sees the end of a light path (kLightPaths)
   vec3 contribution;  // added if the shadow ray meets nothing
   int hitSlot;        // what the ray has hit, or -1
   float hitT;         // since the last scattering
@@ -75,21 +75,21 @@ Path newPath() {
   p.after = kPhaseEnd;
   p.lightSlot = 0;
   p.bounce = 0;
-  p.clear = 0;
-  p.walls = 0;
+  p.freeBounces = 0;
+  p.straightBounces = 0;
   p.crossings = 0;
   p.rays = 0;
   p.pixel = ivec2(0);
   p.oneChannel = false;
   p.cameraRay = true;
   p.caught = false;
-  p.throughWalls = false;
-  p.chain = kChainNone;
-  p.clearFirst = false;
+  p.throughGlass = false;
+  p.prefix = kPrefixNone;
+  p.glassFirst = false;
   p.covered = false;
   p.radiance = vec3(0.0);
   p.throughput = vec3(1.0);
-  p.compression = 1.0;
+  p.etaScale = 1.0;
   p.pdf = 0.0;
   p.normal = kNoNormal;
   p.medium = kPrimitiveNone;
@@ -98,13 +98,14 @@ Path newPath() {
   p.shadowDirection = vec3(0.0, 0.0, 1.0);
   p.shadowLimit = 0.0;
   p.shadowMedium = kPrimitiveNone;
-  p.part = vec3(kFeature == kFeatureDiffuse || kFeature == kFeatureSpecular ? 0.0 : 1.0);
+  p.aovWeight = vec3(kAov == kAovDiffuse || kAov == kAovSpecular ? 0.0 : 1.0);
+  p.splatPixel = vec2(0.0);
   p.contribution = vec3(0.0);
   p.hitSlot = -1;
   p.hitT = 0.0;
   p.hitInstance = -1;
   p.hitWeights = vec2(0.0);
-  p.traversal = startTraversal(kFarAway, frame.limits.w);
+  p.traversal = startTraversal(kFarAway, frame.leafCount);
   return p;
 }
 

@@ -86,12 +86,12 @@ float misWeight(float own, float other) {
 /// preserves stratification.
 float balanceWeight(float own, float other) { return own > 0.0f ? own / (own + other) : 0.0f; }
 
-/// The share of a diffuse reflection that is left towards `incoming`. Where an interpolated normal sees light near the
+/// The share of a diffuse reflection that is left towards `wi`. Where an interpolated normal sees light near the
 /// horizon of its flat triangle, light fades; otherwise it would end abruptly, triangle by triangle (Chiang, Li and
 /// Burley, Taming the Shadow Terminator, 2019). At most 1.
-float terminatorFade(vec3 faceNormal, vec3 vertexNormal, vec3 incoming) {
-  float above = dot(vertexNormal, incoming) * dot(vertexNormal, faceNormal);
-  float g = above > 0.0f ? clamp(dot(faceNormal, incoming) / above, 0.0f, 1.0f) : 1.0f;
+float terminatorFade(vec3 faceNormal, vec3 vertexNormal, vec3 wi) {
+  float above = dot(vertexNormal, wi) * dot(vertexNormal, faceNormal);
+  float g = above > 0.0f ? clamp(dot(faceNormal, wi) / above, 0.0f, 1.0f) : 1.0f;
   return g * (1.0f + g * (1.0f - g));
 }
 

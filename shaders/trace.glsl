@@ -91,18 +91,18 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 
 /// Rays are traced from end to end: what the budget ends begins its sample anew in the next draw, and no traversal is
 /// kept from round to round.
-const bool kWholeRays = kGi && !kPassing && !kResumable && kFeature == kFeatureNone;
+const bool kWholeRays = kGi && !kPassing && !kResumable && kAov == kAovNone;
 
 /// A pixel may want fewer samples than the draw brings (Film::setTargets).
 uint samplesWanted(FilmPixel film) {
   uint own = film.flags >> kPixelTargetShift;
-  return own > 0u ? min(own, uint(frame.picture.z)) : uint(frame.picture.z);
+  return own > 0u ? min(own, uint(frame.samplesWanted)) : uint(frame.samplesWanted);
 }
 
 /// The next sample of a pixel.
 Path beginSample(FilmPixel film, ivec2 pixel, uint key, int steps) {
   if (kLightPaths) return startLightPath(recordOf(pixel, film.samples), key, steps);
-  return startPath(pixel, key, film.samples + uint(frame.sampling.x), steps);
+  return startPath(pixel, key, film.samples + uint(frame.firstSample), steps);
 }
 
 /// Adds the finished path to the film.
@@ -112,15 +112,15 @@ FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
   float alpha = coverageOf(p);
   if (kShadowCatcher) p = showShadow(p);
   if (kLightPaths) {
-    storeRecord(recordOf(pixel, film.samples), p.radiance, p.part.xy);
+    storeRecord(recordOf(pixel, film.samples), p.radiance, p.splatPixel);
     film.samples += 1u;
   } else if (kLightRecords) {
     film.samples += 1u;
-  } else if (kFeature == kFeatureGuides) {
+  } else if (kAov == kAovGuides) {
     p = endGuide(p);
     film = addGuides(film, p.radiance, p.contribution, p.shadowLimit, alpha);
   } else {
-    if (kShadowCatcher && frame.background.w < 0.0) film.flags |= kPixelOverWhite;
+    if (kShadowCatcher && frame.backgroundShows < 0.0) film.flags |= kPixelOverWhite;
     film = addSample(film, p.radiance, alpha);
   }
   return film;
@@ -195,7 +195,7 @@ void tracePixel(ivec2 pixel) {
   fetchFrame(film.flags);
   ivec2 place = pixel - frame.tile.xy;
   int row = (place.y * frame.tile.z + place.x) * kSuspendedRows;
-  int budget = frame.limits.z;
+  int budget = frame.stepBudget;
   TreeFrame tree = treeFrame();
   bool advanced = false;
   float cut = 0.0;  // what kBounces took of the throughput

@@ -15,8 +15,8 @@ struct Traversal {
   float tie;
   bool both;  // kLightPaths: single-sided surfaces have their backs, too
   int visits; // nodes and leaves visited, counted for the heat map only
-  float past;     // kPassing: only hits behind this distance count,
-  int pastSlot;   // and those at it in later slots: what the ray has passed through lies there
+  float tMin;     // kPassing: only hits behind this distance count,
+  int tMinSlot;   // and those at it in later slots: what the ray has passed through lies there
   Stack stack;
 };
 
@@ -39,8 +39,8 @@ Traversal startTraversal(float limit, int leafCount) {
   s.tie = 0.0f;
   s.both = false;
   s.visits = 0;
-  s.past = 0.0f;
-  s.pastSlot = 0x7fffffff;
+  s.tMin = 0.0f;
+  s.tMinSlot = 0x7fffffff;
   s.stack = emptyStack();
   return s;
 }
@@ -49,7 +49,7 @@ Traversal startTraversal(float limit, int leafCount) {
 /// along it have one order, by distance and slot, so that it meets each once, however close they lie.
 bool isNearer(Traversal s, float t, int slot) {
   if (!kPassing) return t > 0.0f && t < s.t;
-  return liesBehind(t, s.past, slot > s.pastSlot) && (t < s.t || (t == s.t && slot < s.slot));
+  return liesBehind(t, s.tMin, slot > s.tMinSlot) && (t < s.t || (t == s.t && slot < s.slot));
 }
 
 /// A direction component that is safe to divide by: |d| is at least 2^-60, far below what 24 bits of it can show.
@@ -84,8 +84,8 @@ PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear sh
   }
   if (kSpheres) {
     bool inside = !kCulling || (kLightPaths && s.both) || (word & kPrimitiveCull) == 0u;
-    float past = kPassing ? s.past : 0.0f;
-    float t = intersectSphere(origin, direction, v0, v1.x, inside, past, kPassing && slot > s.pastSlot);
+    float tMin = kPassing ? s.tMin : 0.0f;
+    float t = intersectSphere(origin, direction, v0, v1.x, inside, tMin, kPassing && slot > s.tMinSlot);
     bool isSphere = (word & kPrimitiveSphere) != 0u && word != kPrimitiveNone;
     r.t = isSphere ? t : (kTriangles ? r.t : -1.0f);
   }
@@ -192,7 +192,7 @@ TreeRay treeRayOf(Traversal s, vec3 origin, vec3 direction, TreeFrame tree) {
   } else {
     r = makeTreeRay(origin, direction, 0.0f, tree.origin, tree.cell);
   }
-  if (kPassing) r.from = max(0.0f, s.past - roundingOf(s.past, tree) - r.start);
+  if (kPassing) r.from = max(0.0f, s.tMin - roundingOf(s.tMin, tree) - r.start);
   return r;
 }
 

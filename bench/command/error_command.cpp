@@ -137,8 +137,8 @@ ErrorSample finish(Contender& c, const View& view, const Judge& judge, const Dra
   const RenderOptions& options = c.configuration.render;
   Image picture = pictureOf(draw.drawing, options);
   double seconds = draw.seconds;
-  for (const ShaderVariant& variant : c.tracer.features) {
-    const int samples = samplesOfLayer(options, variant.feature, draw.layerSamples);
+  for (const ShaderVariant& variant : c.tracer.aovs) {
+    const int samples = samplesOfLayer(options, variant.aov, draw.layerSamples);
     const LayerDraw layer = addLayer(picture, *c.tracer.renderer, variant, view, samples);
     seconds += 0.001 * layer.drawMs;
     compileMs += layer.compileMs;

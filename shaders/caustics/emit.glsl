@@ -69,33 +69,33 @@ Emission punctualEmission(int index, float share, float choice, vec2 aim) {
 }
 
 /// Draws a lamp by its power, a point on it, and a direction.
-Emission drawEmission(Sampler numbers) {
-  int emitter = emitterAt(drawBits(numbers, kLampDimension));
+Emission drawEmission(Sampler sampler) {
+  int emitter = emitterAt(drawBits(sampler, kEmitterDimension));
   float share = uintBitsToFloat(emitterRow(emitter, 0).w);
   uint kind = emitterRow(emitter, 3).w;
   bool punctual = kPunctualLights && (kind & kEmitterPunctual) != 0u;
-  float choice = drawFloat(numbers, kCasterDimension);
-  vec2 aim = drawPair(numbers, kAimDimensions);
+  float choice = drawFloat(sampler, kCasterDimension);
+  vec2 aim = drawPair(sampler, kAimDimensions);
   Emission e = noEmission();
   if (share <= 0.0f) return e;
   if (punctual) e = punctualEmission(int(kind & ~kEmitterPunctual), share, choice, aim);
   if (kEmissiveTriangles && !punctual) {
-    e = triangleEmission(emitter, share, choice, drawPair(numbers, kLampPointDimensions), aim);
+    e = triangleEmission(emitter, share, choice, drawPair(sampler, kEmitterPointDimensions), aim);
   }
   return e;
 }
 
 /// The key of the random numbers of a pass of light paths, which has Sobol points of its own.
-uint keyOfLightPaths() { return pixelKey(uint(frame.sampling.x), 0xfffffffeu, uint(frame.picture.w)); }
+uint keyOfLightPaths() { return pixelKey(uint(frame.firstSample), 0xfffffffeu, uint(frame.seed)); }
 
 /// Begins a light path. Until the camera sees it, `contribution` is its flux and `shadowLimit` the range of its light.
 /// A pass has as many rows of paths as its height asks for, each as wide as the picture.
 Path startLightPath(ivec2 record, uint key, int steps) {
   ivec2 place = inPicture(record);
-  uint index = uint(place.y * frame.picture.x + place.x);
-  Sampler numbers = makeSampler(key, index);
-  Emission e = drawEmission(numbers);
-  Path p = pathAlong(e.origin, e.direction, numbers, steps);
+  uint index = uint(place.y * frame.pictureSize.x + place.x);
+  Sampler sampler = makeSampler(key, index);
+  Emission e = drawEmission(sampler);
+  Path p = pathAlong(e.origin, e.direction, sampler, steps);
   p.cameraRay = false;
   p.contribution = e.flux;
   p.shadowLimit = e.range;

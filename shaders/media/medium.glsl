@@ -35,7 +35,7 @@ bool isOpen(uint medium) { return medium == kPrimitiveNone || (kMatchedGlass && 
 /// A path whose ray has been inside of a solid without knowing it, or begins there.
 Path standInside(Path p, uint medium) {
   float ior = dispersedIor(p, medium);
-  if (p.cameraRay) p.compression = ior * ior;
+  if (p.cameraRay) p.etaScale = ior * ior;
   p.medium = medium;
   return p;
 }
@@ -54,13 +54,13 @@ float flightEnd(Path p, float from, float u) {
 /// The same, with a number of this bounce, or of this meeting with a surface that lets the ray pass.
 float flightLimit(Path p, float from) {
   uint flight = kFlightDimensions + (uint(p.bounce) << 12) + uint(p.crossings);
-  float u = p.crossings > 0 ? hashFloat(p.numbers, flight) : pathRandom(p, kFlightDimension);
+  float u = p.crossings > 0 ? hashFloat(p.sampler, flight) : pathRandom(p, kFlightDimension);
   return flightEnd(p, from, u);
 }
 
 /// The distance that the path's ray or its shadow ray, whichever is traced, has passed surfaces up to. A flight begins
 /// there.
-float passedBefore(Path p) { return kPassing ? p.traversal.past : 0.0; }
+float passedBefore(Path p) { return kPassing ? p.traversal.tMin : 0.0; }
 
 /// A flight has come to a surface.
 Path passMedium(Path p) {
@@ -76,7 +76,7 @@ Path flyTo(Path p, Surface s) {
   bool unknown = kScattering && medium != p.medium;
   if (unknown) p = standInside(p, medium);
   float end = kFarAway;
-  if (unknown) end = flightEnd(p, passedBefore(p), hashFloat(p.numbers, kFlightDimensions + 0xfffu));
+  if (unknown) end = flightEnd(p, passedBefore(p), hashFloat(p.sampler, kFlightDimensions + 0xfffu));
   bool ends = end < p.hitT;
   if (ends) p.hitT = end;
   if (ends) p.hitSlot = -1;

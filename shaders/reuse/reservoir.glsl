@@ -19,8 +19,8 @@ struct Reservoir {
   float weight;       // in the mean 1 / the pdf with which it is chosen; 0: no light reaches the surface
 };
 
-Reservoir makeReservoir(LitSurface on, uint packedNormal, Sampler numbers, uint dimension) {
-  Candidate c = chooseCandidate(on.point, unpackNormal(on.normal), on.through, packedNormal, numbers, dimension);
+Reservoir makeReservoir(LitSurface on, uint packedNormal, Sampler sampler, uint dimension) {
+  Candidate c = chooseCandidate(on.point, unpackNormal(on.normal), on.through, packedNormal, sampler, dimension);
   Reservoir r;
   r.surface = on;
   r.known = true;

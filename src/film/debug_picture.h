@@ -3,7 +3,7 @@
 #pragma once
 
 #include "film/film_pixels.h"
-#include "stage/feature.h"
+#include "stage/aov.h"
 
 namespace fragtrace {
 

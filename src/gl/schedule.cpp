@@ -28,7 +28,7 @@ constexpr size_t kSmallTree = 512;
 std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& options,
                           const ScheduleWork& work) {
   if (options.device.schedule == Schedule::Megakernel) return "--schedule";
-  if (variant.feature != Feature::None) return "a layer of first hits";
+  if (variant.aov != Aov::None) return "a layer of first hits";
   if (variant.heatmap) return "the heat map";
   if (!has(variant.stages, Stage::Gi)) return "a stage before global illumination";
   if (variant.shadowCatcher) return "--shadow-catcher";

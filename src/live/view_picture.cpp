@@ -98,7 +98,7 @@ bool PictureMaker::drawGuides(int samples, glm::ivec2 size, Tracer& tracer, cons
   if (memory.guideSamples >= kFewLayerSamples ||
       (memory.guideSamples > 0 && wanted < kGuideStep * memory.guideSamples))
     return true;
-  const ShaderVariant& variant = tracer.features.front();
+  const ShaderVariant& variant = tracer.aovs.front();
   if (!memory.guides)
     memory.guides.emplace(size);
   else if (memory.guideSamples == 0)

@@ -28,7 +28,7 @@ void compileAll(ViewProgram& program, const View& view) {
   Tracer& tracer = program.tracer;
   try {
     Film tiny(kCompiledFor);
-    for (const ShaderVariant& feature : tracer.features) tracer.renderer->compile(feature, tiny, view);
+    for (const ShaderVariant& aov : tracer.aovs) tracer.renderer->compile(aov, tiny, view);
     tracer.renderer->compile(tracer.variant, tiny, view);
   } catch (const ContextLost&) {
     throw;
@@ -43,10 +43,10 @@ RenderOptions programPart(const RenderOptions& options) {
   if (part.output.debugView == DebugView::Samples || part.output.debugView == DebugView::Variance)
     part.output.debugView = DebugView::None;  // drawn by the picture's own
   part.sampling.clampIndirect = part.sampling.clampIndirect > 0.0 ? 1.0 : 0.0;
-  part.output.aovFeatures.clear();
+  part.output.aovs.clear();
   part.selection.camera.clear();
   if (has(part.stages, Stage::Gi) && part.output.debugView == DebugView::None)
-    part.output.aovFeatures = {Feature::Guides};
+    part.output.aovs = {Aov::Guides};
   return part;
 }
 

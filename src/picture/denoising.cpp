@@ -42,7 +42,7 @@ bool isForTheFilter(const std::string& channel, const RenderOptions& options) {
 }  // namespace
 
 bool hasGuides(const RenderOptions& options) {
-  return std::ranges::find(options.output.aovFeatures, Feature::Guides) != options.output.aovFeatures.end();
+  return std::ranges::find(options.output.aovs, Aov::Guides) != options.output.aovs.end();
 }
 
 std::string whyNotDenoised(const RenderOptions& options) {
@@ -73,7 +73,7 @@ RenderOptions withGuides(const RenderOptions& options) {
   RenderOptions drawn = options;
   if (!whyNotDenoised(options).empty()) return drawn;
   if (options.output.denoise == Denoise::Variance) drawn.output.aovSamples = drawn.output.aovVariance = true;
-  if (!hasGuides(options)) drawn.output.aovFeatures.push_back(Feature::Guides);
+  if (!hasGuides(options)) drawn.output.aovs.push_back(Aov::Guides);
   return drawn;
 }
 

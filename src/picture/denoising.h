@@ -13,7 +13,7 @@
 
 namespace fragtrace {
 
-/// Returns true if the layers that are asked for hold the guides of filters (Feature::Guides).
+/// Returns true if the layers that are asked for hold the guides of filters (Aov::Guides).
 bool hasGuides(const RenderOptions& options);
 
 /// The reason why such a picture is not denoised although that is asked for; empty if it is.

@@ -60,13 +60,13 @@ std::vector<Share> sharesOf(std::span<const Region> parts, glm::ivec2 size) {
 
 /// The seconds that a sample of each layer takes in all pixels, measured in the middle of the first part.
 /// Compiles all layers. The film is empty afterwards.
-std::vector<double> measureFeatures(const PictureJob& job, Film& film, const View& view, Statistics& stats) {
+std::vector<double> measureAovs(const PictureJob& job, Film& film, const View& view, Statistics& stats) {
   constexpr int kSide = 256;
   Work work{{}, glm::min(film.size(), glm::ivec2(kSide)), 0, 1};
   work.corner = (film.size() - work.size) / 2;
   const double times = areaOf(job.loaded.region.size) / areaOf(work.size);
   std::vector<double> seconds;
-  for (const ShaderVariant& variant : job.tracer.features) {
+  for (const ShaderVariant& variant : job.tracer.aovs) {
     if (!job.tracer.renderer->knows(variant))
       stats.compileMs += job.tracer.renderer->compile(variant, film, view);
     if (!job.showsProgress) {
@@ -83,19 +83,19 @@ std::vector<double> measureFeatures(const PictureJob& job, Film& film, const Vie
 }
 
 /// What the layers from the first on will take, where the picture has so many samples.
-double secondsOfFeatures(const PictureJob& job, const DrawingPlan& plan, size_t first, int samples) {
+double secondsOfAovs(const PictureJob& job, const DrawingPlan& plan, size_t first, int samples) {
   double seconds = 0.0;
   for (size_t i = first; i < plan.layerSeconds.size(); ++i)
-    seconds += plan.layerSeconds[i] * samplesOfLayer(job.options, job.tracer.features[i].feature, samples);
+    seconds += plan.layerSeconds[i] * samplesOfLayer(job.options, job.tracer.aovs[i].aov, samples);
   return seconds;
 }
 
 /// The time that layers will take at least: those of an adaptive picture have the fewest samples of any
 /// pixel, a number that is not yet known.
-double secondsOfFeatures(const PictureJob& job, const DrawingPlan& plan) {
+double secondsOfAovs(const PictureJob& job, const DrawingPlan& plan) {
   constexpr int kLeastAdaptive = 64;
   const int spp = job.options.sampling.spp;
-  return secondsOfFeatures(job, plan, 0, isAdaptive(job.options) ? std::min(spp, kLeastAdaptive) : spp);
+  return secondsOfAovs(job, plan, 0, isAdaptive(job.options) ? std::min(spp, kLeastAdaptive) : spp);
 }
 
 /// The worst of both parts, since a goal holds in each of them.
@@ -161,7 +161,7 @@ DrawingPlan planDrawing(const PictureJob& job, Statistics& stats) {
   std::vector<Region> parts = partsOf(job.options, job.loaded);
   Film film(parts.front().size);
   const View view = viewOf(job.loaded, parts.front());
-  std::vector<double> layerSeconds = measureFeatures(job, film, view, stats);
+  std::vector<double> layerSeconds = measureAovs(job, film, view, stats);
   stats.parts = int(parts.size());
   if (job.tracer.renderer->knows(job.tracer.variant))
     job.tracer.renderer->use(job.tracer.variant);
@@ -261,7 +261,7 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
   std::optional<Checkpoint> from = readCheckpoint(job, plan);
   const std::string text = keeper.isKept() ? jobText(job, plan) : "";
   const std::vector<Share> shares = sharesOf(plan.parts, job.loaded.region.size);
-  const double secondsAfter = secondsOfFeatures(job, plan);
+  const double secondsAfter = secondsOfAovs(job, plan);
   // merge needs the samples of each pixel if these differ.
   const bool keepsCounts = holdsLayers(options) && !showsColors(options);
   ProgressBar bar("rendering", hidesProgress(job),
@@ -310,16 +310,16 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
   return withoutNeedlessCounts(std::move(picture), options, stats);
 }
 
-void addFeatures(Image& picture, const PictureJob& job, const DrawingPlan& plan, Statistics& stats) {
+void addAovs(Image& picture, const PictureJob& job, const DrawingPlan& plan, Statistics& stats) {
   const int drawn = int(std::max(1u, stats.adaptive ? stats.film.fewestSamples : stats.film.mostSamples));
   const int all = stats.complete ? drawn : std::min(drawn, kFewLayerSamples);
   const int before = interrupts();
   const std::vector<Share> shares = sharesOf(plan.parts, job.loaded.region.size);
-  for (size_t i = 0; i < job.tracer.features.size(); ++i) {
-    const ShaderVariant& variant = job.tracer.features[i];
-    const int samples = samplesOfLayer(job.options, variant.feature, all);
-    const double after = secondsOfFeatures(job, plan, i + 1, all);
-    ProgressBar bar("layer " + std::string(rowOf(variant.feature).name), hidesProgress(job), samples);
+  for (size_t i = 0; i < job.tracer.aovs.size(); ++i) {
+    const ShaderVariant& variant = job.tracer.aovs[i];
+    const int samples = samplesOfLayer(job.options, variant.aov, all);
+    const double after = secondsOfAovs(job, plan, i + 1, all);
+    ProgressBar bar("layer " + std::string(rowOf(variant.aov).name), hidesProgress(job), samples);
     Image layer;
     FilmTotals totals;
     for (size_t p = 0; p < plan.parts.size(); ++p) {
@@ -337,7 +337,7 @@ void addFeatures(Image& picture, const PictureJob& job, const DrawingPlan& plan,
     }
     bar.clear();
     appendChannels(picture, layer, layer.channels);
-    sayWhatWentWrong(job.options, totals, std::string(rowOf(variant.feature).name));
+    sayWhatWentWrong(job.options, totals, std::string(rowOf(variant.aov).name));
   }
 }
 

@@ -42,7 +42,7 @@ Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, C
 
 /// Adds the layers of first hits, drawn with the picture's samples: for an adaptive picture those that all
 /// pixels have, for an interrupted one a few, since the user waits. Throws RenderError.
-void addFeatures(Image& picture, const PictureJob& job, const DrawingPlan& plan, Statistics& stats);
+void addAovs(Image& picture, const PictureJob& job, const DrawingPlan& plan, Statistics& stats);
 
 /// Says what is odd about the picture, or about that layer of it. Throws RenderError if the driver ended
 /// loops early, which makes pictures wrong.

@@ -53,11 +53,10 @@ Image pictureOf(const Drawing& drawing, const RenderOptions& options, bool withS
   return picture;
 }
 
-int samplesOfLayer(const RenderOptions& options, Feature feature, int ofPicture) {
-  if (feature == Feature::Object || feature == Feature::Material) return std::min(ofPicture, 1);
-  if (feature == Feature::Guides) return std::min(ofPicture, kFewLayerSamples);
-  const bool asked =
-      std::ranges::find(options.output.aovFeatures, feature) != options.output.aovFeatures.end();
+int samplesOfLayer(const RenderOptions& options, Aov aov, int ofPicture) {
+  if (aov == Aov::Object || aov == Aov::Material) return std::min(ofPicture, 1);
+  if (aov == Aov::Guides) return std::min(ofPicture, kFewLayerSamples);
+  const bool asked = std::ranges::find(options.output.aovs, aov) != options.output.aovs.end();
   return asked ? ofPicture : std::min(ofPicture, kFewLayerSamples);
 }
 
@@ -72,7 +71,7 @@ LayerDraw drawLayer(glm::ivec2 size, Renderer& renderer, const ShaderVariant& va
     layer.compileMs = renderer.compile(variant, film, view);
   layer.complete = renderer.addSamples(film, view, 0, samples, times, progress);
   layer.drawMs = times.renderMs;
-  if (variant.feature == Feature::Guides) {
+  if (variant.aov == Aov::Guides) {
     Film::Guides guides = film.readGuides();
     layer.totals = totalsOf(guides.counts);
     layer.image = std::move(guides.layers);
@@ -80,7 +79,7 @@ LayerDraw drawLayer(glm::ivec2 size, Renderer& renderer, const ShaderVariant& va
   }
   const FilmPixels pixels = film.read();
   layer.totals = totalsOf(pixels);
-  const FeatureRow& row = rowOf(variant.feature);
+  const AovRow& row = rowOf(variant.aov);
   std::vector<std::string> names = {"R", "G", "B"};
   names.resize(row.channels.size());
   layer.image = onlyChannels(imageOf(pixels, {}), names);

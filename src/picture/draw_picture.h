@@ -42,7 +42,7 @@ Image pictureOf(const Drawing& drawing, const RenderOptions& options, bool withS
 inline constexpr int kFewLayerSamples = 16;
 
 /// The number of samples of a layer of a picture with so many: a filter needs no more than a few.
-int samplesOfLayer(const RenderOptions& options, Feature feature, int ofPicture);
+int samplesOfLayer(const RenderOptions& options, Aov aov, int ofPicture);
 
 /// A layer, with its time and its counts.
 struct LayerDraw {

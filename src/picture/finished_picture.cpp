@@ -161,7 +161,7 @@ bool finishPicture(Image& picture, const PictureJob& job, const DrawingPlan& pla
                    Statistics& stats) {
   RenderOptions options = job.options;
   if (!isUniform(stats)) options.output.aovSamples = true;  // merge needs them
-  addFeatures(picture, {options, job.loaded, job.tracer, job.showsProgress, job.told}, plan, stats);
+  addAovs(picture, {options, job.loaded, job.tracer, job.showsProgress, job.told}, plan, stats);
   denoise(picture, options, device.oidn, stats);
   sayDriverLog(options, device);
   if (interrupts() > most) return false;

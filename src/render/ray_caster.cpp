@@ -26,8 +26,10 @@ layout::Frame frameOf(const GpuScene& scene, glm::ivec2 size) {
   layout::Frame frame{};
   frame.gridOrigin = glm::vec4(scene.grid.origin, 0.0f);
   frame.gridCell = glm::vec4(scene.grid.cell, 0.0f);
-  frame.picture = {size, 1, 0};
-  frame.limits = {0, 0, kStepLimit, int(scene.leafCount)};
+  frame.pictureSize = size;
+  frame.samplesWanted = 1;
+  frame.stepBudget = kStepLimit;
+  frame.leafCount = int(scene.leafCount);
   return frame;
 }
 

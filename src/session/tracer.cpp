@@ -26,7 +26,7 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
     variant.literals = largeFirst(loaded.scene, loaded.bvh, variant);
     return;
   }
-  if (variant.feature != Feature::None && !isLightPart(variant.feature)) return;
+  if (variant.aov != Aov::None && !isLightAov(variant.aov)) return;
   const bool asked = options.device.traversal == TraversalMethod::Literals;
   if (variant.heatmap) {
     if (asked) throw UsageError("--traversal literals: has no tree whose nodes the heat map could count");
@@ -148,11 +148,10 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
   const BufferReads undecided = options.device.bufferReads;  // what is packed does not depend on it
   tracer.variant = choosePictureVariant(options, present, loaded.environment.kind, depth, undecided);
   ShaderVariant everything = tracer.variant;
-  tracer.features.clear();
-  for (const Feature feature : options.output.aovFeatures) {
-    tracer.features.push_back(
-        chooseFeatureVariant(options, present, loaded.environment.kind, depth, undecided, feature));
-    everything.traits |= tracer.features.back().traits;
+  tracer.aovs.clear();
+  for (const Aov aov : options.output.aovs) {
+    tracer.aovs.push_back(chooseAovVariant(options, present, loaded.environment.kind, depth, undecided, aov));
+    everything.traits |= tracer.aovs.back().traits;
   }
   const bool gi = has(tracer.variant.stages, Stage::Gi);
   describeLightSelection(tracer.variant, loaded, options.light.selection, stats);
@@ -178,11 +177,11 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
 void settleVariants(Tracer& tracer, const LoadedScene& loaded, const GpuScene& packed,
                     const RenderOptions& options, const Context& context, Statistics& stats) {
   stats.scheduleReason = settleVariant(tracer.variant, loaded, packed, options, context, tracer.reads);
-  for (ShaderVariant& feature : tracer.features) {
-    useLiterals(loaded, packed, options, feature);
-    feature.reads = tracer.reads;
-    feature.dispatch = chooseDispatch(options.device.dispatch, context, false);
-    feature.gpu = isForGpu(options.device.tune, context);
+  for (ShaderVariant& aov : tracer.aovs) {
+    useLiterals(loaded, packed, options, aov);
+    aov.reads = tracer.reads;
+    aov.dispatch = chooseDispatch(options.device.dispatch, context, false);
+    aov.gpu = isForGpu(options.device.tune, context);
   }
   stats.variant = variantName(tracer.variant);
 }

@@ -99,7 +99,7 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
   constant("kLightPaths", variant.lightPaths);
   constant("kGpu", variant.gpu);
   text << "const int kPixelFilter = " << int(variant.pixelFilter) << ";\n";
-  text << "const int kFeature = " << int(variant.feature) << ";\n";
+  text << "const int kAov = " << int(variant.aov) << ";\n";
   text << "const int kStackSize = " << variant.stackSize << ";\n";
 }
 

@@ -18,7 +18,7 @@
 #include "scene/camera.h"
 #include "scene/scene.h"
 #include "scene/selection.h"
-#include "stage/feature.h"
+#include "stage/aov.h"
 #include "stage/stage.h"
 
 namespace fragtrace {
@@ -176,7 +176,7 @@ struct OutputOptions {
   std::string format;  ///< of standard output
   std::filesystem::path statsFile;
   std::filesystem::path oidnLibrary;  ///< file of Open Image Denoise; none: it is looked for
-  std::vector<Feature> aovFeatures;   ///< more layers of .exr files
+  std::vector<Aov> aovs;              ///< more layers of .exr files
   SequenceOptions sequence;
   double checkpointSeconds = 0.0;  ///< between two checkpoints; 0: none is written
   double exposure = 0.0;           ///< stops

@@ -178,7 +178,7 @@ std::string whyNoLightPaths(const RenderOptions& options) {
   // Limits, catchers and parts know paths from the camera alone.
   if (options.sampling.clampIndirect > 0.0) return "--clamp-indirect";
   if (options.light.shadowCatcher) return "--shadow-catcher";
-  if (std::ranges::any_of(options.output.aovFeatures, isLightPart)) return "--aov has parts of the light";
+  if (std::ranges::any_of(options.output.aovs, isLightAov)) return "--aov has parts of the light";
   return {};
 }
 
@@ -221,20 +221,19 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   return v;
 }
 
-ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet& present,
-                                   Surroundings surroundings, uint32_t treeDepth, BufferReads reads,
-                                   Feature feature) {
-  if (isLightPart(feature)) {
+ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& present,
+                               Surroundings surroundings, uint32_t treeDepth, BufferReads reads, Aov aov) {
+  if (isLightAov(aov)) {
     ShaderVariant light = chooseVariant(options, present, surroundings, treeDepth, reads);
-    light.feature = feature;
+    light.aov = aov;
     light.traits.reset(size_t(Trait::Caustics));
     light.neighbours = false;
     return light;
   }
   RenderOptions wanted = options;
   wanted.output.debugView = DebugView::None;
-  const bool guides = feature == Feature::Guides;
-  const bool normals = feature == Feature::Normal || guides;
+  const bool guides = aov == Aov::Guides;
+  const bool normals = aov == Aov::Normal || guides;
   const bool follows = guides && has(present, Trait::SmoothSurfaces);
   for (const StageRow& row : stageRows()) {
     // The same samples, and the same hits.
@@ -254,7 +253,7 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
   if (!follows) {
     for (Trait t : {Trait::Specular, Trait::Transmission}) kept.reset(size_t(t));
   }
-  if (feature != Feature::Albedo && !guides && !has(present, Trait::Alpha)) {
+  if (aov != Aov::Albedo && !guides && !has(present, Trait::Alpha)) {
     for (Trait t : {Trait::BaseColorTexture, Trait::VertexColors}) kept.reset(size_t(t));
   }
   ShaderVariant v = chooseVariant(wanted, kept, surroundings, treeDepth, reads);
@@ -264,28 +263,27 @@ ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet&
   };
   const bool glossiness = has(present, Trait::SpecularGlossiness);
   const bool roughnessTexture =
-      feature == Feature::Roughness &&
+      aov == Aov::Roughness &&
       (has(present, Trait::MetallicRoughnessTexture) || (glossiness && has(present, Trait::SpecularTexture)));
-  if (feature == Feature::Roughness) {
+  if (aov == Aov::Roughness) {
     keep(Trait::MetallicRoughnessTexture);
     keep(Trait::SpecularGlossiness);
     if (glossiness) keep(Trait::SpecularTexture);
   }
   if (roughnessTexture) keep(Trait::TextureTransforms);
-  if (roughnessTexture || feature == Feature::Texcoords) keep(Trait::Texcoords);
+  if (roughnessTexture || aov == Aov::Texcoords) keep(Trait::Texcoords);
   if (follows) keep(Trait::SmoothSurfaces);
   if (follows) keep(Trait::Scattering);
-  if (feature == Feature::Object) v.traits.set(size_t(Trait::ObjectNumbers));
+  if (aov == Aov::Object) v.traits.set(size_t(Trait::ObjectNumbers));
   v.shadowCatcher = guides && has(options.stages, Stage::Gi) && options.light.shadowCatcher;
-  v.feature = feature;
+  v.aov = aov;
   return v;
 }
 
 ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet& present,
                                    Surroundings surroundings, uint32_t treeDepth, BufferReads reads) {
-  const Feature feature = rowOf(options.output.debugView).feature;
-  if (feature != Feature::None)
-    return chooseFeatureVariant(options, present, surroundings, treeDepth, reads, feature);
+  const Aov aov = rowOf(options.output.debugView).aov;
+  if (aov != Aov::None) return chooseAovVariant(options, present, surroundings, treeDepth, reads, aov);
   return chooseVariant(options, present, surroundings, treeDepth, reads);
 }
 
@@ -341,7 +339,7 @@ std::string variantName(const ShaderVariant& variant) {
   if (variant.traversal != TraversalMethod::Literals && !variant.literals.empty()) append("large-first");
   if (variant.pixelFilter != PixelFilter::Box)
     append(std::string(kPixelFilterNames[size_t(variant.pixelFilter)]) + "-filter");
-  if (variant.feature != Feature::None) append(std::string(rowOf(variant.feature).name));
+  if (variant.aov != Aov::None) append(std::string(rowOf(variant.aov).name));
   if (variant.heatmap) append(std::string(rowOf(DebugView::Visits).name));
   if (variant.uniformLights) append("uniform-lights");
   if (variant.lightCandidates) append("light-candidates");

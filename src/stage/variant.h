@@ -21,12 +21,12 @@ struct ShaderVariant {
   BufferReads reads = BufferReads::Ssbo;
   Dispatch dispatch = Dispatch::Fragment;
   PixelFilter pixelFilter = PixelFilter::Box;
-  Feature feature = Feature::None;  ///< what is drawn in place of radiance
-  bool heatmap = false;             ///< the nodes that camera rays visit are, too
-  bool uniformLights = false;       ///< the light tree chooses all lights alike
-  bool lightCandidates = false;     ///< a light sample is one of several (shaders/reuse/candidates.glsl)
-  bool lightRecords = false;        ///< light samples of first hits are kept (shaders/reuse/neighbours.glsl)
-  bool neighbours = false;          ///< pixels take such light samples of others near them
+  Aov aov = Aov::None;           ///< what is drawn in place of radiance
+  bool heatmap = false;          ///< the nodes that camera rays visit are, too
+  bool uniformLights = false;    ///< the light tree chooses all lights alike
+  bool lightCandidates = false;  ///< a light sample is one of several (shaders/reuse/candidates.glsl)
+  bool lightRecords = false;     ///< light samples of first hits are kept (shaders/reuse/neighbours.glsl)
+  bool neighbours = false;       ///< pixels take such light samples of others near them
   bool clampIndirect = false;
   bool shadowCatcher = false;
   bool lens = false;        ///< else a pinhole
@@ -41,7 +41,7 @@ struct ShaderVariant {
 
   auto key() const {
     return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, dispatch,
-                      pixelFilter, feature, heatmap, uniformLights, lightCandidates, lightRecords, neighbours,
+                      pixelFilter, aov, heatmap, uniformLights, lightCandidates, lightRecords, neighbours,
                       clampIndirect, shadowCatcher, lens, lightPaths, gpu, wavefront, waveUnit, resumable,
                       literals);
   }
@@ -65,9 +65,8 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
 
 /// The variant that draws a feature of the first hit for the same samples: what radiance alone needs is left
 /// out. `wanted` are the options as for chooseVariant, which it calls.
-ShaderVariant chooseFeatureVariant(const RenderOptions& options, const TraitSet& present,
-                                   Surroundings surroundings, uint32_t treeDepth, BufferReads reads,
-                                   Feature feature);
+ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& present,
+                               Surroundings surroundings, uint32_t treeDepth, BufferReads reads, Aov aov);
 
 /// The variant that draws what the picture shows: radiance, or what the options' debug view needs.
 ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet& present,

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "stage/feature.h"
+#include "stage/aov.h"
 #include "stage/stage.h"
 
 namespace fragtrace {

@@ -28,7 +28,7 @@ class PastOfATurn : public GlProbe {
     options_.light.defaultLight = DefaultLight::Studio;
     options_.camera.resolution = kSize;
     options_.output.denoise = Denoise::Variance;
-    options_.output.aovFeatures = {Feature::Guides};
+    options_.output.aovs = {Aov::Guides};
     options_.output.quiet = true;
     Statistics stats;
     loaded_.emplace(loadScene(options_, stats));

@@ -53,9 +53,9 @@ class Surrounded {
  private:
   static layout::Frame frameOf(const Image& image, double rotation) {
     layout::Frame frame{};
-    frame.catcherLight.w = 1.0f;
-    frame.environment = glm::vec4(float(image.width), float(image.height), float(std::cos(rotation)),
-                                  float(std::sin(rotation)));
+    frame.environmentScale = 1.0f;
+    frame.environmentSize = {image.width, image.height};
+    frame.environmentRotation = {std::cos(rotation), std::sin(rotation)};
     return frame;
   }
 
@@ -67,9 +67,7 @@ class Surrounded {
 
 dvec3 radianceAlong(const dvec3& d) { return dvec3(glsl_double::environmentAlong(d)); }
 
-double pdfAlong(const dvec3& d) {
-  return glsl_double::environmentPdf(glsl_double::environmentAlong(d), d);
-}
+double pdfAlong(const dvec3& d) { return glsl_double::environmentPdf(glsl_double::environmentAlong(d), d); }
 
 /// docs/design/conventions.md: u from atan2(z, x), v from acos(y).
 dvec3 directionAt(double u, double v) {
@@ -260,10 +258,10 @@ double relativeVariance(const dvec3& normal, bool stratified) {
   for (uint32_t r = 0; r < kRepeats; ++r) {
     double estimate = 0.0;
     for (uint32_t k = 0; k < kSamples; ++k) {
-      const auto numbers = glsl_float::makeSampler(glsl_float::mixBits(r), k);
+      const auto sampler = glsl_float::makeSampler(glsl_float::mixBits(r), k);
       const uvec2 independent(uint32_t(draw.engine()), uint32_t(draw.engine()));
       const auto s = glsl_float::environmentLight(
-          1.0f, stratified ? glsl_float::drawPairBits(numbers, 0u) : independent);
+          1.0f, stratified ? glsl_float::drawPairBits(sampler, 0u) : independent);
       estimate +=
           luminanceOf(dvec3(s.irradiance)) * std::max(0.0, glm::dot(dvec3(s.direction), normal)) / kSamples;
     }

@@ -65,7 +65,7 @@ TEST(ShaderLights, TrianglesAreChosenByPowerAndPointsUniformlyByArea) {
 TEST(ShaderLights, DensityOfASampleIsThatOfTheRayThatFindsIt) {
   for (bool environment : {false, true}) {
     const Lit lit(octantScene(), environment);
-    const float share = 1.0f - glsl_variant::frame.lightChoice.x;
+    const float share = 1.0f - glsl_variant::frame.environmentChance;
     Draw draw(179);
     for (int k = 0; k < 20000; ++k) {
       const dvec3 point = draw.inCube(0.15);
@@ -99,7 +99,7 @@ double pdfAlong(const Lit& lit, const dvec3& point, const dvec3& direction) {
     if (!hit.hit || hit.t <= 0.0 || hit.t >= nearest) continue;
     nearest = hit.t;
     pdf = glsl_double::emitterPdf(lit.scene.triangles[i].material, hit.t,
-                                          std::abs(glm::dot(lit.normalOf(i), direction)));
+                                  std::abs(glm::dot(lit.normalOf(i), direction)));
   }
   return pdf;
 }
@@ -268,8 +268,8 @@ TEST(ShaderLights, OneSampleOfAllLightsAndTheEnvironmentIsUnbiased) {
   ASSERT_EQ(glsl_double::lightSlotCount(), 1);
   Estimate estimate;
   for (uint32_t k = 0; k < kSamples; ++k) {
-    const auto numbers = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
-    estimate.add(luminanceOf(glsl_double::lightOfSlot(0, kOrigin, layout::kNoNormal, numbers, 5).irradiance));
+    const auto sampler = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
+    estimate.add(luminanceOf(glsl_double::lightOfSlot(0, kOrigin, layout::kNoNormal, sampler, 5).irradiance));
   }
   const double exact = trianglesAtOrigin(lit) + punctualsAtOrigin(lit) + environmentAllAround();
   EXPECT_LE(estimate.error(), 0.01 * exact);
@@ -288,9 +288,9 @@ TEST(ShaderLights, BeforeGlobalIlluminationEverySlotIsALightOfItsOwn) {
   for (int slot = 0; slot < 4; ++slot) {
     Estimate estimate;
     for (uint32_t k = 0; k < kSamples; ++k) {
-      const auto numbers = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
+      const auto sampler = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
       estimate.add(
-          luminanceOf(glsl_double::lightOfSlot(slot, kOrigin, layout::kNoNormal, numbers, 5).irradiance));
+          luminanceOf(glsl_double::lightOfSlot(slot, kOrigin, layout::kNoNormal, sampler, 5).irradiance));
     }
     EXPECT_LE(std::abs(estimate.mean() - expected[slot]), kLimit * estimate.error() + 3e-5 * expected[slot])
         << "slot " << slot;
