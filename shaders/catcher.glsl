@@ -120,7 +120,7 @@ Path meetCatcher(Path p) {
 /// The alpha of the finished sample. For a shadow on the catcher it is the luminance of the hidden share.
 float coverageOf(Path p) {
   if (kShadowCatcher && p.caught) return luminance(p.radiance);
-  if (kAov == kAovGuides && kAlpha && !p.covered) return p.shadowOrigin.x;
+  if (kAov == kAovGuides && kAlpha && !p.covered) return p.guide.share;
   return p.covered ? 1.0 : 0.0;
 }
 

@@ -57,7 +57,8 @@ void savePath(Path p, int row, bool begins) {
   pathStates[row + kRowHit] = uvec4(floatBitsToUint(p.hitT), uint(p.hitSlot), floatBitsToUint(p.hitWeights));
   if (!begins) pathStates[row + kRowThroughput] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.pdf));
   pathStates[row + kRowRadiance] = uvec4(floatBitsToUint(p.radiance), flags);
-  pathStates[row + kRowCounts] = uvec4(bitfieldReverse(p.sampler.reversed), uint(p.rays), scatteringsOf(p), bounceCounts(p));
+  uint sampleIndex = bitfieldReverse(p.sampler.reversed);
+  pathStates[row + kRowCounts] = uvec4(sampleIndex, uint(p.rays), scatteringsOf(p), bounceCounts(p));
   if (kShadowRows && !begins) {
     pathStates[row + kRowShadow] = uvec4(floatBitsToUint(p.shadowOrigin), floatBitsToUint(p.shadowLimit));
     pathStates[row + kRowShadowDirection] = uvec4(floatBitsToUint(p.shadowDirection), floatBitsToUint(p.etaScale));
@@ -127,15 +128,46 @@ Path loadShadow(Path p, int row) {
   return p;
 }
 
+/// Guides, and light paths until the camera sees them, trace no shadow ray: their own state is stored in its rows.
+Path packOwnState(Path p) {
+  if (kAov == kAovGuides) {
+    p.radiance = p.guide.albedo;
+    p.contribution = p.guide.normal;
+    p.shadowLimit = p.guide.depth;
+    p.shadowOrigin.x = p.guide.share;
+    p.shadowDirection = p.guide.lastNormal;
+  }
+  if (kLightPaths && p.phase != kPhaseShadow) {
+    p.contribution = p.fromLight.flux;
+    p.shadowLimit = p.fromLight.range;
+    p.pdf = p.fromLight.travelled;
+  }
+  return p;
+}
+
+Path unpackOwnState(Path p) {
+  if (kAov == kAovGuides) {
+    p.guide = Guide(p.radiance, p.contribution, p.shadowLimit, p.shadowOrigin.x, p.shadowDirection);
+  }
+  if (kLightPaths && p.phase != kPhaseShadow) {
+    p.fromLight.flux = p.contribution;
+    p.fromLight.range = p.shadowLimit;
+    p.fromLight.travelled = p.pdf;
+    p.pdf = 0.0;
+  }
+  return p;
+}
+
 /// A path that goes on in the next draw, in whatever phase and wherever in a traversal.
 void suspendPath(Path p, int row) {
+  p = packOwnState(p);
   savePath(p, row, false);
   Traversal t = p.traversal;
-  uint flags = uint(p.after) | (p.caught ? 16u : 0u) | (p.glassFirst ? 32u : 0u);
+  uint flags = uint(p.after) | (p.caught ? 16u : 0u) | (kLightPaths && p.fromLight.glassFirst ? 32u : 0u);
   pathStates[row + kRowShadowHit] = metBy(t);
   pathStates[row + kRowSuspended] = uvec4(uint(t.node), uint(p.lightSlot), flags, uint(t.visits));
   if (!kIterative && !kLiterals) saveStack(t.stack, row + kRowStack);
-  vec3 kept = kLightPaths ? vec3(p.splatPixel, 0.0) : p.aovWeight;
+  vec3 kept = kLightPaths ? vec3(p.fromLight.splatPixel, 0.0) : p.aovWeight;
   if (kAovRow) pathStates[row + kRowAov] = uvec4(floatBitsToUint(kept), 0u);
 }
 
@@ -145,8 +177,8 @@ Path resumePath(int row, uint key) {
   p.lightSlot = int(a.y);
   p.after = int(a.z & 15u);
   p.caught = (a.z & 16u) != 0u;
-  p.glassFirst = (a.z & 32u) != 0u;
-  if (kLightPaths) p.splatPixel = uintBitsToFloat(readPathStates(row + kRowAov).xy);
+  if (kLightPaths) p.fromLight.glassFirst = (a.z & 32u) != 0u;
+  if (kLightPaths) p.fromLight.splatPixel = uintBitsToFloat(readPathStates(row + kRowAov).xy);
   if (kLightAov) p.aovWeight = uintBitsToFloat(readPathStates(row + kRowAov).xyz);
   p.traversal.node = int(a.x);
   p.traversal.visits = int(a.w);
@@ -157,5 +189,5 @@ Path resumePath(int row, uint key) {
   p.traversal.both = kLightPaths && p.phase == kPhaseExtend;
   p.traversal.tie = p.phase == kPhaseExtend ? p.tie : 0.0;
   if (!kIterative && !kLiterals) p.traversal.stack = loadStack(row + kRowStack);
-  return p;
+  return unpackOwnState(p);
 }

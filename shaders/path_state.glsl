@@ -27,6 +27,24 @@ const bool kMedia = (kScattering || kFog) && kDrawsLight;
 /// Light may go straight through smooth glass, and shadow rays with it.
 const bool kThroughGlass = kThinGlass || kMatchedGlass;
 
+/// The sums of a path that draws guides (kAovGuides), and the normal of its last surface.
+struct Guide {
+  vec3 albedo;
+  vec3 normal;
+  float depth;
+  float share;      // of the ray that surfaces have taken so far
+  vec3 lastNormal;
+};
+
+/// A light path until the camera sees it (kLightPaths).
+struct LightPath {
+  vec3 flux;
+  float range;       // of its punctual light, or 0
+  float travelled;   // distance since the light, up to the surface that was passed last
+  bool glassFirst;   // it has met smooth glass first
+  vec2 splatPixel;   // the place in the picture at which the camera sees its end
+};
+
 struct Path {
   int phase;
   int after;       // the phase that follows once the shadow ray is settled
@@ -43,7 +61,6 @@ struct Path {
   bool caught;     // it has met the shadow catcher (kShadowCatcher)
   bool throughGlass;  // the shadow ray passes glass that does not bend it (kThroughGlass)
   int prefix;         // kPrefix* (kCaustics)
-  bool glassFirst;    // of a light path: it has met smooth glass first (kLightPaths)
   bool covered;    // a camera ray has hit a surface
   vec3 radiance;
   vec3 throughput;
@@ -59,7 +76,8 @@ struct Path {
   float shadowLimit;
   uint shadowMedium;  // that the shadow ray is inside of, as `medium` (kMedia)
   vec3 aovWeight;       // the share of the light still to come that belongs to the AOV (kLightAov)
-  vec2 splatPixel;      // the place in the picture at which the camera sees the end of a light path (kLightPaths)
+  Guide guide;
+  LightPath fromLight;
   vec3 contribution;  // added if the shadow ray meets nothing
   int hitSlot;        // what the ray has hit, or -1
   float hitT;         // since the last scattering
@@ -85,7 +103,6 @@ Path newPath() {
   p.caught = false;
   p.throughGlass = false;
   p.prefix = kPrefixNone;
-  p.glassFirst = false;
   p.covered = false;
   p.radiance = vec3(0.0);
   p.throughput = vec3(1.0);
@@ -99,7 +116,8 @@ Path newPath() {
   p.shadowLimit = 0.0;
   p.shadowMedium = kPrimitiveNone;
   p.aovWeight = vec3(kAov == kAovDiffuse || kAov == kAovSpecular ? 0.0 : 1.0);
-  p.splatPixel = vec2(0.0);
+  if (kAov == kAovGuides) p.guide = Guide(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(0.0, 0.0, 1.0));
+  if (kLightPaths) p.fromLight = LightPath(vec3(0.0), 0.0, 0.0, false, vec2(0.0));
   p.contribution = vec3(0.0);
   p.hitSlot = -1;
   p.hitT = 0.0;

@@ -78,6 +78,18 @@ LightSample lightAt(Path p, Surface s, SurfaceMaterial m) {
   return lightOfSlot(0, s.position, normal, p.sampler, dimension);
 }
 
+/// Takes one light sample, and sets up its shadow ray.
+Path sampleLd(Path p, Surface s, SurfaceMaterial m, Scattering at) {
+  LightSample light = lightAt(p, s, m);
+  vec3 wi = toFrame(at.around, light.direction);
+  bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (wi.z > 0.0);
+  BsdfValue value = evaluateBsdf(at.b, at.wo, wi);
+  float weight = lightWeight(light, value.pdf);
+  if (kLightAov && p.bounce == 0) p.aovWeight = aovShare(at.b, at.wo, wi);
+  if (kThroughGlass) p.throughGlass = passesGlass(p, s, m, light.direction);
+  return spawnShadowRay(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
+}
+
 /// The path-traced material: one light sample, and one direction drawn from the BSDF.
 Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   if (kDispersion) {
@@ -92,16 +104,7 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   // The numbers of this bounce are drawn before it is counted.
   float choice = kPassesLight ? pathRandom(p, kLobeDimension) : 0.0;
   vec2 uv = drawPair(p.sampler, dimension + kDirectionDimension);
-  if (lightSlotCount() > 0) {
-    LightSample light = lightAt(p, s, m);
-    vec3 wi = toFrame(around, light.direction);
-    bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (wi.z > 0.0);
-    BsdfValue value = evaluateBsdf(b, wo, wi);
-    float weight = lightWeight(light, value.pdf);
-    if (kLightAov && p.bounce == 0) p.aovWeight = aovShare(b, wo, wi);
-    if (kThroughGlass) p.throughGlass = passesGlass(p, s, m, light.direction);
-    p = spawnShadowRay(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
-  }
+  if (lightSlotCount() > 0) p = sampleLd(p, s, m, at);
   BsdfSample next = sampleBsdf(b, wo, choice, uv.x, uv.y);
   if (kLightAov && p.bounce == 0) {
     bool delta = next.pdf == 0.0;

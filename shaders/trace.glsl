@@ -112,13 +112,13 @@ FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
   float alpha = coverageOf(p);
   if (kShadowCatcher) p = showShadow(p);
   if (kLightPaths) {
-    storeRecord(recordOf(pixel, film.samples), p.radiance, p.splatPixel);
+    storeRecord(recordOf(pixel, film.samples), p.radiance, p.fromLight.splatPixel);
     film.samples += 1u;
   } else if (kLightRecords) {
     film.samples += 1u;
   } else if (kAov == kAovGuides) {
     p = endGuide(p);
-    film = addGuides(film, p.radiance, p.contribution, p.shadowLimit, alpha);
+    film = addGuides(film, p.guide.albedo, p.guide.normal, p.guide.depth, alpha);
   } else {
     if (kShadowCatcher && frame.backgroundShows < 0.0) film.flags |= kPixelOverWhite;
     film = addSample(film, p.radiance, alpha);

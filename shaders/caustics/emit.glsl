@@ -88,8 +88,7 @@ Emission drawEmission(Sampler sampler) {
 /// The key of the random numbers of a pass of light paths, which has Sobol points of its own.
 uint keyOfLightPaths() { return pixelKey(uint(frame.firstSample), 0xfffffffeu, uint(frame.seed)); }
 
-/// Begins a light path. Until the camera sees it, `contribution` is its flux and `shadowLimit` the range of its light.
-/// A pass has as many rows of paths as its height asks for, each as wide as the picture.
+/// Begins a light path. A pass has as many rows of paths as its height asks for, each as wide as the picture.
 Path startLightPath(ivec2 record, uint key, int steps) {
   ivec2 place = inPicture(record);
   uint index = uint(place.y * frame.pictureSize.x + place.x);
@@ -97,8 +96,8 @@ Path startLightPath(ivec2 record, uint key, int steps) {
   Emission e = drawEmission(sampler);
   Path p = pathAlong(e.origin, e.direction, sampler, steps);
   p.cameraRay = false;
-  p.contribution = e.flux;
-  p.shadowLimit = e.range;
+  p.fromLight.flux = e.flux;
+  p.fromLight.range = e.range;
   if (maxComponent(e.flux) <= 0.0f) p.phase = kPhaseEnd;
   return p;
 }

@@ -48,7 +48,7 @@ SeenFrom cameraFrom(vec3 point, vec2 lens) {
 
 /// Returns true if --bounces lets a camera path go the same way back.
 bool withinBounces(Path p) {
-  int most = kTransmission && p.glassFirst ? frame.maxBounces : frame.maxBounces + 1;
+  int most = kTransmission && p.fromLight.glassFirst ? frame.maxBounces : frame.maxBounces + 1;
   return 1 + limitedScatterings(p) <= most;
 }
 
@@ -79,13 +79,13 @@ Path splat(Path p, Surface s, SurfaceMaterial m, float times) {
   vec3 value = evaluateBsdf(at.b, at.wo, wi).value;
   float arriving = max(abs(dot(p.direction, s.geometricNormal)), 1e-9);
   float leaving = abs(dot(camera.direction, s.geometricNormal));
-  vec3 light = p.contribution * p.throughput * value * (times * p.etaScale * camera.importance * leaving / arriving);
+  vec3 light = p.fromLight.flux * p.throughput * value * (times * p.etaScale * camera.importance * leaving / arriving);
   if (kAbsorption && medium != kPrimitiveNone) {
     light *= exp(-camera.distance * materialFloats(medium, kMaterialVolume).rgb);
   }
   if (!(maxComponent(light) > 0.0)) return p;
   p.contribution = light;
-  p.splatPixel = camera.place;
+  p.fromLight.splatPixel = camera.place;
   // The shadow ray starts at the camera, since single-sided surfaces stop light from one side only.
   vec3 target = offsetOrigin(s.position, s.positionError, s.geometricNormal, camera.direction);
   p.shadowOrigin = s.position + camera.distance * camera.direction;
@@ -109,7 +109,7 @@ bool isSingleSided(uint material, uint flags) {
 /// Continues behind the surface, as if it were not there.
 Path passOn(Path p, Surface s, float times) {
   p.throughput *= times;
-  p.pdf += p.hitT;
+  p.fromLight.travelled += p.hitT;
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
   if (kCreases) p.tie = s.front ? -kTie : kTie;
   return extend(p);
@@ -134,8 +134,8 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   if (passes) return passOn(p, s, mayScatter ? 1.0 / kPassedOn : 1.0);
   if (singleSided) p.throughput /= 1.0 - kPassedOn;
   if (p.bounce == 0) {
-    float travelled = p.pdf + p.hitT;
-    p.contribution *= rangeWindow(travelled * travelled, p.shadowLimit);
+    float travelled = p.fromLight.travelled + p.hitT;
+    p.fromLight.flux *= rangeWindow(travelled * travelled, p.fromLight.range);
   }
   SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
   if (kDispersion) {
@@ -164,6 +164,6 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   float before = abs(dot(p.direction, s.geometricNormal)) * abs(next.wi.z);
   float after = abs(dot(direction, s.geometricNormal)) * abs(at.wo.z);
   vec3 weight = next.weight * (after / max(before, 1e-9) / (1.0 - splats));
-  if (p.bounce == 0) p.glassFirst = glass;
+  if (p.bounce == 0) p.fromLight.glassFirst = glass;
   return proceed(spawnRay(p, s, direction, weight, 0.0, next.transmitted, m));
 }
