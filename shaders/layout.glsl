@@ -49,7 +49,7 @@ const uint kWorkGroupHands = 8u;
 const uint kFrameBinding = 0u;
 const uint kFogBinding = 1u;
 
-// A program draws an AOV in place of radiance (kAov); as enum Aov of src/stage/aov.h.
+// A program draws an AOV in place of radiance (kAov); as enum Aov of src/shader/aov.h.
 const int kAovNone = 0;
 const int kAovAlbedo = 1;
 const int kAovNormal = 2;

@@ -6,21 +6,21 @@
 #include <cmath>
 #include <optional>
 
+#include "base/errors.h"
 #include "bench/command/commands.h"
 #include "bench/command/configurations.h"
 #include "bench/command/results.h"
 #include "bench/report/error_report.h"
-#include "errors.h"
 #include "image/channels.h"
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
 #include "image/display/tone_map.h"
 #include "options/choose.h"
 #include "options/numbers.h"
-#include "picture/denoising.h"
-#include "picture/draw_picture.h"
 #include "render/adaptive.h"
 #include "session/phase_timer.h"
+#include "session/picture/denoising.h"
+#include "session/picture/draw_picture.h"
 #include "session/progress_bar.h"
 #include "session/tracer.h"
 

@@ -11,12 +11,12 @@
 #include <numbers>
 #include <thread>
 
-#include "errors.h"
-#include "live/view_tracer.h"
+#include "base/errors.h"
+#include "base/thread_name.h"
 #include "options/camera_text.h"
-#include "picture/denoising.h"
-#include "process/thread_name.h"
 #include "session/phase_timer.h"
+#include "session/picture/denoising.h"
+#include "view/live/view_tracer.h"
 #include "view/view_state.h"
 
 namespace fragtrace {

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <memory>
 
+#include "base/errors.h"
+#include "base/summary.h"
 #include "bench/command/commands.h"
 #include "bench/command/configurations.h"
 #include "bench/command/results.h"
@@ -13,8 +15,6 @@
 #include "bench/rays/hit_check.h"
 #include "bench/rays/ray_sets.h"
 #include "bench/report/scale_report.h"
-#include "errors.h"
-#include "math/summary.h"
 #include "options/choose.h"
 #include "options/numbers.h"
 #include "pack/pack_tree.h"

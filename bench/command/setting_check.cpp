@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "errors.h"
-#include "film/picture_check.h"
+#include "base/errors.h"
 #include "image/channels.h"
 #include "options/same_picture.h"
+#include "render/film/picture_check.h"
 #include "session/progress_bar.h"
 
 namespace fragtrace {

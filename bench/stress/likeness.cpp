@@ -5,7 +5,7 @@
 
 #include "bench/report/formatted.h"
 #include "bench/stress/random_sketch.h"
-#include "film/picture_check.h"
+#include "render/film/picture_check.h"
 
 namespace fragtrace {
 

@@ -12,7 +12,7 @@
 #include "pack/literals.h"
 #include "pack/pack_tree.h"
 #include "render/ray_caster.h"
-#include "stage/variant.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "bench/stress/scene_drawing.h"
 
+#include "base/errors.h"
 #include "bench/report/scratch_folder.h"
 #include "bvh/two_level.h"
-#include "errors.h"
 #include "gl/schedule.h"
 #include "gltf/gltf.h"
 #include "pack/literals.h"

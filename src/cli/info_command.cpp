@@ -14,8 +14,8 @@
 #include "pack/gpu_scene.h"
 #include "scene/parts.h"
 #include "session/scene_json.h"
-#include "stage/render_options.h"
-#include "stage/variant.h"
+#include "shader/render_options.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 

@@ -8,19 +8,19 @@
 #include <thread>
 
 #include "advice.h"
+#include "base/errors.h"
+#include "base/plugin.h"
+#include "base/thread_name.h"
 #include "cli/commands.h"
-#include "errors.h"
-#include "live/reference.h"
-#include "live/view_tracer.h"
 #include "options/camera_text.h"
 #include "options/command_text.h"
 #include "options/view_options.h"
-#include "picture/denoising.h"
-#include "process/plugin.h"
-#include "process/thread_name.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
+#include "session/picture/denoising.h"
 #include "session/say.h"
+#include "view/live/reference.h"
+#include "view/live/view_tracer.h"
 #include "view/window.h"
 
 namespace fragtrace {

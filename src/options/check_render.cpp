@@ -2,7 +2,7 @@
 // Options that depend on others.
 #include <algorithm>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/format.h"
 #include "image/image.h"
 #include "options/choose.h"

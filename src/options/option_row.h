@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
-#include "stage/effect.h"
-#include "stage/render_options.h"
+#include "shader/effect.h"
+#include "shader/render_options.h"
 
 namespace CLI {
 class App;

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/errors.h"
 #include "bvh/bvh.h"
-#include "errors.h"
 #include "options/option_table.h"
 #include "options/row_makers.h"
 

@@ -9,12 +9,12 @@
 #include <numeric>
 #include <thread>
 
-#include "math/luminance.h"
+#include "base/luminance.h"
+#include "base/parallel.h"
 #include "pack/environment_light.h"
 #include "pack/inversion_table.h"
 #include "pack/pack_lights.h"
 #include "pack/words.h"
-#include "process/parallel.h"
 
 namespace fragtrace {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "pack/words.h"
 #include "scene/hit_error.h"
 

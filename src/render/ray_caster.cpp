@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "errors.h"
+#include "base/errors.h"
 
 namespace fragtrace {
 

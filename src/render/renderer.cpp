@@ -9,7 +9,7 @@
 #include <cstring>
 #include <deque>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "render/draw_plan.h"
 
 namespace fragtrace {

@@ -18,7 +18,7 @@
 #include "render/draw_target.h"
 #include "render/film.h"
 #include "scene/fog.h"
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "math/bounds.h"
+#include "base/bounds.h"
 
 namespace fragtrace {
 

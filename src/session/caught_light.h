@@ -6,7 +6,7 @@
 
 #include "pack/gpu_scene.h"
 #include "scene/shadow_outline.h"
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 

@@ -9,7 +9,7 @@
 #include "image/image.h"
 #include "pack/gpu_scene.h"
 #include "pack/own_light.h"
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 

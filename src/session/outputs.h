@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/scene.h"
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 

@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "errors.h"
-#include "film/film_pixels.h"
+#include "base/errors.h"
 #include "image/channels.h"
+#include "render/film/film_pixels.h"
 
 namespace fragtrace {
 

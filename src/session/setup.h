@@ -12,7 +12,7 @@
 #include "render/renderer.h"
 #include "session/say.h"
 #include "session/statistics.h"
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 
@@ -34,7 +34,7 @@ struct LoadedScene {
 /// that is behind, 0..1; what it throws ends loading.
 using LoadProgress = GltfProgress;
 
-/// Whether one film is to hold all of a picture, or only a part at a time (picture/picture_parts.h).
+/// Whether one film is to hold all of a picture, or only a part at a time (session/picture/picture_parts.h).
 enum class FilmOf : uint8_t { Picture, Part };
 
 /// What the scene of one picture of an animation leaves to the next; each may be none.

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "math/summary.h"
+#include "base/summary.h"
 #include "session/scene_json.h"
 
 namespace fragtrace {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "bvh/bvh.h"
-#include "film/film_pixels.h"
 #include "gl/context.h"
+#include "render/film/film_pixels.h"
 #include "render/renderer.h"
 #include "scene/describe.h"
 #include "session/phase_timer.h"

@@ -6,17 +6,17 @@
 #include <iomanip>
 #include <sstream>
 
-#include "errors.h"
+#include "base/errors.h"
+#include "base/hash.h"
+#include "base/parallel.h"
 #include "gl/driver_choice.h"
 #include "gl/schedule.h"
-#include "math/hash.h"
 #include "pack/literals.h"
 #include "pack/pack_textures.h"
-#include "process/parallel.h"
 #include "scene/light_spread.h"
 #include "session/outputs.h"
 #include "session/say.h"
-#include "stage/glass_tables.h"
+#include "shader/glass_tables.h"
 
 namespace fragtrace {
 

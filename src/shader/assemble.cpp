@@ -5,12 +5,12 @@
 #include <set>
 #include <sstream>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "shader/embedded.h"
+#include "shader/glass_tables.h"
 #include "shader/live_text.h"
 #include "shader/reads_text.h"
 #include "shader/stack_text.h"
-#include "stage/glass_tables.h"
 
 namespace fragtrace {
 

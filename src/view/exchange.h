@@ -15,8 +15,8 @@
 #include "bvh/tree_boxes.h"
 #include "image/image.h"
 #include "scene/describe.h"
-#include "stage/render_options.h"
-#include "stage/traits.h"
+#include "shader/render_options.h"
+#include "shader/traits.h"
 #include "view/pass_times.h"
 
 namespace fragtrace {

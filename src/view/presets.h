@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-#include "stage/stage.h"
+#include "shader/stage.h"
 
 namespace fragtrace {
 

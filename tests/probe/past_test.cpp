@@ -8,8 +8,8 @@
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
 #include "image/display/tone_map.h"
-#include "live/view_picture.h"
 #include "view/camera_controller.h"
+#include "view/live/view_picture.h"
 
 namespace fragtrace {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "film/debug_picture.h"
+#include "render/film/debug_picture.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "glsl.h"
+#include "shader/render_options.h"
 #include "shader_statistics.h"
-#include "stage/render_options.h"
 
 namespace fragtrace {
 namespace {
@@ -106,8 +106,7 @@ TEST(ShaderPixelFilter, DensityIsTheFilters) {
     Draw draw(71);
     for (int i = 0; i < 20000; ++i) {
       const dvec2 p(draw.between(-2.2, 2.2), draw.between(-2.2, 2.2));
-      EXPECT_NEAR(glsl_double::pixelFilterPdf(filter, p), pdfOf(filter, p),
-                  2e-3 * pdfOf(filter, p) + 1e-6)
+      EXPECT_NEAR(glsl_double::pixelFilterPdf(filter, p), pdfOf(filter, p), 2e-3 * pdfOf(filter, p) + 1e-6)
           << "filter " << filter << " at " << p.x << ", " << p.y;
     }
   }

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/luminance.h"
 #include "glsl.h"
-#include "math/luminance.h"
 #include "shader_statistics.h"
 
 namespace fragtrace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "base/errors.h"
 #include "bvh/bvh.h"
-#include "errors.h"
 #include "shader/assemble.h"
 #include "shader/embedded.h"
-#include "stage/variant.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "math/finite.h"
+#include "base/finite.h"
 #include "scene/tangents.h"
 
 namespace fragtrace {

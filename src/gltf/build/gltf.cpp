@@ -5,8 +5,8 @@
 #include <cmath>
 #include <new>
 
+#include "base/errors.h"
 #include "bvh/contacts.h"
-#include "errors.h"
 #include "gltf/build/flatten.h"
 #include "gltf/build/materials.h"
 #include "gltf/build/meshes.h"

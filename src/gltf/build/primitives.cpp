@@ -8,9 +8,9 @@
 #include <numeric>
 #include <utility>
 
+#include "base/finite.h"
 #include "gltf/build/topology.h"
 #include "gltf/read/accessor.h"
-#include "math/finite.h"
 #include "scene/tangents.h"
 
 namespace fragtrace {

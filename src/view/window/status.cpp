@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/summary.h"
 #include "image/files/whole_file.h"
-#include "math/summary.h"
 
 namespace fragtrace {
 

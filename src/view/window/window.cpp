@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "view/window/glfw_window.h"
 #include "view/window/view_window.h"
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "gl/gl.h"
 #include "view/shown_names.h"
 #include "view/window/panel_parts.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "gl/gl.h"
 #include "image/image.h"
 #include "view/shown_names.h"
