@@ -156,7 +156,7 @@ Bsdf compensate(Bsdf b) {
   return b;
 }
 
-/// Of the drawings from diffuse lobes, the part that goes through the surface.
+/// The share of the samples of diffuse lobes that goes through the surface.
 float throughChance(Bsdf b, float reflected, float through) {
   if (!kDiffuseTransmission || b.diffuseThrough <= 0.0f) return 0.0f;
   return reflected > 0.0f ? through / (reflected + through) : 1.0f;
@@ -177,7 +177,7 @@ vec4 lobeChances(Bsdf b, float cosine) {
     return vec4(glass, 0.0f, (1.0f - glass) * (1.0f - below), (1.0f - glass) * below);
   }
   float specular = maxComponent(opaqueFresnel(b, cosine));
-  // Where the layer reflects all at this angle it lets light through at those of other facets.
+  // A layer that reflects all at this angle lets light through at those of other facets.
   float layer = b.opaque * max(throughLayer(b, cosine), float(0.001));
   float diffuse = layer * reflected;
   if (kDiffuseTransmission) through *= layer;
@@ -195,7 +195,7 @@ vec4 lobeChances(Bsdf b, float cosine) {
   return vec4(glass, (1.0f - glass) * share, rest * (1.0f - below), rest * below);
 }
 
-/// Of the light that facets of the glass lose, the share that comes back on the side of `wo`.
+/// The share of the light that facets of the glass lose that comes back on the side of `wo`.
 float scatteredBack(Bsdf b) {
   float eta = b.solid ? b.eta : max(b.eta, 1.0f / b.eta);
   float single = clamp(averageDielectric(eta), 0.0f, 1.0f);
@@ -253,12 +253,12 @@ BsdfValue evaluateMicrofacets(Bsdf b, vec3 wo, vec3 wi) {
   }
   r.pdf = share * pdf * jacobian;
   r.value = tint * (r.pdf * ratio);
-  // What masking takes is drawn elsewhere then (drawBase).
+  // Masked samples are drawn elsewhere then (drawBase).
   if (b.glassLost > 0.0f) r.pdf *= ratio;
   return r;
 }
 
-/// Of all of the rough glass.
+/// Value and pdf of rough glass, multiple scattering included.
 BsdfValue evaluateGlass(Bsdf b, vec3 wo, vec3 wi) {
   BsdfValue r = evaluateMicrofacets(b, wo, wi);
   if (!kCompensation || b.glassLost <= 0.0f) return r;
@@ -288,7 +288,7 @@ vec3 diffuseValue(Bsdf b, vec3 wi, float oh) {
   return lit * diffuseColor(b);
 }
 
-/// Of all that lies under sheen and clearcoat.
+/// Value and pdf of everything under sheen and clearcoat.
 BsdfValue evaluateBase(Bsdf b, vec3 wo, vec3 wi) {
   BsdfValue r;
   r.value = vec3(0.0f);

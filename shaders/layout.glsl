@@ -22,7 +22,7 @@ const uint kEnvironmentBinding = 11u;
 const uint kEnvironmentInversionBinding = 12u;
 const uint kSceneBufferCount = 13u;
 
-// Where scene buffers read as images begin among the image units, behind the film.
+// The first image unit of scene buffers that are read as images; the film has those before it.
 const uint kSceneImageBase = 3u;
 
 // Film images, one texel a pixel.
@@ -37,7 +37,7 @@ const uint kProgressBinding = 14u;
 // a suspended path come one more, those of its stack, and one where parts of the light are drawn, or light paths.
 const uint kPathRows = 12u;
 const uint kPathPassingRows = 3u;
-// Of the wavefront: a lane has this many pixels of a column of its tile, each with the state of its path, and a row of
+// A lane of the wavefront has this many pixels of a column of its tile, each with the state of its path, and a row of
 // its own before them.
 const uint kWaveSlots = 32u;
 const uint kWaveLaneRows = kWaveSlots * kPathRows + 1u;
@@ -137,7 +137,7 @@ const uint kSlotDiffuseTransmissionColor = 16u;
 const uint kSlotScatterStrength = 17u;
 const uint kSlotMultiscatterColor = 18u;
 const uint kSlotCount = 19u;
-// What extensions add; read only where a material of the scene has them.
+// Extensions add these rows; they are read only where a material of the scene has them.
 const uint kMaterialClearcoat = kMaterialTextures + kSlotCount;       // weight, roughness, normal scale, dispersion
 const uint kMaterialSheen = kMaterialClearcoat + 1u;                  // colour, roughness
 const uint kMaterialAnisotropy = kMaterialSheen + 1u;                 // strength, cosine and sine of the rotation
@@ -265,7 +265,7 @@ struct Fog {
   vec4 density;  // extinction at the base and below (1 / local space); 1 / the height in which it falls by e; base
 };
 
-// What one draw reports.
+// The report of one draw.
 const float kCutUnits = 65536.0f;  // of throughput 1
 struct Progress {
   uint unfinished;  // pixels that have samples left

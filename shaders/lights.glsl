@@ -27,8 +27,7 @@ float lightWeight(LightSample s, float other) {
   return environment ? balanceWeight(s.pdf, other) : misWeight(s.pdf, other);
 }
 
-/// What the range of a punctual light (0: none) leaves at a squared distance, and a spot's cone, of its axis and scale,
-/// in a direction (KHR_lights_punctual).
+/// The factor by which the range of a punctual light (0: none) dims it at a squared distance (KHR_lights_punctual).
 float rangeWindow(float squared, float range) {
   float ratio = range > 0.0f ? squared / (range * range) : 0.0f;
   return clamp(1.0f - ratio * ratio, 0.0f, 1.0f);
@@ -67,7 +66,7 @@ uvec4 emitterRow(int emitter, int row) {
   return kLiterals ? literalEmitter(emitter, row) : readEmitters(emitter * int(kEmitterRows) + row);
 }
 
-/// What a point of an emissive triangle in a leaf slot, of these barycentric weights, sends out at `cosine`.
+/// The radiance that a point of an emissive triangle, by leaf slot and barycentric weights, emits at `cosine`.
 vec3 emittedFrom(uint material, int slot, vec2 weights, float cosine) {
   vec4 texcoords = vec4(0.0f);
   if ((kEmissionTexture || kClearcoatTexture) && kTexcoords) {
@@ -140,7 +139,7 @@ LightSample lightOfEmitter(int emitter, float chance, vec3 point, float u, float
   return s;
 }
 
-/// Which point or direction of the lights is sampled.
+/// The point or direction of the lights that is sampled.
 struct LightChoice {
   int emitter;   // kFromEnvironment: the environment
   float chance;  // of the emitter or the environment; 0: no light reaches the point
@@ -166,7 +165,7 @@ LightChoice emitterByPower(float chance, uvec2 bits) {
   int emitter = emitterAt(bits.x);
   uvec4 entry = emitterRow(emitter, 0);
   float share = uintBitsToFloat(entry.w);
-  // Where among its own numbers the bits lie.
+  // The place of the bits among the emitter's own numbers.
   float u = min(float(entry.z - bits.x) / (share * 4294967296.0f), float(0.99999994));
   return makeChoice(emitter, chance * share, bits, u, unitFloat(bits.y));
 }
@@ -324,15 +323,15 @@ float chanceOfLight(int emitter, vec3 point, uint normal) {
   return treePdf(int(kind), point, normal, 1.0f, 1.0f) / uintBitsToFloat(emitterRow(emitter, 2).w);
 }
 
-/// How many light samples each shaded point takes: one with global illumination; else each punctual light, and one
-/// point of the emissive triangles.
+/// The number of light samples that each shaded point takes: one with global illumination; else one of each punctual
+/// light, and one of the emissive triangles.
 int lightSlotCount() {
   if (kGi) return kPunctualLights || kEmissiveTriangles || kEnvironmentSampling ? 1 : 0;
   int count = kPunctualLights ? int(frame.punctualCount) : 0;
   return count + (kEmissiveTriangles ? 1 : 0);
 }
 
-/// What draws a light of global illumination: numbers that choose it (kLightTree), and a point or direction.
+/// The random numbers that draw a light of global illumination (kLightTree), and a point or direction of it.
 struct LightNumbers {
   uint choice;
   uvec2 bits;
@@ -345,7 +344,7 @@ LightNumbers lightNumbers(Sampler sampler, uint dimension) {
   return n;
 }
 
-/// What these numbers choose for a point of global illumination.
+/// The choice of these numbers for a point of global illumination.
 LightChoice chooseLight(LightNumbers n, vec3 point, uint normal) {
   bool emitters = kPunctualLights || kEmissiveTriangles;
   float chance = frame.environmentChance;

@@ -103,7 +103,7 @@ vec2 clearcoatAt(uint material, vec4 texcoords) {
   return coat;
 }
 
-/// What the clearcoat lets out of the light that the surface emits, seen at `cosine` to the triangle.
+/// The share of the emitted light that leaves through the clearcoat, seen at `cosine` to the triangle.
 float emissionUnderCoat(uint material, vec4 texcoords, float cosine) {
   if (!kClearcoat) return 1.0;
   return 1.0 - clearcoatAt(material, texcoords).x * fresnelSchlick(vec3(kCoatF0), 1.0, cosine).x;

@@ -4,7 +4,7 @@
 /// Paths scatter, so that --bounces can end them.
 const bool kScatters = kGi || kReflections || kRefraction;
 
-/// What is drawn are numbers of parts of the scene, which have no mean: they are those of the pixel's middle.
+/// The AOV is a number of a part of the scene. Such numbers have no mean: they are those of the pixel's middle.
 const bool kCountsParts = kAov == kAovObject || kAov == kAovMaterial;
 
 const uint kCameraDimensions = 0u;
@@ -28,7 +28,7 @@ const float kGlassSurvival = 0.99;
 const int kLatestRoulette = 1000;
 const float kMediumSurvival = 0.999;  // from kLatestRoulette on
 
-/// Of light paths; those of their bounces are those of camera paths.
+/// Dimensions of light paths; their bounces have the dimensions of camera paths.
 const uint kAimDimensions = 0u;     // to 1
 const uint kEmitterPointDimensions = 4u;  // to 5
 const uint kEmitterDimension = 6u;
@@ -84,10 +84,10 @@ Path extend(Path p) {
   return p;
 }
 
-/// Where a pixel of the film is in the picture; y from the bottom.
+/// The place of a pixel of the film in the picture; y from the bottom.
 ivec2 inPicture(ivec2 pixel) { return pixel + frame.filmOffset; }
 
-/// Of the random numbers of a pixel of the film.
+/// The key of the random numbers of a pixel of the film.
 uint keyOfPixel(ivec2 pixel) {
   ivec2 place = inPicture(pixel);
   return pixelKey(uint(place.x), uint(frame.pictureSize.y - 1 - place.y), uint(frame.seed));
@@ -154,8 +154,7 @@ bool passesGlass(Path p, Surface s, SurfaceMaterial m, vec3 direction) {
   return !inside && limitedScatterings(p) < frame.maxBounces;
 }
 
-/// What a path that --bounces has ended could still have carried: luminance of its throughput, as seen from outside all
-/// glass.
+/// The luminance of the throughput that a path had left when --bounces ended it, as seen from outside all glass.
 float cutThroughput(Path p) {
   if (!kScatters || p.phase != kPhaseCut) return 0.0;
   return kPassesLight ? luminance(p.throughput) * p.etaScale : luminance(p.throughput);
@@ -169,7 +168,7 @@ void reportCut(float cut) {
   if (before + units < before) atomicAdd(progress.cutHigh, 1u);
 }
 
-/// What the camera sees where its ray meets nothing.
+/// The radiance that the camera sees where its ray meets nothing.
 vec3 seenBehind(vec3 direction) {
   if (!kEnvironment || frame.backgroundShows <= 0.0) return frame.background;
   if (kBackdrop) return backdropAlong(direction);
@@ -214,7 +213,7 @@ float alphaAt(uint material, uint flags, float alpha) {
   return clamp(alpha, 0.0, 1.0);
 }
 
-/// Whether light may come through the surface.
+/// Returns true if light may come through the surface.
 bool takesLightFromBehind(Surface s, SurfaceMaterial m) {
   if (m.transmission > 0.0) return true;
   return kDiffuseTransmission && materialFloats(s.material, kMaterialDiffuseTransmission).w > 0.0;
@@ -274,8 +273,8 @@ Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool tr
   p.normal = normalOfLight(s, m);
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, direction);
   p.direction = direction;
-  // Where two faces meet sharply, which of them a ray hits first is a matter of rounding: one that has left a front is
-  // to meet a front.
+  // At a sharp edge, rounding decides which of two faces a ray hits first. A ray that has left a front is to meet a
+  // front.
   if (kCreases) p.tie = (dot(direction, s.geometricNormal) > 0.0) == s.front ? kTie : -kTie;
   p.after = kPhaseExtend;
   return p;

@@ -45,7 +45,7 @@ Path withCounts(Path p, uint scatterings, uint freeBounces) {
   return p;
 }
 
-/// What a traversal has met.
+/// The hit of a traversal as a row.
 uvec4 metBy(Traversal t) { return uvec4(floatBitsToUint(t.t), uint(t.slot), floatBitsToUint(t.weights)); }
 
 /// begins: nothing has changed yet what a camera ray carries. The wavefront keeps fewer rows of such a path.

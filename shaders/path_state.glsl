@@ -5,9 +5,9 @@ const int kPhaseExtend = 0;  // the path's ray is being traced
 const int kPhaseShade = 1;   // it has hit something; light slot `lightSlot` is next
 const int kPhaseShadow = 2;  // the shadow ray of that slot is being traced
 const int kPhaseEnd = 3;     // the sample is complete
-const int kPhaseCut = 4;     // so it is, because the path has scattered as often as it may
+const int kPhaseCut = 4;     // it is complete because the path has scattered as often as --bounces allows
 const int kPhaseNone = 5;    // no path: the pixel's next one is to begin (wavefront)
-const int kPhasePass = 6;    // of `after` alone: the ray goes on behind the thin wall that it has met
+const int kPhasePass = 6;    // a value of `after` alone: the ray goes on behind the thin wall that it has met
 
 const float kTie = 9.5367431640625e-7;  // 2^-20: 16 roundings of a distance
 
@@ -127,7 +127,7 @@ Path newPath() {
   return p;
 }
 
-/// What the path's ray has met.
+/// The path with the hit of its ray.
 Path withHit(Path p, Traversal hit) {
   p.hitSlot = hit.slot;
   p.hitInstance = hit.hitInstance;

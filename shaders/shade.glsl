@@ -18,8 +18,8 @@ Bsdf baseBsdf(SurfaceMaterial m, bool front) {
   return b;
 }
 
-/// Of the light on the rough glass of a surface, what single scattering loses, seen at `cosine`. A thin wall spreads
-/// light both ways as a mirror of its roughness does.
+/// The share of the light on rough glass that single scattering loses, seen at `cosine`. A thin wall spreads light both
+/// ways as a mirror of its roughness does.
 float glassLostAt(Bsdf b, Surface s, float cosine) {
   if (b.glass <= 0.0 || isSmoothGlass(b)) return 0.0;
   if (!b.solid) return ggxLoss(cosine, b.alpha);
@@ -170,7 +170,7 @@ vec3 normalFacing(Surface s, vec3 wo) {
   return kGi && kSpecular ? reflectingNormal(normal, s.geometricNormal, wo) : normal;
 }
 
-/// What of the light on a shadow ray a surface lets straight through: the weight with which a path along it would pass.
+/// The share of a shadow ray's light that a surface lets straight through: the weight of a path that passes it.
 vec3 lightThrough(Surface s, vec3 baseColor, vec3 direction) {
   SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
   if (m.transmission * (1.0 - m.metallic) <= 0.0) return vec3(0.0);
@@ -188,7 +188,7 @@ float depthOf(Surface s) {
   return dot(s.position - frame.cameraPosition, frame.cameraForward) * frame.metresPerUnit;
 }
 
-/// Of the glTF node that shows what was hit, from 1 on.
+/// The number of the glTF node that was hit, from 1 on.
 float objectNumber(int slot, int instance) {
   if (!kObjectNumbers) return 0.0;
   bool shown = kInstances && instance >= 0;

@@ -126,7 +126,7 @@ FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
   return film;
 }
 
-/// What the path's ray has met says what the path does next.
+/// Takes the step that follows from the hit or miss of the path's ray.
 Path meet(Path p) {
   if (kHeatmap) {
     p.phase = kPhaseEnd;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finding what a ray hits. A traversal is a value that can stop at a step limit and go on in a later draw.
 
-/// Where a traversal stands: done when node is kTraversalDone.
+/// The state of a traversal, which is done when node is kTraversalDone.
 struct Traversal {
   int node;   // next inner node, complement of a leaf, or kTraversalDone; iterative: next block of leaves
   float t;    // nearest hit so far, else the ray's limit
@@ -45,7 +45,7 @@ Traversal startTraversal(float limit, int leafCount) {
   return s;
 }
 
-/// Whether a hit at distance t is nearer than what the traversal has. Where a ray passes through surfaces, all hits
+/// Returns true if a hit at distance t is nearer than the traversal's. Where a ray passes through surfaces, all hits
 /// along it have one order, by distance and slot, so that it meets each once, however close they lie.
 bool isNearer(Traversal s, float t, int slot) {
   if (!kPassing) return t > 0.0f && t < s.t;
@@ -175,8 +175,8 @@ TreeRay makeTreeRay(vec3 origin, vec3 direction, float start, vec3 gridOrigin, v
   return r;
 }
 
-/// What distances along a ray round by at most, but for triangles seen edge-on: a hit may lie that far outside of its
-/// box. A 16,384th of the way and of the scene, which is 65,536 cells wide; large triangles need a 2^21st.
+/// A bound on the rounding of distances along a ray, except for triangles seen edge-on: a hit may lie that far outside
+/// its box. It is a 16,384th of the way and of the scene, which is 65,536 cells wide; large triangles need a 2^21st.
 float roundingOf(float t, TreeFrame tree) {
   return 6.103515625e-5f * t + 4.0f * max(max(tree.cell.x, tree.cell.y), tree.cell.z);
 }
@@ -214,7 +214,7 @@ Traversal changeSpace(Traversal s) {
 Traversal stepNode(Traversal s, TreeRay ray, float rayLimit, TreeFrame tree, bool there) {
   NodePair n = loadNode(there ? s.node : 0);
   float limit = kFrontToBack ? s.t : rayLimit;
-  // What was passed through must not come before what lies at it.
+  // A surface that was passed must not end the ray before others at its distance.
   if (kPassing) limit += roundingOf(limit, tree);
   if (kInstances) limit -= ray.start;
   vec3 a0 = n.low0 * ray.scale + ray.bias;

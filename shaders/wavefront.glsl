@@ -34,7 +34,7 @@ int rowOf(Wave v, int k) { return v.first + k * kWaveRows; }
 
 uint keyOf(Wave v, int k) { return keyOfPixel(v.corner + ivec2(0, k)); }
 
-/// What the shadow ray has passed.
+/// Loads the distance up to which the shadow ray has passed surfaces.
 Path loadShadowPast(Path p, int row) {
   p.traversal.tMin = uintBitsToFloat(readPathStates(row + kRowTMin).z);
   return p;
@@ -61,8 +61,8 @@ void settleStates() {
   memoryBarrierImage();
 }
 
-/// What is short and the same for all rays: the triangles that the tree does not hold, and the first step into the
-/// tree. Done: the ray misses the tree.
+/// The first, short part of a traversal, which is the same for all rays: the triangles that the tree does not hold, and
+/// the first step into the tree. It is done if the ray misses the tree.
 Traversal beginRay(vec3 origin, vec3 direction, float limit, Traversal t, bool anyHit, TreeFrame tree) {
   if (kLargeFirst) {
     t = traverseLiterals(origin, direction, t, anyHit);

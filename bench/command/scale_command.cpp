@@ -257,6 +257,17 @@ std::unique_ptr<Image> checkRunners(Setting& setting, std::vector<Runner>& runne
   return first;
 }
 
+void timeRunners(const Setting& setting, std::vector<Runner>& runners, Renderer& renderer) {
+  for (Runner& runner : runners) {
+    runner.variant.reads = runners.front().variant.reads;
+    compile(setting, runner, renderer);
+    warmUp(setting, runner);
+  }
+  for (int round = 0; round < setting.options.rounds; ++round) {
+    for (Runner& runner : runners) timeFrames(setting, runner);
+  }
+}
+
 /// A size, as it is written. `iterativeMsPerTriangle` is that of the size before, and becomes this one's.
 Json measureSize(Setting& setting, size_t wanted, double& iterativeMsPerTriangle) {
   const ScaleOptions& options = setting.options;
@@ -290,14 +301,7 @@ Json measureSize(Setting& setting, size_t wanted, double& iterativeMsPerTriangle
     renderer = upload(setting, std::move(packed), runners.front().variant);
     row["upload_ms"] = watch.lap();
   }
-  for (Runner& runner : runners) {
-    runner.variant.reads = runners.front().variant.reads;
-    compile(setting, runner, *renderer);
-    warmUp(setting, runner);
-  }
-  for (int round = 0; round < options.rounds; ++round) {
-    for (Runner& runner : runners) timeFrames(setting, runner);
-  }
+  if (renderer) timeRunners(setting, runners, *renderer);
   row["sah_cost"] = quality.sahCost;
   row["depth"] = quality.depth;
   row["gpu_bytes"] = gpuBytes;

@@ -28,7 +28,7 @@ struct InfoOptions {
   bool decode = false;
 };
 
-/// What a scene takes on the device by default, textures and lights left out.
+/// The bytes a triangle that a scene takes on the device by default, without textures and lights.
 double gpuBytesPerTriangle(const Scene& scene, const Bvh& bvh, const TraitSet& traits,
                            Surroundings surroundings) {
   ShaderVariant variant = chooseVariant({}, traits, surroundings, bvh.depth, BufferReads::Auto);
@@ -92,7 +92,7 @@ void addParts(nlohmann::ordered_json& json, const Scene& scene) {
   json["material_variants"] = scene.materialVariants;
 }
 
-/// What a node holds, in words.
+/// The contents of a node, in words.
 std::vector<std::string> contentsOf(const SceneNode& node) {
   std::vector<std::string> words;
   if (node.mesh) words.emplace_back("mesh");

@@ -28,7 +28,7 @@ namespace fragtrace {
 namespace {
 
 constexpr const char* kLibraryName = "libfragtrace_window.so";
-/// How long the end of the program may wait for the tracing thread, which cannot be interrupted while the
+/// The program waits this long at its end for the tracing thread, which cannot be interrupted while the
 /// driver compiles and textures are decoded; and for files that are being written.
 constexpr std::chrono::milliseconds kPatience{400};
 constexpr std::chrono::seconds kPatienceForFiles{20};

@@ -28,7 +28,7 @@ enum class Renewal : uint8_t {
   Scene     ///< loadScene()
 };
 
-/// Which commands have an option.
+/// The commands that have an option.
 enum class OptionGroup : uint8_t {
   File,      ///< the scene and the picture, which each command declares by itself
   Tracing,   ///< all that trace

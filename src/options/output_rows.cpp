@@ -154,6 +154,7 @@ OptionRow formatRow() {
 
 }  // namespace
 
+// A table: NOLINTNEXTLINE(readability-function-size)
 std::vector<OptionRow> outputRows() {
   constexpr OptionTraits kDisplay{.effect = Effect::Display};
   constexpr OptionTraits kSaid{.effect = Effect::Report, .copied = false, .kept = true};

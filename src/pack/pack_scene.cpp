@@ -163,7 +163,7 @@ void appendEnergyTable(Words& words) {
   }
 }
 
-/// Of solids, each once: those that get a table.
+/// The indices of refraction of solids that get a table, each once.
 std::vector<float> indicesOfRoughGlass(const Scene& scene, const ShaderVariant& variant) {
   std::vector<float> indices;
   if (!usesGlassTables(variant)) return indices;
@@ -227,7 +227,7 @@ size_t GpuScene::geometryBytes() const {
 
 namespace {
 
-/// What the lights need to know of the packed map, which may stand on the device already.
+/// The properties of the packed map that the lights need. The map may be on the device already.
 KeptArrays::KeptEnvironment packMap(const Environment& environment, const ShaderVariant& variant,
                                     KeptArrays* kept, GpuScene& packed) {
   const EnvironmentDraws draws = drawsOf(variant);

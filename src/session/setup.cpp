@@ -139,7 +139,7 @@ GltfOptions gltfOptionsOf(const RenderOptions& options) {
 
 namespace {
 
-/// What a shadow catcher cannot do with the scene's lights.
+/// Warns of lights of the scene that a shadow catcher cannot show.
 void checkCatcher(const RenderOptions& options, Scene& scene) {
   constexpr size_t kMostLights = 1000;  // it asks each of them at every point
   if (!options.light.shadowCatcher) return;
@@ -179,6 +179,29 @@ void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& s
       stats.defaultLightReason +
           (studio ? ": the built-in studio lights it (--default-light)"
                   : ": a white environment that the camera does not see lights it (--default-light)"));
+}
+
+/// Says the warnings of the scene, with those about options in vain.
+void sayWarnings(const RenderOptions& options, Scene& scene) {
+  std::ranges::move(vainOptions(options), std::back_inserter(scene.warnings));
+  for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
+  if (scene.triangles.empty() && scene.spheres.empty()) {
+    const bool hidden = !options.selection.hiddenNodes.empty();
+    say(options, "warning: " + options.scene.string() + ": no triangle, sphere, point or line: " +
+                     (hidden ? "--hide leaves nothing to draw" : "nothing to draw"));
+  }
+}
+
+/// The tree: an earlier one refitted, if it fits the scene, or a new one.
+Bvh refitOrBuild(const Bvh* earlier, const Scene& scene, const RenderOptions& options, Statistics& stats) {
+  PhaseTimer timer("tree");
+  std::optional<Bvh> tree;
+  if (earlier != nullptr) tree = refitted(*earlier, scene);
+  stats.treeRefitted = tree.has_value();
+  Bvh bvh = tree ? std::move(*tree) : buildTree(scene, options);
+  stats.phases.push_back(timer.end());
+  stats.bvh = bvhQuality(bvh);
+  return bvh;
 }
 
 }  // namespace
@@ -255,22 +278,10 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   addStrokes(loaded.scene, loaded.camera, loaded.size.y, options.camera.lineWidth);
   checkCatcher(options, loaded.scene);
   checkCatcherPlace(options, loaded.scene);
-  std::ranges::move(vainOptions(options), std::back_inserter(loaded.scene.warnings));
-  for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
-  if (scene.triangles.empty() && scene.spheres.empty()) {
-    const bool hidden = !options.selection.hiddenNodes.empty();
-    say(options, "warning: " + options.scene.string() + ": no triangle, sphere, point or line: " +
-                     (hidden ? "--hide leaves nothing to draw" : "nothing to draw"));
-  }
+  sayWarnings(options, loaded.scene);
   stats.loadMs = watch.lap();
   step("building the tree", 0.5);
-  PhaseTimer treeTimer("tree");
-  std::optional<Bvh> tree;
-  if (before.tree != nullptr) tree = refitted(*before.tree, scene);
-  stats.treeRefitted = tree.has_value();
-  loaded.bvh = tree ? std::move(*tree) : buildTree(scene, options);
-  stats.phases.push_back(treeTimer.end());
-  stats.bvh = bvhQuality(loaded.bvh);
+  loaded.bvh = refitOrBuild(before.tree, scene, options, stats);
   stats.bvhBuildMs = watch.lap();
   step("reading the environment", 0.9);
   if (!early) settleEnvironment();

@@ -44,7 +44,8 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
 
 namespace {
 
-/// What the packed scene and the driver decide of a picture's variant. Returns why the megakernel draws.
+/// Settles the parts of a picture's variant that the packed scene and the driver decide. Returns why the
+/// megakernel draws.
 std::string settleVariant(ShaderVariant& variant, const LoadedScene& loaded, const GpuScene& packed,
                           const RenderOptions& options, const Context& context, BufferReads reads) {
   useLiterals(loaded, packed, options, variant);
@@ -109,7 +110,7 @@ RenderOptions asDrawn(const RenderOptions& options, const TraitSet& present) {
   return able;
 }
 
-/// Whether light paths, which the scene has, give way to another option.
+/// Returns true if light paths, which the scene has, give way to another option.
 bool lightPathsGiveWay(const ShaderVariant& variant, const TraitSet& present, const RenderOptions& options) {
   return options.light.caustics == Caustics::Auto && !whyNoLightPaths(options).empty() &&
          has(present, Trait::Caustics) && has(variant.stages, Stage::Gi) &&
@@ -173,7 +174,7 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
   return everything;
 }
 
-/// What the packed scene decides of all variants.
+/// Settles the parts of all variants that the packed scene decides.
 void settleVariants(Tracer& tracer, const LoadedScene& loaded, const GpuScene& packed,
                     const RenderOptions& options, const Context& context, Statistics& stats) {
   stats.scheduleReason = settleVariant(tracer.variant, loaded, packed, options, context, tracer.reads);
@@ -186,7 +187,7 @@ void settleVariants(Tracer& tracer, const LoadedScene& loaded, const GpuScene& p
   stats.variant = variantName(tracer.variant);
 }
 
-/// What --stats says of a context and of a packed scene.
+/// Notes the context and the packed scene for --stats.
 void describe(Statistics& stats, const Context& context, const GpuScene& packed, const Phase& packing) {
   stats.backend = context.backend;
   stats.glRenderer = context.renderer;

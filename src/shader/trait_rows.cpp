@@ -45,6 +45,7 @@ bool mayBeRough(const Material& m) { return isRoughInPlaces(m) || m.anisotropic(
 
 }  // namespace
 
+// A table: NOLINTNEXTLINE(readability-function-size)
 std::span<const TraitRow> traitRows() {
   static const std::array<TraitRow, size_t(Trait::Count)> rows = {{
       {.trait = Trait::Triangles, .name = "triangles", .constant = "kTriangles", .absence = "no triangle"},

@@ -104,7 +104,7 @@ inline bool hasLamps(const TraitSet& traits) {
   return traits[size_t(Trait::EmissiveTriangles)] || traits[size_t(Trait::PunctualLights)];
 }
 
-/// Whether light may be scattered between surfaces.
+/// Returns true if light may be scattered between surfaces.
 inline bool hasMedia(const TraitSet& traits) {
   return traits[size_t(Trait::Scattering)] || traits[size_t(Trait::Fog)];
 }

@@ -194,7 +194,7 @@ bool isFinished(const RenderOptions& options) {
   }
   const bool there = isFile(options.output.file) && isFile(options.scene);
   if (!options.output.resume || !there || !isWholePicture(options)) return false;
-  // Of an .exr isWholePicture() has compared the samples.
+  // isWholePicture() has compared the samples of an .exr.
   const bool told = formatOfName(options.output.file) == ImageFormat::OpenExr;
   say(options, options.output.file.string() + " is finished: there is no checkpoint beside it" +
                    (told ? "" : "; it does not say with how many samples, and nothing is drawn"));

@@ -82,7 +82,7 @@ std::vector<double> measureAovs(const PictureJob& job, Film& film, const View& v
   return seconds;
 }
 
-/// What the layers from the first on will take, where the picture has so many samples.
+/// The seconds that the layers from `first` on will take if the picture has so many samples.
 double secondsOfAovs(const PictureJob& job, const DrawingPlan& plan, size_t first, int samples) {
   double seconds = 0.0;
   for (size_t i = first; i < plan.layerSeconds.size(); ++i)

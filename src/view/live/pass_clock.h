@@ -20,11 +20,11 @@ class PassClock {
   void askDevice() { asksDevice_ = true; }
   /// Has to come before the context ends.
   void forgetDevice();
-  /// What comes now is no step.
+  /// Begins a time that belongs to no step.
   void restart();
-  /// What has been done since the last call was this step.
+  /// Counts the time since the last call to this step.
   void end(Pass pass);
-  /// Of all steps since the last call.
+  /// Returns the times of all steps since the last call.
   PassTimes take();
 
  private:

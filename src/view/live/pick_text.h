@@ -12,8 +12,8 @@ namespace fragtrace {
 /// defaults.
 std::vector<std::string> materialLines(const Material& material);
 
-/// What was hit, in words, a line a fact: node, mesh, triangle, place, and the values of the material that
-/// are not the defaults.
+/// Describes the hit in words, a line a fact: node, mesh, triangle, place, and the values of the material
+/// that are not the defaults.
 std::vector<std::string> pickLines(const Scene& scene, const Pick& pick);
 
 }  // namespace fragtrace

@@ -21,7 +21,7 @@ void ThumbnailMaker::make(const std::vector<std::filesystem::path>& files, uint6
         thumbnail.image =
             thumbnailOf(file.empty() ? studioLight() : readLinearImage(file, memoryLimit).image);
       } catch (const std::exception&) {
-        // That it cannot be read is told when it is chosen.
+        // A file that cannot be read is reported when it is chosen.
       }
       if (!*cancelled) exchange.deliver(std::move(thumbnail));
     }

@@ -19,7 +19,7 @@ class ThumbnailMaker {
 
   /// Delivers one for each file (empty: the studio).
   void make(const std::vector<std::filesystem::path>& files, uint64_t memoryLimit);
-  /// What is under way ends after the file that is read now.
+  /// Ends the work under way after the file that is read now.
   void cancel();
   bool busy() const { return *threads_ > 0; }
 

@@ -30,9 +30,9 @@ class SceneLoader {
   /// Begins; what was being loaded before is dropped.
   void start(const RenderOptions& options);
   void cancel();
-  /// What has ended since, if anything.
+  /// Returns the load that has ended since the last call, if one has.
   std::optional<LoadResult> take();
-  /// Whether a thread still works, be it in vain.
+  /// Returns true if a thread still works, even in vain.
   bool busy() const;
 
  private:

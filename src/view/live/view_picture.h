@@ -15,13 +15,13 @@
 
 namespace fragtrace {
 
-/// How much of the filter shows at that many samples: all up to 64, none from 256 on.
+/// The share of the filtered picture that shows at that many samples: all up to 64, none from 256 on.
 double filteredShare(double samples);
 
 /// Samples per pixel from which on nothing of the past is left.
 inline constexpr int kNoPastFrom = 16;
 
-/// What a side keeps on the device from picture to picture.
+/// The memory that a side keeps on the device from picture to picture.
 struct SideMemory {
   std::optional<Film> guides;  ///< of the present view
   int guideSamples = 0;        ///< of these; 0: they are to be drawn anew
@@ -41,7 +41,7 @@ struct ShownTexture {
   void* ready = nullptr;  ///< a fence, of one that was handed over
 };
 
-/// How a side's picture is made.
+/// The settings that make a side's picture.
 struct Showing {
   bool filtered = false;
   bool byOidn = false;  ///< which must be there; else by variance

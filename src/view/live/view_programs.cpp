@@ -37,7 +37,7 @@ void compileAll(ViewProgram& program, const View& view) {
   }
 }
 
-/// What of the options decides which program draws, and what it reads.
+/// The part of the options that decides which program draws, and what it reads.
 RenderOptions programPart(const RenderOptions& options) {
   RenderOptions part = programOptions(options);
   if (part.output.debugView == DebugView::Samples || part.output.debugView == DebugView::Variance)

@@ -26,7 +26,7 @@ constexpr int kLeastForError = 32;
 constexpr double kErrorStep = 1.2;  ///< from one estimate of the error to the next, in samples
 constexpr double kCountMs = 200.0;  ///< from one look at the film's counts to the next
 
-/// Of films, and of pictures on their way to the window.
+/// The bytes a pixel of films, and of pictures on their way to the window.
 size_t bytesPerPixel(const SideMemory& memory) {
   constexpr size_t kFilm = 48;
   constexpr size_t kShown = kSlots * 16;

@@ -230,7 +230,8 @@ void ViewTracer::rebuildPrograms() {
   }
 }
 
-/// Of a scene that is posed anew: the shader's text holds none of it, since that would be compiled each time.
+/// The options for a scene that is posed anew: its triangles are no shader text, which would be compiled each
+/// time.
 RenderOptions ViewTracer::asPosed(RenderOptions options) const {
   const SceneSelection& s = options.selection;
   const bool changes = s.animationTime || !s.hiddenNodes.empty() || !loaded_->scene.strokes.empty();
@@ -266,7 +267,7 @@ void ViewTracer::pose(const TraceRequest& request) {
   try {
     Statistics stats;
     SceneBefore before;
-    // What lights a scene by default depends on what it shows.
+    // The default light of a scene depends on the nodes that it shows.
     if (loaded_->environment.kind == Surroundings::Map && (sameNodes || hasMap(loadedOptions_)))
       before.environment = &loaded_->environment;
     if (tree_ && sameNodes) before.tree = &*tree_;

@@ -42,9 +42,9 @@ class ViewTracer {
   /// the device.
   void run(const SharedContexts& shared);
 
-  /// Whether a file is being written.
+  /// Returns true if a file is being written.
   bool saving() const { return saving_; }
-  /// Whether a thread still loads what nobody waits for any more.
+  /// Returns true if a thread still loads something, even if nobody waits for it any more.
   bool loading() const { return loader_.busy() || thumbnails_.busy(); }
 
  private:
@@ -80,7 +80,7 @@ class ViewTracer {
   void adopt(const TraceRequest& request);
   /// The options as such a scene is drawn that is posed anew.
   RenderOptions asPosed(RenderOptions options) const;
-  /// Whether the scene stands as the request wants it.
+  /// Returns true if the scene has the pose that the request wants.
   bool isPosed(const TraceRequest& request) const;
   /// Makes it so: at that time of its animation, with lines as wide as that camera wants. Why it cannot be,
   /// the window is told.
@@ -113,13 +113,13 @@ class ViewTracer {
   bool worthShowing(const Side& side) const;
   void estimate(Side& side);
   void count(Side& side);
-  /// Whether the side's picture is filtered.
+  /// Returns true if the side's picture is filtered.
   static bool denoises(const Side& side);
   /// By Open Image Denoise, which takes seconds and so runs when the samples have doubled.
   bool denoisesByOidn(const Side& side) const;
   /// Makes what the side shows now; false when goOn() said no.
   bool show(Side& side, bool past, const std::function<bool()>& goOn);
-  /// Where the side's next picture goes.
+  /// The slot of the side's next picture.
   int nextSlot(Side& side);
   ShownTexture& shownOf(const Side& side, int slot);
   /// For the window; none when there is something else to do.
@@ -134,7 +134,7 @@ class ViewTracer {
   /// Boxes of the tree, and the outline of what is selected.
   std::vector<PictureLine> linesOver(const Side& side);
   void tellDriver();
-  /// What keeps the thread from drawing, and what is shown meanwhile.
+  /// Tells the window what keeps the thread from drawing.
   void tellWork(const std::string& what);
   void tellDecoded(size_t decoded, size_t count);
 

@@ -12,7 +12,7 @@ namespace fragtrace {
 
 namespace {
 
-/// What ends the program stands in the status file, too, if that can be written.
+/// An error that ends the program is in the status file, too, if that can be written.
 template <typename Write>
 void writeFailure(const Write& write) {
   try {
