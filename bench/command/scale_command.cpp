@@ -10,6 +10,7 @@
 #include "base/summary.h"
 #include "bench/command/commands.h"
 #include "bench/command/configurations.h"
+#include "bench/command/peak_memory.h"
 #include "bench/command/results.h"
 #include "bench/rays/ball_scene.h"
 #include "bench/rays/hit_check.h"
@@ -18,7 +19,6 @@
 #include "options/choose.h"
 #include "options/numbers.h"
 #include "pack/pack_tree.h"
-#include "session/peak_memory.h"
 #include "session/progress_bar.h"
 #include "session/setup.h"
 

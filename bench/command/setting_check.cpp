@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "base/errors.h"
+#include "bench/report/picture_check.h"
 #include "image/channels.h"
 #include "options/same_picture.h"
-#include "render/film/picture_check.h"
 #include "session/progress_bar.h"
 
 namespace fragtrace {

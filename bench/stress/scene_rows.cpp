@@ -7,11 +7,11 @@
 
 #include "base/errors.h"
 #include "bench/rays/hit_check.h"
+#include "bench/rays/ray_caster.h"
 #include "bench/rays/ray_sets.h"
 #include "bench/stress/likeness.h"
 #include "bench/stress/random_sketch.h"
 #include "bench/stress/tree_shapes.h"
-#include "render/ray_caster.h"
 
 namespace fragtrace {
 

@@ -36,7 +36,7 @@ Words packVertices(size_t count, Row&& row) {
 void packAttributes(const Vertices& v, const TraitSet& traits, GpuScene& packed) {
   using namespace layout;
   const size_t count = v.position.size();
-  // A variant may read what the scene lacks (shader/forced_variants.h).
+  // A variant may read arrays that the scene lacks (fragtrace-bench variants).
   if (has(traits, Trait::VertexNormals)) {
     packed.buffers[kNormalsBinding] = packVertices(
         count, [&](size_t i) { return v.normal.empty() ? glm::vec4(0.0f) : glm::vec4(v.normal[i], 0.0f); });

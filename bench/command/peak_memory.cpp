@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/peak_memory.h"
+#include "bench/command/peak_memory.h"
 
 #include <malloc.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render/film/picture_check.h"
+#include "bench/report/picture_check.h"
 
 #include <algorithm>
 #include <cmath>

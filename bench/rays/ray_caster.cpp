@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render/ray_caster.h"
+#include "bench/rays/ray_caster.h"
 
 #include <chrono>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shader/forced_variants.h"
+#include "bench/stress/forced_variants.h"
 
 #include <algorithm>
 #include <utility>
