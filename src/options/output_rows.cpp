@@ -154,8 +154,7 @@ OptionRow formatRow() {
 
 }  // namespace
 
-// A table: NOLINTNEXTLINE(readability-function-size)
-std::vector<OptionRow> outputRows() {
+std::vector<OptionRow> outputRows() {  // NOLINT(readability-function-size): a table
   constexpr OptionTraits kDisplay{.effect = Effect::Display};
   constexpr OptionTraits kSaid{.effect = Effect::Report, .copied = false, .kept = true};
   constexpr OptionTraits kOne{.effect = Effect::Report, .copied = false, .group = OptionGroup::Output};

@@ -27,7 +27,7 @@ enum class Aov : uint8_t {
              ///< camera,
   Diffuse,   ///< light that was scattered first by a diffuse surface,
   Specular,  ///< and by all others
-  Guides     ///< what a filter tells surfaces apart by, all in one: kGuideChannels
+  Guides     ///< guides of filters, all in one: kGuideChannels
 };
 
 struct AovRow {
@@ -53,7 +53,7 @@ inline constexpr std::array<AovRow, 14> kAovRows{{{"", ""},
 
 inline const AovRow& rowOf(Aov aov) { return kAovRows[size_t(aov)]; }
 
-/// Returns true if the feature is light, for which paths are traced to their ends, and not a property of the
+/// Returns true if the AOV is light, for which paths are traced to their ends, and not a property of the
 /// first hit.
 inline bool isLightAov(Aov aov) {
   return aov == Aov::Emission || aov == Aov::Diffuse || aov == Aov::Specular;

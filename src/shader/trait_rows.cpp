@@ -45,8 +45,7 @@ bool mayBeRough(const Material& m) { return isRoughInPlaces(m) || m.anisotropic(
 
 }  // namespace
 
-// A table: NOLINTNEXTLINE(readability-function-size)
-std::span<const TraitRow> traitRows() {
+std::span<const TraitRow> traitRows() {  // NOLINT(readability-function-size): a table
   static const std::array<TraitRow, size_t(Trait::Count)> rows = {{
       {.trait = Trait::Triangles, .name = "triangles", .constant = "kTriangles", .absence = "no triangle"},
       {.trait = Trait::Spheres, .name = "spheres", .constant = "kSpheres", .absence = "no sphere"},

@@ -63,8 +63,8 @@ bool hasOwnLight(const Scene& scene);
 ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& present, Surroundings surroundings,
                             uint32_t treeDepth, BufferReads reads);
 
-/// The variant that draws a feature of the first hit for the same samples: what radiance alone needs is left
-/// out. `wanted` are the options as for chooseVariant, which it calls.
+/// The variant that draws an AOV for the same samples: what radiance alone needs is left out. `wanted` are
+/// the options as for chooseVariant, which it calls.
 ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& present,
                                Surroundings surroundings, uint32_t treeDepth, BufferReads reads, Aov aov);
 

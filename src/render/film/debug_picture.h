@@ -7,7 +7,7 @@
 
 namespace fragtrace {
 
-/// Colours R, G, B for display. The film holds the view's feature, node visits, or, for counts of samples and
+/// Colours R, G, B for display. The film holds the view's AOV, node visits, or, for counts of samples and
 /// their variance, radiance. `variance` is as for imageOf().
 Image debugPicture(DebugView view, const FilmPixels& film, std::span<const double> variance = {});
 
