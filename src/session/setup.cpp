@@ -193,7 +193,8 @@ void sayWarnings(const RenderOptions& options, Scene& scene) {
 }
 
 /// The tree: an earlier one refitted, if it fits the scene, or a new one.
-Bvh refitOrBuild(const Bvh* earlier, const Scene& scene, const RenderOptions& options, Statistics& stats) {
+Bvh refitOrBuild(const RefittableTree* earlier, const Scene& scene, const RenderOptions& options,
+                 Statistics& stats) {
   PhaseTimer timer("tree");
   std::optional<Bvh> tree;
   if (earlier != nullptr) tree = refitted(*earlier, scene);
