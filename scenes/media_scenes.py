@@ -81,6 +81,16 @@ def foggy(gltf):
     gltf.add_camera("camera", (0, 1.5, 4.8), (0, 0.8, 0), 36)
 
 
+@scene("smoke")
+def smoke(gltf):
+    """Two lamps, one of them behind what plume.nvdb fills, the cube of 1 m over the middle of the ground; to be lit by sky.pfm, too."""
+    add_ground(gltf)
+    place_quad(gltf, "lamp", geometry.flip(ground(0.25, 0.25)), gltf.add_lamp("lamp", (20, 18, 15)), translation=[0.9, 1.9, -0.6])
+    gltf.add_node("plume", translation=[0, 0.55, 0], extras={"fragtrace_volume": {
+        "volume": "plume.nvdb", "density": 14, "color": [0.9, 0.8, 0.65], "anisotropy": 0.4}})
+    gltf.add_camera("camera", (0, 1.1, 3.2), (0, 0.5, 0), 28)
+
+
 @scene("closed-media")
 def closed_media(gltf):
     """A closed box that glows by 1, and in it media that only scatter: nothing of them is seen. To be lit by the white light."""

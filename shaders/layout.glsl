@@ -11,7 +11,9 @@ const uint kTexcoordsBinding = 4u;     // 1 vec4 a vertex: TEXCOORD_0, TEXCOORD_
 const uint kTangentsBinding = 5u;      // 1 vec4 a vertex
 const uint kColorsBinding = 6u;        // 1 vec4 a vertex
 const uint kMaterialsBinding = 7u;     // kMaterialRows uvec4 a material
-const uint kTexelsBinding = 8u;        // 1 uvec2 a texel: RGBA as linear half floats
+// 1 uvec2 a texel: RGBA as linear half floats; behind all textures the grid: its table, 1 texel a brick (brickEntry of
+// media/volume.glsl), and the bricks, kBrickTexels texels of 4 densities each, and where it emits 1 a voxel of radiance
+const uint kTexelsBinding = 8u;
 const uint kEmittersBinding = 9u;      // kEmitterRows uvec4 an emitter
 const uint kLightsBinding = 10u;       // kLightRows vec4 a punctual light
 // 1 vec4 a texel: radiance, pdf over the area of the map (mean 1); behind them those of the backdrop, if there is
@@ -45,9 +47,10 @@ const uint kWaveLaneRows = kWaveSlots * kPathRows + 1u;
 // A draw of the compute entries has a multiple of so many work groups (work_group.glsl).
 const uint kWorkGroupHands = 8u;
 
-// The uniform block of one draw, and that of the scene's fog.
+// The uniform block of one draw, and those of the scene's fog and of its grid.
 const uint kFrameBinding = 0u;
 const uint kFogBinding = 1u;
+const uint kVolumeBinding = 2u;
 
 // A program draws an AOV in place of radiance (kAov); as enum Aov of src/shader/aov.h.
 const int kAovNone = 0;
@@ -264,6 +267,19 @@ struct Fog {
   vec4 medium;   // albedo of one scattering, anisotropy
   vec4 density;  // extinction at the base and below (1 / local space); 1 / the height in which it falls by e; base
 };
+
+// A grid of densities (media/volume.glsl); std140.
+struct Volume {
+  vec4 toBricksX;  // rows of the matrix from local space to bricks of the table
+  vec4 toBricksY;
+  vec4 toBricksZ;
+  vec4 medium;      // albedo of one scattering, anisotropy
+  vec4 extinction;  // of the largest density (1 / local space); factor of the radiance, 0: it does not emit
+  ivec4 table;      // numbers of bricks along X, Y, Z; the first texel of the table
+};
+const int kBrickTexels = 128;
+const int kMostVolumeSteps = 1024;  // of one walk through the grid
+const float kFaintVolume = 0.05f;   // transmittance from which on roulette decides
 
 // The report of one draw.
 const float kCutUnits = 65536.0f;  // of throughput 1

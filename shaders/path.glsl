@@ -20,6 +20,7 @@ const uint kReuseDimension = 8u;  // to 10
 const uint kGlassDimension = 12u;
 const uint kFlightDimension = 13u;
 const uint kFlightDimensions = 0x80000000u;  // hashed; 4,096 a bounce
+const uint kShadowFlights = 0x40000000u;      // of shadow rays, on top of these
 
 /// The most that roulette lets a path at smooth glass survive by, and the scattering from which on it always decides.
 /// Paths through glass that absorbs nothing get fewer by a factor from each scattering to the next; were that factor
@@ -74,11 +75,18 @@ Path tracePast(Path p, float limit, float t, int slot) {
   return p;
 }
 
+/// Goes on with the path's ray behind the surface that it has met.
+Path goPast(Path p) {
+  p = tracePast(p, kFarAway, p.hitT, p.hitSlot);
+  return kMedia ? limitFlight(p, p.hitT) : p;
+}
+
 /// Goes on with the path's ray.
 Path extend(Path p) {
   p.phase = kPhaseExtend;
   p.lightSlot = 0;
-  p = traceAnew(p, kMedia ? flightLimit(p, 0.0) : kFarAway);
+  p = traceAnew(p, kFarAway);
+  if (kMedia) p = limitFlight(p, 0.0);
   if (kCreases) p.traversal.tie = p.tie;
   if (kLightPaths) p.traversal.both = true;
   return p;
@@ -287,7 +295,7 @@ Path proceed(Path p) {
   if (kThroughGlass && p.phase == kPhasePass) {
     p.phase = kPhaseExtend;
     p.lightSlot = 0;
-    p = tracePast(p, kMedia ? flightLimit(p, p.hitT) : kFarAway, p.hitT, p.hitSlot);
+    p = goPast(p);
   }
   return p;
 }
@@ -312,12 +320,16 @@ vec3 emittedAt(Path p, Surface s, uint flags) {
 Path spawnShadowRayFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3 value) {
   if (maxComponent(value) <= 0.0) return p;
   value = clampIndirect(value, countedScatterings(p) + 1);
-  if (kMedia && !kShadows) value *= transmittance(p.shadowMedium, point, light.direction, 0.0, light.distance);
-  if (!kShadows) return addLight(p, value);
+  if (!kMedia && !kShadows) return addLight(p, value);
   p.contribution = kLightAov ? p.aovWeight * value : value;
   p.shadowOrigin = origin;
   p.shadowDirection = light.direction;
-  p.shadowLimit = kFarAway;
+  p.shadowLimit = kShadows ? kFarAway : light.distance;
+  if (!kShadows) {
+    p = dimShadow(p, p.shadowMedium, light.distance);
+    p.radiance += p.contribution;
+    return p;
+  }
   if (light.distance < kFarAway) {
     // The ray begins beside the point, and is aimed anew: near a light, a parallel one would end behind it.
     vec3 towards = light.distance * light.direction - (origin - point);

@@ -22,7 +22,7 @@ const bool kLightAov = kAov == kAovEmission || kAov == kAovDiffuse || kAov == kA
 const bool kDrawsLight = kAov == kAovNone || kLightAov;
 
 /// Light may be scattered between surfaces (media/).
-const bool kMedia = (kScattering || kFog) && kDrawsLight;
+const bool kMedia = (kScattering || kFog || kDensityGrid) && kDrawsLight;
 
 /// Light may go straight through smooth glass, and shadow rays with it.
 const bool kThroughGlass = kThinGlass || kMatchedGlass;

@@ -17,11 +17,14 @@ uint pixelKey(uint pixelX, uint pixelY, uint seed) { return mixBits(pixelX + mix
 /// The same for one path.
 uint pathKey(uint key, uint sampleIndex) { return mixBits(key + mixBits(sampleIndex)); }
 
-/// Uniform in [0, 1), 24 bits, for one dimension of a path.
-float randomFloat(uint key, uint dimension) {
-  uint bits = mixBits(key ^ mixBits(dimension + 0x9e3779b9u));
-  return float(bits >> 8) * 5.9604644775390625e-8f;
-}
+/// 32 bits for one dimension of a path.
+uint randomBits(uint key, uint dimension) { return mixBits(key ^ mixBits(dimension + 0x9e3779b9u)); }
+
+/// 32 bits as a number in [0, 1), of which 24 count.
+float unitFloat(uint bits) { return float(bits >> 8) * 5.9604644775390625e-8f; }
+
+/// Uniform in [0, 1), for one dimension of a path.
+float randomFloat(uint key, uint dimension) { return unitFloat(randomBits(key, dimension)); }
 
 /// The numbers of one path come from the key of pixel and seed (kSobol), else the path's own key, and the sample's
 /// index with its bits reversed.
@@ -51,8 +54,6 @@ uint sobolSecond(uint x) {
   return x ^ ((x & 0xaaaaaaaau) >> 1);
 }
 
-float unitFloat(uint bits) { return float(bits >> 8) * 5.9604644775390625e-8f; }
-
 Sampler makeSampler(uint key, uint sampleIndex) {
   Sampler s;
   s.key = kSobol ? key : pathKey(key, sampleIndex);
@@ -60,7 +61,7 @@ Sampler makeSampler(uint key, uint sampleIndex) {
   return s;
 }
 
-uint dimensionSeed(Sampler s, uint dimension) { return mixBits(s.key ^ mixBits(dimension + 0x9e3779b9u)); }
+uint dimensionSeed(Sampler s, uint dimension) { return randomBits(s.key, dimension); }
 
 /// The sample's index, shuffled within blocks of powers of two, so that numbers of different dimensions are independent
 /// (Burley, Practical Hash-based Owen Scrambling, 2020).
@@ -92,7 +93,10 @@ vec2 drawPair(Sampler s, uint dimension) {
   return vec2(unitFloat(bits.x), unitFloat(bits.y));
 }
 
-/// Uniform in [0, 1), independent from sample to sample.
-float hashFloat(Sampler s, uint dimension) {
-  return randomFloat(mixBits(s.key + bitfieldReverse(s.reversed)), dimension);
+/// 32 bits, independent from sample to sample.
+uint hashBits(Sampler s, uint dimension) {
+  return randomBits(mixBits(s.key + bitfieldReverse(s.reversed)), dimension);
 }
+
+/// The same as a number in [0, 1).
+float hashFloat(Sampler s, uint dimension) { return unitFloat(hashBits(s, dimension)); }

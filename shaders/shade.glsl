@@ -225,7 +225,7 @@ Path shade(Path p) {
   if (kMedia && p.hitSlot < 0) return scatterInMedium(p);
   if (kAlpha && first && passesThrough(flags, alphaAt(s.material, flags, base.a), p.sampler, nextCrossing(p))) {
     p.phase = kPhaseExtend;
-    return tracePast(p, kMedia ? flightLimit(p, p.hitT) : kFarAway, p.hitT, p.hitSlot);
+    return goPast(p);
   }
   if (p.cameraRay) p.covered = true;
   if (!kDrawsLight) {
@@ -284,11 +284,12 @@ Path settleShadow(Path p) {
       passes = maxComponent(p.contribution) > 0.0;
     }
     if (kMedia && passes) {
-      p.contribution *= shadowTransmittance(p, mediumBefore(s, p.shadowMedium), p.traversal.t);
+      p = dimShadow(p, mediumBefore(s, p.shadowMedium), p.traversal.t);
       if (!holes && isSolid(s.material)) p.shadowMedium = mediumBehind(s);
     }
   }
   if (kPassing && passes) return tracePast(p, p.shadowLimit, p.traversal.t, slot);
-  if (slot < 0) p.radiance += kMedia ? arrivingLight(p) : p.contribution;
+  if (kMedia && slot < 0) p = dimShadow(p, p.shadowMedium, p.shadowLimit);
+  if (slot < 0) p.radiance += p.contribution;
   return proceed(p);
 }

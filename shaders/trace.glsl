@@ -80,6 +80,8 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "media/flight.glsl"
 #include "media/fog.glsl"
 #include "media/fog_block.glsl"
+#include "media/volume.glsl"
+#include "media/volume_block.glsl"
 #include "path.glsl"
 #include "media/scatter.glsl"
 #include "reuse/candidates.glsl"

@@ -47,7 +47,12 @@ Path takeUp(inout Wave v, int k) {
   bool waited = (v.waiting & bit) != 0u;
   bool arrives = waited && (v.blocked & bit) == 0u;
   vec3 light = p.contribution;
-  if (kMedia && arrives) light = arrivingLight(loadShadowPast(loadShadow(p, rowOf(v, k)), rowOf(v, k)));
+  if (kMedia && arrives) {
+    Path dimmed = loadShadowPast(loadShadow(p, rowOf(v, k)), rowOf(v, k));
+    dimmed = dimShadow(dimmed, p.shadowMedium, dimmed.shadowLimit);
+    light = dimmed.contribution;
+    p.traversal.steps += dimmed.traversal.steps;
+  }
   p.radiance += arrives ? light : vec3(0.0);
   p.rays += waited ? 1 : 0;
   v.waiting &= ~bit;
@@ -147,6 +152,7 @@ Wave shadeHits(Wave v, uint left, TreeFrame tree) {
     bool shadow = kShadows && p.phase == kPhaseShadow;
     Traversal s = p.traversal;
     if (shadow) p = proceed(p);
+    if (kDensityGrid) v.steps += p.traversal.steps;
     bool goesOn = p.phase == kPhaseExtend;
     Traversal t = p.traversal;
     if (goesOn) t = beginExtension(p, tree);
@@ -194,6 +200,7 @@ Wave beginSamples(Wave v, uint left, TreeFrame tree) {
     int row = rowOf(v, k);
     if (film.samples < samplesWanted(film)) {
       p = beginSample(film, pixel, keyOf(v, k), 0);
+      if (kDensityGrid) v.steps += p.traversal.steps;
       Traversal t = beginExtension(p, tree);
       samples += 1;
       more = t.node == kTraversalDone && !isMeeting(t) && samples < kWaveSamples;

@@ -46,7 +46,9 @@ std::vector<ForcedVariant> forcedVariants(const RenderOptions& options, const Tr
     for (const ForcedVariant& other : forced) {
       if (f.whyNot.empty() && other.variant == f.variant) f.whyNot = "comes with " + other.name;
     }
-    f.otherSamples = choosesLights(row.trait);
+    // Media take the light paths away.
+    const bool lightPaths = has(own.traits, Trait::Caustics) == has(f.variant.traits, Trait::Caustics);
+    f.otherSamples = choosesLights(row.trait) || !lightPaths;
     forced.push_back(std::move(f));
   }
   const auto add = [&](const char* name, const ShaderVariant& variant) {

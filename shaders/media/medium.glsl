@@ -51,11 +51,25 @@ float flightEnd(Path p, float from, float u) {
   return end;
 }
 
-/// The same, with a number of this bounce, or of this meeting with a surface that lets the ray pass.
-float flightLimit(Path p, float from) {
-  uint flight = kFlightDimensions + (uint(p.bounce) << 12) + uint(p.crossings);
-  float u = p.crossings > 0 ? hashFloat(p.sampler, flight) : pathRandom(p, kFlightDimension);
-  return flightEnd(p, from, u);
+/// A number of this bounce, or of this meeting with a surface that lets the ray pass.
+uint flightNumber(Path p) { return kFlightDimensions + (uint(p.bounce) << 12) + uint(p.crossings); }
+
+/// The same for flightEnd().
+float flightRandom(Path p) {
+  return p.crossings > 0 ? hashFloat(p.sampler, flightNumber(p)) : pathRandom(p, kFlightDimension);
+}
+
+/// Limits the path's ray, which begins at `from`, to its flight.
+Path limitFlight(Path p, float from) {
+  p.traversal.t = flightEnd(p, from, flightRandom(p));
+  if (kDensityGrid && p.medium == kPrimitiveNone) {
+    uint seed = hashBits(p.sampler, flightNumber(p));
+    float first = unitFloat(mixBits(seed));
+    Walk walk = walkVolume(volume, p.origin, p.direction, from, p.traversal.t, false, first, seed);
+    p.traversal.t = min(p.traversal.t, walk.end);
+    p.traversal.steps += walk.steps;
+  }
+  return p;
 }
 
 /// The distance that the path's ray or its shadow ray, whichever is traced, has passed surfaces up to. A flight begins
@@ -84,17 +98,18 @@ Path flyTo(Path p, Surface s) {
   return p;
 }
 
-/// Transmittance of a medium along a ray between two distances.
-vec3 transmittance(uint medium, vec3 origin, vec3 direction, float from, float to) {
-  if (kFog && medium == kPrimitiveNone) return vec3(exp(-fogDepth(fog, origin, direction, from, to)));
-  if (!kAbsorption || medium == kPrimitiveNone) return vec3(1.0);
-  return exp(-(to - from) * materialFloats(medium, kMaterialVolume).rgb);
+/// Dims the light sample by the medium that the shadow ray passes, from what it has met last up to a distance.
+Path dimShadow(Path p, uint medium, float to) {
+  float from = passedBefore(p);
+  bool outside = medium == kPrimitiveNone;
+  if (kFog && outside) p.contribution *= exp(-fogDepth(fog, p.shadowOrigin, p.shadowDirection, from, to));
+  if (kDensityGrid && outside) {
+    uint seed = hashBits(p.sampler, flightNumber(p) + kShadowFlights) ^ floatBitsToUint(from);
+    float first = unitFloat(mixBits(seed));
+    Walk walk = walkVolume(volume, p.shadowOrigin, p.shadowDirection, from, to, true, first, seed);
+    p.contribution *= walk.transmittance;
+    p.traversal.steps += walk.steps;
+  }
+  if (kAbsorption && !outside) p.contribution *= exp(-(to - from) * materialFloats(medium, kMaterialVolume).rgb);
+  return p;
 }
-
-/// The same along the shadow ray, from what it has passed last up to a distance.
-vec3 shadowTransmittance(Path p, uint medium, float to) {
-  return transmittance(medium, p.shadowOrigin, p.shadowDirection, passedBefore(p), to);
-}
-
-/// The light sample, dimmed by the way along the shadow ray, which has met nothing more.
-vec3 arrivingLight(Path p) { return p.contribution * shadowTransmittance(p, p.shadowMedium, p.shadowLimit); }

@@ -26,21 +26,35 @@ Path decideInMedium(Path p) {
   return p;
 }
 
+/// The path's flight has ended in the grid, not in the fog round it: that one's would have been longer.
+bool endsInGrid(Path p) {
+  if (!kFog) return true;
+  float from = passedBefore(p);
+  return p.hitT < flightEnd(p, from, flightRandom(p)) * float(1.0 - 1e-6);
+}
+
 /// The path's ray ends in its medium, and is scattered.
 Path scatterInMedium(Path p) {
-  bool inFog = kFog && p.medium == kPrimitiveNone;
+  bool outside = (kFog || kDensityGrid) && p.medium == kPrimitiveNone;
+  bool inGrid = kDensityGrid && outside && endsInGrid(p);
+  vec3 point = p.origin + p.hitT * p.direction;
   vec4 scatter = vec4(0.0);
-  if (kFog && inFog) scatter = fog.medium;
-  if (kScattering && !inFog) {
+  if (kFog && outside) scatter = fog.medium;
+  if (kDensityGrid && inGrid) scatter = volume.medium;
+  if (kScattering && !outside) {
     Medium m = mediumOf(p.medium);
     scatter = vec4(scatterWeight(m, channelChances(p.throughput), p.hitT - passedBefore(p)), m.g);
+  }
+  if (kDensityGrid && inGrid && volume.extinction.y > 0.0) {
+    // Kirchhoff's law: it emits as much as it absorbs.
+    vec3 light = volumeRadiance(volume, point, hashBits(p.sampler, flightNumber(p) + kShadowFlights));
+    p = addLight(p, clampIndirect(p.throughput * (1.0 - scatter.rgb) * light, countedScatterings(p)));
   }
   p.throughput *= scatter.rgb;
   if (p.cameraRay) p.covered = true;
   p.phase = kPhaseEnd;
   if (kAov == kAovEmission) return p;
   if (kLightAov && p.bounce == 0) p.aovWeight = vec3(kAov == kAovDiffuse ? 1.0 : 0.0);
-  vec3 point = p.origin + p.hitT * p.direction;
   vec2 uv = drawPair(p.sampler, kBounceDimensions * uint(p.bounce + 1) + kDirectionDimension);
   bool open = isOpen(p.medium);
   if (open && lightSlotCount() > 0) p = sampleLdInMedium(p, point, scatter.w);

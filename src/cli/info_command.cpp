@@ -13,6 +13,7 @@
 #include "options/parse_render.h"
 #include "pack/gpu_scene.h"
 #include "scene/parts.h"
+#include "scene/volume/read_grid.h"
 #include "session/scene_json.h"
 #include "shader/render_options.h"
 #include "shader/variant.h"
@@ -74,6 +75,9 @@ void printAllParts(const Scene& scene) {
   printParts("scenes", scene.sceneNames);
   printParts("animations", scene.animationNames, durations);
   printParts("variants", scene.materialVariants);
+  const VolumeSource& volume = scene.volume.source;
+  if (!volume.file.empty())
+    std::printf("  volume      %s%s\n", volume.file.c_str(), volume.grid ? (":" + *volume.grid).c_str() : "");
 }
 
 /// The same as JSON.
@@ -90,6 +94,7 @@ void addParts(nlohmann::ordered_json& json, const Scene& scene) {
   for (const Camera& camera : scene.cameras)
     json["cameras"].push_back({{"name", camera.name}, {"type", kindOf(camera)}});
   json["material_variants"] = scene.materialVariants;
+  if (!scene.volume.source.file.empty()) json["volume"] = scene.volume.source.file.string();
 }
 
 /// The contents of a node, in words.
@@ -166,7 +171,30 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
   }
 }
 
+/// The grids of a volume's file.
+int informOfVolume(const InfoOptions& options) {
+  const std::filesystem::path& path = options.render.scene;
+  nlohmann::ordered_json json = {
+      {"schema", 1}, {"file", path.string()}, {"grids", nlohmann::ordered_json::array()}};
+  if (!options.json) std::printf("%s\n", path.string().c_str());
+  for (const GridDescription& grid : listGrids(path, options.render.limits.memoryBytes)) {
+    const glm::ivec3& v = grid.voxels;
+    if (!options.json)
+      std::printf("  grid        %s (%s%s), %d x %d x %d voxels, %s active\n", inQuotes(grid.name).c_str(),
+                  grid.type.c_str(), grid.isDensity ? "" : ", no densities", v.x, v.y, v.z,
+                  std::to_string(grid.activeVoxels).c_str());
+    json["grids"].push_back({{"name", grid.name},
+                             {"type", grid.type},
+                             {"density", grid.isDensity},
+                             {"voxels", {v.x, v.y, v.z}},
+                             {"active_voxels", grid.activeVoxels}});
+  }
+  if (options.json) std::cout << jsonText(json);
+  return 0;
+}
+
 int inform(const InfoOptions& options) {
+  if (options.render.scene.extension() == ".nvdb") return informOfVolume(options);
   GltfOptions loading;
   loading.selection = options.render.selection;
   loading.instancing = options.render.device.instancing;

@@ -198,6 +198,8 @@ Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const Sequ
     before.environment = &environment;
   }
   if (run.tree) before.tree = &*run.tree;
+  const Volume volume = run.loaded ? run.loaded->scene.volume : Volume();
+  before.volume = &volume;
   if (!turntable) before.document = &run.document;
   run.loaded.reset();
   run.loaded = loadScene(drawn, stats, {}, FilmOf::Part, before);

@@ -82,6 +82,15 @@ void checkFog(const RenderOptions& o) {
     throw UsageError("--fog-density: a shadow catcher stands in clear air (--shadow-catcher)");
 }
 
+void checkVolume(const RenderOptions& o) {
+  if (o.volume.file.empty() && o.volume != VolumeSource())
+    throw UsageError(
+        "--volume-position, --volume-scale, --volume-density, --volume-color, --volume-anisotropy, "
+        "--volume-emission: go with --volume");
+  if (!o.volume.file.empty() && o.light.shadowCatcher)
+    throw UsageError("--volume: a shadow catcher stands in clear air (--shadow-catcher)");
+}
+
 void checkStudio(const LightOptions& o) {
   if (o.studio && !o.hdriFile.empty()) throw UsageError("--studio: there is an --hdri-file, too");
   if (o.studio && o.backgroundBlur > 0.0)
@@ -135,6 +144,7 @@ RenderOptions finishRender(const RawRender& raw) {
   checkLens(o.camera.lens);
   checkStudio(o.light);
   checkFog(o);
+  checkVolume(o);
   checkOutput(o, raw.anyOutput);
   checkLightPaths(o);
   checkReuse(o);

@@ -4,20 +4,13 @@
 #include "base/errors.h"
 #include "options/option_table.h"
 #include "options/row_makers.h"
+#include "scene/volume/grid.h"
 
 namespace fragtrace {
 
 namespace {
 
 constexpr double kMostExtinction = 1e6;
-constexpr double kMostAnisotropy = 0.99;  // as of materials
-
-glm::vec3 albedoOf(const std::vector<double>& values) {
-  for (const double value : values) {
-    if (!(value >= 0.0 && value <= 1.0)) throw UsageError("--fog-color: a colour is in the range 0 to 1");
-  }
-  return {values[0], values[1], values[2]};
-}
 
 /// H[,BASE]
 void chooseHeight(RenderOptions& o, const std::string& text) {
@@ -54,6 +47,14 @@ OptionRow heightRow() {
 
 }  // namespace
 
+glm::vec3 albedoOf(const char* option, const std::vector<double>& values) {
+  for (const double value : values) {
+    if (!(value >= 0.0 && value <= 1.0))
+      throw UsageError(std::string(option) + ": a colour is in the range 0 to 1");
+  }
+  return {values[0], values[1], values[2]};
+}
+
 std::vector<OptionRow> fogRows() {
   constexpr OptionTraits kDrawn{.effect = Effect::Picture};
   return {
@@ -64,7 +65,8 @@ std::vector<OptionRow> fogRows() {
                      {.effect = Effect::Picture, .renewal = Renewal::Program, .attribute = "fog_density"}),
       numbers<double>(
           "--fog-color", "linear R,G,B: the part of the light that the fog scatters (albedo)",
-          FRAGTRACE_MEMBER(fog.color), 3, albedoOf,
+          FRAGTRACE_MEMBER(fog.color), 3,
+          [](const std::vector<double>& v) { return albedoOf("--fog-color", v); },
           [](const glm::vec3& c) { return numbersText(double(c.r), double(c.g), double(c.b)); },
           {"0.8999999761581421,0.5,1"}, kDrawn),
       number<double>("--fog-anisotropy",

@@ -16,6 +16,7 @@ std::vector<OptionRow> cameraRows();
 std::vector<OptionRow> samplingRows();  ///< stages included
 std::vector<OptionRow> lightRows();
 std::vector<OptionRow> fogRows();
+std::vector<OptionRow> volumeRows();
 std::vector<OptionRow> deviceRows();
 std::vector<OptionRow> inputRows();
 std::vector<OptionRow> outputRows();

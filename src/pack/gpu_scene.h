@@ -42,6 +42,15 @@ struct LightShare {
 /// The probability that a light sample goes to the environment, whose radiance is multiplied by `intensity`.
 float environmentChance(const LightShare& share, double intensity);
 
+/// A grid of densities among the texels.
+struct PackedGrid {
+  glm::dmat4 fromFile{1.0};  ///< from the file's space to bricks of the table
+  glm::ivec3 bricks{0};      ///< of the table
+  uint32_t firstTexel = 0;   ///< of the table
+  double largest = 0.0;      ///< density
+  double brightest = 0.0;    ///< radiance
+};
+
 struct GpuScene {
   std::array<Words, layout::kSceneBufferCount>
       buffers;  ///< by binding; empty when the variant never reads it
@@ -53,6 +62,7 @@ struct GpuScene {
   uint32_t emitterCount = 0;
   uint32_t punctualLights = 0;
   std::vector<glm::vec4> casters{};  ///< of caustics: balls, middle and radius in local space
+  PackedGrid densities{};
   uint32_t energyTableRow = 0;       ///< where the energy table begins among the material rows
   uint32_t objectRow = 0;            ///< and the numbers of objects
   glm::vec3 upwardIrradiance{0.0f};  ///< by the environment, of a plane that faces up; for shadow catchers

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "pack/gpu_scene.h"
 #include "scene/scene.h"
 
 namespace fragtrace {
@@ -27,6 +28,8 @@ using PlacedTextures = std::map<std::pair<uint32_t, TransferCurve>, PlacedTexels
 struct KeptArrays {
   std::vector<std::pair<std::string, size_t>> images;  ///< names and bytes of the scene's, when it was packed
   PlacedTextures textures;
+  const VolumeGrid* grid = nullptr;  ///< that stands behind them; it is only compared
+  PackedGrid densities;
   struct KeptEnvironment {
     glm::ivec2 size{0};
     glm::ivec2 backdropSize{0};

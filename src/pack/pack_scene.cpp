@@ -11,9 +11,9 @@
 #include "pack/kept_arrays.h"
 #include "pack/pack_environment.h"
 #include "pack/pack_faces.h"
+#include "pack/pack_grid.h"
 #include "pack/pack_instances.h"
 #include "pack/pack_lights.h"
-#include "pack/pack_objects.h"
 #include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
 #include "pack/sheen_albedo.h"
@@ -288,7 +288,9 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   packAttributes(scene.vertices, traits, packed);
 
   // Step: lights; the environment shares light samples with the rest by power.
-  if (kept != nullptr && kept->images != imagesOf(scene)) *kept = {imagesOf(scene), {}, kept->environment};
+  const VolumeGrid* grid = has(traits, Trait::DensityGrid) ? scene.volume.grid.get() : nullptr;
+  if (kept != nullptr && (kept->images != imagesOf(scene) || kept->grid != grid))
+    *kept = {imagesOf(scene), {}, grid, {}, kept->environment};
   TexturePacker textures(scene, textureSide, kept != nullptr ? kept->textures : PlacedTextures(), progress);
   const std::vector<glm::vec3> radiance = meanRadiance(scene, traits, textures);
   std::vector<uint32_t> slots;
@@ -338,10 +340,13 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
       return packScene(scene, bvh, environment, variant, textureSide, kept, progress);
     }
     packed.unchanged[kTexelsBinding] = true;
+    packed.densities = kept->densities;
     return packed;
   }
-  if (kept != nullptr) kept->textures = textures.placed();
   packed.buffers[kTexelsBinding] = textures.takeTexels();
+  if (grid != nullptr) packed.densities = appendGrid(*grid, packed.buffers[kTexelsBinding]);
+  if (kept != nullptr) kept->textures = textures.placed();
+  if (kept != nullptr) kept->densities = packed.densities;
   return packed;
 }
 

@@ -51,6 +51,22 @@ layout::Fog packFog(const Fog& fog, const LocalSpace& space) {
           glm::vec4(fog.extinction * space.unit, falls, (fog.base - space.origin.y) / space.unit, 0.0)};
 }
 
+layout::Volume packVolume(const Volume& volume, const PackedGrid& grid, const LocalSpace& space) {
+  glm::dmat4 local(space.unit);
+  local[3] = glm::dvec4(space.origin, 1.0);
+  const glm::dmat4 rows = glm::transpose(grid.fromFile * glm::inverse(volume.toWorld) * local);
+  layout::Volume packed{};
+  packed.toBricksX = glm::vec4(rows[0]);
+  packed.toBricksY = glm::vec4(rows[1]);
+  packed.toBricksZ = glm::vec4(rows[2]);
+  packed.medium =
+      glm::vec4(volume.source.color.value_or(glm::vec3(1.0f)), float(volume.source.anisotropy.value_or(0.0)));
+  packed.extinction = glm::vec4(volume.source.density.value_or(1.0) * grid.largest * space.unit,
+                                volume.source.emission.value_or(0.0) * grid.brightest, 0.0, 0.0);
+  packed.table = glm::ivec4(grid.bricks, int(grid.firstTexel));
+  return packed;
+}
+
 }  // namespace
 
 Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads,
@@ -62,6 +78,7 @@ Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads, Pr
       buffers_(scene, reads),
       frameBuffer_(makeBuffer()),
       fogBuffer_(makeBuffer()),
+      volumeBuffer_(makeBuffer()),
       progressBuffer_(makeBuffer()),
       progressRead_(makeBuffer()),
       software_(context.software),
@@ -69,6 +86,7 @@ Renderer::Renderer(const Context& context, GpuScene scene, BufferReads reads, Pr
       inFlight_(context.software ? 1 : kMostInFlight) {
   glNamedBufferStorage(frameBuffer_.name(), sizeof(layout::Frame), nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferStorage(fogBuffer_.name(), sizeof(layout::Fog), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferStorage(volumeBuffer_.name(), sizeof(layout::Volume), nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferStorage(progressBuffer_.name(), sizeof(layout::Progress), nullptr, GL_DYNAMIC_STORAGE_BIT);
   constexpr GLbitfield kRead = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
   constexpr size_t kBytes = kMostInFlight * sizeof(layout::Progress);
@@ -88,9 +106,9 @@ void Renderer::describeScene(const GpuScene& scene) {
   frame_.gridOrigin = glm::vec4(scene.grid.origin, 0.0f);
   frame_.gridCell = glm::vec4(scene.grid.cell, 0.0f);
   frame_.environmentSize = scene.environmentSize;
-  frame_.environmentRotation = {1.0f, 0.0f};
   lightShare_ = scene.lightShare;
   casters_ = scene.casters;
+  grid_ = scene.densities;
   frame_.emitterCount = float(scene.emitterCount);
   frame_.energyRow = float(scene.energyTableRow);
   frame_.punctualCount = float(scene.punctualLights);
@@ -127,11 +145,9 @@ void Renderer::setFrame(const Film& film, const View& view) {
   frame_.rouletteDepth = view.rouletteDepth;
   frame_.firstSample = view.sampleOffset;
   frame_.clampBits = std::bit_cast<int>(view.clampIndirect);
-  frame_.tileGoesOn = 0;
   frame_.filmOffset = {placed.corner.x, placed.whole.y - placed.corner.y - film.size().y};
-  const glm::dvec3& origin = view.space.origin;
-  frame_.worldOrigin = origin;
-  frame_.catcherHeight = float((view.catcherHeight - origin.y) / view.space.unit);
+  frame_.worldOrigin = view.space.origin;
+  frame_.catcherHeight = float((view.catcherHeight - view.space.origin.y) / view.space.unit);
 }
 
 DrawTarget Renderer::begin(const RenderPass& pass) {
@@ -152,6 +168,12 @@ DrawTarget Renderer::begin(const RenderPass& pass) {
     movedBytes() += sizeof fog;
     glNamedBufferSubData(fogBuffer_.name(), 0, sizeof fog, &fog);
     glBindBufferBase(GL_UNIFORM_BUFFER, layout::kFogBinding, fogBuffer_.name());
+  }
+  if (has(pass.variant.traits, Trait::DensityGrid)) {
+    const layout::Volume volume = packVolume(pass.view.volume, grid_, pass.view.space);
+    movedBytes() += sizeof volume;
+    glNamedBufferSubData(volumeBuffer_.name(), 0, sizeof volume, &volume);
+    glBindBufferBase(GL_UNIFORM_BUFFER, layout::kVolumeBinding, volumeBuffer_.name());
   }
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, layout::kProgressBinding, progressBuffer_.name());
   return target;
@@ -203,7 +225,9 @@ void Renderer::bindPathStates(const ShaderVariant& variant) {
 
 int Renderer::stepBudget(const ShaderVariant& variant) const {
   if (variant.wavefront) return waveBudget_;
-  return software_ ? kSoftwareStepBudget : kHardwareStepBudget;
+  // A walk through a grid is not interrupted.
+  const int walk = has(variant.traits, Trait::DensityGrid) ? layout::kMostVolumeSteps : 0;
+  return (software_ ? kSoftwareStepBudget : kHardwareStepBudget) - walk;
 }
 
 void Renderer::adaptBudget(double ms) {

@@ -18,6 +18,7 @@
 #include "render/draw_target.h"
 #include "render/film.h"
 #include "scene/fog.h"
+#include "scene/volume/grid.h"
 #include "shader/render_options.h"
 
 namespace fragtrace {
@@ -43,6 +44,7 @@ struct View {
   bool showEnvironment = true;  ///< camera rays that miss see the environment map instead, or its backdrop
   bool seesNothing = false;     ///< they see nothing: the picture is to be laid over another one
   Fog fog;                      ///< when the variant has one
+  Volume volume;                ///< when the variant has one; its grid is packed
   std::optional<uint32_t> cameraMedium{};  ///< material of the scattering solid that the camera stands in
   double catcherHeight = 0.0;  ///< Y of the shadow catcher in world space, when the variant has one
   bool firstInMiddle = false;  ///< the first sample of each pixel is in its middle, for edges without chance
@@ -191,11 +193,13 @@ class Renderer {
   Pace* pace_ = nullptr;  ///< of the variant that draws
   layout::Frame frame_{};
   LightShare lightShare_;
+  PackedGrid grid_;
   std::vector<glm::vec4> casters_;     ///< as in GpuScene
   std::optional<Film> lightPathFilm_;  ///< a texel a light path (storeRecord of film.glsl)
   std::optional<Film> reservoirs_;  ///< of the film's pixels in this sample (shaders/reuse/neighbours.glsl)
   GlBuffer frameBuffer_;
   GlBuffer fogBuffer_;
+  GlBuffer volumeBuffer_;
   GlBuffer progressBuffer_;
   GlBuffer progressRead_;                             ///< copies of it, a slot a flight
   const layout::Progress* progressMapped_ = nullptr;  ///< the same; null where the driver maps none

@@ -41,6 +41,7 @@ SceneDescription describe(const Scene& scene) {
     result.imageBytes += image.bytes.size();
     result.texelBytes += texelBytes(image);
   }
+  if (scene.volume.grid) result.volumeBricks = scene.volume.grid->values.size() / kBrickVoxels;
   const auto lights = [&scene](LightType type) {
     return size_t(std::ranges::count(scene.lights, type, &Light::type));
   };

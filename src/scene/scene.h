@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/bounds.h"
+#include "scene/volume/grid.h"
 
 namespace fragtrace {
 
@@ -360,6 +361,7 @@ struct Scene {
       animationSeconds;  ///< when the last key stands; none: the file does not say
   std::vector<std::string> materialVariants;
   std::vector<std::string> warnings;  ///< one line each, for stderr; names the file and the place
+  Volume volume;                      ///< its grid is read after the scene's file
   BoundsDouble bounds;                ///< world space
 };
 

@@ -54,6 +54,8 @@ View makeView(const RenderOptions& options, const LoadedScene& loaded, const Cam
   view.seesNothing = !options.light.background;
   if (std::ranges::any_of(scene.materials, &Material::scattersInside))
     view.cameraMedium = solidAround(scene, loaded.bvh, scene.space.localOf(camera.position));
+  view.volume = scene.volume;
+  view.volume.grid.reset();
   view.fog = fogOf(options.fog, scene.bounds);
   view.catcherHeight = catcherHeightOf(options, scene.bounds);
   view.bounces = options.sampling.bounces;

@@ -50,7 +50,7 @@ void replaceText(const std::filesystem::path& path, const std::string& text) {
 }
 
 std::vector<std::filesystem::path> inputsOf(const RenderOptions& options) {
-  return {options.scene, options.light.hdriFile};
+  return {options.scene, options.light.hdriFile, options.volume.file};
 }
 
 std::vector<std::filesystem::path> inputsOf(const Scene& scene) {

@@ -25,6 +25,7 @@ nlohmann::ordered_json sceneJson(const SceneDescription& s) {
   json["textures"] = s.textures;
   json["images"] = s.images;
   json["image_bytes"] = s.imageBytes;
+  if (s.volumeBricks > 0) json["volume_bricks"] = s.volumeBricks;
   json["lights"] = {{"point", s.pointLights}, {"spot", s.spotLights}, {"directional", s.directionalLights}};
   json["cameras"] = {{"perspective", s.perspectiveCameras}, {"orthographic", s.orthographicCameras}};
   json["emissive_triangles"] = s.emissiveTriangles;

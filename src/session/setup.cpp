@@ -33,6 +33,7 @@
 #include "session/environment.h"
 #include "session/outputs.h"
 #include "session/picture_memory.h"
+#include "session/volume.h"
 
 namespace fragtrace {
 
@@ -185,7 +186,7 @@ void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& s
 void sayWarnings(const RenderOptions& options, Scene& scene) {
   std::ranges::move(vainOptions(options), std::back_inserter(scene.warnings));
   for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
-  if (scene.triangles.empty() && scene.spheres.empty()) {
+  if (scene.triangles.empty() && scene.spheres.empty() && !scene.volume.grid) {
     const bool hidden = !options.selection.hiddenNodes.empty();
     say(options, "warning: " + options.scene.string() + ": no triangle, sphere, point or line: " +
                      (hidden ? "--hide leaves nothing to draw" : "nothing to draw"));
@@ -261,6 +262,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   loading.progress = progress;
   loaded.scene = loadGltf(options.scene, loading, before.document);
   stats.phases.push_back(sceneTimer.end());
+  step("reading the volume", 0.3);
+  placeVolume(loaded.scene, options, before.volume);
   if (options.device.instancing == Instancing::Share && !walksTree(options))
     loaded.scene.warnings.emplace_back("--instancing share: only trees hold shared meshes; all are copied");
   if (!loaded.scene.images.empty()) startImageProcess();
@@ -304,6 +307,7 @@ void releaseGeometry(LoadedScene& loaded) {
   loaded.scene.vertices = Vertices();
   loaded.scene.instances = std::vector<Instance>();
   loaded.scene.images = std::vector<EncodedImage>();
+  loaded.scene.volume.grid.reset();
   loaded.bvh = Bvh();
 }
 

@@ -42,6 +42,7 @@ struct SceneBefore {
   Environment* environment =
       nullptr;  ///< the map of the options; it is moved into the next scene, if there is one
   const RefittableTree* tree = nullptr;
+  const Volume* volume = nullptr;
   std::shared_ptr<KeptDocument>* document = nullptr;  ///< as loadGltf() wants it
 };
 

@@ -50,6 +50,7 @@ struct Assembly {
     if (name == "frame.glsl")
       return fileText(variant.gpu ? "tune/frame_uniform.glsl" : "tune/frame_variable.glsl");
     if (name == "media/fog_block.glsl" && !has(variant.traits, Trait::Fog)) return "";
+    if (name == "media/volume_block.glsl" && !has(variant.traits, Trait::DensityGrid)) return "";
     if (name == "stack.glsl") return shared ? fileText("tune/stack_shared.glsl") : stackText(vectors);
     if (name == "path_states.glsl")
       return pathStatesText(variant.waveUnit) +

@@ -22,5 +22,6 @@ static_assert(offsetof(Frame, gridOrigin) == 4 * 16);
 static_assert(offsetof(Frame, pictureSize) == 9 * 16);
 static_assert(sizeof(Progress) == 16);
 static_assert(sizeof(Fog) == 3 * 16);
+static_assert(sizeof(Volume) == 6 * 16);
 
 }  // namespace fragtrace::layout

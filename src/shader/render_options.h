@@ -221,6 +221,7 @@ struct RenderOptions {
   SamplingOptions sampling;
   LightOptions light;
   FogOptions fog;
+  VolumeSource volume;
   OutputOptions output;
   DeviceOptions device;
 

@@ -3,22 +3,17 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <type_traits>
 
 #include "shader/traits.h"
 
 namespace fragtrace {
-
 namespace {
 
-StageSet setOf(std::initializer_list<Stage> members) {
-  StageSet set;
-  for (const Stage stage : members) set.set(size_t(stage));
-  return set;
-}
-
-TraitSet setOf(std::initializer_list<Trait> members) {
-  TraitSet set;
-  for (const Trait trait : members) set.set(size_t(trait));
+template <typename Member>
+auto setOf(std::initializer_list<Member> members) {
+  std::conditional_t<std::is_same_v<Member, Stage>, StageSet, TraitSet> set;
+  for (const Member member : members) set.set(size_t(member));
   return set;
 }
 
@@ -320,6 +315,11 @@ std::span<const TraitRow> traitRows() {  // NOLINT(readability-function-size): a
        .name = "fog",
        .constant = "kFog",
        .absence = "no fog",
+       .stages = setOf({Stage::Gi})},
+      {.trait = Trait::DensityGrid,
+       .name = "density-grid",
+       .constant = "kDensityGrid",
+       .absence = "no --volume",
        .stages = setOf({Stage::Gi})},
       {.trait = Trait::Unlit,
        .name = "unlit",

@@ -55,6 +55,7 @@ enum class Trait : uint8_t {
   ThinScattering,
   ThinScatteringTexture,
   Fog,
+  DensityGrid,
   Unlit,
   Emission,
   EmissiveTriangles,
@@ -106,7 +107,8 @@ inline bool hasLamps(const TraitSet& traits) {
 
 /// Returns true if light may be scattered between surfaces.
 inline bool hasMedia(const TraitSet& traits) {
-  return traits[size_t(Trait::Scattering)] || traits[size_t(Trait::Fog)];
+  return traits[size_t(Trait::Scattering)] || traits[size_t(Trait::Fog)] ||
+         traits[size_t(Trait::DensityGrid)];
 }
 
 /// The row that lists the texture; std::logic_error where none does.

@@ -154,6 +154,7 @@ TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop) 
   mark(Trait::Instances, !scene.instances.empty());
   mark(Trait::Creases, !scene.insets.empty());
   mark(Trait::Slivers, hasSlivers(scene));
+  mark(Trait::DensityGrid, scene.volume.grid != nullptr);
   return traits;
 }
 
@@ -191,6 +192,7 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   if (options.light.selection != LightSelection::Auto)
     v.traits.set(size_t(Trait::LightTree), options.light.selection != LightSelection::Power);
   v.traits.set(size_t(Trait::Fog), options.fog.density > 0.0 && !options.light.shadowCatcher);
+  if (options.light.shadowCatcher) v.traits.reset(size_t(Trait::DensityGrid));
   if (options.light.caustics == Caustics::Off || !whyNoLightPaths(options).empty())
     v.traits.reset(size_t(Trait::Caustics));
   v.heatmap = options.output.debugView == DebugView::Visits;
@@ -245,9 +247,9 @@ ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& pre
   }
   if (normals) wanted.stages.set(size_t(Stage::Phong));
   TraitSet kept = present;
-  for (Trait t :
-       {Trait::PunctualLights, Trait::EmissiveTriangles, Trait::EnvironmentSampling, Trait::Environment,
-        Trait::Emission, Trait::EmissionTexture, Trait::Absorption, Trait::Unlit, Trait::Fog}) {
+  for (Trait t : {Trait::PunctualLights, Trait::EmissiveTriangles, Trait::EnvironmentSampling,
+                  Trait::Environment, Trait::Emission, Trait::EmissionTexture, Trait::Absorption,
+                  Trait::Unlit, Trait::Fog, Trait::DensityGrid}) {
     kept.reset(size_t(t));
   }
   if (!follows) {

@@ -173,9 +173,20 @@ def pictures():
     yield "pfm", b"PF\n1 1\n-1.0\n" + bytes(12)
 
 
+def grids(nvdb):
+    """Of a NanoVDB file with ZIP compression: each grid as it is in memory (NanoVDB 32, io::Header and io::MetaData)."""
+    count, place = struct.unpack_from("<H", nvdb, 12)[0], 16
+    for _ in range(count):
+        place += 176 + struct.unpack_from("<I", nvdb, place + 136)[0]
+    for _ in range(count):
+        size = struct.unpack_from("<Q", nvdb, place)[0]
+        yield zlib.decompress(nvdb[place + 8:place + 8 + size])
+        place += 8 + size
+
+
 def main():
     scenes, folder = map(Path, sys.argv[1:3])
-    for name in ("loader", "picture"):
+    for name in ("loader", "picture", "volume"):
         (folder / name).mkdir(parents=True, exist_ok=True)
     found = set()
     sources = [(path.stem, json.loads(path.read_text()), None) for path in sorted(scenes.glob("*.gltf"))]
@@ -195,6 +206,8 @@ def main():
                 (folder / "loader" / (name + suffix)).write_bytes(data)
     for name, data in pictures():
         (folder / "picture" / name).write_bytes(data)
+    for i, grid in enumerate(grids((scenes / "plume.nvdb").read_bytes())):
+        (folder / "volume" / f"plume{i}").write_bytes(grid)
     (folder / "loader.dict").write_text("".join(f'"\\"{word}\\""\n' for word in sorted(found)))
 
 

@@ -72,7 +72,7 @@ ROWS = [
     F("shade.shade absorption", "exp(-p.hitT", "exp(-1.02 * p.hitT", "glass absorbs along a way 2 % too long"),
     F("shade.shade emission", "p.throughput * emittedAt", "1.02 * p.throughput * emittedAt", "what surfaces emit is 2 % too bright"),
     F("shade.shade camera inside", "p.etaScale = ior * ior", "p.etaScale = 1.02 * ior * ior", "a camera inside of glass takes its compression 2 % off"),
-    F("shade.settleShadow", ": p.contribution;", ": 1.02 * p.contribution;", "light that shadow rays settle is 2 % too bright"),
+    F("shade.settleShadow", "p.radiance += p.contribution", "p.radiance += 1.02 * p.contribution", "light that shadow rays settle is 2 % too bright"),
     F("shade.settleShadow wall", "p.contribution *= lightThrough", "p.contribution *= 1.02 * lightThrough", "each thin wall lets 2 % too much light through"),
     F("shade.lightThrough", "return straightThrough(", "return 1.02 * straightThrough(", "each thin wall lets 2 % too much light through"),
     F("shade.normalFacing", "return kGi && kSpecular ?", "normal = normalize(normal + vec3(0.05)); return kGi && kSpecular ?", "shading normals lean by 3 degrees"),

@@ -8,13 +8,14 @@ from pathlib import Path
 
 from fault import callers_of
 
-COMMANDS = ("Media", "Means", "Sheets", "KnownLight", "ThinGlass", "LightTree", "Caustics", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising", "ShadowCatcher", "CutOutShadow")
+COMMANDS = ("Media", "Volumes", "Means", "Sheets", "KnownLight", "ThinGlass", "LightTree", "Caustics", "KnownSurfaces", "KnownTextures", "TextureFactors", "ClampedLight", "Filters", "Materials", "FirstHits", "LightParts", "Pictures", "Instancing", "Surroundings", "StressRows", "Merging", "Denoising", "ShadowCatcher", "CutOutShadow")
 # Where to look first, before there is any experience: scenes of picture tests, test files and groups by the beginning of a fault's name.
 LIKELY = {
     "media/phase.": ("pure.shader_media_test",),
     "media/flight.": ("pure.shader_media_test",),
     "media/fog.": ("pure.shader_media_test",),
-    "media/": ("command.Media", "milk.gi", "phase.gi", "inside.gi", "foggy.gi"),
+    "media/volume.": ("pure.shader_volume_test", "command.Volumes"),
+    "media/": ("command.Media", "command.Volumes", "milk.gi", "phase.gi", "inside.gi", "foggy.gi"),
     "material_layers.addThinScattering": ("command.Media",),
     "bsdf.diffuseColor": ("command.Media",),
     "reuse/neighbours.": ("command.LightTree",),

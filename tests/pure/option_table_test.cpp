@@ -44,6 +44,12 @@ Words companionsOf(const std::string& name) {
                                                    {"--fog-anisotropy", {"--fog-density=0.5"}},
                                                    {"--fog-height", {"--fog-density=0.5"}},
                                                    {"--fog-distance", {"--fog-density=0.5"}},
+                                                   {"--volume-position", {"--volume=cloud.nvdb"}},
+                                                   {"--volume-scale", {"--volume=cloud.nvdb"}},
+                                                   {"--volume-density", {"--volume=cloud.nvdb"}},
+                                                   {"--volume-color", {"--volume=cloud.nvdb"}},
+                                                   {"--volume-anisotropy", {"--volume=cloud.nvdb"}},
+                                                   {"--volume-emission", {"--volume=cloud.nvdb"}},
                                                    {"--format", {"--output=-"}},
                                                    {"--sample-offset", {"--spp=1"}}};
   const auto found = needed.find(name);

@@ -6,6 +6,7 @@ Needs: pip install mitsuba==3.9.1; libLLVM (libllvm19). Usage: render_mitsuba.py
 """
 
 import json
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -191,6 +192,24 @@ def fog(options, scene):
     return {"fog": {**ball, "interior": medium}}
 
 
+def grid_of_densities(path, scratch):
+    """The plume of tests/volumes/make_grid.cpp, whose file stands in scenes/, in the cube that it fills."""
+    root = json.loads(path.read_text())
+    node = next((node for node in root["nodes"] if "fragtrace_volume" in node.get("extras", {})), None)
+    if node is None:
+        return {}
+    volume = node["extras"]["fragtrace_volume"]
+    side = 32
+    subprocess.run([REPOSITORY / "build/make_grid", "plume", str(side), scratch / "plume.nvdb", "zip"], check=True)
+    assert (scratch / "plume.nvdb").read_bytes() == (path.parent / volume["volume"]).read_bytes()
+    values = np.fromfile(scratch / "plume.raw", np.float32).reshape(side, side, side, 1)
+    place = mi.ScalarTransform4f().translate(node["translation"])
+    medium = {"type": "heterogeneous", "scale": float(volume["density"]), "albedo": {"type": "constvolume", "value": rgb(volume["color"])},
+              "sigma_t": {"type": "gridvolume", "grid": mi.VolumeGrid(values), "to_world": place.translate([-0.5] * 3)},
+              "phase": {"type": "hg", "g": float(volume["anisotropy"])}}
+    return {"densities": {"type": "cube", "to_world": place.scale([0.5] * 3), "bsdf": {"type": "null"}, "interior": medium}}
+
+
 def surface(material, compensated, vertex_colors=False):
     """The BSDF, the light, and the medium behind it if it is solid and absorbs."""
     if material.layers:
@@ -306,6 +325,11 @@ def described(scene, entry, scratch):
         result["light%d" % i] = punctual(light, traced)
     if "--fog-density" in options:
         result.update(fog(options, scene))
+    densities = grid_of_densities(SCENES / (entry["scene"] + ".gltf"), scratch)
+    result.update(densities)
+    if densities:
+        # volpath leaves a NaN once in a few million paths.
+        result["integrator"]["type"] = "volpathmis"
     if "camera_in" in entry:  # the name of the mesh
         number = [mesh.name for mesh in scene.meshes].index(entry["camera_in"])
         around = {"around": result["mesh%d" % number]["interior"]}

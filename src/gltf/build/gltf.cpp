@@ -139,6 +139,13 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
     if (const auto camera = cameraAt(document, node)) scene.cameras.push_back(*camera);
     if (node.hidden) continue;
     if (const auto sphere = sphereAt(document, node)) spheres.push_back(*sphere);
+    if (auto volume = volumeAt(document, node)) {
+      if (!scene.volume.source.file.empty())
+        document.diagnostics.warn(pointerTo("nodes", node.index, "extras", "fragtrace_volume"),
+                                  "a scene has one volume; this one is left out");
+      else
+        scene.volume = std::move(*volume);
+    }
   }
 
   // Local space.

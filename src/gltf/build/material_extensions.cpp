@@ -104,7 +104,6 @@ void readDispersion(const MaterialPart& part, Material& m) {
 }
 
 /// The anisotropies that the phase function still has digits for.
-constexpr float kMostAnisotropy = 0.99f;
 
 /// KHR_materials_volume_scatter, the draft before KHR_materials_scatter, whose colour had two names.
 void readVolumeScatter(const MaterialPart& part, Material& m) {

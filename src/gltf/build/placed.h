@@ -15,6 +15,9 @@ std::optional<Camera> cameraAt(const Document& document, const PlacedNode& node)
 /// The node's KHR_lights_punctual light in local space. Throws InputError for one that is too bright there.
 std::optional<Light> lightAt(Document& document, const PlacedNode& node, const LocalSpace& space);
 
+/// The node's grid of densities (extras "fragtrace_volume"), whose file is in memory and not yet decoded.
+std::optional<Volume> volumeAt(Document& document, const PlacedNode& node);
+
 /// A sphere in world space and double precision, as a node places it.
 struct PlacedSphere {
   glm::dvec3 center{0.0};

@@ -272,6 +272,7 @@ void ViewTracer::pose(const TraceRequest& request) {
       before.environment = &loaded_->environment;
     if (tree_ && sameNodes) before.tree = &*tree_;
     before.document = &document_;
+    before.volume = &loaded_->scene.volume;
     *loaded_ = loadScene(options, stats, {}, FilmOf::Picture, before);
     if (!stats.treeRefitted && loaded_->scene.instances.empty())
       tree_ = refittable(loaded_->bvh, loaded_->scene);

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "pack/gpu_scene.h"
+#include "scene/volume/grid.h"
+
+namespace fragtrace {
+
+/// Appends the grid's table, which is larger by a brick before the first along each axis, and its bricks
+/// (shaders/media/volume.glsl).
+PackedGrid appendGrid(const VolumeGrid& grid, Words& texels);
+
+}  // namespace fragtrace

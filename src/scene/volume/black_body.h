@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace fragtrace {
+
+/// Radiance of a black body (Planck) as linear sRGB whose luminance is in cd/m^2; colours outside of sRGB are
+/// clamped. By the fit of the CIE's 1931 observer of Wyman, Sloan and Shirley (Simple Analytic Approximations
+/// to the CIE XYZ Color Matching Functions, JCGT 2(2), 2013). 0 for a temperature (kelvin) that is not above
+/// 0.
+glm::dvec3 blackBodyRadiance(double temperature);
+
+}  // namespace fragtrace

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// A grid of densities, as a cloud or smoke is stored, in bricks of voxels.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fragtrace {
+
+inline constexpr int kBrickSide = 8;
+inline constexpr size_t kBrickVoxels = size_t(kBrickSide) * kBrickSide * kBrickSide;
+
+/// A voxel's value is that at its index; between these, values are interpolated linearly, and outside of all
+/// bricks they are 0.
+struct VolumeGrid {
+  glm::ivec3 minimum{0};  ///< index of the first voxel of the first brick, a multiple of kBrickSide
+  glm::ivec3 bricks{0};   ///< numbers of bricks along X, Y, Z
+  std::vector<uint32_t>
+      table;  ///< a brick, X fastest: 1 + its number among those that are stored; 0: it is empty
+  std::vector<uint16_t> values;  ///< half floats, kBrickVoxels a stored brick, X fastest: parts of `largest`
+  std::vector<uint16_t>
+      radiance;             ///< half floats, R, G, B a voxel of `values`: parts of `brightest`; empty: none
+  double largest = 0.0;     ///< density
+  double brightest = 0.0;   ///< radiance, cd/m^2
+  glm::dmat4 toWorld{1.0};  ///< from indices of voxels to the file's own space
+
+  bool empty() const { return values.empty(); }
+  size_t bytes() const {
+    return table.size() * sizeof(uint32_t) + (values.size() + radiance.size()) * sizeof(uint16_t);
+  }
+};
+
+/// The largest value by which media scatter forward, or back.
+inline constexpr double kMostAnisotropy = 0.99;
+
+/// A grid's file, place and medium, as options or a scene ask for it.
+struct VolumeSource {
+  std::filesystem::path file;          ///< .nvdb; empty: there is none
+  std::optional<std::string> grid;     ///< its name; none: the first of densities
+  std::optional<glm::dvec3> position;  ///< of the file's origin, metres
+  std::optional<double> scale;         ///< metres a unit of the file's space; none: 1
+  std::optional<double> density;       ///< extinction of a density of 1, 1/m; none: 1
+  std::optional<glm::vec3> color;      ///< albedo of one scattering; none: 1
+  std::optional<double> anisotropy;    ///< mean cosine of a scattering; above 0 forward; none: 0
+  std::optional<double> emission;      ///< factor of a black body's radiance (readGrid()); none: 0
+
+  bool emits() const { return emission.value_or(0.0) > 0.0; }
+  bool operator==(const VolumeSource&) const = default;
+};
+
+inline constexpr double kLeastVolumeScale = 1e-9;
+inline constexpr double kMostVolumeScale = 1e9;
+inline constexpr double kMostVolumeFactor = 1e12;  ///< of density and emission
+
+/// File and grid of FILE.nvdb or FILE.nvdb:GRID.
+VolumeSource volumeFile(const std::string& text);
+
+/// A grid in the scene.
+struct Volume {
+  VolumeSource source;
+  std::vector<uint8_t> file{};             ///< its bytes, where the scene's loader has read it
+  std::shared_ptr<const VolumeGrid> grid;  ///< null: there is none
+  glm::dmat4 toWorld{1.0};                 ///< from the file's space, metres
+};
+
+}  // namespace fragtrace

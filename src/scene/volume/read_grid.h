@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Grids of NanoVDB files (.nvdb), read by a worker process.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/volume/grid.h"
+
+namespace fragtrace {
+
+struct GridDescription {
+  std::string name;
+  std::string type;        ///< of its values, as NanoVDB names it
+  bool isDensity = false;  ///< of plain numbers, no level set: it may be a volume
+  glm::ivec3 voxels{0};    ///< of the box of its active voxels
+  uint64_t activeVoxels = 0;
+};
+
+/// Throws InputError, which names the file.
+std::vector<GridDescription> listGrids(const std::filesystem::path& path, uint64_t memoryBytes);
+
+/// The grid that the source names; where it names none, `density`, or the first that may be a density. Where
+/// the source emits, with the radiance of a black body at the grid `temperature` (kelvin) of the same file.
+/// `file` holds the bytes of the file; if it is empty, they are read. Throws InputError, which names file and
+/// grid, also where the grid and all that is read with it take more than so many bytes.
+VolumeGrid readGrid(const VolumeSource& source, std::span<const uint8_t> file, uint64_t memoryBytes);
+
+/// The grid that the worker sends (scene/volume/decode.h), which is not trusted more than the file is.
+/// Throws std::runtime_error.
+VolumeGrid gridOfAnswer(std::span<const uint8_t> answer);
+
+}  // namespace fragtrace
