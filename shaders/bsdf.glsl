@@ -2,7 +2,7 @@
 // The glTF 2.0 material (appendix B, KHR_materials_specular, _transmission, _volume) as one BSDF: metal, dielectric
 // over a diffuse base, and glass, mixed by metallic and transmission; and what extensions change of these: the shape of
 // the facets, a film on them, diffuse light through the surface. Sheen and clearcoat lie above (layers.glsl). Frame: z
-// is the shading normal, outgoing.z > 0.
+// is the shading normal, wo.z > 0.
 
 struct Bsdf {
   vec3 baseColor;
@@ -12,7 +12,7 @@ struct Bsdf {
   float opaque;    // weight of the dielectric over the diffuse base
   float glass;     // weight of the transmissive dielectric
   float alpha;     // GGX width, roughness squared
-  bool mirrorLike; // so smooth that its specular lobes are single directions
+  bool mirrorLike; // so smooth that its specular lobes are delta lobes
   bool solid;      // glass bounds a volume, else thin-walled
   float glassLost;  // of the light on rough glass, what facets lose and scatteredGlass() gives back
   float eta;       // index behind the surface over the index before it
@@ -31,37 +31,37 @@ struct Bsdf {
   vec3 between;
 };
 
-/// A direction drawn from a Bsdf. weight = f |cos| / density; density 0 for a single direction; weight 0 ends the path.
+/// A direction drawn from a Bsdf. weight = f |cos| / pdf; pdf 0 for a delta lobe; weight 0 ends the path.
 struct BsdfSample {
-  vec3 incoming;
+  vec3 wi;
   vec3 weight;
-  float density;
+  float pdf;
   bool transmitted;
 };
 
-/// f |cos| and the density with which sampleBsdf draws the direction, single directions left out.
+/// f |cos| and the pdf with which sampleBsdf draws the direction, delta lobes left out.
 struct BsdfValue {
   vec3 value;
-  float density;
+  float pdf;
 };
 
 vec3 diffuseColor(Bsdf b) { return kThinScattering ? b.diffuseColor : b.baseColor; }
 
-/// Below this width a lobe is taken as a single direction: it is narrower than 0.001 radians.
+/// Below this width a lobe is taken as a delta lobe: it is narrower than 0.001 radians.
 const float kMirrorAlpha = float(0.001);
 
 /// Between indices that are closer than this a rough boundary bends light by less than kMirrorAlpha, and half vectors
 /// lose their digits.
 const float kEqualIndices = float(0.001);
 
-/// Whether glass is a single direction each way. A thin wall spreads light by its roughness alone.
+/// Returns true if glass has a delta lobe each way. A thin wall spreads light by its roughness alone.
 bool isSmoothGlass(Bsdf b) { return b.mirrorLike || (b.solid && abs(b.eta - 1.0f) < kEqualIndices); }
 
 /// A film of no thickness is none.
 bool hasFilm(Bsdf b) { return kIridescence && b.film > 0.0f && b.filmThickness > 0.0f; }
 
 /// Reflectance of facets that are seen at `cosine`, under the film if there is one.
-vec3 facetFresnel(Bsdf b, vec3 f0, float f90, float cosine) {
+vec3 microfacetFresnel(Bsdf b, vec3 f0, float f90, float cosine) {
   vec3 bare = fresnelSchlick(f0, f90, cosine);
   if (!hasFilm(b)) return bare;
   return mix(bare, filmReflectance(f0, b.filmIndex, b.filmThickness, cosine), b.film);
@@ -70,14 +70,14 @@ vec3 facetFresnel(Bsdf b, vec3 f0, float f90, float cosine) {
 vec3 opaqueFresnel(Bsdf b, float cosine) {
   if (!kSpecular) return vec3(0.0f);
   vec3 result = vec3(0.0f);
-  if (kMetals) result = b.metal * facetFresnel(b, b.baseColor, 1.0f, cosine);
-  return result + b.opaque * facetFresnel(b, b.dielectricF0, b.dielectricF90, cosine);
+  if (kMetals) result = b.metal * microfacetFresnel(b, b.baseColor, 1.0f, cosine);
+  return result + b.opaque * microfacetFresnel(b, b.dielectricF0, b.dielectricF90, cosine);
 }
 
 /// The share of light that the dielectric layer lets through to the diffuse base.
 float throughLayer(Bsdf b, float cosine) {
   if (!kSpecular) return 1.0f;
-  return 1.0f - maxComponent(facetFresnel(b, b.dielectricF0, b.dielectricF90, cosine));
+  return 1.0f - maxComponent(microfacetFresnel(b, b.dielectricF0, b.dielectricF90, cosine));
 }
 
 /// Reflectance of one interface of the glass whose exact reflectance is `bare`, as KHR_materials_specular scales it: f0
@@ -134,10 +134,10 @@ vec3 manyScatterings(vec3 fresnel, float averageLoss) {
 
 /// 1 - albedo of facets that reflect all: that of isotropic facets of the mean width, seen at the angle at which these
 /// mask as much (Heitz 2014, section 5.3: masking is that of a stretched direction). Within 0.04.
-float facetLoss(vec3 v, float alpha, float stretch) {
+float microfacetLoss(vec3 v, float alpha, float stretch) {
   if (!kAnisotropy) return ggxLoss(v.z, alpha);
-  float mean = facetMean(stretch);
-  vec3 along = alongFacets(v, stretch) / mean;
+  float mean = microfacetMean(stretch);
+  vec3 along = alongMicrofacets(v, stretch) / mean;
   float cosine = v.z / sqrt(along.x * along.x + along.y * along.y + v.z * v.z);
   return ggxLoss(cosine, alpha * mean);
 }
@@ -147,16 +147,16 @@ float facetLoss(vec3 v, float alpha, float stretch) {
 Bsdf compensate(Bsdf b) {
   b.between = vec3(0.0f);
   if (!kCompensation || b.mirrorLike) return b;
-  float averageLoss = ggxAverageLoss(b.alpha * facetMean(b.stretch));
+  float averageLoss = ggxAverageLoss(b.alpha * microfacetMean(b.stretch));
   if (averageLoss <= 0.0f) return b;
   vec3 color = b.opaque * manyScatterings(averageFresnel(b.dielectricF0, b.dielectricF90), averageLoss);
   if (kMetals) color = color + b.metal * manyScatterings(averageFresnel(b.baseColor, 1.0f), averageLoss);
   b.between = color * (kInversePi / averageLoss);
-  if (kAnisotropy) b.between = b.between * facetsGiveBack(b.stretch);
+  if (kAnisotropy) b.between = b.between * microfacetsGiveBack(b.stretch);
   return b;
 }
 
-/// Of the drawings from diffuse lobes, the part that goes through the surface.
+/// The share of the samples of diffuse lobes that goes through the surface.
 float throughChance(Bsdf b, float reflected, float through) {
   if (!kDiffuseTransmission || b.diffuseThrough <= 0.0f) return 0.0f;
   return reflected > 0.0f ? through / (reflected + through) : 1.0f;
@@ -177,12 +177,12 @@ vec4 lobeChances(Bsdf b, float cosine) {
     return vec4(glass, 0.0f, (1.0f - glass) * (1.0f - below), (1.0f - glass) * below);
   }
   float specular = maxComponent(opaqueFresnel(b, cosine));
-  // Where the layer reflects all at this angle it lets light through at those of other facets.
+  // A layer that reflects all at this angle lets light through at those of other facets.
   float layer = b.opaque * max(throughLayer(b, cosine), float(0.001));
   float diffuse = layer * reflected;
   if (kDiffuseTransmission) through *= layer;
   if (kCompensation) {
-    diffuse = diffuse + maxComponent(b.between) * kPi * ggxLoss(cosine, b.alpha * facetMean(b.stretch));
+    diffuse = diffuse + maxComponent(b.between) * kPi * ggxLoss(cosine, b.alpha * microfacetMean(b.stretch));
   }
   float below = throughChance(b, diffuse, through);
   diffuse = kDiffuseTransmission ? diffuse + through : diffuse;
@@ -195,7 +195,7 @@ vec4 lobeChances(Bsdf b, float cosine) {
   return vec4(glass, (1.0f - glass) * share, rest * (1.0f - below), rest * below);
 }
 
-/// Of the light that facets of the glass lose, the share that comes back on the side of `outgoing`.
+/// The share of the light that facets of the glass lose that comes back on the side of `wo`.
 float scatteredBack(Bsdf b) {
   float eta = b.solid ? b.eta : max(b.eta, 1.0f / b.eta);
   float single = clamp(averageDielectric(eta), 0.0f, 1.0f);
@@ -204,39 +204,39 @@ float scatteredBack(Bsdf b) {
 
 /// Light that is scattered more than once between the facets of rough glass: as diffuse light, back and through as much
 /// as a boundary reflects and transmits on average.
-BsdfValue scatteredGlass(Bsdf b, vec3 outgoing, vec3 incoming) {
-  bool transmitted = incoming.z < 0.0f;
+BsdfValue scatteredGlass(Bsdf b, vec3 wo, vec3 wi) {
+  bool transmitted = wi.z < 0.0f;
   float back = scatteredBack(b);
-  vec3 tint = transmitted ? b.baseColor : glassTint(b, outgoing.z);
+  vec3 tint = transmitted ? b.baseColor : glassTint(b, wo.z);
   BsdfValue r;
-  r.density = b.glassLost * (transmitted ? 1.0f - back : back) * abs(incoming.z) * kInversePi;
-  r.value = tint * (transmitted && b.solid ? r.density / (b.eta * b.eta) : r.density);
+  r.pdf = b.glassLost * (transmitted ? 1.0f - back : back) * abs(wi.z) * kInversePi;
+  r.value = tint * (transmitted && b.solid ? r.pdf / (b.eta * b.eta) : r.pdf);
   return r;
 }
 
-/// Value and density of the facets of rough glass in one direction.
-BsdfValue evaluateFacets(Bsdf b, vec3 outgoing, vec3 incoming) {
+/// Value and pdf of the facets of rough glass in one direction.
+BsdfValue evaluateMicrofacets(Bsdf b, vec3 wo, vec3 wi) {
   BsdfValue none;
   none.value = vec3(0.0f);
-  none.density = 0.0f;
-  bool transmitted = incoming.z < 0.0f;
+  none.pdf = 0.0f;
+  bool transmitted = wi.z < 0.0f;
   // A thin wall transmits the mirror image of what it reflects.
   bool bends = transmitted && b.solid;
-  vec3 image = transmitted && !b.solid ? vec3(incoming.x, incoming.y, -incoming.z) : incoming;
-  vec3 h = bends ? outgoing + b.eta * incoming : outgoing + image;
+  vec3 image = transmitted && !b.solid ? vec3(wi.x, wi.y, -wi.z) : wi;
+  vec3 h = bends ? wo + b.eta * wi : wo + image;
   float squared = dot(h, h);
   if (squared <= 0.0f) return none;
   h = h / sqrt(squared);
   h = h.z < 0.0f ? -h : h;
-  float oh = dot(outgoing, h);
+  float oh = dot(wo, h);
   float ih = dot(image, h);
   float denominator = oh + b.eta * ih;
   if (oh <= 0.0f || (bends ? ih >= 0.0f || denominator == 0.0f : ih <= 0.0f)) return none;
   float fresnel = glassFresnel(b, oh);
-  float density = facetDensity(outgoing, h, b.alpha, b.stretch);
-  // The masking ratio turns the density of the visible normals into the value (both have D G1(o) / o.z).
+  float pdf = microfacetPdf(wo, h, b.alpha, b.stretch);
+  // The masking ratio turns the pdf of the visible normals into the value (both have D G1(o) / o.z).
   vec3 mirrored = vec3(image.x, image.y, abs(image.z));
-  float ratio = facetShadowing(outgoing, mirrored, b.alpha, b.stretch);
+  float ratio = microfacetShadowing(wo, mirrored, b.alpha, b.stretch);
   BsdfValue r;
   float jacobian = 1.0f / (4.0f * oh);
   vec3 tint = glassTint(b, oh);
@@ -251,90 +251,90 @@ BsdfValue evaluateFacets(Bsdf b, vec3 outgoing, vec3 incoming) {
       tint = tint / (b.eta * b.eta);
     }
   }
-  r.density = share * density * jacobian;
-  r.value = tint * (r.density * ratio);
-  // What masking takes is drawn elsewhere then (drawBase).
-  if (b.glassLost > 0.0f) r.density *= ratio;
+  r.pdf = share * pdf * jacobian;
+  r.value = tint * (r.pdf * ratio);
+  // Masked samples are drawn elsewhere then (drawBase).
+  if (b.glassLost > 0.0f) r.pdf *= ratio;
   return r;
 }
 
-/// Of all of the rough glass.
-BsdfValue evaluateGlass(Bsdf b, vec3 outgoing, vec3 incoming) {
-  BsdfValue r = evaluateFacets(b, outgoing, incoming);
+/// Value and pdf of rough glass, multiple scattering included.
+BsdfValue evaluateGlass(Bsdf b, vec3 wo, vec3 wi) {
+  BsdfValue r = evaluateMicrofacets(b, wo, wi);
   if (!kCompensation || b.glassLost <= 0.0f) return r;
-  BsdfValue again = scatteredGlass(b, outgoing, incoming);
+  BsdfValue again = scatteredGlass(b, wo, wi);
   r.value = r.value + again.value;
-  r.density += again.density;
+  r.pdf += again.pdf;
   return r;
 }
 
 /// Diffuse light through the surface, as much as the reflection's mirror image would let into the base.
-BsdfValue evaluateThrough(Bsdf b, vec3 outgoing, vec3 incoming, float chance) {
-  vec3 h = normalize(outgoing + vec3(incoming.x, incoming.y, -incoming.z));
+BsdfValue evaluateThrough(Bsdf b, vec3 wo, vec3 wi, float chance) {
+  vec3 h = normalize(wo + vec3(wi.x, wi.y, -wi.z));
   BsdfValue r;
-  float lit = b.opaque * b.diffuseThrough * throughLayer(b, max(0.0f, dot(outgoing, h))) * kInversePi * -incoming.z;
+  float lit = b.opaque * b.diffuseThrough * throughLayer(b, max(0.0f, dot(wo, h))) * kInversePi * -wi.z;
   // Radiance is compressed by the denser side.
   r.value = (b.solid ? lit / (b.eta * b.eta) : lit) * b.throughColor;
-  r.density = chance * -incoming.z * kInversePi;
+  r.pdf = chance * -wi.z * kInversePi;
   return r;
 }
 
-/// Light that the base scatters without reflecting it, for `incoming` above the surface; oh: cosine between `outgoing`
+/// Light that the base scatters without reflecting it, for `wi` above the surface; oh: cosine between `wo`
 /// and the half vector.
-vec3 diffuseValue(Bsdf b, vec3 incoming, float oh) {
-  float lit = b.opaque * throughLayer(b, oh) * kInversePi * incoming.z;
+vec3 diffuseValue(Bsdf b, vec3 wi, float oh) {
+  float lit = b.opaque * throughLayer(b, oh) * kInversePi * wi.z;
   if (kDiffuseTransmission) lit *= 1.0f - b.diffuseThrough;
-  if (kVertexNormals) lit *= terminatorFade(b.faceNormal, b.vertexNormal, incoming);
+  if (kVertexNormals) lit *= terminatorFade(b.faceNormal, b.vertexNormal, wi);
   return lit * diffuseColor(b);
 }
 
-/// Of all that lies under sheen and clearcoat.
-BsdfValue evaluateBase(Bsdf b, vec3 outgoing, vec3 incoming) {
+/// Value and pdf of everything under sheen and clearcoat.
+BsdfValue evaluateBase(Bsdf b, vec3 wo, vec3 wi) {
   BsdfValue r;
   r.value = vec3(0.0f);
-  r.density = 0.0f;
-  vec4 chances = lobeChances(b, outgoing.z);
-  if (kDiffuseTransmission && incoming.z < 0.0f) r = evaluateThrough(b, outgoing, incoming, chances.w);
-  if (incoming.z > 0.0f) {
-    vec3 h = normalize(outgoing + incoming);
-    float oh = max(0.0f, dot(outgoing, h));
-    r.value = diffuseValue(b, incoming, oh);
-    r.density = chances.z * incoming.z * kInversePi;
+  r.pdf = 0.0f;
+  vec4 chances = lobeChances(b, wo.z);
+  if (kDiffuseTransmission && wi.z < 0.0f) r = evaluateThrough(b, wo, wi, chances.w);
+  if (wi.z > 0.0f) {
+    vec3 h = normalize(wo + wi);
+    float oh = max(0.0f, dot(wo, h));
+    r.value = diffuseValue(b, wi, oh);
+    r.pdf = chances.z * wi.z * kInversePi;
     if (kSpecular && !b.mirrorLike) {
-      float density = facetDensity(outgoing, h, b.alpha, b.stretch) / max(4.0f * oh, float(1e-12));
-      float ratio = facetShadowing(outgoing, incoming, b.alpha, b.stretch);
-      r.value = r.value + (density * ratio) * opaqueFresnel(b, oh);
+      float pdf = microfacetPdf(wo, h, b.alpha, b.stretch) / max(4.0f * oh, float(1e-12));
+      float ratio = microfacetShadowing(wo, wi, b.alpha, b.stretch);
+      r.value = r.value + (pdf * ratio) * opaqueFresnel(b, oh);
       if (kCompensation) {
-        float lost = facetLoss(outgoing, b.alpha, b.stretch) * facetLoss(incoming, b.alpha, b.stretch);
-        r.value = r.value + (lost * incoming.z) * b.between;
+        float lost = microfacetLoss(wo, b.alpha, b.stretch) * microfacetLoss(wi, b.alpha, b.stretch);
+        r.value = r.value + (lost * wi.z) * b.between;
       }
-      r.density = r.density + chances.y * density;
+      r.pdf = r.pdf + chances.y * pdf;
     }
   }
   if (kRoughGlass && !isSmoothGlass(b)) {
-    BsdfValue g = evaluateGlass(b, outgoing, incoming);
+    BsdfValue g = evaluateGlass(b, wo, wi);
     r.value = r.value + b.glass * g.value;
-    r.density = r.density + chances.x * g.density;
+    r.pdf = r.pdf + chances.x * g.pdf;
   }
   return r;
 }
 
-/// Draws a single direction of smooth glass: reflected with the chance of its reflectance, else transmitted.
-BsdfSample sampleSmoothGlass(Bsdf b, vec3 outgoing, float choice) {
+/// Draws a delta lobe of smooth glass: reflected with the chance of its reflectance, else transmitted.
+BsdfSample sampleSmoothGlass(Bsdf b, vec3 wo, float choice) {
   BsdfSample s;
-  float fresnel = glassFresnel(b, outgoing.z);
+  float fresnel = glassFresnel(b, wo.z);
   s.transmitted = choice >= fresnel;
-  s.density = 0.0f;
-  s.weight = glassTint(b, outgoing.z);
-  s.incoming = vec3(-outgoing.x, -outgoing.y, outgoing.z);
+  s.pdf = 0.0f;
+  s.weight = glassTint(b, wo.z);
+  s.wi = vec3(-wo.x, -wo.y, wo.z);
   if (s.transmitted) {
     s.weight = b.solid ? b.baseColor / (b.eta * b.eta) : b.baseColor;
-    s.incoming = b.solid ? refractThrough(outgoing, vec3(0.0f, 0.0f, 1.0f), b.eta) : -outgoing;
+    s.wi = b.solid ? refractThrough(wo, vec3(0.0f, 0.0f, 1.0f), b.eta) : -wo;
   }
   return s;
 }
 
-/// The density of a sample whose direction is drawn, but not weighed yet.
+/// The pdf of a sample whose direction is drawn, but not weighed yet.
 const float kUnweighed = float(-1.0);
 
 const float kLowBits = float(4096.0);  // times this, a uniform number leaves a fraction that is one of its own
@@ -345,56 +345,56 @@ BsdfSample drawScattered(Bsdf b, float u, float v) {
   BsdfSample s;
   s.transmitted = u >= back;
   u = s.transmitted ? (u - back) / max(1.0f - back, float(1e-12)) : u / max(back, float(1e-12));
-  s.incoming = sampleCosineHemisphere(clamp(u, 0.0f, float(0.99999994)), v);
-  s.incoming.z = (s.transmitted ? -1.0f : 1.0f) * max(s.incoming.z, float(1e-6));
+  s.wi = sampleCosineHemisphere(clamp(u, 0.0f, float(0.99999994)), v);
+  s.wi.z = (s.transmitted ? -1.0f : 1.0f) * max(s.wi.z, float(1e-6));
   s.weight = vec3(0.0f);
-  s.density = kUnweighed;
+  s.pdf = kUnweighed;
   return s;
 }
 
-/// Draws from what lies under sheen and clearcoat: a direction to be weighed, a single one with its weight, or a lost
+/// Draws from what lies under sheen and clearcoat: a direction to be weighed, a delta lobe with its weight, or a lost
 /// one of weight 0.
-BsdfSample drawBase(Bsdf b, vec3 outgoing, float choice, float u, float v) {
+BsdfSample drawBase(Bsdf b, vec3 wo, float choice, float u, float v) {
   BsdfSample s;
   s.weight = vec3(0.0f);
-  s.density = 0.0f;
+  s.pdf = 0.0f;
   s.transmitted = false;
-  s.incoming = vec3(0.0f, 0.0f, 1.0f);
-  vec4 chances = lobeChances(b, outgoing.z);
+  s.wi = vec3(0.0f, 0.0f, 1.0f);
+  vec4 chances = lobeChances(b, wo.z);
   bool glass = kTransmission && u < chances.x;
   bool specular = kSpecular && !glass && u < chances.x + chances.y;
   float first = glass ? 0.0f : specular ? chances.x : chances.x + chances.y;
   float width = glass ? chances.x : specular ? chances.y : chances.z + chances.w;
   if (kSpecular || kTransmission) u = clamp((u - first) / max(width, float(1e-12)), 0.0f, float(0.99999994));
-  if (glass && (!kRoughGlass || isSmoothGlass(b))) return sampleSmoothGlass(b, outgoing, choice);
+  if (glass && (!kRoughGlass || isSmoothGlass(b))) return sampleSmoothGlass(b, wo, choice);
   if (specular && b.mirrorLike) {
-    s.incoming = vec3(-outgoing.x, -outgoing.y, outgoing.z);
-    s.weight = opaqueFresnel(b, outgoing.z) / chances.y;
+    s.wi = vec3(-wo.x, -wo.y, wo.z);
+    s.weight = opaqueFresnel(b, wo.z) / chances.y;
     return s;
   }
-  s.incoming = sampleCosineHemisphere(u, v);
+  s.wi = sampleCosineHemisphere(u, v);
   if (kDiffuseTransmission && !specular && !glass && choice * (chances.z + chances.w) < chances.w) {
-    s.incoming.z = -s.incoming.z;
+    s.wi.z = -s.wi.z;
     s.transmitted = true;
   }
   bool lost = false;
   bool drawnAgain = kCompensation && glass && b.glassLost > 0.0f;  // where it is lost
   if (specular || glass) {
-    vec3 h = sampleFacet(outgoing, b.alpha, b.stretch, u, v);
-    float oh = dot(outgoing, h);
-    s.incoming = mirrorDirection(outgoing, h);
+    vec3 h = sampleMicrofacet(wo, b.alpha, b.stretch, u, v);
+    float oh = dot(wo, h);
+    s.wi = mirrorDirection(wo, h);
     if (glass && choice >= glassFresnel(b, oh)) {
-      s.incoming = b.solid ? refractThrough(outgoing, h, b.eta) : vec3(s.incoming.x, s.incoming.y, -s.incoming.z);
+      s.wi = b.solid ? refractThrough(wo, h, b.eta) : vec3(s.wi.x, s.wi.y, -s.wi.z);
       s.transmitted = true;
     }
     // Facets can send light to the wrong side of the surface; that share is lost (single scattering), but for glass.
-    lost = s.transmitted == (s.incoming.z > 0.0f);
+    lost = s.transmitted == (s.wi.z > 0.0f);
     if (kCompensation && drawnAgain) {
-      vec3 mirrored = vec3(s.incoming.x, s.incoming.y, abs(s.incoming.z));
-      lost = lost || fract(choice * kLowBits) >= facetShadowing(outgoing, mirrored, b.alpha, b.stretch);
+      vec3 mirrored = vec3(s.wi.x, s.wi.y, abs(s.wi.z));
+      lost = lost || fract(choice * kLowBits) >= microfacetShadowing(wo, mirrored, b.alpha, b.stretch);
     }
   }
   if (kCompensation && lost && drawnAgain) return drawScattered(b, fract(u * kLowBits), fract(v * kLowBits));
-  if (!lost) s.density = kUnweighed;
+  if (!lost) s.pdf = kUnweighed;
   return s;
 }

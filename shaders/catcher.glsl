@@ -9,7 +9,7 @@ const float kCatcherMargin = 1e-4;
 
 /// Distance of the catcher along a ray, 0 where there is none.
 float catcherDistance(vec3 origin, vec3 direction) {
-  float above = origin.y - frame.worldOrigin.w;
+  float above = origin.y - frame.catcherHeight;
   return above > 0.0 && direction.y < 0.0 ? above / -direction.y : 0.0;
 }
 
@@ -22,9 +22,9 @@ bool meetsCatcher(Path p, float t) {
 
 /// The irradiance of the catcher by environment and punctual lights if nothing is in the way.
 vec3 freeIrradiance(vec3 point) {
-  vec3 sum = frame.catcherLight.rgb * frame.catcherLight.w;
+  vec3 sum = frame.catcherIrradiance * frame.environmentScale;
   if (!kPunctualLights) return sum;
-  int count = int(frame.lightChoice.w);
+  int count = int(frame.punctualCount);
   for (int i = 0; i < count; ++i) {
     LightSample light = punctualLight(i, point);
     sum += light.irradiance * max(light.direction.y, 0.0);
@@ -46,24 +46,24 @@ Path beginShadow(Path p) {
   p.radiance = vec3(0.0);
   p.cameraRay = false;
   p.caught = true;
-  p.part = vec3(1.0);
+  p.aovWeight = vec3(1.0);
   Surface s;
   s.position = p.origin + t * p.direction;
-  s.position.y = frame.worldOrigin.w;
+  s.position.y = frame.catcherHeight;
   s.positionError = max(maxComponent(abs(s.position)), t) * 1e-6;
   s.geometricNormal = vec3(0.0, 1.0, 0.0);
   vec3 all = freeIrradiance(s.position);
   uint dimension = kBounceDimensions * uint(p.bounce + 1);
-  vec2 uv = drawPair(p.numbers, dimension + kDirectionDimension);
+  vec2 uv = drawPair(p.sampler, dimension + kDirectionDimension);
   p.phase = kPhaseExtend;
   if (lightSlotCount() > 0) {
-    LightSample light = lightOfSlot(0, s.position, kNoNormal, p.numbers, dimension + kLightDimension);
+    LightSample light = lightOfSlot(0, s.position, kNoNormal, p.sampler, dimension + kLightDimension);
     float cosine = max(light.direction.y, 0.0);
     // The scene that casts the shadow includes emissive triangles, so their light does not count.
-    bool counts = light.density <= 0.0 || light.distance == kFarAway;
-    float weight = light.density > 0.0 ? balanceWeight(light.density, cosine * kInversePi) : 1.0;
+    bool counts = light.pdf <= 0.0 || light.distance == kFarAway;
+    float weight = light.pdf > 0.0 ? balanceWeight(light.pdf, cosine * kInversePi) : 1.0;
     vec3 share = shareOfLight(light.irradiance * (counts ? cosine * weight : 0.0), all);
-    if (kShadows) p = connect(p, s, light, share);
+    if (kShadows) p = spawnShadowRay(p, s, light, share);
     if (p.phase == kPhaseShadow) {
       // The hidden share is share * (1 - V), where V is 1 if the shadow ray meets nothing: it begins as `share`, and
       // settleShadow() adds -share where V is 1.
@@ -74,9 +74,9 @@ Path beginShadow(Path p) {
   vec3 lobe = sampleCosineHemisphere(uv.x, uv.y);
   p.direction = vec3(lobe.x, lobe.z, -lobe.y);
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
-  p.density = lobe.z * kInversePi;
+  p.pdf = lobe.z * kInversePi;
   if (kCreases) p.tie = 0.0;
-  p.after = kEnvironment && p.density > 0.0 ? kPhaseExtend : kPhaseEnd;
+  p.after = kEnvironment && p.pdf > 0.0 ? kPhaseExtend : kPhaseEnd;
   if (p.phase != kPhaseShadow) p = proceed(p);
   return p;
 }
@@ -90,7 +90,7 @@ Path endShadow(Path p) {
     Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights);
     uint flags = materialFlags(s.material);
     float alpha = alphaAt(s.material, flags, baseColorAt(s.material, s.texcoords, s.color).a);
-    passes = passesThrough(flags, alpha, p.numbers, nextCrossing(p));
+    passes = passesThrough(flags, alpha, p.sampler, nextCrossing(p));
   }
   if (kAlpha && passes) {
     p.phase = kPhaseExtend;
@@ -99,7 +99,7 @@ Path endShadow(Path p) {
   vec4 hidden = environmentAlong(p.direction);
   float weight = 1.0;
   if (kEnvironmentSampling)
-    weight = balanceWeight(p.density, frame.lightChoice.x * environmentDensity(hidden, p.direction));
+    weight = balanceWeight(p.pdf, frame.environmentChance * environmentPdf(hidden, p.direction));
   p.radiance += shareOfLight(kPi * weight * hidden.rgb, freeIrradiance(p.origin));
   return p;
 }
@@ -107,12 +107,12 @@ Path endShadow(Path p) {
 /// The guides of the catcher are white and level, so that a filter does not take it for empty surroundings.
 Path guideAtCatcher(Path p) {
   float t = catcherDistance(p.origin, p.direction);
-  p = takeGuide(p, t * dot(p.direction, frame.cameraForward.xyz) * frame.cameraForward.w, vec3(0.0, 1.0, 0.0));
+  p = takeGuide(p, t * dot(p.direction, frame.cameraForward) * frame.metresPerUnit, vec3(0.0, 1.0, 0.0));
   return guideStop(p, vec3(1.0));
 }
 
 Path meetCatcher(Path p) {
-  if (kFeature == kFeatureGuides) return guideAtCatcher(p);
+  if (kAov == kAovGuides) return guideAtCatcher(p);
   if (p.caught) return endShadow(p);
   return beginShadow(p);
 }
@@ -120,7 +120,7 @@ Path meetCatcher(Path p) {
 /// The alpha of the finished sample. For a shadow on the catcher it is the luminance of the hidden share.
 float coverageOf(Path p) {
   if (kShadowCatcher && p.caught) return luminance(p.radiance);
-  if (kFeature == kFeatureGuides && kAlpha && !p.covered) return p.shadowOrigin.x;
+  if (kAov == kAovGuides && kAlpha && !p.covered) return p.guide.share;
   return p.covered ? 1.0 : 0.0;
 }
 
@@ -129,6 +129,6 @@ Path showShadow(Path p) {
   if (!p.caught) return p;
   p.radiance = p.throughput * (vec3(1.0) - p.radiance);
   // The camera sees the background directly, with or without a shadow on it. So it is emission.
-  if (kFeature == kFeatureDiffuse || kFeature == kFeatureSpecular) p.radiance = vec3(0.0);
+  if (kAov == kAovDiffuse || kAov == kAovSpecular) p.radiance = vec3(0.0);
   return p;
 }

@@ -13,7 +13,7 @@ float energyTableAt(int first, float cosine, float alpha) {
   float y = sqrt(clamp(alpha, 0.0, 1.0)) * float(cells);
   int i = min(int(x), cells - 1);
   int j = min(int(y), cells - 1);
-  vec4 corners = uintBitsToFloat(readMaterials(int(frame.lightChoice.z) + first + j * cells + i));
+  vec4 corners = uintBitsToFloat(readMaterials(int(frame.energyRow) + first + j * cells + i));
   return mix(mix(corners.x, corners.y, x - float(i)), mix(corners.z, corners.w, x - float(i)), y - float(j));
 }
 
@@ -26,7 +26,7 @@ float ggxAverageLoss(float alpha) {
   const int cells = int(kEnergyCells);
   float y = sqrt(clamp(alpha, 0.0, 1.0)) * float(cells);
   int j = min(int(y), cells - 1);
-  vec4 ends = uintBitsToFloat(readMaterials(int(frame.lightChoice.z) + cells * cells + j));
+  vec4 ends = uintBitsToFloat(readMaterials(int(frame.energyRow) + cells * cells + j));
   return mix(ends.x, ends.y, y - float(j));
 }
 

@@ -4,8 +4,8 @@
 
 /// Texture coordinates of a direction (docs/design/conventions.md); the rotation is undone first.
 vec2 environmentCoordinates(vec3 d) {
-  float c = frame.environment.z;
-  float s = frame.environment.w;
+  float c = frame.environmentRotation.x;
+  float s = frame.environmentRotation.y;
   vec3 r = vec3(d.x * c - d.z * s, d.y, d.x * s + d.z * c);
   return vec2(atan(r.z, r.x) * (0.5f * kInversePi) + 0.5f, acos(clamp(r.y, -1.0f, 1.0f)) * kInversePi);
 }
@@ -15,8 +15,8 @@ vec3 environmentDirection(vec2 uv) {
   vec2 around = unitCircle(uv.x - floor(uv.x));  // half a turn from the direction
   vec2 down = unitCircle(0.5f * uv.y);
   vec3 r = vec3(-down.y * around.x, down.x, -down.y * around.y);
-  float c = frame.environment.z;
-  float s = frame.environment.w;
+  float c = frame.environmentRotation.x;
+  float s = frame.environmentRotation.y;
   return vec3(r.x * c + r.z * s, r.y, -r.x * s + r.z * c);
 }
 
@@ -40,30 +40,30 @@ vec4 mapAt(vec2 place, ivec2 size, int first) {
   return mix(top, bottom, f.y);
 }
 
-/// Radiance and density at a place of the environment. The density is relative to an even one over the map's area.
+/// Radiance and pdf at a place of the environment. The pdf is relative to an even one over the map's area.
 vec4 environmentAt(vec2 place) {
-  vec4 there = mapAt(place, ivec2(frame.environment), 0);
-  float intensity = frame.catcherLight.w;
+  vec4 there = mapAt(place, ivec2(frame.environmentSize), 0);
+  float intensity = frame.environmentScale;
   return vec4(vec3(there) * intensity, there.w);
 }
 
 /// The same for a direction.
 vec4 environmentAlong(vec3 direction) {
   if (!kEnvironment) return vec4(0.0f);
-  return environmentAt(environmentCoordinates(direction) * vec2(ivec2(frame.environment)));
+  return environmentAt(environmentCoordinates(direction) * vec2(ivec2(frame.environmentSize)));
 }
 
 /// Radiance that camera rays see in place of the environment (kBackdrop).
 vec3 backdropAlong(vec3 direction) {
-  ivec2 lit = ivec2(frame.environment);
-  ivec2 size = ivec2(frame.part.z, frame.part.w);
-  float intensity = frame.catcherLight.w;
+  ivec2 lit = ivec2(frame.environmentSize);
+  ivec2 size = frame.backdropSize;
+  float intensity = frame.environmentScale;
   return vec3(mapAt(environmentCoordinates(direction) * vec2(size), size, lit.x * lit.y)) * intensity;
 }
 
-/// The density over solid angle with which sampleEnvironment draws a direction. along: environmentAlong of that
+/// The pdf over solid angle with which sampleEnvironment draws a direction. along: environmentAlong of that
 /// direction.
-float environmentDensity(vec4 along, vec3 direction) {
+float environmentPdf(vec4 along, vec3 direction) {
   float sine = sqrt(max(0.0f, 1.0f - direction.y * direction.y));
   return along.w / max(2.0f * kPi * kPi * sine, float(1e-12));
 }
@@ -102,14 +102,14 @@ float invertTable(int firstRow, uint count, uint bits) {
   return mix(low, high, (place.within - begin) / (end - begin));
 }
 
-/// Draws a number by the density 1 - |x|.
+/// Draws a number by the pdf 1 - |x|.
 float sampleTent(float u) { return u < 0.5f ? sqrt(2.0f * u) - 1.0f : 1.0f - sqrt(2.0f - 2.0f * u); }
 
 /// Draws a place of the map, in texels. Bilinear filtering turns each texel into a tent about its middle. So drawing a
-/// texel and a place in its tent has the density that environmentAt gives. The part of a row's tent beyond a pole is
+/// texel and a place in its tent has the pdf that environmentAt gives. The part of a row's tent beyond a pole is
 /// spread over half a texel by clamping.
 vec2 sampleEnvironment(uvec2 bits) {
-  ivec2 size = ivec2(frame.environment);
+  ivec2 size = ivec2(frame.environmentSize);
   float row = invertTable(0, uint(size.y), bits.y);
   int y = min(int(row), size.y - 1);
   float inRow = row - float(y);

@@ -5,8 +5,8 @@
 const bool kEnvironmentLight = kEnvironment && kPhong && !kGi;
 
 int environmentLightRow() {
-  ivec2 lit = ivec2(frame.environment);
-  return lit.x * lit.y + frame.part.z * frame.part.w;
+  ivec2 lit = ivec2(frame.environmentSize);
+  return lit.x * lit.y + frame.backdropSize.x * frame.backdropSize.y;
 }
 
 vec3 irradianceFactor(int index) { return vec3(uintBitsToFloat(readEnvironment(environmentLightRow() + index))); }
@@ -14,13 +14,13 @@ vec3 irradianceFactor(int index) { return vec3(uintBitsToFloat(readEnvironment(e
 /// Irradiance of a surface by spherical harmonics (Ramamoorthi and Hanrahan, 2001). Where their sum is negative, 0 is
 /// nearer to the irradiance.
 vec3 environmentIrradiance(vec3 normal) {
-  float c = frame.environment.z;
-  float s = frame.environment.w;
+  float c = frame.environmentRotation.x;
+  float s = frame.environmentRotation.y;
   vec3 n = vec3(normal.x * c - normal.z * s, normal.y, normal.x * s + normal.z * c);
   vec3 sum = irradianceFactor(0) + n.x * irradianceFactor(1) + n.y * irradianceFactor(2) + n.z * irradianceFactor(3);
   sum += n.x * n.y * irradianceFactor(4) + n.y * n.z * irradianceFactor(5) + n.z * n.x * irradianceFactor(6);
   sum += (n.x * n.x - n.z * n.z) * irradianceFactor(7) + (3.0f * n.y * n.y - 1.0f) * irradianceFactor(8);
-  float intensity = frame.catcherLight.w;
+  float intensity = frame.environmentScale;
   return max(sum, vec3(0.0f)) * intensity;
 }
 
@@ -38,15 +38,15 @@ vec3 environmentLobe(vec3 direction, float exponent) {
   float level = clamp(log(0.5f * exponent + 1.0f) * float(0.72134752044448170), 0.0f, float(kLobeLevels - 1u));
   int lower = min(int(level), int(kLobeLevels) - 2);
   vec2 coordinates = environmentCoordinates(direction);
-  float intensity = frame.catcherLight.w;
+  float intensity = frame.environmentScale;
   return mix(lobeAt(lower, coordinates), lobeAt(lower + 1, coordinates), level - float(lower)) * intensity;
 }
 
-/// The light that a surface of these colours sends to `outgoing`. The wider the lobe, the nearer its middle is to the
+/// The light that a surface of these colours sends to `wo`. The wider the lobe, the nearer its middle is to the
 /// normal.
-vec3 environmentReflected(vec3 diffuse, vec3 f0, float exponent, vec3 normal, vec3 outgoing) {
+vec3 environmentReflected(vec3 diffuse, vec3 f0, float exponent, vec3 normal, vec3 wo) {
   vec3 reflected = kInversePi * diffuse * environmentIrradiance(normal);
   if (!kSpecular) return reflected;
-  vec3 middle = normalize(mix(normal, mirrorDirection(outgoing, normal), exponent / (exponent + 8.0f)));
-  return reflected + phongAlbedo(exponent, dot(normal, outgoing)) * f0 * environmentLobe(middle, exponent);
+  vec3 middle = normalize(mix(normal, mirrorDirection(wo, normal), exponent / (exponent + 8.0f)));
+  return reflected + phongAlbedo(exponent, dot(normal, wo)) * f0 * environmentLobe(middle, exponent);
 }

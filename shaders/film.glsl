@@ -21,7 +21,7 @@ void storeFilm(ivec2 pixel, FilmPixel f) {
 }
 
 /// For light paths the film holds records, a texel a path. A pixel's records are its part of a column of texels.
-ivec2 recordOf(ivec2 pixel, uint path) { return ivec2(pixel.x, pixel.y * frame.picture.z + int(path)); }
+ivec2 recordOf(ivec2 pixel, uint path) { return ivec2(pixel.x, pixel.y * frame.samplesWanted + int(path)); }
 
 /// Stores the light that a light path sends to the camera, and the place in the picture where it is seen.
 void storeRecord(ivec2 texel, vec3 light, vec2 place) {

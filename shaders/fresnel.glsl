@@ -38,15 +38,15 @@ float schlickDielectric(float cosine, float eta) {
   return f0 + (1.0f - f0) * (m2 * m2 * m);
 }
 
-/// Snell's law: the direction behind the boundary. outgoing and normal are unit and on the same side. The caller has
+/// Snell's law: the direction behind the boundary. wo and normal are unit and on the same side. The caller has
 /// excluded total internal reflection; where rounding still leads there, the direction runs along the boundary.
-vec3 refractThrough(vec3 outgoing, vec3 normal, float eta) {
-  float cosine = dot(outgoing, normal);
+vec3 refractThrough(vec3 wo, vec3 normal, float eta) {
+  float cosine = dot(wo, normal);
   float refracted = sqrt(max(refractedSquared(cosine, eta), 0.0f));
-  return normalize((cosine - refracted) * normal - outgoing);
+  return normalize((cosine - refracted) * normal - wo);
 }
 
-vec3 mirrorDirection(vec3 outgoing, vec3 normal) { return 2.0f * dot(outgoing, normal) * normal - outgoing; }
+vec3 mirrorDirection(vec3 wo, vec3 normal) { return 2.0f * dot(wo, normal) * normal - wo; }
 
 /// Reflectance of two parallel interfaces, all reflections between them counted.
 float thinReflectance(float single) { return 2.0f * single / (1.0f + single); }

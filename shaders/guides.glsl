@@ -1,33 +1,31 @@
 // SPDX-License-Identifier: MIT
-// Guides (kFeatureGuides), by which a filter distinguishes surfaces. Albedo and normal are those of the first surface
+// Guides (kAovGuides), by which a filter distinguishes surfaces. Albedo and normal are those of the first surface
 // that is not just smooth glass or a smooth metal, so that what is seen through or in these stays sharp. Depth is that
 // of the first surface of all, which separates these from the rest. Where alpha lets a part of the light pass, surfaces
-// count by their shares, not by chance. No shadow ray is traced meanwhile, so its members keep the state, also from
-// draw to draw: radiance and contribution are the sums of albedo and normal, shadowLimit is the sum of depth,
-// shadowOrigin.x that of the shares, and shadowDirection the normal of the surface that takes the rest.
+// count by their shares, not by chance.
 
 const float kGuideAlpha = 0.01;    // the roughest that is followed: what it shows is hardly blurred
 const int kGuideScatterings = 16;  // at most
 const float kGuideRest = 0.01;     // of a ray: what is behind no longer counts
 
 /// The share of the ray that alpha has let pass so far.
-float guideRest(Path p) { return kAlpha ? 1.0 - p.shadowOrigin.x : 1.0; }
+float guideRest(Path p) { return kAlpha ? 1.0 - p.guide.share : 1.0; }
 
 /// Ends a share of the ray at a surface of this albedo.
 Path addGuide(Path p, float share, vec3 albedo, vec3 normal) {
-  p.radiance += share * albedo;
-  p.contribution += share * normal;
-  p.shadowOrigin.x += share;
+  p.guide.albedo += share * albedo;
+  p.guide.normal += share * normal;
+  p.guide.share += share;
   return p;
 }
 
 /// The tint of the way so far, without the factor by which glass around the point scales radiance.
-vec3 guideTint(Path p) { return kPassesLight ? p.throughput * p.compression : p.throughput; }
+vec3 guideTint(Path p) { return kPassesLight ? p.throughput * p.etaScale : p.throughput; }
 
 /// The rest of the ray ends here, or continues from here without chance.
 Path takeGuide(Path p, float depth, vec3 normal) {
-  if (p.cameraRay) p.shadowLimit += guideRest(p) * depth;
-  p.shadowDirection = normal;
+  if (p.cameraRay) p.guide.depth += guideRest(p) * depth;
+  p.guide.lastNormal = normal;
   p.covered = true;
   p.phase = kPhaseEnd;
   return p;
@@ -35,7 +33,7 @@ Path takeGuide(Path p, float depth, vec3 normal) {
 
 Path guideStop(Path p, vec3 albedo) {
   p.throughput = guideTint(p) * albedo;
-  p.compression = 1.0;
+  p.etaScale = 1.0;
   return p;
 }
 
@@ -46,7 +44,7 @@ Path guideAt(Path p, Surface s, uint flags, vec4 base) {
   bool blends = kAlpha && (flags & (kMaterialMask | kMaterialBlend)) != 0u;
   float share = blends ? guideRest(p) * alphaAt(s.material, flags, base.a) : 1.0;
   if (blends && guideRest(p) - share > kGuideRest) {
-    if (p.cameraRay) p.shadowLimit += share * depthOf(s);
+    if (p.cameraRay) p.guide.depth += share * depthOf(s);
     p = addGuide(p, share, guideTint(p) * base.rgb, normal);
     p.phase = kPhaseExtend;
     return tracePast(p, kFarAway, p.hitT, p.hitSlot);
@@ -65,6 +63,6 @@ Path guideAt(Path p, Surface s, uint flags, vec4 base) {
 
 /// The path has ended: its last surface takes the rest.
 Path endGuide(Path p) {
-  if (p.covered) p = addGuide(p, guideRest(p), guideTint(p), p.shadowDirection);
+  if (p.covered) p = addGuide(p, guideRest(p), guideTint(p), p.guide.lastNormal);
   return p;
 }

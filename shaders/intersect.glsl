@@ -120,11 +120,11 @@ TriangleHit intersectTriangleFast(vec3 origin, vec3 direction, vec3 v0, vec3 v1,
 /// Returns true if t is larger than the distance, or equal to it and `at` is true.
 bool liesBehind(float t, float distance, bool at) { return t > distance || (at && t == distance); }
 
-/// The distance to the sphere's nearest surface that may be hit and lies behind `past` (or at it). `inside`: its inner
+/// The distance to the sphere's nearest surface that may be hit and lies behind `tMin` (or at it). `inside`: its inner
 /// side counts. A miss is -1. The discriminant uses the distance of the centre from the ray, so that a far sphere keeps
 /// its digits (Hearn and Baker's form; Haines et al., Precision Improvements for Ray/Sphere Intersection, 2019).
 /// direction is unit length.
-float intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, bool inside, float past, bool at) {
+float intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, bool inside, float tMin, bool at) {
   vec3 f = origin - center;
   float b = -dot(f, direction);
   vec3 l = f + b * direction;
@@ -135,8 +135,8 @@ float intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, bo
   float t0 = q == 0.0f ? 0.0f : c / q;
   float nearT = min(t0, q);
   float farT = max(t0, q);
-  if (liesBehind(nearT, past, at)) return nearT;
-  return inside && liesBehind(farT, past, at) ? farT : -1.0f;
+  if (liesBehind(nearT, tMin, at)) return nearT;
+  return inside && liesBehind(farT, tMin, at) ? farT : -1.0f;
 }
 
 /// Moves a point off its surface along the unit geometric normal, to the side of `direction`, by `error`

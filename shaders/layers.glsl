@@ -5,31 +5,31 @@
 
 const float kCoatF0 = float(0.04);  // of the index 1.5
 
-/// Share of the light that the clearcoat reflects towards `outgoing`.
-float coatShare(Bsdf b, vec3 outgoing) {
+/// Share of the light that the clearcoat reflects towards `wo`.
+float coatShare(Bsdf b, vec3 wo) {
   if (!kClearcoat || b.coat <= 0.0f) return 0.0f;
-  return b.coat * fresnelSchlick(vec3(kCoatF0), 1.0f, max(0.0f, dot(outgoing, b.coatNormal))).x;
+  return b.coat * fresnelSchlick(vec3(kCoatF0), 1.0f, max(0.0f, dot(wo, b.coatNormal))).x;
 }
 
 bool isSmoothCoat(Bsdf b) { return b.coatAlpha < kMirrorAlpha; }
 
 /// The share of light that sheen lets pass between two directions to and from the base.
-float underSheen(Bsdf b, vec3 outgoing, vec3 incoming) {
+float underSheen(Bsdf b, vec3 wo, vec3 wi) {
   if (!kSheen) return 1.0f;
   float strongest = maxComponent(b.sheenColor);
   if (strongest <= 0.0f) return 1.0f;
-  return 1.0f - strongest * max(sheenShare(outgoing.z, b.sheenAlpha), sheenShare(incoming.z, b.sheenAlpha));
+  return 1.0f - strongest * max(sheenShare(wo.z, b.sheenAlpha), sheenShare(wi.z, b.sheenAlpha));
 }
 
 /// Chances of drawing from clearcoat (x), sheen (y) and the base (z); they add up to 1. No layer that is present is
 /// drawn too rarely.
-vec3 layerChances(Bsdf b, vec3 outgoing) {
-  float coat = coatShare(b, outgoing);
-  float sheen = kSheen ? maxComponent(b.sheenColor) * sheenShare(outgoing.z, b.sheenAlpha) : 0.0f;
+vec3 layerChances(Bsdf b, vec3 wo) {
+  float coat = coatShare(b, wo);
+  float sheen = kSheen ? maxComponent(b.sheenColor) * sheenShare(wo.z, b.sheenAlpha) : 0.0f;
   float glass = kTransmission ? b.glass : 0.0f;
   float reflected = maxComponent(diffuseColor(b));
   float diffuse = kDiffuseTransmission ? mix(reflected, maxComponent(b.throughColor), b.diffuseThrough) : reflected;
-  float base = glass + b.opaque * diffuse + maxComponent(opaqueFresnel(b, outgoing.z));
+  float base = glass + b.opaque * diffuse + maxComponent(opaqueFresnel(b, wo.z));
   float below = sheen + (1.0f - sheen) * min(base, 1.0f);
   float coatChance = coat > 0.0f ? clamp(coat / (coat + (1.0f - coat) * below), 0.125f, 0.875f) : 0.0f;
   bool hasSheen = kSheen && maxComponent(b.sheenColor) > 0.0f;
@@ -37,117 +37,117 @@ vec3 layerChances(Bsdf b, vec3 outgoing) {
   return vec3(coatChance, (1.0f - coatChance) * sheenChance, (1.0f - coatChance) * (1.0f - sheenChance));
 }
 
-/// Value (without its share) and density of the rough clearcoat, about its own normal.
-BsdfValue evaluateCoat(Bsdf b, vec3 outgoing, vec3 incoming) {
+/// Value (without its share) and pdf of the rough clearcoat, about its own normal.
+BsdfValue evaluateCoat(Bsdf b, vec3 wo, vec3 wi) {
   BsdfValue r;
   r.value = vec3(0.0f);
-  r.density = 0.0f;
+  r.pdf = 0.0f;
   Frame3 around = frameAround(b.coatNormal);
-  vec3 o = kNormalMaps ? toFrame(around, outgoing) : outgoing;
-  vec3 i = kNormalMaps ? toFrame(around, incoming) : incoming;
+  vec3 o = kNormalMaps ? toFrame(around, wo) : wo;
+  vec3 i = kNormalMaps ? toFrame(around, wi) : wi;
   if (o.z <= 0.0f || i.z <= 0.0f) return r;
   vec3 h = normalize(o + i);
-  float density = visibleGgxDensity(o, h, b.coatAlpha) / max(4.0f * dot(o, h), float(1e-12));
-  r.value = vec3(density * ggxMaskingShadowing(o, i, b.coatAlpha) / ggxMasking(o, b.coatAlpha));
-  r.density = density;
+  float pdf = visibleGgxPdf(o, h, b.coatAlpha) / max(4.0f * dot(o, h), float(1e-12));
+  r.value = vec3(pdf * ggxMaskingShadowing(o, i, b.coatAlpha) / ggxMasking(o, b.coatAlpha));
+  r.pdf = pdf;
   return r;
 }
 
-BsdfValue evaluateBsdf(Bsdf b, vec3 outgoing, vec3 incoming) {
-  BsdfValue r = evaluateBase(b, outgoing, incoming);
+BsdfValue evaluateBsdf(Bsdf b, vec3 wo, vec3 wi) {
+  BsdfValue r = evaluateBase(b, wo, wi);
   if (!kClearcoat && !kSheen) return r;
-  vec3 chances = layerChances(b, outgoing);
-  r.density *= chances.z;
+  vec3 chances = layerChances(b, wo);
+  r.pdf *= chances.z;
   if (kSheen && chances.y > 0.0f) {
-    r.value = r.value * underSheen(b, outgoing, incoming);
-    if (incoming.z > 0.0f) {
-      r.value = r.value + sheenValue(outgoing, incoming, b.sheenAlpha) * b.sheenColor;
-      r.density += chances.y * (0.5f * kInversePi);
+    r.value = r.value * underSheen(b, wo, wi);
+    if (wi.z > 0.0f) {
+      r.value = r.value + sheenValue(wo, wi, b.sheenAlpha) * b.sheenColor;
+      r.pdf += chances.y * (0.5f * kInversePi);
     }
   }
   if (kClearcoat && chances.x > 0.0f) {
-    float share = coatShare(b, outgoing);
+    float share = coatShare(b, wo);
     r.value = r.value * (1.0f - share);
-    if (incoming.z > 0.0f && !isSmoothCoat(b)) {
-      BsdfValue lobe = evaluateCoat(b, outgoing, incoming);
+    if (wi.z > 0.0f && !isSmoothCoat(b)) {
+      BsdfValue lobe = evaluateCoat(b, wo, wi);
       r.value = r.value + share * lobe.value;
-      r.density += chances.x * lobe.density;
+      r.pdf += chances.x * lobe.pdf;
     }
   }
   return r;
 }
 
 /// The diffuse part of evaluateBsdf(), reflected and transmitted, as seen under sheen and clearcoat.
-vec3 diffuseUnderLayers(Bsdf b, vec3 outgoing, vec3 incoming) {
+vec3 diffuseUnderLayers(Bsdf b, vec3 wo, vec3 wi) {
   vec3 value = vec3(0.0f);
-  if (kDiffuseTransmission && incoming.z < 0.0f) value = evaluateThrough(b, outgoing, incoming, 1.0f).value;
-  if (incoming.z > 0.0f) value = diffuseValue(b, incoming, max(0.0f, dot(outgoing, normalize(outgoing + incoming))));
-  return value * ((1.0f - coatShare(b, outgoing)) * underSheen(b, outgoing, incoming));
+  if (kDiffuseTransmission && wi.z < 0.0f) value = evaluateThrough(b, wo, wi, 1.0f).value;
+  if (wi.z > 0.0f) value = diffuseValue(b, wi, max(0.0f, dot(wo, normalize(wo + wi))));
+  return value * ((1.0f - coatShare(b, wo)) * underSheen(b, wo, wi));
 }
 
 /// Weight of the light that a smooth thin surface, or a boundary between equal indices, lets straight through, as often
 /// as sampleBsdf draws that direction.
-vec3 straightThrough(Bsdf b, vec3 outgoing) {
+vec3 straightThrough(Bsdf b, vec3 wo) {
   bool bends = b.solid && !(kMatchedGlass && abs(b.eta - 1.0f) < kEqualIndices);
   if (!kTransmission || bends || !isSmoothGlass(b)) return vec3(0.0f);
-  vec3 weight = (b.glass * (1.0f - glassFresnel(b, outgoing.z))) * b.baseColor;
-  return weight * ((1.0f - coatShare(b, outgoing)) * underSheen(b, outgoing, -outgoing));
+  vec3 weight = (b.glass * (1.0f - glassFresnel(b, wo.z))) * b.baseColor;
+  return weight * ((1.0f - coatShare(b, wo)) * underSheen(b, wo, -wo));
 }
 
 /// Draws from the clearcoat, as drawBase does from the base.
-BsdfSample drawCoat(Bsdf b, vec3 outgoing, float chance, float u, float v) {
+BsdfSample drawCoat(Bsdf b, vec3 wo, float chance, float u, float v) {
   BsdfSample s;
   s.transmitted = false;
-  s.density = 0.0f;
+  s.pdf = 0.0f;
   s.weight = vec3(0.0f);
   Frame3 around = frameAround(b.coatNormal);
-  vec3 o = kNormalMaps ? toFrame(around, outgoing) : outgoing;
+  vec3 o = kNormalMaps ? toFrame(around, wo) : wo;
   bool smoothCoat = isSmoothCoat(b);
   vec3 h = smoothCoat ? vec3(0.0f, 0.0f, 1.0f) : sampleVisibleGgx(o, b.coatAlpha, u, v);
   vec3 i = mirrorDirection(o, h);
-  s.incoming = kNormalMaps ? toWorld(around, i) : i;
+  s.wi = kNormalMaps ? toWorld(around, i) : i;
   if (i.z <= 0.0f) return s;
   if (smoothCoat) {
-    s.weight = vec3(coatShare(b, outgoing) / chance);
+    s.weight = vec3(coatShare(b, wo) / chance);
     return s;
   }
   // A direction below the base's horizon is lost, too.
-  if (s.incoming.z > 0.0f) s.density = kUnweighed;
+  if (s.wi.z > 0.0f) s.pdf = kUnweighed;
   return s;
 }
 
-BsdfSample drawLayered(Bsdf b, vec3 outgoing, float choice, float u, float v) {
-  vec3 chances = layerChances(b, outgoing);
+BsdfSample drawLayered(Bsdf b, vec3 wo, float choice, float u, float v) {
+  vec3 chances = layerChances(b, wo);
   bool coat = u < chances.x;
   bool sheen = !coat && u < chances.x + chances.y;
   float first = coat ? 0.0f : sheen ? chances.x : chances.x + chances.y;
   float width = coat ? chances.x : sheen ? chances.y : chances.z;
   u = clamp((u - first) / max(width, float(1e-12)), 0.0f, float(0.99999994));
-  if (kClearcoat && coat) return drawCoat(b, outgoing, chances.x, u, v);
+  if (kClearcoat && coat) return drawCoat(b, wo, chances.x, u, v);
   BsdfSample s;
   if (kSheen && sheen) {
-    s.incoming = sampleHemisphere(u, v);
+    s.wi = sampleHemisphere(u, v);
     s.transmitted = false;
     s.weight = vec3(0.0f);
-    s.density = s.incoming.z > 0.0f ? kUnweighed : 0.0f;
+    s.pdf = s.wi.z > 0.0f ? kUnweighed : 0.0f;
     return s;
   }
-  s = drawBase(b, outgoing, choice, u, v);
+  s = drawBase(b, wo, choice, u, v);
   // The direction is of a delta lobe and has its weight already.
-  s.weight = s.weight * ((1.0f - coatShare(b, outgoing)) * underSheen(b, outgoing, s.incoming) / chances.z);
+  s.weight = s.weight * ((1.0f - coatShare(b, wo)) * underSheen(b, wo, s.wi) / chances.z);
   return s;
 }
 
 /// (u, v) picks the lobe and the direction, so that each lobe gets its share of points that are stratified together.
 /// choice decides between reflection and refraction at glass, and between both sides of diffuse light. Each is uniform
 /// in [0, 1).
-BsdfSample sampleBsdf(Bsdf b, vec3 outgoing, float choice, float u, float v) {
+BsdfSample sampleBsdf(Bsdf b, vec3 wo, float choice, float u, float v) {
   BsdfSample s;
-  if (kClearcoat || kSheen) s = drawLayered(b, outgoing, choice, u, v);
-  if (!kClearcoat && !kSheen) s = drawBase(b, outgoing, choice, u, v);
-  if (s.density >= 0.0f) return s;
-  BsdfValue value = evaluateBsdf(b, outgoing, s.incoming);
-  s.density = value.density;
-  s.weight = value.density > 0.0f ? value.value / value.density : vec3(0.0f);
+  if (kClearcoat || kSheen) s = drawLayered(b, wo, choice, u, v);
+  if (!kClearcoat && !kSheen) s = drawBase(b, wo, choice, u, v);
+  if (s.pdf >= 0.0f) return s;
+  BsdfValue value = evaluateBsdf(b, wo, s.wi);
+  s.pdf = value.pdf;
+  s.weight = value.pdf > 0.0f ? value.value / value.pdf : vec3(0.0f);
   return s;
 }

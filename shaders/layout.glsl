@@ -16,7 +16,7 @@ const uint kMaterialsBinding = 7u;     // kMaterialRows uvec4 a material
 const uint kTexelsBinding = 8u;
 const uint kEmittersBinding = 9u;      // kEmitterRows uvec4 an emitter
 const uint kLightsBinding = 10u;       // kLightRows vec4 a punctual light
-// 1 vec4 a texel: radiance, density over the area of the map (mean 1); behind them those of the backdrop, if there is
+// 1 vec4 a texel: radiance, pdf over the area of the map (mean 1); behind them those of the backdrop, if there is
 // one that camera rays see in place of the map, and before gi the environment's light: factors of the irradiance;
 // width, height and first row of each level of lobes; the levels (src/pack/environment_light.h)
 const uint kEnvironmentBinding = 11u;
@@ -24,7 +24,7 @@ const uint kEnvironmentBinding = 11u;
 const uint kEnvironmentInversionBinding = 12u;
 const uint kSceneBufferCount = 13u;
 
-// Where scene buffers read as images begin among the image units, behind the film.
+// The first image unit of scene buffers that are read as images; the film has those before it.
 const uint kSceneImageBase = 3u;
 
 // Film images, one texel a pixel.
@@ -39,7 +39,7 @@ const uint kProgressBinding = 14u;
 // a suspended path come one more, those of its stack, and one where parts of the light are drawn, or light paths.
 const uint kPathRows = 12u;
 const uint kPathPassingRows = 3u;
-// Of the wavefront: a lane has this many pixels of a column of its tile, each with the state of its path, and a row of
+// A lane of the wavefront has this many pixels of a column of its tile, each with the state of its path, and a row of
 // its own before them.
 const uint kWaveSlots = 32u;
 const uint kWaveLaneRows = kWaveSlots * kPathRows + 1u;
@@ -52,21 +52,21 @@ const uint kFrameBinding = 0u;
 const uint kFogBinding = 1u;
 const uint kVolumeBinding = 2u;
 
-// What a program draws in place of radiance (kFeature); as enum Feature of src/stage/feature.h.
-const int kFeatureNone = 0;
-const int kFeatureAlbedo = 1;
-const int kFeatureNormal = 2;
-const int kFeatureDepth = 3;
-const int kFeatureGeometricNormal = 4;
-const int kFeatureRoughness = 5;
-const int kFeatureTexcoords = 6;
-const int kFeaturePosition = 7;
-const int kFeatureObject = 8;
-const int kFeatureMaterial = 9;
-const int kFeatureEmission = 10;
-const int kFeatureDiffuse = 11;
-const int kFeatureSpecular = 12;
-const int kFeatureGuides = 13;
+// A program draws an AOV in place of radiance (kAov); as enum Aov of src/shader/aov.h.
+const int kAovNone = 0;
+const int kAovAlbedo = 1;
+const int kAovNormal = 2;
+const int kAovDepth = 3;
+const int kAovGeometricNormal = 4;
+const int kAovRoughness = 5;
+const int kAovTexcoords = 6;
+const int kAovPosition = 7;
+const int kAovObject = 8;
+const int kAovMaterial = 9;
+const int kAovEmission = 10;
+const int kAovDiffuse = 11;
+const int kAovSpecular = 12;
+const int kAovGuides = 13;
 
 // Film flags.
 const uint kPixelSuspended = 1u;  // the path of this pixel goes on in the next draw
@@ -116,7 +116,7 @@ const uint kMaterialEmission = 1u;     // radiance, alpha cutoff
 const uint kMaterialSurface = 2u;      // metallic, roughness, index of refraction, transmission
 const uint kMaterialSpecular = 3u;     // specular colour, specular factor
 const uint kMaterialVolume = 4u;       // extinction coefficient (1 / local space), 1 + table of rough glass or 0: thin
-// normal scale, occlusion strength, emitter density (1 / area in local space), flags
+// normal scale, occlusion strength, emitter pdf (1 / area in local space), flags
 const uint kMaterialMaps = 5u;
 const uint kMaterialPerlin = 6u;       // frequency, amplitude, octaves; and the number of the glTF material, from 1
 const uint kMaterialTextures = 7u;     // then one row a texture slot
@@ -140,7 +140,7 @@ const uint kSlotDiffuseTransmissionColor = 16u;
 const uint kSlotScatterStrength = 17u;
 const uint kSlotMultiscatterColor = 18u;
 const uint kSlotCount = 19u;
-// What extensions add; read only where a material of the scene has them.
+// Extensions add these rows; they are read only where a material of the scene has them.
 const uint kMaterialClearcoat = kMaterialTextures + kSlotCount;       // weight, roughness, normal scale, dispersion
 const uint kMaterialSheen = kMaterialClearcoat + 1u;                  // colour, roughness
 const uint kMaterialAnisotropy = kMaterialSheen + 1u;                 // strength, cosine and sine of the rotation
@@ -163,7 +163,7 @@ const uint kMaterialDoubleSided = 4u;
 const uint kMaterialUnlit = 8u;
 const uint kMaterialSpecularGlossiness = 16u;
 const uint kMaterialScatters = 64u;  // a solid inside of which light is scattered
-const uint kMaterialCaster = 32u;  // its single directions make caustics that light paths draw (src/scene/casters.h)
+const uint kMaterialCaster = 32u;  // its delta lobes make caustics that light paths draw (src/scene/casters.h)
 
 const int kMostCasters = 16;  // balls round what makes caustics
 
@@ -220,35 +220,45 @@ const float kLightPoint = 0.0f;
 const float kLightSpot = 1.0f;
 const float kLightDirectional = 2.0f;
 
-// What is constant in one draw; std140, each row 16 bytes.
+// The constants of one draw; std140, each row 16 bytes.
 struct Frame {
-  vec4 cameraPosition;  // local space; w: 1 when orthographic
-  // half of the view's width (at distance 1, or in local space when orthographic); w: 1 when the first sample is in the
-  // middle of its pixel
-  vec4 cameraRight;
-  // half of its height; w: 1 + the material of the scattering solid that the camera stands in, or 0
-  vec4 cameraUp;
-  vec4 cameraForward;   // unit; w: metres a unit of local space
+  vec3 cameraPosition;  // local space
+  float orthographic;   // 1, or 0 for a perspective camera
+  vec3 cameraRight;     // half of the view's width, at distance 1, or in local space when orthographic
+  float firstInMiddle;  // 1 when the first sample is in the middle of its pixel
+  vec3 cameraUp;        // half of the view's height
+  float cameraMedium;   // 1 + the material of the scattering solid that the camera stands in, or 0
+  vec3 cameraForward;   // unit
+  float metresPerUnit;  // of local space
   vec4 gridOrigin;      // of the quantised boxes, local space
   vec4 gridCell;        // local space, a step
-  vec4 background;      // radiance that camera rays see; w: 1 when they see the environment; -1 when nothing
-  vec4 environment;     // width, height, cosine and sine of the rotation
-  // probability of sampling the environment, emitter count, row of the energy table among the materials, punctual
-  // lights
-  vec4 lightChoice;
-  ivec4 picture;        // width, height (of the whole, where the film is a part of it), samples wanted, seed
+  vec3 background;      // radiance that camera rays see
+  float backgroundShows;    // 1 when they see the environment instead; -1 when they see nothing
+  vec2 environmentSize;     // width, height of the map
+  vec2 environmentRotation;  // cosine, sine
+  float environmentChance;  // probability that a light sample takes the environment
+  float emitterCount;
+  float energyRow;      // of the energy table among the materials
+  float punctualCount;  // lights
+  ivec2 pictureSize;    // of the whole, where the film is a part of it
+  int samplesWanted;
+  int seed;
   ivec4 tile;           // x, y (from the bottom), width, height
-  ivec4 limits;         // bounces, roulette depth, step budget, leaf count
-  // index of the first sample in the seed's sequence; bits of the largest indirect radiance; whether the tile goes on
-  // (wavefront); row of the numbers of objects among the materials
-  ivec4 sampling;
-  // x, y (from the bottom) of the film's first pixel in the picture; width, height of the backdrop
-  ivec4 part;
-  vec4 worldOrigin;     // of local space, in world space, metres; w: height of the shadow catcher, local space
-  // irradiance of the shadow catcher by the environment when nothing is in the way; w: factor of the environment's
-  // radiance
-  vec4 catcherLight;
-  vec4 lens;            // of the camera, local space: radius, distance in focus along the view; blades
+  int maxBounces;
+  int rouletteDepth;
+  int stepBudget;
+  int leafCount;
+  int firstSample;  // index in the seed's sequence
+  int clampBits;    // bits of the largest indirect radiance
+  int tileGoesOn;   // 1 when the draw before had this tile, too (wavefront)
+  int objectRow;    // of the numbers of objects among the materials
+  ivec2 filmOffset;    // x, y (from the bottom) of the film's first pixel in the picture
+  ivec2 backdropSize;  // width, height
+  vec3 worldOrigin;    // of local space, in world space, metres
+  float catcherHeight;      // of the shadow catcher, local space
+  vec3 catcherIrradiance;   // of the shadow catcher by the environment when nothing is in the way
+  float environmentScale;   // factor of the environment's radiance
+  vec4 lens;                // of the camera, local space: radius, distance in focus along the view; blades
 };
 
 // Fog in a ball round the scene (media/fog.glsl); std140.
@@ -271,7 +281,7 @@ const int kBrickTexels = 128;
 const int kMostVolumeSteps = 1024;  // of one walk through the grid
 const float kFaintVolume = 0.05f;   // transmittance from which on roulette decides
 
-// What one draw reports.
+// The report of one draw.
 const float kCutUnits = 65536.0f;  // of throughput 1
 struct Progress {
   uint unfinished;  // pixels that have samples left

@@ -1,34 +1,33 @@
 // SPDX-License-Identifier: MIT
 // Light sampling: punctual lights, emissive triangles by power or by a tree, and the environment.
 
-/// Light that reaches a point from one direction. density 0: no ray can find it (punctual), so it has no MIS partner.
+/// Light that reaches a point from one direction. pdf 0: no ray can find it (punctual), so it has no MIS partner.
 struct LightSample {
   vec3 direction;
   float distance;   // to the light, kFarAway for the environment and directional lights
-  vec3 irradiance;  // radiance / density, or the punctual light's intensity / d^2; zero when there is none
-  float density;    // over solid angle, the chance of choosing this light counted in
+  vec3 irradiance;  // radiance / pdf, or the punctual light's intensity / d^2; zero when there is none
+  float pdf;    // over solid angle, the chance of choosing this light counted in
 };
 
-LightSample makeLight(vec3 direction, float distance, vec3 irradiance, float density) {
+LightSample makeLight(vec3 direction, float distance, vec3 irradiance, float pdf) {
   LightSample s;
   s.direction = direction;
   s.distance = distance;
   s.irradiance = irradiance;
-  s.density = density;
+  s.pdf = pdf;
   return s;
 }
 
 LightSample noLight() { return makeLight(vec3(0.0f, 0.0f, 1.0f), kFarAway, vec3(0.0f), 0.0f); }
 
-/// The MIS weight of a light sample that scattering would find with the other density.
+/// The MIS weight of a light sample that scattering would find with the other pdf.
 float lightWeight(LightSample s, float other) {
-  if (s.density <= 0.0f) return 1.0f;
+  if (s.pdf <= 0.0f) return 1.0f;
   bool environment = kEnvironmentSampling && s.distance == kFarAway;
-  return environment ? balanceWeight(s.density, other) : misWeight(s.density, other);
+  return environment ? balanceWeight(s.pdf, other) : misWeight(s.pdf, other);
 }
 
-/// What the range of a punctual light (0: none) leaves at a squared distance, and a spot's cone, of its axis and scale,
-/// in a direction (KHR_lights_punctual).
+/// The factor by which the range of a punctual light (0: none) dims it at a squared distance (KHR_lights_punctual).
 float rangeWindow(float squared, float range) {
   float ratio = range > 0.0f ? squared / (range * range) : 0.0f;
   return clamp(1.0f - ratio * ratio, 0.0f, 1.0f);
@@ -57,9 +56,9 @@ LightSample punctualLight(int index, vec3 point) {
   return makeLight(direction, distance, vec3(intensity) * (window / squared), 0.0f);
 }
 
-/// Density over solid angle of choosing the point that a ray hit on an emissive triangle.
-float emitterDensity(uint material, float distance, float cosine) {
-  float area = materialFloats(material, kMaterialMaps).z * (1.0f - frame.lightChoice.x);
+/// The pdf over solid angle of choosing the point that a ray hit on an emissive triangle.
+float emitterPdf(uint material, float distance, float cosine) {
+  float area = materialFloats(material, kMaterialMaps).z * (1.0f - frame.environmentChance);
   return area * distance * distance / max(cosine, float(1e-7));
 }
 
@@ -67,7 +66,7 @@ uvec4 emitterRow(int emitter, int row) {
   return kLiterals ? literalEmitter(emitter, row) : readEmitters(emitter * int(kEmitterRows) + row);
 }
 
-/// What a point of an emissive triangle in a leaf slot, of these barycentric weights, sends out at `cosine`.
+/// The radiance that a point of an emissive triangle, by leaf slot and barycentric weights, emits at `cosine`.
 vec3 emittedFrom(uint material, int slot, vec2 weights, float cosine) {
   vec4 texcoords = vec4(0.0f);
   if ((kEmissionTexture || kClearcoatTexture) && kTexcoords) {
@@ -97,24 +96,24 @@ LightSample triangleLight(int emitter, float chance, vec3 point, float u, float 
   float cosine = -0.5f * inverseArea * dot(cross(e1, e2), direction);
   if ((corner.w & kEmitterDoubleSided) != 0u) cosine = abs(cosine);
   if (cosine <= 0.0f) return noLight();
-  float density = chance * inverseArea * squared / cosine;
+  float pdf = chance * inverseArea * squared / cosine;
   vec3 radiance = emittedFrom(corner.w & kFaceMaterialMask, int(edge2.w), w, cosine);
-  return makeLight(direction, distance, radiance / density, density);
+  return makeLight(direction, distance, radiance / pdf, pdf);
 }
 
 LightSample environmentLight(float chance, uvec2 bits) {
   vec2 place = sampleEnvironment(bits);
   vec4 there = environmentAt(place);
-  vec3 direction = environmentDirection(place / vec2(ivec2(frame.environment)));
-  float density = chance * environmentDensity(there, direction);
-  if (density <= 0.0f) return noLight();
-  return makeLight(direction, kFarAway, vec3(there) / density, density);
+  vec3 direction = environmentDirection(place / vec2(ivec2(frame.environmentSize)));
+  float pdf = chance * environmentPdf(there, direction);
+  if (pdf <= 0.0f) return noLight();
+  return makeLight(direction, kFarAway, vec3(there) / pdf, pdf);
 }
 
 /// The emitter that bits draw by power: they are in the order of the numbers that draw them, and each tells which its
 /// equal share of these can draw.
 int emitterAt(uint bits) {
-  uvec4 entry = emitterRow(placeInTable(bits, uint(frame.lightChoice.y)).index, 0);
+  uvec4 entry = emitterRow(placeInTable(bits, uint(frame.emitterCount)).index, 0);
   int low = int(entry.x);
   int high = int(entry.y);
   while (low < high) {
@@ -140,7 +139,7 @@ LightSample lightOfEmitter(int emitter, float chance, vec3 point, float u, float
   return s;
 }
 
-/// Which point or direction of the lights is sampled.
+/// The point or direction of the lights that is sampled.
 struct LightChoice {
   int emitter;   // kFromEnvironment: the environment
   float chance;  // of the emitter or the environment; 0: no light reaches the point
@@ -166,7 +165,7 @@ LightChoice emitterByPower(float chance, uvec2 bits) {
   int emitter = emitterAt(bits.x);
   uvec4 entry = emitterRow(emitter, 0);
   float share = uintBitsToFloat(entry.w);
-  // Where among its own numbers the bits lie.
+  // The place of the bits among the emitter's own numbers.
   float u = min(float(entry.z - bits.x) / (share * 4294967296.0f), float(0.99999994));
   return makeChoice(emitter, chance * share, bits, u, unitFloat(bits.y));
 }
@@ -214,7 +213,7 @@ Receiver receiverOf(vec3 point, uint normal) {
 }
 
 /// The row behind the emitters.
-int lightNodes() { return int(frame.lightChoice.y) * int(kEmitterRows); }
+int lightNodes() { return int(frame.emitterCount) * int(kEmitterRows); }
 
 /// One word of four a row.
 uint lightWord(int firstRow, int index) {
@@ -295,60 +294,60 @@ LightChoice emitterByTree(float chance, Receiver to, uint choice, uvec2 bits) {
   return makeChoice(int(child & kLightIndex), chance * own, bits, unitFloat(bits.x), unitFloat(bits.y));
 }
 
-/// Density over solid angle with which the tree chooses, from a point, the place that its ray hit on an emissive
+/// The pdf over solid angle with which the tree chooses, from a point, the place that its ray hit on an emissive
 /// triangle: a leaf knows its way to the root.
-float treeDensity(int slot, vec3 point, uint normal, float distance, float cosine) {
-  int count = 2 * int(frame.lightChoice.y) - 1;
+float treePdf(int slot, vec3 point, uint normal, float distance, float cosine) {
+  int count = 2 * int(frame.emitterCount) - 1;
   int parents = lightNodes() + count * int(kLightNodeRows);
   uint leaf = lightWord(parents + (count + 3) / 4, slot);
   if (leaf == kNoLightNode) return 0.0f;
   Receiver to = receiverOf(point, normal);
   int node = int(leaf);
   LightNode own = lightNodeFrom(node, to);
-  float density = uintBitsToFloat(emitterRow(int(own.child & kLightIndex), 2).w) * (1.0f - frame.lightChoice.x);
-  while (node > 0 && density > 0.0f) {
-    density *= shareOf(own, lightNodeFrom(node % 2 == 1 ? node + 1 : node - 1, to));
+  float pdf = uintBitsToFloat(emitterRow(int(own.child & kLightIndex), 2).w) * (1.0f - frame.environmentChance);
+  while (node > 0 && pdf > 0.0f) {
+    pdf *= shareOf(own, lightNodeFrom(node % 2 == 1 ? node + 1 : node - 1, to));
     node = int(lightWord(parents, node));
     if (node > 0) own = lightNodeFrom(node, to);
   }
-  return density * distance * distance / max(cosine, float(1e-7));
+  return pdf * distance * distance / max(cosine, float(1e-7));
 }
 
 /// The chance that a point's light sample is one of an emitter or, kFromEnvironment, of the environment; 1 for what no
 /// ray can find.
 float chanceOfLight(int emitter, vec3 point, uint normal) {
-  if (emitter == kFromEnvironment) return frame.lightChoice.x;
+  if (emitter == kFromEnvironment) return frame.environmentChance;
   uint kind = emitterRow(emitter, 3).w;
   if (kPunctualLights && (kind & kEmitterPunctual) != 0u) return 1.0f;
-  if (!kLightTree) return uintBitsToFloat(emitterRow(emitter, 0).w) * (1.0f - frame.lightChoice.x);
-  return treeDensity(int(kind), point, normal, 1.0f, 1.0f) / uintBitsToFloat(emitterRow(emitter, 2).w);
+  if (!kLightTree) return uintBitsToFloat(emitterRow(emitter, 0).w) * (1.0f - frame.environmentChance);
+  return treePdf(int(kind), point, normal, 1.0f, 1.0f) / uintBitsToFloat(emitterRow(emitter, 2).w);
 }
 
-/// How many light samples each shaded point takes: one with global illumination; else each punctual light, and one
-/// point of the emissive triangles.
+/// The number of light samples that each shaded point takes: one with global illumination; else one of each punctual
+/// light, and one of the emissive triangles.
 int lightSlotCount() {
   if (kGi) return kPunctualLights || kEmissiveTriangles || kEnvironmentSampling ? 1 : 0;
-  int count = kPunctualLights ? int(frame.lightChoice.w) : 0;
+  int count = kPunctualLights ? int(frame.punctualCount) : 0;
   return count + (kEmissiveTriangles ? 1 : 0);
 }
 
-/// What draws a light of global illumination: numbers that choose it (kLightTree), and a point or direction.
+/// The random numbers that draw a light of global illumination (kLightTree), and a point or direction of it.
 struct LightNumbers {
   uint choice;
   uvec2 bits;
 };
 
-LightNumbers lightNumbers(Sampler numbers, uint dimension) {
+LightNumbers lightNumbers(Sampler sampler, uint dimension) {
   LightNumbers n;
-  n.choice = kLightTree ? drawBits(numbers, dimension) : 0u;
-  n.bits = drawPairBits(numbers, dimension + 1u);
+  n.choice = kLightTree ? drawBits(sampler, dimension) : 0u;
+  n.bits = drawPairBits(sampler, dimension + 1u);
   return n;
 }
 
-/// What these numbers choose for a point of global illumination.
+/// The choice of these numbers for a point of global illumination.
 LightChoice chooseLight(LightNumbers n, vec3 point, uint normal) {
   bool emitters = kPunctualLights || kEmissiveTriangles;
-  float chance = frame.lightChoice.x;
+  float chance = frame.environmentChance;
   LightChoice c = makeChoice(kFromEnvironment, chance, n.bits, 0.0f, 0.0f);
   bool environment = kEnvironmentSampling;
   if (kEnvironmentSampling && emitters) {
@@ -380,11 +379,11 @@ LightSample lightFrom(LightNumbers n, vec3 point, uint normal) {
 
 /// The light sample of one slot; uses four dimensions from `dimension` on. normal: of the surface, where it takes light
 /// from one side alone (Receiver).
-LightSample lightOfSlot(int slot, vec3 point, uint normal, Sampler numbers, uint dimension) {
-  if (kGi) return lightFrom(lightNumbers(numbers, dimension), point, normal);
-  int punctual = kPunctualLights ? int(frame.lightChoice.w) : 0;
+LightSample lightOfSlot(int slot, vec3 point, uint normal, Sampler sampler, uint dimension) {
+  if (kGi) return lightFrom(lightNumbers(sampler, dimension), point, normal);
+  int punctual = kPunctualLights ? int(frame.punctualCount) : 0;
   LightSample s = noLight();
   if (kPunctualLights && slot < punctual) s = punctualLight(slot, point);
-  if (kEmissiveTriangles && slot == punctual) s = emitterLight(1.0f, point, drawPairBits(numbers, dimension), true);
+  if (kEmissiveTriangles && slot == punctual) s = emitterLight(1.0f, point, drawPairBits(sampler, dimension), true);
   return s;
 }

@@ -9,7 +9,7 @@ vec4 materialFloats(uint material, uint row) { return uintBitsToFloat(materialRo
 
 uvec4 textureSlot(uint material, uint slot) { return materialRow(material, kMaterialTextures + slot); }
 
-/// Whether light may go through surfaces.
+/// Light may go through surfaces.
 const bool kPassesLight = kTransmission || kDiffuseTransmission;
 
 uint materialFlags(uint material) { return materialRow(material, kMaterialMaps).w; }
@@ -30,7 +30,7 @@ vec3 emissionAt(uint material, vec4 texcoords) {
   return radiance;
 }
 
-/// What the reflection models need to know of a material at a point.
+/// The parameters of the reflection models at a point.
 struct SurfaceMaterial {
   vec3 baseColor;
   float metallic;

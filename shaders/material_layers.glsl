@@ -21,7 +21,7 @@ vec3 anisotropyAt(uint material, vec4 texcoords) {
 
 /// alpha is that of the perpendicular direction, alpha along = mix(alpha, 1, strength^2); alpha of the Bsdf is the root
 /// of their product.
-Bsdf stretchFacets(Bsdf b, float strength) {
+Bsdf stretchMicrofacets(Bsdf b, float strength) {
   b.stretch = 1.0;
   if (strength <= 0.0) return b;
   float across = max(b.alpha, kMirrorAlpha);
@@ -103,14 +103,14 @@ vec2 clearcoatAt(uint material, vec4 texcoords) {
   return coat;
 }
 
-/// What the clearcoat lets out of the light that the surface emits, seen at `cosine` to the triangle.
+/// The share of the emitted light that leaves through the clearcoat, seen at `cosine` to the triangle.
 float emissionUnderCoat(uint material, vec4 texcoords, float cosine) {
   if (!kClearcoat) return 1.0;
   return 1.0 - clearcoatAt(material, texcoords).x * fresnelSchlick(vec3(kCoatF0), 1.0, cosine).x;
 }
 
 /// The clearcoat's normal, in the frame of the base.
-vec3 coatNormalAt(Surface s, Frame3 around, vec3 outgoing) {
+vec3 coatNormalAt(Surface s, Frame3 around, vec3 wo) {
   if (!kNormalMaps) return vec3(0.0, 0.0, 1.0);
   vec3 normal = s.shadingNormal;
   if (kClearcoatNormal) {
@@ -118,14 +118,14 @@ vec3 coatNormalAt(Surface s, Frame3 around, vec3 outgoing) {
     float scale = materialFloats(s.material, kMaterialClearcoat).z;
     if ((slot.z & kTexturePresent) != 0u) normal = normalFromMap(s, texturedNormal(slot, scale, s.texcoords));
   }
-  normal = reflectingNormal(facingNormal(normal, outgoing), s.geometricNormal, outgoing);
+  normal = reflectingNormal(facingNormal(normal, wo), s.geometricNormal, wo);
   return normalize(toFrame(around, normal));
 }
 
 /// All of the layers of a point, `around` its shading normal. Inside of a solid there is no layer: clearcoat and sheen
 /// lie on the outside.
-Bsdf addLayers(Bsdf b, Surface s, Frame3 around, vec3 outgoing, float strength) {
-  if (kAnisotropy) b = stretchFacets(b, strength);
+Bsdf addLayers(Bsdf b, Surface s, Frame3 around, vec3 wo, float strength) {
+  if (kAnisotropy) b = stretchMicrofacets(b, strength);
   if (kIridescence) b = addFilm(b, s.material, s.texcoords);
   if (kDiffuseTransmission) b = addDiffuseTransmission(b, s.material, s.texcoords);
   if (kThinScattering) b = addThinScattering(b, s.material, s.texcoords);
@@ -138,7 +138,7 @@ Bsdf addLayers(Bsdf b, Surface s, Frame3 around, vec3 outgoing, float strength) 
     vec2 coat = clearcoatAt(s.material, s.texcoords);
     b.coat = outside ? coat.x : 0.0;
     b.coatAlpha = coat.y * coat.y;
-    b.coatNormal = coatNormalAt(s, around, outgoing);
+    b.coatNormal = coatNormalAt(s, around, wo);
   }
   return b;
 }

@@ -4,8 +4,8 @@
 /// Paths scatter, so that --bounces can end them.
 const bool kScatters = kGi || kReflections || kRefraction;
 
-/// What is drawn are numbers of parts of the scene, which have no mean: they are those of the pixel's middle.
-const bool kCountsParts = kFeature == kFeatureObject || kFeature == kFeatureMaterial;
+/// The AOV is a number of a part of the scene. Such numbers have no mean: they are those of the pixel's middle.
+const bool kCountsParts = kAov == kAovObject || kAov == kAovMaterial;
 
 const uint kCameraDimensions = 0u;
 const uint kChannelDimension = 2u;  // one number a path
@@ -25,26 +25,26 @@ const uint kShadowFlights = 0x40000000u;      // of shadow rays, on top of these
 /// The most that roulette lets a path at smooth glass survive by, and the scattering from which on it always decides.
 /// Paths through glass that absorbs nothing get fewer by a factor from each scattering to the next; were that factor
 /// above the survival, their variance would be infinite.
-const float kClearSurvival = 0.99;
+const float kGlassSurvival = 0.99;
 const int kLatestRoulette = 1000;
 const float kMediumSurvival = 0.999;  // from kLatestRoulette on
 
-/// Of light paths; those of their bounces are those of camera paths.
+/// Dimensions of light paths; their bounces have the dimensions of camera paths.
 const uint kAimDimensions = 0u;     // to 1
-const uint kLampPointDimensions = 4u;  // to 5
-const uint kLampDimension = 6u;
+const uint kEmitterPointDimensions = 4u;  // to 5
+const uint kEmitterDimension = 6u;
 const uint kCasterDimension = 7u;
 const uint kSplatDimension = 8u;    // of a bounce
 const uint kSplatLensDimensions = 9u;  // of a bounce, to 10
 
-TreeFrame treeFrame() { return TreeFrame(frame.gridOrigin.xyz, frame.gridCell.xyz, frame.limits.w); }
+TreeFrame treeFrame() { return TreeFrame(frame.gridOrigin.xyz, frame.gridCell.xyz, frame.leafCount); }
 
 float pathRandom(Path p, uint offset) {
-  return drawFloat(p.numbers, kBounceDimensions * uint(p.bounce + 1) + offset);
+  return drawFloat(p.sampler, kBounceDimensions * uint(p.bounce + 1) + offset);
 }
 
 /// Red (0), green or blue: the one that is left once dispersion parts them.
-int pathChannel(Path p) { return min(int(3.0 * drawFloat(p.numbers, kChannelDimension)), 2); }
+int pathChannel(Path p) { return min(int(3.0 * drawFloat(p.sampler, kChannelDimension)), 2); }
 
 /// The index of refraction of a solid for the channel of the path (KHR_materials_dispersion: they are apart by (n - 1)
 /// / 40 x 20 / Abbe number).
@@ -60,7 +60,7 @@ float dispersedIor(Path p, uint material) {
 /// Starts a traversal of a ray up to its limit, keeping the step count of this draw.
 Path traceAnew(Path p, float limit) {
   int steps = p.traversal.steps;
-  p.traversal = startTraversal(limit, frame.limits.w);
+  p.traversal = startTraversal(limit, frame.leafCount);
   p.traversal.steps = steps;
   return p;
 }
@@ -70,8 +70,8 @@ Path tracePast(Path p, float limit, float t, int slot) {
   p = traceAnew(p, limit);
   if (kCreases && p.phase == kPhaseExtend) p.traversal.tie = p.tie;
   if (kLightPaths && p.phase == kPhaseExtend) p.traversal.both = true;
-  p.traversal.past = t;
-  p.traversal.pastSlot = slot;
+  p.traversal.tMin = t;
+  p.traversal.tMinSlot = slot;
   return p;
 }
 
@@ -92,81 +92,80 @@ Path extend(Path p) {
   return p;
 }
 
-/// Where a pixel of the film is in the picture; y from the bottom.
-ivec2 inPicture(ivec2 pixel) { return pixel + frame.part.xy; }
+/// The place of a pixel of the film in the picture; y from the bottom.
+ivec2 inPicture(ivec2 pixel) { return pixel + frame.filmOffset; }
 
-/// Of the random numbers of a pixel of the film.
+/// The key of the random numbers of a pixel of the film.
 uint keyOfPixel(ivec2 pixel) {
   ivec2 place = inPicture(pixel);
-  return pixelKey(uint(place.x), uint(frame.picture.y - 1 - place.y), uint(frame.picture.w));
+  return pixelKey(uint(place.x), uint(frame.pictureSize.y - 1 - place.y), uint(frame.seed));
 }
 
 /// A path that begins with a ray.
-Path pathAlong(vec3 origin, vec3 direction, Sampler numbers, int steps) {
+Path pathAlong(vec3 origin, vec3 direction, Sampler sampler, int steps) {
   Path p = newPath();
-  p.numbers = numbers;
+  p.sampler = sampler;
   p.origin = origin;
   p.direction = direction;
   p.traversal.steps = steps;
-  if (kScattering && kMedia && frame.cameraUp.w > 0.0) p = standInside(p, uint(frame.cameraUp.w) - 1u);
+  if (kScattering && kMedia && frame.cameraMedium > 0.0) p = standInside(p, uint(frame.cameraMedium) - 1u);
   return extend(p);
 }
 
 Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
-  Sampler numbers = makeSampler(key, sampleIndex);
+  Sampler sampler = makeSampler(key, sampleIndex);
   vec2 place = vec2(inPicture(pixel)) + 0.5;
   if (!kCountsParts) {
-    vec2 jitter = drawPair(numbers, kCameraDimensions);
+    vec2 jitter = drawPair(sampler, kCameraDimensions);
     // A coarse picture's first sample is in the middle: edges with chance would be ragged.
-    bool middle = frame.cameraRight.w > 0.0 && sampleIndex == uint(frame.sampling.x);
+    bool middle = frame.firstInMiddle > 0.0 && sampleIndex == uint(frame.firstSample);
     if (!middle) place += samplePixelFilter(kPixelFilter, jitter.x, jitter.y);
   }
-  vec2 point = place / vec2(frame.picture.xy) * 2.0 - 1.0;
-  CameraRay ray = makeCameraRay(frame.cameraPosition.xyz, frame.cameraRight.xyz, frame.cameraUp.xyz,
-                                frame.cameraForward.xyz, frame.cameraPosition.w != 0.0, point.x, point.y);
+  vec2 point = place / vec2(frame.pictureSize) * 2.0 - 1.0;
+  CameraRay ray = makeCameraRay(frame.cameraPosition, frame.cameraRight, frame.cameraUp,
+                                frame.cameraForward, frame.orthographic != 0.0, point.x, point.y);
   if (kLens && !kCountsParts && frame.lens.x > 0.0) {
-    vec2 uv = drawPair(numbers, kLensDimensions);
+    vec2 uv = drawPair(sampler, kLensDimensions);
     vec2 lens = frame.lens.x * sampleAperture(uv.x, uv.y, int(frame.lens.z));
-    ray = throughLens(ray, frame.cameraRight.xyz, frame.cameraUp.xyz, frame.cameraForward.xyz, lens, frame.lens.y);
+    ray = throughLens(ray, frame.cameraRight, frame.cameraUp, frame.cameraForward, lens, frame.lens.y);
   }
-  Path p = pathAlong(ray.origin, ray.direction, numbers, steps);
+  Path p = pathAlong(ray.origin, ray.direction, sampler, steps);
   p.pixel = pixel;
   return p;
 }
 
-/// Adds light, or what of it belongs to the part that is drawn.
+/// Adds light, or the share of it that belongs to the AOV.
 Path addLight(Path p, vec3 light) {
-  p.radiance += kLightPart ? p.part * light : light;
+  p.radiance += kLightAov ? p.aovWeight * light : light;
   return p;
 }
 
 /// Light that came over so many scatterings: one is direct light, more may be clamped, which is biased.
 vec3 clampIndirect(vec3 light, int scatterings) {
   if (!kClampIndirect || scatterings < 2) return light;
-  return light * min(1.0, intBitsToFloat(frame.sampling.y) / max(maxComponent(light), 1e-30));
+  return light * min(1.0, intBitsToFloat(frame.clampBits) / max(maxComponent(light), 1e-30));
 }
 
 /// Scatterings that --bounces limits. Those at smooth glass end by roulette alone: a thick rim or nested glasses take
 /// dozens.
-int limitedScatterings(Path p) { return kTransmission || kMedia ? p.bounce - p.clear : p.bounce; }
+int limitedScatterings(Path p) { return kTransmission || kMedia ? p.bounce - p.freeBounces : p.bounce; }
 
 /// Those that --clamp-indirect counts: what is seen straight through thin walls is as direct as without them.
-int countedScatterings(Path p) { return kThroughGlass ? p.bounce - p.walls : p.bounce; }
+int countedScatterings(Path p) { return kThroughGlass ? p.bounce - p.straightBounces : p.bounce; }
 
-/// Whether the shadow ray of a light sample passes thin walls: where the path itself could go there, and go on behind
-/// them. Inside of a solid it does not, since paths there lose light from wall to wall.
-bool passesWalls(Path p, Surface s, SurfaceMaterial m, vec3 direction) {
+/// Returns true if the shadow ray of a light sample passes smooth glass that does not bend it. It does where the path
+/// itself could go there, and continue behind it. Inside of a solid it does not: paths there lose light at each wall.
+bool passesGlass(Path p, Surface s, SurfaceMaterial m, vec3 direction) {
   bool crosses = m.solid && dot(direction, s.geometricNormal) < 0.0;
   bool inside = crosses ? s.front : p.medium != kPrimitiveNone;
   if (kMatchedGlass) inside = !isOpen(mediumTowards(p, s, direction));
-  return !inside && limitedScatterings(p) < frame.limits.x;
+  return !inside && limitedScatterings(p) < frame.maxBounces;
 }
 
-/// What a path that --bounces has ended could still have carried: luminance of its throughput, as seen from outside all
-/// glass.
+/// The luminance of the throughput that a path had left when --bounces ended it, as seen from outside all glass.
 float cutThroughput(Path p) {
   if (!kScatters || p.phase != kPhaseCut) return 0.0;
-  return kPassesLight ? luminance(p.throughput) * p.compression : luminance(p.throughput);
+  return kPassesLight ? luminance(p.throughput) * p.etaScale : luminance(p.throughput);
 }
 
 /// Adds it to what the draw reports.
@@ -177,9 +176,9 @@ void reportCut(float cut) {
   if (before + units < before) atomicAdd(progress.cutHigh, 1u);
 }
 
-/// What the camera sees where its ray meets nothing.
+/// The radiance that the camera sees where its ray meets nothing.
 vec3 seenBehind(vec3 direction) {
-  if (!kEnvironment || frame.background.w <= 0.0) return frame.background.rgb;
+  if (!kEnvironment || frame.backgroundShows <= 0.0) return frame.background;
   if (kBackdrop) return backdropAlong(direction);
   return environmentAlong(direction).rgb;
 }
@@ -191,11 +190,11 @@ Path meetSurroundings(Path p) {
   if (p.cameraRay) return addLight(p, p.throughput * seenBehind(p.direction));
   if (!kEnvironment) return p;
   // Surroundings are outside of everything: who has left less than was entered has missed a face that touches another.
-  if (kPassesLight) p.throughput *= p.compression;
+  if (kPassesLight) p.throughput *= p.etaScale;
   vec4 seen = environmentAlong(p.direction);
   float weight = 1.0;
-  if (kGi && kEnvironmentSampling && p.density > 0.0) {
-    weight = balanceWeight(p.density, frame.lightChoice.x * environmentDensity(seen, p.direction));
+  if (kGi && kEnvironmentSampling && p.pdf > 0.0) {
+    weight = balanceWeight(p.pdf, frame.environmentChance * environmentPdf(seen, p.direction));
   }
   return addLight(p, clampIndirect(p.throughput * (weight * seen.rgb), countedScatterings(p)));
 }
@@ -209,10 +208,10 @@ int nextCrossing(inout Path p) {
 
 /// Decides by the alpha of the point whether the ray goes through it; 1 opaque, 0 not there
 /// (docs/design/surfaces.md).
-bool passesThrough(uint flags, float alpha, Sampler numbers, int crossing) {
+bool passesThrough(uint flags, float alpha, Sampler sampler, int crossing) {
   if ((flags & kMaterialMask) != 0u) return alpha == 0.0;
   if ((flags & kMaterialBlend) != 0u && kCountsParts) return alpha < 0.5;
-  if ((flags & kMaterialBlend) != 0u) return hashFloat(numbers, kAlphaDimensions + uint(crossing)) >= alpha;
+  if ((flags & kMaterialBlend) != 0u) return hashFloat(sampler, kAlphaDimensions + uint(crossing)) >= alpha;
   return false;
 }
 
@@ -222,7 +221,7 @@ float alphaAt(uint material, uint flags, float alpha) {
   return clamp(alpha, 0.0, 1.0);
 }
 
-/// Whether light may come through the surface.
+/// Returns true if light may come through the surface.
 bool takesLightFromBehind(Surface s, SurfaceMaterial m) {
   if (m.transmission > 0.0) return true;
   return kDiffuseTransmission && materialFloats(s.material, kMaterialDiffuseTransmission).w > 0.0;
@@ -234,56 +233,56 @@ uint normalOfLight(Surface s, SurfaceMaterial m) {
   return kNoNormal;
 }
 
-/// What a scattering makes of Path.chain; `wall`: straight through a thin wall.
-int nextChain(Path p, uint material, bool single, bool wall) {
-  if (p.bounce == 1) return single ? kChainNone : kChainRough;
-  if (wall) return p.chain;
-  bool goesOn = single && p.chain != kChainNone && (materialFlags(material) & kMaterialCaster) != 0u;
-  return goesOn ? kChainSingle : kChainNone;
+/// The prefix after a scattering; straight: it went straight through a thin wall.
+int nextPrefix(Path p, uint material, bool delta, bool straight) {
+  if (p.bounce == 1) return delta ? kPrefixNone : kPrefixDiffuse;
+  if (straight) return p.prefix;
+  bool goesOn = delta && p.prefix != kPrefixNone && (materialFlags(material) & kMaterialCaster) != 0u;
+  return goesOn ? kPrefixCaustic : kPrefixNone;
 }
 
 /// Settles where the path goes on from the surface, once its shadow ray is done; weight multiplies the throughput, and
 /// zero ends the path.
-Path scatter(Path p, Surface s, vec3 direction, vec3 weight, float density, bool transmitted, SurfaceMaterial m) {
+Path spawnRay(Path p, Surface s, vec3 direction, vec3 weight, float pdf, bool transmitted, SurfaceMaterial m) {
   p.throughput *= weight;
   p.after = kPhaseEnd;
   if (maxComponent(p.throughput) <= 0.0) return p;
-  bool clear = kTransmission && density == 0.0 && m.transmission * (1.0 - m.metallic) > 0.0;
+  bool deltaGlass = kTransmission && pdf == 0.0 && m.transmission * (1.0 - m.metallic) > 0.0;
   bool open = !kMatchedGlass || isOpen(p.medium);
   if (transmitted && m.solid) {
     p.medium = mediumBehind(s);
     float squared = m.ior * m.ior;
-    float before = p.compression;
-    p.compression = s.front ? before * squared : max(before / squared, 1.0);
+    float before = p.etaScale;
+    p.etaScale = s.front ? before * squared : max(before / squared, 1.0);
     // Nothing is thinner than air: who leaves more than was entered has missed a face that touches another. The weight
     // has counted it all.
-    if (!s.front) p.throughput *= before / (squared * p.compression);
+    if (!s.front) p.throughput *= before / (squared * p.etaScale);
   }
   p.bounce += 1;
-  p.clear += clear ? 1 : 0;
+  p.freeBounces += deltaGlass ? 1 : 0;
   // Roulette begins in time even where it is not wanted: nothing else ends a ray that glass keeps inside.
-  bool roulette = (kGi || clear) && kDrawsLight &&
-                  p.bounce >= (clear ? min(frame.limits.y, kLatestRoulette) : frame.limits.y);
-  float survival = min(maxComponent(p.throughput) * p.compression, clear ? kClearSurvival : 0.95);
+  bool roulette = (kGi || deltaGlass) && kDrawsLight &&
+                  p.bounce >= (deltaGlass ? min(frame.rouletteDepth, kLatestRoulette) : frame.rouletteDepth);
+  float survival = min(maxComponent(p.throughput) * p.etaScale, deltaGlass ? kGlassSurvival : 0.95);
   uint rouletteDimension = kBounceDimensions * uint(p.bounce) + kRouletteDimension;
-  if (roulette && drawFloat(p.numbers, rouletteDimension) >= survival) return p;
+  if (roulette && drawFloat(p.sampler, rouletteDimension) >= survival) return p;
   if (roulette) p.throughput /= survival;
   p.cameraRay = false;
-  bool wall = kThinGlass && clear && transmitted && !m.solid && p.medium == kPrimitiveNone;
-  if (kMatchedGlass) wall = clear && transmitted && open && (!m.solid || isMatched(s.material));
-  if (kCaustics) p.chain = nextChain(p, s.material, density == 0.0, wall);
-  // Straight through a thin wall the path keeps its ray, and the density that light sampling shares with it.
-  if (wall) {
-    p.walls += 1;
+  bool straight = kThinGlass && deltaGlass && transmitted && !m.solid && p.medium == kPrimitiveNone;
+  if (kMatchedGlass) straight = deltaGlass && transmitted && open && (!m.solid || isMatched(s.material));
+  if (kCaustics) p.prefix = nextPrefix(p, s.material, pdf == 0.0, straight);
+  // Straight through a thin wall the path keeps its ray, and the pdf that light sampling shares with it.
+  if (straight) {
+    p.straightBounces += 1;
     p.after = kPhasePass;
     return p;
   }
-  p.density = density;
+  p.pdf = pdf;
   p.normal = normalOfLight(s, m);
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, direction);
   p.direction = direction;
-  // Where two faces meet sharply, which of them a ray hits first is a matter of rounding: one that has left a front is
-  // to meet a front.
+  // At a sharp edge, rounding decides which of two faces a ray hits first. A ray that has left a front is to meet a
+  // front.
   if (kCreases) p.tie = (dot(direction, s.geometricNormal) > 0.0) == s.front ? kTie : -kTie;
   p.after = kPhaseExtend;
   return p;
@@ -306,23 +305,23 @@ vec3 emittedAt(Path p, Surface s, uint flags) {
   if (!s.front && (flags & kMaterialDoubleSided) == 0u) return vec3(0.0);
   // Light paths bring it.
   bool sampled = kEmissiveTriangles && s.emitter && materialFloats(s.material, kMaterialMaps).z > 0.0;
-  if (kCaustics && sampled && p.chain == kChainSingle) return vec3(0.0);
+  if (kCaustics && sampled && p.prefix == kPrefixCaustic) return vec3(0.0);
   float cosine = abs(dot(s.geometricNormal, p.direction));
   vec3 radiance = emissionAt(s.material, s.texcoords);
   if (kClearcoat) radiance *= emissionUnderCoat(s.material, s.texcoords, cosine);
-  if (!kGi || !kEmissiveTriangles || !s.emitter || p.density <= 0.0) return radiance;
-  float density = kLightTree ? treeDensity(p.hitSlot, p.origin, p.normal, p.hitT, cosine)
-                             : emitterDensity(s.material, p.hitT, cosine);
-  return radiance * misWeight(p.density, density);
+  if (!kGi || !kEmissiveTriangles || !s.emitter || p.pdf <= 0.0) return radiance;
+  float pdf = kLightTree ? treePdf(p.hitSlot, p.origin, p.normal, p.hitT, cosine)
+                             : emitterPdf(s.material, p.hitT, cosine);
+  return radiance * misWeight(p.pdf, pdf);
 }
 
 /// Sets up the shadow ray of a light sample of a point that would add `value`; without shadows it is added at once. The
 /// ray begins at `origin`, beside the point.
-Path connectFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3 value) {
+Path spawnShadowRayFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3 value) {
   if (maxComponent(value) <= 0.0) return p;
   value = clampIndirect(value, countedScatterings(p) + 1);
   if (!kMedia && !kShadows) return addLight(p, value);
-  p.contribution = kLightPart ? p.part * value : value;
+  p.contribution = kLightAov ? p.aovWeight * value : value;
   p.shadowOrigin = origin;
   p.shadowDirection = light.direction;
   p.shadowLimit = kShadows ? kFarAway : light.distance;
@@ -344,8 +343,8 @@ Path connectFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3 value)
 }
 
 /// The same of a point of a surface.
-Path connect(Path p, Surface s, LightSample light, vec3 value) {
+Path spawnShadowRay(Path p, Surface s, LightSample light, vec3 value) {
   if (kMedia) p.shadowMedium = mediumTowards(p, s, light.direction);
   vec3 origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, light.direction);
-  return connectFrom(p, s.position, origin, light, value);
+  return spawnShadowRayFrom(p, s.position, origin, light, value);
 }

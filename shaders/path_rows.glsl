@@ -6,67 +6,67 @@
 const int kRowRay = 0;              // origin, tie
 const int kRowDirection = 1;        // direction, medium
 const int kRowHit = 2;              // of the ray: distance, slot, weights
-const int kRowThroughput = 3;       // throughput, density
+const int kRowThroughput = 3;       // throughput, pdf
 const int kRowRadiance = 4;         // radiance, flags
-const int kRowCounts = 5;           // sample, rays, scatterings (scatteringsOf), those at smooth glass (clearOf)
+const int kRowCounts = 5;           // sample, rays, scatterings (scatteringsOf), free and straight ones (bounceCounts)
 // kShadowRows:
 const int kRowShadow = 6;           // shadow ray's origin, limit
-const int kRowShadowDirection = 7;  // its direction, compression
+const int kRowShadowDirection = 7;  // its direction, etaScale
 const int kRowContribution = 8;     // contribution, instance of the hit
 // kPassingRows:
 const int kRowShadowHit = 9;        // of the shadow ray, or of a traversal that is suspended: distance, slot, weights
-const int kRowPast = 10;            // what the ray and the shadow ray have passed through: distance and slot of each
+const int kRowTMin = 10;            // what the ray and the shadow ray have passed through: distance and slot of each
 // crossings, instance of the row of the shadow ray's hit, instance that is walked, medium of the shadow ray
 const int kRowCrossings = 11;
 // kResumable:
 const int kRowSuspended = 12;       // node of the traversal, light slot, more flags, visits
 const int kRowStack = 13;
-const int kRowPart = kRowStack + kStackSize / 4;  // kPartRow
+const int kRowAov = kRowStack + kStackSize / 4;  // kAovRow: aovWeight, or splatPixel
 
 const bool kShadowRows = kShadows || kPassesLight || kInstances || kResumable;
 const bool kPassingRows = kPassing || kResumable || kMedia;
 
-/// Path.part is kept from draw to draw.
-const bool kPartRow = kLightPart || kLightPaths;
+const bool kAovRow = kLightAov || kLightPaths;
 
 /// Rows of a path of the megakernel.
-const int kSuspendedRows = kRowPart + (kPartRow ? 1 : 0);
+const int kSuspendedRows = kRowAov + (kAovRow ? 1 : 0);
 
-/// And how far the path is a chain.
-uint scatteringsOf(Path p) { return uint(p.bounce) | (kCaustics ? uint(p.chain) << 30 : 0u); }
+/// The count of scatterings and, above it, the prefix.
+uint scatteringsOf(Path p) { return uint(p.bounce) | (kCaustics ? uint(p.prefix) << 30 : 0u); }
 
 /// Both counts in a word: roulette ends a path long before either is 65,535.
-uint clearOf(Path p) { return uint(p.clear) | (kThroughGlass ? uint(p.walls) << 16 : 0u); }
+uint bounceCounts(Path p) { return uint(p.freeBounces) | (kThroughGlass ? uint(p.straightBounces) << 16 : 0u); }
 
-Path withCounts(Path p, uint scatterings, uint clear) {
+Path withCounts(Path p, uint scatterings, uint freeBounces) {
   p.bounce = int(kCaustics ? scatterings & 0x3fffffffu : scatterings);
-  p.chain = int(kCaustics ? scatterings >> 30 : 0u);
-  p.clear = int(kThroughGlass ? clear & 0xffffu : clear);
-  p.walls = int(kThroughGlass ? clear >> 16 : 0u);
+  p.prefix = int(kCaustics ? scatterings >> 30 : 0u);
+  p.freeBounces = int(kThroughGlass ? freeBounces & 0xffffu : freeBounces);
+  p.straightBounces = int(kThroughGlass ? freeBounces >> 16 : 0u);
   return p;
 }
 
-/// What a traversal has met.
+/// The hit of a traversal as a row.
 uvec4 metBy(Traversal t) { return uvec4(floatBitsToUint(t.t), uint(t.slot), floatBitsToUint(t.weights)); }
 
 /// begins: nothing has changed yet what a camera ray carries. The wavefront keeps fewer rows of such a path.
 void savePath(Path p, int row, bool begins) {
   uint flags = uint(p.phase) | (p.cameraRay ? 16u : 0u) | (p.oneChannel ? 32u : 0u) | (p.covered ? 64u : 0u) |
-               (p.throughWalls ? 128u : 0u) | (kLightTree ? p.normal << 8 : 0u);
+               (p.throughGlass ? 128u : 0u) | (kLightTree ? p.normal << 8 : 0u);
   pathStates[row + kRowRay] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.tie));
   pathStates[row + kRowDirection] = uvec4(floatBitsToUint(p.direction), p.medium);
   pathStates[row + kRowHit] = uvec4(floatBitsToUint(p.hitT), uint(p.hitSlot), floatBitsToUint(p.hitWeights));
-  if (!begins) pathStates[row + kRowThroughput] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.density));
+  if (!begins) pathStates[row + kRowThroughput] = uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.pdf));
   pathStates[row + kRowRadiance] = uvec4(floatBitsToUint(p.radiance), flags);
-  pathStates[row + kRowCounts] = uvec4(bitfieldReverse(p.numbers.reversed), uint(p.rays), scatteringsOf(p), clearOf(p));
+  uint sampleIndex = bitfieldReverse(p.sampler.reversed);
+  pathStates[row + kRowCounts] = uvec4(sampleIndex, uint(p.rays), scatteringsOf(p), bounceCounts(p));
   if (kShadowRows && !begins) {
     pathStates[row + kRowShadow] = uvec4(floatBitsToUint(p.shadowOrigin), floatBitsToUint(p.shadowLimit));
-    pathStates[row + kRowShadowDirection] = uvec4(floatBitsToUint(p.shadowDirection), floatBitsToUint(p.compression));
+    pathStates[row + kRowShadowDirection] = uvec4(floatBitsToUint(p.shadowDirection), floatBitsToUint(p.etaScale));
   }
   if (kShadowRows) pathStates[row + kRowContribution] = uvec4(floatBitsToUint(p.contribution), uint(p.hitInstance));
   if (kPassingRows) {
     Traversal t = p.traversal;
-    pathStates[row + kRowPast] = uvec4(floatBitsToUint(t.past), uint(t.pastSlot), 0u, 0u);
+    pathStates[row + kRowTMin] = uvec4(floatBitsToUint(t.tMin), uint(t.tMinSlot), 0u, 0u);
     pathStates[row + kRowCrossings] = uvec4(uint(p.crossings), uint(t.hitInstance), uint(t.instance), p.shadowMedium);
   }
 }
@@ -90,18 +90,18 @@ Path loadPath(int row, uint key) {
   p.cameraRay = (a.w & 16u) != 0u;
   p.oneChannel = (a.w & 32u) != 0u;
   p.covered = (a.w & 64u) != 0u;
-  p.throughWalls = (a.w & 128u) != 0u;
+  p.throughGlass = (a.w & 128u) != 0u;
   p.normal = kLightTree ? a.w >> 8 : kNoNormal;
   bool begins = !kResumable && p.cameraRay;
   f = uintBitsToFloat(readPathStates(row + kRowThroughput));
   p.throughput = begins ? vec3(1.0) : f.xyz;
-  p.density = begins ? 0.0 : f.w;
+  p.pdf = begins ? 0.0 : f.w;
   a = readPathStates(row + kRowCounts);
-  p.numbers = makeSampler(key, a.x);
+  p.sampler = makeSampler(key, a.x);
   p.rays = int(a.y);
   p = withCounts(p, a.z, a.w);
   if (kShadowRows) {
-    p.compression = begins ? 1.0 : uintBitsToFloat(readPathStates(row + kRowShadowDirection).w);
+    p.etaScale = begins ? 1.0 : uintBitsToFloat(readPathStates(row + kRowShadowDirection).w);
     a = readPathStates(row + kRowContribution);
     p.contribution = uintBitsToFloat(a.xyz);
     p.hitInstance = int(a.w);
@@ -109,7 +109,7 @@ Path loadPath(int row, uint key) {
   if (kPassingRows) p.crossings = int(readPathStates(row + kRowCrossings).x);
   if (kMedia) {
     p.shadowMedium = readPathStates(row + kRowCrossings).w;
-    p.traversal.past = uintBitsToFloat(readPathStates(row + kRowPast).x);
+    p.traversal.tMin = uintBitsToFloat(readPathStates(row + kRowTMin).x);
   }
   return p;
 }
@@ -128,15 +128,47 @@ Path loadShadow(Path p, int row) {
   return p;
 }
 
+/// Guides, and light paths until the camera sees them, trace no shadow ray: their own state is stored in its rows.
+Path packOwnState(Path p) {
+  if (kAov == kAovGuides) {
+    p.radiance = p.guide.albedo;
+    p.contribution = p.guide.normal;
+    p.shadowLimit = p.guide.depth;
+    p.shadowOrigin.x = p.guide.share;
+    p.shadowDirection = p.guide.lastNormal;
+  }
+  if (kLightPaths && p.phase != kPhaseShadow) {
+    p.contribution = p.fromLight.flux;
+    p.shadowLimit = p.fromLight.range;
+    p.pdf = p.fromLight.travelled;
+  }
+  return p;
+}
+
+Path unpackOwnState(Path p) {
+  if (kAov == kAovGuides) {
+    p.guide = Guide(p.radiance, p.contribution, p.shadowLimit, p.shadowOrigin.x, p.shadowDirection);
+  }
+  if (kLightPaths && p.phase != kPhaseShadow) {
+    p.fromLight.flux = p.contribution;
+    p.fromLight.range = p.shadowLimit;
+    p.fromLight.travelled = p.pdf;
+    p.pdf = 0.0;
+  }
+  return p;
+}
+
 /// A path that goes on in the next draw, in whatever phase and wherever in a traversal.
 void suspendPath(Path p, int row) {
+  p = packOwnState(p);
   savePath(p, row, false);
   Traversal t = p.traversal;
-  uint flags = uint(p.after) | (p.caught ? 16u : 0u) | (p.clearFirst ? 32u : 0u);
+  uint flags = uint(p.after) | (p.caught ? 16u : 0u) | (kLightPaths && p.fromLight.glassFirst ? 32u : 0u);
   pathStates[row + kRowShadowHit] = metBy(t);
   pathStates[row + kRowSuspended] = uvec4(uint(t.node), uint(p.lightSlot), flags, uint(t.visits));
   if (!kIterative && !kLiterals) saveStack(t.stack, row + kRowStack);
-  if (kPartRow) pathStates[row + kRowPart] = uvec4(floatBitsToUint(p.part), 0u);
+  vec3 kept = kLightPaths ? vec3(p.fromLight.splatPixel, 0.0) : p.aovWeight;
+  if (kAovRow) pathStates[row + kRowAov] = uvec4(floatBitsToUint(kept), 0u);
 }
 
 Path resumePath(int row, uint key) {
@@ -145,16 +177,17 @@ Path resumePath(int row, uint key) {
   p.lightSlot = int(a.y);
   p.after = int(a.z & 15u);
   p.caught = (a.z & 16u) != 0u;
-  p.clearFirst = (a.z & 32u) != 0u;
-  if (kPartRow) p.part = uintBitsToFloat(readPathStates(row + kRowPart).xyz);
+  if (kLightPaths) p.fromLight.glassFirst = (a.z & 32u) != 0u;
+  if (kLightPaths) p.fromLight.splatPixel = uintBitsToFloat(readPathStates(row + kRowAov).xy);
+  if (kLightAov) p.aovWeight = uintBitsToFloat(readPathStates(row + kRowAov).xyz);
   p.traversal.node = int(a.x);
   p.traversal.visits = int(a.w);
-  a = readPathStates(row + kRowPast);
-  p.traversal.past = uintBitsToFloat(a.x);
-  p.traversal.pastSlot = int(a.y);
+  a = readPathStates(row + kRowTMin);
+  p.traversal.tMin = uintBitsToFloat(a.x);
+  p.traversal.tMinSlot = int(a.y);
   if (kInstances) p.traversal.instance = int(readPathStates(row + kRowCrossings).z);
   p.traversal.both = kLightPaths && p.phase == kPhaseExtend;
   p.traversal.tie = p.phase == kPhaseExtend ? p.tie : 0.0;
   if (!kIterative && !kLiterals) p.traversal.stack = loadStack(row + kRowStack);
-  return p;
+  return unpackOwnState(p);
 }

@@ -5,20 +5,21 @@ const int kPhaseExtend = 0;  // the path's ray is being traced
 const int kPhaseShade = 1;   // it has hit something; light slot `lightSlot` is next
 const int kPhaseShadow = 2;  // the shadow ray of that slot is being traced
 const int kPhaseEnd = 3;     // the sample is complete
-const int kPhaseCut = 4;     // so it is, because the path has scattered as often as it may
+const int kPhaseCut = 4;     // it is complete because the path has scattered as often as --bounces allows
 const int kPhaseNone = 5;    // no path: the pixel's next one is to begin (wavefront)
-const int kPhasePass = 6;    // of `after` alone: the ray goes on behind the thin wall that it has met
+const int kPhasePass = 6;    // a value of `after` alone: the ray goes on behind the thin wall that it has met
 
 const float kTie = 9.5367431640625e-7;  // 2^-20: 16 roundings of a distance
 
-// Of camera paths whose light light paths bring (shaders/caustics/):
-const int kChainNone = 0;
-const int kChainRough = 1;   // scattered by a rough surface first, and only straight through thin walls since
-const int kChainSingle = 2;  // and by casters of caustics since, each a single direction
+// Light paths (shaders/caustics/) bring the light of the camera paths E D S+ L, in Heckbert's notation. A camera path
+// begins like one of them, or not; straight passages through thin walls do not count.
+const int kPrefixNone = 0;
+const int kPrefixDiffuse = 1;  // E D: a rough surface
+const int kPrefixCaustic = 2;  // E D S+: delta lobes of casters of caustics since
 
-/// Radiance, or a part of it: paths are traced to their ends.
-const bool kLightPart = kFeature == kFeatureEmission || kFeature == kFeatureDiffuse || kFeature == kFeatureSpecular;
-const bool kDrawsLight = kFeature == kFeatureNone || kLightPart;
+/// An AOV that is a part of the radiance: paths are traced to their ends.
+const bool kLightAov = kAov == kAovEmission || kAov == kAovDiffuse || kAov == kAovSpecular;
+const bool kDrawsLight = kAov == kAovNone || kLightAov;
 
 /// Light may be scattered between surfaces (media/).
 const bool kMedia = (kScattering || kFog || kDensityGrid) && kDrawsLight;
@@ -26,28 +27,45 @@ const bool kMedia = (kScattering || kFog || kDensityGrid) && kDrawsLight;
 /// Light may go straight through smooth glass, and shadow rays with it.
 const bool kThroughGlass = kThinGlass || kMatchedGlass;
 
+/// The sums of a path that draws guides (kAovGuides), and the normal of its last surface.
+struct Guide {
+  vec3 albedo;
+  vec3 normal;
+  float depth;
+  float share;      // of the ray that surfaces have taken so far
+  vec3 lastNormal;
+};
+
+/// A light path until the camera sees it (kLightPaths).
+struct LightPath {
+  vec3 flux;
+  float range;       // of its punctual light, or 0
+  float travelled;   // distance since the light, up to the surface that was passed last
+  bool glassFirst;   // it has met smooth glass first
+  vec2 splatPixel;   // the place in the picture at which the camera sees its end
+};
+
 struct Path {
   int phase;
   int after;       // the phase that follows once the shadow ray is settled
   int lightSlot;
   int bounce;      // scatterings so far
-  int clear;       // of these, at smooth glass (kTransmission) and in media: --bounces does not limit them
-  int walls;       // of these, straight through glass (kThroughGlass)
+  int freeBounces;  // of these, at smooth glass (kTransmission) and in media: --bounces does not limit them
+  int straightBounces;  // of these, straight through glass (kThroughGlass)
   int crossings;   // meetings with surfaces, where there is alpha; see nextCrossing
   int rays;        // traced so far
   ivec2 pixel;     // of the film (kLightRecords, kNeighbours)
-  Sampler numbers;
+  Sampler sampler;
   bool oneChannel; // dispersion has left one of red, green and blue (kDispersion)
   bool cameraRay;  // nothing but alpha has touched the path yet
   bool caught;     // it has met the shadow catcher (kShadowCatcher)
-  bool throughWalls;  // the shadow ray passes glass that does not bend it (kThroughGlass)
-  int chain;          // how far it is one whose end light paths find, kChain* (kCaustics)
-  bool clearFirst;    // of a light path: it has met smooth glass first (kLightPaths)
+  bool throughGlass;  // the shadow ray passes glass that does not bend it (kThroughGlass)
+  int prefix;         // kPrefix* (kCaustics)
   bool covered;    // a camera ray has hit a surface
   vec3 radiance;
   vec3 throughput;
-  float compression;  // undoes the radiance compression inside glass
-  float density;        // of the last scattering over solid angle; 0: a single direction or the camera
+  float etaScale;       // the product of squared indices by which refraction has scaled radiance down
+  float pdf;            // of the last scattering over solid angle; 0: a delta lobe or the camera
   uint normal;          // of the surface that it left, as light sampling took it (kLightTree)
   uint medium;          // material of the solid the ray is inside of, or kPrimitiveNone
   vec3 origin;
@@ -57,9 +75,9 @@ struct Path {
   vec3 shadowDirection;
   float shadowLimit;
   uint shadowMedium;  // that the shadow ray is inside of, as `medium` (kMedia)
-  // of the light that is still to come, how much belongs to the part that is drawn (kLightPart); of a light path, where
-  // in the picture the camera sees its end (kLightPaths)
-  vec3 part;
+  vec3 aovWeight;       // the share of the light still to come that belongs to the AOV (kLightAov)
+  Guide guide;
+  LightPath fromLight;
   vec3 contribution;  // added if the shadow ray meets nothing
   int hitSlot;        // what the ray has hit, or -1
   float hitT;         // since the last scattering
@@ -75,22 +93,21 @@ Path newPath() {
   p.after = kPhaseEnd;
   p.lightSlot = 0;
   p.bounce = 0;
-  p.clear = 0;
-  p.walls = 0;
+  p.freeBounces = 0;
+  p.straightBounces = 0;
   p.crossings = 0;
   p.rays = 0;
   p.pixel = ivec2(0);
   p.oneChannel = false;
   p.cameraRay = true;
   p.caught = false;
-  p.throughWalls = false;
-  p.chain = kChainNone;
-  p.clearFirst = false;
+  p.throughGlass = false;
+  p.prefix = kPrefixNone;
   p.covered = false;
   p.radiance = vec3(0.0);
   p.throughput = vec3(1.0);
-  p.compression = 1.0;
-  p.density = 0.0;
+  p.etaScale = 1.0;
+  p.pdf = 0.0;
   p.normal = kNoNormal;
   p.medium = kPrimitiveNone;
   p.tie = 0.0;
@@ -98,17 +115,19 @@ Path newPath() {
   p.shadowDirection = vec3(0.0, 0.0, 1.0);
   p.shadowLimit = 0.0;
   p.shadowMedium = kPrimitiveNone;
-  p.part = vec3(kFeature == kFeatureDiffuse || kFeature == kFeatureSpecular ? 0.0 : 1.0);
+  p.aovWeight = vec3(kAov == kAovDiffuse || kAov == kAovSpecular ? 0.0 : 1.0);
+  if (kAov == kAovGuides) p.guide = Guide(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(0.0, 0.0, 1.0));
+  if (kLightPaths) p.fromLight = LightPath(vec3(0.0), 0.0, 0.0, false, vec2(0.0));
   p.contribution = vec3(0.0);
   p.hitSlot = -1;
   p.hitT = 0.0;
   p.hitInstance = -1;
   p.hitWeights = vec2(0.0);
-  p.traversal = startTraversal(kFarAway, frame.limits.w);
+  p.traversal = startTraversal(kFarAway, frame.leafCount);
   return p;
 }
 
-/// What the path's ray has met.
+/// The path with the hit of its ray.
 Path withHit(Path p, Traversal hit) {
   p.hitSlot = hit.slot;
   p.hitInstance = hit.hitInstance;

@@ -23,10 +23,10 @@ float phongAlbedo(float exponent, float cosine) {
 }
 
 /// Lambert plus normalised Blinn-Phong (Blinn, Models of Light Reflection, 1977), times the cosine.
-vec3 phongValue(vec3 diffuse, vec3 f0, float exponent, vec3 normal, vec3 outgoing, vec3 incoming) {
-  float cosine = dot(normal, incoming);
+vec3 phongValue(vec3 diffuse, vec3 f0, float exponent, vec3 normal, vec3 wo, vec3 wi) {
+  float cosine = dot(normal, wi);
   if (cosine <= 0.0f) return vec3(0.0f);
-  vec3 h = outgoing + incoming;
+  vec3 h = wo + wi;
   float squared = dot(h, h);
   float nh = squared > 0.0f ? max(0.0f, dot(normal, h) / sqrt(squared)) : 0.0f;
   float highlight = nh > 0.0f ? pow(nh, exponent) : 0.0f;

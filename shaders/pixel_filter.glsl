@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Places of camera samples within and around their pixel. They are drawn with the density of the pixel filter, so that
+// Places of camera samples within and around their pixel. They are drawn with the pdf of the pixel filter, so that
 // all samples have the same weight (Ernst, Stamminger and Greiner, Filter Importance Sampling, 2006).
 
 const int kBoxFilter = 0;
@@ -16,12 +16,12 @@ const float kGaussianKept = float(0.99966453737209749);  // 1 - exp(-4^2 / 2), w
 /// Analysis, 1978: four terms, 92 dB), both over the window's area.
 vec2 blackmanHarris(float t) {
   float x = 2.0f * kPi * t;
-  float density = float(0.35875) - float(0.48829) * cos(x) + float(0.14128) * cos(2.0f * x) -
+  float pdf = float(0.35875) - float(0.48829) * cos(x) + float(0.14128) * cos(2.0f * x) -
                   float(0.01168) * cos(3.0f * x);
   float integral = float(0.35875) * t -
                    (float(0.48829) * sin(x) - float(0.07064) * sin(2.0f * x) + float(0.0038933333) * sin(3.0f * x)) /
                        (2.0f * kPi);
-  return vec2(density, integral) / float(0.35875);
+  return vec2(pdf, integral) / float(0.35875);
 }
 
 /// No filter reaches farther from the middle of its pixel, in pixels.
@@ -50,8 +50,8 @@ vec2 samplePixelFilter(int filterKind, float u, float v) {
   return vec2(u - 0.5f, v - 0.5f);
 }
 
-/// The density of the filter at a place from the middle of its pixel, in pixels.
-float pixelFilterDensity(int filterKind, vec2 offset) {
+/// The pdf of the filter at a place from the middle of its pixel, in pixels.
+float pixelFilterPdf(int filterKind, vec2 offset) {
   if (filterKind == kGaussianFilter) {
     float squared = dot(offset, offset) / (kGaussianDeviation * kGaussianDeviation);
     float scale = 1.0f / (2.0f * kPi * kGaussianDeviation * kGaussianDeviation * kGaussianKept);
@@ -60,8 +60,8 @@ float pixelFilterDensity(int filterKind, vec2 offset) {
   if (filterKind == kBlackmanHarrisFilter) {
     vec2 t = offset / kBlackmanHarrisWidth + vec2(0.5f);
     bool inside = t.x > 0.0f && t.x < 1.0f && t.y > 0.0f && t.y < 1.0f;
-    float density = blackmanHarris(t.x).x * blackmanHarris(t.y).x / (kBlackmanHarrisWidth * kBlackmanHarrisWidth);
-    return inside ? density : 0.0f;
+    float pdf = blackmanHarris(t.x).x * blackmanHarris(t.y).x / (kBlackmanHarrisWidth * kBlackmanHarrisWidth);
+    return inside ? pdf : 0.0f;
   }
   return abs(offset.x) <= 0.5f && abs(offset.y) <= 0.5f ? 1.0f : 0.0f;
 }

@@ -18,11 +18,11 @@ layout(std430, binding = kRaysBinding) readonly restrict buffer RaysBlock { vec4
 layout(std430, binding = kRayHitsBinding) writeonly restrict buffer RayHitsBlock { uvec2 rayHits[]; };  // slot, t
 
 void traceRay(ivec2 pixel, bool anyHit) {
-  int index = pixel.y * frame.picture.x + pixel.x;
+  int index = pixel.y * frame.pictureSize.x + pixel.x;
   vec4 a = rays[2 * index];
   vec3 direction = rays[2 * index + 1].xyz;
-  TreeFrame tree = TreeFrame(frame.gridOrigin.xyz, frame.gridCell.xyz, frame.limits.w);
+  TreeFrame tree = TreeFrame(frame.gridOrigin.xyz, frame.gridCell.xyz, frame.leafCount);
   Traversal s = startTraversal(a.w, a.w > 0.0f ? tree.leafCount : 0);
-  s = traverse(a.xyz, direction, a.w, s, tree, frame.limits.z, anyHit);
+  s = traverse(a.xyz, direction, a.w, s, tree, frame.stepBudget, anyHit);
   rayHits[index] = uvec2(s.node == kTraversalDone ? uint(s.slot) : kRayUnfinished, floatBitsToUint(s.t));
 }

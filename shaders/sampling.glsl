@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Directions and points drawn from densities, and frames around a normal.
+// Directions and points drawn by their pdfs, and frames around a normal.
 
 const float kPi = float(3.14159265358979324);
 const float kInversePi = float(0.318309886183790672);
@@ -62,7 +62,7 @@ vec2 sampleDisk(float u, float v) {
   return wide ? vec2(radius * p.x, radius * p.y) : vec2(radius * p.y, radius * p.x);
 }
 
-/// A direction about +z with density cos(theta) / pi (Malley's method).
+/// A direction about +z with pdf cos(theta) / pi (Malley's method).
 vec3 sampleCosineHemisphere(float u, float v) {
   vec2 d = sampleDisk(u, v);
   return vec3(d.x, d.y, sqrt(max(0.0f, 1.0f - d.x * d.x - d.y * d.y)));
@@ -74,7 +74,7 @@ vec2 sampleTriangle(float u, float v) {
   return vec2(root * (1.0f - v), root * v);
 }
 
-/// The weight of a sample drawn with density `own` where `other` could have drawn it too (Veach and Guibas, 1995:
+/// The weight of a sample drawn with pdf `own` where `other` could have drawn it too (Veach and Guibas, 1995:
 /// power heuristic, exponent 2). Zero when `own` is zero.
 float misWeight(float own, float other) {
   if (own <= 0.0f) return 0.0f;
@@ -86,12 +86,12 @@ float misWeight(float own, float other) {
 /// preserves stratification.
 float balanceWeight(float own, float other) { return own > 0.0f ? own / (own + other) : 0.0f; }
 
-/// The share of a diffuse reflection that is left towards `incoming`. Where an interpolated normal sees light near the
+/// The share of a diffuse reflection that is left towards `wi`. Where an interpolated normal sees light near the
 /// horizon of its flat triangle, light fades; otherwise it would end abruptly, triangle by triangle (Chiang, Li and
 /// Burley, Taming the Shadow Terminator, 2019). At most 1.
-float terminatorFade(vec3 faceNormal, vec3 vertexNormal, vec3 incoming) {
-  float above = dot(vertexNormal, incoming) * dot(vertexNormal, faceNormal);
-  float g = above > 0.0f ? clamp(dot(faceNormal, incoming) / above, 0.0f, 1.0f) : 1.0f;
+float terminatorFade(vec3 faceNormal, vec3 vertexNormal, vec3 wi) {
+  float above = dot(vertexNormal, wi) * dot(vertexNormal, faceNormal);
+  float g = above > 0.0f ? clamp(dot(faceNormal, wi) / above, 0.0f, 1.0f) : 1.0f;
   return g * (1.0f + g * (1.0f - g));
 }
 

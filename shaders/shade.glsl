@@ -18,8 +18,8 @@ Bsdf baseBsdf(SurfaceMaterial m, bool front) {
   return b;
 }
 
-/// Of the light on the rough glass of a surface, what single scattering loses, seen at `cosine`. A thin wall spreads
-/// light both ways as a mirror of its roughness does.
+/// The share of the light on rough glass that single scattering loses, seen at `cosine`. A thin wall spreads light both
+/// ways as a mirror of its roughness does.
 float glassLostAt(Bsdf b, Surface s, float cosine) {
   if (b.glass <= 0.0 || isSmoothGlass(b)) return 0.0;
   if (!b.solid) return ggxLoss(cosine, b.alpha);
@@ -37,30 +37,30 @@ Path disperse(Path p, SurfaceMaterial m, uint material) {
   return p;
 }
 
-/// How much of the light that a camera path's first surface scatters from `incoming` belongs to the part that is drawn.
-vec3 partScattered(Bsdf b, vec3 outgoing, vec3 incoming) {
-  vec3 all = evaluateBsdf(b, outgoing, incoming).value;
-  vec3 diffuse = diffuseUnderLayers(b, outgoing, incoming);
+/// The share of the light that a camera path's first surface scatters from `wi` that belongs to the AOV.
+vec3 aovShare(Bsdf b, vec3 wo, vec3 wi) {
+  vec3 all = evaluateBsdf(b, wo, wi).value;
+  vec3 diffuse = diffuseUnderLayers(b, wo, wi);
   vec3 share = clamp(diffuse / max(all, vec3(1e-30)), vec3(0.0), vec3(1.0));
-  return kFeature == kFeatureDiffuse ? share : vec3(1.0) - share;
+  return kAov == kAovDiffuse ? share : vec3(1.0) - share;
 }
 
 /// The BSDF at a point of a surface as seen from a direction, in its frame.
 struct Scattering {
   Bsdf b;
   Frame3 around;
-  vec3 outgoing;
+  vec3 wo;
 };
 
-Scattering scatteringAt(Surface s, SurfaceMaterial m, vec3 normal, vec3 outgoing) {
+Scattering scatteringAt(Surface s, SurfaceMaterial m, vec3 normal, vec3 wo) {
   Scattering at;
   vec3 anisotropy = kAnisotropy ? anisotropyAt(s.material, s.texcoords) : vec3(0.0);
   at.around = kAnisotropy ? frameAlong(s, normal, anisotropy.xy) : frameAround(normal);
-  at.b = compensate(addLayers(baseBsdf(m, s.front), s, at.around, outgoing, anisotropy.z));
+  at.b = compensate(addLayers(baseBsdf(m, s.front), s, at.around, wo, anisotropy.z));
   at.b.faceNormal = toFrame(at.around, s.geometricNormal);
   at.b.vertexNormal = toFrame(at.around, s.shadingNormal);
-  at.outgoing = toFrame(at.around, outgoing);
-  if (kGlassTables) at.b.glassLost = glassLostAt(at.b, s, at.outgoing.z);
+  at.wo = toFrame(at.around, wo);
+  if (kGlassTables) at.b.glassLost = glassLostAt(at.b, s, at.wo.z);
   return at;
 }
 
@@ -73,9 +73,21 @@ LightSample lightAt(Path p, Surface s, SurfaceMaterial m) {
   }
   if (kCandidates) {
     bool through = takesLightFromBehind(s, m);
-    return lightOfCandidates(s.position, s.geometricNormal, through, normal, p.numbers, dimension);
+    return lightOfCandidates(s.position, s.geometricNormal, through, normal, p.sampler, dimension);
   }
-  return lightOfSlot(0, s.position, normal, p.numbers, dimension);
+  return lightOfSlot(0, s.position, normal, p.sampler, dimension);
+}
+
+/// Takes one light sample, and sets up its shadow ray.
+Path sampleLd(Path p, Surface s, SurfaceMaterial m, Scattering at) {
+  LightSample light = lightAt(p, s, m);
+  vec3 wi = toFrame(at.around, light.direction);
+  bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (wi.z > 0.0);
+  BsdfValue value = evaluateBsdf(at.b, at.wo, wi);
+  float weight = lightWeight(light, value.pdf);
+  if (kLightAov && p.bounce == 0) p.aovWeight = aovShare(at.b, at.wo, wi);
+  if (kThroughGlass) p.throughGlass = passesGlass(p, s, m, light.direction);
+  return spawnShadowRay(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
 }
 
 /// The path-traced material: one light sample, and one direction drawn from the BSDF.
@@ -87,30 +99,21 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   Scattering at = scatteringAt(s, m, normal, -p.direction);
   Frame3 around = at.around;
   Bsdf b = at.b;
-  vec3 outgoing = at.outgoing;
+  vec3 wo = at.wo;
   uint dimension = kBounceDimensions * uint(p.bounce + 1);
   // The numbers of this bounce are drawn before it is counted.
   float choice = kPassesLight ? pathRandom(p, kLobeDimension) : 0.0;
-  vec2 uv = drawPair(p.numbers, dimension + kDirectionDimension);
-  if (lightSlotCount() > 0) {
-    LightSample light = lightAt(p, s, m);
-    vec3 incoming = toFrame(around, light.direction);
-    bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (incoming.z > 0.0);
-    BsdfValue value = evaluateBsdf(b, outgoing, incoming);
-    float weight = lightWeight(light, value.density);
-    if (kLightPart && p.bounce == 0) p.part = partScattered(b, outgoing, incoming);
-    if (kThroughGlass) p.throughWalls = passesWalls(p, s, m, light.direction);
-    p = connect(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
+  vec2 uv = drawPair(p.sampler, dimension + kDirectionDimension);
+  if (lightSlotCount() > 0) p = sampleLd(p, s, m, at);
+  BsdfSample next = sampleBsdf(b, wo, choice, uv.x, uv.y);
+  if (kLightAov && p.bounce == 0) {
+    bool delta = next.pdf == 0.0;
+    p.aovWeight = delta ? vec3(kAov == kAovSpecular ? 1.0 : 0.0) : aovShare(b, wo, next.wi);
   }
-  BsdfSample next = sampleBsdf(b, outgoing, choice, uv.x, uv.y);
-  if (kLightPart && p.bounce == 0) {
-    bool single = next.density == 0.0;
-    p.part = single ? vec3(kFeature == kFeatureSpecular ? 1.0 : 0.0) : partScattered(b, outgoing, next.incoming);
-  }
-  vec3 direction = normalize(toWorld(around, next.incoming));
-  if (kSpecular && next.density == 0.0) direction = ontoSide(direction, s.geometricNormal, next.transmitted);
+  vec3 direction = normalize(toWorld(around, next.wi));
+  if (kSpecular && next.pdf == 0.0) direction = ontoSide(direction, s.geometricNormal, next.transmitted);
   bool wrongSide = (dot(direction, s.geometricNormal) < 0.0) != next.transmitted;
-  return scatter(p, s, direction, wrongSide ? vec3(0.0) : next.weight, next.density, next.transmitted, m);
+  return spawnRay(p, s, direction, wrongSide ? vec3(0.0) : next.weight, next.pdf, next.transmitted, m);
 }
 
 /// Smooth glass of the stages before global illumination: one ray, chosen by the reflectance.
@@ -118,18 +121,18 @@ Path scatterGlass(Path p, Surface s, SurfaceMaterial m, vec3 normal, float choic
   Bsdf b = baseBsdf(m, s.front);
   Frame3 around = frameAround(normal);
   BsdfSample next = sampleSmoothGlass(b, toFrame(around, -p.direction), choice);
-  vec3 direction = ontoSide(normalize(toWorld(around, next.incoming)), s.geometricNormal, next.transmitted);
-  return scatter(p, s, direction, next.weight, 0.0, next.transmitted, m);
+  vec3 direction = ontoSide(normalize(toWorld(around, next.wi)), s.geometricNormal, next.transmitted);
+  return spawnRay(p, s, direction, next.weight, 0.0, next.transmitted, m);
 }
 
 /// Mirror reflection of the stages before global illumination, of so much of what a mirror would reflect.
 Path scatterMirror(Path p, Surface s, SurfaceMaterial m, vec3 normal, float share) {
-  vec3 outgoing = -p.direction;
+  vec3 wo = -p.direction;
   vec3 f0 = phongF0(m.baseColor, m.metallic, m.dielectricF0);
   vec3 weight = vec3(0.0);
-  if (kReflections) weight = fresnelSchlick(f0, mix(m.specular, 1.0, m.metallic), dot(normal, outgoing)) * share;
-  vec3 direction = ontoSide(normalize(mirrorDirection(outgoing, normal)), s.geometricNormal, false);
-  return scatter(p, s, direction, weight, 0.0, false, m);
+  if (kReflections) weight = fresnelSchlick(f0, mix(m.specular, 1.0, m.metallic), dot(normal, wo)) * share;
+  vec3 direction = ontoSide(normalize(mirrorDirection(wo, normal)), s.geometricNormal, false);
+  return spawnRay(p, s, direction, weight, 0.0, false, m);
 }
 
 /// Blinn-Phong, mirror reflection and smooth glass.
@@ -137,22 +140,22 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   if (kRefraction && pathRandom(p, kGlassDimension) < m.transmission * (1.0 - m.metallic)) {
     return scatterGlass(p, s, m, normal, pathRandom(p, kLobeDimension));
   }
-  vec3 outgoing = -p.direction;
+  vec3 wo = -p.direction;
   vec3 f0 = phongF0(m.baseColor, m.metallic, m.dielectricF0);
   vec3 diffuse = (1.0 - m.metallic) * m.baseColor;
   float exponent = phongExponent(m.roughness);
   if (p.lightSlot == 0) p.radiance += 0.03 * p.throughput * m.baseColor;
   if (kEnvironmentLight && p.lightSlot == 0)
-    p.radiance += p.throughput * environmentReflected(diffuse, f0, exponent, normal, outgoing);
+    p.radiance += p.throughput * environmentReflected(diffuse, f0, exponent, normal, wo);
   int lights = lightSlotCount();
   if (p.lightSlot < lights) {
     uint dimension = kBounceDimensions * uint(p.bounce + 1);
-    LightSample light = lightOfSlot(p.lightSlot, s.position, kNoNormal, p.numbers, dimension + kLightDimension);
+    LightSample light = lightOfSlot(p.lightSlot, s.position, kNoNormal, p.sampler, dimension + kLightDimension);
     if (kVertexNormals) diffuse *= terminatorFade(s.geometricNormal, s.shadingNormal, light.direction);
-    vec3 value = phongValue(diffuse, f0, exponent, normal, outgoing, light.direction);
+    vec3 value = phongValue(diffuse, f0, exponent, normal, wo, light.direction);
     bool above = dot(light.direction, s.geometricNormal) > 0.0;
-    if (kThinGlass) p.throughWalls = passesWalls(p, s, m, light.direction);
-    p = connect(p, s, light, above ? p.throughput * light.irradiance * value : vec3(0.0));
+    if (kThinGlass) p.throughGlass = passesGlass(p, s, m, light.direction);
+    p = spawnShadowRay(p, s, light, above ? p.throughput * light.irradiance * value : vec3(0.0));
   }
   p.lightSlot += 1;
   p.after = kPhaseShade;
@@ -161,13 +164,13 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   return scatterMirror(p, s, m, normal, gloss * gloss);
 }
 
-/// The shading normal as seen from `outgoing`.
-vec3 normalFacing(Surface s, vec3 outgoing) {
-  vec3 normal = facingNormal(mappedNormal(s), outgoing);
-  return kGi && kSpecular ? reflectingNormal(normal, s.geometricNormal, outgoing) : normal;
+/// The shading normal as seen from `wo`.
+vec3 normalFacing(Surface s, vec3 wo) {
+  vec3 normal = facingNormal(mappedNormal(s), wo);
+  return kGi && kSpecular ? reflectingNormal(normal, s.geometricNormal, wo) : normal;
 }
 
-/// What of the light on a shadow ray a surface lets straight through: the weight with which a path along it would pass.
+/// The share of a shadow ray's light that a surface lets straight through: the weight of a path that passes it.
 vec3 lightThrough(Surface s, vec3 baseColor, vec3 direction) {
   SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
   if (m.transmission * (1.0 - m.metallic) <= 0.0) return vec3(0.0);
@@ -182,29 +185,29 @@ vec3 lightThrough(Surface s, vec3 baseColor, vec3 direction) {
 
 /// Metres along the view axis.
 float depthOf(Surface s) {
-  return dot(s.position - frame.cameraPosition.xyz, frame.cameraForward.xyz) * frame.cameraForward.w;
+  return dot(s.position - frame.cameraPosition, frame.cameraForward) * frame.metresPerUnit;
 }
 
-/// Of the glTF node that shows what was hit, from 1 on.
+/// The number of the glTF node that was hit, from 1 on.
 float objectNumber(int slot, int instance) {
   if (!kObjectNumbers) return 0.0;
   bool shown = kInstances && instance >= 0;
-  int index = shown ? frame.limits.w * 2 + instance : slot;
-  uvec4 four = readMaterials(frame.sampling.w + index / 4);
+  int index = shown ? frame.leafCount * 2 + instance : slot;
+  uvec4 four = readMaterials(frame.objectRow + index / 4);
   int place = index % 4;
   return float(place == 0 ? four.x : place == 1 ? four.y : place == 2 ? four.z : four.w);
 }
 
-/// What kFeature asks for of the point that a camera ray hits.
-vec3 featureAt(Surface s, int slot, int instance, vec3 baseColor, vec3 outgoing) {
-  if (kFeature == kFeatureAlbedo) return baseColor;
-  if (kFeature == kFeatureNormal) return facingNormal(mappedNormal(s), outgoing);
-  if (kFeature == kFeatureGeometricNormal) return s.geometricNormal;
-  if (kFeature == kFeatureRoughness) return vec3(materialAt(s.material, baseColor, s.texcoords).roughness);
-  if (kFeature == kFeatureTexcoords) return vec3(s.texcoords.xy, 0.0);
-  if (kFeature == kFeaturePosition) return frame.worldOrigin.xyz + frame.cameraForward.w * s.position;
-  if (kFeature == kFeatureObject) return vec3(objectNumber(slot, instance));
-  if (kFeature == kFeatureMaterial) return vec3(materialFloats(s.material, kMaterialPerlin).w);
+/// Returns the AOV of the point that a camera ray hits.
+vec3 aovAt(Surface s, int slot, int instance, vec3 baseColor, vec3 wo) {
+  if (kAov == kAovAlbedo) return baseColor;
+  if (kAov == kAovNormal) return facingNormal(mappedNormal(s), wo);
+  if (kAov == kAovGeometricNormal) return s.geometricNormal;
+  if (kAov == kAovRoughness) return vec3(materialAt(s.material, baseColor, s.texcoords).roughness);
+  if (kAov == kAovTexcoords) return vec3(s.texcoords.xy, 0.0);
+  if (kAov == kAovPosition) return frame.worldOrigin + frame.metresPerUnit * s.position;
+  if (kAov == kAovObject) return vec3(objectNumber(slot, instance));
+  if (kAov == kAovMaterial) return vec3(materialFloats(s.material, kMaterialPerlin).w);
   return vec3(depthOf(s));
 }
 
@@ -217,23 +220,23 @@ Path shade(Path p) {
   uint flags = materialFlags(s.material);
   vec4 base = baseColorAt(s.material, s.texcoords, s.color);
   bool first = p.lightSlot == 0;
-  if (kFeature == kFeatureGuides) return guideAt(p, s, flags, base);
+  if (kAov == kAovGuides) return guideAt(p, s, flags, base);
   if (kMedia && first) p = flyTo(p, s);
   if (kMedia && p.hitSlot < 0) return scatterInMedium(p);
-  if (kAlpha && first && passesThrough(flags, alphaAt(s.material, flags, base.a), p.numbers, nextCrossing(p))) {
+  if (kAlpha && first && passesThrough(flags, alphaAt(s.material, flags, base.a), p.sampler, nextCrossing(p))) {
     p.phase = kPhaseExtend;
     return goPast(p);
   }
   if (p.cameraRay) p.covered = true;
   if (!kDrawsLight) {
-    p.radiance = featureAt(s, p.hitSlot, p.hitInstance, base.rgb, -p.direction);
+    p.radiance = aovAt(s, p.hitSlot, p.hitInstance, base.rgb, -p.direction);
     p.phase = kPhaseEnd;
     return p;
   }
   // A camera that sees the back of a solid first stands inside.
   if (kPassesLight && first && p.cameraRay && !s.front && materialFloats(s.material, kMaterialVolume).w > 0.0) {
     float ior = dispersedIor(p, s.material);
-    p.compression = ior * ior;
+    p.etaScale = ior * ior;
   }
   if (kAbsorption && !kMedia && first) {
     // A back face of a solid says what the segment went through even if the camera stands inside.
@@ -248,11 +251,11 @@ Path shade(Path p) {
     return p;
   }
   if (kEmission && first) p = addLight(p, clampIndirect(p.throughput * emittedAt(p, s, flags), countedScatterings(p)));
-  if (kFeature == kFeatureEmission) {
+  if (kAov == kAovEmission) {
     p.phase = kPhaseEnd;
     return p;
   }
-  if (kScatters && first && limitedScatterings(p) > frame.limits.x) {
+  if (kScatters && first && limitedScatterings(p) > frame.maxBounces) {
     p.phase = kPhaseCut;
     return p;
   }
@@ -274,9 +277,9 @@ Path settleShadow(Path p) {
                           p.traversal.weights);
     uint flags = materialFlags(s.material);
     vec4 base = baseColorAt(s.material, s.texcoords, s.color);
-    passes = kAlpha && passesThrough(flags, alphaAt(s.material, flags, base.a), p.numbers, nextCrossing(p));
+    passes = kAlpha && passesThrough(flags, alphaAt(s.material, flags, base.a), p.sampler, nextCrossing(p));
     bool holes = passes;
-    if (kThroughGlass && p.throughWalls && !passes) {
+    if (kThroughGlass && p.throughGlass && !passes) {
       p.contribution *= lightThrough(s, base.rgb, p.shadowDirection);
       passes = maxComponent(p.contribution) > 0.0;
     }

@@ -19,22 +19,22 @@ float sheenLambda(float cosine, float alpha) {
   return exp(2.0f * sheenFit(0.5f, alpha) - sheenFit(max(0.0f, 1.0f - cosine), alpha));
 }
 
-/// Value times the cosine of `incoming`, for white sheen; both directions are above the surface. Its albedo is
+/// Value times the cosine of `wi`, for white sheen; both directions are above the surface. Its albedo is
 /// sheenAlbedo. At grazing angles of low roughness that is above 1: the lobe would reflect more light than it receives,
 /// and is divided by its albedo.
-float sheenValue(vec3 outgoing, vec3 incoming, float alpha) {
-  vec3 h = normalize(outgoing + incoming);
+float sheenValue(vec3 wo, vec3 wi, float alpha) {
+  vec3 h = normalize(wo + wi);
   float sine2 = max(0.0f, h.x * h.x + h.y * h.y);
   float distribution = (2.0f + 1.0f / alpha) * pow(sine2, 0.5f / alpha) * (0.5f * kInversePi);
-  float shadowing = 1.0f + sheenLambda(outgoing.z, alpha) + sheenLambda(incoming.z, alpha);
-  float most = max(1.0f, max(sheenAlbedo(outgoing.z, alpha), sheenAlbedo(incoming.z, alpha)));
-  return distribution / (shadowing * 4.0f * max(outgoing.z, float(1e-6)) * most);
+  float shadowing = 1.0f + sheenLambda(wo.z, alpha) + sheenLambda(wi.z, alpha);
+  float most = max(1.0f, max(sheenAlbedo(wo.z, alpha), sheenAlbedo(wi.z, alpha)));
+  return distribution / (shadowing * 4.0f * max(wo.z, float(1e-6)) * most);
 }
 
 /// The largest share of light that white sheen sends back, seen at `cosine`.
 float sheenShare(float cosine, float alpha) { return min(1.0f, sheenAlbedo(abs(cosine), alpha)); }
 
-/// A direction above the surface with the same density everywhere, 1 / (2 pi).
+/// A direction above the surface with the same pdf everywhere, 1 / (2 pi).
 vec3 sampleHemisphere(float u, float v) {
   vec2 around = unitCircle(u);
   float sine = sqrt(max(0.0f, 1.0f - v * v));

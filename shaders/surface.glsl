@@ -31,7 +31,7 @@ uvec4 faceRow(int slot, int row) { return kLiterals ? literalFace(slot, row) : r
 
 /// Row of the creases of a leaf slot; the frame knows how many leaves there are.
 uvec4 insetRow(int slot) {
-  return kLiterals ? literalInset(slot, 0) : readFaces(frame.limits.w * 2 * int(kFaceRows) + slot);
+  return kLiterals ? literalInset(slot, 0) : readFaces(frame.leafCount * 2 * int(kFaceRows) + slot);
 }
 
 Surface sphereSurface(uvec4 face, uvec4 place, vec3 origin, vec3 direction, float t) {
@@ -137,8 +137,8 @@ Surface surfaceAt(int slot, int instance, vec3 origin, vec3 direction, float t, 
   return s;
 }
 
-/// Of a normal texture, in tangent space. Blue below the middle would look into the surface: the specification leaves
-/// it out, and here it is the middle.
+/// The normal of a texture, in tangent space. A blue below the middle would point into the surface. The specification
+/// does not allow it; here it counts as the middle.
 vec3 texturedNormal(uvec4 slot, float scale, vec4 texcoords) {
   vec3 texel = sampleTexture(slot, texcoords).rgb * 2.0 - 1.0;
   return vec3(texel.xy * scale, max(texel.z, 0.0));
@@ -188,25 +188,25 @@ Frame3 frameAlong(Surface s, vec3 normal, vec2 direction) {
 
 /// A shading normal from which the direction towards the viewer is above the horizon: one that points away is turned
 /// just far enough.
-vec3 facingNormal(vec3 shadingNormal, vec3 outgoing) {
-  float cosine = dot(shadingNormal, outgoing);
+vec3 facingNormal(vec3 shadingNormal, vec3 wo) {
+  float cosine = dot(shadingNormal, wo);
   const float least = 0.001;
-  return cosine >= least ? shadingNormal : normalize(shadingNormal + (least - cosine) * outgoing);
+  return cosine >= least ? shadingNormal : normalize(shadingNormal + (least - cosine) * wo);
 }
 
-/// A single direction that a bent normal has sent to the wrong side of the surface, folded back onto the right one, so
+/// A delta direction that a bent normal has sent to the wrong side of the surface, folded back onto the right one, so
 /// that it is not lost.
 vec3 ontoSide(vec3 direction, vec3 geometricNormal, bool below) {
   float height = dot(direction, geometricNormal);
   return (height < 0.0) == below ? direction : direction - 2.0 * height * geometricNormal;
 }
 
-/// A shading normal about which the mirror image of `outgoing` lies above the surface: where it would not, the image is
+/// A shading normal about which the mirror image of `wo` lies above the surface: where it would not, the image is
 /// lifted to just above the horizon, and the normal is what mirrors one into the other. Both normals are unit and on
-/// the side of `outgoing`.
-vec3 reflectingNormal(vec3 shadingNormal, vec3 geometricNormal, vec3 outgoing) {
-  vec3 image = mirrorDirection(outgoing, shadingNormal);
+/// the side of `wo`.
+vec3 reflectingNormal(vec3 shadingNormal, vec3 geometricNormal, vec3 wo) {
+  vec3 image = mirrorDirection(wo, shadingNormal);
   float height = dot(image, geometricNormal);
-  float least = min(0.01, 0.5 * dot(outgoing, geometricNormal));
-  return height >= least ? shadingNormal : normalize(outgoing + normalize(image + (least - height) * geometricNormal));
+  float least = min(0.01, 0.5 * dot(wo, geometricNormal));
+  return height >= least ? shadingNormal : normalize(wo + normalize(image + (least - height) * geometricNormal));
 }

@@ -23,20 +23,20 @@
 //   meet(path, hit):
 //     the shadow catcher lies before it: catcher.glsl
 //     nothing is hit:
-//       radiance += throughput * environment * weight(density of scattering, density of light samples); end
+//       radiance += throughput * environment * weight(pdf of scattering, pdf of light samples); end
 //     else shade(path, hit)
 //
 //   shade(path, hit):                             shade.glsl
 //     surface, material = what is hit             surface.glsl, material.glsl
 //     alpha lets it pass: the same ray goes on behind the hit
 //     throughput *= absorption along the ray
-//     radiance += throughput * emission * weight(density of scattering, density of light samples)
+//     radiance += throughput * emission * weight(pdf of scattering, pdf of light samples)
 //     as many scatterings as may be: end
 //     light = a light by its power, a point of it   lights.glsl
-//     contribution = throughput * irradiance * BSDF * weight(density of the light sample, density of scattering)
+//     contribution = throughput * irradiance * BSDF * weight(pdf of the light sample, pdf of scattering)
 //     shadow ray = from the surface to the light
 //     direction = a direction drawn from the BSDF   bsdf.glsl, layers.glsl
-//     throughput *= BSDF * cosine / density
+//     throughput *= BSDF * cosine / pdf
 //     Russian roulette: end, or throughput /= chance to survive
 //     path.ray = from the surface along the direction
 //
@@ -93,18 +93,18 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 
 /// Rays are traced from end to end: what the budget ends begins its sample anew in the next draw, and no traversal is
 /// kept from round to round.
-const bool kWholeRays = kGi && !kPassing && !kResumable && kFeature == kFeatureNone;
+const bool kWholeRays = kGi && !kPassing && !kResumable && kAov == kAovNone;
 
 /// A pixel may want fewer samples than the draw brings (Film::setTargets).
 uint samplesWanted(FilmPixel film) {
   uint own = film.flags >> kPixelTargetShift;
-  return own > 0u ? min(own, uint(frame.picture.z)) : uint(frame.picture.z);
+  return own > 0u ? min(own, uint(frame.samplesWanted)) : uint(frame.samplesWanted);
 }
 
 /// The next sample of a pixel.
 Path beginSample(FilmPixel film, ivec2 pixel, uint key, int steps) {
   if (kLightPaths) return startLightPath(recordOf(pixel, film.samples), key, steps);
-  return startPath(pixel, key, film.samples + uint(frame.sampling.x), steps);
+  return startPath(pixel, key, film.samples + uint(frame.firstSample), steps);
 }
 
 /// Adds the finished path to the film.
@@ -114,21 +114,21 @@ FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
   float alpha = coverageOf(p);
   if (kShadowCatcher) p = showShadow(p);
   if (kLightPaths) {
-    storeRecord(recordOf(pixel, film.samples), p.radiance, p.part.xy);
+    storeRecord(recordOf(pixel, film.samples), p.radiance, p.fromLight.splatPixel);
     film.samples += 1u;
   } else if (kLightRecords) {
     film.samples += 1u;
-  } else if (kFeature == kFeatureGuides) {
+  } else if (kAov == kAovGuides) {
     p = endGuide(p);
-    film = addGuides(film, p.radiance, p.contribution, p.shadowLimit, alpha);
+    film = addGuides(film, p.guide.albedo, p.guide.normal, p.guide.depth, alpha);
   } else {
-    if (kShadowCatcher && frame.background.w < 0.0) film.flags |= kPixelOverWhite;
+    if (kShadowCatcher && frame.backgroundShows < 0.0) film.flags |= kPixelOverWhite;
     film = addSample(film, p.radiance, alpha);
   }
   return film;
 }
 
-/// What the path's ray has met says what the path does next.
+/// Takes the step that follows from the hit or miss of the path's ray.
 Path meet(Path p) {
   if (kHeatmap) {
     p.phase = kPhaseEnd;
@@ -197,7 +197,7 @@ void tracePixel(ivec2 pixel) {
   fetchFrame(film.flags);
   ivec2 place = pixel - frame.tile.xy;
   int row = (place.y * frame.tile.z + place.x) * kSuspendedRows;
-  int budget = frame.limits.z;
+  int budget = frame.stepBudget;
   TreeFrame tree = treeFrame();
   bool advanced = false;
   float cut = 0.0;  // what kBounces took of the throughput

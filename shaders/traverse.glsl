@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finding what a ray hits. A traversal is a value that can stop at a step limit and go on in a later draw.
 
-/// Where a traversal stands: done when node is kTraversalDone.
+/// The state of a traversal, which is done when node is kTraversalDone.
 struct Traversal {
   int node;   // next inner node, complement of a leaf, or kTraversalDone; iterative: next block of leaves
   float t;    // nearest hit so far, else the ray's limit
@@ -15,8 +15,8 @@ struct Traversal {
   float tie;
   bool both;  // kLightPaths: single-sided surfaces have their backs, too
   int visits; // nodes and leaves visited, counted for the heat map only
-  float past;     // kPassing: only hits behind this distance count,
-  int pastSlot;   // and those at it in later slots: what the ray has passed through lies there
+  float tMin;     // kPassing: only hits behind this distance count,
+  int tMinSlot;   // and those at it in later slots: what the ray has passed through lies there
   Stack stack;
 };
 
@@ -39,17 +39,17 @@ Traversal startTraversal(float limit, int leafCount) {
   s.tie = 0.0f;
   s.both = false;
   s.visits = 0;
-  s.past = 0.0f;
-  s.pastSlot = 0x7fffffff;
+  s.tMin = 0.0f;
+  s.tMinSlot = 0x7fffffff;
   s.stack = emptyStack();
   return s;
 }
 
-/// Whether a hit at distance t is nearer than what the traversal has. Where a ray passes through surfaces, all hits
+/// Returns true if a hit at distance t is nearer than the traversal's. Where a ray passes through surfaces, all hits
 /// along it have one order, by distance and slot, so that it meets each once, however close they lie.
 bool isNearer(Traversal s, float t, int slot) {
   if (!kPassing) return t > 0.0f && t < s.t;
-  return liesBehind(t, s.past, slot > s.pastSlot) && (t < s.t || (t == s.t && slot < s.slot));
+  return liesBehind(t, s.tMin, slot > s.tMinSlot) && (t < s.t || (t == s.t && slot < s.slot));
 }
 
 /// A direction component that is safe to divide by: |d| is at least 2^-60, far below what 24 bits of it can show.
@@ -84,8 +84,8 @@ PrimitiveHit intersectWord(Traversal s, vec3 origin, vec3 direction, RayShear sh
   }
   if (kSpheres) {
     bool inside = !kCulling || (kLightPaths && s.both) || (word & kPrimitiveCull) == 0u;
-    float past = kPassing ? s.past : 0.0f;
-    float t = intersectSphere(origin, direction, v0, v1.x, inside, past, kPassing && slot > s.pastSlot);
+    float tMin = kPassing ? s.tMin : 0.0f;
+    float t = intersectSphere(origin, direction, v0, v1.x, inside, tMin, kPassing && slot > s.tMinSlot);
     bool isSphere = (word & kPrimitiveSphere) != 0u && word != kPrimitiveNone;
     r.t = isSphere ? t : (kTriangles ? r.t : -1.0f);
   }
@@ -175,8 +175,8 @@ TreeRay makeTreeRay(vec3 origin, vec3 direction, float start, vec3 gridOrigin, v
   return r;
 }
 
-/// What distances along a ray round by at most, but for triangles seen edge-on: a hit may lie that far outside of its
-/// box. A 16,384th of the way and of the scene, which is 65,536 cells wide; large triangles need a 2^21st.
+/// A bound on the rounding of distances along a ray, except for triangles seen edge-on: a hit may lie that far outside
+/// its box. It is a 16,384th of the way and of the scene, which is 65,536 cells wide; large triangles need a 2^21st.
 float roundingOf(float t, TreeFrame tree) {
   return 6.103515625e-5f * t + 4.0f * max(max(tree.cell.x, tree.cell.y), tree.cell.z);
 }
@@ -192,7 +192,7 @@ TreeRay treeRayOf(Traversal s, vec3 origin, vec3 direction, TreeFrame tree) {
   } else {
     r = makeTreeRay(origin, direction, 0.0f, tree.origin, tree.cell);
   }
-  if (kPassing) r.from = max(0.0f, s.past - roundingOf(s.past, tree) - r.start);
+  if (kPassing) r.from = max(0.0f, s.tMin - roundingOf(s.tMin, tree) - r.start);
   return r;
 }
 
@@ -214,7 +214,7 @@ Traversal changeSpace(Traversal s) {
 Traversal stepNode(Traversal s, TreeRay ray, float rayLimit, TreeFrame tree, bool there) {
   NodePair n = loadNode(there ? s.node : 0);
   float limit = kFrontToBack ? s.t : rayLimit;
-  // What was passed through must not come before what lies at it.
+  // A surface that was passed must not end the ray before others at its distance.
   if (kPassing) limit += roundingOf(limit, tree);
   if (kInstances) limit -= ray.start;
   vec3 a0 = n.low0 * ray.scale + ray.bias;

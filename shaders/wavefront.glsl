@@ -34,9 +34,9 @@ int rowOf(Wave v, int k) { return v.first + k * kWaveRows; }
 
 uint keyOf(Wave v, int k) { return keyOfPixel(v.corner + ivec2(0, k)); }
 
-/// What the shadow ray has passed.
+/// Loads the distance up to which the shadow ray has passed surfaces.
 Path loadShadowPast(Path p, int row) {
-  p.traversal.past = uintBitsToFloat(readPathStates(row + kRowPast).z);
+  p.traversal.tMin = uintBitsToFloat(readPathStates(row + kRowTMin).z);
   return p;
 }
 
@@ -66,8 +66,8 @@ void settleStates() {
   memoryBarrierImage();
 }
 
-/// What is short and the same for all rays: the triangles that the tree does not hold, and the first step into the
-/// tree. Done: the ray misses the tree.
+/// The first, short part of a traversal, which is the same for all rays: the triangles that the tree does not hold, and
+/// the first step into the tree. It is done if the ray misses the tree.
 Traversal beginRay(vec3 origin, vec3 direction, float limit, Traversal t, bool anyHit, TreeFrame tree) {
   if (kLargeFirst) {
     t = traverseLiterals(origin, direction, t, anyHit);
@@ -78,7 +78,7 @@ Traversal beginRay(vec3 origin, vec3 direction, float limit, Traversal t, bool a
 
 Traversal beginExtension(Path p, TreeFrame tree) {
   Traversal t = p.traversal;
-  t.node = frame.limits.w == 0 ? kTraversalDone : 0;
+  t.node = frame.leafCount == 0 ? kTraversalDone : 0;
   return beginRay(p.origin, p.direction, kFarAway, t, false, tree);
 }
 
@@ -98,7 +98,7 @@ Wave sendShadow(Wave v, uint bit, int row, Traversal t) {
   v.blocked |= done && t.slot >= 0 ? bit : 0u;
   if (kPassing) {
     pathStates[row + kRowShadowHit] = metBy(t);
-    pathStates[row + kRowPast].zw = uvec2(floatBitsToUint(t.past), uint(t.pastSlot));
+    pathStates[row + kRowTMin].zw = uvec2(floatBitsToUint(t.tMin), uint(t.tMinSlot));
   }
   return v;
 }
@@ -252,12 +252,12 @@ Wave traceRays(Wave v, int budget, TreeFrame tree) {
       direction = uintBitsToFloat(readPathStates(row + (isShadow ? kRowShadowDirection : kRowDirection))).xyz;
       limit = isShadow ? a.w : kFarAway;
       if (kMedia && !isShadow) limit = uintBitsToFloat(readPathStates(row + kRowHit).x);
-      t = startTraversal(limit, frame.limits.w);
+      t = startTraversal(limit, frame.leafCount);
       if (kCreases) t.tie = isShadow ? 0.0 : a.w;
       if (kPassing) {
-        uvec4 past = readPathStates(row + kRowPast);
-        t.past = uintBitsToFloat(isShadow ? past.z : past.x);
-        t.pastSlot = int(isShadow ? past.w : past.y);
+        uvec4 tMins = readPathStates(row + kRowTMin);
+        t.tMin = uintBitsToFloat(isShadow ? tMins.z : tMins.x);
+        t.tMinSlot = int(isShadow ? tMins.w : tMins.y);
       }
       if (kLargeFirst) {
         // A shadow ray that has met something before the tree comes here only where that may let light pass.
@@ -317,9 +317,9 @@ void traceWave(ivec2 lane) {
   int own = (lane.y * frame.tile.z + lane.x) * int(kWaveLaneRows);  // the row of what is left of the lane's own
   v.first = own + 1;
   int count = min(int(kWaveSlots), frame.tile.w - lane.y * int(kWaveSlots));
-  int budget = frame.limits.z;
+  int budget = frame.stepBudget;
   TreeFrame tree = treeFrame();
-  uvec4 kept = frame.sampling.z == 0 ? uvec4(0u) : pathStates[own];
+  uvec4 kept = frame.tileGoesOn == 0 ? uvec4(0u) : pathStates[own];
   v.hits = kept.x;
   v.misses = kept.y;
   v.waiting = kept.z;
@@ -328,7 +328,7 @@ void traceWave(ivec2 lane) {
   v.shadows = 0u;
   v.steps = 0;
   v.cut = 0.0;
-  if (frame.sampling.z == 0) v = beginAnew(v, count < 32 ? (1u << count) - 1u : 0xffffffffu);
+  if (frame.tileGoesOn == 0) v = beginAnew(v, count < 32 ? (1u << count) - 1u : 0xffffffffu);
   bool advanced = false;
 
   // A round begins only where half of the budget is left, so that only rays that are longer than that are lost.

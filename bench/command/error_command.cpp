@@ -6,21 +6,21 @@
 #include <cmath>
 #include <optional>
 
+#include "base/errors.h"
 #include "bench/command/commands.h"
 #include "bench/command/configurations.h"
 #include "bench/command/results.h"
 #include "bench/report/error_report.h"
-#include "errors.h"
 #include "image/channels.h"
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
 #include "image/display/tone_map.h"
 #include "options/choose.h"
 #include "options/numbers.h"
-#include "picture/denoising.h"
-#include "picture/draw_picture.h"
 #include "render/adaptive.h"
 #include "session/phase_timer.h"
+#include "session/picture/denoising.h"
+#include "session/picture/draw_picture.h"
 #include "session/progress_bar.h"
 #include "session/tracer.h"
 
@@ -137,8 +137,8 @@ ErrorSample finish(Contender& c, const View& view, const Judge& judge, const Dra
   const RenderOptions& options = c.configuration.render;
   Image picture = pictureOf(draw.drawing, options);
   double seconds = draw.seconds;
-  for (const ShaderVariant& variant : c.tracer.features) {
-    const int samples = samplesOfLayer(options, variant.feature, draw.layerSamples);
+  for (const ShaderVariant& variant : c.tracer.aovs) {
+    const int samples = samplesOfLayer(options, variant.aov, draw.layerSamples);
     const LayerDraw layer = addLayer(picture, *c.tracer.renderer, variant, view, samples);
     seconds += 0.001 * layer.drawMs;
     compileMs += layer.compileMs;

@@ -7,11 +7,11 @@
 #include <iterator>
 #include <memory>
 
+#include "base/errors.h"
 #include "bench/command/commands.h"
 #include "bench/command/results.h"
 #include "bench/command/setting_check.h"
 #include "bench/report/baseline.h"
-#include "errors.h"
 #include "image/files/whole_file.h"
 #include "options/numbers.h"
 

@@ -6,6 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/errors.h"
+#include "base/report.h"
+#include "base/summary.h"
 #include "bench/command/commands.h"
 #include "bench/command/configurations.h"
 #include "bench/command/motion_run.h"
@@ -14,15 +17,12 @@
 #include "bench/report/chart.h"
 #include "bench/report/formatted.h"
 #include "bench/report/json.h"
-#include "errors.h"
-#include "film/film_pixels.h"
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
 #include "image/display/tone_map.h"
-#include "math/summary.h"
 #include "options/choose.h"
 #include "options/numbers.h"
-#include "process/report.h"
+#include "render/film/film_pixels.h"
 #include "session/interrupt.h"
 #include "session/progress_bar.h"
 #include "session/tracer.h"

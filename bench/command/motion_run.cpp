@@ -11,12 +11,12 @@
 #include <numbers>
 #include <thread>
 
-#include "errors.h"
-#include "live/view_tracer.h"
+#include "base/errors.h"
+#include "base/thread_name.h"
 #include "options/camera_text.h"
-#include "picture/denoising.h"
-#include "process/thread_name.h"
 #include "session/phase_timer.h"
+#include "session/picture/denoising.h"
+#include "view/live/view_tracer.h"
 #include "view/view_state.h"
 
 namespace fragtrace {
@@ -117,6 +117,22 @@ ViewedScene awaitScene(Exchange& exchange) {
   }
 }
 
+/// Adds what one picture says of itself.
+void count(MotionFigures& figures, const TracedPicture& picture) {
+  ++figures.pictures;
+  figures.pixels += double(picture.size.x) * picture.size.y;
+  figures.movedBytes += double(picture.statistics.movedBytes);
+  for (size_t pass = 0; pass < kPassNames.size(); ++pass) {
+    figures.passes.cpu[pass] += picture.statistics.passes.cpu[pass];
+    figures.passes.wall[pass] += picture.statistics.passes.wall[pass];
+  }
+}
+
+/// Returns true if another picture is to be kept once so many have counted.
+bool isDue(const MotionFigures& figures, const MotionPlan& plan, int pictures) {
+  return figures.kept.size() < size_t(pictures) * size_t(plan.compared) / size_t(plan.pictures);
+}
+
 }  // namespace
 
 CameraPath cameraPath(const std::string& name, double period, const RenderOptions& options) {
@@ -142,7 +158,6 @@ MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double 
   state.size = plan.size;
   state.posed = true;
   const CameraPose start = state.pose;
-
   MotionFigures figures;
   std::deque<Wish> wishes;
   const int all = plan.warmUp + plan.pictures;
@@ -153,14 +168,13 @@ MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double 
   double cpuBefore = 0.0;
   double last = 0.0;
   RenderOptions answered;  // by the latest picture
-  const auto missing = [&] { return figures.kept.size() < size_t(plan.compared); };
   // A picture that is to be kept may come after the last that counts, as it has to be asked for.
-  while ((seen < all || missing()) && goOn(std::min(double(seen) / all, 1.0))) {
+  while ((seen < all || figures.kept.size() < size_t(plan.compared)) &&
+         goOn(std::min(double(seen) / all, 1.0))) {
     const double now = steadyMilliseconds();
     if (now >= next) {
       state.pose = plan.path(start, 1e-3 * (now - begin));
-      const bool kept = figures.kept.size() <
-                        size_t(std::min(figures.pictures + 1, plan.pictures) * plan.compared / plan.pictures);
+      const bool kept = isDue(figures, plan, std::min(figures.pictures + 1, plan.pictures));
       wishes.push_back(
           {exchange.ask(tracedSides(state), plan.size, true, kept), now, renderOptionsOf(state, 0)});
       next = std::max(next + plan.intervalMs, now);
@@ -182,22 +196,13 @@ MotionFigures runMotion(const MotionPlan& plan, const std::function<bool(double 
         wishes.pop_front();
       }
       if (counts) {
-        ++figures.pictures;
-        figures.pixels += double(picture.size.x) * picture.size.y;
         figures.gapMs.push_back(at - last);
         figures.seconds = 1e-3 * (at - counted);
         figures.cpuMs = thread.cpuMs() - cpuBefore;
-        figures.movedBytes += double(picture.statistics.movedBytes);
-        for (size_t pass = 0; pass < kPassNames.size(); ++pass) {
-          figures.passes.cpu[pass] += picture.statistics.passes.cpu[pass];
-          figures.passes.wall[pass] += picture.statistics.passes.wall[pass];
-        }
+        count(figures, picture);
       }
-      if (seen > plan.warmUp) {
-        const auto due = size_t(figures.pictures) * size_t(plan.compared) / size_t(plan.pictures);
-        if (figures.kept.size() < due && picture.image.width > 0)
-          figures.kept.push_back({std::move(picture.image), answered});
-      }
+      if (seen > plan.warmUp && isDue(figures, plan, figures.pictures) && picture.image.width > 0)
+        figures.kept.push_back({std::move(picture.image), answered});
       last = at;
     }
     if (news.pictures.empty()) std::this_thread::sleep_for(std::chrono::microseconds(500));

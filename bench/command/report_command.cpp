@@ -3,11 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "base/errors.h"
 #include "bench/command/commands.h"
 #include "bench/command/results.h"
 #include "bench/command/setting_check.h"
 #include "bench/report/table_report.h"
-#include "errors.h"
 #include "options/choose.h"
 
 namespace fragtrace {

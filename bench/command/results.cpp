@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdio>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "session/interrupt.h"
 
 namespace fragtrace {

@@ -6,19 +6,19 @@
 #include <iterator>
 #include <memory>
 
+#include "base/errors.h"
+#include "base/summary.h"
 #include "bench/command/commands.h"
 #include "bench/command/configurations.h"
+#include "bench/command/peak_memory.h"
 #include "bench/command/results.h"
 #include "bench/rays/ball_scene.h"
 #include "bench/rays/hit_check.h"
 #include "bench/rays/ray_sets.h"
 #include "bench/report/scale_report.h"
-#include "errors.h"
-#include "math/summary.h"
 #include "options/choose.h"
 #include "options/numbers.h"
 #include "pack/pack_tree.h"
-#include "session/peak_memory.h"
 #include "session/progress_bar.h"
 #include "session/setup.h"
 
@@ -257,6 +257,17 @@ std::unique_ptr<Image> checkRunners(Setting& setting, std::vector<Runner>& runne
   return first;
 }
 
+void timeRunners(const Setting& setting, std::vector<Runner>& runners, Renderer& renderer) {
+  for (Runner& runner : runners) {
+    runner.variant.reads = runners.front().variant.reads;
+    compile(setting, runner, renderer);
+    warmUp(setting, runner);
+  }
+  for (int round = 0; round < setting.options.rounds; ++round) {
+    for (Runner& runner : runners) timeFrames(setting, runner);
+  }
+}
+
 /// A size, as it is written. `iterativeMsPerTriangle` is that of the size before, and becomes this one's.
 Json measureSize(Setting& setting, size_t wanted, double& iterativeMsPerTriangle) {
   const ScaleOptions& options = setting.options;
@@ -290,14 +301,7 @@ Json measureSize(Setting& setting, size_t wanted, double& iterativeMsPerTriangle
     renderer = upload(setting, std::move(packed), runners.front().variant);
     row["upload_ms"] = watch.lap();
   }
-  for (Runner& runner : runners) {
-    runner.variant.reads = runners.front().variant.reads;
-    compile(setting, runner, *renderer);
-    warmUp(setting, runner);
-  }
-  for (int round = 0; round < options.rounds; ++round) {
-    for (Runner& runner : runners) timeFrames(setting, runner);
-  }
+  if (renderer) timeRunners(setting, runners, *renderer);
   row["sah_cost"] = quality.sahCost;
   row["depth"] = quality.depth;
   row["gpu_bytes"] = gpuBytes;

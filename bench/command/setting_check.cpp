@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "errors.h"
-#include "film/picture_check.h"
+#include "base/errors.h"
+#include "bench/report/picture_check.h"
 #include "image/channels.h"
 #include "options/same_picture.h"
 #include "session/progress_bar.h"

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "bench/command/timed_setting.h"
-#include "film/film_pixels.h"
+#include "render/film/film_pixels.h"
 
 namespace fragtrace {
 

@@ -3,11 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "base/errors.h"
 #include "bench/command/commands.h"
 #include "bench/command/configurations.h"
 #include "bench/command/results.h"
 #include "bench/stress/stress.h"
-#include "errors.h"
 #include "options/choose.h"
 #include "session/progress_bar.h"
 #include "session/setup.h"

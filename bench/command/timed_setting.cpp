@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "options/numbers.h"
 #include "session/progress_bar.h"
 

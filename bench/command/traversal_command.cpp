@@ -5,18 +5,18 @@
 #include <cstring>
 #include <memory>
 
+#include "base/errors.h"
+#include "base/summary.h"
 #include "bench/command/commands.h"
 #include "bench/command/configurations.h"
 #include "bench/command/results.h"
 #include "bench/rays/hit_check.h"
+#include "bench/rays/ray_caster.h"
 #include "bench/rays/ray_sets.h"
 #include "bench/report/traversal_report.h"
-#include "errors.h"
 #include "image/files/whole_file.h"
-#include "math/summary.h"
 #include "options/numbers.h"
 #include "pack/literals.h"
-#include "render/ray_caster.h"
 #include "session/progress_bar.h"
 #include "session/setup.h"
 

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/errors.h"
 #include "bench/command/commands.h"
 #include "bench/command/results.h"
 #include "bench/command/setting_check.h"
 #include "bench/report/frame_report.h"
-#include "errors.h"
+#include "bench/stress/forced_variants.h"
 #include "options/choose.h"
 #include "pack/gpu_scene.h"
-#include "stage/forced_variants.h"
 
 namespace fragtrace {
 

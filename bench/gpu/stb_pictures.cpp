@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/message.h"
 #include "image/limits.h"
 #include "image/worker/library.h"
-#include "process/message.h"
 
 namespace fragtrace {
 namespace {

@@ -6,7 +6,7 @@
 #include <glm/gtc/constants.hpp>
 #include <thread>
 
-#include "process/parallel.h"
+#include "base/parallel.h"
 
 namespace fragtrace {
 

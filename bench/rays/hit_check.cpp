@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/errors.h"
 #include "bench/report/formatted.h"
-#include "errors.h"
 
 namespace fragtrace {
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "bench/rays/ray_caster.h"
 #include "bvh/exact_tracer.h"
 #include "image/image.h"
-#include "render/ray_caster.h"
 
 namespace fragtrace {
 

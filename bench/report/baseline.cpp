@@ -6,8 +6,8 @@
 #include <sstream>
 #include <utility>
 
+#include "base/errors.h"
 #include "bench/report/formatted.h"
-#include "errors.h"
 
 namespace fragtrace {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "math/summary.h"
+#include "base/summary.h"
 
 namespace fragtrace {
 

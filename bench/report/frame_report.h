@@ -7,15 +7,15 @@
 #include <utility>
 #include <vector>
 
+#include "base/summary.h"
 #include "bench/report/machine.h"
-#include "math/summary.h"
 
 namespace fragtrace {
 
 /// How the picture of a setting was judged.
 struct PictureVerdict {
   std::string against;  ///< what it was compared with
-  double rmse = 0.0;    ///< these as in film/picture_check.h
+  double rmse = 0.0;    ///< these as in bench/report/picture_check.h
   double differing = 0.0;
   double meanErrors = 0.0;
   double farBlocks = 0.0;

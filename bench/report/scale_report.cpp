@@ -6,9 +6,9 @@
 #include <tuple>
 #include <utility>
 
+#include "base/summary.h"
 #include "bench/report/chart.h"
 #include "bench/report/formatted.h"
-#include "math/summary.h"
 
 namespace fragtrace {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <system_error>
 
-#include "errors.h"
+#include "base/errors.h"
 
 namespace fragtrace {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "bench/report/traversal_report.h"
 
+#include "base/count_text.h"
+#include "base/summary.h"
 #include "bench/report/formatted.h"
-#include "math/count_text.h"
-#include "math/summary.h"
 
 namespace fragtrace {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "bench/report/formatted.h"
+#include "bench/report/picture_check.h"
 #include "bench/stress/random_sketch.h"
-#include "film/picture_check.h"
 
 namespace fragtrace {
 

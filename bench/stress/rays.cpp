@@ -5,14 +5,14 @@
 #include <array>
 #include <cmath>
 
+#include "bench/rays/ray_caster.h"
 #include "bench/rays/ray_judge.h"
 #include "bench/report/formatted.h"
 #include "bvh/large_first.h"
 #include "gl/driver_choice.h"
 #include "pack/literals.h"
 #include "pack/pack_tree.h"
-#include "render/ray_caster.h"
-#include "stage/variant.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "bench/stress/scene_drawing.h"
 
+#include "base/errors.h"
 #include "bench/report/scratch_folder.h"
 #include "bvh/two_level.h"
-#include "errors.h"
 #include "gl/schedule.h"
 #include "gltf/gltf.h"
 #include "pack/literals.h"
@@ -28,8 +28,8 @@ SceneDrawing::SceneDrawing(const Context& context, const Scene& scene, const Ren
   const bool iterative = options.device.traversal == TraversalMethod::Iterative;
   const Bvh bvh = iterative ? listLeaves(scene) : buildSceneBvh(scene);
   picture_ = chooseVariant(options, present, environment.kind, bvh.depth, options.device.bufferReads);
-  depth_ = chooseFeatureVariant(options, present, environment.kind, bvh.depth, options.device.bufferReads,
-                                Feature::Depth);
+  depth_ =
+      chooseAovVariant(options, present, environment.kind, bvh.depth, options.device.bufferReads, Aov::Depth);
   ShaderVariant everything = picture_;
   everything.traits |= depth_.traits;
   GpuScene packed = packScene(scene, bvh, environment, everything);

@@ -6,8 +6,8 @@
 
 #include "bench/stress/sketch.h"
 #include "bvh/bvh.h"
-#include "film/film_pixels.h"
 #include "pack/gpu_scene.h"
+#include "render/film/film_pixels.h"
 #include "render/renderer.h"
 
 namespace fragtrace {

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/errors.h"
 #include "bench/rays/hit_check.h"
+#include "bench/rays/ray_caster.h"
 #include "bench/rays/ray_sets.h"
 #include "bench/stress/likeness.h"
 #include "bench/stress/random_sketch.h"
 #include "bench/stress/tree_shapes.h"
-#include "errors.h"
-#include "render/ray_caster.h"
 
 namespace fragtrace {
 

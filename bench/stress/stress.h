@@ -10,7 +10,7 @@
 
 #include "bench/report/stress_report.h"
 #include "gl/context.h"
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Light paths are aimed at the balls that enclose everything that makes caustics.
 
-/// A ray towards a caster, and its density: over solid angle, or over the area across parallel rays. A density of 0
+/// A ray towards a caster, and its pdf: over solid angle, or over the area across parallel rays. A pdf of 0
 /// means that there is no ray.
 struct Aim {
   vec3 origin;
   vec3 direction;
-  float density;
+  float pdf;
 };
 
 /// 1 minus the cosine of half the angle under which a ball is seen, which is its solid angle over 2 pi. From inside the
@@ -31,7 +31,7 @@ Aim aimFrom(vec3 point, vec3 normal, float choice, vec2 uv) {
   Aim a;
   a.origin = point;
   a.direction = vec3(0.0f, 0.0f, 1.0f);
-  a.density = 0.0f;
+  a.pdf = 0.0f;
   float sum = 0.0f;
   for (int i = 0; i < casterCount; ++i) sum += seenSpread(i, point, normal);
   if (sum <= 0.0f) return a;
@@ -58,7 +58,7 @@ Aim aimFrom(vec3 point, vec3 normal, float choice, vec2 uv) {
     bool holds = i == chosen || own >= 2.0f || dot(apart, apart) <= 2.0f * own;
     cones += own > 0.0f && holds ? 1.0f : 0.0f;
   }
-  a.density = cones / (2.0f * kPi * sum);
+  a.pdf = cones / (2.0f * kPi * sum);
   return a;
 }
 
@@ -86,6 +86,6 @@ Aim aimAlong(vec3 direction, float choice, vec2 uv) {
   Aim a;
   a.origin = point - 131072.0f * length(vec3(frame.gridCell)) * direction;  // two diagonals of the scene's box
   a.direction = direction;
-  a.density = disks / (kPi * max(sum, float(1e-30)));
+  a.pdf = disks / (kPi * max(sum, float(1e-30)));
   return a;
 }

@@ -7,7 +7,7 @@ layout(location = kMostCasters) uniform int casterCount;
 
 #include "caustics/aim.glsl"
 
-/// A ray of light. flux: watts divided by the density with which the ray was drawn; zero if there is no ray.
+/// A ray of light. flux: watts divided by the pdf with which the ray was drawn; zero if there is no ray.
 struct Emission {
   vec3 origin;
   vec3 direction;
@@ -38,13 +38,13 @@ Emission triangleEmission(int emitter, float share, float choice, vec2 uv, vec2 
   float cosine = dot(normal, a.direction);
   if (bothSides) cosine = abs(cosine);
   Emission e = noEmission();
-  if (a.density <= 0.0f || cosine <= 0.0f) return e;
+  if (a.pdf <= 0.0f || cosine <= 0.0f) return e;
   int slot = int(edge2.w);
   float error = uintBitsToFloat((faceRow(slot, 0).w >> kFaceErrorShift) << kFloatErrorShift);
   e.origin = offsetOrigin(point, error, normal, a.direction);
   e.direction = a.direction;
   vec3 radiance = emittedFrom(corner.w & kFaceMaterialMask, slot, w, cosine);
-  e.flux = radiance * (cosine / (share * uintBitsToFloat(edge1.w) * a.density));
+  e.flux = radiance * (cosine / (share * uintBitsToFloat(edge1.w) * a.pdf));
   return e;
 }
 
@@ -58,47 +58,46 @@ Emission punctualEmission(int index, float share, float choice, vec2 aim) {
   if (parallel) a = aimAlong(vec3(axis), choice, aim);
   if (!parallel) a = aimFrom(vec3(place), vec3(0.0f), choice, aim);
   Emission e = noEmission();
-  if (a.density <= 0.0f) return e;
+  if (a.pdf <= 0.0f) return e;
   e.origin = a.origin;
   e.direction = a.direction;
   e.range = parallel ? 0.0f : place.w;
   float cone = 1.0f;
   if (intensity.w == kLightSpot) cone = spotFalloff(axis, uintBitsToFloat(readLights(row + 3).x), a.direction);
-  e.flux = vec3(intensity) * (cone / (share * a.density));
+  e.flux = vec3(intensity) * (cone / (share * a.pdf));
   return e;
 }
 
 /// Draws a lamp by its power, a point on it, and a direction.
-Emission drawEmission(Sampler numbers) {
-  int emitter = emitterAt(drawBits(numbers, kLampDimension));
+Emission drawEmission(Sampler sampler) {
+  int emitter = emitterAt(drawBits(sampler, kEmitterDimension));
   float share = uintBitsToFloat(emitterRow(emitter, 0).w);
   uint kind = emitterRow(emitter, 3).w;
   bool punctual = kPunctualLights && (kind & kEmitterPunctual) != 0u;
-  float choice = drawFloat(numbers, kCasterDimension);
-  vec2 aim = drawPair(numbers, kAimDimensions);
+  float choice = drawFloat(sampler, kCasterDimension);
+  vec2 aim = drawPair(sampler, kAimDimensions);
   Emission e = noEmission();
   if (share <= 0.0f) return e;
   if (punctual) e = punctualEmission(int(kind & ~kEmitterPunctual), share, choice, aim);
   if (kEmissiveTriangles && !punctual) {
-    e = triangleEmission(emitter, share, choice, drawPair(numbers, kLampPointDimensions), aim);
+    e = triangleEmission(emitter, share, choice, drawPair(sampler, kEmitterPointDimensions), aim);
   }
   return e;
 }
 
 /// The key of the random numbers of a pass of light paths, which has Sobol points of its own.
-uint keyOfLightPaths() { return pixelKey(uint(frame.sampling.x), 0xfffffffeu, uint(frame.picture.w)); }
+uint keyOfLightPaths() { return pixelKey(uint(frame.firstSample), 0xfffffffeu, uint(frame.seed)); }
 
-/// Begins a light path. Until the camera sees it, `contribution` is its flux and `shadowLimit` the range of its light.
-/// A pass has as many rows of paths as its height asks for, each as wide as the picture.
+/// Begins a light path. A pass has as many rows of paths as its height asks for, each as wide as the picture.
 Path startLightPath(ivec2 record, uint key, int steps) {
   ivec2 place = inPicture(record);
-  uint index = uint(place.y * frame.picture.x + place.x);
-  Sampler numbers = makeSampler(key, index);
-  Emission e = drawEmission(numbers);
-  Path p = pathAlong(e.origin, e.direction, numbers, steps);
+  uint index = uint(place.y * frame.pictureSize.x + place.x);
+  Sampler sampler = makeSampler(key, index);
+  Emission e = drawEmission(sampler);
+  Path p = pathAlong(e.origin, e.direction, sampler, steps);
   p.cameraRay = false;
-  p.contribution = e.flux;
-  p.shadowLimit = e.range;
+  p.fromLight.flux = e.flux;
+  p.fromLight.range = e.range;
   if (maxComponent(e.flux) <= 0.0f) p.phase = kPhaseEnd;
   return p;
 }

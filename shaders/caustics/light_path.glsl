@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Light paths (kLightPaths): a lamp, one or more scatterings at casters, each in a single direction, a rough surface,
-// the camera. Camera paths leave out exactly these (Path.chain). Particles carry flux, so glass and shading normals
+// Light paths (kLightPaths): a lamp, one or more scatterings at casters, each by a delta lobe, a rough surface,
+// the camera. Camera paths leave out exactly these (Path.prefix). Particles carry flux, so glass and shading normals
 // weigh them in another way than camera paths (Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997,
 // section 5.3).
 
@@ -15,22 +15,22 @@ struct SeenFrom {
 /// lens: a point of the aperture, in local space along right and up. The film is the plane in focus as seen from there
 /// (throughLens of camera.glsl).
 SeenFrom cameraFrom(vec3 point, vec2 lens) {
-  vec3 right = frame.cameraRight.xyz;
-  vec3 up = frame.cameraUp.xyz;
-  vec3 forward = frame.cameraForward.xyz;
+  vec3 right = frame.cameraRight;
+  vec3 up = frame.cameraUp;
+  vec3 forward = frame.cameraForward;
   float focus = kLens && frame.lens.x > 0.0 ? frame.lens.y : 1.0;
   vec3 offset = lens.x * normalize(right) + lens.y * normalize(up);
-  float pixelArea = 4.0 * length(right) * length(up) / (float(frame.picture.x) * float(frame.picture.y));
+  float pixelArea = 4.0 * length(right) * length(up) / (float(frame.pictureSize.x) * float(frame.pictureSize.y));
   SeenFrom c;
   vec3 onFilm;  // in units of right and up
-  if (frame.cameraPosition.w != 0.0) {
+  if (frame.orthographic != 0.0) {
     // An orthographic camera has no lens.
-    onFilm = point - frame.cameraPosition.xyz;
+    onFilm = point - frame.cameraPosition;
     c.distance = dot(onFilm, forward);
     c.direction = -forward;
     c.importance = c.distance > 0.0 ? 1.0 / pixelArea : 0.0;
   } else {
-    vec3 from = point - (frame.cameraPosition.xyz + offset);
+    vec3 from = point - (frame.cameraPosition + offset);
     c.distance = length(from);
     vec3 away = from / max(c.distance, 1e-30);
     float cosine = dot(away, forward);
@@ -39,27 +39,27 @@ SeenFrom cameraFrom(vec3 point, vec2 lens) {
     c.importance = cosine > 1e-9 ? 1.0 / (pixelArea * cosine * cosine * cosine * c.distance * c.distance) : 0.0;
   }
   vec2 place = vec2(dot(onFilm, right) / dot(right, right), dot(onFilm, up) / dot(up, up));
-  c.place = (0.5 * place + 0.5) * vec2(frame.picture.xy);
+  c.place = (0.5 * place + 0.5) * vec2(frame.pictureSize);
   bool inside = all(greaterThan(c.place, vec2(-kFilterReach))) &&
-                all(lessThan(c.place, vec2(frame.picture.xy) + kFilterReach));
+                all(lessThan(c.place, vec2(frame.pictureSize) + kFilterReach));
   if (!inside) c.importance = 0.0;
   return c;
 }
 
 /// Returns true if --bounces lets a camera path go the same way back.
 bool withinBounces(Path p) {
-  int most = kTransmission && p.clearFirst ? frame.limits.x : frame.limits.x + 1;
+  int most = kTransmission && p.fromLight.glassFirst ? frame.maxBounces : frame.maxBounces + 1;
   return 1 + limitedScatterings(p) <= most;
 }
 
 /// Sends the light that the camera sees of the path at a rough surface, `times` as much, on its way. With wi towards
-/// the path and wo towards the camera it is flux * throughput * f(wo, wi) |wi.Ns| * |wo.Ng| / |wi.Ng| * compression *
+/// the path and wo towards the camera it is flux * throughput * f(wo, wi) |wi.Ns| * |wo.Ng| / |wi.Ng| * etaScale *
 /// importance. The quotient of cosines is there because particles carry flux (Veach, section 5.3).
 Path splat(Path p, Surface s, SurfaceMaterial m, float times) {
   p.phase = kPhaseEnd;
   vec2 lens = vec2(0.0);
   if (kLens && frame.lens.x > 0.0) {
-    vec2 uv = drawPair(p.numbers, kBounceDimensions * uint(p.bounce + 1) + kSplatLensDimensions);
+    vec2 uv = drawPair(p.sampler, kBounceDimensions * uint(p.bounce + 1) + kSplatLensDimensions);
     lens = frame.lens.x * sampleAperture(uv.x, uv.y, int(frame.lens.z));
   }
   SeenFrom camera = cameraFrom(s.position, lens);
@@ -73,19 +73,19 @@ Path splat(Path p, Surface s, SurfaceMaterial m, float times) {
     s.shadingNormal = -s.shadingNormal;
   }
   Scattering at = scatteringAt(s, m, normalFacing(s, camera.direction), camera.direction);
-  vec3 incoming = toFrame(at.around, -p.direction);
-  bool sameSide = (dot(p.direction, s.geometricNormal) < 0.0) == (incoming.z > 0.0);
+  vec3 wi = toFrame(at.around, -p.direction);
+  bool sameSide = (dot(p.direction, s.geometricNormal) < 0.0) == (wi.z > 0.0);
   if (!sameSide) return p;
-  vec3 value = evaluateBsdf(at.b, at.outgoing, incoming).value;
+  vec3 value = evaluateBsdf(at.b, at.wo, wi).value;
   float arriving = max(abs(dot(p.direction, s.geometricNormal)), 1e-9);
   float leaving = abs(dot(camera.direction, s.geometricNormal));
-  vec3 light = p.contribution * p.throughput * value * (times * p.compression * camera.importance * leaving / arriving);
+  vec3 light = p.fromLight.flux * p.throughput * value * (times * p.etaScale * camera.importance * leaving / arriving);
   if (kAbsorption && medium != kPrimitiveNone) {
     light *= exp(-camera.distance * materialFloats(medium, kMaterialVolume).rgb);
   }
   if (!(maxComponent(light) > 0.0)) return p;
   p.contribution = light;
-  p.part = vec3(camera.place, 0.0);
+  p.fromLight.splatPixel = camera.place;
   // The shadow ray starts at the camera, since single-sided surfaces stop light from one side only.
   vec3 target = offsetOrigin(s.position, s.positionError, s.geometricNormal, camera.direction);
   p.shadowOrigin = s.position + camera.distance * camera.direction;
@@ -93,7 +93,7 @@ Path splat(Path p, Surface s, SurfaceMaterial m, float times) {
   float distance = length(towards);
   p.shadowDirection = distance > 0.0 ? towards / distance : -camera.direction;
   p.shadowLimit = distance * float(0.99999);
-  p.throughWalls = false;
+  p.throughGlass = false;
   p.after = kPhaseEnd;
   p.phase = kPhaseShadow;
   return traceAnew(p, p.shadowLimit);
@@ -109,7 +109,7 @@ bool isSingleSided(uint material, uint flags) {
 /// Continues behind the surface, as if it were not there.
 Path passOn(Path p, Surface s, float times) {
   p.throughput *= times;
-  p.density += p.hitT;
+  p.fromLight.travelled += p.hitT;
   p.origin = offsetOrigin(s.position, s.positionError, s.geometricNormal, p.direction);
   if (kCreases) p.tie = s.front ? -kTie : kTie;
   return extend(p);
@@ -125,17 +125,17 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
   p.phase = kPhaseEnd;
   if (kUnlit && (flags & kMaterialUnlit) != 0u) return p;
   bool caster = (flags & kMaterialCaster) != 0u;
-  bool scattered = p.bounce > p.walls;
+  bool scattered = p.bounce > p.straightBounces;
   bool singleSided = isSingleSided(s.material, flags);
   if (singleSided && !s.front) return p;
   bool mayScatter = caster || scattered;
   bool passes = singleSided &&
-                (!mayScatter || hashFloat(p.numbers, kAlphaDimensions + uint(nextCrossing(p))) < kPassedOn);
+                (!mayScatter || hashFloat(p.sampler, kAlphaDimensions + uint(nextCrossing(p))) < kPassedOn);
   if (passes) return passOn(p, s, mayScatter ? 1.0 / kPassedOn : 1.0);
   if (singleSided) p.throughput /= 1.0 - kPassedOn;
   if (p.bounce == 0) {
-    float travelled = p.density + p.hitT;
-    p.contribution *= rangeWindow(travelled * travelled, p.shadowLimit);
+    float travelled = p.fromLight.travelled + p.hitT;
+    p.fromLight.flux *= rangeWindow(travelled * travelled, p.fromLight.range);
   }
   SurfaceMaterial m = materialAt(s.material, baseColor, s.texcoords);
   if (kDispersion) {
@@ -146,24 +146,24 @@ Path lightPathAt(Path p, Surface s, uint flags, vec3 baseColor) {
 
   // Step: find what the surface may do to the path. Where it may scatter both ways, chance decides.
   bool glass = kTransmission && at.b.glass > 0.0;
-  bool wall = kThinGlass && glass && !m.solid && isSmoothGlass(at.b) && p.medium == kPrimitiveNone;
-  vec4 chances = lobeChances(at.b, at.outgoing.z);
-  bool rough = !(caster || wall) || !at.b.mirrorLike || chances.z + chances.w > 0.0;
-  float splats = !rough || !scattered ? 0.0 : caster || wall ? 0.5 : 1.0;
+  bool thin = kThinGlass && glass && !m.solid && isSmoothGlass(at.b) && p.medium == kPrimitiveNone;
+  vec4 chances = lobeChances(at.b, at.wo.z);
+  bool rough = !(caster || thin) || !at.b.mirrorLike || chances.z + chances.w > 0.0;
+  float splats = !rough || !scattered ? 0.0 : caster || thin ? 0.5 : 1.0;
   if (splats > 0.0 && pathRandom(p, kSplatDimension) < splats) return splat(p, s, m, 1.0 / splats);
-  if (!caster && !wall) return p;
+  if (!caster && !thin) return p;
 
-  // Step: continue in a single direction.
+  // Step: continue along a delta lobe.
   float choice = pathRandom(p, kLobeDimension);
-  vec2 uv = drawPair(p.numbers, kBounceDimensions * uint(p.bounce + 1) + kDirectionDimension);
-  BsdfSample next = sampleBsdf(at.b, at.outgoing, choice, uv.x, uv.y);
-  bool straight = wall && next.transmitted;
-  if (next.density != 0.0 || !(caster || straight)) return p;
-  vec3 direction = ontoSide(normalize(toWorld(at.around, next.incoming)), s.geometricNormal, next.transmitted);
+  vec2 uv = drawPair(p.sampler, kBounceDimensions * uint(p.bounce + 1) + kDirectionDimension);
+  BsdfSample next = sampleBsdf(at.b, at.wo, choice, uv.x, uv.y);
+  bool straight = thin && next.transmitted;
+  if (next.pdf != 0.0 || !(caster || straight)) return p;
+  vec3 direction = ontoSide(normalize(toWorld(at.around, next.wi)), s.geometricNormal, next.transmitted);
   // Bent normals weigh flux in another way than radiance (Veach, section 5.3).
-  float before = abs(dot(p.direction, s.geometricNormal)) * abs(next.incoming.z);
-  float after = abs(dot(direction, s.geometricNormal)) * abs(at.outgoing.z);
+  float before = abs(dot(p.direction, s.geometricNormal)) * abs(next.wi.z);
+  float after = abs(dot(direction, s.geometricNormal)) * abs(at.wo.z);
   vec3 weight = next.weight * (after / max(before, 1e-9) / (1.0 - splats));
-  if (p.bounce == 0) p.clearFirst = glass;
-  return proceed(scatter(p, s, direction, weight, 0.0, next.transmitted, m));
+  if (p.bounce == 0) p.fromLight.glassFirst = glass;
+  return proceed(spawnRay(p, s, direction, weight, 0.0, next.transmitted, m));
 }

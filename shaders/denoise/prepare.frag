@@ -5,7 +5,7 @@
 layout(binding = 0) uniform sampler2D noisy;    // radiance; variance of its luminance from independent samples
 layout(binding = 1) uniform sampler2D albedos;  // albedo, coverage
 layout(binding = 2) uniform sampler2D normals;  // normal, depth; means that count misses as 0, as albedo does
-// samples; one observation of the variance (observedVariance() of src/film/noise.h), negative: none
+// samples; one observation of the variance (observedVariance() of src/render/film/noise.h), negative: none
 layout(binding = 3) uniform sampler2D counts;
 layout(binding = 4) uniform sampler2D means;    // of summary.frag
 layout(binding = 5) uniform sampler2D logarithms;

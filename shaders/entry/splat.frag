@@ -11,8 +11,8 @@ layout(location = 0) out vec4 added;
 
 void main() {
   // The box filter covers exactly the pixel in which the point lies, whatever a rounded distance says.
-  float density = kPixelFilter == kBoxFilter ? 1.0 : pixelFilterDensity(kPixelFilter, gl_FragCoord.xy - place);
-  vec3 own = density * light;
+  float pdf = kPixelFilter == kBoxFilter ? 1.0 : pixelFilterPdf(kPixelFilter, gl_FragCoord.xy - place);
+  vec3 own = pdf * light;
   float value = luminance(own);
   added = vec4(own, value * value);
 }

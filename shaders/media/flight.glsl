@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Free flights through homogeneous media. Distances are drawn for one channel, chosen by the throughput; all three
-// share the density of the choice (one-sample MIS: Wilkie et al., Hero Wavelength Spectral Sampling, 2014; Pharr, Jakob
+// share the pdf of the choice (one-sample MIS: Wilkie et al., Hero Wavelength Spectral Sampling, 2014; Pharr, Jakob
 // and Humphreys, Physically Based Rendering, 2023, chapter 14).
 
 struct Medium {
@@ -44,7 +44,7 @@ vec3 passWeight(Medium m, vec3 chances, float distance) {
   return t / dot(chances, t);
 }
 
-/// The factor where the flight ends at `distance`: scattering coefficient x transmittance / density.
+/// The factor where the flight ends at `distance`: scattering coefficient x transmittance / pdf.
 vec3 scatterWeight(Medium m, vec3 chances, float distance) {
   vec3 t = m.extinction * scaledTransmittance(m, chances, distance);
   return m.albedo * t / max(dot(chances, t), float(1e-37));

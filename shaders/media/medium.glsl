@@ -35,7 +35,7 @@ bool isOpen(uint medium) { return medium == kPrimitiveNone || (kMatchedGlass && 
 /// A path whose ray has been inside of a solid without knowing it, or begins there.
 Path standInside(Path p, uint medium) {
   float ior = dispersedIor(p, medium);
-  if (p.cameraRay) p.compression = ior * ior;
+  if (p.cameraRay) p.etaScale = ior * ior;
   p.medium = medium;
   return p;
 }
@@ -56,14 +56,14 @@ uint flightNumber(Path p) { return kFlightDimensions + (uint(p.bounce) << 12) + 
 
 /// The same for flightEnd().
 float flightRandom(Path p) {
-  return p.crossings > 0 ? hashFloat(p.numbers, flightNumber(p)) : pathRandom(p, kFlightDimension);
+  return p.crossings > 0 ? hashFloat(p.sampler, flightNumber(p)) : pathRandom(p, kFlightDimension);
 }
 
 /// Limits the path's ray, which begins at `from`, to its flight.
 Path limitFlight(Path p, float from) {
   p.traversal.t = flightEnd(p, from, flightRandom(p));
   if (kDensityGrid && p.medium == kPrimitiveNone) {
-    uint seed = hashBits(p.numbers, flightNumber(p));
+    uint seed = hashBits(p.sampler, flightNumber(p));
     float first = unitFloat(mixBits(seed));
     Walk walk = walkVolume(volume, p.origin, p.direction, from, p.traversal.t, false, first, seed);
     p.traversal.t = min(p.traversal.t, walk.end);
@@ -74,7 +74,7 @@ Path limitFlight(Path p, float from) {
 
 /// The distance that the path's ray or its shadow ray, whichever is traced, has passed surfaces up to. A flight begins
 /// there.
-float passedBefore(Path p) { return kPassing ? p.traversal.past : 0.0; }
+float passedBefore(Path p) { return kPassing ? p.traversal.tMin : 0.0; }
 
 /// A flight has come to a surface.
 Path passMedium(Path p) {
@@ -90,7 +90,7 @@ Path flyTo(Path p, Surface s) {
   bool unknown = kScattering && medium != p.medium;
   if (unknown) p = standInside(p, medium);
   float end = kFarAway;
-  if (unknown) end = flightEnd(p, passedBefore(p), hashFloat(p.numbers, kFlightDimensions + 0xfffu));
+  if (unknown) end = flightEnd(p, passedBefore(p), hashFloat(p.sampler, kFlightDimensions + 0xfffu));
   bool ends = end < p.hitT;
   if (ends) p.hitT = end;
   if (ends) p.hitSlot = -1;
@@ -104,7 +104,7 @@ Path dimShadow(Path p, uint medium, float to) {
   bool outside = medium == kPrimitiveNone;
   if (kFog && outside) p.contribution *= exp(-fogDepth(fog, p.shadowOrigin, p.shadowDirection, from, to));
   if (kDensityGrid && outside) {
-    uint seed = hashBits(p.numbers, flightNumber(p) + kShadowFlights) ^ floatBitsToUint(from);
+    uint seed = hashBits(p.sampler, flightNumber(p) + kShadowFlights) ^ floatBitsToUint(from);
     float first = unitFloat(mixBits(seed));
     Walk walk = walkVolume(volume, p.shadowOrigin, p.shadowDirection, from, to, true, first, seed);
     p.contribution *= walk.transmittance;

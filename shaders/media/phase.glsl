@@ -2,8 +2,8 @@
 // The phase function of participating media (Henyey and Greenstein, Diffuse radiation in the galaxy, 1941). The
 // anisotropy g is the mean cosine of a scattering: above 0 light goes on forward.
 
-/// Density over solid angle of the cosine between the directions of travel before and after. It is the value, too.
-float phaseDensity(float g, float cosine) {
+/// The pdf over solid angle of the cosine between the directions of travel before and after. It is the value, too.
+float phasePdf(float g, float cosine) {
   float strength = abs(g);
   float c = g < 0.0f ? -cosine : cosine;
   // 1 + g^2 - 2 g c without its cancellation.

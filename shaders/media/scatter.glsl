@@ -2,14 +2,14 @@
 // A medium scatters a path: it takes one light sample, and draws one direction from the phase function.
 
 /// The light sample of a point in a medium that light gets into.
-Path connectMedium(Path p, vec3 point, float g) {
+Path sampleLdInMedium(Path p, vec3 point, float g) {
   uint dimension = kBounceDimensions * uint(p.bounce + 1) + kLightDimension;
-  LightSample light = lightOfSlot(0, point, kNoNormal, p.numbers, dimension);
-  float value = phaseDensity(g, dot(p.direction, light.direction));
+  LightSample light = lightOfSlot(0, point, kNoNormal, p.sampler, dimension);
+  float value = phasePdf(g, dot(p.direction, light.direction));
   float weight = lightWeight(light, value);
-  if (kThroughGlass) p.throughWalls = true;
+  if (kThroughGlass) p.throughGlass = true;
   p.shadowMedium = p.medium;
-  return connectFrom(p, point, point, light, p.throughput * light.irradiance * (value * weight));
+  return spawnShadowRayFrom(p, point, point, light, p.throughput * light.irradiance * (value * weight));
 }
 
 /// Roulette decides if a path goes on after a scattering in a medium, which --bounces does not limit: in one that is
@@ -17,10 +17,10 @@ Path connectMedium(Path p, vec3 point, float g) {
 Path decideInMedium(Path p) {
   p.after = kPhaseEnd;
   if (maxComponent(p.throughput) <= 0.0) return p;
-  bool decides = p.bounce >= frame.limits.y;
+  bool decides = p.bounce >= frame.rouletteDepth;
   float most = p.bounce >= kLatestRoulette ? kMediumSurvival : 1.0;
-  float survival = min(maxComponent(p.throughput) * p.compression, most);
-  if (decides && drawFloat(p.numbers, kBounceDimensions * uint(p.bounce) + kRouletteDimension) >= survival) return p;
+  float survival = min(maxComponent(p.throughput) * p.etaScale, most);
+  if (decides && drawFloat(p.sampler, kBounceDimensions * uint(p.bounce) + kRouletteDimension) >= survival) return p;
   if (decides) p.throughput /= survival;
   p.after = kPhaseExtend;
   return p;
@@ -47,26 +47,26 @@ Path scatterInMedium(Path p) {
   }
   if (kDensityGrid && inGrid && volume.extinction.y > 0.0) {
     // Kirchhoff's law: it emits as much as it absorbs.
-    vec3 light = volumeRadiance(volume, point, hashBits(p.numbers, flightNumber(p) + kShadowFlights));
+    vec3 light = volumeRadiance(volume, point, hashBits(p.sampler, flightNumber(p) + kShadowFlights));
     p = addLight(p, clampIndirect(p.throughput * (1.0 - scatter.rgb) * light, countedScatterings(p)));
   }
   p.throughput *= scatter.rgb;
   if (p.cameraRay) p.covered = true;
   p.phase = kPhaseEnd;
-  if (kFeature == kFeatureEmission) return p;
-  if (kLightPart && p.bounce == 0) p.part = vec3(kFeature == kFeatureDiffuse ? 1.0 : 0.0);
-  vec2 uv = drawPair(p.numbers, kBounceDimensions * uint(p.bounce + 1) + kDirectionDimension);
+  if (kAov == kAovEmission) return p;
+  if (kLightAov && p.bounce == 0) p.aovWeight = vec3(kAov == kAovDiffuse ? 1.0 : 0.0);
+  vec2 uv = drawPair(p.sampler, kBounceDimensions * uint(p.bounce + 1) + kDirectionDimension);
   bool open = isOpen(p.medium);
-  if (open && lightSlotCount() > 0) p = connectMedium(p, point, scatter.w);
+  if (open && lightSlotCount() > 0) p = sampleLdInMedium(p, point, scatter.w);
   vec3 before = p.direction;
   p.direction = samplePhase(scatter.w, before, uv.x, uv.y);
-  p.density = open ? phaseDensity(scatter.w, dot(before, p.direction)) : 0.0;
+  p.pdf = open ? phasePdf(scatter.w, dot(before, p.direction)) : 0.0;
   p.origin = point;
   p.normal = kNoNormal;
   p.tie = 0.0;
   p.cameraRay = false;
   p.bounce += 1;
-  p.clear += 1;
+  p.freeBounces += 1;
   p = decideInMedium(p);
   return p.phase == kPhaseShadow ? p : proceed(p);
 }

@@ -42,9 +42,9 @@ struct Candidate {
 };
 
 /// normal: of the surface, packedNormal as lightFrom takes it. Uses four dimensions from `dimension` on.
-Candidate chooseCandidate(vec3 point, vec3 normal, bool through, uint packedNormal, Sampler numbers, uint dimension) {
-  LightNumbers first = lightNumbers(numbers, dimension);
-  float left = drawFloat(numbers, dimension + 3u);
+Candidate chooseCandidate(vec3 point, vec3 normal, bool through, uint packedNormal, Sampler sampler, uint dimension) {
+  LightNumbers first = lightNumbers(sampler, dimension);
+  float left = drawFloat(sampler, dimension + 3u);
   Candidate c;
   c.light = makeChoice(kFromEnvironment, 0.0f, uvec2(0u), 0.0f, 0.0f);
   c.lit = noLight();
@@ -69,9 +69,9 @@ Candidate chooseCandidate(vec3 point, vec3 normal, bool through, uint packedNorm
 }
 
 /// The light sample of the chosen candidate, weighted by the mean target of all over its own.
-LightSample lightOfCandidates(vec3 point, vec3 normal, bool through, uint packedNormal, Sampler numbers,
+LightSample lightOfCandidates(vec3 point, vec3 normal, bool through, uint packedNormal, Sampler sampler,
                               uint dimension) {
-  Candidate c = chooseCandidate(point, normal, through, packedNormal, numbers, dimension);
+  Candidate c = chooseCandidate(point, normal, through, packedNormal, sampler, dimension);
   if (c.own > 0.0f) c.lit.irradiance *= c.sum / (float(kLightCandidates) * c.own);
   return c.lit;
 }

@@ -19,7 +19,7 @@ Path keepLight(Path p, Surface s, SurfaceMaterial m) {
   p.phase = kPhaseEnd;
   if (p.bounce > 0 || lightSlotCount() == 0) return p;
   LitSurface on = LitSurface(s.position, packNormal(s.geometricNormal), takesLightFromBehind(s, m));
-  storeReservoir(p.pixel, makeReservoir(on, normalOfLight(s, m), p.numbers, kBounceDimensions + kLightDimension));
+  storeReservoir(p.pixel, makeReservoir(on, normalOfLight(s, m), p.sampler, kBounceDimensions + kLightDimension));
   return p;
 }
 
@@ -33,8 +33,8 @@ ivec2 neighbourOf(ivec2 pixel, int index, vec2 uv) {
 /// The light sample of the pixel's first surface: its own or one of its neighbours'. own: the reservoir that the first
 /// program stored.
 LightSample lightOfNeighbours(Path p, Reservoir own, vec3 point, uint normal) {
-  vec2 uv = drawPair(p.numbers, kBounceDimensions + kReuseDimension);
-  Reuse reuse = beginReuse(drawFloat(p.numbers, kBounceDimensions + kReuseDimension + 2u));
+  vec2 uv = drawPair(p.sampler, kBounceDimensions + kReuseDimension);
+  Reuse reuse = beginReuse(drawFloat(p.sampler, kBounceDimensions + kReuseDimension + 2u));
   float ownTarget = own.weight > 0.0 ? targetOf(own.light, own.surface) : 0.0;
   ivec2 size = textureSize(reservoirSurfaces, 0);
   for (int i = 0; i < int(kReuseNeighbours); ++i) {

@@ -16,11 +16,11 @@ struct Reservoir {
   LitSurface surface;
   bool known;         // a camera ray has met a surface that is lit
   LightChoice light;  // its chance is of no use
-  float weight;       // in the mean 1 / the density with which it is chosen; 0: no light reaches the surface
+  float weight;       // in the mean 1 / the pdf with which it is chosen; 0: no light reaches the surface
 };
 
-Reservoir makeReservoir(LitSurface on, uint packedNormal, Sampler numbers, uint dimension) {
-  Candidate c = chooseCandidate(on.point, unpackNormal(on.normal), on.through, packedNormal, numbers, dimension);
+Reservoir makeReservoir(LitSurface on, uint packedNormal, Sampler sampler, uint dimension) {
+  Candidate c = chooseCandidate(on.point, unpackNormal(on.normal), on.through, packedNormal, sampler, dimension);
   Reservoir r;
   r.surface = on;
   r.known = true;
@@ -111,6 +111,6 @@ LightSample endReuse(Reuse r, Reservoir own, float ownTarget, vec3 point, uint n
   r.light.chance = 1.0f;
   s = lightOfChoice(r.light, point);
   s.irradiance *= r.sum / r.target;
-  s.density *= chanceOfLight(r.light.emitter, point, normal);
+  s.pdf *= chanceOfLight(r.light.emitter, point, normal);
   return s;
 }

@@ -10,9 +10,9 @@
 #include <thread>
 #include <utility>
 
+#include "base/parallel.h"
 #include "bvh/split.h"
 #include "bvh/subtree.h"
-#include "process/parallel.h"
 
 namespace fragtrace {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "math/bounds.h"
+#include "base/bounds.h"
 #include "scene/scene.h"
 
 namespace fragtrace {

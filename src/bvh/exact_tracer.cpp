@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "process/parallel.h"
+#include "base/parallel.h"
 
 namespace fragtrace {
 

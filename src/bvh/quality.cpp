@@ -16,7 +16,7 @@ BvhQuality bvhQuality(const Bvh& bvh) {
   // Every node but the root is the child of one node. If the root has no area, all count as visited.
   const double rootArea = areaOf(bvh.bounds);
   double visits = 1.0;
-  // Of two levels only the upper one counts, and an instance is one visit.
+  // Only the upper one of two levels counts, and an instance is one visit.
   for (size_t i = 0; i < topNodeCount(bvh); ++i) {
     const BvhNode& node = bvh.nodes[i];
     for (const Bounds& box : node.bounds) visits += rootArea > 0.0 ? areaOf(box) / rootArea : 1.0;

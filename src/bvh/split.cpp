@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "process/parallel.h"
+#include "base/parallel.h"
 
 namespace fragtrace {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "math/bounds.h"
+#include "base/bounds.h"
 
 namespace fragtrace {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/norm.h"
 #include "bvh/build.h"
-#include "math/norm.h"
 
 namespace fragtrace {
 namespace {

@@ -10,9 +10,9 @@
 #include <system_error>
 #include <vector>
 
+#include "base/errors.h"
 #include "cli/commands.h"
 #include "cli/own_program.h"
-#include "errors.h"
 
 namespace fragtrace {
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "options/choose.h"
 #include "options/parse_words.h"
 #include "options/suggestion.h"

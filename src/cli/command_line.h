@@ -8,7 +8,7 @@
 
 namespace fragtrace {
 
-/// Whether the words, not parsed yet, ask for JSON on stderr, which an error in them is told by, too.
+/// Returns true if the words, not parsed yet, ask for JSON on stderr. Errors in them are then JSON, too.
 bool asksForJson(std::span<const char* const> words);
 
 /// The words as a command: a first word that is a file is to be viewed (one with the name of a command is

@@ -5,21 +5,21 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/errors.h"
 #include "cli/commands.h"
 #include "cli/denoise_options.h"
 #include "cli/leave.h"
-#include "errors.h"
 #include "image/channels.h"
 #include "image/format.h"
-#include "picture/denoised_file.h"
-#include "picture/picture_file.h"
 #include "session/outputs.h"
+#include "session/picture/denoised_file.h"
+#include "session/picture/picture_file.h"
 
 namespace fragtrace {
 
 namespace {
 
-/// What a format can hold of the picture.
+/// The part of the picture that the file's format can hold.
 Image writable(const Image& picture, const std::filesystem::path& path) {
   if (formatOfName(path) == ImageFormat::OpenExr) return picture;
   std::vector<std::string> names{"R", "G", "B"};
@@ -32,7 +32,7 @@ int runDenoise(const DenoiseOptions& asked) {
   checkOutputs(std::array{NamedOutput{"--output", options.output.file}}, std::array{asked.picture});
   const std::optional<OidnLibrary> oidn = openDenoiser(options);
   const LinearImage read = readLinearImage(asked.picture, options.limits.memoryBytes);
-  // What such files encode is as a display shows it, which is not what the filters are made for.
+  // Such files hold values as a display shows them, for which the filters are not made.
   if (read.wasEncoded)
     throw InputError(asked.picture.string() + ": is no picture of linear radiance (.exr, .hdr, .pfm)");
   const Image drawn = asDrawn(read.image);

@@ -25,7 +25,7 @@ struct DiffOptions {
   std::filesystem::path outfile;
 };
 
-/// What is printed, and the picture for --outfile.
+/// The text to print, and the picture for --outfile.
 struct Comparison {
   double value = 0;
   Image map;

@@ -15,8 +15,8 @@
 #include "scene/parts.h"
 #include "scene/volume/read_grid.h"
 #include "session/scene_json.h"
-#include "stage/render_options.h"
-#include "stage/variant.h"
+#include "shader/render_options.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 
@@ -29,7 +29,7 @@ struct InfoOptions {
   bool decode = false;
 };
 
-/// What a scene takes on the device by default, textures and lights left out.
+/// The bytes a triangle that a scene takes on the device by default, without textures and lights.
 double gpuBytesPerTriangle(const Scene& scene, const Bvh& bvh, const TraitSet& traits,
                            Surroundings surroundings) {
   ShaderVariant variant = chooseVariant({}, traits, surroundings, bvh.depth, BufferReads::Auto);
@@ -97,7 +97,7 @@ void addParts(nlohmann::ordered_json& json, const Scene& scene) {
   if (!scene.volume.source.file.empty()) json["volume"] = scene.volume.source.file.string();
 }
 
-/// What a node holds, in words.
+/// The contents of a node, in words.
 std::vector<std::string> contentsOf(const SceneNode& node) {
   std::vector<std::string> words;
   if (node.mesh) words.emplace_back("mesh");

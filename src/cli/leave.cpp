@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "errors.h"
-#include "process/report.h"
+#include "base/errors.h"
+#include "base/report.h"
 
 namespace fragtrace {
 

@@ -5,16 +5,16 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/errors.h"
 #include "cli/commands.h"
 #include "cli/denoise_options.h"
 #include "cli/leave.h"
-#include "errors.h"
 #include "image/format.h"
 #include "options/choose.h"
-#include "picture/denoised_file.h"
-#include "picture/joined_parts.h"
-#include "picture/picture_file.h"
 #include "session/outputs.h"
+#include "session/picture/denoised_file.h"
+#include "session/picture/joined_parts.h"
+#include "session/picture/picture_file.h"
 
 namespace fragtrace {
 

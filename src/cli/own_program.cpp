@@ -3,8 +3,8 @@
 
 #include <stdexcept>
 
-#include "errors.h"
-#include "process/plugin.h"
+#include "base/errors.h"
+#include "base/plugin.h"
 
 namespace fragtrace {
 

@@ -8,10 +8,10 @@
 #include <new>
 #include <system_error>
 
+#include "base/errors.h"
+#include "base/report.h"
 #include "cli/command_line.h"
 #include "cli/leave.h"
-#include "errors.h"
-#include "process/report.h"
 #include "session/interrupt.h"
 
 namespace fragtrace {

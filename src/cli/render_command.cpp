@@ -9,22 +9,22 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/count_text.h"
+#include "base/errors.h"
+#include "base/report.h"
 #include "cli/commands.h"
 #include "cli/leave.h"
-#include "errors.h"
 #include "gltf/gltf.h"
 #include "image/files/process.h"
-#include "math/count_text.h"
 #include "options/camera_text.h"
 #include "options/config_file.h"
 #include "options/parse_render.h"
-#include "picture/denoising.h"
-#include "picture/finished_picture.h"
-#include "picture/picture_file.h"
-#include "picture/sequence.h"
-#include "process/report.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
+#include "session/picture/denoising.h"
+#include "session/picture/finished_picture.h"
+#include "session/picture/picture_file.h"
+#include "session/picture/sequence.h"
 #include "session/sequence_camera.h"
 #include "session/tracer.h"
 
@@ -63,7 +63,7 @@ void sayWhatWasDone(const RenderOptions& options, const Statistics& stats) {
                stats.times.renderMs / 1000.0, megaPathsPerSecond(stats), noise.c_str());
 }
 
-/// What becomes of a picture: it is written, written as far as it was drawn, or not at all.
+/// A picture is written, written as far as it was drawn, or not written.
 enum class Outcome { Complete, Partial, None };
 
 /// From the scene on the device to the files. `boxes` are drawn over it.
@@ -98,7 +98,7 @@ Outcome drawAndWrite(const PictureJob& job, const std::vector<PictureLine>& boxe
   return stats.complete ? Outcome::Complete : Outcome::Partial;
 }
 
-/// Of the events of a picture: its file, and which of a sequence it is.
+/// The context of a picture's events: its file, and its place in a sequence.
 nlohmann::ordered_json eventContext(const RenderOptions& options) {
   return {{"output", options.output.toStandardOutput ? "-" : options.output.file.string()}};
 }
@@ -151,7 +151,7 @@ int renderVariants(const RenderOptions& options) {
   return status;
 }
 
-/// What the pictures of a sequence share, and what the one before leaves to the next.
+/// State that the pictures of a sequence share, or that one leaves to the next.
 struct SequenceRun {
   Device device;
   Tracer tracer;
@@ -161,8 +161,8 @@ struct SequenceRun {
   Statistics prepared;                     ///< of a turntable's scene
 };
 
-/// Whether the next picture may refit this one's tree. What is merged later tells scenes apart by their
-/// arrays, and a small tree is built as fast: there each picture has the bits of a single command, whatever
+/// Returns true if the next picture may refit this one's tree. `merge` tells scenes apart by their arrays,
+/// and a small tree is built as fast: in both cases each picture has the bits of a single command, whatever
 /// was drawn before.
 bool keepsTree(const RenderOptions& options, const Scene& scene) {
   constexpr size_t kLeastTriangles = 4096;
@@ -245,8 +245,8 @@ Outcome drawFrame(SequenceRun& run, const SequenceFrame& frame, const SequenceOp
   return outcome;
 }
 
-/// Whether there is a picture by that name: files are replaced as a whole, so that one with contents is
-/// whole.
+/// Returns true if there is a complete picture by that name. Files are replaced as a whole, so one with
+/// contents is complete.
 bool isWhole(const std::filesystem::path& path) {
   std::error_code error;
   return std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) > 0;

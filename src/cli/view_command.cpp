@@ -8,19 +8,19 @@
 #include <thread>
 
 #include "advice.h"
+#include "base/errors.h"
+#include "base/plugin.h"
+#include "base/thread_name.h"
 #include "cli/commands.h"
-#include "errors.h"
-#include "live/reference.h"
-#include "live/view_tracer.h"
 #include "options/camera_text.h"
 #include "options/command_text.h"
 #include "options/view_options.h"
-#include "picture/denoising.h"
-#include "process/plugin.h"
-#include "process/thread_name.h"
 #include "session/interrupt.h"
 #include "session/outputs.h"
+#include "session/picture/denoising.h"
 #include "session/say.h"
+#include "view/live/reference.h"
+#include "view/live/view_tracer.h"
 #include "view/window.h"
 
 namespace fragtrace {
@@ -28,7 +28,7 @@ namespace fragtrace {
 namespace {
 
 constexpr const char* kLibraryName = "libfragtrace_window.so";
-/// How long the end of the program may wait for the tracing thread, which cannot be interrupted while the
+/// The program waits this long at its end for the tracing thread, which cannot be interrupted while the
 /// driver compiles and textures are decoded; and for files that are being written.
 constexpr std::chrono::milliseconds kPatience{400};
 constexpr std::chrono::seconds kPatienceForFiles{20};

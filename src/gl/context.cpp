@@ -2,7 +2,7 @@
 #include "gl/context.h"
 
 #include "advice.h"
-#include "errors.h"
+#include "base/errors.h"
 #include "gl/driver_choice.h"
 #include "gl/gl.h"
 

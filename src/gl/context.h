@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "errors.h"
+#include "base/errors.h"
 
 namespace fragtrace {
 

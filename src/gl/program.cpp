@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gl/program.h"
 
-#include "errors.h"
+#include "base/errors.h"
 
 namespace fragtrace {
 

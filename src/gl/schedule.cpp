@@ -23,15 +23,15 @@ int freeImageUnit(const ShaderVariant& variant) {
 constexpr double kFewPaths = 2e6;
 /// Rays of so few steps hardly wait for each other: many-lights, of 274 nodes, takes equally long with both.
 constexpr size_t kSmallTree = 512;
-/// Paths in solids that scatter are long, and end at very different lengths: the wavefront takes 0.4 (a dense cloud) to
-/// 0.9 (milk in glass) of the time, however small the tree is.
+/// Paths in solids that scatter are long, and end at very different lengths: the wavefront takes 0.4 (a dense
+/// cloud) to 0.9 (milk in glass) of the time, however small the tree is.
 constexpr double kFewLongPaths = 2e5;
 
 /// The reason why the megakernel draws; empty if the wavefront does.
 std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& options,
                           const ScheduleWork& work) {
   if (options.device.schedule == Schedule::Megakernel) return "--schedule";
-  if (variant.feature != Feature::None) return "a layer of first hits";
+  if (variant.aov != Aov::None) return "a layer of first hits";
   if (variant.heatmap) return "the heat map";
   if (!has(variant.stages, Stage::Gi)) return "a stage before global illumination";
   if (variant.shadowCatcher) return "--shadow-catcher";

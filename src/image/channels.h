@@ -16,7 +16,7 @@ inline constexpr std::array kGuideChannels{"denoising.albedo.R", "denoising.albe
                                            "denoising.albedo.A", "denoising.normal.X", "denoising.normal.Y",
                                            "denoising.normal.Z", "denoising.depth.Z"};
 
-/// One observation of the variance (observedVariance() of film/noise.h).
+/// One observation of the variance (observedVariance() of render/film/noise.h).
 inline constexpr const char* kObservedChannel = "denoising.observed.Y";
 
 /// Returns true if 16-bit floats, with their 11 bits of precision up to 65504, suffice for a channel of that

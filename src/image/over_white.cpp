@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <glm/glm.hpp>
 
+#include "base/luminance.h"
 #include "image/channels.h"
-#include "math/luminance.h"
 
 namespace fragtrace {
 

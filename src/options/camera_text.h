@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 

@@ -2,7 +2,7 @@
 // Options that depend on others.
 #include <algorithm>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/format.h"
 #include "image/image.h"
 #include "options/choose.h"
@@ -57,10 +57,10 @@ void checkOutput(const RenderOptions& o, bool anyOutput) {
   const OutputOptions& out = o.output;
   if (!out.file.empty() && !isWritableImageName(out.file))
     throw UsageError("--output: '" + out.file.string() + "' ends in none of .png, .jpg, .exr, .hdr, .pfm");
-  const auto part = std::ranges::find_if(out.aovFeatures, isLightPart);
-  if (part != out.aovFeatures.end() && !has(o.stages, Stage::Gi))
+  const auto part = std::ranges::find_if(out.aovs, isLightAov);
+  if (part != out.aovs.end() && !has(o.stages, Stage::Gi))
     throw UsageError("--aov " + std::string(rowOf(*part).name) + ": only stage gi has it");
-  const bool hasLayers = !out.aovFeatures.empty() || out.aovSamples || out.aovVariance;
+  const bool hasLayers = !out.aovs.empty() || out.aovSamples || out.aovVariance;
   if (hasLayers && !anyOutput && formatOfName(out.file) != ImageFormat::OpenExr)
     throw UsageError("--aov: only .exr files hold more layers");
   if (out.treeLevel && !out.file.empty() && !isDisplayFormat(out.file))
@@ -104,7 +104,7 @@ void checkLightPaths(const RenderOptions& o) {
     throw UsageError("--caustics on: light paths cannot be clamped (--clamp-indirect)");
   if (o.light.shadowCatcher)
     throw UsageError("--caustics on: a shadow catcher shows no caustics (--shadow-catcher)");
-  if (std::ranges::any_of(o.output.aovFeatures, isLightPart))
+  if (std::ranges::any_of(o.output.aovs, isLightAov))
     throw UsageError("--caustics on: emission, diffuse and specular (--aov) would not add up to the picture");
 }
 
@@ -116,7 +116,7 @@ void checkReuse(const RenderOptions& o) {
   if (isAdaptive(o)) throw UsageError(refused + "--noise, --time: all pixels need as many samples");
   if (o.output.denoise != Denoise::None)
     throw UsageError(refused + "--denoise: a filter takes what pixels share for the picture");
-  if (std::ranges::any_of(o.output.aovFeatures, isLightPart))
+  if (std::ranges::any_of(o.output.aovs, isLightAov))
     throw UsageError(refused + "emission, diffuse, specular (--aov): they would not add up to the picture");
 }
 

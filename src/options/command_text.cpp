@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <utility>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "options/camera_text.h"
 #include "options/config_file.h"
 #include "options/option_table.h"

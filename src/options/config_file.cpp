@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/files/whole_file.h"
 #include "options/parse_words.h"
 

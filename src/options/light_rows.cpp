@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "options/option_table.h"
 #include "options/row_makers.h"
 #include "scene/blurred_map.h"

@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
-#include "stage/effect.h"
-#include "stage/render_options.h"
+#include "shader/effect.h"
+#include "shader/render_options.h"
 
 namespace CLI {
 class App;
@@ -28,7 +28,7 @@ enum class Renewal : uint8_t {
   Scene     ///< loadScene()
 };
 
-/// Which commands have an option.
+/// The commands that have an option.
 enum class OptionGroup : uint8_t {
   File,      ///< the scene and the picture, which each command declares by itself
   Tracing,   ///< all that trace

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "errors.h"
+#include "base/errors.h"
 
 namespace fragtrace {
 

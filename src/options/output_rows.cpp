@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/errors.h"
 #include "bvh/bvh.h"
-#include "errors.h"
 #include "options/option_table.h"
 #include "options/row_makers.h"
 
@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 5> kFormatNames{"png", "jpg", "exr", "hdr
 /// The layers of first hits come first, those of the film follow.
 std::vector<std::string> layerNames() {
   std::vector<std::string> names;
-  for (const FeatureRow& row : kFeatureRows) {
+  for (const AovRow& row : kAovRows) {
     if (!row.name.empty()) names.emplace_back(row.name);
   }
   names.insert(names.end(), {"samples", "variance"});
@@ -31,11 +31,10 @@ void chooseLayers(const std::vector<std::string>& names, OutputOptions& o) {
       o.aovSamples = true;
     } else if (name == "variance") {
       o.aovVariance = true;
-    } else if (const Feature feature = Feature(index + 1);
-               std::ranges::find(o.aovFeatures, feature) == o.aovFeatures.end()) {
-      o.aovFeatures.push_back(feature);
+    } else if (const auto aov = Aov(index + 1); std::ranges::find(o.aovs, aov) == o.aovs.end()) {
+      o.aovs.push_back(aov);
       // All that a filter needs.
-      if (feature == Feature::Guides) o.aovSamples = o.aovVariance = true;
+      if (aov == Aov::Guides) o.aovSamples = o.aovVariance = true;
     }
   }
 }
@@ -53,18 +52,18 @@ OptionRow layersRow() {
         ->allow_extra_args(false);
   };
   row.isDefault = [](const RenderOptions& o) {
-    return o.output.aovFeatures.empty() && !o.output.aovSamples && !o.output.aovVariance;
+    return o.output.aovs.empty() && !o.output.aovSamples && !o.output.aovVariance;
   };
   row.words = [](const RenderOptions& o) {
     std::string names;
     const auto add = [&](std::string_view name) { names += (names.empty() ? "" : ",") + std::string(name); };
-    for (const Feature feature : o.output.aovFeatures) add(rowOf(feature).name);
+    for (const Aov aov : o.output.aovs) add(rowOf(aov).name);
     if (o.output.aovSamples) add("samples");
     if (o.output.aovVariance) add("variance");
     return std::vector{names};
   };
   row.copy = [](RenderOptions& to, const RenderOptions& from) {
-    to.output.aovFeatures = from.output.aovFeatures;
+    to.output.aovs = from.output.aovs;
     to.output.aovSamples = from.output.aovSamples;
     to.output.aovVariance = from.output.aovVariance;
   };
@@ -155,7 +154,7 @@ OptionRow formatRow() {
 
 }  // namespace
 
-std::vector<OptionRow> outputRows() {
+std::vector<OptionRow> outputRows() {  // NOLINT(readability-function-size): a table
   constexpr OptionTraits kDisplay{.effect = Effect::Display};
   constexpr OptionTraits kSaid{.effect = Effect::Report, .copied = false, .kept = true};
   constexpr OptionTraits kOne{.effect = Effect::Report, .copied = false, .group = OptionGroup::Output};

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "options/option_row.h"
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace CLI {
 class App;

@@ -7,7 +7,7 @@
 #include <regex>
 #include <utility>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "options/suggestion.h"
 
 namespace fragtrace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "options/stage_names.h"
 
-#include "errors.h"
+#include "base/errors.h"
 #include "options/choose.h"
 
 namespace fragtrace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "stage/stage.h"
+#include "shader/stage.h"
 
 namespace fragtrace {
 

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "options/config_file.h"
 
 namespace fragtrace {

@@ -12,7 +12,7 @@ struct ViewOptions {
   bool watch = false;    ///< reload when the scene's files or the shaders change
   std::filesystem::path statusFile;
   std::filesystem::path reference;  ///< a picture that is shown as side B; empty: none
-  // Of measurements alone.
+  // For measurements alone.
   /// A picture in motion may take so long; 0: it has full resolution; none: the device decides.
   std::optional<double> movingMs{};
   bool waitsForPasses = false;  ///< so that each has its time

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "errors.h"
+#include "base/errors.h"
 #include "options/option_table.h"
 #include "options/row_makers.h"
 

@@ -6,8 +6,8 @@
 #include <glm/gtc/constants.hpp>
 #include <vector>
 
+#include "base/parallel.h"
 #include "pack/words.h"
-#include "process/parallel.h"
 
 namespace fragtrace {
 

@@ -16,12 +16,12 @@ constexpr int kQuadrature = 24;  // samples along each axis of the unit square
 /// Albedo under single scattering: the mean of G2 / G1 over visible normals.
 double albedo(double cosine, double alpha) {
   if (alpha <= 0.0) return 1.0;
-  return meanOverVisibleNormals(
-      cosine, alpha, kQuadrature, [alpha](const glm::dvec3& outgoing, const glm::dvec3& h) {
-        const glm::dvec3 incoming = 2.0 * glm::dot(outgoing, h) * h - outgoing;
-        const double before = 1.0 + smithLambda(outgoing, alpha);
-        return incoming.z > 0.0 ? before / (before + smithLambda(incoming, alpha)) : 0.0;
-      });
+  return meanOverVisibleNormals(cosine, alpha, kQuadrature,
+                                [alpha](const glm::dvec3& wo, const glm::dvec3& h) {
+                                  const glm::dvec3 wi = 2.0 * glm::dot(wo, h) * h - wo;
+                                  const double before = 1.0 + smithLambda(wo, alpha);
+                                  return wi.z > 0.0 ? before / (before + smithLambda(wi, alpha)) : 0.0;
+                                });
 }
 
 GgxEnergyTable makeTable() {

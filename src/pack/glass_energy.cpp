@@ -35,14 +35,14 @@ double reflectance(double cosine, double eta) {
 double glassAlbedo(double cosine, double alpha, double eta) {
   if (alpha <= 0.0) return 1.0;
   return meanOverVisibleNormals(
-      cosine, alpha, kSamplesASide, [alpha, eta](const glm::dvec3& outgoing, const glm::dvec3& h) {
-        const double before = 1.0 + smithLambda(outgoing, alpha);
-        const double oh = glm::dot(outgoing, h);
+      cosine, alpha, kSamplesASide, [alpha, eta](const glm::dvec3& wo, const glm::dvec3& h) {
+        const double before = 1.0 + smithLambda(wo, alpha);
+        const double oh = glm::dot(wo, h);
         const double reflected = reflectance(oh, eta);
-        const glm::dvec3 mirrored = 2.0 * oh * h - outgoing;
+        const glm::dvec3 mirrored = 2.0 * oh * h - wo;
         double kept = mirrored.z > 0.0 ? reflected * before / (before + smithLambda(mirrored, alpha)) : 0.0;
         const double refracted = std::sqrt(std::max(refractedSquared(oh, eta), 0.0));
-        const glm::dvec3 through = glm::normalize((oh - refracted) * h - outgoing);
+        const glm::dvec3 through = glm::normalize((oh - refracted) * h - wo);
         if (through.z < 0.0) kept += (1.0 - reflected) * before / (before + smithLambda(through, alpha));
         return kept;
       });

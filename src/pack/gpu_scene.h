@@ -11,7 +11,7 @@
 #include "image/image.h"
 #include "scene/scene.h"
 #include "shader/layout.h"
-#include "stage/variant.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 

@@ -125,8 +125,8 @@ double makeInversionTable(std::span<float> weights, std::span<InversionStep> ste
   const double scale = double(weights.size()) / double(count);
   for (size_t run = 0; run + 1 < runs.places.size(); ++run) {
     const double share = double(runs.numbers[run + 1] - runs.numbers[run]) * scale;
-    const auto density = float(share / double(runs.places[run + 1] - runs.places[run]));
-    for (uint32_t i = runs.places[run]; i < runs.places[run + 1]; ++i) weights[i] = density;
+    const auto pdf = float(share / double(runs.places[run + 1] - runs.places[run]));
+    for (uint32_t i = runs.places[run]; i < runs.places[run + 1]; ++i) weights[i] = pdf;
   }
   return sum;
 }

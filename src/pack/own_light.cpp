@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <glm/gtc/constants.hpp>
 
-#include "math/luminance.h"
+#include "base/luminance.h"
 #include "pack/pack_lights.h"
 #include "pack/pack_textures.h"
-#include "stage/variant.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 

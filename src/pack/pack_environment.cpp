@@ -9,12 +9,12 @@
 #include <numeric>
 #include <thread>
 
-#include "math/luminance.h"
+#include "base/luminance.h"
+#include "base/parallel.h"
 #include "pack/environment_light.h"
 #include "pack/inversion_table.h"
 #include "pack/pack_lights.h"
 #include "pack/words.h"
-#include "process/parallel.h"
 
 namespace fragtrace {
 
@@ -70,7 +70,7 @@ void storeSteps(std::span<uint32_t> words, std::span<const InversionStep> steps)
   std::memcpy(words.data(), steps.data(), steps.size_bytes());
 }
 
-void scaleDensities(std::span<uint32_t> texels, float factor) {
+void scalePdfs(std::span<uint32_t> texels, float factor) {
   for (size_t i = 3; i < texels.size(); i += 4)
     texels[i] = floatWord(std::bit_cast<float>(texels[i]) * factor);
 }
@@ -142,20 +142,20 @@ PackedEnvironment packEnvironment(const Image& image, EnvironmentDraws draws) {
   double sines = 0.0;
   for (int y = 0; y < image.height; ++y) sines += sineOfRow(image, y);
   const std::span<uint32_t> inversion(packed.inversion);
-  std::vector<float> densities(rows);
+  std::vector<float> pdfs(rows);
   const float level = draws == EnvironmentDraws::LightAndPaths ? levelOf(packed, sum / sines) : 0.0f;
   forEachRow(image.height, [&](int y) {
     const std::span<uint32_t> texels = texelsOf(y);
     std::vector<float> row = weightsOf(texels, level);
     std::vector<InversionStep> steps(stepCount);
-    densities[size_t(y)] = float(makeInversionTable(row, steps) / image.width * sineOfRow(image, y));
+    pdfs[size_t(y)] = float(makeInversionTable(row, steps) / image.width * sineOfRow(image, y));
     for (size_t x = 0; x < row.size(); ++x) texels[4 * x + 3] = floatWord(row[x]);
     storeSteps(inversion.subspan(rows * 4 + size_t(y) * stepWords, stepWords), steps);
   });
   std::vector<InversionStep> steps(rows);
-  makeInversionTable(densities, steps);
+  makeInversionTable(pdfs, steps);
   storeSteps(inversion.first(rows * 4), steps);
-  forEachRow(image.height, [&](int y) { scaleDensities(texelsOf(y), densities[size_t(y)]); });
+  forEachRow(image.height, [&](int y) { scalePdfs(texelsOf(y), pdfs[size_t(y)]); });
   return packed;
 }
 

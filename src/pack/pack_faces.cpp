@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "pack/pack_faces.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "errors.h"
+#include "base/errors.h"
+#include "pack/pack_instances.h"
 #include "pack/words.h"
 #include "scene/hit_error.h"
 
@@ -48,6 +50,16 @@ void appendInset(Words& words, const Scene& scene, uint32_t primitive) {
   words.back() = scene.insets.empty() ? 0u : scene.insets[primitive];
 }
 
+/// Triangles of a shared mesh have the number 0: their instances have numbers.
+uint32_t objectNumberOf(const Scene& scene, uint32_t primitive) {
+  if (primitive == kMissIndex) return 0;
+  if (primitive >= scene.triangles.size())
+    return scene.spheres[primitive - scene.triangles.size()].nodeIndex + 1;
+  if (primitive >= flatTriangleCount(scene)) return 0;
+  const auto after = std::ranges::upper_bound(scene.origins, primitive, {}, &PrimitiveOrigin::firstTriangle);
+  return std::prev(after)->nodeIndex + 1;
+}
+
 }  // namespace
 
 glm::vec4 planeOf(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2) {
@@ -80,6 +92,15 @@ Words packFaces(const Scene& scene, const Bvh& bvh, bool creases) {
   for (size_t slot = 0; creases && slot < slots; ++slot)
     appendInset(words, scene, bvh.leaves[slot / 2].primitive[slot % 2]);
   return words;
+}
+
+void appendObjectNumbers(const Scene& scene, const Bvh& bvh, Words& words) {
+  for (const BvhLeaf& leaf : bvh.leaves) {
+    for (const uint32_t primitive : leaf.primitive) words.push_back(objectNumberOf(scene, primitive));
+  }
+  if (!scene.instances.empty()) words.resize(words.size() + firstInstanceBlock(bvh));
+  for (const Instance& instance : scene.instances) words.push_back(instance.nodeIndex + 1);
+  words.resize((words.size() + 3) / 4 * 4);
 }
 
 }  // namespace fragtrace

@@ -14,4 +14,8 @@ glm::vec4 planeOf(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2)
 /// can name.
 Words packFaces(const Scene& scene, const Bvh& bvh, bool creases);
 
+/// Appends the numbers of the glTF nodes that show the primitives in leaf slots, and then those of instances:
+/// from 1 on, 0 where there is none, four a row (shaders/layout.glsl).
+void appendObjectNumbers(const Scene& scene, const Bvh& bvh, Words& words);
+
 }  // namespace fragtrace

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/norm.h"
+#include "base/norm.h"
 #include "pack/pack_tree.h"
 #include "pack/words.h"
 

@@ -8,7 +8,7 @@
 #include <glm/gtx/component_wise.hpp>
 #include <numeric>
 
-#include "math/luminance.h"
+#include "base/luminance.h"
 #include "pack/inversion_table.h"
 #include "pack/light_tree.h"
 #include "pack/words.h"
@@ -120,7 +120,7 @@ PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> mater
                             const ShaderVariant& variant) {
   const TraitSet& traits = variant.traits;
   PackedEmitters packed;
-  packed.materialDensity.assign(scene.materials.size(), 0.0);
+  packed.materialPdf.assign(scene.materials.size(), 0.0);
   std::vector<Emitter> emitters;
   if (has(traits, Trait::EmissiveTriangles)) appendEmissive(emitters, scene, materialRadiance, slots);
   if (has(traits, Trait::PunctualLights)) appendPunctual(emitters, scene.lights, radius);
@@ -150,7 +150,7 @@ PackedEmitters packEmitters(const Scene& scene, std::span<const glm::vec3> mater
     appendTree(packed.entries, emitters, bounds, slotCount);
   }
   for (size_t m = 0; m < scene.materials.size() && packed.power > 0.0; ++m) {
-    packed.materialDensity[m] = luminance(glm::dvec3(materialRadiance[m])) * kPi / packed.power;
+    packed.materialPdf[m] = luminance(glm::dvec3(materialRadiance[m])) * kPi / packed.power;
   }
   return packed;
 }

@@ -9,8 +9,8 @@ namespace fragtrace {
 struct PackedEmitters {
   Words entries;  ///< layout.glsl: emitters
   uint32_t count = 0;
-  double power = 0.0;                   ///< of all, watts of luminance
-  std::vector<double> materialDensity;  ///< by material: probability per square metre of its triangles
+  double power = 0.0;               ///< of all, watts of luminance
+  std::vector<double> materialPdf;  ///< by material: probability per square metre of its triangles
 };
 
 /// materialRadiance: mean radiance of each material's surface; slots: leaf slot of each triangle; slotCount:

@@ -14,13 +14,12 @@
 #include "pack/pack_grid.h"
 #include "pack/pack_instances.h"
 #include "pack/pack_lights.h"
-#include "pack/pack_objects.h"
 #include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
 #include "pack/sheen_albedo.h"
 #include "pack/words.h"
 #include "scene/casters.h"
-#include "stage/glass_tables.h"
+#include "shader/glass_tables.h"
 
 namespace fragtrace {
 
@@ -37,7 +36,7 @@ Words packVertices(size_t count, Row&& row) {
 void packAttributes(const Vertices& v, const TraitSet& traits, GpuScene& packed) {
   using namespace layout;
   const size_t count = v.position.size();
-  // A variant may read what the scene lacks (stage/forced_variants.h).
+  // A variant may read arrays that the scene lacks (fragtrace-bench variants).
   if (has(traits, Trait::VertexNormals)) {
     packed.buffers[kNormalsBinding] = packVertices(
         count, [&](size_t i) { return v.normal.empty() ? glm::vec4(0.0f) : glm::vec4(v.normal[i], 0.0f); });
@@ -118,7 +117,7 @@ void appendLayers(Words& words, const Material& m, TexturePacker& textures) {
   appendRow(words, glm::vec4(m.scattersThinly() ? m.scatterStrength : 0.0f, 0.0f, 0.0f, 0.0f));
 }
 
-void appendMaterial(Words& words, const Material& m, double unit, double emitterDensity, size_t glassTable,
+void appendMaterial(Words& words, const Material& m, double unit, double emitterPdf, size_t glassTable,
                     const TraitSet& traits, TexturePacker& textures) {
   const size_t first = words.size();
   appendRow(words, m.baseColorFactor);
@@ -126,7 +125,7 @@ void appendMaterial(Words& words, const Material& m, double unit, double emitter
   appendRow(words, glm::vec4(m.metallicFactor, m.roughnessFactor, m.ior, m.transmissionFactor));
   appendRow(words, m.specularColorFactor, m.specularFactor);
   appendRow(words, absorption(m, unit), m.thicknessFactor > 0.0f ? 1.0f + float(glassTable) : 0.0f);
-  appendRow(words, glm::vec3(m.normalScale, m.occlusionStrength, float(emitterDensity)), 0.0f);
+  appendRow(words, glm::vec3(m.normalScale, m.occlusionStrength, float(emitterPdf)), 0.0f);
   words.back() = materialFlags(m);
   appendRow(words, glm::vec4(m.perlinNormal.frequency, m.perlinNormal.amplitude,
                              float(m.perlinNormal.octaves), float(m.number)));
@@ -164,7 +163,7 @@ void appendEnergyTable(Words& words) {
   }
 }
 
-/// Of solids, each once: those that get a table.
+/// The indices of refraction of solids that get a table, each once.
 std::vector<float> indicesOfRoughGlass(const Scene& scene, const ShaderVariant& variant) {
   std::vector<float> indices;
   if (!usesGlassTables(variant)) return indices;
@@ -228,7 +227,7 @@ size_t GpuScene::geometryBytes() const {
 
 namespace {
 
-/// What the lights need to know of the packed map, which may stand on the device already.
+/// The properties of the packed map that the lights need. The map may be on the device already.
 KeptArrays::KeptEnvironment packMap(const Environment& environment, const ShaderVariant& variant,
                                     KeptArrays* kept, GpuScene& packed) {
   const EnvironmentDraws draws = drawsOf(variant);
@@ -319,7 +318,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
   const std::vector<float> glass = indicesOfRoughGlass(scene, variant);
   Words& materials = packed.buffers[kMaterialsBinding];
   for (size_t i = 0; i < scene.materials.size(); ++i) {
-    appendMaterial(materials, scene.materials[i], scene.space.unit, emitters.materialDensity[i],
+    appendMaterial(materials, scene.materials[i], scene.space.unit, emitters.materialPdf[i],
                    tableOf(glass, scene.materials[i]), traits, textures);
   }
   textures.appendTransforms(materials);

@@ -15,14 +15,14 @@ inline double smithLambda(const glm::dvec3& v, double alpha) {
   return 0.5 * (std::sqrt(1.0 + alpha * alpha * tangentSquared) - 1.0);
 }
 
-/// The mean of valueOf(outgoing, half vector) over the visible normals (Dupuy and Benyoub, Sampling Visible
+/// The mean of valueOf(wo, half vector) over the visible normals (Dupuy and Benyoub, Sampling Visible
 /// GGX Normals with Spherical Caps, 2023), seen at `cosine`, by samplesASide x samplesASide of them; alpha is
 /// above 0. The value must be even about the plane of the normal and the viewer.
 template <typename Value>
 double meanOverVisibleNormals(double cosine, double alpha, int samplesASide, const Value& valueOf) {
   const double mu = std::max(cosine, 1e-4);
-  const glm::dvec3 outgoing(std::sqrt(1.0 - mu * mu), 0.0, mu);
-  const glm::dvec3 stretched = glm::normalize(glm::dvec3(alpha * outgoing.x, 0.0, outgoing.z));
+  const glm::dvec3 wo(std::sqrt(1.0 - mu * mu), 0.0, mu);
+  const glm::dvec3 stretched = glm::normalize(glm::dvec3(alpha * wo.x, 0.0, wo.z));
   double sum = 0.0;
   for (int a = 0; a < samplesASide; ++a) {
     const double phi = glm::pi<double>() * (a + 0.5) / samplesASide;  // half of the circle
@@ -34,8 +34,7 @@ double meanOverVisibleNormals(double cosine, double alpha, int samplesASide, con
       const double z = (1.0 - (b + shift) / samplesASide) * (1.0 + stretched.z) - stretched.z;
       const double sine = std::sqrt(std::max(0.0, 1.0 - z * z));
       const glm::dvec3 cap = glm::dvec3(sine * std::cos(phi), sine * std::sin(phi), z) + stretched;
-      sum +=
-          valueOf(outgoing, glm::normalize(glm::dvec3(alpha * cap.x, alpha * cap.y, std::max(cap.z, 1e-12))));
+      sum += valueOf(wo, glm::normalize(glm::dvec3(alpha * cap.x, alpha * cap.y, std::max(cap.z, 1e-12))));
     }
   }
   return sum / (samplesASide * samplesASide);

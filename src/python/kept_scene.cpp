@@ -4,11 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <limits>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "options/config_file.h"
 #include "options/option_row.h"
 #include "options/parse_words.h"
-#include "picture/denoising.h"
+#include "session/picture/denoising.h"
 
 namespace fragtrace {
 

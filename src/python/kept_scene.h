@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "picture/finished_picture.h"
 #include "python/draw_thread.h"
+#include "session/picture/finished_picture.h"
 
 namespace fragtrace {
 

@@ -13,15 +13,15 @@
 #include <memory>
 #include <thread>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
 #include "image/display/tone_map.h"
 #include "image/image.h"
 #include "options/choose.h"
 #include "options/parse_render.h"
-#include "picture/joined_parts.h"
 #include "python/kept_scene.h"
+#include "session/picture/joined_parts.h"
 
 namespace nb = nanobind;
 

@@ -5,8 +5,8 @@
 
 #include <array>
 
-#include "film/checkpoint.h"
-#include "film/noise.h"
+#include "render/film/checkpoint.h"
+#include "render/film/noise.h"
 #include "render/renderer.h"
 
 namespace fragtrace {

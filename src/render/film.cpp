@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <stdexcept>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/channels.h"
 #include "render/picture_texture.h"
 #include "shader/layout.h"

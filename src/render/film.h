@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "film/checkpoint.h"
-#include "film/film_pixels.h"
 #include "gl/gl.h"
+#include "render/film/checkpoint.h"
+#include "render/film/film_pixels.h"
 
 namespace fragtrace {
 

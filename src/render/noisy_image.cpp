@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/channels.h"
 
 namespace fragtrace {

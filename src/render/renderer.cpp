@@ -9,7 +9,7 @@
 #include <cstring>
 #include <deque>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "render/draw_plan.h"
 
 namespace fragtrace {
@@ -105,16 +105,17 @@ void Renderer::replaceScene(GpuScene scene) {
 void Renderer::describeScene(const GpuScene& scene) {
   frame_.gridOrigin = glm::vec4(scene.grid.origin, 0.0f);
   frame_.gridCell = glm::vec4(scene.grid.cell, 0.0f);
-  frame_.environment = glm::vec4(scene.environmentSize, 1.0f, 0.0f);
+  frame_.environmentSize = scene.environmentSize;
   lightShare_ = scene.lightShare;
   casters_ = scene.casters;
   grid_ = scene.densities;
-  frame_.lightChoice =
-      glm::vec4(0.0f, float(scene.emitterCount), float(scene.energyTableRow), float(scene.punctualLights));
-  frame_.limits = {0, 0, 0, int(scene.leafCount)};
-  frame_.catcherLight = glm::vec4(scene.upwardIrradiance, 0.0f);
-  frame_.sampling.w = int(scene.objectRow);
-  frame_.part = {0, 0, scene.backdropSize};
+  frame_.emitterCount = float(scene.emitterCount);
+  frame_.energyRow = float(scene.energyTableRow);
+  frame_.punctualCount = float(scene.punctualLights);
+  frame_.leafCount = int(scene.leafCount);
+  frame_.catcherIrradiance = scene.upwardIrradiance;
+  frame_.objectRow = int(scene.objectRow);
+  frame_.backdropSize = scene.backdropSize;
 }
 
 void Renderer::setFrame(const Film& film, const View& view) {
@@ -123,29 +124,30 @@ void Renderer::setFrame(const Film& film, const View& view) {
   const glm::dvec2 half = halfExtents(camera, view.space.unit, placed.whole);
   const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
   const glm::dvec3 up = glm::cross(right, camera.forward);
-  frame_.cameraPosition =
-      glm::vec4(glm::vec3(view.space.localOf(camera.position)), camera.perspective ? 0.0f : 1.0f);
-  frame_.cameraRight = glm::vec4(glm::vec3(right * half.x), view.firstInMiddle ? 1.0f : 0.0f);
-  frame_.cameraUp =
-      glm::vec4(glm::vec3(up * half.y), view.cameraMedium ? float(*view.cameraMedium + 1) : 0.0f);
-  frame_.cameraForward = glm::vec4(glm::vec3(camera.forward), float(view.space.unit));
-  frame_.background = glm::vec4(view.background, view.seesNothing ? -1.0f : float(view.showEnvironment));
-  frame_.environment.z = float(std::cos(view.hdriRotation));
-  frame_.environment.w = float(std::sin(view.hdriRotation));
+  frame_.cameraPosition = view.space.localOf(camera.position);
+  frame_.orthographic = camera.perspective ? 0.0f : 1.0f;
+  frame_.cameraRight = right * half.x;
+  frame_.firstInMiddle = view.firstInMiddle ? 1.0f : 0.0f;
+  frame_.cameraUp = up * half.y;
+  frame_.cameraMedium = view.cameraMedium ? float(*view.cameraMedium + 1) : 0.0f;
+  frame_.cameraForward = camera.forward;
+  frame_.metresPerUnit = float(view.space.unit);
+  frame_.background = view.background;
+  frame_.backgroundShows = view.seesNothing ? -1.0f : float(view.showEnvironment);
+  frame_.environmentRotation = glm::dvec2(std::cos(view.hdriRotation), std::sin(view.hdriRotation));
   frame_.lens = glm::vec4(float(view.lens.radius / view.space.unit),
                           float(view.lens.focusDistance / view.space.unit), float(view.lens.blades), 0.0f);
-  frame_.catcherLight.w = float(view.hdriIntensity);
-  frame_.lightChoice.x = environmentChance(lightShare_, view.hdriIntensity);
-  frame_.picture = {placed.whole, 0, int(view.seed)};
-  frame_.limits.x = view.bounces;
-  frame_.limits.y = view.rouletteDepth;
-  frame_.sampling.x = view.sampleOffset;
-  frame_.sampling.y = std::bit_cast<int>(view.clampIndirect);
-  frame_.sampling.z = 0;
-  frame_.part.x = placed.corner.x;
-  frame_.part.y = placed.whole.y - placed.corner.y - film.size().y;
-  const glm::dvec3& origin = view.space.origin;
-  frame_.worldOrigin = glm::vec4(glm::vec3(origin), float((view.catcherHeight - origin.y) / view.space.unit));
+  frame_.environmentScale = float(view.hdriIntensity);
+  frame_.environmentChance = environmentChance(lightShare_, view.hdriIntensity);
+  frame_.pictureSize = placed.whole;
+  frame_.seed = int(view.seed);
+  frame_.maxBounces = view.bounces;
+  frame_.rouletteDepth = view.rouletteDepth;
+  frame_.firstSample = view.sampleOffset;
+  frame_.clampBits = std::bit_cast<int>(view.clampIndirect);
+  frame_.filmOffset = {placed.corner.x, placed.whole.y - placed.corner.y - film.size().y};
+  frame_.worldOrigin = view.space.origin;
+  frame_.catcherHeight = float((view.catcherHeight - view.space.origin.y) / view.space.unit);
 }
 
 DrawTarget Renderer::begin(const RenderPass& pass) {
@@ -199,7 +201,7 @@ void Renderer::useProgram(const ShaderVariant& variant) {
 }
 
 void Renderer::bindPathStates(const ShaderVariant& variant) {
-  const bool part = isLightPart(variant.feature) || variant.lightPaths;
+  const bool part = isLightAov(variant.aov) || variant.lightPaths;
   const int rows = int(layout::kPathRows) + 1 + variant.stackSize / 4 + (part ? 1 : 0);
   const int64_t count =
       variant.wavefront ? int64_t(kMaxWaveLanes) * layout::kWaveLaneRows : int64_t(kMaxTilePixels) * rows;
@@ -237,10 +239,10 @@ Renderer::Flight Renderer::submit(const ShaderVariant& variant, const Work& tile
   Flight flight{tile, flights_++ % kMostInFlight, software_ ? GlQuery() : makeQuery(GL_TIME_ELAPSED), nullptr,
                 Clock::now()};
   frame_.tile = {tile.corner, tile.size};
-  frame_.picture.z = tile.to;
-  frame_.sampling.z = goesOn ? 1 : 0;
-  frame_.limits.z = stepBudget(variant);
-  uploadFrame(offsetof(layout::Frame, picture), offsetof(layout::Frame, part));
+  frame_.samplesWanted = tile.to;
+  frame_.tileGoesOn = goesOn ? 1 : 0;
+  frame_.stepBudget = stepBudget(variant);
+  uploadFrame(offsetof(layout::Frame, pictureSize), offsetof(layout::Frame, filmOffset));
   glViewport(tile.corner.x, tile.corner.y, tile.size.x, tile.size.y);
   glClearNamedBufferData(progressBuffer_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
   if (!software_) glBeginQuery(GL_TIME_ELAPSED, flight.timer.name());

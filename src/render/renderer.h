@@ -19,7 +19,7 @@
 #include "render/film.h"
 #include "scene/fog.h"
 #include "scene/volume/grid.h"
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 

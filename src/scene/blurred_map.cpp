@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>
 
-#include "process/parallel.h"
+#include "base/parallel.h"
 #include "scene/map_filter.h"
 
 namespace fragtrace {

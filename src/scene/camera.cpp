@@ -6,9 +6,9 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "errors.h"
-#include "math/count_text.h"
-#include "math/finite.h"
+#include "base/count_text.h"
+#include "base/errors.h"
+#include "base/finite.h"
 #include "scene/parts.h"
 
 namespace fragtrace {

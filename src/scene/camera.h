@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "math/bounds.h"
+#include "base/bounds.h"
 #include "scene/scene.h"
 
 namespace fragtrace {

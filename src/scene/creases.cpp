@@ -8,7 +8,7 @@
 #include <cmath>
 #include <thread>
 
-#include "process/parallel.h"
+#include "base/parallel.h"
 #include "scene/hit_error.h"
 
 namespace fragtrace {

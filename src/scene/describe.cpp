@@ -42,19 +42,12 @@ SceneDescription describe(const Scene& scene) {
     result.texelBytes += texelBytes(image);
   }
   if (scene.volume.grid) result.volumeBricks = scene.volume.grid->values.size() / kBrickVoxels;
-  for (const Light& light : scene.lights) {
-    switch (light.type) {
-      case LightType::Point:
-        ++result.pointLights;
-        break;
-      case LightType::Spot:
-        ++result.spotLights;
-        break;
-      case LightType::Directional:
-        ++result.directionalLights;
-        break;
-    }
-  }
+  const auto lights = [&scene](LightType type) {
+    return size_t(std::ranges::count(scene.lights, type, &Light::type));
+  };
+  result.pointLights = lights(LightType::Point);
+  result.spotLights = lights(LightType::Spot);
+  result.directionalLights = lights(LightType::Directional);
   for (const Camera& camera : scene.cameras) {
     ++(camera.perspective ? result.perspectiveCameras : result.orthographicCameras);
   }

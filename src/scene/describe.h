@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "math/bounds.h"
+#include "base/bounds.h"
 #include "scene/scene.h"
 
 namespace fragtrace {
@@ -26,8 +26,8 @@ struct SceneDescription {
   size_t materials = 0;
   size_t textures = 0;
   size_t images = 0;
-  size_t imageBytes = 0;  ///< encoded
-  size_t texelBytes = 0;  ///< decoded, on the device
+  size_t imageBytes = 0;    ///< encoded
+  size_t texelBytes = 0;    ///< decoded, on the device
   size_t volumeBricks = 0;  ///< that are stored
   size_t pointLights = 0;
   size_t spotLights = 0;

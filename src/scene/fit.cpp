@@ -7,7 +7,7 @@
 #include <glm/gtc/constants.hpp>
 #include <limits>
 
-#include "math/bounds.h"
+#include "base/bounds.h"
 #include "scene/projection.h"
 
 namespace fragtrace {

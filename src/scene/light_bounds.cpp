@@ -6,7 +6,7 @@
 #include <glm/gtc/constants.hpp>
 #include <utility>
 
-#include "math/luminance.h"
+#include "base/luminance.h"
 
 namespace fragtrace {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "math/luminance.h"
+#include "base/luminance.h"
 #include "scene/light_bounds.h"
 
 namespace fragtrace {

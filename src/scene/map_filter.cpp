@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "process/parallel.h"
+#include "base/parallel.h"
 
 namespace fragtrace {
 

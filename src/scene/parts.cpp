@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "errors.h"
+#include "base/errors.h"
 
 namespace fragtrace {
 

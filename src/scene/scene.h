@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "math/bounds.h"
+#include "base/bounds.h"
 #include "scene/volume/grid.h"
 
 namespace fragtrace {
@@ -137,7 +137,7 @@ struct Material {
   float diffuseTransmissionFactor = 0.0f;
   glm::vec3 diffuseTransmissionColorFactor{1.0f};
   float dispersion = 0.0f;  ///< 20 over the Abbe number
-  /// Of KHR_materials_scatter. A solid scatters inside; a thin wall, where the light comes through.
+  /// KHR_materials_scatter. A solid scatters inside; a thin wall scatters the light that comes through.
   float scatterStrength = 0.0f;
   glm::vec3 multiscatterColor{1.0f};  ///< albedo of a thick layer, all scatterings counted
   float scatterAnisotropy = 0.0f;     ///< mean cosine of a scattering; above 0 forward

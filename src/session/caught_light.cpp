@@ -5,7 +5,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtx/rotate_vector.hpp>
 
-#include "math/luminance.h"
+#include "base/luminance.h"
 #include "pack/environment_light.h"
 
 namespace fragtrace {

@@ -6,11 +6,11 @@
 
 #include "pack/gpu_scene.h"
 #include "scene/shadow_outline.h"
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 
-/// Whether the camera is to be moved until the shadow on the catcher is in the picture, too.
+/// Returns true if the camera is to be moved until the shadow on the catcher is in the picture, too.
 inline bool fitsShadow(const RenderOptions& options, const CameraOverrides& overrides) {
   return overrides.fit && options.light.shadowCatcher && has(options.stages, Stage::Gi);
 }

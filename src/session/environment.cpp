@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "errors.h"
-#include "math/count_text.h"
+#include "base/count_text.h"
+#include "base/errors.h"
 #include "scene/blurred_map.h"
 #include "scene/studio.h"
 #include "session/say.h"

@@ -9,7 +9,7 @@
 #include "image/image.h"
 #include "pack/gpu_scene.h"
 #include "pack/own_light.h"
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 
@@ -21,7 +21,7 @@ LinearImage readMap(const RenderOptions& options);
 Environment makeEnvironment(const RenderOptions& options, std::future<LinearImage>& map, OwnLight light,
                             std::vector<std::string>& warnings);
 
-/// Whether the scene has a light of its own, as far as the options let that count.
+/// Tells if the scene has a light of its own that the options let count.
 OwnLight lightOf(const RenderOptions& options, const Scene& scene);
 
 }  // namespace fragtrace

@@ -8,7 +8,7 @@
 #include <ctime>
 #include <string_view>
 
-#include "process/report.h"
+#include "base/report.h"
 
 namespace fragtrace {
 

@@ -14,8 +14,8 @@ void countInterrupts();
 /// The same, but the second ends the program with status 130 at once.
 void countOneInterrupt();
 
-/// How often the program was interrupted: once means stop and write what is finished, more means write
-/// nothing. In a thread with an InterruptSource: what that counts.
+/// The number of interruptions of the program: one means stop and write what is finished, more mean write
+/// nothing. In a thread with an InterruptSource it is that source's number.
 int interrupts();
 
 /// While it lives, interrupts() of the thread that made it are counted there and not by signals: for

@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/files/whole_file.h"
 #include "image/format.h"
 

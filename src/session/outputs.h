@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/scene.h"
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 
@@ -18,7 +18,7 @@ struct NamedOutput {
   bool orStandardOutput = false;  ///< which is what "-" means there
 };
 
-/// Whether a path means standard output where an option has it so.
+/// Returns true if a path means standard output, for options that allow it.
 bool isStandardOutput(const std::filesystem::path& path);
 
 /// Before long work: throws RenderError when an output cannot be written, UsageError when one is a file that
@@ -33,13 +33,13 @@ void replaceText(const std::filesystem::path& path, const std::string& text);
 std::vector<std::filesystem::path> inputsOf(const RenderOptions& options);
 /// Those pictures, once the scene is loaded.
 std::vector<std::filesystem::path> inputsOf(const Scene& scene);
-/// Whether what becomes of a picture holds layers and attributes: an .exr, or memory where no file is named.
+/// Returns true if the output holds layers and attributes: an .exr, or memory if no file is named.
 bool holdsLayers(const RenderOptions& options);
 /// OUTPUT.checkpoint.
 std::filesystem::path checkpointOf(const std::filesystem::path& output);
-/// Whether a render that is stopped leaves one.
+/// Returns true if a render that is stopped leaves a checkpoint.
 bool keepsCheckpoint(const RenderOptions& options);
-/// What a render writes.
+/// The files that a render writes.
 std::vector<NamedOutput> outputsOf(const RenderOptions& options);
 
 }  // namespace fragtrace

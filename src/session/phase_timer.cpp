@@ -5,7 +5,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "process/report.h"
+#include "base/report.h"
 
 namespace fragtrace {
 

@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "errors.h"
-#include "film/film_pixels.h"
+#include "base/errors.h"
 #include "image/channels.h"
+#include "render/film/film_pixels.h"
 
 namespace fragtrace {
 
@@ -20,7 +20,7 @@ uint64_t bytesOfFilm(const RenderOptions& options) {
   constexpr uint64_t kWithLayers = kOne + 48 + sizeof(FilmPixel);
   constexpr uint64_t kAdaptive = kOne + 96 + 2 * sizeof(FilmPixel) + 2 * sizeof(double);
   if (isAdaptive(options)) return kAdaptive;
-  return options.output.aovFeatures.empty() ? kOne : kWithLayers;
+  return options.output.aovs.empty() ? kOne : kWithLayers;
 }
 
 /// A pixel of what is filtered. Textures, what two of them are made of, the film as it was on the way, the
@@ -50,8 +50,8 @@ uint64_t pixelsOf(glm::ivec2 size) { return uint64_t(size.x) * uint64_t(size.y);
 size_t channelsOf(const RenderOptions& options) {
   size_t channels = 3 + size_t(!options.light.background) + size_t(options.output.aovSamples) +
                     size_t(options.output.aovVariance);
-  for (const Feature feature : options.output.aovFeatures)
-    channels += feature == Feature::Guides ? kGuideChannels.size() + 1 : rowOf(feature).channels.size();
+  for (const Aov aov : options.output.aovs)
+    channels += aov == Aov::Guides ? kGuideChannels.size() + 1 : rowOf(aov).channels.size();
   if (options.output.denoise != Denoise::None) channels += 3;  // the noisy picture
   return channels;
 }

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 
-/// Of the picture that the options ask for, as an .exr holds it; an upper bound for other formats.
+/// The number of channels of the picture in an .exr; an upper bound for other formats.
 size_t channelsOf(const RenderOptions& options);
 
 /// Throws UsageError where the film of a picture of that size would take more than --memory-limit.

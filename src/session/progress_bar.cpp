@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "process/report.h"
+#include "base/report.h"
 
 namespace fragtrace {
 

@@ -8,7 +8,7 @@
 namespace fragtrace {
 
 /// Shows on stderr how far work has come: a bar with the time left on a terminal, a line each 10 % otherwise,
-/// nothing when quiet; events of the type "progress" where JSON is told (process/report.h).
+/// nothing when quiet; events of the type "progress" where JSON is told (base/report.h).
 class ProgressBar {
  public:
   /// `samples` per pixel are the whole of the work, as far as that is known.

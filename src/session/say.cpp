@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "process/report.h"
+#include "base/report.h"
 
 namespace fragtrace {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "gltf/gltf.h"
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 

@@ -7,23 +7,23 @@
 #include <future>
 #include <iterator>
 
+#include "base/count_text.h"
+#include "base/errors.h"
+#include "base/parallel.h"
 #include "bvh/large_first.h"
 #include "bvh/two_level.h"
-#include "errors.h"
 #include "gl/driver_choice.h"
 #include "gl/schedule.h"
 #include "gltf/gltf.h"
 #include "image/files/process.h"
 #include "image/format.h"
 #include "image/image.h"
-#include "math/count_text.h"
 #include "options/option_row.h"
 #include "options/vain_options.h"
 #include "pack/literals.h"
 #include "pack/own_light.h"
 #include "pack/pack_textures.h"
 #include "pack/pack_tree.h"
-#include "process/parallel.h"
 #include "scene/blurred_map.h"
 #include "scene/first_view.h"
 #include "scene/fit.h"
@@ -140,7 +140,7 @@ GltfOptions gltfOptionsOf(const RenderOptions& options) {
 
 namespace {
 
-/// What a shadow catcher cannot do with the scene's lights.
+/// Warns of lights of the scene that a shadow catcher cannot show.
 void checkCatcher(const RenderOptions& options, Scene& scene) {
   constexpr size_t kMostLights = 1000;  // it asks each of them at every point
   if (!options.light.shadowCatcher) return;
@@ -180,6 +180,30 @@ void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& s
       stats.defaultLightReason +
           (studio ? ": the built-in studio lights it (--default-light)"
                   : ": a white environment that the camera does not see lights it (--default-light)"));
+}
+
+/// Says the warnings of the scene, with those about options in vain.
+void sayWarnings(const RenderOptions& options, Scene& scene) {
+  std::ranges::move(vainOptions(options), std::back_inserter(scene.warnings));
+  for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
+  if (scene.triangles.empty() && scene.spheres.empty() && !scene.volume.grid) {
+    const bool hidden = !options.selection.hiddenNodes.empty();
+    say(options, "warning: " + options.scene.string() + ": no triangle, sphere, point or line: " +
+                     (hidden ? "--hide leaves nothing to draw" : "nothing to draw"));
+  }
+}
+
+/// The tree: an earlier one refitted, if it fits the scene, or a new one.
+Bvh refitOrBuild(const RefittableTree* earlier, const Scene& scene, const RenderOptions& options,
+                 Statistics& stats) {
+  PhaseTimer timer("tree");
+  std::optional<Bvh> tree;
+  if (earlier != nullptr) tree = refitted(*earlier, scene);
+  stats.treeRefitted = tree.has_value();
+  Bvh bvh = tree ? std::move(*tree) : buildTree(scene, options);
+  stats.phases.push_back(timer.end());
+  stats.bvh = bvhQuality(bvh);
+  return bvh;
 }
 
 }  // namespace
@@ -258,22 +282,10 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   addStrokes(loaded.scene, loaded.camera, loaded.size.y, options.camera.lineWidth);
   checkCatcher(options, loaded.scene);
   checkCatcherPlace(options, loaded.scene);
-  std::ranges::move(vainOptions(options), std::back_inserter(loaded.scene.warnings));
-  for (const std::string& warning : scene.warnings) say(options, "warning: " + warning);
-  if (scene.triangles.empty() && scene.spheres.empty() && !scene.volume.grid) {
-    const bool hidden = !options.selection.hiddenNodes.empty();
-    say(options, "warning: " + options.scene.string() + ": no triangle, sphere, point or line: " +
-                     (hidden ? "--hide leaves nothing to draw" : "nothing to draw"));
-  }
+  sayWarnings(options, loaded.scene);
   stats.loadMs = watch.lap();
   step("building the tree", 0.5);
-  PhaseTimer treeTimer("tree");
-  std::optional<Bvh> tree;
-  if (before.tree != nullptr) tree = refitted(*before.tree, scene);
-  stats.treeRefitted = tree.has_value();
-  loaded.bvh = tree ? std::move(*tree) : buildTree(scene, options);
-  stats.phases.push_back(treeTimer.end());
-  stats.bvh = bvhQuality(loaded.bvh);
+  loaded.bvh = refitOrBuild(before.tree, scene, options, stats);
   stats.bvhBuildMs = watch.lap();
   step("reading the environment", 0.9);
   if (!early) settleEnvironment();

@@ -12,7 +12,7 @@
 #include "render/renderer.h"
 #include "session/say.h"
 #include "session/statistics.h"
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 
@@ -34,10 +34,10 @@ struct LoadedScene {
 /// that is behind, 0..1; what it throws ends loading.
 using LoadProgress = GltfProgress;
 
-/// Whether one film is to hold all of a picture, or only a part at a time (picture/picture_parts.h).
+/// One film holds all of a picture, or a part at a time (session/picture/picture_parts.h).
 enum class FilmOf : uint8_t { Picture, Part };
 
-/// What the scene of one picture of an animation leaves to the next; each may be none.
+/// Results that one picture of an animation leaves to the next; each may be none.
 struct SceneBefore {
   Environment* environment =
       nullptr;  ///< the map of the options; it is moved into the next scene, if there is one
@@ -78,17 +78,17 @@ void addShadow(std::vector<glm::dvec3>& points, const Scene& scene, const Enviro
 /// Camera paths that the picture takes; infinite where time or noise ends it.
 double pathsOf(const RenderOptions& options, glm::ivec2 size);
 
-/// What of the options needs neither another program nor other buffers.
+/// Returns the part of the options that needs neither another program nor other buffers.
 View makeView(const RenderOptions& options, const LoadedScene& loaded, const Camera& camera);
 
 /// The tree of the options' traversal. The iterative one needs none; where it is chosen for them, the largest
 /// triangles stand beside it when that pays.
 Bvh buildTree(const Scene& scene, const RenderOptions& options);
 
-/// Whether buildTree() builds the same for both.
+/// Returns true if buildTree() builds the same for both.
 bool sameTree(const RenderOptions& a, const RenderOptions& b);
 
-/// Whether the built-in environment lights it, asked for or by default.
+/// Returns true if the built-in environment lights the scene, asked for or by default.
 bool isInStudio(const RenderOptions& options, const LoadedScene& loaded);
 
 /// Frees what only packing needs: triangles, vertices, pictures, the tree. For front ends that pack once.

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "math/summary.h"
+#include "base/summary.h"
 #include "session/scene_json.h"
 
 namespace fragtrace {
@@ -48,6 +48,20 @@ nlohmann::ordered_json denoiseJson(const DenoiseStatistics& denoise) {
   return json;
 }
 
+/// Appends the ways in which light was sampled.
+void addLighting(nlohmann::ordered_json& json, const Statistics& s) {
+  if (s.clampIndirect > 0.0) json["clamp_indirect"] = s.clampIndirect;
+  if (!s.lightSelection.empty()) {
+    json["light_selection"] = s.lightSelection;
+    json["light_selection_reason"] = s.lightSelectionReason;
+  }
+  if (!s.lightReuse.empty()) json["light_reuse"] = s.lightReuse;
+  if (!s.lightPathReason.empty()) {
+    json["caustics"] = {
+        {"light_paths", s.film.lightPaths}, {"casters", s.casters}, {"reason", s.lightPathReason}};
+  }
+}
+
 }  // namespace
 
 double megaPathsPerSecond(const Statistics& s) {
@@ -84,16 +98,7 @@ std::string statisticsText(const Statistics& s) {
         {"share_under_noise", s.adaptive->known ? s.adaptive->share : 0.0},
         {"rounds", s.adaptive->rounds}};
   }
-  if (s.clampIndirect > 0.0) json["clamp_indirect"] = s.clampIndirect;
-  if (!s.lightSelection.empty()) {
-    json["light_selection"] = s.lightSelection;
-    json["light_selection_reason"] = s.lightSelectionReason;
-  }
-  if (!s.lightReuse.empty()) json["light_reuse"] = s.lightReuse;
-  if (!s.lightPathReason.empty()) {
-    json["caustics"] = {
-        {"light_paths", s.film.lightPaths}, {"casters", s.casters}, {"reason", s.lightPathReason}};
-  }
+  addLighting(json, s);
   if (s.featureMs > 0.0) json["feature_ms"] = s.featureMs;
   if (s.denoise) json["denoise"] = denoiseJson(*s.denoise);
   json["width"] = s.size.x;

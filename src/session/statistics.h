@@ -5,15 +5,15 @@
 #include <string>
 
 #include "bvh/bvh.h"
-#include "film/film_pixels.h"
 #include "gl/context.h"
+#include "render/film/film_pixels.h"
 #include "render/renderer.h"
 #include "scene/describe.h"
 #include "session/phase_timer.h"
 
 namespace fragtrace {
 
-/// Of a render with --noise or --time.
+/// Statistics of a render with --noise or --time.
 struct AdaptiveStatistics {
   double noise = 0.0;    ///< asked for; 0: none
   double seconds = 0.0;  ///< asked for; 0: none
@@ -24,7 +24,7 @@ struct AdaptiveStatistics {
   bool black = false;  ///< no light was found
 };
 
-/// Of a render with --denoise.
+/// Statistics of a render with --denoise.
 struct DenoiseStatistics {
   std::string filter;      ///< and its version; empty: none ran
   std::string skipped;     ///< why none ran
@@ -34,7 +34,7 @@ struct DenoiseStatistics {
   double loadMs = 0.0;     ///< that opening the library took
 };
 
-/// What `--stats` writes about one render; the JSON's keys are the names here.
+/// The contents of `--stats` for one render; the JSON's keys are the names here.
 struct Statistics {
   SceneDescription scene;
   BvhQuality bvh;
@@ -84,7 +84,7 @@ std::string statisticsText(const Statistics& statistics);
 
 double megaPathsPerSecond(const Statistics& statistics);
 double samplesPerPixel(const Statistics& statistics);
-/// What --bounces has cut of a camera path's throughput, on average (docs/design/conventions.md).
+/// The mean share of a camera path's throughput that --bounces has cut (docs/design/conventions.md).
 double cutShare(const Statistics& statistics);
 
 }  // namespace fragtrace

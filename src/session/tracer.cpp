@@ -6,17 +6,17 @@
 #include <iomanip>
 #include <sstream>
 
-#include "errors.h"
+#include "base/errors.h"
+#include "base/hash.h"
+#include "base/parallel.h"
 #include "gl/driver_choice.h"
 #include "gl/schedule.h"
-#include "math/hash.h"
 #include "pack/literals.h"
 #include "pack/pack_textures.h"
-#include "process/parallel.h"
 #include "scene/light_spread.h"
 #include "session/outputs.h"
 #include "session/say.h"
-#include "stage/glass_tables.h"
+#include "shader/glass_tables.h"
 
 namespace fragtrace {
 
@@ -26,7 +26,7 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
     variant.literals = largeFirst(loaded.scene, loaded.bvh, variant);
     return;
   }
-  if (variant.feature != Feature::None && !isLightPart(variant.feature)) return;
+  if (variant.aov != Aov::None && !isLightAov(variant.aov)) return;
   const bool asked = options.device.traversal == TraversalMethod::Literals;
   if (variant.heatmap) {
     if (asked) throw UsageError("--traversal literals: has no tree whose nodes the heat map could count");
@@ -44,7 +44,8 @@ void useLiterals(const LoadedScene& loaded, const GpuScene& packed, const Render
 
 namespace {
 
-/// What the packed scene and the driver decide of a picture's variant. Returns why the megakernel draws.
+/// Settles the parts of a picture's variant that the packed scene and the driver decide. Returns why the
+/// megakernel draws.
 std::string settleVariant(ShaderVariant& variant, const LoadedScene& loaded, const GpuScene& packed,
                           const RenderOptions& options, const Context& context, BufferReads reads) {
   useLiterals(loaded, packed, options, variant);
@@ -109,7 +110,7 @@ RenderOptions asDrawn(const RenderOptions& options, const TraitSet& present) {
   return able;
 }
 
-/// Whether light paths, which the scene has, give way to another option.
+/// Returns true if light paths, which the scene has, give way to another option.
 bool lightPathsGiveWay(const ShaderVariant& variant, const TraitSet& present, const RenderOptions& options) {
   return options.light.caustics == Caustics::Auto && !whyNoLightPaths(options).empty() &&
          has(present, Trait::Caustics) && has(variant.stages, Stage::Gi) &&
@@ -148,11 +149,10 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
   const BufferReads undecided = options.device.bufferReads;  // what is packed does not depend on it
   tracer.variant = choosePictureVariant(options, present, loaded.environment.kind, depth, undecided);
   ShaderVariant everything = tracer.variant;
-  tracer.features.clear();
-  for (const Feature feature : options.output.aovFeatures) {
-    tracer.features.push_back(
-        chooseFeatureVariant(options, present, loaded.environment.kind, depth, undecided, feature));
-    everything.traits |= tracer.features.back().traits;
+  tracer.aovs.clear();
+  for (const Aov aov : options.output.aovs) {
+    tracer.aovs.push_back(chooseAovVariant(options, present, loaded.environment.kind, depth, undecided, aov));
+    everything.traits |= tracer.aovs.back().traits;
   }
   const bool gi = has(tracer.variant.stages, Stage::Gi);
   describeLightSelection(tracer.variant, loaded, options.light.selection, stats);
@@ -174,20 +174,20 @@ ShaderVariant chooseVariants(Tracer& tracer, const LoadedScene& loaded, const Re
   return everything;
 }
 
-/// What the packed scene decides of all variants.
+/// Settles the parts of all variants that the packed scene decides.
 void settleVariants(Tracer& tracer, const LoadedScene& loaded, const GpuScene& packed,
                     const RenderOptions& options, const Context& context, Statistics& stats) {
   stats.scheduleReason = settleVariant(tracer.variant, loaded, packed, options, context, tracer.reads);
-  for (ShaderVariant& feature : tracer.features) {
-    useLiterals(loaded, packed, options, feature);
-    feature.reads = tracer.reads;
-    feature.dispatch = chooseDispatch(options.device.dispatch, context, false);
-    feature.gpu = isForGpu(options.device.tune, context);
+  for (ShaderVariant& aov : tracer.aovs) {
+    useLiterals(loaded, packed, options, aov);
+    aov.reads = tracer.reads;
+    aov.dispatch = chooseDispatch(options.device.dispatch, context, false);
+    aov.gpu = isForGpu(options.device.tune, context);
   }
   stats.variant = variantName(tracer.variant);
 }
 
-/// What --stats says of a context and of a packed scene.
+/// Notes the context and the packed scene for --stats.
 void describe(Statistics& stats, const Context& context, const GpuScene& packed, const Phase& packing) {
   stats.backend = context.backend;
   stats.glRenderer = context.renderer;

@@ -14,7 +14,7 @@ namespace fragtrace {
 /// The scene on the device, and the variant that the options ask for.
 struct Tracer {
   ShaderVariant variant;
-  std::vector<ShaderVariant> features;  ///< in the order of options.aovFeatures
+  std::vector<ShaderVariant> aovs;  ///< in the order of options.aovs
   std::unique_ptr<Renderer> renderer;
   double programMs = 0.0;  ///< that building the variant's program took
   uint64_t sceneHash = 0;  ///< of all that was uploaded; only for .exr and checkpoints, which keep it

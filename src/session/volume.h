@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scene/scene.h"
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 

@@ -5,12 +5,12 @@
 #include <set>
 #include <sstream>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "shader/embedded.h"
+#include "shader/glass_tables.h"
 #include "shader/live_text.h"
 #include "shader/reads_text.h"
 #include "shader/stack_text.h"
-#include "stage/glass_tables.h"
 
 namespace fragtrace {
 
@@ -100,7 +100,7 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
   constant("kLightPaths", variant.lightPaths);
   constant("kGpu", variant.gpu);
   text << "const int kPixelFilter = " << int(variant.pixelFilter) << ";\n";
-  text << "const int kFeature = " << int(variant.feature) << ";\n";
+  text << "const int kAov = " << int(variant.aov) << ";\n";
   text << "const int kStackSize = " << variant.stackSize << ";\n";
 }
 

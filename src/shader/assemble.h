@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "stage/variant.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 

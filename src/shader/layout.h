@@ -9,14 +9,17 @@
 namespace fragtrace::layout {
 
 using uint = uint32_t;
+using glm::ivec2;
 using glm::ivec4;
+using glm::vec2;
+using glm::vec3;
 using glm::vec4;
 
 #include "layout.glsl"
 
 static_assert(sizeof(Frame) == 17 * 16);
 static_assert(offsetof(Frame, gridOrigin) == 4 * 16);
-static_assert(offsetof(Frame, picture) == 9 * 16);
+static_assert(offsetof(Frame, pictureSize) == 9 * 16);
 static_assert(sizeof(Progress) == 16);
 static_assert(sizeof(Fog) == 3 * 16);
 static_assert(sizeof(Volume) == 6 * 16);

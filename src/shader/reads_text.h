@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "stage/variant.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 

@@ -139,7 +139,7 @@ CameraPose zoomAt(CameraPose pose, double amount, const glm::dvec2& place) {
   const double halfHeight = halfHeightOf(pose);
   const glm::dvec3 step = place.x * rightOf(pose) + place.y * pose.viewUp;
   pose = zoom(pose, amount);
-  // What the middle has come nearer by, the place has been moved away by.
+  // The place moves away by as much as the middle has come nearer.
   const glm::dvec3 shift = (halfHeight - halfHeightOf(pose)) * step;
   pose.position += shift;
   pose.focalPoint += shift;

@@ -29,7 +29,8 @@ void setPose(ViewState& state, const CameraPose& pose) {
   state.pose = pose;
 }
 
-/// Where a wheel was turned, in halves of the picture's height to the right and up; a drag zooms its middle.
+/// The place where the wheel was turned, in halves of the picture's height to the right and up; a drag zooms
+/// the picture's middle.
 glm::dvec2 fromMiddle(const ViewState& state, const Movement& m) {
   if (m.notches == 0.0) return glm::dvec2(0.0);
   const double aspectRatio = double(state.size.x) / std::max(state.size.y, 1);
@@ -37,7 +38,7 @@ glm::dvec2 fromMiddle(const ViewState& state, const Movement& m) {
   return {(2.0 * place.x - 1.0) * aspectRatio, 1.0 - 2.0 * place.y};
 }
 
-/// What was clicked on, or the whole scene.
+/// Frames the selection, or the whole scene.
 void frame(ViewState& state, bool selection) {
   const BoundsDouble& bounds = selection ? state.selected : state.scene->bounds;
   setPose(state, frameAll(state.pose, bounds, double(state.size.x) / state.size.y));
@@ -134,7 +135,7 @@ bool moveCamera(ViewState& state, const Control& control, const Movement& m) {
   }
 }
 
-/// The one that the viewer was started with.
+/// The filter that the viewer was started with.
 Denoise filterOf(const ViewState& state) {
   const bool chosen = state.scene && state.scene->options.output.denoise != Denoise::None;
   return chosen ? state.scene->options.output.denoise : Denoise::Variance;
@@ -151,30 +152,30 @@ void playOrPause(ViewState& state) {
   if (state.playback.playing && time >= animationLength(state)) showAnimation(state, shown, 0.0);
 }
 
+/// Shows a debug view by its number, which counts on in a circle.
+bool showDebugView(ViewState& state, int number) {
+  const int count = int(kDebugViewRows.size());
+  state.options().output.debugView = DebugView((number + count) % count);
+  state.overview = false;
+  return true;
+}
+
 bool changePicture(ViewState& state, const Control& control, const Movement& m) {
   RenderOptions& o = state.options();
   switch (control.action) {
     case Action::ToggleStage:
       o.stages.flip(size_t(control.argument));
-      // Of all stages side by side, each has those up to its own.
+      // In the overview, each picture has the stages up to its own.
       if (stageRows()[size_t(control.argument)].cumulative) state.overview = false;
       return true;
     case Action::StagesUpTo:
       o.stages = withStagesUpTo(o.stages, Stage(control.argument));
       state.overview = false;
       return true;
-    case Action::ToggleDebugView: {
-      const auto view = DebugView(control.argument);
-      o.output.debugView = o.output.debugView == view ? DebugView::None : view;
-      state.overview = false;
-      return true;
-    }
-    case Action::NextDebugView: {
-      const int count = int(kDebugViewRows.size());
-      o.output.debugView = DebugView((int(o.output.debugView) + control.argument + count) % count);
-      state.overview = false;
-      return true;
-    }
+    case Action::ToggleDebugView:
+      return showDebugView(state, o.output.debugView == DebugView(control.argument) ? 0 : control.argument);
+    case Action::NextDebugView:
+      return showDebugView(state, int(o.output.debugView) + control.argument);
     case Action::ToggleTreeBoxes:
       state.treeBoxes = !state.treeBoxes;
       return true;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "stage/render_options.h"
+#include "shader/render_options.h"
 
 namespace fragtrace {
 
@@ -18,10 +18,10 @@ enum class DroppedFile : uint8_t { Scene, Environment, Unknown };
 /// By its extension, in any case: .gltf and .glb are scenes, .hdr, .exr and .pfm environments.
 DroppedFile kindOfDropped(const std::filesystem::path& path);
 
-/// Whether it is a picture to compare with, where pictures are compared: an .exr or .pfm.
+/// Returns true if the file may be a picture to compare with: an .exr or .pfm.
 bool mayBeReference(const std::filesystem::path& path);
 
-/// What files dropped together ask for.
+/// The requests of files that are dropped together.
 struct Drop {
   std::optional<RenderOptions> load;  ///< none: nothing of it can be loaded
   std::vector<std::string> refused;   ///< a sentence for each file that is not taken

@@ -96,7 +96,7 @@ Delivery Exchange::take() {
   for (const TracedPicture& picture : taken.pictures) {
     if (picture.shared.slot >= 0) taken_[picture.side][size_t(picture.shared.slot)] = true;
   }
-  // What describes a state stays until it changes.
+  // Members that describe a state stay until it changes.
   delivery_ = {};
   delivery_.load = taken.load;
   delivery_.request = taken.request;

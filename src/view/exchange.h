@@ -15,17 +15,17 @@
 #include "bvh/tree_boxes.h"
 #include "image/image.h"
 #include "scene/describe.h"
-#include "stage/render_options.h"
-#include "stage/traits.h"
+#include "shader/render_options.h"
+#include "shader/traits.h"
 #include "view/pass_times.h"
 
 namespace fragtrace {
 
-/// What the split view shows: both sides of the bar, one side alone, or how far they differ.
+/// The contents of the split view: both sides of the bar, one side alone, or how far they differ.
 enum class CompareMode : uint8_t { Bar, Left, Right, Difference };
 inline constexpr std::array kComparisonNames{"bar", "left", "right", "difference"};
 
-/// What the window wants to show.
+/// The picture that the window wants to show.
 struct TraceRequest {
   uint64_t number = 0;               ///< counts requests
   std::vector<RenderOptions> sides;  ///< one, both of the split view, or one a stage; with their cameras
@@ -34,10 +34,10 @@ struct TraceRequest {
   bool values = true;                ///< pictures that are not shared are copied to the host
 };
 
-/// Whether both draw the same samples: not how many of them, nor what the display makes of them.
+/// Returns true if both draw the same samples, whatever their number and their display.
 bool drawsTheSame(const RenderOptions& a, const RenderOptions& b);
 
-/// Whether they draw different samples, and would not if they had the same camera.
+/// Returns true if they draw different samples, and would draw the same with the same camera.
 bool differInCameraAlone(const RenderOptions& a, const RenderOptions& b);
 
 /// Progress and cost of one side.
@@ -109,7 +109,7 @@ struct ViewedScene {
   std::vector<std::optional<double>> animationSeconds;
 };
 
-/// How far loading has come.
+/// The progress of loading.
 struct LoadStatus {
   bool busy = false;
   std::string name;
@@ -128,7 +128,7 @@ struct SaveRequest {
   ToneMap toneMap = ToneMap::Neutral;
 };
 
-/// What is at a place of the picture?
+/// A question for the thing at a place of the picture.
 struct PickRequest {
   size_t side = 0;
   glm::dvec2 place{0.0};           ///< parts of width and height, from the top left
@@ -152,7 +152,7 @@ struct EnvironmentThumbnail {
   Image image;                 ///< as a display shows it: R, G, B, 0..1; without pixels: it cannot be read
 };
 
-/// What is new for the window since it asked last.
+/// News for the window since it asked last.
 struct Delivery {
   std::vector<TracedPicture> pictures;  ///< at most one a side
   std::optional<ViewedScene> scene;     ///< a new one
@@ -168,7 +168,7 @@ struct Delivery {
   std::exception_ptr failure;         ///< ends the program
 };
 
-/// What is new for the tracing thread.
+/// News for the tracing thread.
 struct Orders {
   std::optional<TraceRequest> request;
   std::optional<RenderOptions> load;
@@ -188,7 +188,7 @@ class Exchange {
 
   // The window's thread.
   uint64_t ask(std::vector<RenderOptions> sides, glm::ivec2 size, bool moving, bool values = true);
-  /// What went wrong before is forgotten.
+  /// Loads a scene, and forgets earlier errors.
   void load(const RenderOptions& options);
   void cancelLoad();
   void save(SaveRequest request);
@@ -203,7 +203,7 @@ class Exchange {
   // The tracing thread.
   /// Waits for orders, at most that long.
   Orders wait(double seconds);
-  /// Whether to stop drawing: a newer request waits, or the end.
+  /// Returns true if drawing is to stop: a newer request waits, or the end.
   bool interrupted() const;
   bool ending() const;
   /// A slot of the side that the window neither shows nor waits for, with the GLsync that its last use ends

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "stage/feature.h"
-#include "stage/stage.h"
+#include "shader/aov.h"
+#include "shader/stage.h"
 
 namespace fragtrace {
 

@@ -11,7 +11,7 @@
 
 namespace fragtrace {
 
-/// What a control does; `Control::argument` says which where there are several.
+/// The action of a control; `Control::argument` chooses one of several.
 enum class Action : uint8_t {
   // Camera.
   Orbit,
@@ -76,7 +76,7 @@ enum class Action : uint8_t {
 /// Views along an axis, for Action::StandardView.
 enum class StandardViewOf : uint8_t { Front, Right, Top, Isometric };
 
-/// How a control is used: a key pressed once (repeats count as presses) or held, a mouse button clicked or
+/// The use of a control: a key pressed once (repeats count as presses) or held, a mouse button clicked or
 /// dragged, the wheel turned, by itself or while a key is held.
 enum class Gesture : uint8_t { Press, Hold, Click, DoubleClick, Drag, Wheel, HoldWheel };
 
@@ -118,7 +118,7 @@ struct Control {
   int modifiers = 0;
   Action action = Action::Quit;
   int argument = 0;
-  /// What it does, as in the sheet; neighbours with the same one are one line there.
+  /// The sentence of the sheet; neighbours with the same one are one line there.
   std::string sentence{};
 };
 

@@ -21,10 +21,10 @@ void addMessage(MessageList& messages, const std::string& text, double now);
 
 void closeMessages(MessageList& messages);
 
-/// Whether that text is there, and still seen.
+/// Returns true if that text is there, and still seen.
 bool isSeen(const MessageList& messages, const std::string& text, double now);
 
-/// How much of a message is still seen, 0..1: it fades in steps, which cost one frame each.
+/// The opacity of a message, 0..1: it fades in steps, which cost one frame each.
 double opacityOf(const Message& message, double now);
 
 /// Seconds until one of them is seen less; infinite when none is seen.

@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-#include "stage/stage.h"
+#include "shader/stage.h"
 
 namespace fragtrace {
 
@@ -21,7 +21,7 @@ inline constexpr std::array kPresets{
     Preset{"Phong", Stage::NormalMaps, "Blinn-Phong with shadows, mirrors, glass and normal maps"},
     Preset{"Path traced", Stage::Gi, "physically based materials and light: noisy at first, then exact"}};
 
-/// Whether the cumulative stages are those of the preset; other switches do not matter.
+/// Returns true if the cumulative stages are those of the preset; other switches do not matter.
 bool isPreset(const StageSet& stages, const Preset& preset);
 
 /// The preset's name, or that of the last stage that is on.

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/files/whole_file.h"
 
 namespace fragtrace {

@@ -30,7 +30,7 @@ inline constexpr size_t kMostRecent = 10;
 /// 0.8); empty where there is neither: nothing is remembered then.
 std::filesystem::path rememberedFile();
 
-/// What the file holds; nothing where there is none. Throws InputError for one that is not of this kind.
+/// The contents of the file; nothing if there is none. Throws InputError for one that is not of this kind.
 Remembered readRemembered(const std::filesystem::path& file);
 
 /// Replaces the file as a whole, and makes its folder. Throws RenderError.

@@ -30,7 +30,7 @@ size_t finestWithin(glm::ivec2 full, double msPerPixel, double ms) {
   return kResolutionSteps.size() - 1;
 }
 
-/// Of the latest three, or of as many as there are, the upper median: two slow frames tell, one does not.
+/// The upper median of the latest three, or of as many as there are: two slow frames count, one does not.
 double medianCost(const ResolutionController& controller) {
   std::array<double, 3> latest{controller.msPerPixel[0], controller.msPerPixel[1], controller.msPerPixel[2]};
   if (latest[1] <= 0.0) return latest[0];

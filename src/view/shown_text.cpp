@@ -8,7 +8,8 @@ namespace fragtrace {
 
 namespace {
 
-/// Where each character begins, and the end; a byte that no character can hold is one of its own.
+/// The place at which each character begins, and the end; a byte that no character can hold is one of its
+/// own.
 std::vector<size_t> characterStarts(std::string_view text) {
   const auto continues = [&](size_t i) { return (static_cast<unsigned char>(text[i]) & 0xc0u) == 0x80u; };
   std::vector<size_t> starts;

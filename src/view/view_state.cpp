@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "stage/variant.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 

@@ -11,7 +11,7 @@
 
 namespace fragtrace {
 
-/// How the scene's animation is shown. Clip and time are those of the sides' selection.
+/// The playback of the scene's animation. Clip and time are those of the sides' selection.
 struct Playback {
   bool playing = false;
   bool loops = true;
@@ -69,15 +69,15 @@ struct ViewState {
   /// Sides that are traced: 2 where the split view compares two of them, rather than one and a file; all
   /// stages in the overview.
   size_t tracedCount() const { return overview ? kMostSides : split && reference.empty() ? 2 : 1; }
-  /// Whether two pictures meet at a bar, or are compared otherwise.
+  /// Returns true if two pictures are compared, at a bar or otherwise.
   bool compares() const { return split && !overview; }
   /// The traced side whose progress and values are shown: the active one, or that of its last stage.
   size_t shownSide() const;
-  /// Where the bar stands: 1 where the left side alone is shown.
+  /// The place of the bar: 1 if the left side alone is shown.
   double shownBar() const;
 };
 
-/// What a control asks for that the state alone cannot do.
+/// A request of a control that the state alone cannot fulfil.
 enum class Errand : uint8_t {
   None,
   CenterOn,
@@ -117,9 +117,9 @@ struct Task {
   std::string text{};
 };
 
-/// How far a control was moved: a drag or the wheel, in parts of the picture's height (y downwards) or
-/// notches; a held key, in seconds. And where the cursor is: parts of the picture's width and height, from
-/// the top left.
+/// The movement of a control: of a drag or the wheel, in parts of the picture's height (y downwards) or
+/// notches; of a held key, in seconds. And the place of the cursor: parts of the picture's width and height,
+/// from the top left.
 struct Movement {
   glm::dvec2 drag{0.0};
   double notches = 0.0;
@@ -133,7 +133,7 @@ bool isUsable(const ViewState& state, Action action);
 /// Does what the control says, if that is usable, or returns what is left to be done.
 Errand apply(ViewState& state, const Control& control, const Movement& movement = {});
 
-/// Which of the scene's animations is shown or would be played, from 0; -1: it has none.
+/// The index of the animation that is shown or would be played; -1: the scene has none.
 int shownAnimation(const ViewState& state);
 
 /// Seconds that it takes; a second where the file does not say.
@@ -146,7 +146,7 @@ void showAnimation(ViewState& state, int animation, double seconds);
 /// pictures are left out. At the end it begins again, or stops.
 void play(ViewState& state, double now);
 
-/// Whether the user hides the scene's node (an index into ViewedScene::nodes) itself.
+/// Returns true if the user hides the scene's node (an index into ViewedScene::nodes) itself.
 bool isHidden(const ViewState& state, size_t node);
 
 /// Hides it with all that is below it, or shows it again, on both sides. Others of its name stay as they are.
@@ -174,10 +174,10 @@ RenderOptions renderOptionsOf(const ViewState& state, size_t side);
 /// camera and light. Throws UsageError, and changes nothing, when the scene has no such camera.
 void takeOptions(ViewState& state, const RenderOptions& options);
 
-/// Whether both load the same scene and environment.
+/// Returns true if both load the same scene and environment.
 bool sameScene(const RenderOptions& a, const RenderOptions& b);
 
-/// Whether nodes and cameras of one are those of the other: steps of undo fit both.
+/// Returns true if nodes and cameras of one are those of the other: steps of undo fit both.
 bool sameNodes(const RenderOptions& a, const RenderOptions& b);
 
 /// The place of the picture, parts of its width and height, that is shown at a place of the window's picture
@@ -187,7 +187,7 @@ glm::dvec2 magnifiedPlace(const ViewState& state, const glm::dvec2& place);
 /// Cells of the overview in a row and in a column: as many, so that each has the picture's proportions.
 inline constexpr int kCells = 3;
 
-/// Which side is shown there; kMostSides or more: none.
+/// The side that is shown there; kMostSides or more: none.
 size_t sideAt(const ViewState& state, const glm::dvec2& place);
 
 /// All settings of both sides as the viewer was started with, and the scene's first camera. Returns what the

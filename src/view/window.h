@@ -28,7 +28,7 @@ struct WindowStart {
   std::function<RenderOptions(const RenderOptions&, const std::string&)> withCommandText;
 };
 
-/// What libfragtrace_window.so offers. Host and library are built together, so C++ types may cross.
+/// The functions of libfragtrace_window.so. Host and library are built together, so C++ types may cross.
 struct WindowLibrary {
   /// Shows the window until it is closed, then returns. Throws ContextError when there can be none, and what
   /// the tracing thread failed with.

@@ -29,7 +29,7 @@ constexpr float kSideNames = 31.0f;  // above the figures of both sides
 
 bool fits(glm::vec2 size, glm::vec2 room) { return size.x <= room.x && size.y <= room.y; }
 
-/// Of the stages' bar and the status bar.
+/// The heights of the stages' bar and the status bar.
 glm::vec2 barHeights(float scale) { return glm::round(scale * glm::vec2(kStagesHeight, kStatusHeight)); }
 
 }  // namespace
@@ -48,7 +48,7 @@ WindowLayout layoutOf(glm::vec2 window, float scale, const LayoutWishes& wishes)
   layout.docked = wishes.panel && window.x - docked >= kLeastPicture * scale;
   layout.picture = glm::ivec2(window.x - (layout.docked ? docked : 0.0f), window.y - bars.x - bars.y);
   layout.picture = glm::max(layout.picture, 1);
-  // Of the picture, at 96 dots an inch.
+  // The picture's size at 96 dots an inch.
   const glm::vec2 whole = glm::vec2(layout.picture) / scale;
   const bool over = wishes.panel && !layout.docked;
   const float width = std::max(std::min(wanted, whole.x - 2 * kMargin), 1.0f);

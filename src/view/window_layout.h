@@ -8,10 +8,10 @@
 
 namespace fragtrace {
 
-/// How much of the figures fits: nothing, samples and error, all rows.
+/// The part of the figures that fits: nothing, samples and error, all rows.
 enum class FigureDetail : uint8_t { None, Brief, All };
 
-/// What a layout has to make room for.
+/// The things that a layout has to make room for.
 struct LayoutWishes {
   bool panel = false;
   float panelWidth = 0.0f;  ///< pixels at 96 dots an inch; 0: the standard width
@@ -38,7 +38,7 @@ WindowLayout layoutOf(glm::vec2 window, float scale, const LayoutWishes& wishes)
 /// The window in which a picture of that size has its room.
 glm::ivec2 windowFor(glm::ivec2 picture, float scale, bool panel);
 
-/// Whether a picture is wide enough to begin with the panel open beside it.
+/// Returns true if a picture is wide enough to begin with the panel open beside it.
 bool fitsPanel(glm::vec2 picture, float scale);
 
 /// A width of the panel that its controls can be read in, next to a wanted one; pixels at 96 dots an inch.

@@ -13,14 +13,14 @@
 #include <optional>
 #include <string>
 
+#include "base/errors.h"
 #include "bvh/two_level.h"
-#include "errors.h"
 #include "gltf/gltf.h"
 #include "image/image.h"
 
 namespace fragtrace {
 
-/// Pictures are decoded by another process (src/worker), which is not what this target tries.
+/// Pictures are decoded by another process (src/base/worker), which is not what this target tries.
 TexelImage decodeTexels(std::span<const uint8_t>, const std::string&) { return {}; }
 
 }  // namespace fragtrace

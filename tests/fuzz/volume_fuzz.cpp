@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A grid of a NanoVDB file, behind its header: what the worker makes of it, and what the program makes of that.
+// A grid of a NanoVDB file, behind its header: what the worker makes of it, and what the program makes of
+// that.
 #include <cstring>
 #include <stdexcept>
 #include <vector>
 
 #include "scene/volume/read_grid.h"
-#include "scene/volume/worker/decode.h"
+#include "scene/volume/decode.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace fragtrace;

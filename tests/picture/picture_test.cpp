@@ -97,6 +97,41 @@ Image readReference(const std::filesystem::path& folder, const std::string& name
   return fragtrace::readImage(std::filesystem::exists(exr) ? exr : folder / (name + ".pfm"));
 }
 
+/// The largest z of a block, and the block.
+std::pair<double, size_t> worstOf(const std::vector<Block>& blocks, double mean) {
+  std::pair<double, size_t> worst{0.0, 0};
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    const Block& block = blocks[i];
+    const double slack = kRounding * (block.magnitude + 0.1 * mean * block.pixels);
+    const double z = std::max(0.0, std::abs(block.difference) - slack) / std::sqrt(block.variance + 1e-20);
+    if (z > worst.first) worst = {z, i};
+  }
+  return worst;
+}
+
+bool meansAgree(const Image& a, const Image& b, double noise) {
+  bool ok = true;
+  for (size_t c = 0; c < 3; ++c) {
+    const double bias = meanOf(a, c) - meanOf(b, c);
+    ok = ok && std::abs(bias) <= std::max(kMeanBias * meanOf(b, c), noise);
+    std::printf("mean %c: %.6g, reference %.6g, bias %.3f %%\n", "RGB"[c], meanOf(a, c), meanOf(b, c),
+                100.0 * bias / std::max(1e-9, meanOf(b, c)));
+  }
+  return ok;
+}
+
+/// The arguments of the program that draw a row of references.json.
+std::string renderWords(const nlohmann::json& entry, const std::string& output, const std::string& backend) {
+  const int spp = entry.value("test_spp", entry["stage"] == "gi" ? 256 : 64);
+  std::string words = " render scenes/" + entry["scene"].get<std::string>() + ".gltf -o " + quoted(output) +
+                      " --quiet --stage " + entry["stage"].get<std::string>() + " --rendering-backend " +
+                      backend + " --aov variance --spp " + std::to_string(spp) + " --resolution " +
+                      std::to_string(entry["resolution"][0].get<int>()) + "," +
+                      std::to_string(entry["resolution"][1].get<int>());
+  for (const auto& option : entry["options"]) words.append(" ").append(quoted(option.get<std::string>()));
+  return words;
+}
+
 int run(std::span<char*> argv) {
   const std::string name = argv[1];
   const std::string backend = argv[2];
@@ -117,16 +152,9 @@ int run(std::span<char*> argv) {
 
   std::filesystem::create_directories(folder);
   const std::string base = (folder / (name + "." + backend)).string();
-  const int spp = entry->value("test_spp", (*entry)["stage"] == "gi" ? 256 : 64);
-  std::string command = "cd " + quoted(source.string()) + " && " + quoted(argv[3]) + " render scenes/" +
-                        (*entry)["scene"].get<std::string>() + ".gltf -o " + quoted(base + ".exr") +
-                        " --quiet --stage " + (*entry)["stage"].get<std::string>() + " --rendering-backend " +
-                        backend + " --aov variance --spp " + std::to_string(spp) + " --resolution " +
-                        std::to_string((*entry)["resolution"][0].get<int>()) + "," +
-                        std::to_string((*entry)["resolution"][1].get<int>());
-  const auto add = [&](const std::string& option) { command.append(" ").append(quoted(option)); };
-  for (const auto& option : (*entry)["options"]) add(option.get<std::string>());
-  for (const char* option : argv.subspan(kOptions)) add(option);
+  std::string command = "cd " + quoted(source.string()) + " && " + quoted(argv[3]) +
+                        renderWords(*entry, base + ".exr", backend);
+  for (const char* option : argv.subspan(kOptions)) command.append(" ").append(quoted(option));
   std::printf("rerun: %s\n", command.c_str());
   if (std::system(command.c_str()) != 0) return 1;
 
@@ -142,19 +170,9 @@ int run(std::span<char*> argv) {
   for (const int side : kBlocks) {
     const std::vector<Block> blocks = blocksOf(a, b, variance, side);
     const double limit = normalQuantile(kSignificance / std::size(kBlocks) / double(blocks.size()));
-    double worst = 0.0;
-    size_t worstBlock = 0;
     sumVariance = 0.0;
-    for (size_t i = 0; i < blocks.size(); ++i) {
-      const Block& block = blocks[i];
-      sumVariance += block.variance;
-      const double slack = kRounding * (block.magnitude + 0.1 * mean * block.pixels);
-      const double z = std::max(0.0, std::abs(block.difference) - slack) / std::sqrt(block.variance + 1e-20);
-      if (z > worst) {
-        worst = z;
-        worstBlock = i;
-      }
-    }
+    for (const Block& block : blocks) sumVariance += block.variance;
+    const auto [worst, worstBlock] = worstOf(blocks, mean);
     const int columns = (a.width + side - 1) / side;
     ok = ok && worst <= limit;
     std::printf("%s %s: rmse %.5g, blocks of %d x %d: worst z %.2f (limit %.2f) at pixel (%d, %d)\n",
@@ -162,13 +180,7 @@ int run(std::span<char*> argv) {
                 int(worstBlock) % columns * side, int(worstBlock) / columns * side);
   }
   const double meanNoise = 4.0 * std::sqrt(sumVariance) / (double(a.width) * a.height);
-  for (size_t c = 0; c < 3; ++c) {
-    const double bias = meanOf(a, c) - meanOf(b, c);
-    const bool within = std::abs(bias) <= std::max(kMeanBias * meanOf(b, c), meanNoise);
-    std::printf("mean %c: %.6g, reference %.6g, bias %.3f %%\n", "RGB"[c], meanOf(a, c), meanOf(b, c),
-                100.0 * bias / std::max(1e-9, meanOf(b, c)));
-    ok = ok && within;
-  }
+  ok = meansAgree(a, b, meanNoise) && ok;
   if (ok) return 0;
   fragtrace::writeImage(base + ".reference.exr", b);
   fragtrace::writeImage(base + ".difference.exr", fragtrace::differenceImage(a, b));

@@ -16,7 +16,7 @@
 #include "pack/gpu_scene.h"
 #include "render/film.h"
 #include "render/renderer.h"
-#include "stage/variant.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 namespace {

@@ -8,8 +8,8 @@
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
 #include "image/display/tone_map.h"
-#include "live/view_picture.h"
 #include "view/camera_controller.h"
+#include "view/live/view_picture.h"
 
 namespace fragtrace {
 namespace {
@@ -28,7 +28,7 @@ class PastOfATurn : public GlProbe {
     options_.light.defaultLight = DefaultLight::Studio;
     options_.camera.resolution = kSize;
     options_.output.denoise = Denoise::Variance;
-    options_.output.aovFeatures = {Feature::Guides};
+    options_.output.aovs = {Aov::Guides};
     options_.output.quiet = true;
     Statistics stats;
     loaded_.emplace(loadScene(options_, stats));

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "gl/gl.h"
 #include "shader/embedded.h"
 

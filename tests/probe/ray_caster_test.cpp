@@ -6,9 +6,9 @@
 
 #include "bench/rays/ball_scene.h"
 #include "bench/rays/hit_check.h"
+#include "bench/rays/ray_caster.h"
 #include "bench/rays/ray_sets.h"
 #include "gl_probe.h"
-#include "render/ray_caster.h"
 #include "scene/camera.h"
 
 namespace fragtrace {

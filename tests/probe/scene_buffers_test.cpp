@@ -3,7 +3,7 @@
 // back.
 #include <gtest/gtest.h>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "gl/scene_buffers.h"
 #include "gl_probe.h"
 

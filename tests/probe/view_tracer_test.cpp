@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "gltf_builder.h"
-#include "live/view_tracer.h"
+#include "view/live/view_tracer.h"
 
 namespace fragtrace {
 namespace {

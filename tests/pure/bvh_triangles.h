@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "math/bounds.h"
+#include "base/bounds.h"
 #include "scene/scene.h"
 
 namespace fragtrace {

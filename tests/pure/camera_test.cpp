@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "errors.h"
+#include "base/errors.h"
 
 namespace fragtrace {
 namespace {

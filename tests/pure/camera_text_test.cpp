@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "options/parse_words.h"
 #include "view/camera_controller.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "film/checkpoint.h"
+#include "render/film/checkpoint.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "options/option_text.h"
 
 namespace fragtrace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "film/debug_picture.h"
+#include "render/film/debug_picture.h"
 
 #include <gtest/gtest.h>
 
@@ -128,12 +128,12 @@ TEST(DebugViews, RowsStandInTheirOrder) {
   for (const DebugViewRow& row : kDebugViewRows) {
     EXPECT_FALSE(row.label.empty());
     // A view of a layer has the layer's name.
-    if (row.feature != Feature::None) {
-      EXPECT_EQ(row.name, rowOf(row.feature).name);
+    if (row.aov != Aov::None) {
+      EXPECT_EQ(row.name, rowOf(row.aov).name);
     }
   }
   EXPECT_EQ(rowOf(DebugView::Variance).name, "variance");
-  EXPECT_EQ(rowOf(Feature::Texcoords).name, "texcoords");
+  EXPECT_EQ(rowOf(Aov::Texcoords).name, "texcoords");
 }
 
 }  // namespace

@@ -65,9 +65,9 @@ class LitBy {
   }
   static layout::Frame frameOf(const Image& image, double rotation, float intensity) {
     layout::Frame frame{};
-    frame.catcherLight.w = intensity;
-    frame.environment = {float(image.width), float(image.height), float(std::cos(rotation)),
-                         float(std::sin(rotation))};
+    frame.environmentScale = intensity;
+    frame.environmentSize = {image.width, image.height};
+    frame.environmentRotation = {std::cos(rotation), std::sin(rotation)};
     return frame;
   }
 
@@ -100,7 +100,7 @@ void expectNear(const dvec3& a, const dvec3& b, double tolerance) {
 
 /// Light of a radiance that a surface with the normal +z reflects, summed over directions.
 dvec3 reflectedBySums(const Radiance& radiance, const dvec3& diffuse, const dvec3& f0, double exponent,
-                      const dvec3& outgoing) {
+                      const dvec3& wo) {
   constexpr int kSteps = 700;
   dvec3 sum(0.0);
   for (int i = 0; i < kSteps; ++i) {
@@ -109,7 +109,7 @@ dvec3 reflectedBySums(const Radiance& radiance, const dvec3& diffuse, const dvec
       const double around = (j + 0.5) * kPi / kSteps;
       const double sine = std::sqrt(1.0 - z * z);
       const dvec3 d(sine * std::cos(around), sine * std::sin(around), z);
-      sum += radiance(d) * glsl_double::phongValue(diffuse, f0, exponent, dvec3(0, 0, 1), outgoing, d);
+      sum += radiance(d) * glsl_double::phongValue(diffuse, f0, exponent, dvec3(0, 0, 1), wo, d);
     }
   }
   return sum * (kPi / kSteps / kSteps);
@@ -231,9 +231,9 @@ TEST(EnvironmentLight, AlbedoOfHighlightsIsThatOfSums) {
   const Radiance white = [](const dvec3&) { return dvec3(1.0); };
   for (const double exponent : {0.0, 1.0, 6.0, 20.0, 126.0}) {
     for (const double degrees : {0.0, 30.0, 60.0, 80.0, 88.0}) {
-      const dvec3 outgoing(std::sin(degrees * kPi / 180.0), 0.0, std::cos(degrees * kPi / 180.0));
-      const double expected = reflectedBySums(white, dvec3(0), dvec3(1), exponent, outgoing).x;
-      EXPECT_NEAR(phongAlbedo(exponent, outgoing.z), expected, degrees == 0.0 ? 1e-3 : 0.008)
+      const dvec3 wo(std::sin(degrees * kPi / 180.0), 0.0, std::cos(degrees * kPi / 180.0));
+      const double expected = reflectedBySums(white, dvec3(0), dvec3(1), exponent, wo).x;
+      EXPECT_NEAR(phongAlbedo(exponent, wo.z), expected, degrees == 0.0 ? 1e-3 : 0.008)
           << exponent << ' ' << degrees;
     }
   }
@@ -246,9 +246,9 @@ TEST(EnvironmentLight, ReflectsNearlyWhatSumsReflect) {
   const LitBy lit(mapOf(linear, 256));
   for (const double exponent : {0.0, 2.0, 14.0, 126.0}) {
     for (const double degrees : {0.0, 40.0, 70.0}) {
-      const dvec3 outgoing(std::sin(degrees * kPi / 180.0), 0.0, std::cos(degrees * kPi / 180.0));
-      const dvec3 expected = reflectedBySums(linear, diffuse, f0, exponent, outgoing);
-      expectNear(environmentReflected(diffuse, f0, exponent, dvec3(0, 0, 1), outgoing), expected, 0.02);
+      const dvec3 wo(std::sin(degrees * kPi / 180.0), 0.0, std::cos(degrees * kPi / 180.0));
+      const dvec3 expected = reflectedBySums(linear, diffuse, f0, exponent, wo);
+      expectNear(environmentReflected(diffuse, f0, exponent, dvec3(0, 0, 1), wo), expected, 0.02);
     }
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "film/film_pixels.h"
+#include "render/film/film_pixels.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Films as the shader would fill them, one sample after the other.
 #pragma once
 
-#include "film/film_pixels.h"
+#include "render/film/film_pixels.h"
 #include "shader_statistics.h"
 
 namespace fragtrace {

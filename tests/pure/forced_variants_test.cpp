@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "stage/forced_variants.h"
+#include "bench/stress/forced_variants.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/errors.h"
 #include "bench/report/baseline.h"
-#include "errors.h"
 
 namespace fragtrace {
 namespace {

@@ -22,14 +22,14 @@ Bsdf whiteMetal(double roughness) {
 
 /// Mean of the weights of sampled directions over a low-discrepancy sequence (Roberts, 2018: R3): the albedo.
 double albedo(const Bsdf& b, double cosine) {
-  const glm::dvec3 outgoing(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
+  const glm::dvec3 wo(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
   constexpr int kSamples = 200000;
   constexpr double kRoot = 1.2207440846057596;
   const glm::dvec3 step(1.0 / kRoot, 1.0 / (kRoot * kRoot), 1.0 / (kRoot * kRoot * kRoot));
   double sum = 0.0;
   for (int i = 0; i < kSamples; ++i) {
     const glm::dvec3 u = glm::fract(glm::dvec3(0.5) + double(i) * step);
-    sum += glsl_double::sampleBsdf(b, outgoing, u.x, u.y, u.z).weight.y;
+    sum += glsl_double::sampleBsdf(b, wo, u.x, u.y, u.z).weight.y;
   }
   return sum / kSamples;
 }

@@ -16,13 +16,13 @@ double glassAlbedoOf(double roughness, double ior, bool solid, bool front, doubl
   Bsdf b = makeBsdf(0.0, 1.0, roughness, ior, solid, front);
   b.baseColor = dvec3(1.0);
   b.glassLost = lost;
-  const dvec3 outgoing(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
+  const dvec3 wo(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
   constexpr int kSamples = 50000;
   const dvec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);  // Roberts, 2018: R3
   double sum = 0.0;
   for (int i = 0; i < kSamples; ++i) {
     const dvec3 u = glm::fract(dvec3(0.5) + double(i) * step);
-    const auto s = glsl_double::sampleBsdf(b, outgoing, u.x, u.y, u.z);
+    const auto s = glsl_double::sampleBsdf(b, wo, u.x, u.y, u.z);
     // Radiance that comes out of the denser side is compressed.
     sum += s.weight.y * (s.transmitted && solid ? b.eta * b.eta : 1.0);
   }

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "gltf/gltf.h"
 
 namespace fragtrace::gltf_test {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "base/errors.h"
 #include "bench/rays/ball_scene.h"
 #include "bench/rays/hit_check.h"
 #include "bench/rays/ray_sets.h"
-#include "errors.h"
 
 namespace fragtrace {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/channels.h"
 
 namespace fragtrace {

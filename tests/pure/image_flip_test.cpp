@@ -10,7 +10,7 @@
 #include <functional>
 #include <limits>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/compare/difference.h"
 #include "image/display/tone_map.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/files/jpeg.h"
 #include "image/files/png.h"
 #include "image/files/whole_file.h"

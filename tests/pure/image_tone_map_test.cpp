@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "errors.h"
+#include "base/errors.h"
 
 namespace fragtrace {
 namespace {

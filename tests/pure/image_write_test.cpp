@@ -14,7 +14,7 @@
 #include <thread>
 #include <utility>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/channels.h"
 #include "image/files/process.h"
 #include "image/files/whole_file.h"

@@ -134,7 +134,7 @@ struct Emitters {
       words.insert(words.end(), {e.first, e.last, e.end, 0u});
       words.insert(words.end(), (layout::kEmitterRows - 1) * 4, 0u);
     }
-    frame.lightChoice.y = float(entries.size());
+    frame.emitterCount = float(entries.size());
   }
   int at(uint32_t bits) const {
     const With<std::span<const uint32_t>> here(glsl_variant::emitters, words);

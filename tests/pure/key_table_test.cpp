@@ -6,7 +6,7 @@
 #include <set>
 #include <tuple>
 
-#include "stage/stage.h"
+#include "shader/stage.h"
 
 namespace fragtrace {
 namespace {

@@ -169,9 +169,9 @@ TEST(LightTree, WhatShinesOnASurfaceIsNeverLeftOut) {
       const bool faces = lit.scene.triangles[i].material == 0 ? std::abs(cosine) > 1e-3 : cosine > 1e-3;
       if (!faces || glm::dot(normal, towards) <= 0.0) continue;
       ++shone;
-      ASSERT_GT(glsl_float::treeDensity(int(slots[i]), vec3(point), glsl_float::packNormal(vec3(normal)),
-                                        1.0f, 1.0f),
-                0.0f);
+      ASSERT_GT(
+          glsl_float::treePdf(int(slots[i]), vec3(point), glsl_float::packNormal(vec3(normal)), 1.0f, 1.0f),
+          0.0f);
     }
   }
   EXPECT_GT(shone, 5000);
@@ -236,7 +236,7 @@ TEST(LightTree, DensityOfASampleIsThatOfTheRayThatFindsIt) {
   for (const LightSelection selection : {LightSelection::Tree, LightSelection::Uniform}) {
     const Lit lit(rowScene(), true, selection);
     const std::vector<uint32_t> slots = leafSlots(lit.scene, lit.bvh);
-    const double share = 1.0 - glsl_variant::frame.lightChoice.x;
+    const double share = 1.0 - glsl_variant::frame.environmentChance;
     Draw draw(619);
     int found = 0;
     for (int k = 0; k < 20000; ++k) {
@@ -248,20 +248,19 @@ TEST(LightTree, DensityOfASampleIsThatOfTheRayThatFindsIt) {
           glsl_double::lightOfChoice(glsl_double::emitterByTree(share, glsl_double::receiverOf(point, normal),
                                                                 uint32_t(draw.engine()), bits),
                                      point);
-      if (s.density <= 0.0) continue;
+      if (s.pdf <= 0.0) continue;
       const auto place = lit.placeOf(point + s.direction * s.distance);
       if (!place) continue;  // of two triangles at one place
       ++found;
       const double cosine = std::abs(glm::dot(lit.normalOf(place->triangle), s.direction));
-      EXPECT_NEAR(glsl_double::treeDensity(int(slots[place->triangle]), point, normal, s.distance, cosine),
-                  s.density,
-                  2e-4 * s.density);  // seen edge-on, edges of single precision tell
-      EXPECT_LE(glm::distance(s.irradiance * s.density, lit.radianceOf(place->triangle)),
+      EXPECT_NEAR(glsl_double::treePdf(int(slots[place->triangle]), point, normal, s.distance, cosine), s.pdf,
+                  2e-4 * s.pdf);  // seen edge-on, edges of single precision tell
+      EXPECT_LE(glm::distance(s.irradiance * s.pdf, lit.radianceOf(place->triangle)),
                 1e-5 * glm::length(lit.radianceOf(place->triangle)));
     }
     EXPECT_GT(found, 5000);
     // What is no light has no density.
-    EXPECT_EQ(glsl_double::treeDensity(int(slots[7]), kOrigin, layout::kNoNormal, 1.0, 1.0), 0.0);
+    EXPECT_EQ(glsl_double::treePdf(int(slots[7]), kOrigin, layout::kNoNormal, 1.0, 1.0), 0.0);
   }
 }
 
@@ -277,9 +276,9 @@ TEST(LightTree, OneSampleOfAllLightsAndTheEnvironmentIsUnbiased) {
     const Lit lit(scene, true, selection);
     Estimate estimate;
     for (uint32_t k = 0; k < kSamples; ++k) {
-      const auto numbers = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
+      const auto sampler = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
       estimate.add(
-          luminanceOf(glsl_double::lightOfSlot(0, kOrigin, layout::kNoNormal, numbers, 5).irradiance));
+          luminanceOf(glsl_double::lightOfSlot(0, kOrigin, layout::kNoNormal, sampler, 5).irradiance));
     }
     // That light samples by power have the right mean is a test of its own (ShaderLights).
     if (selection == LightSelection::Power) byPower = estimate.mean();
@@ -299,12 +298,12 @@ struct LitPlace {
   uint32_t receiver(bool tree) const { return tree && !through ? packed() : uint32_t(layout::kNoNormal); }
 };
 
-auto reservoirOn(const LitPlace& place, bool tree, const glsl_double::Sampler& numbers) {
+auto reservoirOn(const LitPlace& place, bool tree, const glsl_double::Sampler& sampler) {
   glsl_double::LitSurface on;
   on.point = place.point;
   on.normal = place.packed();
   on.through = place.through;
-  return glsl_double::makeReservoir(on, place.receiver(tree), numbers, 5);
+  return glsl_double::makeReservoir(on, place.receiver(tree), sampler, 5);
 }
 
 /// One of the light samples of the place and of four others, some of which are not there, each kept in
@@ -336,15 +335,15 @@ Estimate lightOnSurface(const LitPlace& place, LightReuse by, bool tree) {
   constexpr uint32_t kSamples = 1 << 17;
   Estimate estimate;
   for (uint32_t k = 0; k < kSamples; ++k) {
-    const auto numbers = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
+    const auto sampler = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
     const uint32_t packed = place.receiver(tree);
     const auto s =
         by == LightReuse::Spatial ? reusedLight(place, tree, k)
         : by == LightReuse::Candidates
-            ? glsl_double::lightOfCandidates(place.point, place.normal, place.through, packed, numbers, 5)
-            : glsl_double::lightOfSlot(0, place.point, packed, numbers, 5);
+            ? glsl_double::lightOfCandidates(place.point, place.normal, place.through, packed, sampler, 5)
+            : glsl_double::lightOfSlot(0, place.point, packed, sampler, 5);
     const double cosine = glm::dot(s.direction, place.normal);
-    const double weight = s.density > 0.0 ? s.density / (s.density + 0.3) : 1.0;
+    const double weight = s.pdf > 0.0 ? s.pdf / (s.pdf + 0.3) : 1.0;
     // From behind light comes through as red glass lets it.
     const double part = cosine > 0.0 ? cosine : place.through ? -0.3 * cosine : 0.0;
     estimate.add(luminanceOf(s.irradiance) * part * weight);

@@ -5,7 +5,7 @@
 
 #include "shader/assemble.h"
 #include "shader/live_text.h"
-#include "stage/variant.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 namespace {

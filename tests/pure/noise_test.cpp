@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// src/film/noise.cpp on films of known noise.
-#include "film/noise.h"
+// src/render/film/noise.cpp on films of known noise.
+#include "render/film/noise.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "film/picture_check.h"
+#include "bench/report/picture_check.h"
 
 #include <gtest/gtest.h>
 

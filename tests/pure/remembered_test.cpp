@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image_test_folder.h"
 
 namespace fragtrace {

@@ -7,9 +7,9 @@
 #include <sstream>
 #include <string_view>
 
+#include "base/summary.h"
 #include "bench/report/scale_report.h"
 #include "bench/report/traversal_report.h"
-#include "math/summary.h"
 
 namespace fragtrace {
 namespace {

@@ -195,7 +195,7 @@ inline double smithLambda(const dvec3& v, double alpha) {
 
 /// The mean weight over a lattice of samples: what the surface sends back of white light from all around.
 /// Radiance through a solid's boundary is scaled by 1 / eta^2, which is no energy, so it is scaled back.
-inline dvec3 albedoByDrawing(const Bsdf& b, const dvec3& outgoing) {
+inline dvec3 albedoByDrawing(const Bsdf& b, const dvec3& wo) {
   // The first number picks the lobe, too, so it takes finer steps.
   constexpr int kColumns = 1024;
   constexpr int kRows = 32;
@@ -203,17 +203,17 @@ inline dvec3 albedoByDrawing(const Bsdf& b, const dvec3& outgoing) {
   for (int x = 0; x < kColumns; ++x) {
     for (int y = 0; y < kRows; ++y) {
       const double choice = std::fmod((x * kRows + y) * 0.6180339887498949, 1.0);
-      const auto s = glsl_double::sampleBsdf(b, outgoing, choice, (x + 0.5) / kColumns, (y + 0.5) / kRows);
+      const auto s = glsl_double::sampleBsdf(b, wo, choice, (x + 0.5) / kColumns, (y + 0.5) / kRows);
       sum += s.weight * (s.transmitted && b.solid ? b.eta * b.eta : 1.0);
     }
   }
   return sum / double(kColumns * kRows);
 }
 
-inline dvec3 albedoByIntegration(const Bsdf& b, const dvec3& outgoing) {
+inline dvec3 albedoByIntegration(const Bsdf& b, const dvec3& wo) {
   return total(integrateBins([&](const dvec3& i) {
     const double scale = i.z < 0.0 && b.solid ? b.eta * b.eta : 1.0;
-    return glsl_double::evaluateBsdf(b, outgoing, i).value * scale;
+    return glsl_double::evaluateBsdf(b, wo, i).value * scale;
   }));
 }
 

@@ -109,13 +109,12 @@ TEST(ShaderBsdfAtRandom, ARayThroughSmoothGlassRetracesItsWay) {
       constexpr double kBelowOne = 1.0 - 1e-15;  // transmits, where any light is
       const auto in = glsl_double::sampleBsdf(front, o, kBelowOne, 0.5, 0.5);
       ASSERT_TRUE(in.transmitted) << rough.name;
-      const auto out = glsl_double::sampleBsdf(back, -in.incoming, kBelowOne, 0.5, 0.5);
+      const auto out = glsl_double::sampleBsdf(back, -in.wi, kBelowOne, 0.5, 0.5);
       ASSERT_TRUE(out.transmitted) << rough.name;
-      EXPECT_LE(glm::distance(-out.incoming, o), 1e-7) << rough.name;
+      EXPECT_LE(glm::distance(-out.wi, o), 1e-7) << rough.name;
       EXPECT_LE(glm::distance(in.weight * out.weight, front.baseColor * front.baseColor), 1e-12)
           << rough.name;
-      EXPECT_NEAR(glsl_double::glassFresnel(front, o.z), glsl_double::glassFresnel(back, -in.incoming.z),
-                  1e-9)
+      EXPECT_NEAR(glsl_double::glassFresnel(front, o.z), glsl_double::glassFresnel(back, -in.wi.z), 1e-9)
           << rough.name;
     }
   });
@@ -188,14 +187,14 @@ TEST(ShaderBsdfAtRandom, AverageFresnelIsTheCosineWeightedMeanOfSchlicks) {
 
 /// The part of the samples that facets send to the wrong side, over a low-discrepancy sequence (Roberts,
 /// 2018: R3).
-double lostByDrawing(const Bsdf& b, const dvec3& outgoing) {
+double lostByDrawing(const Bsdf& b, const dvec3& wo) {
   constexpr int kSamples = 30000;
   constexpr double kRoot = 1.2207440846057596;
   const dvec3 step(1.0 / kRoot, 1.0 / (kRoot * kRoot), 1.0 / (kRoot * kRoot * kRoot));
   int lost = 0;
   for (int i = 0; i < kSamples; ++i) {
     const dvec3 u = glm::fract(dvec3(0.5) + double(i) * step);
-    lost += glsl_double::sampleBsdf(b, outgoing, u.x, u.y, u.z).density <= 0.0 ? 1 : 0;
+    lost += glsl_double::sampleBsdf(b, wo, u.x, u.y, u.z).pdf <= 0.0 ? 1 : 0;
   }
   return double(lost) / kSamples;
 }
@@ -207,10 +206,10 @@ TEST(ShaderBsdfAtRandom, DensityAndWhatIsLostAddUpToOne) {
       const Boundary b = randomBoundary(draw, kKinds[k % 5], 0.35, false);
       const Bsdf& side = k % 2 == 0 ? b.front : b.back;
       const dvec3 o = draw.directionAbove();
-      const double density =
-          total(integrateBins([&](const dvec3& i) { return glsl_double::evaluateBsdf(side, o, i).density; }));
+      const double pdf =
+          total(integrateBins([&](const dvec3& i) { return glsl_double::evaluateBsdf(side, o, i).pdf; }));
       // Draws and the integral near grazing directions are each good to 2e-3.
-      EXPECT_NEAR(density + lostByDrawing(side, o), 1.0, 4e-3) << b.name << ", elevation " << o.z;
+      EXPECT_NEAR(pdf + lostByDrawing(side, o), 1.0, 4e-3) << b.name << ", elevation " << o.z;
     }
   });
 }

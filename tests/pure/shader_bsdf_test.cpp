@@ -15,9 +15,9 @@ namespace {
 /// density's integral must leave just that much.
 void expectSamplesFollowTheDensity(const Case& c, double elevation, size_t tests) {
   constexpr int kSamples = 1 << 17;
-  const dvec3 outgoing = atElevation(elevation);
+  const dvec3 wo = atElevation(elevation);
   std::vector<double> expected =
-      integrateBins([&](const dvec3& i) { return glsl_double::evaluateBsdf(c.bsdf, outgoing, i).density; });
+      integrateBins([&](const dvec3& i) { return glsl_double::evaluateBsdf(c.bsdf, wo, i).pdf; });
   expected.push_back(std::max(0.0, 1.0 - total(expected)));
   for (double& e : expected) e *= kSamples;
   std::vector<double> counts(expected.size());
@@ -26,15 +26,15 @@ void expectSamplesFollowTheDensity(const Case& c, double elevation, size_t tests
   for (int k = 0; k < kSamples; ++k) {
     const float choice = draw.unit();
     const float u = draw.unit();
-    const auto s = glsl_float::sampleBsdf(b, vec3(outgoing), choice, u, draw.unit());
-    if (s.density <= 0.0f) {
+    const auto s = glsl_float::sampleBsdf(b, vec3(wo), choice, u, draw.unit());
+    if (s.pdf <= 0.0f) {
       ASSERT_EQ(s.weight, vec3(0.0f));
       ++counts.back();
       continue;
     }
-    ASSERT_NEAR(glm::length(dvec3(s.incoming)), 1.0, 1e-5);
-    ASSERT_EQ(s.transmitted, s.incoming.z < 0.0f);
-    ++counts[binOfDirection(dvec3(s.incoming))];
+    ASSERT_NEAR(glm::length(dvec3(s.wi)), 1.0, 1e-5);
+    ASSERT_EQ(s.transmitted, s.wi.z < 0.0f);
+    ++counts[binOfDirection(dvec3(s.wi))];
   }
   EXPECT_GT(chiSquareChance(expected, counts), kSignificance / double(tests))
       << c.name << ", elevation " << elevation << ": lost " << counts.back() / kSamples << ", expected "
@@ -61,9 +61,8 @@ double lostByFacets(const Bsdf& mixed, double elevation) {
   b.glass = 1.0;
   b.metal = b.opaque = 0.0;
   b.glassLost = 1e-12;  // its density is that of what is kept then
-  const dvec3 outgoing = atElevation(elevation);
-  return 1.0 - total(integrateBins(
-                   [&](const dvec3& i) { return glsl_double::evaluateBsdf(b, outgoing, i).density; }));
+  const dvec3 wo = atElevation(elevation);
+  return 1.0 - total(integrateBins([&](const dvec3& i) { return glsl_double::evaluateBsdf(b, wo, i).pdf; }));
 }
 
 TEST(ShaderBsdf, SamplesOfGlassThatLosesNothingFollowTheirDensity) {
@@ -94,9 +93,9 @@ TEST(ShaderBsdf, SamplesWithoutASpecularLobeFollowTheirDensity) {
 TEST(ShaderBsdf, DiffuseDensityIntegratesToOne) {
   for (double z : kElevations) {
     const dvec3 o = atElevation(z);
-    EXPECT_NEAR(total(integrateBins(
-                    [&](const dvec3& i) { return glsl_double::evaluateBsdf(lambert(), o, i).density; })),
-                1.0, 1e-5);
+    EXPECT_NEAR(
+        total(integrateBins([&](const dvec3& i) { return glsl_double::evaluateBsdf(lambert(), o, i).pdf; })),
+        1.0, 1e-5);
   }
 }
 
@@ -105,8 +104,8 @@ TEST(ShaderBsdf, DensitiesIntegrateToAtMostOneAndToOneWhereNoFacetLosesLight) {
   for (const Case& c : allCases()) {
     for (double z : kElevations) {
       const dvec3 o = atElevation(z);
-      const double sum = total(
-          integrateBins([&](const dvec3& i) { return glsl_double::evaluateBsdf(c.bsdf, o, i).density; }));
+      const double sum =
+          total(integrateBins([&](const dvec3& i) { return glsl_double::evaluateBsdf(c.bsdf, o, i).pdf; }));
       EXPECT_LE(sum, 1.0 + 1e-3) << c.name << ", elevation " << z;
       if (c.bsdf.alpha < 0.1 && z > 0.5) {
         EXPECT_GE(sum, 0.99) << c.name << ", elevation " << z;
@@ -123,10 +122,10 @@ TEST(ShaderBsdf, WeightIsTheValueOverTheDensity) {
       const double choice = draw.unit();
       const double u = draw.unit();
       const auto s = glsl_double::sampleBsdf(c.bsdf, o, choice, u, draw.unit());
-      if (s.density == 0.0) continue;
-      const auto v = glsl_double::evaluateBsdf(c.bsdf, o, s.incoming);
-      EXPECT_NEAR(v.density, s.density, 1e-9 * s.density) << c.name;
-      EXPECT_LE(glm::distance(s.weight * s.density, v.value), 1e-9 * glm::length(v.value)) << c.name;
+      if (s.pdf == 0.0) continue;
+      const auto v = glsl_double::evaluateBsdf(c.bsdf, o, s.wi);
+      EXPECT_NEAR(v.pdf, s.pdf, 1e-9 * s.pdf) << c.name;
+      EXPECT_LE(glm::distance(s.weight * s.pdf, v.value), 1e-9 * glm::length(v.value)) << c.name;
     }
   }
 }
@@ -164,16 +163,16 @@ TEST(ShaderBsdf, SmoothGlassReflectsWithTheChanceOfItsReflectance) {
         int reflected = 0;
         for (int k = 0; k < kChoices; ++k) {
           const auto s = glsl_double::sampleBsdf(b, o, (k + 0.5) / kChoices, 0.3, 0.6);
-          EXPECT_EQ(s.density, 0.0);
+          EXPECT_EQ(s.pdf, 0.0);
           if (s.transmitted) {
-            EXPECT_LT(s.incoming.z, 0.0);
+            EXPECT_LT(s.wi.z, 0.0);
             EXPECT_LE(glm::distance(s.weight, b.baseColor / (solid ? b.eta * b.eta : 1.0)), 1e-12);
             const double bend = solid ? b.eta : 1.0;
-            EXPECT_LE(glm::distance(glm::dvec2(s.incoming) * bend, -glm::dvec2(o)), 1e-12);
+            EXPECT_LE(glm::distance(glm::dvec2(s.wi) * bend, -glm::dvec2(o)), 1e-12);
           } else {
             ++reflected;
             EXPECT_EQ(s.weight, dvec3(1.0));
-            EXPECT_LE(glm::distance(s.incoming, dvec3(-o.x, -o.y, o.z)), 1e-14);
+            EXPECT_LE(glm::distance(s.wi, dvec3(-o.x, -o.y, o.z)), 1e-14);
           }
         }
         EXPECT_NEAR(double(reflected) / kChoices, reflectance, 1.5 / kChoices);
@@ -186,7 +185,7 @@ TEST(ShaderBsdf, SmoothMetalReflectsSchlicksShare) {
   const Bsdf b = makeBsdf(1, 0, 0.0, 1.5, false, true);
   for (double z : {1.0, 0.5, 0.1}) {
     const auto s = glsl_double::sampleBsdf(b, atElevation(z), 0.4, 0.3, 0.6);
-    EXPECT_EQ(s.density, 0.0);
+    EXPECT_EQ(s.pdf, 0.0);
     EXPECT_LE(glm::distance(s.weight, schlick(b.baseColor, 1.0, z)), 1e-12);
   }
 }
@@ -212,7 +211,7 @@ TEST(ShaderBsdf, SmoothLobesHaveNoValueInAnyDirection) {
     const dvec3 i = draw.direction();
     EXPECT_EQ(glsl_double::evaluateBsdf(metal, o, i).value, dvec3(0.0));
     EXPECT_EQ(glsl_double::evaluateBsdf(glass, o, i).value, dvec3(0.0));
-    EXPECT_EQ(glsl_double::evaluateBsdf(glass, o, i).density, 0.0);
+    EXPECT_EQ(glsl_double::evaluateBsdf(glass, o, i).pdf, 0.0);
   }
 }
 
@@ -227,12 +226,12 @@ TEST(ShaderBsdf, FloatValuesAreFiniteAndNearDouble) {
     for (int k = 0; k < 20000; ++k) {
       dvec3 o = draw.directionAbove();
       if (k % 8 == 0) o = glm::normalize(dvec3(o.x, o.y, o.z * 1e-4));
-      const vec3 outgoing(o);
-      const vec3 incoming(draw.direction());
-      const auto value = glsl_float::evaluateBsdf(b, outgoing, incoming);
-      const auto expected = glsl_double::evaluateBsdf(c.bsdf, dvec3(outgoing), dvec3(incoming));
-      ASSERT_TRUE(std::isfinite(value.value.x + value.value.y + value.value.z + value.density)) << c.name;
-      ASSERT_GE(std::min({value.value.x, value.value.y, value.value.z, value.density}), 0.0f) << c.name;
+      const vec3 wo(o);
+      const vec3 wi(draw.direction());
+      const auto value = glsl_float::evaluateBsdf(b, wo, wi);
+      const auto expected = glsl_double::evaluateBsdf(c.bsdf, dvec3(wo), dvec3(wi));
+      ASSERT_TRUE(std::isfinite(value.value.x + value.value.y + value.value.z + value.pdf)) << c.name;
+      ASSERT_GE(std::min({value.value.x, value.value.y, value.value.z, value.pdf}), 0.0f) << c.name;
       ++count;
       // Near the edge of what refraction can reach, the half vector's side is decided by rounding.
       if (glm::distance(dvec3(value.value), expected.value) > 2e-3 * glm::length(expected.value) + 1e-6)
@@ -255,9 +254,9 @@ TEST(ShaderBsdf, FloatSamplesAreFiniteAtGrazingDirections) {
         const float choice = draw.unit();
         const float u = draw.unit();
         const auto s = glsl_float::sampleBsdf(b, o, choice, u, draw.unit());
-        ASSERT_TRUE(std::isfinite(s.weight.x + s.weight.y + s.weight.z + s.density)) << c.name << ", z " << z;
+        ASSERT_TRUE(std::isfinite(s.weight.x + s.weight.y + s.weight.z + s.pdf)) << c.name << ", z " << z;
         ASSERT_GE(std::min({s.weight.x, s.weight.y, s.weight.z}), 0.0f) << c.name << ", z " << z;
-        ASSERT_NEAR(glm::length(dvec3(s.incoming)), 1.0, 1e-3) << c.name << ", z " << z;
+        ASSERT_NEAR(glm::length(dvec3(s.wi)), 1.0, 1e-3) << c.name << ", z " << z;
       }
     }
   }

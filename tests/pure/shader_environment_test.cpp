@@ -53,9 +53,9 @@ class Surrounded {
  private:
   static layout::Frame frameOf(const Image& image, double rotation) {
     layout::Frame frame{};
-    frame.catcherLight.w = 1.0f;
-    frame.environment = glm::vec4(float(image.width), float(image.height), float(std::cos(rotation)),
-                                  float(std::sin(rotation)));
+    frame.environmentScale = 1.0f;
+    frame.environmentSize = {image.width, image.height};
+    frame.environmentRotation = {std::cos(rotation), std::sin(rotation)};
     return frame;
   }
 
@@ -67,9 +67,7 @@ class Surrounded {
 
 dvec3 radianceAlong(const dvec3& d) { return dvec3(glsl_double::environmentAlong(d)); }
 
-double densityAlong(const dvec3& d) {
-  return glsl_double::environmentDensity(glsl_double::environmentAlong(d), d);
-}
+double pdfAlong(const dvec3& d) { return glsl_double::environmentPdf(glsl_double::environmentAlong(d), d); }
 
 /// docs/design/conventions.md: u from atan2(z, x), v from acos(y).
 dvec3 directionAt(double u, double v) {
@@ -186,12 +184,12 @@ TEST(ShaderEnvironment, FloatRadianceIsNearDouble) {
 TEST(ShaderEnvironment, DensityIntegratesToOneAndMissesNoLight) {
   for (double rotation : kRotations) {
     const Surrounded here(sunnyMap(), rotation);
-    const double whole = total(integrateBins([](const dvec3& d) { return densityAlong(d); }));
+    const double whole = total(integrateBins([](const dvec3& d) { return pdfAlong(d); }));
     EXPECT_NEAR(whole, 1.0, 1e-5);
     size_t dark = 0;
     integrateBins([&](const dvec3& d) {
       const bool lit = luminanceOf(radianceAlong(d)) > 1e-6;
-      const bool drawn = densityAlong(d) > 0.0;
+      const bool drawn = pdfAlong(d) > 0.0;
       EXPECT_TRUE(drawn || !lit);
       dark += drawn ? 0 : 1;
       return 0.0;
@@ -206,7 +204,7 @@ TEST(ShaderEnvironment, SampledDirectionsFollowTheDensity) {
   constexpr int kSamples = 1 << 20;
   for (double rotation : kRotations) {
     const Surrounded here(sunnyMap(), rotation);
-    std::vector<double> expected = integrateBins([](const dvec3& d) { return densityAlong(d); });
+    std::vector<double> expected = integrateBins([](const dvec3& d) { return pdfAlong(d); });
     for (double& e : expected) e *= kSamples;
     std::vector<double> counts(expected.size());
     Draw draw(113);
@@ -260,10 +258,10 @@ double relativeVariance(const dvec3& normal, bool stratified) {
   for (uint32_t r = 0; r < kRepeats; ++r) {
     double estimate = 0.0;
     for (uint32_t k = 0; k < kSamples; ++k) {
-      const auto numbers = glsl_float::makeSampler(glsl_float::mixBits(r), k);
+      const auto sampler = glsl_float::makeSampler(glsl_float::mixBits(r), k);
       const uvec2 independent(uint32_t(draw.engine()), uint32_t(draw.engine()));
       const auto s = glsl_float::environmentLight(
-          1.0f, stratified ? glsl_float::drawPairBits(numbers, 0u) : independent);
+          1.0f, stratified ? glsl_float::drawPairBits(sampler, 0u) : independent);
       estimate +=
           luminanceOf(dvec3(s.irradiance)) * std::max(0.0, glm::dot(dvec3(s.direction), normal)) / kSamples;
     }
@@ -286,22 +284,22 @@ TEST(ShaderEnvironment, StratifiedNumbersDrawStratifiedDirections) {
 TEST(ShaderEnvironment, BesideScatteredRaysOnlyWhatIsBrighterThanTheMeanIsDrawn) {
   const Image image = sunnyMap();
   const Surrounded here(image, 0.0, EnvironmentDraws::LightAndPaths);
-  EXPECT_NEAR(total(integrateBins([](const dvec3& d) { return densityAlong(d); })), 1.0, 1e-3);
+  EXPECT_NEAR(total(integrateBins([](const dvec3& d) { return pdfAlong(d); })), 1.0, 1e-3);
   const double area = 4.0 * M_PI;
   const double mean =
       total(integrateBins([](const dvec3& d) { return luminanceOf(radianceAlong(d)); })) / area;
   integrateBins([&](const dvec3& d) {
     if (luminanceOf(radianceAlong(d)) > 1.1 * mean) {
-      EXPECT_GT(densityAlong(d), 0.0);
+      EXPECT_GT(pdfAlong(d), 0.0);
     }
     return 0.0;
   });
-  EXPECT_EQ(densityAlong(directionAt(0.1, 0.5)), 0.0);  // the black half
+  EXPECT_EQ(pdfAlong(directionAt(0.1, 0.5)), 0.0);  // the black half
   // A map without anything brighter is drawn evenly.
   Image even = image;
   for (float& x : even.values) x = 1.0f;
   const Surrounded there(even, 0.0, EnvironmentDraws::LightAndPaths);
-  EXPECT_NEAR(densityAlong(directionAt(0.3, 0.4)), 1.0 / area, 0.01 / area);
+  EXPECT_NEAR(pdfAlong(directionAt(0.3, 0.4)), 1.0 / area, 0.01 / area);
 }
 
 TEST(ShaderEnvironment, ChanceOfTheEnvironmentScalesDensityAndIrradiance) {
@@ -310,7 +308,7 @@ TEST(ShaderEnvironment, ChanceOfTheEnvironmentScalesDensityAndIrradiance) {
   const auto whole = glsl_double::environmentLight(1.0, bits);
   const auto part = glsl_double::environmentLight(0.25, bits);
   EXPECT_EQ(part.direction, whole.direction);
-  EXPECT_NEAR(part.density, 0.25 * whole.density, 1e-12 * whole.density);
+  EXPECT_NEAR(part.pdf, 0.25 * whole.pdf, 1e-12 * whole.pdf);
   EXPECT_LE(glm::distance(part.irradiance, 4.0 * whole.irradiance), 1e-9 * glm::length(whole.irradiance));
 }
 
@@ -323,7 +321,7 @@ TEST(ShaderEnvironment, ABlackMapIsDrawnEvenlyAndGivesNothing) {
     const uint32_t first = draw.engine();
     const auto s = glsl_float::environmentLight(1.0f, uvec2(first, draw.engine()));
     EXPECT_EQ(s.irradiance, vec3(0.0f));
-    EXPECT_TRUE(std::isfinite(s.density));
+    EXPECT_TRUE(std::isfinite(s.pdf));
   }
 }
 

@@ -28,10 +28,10 @@ TEST(ShaderFacets, TheDensityIsOneOverTheAreaOfAUnitOfRandomNumbers) {
       const double u = draw.between(0.01, 0.99);
       const double v = draw.between(0.05, 0.95);
       const auto facet = [&](double a, double b) {
-        return glsl_double::sampleFacet(o, alpha, stretch, a, b);
+        return glsl_double::sampleMicrofacet(o, alpha, stretch, a, b);
       };
-      const double density = glsl_double::facetDensity(o, facet(u, v), alpha, stretch);
-      EXPECT_NEAR(density * areaPerUnit(facet, u, v), 1.0, 1e-5)
+      const double pdf = glsl_double::microfacetPdf(o, facet(u, v), alpha, stretch);
+      EXPECT_NEAR(pdf * areaPerUnit(facet, u, v), 1.0, 1e-5)
           << "alpha " << alpha << ", stretch " << stretch << ", o.z " << o.z;
     }
   }
@@ -51,7 +51,7 @@ TEST(ShaderFacets, OfStretchedFacetsTheDensityIsThatOfTheirTwoWidths) {
       const double lambda =
           0.5 * (std::sqrt(1.0 + (o.x * o.x * x * x + o.y * o.y * y * y) / (o.z * o.z)) - 1.0);
       const double expected = glm::dot(o, h) / (o.z * (1.0 + lambda) * M_PI * x * y * slopes * slopes);
-      EXPECT_NEAR(glsl_double::facetDensity(o, h, alpha, stretch), expected, 1e-12 * expected);
+      EXPECT_NEAR(glsl_double::microfacetPdf(o, h, alpha, stretch), expected, 1e-12 * expected);
     }
   }
 }
@@ -65,10 +65,10 @@ TEST(ShaderFacets, AClearcoatReflectsAtTheFacetsOfItsOwnWidth) {
     const double u = draw.between(0.01, 0.99);
     const double v = draw.between(0.05, 0.95);
     const auto facet = [&](double first, double second) {
-      return glm::normalize(o + glsl_double::drawCoat(b, o, 1.0, first, second).incoming);
+      return glm::normalize(o + glsl_double::drawCoat(b, o, 1.0, first, second).wi);
     };
-    const double density = glsl_double::visibleGgxDensity(o, facet(u, v), b.coatAlpha);
-    EXPECT_NEAR(density * areaPerUnit(facet, u, v), 1.0, 1e-5) << "o.z " << o.z;
+    const double pdf = glsl_double::visibleGgxPdf(o, facet(u, v), b.coatAlpha);
+    EXPECT_NEAR(pdf * areaPerUnit(facet, u, v), 1.0, 1e-5) << "o.z " << o.z;
   }
 }
 

@@ -39,16 +39,15 @@ TEST(ShaderFresnel, RefractedRaysFollowSnell) {
   for (double eta : kIndices) {
     for (int i = 0; i < 2000; ++i) {
       const dvec3 normal = draw.direction();
-      dvec3 outgoing = draw.direction();
-      if (glm::dot(outgoing, normal) < 0.0) outgoing = -outgoing;
-      const double sine = glm::length(glm::cross(outgoing, normal));
+      dvec3 wo = draw.direction();
+      if (glm::dot(wo, normal) < 0.0) wo = -wo;
+      const double sine = glm::length(glm::cross(wo, normal));
       if (sine >= eta) continue;
-      const dvec3 refracted = refractThrough(outgoing, normal, eta);
+      const dvec3 refracted = refractThrough(wo, normal, eta);
       EXPECT_NEAR(glm::length(refracted), 1.0, kTolerance);
       EXPECT_LT(glm::dot(refracted, normal), 0.0);
       // Signed: same plane, opposite side of the normal.
-      EXPECT_LE(glm::distance(glm::cross(refracted, normal) * eta, -glm::cross(outgoing, normal)),
-                kTolerance);
+      EXPECT_LE(glm::distance(glm::cross(refracted, normal) * eta, -glm::cross(wo, normal)), kTolerance);
     }
   }
 }
@@ -56,9 +55,9 @@ TEST(ShaderFresnel, RefractedRaysFollowSnell) {
 TEST(ShaderFresnel, InFloatAnIndexOfOneIsNotThereAtAnyAngle) {
   for (float cosine = 1.0f; cosine > 1e-20f; cosine *= 0.7f) {
     EXPECT_LE(glsl_float::fresnelDielectric(cosine, 1.0f), 1e-6f) << cosine;
-    const vec3 outgoing(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
-    const vec3 through = glsl_float::refractThrough(outgoing, vec3(0, 0, 1), 1.0f);
-    EXPECT_LE(glm::distance(through, -outgoing), 2e-7f) << cosine;
+    const vec3 wo(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
+    const vec3 through = glsl_float::refractThrough(wo, vec3(0, 0, 1), 1.0f);
+    EXPECT_LE(glm::distance(through, -wo), 2e-7f) << cosine;
   }
   EXPECT_EQ(glsl_float::fresnelDielectric(0.0f, 1.0f), 0.0f);
 }
@@ -74,8 +73,8 @@ TEST(ShaderFresnel, InFloatTheCriticalAngleIsABorderBetweenNumbers) {
       EXPECT_TRUE(fresnel >= 0.0f && fresnel <= 1.0f) << index;
       reflected += fresnel == 1.0f ? 1 : 0;
       // Who goes through by rounding alone goes along the boundary.
-      const vec3 outgoing(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
-      const vec3 through = glsl_float::refractThrough(outgoing, vec3(0, 0, 1), eta);
+      const vec3 wo(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
+      const vec3 through = glsl_float::refractThrough(wo, vec3(0, 0, 1), eta);
       EXPECT_NEAR(glm::length(through), 1.0f, 1e-6f);
       EXPECT_LE(through.z, 1e-6f);
       EXPECT_GT(through.z, -0.02f);
@@ -87,8 +86,8 @@ TEST(ShaderFresnel, InFloatTheCriticalAngleIsABorderBetweenNumbers) {
 }
 
 TEST(ShaderFresnel, WaterBendsThirtyDegreesToTwentyTwo) {
-  const dvec3 outgoing(0.5, 0.0, std::sqrt(0.75));
-  const dvec3 refracted = refractThrough(outgoing, dvec3(0, 0, 1), 1.33);
+  const dvec3 wo(0.5, 0.0, std::sqrt(0.75));
+  const dvec3 refracted = refractThrough(wo, dvec3(0, 0, 1), 1.33);
   EXPECT_NEAR(std::atan2(-refracted.x, -refracted.z) * 180.0 / M_PI, 22.08241, 1e-5);
 }
 
@@ -163,8 +162,8 @@ TEST(ShaderFresnel, BothSidesOfABoundaryReflectAlike) {
 TEST(ShaderFresnel, EqualIndicesReflectNothing) {
   for (double cosine : {1.0, 0.5, 0.01}) {
     EXPECT_NEAR(fresnelDielectric(cosine, 1.0), 0.0, kTolerance);
-    const dvec3 outgoing(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
-    EXPECT_LE(glm::distance(refractThrough(outgoing, dvec3(0, 0, 1), 1.0), -outgoing), kTolerance);
+    const dvec3 wo(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
+    EXPECT_LE(glm::distance(refractThrough(wo, dvec3(0, 0, 1), 1.0), -wo), kTolerance);
   }
 }
 
@@ -206,10 +205,10 @@ TEST(ShaderFresnel, MirrorDirectionKeepsTheAngleAndThePlane) {
   Draw draw(2);
   for (int i = 0; i < 1000; ++i) {
     const dvec3 normal = draw.direction();
-    const dvec3 outgoing = draw.direction();
-    const dvec3 mirrored = mirrorDirection(outgoing, normal);
-    EXPECT_NEAR(glm::dot(mirrored, normal), glm::dot(outgoing, normal), kTolerance);
-    EXPECT_LE(glm::distance(glm::cross(mirrored, normal), -glm::cross(outgoing, normal)), kTolerance);
+    const dvec3 wo = draw.direction();
+    const dvec3 mirrored = mirrorDirection(wo, normal);
+    EXPECT_NEAR(glm::dot(mirrored, normal), glm::dot(wo, normal), kTolerance);
+    EXPECT_LE(glm::distance(glm::cross(mirrored, normal), -glm::cross(wo, normal)), kTolerance);
   }
 }
 

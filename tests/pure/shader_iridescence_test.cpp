@@ -77,7 +77,7 @@ TEST(ShaderIridescence, NoFilmIsTheBareSurfaceAndAllStaysBetweenZeroAndOne) {
     const double index = draw.between(1.0, 2.5);
     const double cosine = draw.between(0.0, 1.0);
     const double f90 = draw.between(0.0, 1.0);
-    EXPECT_EQ(glsl_double::facetFresnel(filmed(metal(0.4), index, 0.0), baseF0, f90, cosine),
+    EXPECT_EQ(glsl_double::microfacetFresnel(filmed(metal(0.4), index, 0.0), baseF0, f90, cosine),
               glsl_double::fresnelSchlick(baseF0, f90, cosine));
     const vec3 film = glsl_float::filmReflectance(vec3(baseF0), float(index),
                                                   float(draw.between(0.0, 1500.0)), float(cosine));

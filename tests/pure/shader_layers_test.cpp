@@ -67,7 +67,7 @@ TEST(ShaderLayers, DirectionsFollowTheDensityAndTheMeanWeightIsTheIntegralOfTheV
     const dvec3 o = atElevation((&c - cases.data()) % 2 == 0 ? 0.7 : 0.3);
     const auto bins = integrateBins([&](const dvec3& i) {
       const auto value = glsl_double::evaluateBsdf(b, o, i);
-      return glm::dvec4(value.value * (i.z < 0.0 && b.solid ? b.eta * b.eta : 1.0), value.density);
+      return glm::dvec4(value.value * (i.z < 0.0 && b.solid ? b.eta * b.eta : 1.0), value.pdf);
     });
     std::vector<double> expected;
     expected.reserve(bins.size());
@@ -78,7 +78,7 @@ TEST(ShaderLayers, DirectionsFollowTheDensityAndTheMeanWeightIsTheIntegralOfTheV
       const double choice = draw.between(0.0, 1.0);
       const double u = draw.between(0.0, 1.0);
       const auto s = glsl_double::sampleBsdf(b, o, choice, u, draw.between(0.0, 1.0));
-      s.density > 0.0 ? counted[binOfDirection(s.incoming)] += 1.0 : lost += 1.0;
+      s.pdf > 0.0 ? counted[binOfDirection(s.wi)] += 1.0 : lost += 1.0;
     }
     expected.push_back(std::max(0.0, kDraws - total(expected)));
     counted.push_back(lost);
@@ -312,21 +312,21 @@ TEST(ShaderLayers, FloatValuesAndSamplesAreFiniteAndNearDouble) {
     for (int k = 0; k < 4000; ++k) {
       dvec3 o = draw.directionAbove();
       if (k % 8 == 0) o = glm::normalize(dvec3(o.x, o.y, o.z * 1e-4));
-      const vec3 outgoing(o);
-      const vec3 incoming(draw.direction());
-      const auto value = glsl_float::evaluateBsdf(b, outgoing, incoming);
-      const auto expected = glsl_double::evaluateBsdf(c.bsdf, dvec3(outgoing), dvec3(incoming));
-      ASSERT_TRUE(std::isfinite(value.value.x + value.value.y + value.value.z + value.density)) << c.name;
-      ASSERT_GE(std::min({value.value.x, value.value.y, value.value.z, value.density}), 0.0f) << c.name;
+      const vec3 wo(o);
+      const vec3 wi(draw.direction());
+      const auto value = glsl_float::evaluateBsdf(b, wo, wi);
+      const auto expected = glsl_double::evaluateBsdf(c.bsdf, dvec3(wo), dvec3(wi));
+      ASSERT_TRUE(std::isfinite(value.value.x + value.value.y + value.value.z + value.pdf)) << c.name;
+      ASSERT_GE(std::min({value.value.x, value.value.y, value.value.z, value.pdf}), 0.0f) << c.name;
       ++count;
       if (glm::distance(dvec3(value.value), expected.value) > 3e-3 * glm::length(expected.value) + 1e-6)
         ++far;
       const float choice = draw.unit();
       const float u = draw.unit();
-      const auto s = glsl_float::sampleBsdf(b, outgoing, choice, u, draw.unit());
-      ASSERT_TRUE(std::isfinite(s.weight.x + s.weight.y + s.weight.z + s.density)) << c.name << ", z " << o.z;
+      const auto s = glsl_float::sampleBsdf(b, wo, choice, u, draw.unit());
+      ASSERT_TRUE(std::isfinite(s.weight.x + s.weight.y + s.weight.z + s.pdf)) << c.name << ", z " << o.z;
       ASSERT_GE(std::min({s.weight.x, s.weight.y, s.weight.z}), 0.0f) << c.name;
-      ASSERT_GE(s.density, 0.0f) << c.name;
+      ASSERT_GE(s.pdf, 0.0f) << c.name;
     }
   }
   EXPECT_LE(double(far), 2e-3 * double(count));

@@ -29,7 +29,7 @@ double spreadOf(const glm::vec4& ball) {
 
 /// Of a direction from the origin, by its definition: all cones that hold it, over the sum of all solid
 /// angles.
-double densityTowards(const dvec3& direction, size_t count) {
+double pdfTowards(const dvec3& direction, size_t count) {
   double sum = 0.0;
   double holding = 0.0;
   for (size_t i = 0; i < count; ++i) {
@@ -41,7 +41,7 @@ double densityTowards(const dvec3& direction, size_t count) {
 }
 
 /// Of a place across parallel rays.
-double densityAcross(const dvec3& place, const dvec3& along) {
+double pdfAcross(const dvec3& place, const dvec3& along) {
   double sum = 0.0;
   double holding = 0.0;
   for (const glm::vec4& ball : kCasters) {
@@ -56,7 +56,7 @@ double densityAcross(const dvec3& place, const dvec3& along) {
 /// Cells of a square from (0, 0) to (1, 1): how many of `draw`'s places are in each, against the integral of
 /// a density. Returns the chance of what is seen.
 template <typename Draws, typename Density>
-double chanceOf(const Draws& draws, const Density& density, double area) {
+double chanceOf(const Draws& draws, const Density& pdf, double area) {
   constexpr int kCells = 24;
   constexpr int kParts = 48;
   std::vector<double> counted(kCells * kCells);
@@ -70,7 +70,7 @@ double chanceOf(const Draws& draws, const Density& density, double area) {
   for (int y = 0; y < kCells * kParts; ++y) {
     for (int x = 0; x < kCells * kParts; ++x)
       expected[size_t(y / kParts) * kCells + size_t(x / kParts)] +=
-          kSamples * density(dvec2(x + 0.5, y + 0.5) / kSide) * area / (kSide * kSide);
+          kSamples * pdf(dvec2(x + 0.5, y + 0.5) / kSide) * area / (kSide * kSide);
   }
   return chiSquareChance(expected, counted);
 }
@@ -88,16 +88,16 @@ TEST(ShaderLightPaths, AreAimedAtCastersAsDenselyAsTheyTell) {
       const dvec2 uv(draw.unit(), draw.unit());
       const auto a = glsl_double::aimFrom(dvec3(0.0), normal, choice, uv);
       // At a cone's very edge rounding tells which side.
-      wrong += std::abs(a.density / densityTowards(a.direction, seen) - 1.0) > 1e-6 ? 1 : 0;
+      wrong += std::abs(a.pdf / pdfTowards(a.direction, seen) - 1.0) > 1e-6 ? 1 : 0;
       return dvec2(std::atan2(a.direction.y, a.direction.x) / (2.0 * M_PI) + 0.5, 0.5 * a.direction.z + 0.5);
     };
-    const auto density = [&](const dvec2& place) {
+    const auto pdf = [&](const dvec2& place) {
       const double z = 2.0 * place.y - 1.0;
       const double phi = 2.0 * M_PI * (place.x - 0.5);
       const double r = std::sqrt(1.0 - z * z);
-      return densityTowards({r * std::cos(phi), r * std::sin(phi), z}, seen);
+      return pdfTowards({r * std::cos(phi), r * std::sin(phi), z}, seen);
     };
-    EXPECT_GT(chanceOf(draws, density, 4.0 * M_PI), kSignificance / 3.0) << oneSided;
+    EXPECT_GT(chanceOf(draws, pdf, 4.0 * M_PI), kSignificance / 3.0) << oneSided;
     EXPECT_LE(wrong, kSamples / 10000) << oneSided;
   }
 }
@@ -116,14 +116,14 @@ TEST(ShaderLightPaths, OfTheSunCrossDisksAsDenselyAsTheyTell) {
     const dvec2 uv(draw.unit(), draw.unit());
     const auto a = glsl_double::aimAlong(along, choice, uv);
     EXPECT_EQ(a.direction, along);
-    wrong += std::abs(a.density / densityAcross(a.origin, along) - 1.0) > 1e-6 ? 1 : 0;
+    wrong += std::abs(a.pdf / pdfAcross(a.origin, along) - 1.0) > 1e-6 ? 1 : 0;
     return dvec2(glm::dot(a.origin, right), glm::dot(a.origin, up)) / (2.0 * kHalf) + 0.5;
   };
-  const auto density = [&](const dvec2& place) {
+  const auto pdf = [&](const dvec2& place) {
     const dvec2 p = (2.0 * place - 1.0) * kHalf;
-    return densityAcross(p.x * right + p.y * up, along);
+    return pdfAcross(p.x * right + p.y * up, along);
   };
-  EXPECT_GT(chanceOf(draws, density, 4.0 * kHalf * kHalf), kSignificance / 3.0);
+  EXPECT_GT(chanceOf(draws, pdf, 4.0 * kHalf * kHalf), kSignificance / 3.0);
   EXPECT_LE(wrong, kSamples / 10000);
 }
 

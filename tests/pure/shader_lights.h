@@ -163,10 +163,12 @@ class Lit {
   /// As src/render/renderer.cpp fills it.
   static layout::Frame frameOf(const GpuScene& packed) {
     layout::Frame frame{};
-    frame.environment = glm::vec4(glm::vec2(packed.environmentSize), 1.0f, 0.0f);
-    frame.catcherLight.w = 1.0f;
-    frame.lightChoice = glm::vec4(environmentChance(packed.lightShare, 1.0), float(packed.emitterCount), 0.0f,
-                                  float(packed.punctualLights));
+    frame.environmentSize = packed.environmentSize;
+    frame.environmentRotation = {1.0f, 0.0f};
+    frame.environmentScale = 1.0f;
+    frame.environmentChance = environmentChance(packed.lightShare, 1.0);
+    frame.emitterCount = float(packed.emitterCount);
+    frame.punctualCount = float(packed.punctualLights);
     return frame;
   }
 

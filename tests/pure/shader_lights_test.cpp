@@ -34,7 +34,7 @@ TEST(ShaderLights, TrianglesAreChosenByPowerAndPointsUniformlyByArea) {
   for (int k = 0; k < kSamples; ++k) {
     const uint32_t first = draw.engine();
     const auto s = glsl_float::emitterLight(1.0f, vec3(0.0f), uvec2(first, draw.engine()), false);
-    ASSERT_GT(s.density, 0.0f);
+    ASSERT_GT(s.pdf, 0.0f);
     ASSERT_NEAR(glm::length(dvec3(s.direction)), 1.0, 1e-6);
     const auto place = lit.placeOf(dvec3(s.direction) * double(s.distance));
     ASSERT_TRUE(place);
@@ -65,43 +65,43 @@ TEST(ShaderLights, TrianglesAreChosenByPowerAndPointsUniformlyByArea) {
 TEST(ShaderLights, DensityOfASampleIsThatOfTheRayThatFindsIt) {
   for (bool environment : {false, true}) {
     const Lit lit(octantScene(), environment);
-    const float share = 1.0f - glsl_variant::frame.lightChoice.x;
+    const float share = 1.0f - glsl_variant::frame.environmentChance;
     Draw draw(179);
     for (int k = 0; k < 20000; ++k) {
       const dvec3 point = draw.inCube(0.15);
       const uvec2 bits{uint32_t(draw.engine()), uint32_t(draw.engine())};
       const auto s = glsl_double::emitterLight(share, point, bits, false);
-      ASSERT_GT(s.density, 0.0);
+      ASSERT_GT(s.pdf, 0.0);
       const auto place = lit.placeOf(point + s.direction * s.distance);
       ASSERT_TRUE(place);
       // As shaders/path.glsl weighs emission that a ray hits.
       const double cosine = std::abs(glm::dot(lit.normalOf(place->triangle), s.direction));
       const uint32_t material = lit.scene.triangles[place->triangle].material;
-      EXPECT_NEAR(glsl_double::emitterDensity(material, s.distance, cosine), s.density, 1e-6 * s.density);
-      EXPECT_LE(glm::distance(s.irradiance * s.density, lit.radianceOf(place->triangle)),
+      EXPECT_NEAR(glsl_double::emitterPdf(material, s.distance, cosine), s.pdf, 1e-6 * s.pdf);
+      EXPECT_LE(glm::distance(s.irradiance * s.pdf, lit.radianceOf(place->triangle)),
                 1e-6 * glm::length(lit.radianceOf(place->triangle)));
       const auto rounded = glsl_float::emitterLight(share, vec3(point), bits, false);
-      EXPECT_NEAR(rounded.density, s.density, 3e-5 * s.density);
+      EXPECT_NEAR(rounded.pdf, s.pdf, 3e-5 * s.pdf);
       EXPECT_LE(glm::distance(dvec3(rounded.direction), s.direction), 2e-6);
     }
   }
 }
 
 /// The density of light samples in one direction, by the triangle that a ray from the point hits first.
-double densityAlong(const Lit& lit, const dvec3& point, const dvec3& direction) {
+double pdfAlong(const Lit& lit, const dvec3& point, const dvec3& direction) {
   const auto shear = glsl_double::makeShear(direction);
   double nearest = 1e30;
-  double density = 0.0;
+  double pdf = 0.0;
   for (size_t i = 0; i < lit.scene.triangles.size(); ++i) {
     if (!lit.shines(i)) continue;
     const auto [a, b, c] = cornersOf<dvec3>(lit.scene, lit.scene.triangles[i]);
     const auto hit = glsl_double::intersectTriangle(point, shear, a, b, c);
     if (!hit.hit || hit.t <= 0.0 || hit.t >= nearest) continue;
     nearest = hit.t;
-    density = glsl_double::emitterDensity(lit.scene.triangles[i].material, hit.t,
-                                          std::abs(glm::dot(lit.normalOf(i), direction)));
+    pdf = glsl_double::emitterPdf(lit.scene.triangles[i].material, hit.t,
+                                  std::abs(glm::dot(lit.normalOf(i), direction)));
   }
-  return density;
+  return pdf;
 }
 
 TEST(ShaderLights, DensityIntegratesToOneOverAllDirectionsFromWhereAllFrontsAreSeen) {
@@ -115,7 +115,7 @@ TEST(ShaderLights, DensityIntegratesToOneOverAllDirectionsFromWhereAllFrontsAreS
       for (int i = 0; i < kTurns; ++i) {
         const double phi = 2.0 * M_PI * (i + 0.5) / kTurns;
         const double r = std::sqrt(1.0 - z * z);
-        sum += densityAlong(lit, point, dvec3(r * std::cos(phi), r * std::sin(phi), z));
+        sum += pdfAlong(lit, point, dvec3(r * std::cos(phi), r * std::sin(phi), z));
       }
     }
     // Edges of triangles cut through the lattice's cells.
@@ -135,7 +135,7 @@ TEST(ShaderLights, OnlyDoubleSidedTrianglesShineBackwards) {
     for (int k = 0; k < 100; ++k) {
       const double u = draw.unit();
       const auto s = glsl_double::triangleLight(emitter, 0.5, behind, u, draw.unit());
-      EXPECT_EQ(s.density > 0.0, lit.scene.triangles[i].material == 0);
+      EXPECT_EQ(s.pdf > 0.0, lit.scene.triangles[i].material == 0);
       EXPECT_EQ(luminanceOf(s.irradiance) > 0.0, lit.scene.triangles[i].material == 0);
       lights[lit.scene.triangles[i].material] += 1.0;
     }
@@ -156,7 +156,7 @@ TEST(ShaderLights, APointOnTheTriangleItselfGetsNothingThatIsNotFinite) {
       for (float u : {0.0f, 0.5f, 0x1.fffffep-1f}) {
         for (float v : {0.0f, 0.5f, 0x1.fffffep-1f}) {
           const auto s = glsl_float::triangleLight(emitter, 0.3f, point, u, v);
-          EXPECT_TRUE(std::isfinite(s.irradiance.x + s.irradiance.y + s.irradiance.z + s.density));
+          EXPECT_TRUE(std::isfinite(s.irradiance.x + s.irradiance.y + s.irradiance.z + s.pdf));
         }
       }
     }
@@ -226,7 +226,7 @@ TEST(ShaderLights, PunctualLightsAreThoseOfTheirSpecification) {
     const dvec3 expected = punctualAtOrigin(light);
     EXPECT_GT(expected.x, 0.0) << "light " << i;
     EXPECT_LE(glm::distance(s.irradiance, expected), 2e-6 * glm::length(expected)) << "light " << i;
-    EXPECT_EQ(s.density, 0.0) << "light " << i;
+    EXPECT_EQ(s.pdf, 0.0) << "light " << i;
     const bool far = light.type == LightType::Directional;
     const dvec3 towards = far ? -dvec3(light.direction) : glm::normalize(dvec3(light.position));
     EXPECT_LE(glm::distance(s.direction, towards), 1e-7) << "light " << i;
@@ -268,8 +268,8 @@ TEST(ShaderLights, OneSampleOfAllLightsAndTheEnvironmentIsUnbiased) {
   ASSERT_EQ(glsl_double::lightSlotCount(), 1);
   Estimate estimate;
   for (uint32_t k = 0; k < kSamples; ++k) {
-    const auto numbers = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
-    estimate.add(luminanceOf(glsl_double::lightOfSlot(0, kOrigin, layout::kNoNormal, numbers, 5).irradiance));
+    const auto sampler = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
+    estimate.add(luminanceOf(glsl_double::lightOfSlot(0, kOrigin, layout::kNoNormal, sampler, 5).irradiance));
   }
   const double exact = trianglesAtOrigin(lit) + punctualsAtOrigin(lit) + environmentAllAround();
   EXPECT_LE(estimate.error(), 0.01 * exact);
@@ -288,9 +288,9 @@ TEST(ShaderLights, BeforeGlobalIlluminationEverySlotIsALightOfItsOwn) {
   for (int slot = 0; slot < 4; ++slot) {
     Estimate estimate;
     for (uint32_t k = 0; k < kSamples; ++k) {
-      const auto numbers = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
+      const auto sampler = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
       estimate.add(
-          luminanceOf(glsl_double::lightOfSlot(slot, kOrigin, layout::kNoNormal, numbers, 5).irradiance));
+          luminanceOf(glsl_double::lightOfSlot(slot, kOrigin, layout::kNoNormal, sampler, 5).irradiance));
     }
     EXPECT_LE(std::abs(estimate.mean() - expected[slot]), kLimit * estimate.error() + 3e-5 * expected[slot])
         << "slot " << slot;

@@ -52,7 +52,7 @@ TEST(ShaderPhase, DensityIsOneOverAllDirections) {
     constexpr int kSteps = 200000;
     double sum = 0.0;
     for (int i = 0; i < kSteps; ++i)
-      sum += glsl_double::phaseDensity(g, 2.0 * (i + 0.5) / kSteps - 1.0) * 2.0 * M_PI * 2.0 / kSteps;
+      sum += glsl_double::phasePdf(g, 2.0 * (i + 0.5) / kSteps - 1.0) * 2.0 * M_PI * 2.0 / kSteps;
     EXPECT_NEAR(sum, 1.0, 1e-5) << "g = " << g;
   }
 }

@@ -74,11 +74,11 @@ TEST(ShaderPhong, FloatIsWithinAThousandthOfAPercentOfDouble) {
   // The power multiplies the rounding error of its base by the exponent, so n is kept at 30.
   Draw draw(5);
   for (int i = 0; i < 10000; ++i) {
-    const glm::vec3 outgoing(draw.directionAbove());
-    const glm::vec3 incoming(draw.directionAbove());
-    const dvec3 expected = phongValue(kDiffuse, kF0, 30.0, kNormal, dvec3(outgoing), dvec3(incoming));
-    const dvec3 actual(glsl_float::phongValue(glm::vec3(kDiffuse), glm::vec3(kF0), 30.0f, glm::vec3(kNormal),
-                                              outgoing, incoming));
+    const glm::vec3 wo(draw.directionAbove());
+    const glm::vec3 wi(draw.directionAbove());
+    const dvec3 expected = phongValue(kDiffuse, kF0, 30.0, kNormal, dvec3(wo), dvec3(wi));
+    const dvec3 actual(
+        glsl_float::phongValue(glm::vec3(kDiffuse), glm::vec3(kF0), 30.0f, glm::vec3(kNormal), wo, wi));
     EXPECT_LE(glm::distance(actual, expected), 1e-5 * glm::length(expected));
   }
 }

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "glsl.h"
+#include "shader/render_options.h"
 #include "shader_statistics.h"
-#include "stage/render_options.h"
 
 namespace fragtrace {
 namespace {
@@ -39,7 +39,7 @@ double blackmanHarrisAt(double x) {
   return sum / (kTerms[0] * kWidth);
 }
 
-double densityOf(int filter, const dvec2& p) {
+double pdfOf(int filter, const dvec2& p) {
   if (filter == kBoxFilter) return std::max(std::abs(p.x), std::abs(p.y)) < 0.5 ? 1.0 : 0.0;
   if (filter == kBlackmanHarrisFilter) return blackmanHarrisAt(p.x) * blackmanHarrisAt(p.y);
   // Standard deviation 0.5, cut off at radius 2.
@@ -64,7 +64,7 @@ std::vector<double> integrateBins(int filter, int side) {
   for (int y = 0; y < side * kInner; ++y) {
     for (int x = 0; x < side * kInner; ++x) {
       const dvec2 p(step * (x + 0.5) - kMostRadius, step * (y + 0.5) - kMostRadius);
-      bins[size_t(y / kInner) * size_t(side) + size_t(x / kInner)] += step * step * densityOf(filter, p);
+      bins[size_t(y / kInner) * size_t(side) + size_t(x / kInner)] += step * step * pdfOf(filter, p);
     }
   }
   return bins;
@@ -106,8 +106,7 @@ TEST(ShaderPixelFilter, DensityIsTheFilters) {
     Draw draw(71);
     for (int i = 0; i < 20000; ++i) {
       const dvec2 p(draw.between(-2.2, 2.2), draw.between(-2.2, 2.2));
-      EXPECT_NEAR(glsl_double::pixelFilterDensity(filter, p), densityOf(filter, p),
-                  2e-3 * densityOf(filter, p) + 1e-6)
+      EXPECT_NEAR(glsl_double::pixelFilterPdf(filter, p), pdfOf(filter, p), 2e-3 * pdfOf(filter, p) + 1e-6)
           << "filter " << filter << " at " << p.x << ", " << p.y;
     }
   }

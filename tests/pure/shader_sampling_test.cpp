@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/luminance.h"
 #include "glsl.h"
-#include "math/luminance.h"
 #include "shader_statistics.h"
 
 namespace fragtrace {
@@ -201,8 +201,8 @@ dvec3 atElevation(double z) { return {std::sqrt(1.0 - z * z) * 0.8, -std::sqrt(1
 
 TEST(ShaderGgx, FacetsCoverTheSurfaceOnce) {
   for (double alpha : {0.05, 0.3, 1.0}) {
-    EXPECT_NEAR(integrateHemisphere([&](const dvec3& h) { return glsl_double::ggxDensity(h, alpha) * h.z; }),
-                1.0, 1e-4);
+    EXPECT_NEAR(integrateHemisphere([&](const dvec3& h) { return glsl_double::ggxD(h, alpha) * h.z; }), 1.0,
+                1e-4);
   }
 }
 
@@ -212,13 +212,13 @@ TEST(ShaderGgx, FacetsSeenFromAnywhereFillItsView) {
     for (double z : {1.0, 0.6, 0.2}) {
       const dvec3 o = atElevation(z);
       const double seen = integrateHemisphere([&](const dvec3& h) {
-        return glsl_double::ggxDensity(h, alpha) * glsl_double::ggxMasking(o, alpha) *
+        return glsl_double::ggxD(h, alpha) * glsl_double::ggxMasking(o, alpha) *
                std::max(0.0, glm::dot(o, h));
       });
       EXPECT_NEAR(seen, z, 2e-3 * z) << "alpha " << alpha << ", z " << z;
       EXPECT_NEAR(
-          integrateHemisphere([&](const dvec3& h) { return glsl_double::visibleGgxDensity(o, h, alpha); }),
-          1.0, 2e-3);
+          integrateHemisphere([&](const dvec3& h) { return glsl_double::visibleGgxPdf(o, h, alpha); }), 1.0,
+          2e-3);
     }
   }
 }
@@ -230,12 +230,12 @@ TEST(ShaderGgx, VisibleNormalsHaveTheirDensity) {
   Draw draw(6);
   for (double alpha : {0.1, 0.4, 1.0}) {
     for (double z : {1.0, 0.6, 0.1}) {
-      const dvec3 outgoing = atElevation(z);
+      const dvec3 wo = atElevation(z);
       // Step: count; bands of equal area, as long as no facet leans more than the last is reached.
       std::vector<double> counts(kBands * kTurns);
       for (int i = 0; i < kSamples; ++i) {
         const float u = draw.unit();
-        const vec3 h = glsl_float::sampleVisibleGgx(vec3(outgoing), float(alpha), u, draw.unit());
+        const vec3 h = glsl_float::sampleVisibleGgx(vec3(wo), float(alpha), u, draw.unit());
         ASSERT_NEAR(glm::length(dvec3(h)), 1.0, 2e-6);
         ++counts[binOf(std::acos(std::min(1.0, double(h.z))) / (0.5 * M_PI), kBands) * kTurns +
                  binOf(turnOf(h.x, h.y), kTurns)];
@@ -249,7 +249,7 @@ TEST(ShaderGgx, VisibleNormalsHaveTheirDensity) {
           const double phi = 2.0 * M_PI * ((double(turn) + 0.5) / (kTurns * kInner) - 0.5);
           const dvec3 h(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
           expected[band / kInner * kTurns + turn / kInner] +=
-              kSamples * area * glsl_double::visibleGgxDensity(outgoing, h, alpha);
+              kSamples * area * glsl_double::visibleGgxPdf(wo, h, alpha);
         }
       }
       EXPECT_GT(chiSquareChance(expected, counts), kLeastChance) << "alpha " << alpha << ", z " << z;

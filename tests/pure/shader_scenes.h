@@ -175,8 +175,8 @@ enum class Method { Iterative, Bvh, FrontToBack };
     const With frontToBack(glsl_variant::kFrontToBack, method == Method::FrontToBack);                  \
     const shader::TreeFrame tree{Vector(p.grid.origin), Vector(p.grid.cell), int(p.bvh.leaves.size())}; \
     auto s = shader::startTraversal(Real(limit), tree.leafCount);                                       \
-    if (passed.slot >= 0) s.past = Real(passed.t);                                                      \
-    if (passed.slot >= 0) s.pastSlot = passed.slot;                                                     \
+    if (passed.slot >= 0) s.tMin = Real(passed.t);                                                      \
+    if (passed.slot >= 0) s.tMinSlot = passed.slot;                                                     \
     while (s.node != layout::kTraversalDone) {                                                          \
       s.steps = 0;                                                                                      \
       s = shader::traverse(Vector(ray.origin), Vector(ray.direction), Real(limit), s, tree, stepLimit,  \

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shader/variant.h"
 #include "shader_meshes.h"
 #include "shader_one_triangle.h"
 #include "shader_statistics.h"
-#include "stage/variant.h"
 
 namespace fragtrace {
 namespace {

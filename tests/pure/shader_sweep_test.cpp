@@ -108,20 +108,18 @@ std::string faultOf(const glsl_float::Bsdf& b, Draw& draw) {
                             ", sheen " + std::to_string(b.sheenAlpha) + ", coat " +
                             std::to_string(b.coatAlpha);
   if (!isSound(value.value)) return "value " + text(value.value) + where;
-  if (!std::isfinite(value.density) || value.density < 0.0f)
-    return "density " + std::to_string(value.density) + where;
+  if (!std::isfinite(value.pdf) || value.pdf < 0.0f) return "density " + std::to_string(value.pdf) + where;
   // What no drawing reaches would be missing from the picture. Weights below 1e-6 are lost in rounding,
   // however high and narrow the lobe that they weigh.
   const float highest = std::max(1.0f, 1.0f / (4.0f * float(M_PI) * b.alpha * b.alpha * out.z));
-  if (value.density == 0.0f && std::max({value.value.x, value.value.y, value.value.z}) > 1e-6f * highest)
-    return "value " + text(value.value) + " without density" + where;
+  if (value.pdf == 0.0f && std::max({value.value.x, value.value.y, value.value.z}) > 1e-6f * highest)
+    return "value " + text(value.value) + " without pdf" + where;
   const float choice = draw.unit();
   const float u = draw.unit();
   const glsl_float::BsdfSample s = glsl_float::sampleBsdf(b, out, choice, u, draw.unit());
   if (!isSound(s.weight)) return "weight " + text(s.weight) + where;
-  if (!std::isfinite(s.density) || s.density < 0.0f)
-    return "drawn density " + std::to_string(s.density) + where;
-  if (std::abs(glm::length(s.incoming) - 1.0f) > 1e-3f) return "direction " + text(s.incoming) + where;
+  if (!std::isfinite(s.pdf) || s.pdf < 0.0f) return "drawn pdf " + std::to_string(s.pdf) + where;
+  if (std::abs(glm::length(s.wi) - 1.0f) > 1e-3f) return "direction " + text(s.wi) + where;
   return {};
 }
 

@@ -19,9 +19,9 @@ TEST(ShaderTerminator, EqualNormalsFadeNothing) {
   Draw draw(1);
   for (int i = 0; i < 1000; ++i) {
     const dvec3 normal = draw.direction();
-    dvec3 incoming = draw.direction();
-    if (glm::dot(incoming, normal) < 0.0) incoming = -incoming;
-    EXPECT_NEAR(terminatorFade(normal, normal, incoming), 1.0, 1e-12);
+    dvec3 wi = draw.direction();
+    if (glm::dot(wi, normal) < 0.0) wi = -wi;
+    EXPECT_NEAR(terminatorFade(normal, normal, wi), 1.0, 1e-12);
   }
 }
 
@@ -46,17 +46,17 @@ TEST(ShaderTerminator, ABsdfOnlyLosesLightAndSamplesWhatItEvaluates) {
   for (Case c : opaqueCases()) {
     c.bsdf.vertexNormal = dvec3(0.0, 0.0, 1.0);
     for (int i = 0; i < 2000; ++i) {
-      const dvec3 outgoing = draw.directionAbove();
+      const dvec3 wo = draw.directionAbove();
       c.bsdf.faceNormal = glm::normalize(dvec3(0.0, 0.0, 1.0) + draw.inCube(0.5));
-      const auto s = glsl_double::sampleBsdf(c.bsdf, outgoing, draw.unit(), draw.unit(), draw.unit());
-      const auto faded = glsl_double::evaluateBsdf(c.bsdf, outgoing, s.incoming);
-      if (s.density > 0.0) {
-        EXPECT_LE(glm::distance(s.weight * s.density, faded.value), 1e-9 * (1.0 + faded.density)) << c.name;
+      const auto s = glsl_double::sampleBsdf(c.bsdf, wo, draw.unit(), draw.unit(), draw.unit());
+      const auto faded = glsl_double::evaluateBsdf(c.bsdf, wo, s.wi);
+      if (s.pdf > 0.0) {
+        EXPECT_LE(glm::distance(s.weight * s.pdf, faded.value), 1e-9 * (1.0 + faded.pdf)) << c.name;
       }
       glsl_variant::kVertexNormals = false;
-      const auto whole = glsl_double::evaluateBsdf(c.bsdf, outgoing, s.incoming);
+      const auto whole = glsl_double::evaluateBsdf(c.bsdf, wo, s.wi);
       glsl_variant::kVertexNormals = true;
-      EXPECT_EQ(faded.density, whole.density) << c.name;
+      EXPECT_EQ(faded.pdf, whole.pdf) << c.name;
       for (int k = 0; k < 3; ++k) EXPECT_LE(faded.value[k], whole.value[k]) << c.name;
     }
   }
@@ -69,11 +69,11 @@ TEST(ShaderTerminator, GlassOfIndexOneIsNotThereHoweverRough) {
     b.baseColor = dvec3(1.0);
     const glsl_float::Bsdf f = toFloat(b);
     for (int i = 0; i < 2000; ++i) {
-      const vec3 outgoing(draw.directionAbove());
-      const auto s = glsl_float::sampleBsdf(f, outgoing, draw.unit(), draw.unit(), draw.unit());
+      const vec3 wo(draw.directionAbove());
+      const auto s = glsl_float::sampleBsdf(f, wo, draw.unit(), draw.unit(), draw.unit());
       EXPECT_TRUE(s.transmitted);
       EXPECT_EQ(s.weight, vec3(1.0f));
-      EXPECT_LE(glm::distance(s.incoming, -outgoing), 1e-6f);
+      EXPECT_LE(glm::distance(s.wi, -wo), 1e-6f);
     }
   }
 }

@@ -53,9 +53,9 @@ std::vector<Outcome> allHits(const PackedTree& p, const Ray& ray) {
           glsl_float::intersectWord(s, ray.origin, ray.direction, shear, a ? l.v0a : l.v0b, a ? l.v1a : l.v1b,
                                     a ? l.v2a : l.v2b, a ? l.worda : l.wordb, slot)
               .t;
-      if (!(t > s.past)) break;
+      if (!(t > s.tMin)) break;
       hits.push_back({double(t), slot});
-      s.past = t;
+      s.tMin = t;
     }
   }
   std::ranges::sort(hits, {}, [](const Outcome& o) { return std::pair(o.t, o.slot); });

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "base/errors.h"
 #include "bvh/bvh.h"
-#include "errors.h"
 #include "shader/assemble.h"
 #include "shader/embedded.h"
-#include "stage/variant.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 namespace {
@@ -151,7 +151,7 @@ ShaderVariant pictureOf(DebugView view, const TraitSet& present) {
 TEST(DebugView, DrawsAFirstHitWithWhatItNeedsOnly) {
   const ShaderVariant geometric =
       pictureOf(DebugView::GeometricNormal, allTraits().reset(size_t(Trait::Alpha)));
-  EXPECT_EQ(geometric.feature, Feature::GeometricNormal);
+  EXPECT_EQ(geometric.aov, Aov::GeometricNormal);
   for (Trait t : {Trait::Texcoords, Trait::VertexNormals, Trait::BaseColorTexture, Trait::Environment})
     EXPECT_FALSE(has(geometric.traits, t)) << traitRows()[size_t(t)].name;
   const ShaderVariant rough = pictureOf(DebugView::Roughness, allTraits().reset(size_t(Trait::Alpha)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "math/summary.h"
+#include "base/summary.h"
 
 #include <gtest/gtest.h>
 

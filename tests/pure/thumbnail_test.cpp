@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "errors.h"
+#include "base/errors.h"
 
 namespace fragtrace {
 namespace {

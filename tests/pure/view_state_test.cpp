@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "errors.h"
-#include "stage/variant.h"
+#include "base/errors.h"
+#include "shader/variant.h"
 
 namespace fragtrace {
 namespace {

@@ -81,8 +81,8 @@ std::vector<double> blended(std::vector<double> from, std::vector<double> to, do
   return from;
 }
 
-/// Whether all but the last part of the pointer is in the document. A material has pbrMetallicRoughness in
-/// any case.
+/// Returns true if all but the last part of the pointer is in the document. A material has
+/// pbrMetallicRoughness in any case.
 bool isOfSomething(const json& root, std::string_view pointer) {
   const json* value = &root;
   while (true) {

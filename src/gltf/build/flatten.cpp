@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "math/finite.h"
+#include "base/finite.h"
 #include "scene/tangents.h"
 
 namespace fragtrace {
@@ -17,7 +17,7 @@ glm::dvec3 directionOf(const glm::dvec3& v) {
   return length > 0.0 && std::isfinite(length) ? v / length : glm::dvec3(0.0);
 }
 
-/// How a node's matrix acts on positions, normals and tangents.
+/// The action of a node's matrix on positions, normals and tangents.
 struct Transform {
   explicit Transform(const glm::dmat4& world)
       : linear(world), translation(world[3]), mirrors(glm::determinant(linear) < 0.0) {
@@ -47,7 +47,7 @@ struct Transform {
   bool mirrors;
 };
 
-/// How an instance places each of its vertices: all by its node's matrix, or each by its joints' matrices,
+/// Places the vertices of an instance: all by its node's matrix, or each by its joints' matrices,
 /// weighed and added up (glTF 2.0, section 3.7.3.3).
 class Placement {
  public:

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/bounds.h"
 #include "gltf/build/primitives.h"
-#include "math/bounds.h"
 
 namespace fragtrace {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <new>
 
+#include "base/errors.h"
 #include "bvh/contacts.h"
-#include "errors.h"
 #include "gltf/build/flatten.h"
 #include "gltf/build/materials.h"
 #include "gltf/build/meshes.h"
@@ -52,7 +52,7 @@ BoundsDouble boundsOf(const std::vector<PlacedSphere>& spheres) {
   return bounds;
 }
 
-/// Where the picture will be taken from, as far as it is known; none: the camera that frames the scene.
+/// The place of the camera, if it is known; none: the camera frames the scene.
 std::optional<glm::dvec3> cameraFor(const GltfOptions& options, const Scene& scene) {
   if (options.cameraPosition) return options.cameraPosition;
   const std::optional<int> named = cameraIndexOf({}, options.selection.camera, scene.cameras);
@@ -121,7 +121,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
   scene.materialVariants = document.materialVariants;
   addMaterials(document, scene);
 
-  // What nodes place, in world space.
+  // World space.
   const std::vector<PlacedNode> nodes = placeNodes(document, options.selection.hiddenNodes);
   scene.nodes = namedNodes(document, nodes);
   if (options.progress) options.progress("building the meshes", 0.45);

@@ -40,7 +40,7 @@ std::optional<Light> lightAt(Document& document, const PlacedNode& node, const L
   } else if (described.type != "point") {
     document.diagnostics.refuse(place + "/type", inQuotes(described.type) + " is not a kind of light");
   }
-  // What arrives at a distance of 1 in local space.
+  // The intensity is that at a distance of 1 in local space.
   const double scale = light.type == LightType::Directional ? 1.0 : 1.0 / (space.unit * space.unit);
   for (int c = 0; c < 3; ++c) {
     const double color = described.color.empty() ? 1.0 : described.color.at(size_t(c));

@@ -35,7 +35,7 @@ void readMetallicRoughness(const tinygltf::PbrMetallicRoughness& pbr, const Mate
   m.metallicRoughnessTexture = textureOf(pbr.metallicRoughnessTexture, part, "metallicRoughnessTexture");
 }
 
-/// What stands beside pbrMetallicRoughness.
+/// Reads the members beside pbrMetallicRoughness.
 void readCommon(const tinygltf::Material& source, const MaterialPart& part, Material& m) {
   // Above 1 is invalid but common in files from before KHR_materials_emissive_strength, and means what it
   // says.

@@ -17,7 +17,7 @@ struct DecodedMesh {
   BoundsDouble bounds;  ///< in the mesh's own space
 };
 
-/// What instances point into.
+/// The meshes that instances show.
 struct ShownMeshes {
   std::map<std::pair<int, MeshPose>, DecodedMesh> decoded;  ///< by mesh
   std::map<int, std::vector<glm::dmat4>> joints;            ///< by skin

@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "scene/parts.h"
 
 namespace fragtrace {

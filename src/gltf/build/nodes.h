@@ -10,7 +10,7 @@
 
 namespace fragtrace {
 
-/// What is smaller is left out, metres: squares of its size underflow.
+/// Metres. Smaller things are left out: squares of their sizes underflow.
 inline constexpr double kSmallest = 1e-75;
 
 struct PlacedNode {

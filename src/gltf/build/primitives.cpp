@@ -8,9 +8,9 @@
 #include <numeric>
 #include <utility>
 
+#include "base/finite.h"
 #include "gltf/build/topology.h"
 #include "gltf/read/accessor.h"
-#include "math/finite.h"
 #include "scene/tangents.h"
 
 namespace fragtrace {
@@ -46,7 +46,7 @@ class PrimitiveReader {
     if (source_.mode > kLastMode)
       diagnostics_.refuse(place_ + "/mode", std::to_string(source_.mode) + " is no mode");
     if (accessorOf("POSITION") < 0) {
-      // Where there is no attribute at all, the check of the document has said so.
+      // The check of the document has reported a primitive without any attribute.
       if (!source_.attributes.empty()) diagnostics_.warn(place_, "a primitive without POSITION is left out");
       return {};
     }
@@ -248,7 +248,7 @@ class PrimitiveReader {
       const int accessor = matchingAccessor(kNames[set]);
       auto& texcoords = set == 0 ? result_.vertices.texcoord0 : result_.vertices.texcoord1;
       if (accessor < 0) {
-        // Where a texture asks for it, the check of the document has said so.
+        // The check of the document has reported it if a texture asks for it.
         if (!isAskedForByTexture(set))
           diagnostics_.warn(place_, std::string(kNames[set]) + " is needed and missing, (0, 0) is taken");
         texcoords.assign(result_.vertices.position.size(), glm::vec2(0.0f));

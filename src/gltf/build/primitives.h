@@ -21,7 +21,7 @@ struct MeshPrimitive {
   bool empty() const { return triangles.empty() && strokes.ends.empty(); }
 };
 
-/// How a mesh is shown. The default is as it stands in the file.
+/// The pose of a mesh; by default that of the file.
 struct MeshPose {
   std::vector<double> weights;  ///< of its morph targets; those left out are 0
   size_t jointCount = 0;        ///< of the skin that bends it; 0: none does

@@ -176,7 +176,7 @@ void addDefaultCones(json& root) {
   }
 }
 
-/// What the user may choose from.
+/// Notes the names that the user may choose from.
 void noteNames(json& root, Document& document) {
   const json::json_pointer variants("/extensions/KHR_materials_variants/variants");
   document.sceneNames = namesOf(arrayIn(root, "scenes"));

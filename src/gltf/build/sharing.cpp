@@ -20,7 +20,7 @@ constexpr uint64_t kBytesOfAnInstance = 700;
 
 using Mesh = std::vector<MeshPrimitive>;
 
-/// How one mesh stands in the scene.
+/// The uses of one mesh in the scene.
 struct MeshUse {
   const MeshPrimitive* first = nullptr;  ///< its first primitive that has triangles
   uint64_t triangles = 0;
@@ -67,7 +67,7 @@ bool mayShare(const PrimitiveInstance& i, const MeshUses& uses) {
   return i.whole != nullptr && !uses.at(i.whole).shines && isWellConditioned(glm::dmat3(i.world));
 }
 
-/// How often each mesh stands in the scene.
+/// Counts the uses of each mesh in the scene.
 MeshUses countUses(const std::vector<PrimitiveInstance>& instances, const std::vector<Material>& materials) {
   MeshUses uses;
   for (const PrimitiveInstance& i : instances) {
@@ -96,7 +96,7 @@ void part(std::vector<PrimitiveInstance> instances, MeshUses& uses, PlacedMeshes
   }
 }
 
-/// What is copied though it stands in the scene more than once; empty if nothing is.
+/// Names the meshes that are copied though the scene has them more than once; empty if there are none.
 std::string copiesAmong(const MeshUses& uses) {
   uint64_t shining = 0;
   uint64_t uneven = 0;

@@ -8,7 +8,7 @@
 
 namespace fragtrace {
 
-/// What a scene takes while it is loaded, built and packed, in bytes.
+/// The bytes that a scene takes while it is loaded, built and packed.
 struct SharingCost {
   uint64_t flat = 0;    ///< every mesh copied for each time that it stands in the scene
   uint64_t shared = 0;  ///< meshes shared where that is less

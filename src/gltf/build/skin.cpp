@@ -33,7 +33,7 @@ std::vector<glm::dmat4> bindMatrices(Document& document, int skin) {
   return matrices;
 }
 
-/// What is wrong with the weights of a primitive, counted over its vertices.
+/// Faults in the weights of a primitive, counted over its vertices.
 struct WeightFaults {
   size_t unusable = 0;  ///< negative or not finite, taken as 0
   size_t missing = 0;   ///< all are 0

@@ -9,7 +9,7 @@
 
 namespace fragtrace {
 
-/// How much a joint of the skin takes a vertex along.
+/// The weight with which a joint of the skin moves a vertex.
 struct Influence {
   uint32_t joint = 0;
   float weight = 0.0f;

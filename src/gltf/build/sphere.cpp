@@ -8,7 +8,7 @@
 namespace fragtrace {
 namespace {
 
-/// How far a column may be from perpendicular and from the same length: TRS in single precision stays well
+/// Columns may be this far from perpendicular and from the same length: TRS in single precision stays well
 /// below.
 constexpr double kUniformScaleTolerance = 1e-4;
 

@@ -2,7 +2,7 @@
 #include "gltf/codecs/codec_process.h"
 
 #include "advice.h"
-#include "process/message.h"
+#include "base/message.h"
 
 namespace fragtrace {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "base/worker.h"
 #include "gltf/codecs/worker/decode.h"
-#include "process/worker.h"
 
 namespace fragtrace {
 

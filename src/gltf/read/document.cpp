@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/read/document.h"
 
-#include "errors.h"
+#include "base/errors.h"
 
 namespace fragtrace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "image/compare/comparable.h"
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/channels.h"
 
 namespace fragtrace {

@@ -10,7 +10,7 @@
 #include <glm/vec3.hpp>
 #include <numbers>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/compare/comparable.h"
 #include "image/display/tone_map.h"
 

@@ -9,7 +9,7 @@
 #include <glm/mat3x3.hpp>
 #include <limits>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/channels.h"
 
 namespace fragtrace {

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "advice.h"
+#include "base/message.h"
+#include "base/worker.h"
 #include "image/worker/message.h"
-#include "process/message.h"
-#include "process/worker.h"
 
 namespace fragtrace {
 namespace {

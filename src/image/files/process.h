@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The image library in a worker process (process/worker.h): a run that reads and writes no encoded picture
+// The image library in a worker process (base/worker.h): a run that reads and writes no encoded picture
 // does not load OpenImageIO's 250 shared objects.
 #pragma once
 

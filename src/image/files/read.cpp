@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/display/tone_map.h"
 #include "image/files/header.h"
 #include "image/files/pfm.h"

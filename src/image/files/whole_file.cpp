@@ -14,7 +14,7 @@
 #include <string>
 #include <system_error>
 
-#include "errors.h"
+#include "base/errors.h"
 
 namespace fragtrace {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/channels.h"
 #include "image/files/pfm.h"
 #include "image/files/process.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/message.h"
 #include "image/channels.h"
-#include "process/message.h"
 
 namespace fragtrace {
 namespace {

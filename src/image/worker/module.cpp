@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The worker's module for pictures.
-#include "worker/module.h"
+#include "base/worker/module.h"
 
 #include <stdexcept>
 
+#include "base/message.h"
 #include "image/worker/library.h"
 #include "image/worker/message.h"
-#include "process/message.h"
 
 namespace fragtrace {
 namespace {

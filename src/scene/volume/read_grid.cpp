@@ -9,12 +9,12 @@
 #include <stdexcept>
 
 #include "advice.h"
-#include "errors.h"
+#include "base/errors.h"
+#include "base/message.h"
+#include "base/worker.h"
 #include "image/files/whole_file.h"
-#include "process/message.h"
-#include "process/worker.h"
 #include "scene/volume/black_body.h"
-#include "scene/volume/worker/decode.h"
+#include "scene/volume/decode.h"
 
 namespace fragtrace {
 

@@ -28,8 +28,8 @@ std::vector<GridDescription> listGrids(const std::filesystem::path& path, uint64
 /// grid, also where the grid and all that is read with it take more than so many bytes.
 VolumeGrid readGrid(const VolumeSource& source, std::span<const uint8_t> file, uint64_t memoryBytes);
 
-/// The grid that the worker sends (scene/volume/worker/decode.h), which is not trusted more than the file is. Throws
-/// std::runtime_error.
+/// The grid that the worker sends (scene/volume/decode.h), which is not trusted more than the file is.
+/// Throws std::runtime_error.
 VolumeGrid gridOfAnswer(std::span<const uint8_t> answer);
 
 }  // namespace fragtrace

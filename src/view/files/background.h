@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-#include "process/thread_name.h"
+#include "base/thread_name.h"
 
 namespace fragtrace {
 

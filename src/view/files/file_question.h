@@ -38,7 +38,7 @@ FileQuestion saveQuestion(const std::filesystem::path& picture);
 /// The extension of a name, in lower case.
 std::string lowerExtension(const std::filesystem::path& path);
 
-/// Whether the filter lets the file pass.
+/// Returns true if the filter lets the file pass.
 bool passes(const FileFilter& filter, const std::filesystem::path& file);
 
 }  // namespace fragtrace

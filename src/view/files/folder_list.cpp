@@ -32,7 +32,7 @@ std::string_view takeNumber(std::string_view& text) {
   return number;
 }
 
-/// Of a name that is typed: from the root, from home, or in the folder that is shown.
+/// The path of a typed name: from the root, from home, or in the folder that is shown.
 fs::path typedPath(const FolderList& list) {
   const std::string text = list.text.data();
   const char* home = std::getenv("HOME");

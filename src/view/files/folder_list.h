@@ -31,7 +31,7 @@ FolderContent readFolder(const std::filesystem::path& folder);
 /// Numbers in names by their value, letters whatever their case: "part 9.glb" before "Part 10.glb".
 bool naturallyBefore(std::string_view a, std::string_view b);
 
-/// What a key of the list does.
+/// The action of a key in the list.
 enum class ListKey : uint8_t { Up, Down, PageUp, PageDown, Parent, Accept };
 
 struct FolderList {
@@ -45,7 +45,7 @@ struct FolderList {
   std::filesystem::path toReplace;  ///< the file that is there already, when the user was asked
 };
 
-/// What the list asks for: a folder to be read, or the file that was chosen.
+/// The list asks for a folder to be read, or returns the file that was chosen.
 struct ListStep {
   std::filesystem::path enter{};
   std::filesystem::path take{};

@@ -15,7 +15,7 @@ struct ComposedSide {
   bool asItIs = false;  ///< colours of a debug view: neither exposure nor tone map
 };
 
-/// How two sides are put together.
+/// The way in which two sides are put together.
 struct Composition {
   double bar = 0.5;  ///< where the right side begins, a part of the width
   bool difference = false;

@@ -24,8 +24,8 @@ struct Histogram {
   double above = 0.0;    ///< share of values above 1
 };
 
-/// Of a linear picture of R, G, B and more. Pictures of more than `mostPixels` are looked at in as many
-/// places that are spread evenly.
+/// The histogram of a linear picture of R, G, B and more. A picture of more than `mostPixels` is sampled at
+/// that many places, spread evenly.
 Histogram histogramOf(const Image& image, double exposure, size_t mostPixels = 100'000);
 
 }  // namespace fragtrace

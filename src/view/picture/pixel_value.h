@@ -17,7 +17,7 @@ struct PixelArea {
   bool operator==(const PixelArea&) const = default;
 };
 
-/// What an area of a picture holds.
+/// The values of an area of a picture.
 struct PictureValues {
   uint64_t picture = 0;  ///< which one; counts these
   glm::ivec2 whole{0};   ///< pixels of it

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "image/channels.h"
 #include "image/display/tone_map.h"
 

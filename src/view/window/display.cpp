@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "gl/program.h"
 
 namespace fragtrace {

@@ -12,14 +12,14 @@
 
 namespace fragtrace {
 
-/// How a side's picture is shown.
+/// The display of a side's picture.
 struct DisplaySide {
   double exposure = 0.0;
   ToneMap toneMap = ToneMap::Neutral;
   bool operator==(const DisplaySide&) const = default;
 };
 
-/// Where pictures stand, and which part of them.
+/// The places of pictures in the window, and the part of them that is shown.
 struct DisplayView {
   glm::ivec2 framebuffer{1};
   glm::ivec2 picture{1};  ///< its area, at the top left
@@ -37,7 +37,7 @@ class Display {
 
   void take(const TracedPicture& picture);
   bool shows(size_t side) const { return sides_[side].size.x > 0; }
-  /// Whether a picture that was taken is still being drawn by the tracing thread.
+  /// Returns true if the tracing thread still draws a picture that was taken.
   bool waits() const;
   /// Keeps these values of a side's picture, and says when to be asked again, as ValueReader does.
   double keepValues(size_t side, PictureValues& values, const PixelArea& area, double now);

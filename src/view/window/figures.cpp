@@ -65,7 +65,7 @@ void drawCosts(const ViewState& state, const ViewFacts& facts, size_t side) {
   row("memory", "%s", megabytes(s.deviceBytes).c_str());
 }
 
-/// Of the split view only what is compared. Returns where it ends.
+/// In the split view only the compared values. Returns the lower end.
 float drawSide(const ViewState& state, ViewFacts& facts, size_t side, ImVec2 place,
                const WindowLayout& layout) {
   float end = place.y;

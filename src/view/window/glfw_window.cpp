@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "advice.h"
+#include "base/report.h"
 #include "gl/dynamic_library.h"
 #include "gl/gl.h"
-#include "process/report.h"
 #include "view/window/status.h"
 #include "view/window/wayland.h"
 

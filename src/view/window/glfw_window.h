@@ -45,7 +45,7 @@ OutsideContext outsideContext(GLFWwindow* sharing);
 /// A window's name for the desktop's portals, "x11:1a00002"; empty where it has none.
 std::string portalName(GLFWwindow* window);
 
-/// What GLFW has reported since the last call, from any thread; empty: nothing.
+/// Returns the errors of GLFW since the last call, from any thread; empty: none.
 std::string takeGlfwErrors();
 
 }  // namespace fragtrace

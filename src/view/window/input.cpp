@@ -114,7 +114,7 @@ std::optional<glm::dvec2> Input::update(ViewState& state, const WindowLayout& la
   return inside && !io.WantCaptureMouse ? std::optional(at) : std::nullopt;
 }
 
-/// How much faster than its speed a camera flies.
+/// The factor by which a camera flies faster than its speed.
 double Input::hurry() const {
   const bool shift = glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ||
                      glfwGetKey(window_, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
@@ -190,7 +190,7 @@ void Input::release(const Event& event, ViewState& state, const RunTask& run) {
   lastClick_ = cursor_;
   const Control* control =
       controlFor(twice ? Gesture::DoubleClick : Gesture::Click, button.code, button.modifiers);
-  // What chooses a side selects nothing.
+  // A click that chooses a side selects nothing.
   if (!control || (chooses && control->action == Action::Inspect)) return;
   const Errand errand = apply(state, *control, {});
   if (errand != Errand::None) run({errand, place()});

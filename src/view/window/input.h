@@ -31,12 +31,12 @@ class Input {
   /// the cursor is over the picture, parts of its width and height from the top left.
   std::optional<glm::dvec2> update(ViewState& state, const WindowLayout& layout, const RunTask& run);
 
-  /// Whether anything has happened since the last update().
+  /// Returns true if anything has happened since the last update().
   bool waiting() const { return !events_.empty() || woken_; }
-  /// Whether a key is held or something dragged, so that the next frame is not the last.
+  /// Returns true if a key is held or something dragged, so that the next frame is not the last.
   bool active() const { return !held_.empty() || button_.code >= 0; }
   std::vector<std::filesystem::path> takeDrops();
-  /// How many keys and buttons have been pressed so far.
+  /// The number of keys and buttons that have been pressed so far.
   int presses() const { return presses_; }
 
  private:
@@ -64,7 +64,7 @@ class Input {
   void wheel(const Event& event, ViewState& state);
   double hurry() const;
   bool onEdge() const;
-  /// Of the cursor, in parts of the picture.
+  /// The place of the cursor, in parts of the picture.
   glm::dvec2 place() const;
   glm::dvec2 inPixels(const glm::dvec2& cursor) const;
 

@@ -22,7 +22,7 @@ namespace {
 constexpr float kFontSize = 15.0f;         // pixels at 96 dots an inch
 constexpr float kBuiltInFontSize = 13.0f;  // the only one that its pixels are drawn for
 
-/// What the system has of a legible font; without any, the one that Dear ImGui brings.
+/// Legible fonts of the system; without any, Dear ImGui's own is taken.
 constexpr std::array kFonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                             "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
                             "/usr/share/fonts/TTF/DejaVuSans.ttf"};

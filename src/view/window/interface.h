@@ -8,7 +8,7 @@ struct GLFWwindow;
 
 namespace fragtrace {
 
-/// How many pixels stand for one at 96 dots an inch, by what the desktop says of a display.
+/// The pixels that stand for one at 96 dots an inch, by the desktop's scale of a display.
 float displayScale(const glm::vec2& contentScale);
 
 class Interface {
@@ -26,17 +26,17 @@ class Interface {
   /// Closes the list, or picker of colours, that was opened last; false: none is open.
   static bool closePopup();
 
-  /// Whether a slider or button is held, or a text edited.
+  /// Returns true if a slider or button is held, or a text edited.
   static bool holding();
 
   /// True while events are left for the next frame: from Dear ImGui 1.87 on, a frame takes only one change of
   /// a key or button.
   static bool waiting();
 
-  /// What keys go to: "text" that is edited, a "popup", or the "picture".
+  /// The receiver of keys: "text" that is edited, a "popup", or the "picture".
   static const char* focus();
 
-  /// How many pixels stand for one at 96 dots an inch.
+  /// The pixels that stand for one at 96 dots an inch.
   float scale() const { return scale_; }
 
  private:

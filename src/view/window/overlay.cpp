@@ -41,7 +41,7 @@ void drawBar(const ViewState& state, const WindowLayout& layout) {
   list.AddCircleFilled({x, 0.5f * picture.y}, kHandleRadius * layout.scale, color);
 }
 
-/// Where a side's picture stands, and which part of it is seen.
+/// The place of a side's picture, and the part of it that is seen.
 struct SidePlace {
   ImVec2 corner;
   ImVec2 size;
@@ -128,7 +128,7 @@ void drawStageNames(const ViewState& state, ViewFacts& facts, const WindowLayout
   }
 }
 
-/// What each half of the split view is, at its top.
+/// Names each half of the split view, at its top.
 void drawSideNames(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
   const float right = float(layout.picture.x);
   const float bar = float(state.shownBar()) * right;
@@ -233,7 +233,7 @@ Errand drawLoading(const LoadStatus& load, const WindowLayout& layout) {
   return errand;
 }
 
-/// What there is to do where nothing is shown: drop a file, or take one that was shown before.
+/// The choices of an empty window: drop a file, or take one that was shown before.
 Task drawWelcome(ViewFacts& facts, const WindowLayout& layout) {
   const ImVec2 display = sizeOf(layout);
   Task task;

@@ -27,7 +27,7 @@ struct ShownHistogram {
   double exposure = 0.0;
 };
 
-/// What the window knows beside the state that its user sets.
+/// The window's knowledge beside the state that its user sets.
 struct ViewFacts {
   std::array<SideStatistics, kMostSides> statistics;
   std::array<glm::ivec2, kMostSides>

@@ -104,7 +104,7 @@ void drawAnimation(ViewState& state, Places& places) {
   dimAtEnd(keyOf(Action::PlayAnimation));
 }
 
-/// Which side the settings are of; or the file that side B is.
+/// Chooses the side whose settings are shown; or shows the file that side B is.
 void drawSides(ViewState& state, Places& places, Task& task) {
   if (!state.reference.empty()) {
     if (ImGui::SmallButton("x")) task = {.errand = Errand::DropReference};

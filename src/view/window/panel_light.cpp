@@ -90,6 +90,23 @@ void drawFog(ViewState& state, Places& places) {
   for (RenderOptions& side : state.sides) side.fog = fog;
 }
 
+void drawBackground(ViewState& state, Places& places) {
+  const RenderOptions& o = state.sides[0];
+  label(places, "Background");
+  bool background = o.light.background;
+  if (ImGui::Checkbox("##background", &background))
+    for (RenderOptions& side : state.sides) side.light.background = background;
+  if (background && !state.scene->map) {
+    ImGui::SameLine();
+    glm::vec3 color = o.light.backgroundColor.value_or(glm::vec3(0.0f));
+    if (ImGui::ColorEdit3("##color", glm::value_ptr(color),
+                          ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoInputs))
+      for (RenderOptions& side : state.sides)
+        side.light.backgroundColor = glm::clamp(color, glm::vec3(0.0f), glm::vec3(kMostColor));
+    addItemPlace(places, "Background colour");
+  }
+}
+
 }  // namespace
 
 Task drawLight(ViewState& state, ViewFacts& facts) {
@@ -134,19 +151,7 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
     }
   }
   drawFog(state, places);
-  label(places, "Background");
-  bool background = o.light.background;
-  if (ImGui::Checkbox("##background", &background))
-    for (RenderOptions& side : state.sides) side.light.background = background;
-  if (background && !map) {
-    ImGui::SameLine();
-    glm::vec3 color = o.light.backgroundColor.value_or(glm::vec3(0.0f));
-    if (ImGui::ColorEdit3("##color", glm::value_ptr(color),
-                          ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoInputs))
-      for (RenderOptions& side : state.sides)
-        side.light.backgroundColor = glm::clamp(color, glm::vec3(0.0f), glm::vec3(kMostColor));
-    addItemPlace(places, "Background colour");
-  }
+  drawBackground(state, places);
   const bool paths = has(state.options().stages, Stage::Gi);
   bool ground = o.light.shadowCatcher && paths;
   ImGui::BeginDisabled(!paths);

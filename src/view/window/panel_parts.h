@@ -60,10 +60,10 @@ Task drawCamera(ViewState& state, ViewFacts& facts);
 Task drawTree(ViewState& state, ViewFacts& facts);
 Task drawParts(ViewState& state, ViewFacts& facts);
 
-/// Of the active side's picture.
+/// Draws the histogram of the active side's picture.
 void drawHistogram(const ViewState& state, ViewFacts& facts);
 
-/// Whether the file has scenes or material variants to choose from.
+/// Returns true if the file has scenes or material variants to choose from.
 bool hasParts(const ViewState& state);
 
 /// Draws the whole panel into the frame that Dear ImGui is making; what is changed there changes the state.

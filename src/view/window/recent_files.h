@@ -10,7 +10,7 @@
 
 namespace fragtrace {
 
-/// What was seen of them when the list was opened: the disk is not asked in each frame.
+/// The recent files as they were when the list was opened: the disk is not asked in each frame.
 struct RecentFiles {
   std::vector<std::filesystem::path> files;
   std::vector<bool> gone;

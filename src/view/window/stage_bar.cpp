@@ -13,7 +13,7 @@ namespace fragtrace {
 
 namespace {
 
-/// How a button is called where it has more or less room.
+/// The name of a button, by the room that it has.
 enum class Naming : uint8_t { Label, Name, Number };
 
 std::string nameOf(const StageRow& row, Naming naming) {
@@ -48,7 +48,7 @@ void drawStage(ViewState& state, Places& places, const StageRow& row, Naming nam
   ImGui::SameLine();
 }
 
-/// What stands at the right end.
+/// A button at the right end.
 struct EndButton {
   const char* text;
   Action action;
@@ -61,7 +61,7 @@ constexpr std::array kEndButtons{EndButton{"All", Action::ToggleOverview, 2},
                                  EndButton{"Screenshot", Action::Screenshot, 1, Errand::Screenshot},
                                  EndButton{"Panel", Action::TogglePanel, 0}};
 
-/// Of the first so many ranks.
+/// The width of the first so many ranks.
 float widthOf(int ranks) {
   float width = 0.0f;
   for (const EndButton& button : kEndButtons) width += button.rank < ranks ? widthOf(button.text) : 0.0f;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/summary.h"
 #include "image/files/whole_file.h"
-#include "math/summary.h"
 
 namespace fragtrace {
 
@@ -60,6 +60,16 @@ std::string textOf(const Json& json) {
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+Json animationJson(const ViewState& state) {
+  const int animation = shownAnimation(state);
+  if (animation < 0) return {};
+  const std::optional<double>& time = state.sides[0].selection.animationTime;
+  return {{"index", animation},
+          {"playing", state.playback.playing},
+          {"length", animationLength(state)},
+          {"time", time ? Json(*time) : Json()}};
+}
+
 }  // namespace
 
 void keepTime(std::deque<double>& times, double ms) {
@@ -106,14 +116,7 @@ std::string statusText(const ViewState& state, const ViewFacts& facts, const Win
   json["hdri_rotation"] = state.sides[0].light.hdriRotationDegrees;
   json["hdri_intensity"] = state.sides[0].light.hdriIntensity;
   json["background"] = state.sides[0].light.background;
-  const int animation = shownAnimation(state);
-  json["animation"] = animation < 0 ? Json()
-                                    : Json{{"index", animation},
-                                           {"playing", state.playback.playing},
-                                           {"length", animationLength(state)}};
-  if (animation >= 0)
-    json["animation"]["time"] =
-        state.sides[0].selection.animationTime ? Json(*state.sides[0].selection.animationTime) : Json();
+  json["animation"] = animationJson(state);
   json["load_step"] = facts.load.step;
   json["load_fraction"] = facts.load.fraction;
   json["error"] = facts.error;

@@ -32,7 +32,7 @@ struct WindowReport {
   Responsiveness times;
 };
 
-/// What is left to be said where no window could be opened.
+/// The text of the status file if no window could be opened.
 std::string failureText(const std::string& error);
 
 std::string statusText(const ViewState& state, const ViewFacts& facts, const WindowReport& report);

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "view/window/glfw_window.h"
 #include "view/window/view_window.h"
 
@@ -12,7 +12,7 @@ namespace fragtrace {
 
 namespace {
 
-/// What ends the program stands in the status file, too, if that can be written.
+/// An error that ends the program is in the status file, too, if that can be written.
 template <typename Write>
 void writeFailure(const Write& write) {
   try {

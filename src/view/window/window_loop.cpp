@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "gl/gl.h"
 #include "view/shown_names.h"
 #include "view/window/panel_parts.h"
@@ -34,7 +34,7 @@ float primaryScale(GLFWmonitor* monitor) {
   return displayScale(scale);
 }
 
-/// What a window can have of the screen; 0: not known.
+/// The room for a window on the screen; 0: not known.
 glm::ivec2 screenRoom() {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
   glm::ivec2 corner(0);
@@ -50,7 +50,7 @@ glm::ivec2 standardSize(float scale) {
   return room.x > 0 && room.y > 0 ? glm::min(wanted, glm::max(room, kWindowSize)) : kWindowSize;
 }
 
-/// Whether the panel stands beside the picture at first: where both fit on the screen.
+/// Returns true if the panel stands beside the picture at first: both fit on the screen.
 bool startsWithPanel(const RenderOptions& options) {
   const float scale = primaryScale(glfwGetPrimaryMonitor());
   if (!options.camera.resolution)
@@ -255,7 +255,7 @@ void Window::ask() {
   askedSides_ = std::move(sides);
   askedSize_ = state_.size;
   askedMoving_ = moving;
-  // What goes on moving is drawn again and again.
+  // A movement that goes on is drawn again and again.
   if (moving) frames_ = std::max(frames_, 1);
 }
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "errors.h"
+#include "base/errors.h"
 #include "gl/gl.h"
 #include "image/image.h"
 #include "view/shown_names.h"
@@ -26,7 +26,7 @@ void Window::execute(const Task& task) {
     case Errand::None:
       return;
     case Errand::Reload:
-      // What could not be read may be mended by now.
+      // A reference that could not be read may be mended by now.
       if (!state_.reference.empty()) exchange_.compareWith(state_.reference);
       if (state_.scene || !wanted_.scene.empty()) load(state_.scene ? state_.scene->options : wanted_);
       return;
@@ -65,7 +65,7 @@ void Window::execute(const Task& task) {
 }
 
 void Window::executeOnScene(const Task& task) {
-  // What is written or picked is of the view as it is now: that may have changed in this turn of the loop.
+  // Files and picks are of the present view, which may have changed in this turn of the loop.
   ask();
   switch (task.errand) {
     case Errand::CenterOn:
@@ -141,7 +141,7 @@ void Window::cancelLoad() {
   if (!state_.scene) glfwSetWindowTitle(window_.get(), windowTitle({}).c_str());
 }
 
-/// Of the active side, with all that its picture on the screen depends on.
+/// The options of the active side, with everything that its picture on the screen depends on.
 RenderOptions Window::shownOptions() const {
   RenderOptions o = renderOptionsOf(state_, state_.active);
   o.camera.resolution = state_.size;
@@ -183,7 +183,7 @@ void Window::executeOnBookmark(const Task& task) {
 
 void Window::copyCommand() {
   RenderOptions o = shownOptions();
-  const bool layers = !o.output.aovFeatures.empty() || o.output.aovSamples || o.output.aovVariance;
+  const bool layers = !o.output.aovs.empty() || o.output.aovSamples || o.output.aovVariance;
   o.output.file = freePictureName(o.scene, layers ? ".exr" : ".png");
   glfwSetClipboardString(window_.get(), start_.commandText(o).c_str());
   say("copied the command that renders this picture");
@@ -191,7 +191,7 @@ void Window::copyCommand() {
 
 void Window::pasteCommand() {
   const char* text = glfwGetClipboardString(window_.get());
-  // That the clipboard holds no text is no failure of the window.
+  // A clipboard without text is no failure of the window.
   if (!text) takeGlfwErrors();
   takeText(text ? text : "", "cannot paste: ");
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The worker's module for compressed geometry.
-#include "worker/module.h"
+#include "base/worker/module.h"
 
+#include "base/message.h"
 #include "gltf/codecs/worker/decode.h"
-#include "process/message.h"
 
 namespace fragtrace {
 

@@ -23,10 +23,10 @@
 #include <nanovdb/PNanoVDB.h>
 #pragma GCC diagnostic pop
 
-#include "process/message.h"
+#include "base/message.h"
+#include "base/worker/module.h"
 #include "scene/volume/grid.h"
-#include "scene/volume/worker/decode.h"
-#include "worker/module.h"
+#include "scene/volume/decode.h"
 
 namespace fragtrace {
 namespace {
@@ -224,9 +224,11 @@ void decodeGrid(std::span<uint8_t> bytes, WorkOutput& output) {
     header.largest = std::max(header.largest, largest);
     table.push_back(largest > 0.0 ? uint32_t(++header.stored) : 0);
   });
-  const size_t needed = sizeof header + table.size() * sizeof(uint32_t) + header.stored * kBrickVoxels * sizeof(uint16_t);
+  const size_t needed =
+      sizeof header + table.size() * sizeof(uint32_t) + header.stored * kBrickVoxels * sizeof(uint16_t);
   if (needed > output.room.size())
-    throw std::runtime_error("its grid takes " + std::to_string(needed / 1'000'000) + " MB, more than the memory limit");
+    throw std::runtime_error("its grid takes " + std::to_string(needed / 1'000'000) +
+                             " MB, more than the memory limit");
   output.append(asMessage(std::as_const(header)));
   output.append({reinterpret_cast<const uint8_t*>(table.data()), table.size() * sizeof(uint32_t)});
   size_t next = 0;

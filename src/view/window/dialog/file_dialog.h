@@ -12,7 +12,7 @@
 
 namespace fragtrace {
 
-/// What asks at the moment.
+/// The dialog that is open.
 enum class DialogKind : uint8_t { None, Desktop, List };
 
 class FileDialog {
@@ -33,7 +33,7 @@ class FileDialog {
     std::filesystem::path file;  ///< that was chosen; empty: none
     std::string message;         ///< for the user; empty: none
   };
-  /// What has come of it since the last call.
+  /// Returns the dialog's news since the last call.
   News take(double now);
 
   /// The list, if that asks.

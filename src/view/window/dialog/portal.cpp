@@ -193,7 +193,7 @@ std::string request(const Connection& to, const FileQuestion& question, const st
     appendFilters(library, call.message, question.filters);
     appendFolder(library, call.message, question.folder.string());
     if (question.save) library.append(call.message, "{sv}", "current_name", "s", question.name.c_str());
-    // What could not be appended fails here.
+    // An append that failed before fails here.
     result = library.close(call.message);
   }
   if (result >= 0) result = library.call(to.bus, call.message, kPatience, &error, &reply.message);

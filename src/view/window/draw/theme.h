@@ -11,7 +11,7 @@ namespace fragtrace {
 /// more (WCAG 2.1, 1.4.3).
 ImGuiStyle themeStyle();
 
-/// Of a line that the picture is finished by, and of the side that is chosen.
+/// The colour of the line of progress, and of the chosen side.
 inline const ImVec4 kAccent{0.22f, 0.42f, 0.68f, 1.0f};
 
 }  // namespace fragtrace

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The protocol between the program and its worker processes (src/base/worker/main.cpp): a request, which
+// brings shared memory, and a reply. Both have one form for all kinds of work.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <stdexcept>
+
+namespace fragtrace {
+
+/// The descriptor of the worker's end of the socket.
+inline constexpr int kWorkerSocket = 3;
+/// The exit status of a worker whose libraries are missing, as that of the loader.
+inline constexpr int kNotLoaded = 127;
+
+/// The memory holds the input and, from outputOffset() on, room for the output. The input begins with a
+/// message of the kind of work.
+struct WorkRequest {
+  uint64_t inputBytes = 0;  ///< 0: the worker only answers, which proves that its libraries are there
+  uint64_t outputBytes = 0;
+
+  uint64_t outputOffset() const {
+    constexpr uint64_t kAlignment = 4096;
+    return (inputBytes + kAlignment - 1) / kAlignment * kAlignment;
+  }
+};
+
+struct WorkReply {
+  uint64_t done = 0;         ///< 1, or 0 with a reason
+  uint64_t outputBytes = 0;  ///< used of the room
+  char reason[1000] = {};
+};
+
+template <typename Message>
+std::span<const uint8_t> asMessage(const Message& message) {
+  return {reinterpret_cast<const uint8_t*>(&message), sizeof message};
+}
+template <typename Message>
+std::span<uint8_t> asMessage(Message& message) {
+  return {reinterpret_cast<uint8_t*>(&message), sizeof message};
+}
+
+/// Takes a message from the front of the bytes. Throws std::runtime_error where they are fewer.
+template <typename Message>
+Message takeMessage(std::span<const uint8_t>& bytes) {
+  Message message;
+  if (bytes.size() < sizeof message) throw std::runtime_error("the data are truncated");
+  std::memcpy(&message, bytes.data(), sizeof message);
+  bytes = bytes.subspan(sizeof message);
+  return message;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "base/worker.h"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "base/message.h"
+
+namespace fragtrace {
+
+void Worker::start() {
+  // It is there if somebody has work for it, and may be busy for long.
+  if (const std::unique_lock lock(mutex_, std::try_to_lock); lock) startLocked();
+}
+
+const std::string& Worker::whyNot() {
+  if (whyNot_) return *whyNot_;
+  try {
+    // One that lacks a library starts, and ends at once.
+    perform({}, 1, {.cpuSeconds = 2});  // shared memory cannot be empty
+    whyNot_ = "";
+  } catch (const std::runtime_error& error) {
+    whyNot_ = error.what();
+  }
+  return *whyNot_;
+}
+
+WorkResult Worker::perform(std::initializer_list<std::span<const uint8_t>> parts, uint64_t room,
+                           const WorkLimits& limits) {
+  WorkRequest request{0, room};
+  for (const auto& part : parts) request.inputBytes += part.size();
+  const auto memory = std::make_shared<SharedMemory>(request.outputOffset() + room);
+  auto at = memory->bytes().begin();
+  for (const auto& part : parts) at = std::ranges::copy(part, at).out;
+
+  const std::lock_guard lock(mutex_);
+  startLocked();
+  limitChild(*child_, limits.memoryBytes, limits.cpuSeconds);
+  // The processor time ends it; this is for one that sleeps.
+  const int patienceMs =
+      limits.cpuSeconds == 0 ? -1 : int(std::min(limits.cpuSeconds * 20 + 60, 100'000u)) * 1000;
+  WorkReply reply;
+  if (!sendWithFile(child_->socket, asMessage(std::as_const(request)), memory->file()) ||
+      !awaitReply(*child_, asMessage(reply), patienceMs))
+    failLocked(limits);
+  if (reply.done == 0)
+    throw std::runtime_error(std::string(reply.reason, ::strnlen(reply.reason, sizeof reply.reason)));
+  if (reply.outputBytes > room) throw std::runtime_error("the worker process sent a broken answer");
+  return {memory, memory->bytes().subspan(request.outputOffset(), reply.outputBytes)};
+}
+
+void Worker::startLocked() {
+  if (child_) return;
+  try {
+    child_ = startChild("fragtrace_worker", kind_.module);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(std::string(error.what()) + kind_.instead);
+  }
+}
+
+void Worker::failLocked(const WorkLimits& limits) {
+  const std::string end = endChild(*child_);
+  child_.reset();
+  if (end == kLibraryMissing)
+    throw std::runtime_error(std::string(kind_.library) + " is not installed (" + kind_.advice + ")" +
+                             kind_.instead);
+  throw std::runtime_error(end == kOutOfTime ? "it takes longer to decode than its size is given: " +
+                                                   std::to_string(limits.cpuSeconds) + " s"
+                                             : std::string(kind_.library) + " failed: " + end);
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Other people's libraries in a process of their own, fragtrace_worker: the distribution's decoders carry
+// known faults, so the work that they do on files from anywhere is limited in time and memory and cannot harm
+// us. A run that needs no such library does not load it.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "base/child.h"
+#include "base/shared_memory.h"
+
+namespace fragtrace {
+
+/// Each kind of work has a process of its own, so that a missing library stops no other kind.
+struct WorkerKind {
+  const char* module;   ///< the file that the worker opens, which links the libraries
+  const char* library;  ///< their name in messages
+  const char* advice;   ///< how to install them
+  const char* instead;  ///< ends messages: what works without them
+};
+
+struct WorkLimits {
+  uint64_t memoryBytes = std::numeric_limits<uint64_t>::max();  ///< data of the process
+  unsigned cpuSeconds = 0;                                      ///< 0: no limit
+};
+
+struct WorkResult {
+  std::shared_ptr<SharedMemory> memory;
+  std::span<const uint8_t> output;  ///< lies in the memory
+};
+
+/// Serves one request after the other. The process starts with the first request, and again when it has died.
+/// start() and perform() may be called from any thread; they throw std::runtime_error with the bare reason.
+class Worker {
+ public:
+  explicit Worker(const WorkerKind& kind) : kind_(kind) {}
+
+  /// Starts the process ahead of its first use, which takes a millisecond here and up to 0.1 s there. Does
+  /// not wait for work that it has.
+  void start();
+
+  /// Why the libraries cannot be used; empty where they can. The first call asks the process.
+  const std::string& whyNot();
+  bool works() { return whyNot().empty(); }
+
+  /// The worker's answer to the parts of the input, one behind the other, with room for so many bytes.
+  WorkResult perform(std::initializer_list<std::span<const uint8_t>> parts, uint64_t room,
+                     const WorkLimits& limits);
+
+ private:
+  void startLocked();
+  [[noreturn]] void failLocked(const WorkLimits& limits);
+
+  const WorkerKind& kind_;
+  std::mutex mutex_;
+  std::unique_ptr<Child> child_;
+  std::optional<std::string> whyNot_;
+};
+
+}  // namespace fragtrace

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// fragtrace_worker MODULE runs other people's libraries for the program, which starts it with a socket and
+// sets its limits. It links none of them; the module does. A module whose name does not end in .so is a
+// program that speaks the protocol itself.
+#include <dlfcn.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "base/message.h"
+#include "base/shared_memory.h"
+#include "base/worker/module.h"
+
+namespace fragtrace {
+namespace {
+
+bool isStartedByProgram() {
+  struct stat status {};
+  return ::fstat(kWorkerSocket, &status) == 0 && S_ISSOCK(status.st_mode);
+}
+
+WorkFunction* openModule(const char* path) {
+  void* const module = ::dlopen(path, RTLD_LAZY | RTLD_LOCAL);
+  return module == nullptr ? nullptr : reinterpret_cast<WorkFunction*>(::dlsym(module, kWorkFunction));
+}
+
+void setReason(WorkReply& reply, const char* reason) {
+  std::strncpy(reply.reason, reason, sizeof reply.reason - 1);
+}
+
+WorkReply answer(WorkFunction* work, const WorkRequest& request, int file) {
+  WorkReply reply;
+  try {
+    const SharedMemory memory(file, request.outputOffset() + request.outputBytes);
+    WorkOutput output{memory.bytes().subspan(request.outputOffset(), request.outputBytes)};
+    work(memory.bytes().first(request.inputBytes), output);
+    reply.outputBytes = output.used;
+    reply.done = 1;
+  } catch (const std::bad_alloc&) {
+    setReason(reply, "does not fit into memory");
+  } catch (const std::exception& error) {
+    setReason(reply, error.what());
+  }
+  return reply;
+}
+
+}  // namespace
+}  // namespace fragtrace
+
+int main(int argumentCount, char** arguments) {
+  using namespace fragtrace;
+  if (argumentCount != 2 || !isStartedByProgram()) {
+    std::fputs("fragtrace_worker: started by fragtrace, not by hand\n", stderr);
+    return 2;
+  }
+  if (!std::string(arguments[1]).ends_with(".so")) {
+    ::execv(arguments[1], arguments + 1);
+    return kNotLoaded;
+  }
+  WorkFunction* const work = openModule(arguments[1]);
+  if (work == nullptr) return kNotLoaded;
+  WorkOutput nothing;
+  work({}, nothing);
+  WorkRequest request;
+  int file = -1;
+  while (receiveWithFile(kWorkerSocket, asMessage(request), file)) {
+    const WorkReply reply = answer(work, request, file);
+    if (::send(kWorkerSocket, &reply, sizeof reply, MSG_NOSIGNAL) != ssize_t(sizeof reply)) break;
+  }
+  // The libraries' own end is left out: all they have goes with the process.
+  ::_exit(0);
+}

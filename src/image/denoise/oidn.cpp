@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "image/denoise/oidn.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "base/errors.h"
+#include "image/channels.h"
+
+namespace fragtrace {
+
+namespace {
+
+using LayerNames = std::array<const char*, 3>;
+constexpr LayerNames kOidnColor{"R", "G", "B"};
+constexpr LayerNames kOidnAlbedo{kGuideChannels[0], kGuideChannels[1], kGuideChannels[2]};
+constexpr LayerNames kOidnNormal{kGuideChannels[4], kGuideChannels[5], kGuideChannels[6]};
+
+/// Three floats a pixel, rows from the top.
+using Triples = std::vector<float>;
+
+bool hasLayer(const Image& image, const LayerNames& names) {
+  return std::ranges::all_of(names, [&](const char* name) { return findChannel(image, name).has_value(); });
+}
+
+Triples triplesOf(const Image& image, const LayerNames& names) {
+  std::array<size_t, 3> index{};
+  for (size_t c = 0; c < 3; ++c) {
+    const auto found = findChannel(image, names[c]);
+    if (!found) throw RenderError(std::string("Open Image Denoise needs the layer ") + names[c]);
+    index[c] = *found;
+  }
+  Triples triples;
+  triples.reserve(image.values.size() / image.channelCount() * 3);
+  for (size_t first = 0; first < image.values.size(); first += image.channelCount()) {
+    for (const size_t c : index) {
+      const float value = image.values[first + c];
+      triples.push_back(std::isfinite(value) ? value : 0.0f);
+    }
+  }
+  return triples;
+}
+
+/// The power of two next to the geometric mean of what is not black: the library loses pictures that are far
+/// darker or brighter than 1 (all of 1e-40 or 1e38), and a few bright pixels do not move this mean. Nothing
+/// where all is black.
+std::optional<int> exponentOf(const Triples& color) {
+  double sum = 0.0;
+  size_t count = 0;
+  for (const float value : color) {
+    if (value <= 0.0f) continue;
+    sum += std::log2(double(value));
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return int(std::lround(sum / double(count)));
+}
+
+void multiplyByPowerOfTwo(Triples& color, int exponent) {
+  constexpr float kBrightest = 1e18f;  // its square is a float, too
+  for (float& value : color) value = std::clamp(std::ldexp(value, exponent), -kBrightest, kBrightest);
+}
+
+/// The library's filters, one after the other, as parts of one piece of work.
+class OidnRuns {
+ public:
+  OidnRuns(const OidnLibrary& library, int width, int height, uint64_t memoryBytes, int runs,
+           const OidnProgress& progress)
+      : library_(library), width_(size_t(width)), height_(size_t(height)), runs_(runs), progress_(progress) {
+    constexpr uint64_t kMost = 2000;  // pictures that need more are filtered in tiles
+    memoryMb_ = int(std::clamp<uint64_t>(memoryBytes / 1'000'000, 1, kMost));
+  }
+
+  struct Input {
+    const char* name;
+    Triples& pixels;
+  };
+
+  /// False when it was stopped. `cleanGuides`: albedo and normal are filtered already.
+  bool run(std::initializer_list<Input> inputs, Triples& output, bool hdr, bool cleanGuides) {
+    const OidnFunctions& call = library_.call;
+    const std::unique_ptr<OidnFilterHandle, void (*)(OidnFilterHandle*)> filter(
+        call.newFilter(library_.device.get(), "RT"), call.releaseFilter);
+    if (!filter) throw RenderError(reason("it makes no filter"));
+    const auto set = [&](const char* name, Triples& pixels) {
+      call.setSharedFilterImage(filter.get(), name, pixels.data(), kOidnFloat3, width_, height_, 0, 0, 0);
+    };
+    for (const Input& input : inputs) set(input.name, input.pixels);
+    set("output", output);
+    if (hdr) call.setFilterBool(filter.get(), "hdr", true);
+    if (cleanGuides) call.setFilterBool(filter.get(), "cleanAux", true);
+    call.setFilterInt(filter.get(), "quality", kOidnHighQuality);
+    call.setFilterInt(filter.get(), "maxMemoryMB", memoryMb_);
+    call.setProgressMonitor(
+        filter.get(),
+        [](void* runs, double fraction) { return static_cast<OidnRuns*>(runs)->goesOn(fraction); }, this);
+    call.commitFilter(filter.get());
+    if (check()) call.executeFilter(filter.get());
+    const bool complete = check() && !stopped_;
+    ++done_;
+    return complete;
+  }
+
+ private:
+  bool goesOn(double fraction) {
+    if (progress_ && !progress_((done_ + std::clamp(fraction, 0.0, 1.0)) / runs_)) stopped_ = true;
+    return !stopped_;
+  }
+
+  std::string reason(const char* otherwise) {
+    const char* message = nullptr;
+    library_.call.getDeviceError(library_.device.get(), &message);
+    return "Open Image Denoise " + library_.version + " failed: " + (message ? message : otherwise);
+  }
+
+  /// False when it was stopped.
+  bool check() {
+    const char* message = nullptr;
+    const int error = library_.call.getDeviceError(library_.device.get(), &message);
+    if (error == kOidnNoError) return true;
+    if (error == kOidnCancelledError && stopped_) return false;
+    throw RenderError("Open Image Denoise " + library_.version +
+                      " failed: " + (message ? message : "error " + std::to_string(error)));
+  }
+
+  const OidnLibrary& library_;
+  size_t width_;
+  size_t height_;
+  int memoryMb_;
+  int runs_;
+  int done_ = 0;
+  bool stopped_ = false;
+  const OidnProgress& progress_;
+};
+
+}  // namespace
+
+bool hasOidnGuides(const Image& picture) {
+  return hasLayer(picture, kOidnAlbedo) && hasLayer(picture, kOidnNormal);
+}
+
+namespace {
+
+/// The library takes what is outside of a thin picture for black: its last rows and columns are repeated.
+constexpr int kThinnest = 64;
+
+Image atLeastAsLarge(const Image& image) {
+  Image larger{std::max(image.width, kThinnest), std::max(image.height, kThinnest), image.channels, {}, {}};
+  const size_t channels = image.channelCount();
+  larger.values.reserve(size_t(larger.width) * size_t(larger.height) * channels);
+  for (int y = 0; y < larger.height; ++y) {
+    for (int x = 0; x < larger.width; ++x) {
+      const size_t from =
+          size_t(std::min(y, image.height - 1)) * size_t(image.width) + size_t(std::min(x, image.width - 1));
+      const float* pixel = &image.values[from * channels];
+      larger.values.insert(larger.values.end(), pixel, pixel + channels);
+    }
+  }
+  return larger;
+}
+
+/// The first rows and columns.
+Image cutTo(const Image& image, int width, int height) {
+  Image part{width, height, image.channels, {}, {}};
+  for (int y = 0; y < height; ++y) {
+    const auto row =
+        image.values.begin() + std::ptrdiff_t(size_t(y) * size_t(image.width) * image.channelCount());
+    part.values.insert(part.values.end(), row, row + std::ptrdiff_t(size_t(width) * image.channelCount()));
+  }
+  return part;
+}
+
+/// Restores the pixels that show no surface, where the picture says which these are: they have no noise.
+void keepBackground(Triples& output, const Triples& color, const Image& noisy) {
+  const std::optional<size_t> coverage = findChannel(noisy, kGuideChannels[3]);
+  if (!coverage) return;
+  for (size_t i = 0, pixel = *coverage; i < output.size(); i += 3, pixel += noisy.channelCount()) {
+    if (!(noisy.values[pixel] > 0.0f)) std::copy_n(&color[i], 3, &output[i]);
+  }
+}
+
+}  // namespace
+
+std::optional<Image> denoisedByOidn(const Image& noisy, const OidnLibrary& library, uint64_t memoryBytes,
+                                    const OidnProgress& progress) {
+  if (noisy.width < kThinnest || noisy.height < kThinnest) {
+    const std::optional<Image> larger = denoisedByOidn(atLeastAsLarge(noisy), library, memoryBytes, progress);
+    return larger ? std::optional(cutTo(*larger, noisy.width, noisy.height)) : std::nullopt;
+  }
+  const bool guided = hasOidnGuides(noisy);
+  Triples color = triplesOf(noisy, kOidnColor);
+  const std::optional<int> exponent = exponentOf(color);
+  // The library would make light of it.
+  if (!exponent) return Image{noisy.width, noisy.height, {"R", "G", "B"}, std::move(color), {}};
+  Triples scaled = color;
+  multiplyByPowerOfTwo(scaled, -*exponent);
+  Triples output(color.size());
+  OidnRuns runs(library, noisy.width, noisy.height, memoryBytes, guided ? 3 : 1, progress);
+  if (guided) {
+    // Guides that have noise of their own, as at edges, blur the picture unless they are filtered first.
+    Triples albedo = triplesOf(noisy, kOidnAlbedo);
+    Triples normal = triplesOf(noisy, kOidnNormal);
+    if (!runs.run({{"albedo", albedo}}, albedo, false, false) ||
+        !runs.run({{"normal", normal}}, normal, false, false) ||
+        !runs.run({{"color", scaled}, {"albedo", albedo}, {"normal", normal}}, output, true, true))
+      return std::nullopt;
+  } else if (!runs.run({{"color", scaled}}, output, true, false)) {
+    return std::nullopt;
+  }
+  for (size_t i = 0; i < output.size(); ++i) {
+    output[i] = std::ldexp(output[i], *exponent);
+    if (!std::isfinite(output[i])) output[i] = color[i];
+  }
+  keepBackground(output, color, noisy);
+  return Image{noisy.width, noisy.height, {"R", "G", "B"}, std::move(output), {}};
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "session/picture/denoising.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "base/errors.h"
+#include "gl/program.h"
+#include "image/channels.h"
+#include "image/denoise/oidn.h"
+#include "image/over_white.h"
+#include "options/same_picture.h"
+#include "render/denoise.h"
+#include "session/interrupt.h"
+#include "session/outputs.h"
+#include "session/phase_timer.h"
+#include "session/progress_bar.h"
+#include "session/say.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr const char* kFilterAttribute = "fragtrace:denoise";
+constexpr const char* kNoisy = "noisy.";
+
+/// The channels of a picture that a filter changes.
+Image seenChannels(const Image& picture) {
+  std::vector<std::string> channels{"R", "G", "B"};
+  if (isOverWhite(picture)) channels.emplace_back("A");
+  return onlyChannels(picture, channels);
+}
+
+/// Returns true if the channel is there for the filter alone.
+bool isForTheFilter(const std::string& channel, const RenderOptions& options) {
+  if (channel == "samples.Y") return !options.output.aovSamples;
+  if (channel == "variance.Y") return !options.output.aovVariance;
+  return channel.starts_with("denoising.") && !hasGuides(options);
+}
+
+}  // namespace
+
+bool hasGuides(const RenderOptions& options) {
+  return std::ranges::find(options.output.aovs, Aov::Guides) != options.output.aovs.end();
+}
+
+std::string whyNotDenoised(const RenderOptions& options) {
+  if (options.output.denoise == Denoise::None) return "--denoise";
+  return whyWithoutNoise(options);
+}
+
+std::optional<OidnLibrary> openDenoiser(RenderOptions& options) {
+  if (!whyNotDenoised(options).empty()) return std::nullopt;
+  if (options.output.denoise != Denoise::Oidn && options.output.denoise != Denoise::Auto) return std::nullopt;
+  try {
+    OidnLibrary library = openOidn(options.output.oidnLibrary);
+    options.output.denoise = Denoise::Oidn;
+    return library;
+  } catch (const UsageError& error) {
+    if (options.output.denoise == Denoise::Oidn) throw;
+    options.output.denoise = Denoise::Variance;
+    const std::string text = std::string("--denoise auto: the variance filter: ") + error.what();
+    if (namesOidn(options.output.oidnLibrary))
+      say(options, "warning: " + text);
+    else if (options.output.verbose)
+      say(options, text);
+  }
+  return std::nullopt;
+}
+
+RenderOptions withGuides(const RenderOptions& options) {
+  RenderOptions drawn = options;
+  if (!whyNotDenoised(options).empty()) return drawn;
+  if (options.output.denoise == Denoise::Variance) drawn.output.aovSamples = drawn.output.aovVariance = true;
+  if (!hasGuides(options)) drawn.output.aovs.push_back(Aov::Guides);
+  return drawn;
+}
+
+PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn) {
+  if (!oidn) {
+    const double start = steadyMilliseconds();
+    const ShaderSource source = shaderSource(options.device.shaderFolder);
+    const auto filter = std::make_shared<VarianceFilter>(source);
+    const auto passes = std::make_shared<PicturePasses>(source);
+    return {std::string(kVarianceFilter), steadyMilliseconds() - start,
+            [filter, passes](const Image& picture) { return filter->filtered(picture, *passes); }};
+  }
+  const auto apply = [library = *oidn, memory = options.limits.memoryBytes,
+                      quiet = options.output.quiet ||
+                              options.output.progress == ProgressForm::None](const Image& picture) {
+    ProgressBar bar("denoising", quiet);
+    const int before = interrupts();
+    std::optional<Image> result = denoisedByOidn(picture, library, memory, [&](double fraction) {
+      bar.show(fraction);
+      return interrupts() == before;
+    });
+    bar.clear();
+    return result;
+  };
+  return {"oidn " + oidn->version, 0.0, apply};
+}
+
+std::optional<Image> filtered(const Image& picture, const RenderOptions& options,
+                              const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats) {
+  const PictureFilter filter = makeFilter(options, oidn);
+  const double start = steadyMilliseconds();
+  std::optional<Image> result =
+      isOverWhite(picture) ? filter.apply(laidOverWhite(picture)) : filter.apply(picture);
+  if (!result) {
+    stats.skipped = "interrupted";
+    return result;
+  }
+  if (isOverWhite(picture)) result = liftedFromWhite(picture, *result);
+  stats.filter = filter.name;
+  stats.compileMs = filter.compileMs;
+  stats.filterMs = steadyMilliseconds() - start;
+  if (oidn) {
+    stats.library = oidn->file;
+    stats.loadMs = oidn->loadMs;
+  }
+  return result;
+}
+
+void keepNoisy(Image& picture, const Image& noisy, const std::string& filter) {
+  const Image seen = seenChannels(noisy);
+  std::vector<std::string> names;
+  for (const std::string& channel : seen.channels) names.push_back(kNoisy + channel);
+  appendChannels(picture, seen, names);
+  picture.attributes[kFilterAttribute] = filter;
+}
+
+void denoise(Image& picture, const RenderOptions& options, const std::optional<OidnLibrary>& oidn,
+             Statistics& stats) {
+  if (options.output.denoise == Denoise::None) return;
+  stats.denoise.emplace().skipped = whyNotDenoised(options);
+  if (!stats.denoise->skipped.empty()) {
+    say(options, "the picture is not filtered: " + stats.denoise->skipped);
+    return;
+  }
+  // A user who has interrupted the samples does not wait for more seconds.
+  const bool waits = !oidn || stats.complete;
+  const std::optional<Image> denoised =
+      waits ? filtered(picture, options, oidn, *stats.denoise) : std::nullopt;
+  if (!denoised) {
+    stats.complete = false;
+    stats.denoise->skipped = "interrupted";
+  }
+  const Image noisy = seenChannels(picture);
+  if (denoised) replaceColor(picture, *denoised);
+  std::vector<std::string> asked = picture.channels;
+  std::erase_if(asked, [&](const std::string& channel) { return isForTheFilter(channel, options); });
+  picture = onlyChannels(picture, asked);
+  if (denoised && holdsLayers(options)) keepNoisy(picture, noisy, stats.denoise->filter);
+}
+
+Image asDrawn(const Image& picture) {
+  std::vector<std::string> seen;
+  std::vector<std::string> noisy;
+  std::vector<std::string> rest;
+  for (const std::string& channel : picture.channels) {
+    const bool isNoisy = channel.starts_with(kNoisy);
+    if (isNoisy) seen.push_back(channel.substr(std::string_view(kNoisy).size()));
+    (isNoisy ? noisy : rest).push_back(channel);
+  }
+  if (noisy.size() < 3 || !findChannel(picture, "R")) return picture;
+  Image drawn = onlyChannels(picture, rest);
+  Image before = onlyChannels(picture, noisy);
+  before.channels = seen;
+  replaceColor(drawn, before);
+  drawn.attributes.erase(kFilterAttribute);
+  return drawn;
+}
+
+}  // namespace fragtrace

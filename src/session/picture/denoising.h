@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// `render --denoise`: the layers that it needs, and the filtered picture.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "image/denoise/oidn_library.h"
+#include "image/image.h"
+#include "session/statistics.h"
+#include "shader/render_options.h"
+
+namespace fragtrace {
+
+/// Returns true if the layers that are asked for hold the guides of filters (Aov::Guides).
+bool hasGuides(const RenderOptions& options);
+
+/// The reason why such a picture is not denoised although that is asked for; empty if it is.
+std::string whyNotDenoised(const RenderOptions& options);
+
+/// Opens Open Image Denoise if these options need it, and settles --denoise auto in them. It must be called
+/// before anything is drawn: it throws UsageError if the library was asked for and cannot be opened.
+std::optional<OidnLibrary> openDenoiser(RenderOptions& options);
+
+/// The options with all layers that the filter needs beside those asked for.
+RenderOptions withGuides(const RenderOptions& options);
+
+/// A filter that is ready, with its programs in the current context.
+struct PictureFilter {
+  std::string name;        ///< and version
+  double compileMs = 0.0;  ///< that building its programs took
+  /// R, G and B of a picture with all layers that the filter needs; nothing if it was interrupted. Throws
+  /// RenderError.
+  std::function<std::optional<Image>(const Image&)> apply;
+};
+/// Makes the filter from options that openDenoiser() has settled; `oidn` is its result.
+PictureFilter makeFilter(const RenderOptions& options, const std::optional<OidnLibrary>& oidn);
+
+/// Replaces the noisy colours by the denoised ones. An .exr keeps the noisy ones as noisy.R, noisy.G and
+/// noisy.B. Layers that were not asked for are removed. `picture` was drawn with withGuides(options). It
+/// stays noisy if Open Image Denoise is interrupted, which the statistics then say.
+void denoise(Image& picture, const RenderOptions& options, const std::optional<OidnLibrary>& oidn,
+             Statistics& stats);
+
+/// The filter's colours for a picture with all layers that it needs; nothing if it was interrupted. Throws
+/// RenderError.
+std::optional<Image> filtered(const Image& picture, const RenderOptions& options,
+                              const std::optional<OidnLibrary>& oidn, DenoiseStatistics& stats);
+
+/// Adds to the .exr of a filtered picture: the noisy colours, and the filter's name.
+void keepNoisy(Image& picture, const Image& noisy, const std::string& filter);
+
+/// A picture as it was before denoise(), with its noisy colours in their place. Unchanged if it has none.
+Image asDrawn(const Image& picture);
+
+}  // namespace fragtrace

@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: MIT
+#include "session/picture/draw_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <span>
+
+#include "base/count_text.h"
+#include "base/errors.h"
+#include "image/channels.h"
+#include "render/adaptive.h"
+#include "session/interrupt.h"
+#include "session/outputs.h"
+#include "session/picture/checkpoints.h"
+#include "session/picture/denoising.h"
+#include "session/picture/draw_picture.h"
+#include "session/picture/picture_file.h"
+#include "session/progress_bar.h"
+#include "session/say.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// A sequence has no bars, but other programs are told the progress of its pictures.
+bool hidesProgress(const PictureJob& job) {
+  const ProgressForm form = job.options.output.progress;
+  return job.options.output.quiet || form == ProgressForm::None ||
+         (!job.showsProgress && form != ProgressForm::Json);
+}
+
+double areaOf(glm::ivec2 size) { return double(size.x) * size.y; }
+
+/// The share of a picture that was done before one of its parts, and the share of that part.
+struct Share {
+  double done = 0.0;
+  double own = 1.0;
+
+  double of(double fraction) const { return done + own * fraction; }
+};
+
+/// Says where a render of several parts continues; nothing for a picture in one part.
+std::string placeOfPart(const Share& share) {
+  if (share.own == 1.0) return "";
+  return ", where " + std::to_string(int(100.0 * share.done)) + " % of the picture are done";
+}
+
+std::vector<Share> sharesOf(std::span<const Region> parts, glm::ivec2 size) {
+  std::vector<Share> shares;
+  double done = 0.0;
+  for (const Region& part : parts) {
+    const double own = areaOf(part.size) / areaOf(size);
+    shares.push_back({done, own});
+    done += own;
+  }
+  return shares;
+}
+
+/// The seconds that a sample of each layer takes in all pixels, measured in the middle of the first part.
+/// Compiles all layers. The film is empty afterwards.
+std::vector<double> measureAovs(const PictureJob& job, Film& film, const View& view, Statistics& stats) {
+  constexpr int kSide = 256;
+  Work work{{}, glm::min(film.size(), glm::ivec2(kSide)), 0, 1};
+  work.corner = (film.size() - work.size) / 2;
+  const double times = areaOf(job.loaded.region.size) / areaOf(work.size);
+  std::vector<double> seconds;
+  for (const ShaderVariant& variant : job.tracer.aovs) {
+    if (!job.tracer.renderer->knows(variant))
+      stats.compileMs += job.tracer.renderer->compile(variant, film, view);
+    if (!job.showsProgress) {
+      seconds.push_back(0.0);
+      continue;
+    }
+    job.tracer.renderer->use(variant);
+    RenderTimes measured;
+    job.tracer.renderer->addSamples(film, view, {&work, 1}, measured);
+    seconds.push_back(0.001 * measured.renderMs * times);
+    film.clear();
+  }
+  return seconds;
+}
+
+/// The seconds that the layers from `first` on will take if the picture has so many samples.
+double secondsOfAovs(const PictureJob& job, const DrawingPlan& plan, size_t first, int samples) {
+  double seconds = 0.0;
+  for (size_t i = first; i < plan.layerSeconds.size(); ++i)
+    seconds += plan.layerSeconds[i] * samplesOfLayer(job.options, job.tracer.aovs[i].aov, samples);
+  return seconds;
+}
+
+/// The time that layers will take at least: those of an adaptive picture have the fewest samples of any
+/// pixel, a number that is not yet known.
+double secondsOfAovs(const PictureJob& job, const DrawingPlan& plan) {
+  constexpr int kLeastAdaptive = 64;
+  const int spp = job.options.sampling.spp;
+  return secondsOfAovs(job, plan, 0, isAdaptive(job.options) ? std::min(spp, kLeastAdaptive) : spp);
+}
+
+/// The worst of both parts, since a goal holds in each of them.
+AdaptiveStatistics joined(const AdaptiveStatistics& a, const AdaptiveStatistics& b) {
+  return {a.noise,
+          a.seconds,
+          std::max(a.error, b.error),
+          std::min(a.share, b.share),
+          std::max(a.rounds, b.rounds),
+          a.known && b.known,
+          a.black && b.black};
+}
+
+void add(FilmTotals& totals, const FilmTotals& part, bool first) {
+  totals.fewestSamples = first ? part.fewestSamples : std::min(totals.fewestSamples, part.fewestSamples);
+  totals.mostSamples = std::max(totals.mostSamples, part.mostSamples);
+  totals.samples += part.samples;
+  totals.rays += part.rays;
+  totals.hitPixels += part.hitPixels;
+  totals.emptyPixels += part.emptyPixels;
+  totals.nonfinitePixels += part.nonfinitePixels;
+  totals.budgetHits += part.budgetHits;
+  totals.cut += part.cut;
+  totals.lightPaths += part.lightPaths;
+}
+
+/// An image of all parts with the channels of one of them, still black.
+Image imageOfAll(const Image& part, glm::ivec2 size) {
+  Image all{size.x, size.y, part.channels, {}, {}};
+  all.values.resize(size_t(size.x) * size_t(size.y) * all.channelCount());
+  return all;
+}
+
+/// Adds a part to the picture of all of them. The first part makes the picture.
+void addPart(Image& picture, Image part, const Region& place, const Region& all) {
+  if (place == all) {
+    picture = std::move(part);
+    return;
+  }
+  if (picture.values.empty()) picture = imageOfAll(part, all.size);
+  paste(part, place.corner - all.corner, picture);
+}
+
+}  // namespace
+
+void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film, const std::string& layer) {
+  const std::string place = layer.empty() ? " pixels" : " pixels of the layer " + layer;
+  if (film.budgetHits > 0) {
+    throw RenderError("the driver ended loops early in " + std::to_string(film.budgetHits) +
+                      " pixels (budget_hits); the picture would be wrong, so none is written");
+  }
+  if (film.emptyPixels > 0) {
+    say(options, "warning: stopped before the first sample of " + std::to_string(film.emptyPixels) + place +
+                     "; they are black");
+  }
+  if (film.nonfinitePixels > 0) {
+    say(options, "warning: samples of " + std::to_string(film.nonfinitePixels) + place +
+                     " were not finite and count as black (nonfinite_pixels)");
+  }
+}
+
+DrawingPlan planDrawing(const PictureJob& job, Statistics& stats) {
+  std::vector<Region> parts = partsOf(job.options, job.loaded);
+  Film film(parts.front().size);
+  const View view = viewOf(job.loaded, parts.front());
+  std::vector<double> layerSeconds = measureAovs(job, film, view, stats);
+  stats.parts = int(parts.size());
+  if (job.tracer.renderer->knows(job.tracer.variant))
+    job.tracer.renderer->use(job.tracer.variant);
+  else
+    stats.compileMs += job.tracer.renderer->compile(job.tracer.variant, film, view);
+  return {std::move(parts), std::move(film), std::move(layerSeconds)};
+}
+
+namespace {
+
+/// One part in progress.
+struct PartRun {
+  const PictureJob& job;
+  const View view;
+  Share share;
+  Statistics& stats;
+  Renderer::Progress progress;
+  /// Writes a checkpoint of the part in its present state.
+  std::function<void(std::vector<FilmState>, const std::vector<FilmPixels>&, const AdaptiveState&)> keep;
+  CheckpointKeeper& keeper;
+  const Checkpoint* from;  ///< to go on from; may be none
+
+  /// Reports the progress, and keeps a checkpoint if one is due or the work is to stop.
+  template <typename State>
+  Renderer::Progress keeping(const State& state) const {
+    return [this, state](double fraction) {
+      const bool goOn = progress(fraction);
+      if (keeper.isDue() || (!goOn && keeper.isKept())) state();
+      return goOn;
+    };
+  }
+};
+
+/// Draws until the goal is reached. A part of the picture has its share of the time.
+Drawing drawAdaptively(const PartRun& part, glm::ivec2 size) {
+  const RenderOptions& options = part.job.options;
+  // Time that a part does not use goes to no other part, which would then have less noise than the rest.
+  const double seconds = options.sampling.seconds * part.share.own;
+  AdaptiveRun run(size);
+  if (part.from != nullptr) {
+    for (size_t half : {0, 1}) run.films[half].load(part.from->films[half]);
+    run.state = part.from->adaptive;
+    const std::vector<int32_t>& counts = run.state.samples;
+    const double sum = std::accumulate(counts.begin(), counts.end(), 0.0);
+    const long mean = std::lround(2.0 * sum / double(std::max(size_t(1), counts.size())));
+    say(options, "--resume: goes on after about " + countText(size_t(mean), "sample") + " per pixel" +
+                     placeOfPart(part.share));
+  }
+  const auto keep = [&] { part.keep({run.films[0].save(), run.films[1].save()}, {}, run.state); };
+  AdaptivePicture picture = renderAdaptively(*part.job.tracer.renderer, run, part.view,
+                                             {options.sampling.noise, seconds, options.sampling.spp},
+                                             part.stats.times, part.keeping(keep));
+  part.stats.complete = !picture.stopped;
+  const AdaptiveStatistics own{options.sampling.noise, options.sampling.seconds, picture.error,
+                               picture.share,          picture.rounds,           picture.known,
+                               picture.black};
+  part.stats.adaptive = part.stats.adaptive ? joined(*part.stats.adaptive, own) : own;
+  return {std::move(picture.pixels), std::move(picture.variance), {}};
+}
+
+/// Draws up to --spp samples into an empty film.
+Drawing drawEvenly(const PartRun& part, Film film) {
+  SampledFilm sampled{std::move(film), {}, 0};
+  if (part.from != nullptr) {
+    const FilmState& state = part.from->films.front();
+    sampled.film.load(state);
+    sampled.looks = part.from->looks;
+    const int spp = part.job.options.sampling.spp;
+    const FilmTotals totals = totalsOf(sampled.film.read());
+    sampled.fewest = int(std::min<uint32_t>(totals.fewestSamples, uint32_t(spp)));
+    // Each pixel goes on from its own.
+    char mean[32];
+    std::snprintf(mean, sizeof mean, "%.4g", double(totals.samples) / areaOf(sampled.film.size()));
+    say(part.job.options, "--resume: goes on after " + std::string(mean) + " of " +
+                              countText(size_t(spp), "sample") + " per pixel" + placeOfPart(part.share));
+  }
+  const auto keep = [&] { part.keep({sampled.film.save()}, sampled.looks, {}); };
+  Drawing drawing;
+  part.stats.complete = drawAllSamples(*part.job.tracer.renderer, sampled, part.job.options, part.view,
+                                       part.stats.times, part.keeping(keep), drawing);
+  return drawing;
+}
+
+/// The picture without the numbers of samples, if nobody has asked for them and all are the same.
+Image withoutNeedlessCounts(Image picture, const RenderOptions& options, const Statistics& stats) {
+  const bool needed = stats.adaptive || !stats.complete || withGuides(options).output.aovSamples;
+  if (needed || !findChannel(picture, "samples.Y")) return picture;
+  std::vector<std::string> channels = picture.channels;
+  std::erase(channels, "samples.Y");
+  return onlyChannels(picture, channels);
+}
+
+}  // namespace
+
+Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, CheckpointKeeper& keeper) {
+  const RenderOptions& options = job.options;
+  std::optional<Checkpoint> from = readCheckpoint(job, plan);
+  const std::string text = keeper.isKept() ? jobText(job, plan) : "";
+  const std::vector<Share> shares = sharesOf(plan.parts, job.loaded.region.size);
+  const double secondsAfter = secondsOfAovs(job, plan);
+  // merge needs the samples of each pixel if these differ.
+  const bool keepsCounts = holdsLayers(options) && !showsColors(options);
+  ProgressBar bar("rendering", hidesProgress(job),
+                  isAdaptive(options) ? std::nullopt : std::optional(options.sampling.spp));
+  Image picture;
+  size_t i = 0;
+  if (from) {
+    i = size_t(from->part);
+    picture = std::move(from->picture);
+    restoreMeasured(from->statistics, stats);
+  }
+  for (; i < plan.parts.size() && stats.complete; ++i) {
+    const Region& region = plan.parts[i];
+    Statistics before;
+    before.film = stats.film;
+    before.adaptive = stats.adaptive;
+    const double timedMs = stats.times.renderMs;
+    const double begun = steadyMilliseconds();
+    const auto progress = [&](double fraction) {
+      bar.show(shares[i].of(fraction), secondsAfter);
+      if (job.told) job.told(shares[i].of(fraction));
+      return interrupts() == 0;
+    };
+    const auto keep = [&](std::vector<FilmState> films, const std::vector<FilmPixels>& looks,
+                          const AdaptiveState& state) {
+      RenderTimes now = stats.times;
+      now.renderMs = timedMs + steadyMilliseconds() - begun;
+      keeper.write({text, measuredText(before, now), picture, int(i), std::move(films), looks, state});
+    };
+    const PartRun part{job,    viewOf(job.loaded, region), shares[i], stats, progress, keep,
+                       keeper, from ? &*from : nullptr};
+    const bool isFirst = region == plan.parts.front();
+    const Drawing drawing = isAdaptive(options)
+                                ? drawAdaptively(part, region.size)
+                                : drawEvenly(part, isFirst ? std::move(plan.film) : Film(region.size));
+    from.reset();
+    add(stats.film, totalsOf(drawing.pixels), isFirst);
+    const bool counted = keepsCounts && (plan.parts.size() > 1 || stats.adaptive || !stats.complete);
+    addPart(picture, pictureOf(drawing, options, counted), region, job.loaded.region);
+  }
+  bar.clear();
+  for (; i < plan.parts.size(); ++i) {
+    stats.film.emptyPixels += uint64_t(areaOf(plan.parts[i].size));
+    stats.film.fewestSamples = 0;
+  }
+  return withoutNeedlessCounts(std::move(picture), options, stats);
+}
+
+void addAovs(Image& picture, const PictureJob& job, const DrawingPlan& plan, Statistics& stats) {
+  const int drawn = int(std::max(1u, stats.adaptive ? stats.film.fewestSamples : stats.film.mostSamples));
+  const int all = stats.complete ? drawn : std::min(drawn, kFewLayerSamples);
+  const int before = interrupts();
+  const std::vector<Share> shares = sharesOf(plan.parts, job.loaded.region.size);
+  for (size_t i = 0; i < job.tracer.aovs.size(); ++i) {
+    const ShaderVariant& variant = job.tracer.aovs[i];
+    const int samples = samplesOfLayer(job.options, variant.aov, all);
+    const double after = secondsOfAovs(job, plan, i + 1, all);
+    ProgressBar bar("layer " + std::string(rowOf(variant.aov).name), hidesProgress(job), samples);
+    Image layer;
+    FilmTotals totals;
+    for (size_t p = 0; p < plan.parts.size(); ++p) {
+      const Region& part = plan.parts[p];
+      LayerDraw own = drawLayer(part.size, *job.tracer.renderer, variant, viewOf(job.loaded, part), samples,
+                                [&](double fraction) {
+                                  bar.show(shares[p].of(fraction), after);
+                                  return interrupts() == before;
+                                });
+      stats.complete = stats.complete && own.complete;
+      stats.compileMs += own.compileMs;
+      stats.featureMs += own.drawMs;
+      add(totals, own.totals, p == 0);
+      addPart(layer, std::move(own.image), part, job.loaded.region);
+    }
+    bar.clear();
+    appendChannels(picture, layer, layer.channels);
+    sayWhatWentWrong(job.options, totals, std::string(rowOf(variant.aov).name));
+  }
+}
+
+}  // namespace fragtrace

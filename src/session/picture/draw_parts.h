@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Draws the picture of a render and its layers of first hits, in as many parts as necessary. Shows progress
+// and stops at interrupts.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "render/film.h"
+#include "session/picture/picture_parts.h"
+#include "session/tracer.h"
+
+namespace fragtrace {
+
+/// The task of drawing one picture, and the device that draws it.
+struct PictureJob {
+  const RenderOptions& options;
+  const LoadedScene& loaded;
+  const Tracer& tracer;
+  bool showsProgress = true;  ///< of this picture alone; a sequence shows its own
+  /// Called with the progress of the samples, 0..1; may be empty.
+  std::function<void(double fraction)> told = {};
+};
+
+/// Everything that is made and measured before the first sample that counts.
+struct DrawingPlan {
+  std::vector<Region> parts;
+  Film film;                         ///< of the first part, empty
+  std::vector<double> layerSeconds;  ///< that a sample of each layer takes in all pixels of the picture
+};
+
+/// Compiles all programs, so that none fails later, and fills in their statistics. Throws UsageError,
+/// RenderError.
+DrawingPlan planDrawing(const PictureJob& job, Statistics& stats);
+
+class CheckpointKeeper;
+
+/// Draws all parts and joins them, from the checkpoint that the options ask for
+/// (session/picture/checkpoints.h). The statistics say how far it came. An interrupt leaves out the remaining
+/// parts, which stay black. Throws InputError and UsageError for the checkpoint, RenderError.
+Image drawPicture(const PictureJob& job, DrawingPlan& plan, Statistics& stats, CheckpointKeeper& keeper);
+
+/// Adds the layers of first hits, drawn with the picture's samples: for an adaptive picture those that all
+/// pixels have, for an interrupted one a few, since the user waits. Throws RenderError.
+void addAovs(Image& picture, const PictureJob& job, const DrawingPlan& plan, Statistics& stats);
+
+/// Says what is odd about the picture, or about that layer of it. Throws RenderError if the driver ended
+/// loops early, which makes pictures wrong.
+void sayWhatWentWrong(const RenderOptions& options, const FilmTotals& film, const std::string& layer = {});
+
+}  // namespace fragtrace

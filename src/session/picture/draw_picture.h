@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Draws one whole picture, as `render` does: its samples, with readings of the film for a filter, and its
+// layers of first hits.
+#pragma once
+
+#include <vector>
+
+#include "image/image.h"
+#include "render/film.h"
+#include "session/setup.h"
+#include "shader/render_options.h"
+
+namespace fragtrace {
+
+/// The result of drawing, before it is a picture.
+struct Drawing {
+  FilmPixels pixels;
+  std::vector<double> variance;  ///< a better estimate than the pixels' own; may be empty
+  std::vector<double> observed;  ///< observedVariance(); may be empty
+};
+
+/// A film that gets samples, and the copies of it that were read on the way.
+struct SampledFilm {
+  Film film;
+  std::vector<FilmPixels> looks;  ///< at a quarter and at half of the samples
+  int fewest = 0;                 ///< samples that each pixel has
+};
+
+/// Returns true if the film is read on the way, which tells how fast the sequence converges: where the
+/// picture is filtered, or a file of it may be (`--aov denoising`).
+bool looksOnTheWay(const RenderOptions& options);
+
+/// Adds samples up to options.spp and reads the film. False if progress stopped it.
+bool drawAllSamples(Renderer& renderer, SampledFilm& sampled, const RenderOptions& options, const View& view,
+                    RenderTimes& times, const Renderer::Progress& progress, Drawing& drawing);
+
+/// The drawing as a picture, with all layers that the options ask for and that their filter needs, except
+/// layers of first hits. withSamples: samples.Y is added even if nobody asks for it.
+Image pictureOf(const Drawing& drawing, const RenderOptions& options, bool withSamples = false);
+
+/// The number of samples of layers that nobody has asked for, or for which the user waits.
+inline constexpr int kFewLayerSamples = 16;
+
+/// The number of samples of a layer of a picture with so many: a filter needs no more than a few.
+int samplesOfLayer(const RenderOptions& options, Aov aov, int ofPicture);
+
+/// A layer, with its time and its counts.
+struct LayerDraw {
+  Image image;  ///< with the names that its channels have in a file
+  bool complete = true;
+  double compileMs = 0.0;
+  double drawMs = 0.0;
+  FilmTotals totals;
+};
+
+/// Draws a layer of first hits; an incomplete one if progress stopped it. The renderer keeps that variant.
+/// Compiles the variant if it is new.
+LayerDraw drawLayer(glm::ivec2 size, Renderer& renderer, const ShaderVariant& variant, const View& view,
+                    int samples, const Renderer::Progress& progress = Renderer::toTheEnd);
+
+/// The same, appended to a picture of that size.
+LayerDraw addLayer(Image& picture, Renderer& renderer, const ShaderVariant& variant, const View& view,
+                   int samples, const Renderer::Progress& progress = Renderer::toTheEnd);
+
+}  // namespace fragtrace

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "session/picture/picture_file.h"
+
+#include <set>
+
+#include "image/channels.h"
+#include "image/display/heatmap.h"
+#include "image/display/lines.h"
+#include "image/display/tone_map.h"
+#include "image/format.h"
+#include "render/film/debug_picture.h"
+#include "scene/projection.h"
+#include "session/picture_memory.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// Draws lines over the displayed picture, which lies at that place.
+void drawLines(Image& display, std::span<const PictureLine> lines, const Placement& placement) {
+  const glm::vec3 orange(1.0f, 0.55f, 0.1f);
+  const glm::dvec2 half = 0.5 * glm::dvec2(placement.whole) * glm::dvec2(1.0, -1.0);
+  const glm::dvec2 middle = 0.5 * glm::dvec2(placement.whole) - glm::dvec2(placement.corner);
+  for (const PictureLine& line : lines)
+    drawLine(display, middle + line.from * half, middle + line.to * half, orange);
+}
+
+/// A name beside the output that does not exist yet.
+std::filesystem::path rescuePath(std::filesystem::path output) {
+  const std::string stem = output.stem().string();
+  output.replace_extension(".pfm");
+  std::error_code error;
+  for (int i = 2; std::filesystem::exists(std::filesystem::symlink_status(output, error)); ++i)
+    output.replace_filename(stem + "-" + std::to_string(i) + ".pfm");
+  return output;
+}
+
+/// Names what a picture loses in a .pfm: "the layers albedo, A and what merge needs".
+std::string lostInPfm(const RenderOptions& options, const Image& linear) {
+  std::set<std::string> layers;
+  for (const std::string& channel : linear.channels) {
+    if (channel != "R" && channel != "G" && channel != "B")
+      layers.insert(channel == "A" ? "alpha" : channel.substr(0, channel.find('.')));
+  }
+  std::string lost;
+  for (const std::string& layer : layers) lost += (lost.empty() ? "" : ", ") + layer;
+  const auto add = [&](const char* more) { lost += (lost.empty() ? "" : " and ") + std::string(more); };
+  if (isDisplayFormat(options.output.file)) add("what only a display has (exposure, tone curve, boxes)");
+  if (!linear.attributes.empty()) add("what merge needs");
+  return lost;
+}
+
+}  // namespace
+
+bool showsColors(const RenderOptions& options) { return options.output.debugView != DebugView::None; }
+
+Image shownPicture(const RenderOptions& options, const FilmPixels& pixels, const Layers& layers,
+                   std::span<const double> variance) {
+  Image picture = imageOf(pixels, layers, variance);
+  if (options.output.debugView == DebugView::Visits) return paintHeatmap(picture);
+  if (options.output.debugView != DebugView::None)
+    replaceColor(picture, debugPicture(options.output.debugView, pixels, variance));
+  return picture;
+}
+
+std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedScene& loaded,
+                                   const Camera& camera, glm::ivec2 size) {
+  if (!options.output.treeLevel) return {};
+  const std::vector<Bounds> boxes = boxesAtLevel(loaded.bvh, uint32_t(*options.output.treeLevel));
+  if (boxes.empty())
+    say(options, "warning: the tree has no level " + std::to_string(*options.output.treeLevel));
+  return boxEdges(boxes, projectionOf(camera, double(size.x) / size.y), loaded.scene.space);
+}
+
+void checkPictureWritable(const RenderOptions& options, glm::ivec2 size) {
+  checkImageWritable(options.output.file, size.x, size.y, channelsOf(options), options.output.encoding,
+                     !options.output.toStandardOutput);
+}
+
+std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason) {
+  if (options.output.toStandardOutput || formatOfName(options.output.file) == ImageFormat::Pfm) return reason;
+  const std::filesystem::path path = rescuePath(options.output.file);
+  try {
+    writeImage(path, linear);
+  } catch (const std::exception& error) {
+    // Both say so if the folder is gone.
+    const std::string other = error.what();
+    const auto cause = [](const std::string& text) { return text.substr(text.rfind(": ") + 1); };
+    return reason + "; nor as .pfm" + (cause(other) == cause(reason) ? "" : ": " + other);
+  }
+  const std::string lost = lostInPfm(options, linear);
+  return reason + "; the " + (showsColors(options) ? "colours" : "radiance") + " alone is in " +
+         path.string() + (lost.empty() ? "" : ", lost: " + lost);
+}
+
+void sayClamped(const RenderOptions& options, size_t values) {
+  if (values == 0) return;
+  say(options, "warning: " + options.output.file.string() + ": " + std::to_string(values) +
+                   " values are beyond 65504, the largest 16-bit float, and clamped to it (--half)");
+}
+
+namespace {
+
+void writeOut(const RenderOptions& options, const Image& image) {
+  const auto write = options.output.toStandardOutput ? printImage : writeImage;
+  sayClamped(options, write(options.output.file, image, options.output.encoding));
+}
+
+}  // namespace
+
+void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> lines) {
+  if (!isDisplayFormat(options.output.file)) return writeOut(options, linear);
+  const bool colors = showsColors(options);
+  const bool keepsAlpha = formatOfName(options.output.file) == ImageFormat::Png;
+  Image display =
+      toDisplay(keepsAlpha ? linear : withoutAlpha(linear), colors ? 0.0 : options.output.exposure,
+                colors ? ToneMap::Linear : options.output.toneMap);
+  if (options.output.alpha == AlphaOf::Display) display = forBlendedValues(std::move(display));
+  drawLines(display, lines, linear.placement.value_or(Placement{{0, 0}, {linear.width, linear.height}}));
+  writeOut(options, display);
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Writes a drawn picture: its content and its form.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "bvh/tree_boxes.h"
+#include "image/image.h"
+#include "session/setup.h"
+#include "shader/render_options.h"
+
+namespace fragtrace {
+
+/// Returns true if the picture's colours are those of a debug view, to be displayed as they are.
+bool showsColors(const RenderOptions& options);
+
+/// Makes a picture of the film: linear radiance, or the colours of a debug view. `variance` is as for
+/// imageOf().
+Image shownPicture(const RenderOptions& options, const FilmPixels& pixels, const Layers& layers,
+                   std::span<const double> variance = {});
+
+/// The edges of the boxes of the level asked for, if any, seen by a camera whose picture has that size.
+std::vector<PictureLine> treeLines(const RenderOptions& options, const LoadedScene& loaded,
+                                   const Camera& camera, glm::ivec2 size);
+
+/// Must be called before the first sample: throws RenderError if a picture of that size could not be written.
+void checkPictureWritable(const RenderOptions& options, glm::ivec2 size);
+
+/// Rescues a finished picture whose output cannot be written for that reason: writes its colours alone to
+/// NAME.pfm beside it, or to a name that does not exist yet. Returns the message: the reason, where the
+/// picture is and what it lacks. Nothing replaces a .pfm or standard output.
+std::string rescuePicture(const RenderOptions& options, const Image& linear, const std::string& reason);
+
+/// Says how many values of the output 16-bit floats could not hold, if any.
+void sayClamped(const RenderOptions& options, size_t values);
+
+/// Writes a linear picture to the options' output: as it is, or as a display shows it, with lines over it.
+/// Throws RenderError.
+void writePicture(const RenderOptions& options, const Image& linear, std::span<const PictureLine> lines);
+
+}  // namespace fragtrace

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "session/picture/sequence.h"
+
+#include <algorithm>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtx/rotate_vector.hpp>
+#include <string>
+
+namespace fragtrace {
+
+namespace {
+
+/// The pattern with the result of `wordFor(width)` in place of its last run of #.
+template <typename WordFor>
+std::filesystem::path filled(const std::filesystem::path& pattern, const WordFor& wordFor) {
+  std::string name = pattern.filename().string();
+  const size_t last = name.rfind('#');
+  if (last == std::string::npos) return pattern;
+  size_t first = last;
+  while (first > 0 && name[first - 1] == '#') --first;
+  const size_t width = last - first + 1;
+  name.replace(first, width, wordFor(width));
+  return std::filesystem::path(pattern).replace_filename(name);
+}
+
+}  // namespace
+
+std::filesystem::path numberedName(const std::filesystem::path& pattern, int number) {
+  return filled(pattern, [&](size_t width) {
+    const std::string digits = std::to_string(number);
+    return std::string(width - std::min(width, digits.size()), '0') + digits;
+  });
+}
+
+std::filesystem::path namedFile(const std::filesystem::path& pattern, const std::string& word, int number) {
+  const auto isPlain = [](unsigned char c) { return c >= 0x20 && c != 0x7f && c != '/' && c != '#'; };
+  const bool isName = !word.empty() && std::ranges::all_of(word, isPlain);
+  return isName ? filled(pattern, [&](size_t) { return word; }) : numberedName(pattern, number);
+}
+
+FrameRange rangeOf(const SequenceOptions& sequence) {
+  return sequence.turntable > 0 ? FrameRange{0, sequence.turntable - 1, 1} : sequence.frames.value();
+}
+
+int frameCount(const SequenceOptions& sequence) {
+  const FrameRange range = rangeOf(sequence);
+  return (range.last - range.first) / range.step + 1;
+}
+
+SequenceFrame frameOf(const RenderOptions& options, int index) {
+  const SequenceOptions& sequence = options.output.sequence;
+  const FrameRange range = rangeOf(sequence);
+  SequenceFrame frame{range.first + index * range.step, options, 0.0};
+  frame.options.output.file = numberedName(options.output.file, frame.number);
+  if (!options.output.statsFile.empty())
+    frame.options.output.statsFile = numberedName(options.output.statsFile, frame.number);
+  if (sequence.turntable > 0) {
+    frame.turn = 2.0 * glm::pi<double>() * frame.number / sequence.turntable;
+    frame.options.camera.overrides.turns = true;
+  } else {
+    frame.options.selection.animationTime = frame.number / sequence.fps;
+  }
+  if (options.device.traversal == TraversalMethod::Auto)
+    frame.options.device.traversal = TraversalMethod::FrontToBack;
+  frame.options.output.sequence = {};
+  return frame;
+}
+
+Camera turnedCamera(Camera camera, const glm::dvec3& focalPoint, double angle) {
+  const auto turned = [&](const glm::dvec3& v) { return glm::rotateY(v, angle); };
+  camera.position = focalPoint + turned(camera.position - focalPoint);
+  camera.forward = turned(camera.forward);
+  camera.up = turned(camera.up);
+  return camera;
+}
+
+}  // namespace fragtrace

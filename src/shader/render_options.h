@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+// Everything a render is asked for, as the command line and the viewer spell it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "image/display/tone_map.h"
+#include "image/encoding.h"
+#include "image/limits.h"
+#include "image/region.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
+#include "scene/selection.h"
+#include "shader/aov.h"
+#include "shader/stage.h"
+
+namespace fragtrace {
+
+/// The method by which rays find triangles. Literals: a small scene's triangles are part of the shader's text
+/// (src/pack/literals.h).
+enum class TraversalMethod : uint8_t { Auto, Iterative, Bvh, FrontToBack, Literals };
+inline constexpr std::array<std::string_view, 5> kTraversalNames{"auto", "iterative", "bvh", "front-to-back",
+                                                                 "literals"};
+enum class Backend : uint8_t { Auto, Egl, OsMesa };
+inline constexpr std::array<std::string_view, 3> kBackendNames{"auto", "egl", "osmesa"};
+/// The way in which the shader reads the scene: storage buffers, image buffers or texel buffers. The buffers
+/// are the same, only bound in another way.
+enum class BufferReads : uint8_t { Auto, Ssbo, Image, Texel };
+inline constexpr std::array<std::string_view, 4> kBufferReadsNames{"auto", "ssbo", "image", "texel"};
+/// The stage of the pipeline that runs the tracer: one fragment or one compute invocation a pixel.
+enum class Dispatch : uint8_t { Auto, Fragment, Compute };
+inline constexpr std::array<std::string_view, 3> kDispatchNames{"auto", "fragment", "compute"};
+/// The compilers that the shaders' text suits (docs/measurements/gpu.md). Pictures are the same bits.
+enum class Tune : uint8_t { Auto, Software, Gpu };
+inline constexpr std::array<std::string_view, 3> kTuneNames{"auto", "software", "gpu"};
+/// Bits of the vectors that Mesa's software driver computes with, and so how many invocations run in
+/// lockstep: 8 or 16. Auto: as the driver has it, 256 today. Mesa 22.3 to 26.1 crash on some shaders with 512
+/// (docs/design/platforms.md).
+enum class VectorWidth : uint8_t { Auto, Bits256, Bits512 };
+inline constexpr std::array<std::string_view, 3> kVectorWidthNames{"auto", "256", "512"};
+/// The way in which paths share the lanes of a draw: one pixel a lane, or many, whose rays are traced
+/// together (shaders/wavefront.glsl).
+enum class Schedule : uint8_t { Auto, Megakernel, Wavefront };
+inline constexpr std::array<std::string_view, 3> kScheduleNames{"auto", "megakernel", "wavefront"};
+/// The way in which light samples of gi choose a light: by what it may send to the point (pack/light_tree.h),
+/// by its power, or all alike.
+enum class LightSelection : uint8_t { Auto, Tree, Power, Uniform };
+inline constexpr std::array<std::string_view, 4> kLightSelectionNames{"auto", "tree", "power", "uniform"};
+/// The light samples of which a scattering takes one (shaders/reuse/): a single one, several candidates, or,
+/// at the first surface, those of the pixel and of others near it.
+enum class LightReuse : uint8_t { None, Candidates, Spatial };
+inline constexpr std::array<std::string_view, 3> kLightReuseNames{"none", "candidates", "spatial"};
+/// Light paths bring the caustics of lamps, or not (shaders/caustics/); auto: where there are lamps and
+/// casters.
+enum class Caustics : uint8_t { Auto, On, Off };
+inline constexpr std::array<std::string_view, 3> kCausticsNames{"auto", "on", "off"};
+/// The light of a scene that has none of its own: white from all sides, which the camera does not see, the
+/// built-in environment (scene/studio.h), or nothing.
+enum class DefaultLight : uint8_t { White, Studio, None };
+inline constexpr std::array<std::string_view, 3> kDefaultLightNames{"white", "studio", "none"};
+/// The filter that removes noise from a finished picture (render/denoise.h, image/denoise/oidn.h). Auto: Open
+/// Image Denoise where it is installed, else the variance filter.
+enum class Denoise : uint8_t { None, Variance, Oidn, Auto };
+inline constexpr std::array<std::string_view, 4> kDenoiseNames{"none", "variance", "oidn", "auto"};
+/// The form of progress on stderr: a bar or lines of text; JSON lines, all messages included
+/// (base/report.h); nothing.
+enum class ProgressForm : uint8_t { Auto, Json, None };
+inline constexpr std::array<std::string_view, 3> kProgressNames{"auto", "json", "none"};
+/// The way in which programs are expected to lay a .png with alpha over something: by its light, or by its
+/// sRGB values.
+enum class AlphaOf : uint8_t { Linear, Display };
+inline constexpr std::array<std::string_view, 2> kAlphaNames{"linear", "display"};
+/// The distribution of camera samples about the middle of their pixel (shaders/pixel_filter.glsl).
+enum class PixelFilter : uint8_t { Box, Gaussian, BlackmanHarris };
+inline constexpr std::array<std::string_view, 3> kPixelFilterNames{"box", "gaussian", "blackman-harris"};
+
+struct FrameRange {
+  int first = 0;
+  int last = 0;  ///< belongs to it
+  int step = 1;
+
+  bool operator==(const FrameRange&) const = default;
+};
+
+/// Pictures of one scene, numbered: at times of an animation, or from all around.
+struct SequenceOptions {
+  std::optional<FrameRange> frames;  ///< of the animation
+  double fps = 24.0;                 ///< picture k is the animation at k / fps seconds
+  int turntable = 0;                 ///< pictures of a whole turn about the focal point; 0: none
+  bool keep = false;                 ///< pictures that are there already are not drawn again
+
+  bool operator==(const SequenceOptions&) const = default;
+};
+
+/// Depth of field of perspective cameras.
+struct LensOptions {
+  std::optional<double> fStop;          ///< none: a pinhole
+  std::optional<double> focusDistance;  ///< along the view, metres; none: to the focal point
+  int blades = 0;                       ///< of the aperture; 0: it is round
+
+  bool operator==(const LensOptions&) const = default;
+};
+
+/// From where a scene is seen, and what a pixel is.
+struct CameraOptions {
+  std::optional<glm::ivec2> resolution;
+  std::optional<Region> region;  ///< of the picture, that is drawn; none: all of it
+  std::optional<int> index;
+  CameraOverrides overrides;
+  LensOptions lens;
+  std::optional<glm::dvec3>
+      sceneOrigin;  ///< place that positions are rounded about; none: the focal point given
+  PixelFilter pixelFilter = PixelFilter::Box;
+  double lineWidth = 2.0;  ///< of points and lines, pixels
+
+  bool operator==(const CameraOptions&) const = default;
+};
+
+inline constexpr int kUnlimitedBounces = std::numeric_limits<int>::max() - 1;
+
+/// The number and the length of paths.
+struct SamplingOptions {
+  int spp = 64;
+  int sampleOffset = 0;  ///< index of the first sample in the seed's sequence
+  uint32_t seed = 0;
+  int bounces = 16;            ///< kUnlimitedBounces: no limit
+  int rouletteDepth = 6;       ///< roulette from this scattering on, the first being 1
+  double clampIndirect = 0.0;  ///< largest radiance that two scatterings or more may add; 0: no limit
+  double noise = 0.0;          ///< relative error to reach, adaptively; 0: spp samples in every pixel
+  double seconds = 0.0;        ///< time to spend, adaptively; 0: no limit
+
+  bool operator==(const SamplingOptions&) const = default;
+};
+
+/// The light of a scene, its sampling, and the surroundings.
+struct LightOptions {
+  LightSelection selection = LightSelection::Auto;
+  LightReuse reuse = LightReuse::None;
+  Caustics caustics = Caustics::Auto;
+  std::filesystem::path hdriFile;
+  double hdriRotationDegrees = 0.0;
+  double hdriIntensity = 1.0;   ///< that the environment's radiance is multiplied by
+  double backgroundBlur = 0.0;  ///< of the environment map as the camera sees it: standard deviation, degrees
+  std::optional<glm::vec3> backgroundColor;  ///< none: the environment map, black without one
+  bool background = true;
+  DefaultLight defaultLight = DefaultLight::Studio;
+  bool studio = false;                  ///< the built-in environment (scene/studio.h)
+  bool shadowCatcher = false;           ///< a plane that shows nothing but shadows
+  std::optional<double> catcherHeight;  ///< its Y in world space, metres; none: the bottom of the scene
+
+  bool operator==(const LightOptions&) const = default;
+};
+
+/// Fog in a ball round the scene (scene/fog.h).
+struct FogOptions {
+  double density = 0.0;            ///< extinction, 1/m; 0: there is none
+  std::optional<glm::vec3> color;  ///< albedo of one scattering; none: 1
+  double anisotropy = 0.0;
+  std::optional<double> height;    ///< in which it falls by e, metres; none: it does not
+  std::optional<double> base;      ///< from which it falls, Y in metres; none: the bottom of the scene
+  std::optional<double> distance;  ///< radius, metres; none: in proportion to the scene
+
+  bool operator==(const FogOptions&) const = default;
+};
+
+/// The files that are written, what they show, and what is said meanwhile.
+struct OutputOptions {
+  std::filesystem::path file;
+  std::string format;  ///< of standard output
+  std::filesystem::path statsFile;
+  std::filesystem::path oidnLibrary;  ///< file of Open Image Denoise; none: it is looked for
+  std::vector<Aov> aovs;              ///< more layers of .exr files
+  SequenceOptions sequence;
+  double checkpointSeconds = 0.0;  ///< between two checkpoints; 0: none is written
+  double exposure = 0.0;           ///< stops
+  ToneMap toneMap = ToneMap::Neutral;
+  Encoding encoding;
+  std::optional<int> treeLevel;  ///< its boxes are drawn over the picture
+  AlphaOf alpha = AlphaOf::Linear;
+  DebugView debugView = DebugView::None;
+  Denoise denoise = Denoise::None;
+  ProgressForm progress = ProgressForm::Auto;
+  bool toStandardOutput = false;  ///< the picture; `file` then tells its format and what messages call it
+  bool aovSamples = false;
+  bool aovVariance = false;
+  bool resume = false;  ///< go on from the checkpoint beside the output
+  bool quiet = false;
+  bool verbose = false;
+
+  bool operator==(const OutputOptions&) const = default;
+};
+
+/// The device and the method that trace the picture. They change only its time and rounding.
+struct DeviceOptions {
+  TraversalMethod traversal = TraversalMethod::Auto;
+  Instancing instancing = Instancing::Auto;
+  Backend backend = Backend::Auto;
+  BufferReads bufferReads = BufferReads::Auto;
+  Dispatch dispatch = Dispatch::Auto;
+  Tune tune = Tune::Auto;
+  VectorWidth vectorWidth = VectorWidth::Auto;
+  Schedule schedule = Schedule::Auto;
+  std::filesystem::path shaderFolder;  ///< shader text from disk in place of the embedded one
+
+  bool operator==(const DeviceOptions&) const = default;
+};
+
+struct RenderOptions {
+  std::filesystem::path scene;
+  SceneSelection selection;
+  InputLimits limits;
+  StageSet stages = stagesUpTo(Stage::Gi);
+  CameraOptions camera;
+  SamplingOptions sampling;
+  LightOptions light;
+  FogOptions fog;
+  VolumeSource volume;
+  OutputOptions output;
+  DeviceOptions device;
+
+  bool operator==(const RenderOptions&) const = default;
+};
+
+/// Returns true if an environment map lights the scene, of a file or built in.
+inline bool hasMap(const RenderOptions& o) { return o.light.studio || !o.light.hdriFile.empty(); }
+
+/// Returns true if noise or time ends a render, which places samples where they help most.
+inline bool isAdaptive(const RenderOptions& o) { return o.sampling.noise > 0.0 || o.sampling.seconds > 0.0; }
+
+/// Returns true if numbered pictures are asked for.
+inline bool isSequence(const RenderOptions& o) {
+  return o.output.sequence.frames || o.output.sequence.turntable > 0;
+}
+
+/// Width / height of the picture that a scene without a camera is framed for; without --resolution it is
+/// wide, as good as square.
+inline double framedAspect(const RenderOptions& options) {
+  const std::optional<glm::ivec2>& resolution = options.camera.resolution;
+  return resolution ? double(resolution->x) / resolution->y : 1.0;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The stages and switches: one table row each, which the parser, the statistics, the shader prelude and the
+// documents iterate over.
+#pragma once
+
+#include <bitset>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "shader/effect.h"
+
+namespace fragtrace {
+
+enum class Trait : uint8_t;  // shader/traits.h
+
+/// A stage (in the order of --stage) or a switch of its own.
+enum class Stage : uint8_t {
+  Flat,
+  Phong,
+  Shadows,
+  Reflections,
+  Refraction,
+  NormalMaps,
+  Gi,
+  Schlick,
+  EnergyCompensation,
+  Sobol,
+  LightSampling,
+  Watertight,
+  Count
+};
+using StageSet = std::bitset<size_t(Stage::Count)>;
+
+struct StageRow {
+  Stage stage;
+  const char* name;              ///< on the command line
+  const char* label;             ///< in the viewer
+  const char* sentence;          ///< in the help
+  bool cumulative;               ///< --stage NAME turns on this and all cumulative rows before it
+  bool standard;                 ///< a switch that is on unless turned off
+  const char* constant;          ///< in the shader; null: always on
+  std::optional<Trait> needs{};  ///< without which it changes nothing
+  Effect effect = Effect::Picture;
+};
+std::span<const StageRow> stageRows();
+
+/// The row of a name as the command line spells it.
+std::optional<Stage> parseStage(std::string_view name);
+
+/// The stages and switches that --stage NAME turns on: the stages up to it, and the switches that are on by
+/// default.
+StageSet stagesUpTo(Stage stage);
+
+/// The set with the stages up to that one, and its switches as they are.
+StageSet withStagesUpTo(StageSet set, Stage stage);
+
+template <typename Set, typename Member>
+bool has(const Set& set, Member member) {
+  return set.test(size_t(member));
+}
+
+}  // namespace fragtrace

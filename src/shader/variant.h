@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// The shader variant: what was asked for, cut down to what the scene holds.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include "scene/scene.h"
+#include "shader/render_options.h"
+#include "shader/traits.h"
+
+namespace fragtrace {
+
+/// Everything the shader text depends on; small and comparable, so it is the key of the program cache.
+struct ShaderVariant {
+  StageSet stages;
+  TraitSet traits;
+  TraversalMethod traversal = TraversalMethod::FrontToBack;
+  int stackSize = 12;
+  BufferReads reads = BufferReads::Ssbo;
+  Dispatch dispatch = Dispatch::Fragment;
+  PixelFilter pixelFilter = PixelFilter::Box;
+  Aov aov = Aov::None;           ///< what is drawn in place of radiance
+  bool heatmap = false;          ///< the nodes that camera rays visit are, too
+  bool uniformLights = false;    ///< the light tree chooses all lights alike
+  bool lightCandidates = false;  ///< a light sample is one of several (shaders/reuse/candidates.glsl)
+  bool lightRecords = false;     ///< light samples of first hits are kept (shaders/reuse/neighbours.glsl)
+  bool neighbours = false;       ///< pixels take such light samples of others near them
+  bool clampIndirect = false;
+  bool shadowCatcher = false;
+  bool lens = false;        ///< else a pinhole
+  bool lightPaths = false;  ///< light paths are traced in place of camera paths (shaders/caustics/)
+  bool gpu = false;         ///< the text suits the compilers of GPUs, else that of llvmpipe
+  bool wavefront = false;   ///< else the megakernel
+  int waveUnit = -1;        ///< image unit through which it reads its states; -1: a storage buffer
+  bool resumable =
+      false;  ///< paths can be suspended from draw to draw; only needed by those longer than a draw
+
+  std::string literals;  ///< the scene as shader text, when it is drawn that way
+
+  auto key() const {
+    return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, dispatch,
+                      pixelFilter, aov, heatmap, uniformLights, lightCandidates, lightRecords, neighbours,
+                      clampIndirect, shadowCatcher, lens, lightPaths, gpu, wavefront, waveUnit, resumable,
+                      literals);
+  }
+  bool operator<(const ShaderVariant& other) const { return key() < other.key(); }
+  bool operator==(const ShaderVariant& other) const { return key() == other.key(); }
+};
+
+/// The light from outside the scene: an environment map, a constant default light, or nothing.
+enum class Surroundings : uint8_t { None, DefaultLight, Map };
+
+/// The features of the scene, before anything is asked for. backdrop: the surroundings have a backdrop of
+/// their own.
+TraitSet traitsOf(const Scene& scene, Surroundings surroundings, bool backdrop = false);
+
+/// Returns true if the scene has any light of its own: emission or punctual lights.
+bool hasOwnLight(const Scene& scene);
+
+/// Reduces any wish to a legal variant: all implications between stages and traits stand here, once.
+ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& present, Surroundings surroundings,
+                            uint32_t treeDepth, BufferReads reads);
+
+/// The variant that draws an AOV for the same samples: what radiance alone needs is left out. `wanted` are
+/// the options as for chooseVariant, which it calls.
+ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& present,
+                               Surroundings surroundings, uint32_t treeDepth, BufferReads reads, Aov aov);
+
+/// The variant that draws what the picture shows: radiance, or what the options' debug view needs.
+ShaderVariant choosePictureVariant(const RenderOptions& options, const TraitSet& present,
+                                   Surroundings surroundings, uint32_t treeDepth, BufferReads reads);
+
+/// The variant that traces the light paths of such a picture, if it has any.
+std::optional<ShaderVariant> lightPathVariant(const ShaderVariant& variant);
+
+/// The variant that keeps the light samples that such a picture's pixels take of others, if they do.
+std::optional<ShaderVariant> lightRecordVariant(const ShaderVariant& variant);
+
+/// Returns true if the environment lights surfaces without sampling, as before gi (kEnvironmentLight).
+bool lightsByEnvironment(const ShaderVariant& variant);
+
+/// Returns true if hits keep their barycentric weights, which only vertex attributes need.
+bool keepsWeights(const ShaderVariant& variant);
+
+/// Returns true if rays may continue behind what they meet: through holes, and straight through thin
+/// surfaces.
+bool passesSurfaces(const ShaderVariant& variant);
+
+/// The variant by name: what is on, separated by "+", for the statistics.
+std::string variantName(const ShaderVariant& variant);
+
+/// Says why a stage or switch that was asked for is off in a scene of these traits; empty: it is on. `gi`:
+/// with stage gi, which alone sends shadow rays to the environment.
+std::string whyOff(Stage stage, const TraitSet& present, bool gi = true);
+
+/// The option that light paths cannot go with; empty when there is none.
+std::string whyNoLightPaths(const RenderOptions& options);
+
+/// Why there is nothing to see in a debug view of this scene; empty when there is.
+std::string whyBlank(DebugView view, const TraitSet& present);
+
+}  // namespace fragtrace

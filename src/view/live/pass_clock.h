@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The steps of a picture take the tracing thread, and the device, so long.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <optional>
+
+#include "gl/gl.h"
+#include "view/pass_times.h"
+
+namespace fragtrace {
+
+class PassClock {
+ public:
+  /// With `waits`, each step ends when the device has done it: for measurements.
+  explicit PassClock(bool waits) : waits_(waits) {}
+  /// Makes the wall's times the device's own, by its clock, a picture late: for drivers
+  /// that go on with one step while they are told the next. Needs a context, as all calls do from then on.
+  void askDevice() { asksDevice_ = true; }
+  /// Has to come before the context ends.
+  void forgetDevice();
+  /// Begins a time that belongs to no step.
+  void restart();
+  /// Counts the time since the last call to this step.
+  void end(Pass pass);
+  /// Returns the times of all steps since the last call.
+  PassTimes take();
+
+ private:
+  struct Stamp {
+    GlQuery time;
+    std::optional<Pass> pass;  ///< that ends there
+  };
+  void stamp(std::optional<Pass> pass);
+  void readStamps();
+
+  bool waits_;
+  bool asksDevice_ = false;
+  std::deque<Stamp> stamps_;  ///< the oldest first
+  uint64_t stampedAt_ = 0;    ///< nanoseconds, of the last that was read
+  std::chrono::steady_clock::time_point wall_;
+  double cpuMs_ = 0.0;
+  PassTimes times_;
+};
+
+}  // namespace fragtrace

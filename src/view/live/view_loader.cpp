@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "view/live/view_loader.h"
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include "base/thread_name.h"
+#include "pack/own_light.h"
+#include "view/camera_controller.h"
+#include "view/environments.h"
+
+namespace fragtrace {
+
+namespace {
+
+struct Cancelled {};
+
+}  // namespace
+
+struct SceneLoader::Job {
+  std::atomic<bool> cancelled = false;
+  std::mutex mutex;
+  std::optional<LoadResult> result;
+};
+
+void SceneLoader::start(const RenderOptions& options) {
+  cancel();
+  job_ = std::make_shared<Job>();
+  ++*threads_;
+  // Detached: a load that nobody waits for any more ends at its next step.
+  std::thread([job = job_, threads = threads_, options, &exchange = exchange_] {
+    nameThread("load");
+    LoadResult result;
+    result.options = options;
+    const auto progress = [&](const std::string& step, double fraction) {
+      const std::lock_guard lock(job->mutex);
+      if (job->cancelled) throw Cancelled();
+      exchange.tellLoad({true, options.scene.filename().string(), step, fraction});
+    };
+    try {
+      SceneBefore before;
+      before.document = &result.document;
+      result.scene =
+          std::make_unique<LoadedScene>(loadScene(options, result.stats, progress, FilmOf::Picture, before));
+      const bool known = !hasMap(options) && options.light.defaultLight != DefaultLight::None;
+      result.ownLight =
+          known ? !result.stats.defaultLight : ownLight(result.scene->scene) == OwnLight::Enough;
+      result.environments = environmentsNear(options);
+      // From now on it is told by its index, as others are that are chosen in the window.
+      result.options.camera.index = result.scene->cameraIndex;
+      result.options.selection.camera.clear();
+      // So is a camera that was placed by the scene's vertices.
+      if (result.scene->overrides.fit)
+        result.options.camera.overrides =
+            overridesOf(poseOf(result.scene->camera, result.scene->scene.bounds));
+      progress("packing", 0.9);
+    } catch (const Cancelled&) {
+      result.scene.reset();
+    } catch (...) {
+      result.error = std::current_exception();
+    }
+    if (!job->cancelled) {
+      const std::lock_guard lock(job->mutex);
+      job->result = std::move(result);
+    }
+    exchange.nudge();
+    --*threads;
+  }).detach();
+}
+
+void SceneLoader::cancel() {
+  if (job_) {
+    // From here on it tells nothing more.
+    const std::lock_guard lock(job_->mutex);
+    job_->cancelled = true;
+  }
+  job_.reset();
+}
+
+std::optional<LoadResult> SceneLoader::take() {
+  if (!job_) return std::nullopt;
+  std::optional<LoadResult> result;
+  {
+    const std::lock_guard lock(job_->mutex);
+    result = std::move(job_->result);
+    job_->result.reset();
+  }
+  if (result) job_.reset();
+  return result;
+}
+
+bool SceneLoader::busy() const { return *threads_ > 0; }
+
+}  // namespace fragtrace

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// What the viewer shows of a side, made on the device: its film, while the samples are few joined with what
+// its camera saw before, and filtered.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "image/denoise/oidn_library.h"
+#include "render/denoise.h"
+#include "render/seen_picture.h"
+#include "session/tracer.h"
+#include "view/live/pass_clock.h"
+
+namespace fragtrace {
+
+/// The share of the filtered picture that shows at that many samples: all up to 64, none from 256 on.
+double filteredShare(double samples);
+
+/// Samples per pixel from which on nothing of the past is left.
+inline constexpr int kNoPastFrom = 16;
+
+/// The memory that a side keeps on the device from picture to picture.
+struct SideMemory {
+  std::optional<Film> guides;  ///< of the present view
+  int guideSamples = 0;        ///< of these; 0: they are to be drawn anew
+  SeenPicture past;            ///< of the view before
+  SeenPicture present;         ///< shown last, before it was filtered
+
+  /// The camera or the resolution is another one.
+  void turn();
+  /// Another picture altogether.
+  void forget();
+};
+
+/// A picture as the window shows it: RGBA32F, linear, the first row at the top.
+struct ShownTexture {
+  GlTexture texture;
+  glm::ivec2 size{0};     ///< of it, exactly
+  void* ready = nullptr;  ///< a fence, of one that was handed over
+};
+
+/// The settings that make a side's picture.
+struct Showing {
+  bool filtered = false;
+  bool byOidn = false;  ///< which must be there; else by variance
+  int samples = 0;      ///< per pixel
+  bool past = true;     ///< with what the camera saw before
+};
+
+/// R, G, B and A.
+Image imageOf(const ShownTexture& shown);
+
+class PictureMaker {
+ public:
+  /// `oidn` and the clock must outlive this. Needs a context, as all calls do; throws RenderError, as they
+  /// do.
+  PictureMaker(const std::filesystem::path& shaderFolder, const std::optional<OidnLibrary>& oidn,
+               PassClock& clock);
+
+  /// Shows the film in `into`, which was drawn by `tracer`, whose one feature is the guides that a filter
+  /// needs, drawn where they are not there yet. False when goOn() said no.
+  bool show(const Film& film, const Showing& showing, const RenderOptions& options, Tracer& tracer,
+            const View& view, SideMemory& memory, ShownTexture& into, const std::function<bool()>& goOn);
+
+  /// Compiles the filter, if that was not done yet.
+  void prepareFilter();
+
+  /// Shows R, G, B and, where it has that, A of the host's.
+  void show(const Image& image, ShownTexture& into) const;
+
+  /// The sums over all pixels: samples, rays, and pixels in which the driver ended a loop.
+  glm::vec3 count(const Film& film);
+
+ private:
+  bool drawGuides(int samples, glm::ivec2 size, Tracer& tracer, const View& view, SideMemory& memory,
+                  const std::function<bool()>& goOn);
+  const GlTexture* filtered(const Showing& showing, const RenderOptions& options, const SeenPicture& present,
+                            const std::function<bool()>& goOn);
+
+  ShaderSource source_;
+  const std::optional<OidnLibrary>& oidn_;
+  PassClock& clock_;
+  PicturePasses passes_;
+  SeenPasses seen_;
+  std::unique_ptr<VarianceFilter> filter_;  ///< made when it is first needed
+  GlTexture counted_;                       ///< a texel
+  // For the moment of a call.
+  glm::ivec2 room_{0};
+  GlTexture raw_;
+  NoisyTextures fresh_;
+  GlTexture denoised_;
+};
+
+}  // namespace fragtrace

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "view/live/view_programs.h"
+
+#include <algorithm>
+
+#include "base/errors.h"
+#include "base/thread_name.h"
+#include "gl/debug_log.h"
+#include "options/option_row.h"
+#include "session/picture/denoising.h"
+#include "view/live/run_in.h"
+
+namespace fragtrace {
+
+namespace {
+
+/// A draw's time: a wish waits for one draw at most.
+constexpr double kSoftwareWishMs = 30.0;
+constexpr double kHardwareWishMs = 10.0;
+/// Programs are kept as long as they are few and small, but always those of two sides.
+constexpr size_t kLeastKept = 2;
+constexpr size_t kMostKept = 6;
+constexpr size_t kMostKeptBytes = size_t(1) << 29;
+
+/// The picture's program, if it can be had, and those of its features; the picture's draws what comes next.
+void compileAll(ViewProgram& program, const View& view) {
+  if (!program.error.empty()) return;
+  Tracer& tracer = program.tracer;
+  try {
+    Film tiny(kCompiledFor);
+    for (const ShaderVariant& aov : tracer.aovs) tracer.renderer->compile(aov, tiny, view);
+    tracer.renderer->compile(tracer.variant, tiny, view);
+  } catch (const ContextLost&) {
+    throw;
+  } catch (const RenderError& error) {
+    program.error = error.what();
+  }
+}
+
+/// The part of the options that decides which program draws, and what it reads.
+RenderOptions programPart(const RenderOptions& options) {
+  RenderOptions part = programOptions(options);
+  if (part.output.debugView == DebugView::Samples || part.output.debugView == DebugView::Variance)
+    part.output.debugView = DebugView::None;  // drawn by the picture's own
+  part.sampling.clampIndirect = part.sampling.clampIndirect > 0.0 ? 1.0 : 0.0;
+  part.output.aovs.clear();
+  part.selection.camera.clear();
+  if (has(part.stages, Stage::Gi) && part.output.debugView == DebugView::None)
+    part.output.aovs = {Aov::Guides};
+  return part;
+}
+
+}  // namespace
+
+bool ViewPrograms::has(const RenderOptions& options) const {
+  return std::ranges::any_of(programs_,
+                             [part = programPart(options)](const auto& p) { return p->options == part; });
+}
+
+std::shared_ptr<ViewProgram> ViewPrograms::of(const RenderOptions& options) {
+  const RenderOptions part = programPart(options);
+  const auto found = std::ranges::find_if(programs_, [&](const auto& p) { return p->options == part; });
+  if (found != programs_.end()) {
+    programs_.splice(programs_.begin(), programs_, found);
+    return programs_.front();
+  }
+  if (!sameTree(treeOptions_, part)) {
+    settle();
+    loaded_.bvh = buildTree(loaded_.scene, part);
+  }
+  treeOptions_ = part;
+  keep(make(part));
+  return programs_.front();
+}
+
+std::shared_ptr<ViewProgram> ViewPrograms::soon(const RenderOptions& options) {
+  const RenderOptions part = programPart(options);
+  if (!aside_ || has(options) || !sameTree(treeOptions_, part)) return of(options);
+  if (compiling()) return nullptr;
+  std::packaged_task<std::shared_ptr<ViewProgram>()> task([this, part] { return makeAside(part); });
+  coming_ = task.get_future();
+  compiler_ = std::jthread([task = std::move(task), came = aside_->came]() mutable {
+    nameThread("compile");
+    task();
+    came();
+  });
+  return nullptr;
+}
+
+bool ViewPrograms::takeNews() {
+  if (compiling() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) settle();
+  return std::exchange(news_, false);
+}
+
+void ViewPrograms::settle() {
+  if (!compiling()) return;
+  news_ = true;
+  const std::shared_ptr<ViewProgram> program = coming_.get();
+  compileAll(*program, loaded_.view);
+  keep(program);
+}
+
+void ViewPrograms::forget() {
+  settle();
+  programs_.clear();
+}
+
+void ViewPrograms::keep(std::shared_ptr<ViewProgram> program) {
+  programs_.push_front(std::move(program));
+  size_t bytes = 0;
+  size_t count = 0;
+  for (auto p = programs_.begin(); p != programs_.end(); ++count) {
+    bytes += (*p)->bytes;
+    // One that a side draws with would only be made again.
+    const bool kept =
+        p->use_count() > 1 || count < kLeastKept || (count < kMostKept && bytes <= kMostKeptBytes);
+    p = kept ? std::next(p) : programs_.erase(p);
+  }
+}
+
+void ViewPrograms::showPose(const RenderOptions& options) {
+  settle();
+  std::erase_if(programs_, [](const auto& p) { return p.use_count() == 1 || !p->error.empty(); });
+  treeOptions_ = options;
+  for (const std::shared_ptr<ViewProgram>& program : programs_) {
+    takePose(program->options.selection, options.selection);
+    if (!sameTree(treeOptions_, program->options)) loaded_.bvh = buildTree(loaded_.scene, program->options);
+    treeOptions_ = program->options;
+    Statistics stats;
+    replaceScene(program->tracer, context_, loaded_, program->options, stats);
+    program->variant = stats.variant;
+    program->bytes = stats.sceneBytes;
+    // A pose may need another program, as for a deeper tree.
+    Renderer& renderer = *program->tracer.renderer;
+    Film tiny(kCompiledFor);
+    if (renderer.knows(program->tracer.variant))
+      renderer.use(program->tracer.variant);
+    else
+      renderer.compile(program->tracer.variant, tiny, loaded_.view);
+  }
+}
+
+std::shared_ptr<ViewProgram> ViewPrograms::makeAside(const RenderOptions& part) const {
+  std::shared_ptr<ViewProgram> program;
+  runIn(aside_->context, [&] {
+    DebugLog log;
+    program = make(part);
+    compileAll(*program, loaded_.view);
+    // Mesa crashes where programs are deleted that several contexts have drawn with (seen with 22.3): the
+    // context that draws makes its own, out of the driver's cache.
+    if (program->tracer.renderer) program->tracer.renderer->forgetPrograms();
+    program->driverLog = log.take();
+  });
+  return program;
+}
+
+std::shared_ptr<ViewProgram> ViewPrograms::make(const RenderOptions& part) const {
+  auto program = std::make_shared<ViewProgram>();
+  program->options = part;
+  const auto fail = [&](const std::exception& error) { program->error = error.what(); };
+  try {
+    Statistics stats;
+    program->tracer = makeTracer(context_, loaded_, part, stats, true);
+    program->variant = stats.variant;
+    program->bytes = stats.sceneBytes;
+    Film tiny(kCompiledFor);
+    program->tracer.renderer->setDrawTime(context_.software ? kSoftwareWishMs : kHardwareWishMs);
+    program->tracer.renderer->compile(program->tracer.variant, tiny, loaded_.view);
+  } catch (const ContextLost&) {
+    throw;
+  } catch (const RenderError& error) {
+    fail(error);
+  } catch (const UsageError& error) {
+    fail(error);
+  } catch (const InputError& error) {
+    fail(error);
+  }
+  return program;
+}
+
+}  // namespace fragtrace

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+#include "view/live/view_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/errors.h"
+#include "gl/driver_choice.h"
+#include "session/outputs.h"
+#include "session/phase_timer.h"
+#include "session/picture/denoising.h"
+#include "view/live/pick_text.h"
+#include "view/shown_text.h"
+
+namespace fragtrace {
+
+namespace {
+
+constexpr double kLongWait = 3600.0;  ///< seconds
+constexpr double kWatchSeconds = 0.25;
+constexpr int kMostLosses = 3;  ///< of the context, without a picture between them
+
+/// A command that cannot be carried out ends the program; another file may be shown.
+void endIfHopeless(const std::exception_ptr& error, const std::filesystem::path& scene) {
+  std::error_code none;
+  try {
+    std::rethrow_exception(error);
+  } catch (const InputError&) {
+    if (!std::filesystem::exists(scene, none)) throw;
+  }
+}
+
+std::string whatFailed(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+}
+
+}  // namespace
+
+ViewTracer::ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn, Exchange& exchange)
+    : start_(start),
+      exchange_(exchange),
+      loader_(exchange),
+      thumbnails_(exchange),
+      oidn_(std::move(oidn)),
+      clock_(start.waitsForPasses) {
+  passOnWhatIsSaid([&exchange](const std::string& text) { exchange.tell(withoutOptions(text)); });
+}
+
+void ViewTracer::run(const SharedContexts& shared) {
+  try {
+    enterContext(shared);
+    bool working = false;
+    for (;;) {
+      Orders orders = exchange_.wait(working ? 0.0 : start_.watch ? kWatchSeconds : kLongWait);
+      if (orders.quit) break;
+      try {
+        obey(std::move(orders));
+        adoptScene();
+        takeCompiled();
+        watchFiles();
+        if (loaded_ && sides_.empty() && !request_.sides.empty()) adopt(request_);
+        working = work();
+      } catch (const ContextLost& error) {
+        recover(error);
+        working = true;
+      }
+      exchange_.tellState(request_.number, !working && !request_.moving && !awaitsProgram());
+      tellDriver();
+    }
+  } catch (...) {
+    exchange_.fail(std::current_exception());
+  }
+  loader_.cancel();
+  thumbnails_.cancel();
+  leaveContext();
+}
+
+void ViewTracer::enterContext(const SharedContexts& shared) {
+  const Backend backend = start_.render.device.backend;
+  shares_ = shared.draws && backend == Backend::Auto;
+  context_ = shares_ ? makeContext(*shared.draws) : makeContext(backend);
+  // A window may be drawn by software though there is a GPU, as over a network.
+  if (shares_ && context_->software && mayHaveGpu()) {
+    context_.reset();
+    context_ = makeContext(backend);
+    shares_ = context_->software;
+    if (shares_) {
+      context_.reset();
+      context_ = makeContext(*shared.draws);
+    }
+  }
+  compiles_ = shares_ && keepsCompiled(*context_) ? shared.compiles : std::nullopt;
+  if (start_.render.output.verbose)
+    exchange_.tell(shares_ ? "pictures stay on the device: " + context_->renderer
+                           : "pictures are copied: they are drawn by " + context_->renderer + " (" +
+                                 context_->backend + ")");
+  if (!context_->software) clock_.askDevice();
+  resolution_ = controllerFor(context_->software);
+  if (start_.movingMs)
+    resolution_.targetMs =
+        *start_.movingMs > 0.0 ? *start_.movingMs : std::numeric_limits<double>::infinity();
+  driverLog_ = std::make_unique<DebugLog>();
+  maker_ = std::make_unique<PictureMaker>(start_.render.device.shaderFolder, oidn_, clock_);
+}
+
+/// Makes anew what was in the context, in another one, which may be lost meanwhile, too.
+void ViewTracer::recover(ContextLost error) {
+  for (;;) {
+    if (++losses_ > kMostLosses) throw ContextLost(error);
+    exchange_.tell(std::string(error.what()) + "; drawing anew");
+    try {
+      leaveContext();
+      enterContext({});
+      if (loaded_) makePrograms();
+      return;
+    } catch (const ContextLost& again) {
+      error = again;
+    }
+  }
+}
+
+void ViewTracer::makePrograms() {
+  std::optional<CompileAside> aside;
+  if (compiles_) aside = CompileAside{*compiles_, [this] { exchange_.nudge(); }};
+  programs_ = std::make_unique<ViewPrograms>(*context_, *loaded_, loadedOptions_, std::move(aside));
+}
+
+/// In the thread whose context it is.
+void ViewTracer::leaveContext() {
+  sides_.clear();
+  shown_ = {};
+  programs_.reset();
+  clock_.forgetDevice();
+  maker_.reset();
+  driverLog_.reset();
+  context_.reset();
+}
+
+void ViewTracer::tellDriver() {
+  for (const std::string& message : driverLog_->take()) exchange_.tell("driver: " + message);
+}
+
+void ViewTracer::obey(Orders orders) {
+  if (orders.cancelLoad) {
+    loader_.cancel();
+    exchange_.tellLoad({});
+  }
+  if (orders.load) {
+    loadError_.clear();
+    loader_.start(*orders.load);
+  }
+  if (orders.request && loaded_) adopt(*orders.request);
+  if (!orders.thumbnails.empty()) thumbnails_.make(orders.thumbnails, start_.render.limits.memoryBytes);
+  if (orders.reference) takeReference(*orders.reference);
+  for (SaveRequest& save : orders.saves) saves_.push_back(std::move(save));
+  if (orders.pick && loaded_) answer(*orders.pick);
+}
+
+void ViewTracer::adoptScene() {
+  std::optional<LoadResult> result = loader_.take();
+  if (!result) return;
+  exchange_.tellLoad({});
+  if (result->error) {
+    if (!loaded_) endIfHopeless(result->error, result->options.scene);
+    loadError_ = whatFailed(result->error);
+    exchange_.tellError(loadError_);
+    return;
+  }
+  sides_.clear();
+  programs_.reset();
+  tree_.reset();
+  selected_ = {};
+  posedCamera_ = result->options.camera.overrides;
+  posedCameraIndex_ = result->options.camera.index;
+  posedSize_ = result->scene->size;
+  loaded_ = std::move(result->scene);
+  document_ = std::move(result->document);
+  loadedOptions_ = result->options;
+  loaded_->decoding = [this](size_t decoded, size_t count) { tellDecoded(decoded, count); };
+  makePrograms();
+  loadError_.clear();
+  exchange_.tellError({});
+  ViewedScene viewed;
+  viewed.options = loadedOptions_;
+  viewed.camera = loaded_->camera;
+  viewed.cameras = loaded_->scene.cameras;
+  viewed.bounds = loaded_->scene.bounds;
+  viewed.present =
+      traitsOf(loaded_->scene, loaded_->environment.kind, !loaded_->environment.backdrop.values.empty());
+  viewed.description = result->stats.scene;
+  viewed.defaultLight = !result->ownLight;
+  viewed.map = loaded_->environment.kind == Surroundings::Map;
+  viewed.environments = std::move(result->environments);
+  viewed.nodes = loaded_->scene.nodes;
+  for (const Material& m : loaded_->scene.materials) viewed.materials.push_back({m.name, materialLines(m)});
+  viewed.sceneNames = loaded_->scene.sceneNames;
+  viewed.materialVariants = loaded_->scene.materialVariants;
+  viewed.animationNames = loaded_->scene.animationNames;
+  viewed.animationSeconds = loaded_->scene.animationSeconds;
+  exchange_.deliver(std::move(viewed));
+  if (!start_.watch) return;
+  std::vector<std::filesystem::path> files = inputsOf(loadedOptions_);
+  for (const auto& file : inputsOf(loaded_->scene)) files.push_back(file);
+  for (const auto& file : filesIn(loadedOptions_.scene.parent_path(), ".bin")) files.push_back(file);
+  sceneFiles_ = FileWatch(files);
+  shaderFiles_ = FileWatch(filesUnder(start_.render.device.shaderFolder));
+}
+
+void ViewTracer::watchFiles() {
+  if (!start_.watch || !loaded_ || steadyMilliseconds() - watched_ < 1000.0 * kWatchSeconds) return;
+  watched_ = steadyMilliseconds();
+  if (sceneFiles_.changed()) loader_.start(loadedOptions_);
+  if (shaderFiles_.changed()) rebuildPrograms();
+}
+
+/// The shaders have changed; what cannot be compiled now stays as it was.
+void ViewTracer::rebuildPrograms() {
+  programs_->forget();
+  maker_ = std::make_unique<PictureMaker>(start_.render.device.shaderFolder, oidn_, clock_);
+  for (Side& side : sides_) {
+    const std::shared_ptr<ViewProgram> wanted = programFor(side.options, false);
+    if (!wanted->error.empty()) return;
+    side.program = wanted;
+    side.stale = true;
+  }
+}
+
+/// The options for a scene that is posed anew: its triangles are no shader text, which would be compiled each
+/// time.
+RenderOptions ViewTracer::asPosed(RenderOptions options) const {
+  const SceneSelection& s = options.selection;
+  const bool changes = s.animationTime || !s.hiddenNodes.empty() || !loaded_->scene.strokes.empty();
+  if (changes && options.device.traversal == TraversalMethod::Auto)
+    options.device.traversal = TraversalMethod::FrontToBack;
+  return options;
+}
+
+bool ViewTracer::isPosed(const TraceRequest& request) const {
+  const RenderOptions& wanted = request.sides[0];
+  if (!samePose(wanted.selection, loadedOptions_.selection)) return false;
+  // Points and lines get their width from the camera.
+  return loaded_->scene.strokes.empty() || request.moving ||
+         (wanted.camera.overrides == posedCamera_ && wanted.camera.index == posedCameraIndex_ &&
+          request.size == posedSize_);
+}
+
+void ViewTracer::pose(const TraceRequest& request) {
+  const RenderOptions& wanted = request.sides[0];
+  const bool sameNodes = loadedOptions_.selection.hiddenNodes == wanted.selection.hiddenNodes;
+  takePose(loadedOptions_.selection, wanted.selection);
+  posedCamera_ = wanted.camera.overrides;
+  posedCameraIndex_ = wanted.camera.index;
+  posedSize_ = request.size;
+  RenderOptions options = asPosed(loadedOptions_);
+  options.camera.sceneOrigin = loaded_->scene.space.origin;
+  options.camera.overrides = wanted.camera.overrides;
+  options.camera.index = wanted.camera.index;
+  options.camera.resolution = request.size;
+  if (!sameNodes) tellWork("updating the scene");
+  std::vector<std::string> repeated;
+  const SaidHere silence(repeated);  // it was said when the scene was loaded
+  try {
+    Statistics stats;
+    SceneBefore before;
+    // The default light of a scene depends on the nodes that it shows.
+    if (loaded_->environment.kind == Surroundings::Map && (sameNodes || hasMap(loadedOptions_)))
+      before.environment = &loaded_->environment;
+    if (tree_ && sameNodes) before.tree = &*tree_;
+    before.document = &document_;
+    before.volume = &loaded_->scene.volume;
+    *loaded_ = loadScene(options, stats, {}, FilmOf::Picture, before);
+    if (!stats.treeRefitted && loaded_->scene.instances.empty())
+      tree_ = refittable(loaded_->bvh, loaded_->scene);
+    programs_->showPose(options);
+    exchange_.tellBounds(loaded_->scene.bounds);
+    selected_.outlined.reset();
+    if (!selected_.nodes.empty()) selected_.bounds = boundsOfNodes(loaded_->scene, selected_.nodes);
+  } catch (const ContextLost&) {
+    throw;
+  } catch (const std::exception& error) {
+    exchange_.tellError(error.what());  // what is shown stays
+  }
+  if (!sameNodes) exchange_.tellNote({});
+}
+
+void ViewTracer::adopt(const TraceRequest& request) {
+  // The window does not know of the scene that has just been loaded.
+  if (request.sides.front().scene != loadedOptions_.scene) return;
+  request_ = request;
+  for (RenderOptions& side : request_.sides) side = asPosed(side);
+  if (!isPosed(request_)) {
+    pose(request_);
+    for (Side& side : sides_) side.stale = true;
+  }
+  if (request.moving) keepMoving(resolution_, request.size);
+  sides_.resize(request.sides.size());
+  for (size_t i = 0; i < sides_.size(); ++i) adoptSide(sides_[i], request_.sides[i]);
+  noteAnswered();
+}
+
+}  // namespace fragtrace

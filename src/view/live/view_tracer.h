@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// The viewer's tracing thread: a context and renderers of its own, wishes in, finished pictures out.
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "base/errors.h"
+#include "bvh/silhouette.h"
+#include "gl/debug_log.h"
+#include "options/view_options.h"
+#include "session/setup.h"
+#include "view/exchange.h"
+#include "view/file_watch.h"
+#include "view/live/thumbnails.h"
+#include "view/live/view_loader.h"
+#include "view/live/view_picture.h"
+#include "view/live/view_programs.h"
+#include "view/resolution_controller.h"
+
+namespace fragtrace {
+
+/// Nodes of the scene that is shown; none: nothing is selected.
+struct Selected {
+  NodeSet nodes;
+  BoundsDouble bounds;  ///< world space; empty: they draw nothing
+  std::vector<PictureLine> outline{};
+  std::optional<std::pair<Projection, glm::ivec2>> outlined{};  ///< the view and size that it was made for
+};
+
+class ViewTracer {
+ public:
+  /// The scene of the options is loaded first; when that fails, or there is no context, so does the program.
+  /// `oidn` is open where the options ask for it.
+  ViewTracer(const ViewOptions& start, std::optional<OidnLibrary> oidn, Exchange& exchange);
+  ViewTracer(const ViewTracer&) = delete;
+  ViewTracer& operator=(const ViewTracer&) = delete;
+  ~ViewTracer() { passOnWhatIsSaid({}); }
+
+  /// Until the exchange says quit; to be called in the thread that is to draw. In a context that shares its
+  /// objects with the window's, if that can be had and is no worse than one of its own: pictures then stay on
+  /// the device.
+  void run(const SharedContexts& shared);
+
+  /// Returns true if a file is being written.
+  bool saving() const { return saving_; }
+  /// Returns true if a thread still loads something, even if nobody waits for it any more.
+  bool loading() const { return loader_.busy() || thumbnails_.busy(); }
+
+ private:
+  struct Side {
+    RenderOptions options;
+    std::shared_ptr<ViewProgram> program;
+    std::optional<RenderOptions> awaited;  ///< that it draws once their program is compiled
+    bool previews = false;                 ///< in Blinn-Phong, until then
+    std::unique_ptr<Film> film;
+    View view;
+    int samples = 0;
+    RenderTimes times;
+    double megaRaysPerSecond = 0.0;
+    double counted = 0.0;    ///< when its rays were; this and the next by steadyMilliseconds()
+    double published = 0.0;  ///< its latest picture
+    double error = -1.0;
+    int errorAt = 0;    ///< samples when it was estimated
+    bool stale = true;  ///< what the film holds is another picture
+    SideMemory memory;
+    int shownAt = 0;          ///< samples when it was published last
+    int shownIn = -1;         ///< slot of that picture; negative: it is not there any more
+    double filterMs = 0.0;    ///< that it took
+    uint64_t movedBytes = 0;  ///< by the thread, at the side's picture before
+  };
+
+  void enterContext(const SharedContexts& shared);
+  void leaveContext();
+  void recover(ContextLost error);
+  void obey(Orders orders);
+  void adoptScene();
+  void watchFiles();
+  void rebuildPrograms();
+  void adopt(const TraceRequest& request);
+  /// The options as such a scene is drawn that is posed anew.
+  RenderOptions asPosed(RenderOptions options) const;
+  /// Returns true if the scene has the pose that the request wants.
+  bool isPosed(const TraceRequest& request) const;
+  /// Makes it so: at that time of its animation, with lines as wide as that camera wants. Why it cannot be,
+  /// the window is told.
+  void pose(const TraceRequest& request);
+  /// With the filter that can be had; why not, the window is told.
+  RenderOptions withFilter(RenderOptions options);
+  void adoptSide(Side& side, const RenderOptions& options);
+  void preview(Side& side, const RenderOptions& wanted);
+  View viewOf(const RenderOptions& options);
+  /// Null where it is compiled while something else is drawn.
+  std::shared_ptr<ViewProgram> programFor(const RenderOptions& options, bool aside);
+  /// Sides draw what was compiled aside.
+  void takeCompiled();
+  /// Returns true if a side draws something else meanwhile.
+  bool awaitsProgram() const;
+  void makePrograms();
+  /// The sides draw what the latest request asks for, unless one still awaits its program.
+  void noteAnswered();
+  /// A film of the size that is drawn at now; empty, if it was of another.
+  void fitFilm(Side& side);
+  bool resting(const Side& side) const;
+  /// Nothing moves, and the resolution is the full one.
+  bool settled() const;
+  /// Some samples for the side that has the fewest, or a frame of each while something moves; false when all
+  /// rest.
+  bool work();
+  /// Adds samples to the side's film; false when there is something else to do.
+  bool draw(Side& side);
+  /// Returns true if the side's picture has changed enough, while nothing moves.
+  bool worthShowing(const Side& side) const;
+  void estimate(Side& side);
+  void count(Side& side);
+  /// Returns true if the side's picture is filtered.
+  static bool denoises(const Side& side);
+  /// By Open Image Denoise, which takes seconds and so runs when the samples have doubled.
+  bool denoisesByOidn(const Side& side) const;
+  /// Makes what the side shows now; false when goOn() said no.
+  bool show(Side& side, bool past, const std::function<bool()>& goOn);
+  /// The slot of the side's next picture.
+  int nextSlot(Side& side);
+  ShownTexture& shownOf(const Side& side, int slot);
+  /// For the window; none when there is something else to do.
+  std::optional<TracedPicture> pictureOf(Side& side);
+  void publish(Side& side);
+  Image seenOf(Side& side);
+  void save(const SaveRequest& request);
+  void saveBoth(const SaveRequest& request);
+  void takeReference(const std::filesystem::path& path);
+  void answer(const PickRequest& request);
+  void select(Selected selected);
+  /// Boxes of the tree, and the outline of what is selected.
+  std::vector<PictureLine> linesOver(const Side& side);
+  void tellDriver();
+  /// Tells the window what keeps the thread from drawing.
+  void tellWork(const std::string& what);
+  void tellDecoded(size_t decoded, size_t count);
+
+  ViewOptions start_;
+  Exchange& exchange_;
+  SceneLoader loader_;
+  ThumbnailMaker thumbnails_;
+  std::unique_ptr<Context> context_;
+  std::unique_ptr<DebugLog> driverLog_;
+  std::unique_ptr<LoadedScene> loaded_;
+  std::shared_ptr<KeptDocument> document_;  ///< that it is posed from
+  RenderOptions loadedOptions_;             ///< of the scene
+  CameraOverrides posedCamera_;             ///< that lines have their width of
+  std::optional<int> posedCameraIndex_;
+  glm::ivec2 posedSize_{0};
+  std::optional<RefittableTree> tree_;  ///< that was built last for a moving scene
+  std::unique_ptr<ViewPrograms> programs_;
+  std::optional<OidnLibrary> oidn_;  ///< opened later where a pasted command asks for it
+  PassClock clock_;
+  std::unique_ptr<PictureMaker> maker_;
+  TraceRequest request_;
+  uint64_t answered_ = 0;  ///< the latest request that the sides draw
+  Selected selected_;      ///< what was picked last
+  std::vector<Side> sides_;
+  enum class Shows : uint8_t { Nothing, Preview, Picture } shows_ = Shows::Nothing;
+  bool shares_ = false;                     ///< objects with the window
+  std::optional<OutsideContext> compiles_;  ///< none: programs are compiled where they draw
+  std::array<std::array<ShownTexture, kSlots>, kMostSides>
+      shown_;  ///< of the sides; without sharing the first
+  ResolutionController resolution_;
+  std::atomic<bool> saving_ = false;
+  std::string loadError_;  ///< why the latest load failed; empty: it did not
+  std::vector<SaveRequest> saves_;
+  std::optional<Image> reference_;  ///< that the window shows as side B
+  int losses_ = 0;                  ///< of the context since the latest publication
+  double publishMs_ = 0.0;          ///< what the latest publication took
+  double filterMsPerPixel_ = 0.0;   ///< in it, of layers and filter
+  FileWatch sceneFiles_;
+  FileWatch shaderFiles_;
+  double watched_ = 0.0;  ///< when they were looked at, by steadyMilliseconds()
+};
+
+}  // namespace fragtrace
