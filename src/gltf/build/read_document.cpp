@@ -106,7 +106,7 @@ Buffers readBuffers(json& root, Container& container, Worker& codecs, Document& 
                       from, from + step);
       warnMediaType(uri, place, {"application/octet-stream", "application/gltf-buffer"}, diagnostics);
       bytes =
-          diagnostics.attempt(place, [&] { return readUri(document.access, uri, document.memory.left()); });
+          diagnostics.attempt(place, [&] { return readUri(document.access, uri, document.memory); });
       takeMemory(document, place, bytes.size());
     } else if (i == 0 && container.hasBinary) {
       bytes = std::move(container.binary);
