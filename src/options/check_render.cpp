@@ -88,7 +88,7 @@ void checkVolume(const RenderOptions& o) {
         "--volume-position, --volume-scale, --volume-density, --volume-color, --volume-anisotropy, "
         "--volume-emission: go with --volume");
   if (!o.volume.file.empty() && o.light.shadowCatcher)
-    throw UsageError("--volume: a shadow catcher stands in clear air (--shadow-catcher)");
+    throw UsageError("--volume: cannot be combined with --shadow-catcher, whose plane stands in clear air");
 }
 
 void checkStudio(const LightOptions& o) {
