@@ -83,7 +83,8 @@ bool asksForJson(std::span<const char* const> words) {
 
 int runCommandLine(std::span<const CommandRow> rows, std::span<const char* const> words) {
   CLI::App app(
-      "A path tracer for glTF whose tracing runs in an OpenGL shader.\n`fragtrace FILE` is short for `fragtrace view "
+      "A path tracer for glTF whose tracing runs in an OpenGL shader.\n`fragtrace FILE` is short for "
+      "`fragtrace view "
       "FILE`.",
       "fragtrace");
   addVersion(app);

@@ -44,8 +44,9 @@ const WindowLibrary& windowLibrary() {
                                      : "; the package fragtrace holds it, and scripts/build makes it"));
   const WindowLibrary& library = *reinterpret_cast<WindowLibraryEntry>(plugin.entry)();
   if (std::strcmp(library.version, kVersionText) != 0)
-    throw ContextError(std::string("no window: ") + kLibraryName + " is of another build than this program, " +
-                       kVersionText + "; build or install both together");
+    throw ContextError(std::string("no window: ") + kLibraryName +
+                       " is of another build than this program, " + kVersionText +
+                       "; build or install both together");
   return library;
 }
 

@@ -79,7 +79,8 @@ void checkFog(const RenderOptions& o) {
       throw UsageError(std::string(name) + ": goes with --fog-density");
   }
   if (o.fog.density > 0.0 && o.light.shadowCatcher)
-    throw UsageError("--fog-density: cannot be combined with --shadow-catcher, whose plane stands in clear air");
+    throw UsageError(
+        "--fog-density: cannot be combined with --shadow-catcher, whose plane stands in clear air");
 }
 
 void checkVolume(const RenderOptions& o) {

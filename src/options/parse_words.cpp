@@ -27,9 +27,10 @@ void checkValues(const std::vector<std::string>& words) {
   for (size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     // The library would take the = for the first letter of the value.
-    if (word.size() > 3 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) && word[2] == '=')
-      throw UsageError(word.substr(0, 2) + ": no = goes between it and its value: " + word.substr(0, 2) + " " +
-                       word.substr(3));
+    if (word.size() > 3 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) &&
+        word[2] == '=')
+      throw UsageError(word.substr(0, 2) + ": no = goes between it and its value: " + word.substr(0, 2) +
+                       " " + word.substr(3));
     const bool joined = word.starts_with("--") && word.find('=') == word.size() - 1;
     if (!joined && !word.empty()) continue;
     const std::string option = joined ? word.substr(0, word.size() - 1) : i > 0 ? words[i - 1] : "";

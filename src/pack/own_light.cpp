@@ -35,8 +35,7 @@ bool shinesByTexturesAlone(const Scene& scene) {
     const Material& m = scene.materials[primitive.material];
     return m.emissive() && !m.emissiveTexture.present();
   };
-  return hasOwnLight(scene) && scene.lights.empty() &&
-         std::ranges::none_of(scene.triangles, shinesEvenly) &&
+  return hasOwnLight(scene) && scene.lights.empty() && std::ranges::none_of(scene.triangles, shinesEvenly) &&
          std::ranges::none_of(scene.spheres, shinesEvenly);
 }
 

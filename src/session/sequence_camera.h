@@ -18,8 +18,8 @@ CameraOverrides asPlaced(const Camera& camera, const BoundsDouble& bounds);
 /// The camera of the options, in their place, where it stands by what the scene holds (no camera in the file,
 /// --camera-orbit, --fit), which moves: one that shows the scene as it is over the whole animation, so that
 /// machines that draw some of the frames each have the same. Otherwise the options' own overrides. Poses the
-/// scene some 50 times at the most. `kept` is as loadGltf() wants it. Throws InputError; UsageError, also where
-/// there is no animation.
+/// scene some 50 times at the most. `kept` is as loadGltf() wants it. Throws InputError; UsageError, also
+/// where there is no animation.
 CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_ptr<KeptDocument>& kept);
 
 }  // namespace fragtrace

@@ -190,10 +190,11 @@ void checkFogDepth(const RenderOptions& options, Scene& scene) {
   const double depth = 2.0 * fog.radius;
   if (!has(options.stages, Stage::Gi) || options.fog.height || fog.extinction * depth <= kMost) return;
   char text[224];
-  std::snprintf(text, sizeof text,
-                "--fog-density: light goes %.2g m on average in fog that is %.3g m deep (--fog-distance): little "
-                "is seen, and paths are long; a density of %.1g is a haze",
-                1.0 / fog.extinction, depth, 1.0 / depth);
+  std::snprintf(
+      text, sizeof text,
+      "--fog-density: light goes %.2g m on average in fog that is %.3g m deep (--fog-distance): little "
+      "is seen, and paths are long; a density of %.1g is a haze",
+      1.0 / fog.extinction, depth, 1.0 / depth);
   scene.warnings.emplace_back(text);
 }
 

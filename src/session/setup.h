@@ -70,7 +70,7 @@ double catcherHeightOf(const RenderOptions& options, const BoundsDouble& bounds)
 /// Points of the world about which --fit moves the camera.
 struct FittedPoints {
   std::vector<glm::dvec3> scene;
-  std::vector<glm::dvec3> shadow;  ///< on the catcher
+  std::vector<glm::dvec3> shadow;                                   ///< on the catcher
   double catcherHeight = -std::numeric_limits<double>::infinity();  ///< Y, metres; of several, the lowest
 };
 

@@ -354,18 +354,6 @@ TEST(GltfScatter, NeedsAnAttenuationDistanceInASolid) {
   EXPECT_TRUE(materialWith(material).scattersThinly());
 }
 
-TEST(GltfScatter, AnAttenuationDistanceThatIsNotAbove0LosesNoLight) {
-  for (const double distance : {0.0, -1.0}) {
-    json material = solidWith("KHR_materials_scatter", {{"scatterStrengthFactor", 1}});
-    material["extensions"]["KHR_materials_volume"]["attenuationDistance"] = distance;
-    GltfBuilder builder = fileWith(material);
-    const Scene scene = load(builder);
-    EXPECT_FALSE(scene.materials[0].attenuates()) << distance;
-    EXPECT_FALSE(scene.materials[0].scattersInside()) << distance;
-    EXPECT_TRUE(anyWarningHas(scene, "attenuationDistance: is not above 0; no light is lost")) << distance;
-  }
-}
-
 TEST(GltfScatter, TheDraftBeforeHasTwoNamesOfItsColour) {
   for (const char* name : {"multiscatterColor", "multiscatterColorFactor"}) {
     const Material m = materialWith(

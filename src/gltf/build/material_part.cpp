@@ -12,7 +12,8 @@ float MaterialPart::within(double value, float least, float most, const std::str
   if (value >= double(least) && value <= double(most)) return float(value);
   const float nearest = value < double(least) ? least : most;
   char text[80];
-  std::snprintf(text, sizeof text, "is out of range, the nearest possible value is taken: %g", double(nearest));
+  std::snprintf(text, sizeof text, "is out of range, the nearest possible value is taken: %g",
+                double(nearest));
   warn(name, text);
   return nearest;
 }

@@ -136,8 +136,7 @@ std::filesystem::path pathOfUri(const FileAccess& access, std::string_view uri) 
   return access.folder / percentDecoded(uri);
 }
 
-std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri,
-                             const MemoryBudget& memory) {
+std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, const MemoryBudget& memory) {
   if (isDataUri(uri)) return decodeDataUri(uri, memory);
   const std::string decoded = percentDecoded(uri);
   if (decoded.empty() || hasScheme(uri) || decoded.find('\0') != std::string::npos)
