@@ -191,7 +191,7 @@ std::string errorTable(const ErrorReport& report) {
     text += formatted("%-18s ", labelOf(curve).c_str());
     text += reached ? formatted("%10.4g s %12.4g samples%s\n", reached->seconds, reached->samples,
                                 reached->extrapolated ? "  (extrapolated as 1 / N)" : "")
-            : curve.filter.empty() ? "not reached, with fewer than 64 samples\n"
+            : curve.filter.empty() ? "not reached, nor foreseen: that takes 64 samples (--spp)\n"
                                    : "not reached\n";
   }
   const ErrorCurve* best = curveNamed(report, "default");

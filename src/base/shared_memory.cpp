@@ -61,8 +61,10 @@ SharedMemory::~SharedMemory() {
 void SharedMemory::fail() {
   const int code = errno;
   if (file_ >= 0) ::close(file_);
-  throw std::runtime_error("no memory to share with a process of ours: " +
-                           std::generic_category().message(code));
+  // Shared memory counts as a file.
+  throw std::runtime_error(
+      code == EFBIG ? "the limit of the shell on the size of a file is too low (ulimit -f)"
+                    : "no memory to share with a process of ours: " + std::generic_category().message(code));
 }
 
 bool sendWithFile(int socket, std::span<const uint8_t> body, int file) {

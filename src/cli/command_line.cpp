@@ -82,7 +82,11 @@ bool asksForJson(std::span<const char* const> words) {
 }
 
 int runCommandLine(std::span<const CommandRow> rows, std::span<const char* const> words) {
-  CLI::App app("A path tracer for glTF whose tracing runs in an OpenGL shader.", "fragtrace");
+  CLI::App app(
+      "A path tracer for glTF whose tracing runs in an OpenGL shader.\n`fragtrace FILE` is short for "
+      "`fragtrace view "
+      "FILE`.",
+      "fragtrace");
   addVersion(app);
   const RunCommand run = addCommands(app, rows);
   const auto word = [&](size_t i) {

@@ -42,10 +42,22 @@ Comparison compareFiles(const DiffOptions& options) {
   return {value, options.outfile.empty() ? Image() : differenceImage(picture, reference)};
 }
 
+/// Warns of stored values that mean different things.
+void warnOfKinds(const DiffOptions& options) {
+  const bool ofDisplay = isDisplayFormat(options.picture);
+  if (options.metric == Metric::Flip || ofDisplay == isDisplayFormat(options.reference)) return;
+  const auto kind = [](const std::filesystem::path& path) {
+    return path.string() + (isDisplayFormat(path) ? " holds sRGB values" : " holds linear radiance");
+  };
+  std::fprintf(stderr, "fragtrace: warning: %s, and %s: only --metric flip compares them as they look\n",
+               kind(options.picture).c_str(), kind(options.reference).c_str());
+}
+
 int runDiff(const DiffOptions& options) {
   checkOutputs(std::array{NamedOutput{"--outfile", options.outfile}},
                std::array{options.picture, options.reference});
   const auto [value, map] = compareFiles(options);
+  warnOfKinds(options);
   std::printf("%.9g\n", value);
   if (!options.outfile.empty()) writeImage(options.outfile, map);
   return options.threshold && !isWithin(options.metric, value, *options.threshold) ? 1 : 0;

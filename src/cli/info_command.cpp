@@ -71,6 +71,7 @@ void printAllParts(const Scene& scene) {
     if (seconds) std::snprintf(text, sizeof text, "%.4g s", *seconds);
     durations.emplace_back(text);
   }
+  if (cameras.empty()) std::printf("  cameras     none\n");
   printParts("cameras", cameras, kinds);
   printParts("scenes", scene.sceneNames);
   printParts("animations", scene.animationNames, durations);
@@ -140,7 +141,6 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
               s.images, double(s.imageBytes) / 1e6);
   std::printf("  lights      %zu point, %zu spot, %zu directional\n", s.pointLights, s.spotLights,
               s.directionalLights);
-  if (s.cameras() == 0) std::printf("  cameras     none\n");
   std::string extensions;
   for (const std::string& name : s.extensionsUsed) extensions += (extensions.empty() ? "" : ", ") + name;
   std::printf("  extensions  %s\n", extensions.empty() ? "none" : extensions.c_str());

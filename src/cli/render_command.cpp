@@ -117,6 +117,11 @@ int renderOne(const RenderOptions& asked) {
   if (options.output.file.extension() != ".pfm") startImageProcess();
   const RenderOptions drawn = withGuides(options);
   LoadedScene loaded = loadScene(drawn, stats, {}, FilmOf::Part);
+  if (options.output.verbose && loaded.overrides.fit) {
+    RenderOptions placed = options;
+    placed.camera.overrides = asPlaced(loaded.camera, loaded.scene.bounds);
+    say(options, "--fit: the camera stands at " + cameraText(placed));
+  }
 
   // Step: the shader variant, and the arrays that it reads.
   openContext(options, pathsOf(options, loaded.region.size), device, stats);
@@ -209,8 +214,6 @@ Statistics prepareFrame(SequenceRun& run, const SequenceFrame& frame, const Sequ
       run.tree = refittable(run.loaded->bvh, run.loaded->scene);
   }
   if (first) {
-    if (!turntable && run.loaded->scene.animationNames.empty())
-      throw UsageError("--frames: " + options.scene.string() + " has no animation");
     if (!turntable) warnBeyondEnd(options, sequence, run.loaded->scene);
     openContext(options, frameCount(sequence) * pathsOf(options, run.loaded->region.size), run.device, stats);
     run.tracer = makeTracer(*run.device.context, *run.loaded, drawn, stats);

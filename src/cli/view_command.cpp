@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <future>
 #include <memory>
 #include <thread>
@@ -19,6 +20,7 @@
 #include "session/outputs.h"
 #include "session/picture/denoising.h"
 #include "session/say.h"
+#include "version_text.h"
 #include "view/live/reference.h"
 #include "view/live/view_tracer.h"
 #include "view/window.h"
@@ -40,7 +42,12 @@ const WindowLibrary& windowLibrary() {
                        ")" +
                        (plugin.found ? std::string("; ") + kWindowAdvice
                                      : "; the package fragtrace holds it, and scripts/build makes it"));
-  return *reinterpret_cast<WindowLibraryEntry>(plugin.entry)();
+  const WindowLibrary& library = *reinterpret_cast<WindowLibraryEntry>(plugin.entry)();
+  if (std::strcmp(library.version, kVersionText) != 0)
+    throw ContextError(std::string("no window: ") + kLibraryName +
+                       " is of another build than this program, " + kVersionText +
+                       "; build or install both together");
+  return library;
 }
 
 int runView(const ViewOptions& asked) {

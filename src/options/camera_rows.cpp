@@ -90,7 +90,7 @@ std::vector<OptionRow> cameraRows() {
           FRAGTRACE_MEMBER(camera.resolution), 2,
           [](const std::vector<int>& n) { return glm::ivec2(n[0], n[1]); },
           [](const glm::ivec2& size) { return numbersText(size.x, size.y); }, {"640,480", "1,65536"},
-          {.effect = Effect::Picture, .kept = true}, NumberRange<int>{1, 65536}),
+          {.effect = Effect::Picture, .kept = true}, NumberRange<int>{1, 65536}, "WIDTHxHEIGHT"),
       regionRow(),
       limit<int>("--camera-index",
                  "index of the scene's camera, from 0; by default the first camera, or, if the file has no "
@@ -105,7 +105,7 @@ std::vector<OptionRow> cameraRows() {
       flag("--fit",
            "move the camera, without turning it, until the scene, and the shadow on --shadow-catcher, fill "
            "the picture except for a narrow margin; with --turntable, all pictures use the same distance, "
-           "with --frames the same camera, for the scene alone",
+           "with --frames the same camera",
            FRAGTRACE_MEMBER(camera.overrides.fit), {.effect = Effect::View}),
       vectorRow("--camera-focal-point", "X,Y,Z of the point that the camera looks at",
                 FRAGTRACE_MEMBER(camera.overrides.focalPoint), true, kView),

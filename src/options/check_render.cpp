@@ -74,12 +74,13 @@ void checkLens(const LensOptions& lens) {
 }
 
 void checkFog(const RenderOptions& o) {
-  FogOptions more = o.fog;
-  more.density = 0.0;
-  if (o.fog.density <= 0.0 && more != FogOptions())
-    throw UsageError("--fog-color, --fog-anisotropy, --fog-height, --fog-distance: go with --fog-density");
+  for (const char* name : {"--fog-color", "--fog-anisotropy", "--fog-height", "--fog-distance"}) {
+    if (o.fog.density <= 0.0 && !rowOf(name).isDefault(o))
+      throw UsageError(std::string(name) + ": goes with --fog-density");
+  }
   if (o.fog.density > 0.0 && o.light.shadowCatcher)
-    throw UsageError("--fog-density: a shadow catcher stands in clear air (--shadow-catcher)");
+    throw UsageError(
+        "--fog-density: cannot be combined with --shadow-catcher, whose plane stands in clear air");
 }
 
 void checkVolume(const RenderOptions& o) {
@@ -88,7 +89,7 @@ void checkVolume(const RenderOptions& o) {
         "--volume-position, --volume-scale, --volume-density, --volume-color, --volume-anisotropy, "
         "--volume-emission: go with --volume");
   if (!o.volume.file.empty() && o.light.shadowCatcher)
-    throw UsageError("--volume: a shadow catcher stands in clear air (--shadow-catcher)");
+    throw UsageError("--volume: cannot be combined with --shadow-catcher, whose plane stands in clear air");
 }
 
 void checkStudio(const LightOptions& o) {

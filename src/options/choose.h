@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/errors.h"
+#include "scene/parts.h"
 
 namespace fragtrace {
 
@@ -23,12 +24,13 @@ std::string whyNoneOf(const std::string& name, const Names& names) {
   return "'" + name + "' is none of " + joined(names);
 }
 
-/// The value of a name in a list of names whose order is that of the values. Throws UsageError.
+/// The value of a name in a list of names whose order is that of the values. The case of letters does not
+/// count. Throws UsageError.
 template <typename Value, typename Names>
 Value choose(const char* option, const std::string& name, const Names& names) {
   int index = 0;
   for (const auto& candidate : names) {
-    if (name == candidate) return Value(index);
+    if (isSameButForCase(name, candidate)) return Value(index);
     ++index;
   }
   throw UsageError(std::string(option) + ": " + whyNoneOf(name, names));

@@ -75,6 +75,17 @@ std::string afterName(const std::string& error, const std::string& name) {
   return error.starts_with(option + ": ") ? error.substr(option.size()) : ": " + error;
 }
 
+/// A hint at the member that a name may stand for: "; did you mean resolution?"
+std::string memberMeant(std::string name, const CLI::App& command) {
+  std::ranges::replace(name, '_', '-');
+  name.erase(0, std::min(name.find_first_not_of('-'), name.size()));
+  const std::string option = "--" + name;
+  const bool isKnown = command.get_option_no_throw(option) != nullptr;
+  if (name == "config" || name == "help" || name == "version") return "";
+  const std::string meant = isKnown ? option : optionMeant(option, command);
+  return meant.empty() ? "" : "; did you mean " + meant.substr(2) + "?";
+}
+
 /// Gives the command all options of the file that its command line has not given, nor one that excludes them.
 /// Returns their names.
 std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& command) {
@@ -88,7 +99,7 @@ std::set<std::string> applyFile(const std::filesystem::path& path, CLI::App& com
     const std::string place = placeOf(path, name);
     CLI::Option* option = name.empty() || name[0] == '-' ? nullptr : command.get_option_no_throw("--" + name);
     if (option == nullptr || name == "config" || name == "help" || name == "version")
-      throw InputError(place + ": is no option of " + command.get_name());
+      throw InputError(place + ": is no option of " + command.get_name() + memberMeant(name, command));
     // Switches of the command line count more one by one, not as a list.
     const bool isSwitch = name == "enable" || name == "disable";
     bool overruled = given.contains(option) && !isSwitch;

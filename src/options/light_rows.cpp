@@ -25,7 +25,7 @@ OptionRow catcherRow() {
   OptionRow row = memberRow(
       "--shadow-catcher",
       "draw the scene's shadow on a horizontal plane that is otherwise invisible: the plane's height (Y) in "
-      "metres, or 'bottom' for the bottom of the scene",
+      "metres, or 'bottom' for the bottom of the scene; not with --fog-density",
       FRAGTRACE_MEMBER(light.shadowCatcher),
       {.effect = Effect::Picture, .renewal = Renewal::Scene, .attribute = "shadow_catcher"});
   row.examples = {"bottom", "-0.10000000149011612"};
@@ -99,7 +99,8 @@ std::vector<OptionRow> lightRows() {
              "surfaces; auto does where there are both",
              FRAGTRACE_MEMBER(light.caustics), kCausticsNames,
              {.effect = Effect::Picture, .renewal = Renewal::Program}),
-      word("--hdri-file", "equirectangular environment map: .hdr, .exr, .pfm",
+      word("--hdri-file",
+           "equirectangular environment map: .hdr, .exr, .pfm, or, without bright lights, .png, .jpg",
            FRAGTRACE_MEMBER(light.hdriFile),
            {.effect = Effect::Picture, .renewal = Renewal::Scene, .attribute = "hdri"}, "FILE"),
       number<double>("--hdri-rotation", "rotation of the environment map about +Y, in degrees",

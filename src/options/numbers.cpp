@@ -50,8 +50,9 @@ std::optional<double> numberIn(const std::string& text) {
   return CLI::detail::lexical_cast(text, value) ? std::optional(value) : std::nullopt;
 }
 
-CLI::Validator wholeNumber(int64_t least, int64_t most) {
-  const std::string wanted = "whole number from " + std::to_string(least) + " to " + std::to_string(most);
+CLI::Validator wholeNumber(int64_t least, int64_t most, const std::string& form) {
+  const std::string wanted = "whole number from " + std::to_string(least) + " to " + std::to_string(most) +
+                             (form.empty() ? "" : ", as in " + form);
   return CLI::Validator(
       [=](const std::string& text) -> std::string {
         int64_t value = 0;

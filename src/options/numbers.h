@@ -13,8 +13,8 @@ namespace fragtrace {
 /// The number that a text is, as the command line reads it; none where it is no number.
 std::optional<double> numberIn(const std::string& text);
 
-/// A whole number within these bounds.
-CLI::Validator wholeNumber(int64_t least, int64_t most);
+/// A whole number within these bounds. A message about it names the `form` that the word has, if it is given.
+CLI::Validator wholeNumber(int64_t least, int64_t most, const std::string& form = "");
 
 /// A number that is neither infinite nor NaN.
 CLI::Validator realNumber();

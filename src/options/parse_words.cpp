@@ -26,6 +26,11 @@ const CLI::App& chosenCommand(const CLI::App& app) {
 void checkValues(const std::vector<std::string>& words) {
   for (size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
+    // The library would take the = for the first letter of the value.
+    if (word.size() > 3 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) &&
+        word[2] == '=')
+      throw UsageError(word.substr(0, 2) + ": no = goes between it and its value: " + word.substr(0, 2) +
+                       " " + word.substr(3));
     const bool joined = word.starts_with("--") && word.find('=') == word.size() - 1;
     if (!joined && !word.empty()) continue;
     const std::string option = joined ? word.substr(0, word.size() - 1) : i > 0 ? words[i - 1] : "";
@@ -57,11 +62,9 @@ std::string whatIsUnknown(const CLI::App& app, const std::vector<std::string>& l
   const auto option =
       std::ranges::find_if(left, [](const std::string& word) { return word.starts_with('-'); });
   if (option == left.end()) return "'" + left.front() + "' is an argument too many";
-  std::vector<std::string> known;
-  for (const CLI::Option* one : command.get_options()) known.push_back(one->get_name());
   const std::string unknown = option->substr(0, option->find('='));
   const std::string text = unknown + " is no option of " + command.get_name();
-  const std::string meant = suggestedOption(unknown, known);
+  const std::string meant = optionMeant(unknown, command);
   const std::string other = commandWith(unknown, command);
   if (!meant.empty()) return text + "; did you mean " + meant + "?";
   return text + (other.empty() ? "" : "; did you mean the command " + other + "?");
@@ -74,6 +77,12 @@ std::string rangeText(int least, int most) {
 }
 
 }  // namespace
+
+std::string optionMeant(const std::string& unknown, const CLI::App& command) {
+  std::vector<std::string> known;
+  for (const CLI::Option* one : command.get_options()) known.push_back(one->get_name());
+  return suggestedOption(unknown, known);
+}
 
 std::string withNumberSettled(std::string argument, std::string_view before) {
   if (argument.starts_with("-.") && argument.size() > 2 &&

@@ -17,6 +17,9 @@ namespace fragtrace {
 /// --resolution, the word `before` it, may be written as 640x480.
 std::string withNumberSettled(std::string argument, std::string_view before);
 
+/// The option of the command that an unknown one ("--widht") most likely stands for; empty if none is near.
+std::string optionMeant(const std::string& unknown, const CLI::App& command);
+
 /// Says an error of the option library about a command, or about one that it groups.
 std::string plainText(const CLI::ParseError& error, const CLI::App& app);
 

@@ -168,11 +168,12 @@ OptionRow word(const char* name, std::string help, Member member, OptionTraits t
   return row;
 }
 
-/// Numbers in one word, separated by commas, which `take` puts into the options; it throws UsageError.
+/// Numbers in one word, separated by commas, which `take` puts into the options; it throws UsageError. `form`
+/// is how the word may be written, for messages.
 template <typename Number, typename Member, typename Take, typename Write>
 OptionRow numbers(const char* name, std::string help, Member member, int count, Take take, Write write,
                   std::vector<std::string> examples, OptionTraits traits,
-                  std::optional<NumberRange<int>> range = std::nullopt) {
+                  std::optional<NumberRange<int>> range = std::nullopt, const char* form = "") {
   OptionRow row = memberRow(name, std::move(help), member, traits);
   row.examples = std::move(examples);
   row.add = [=](CLI::App& app, const OptionRow& r, RawRender& raw) {
@@ -184,7 +185,7 @@ OptionRow numbers(const char* name, std::string help, Member member, int count, 
     if constexpr (std::floating_point<Number>)
       option->check(realNumber());
     else if (range)
-      option->check(wholeNumber(range->least, range->most));
+      option->check(wholeNumber(range->least, range->most, form));
   };
   row.words = [member, write](const RenderOptions& o) { return std::vector<std::string>{write(*member(o))}; };
   return row;

@@ -16,7 +16,7 @@ struct OtherName {
 };
 
 /// As other renderers have it.
-constexpr std::array<OtherName, 18> kOtherNames = {{
+constexpr std::array<OtherName, 20> kOtherNames = {{
     {"--samples", "--spp"},
     {"--samples-per-pixel", "--spp"},
     {"--size", "--resolution"},
@@ -29,6 +29,8 @@ constexpr std::array<OtherName, 18> kOtherNames = {{
     {"--envmap", "--hdri-file"},
     {"--hdri", "--hdri-file"},
     {"--fov", "--camera-view-angle"},
+    {"--transparent", "--no-background"},
+    {"--film-transparent", "--no-background"},
     {"--integrator", "--stage"},
     {"--tonemap", "--tone-map"},
     {"-v", "--version"},

@@ -34,19 +34,16 @@ bool hasNoAlpha(const Options& o) {
   return writes(o, {ImageFormat::Jpeg, ImageFormat::Hdr, ImageFormat::Pfm});
 }
 
-bool mayHaveMap(const Options& o) { return hasMap(o) || o.light.defaultLight == DefaultLight::Studio; }
-
 constexpr VainRow kRows[] = {
     {"--fps", [](const Options& o) { return !o.output.sequence.frames; }, "goes with --frames"},
     {"--background-blur", [](const Options& o) { return o.light.hdriFile.empty(); },
      "there is no --hdri-file to blur"},
-    {"--hdri-rotation", [](const Options& o) { return !mayHaveMap(o); },
-     "there is neither an --hdri-file nor --studio to turn"},
+    {"--fog-density", [](const Options& o) { return !has(o.stages, Stage::Gi); }, "only stage gi has it"},
     {"--no-background", hasNoAlpha,
      "a file of this format has no alpha, so the background is black; .png and .exr have it"},
     {"--background-color", [](const Options& o) { return !o.light.background; }, "--no-background hides it"},
     {"--background-color", [](const Options& o) { return glm::compMax(*o.light.backgroundColor) > 1.0f; },
-     "values above 1 are brighter than white; those from 0 to 255 are divided by 255 first"},
+     "values above 1 are brighter than white; divide values from 0 to 255 by 255"},
     {"--alpha", [](const Options& o) { return o.light.background || !writes(o, {ImageFormat::Png}); },
      "changes a .png with --no-background only"},
     {"--exposure", isLinear, "changes .png and .jpg only; this file holds linear radiance"},

@@ -30,15 +30,18 @@ std::vector<double> emissiveAreas(const Scene& scene) {
 
 }  // namespace
 
-OwnLight ownLight(const Scene& scene) {
-  if (!hasOwnLight(scene)) return OwnLight::None;
+bool shinesByTexturesAlone(const Scene& scene) {
   const auto shinesEvenly = [&scene](const auto& primitive) {
     const Material& m = scene.materials[primitive.material];
     return m.emissive() && !m.emissiveTexture.present();
   };
-  if (!scene.lights.empty() || std::ranges::any_of(scene.triangles, shinesEvenly) ||
-      std::ranges::any_of(scene.spheres, shinesEvenly))
-    return OwnLight::Enough;
+  return hasOwnLight(scene) && scene.lights.empty() && std::ranges::none_of(scene.triangles, shinesEvenly) &&
+         std::ranges::none_of(scene.spheres, shinesEvenly);
+}
+
+OwnLight ownLight(const Scene& scene) {
+  if (!hasOwnLight(scene)) return OwnLight::None;
+  if (!shinesByTexturesAlone(scene)) return OwnLight::Enough;
   const std::vector<double> areas = emissiveAreas(scene);
   constexpr int kSide = 64;  // pixels: enough for a mean, and little memory
   TexturePacker textures(scene, kSide);

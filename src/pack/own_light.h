@@ -14,6 +14,9 @@ enum class OwnLight : uint8_t {
   Enough,  ///< lights, emission without a texture, or textures that shine
 };
 
+/// Returns true if emissive textures are the only light that the scene has.
+bool shinesByTexturesAlone(const Scene& scene);
+
 /// Emissive textures are dim when their light, spread over the box around the scene, is less than a radiance
 /// of 0.01. They are decoded to find that out if nothing else shines. Throws InputError for a picture that
 /// cannot be decoded.

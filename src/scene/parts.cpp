@@ -31,15 +31,10 @@ std::string listOfParts(const std::vector<std::string>& names) {
   return list;
 }
 
-namespace {
-
-/// Changes ASCII letters; all others stay.
-std::string inLowerCase(std::string text) {
-  std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return text;
+bool isSameButForCase(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; };
+  return std::ranges::equal(a, b, {}, lower, lower);
 }
-
-}  // namespace
 
 size_t indexOfPart(const char* option, const std::string& wanted, const std::vector<std::string>& names) {
   const auto named = std::find(names.begin(), names.end(), wanted);
@@ -48,7 +43,7 @@ size_t indexOfPart(const char* option, const std::string& wanted, const std::vec
   const char* end = wanted.data() + wanted.size();
   const auto parsed = std::from_chars(wanted.data(), end, index);
   if (parsed.ec == std::errc{} && parsed.ptr == end && index < names.size()) return index;
-  const auto isAlike = [&](const std::string& name) { return inLowerCase(name) == inLowerCase(wanted); };
+  const auto isAlike = [&](const std::string& name) { return isSameButForCase(name, wanted); };
   if (std::ranges::count_if(names, isAlike) == 1)
     return size_t(std::ranges::find_if(names, isAlike) - names.begin());
   const std::string known = listOfParts(names);

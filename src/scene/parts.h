@@ -17,6 +17,9 @@ std::string inQuotes(std::string_view text);
 /// Parts of a file by index and, where they have one, name: 0 "walk", 1, 2 "run".
 std::string listOfParts(const std::vector<std::string>& names);
 
+/// Returns true if the texts differ in the case of ASCII letters at most.
+bool isSameButForCase(std::string_view a, std::string_view b);
+
 /// The index of the part that the user named: by its name, else by its index, else by the only name that is
 /// the same without regard to case. Throws UsageError, which begins with `option` and lists the names.
 size_t indexOfPart(const char* option, const std::string& wanted, const std::vector<std::string>& names);

@@ -64,8 +64,7 @@ std::vector<glm::dvec3> shadowOutline(std::span<const glm::dvec3> points, double
                                       std::span<const PlaneLight> lights) {
   constexpr double kSeen = 0.1;  // share of the light that is missing
   constexpr int kAngles = 32;
-  constexpr int kSteps = 96;
-  constexpr double kReach = 6.0;  // in sizes of the scene: longer shadows are cut
+  constexpr int kSteps = 24;
   double all = 0.0;
   for (const PlaneLight& light : lights) all += light.irradiance;
   std::vector<Shadow> shadows;
@@ -84,7 +83,7 @@ std::vector<glm::dvec3> shadowOutline(std::span<const glm::dvec3> points, double
     highest = glm::max(highest, p);
   }
   const glm::dvec3 middle = 0.5 * (lowest + highest);
-  const double step = kReach * glm::length(highest - lowest) / kSteps;
+  const double step = kShadowReach * glm::length(highest - lowest) / kSteps;
   std::vector<glm::dvec3> outline;
   for (int i = 0; i < kAngles; ++i) {
     const double angle = 2.0 * glm::pi<double>() * i / kAngles;

@@ -15,8 +15,12 @@ struct PlaneLight {
   double irradiance = 0.0;  ///< of the plane, in any unit
 };
 
+/// Longer shadows are cut: the distance from the middle of the scene, in diagonals of its box.
+inline constexpr double kShadowReach = 1.5;
+
 /// Points on the plane of height `height` (Y, metres, world space) around the shadow that the convex hull of
-/// `points` casts on it: outside of them at least 90 % of the light arrives. Empty if there is no shadow.
+/// `points` casts on it: outside of them at least 90 % of the light arrives, as
+/// far as kShadowReach. Empty if there is no shadow.
 std::vector<glm::dvec3> shadowOutline(std::span<const glm::dvec3> points, double height,
                                       std::span<const PlaneLight> lights);
 

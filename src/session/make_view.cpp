@@ -23,10 +23,10 @@ Lens lensOf(const RenderOptions& options, const Camera& camera, const BoundsDoub
   return lens;
 }
 
-/// A ball round the box of the scene, times this.
-constexpr double kFogReach = 1.5;
+}  // namespace
 
 Fog fogOf(const FogOptions& options, const BoundsDouble& bounds) {
+  constexpr double kReach = 1.5;  // in radii of the ball round the scene's box
   Fog fog;
   fog.extinction = options.density;
   fog.albedo = options.color.value_or(glm::vec3(1.0f));
@@ -34,11 +34,9 @@ Fog fogOf(const FogOptions& options, const BoundsDouble& bounds) {
   fog.height = options.height.value_or(fog.height);
   fog.base = options.base.value_or(bounds.empty() ? 0.0 : bounds.minimum.y);
   if (!bounds.empty()) fog.center = bounds.center();
-  fog.radius = options.distance.value_or(kFogReach * 0.5 * glm::length(bounds.extent()));
+  fog.radius = options.distance.value_or(kReach * 0.5 * glm::length(bounds.extent()));
   return fog;
 }
-
-}  // namespace
 
 View makeView(const RenderOptions& options, const LoadedScene& loaded, const Camera& camera) {
   const Scene& scene = loaded.scene;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/errors.h"
 #include "gltf/gltf.h"
 #include "scene/first_view.h"
 #include "scene/fit.h"
@@ -20,8 +21,12 @@ namespace {
 /// The space that the poses fill together, world space.
 struct Filled {
   BoundsDouble bounds;
-  std::vector<glm::dvec3> points;  ///< whose hull is that of all, nearly
+  FittedPoints points;  ///< whose hull is that of all, nearly
 };
+
+void append(std::vector<glm::dvec3>& all, std::vector<glm::dvec3> points) {
+  std::ranges::copy(farthest(std::move(points)), std::back_inserter(all));
+}
 
 /// Seconds, over all of the animation; where its length is not known, those of the pictures asked for.
 std::vector<double> timesOf(const Scene& scene, const RenderOptions& options) {
@@ -49,11 +54,12 @@ std::optional<double> animationLength(const Scene& scene, const SceneSelection& 
 CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_ptr<KeptDocument>& kept) {
   const CameraOverrides& asked = options.camera.overrides;
   const bool placed = asked.fit || asked.orbit;
-  if (asked.position && !placed) return asked;
   RenderOptions posed = options;
   posed.selection.animationTime = 0.0;
   const Scene first = loadGltf(posed.scene, gltfOptionsOf(posed), &kept);
-  if (first.animationNames.empty() || (!first.cameras.empty() && !placed)) return asked;
+  if (first.animationNames.empty())
+    throw UsageError("--frames: " + options.scene.string() + " has no animation");
+  if (!placed && (asked.position || !first.cameras.empty())) return asked;
   const CameraOverrides overrides = settledOverrides(asked, first);
   const bool shadow = fitsShadow(options, overrides);
   Environment environment;
@@ -66,23 +72,30 @@ CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_pt
     environment = makeEnvironment(options, map, lightOf(options, first), repeated);
   }
   Filled filled;
+  double lowest = std::numeric_limits<double>::infinity();
   for (const double time : timesOf(first, options)) {
     posed.selection.animationTime = time;
     const Scene scene = loadGltf(posed.scene, gltfOptionsOf(posed), &kept);
     if (scene.bounds.empty()) continue;
     filled.bounds.include(scene.bounds);
     if (!overrides.fit) continue;
-    std::vector<glm::dvec3> points = outlineOf(scene);
-    if (shadow) addShadow(points, scene, environment, options);
-    std::ranges::copy(farthest(std::move(points)), std::back_inserter(filled.points));
+    FittedPoints points = pointsToFit(scene, environment, options, overrides);
+    append(filled.points.scene, std::move(points.scene));
+    append(filled.points.shadow, std::move(points.shadow));
+    lowest = std::min(lowest, points.catcherHeight);
   }
+  filled.points.catcherHeight = lowest;
   Camera camera = chooseCamera(first.cameras,
                                cameraIndexOf(options.camera.index, options.selection.camera, first.cameras),
                                overrides, filled.bounds, framedAspect(options));
   if (overrides.fit) camera = fitCamera(camera, filled.points, overrides, chooseSize(camera, options));
+  return asPlaced(camera, filled.bounds);
+}
+
+CameraOverrides asPlaced(const Camera& camera, const BoundsDouble& bounds) {
   CameraOverrides all;
   all.position = camera.position;
-  all.focalPoint = focalPointOf(camera, filled.bounds);
+  all.focalPoint = focalPointOf(camera, bounds);
   all.viewUp = camera.up;
   if (camera.perspective)
     all.viewAngleDegrees = glm::degrees(camera.fovY);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One camera for all pictures of an animation.
+// A camera as options, and one for all pictures of an animation.
 #pragma once
 
 #include <memory>
@@ -12,10 +12,14 @@ namespace fragtrace {
 /// Seconds that the animation of the options takes; none where its file does not say.
 std::optional<double> animationLength(const Scene& scene, const SceneSelection& selection);
 
+/// A camera as options that place it so.
+CameraOverrides asPlaced(const Camera& camera, const BoundsDouble& bounds);
+
 /// The camera of the options, in their place, where it stands by what the scene holds (no camera in the file,
 /// --camera-orbit, --fit), which moves: one that shows the scene as it is over the whole animation, so that
 /// machines that draw some of the frames each have the same. Otherwise the options' own overrides. Poses the
-/// scene some 50 times at the most. `kept` is as loadGltf() wants it. Throws InputError, UsageError.
+/// scene some 50 times at the most. `kept` is as loadGltf() wants it. Throws InputError; UsageError, also
+/// where there is no animation.
 CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_ptr<KeptDocument>& kept);
 
 }  // namespace fragtrace

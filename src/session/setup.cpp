@@ -81,9 +81,20 @@ double catcherHeightOf(const RenderOptions& options, const BoundsDouble& bounds)
   return options.light.catcherHeight.value_or(bounds.empty() ? 0.0 : bounds.minimum.y);
 }
 
-Camera fitCamera(const Camera& camera, std::span<const glm::dvec3> points, const CameraOverrides& overrides,
+Camera fitCamera(const Camera& camera, const FittedPoints& points, const CameraOverrides& overrides,
                  glm::ivec2 size) {
-  return zoomed(fitted(camera, points, double(size.x) / size.y), overrides.orbit.value_or(Orbit()).zoom);
+  const auto seesCatcher = [&](const Camera& from) {
+    return from.perspective ? from.position.y > points.catcherHeight : from.forward.y < 0.0;
+  };
+  const double aspect = double(size.x) / size.y;
+  Camera result = fitted(camera, points.scene, aspect);
+  if (!points.shadow.empty() && seesCatcher(result)) {
+    std::vector<glm::dvec3> all = points.scene;
+    all.insert(all.end(), points.shadow.begin(), points.shadow.end());
+    const Camera farther = fitted(camera, all, aspect);
+    if (seesCatcher(farther)) result = farther;
+  }
+  return zoomed(result, overrides.orbit.value_or(Orbit()).zoom);
 }
 
 glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options) {
@@ -141,7 +152,7 @@ GltfOptions gltfOptionsOf(const RenderOptions& options) {
 namespace {
 
 /// Warns of lights of the scene that a shadow catcher cannot show.
-void checkCatcher(const RenderOptions& options, Scene& scene) {
+void checkCatcher(const RenderOptions& options, OwnLight light, Scene& scene) {
   constexpr size_t kMostLights = 1000;  // it asks each of them at every point
   if (!options.light.shadowCatcher) return;
   if (!has(options.stages, Stage::Gi)) {
@@ -151,6 +162,7 @@ void checkCatcher(const RenderOptions& options, Scene& scene) {
   if (scene.lights.size() > kMostLights)
     throw UsageError("--shadow-catcher: the scene has " + std::to_string(scene.lights.size()) +
                      " lights, at most " + std::to_string(kMostLights) + " can be caught");
+  if (light == OwnLight::Dim) return;  // it is as good as none
   const auto emits = [&](const auto& primitive) { return scene.materials[primitive.material].emissive(); };
   if (std::ranges::any_of(scene.triangles, emits) || std::ranges::any_of(scene.spheres, emits))
     scene.warnings.push_back(options.scene.string() +
@@ -166,9 +178,37 @@ void checkCatcherPlace(const RenderOptions& options, Scene& scene) {
   if (std::abs(below) <= size) return;
   char text[128];
   std::snprintf(text, sizeof text,
-                "--shadow-catcher: the plane is %.3g m %s the bottom of the scene, which is %.3g m large",
+                "--shadow-catcher: the plane is %.3g m %s the bottom of the scene, whose diagonal is %.3g m",
                 std::abs(below), below > 0.0 ? "below" : "above", size);
   scene.warnings.emplace_back(text);
+}
+
+/// Fog so thick that paths are long, and that nearly nothing is seen through it.
+void checkFogDepth(const RenderOptions& options, Scene& scene) {
+  constexpr double kMost = 20.0;  // mean free paths
+  const Fog fog = fogOf(options.fog, scene.bounds);
+  const double depth = 2.0 * fog.radius;
+  if (!has(options.stages, Stage::Gi) || options.fog.height || fog.extinction * depth <= kMost) return;
+  char text[224];
+  std::snprintf(
+      text, sizeof text,
+      "--fog-density: light goes %.2g m on average in fog that is %.3g m deep (--fog-distance): little "
+      "is seen, and paths are long; a density of %.1g is a haze",
+      1.0 / fog.extinction, depth, 1.0 / depth);
+  scene.warnings.emplace_back(text);
+}
+
+/// Options of an environment, where there is none, or one that is alike on all sides.
+void checkMapOptions(const RenderOptions& options, OwnLight light, Scene& scene) {
+  const bool byDefault = light != OwnLight::Enough;
+  const bool map = hasMap(options) || (byDefault && options.light.defaultLight == DefaultLight::Studio);
+  const auto check = [&](const char* name, bool hasUse) {
+    if (hasUse || rowOf(name).isDefault(options)) return;
+    scene.warnings.push_back(std::string(name) +
+                             ": the scene is lit by neither an --hdri-file nor the studio (--studio)");
+  };
+  check("--hdri-rotation", map);
+  check("--hdri-intensity", map || byDefault);
 }
 
 void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& stats) {
@@ -208,12 +248,15 @@ Bvh refitOrBuild(const RefittableTree* earlier, const Scene& scene, const Render
 
 }  // namespace
 
-void addShadow(std::vector<glm::dvec3>& points, const Scene& scene, const Environment& environment,
-               const RenderOptions& options) {
-  const double height = catcherHeightOf(options, scene.bounds);
-  const std::vector<glm::dvec3> shadow =
-      shadowOutline(farthest(points), height, caughtLights(scene, environment, options, height));
-  points.insert(points.end(), shadow.begin(), shadow.end());
+FittedPoints pointsToFit(const Scene& scene, const Environment& environment, const RenderOptions& options,
+                         const CameraOverrides& overrides) {
+  FittedPoints points;
+  points.scene = outlineOf(scene);
+  if (!fitsShadow(options, overrides)) return points;
+  points.catcherHeight = catcherHeightOf(options, scene.bounds);
+  points.shadow = shadowOutline(farthest(points.scene), points.catcherHeight,
+                                caughtLights(scene, environment, options, points.catcherHeight));
+  return points;
 }
 
 void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
@@ -224,9 +267,10 @@ void aim(LoadedScene& loaded, const RenderOptions& options, FilmOf film) {
       chooseCamera(scene.cameras, loaded.cameraIndex, overrides, scene.bounds, framedAspect(options));
   loaded.size = chooseSize(loaded.camera, options);
   if (overrides.fit) {
-    std::vector<glm::dvec3> points = outlineOf(scene);
-    if (fitsShadow(options, overrides)) addShadow(points, scene, loaded.environment, options);
-    if (overrides.turns) points = sweptAbout(turningPoint(loaded.camera, overrides, scene.bounds), points);
+    FittedPoints points = pointsToFit(scene, loaded.environment, options, overrides);
+    for (std::vector<glm::dvec3>* some : {&points.scene, &points.shadow}) {
+      if (overrides.turns) *some = sweptAbout(turningPoint(loaded.camera, overrides, scene.bounds), *some);
+    }
     loaded.camera = fitCamera(loaded.camera, points, overrides, loaded.size);
   }
   if (options.camera.lens.fStop && !loaded.camera.perspective)
@@ -280,8 +324,10 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   if (early) settleEnvironment();
   aim(loaded, options, film);
   addStrokes(loaded.scene, loaded.camera, loaded.size.y, options.camera.lineWidth);
-  checkCatcher(options, loaded.scene);
+  checkCatcher(options, light, loaded.scene);
   checkCatcherPlace(options, loaded.scene);
+  checkFogDepth(options, loaded.scene);
+  checkMapOptions(options, light, loaded.scene);
   sayWarnings(options, loaded.scene);
   stats.loadMs = watch.lap();
   step("building the tree", 0.5);
@@ -298,7 +344,10 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   stats.region = options.camera.region;
   stats.loadMs += watch.lap();
   stats.defaultLight = light != OwnLight::Enough;
-  if (stats.defaultLight) sayDefaultLight(options, light, stats);
+  if (stats.defaultLight)
+    sayDefaultLight(options, light, stats);
+  else if (!hasMap(options) && shinesByTexturesAlone(scene))
+    say(options, "emissive textures are the scene's only light (--studio adds one)");
   return loaded;
 }
 

@@ -67,16 +67,27 @@ glm::ivec2 chooseSize(const Camera& camera, const RenderOptions& options);
 /// The height of the shadow catcher's plane (Y, metres).
 double catcherHeightOf(const RenderOptions& options, const BoundsDouble& bounds);
 
-/// The camera as --fit moves it about these points of the world, then zoomed as the orbit says.
-Camera fitCamera(const Camera& camera, std::span<const glm::dvec3> points, const CameraOverrides& overrides,
+/// Points of the world about which --fit moves the camera.
+struct FittedPoints {
+  std::vector<glm::dvec3> scene;
+  std::vector<glm::dvec3> shadow;                                   ///< on the catcher
+  double catcherHeight = -std::numeric_limits<double>::infinity();  ///< Y, metres; of several, the lowest
+};
+
+/// The camera as --fit moves it, then zoomed as the orbit says. The shadow counts where the camera sees the
+/// catcher, which it does from above.
+Camera fitCamera(const Camera& camera, const FittedPoints& points, const CameraOverrides& overrides,
                  glm::ivec2 size);
 
-/// Adds to the outline of the scene that of its shadow on the catcher.
-void addShadow(std::vector<glm::dvec3>& points, const Scene& scene, const Environment& environment,
-               const RenderOptions& options);
+/// The points of the scene, and, where the camera is to be moved for it, of its shadow.
+FittedPoints pointsToFit(const Scene& scene, const Environment& environment, const RenderOptions& options,
+                         const CameraOverrides& overrides);
 
 /// Camera paths that the picture takes; infinite where time or noise ends it.
 double pathsOf(const RenderOptions& options, glm::ivec2 size);
+
+/// Fog as the options have it, round a scene of these bounds.
+Fog fogOf(const FogOptions& options, const BoundsDouble& bounds);
 
 /// Returns the part of the options that needs neither another program nor other buffers.
 View makeView(const RenderOptions& options, const LoadedScene& loaded, const Camera& camera);

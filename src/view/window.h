@@ -28,8 +28,9 @@ struct WindowStart {
   std::function<RenderOptions(const RenderOptions&, const std::string&)> withCommandText;
 };
 
-/// The functions of libfragtrace_window.so. Host and library are built together, so C++ types may cross.
+/// The functions of libfragtrace_window.so. Host and library are of one build, so C++ types may cross.
 struct WindowLibrary {
+  const char* version;  ///< of the sources that it is built from; the first member in all builds
   /// Shows the window until it is closed, then returns. Throws ContextError when there can be none, and what
   /// the tracing thread failed with.
   void (*run)(const WindowStart& start, Exchange& exchange);

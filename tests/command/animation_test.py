@@ -175,6 +175,10 @@ class Selections(Case):
         self.assertEqual(found["animation_names"], ["bend"])
         self.assertEqual(found["scene_names"], [""])
         self.assertEqual(found["material_variants"], [])
+        empty = self.folder / "empty.gltf"
+        empty.write_text(json.dumps({"asset": {"version": "2.0"}}))
+        for scene, cameras in ((SCENES / "plastics.gltf", "1: "), (empty, "none\n")):
+            self.assertRegex(run("info", scene).stdout, rf"(?s)GPU memory .*\n  cameras     {cameras}", scene)
 
     def test_nodes_are_listed_and_hidden(self):
         scene = SCENES / "plastics.gltf"
@@ -184,6 +188,8 @@ class Selections(Case):
         self.assertEqual([node["name"] for node in found["nodes"] if node["hidden"]], ["lamp", "sphere-3"])
         self.assertEqual(found["scene"]["spheres"], 3)
         self.assertNotIn("nodes", json.loads(run("info", scene, "--json").stdout))
+        found = json.loads(run("info", scene, "--nodes", "--json", "--hide", "LAMP").stdout)
+        self.assertEqual([node["name"] for node in found["nodes"] if node["hidden"]], ["lamp"])
         result = run("info", scene, "--hide", "nothere")
         self.assertEqual(result.returncode, 2)
         self.assertIn('--hide: "nothere" is no node of the file, which has 8', result.stderr)

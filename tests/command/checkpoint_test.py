@@ -132,9 +132,10 @@ class Checkpoints(Broken):
         self.assertEqual(self.interrupted_after_a_checkpoint(*options), 130)
         kept = self.checkpoint.read_bytes()
         for other, says in (({"--spp": 99999}, "spp 100000 and 99999"), ({"--bounces": 3}, "bounces 16 and 3"), ({"--seed": 5}, "seed 0 and 5"),
-                            ({"--resolution": "90,120"}, "width 120 and 90")):
-            changed = [word for setting in (settings | other).items() for word in setting]
+                            ({"--resolution": "90,120"}, "width 120 and 90"), ({"--noise": 0.1, "--spp": None}, "asked for): noise 0.0 and 0.1\n")):
+            changed = [word for setting in (settings | other).items() if setting[1] is not None for word in setting]
             self.fails(2, *self.arguments(*changed, "--resume"), says=["--resume", self.checkpoint, "another render", says])
+        self.fails(2, *self.arguments(*options, "--resume", scene=SCENES / "furnace.gltf"), says=["another render", "and \"furnace.gltf\", and ", " more settings\n"])
         self.assertEqual(self.checkpoint.read_bytes(), kept)
 
     def test_more_samples_than_at_first_are_drawn_on(self):

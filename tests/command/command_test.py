@@ -95,6 +95,11 @@ class ExitStatuses(Case):
                                  "-o", self.folder / "big.pfm", "--resolution", "64,64", "--spp", "1", "--quiet"],
                                 capture_output=True, env={**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"})
         self.assertEqual(result.returncode, 1, result.stderr)
+        result = subprocess.run(["bash", "-c", 'ulimit -f 1; exec "$0" "$@"', FRAGTRACE, "render", SCENES / "furnace.gltf",
+                                 "-o", self.folder / "big.exr", "--resolution", "64,64", "--spp", "1", "--quiet"],
+                                capture_output=True, text=True, env={**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"})
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("the limit of the shell on the size of a file is too low (ulimit -f)", result.stderr)
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_a_list_option_does_not_eat_the_scene(self):
@@ -142,6 +147,9 @@ class ExitStatuses(Case):
         self.assertGreater(float(values.pop()), 0.1)
         self.assertEqual(flip(*one[:2], "--threshold", "0").returncode, 0)
         self.assertEqual(flip(one[0], seven[0], "--threshold", "0.01").returncode, 1)
+        for a, b, metric, warned in ((one[0], one[2], "rmse", True), (one[2], one[1], "max", True), (one[0], one[1], "rmse", False), (one[0], one[2], "flip", False)):
+            said = run("diff", a, b, "--metric", metric).stderr
+            self.assertEqual("holds sRGB values" in said, warned, said)
 
     def test_flip_writes_its_error_map(self):
         a, b, error = (self.folder / name for name in ("a.pfm", "b.pfm", "map.pfm"))

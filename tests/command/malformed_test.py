@@ -51,7 +51,7 @@ UNUSED = {
 
 # Refused at another place than the report's.
 ELSEWHERE = {
-    "base/data/camera/infinite_znear.gltf": "1e309 is no number: the parser names it and not its place",
+    "base/data/camera/infinite_znear.gltf": "1e309 is no number: its line and column are named, not its place",
     "base/data/node/infinite_transform.gltf": "as above",
     "base/data/animation/sampler_bufferview_bytestride.gltf": "its keys are in a buffer that is nowhere",
 }

@@ -128,11 +128,11 @@ class Media(Case):
         self.assertEqual(region, [row[4:12] for row in whole[2:8]])
 
     def test_bad_fog(self):
-        for options, reason in ((["--fog-color", "1,1,1"], "go with --fog-density"),
+        for options, reason in ((["--fog-color", "1,1,1"], "goes with --fog-density"),
                                 (["--fog-density", "1", "--fog-color", "2,1,1"], "--fog-color: a colour is in the range 0 to 1"),
                                 (["--fog-density", "1", "--fog-height", "0"], "--fog-height: '0' is not a height above 0"),
                                 (["--fog-density", "1", "--fog-height", "1,x"], "--fog-height: '1,x' is not a height"),
-                                (["--fog-density", "1", "--shadow-catcher", "bottom"], "a shadow catcher stands in clear air"),
+                                (["--fog-density", "1", "--shadow-catcher", "bottom"], "cannot be combined with --shadow-catcher"),
                                 (["--fog-density", "-1"], "--fog-density")):
             done = run("render", SCENES / "foggy.gltf", "-o", self.folder / "x.pfm", *options)
             self.assertEqual(done.returncode, 2, options)

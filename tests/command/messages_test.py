@@ -9,6 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from materials_test import png, quad
 from support import FRAGTRACE, SCENES, SMALL, Case, main, run
 
 sys.path.insert(0, str(SCENES.parent / "scripts"))
@@ -74,6 +75,18 @@ class Values(Case):
                    says=["--default-light: does not go with --no-default-light"])
 
 
+    def test_a_size_is_told_how_it_is_written(self):
+        self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--resolution", "64:32", says=["'64:32' is no whole number", "WIDTHxHEIGHT"])
+
+    def test_names_are_found_without_regard_to_case(self):
+        self.renders(BOX, "-o", self.folder / "x.png", *TINY, "--stage", "PHONG", "--tone-map", "AgX")
+
+    def test_fog_s_options_are_named_that_miss_its_density(self):
+        for option, value in (("--fog-height", "2"), ("--fog-color", "1,1,1"), ("--fog-anisotropy", "0.1"), ("--fog-distance", "3")):
+            self.fails(2, "render", BOX, "-o", self.folder / "x.png", option, value, says=[f"fragtrace: {option}: goes with --fog-density\n"])
+        self.fails(2, "render", BOX, "-o", self.folder / "x.png", "--fog-density", "1", "--shadow-catcher", "0", says=["cannot be combined with --shadow-catcher"])
+
+
 class UnknownWords(Case):
     def test_help_and_version_have_the_names_that_people_try(self):
         for words in (["--verison"], ["-v"], ["-V"]):
@@ -89,6 +102,11 @@ class UnknownWords(Case):
         self.fails(2, "rendr", BOX, says=["did you mean render?"])
         self.fails(2, BOX, "-o", self.folder / "a.png", says=["-o is no option of view; did you mean the command render?"])
         self.fails(2, "render", BOX, "-v", says=["did you mean --verbose?"])
+        self.fails(2, "render", BOX, "--transparent", says=["did you mean --no-background?"])
+        self.assertIn("`fragtrace FILE` is short for `fragtrace view", run("--help").stdout)
+
+    def test_no_equals_sign_follows_a_letter(self):
+        self.fails(2, "render", BOX, f"-o={self.folder / 'x.png'}", says=["-o: no = goes between it and its value"])
 
     def test_a_setting_of_a_benchmark_is_told_as_the_command_is(self):
         for setting, said in (("x=--nope", "--nope is no option of render"), ("x=--samples 2", "did you mean --spp?"), ("x='--spp 2", "has no end"),
@@ -107,6 +125,14 @@ class ConfigFaults(Case):
             self.fails(3, "render", BOX, "-o", self.folder / "x.jpg", *SMALL, "--config", config, says=[f"{config}: /{name}"])
 
 
+    def test_a_name_that_is_none_is_told_the_one_that_was_meant(self):
+        config = self.folder / "c.json"
+        for name, says in (("resolutoin", "did you mean resolution?"), ("camera_orbit", "did you mean camera-orbit?"), ("--fit", "did you mean fit?"),
+                           ("fov", "did you mean camera-view-angle?"), ("nothing-like-it", "is no option of render\n")):
+            config.write_text(json.dumps({name: 1}))
+            self.fails(3, "render", BOX, "-o", self.folder / "x.png", "--config", config, says=[says])
+
+
 class InVain(Case):
     """Options that change nothing are said, once, and the picture is drawn."""
 
@@ -120,7 +146,8 @@ class InVain(Case):
 
     def test_options_that_miss_another(self):
         for options in (["--fps", "30"], ["--background-blur", "3"], ["--hdri-rotation", "30", "--default-light", "white"],
-                        ["--background-color", "1,1,1", "--no-background"], ["--background-color", "255,0,0"]):
+                        ["--background-color", "1,1,1", "--no-background"], ["--background-color", "255,0,0"],
+                        ["--hdri-rotation", "30"], ["--hdri-intensity", "3"], ["--fog-density", "0.1", "--stage", "phong"], ["--fog-density", "20"]):
             self.warned(options[0] + ": ", *options, json_too=True)
 
     def test_options_that_the_file_s_format_has_no_use_for(self):
@@ -130,13 +157,28 @@ class InVain(Case):
 
     def test_nothing_is_said_of_those_that_do(self):
         for name, options in (("x.png", ["--exposure", "1", "--tone-map", "agx", "--no-background"]), ("x.exr", ["--no-background"]),
-                              ("x.png", ["--studio", "--hdri-rotation", "30"]), ("x.png", ["--background-color", "1,0.5,0"])):
+                              ("x.png", ["--studio", "--hdri-rotation", "30"]), ("x.png", ["--background-color", "1,0.5,0"]),
+                              ("x.png", ["--fog-density", "0.5"])):
             self.assertEqual(self.renders(BOX, "-o", self.folder / name, *TINY, *options).stderr, "", options)
 
     def test_a_catcher_far_away(self):
         self.warned("--shadow-catcher: the plane is ", "--shadow-catcher", "-1000")
         result = self.renders(BOX, "-o", self.folder / "x.png", *TINY, "--shadow-catcher", "-1")
         self.assertNotIn("the plane is", result.stderr)
+
+    def test_emissive_textures_alone(self):
+        """Bright ones are said to be the only light. Beside dim ones a catcher and light paths say nothing of lamps."""
+        root = quad({"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}, "pbrMetallicRoughness": {"roughnessFactor": 0}}, images=[png(1, 1, bytes([255] * 4))])
+        scene = self.folder / "screen.gltf"
+        for factor, says in ((1, ["emissive textures are the scene's only light (--studio"]), (1e-3, ["emissive textures are too dim to light it"])):
+            root["materials"][0]["emissiveFactor"] = 3 * [factor]
+            scene.write_text(json.dumps(root))
+            for options in ([], ["--shadow-catcher", "bottom"]):
+                said = self.renders(scene, "-o", self.folder / "x.png", *TINY, *options).stderr
+                self.assertEqual([line for line in says if line not in said], [], said)
+                self.assertEqual("does not count for --shadow-catcher" in said, factor == 1 and options != [], said)
+                self.assertEqual("no light paths" in said, factor == 1 and options != [], said)
+            self.assertNotIn("emissive textures", self.renders(scene, "-o", self.folder / "x.png", *TINY, "--studio").stderr)
 
     def test_a_scene_of_which_all_is_hidden(self):
         nodes = json.loads(run("info", "--nodes", "--json", BOX).stdout)["nodes"]
@@ -187,6 +229,14 @@ class Ends(Case):
     def test_a_window_that_cannot_be_opened(self):
         environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
         self.fails(4, "view", BOX, says=["X11: there is no display (DISPLAY is not set)"], env=environment)
+
+    def test_a_library_of_windows_of_another_build(self):
+        version = run("--version").stdout.split(" ", 1)[1].strip().encode()
+        library = Path(FRAGTRACE).parent / "libfragtrace_window.so"
+        data = library.read_bytes()
+        self.assertEqual(data.count(version + b"\0"), 1)
+        (self.folder / library.name).write_bytes(data.replace(version + b"\0", b"9" + version[1:] + b"\0"))
+        self.fails(4, "view", BOX, says=["libfragtrace_window.so is of another build"], env={**os.environ, "FRAGTRACE_LIBRARY_PATH": str(self.folder)})
 
     def test_a_library_of_windows_that_is_not_there(self):
         program = self.folder / "fragtrace"

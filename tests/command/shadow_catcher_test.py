@@ -111,6 +111,15 @@ class ShadowCatcher(CatcherCase):
             edge = [*alpha[0], *alpha[-1], *(row[0] for row in alpha), *(row[-1] for row in alpha)]
             self.assertLess(max(edge), 0.15, k)
             self.assertGreater(max(map(max, alpha)), 0.9)
+        # From below, no shadow is seen, and none needs room; a long one is cut where the ball is still large.
+        framed = ["--resolution", "48,48", "--spp", 1, "--no-background", "--fit", "--aov", "object", "--camera-orbit"]
+        wide = lambda scene, *options: sum(max(row[x] for row in self.picture(scene, "x.exr", *framed, *options).layers["object.Y"]) > 0 for x in range(48))
+        below = ["30,-40", "--studio"]
+        self.assertEqual(wide(self.ball(), *below, "--shadow-catcher", "0.3"), wide(self.ball(), *below))
+        low = {"rotation": [-0.0436, 0, 0, 0.999]}, {"type": "directional", "intensity": 3}
+        self.assertGreater(wide(self.ball((low,)), "90,30", "--shadow-catcher", "0.3"), 10)
+        said = self.renders(self.ball() + ".gltf", "-o", self.folder / "v.png", *SMALL[:-1], "--fit", "--studio", "--verbose").stderr
+        self.assertIn("--fit: the camera stands at --camera-position ", said)
         exr = self.picture(self.ball(), "x.exr", "--resolution", "48,48", "--spp", 4, "--no-background", "--fit", "--studio")
         self.assertGreater(max(exr.layers["A"][24][:3]) + max(exr.layers["A"][1]), 0)  # without a catcher, the ball alone fills it
 

@@ -115,7 +115,7 @@ class Volumes(Case):
         self.refused("has no grid 'heat', but 'density', 'temperature'", "--volume", f"{self.grid('plume')}:heat")
         self.refused("has no grid 'temperature'", "--volume", self.grid("ball"), "--volume-emission", 1)
         self.refused("go with --volume", "--volume-density", 2, status=2)
-        self.refused("a shadow catcher stands in clear air", "--volume", self.grid("ball"), "--shadow-catcher", "bottom", status=2)
+        self.refused("cannot be combined with --shadow-catcher", "--volume", self.grid("ball"), "--shadow-catcher", "bottom", status=2)
         self.refused("--volume-color: a colour is in the range 0 to 1", "--volume", self.grid("ball"), "--volume-color", "2,1,1", status=2)
         self.refused("missing.nvdb", "--volume", self.folder / "missing.nvdb")
         text = self.folder / "text.nvdb"

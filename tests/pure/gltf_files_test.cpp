@@ -120,6 +120,8 @@ TEST(GltfFiles, WhatIsNotGltfIsRefused) {
   EXPECT_EQ(refusalOf(folder.write("a.gltf", "")), "a.gltf: is empty, not glTF");
   EXPECT_EQ(refusalOf(folder.write("a.gltf", "{}")), "a.gltf: \"asset\" is missing");
   EXPECT_TRUE(refusalOf(folder.write("a.gltf", "{\"asset\":")).starts_with("a.gltf: the JSON is broken: "));
+  EXPECT_TRUE(
+      refusalOf(folder.write("a.gltf", "{\n \"asset\": 1e309}")).ends_with("'1e309' at line 2, column 15"));
   EXPECT_NE(refusalOf(folder.write("a.gltf", "{\"asset\":{\"version\":\"1.0\"}}")).find("/asset/version"),
             std::string::npos);
 }

@@ -105,6 +105,29 @@ TEST(GltfLimits, ManyNodesThatShowAMeshAreCountedBeforeItIsCopied) {
   EXPECT_THROW(load(builder, options), InputError);
 }
 
+TEST(GltfLimits, ATextureBeyondTheLimitIsNotMissing) {
+  const TemporaryFolder folder;
+  folder.write("a.png", std::string(5'000'000, ' '));
+  GltfBuilder builder;
+  builder.root["images"] = {{{"uri", "a.png"}}};
+  builder.root["textures"] = {{{"source", 0}}};
+  builder.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  builder.addTriangle()["material"] = 0;
+  const auto path = folder.write("a.gltf", builder.text());
+  GltfOptions options;
+  options.limits.memoryBytes = 4'000'000;
+  for (const bool drawn : {false, true}) {
+    options.limits.drawMissingTextures = drawn;
+    try {
+      loadGltf(path, options);
+      ADD_FAILURE() << drawn;
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      EXPECT_TRUE(text.ends_with("more than the 4 MB of --memory-limit")) << text;
+    }
+  }
+}
+
 TEST(GltfLimits, AFileLargerThanTheLimitIsNotRead) {
   const TemporaryFolder folder;
   GltfOptions options;

@@ -131,5 +131,16 @@ TEST(GltfMaterials, TextureCoordinatesBeyondTheSecondSetWarn) {
   EXPECT_TRUE(anyWarningHas(scene, "/materials/0/emissiveTexture"));
 }
 
+TEST(GltfMaterials, AnAttenuationDistanceThatIsNotAbove0LosesNoLight) {
+  for (const double distance : {0.0, -1.0}) {
+    GltfBuilder builder;
+    json volume = {{"attenuationDistance", distance}, {"attenuationColor", {0.5, 0.5, 0.5}}};
+    builder.root["materials"] = {{{"extensions", {{"KHR_materials_volume", volume}}}}};
+    const Scene scene = load(builder);
+    EXPECT_TRUE(std::isinf(scene.materials.at(0).attenuationDistance)) << distance;
+    EXPECT_TRUE(anyWarningHas(scene, "attenuationDistance: is not above 0; no light is lost")) << distance;
+  }
+}
+
 }  // namespace
 }  // namespace fragtrace::gltf_test

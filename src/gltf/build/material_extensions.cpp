@@ -33,7 +33,9 @@ void readTransmission(const MaterialPart& part, Material& m) {
 void readVolume(const MaterialPart& part, Material& m) {
   m.thicknessFactor = part.factor("thicknessFactor", 0.0, 0.0f, kLargest);
   m.attenuationColor = part.color("attenuationColor", kWhite, 1.0f);
-  if (part.object().Has("attenuationDistance"))
+  if (numberOf(part.object(), "attenuationDistance", 1.0) <= 0.0)
+    part.warn("attenuationDistance", "is not above 0; no light is lost");
+  else if (part.object().Has("attenuationDistance"))
     m.attenuationDistance = part.factor("attenuationDistance", 1.0, kSmallestPositive, kLargest);
   if (part.object().Has("thicknessTexture"))
     part.warn("thicknessTexture", "thickness textures are ignored: the mesh itself decides how thick it is");

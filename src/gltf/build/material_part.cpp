@@ -2,6 +2,7 @@
 #include "gltf/build/material_part.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include "gltf/read/value.h"
 
@@ -10,7 +11,10 @@ namespace fragtrace {
 float MaterialPart::within(double value, float least, float most, const std::string& name) const {
   if (value >= double(least) && value <= double(most)) return float(value);
   const float nearest = value < double(least) ? least : most;
-  warn(name, "is out of range, the nearest possible value is taken");
+  char text[80];
+  std::snprintf(text, sizeof text, "is out of range, the nearest possible value is taken: %g",
+                double(nearest));
+  warn(name, text);
   return nearest;
 }
 

@@ -122,7 +122,12 @@ std::vector<bool> chosenByUser(const Document& document, const std::vector<std::
     size_t index = 0;
     const char* end = wanted.data() + wanted.size();
     const auto parsed = std::from_chars(wanted.data(), end, index);
-    if (parsed.ec != std::errc{} || parsed.ptr != end || index >= nodes.size())
+    const bool isIndex = parsed.ec == std::errc{} && parsed.ptr == end && index < nodes.size();
+    for (size_t i = 0; !isIndex && i < nodes.size(); ++i) {
+      if (isSameButForCase(nodes[i].name, wanted)) chosen[i] = found = true;
+    }
+    if (found) continue;
+    if (!isIndex)
       throw UsageError("--hide: " + inQuotes(wanted) + " is no node of the file, which has " +
                        std::to_string(nodes.size()) + "; `fragtrace info --nodes` lists them");
     chosen[index] = true;

@@ -105,8 +105,7 @@ Buffers readBuffers(json& root, Container& container, Worker& codecs, Document& 
                       "reading buffer " + std::to_string(i + 1) + " of " + std::to_string(described.size()),
                       from, from + step);
       warnMediaType(uri, place, {"application/octet-stream", "application/gltf-buffer"}, diagnostics);
-      bytes =
-          diagnostics.attempt(place, [&] { return readUri(document.access, uri, document.memory.left()); });
+      bytes = diagnostics.attempt(place, [&] { return readUri(document.access, uri, document.memory); });
       takeMemory(document, place, bytes.size());
     } else if (i == 0 && container.hasBinary) {
       bytes = std::move(container.binary);

@@ -37,7 +37,7 @@ std::vector<uint8_t> imageBytes(Document& document, int index) {
   }
   if (!source.bytes.empty()) return source.bytes;
   std::vector<uint8_t> bytes = document.diagnostics.attempt(pointerTo("images", index, "uri"), [&] {
-    return readUri(document.access, source.uri, document.memory.left());
+    return readUri(document.access, source.uri, document.memory);
   });
   if (document.keepsPictures) source.bytes = bytes;
   return bytes;
@@ -120,7 +120,7 @@ void TextureTable::warnLost(int image, const std::string& reason) {
   document_.diagnostics.warn(
       "", (reason.starts_with(file) ? reason.substr(file.size()) : reason) +
               (isNamed ? "" : " (" + uri + ")") +
-              "; it is drawn as docs/gltf.md says, base colour in magenta (--missing-textures warn)");
+              "; a base colour is drawn in magenta, other textures are left out (--missing-textures warn)");
 }
 
 uint32_t TextureTable::useImage(int image) {
@@ -137,6 +137,8 @@ uint32_t TextureTable::useImage(int image) {
     known = uint32_t(scene_.images.size());
     scene_.images.push_back(std::move(encoded));
   } catch (const InputError& error) {
+    // A picture that is there, and too large, is not missing.
+    if (std::string_view(error.what()).ends_with("--memory-limit")) throw;
     if (!document_.drawMissingTextures)
       throw InputError(std::string(error.what()) + " (--missing-textures warn draws the scene without it)");
     warnLost(image, error.what());

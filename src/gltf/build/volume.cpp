@@ -68,7 +68,7 @@ std::optional<Volume> volumeAt(Document& document, const PlacedNode& node) {
   volume.toWorld = node.world;
   const std::string uri = volume.source.file.string();
   volume.file = document.diagnostics.attempt(
-      place + "/volume", [&] { return readUri(document.access, uri, document.memory.left()); });
+      place + "/volume", [&] { return readUri(document.access, uri, document.memory); });
   takeMemory(document, place + "/volume", volume.file.size());
   volume.source.file = isDataUri(uri) ? std::filesystem::path(place) : pathOfUri(document.access, uri);
   return volume;

@@ -34,6 +34,38 @@ Extent extentOf(std::string_view text) {
   return extent;
 }
 
+/// Notes where the parser finds a fault.
+struct FaultFinder : nlohmann::json_sax<nlohmann::json> {
+  size_t position = 0;  ///< bytes read
+
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(size_t) override { return true; }
+  bool key(string_t&) override { return true; }
+  bool end_object() override { return true; }
+  bool start_array(size_t) override { return true; }
+  bool end_array() override { return true; }
+  bool parse_error(size_t at, const std::string&, const nlohmann::json::exception&) override {
+    position = at;
+    return false;
+  }
+};
+
+/// The line and column of the fault, as the parser writes them.
+std::string placeOfFault(std::string_view text) {
+  FaultFinder finder;
+  nlohmann::json::sax_parse(text, &finder);
+  const std::string_view read = text.substr(0, finder.position);
+  const size_t line = size_t(std::ranges::count(read, '\n')) + 1;
+  const size_t column = read.size() - (read.rfind('\n') + 1);
+  return "line " + std::to_string(line) + ", column " + std::to_string(column);
+}
+
 }  // namespace
 
 nlohmann::json parseJson(std::string_view text, MemoryBudget& memory, Diagnostics& diagnostics) {
@@ -57,7 +89,10 @@ nlohmann::json parseJson(std::string_view text, MemoryBudget& memory, Diagnostic
     // "[json.exception...] WHERE: WHAT; last read: 'RAW BYTES'"
     std::string_view what = error.what();
     what.remove_prefix(std::min(what.find("] ") + 2, what.size()));
-    diagnostics.refuse("", "the JSON is broken: " + std::string(what.substr(0, what.find("; last read"))));
+    std::string reason(what.substr(0, what.find("; last read")));
+    // The parser names no place of a number that is too large.
+    if (reason.find("at line ") == std::string::npos) reason += " at " + placeOfFault(text);
+    diagnostics.refuse("", "the JSON is broken: " + reason);
   }
 }
 

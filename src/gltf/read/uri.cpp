@@ -55,13 +55,13 @@ std::vector<uint8_t> decodeBase64(std::string_view text) {
   return bytes;
 }
 
-std::vector<uint8_t> decodeDataUri(std::string_view uri, uint64_t limit) {
+std::vector<uint8_t> decodeDataUri(std::string_view uri, MemoryBudget memory) {
   const size_t comma = uri.find(',');
   if (comma == std::string_view::npos) throw std::runtime_error("the data URI has no comma");
   if (uri.substr(0, comma).find(";;") != std::string_view::npos)
     throw std::runtime_error("the data URI has an empty parameter");
   const std::string_view payload = uri.substr(comma + 1);
-  MemoryBudget(limit).take(payload.size());
+  memory.take(payload.size());
   if (uri.substr(0, comma).ends_with(";base64")) return decodeBase64(payload);
   const std::string text = percentDecoded(payload);
   return {text.begin(), text.end()};
@@ -96,7 +96,7 @@ bool isBelow(int file, const std::filesystem::path& folder) {
 }
 
 /// Owns the descriptor until it is read.
-std::vector<uint8_t> readRegularFile(int file, const FileAccess& access, uint64_t limit) {
+std::vector<uint8_t> readRegularFile(int file, const FileAccess& access, const MemoryBudget& memory) {
   struct stat status {};
   std::string reason;
   if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
@@ -104,7 +104,7 @@ std::vector<uint8_t> readRegularFile(int file, const FileAccess& access, uint64_
   } else if (!access.allowExternal && !isBelow(file, access.folder)) {
     reason = "is a link out of the scene's folder (--allow-external-files)";
   }
-  if (reason.empty()) return readOpenFile(file, limit, {}, access.progress);
+  if (reason.empty()) return readOpenFile(file, memory, {}, access.progress);
   ::close(file);
   throw std::runtime_error(reason);
 }
@@ -136,8 +136,8 @@ std::filesystem::path pathOfUri(const FileAccess& access, std::string_view uri) 
   return access.folder / percentDecoded(uri);
 }
 
-std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, uint64_t limit) {
-  if (isDataUri(uri)) return decodeDataUri(uri, limit);
+std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, const MemoryBudget& memory) {
+  if (isDataUri(uri)) return decodeDataUri(uri, memory);
   const std::string decoded = percentDecoded(uri);
   if (decoded.empty() || hasScheme(uri) || decoded.find('\0') != std::string::npos)
     throw std::runtime_error("the URI " + inQuotes(uri) + " is neither a data URI nor a relative path");
@@ -150,7 +150,7 @@ std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, uin
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   try {
     if (file < 0) throw std::runtime_error("cannot be opened: " + std::generic_category().message(errno));
-    return readRegularFile(file, access, limit);
+    return readRegularFile(file, access, memory);
   } catch (const std::runtime_error& error) {
     // A data URI whose first letters are wrong is such a name, too.
     constexpr size_t kLongestName = 512;

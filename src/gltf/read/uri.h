@@ -30,8 +30,9 @@ std::string_view mediaTypeOf(std::string_view dataUri);
 /// The file that a relative URI names.
 std::filesystem::path pathOfUri(const FileAccess& access, std::string_view uri);
 
-/// The bytes, at most `limit`, that a data URI holds or that a relative URI names. Throws std::runtime_error
-/// with the reason: no such file, not a regular file, out of the folder, a scheme, broken base64.
-std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, uint64_t limit);
+/// The bytes, at most what is left of `memory`, that a data URI holds or that a relative URI names. Throws
+/// std::runtime_error with the reason: no such file, not a regular file, out of the folder, a scheme, broken
+/// base64.
+std::vector<uint8_t> readUri(const FileAccess& access, std::string_view uri, const MemoryBudget& memory);
 
 }  // namespace fragtrace

@@ -75,7 +75,7 @@ std::filesystem::path partOf(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::vector<uint8_t> readOpenFile(int file, uint64_t limit, const BeginningCheck& check,
+std::vector<uint8_t> readOpenFile(int file, const MemoryBudget& memory, const BeginningCheck& check,
                                   const ReadProgress& progress) {
   struct Closing {
     int file;
@@ -96,7 +96,7 @@ std::vector<uint8_t> readOpenFile(int file, uint64_t limit, const BeginningCheck
   uint64_t told = 0;
   std::vector<uint8_t> bytes;
   for (;;) {
-    MemoryBudget(limit).take(std::max(size, uint64_t(bytes.size())));
+    MemoryBudget(memory).take(std::max(size, uint64_t(bytes.size())));
     const size_t before = bytes.size();
     if (isChecked && size > before) bytes.reserve(size_t(std::min(size + 1, most)));
     const size_t room = isChecked && bytes.capacity() > before ? bytes.capacity() : before + kBlock;
@@ -123,7 +123,7 @@ std::vector<uint8_t> readBytes(const std::filesystem::path& path, uint64_t limit
                                const ReadProgress& progress) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
   if (file < 0) throw std::runtime_error("cannot be opened: " + systemReason(errno));
-  return readOpenFile(file, limit, check, progress);
+  return readOpenFile(file, MemoryBudget(limit), check, progress);
 }
 
 std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, uint64_t limit) {

@@ -21,12 +21,12 @@ using BeginningCheck = std::function<uint64_t(std::span<const uint8_t> first, ui
 using ReadProgress = std::function<void(uint64_t read, uint64_t size)>;
 
 /// All bytes of an open regular file or pipe, which is closed. Throws std::runtime_error with the bare reason
-/// when it is something else, has more than `limit` bytes, or cannot be read; and as `check` and `progress`
-/// do.
-std::vector<uint8_t> readOpenFile(int file, uint64_t limit, const BeginningCheck& check = {},
+/// when it is something else, takes more than is left of `memory`, or cannot be read; and as `check` and
+/// `progress` do.
+std::vector<uint8_t> readOpenFile(int file, const MemoryBudget& memory, const BeginningCheck& check = {},
                                   const ReadProgress& progress = {});
 
-/// The same of the file at a path.
+/// The same of the file at a path, of at most `limit` bytes.
 std::vector<uint8_t> readBytes(const std::filesystem::path& path, uint64_t limit,
                                const BeginningCheck& check = {}, const ReadProgress& progress = {});
 /// The same, but throws InputError naming the path, too.

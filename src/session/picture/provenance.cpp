@@ -10,6 +10,7 @@
 #include <tuple>
 #include <type_traits>
 
+#include "base/count_text.h"
 #include "base/errors.h"
 #include "options/option_table.h"
 
@@ -127,10 +128,16 @@ std::string differenceOf(const std::string& settings, const std::string& others)
   const auto a = nlohmann::json::parse(settings, nullptr, false);
   const auto b = nlohmann::json::parse(others, nullptr, false);
   if (!a.is_object() || !b.is_object()) return "they are not written as this version writes them";
-  std::string text;
+  const auto differs = [&](const char* key) {
+    return a.contains(key) && b.contains(key) && a[key] != b[key];
+  };
+  // A picture that noise or time ends has a number of samples that nobody has given.
+  const bool endsElse = differs("noise") || differs("time");
+  std::vector<std::string> differences;
   const auto add = [&](std::string key, const std::string& values) {
+    if (key == "spp" && endsElse) return;
     std::ranges::replace(key, '_', ' ');
-    text += (text.empty() ? "" : ", ") + key + " " + values;
+    differences.push_back(key + " " + values);
   };
   for (const auto& [key, value] : a.items()) {
     const auto other = b.find(key);
@@ -142,6 +149,12 @@ std::string differenceOf(const std::string& settings, const std::string& others)
   for (const auto& [key, value] : b.items()) {
     if (!a.contains(key)) add(key, "none and " + value.dump());
   }
+  // Of another scene, the rest tells nothing.
+  if (differs("scene"))
+    return "scene " + a["scene"].dump() + " and " + b["scene"].dump() +
+           (differences.size() > 1 ? ", and " + countText(differences.size() - 1, "more setting") : "");
+  std::string text;
+  for (const std::string& difference : differences) text += (text.empty() ? "" : ", ") + difference;
   return text.empty() ? "of another version" : text;
 }
 

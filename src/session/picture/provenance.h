@@ -47,7 +47,8 @@ std::vector<SampleRange> joinedRanges(std::vector<SampleRange> ranges);
 /// The settings of a render as JSON, in one line.
 std::string settingsText(const RenderOptions& options, const LoadedScene& loaded, const Tracer& tracer);
 
-/// Describes the difference between two settings: "bounces 16 and 4, ...".
+/// Describes the difference between two settings: "bounces 16 and 4, ..."; between two scenes,
+/// only these are named.
 std::string differenceOf(const std::string& settings, const std::string& others);
 
 void setProvenance(Image& image, const Provenance& provenance);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/errors.h"
+#include "version_text.h"
 #include "view/window/glfw_window.h"
 #include "view/window/view_window.h"
 
@@ -56,6 +57,6 @@ void runWindow(const WindowStart& start, Exchange& exchange) {
 }  // namespace fragtrace
 
 extern "C" const fragtrace::WindowLibrary* fragtraceWindowLibrary() {
-  static const fragtrace::WindowLibrary library{fragtrace::runWindow};
+  static const fragtrace::WindowLibrary library{kVersionText, fragtrace::runWindow};
   return &library;
 }
