@@ -7,6 +7,7 @@
 const float kGuideAlpha = 0.01;    // the roughest that is followed: what it shows is hardly blurred
 const int kGuideScatterings = 16;  // at most
 const float kGuideRest = 0.01;     // of a ray: what is behind no longer counts
+const float kGuideFog = 1e-3;      // optical depth of the thinnest fog that counts
 
 /// The share of the ray that alpha has let pass so far.
 float guideRest(Path p) { return kAlpha ? 1.0 - p.guide.share : 1.0; }
@@ -59,6 +60,15 @@ Path guideAt(Path p, Surface s, uint flags, vec4 base) {
   if (kRefraction && refracts) return proceed(scatterGlass(p, s, m, normal, 0.5));
   if (kReflections && follows && m.metallic > 0.5) return proceed(scatterMirror(p, s, m, normal, 1.0));
   return guideStop(p, base.rgb);
+}
+
+/// Fog before the surroundings is a white surface, since its light is noisy, too.
+Path guideInFog(Path p) {
+  p = meetSurroundings(p);
+  if (!p.cameraRay || fogDepth(fog, p.origin, p.direction, 0.0, kFarAway) < kGuideFog) return p;
+  float exit = insideFog(fog, p.origin, p.direction, 0.0).y;
+  p = takeGuide(p, exit * dot(p.direction, frame.cameraForward.xyz) * frame.cameraForward.w, -p.direction);
+  return guideStop(p, vec3(1.0));
 }
 
 /// The path has ended: its last surface takes the rest.

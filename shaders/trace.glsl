@@ -137,7 +137,7 @@ Path meet(Path p) {
   } else if (kMedia && p.hitSlot < 0 && p.hitT < kFarAway) {
     p = scatterInMedium(p);
   } else if (p.hitSlot < 0) {
-    p = meetSurroundings(p);
+    p = kFog && kFeature == kFeatureGuides ? guideInFog(p) : meetSurroundings(p);
   } else {
     p = shade(p);
   }

@@ -277,7 +277,9 @@ ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& pre
   if (follows) keep(Trait::SmoothSurfaces);
   if (follows) keep(Trait::Scattering);
   if (aov == Aov::Object) v.traits.set(size_t(Trait::ObjectNumbers));
-  v.shadowCatcher = guides && has(options.stages, Stage::Gi) && options.light.shadowCatcher;
+  const bool paths = guides && has(options.stages, Stage::Gi);
+  v.shadowCatcher = paths && options.light.shadowCatcher;
+  v.traits.set(size_t(Trait::Fog), paths && options.fog.density > 0.0 && !options.light.shadowCatcher);
   v.aov = aov;
   return v;
 }

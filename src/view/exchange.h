@@ -135,6 +135,7 @@ struct PickRequest {
   bool center = false;             ///< the camera is to be centred on it
   bool clear = false;              ///< nothing is selected any more
   std::optional<uint32_t> node{};  ///< this one and what is below it, rather than a place (SceneNode::index)
+  uint64_t number = 0;             ///< of the latest selection that was asked for
 };
 
 struct PickAnswer {

@@ -20,6 +20,13 @@ Settings settingsOf(const ViewState& state) {
   return settings;
 }
 
+/// Returns true if a user made the step: an animation that is shown holds the camera where it is
+/// (showAnimation), which nobody sees.
+bool differs(Settings a, const Settings& b) {
+  if (a.pose == b.pose) a.posed = b.posed;
+  return a != b;
+}
+
 /// All but what has to be loaded.
 void take(ViewState& state, const Settings& settings) {
   const std::array<RenderOptions, 2> before = std::exchange(state.sides, settings.sides);
@@ -28,8 +35,10 @@ void take(ViewState& state, const Settings& settings) {
     state.sides[i].selection.hiddenNodes = settings.sides[i].selection.hiddenNodes;
   }
   if (state.scene) state.scene->options.selection = state.sides[0].selection;
+  // As in showAnimation(): nothing but the user moves the camera of a scene that is posed.
+  const bool held = state.sides[0].selection.animationTime && state.scene && state.scene->cameras.empty();
   state.pose = settings.pose;
-  state.posed = settings.posed;
+  state.posed = settings.posed || held;
   state.sceneCamera = settings.sceneCamera;
   state.split = settings.split;
   state.active = settings.active;
@@ -53,7 +62,7 @@ void restart(History& history, const ViewState& state) { history = {{}, {}, sett
 void record(History& history, const ViewState& state) {
   if (history.waits) return;
   Settings settings = settingsOf(state);
-  if (!history.now || settings == *history.now) {
+  if (!history.now || !differs(settings, *history.now)) {
     history.now = std::move(settings);
     return;
   }

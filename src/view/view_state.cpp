@@ -157,6 +157,11 @@ RenderOptions resetAll(ViewState& state, const RenderOptions& start) {
   return wanted;
 }
 
+std::string whyNoFog(const ViewState& state) {
+  if (!has(state.options().stages, Stage::Gi)) return "only path traced";
+  return state.options().light.shadowCatcher ? "not with a shadow catcher" : "";
+}
+
 std::string whyGrey(const ViewState& state, Stage stage) {
   return state.scene ? whyOff(stage, state.scene->present, has(state.options().stages, Stage::Gi))
                      : std::string();

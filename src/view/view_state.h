@@ -198,4 +198,7 @@ RenderOptions resetAll(ViewState& state, const RenderOptions& start);
 /// Why a stage of the active side changes nothing; empty: it does.
 std::string whyGrey(const ViewState& state, Stage stage);
 
+/// Why there can be no fog in the picture of the active side; empty: there can.
+std::string whyNoFog(const ViewState& state);
+
 }  // namespace fragtrace

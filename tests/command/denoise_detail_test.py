@@ -156,6 +156,12 @@ class DenoisedEnergy(DenoisedCase):
                 with self.subTest(scene=name, spp=spp):
                     self.assertAlmostEqual(sum(denoised) / sum(noisy), 1, delta=0.003)
 
+    def test_fog_before_the_surroundings_is_filtered(self):
+        noisy, denoised = (picture[:16 * SIDE] for picture in self.both(SCENES / "plastics.gltf", 16, "--fog-density", "0.3"))
+        self.assertAlmostEqual(sum(denoised) / sum(noisy), 1, delta=0.02)
+        before, after = (sum((a - b) ** 2 for a, b in zip(picture, picture[1:])) for picture in (noisy, denoised))
+        self.assertLess(after, 0.1 * before)
+
     def test_furnaces_stay_flat(self):
         _, body = self.both(SCENES / "furnace.gltf", 16)
         for value in (body[y * SIDE + x] for y in range(24, 40) for x in range(24, 40)):

@@ -57,6 +57,7 @@ TEST_F(FolderLists, ShowsWhatTheFilterPassesAndTheTextFinds) {
   EXPECT_EQ(namesOf(list), Names{"b10.GLB"});
   EXPECT_EQ(accept(list).take, folder / "b10.GLB");
   EXPECT_EQ(openQuestion(folder, true).filters[0].name, "Environments (.hdr, .exr, .pfm)");
+  EXPECT_EQ(openQuestion(folder, true).title, "Open an environment");
 }
 
 TEST_F(FolderLists, KeysMoveWithinTheEndsAndEnterFolders) {
@@ -77,6 +78,9 @@ TEST_F(FolderLists, KeysMoveWithinTheEndsAndEnterFolders) {
   }
   EXPECT_EQ(press(list, ListKey::Accept).enter, folder / "models");
   EXPECT_EQ(press(list, ListKey::Parent).enter, folder.parent_path());
+  add("models/alone.glb");
+  takeContent(list, readFolder(folder / "models"));
+  EXPECT_EQ(press(list, ListKey::Accept).take, folder / "models/alone.glb");
 }
 
 TEST_F(FolderLists, TakesPathsThatAreTyped) {

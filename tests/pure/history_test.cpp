@@ -69,6 +69,24 @@ TEST(History, SceneLightAndTimeStay) {
   EXPECT_EQ(state.sides[1].light.hdriFile, "sky.hdr");
 }
 
+TEST(History, AnAnimationThatHoldsTheCameraIsNoStep) {
+  ViewState state = shownState();
+  state.scene->animationNames = {"run"};
+  state.scene->animationSeconds = {1.0};
+  History history;
+  restart(history, state);
+  state.sides[0].output.exposure = 1.0;
+  record(history, state);
+  EXPECT_TRUE(undo(history, state));
+  showAnimation(state, 0, 0.5);
+  EXPECT_TRUE(state.posed);
+  record(history, state);
+  EXPECT_TRUE(history.past.empty());
+  EXPECT_TRUE(redo(history, state));
+  EXPECT_EQ(state.sides[0].output.exposure, 1.0);
+  EXPECT_TRUE(state.posed);  // or it would be framed anew
+}
+
 /// As the loaded scene comes back with it.
 void loadAs(ViewState& state, const char* environment, const char* variant) {
   ViewedScene scene = *state.scene;

@@ -194,6 +194,11 @@ TEST(ViewState, WhatTheSceneLacksIsGreyWithTheReason) {
   EXPECT_EQ(whyGrey(state, Stage::Shadows), "");
   state.options().stages = stagesUpTo(Stage::Shadows);
   EXPECT_EQ(whyGrey(state, Stage::Shadows), "before gi, the environment casts no shadows");
+  EXPECT_EQ(whyNoFog(state), "only path traced");
+  state.options().stages = stagesUpTo(Stage::Gi);
+  EXPECT_EQ(whyNoFog(state), "");
+  press(state, Action::ToggleGround);
+  EXPECT_EQ(whyNoFog(state), "not with a shadow catcher");
 }
 
 TEST(ViewState, AReloadedSceneKeepsTheViewAndAnotherOneDoesNot) {

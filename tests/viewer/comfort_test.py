@@ -89,7 +89,7 @@ class Panel(Case):
         self.ends_well(viewer, viewer.close())
 
     def test_presets_and_the_status_bar(self):
-        viewer = self.view("furnace", *PANEL)
+        viewer = self.view("furnace", *PANEL, "--fog-density", "0.1")
         cumulative = ["flat", "phong", "shadows", "reflections", "refraction", "normal-maps", "gi"]
         for name, last in (("Phong", 5), ("Path traced", 6), ("stage reflections", 3), ("stage gi", 6), ("Preview", 1)):
             viewer.click(name)
@@ -99,8 +99,23 @@ class Panel(Case):
         self.assertLessEqual(places["tip"][0] + places["tip"][2], places["panel"][0])
         self.assertIn("finished; 1 sample per pixel", status["status"])
         self.assertIn("640 x 700", status["status"])
+        self.assertNotIn("0, 0: ", status["status"])  # before the pointer has been over the picture
         viewer.at(320, 350)
         status = viewer.until(lambda s: "320, 350: " in s["status"], "the pixel")
+        viewer.click("Path traced")
+        places = viewer.rest(lambda s: "gi" in s["sides"][0]["stages"], "fog")["places"]
+        row, box = places["Fog"], places["Fog colour"]
+        self.assertLessEqual(box[0] + box[2], row[0] + row[2])
+        viewer.click("Fog colour")
+        viewer.until(lambda s: s["focus"] == "popup", "its colour")
+        viewer.key("Escape")
+        viewer.until(lambda s: s["focus"] == "picture", "closed")
+        viewer.at(row[0] + 40, row[1] + 5)
+        viewer.until(lambda s: "tip" in s["places"], "what it is")
+        viewer.key("v")
+        status = viewer.rest(lambda s: "name view" in s["places"], "what the picture shows")
+        viewer.key("shift+v")
+        viewer.rest(lambda s: "name view" not in s["places"], "light")
         self.ends_well(viewer, viewer.close())
 
     def test_an_environment_is_chosen(self):
@@ -117,6 +132,12 @@ class Panel(Case):
         viewer.rest(lambda s: s["environment"] == "", "undone")
         viewer.key("ctrl+y")
         viewer.rest(lambda s: s["environment"].endswith("sky.pfm"), "done again")
+        viewer.xdotool("keydown", "ctrl")
+        viewer.click("Rotation")
+        viewer.until(lambda s: s["focus"] == "text", "a number")
+        viewer.xdotool("keyup", "ctrl")
+        viewer.keys_at_once("ctrl+a", *"400", "Return")
+        viewer.rest(lambda s: s["hdri_rotation"] == 40, "round and round")
         self.ends_well(viewer, viewer.close())
 
 
@@ -215,8 +236,10 @@ class Undo(Case):
 class Compare(Case):
     def test_one_side_the_other_and_their_difference(self):
         viewer = self.view("plastics", "--resolution", "640,480", "--spp", "4", "--tone-map", "linear")
+        drawn = viewer.rest()["sides"][0]["seconds"]
         viewer.key("c")
-        viewer.rest(lambda s: len(s["sides"]) == 2 and all(side["samples"] == 4 for side in s["sides"]), "both")
+        status = viewer.rest(lambda s: len(s["sides"]) == 2 and all(side["samples"] == 4 for side in s["sides"]), "both")
+        self.assertEqual(status["sides"][0]["seconds"], drawn)  # it keeps its samples
         viewer.key("u")
         viewer.until(lambda s: s["comparison"] == "difference", "difference")
         self.assertEqual(self.middle(viewer), [(0, 0, 0)] * 400)
@@ -324,22 +347,6 @@ class Selection(Case):
         viewer.rest(lambda s: s["camera"] == first["camera"], "the first view")
         time.sleep(0.3)
         self.assertEqual(self.amber(viewer, plain), 0)
-        self.ends_well(viewer, viewer.close())
-
-
-class Preview(Case):
-    def test_a_quick_picture_comes_before_the_one_that_was_asked_for(self):
-        self.screen.environment["MESA_SHADER_CACHE_DISABLE"] = "true"  # or nothing takes long enough to be seen
-        self.addCleanup(self.screen.environment.pop, "MESA_SHADER_CACHE_DISABLE")
-        viewer = self.view("plastics", *FEW, wait=False)
-        viewer.window()
-        seen = []
-        viewer.until(lambda s: seen.append(tuple(side["variant"] for side in s.get("sides", []))) or s["state"] == "resting", "rest")
-        quick = [variants[0] for variants in seen if variants and variants[0]]
-        self.assertIn("phong", quick[0])
-        self.assertNotIn("gi", quick[0].split("+"))
-        self.assertIn("gi", quick[-1].split("+"))
-        self.same(pixels_of(viewer.press_for_file("F12", ".png")), pixels_of(self.render("plastics", *SIZE, "--spp", 4)))
         self.ends_well(viewer, viewer.close())
 
 

@@ -16,6 +16,17 @@ class Compiles(Case):
         viewer.window()
         return viewer
 
+    def test_without_a_cache_programs_are_compiled_where_they_draw_after_a_quick_picture(self):
+        viewer = self.start(disabled=True)
+        seen = []
+        viewer.until(lambda s: seen.append(tuple(side["variant"] for side in s.get("sides", []))) or s["state"] == "resting", "rest")
+        quick = [variants[0] for variants in seen if variants and variants[0]]
+        self.assertIn("phong", quick[0])
+        self.assertNotIn("gi", quick[0].split("+"))
+        self.assertIn("gi", quick[-1].split("+"))
+        self.same(pixels_of(viewer.press_for_file("F12", ".png")), pixels_of(self.render("vitrine", *SIZE)))
+        self.ends_well(viewer, viewer.close())
+
     def test_a_preview_turns_while_the_picture_is_compiled(self):
         viewer = self.start()
         def previews(status):
@@ -50,11 +61,6 @@ class Compiles(Case):
         viewer = self.start()
         viewer.until(lambda s: s["state"] == "compiling" and s["pictures"] > 0, "compiling")
         self.assertEqual(viewer.close(), 0, viewer.stderr())
-
-    def test_without_a_cache_programs_are_compiled_where_they_draw(self):
-        viewer = self.start(disabled=True)
-        self.assertIn("gi", viewer.rest()["sides"][0]["variant"])
-        self.ends_well(viewer, viewer.close())
 
 
 if __name__ == "__main__":

@@ -136,6 +136,9 @@ class Open(Case):
         viewer.key("Return")
         viewer.until(lambda s: f"wrote {old}" in s["messages"], "replaced")
         self.assertEqual(read_png(old)[:2], (320, 240))
+        self.list_of(viewer, "ctrl+s")
+        viewer.keys_at_once(*"mypic", "Return")
+        viewer.until(lambda s: f"wrote {self.folder / 'mypic.png'}" in s["messages"], "under the whole name")
         self.ends_well(viewer, viewer.close())
 
 

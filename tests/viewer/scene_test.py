@@ -43,7 +43,7 @@ class Tree(Case):
         self.ends_well(viewer, viewer.close())
 
     def test_materials_histogram_and_intensity(self):
-        viewer = self.view("plastics", *PANEL)
+        viewer = self.view("plastics", *PANEL, "--hdri-file", SCENES / "sky.pfm")
         viewer.rest()
         viewer.click("section Scene")
         viewer.click("materials")

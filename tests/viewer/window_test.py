@@ -5,6 +5,7 @@ import json
 import os
 import re
 import shutil
+import signal
 import struct
 import subprocess
 import sys
@@ -29,6 +30,19 @@ class Ends(Case):
         status = viewer.rest(lambda s: s["selected"] is None and s["pick"] is None, "nothing is selected")
         ask = "press Escape again to quit"
         self.assertNotIn(ask, status["messages"])
+        viewer.at(140, 120)
+        viewer.process.send_signal(signal.SIGSTOP)
+        viewer.xdotool("click", 1)
+        viewer.key("Escape")
+        viewer.process.send_signal(signal.SIGCONT)  # the answer comes after Escape
+        time.sleep(0.5)
+        status = viewer.rest()
+        self.assertIsNone(status["pick"])
+        self.assertNotIn(ask, status["messages"])
+        viewer.at(2, 2)
+        viewer.xdotool("click", 1)
+        status = viewer.until(lambda s: "nothing is there" in s["messages"], "said for a while")
+        self.assertIsNone(status["pick"])
         viewer.key("Escape")
         viewer.until(lambda s: ask in s["messages"], "the question")
         viewer.key("j", "j", "Escape")  # another key has taken it back

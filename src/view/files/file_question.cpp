@@ -23,8 +23,10 @@ FileFilter fileFilter(std::string name, std::vector<std::string> extensions) {
 FileQuestion openQuestion(const std::filesystem::path& folder, bool environment) {
   std::vector<std::string> all(kSceneExtensions.begin(), kSceneExtensions.end());
   all.insert(all.end(), kEnvironmentExtensions.begin(), kEnvironmentExtensions.end());
-  FileQuestion question{
-      .title = "Open a scene or an environment", .folder = folder, .name = {}, .filters = {}};
+  FileQuestion question{.title = environment ? "Open an environment" : "Open a scene or an environment",
+                        .folder = folder,
+                        .name = {},
+                        .filters = {}};
   question.filters = {
       fileFilter("Scenes and environments", std::move(all)),
       fileFilter("Scenes", {kSceneExtensions.begin(), kSceneExtensions.end()}),

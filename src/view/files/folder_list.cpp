@@ -125,6 +125,8 @@ void takeContent(FolderList& list, FolderContent content) {
   list.content = std::move(content);
   if (!list.question.save) setListText(list, {});
   findEntries(list);
+  // Enter opens what is alone.
+  if (!list.question.save && list.shown.size() == 1) list.chosen = 0;
 }
 
 void findEntries(FolderList& list) {

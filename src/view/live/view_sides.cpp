@@ -56,7 +56,10 @@ void ViewTracer::adoptSide(Side& side, const RenderOptions& asked) {
   if (same && otherLook && !side.stale && side.samples > 0) publish(side);
   if (same) return;
   if (!side.awaited) side.previews = false;
-  if (side.program != program)
+  // Beside a side that has samples, another is drawn at its resolution, or these would be lost.
+  const bool joins =
+      !side.program && std::ranges::any_of(sides_, [](const Side& s) { return !s.stale && s.samples > 0; });
+  if (side.program != program && !joins)
     drawSomethingElse(resolution_, request_.size, program->tracer.renderer->msPerSample());
   side.program = program;
   side.view = viewOf(options);
@@ -99,8 +102,9 @@ void ViewTracer::preview(Side& side, const RenderOptions& wanted) {
   publish(side);
 }
 
+/// From any thread, as the next.
 void ViewTracer::tellWork(const std::string& what) {
-  switch (shows_) {
+  switch (shows_.load()) {
     case Shows::Nothing:
       return exchange_.tellNote(what);
     case Shows::Preview:
@@ -110,10 +114,8 @@ void ViewTracer::tellWork(const std::string& what) {
   }
 }
 
-/// From any thread.
 void ViewTracer::tellDecoded(size_t decoded, size_t count) {
-  exchange_.tellNote("compiling, " + std::to_string(decoded) + " of " + std::to_string(count) +
-                     " textures decoded");
+  tellWork("compiling, " + std::to_string(decoded) + " of " + std::to_string(count) + " textures decoded");
 }
 
 std::shared_ptr<ViewProgram> ViewTracer::programFor(const RenderOptions& options, bool aside) {

@@ -159,7 +159,8 @@ class ViewTracer {
   uint64_t answered_ = 0;  ///< the latest request that the sides draw
   Selected selected_;      ///< what was picked last
   std::vector<Side> sides_;
-  enum class Shows : uint8_t { Nothing, Preview, Picture } shows_ = Shows::Nothing;
+  enum class Shows : uint8_t { Nothing, Preview, Picture };
+  std::atomic<Shows> shows_ = Shows::Nothing;
   bool shares_ = false;                     ///< objects with the window
   std::optional<OutsideContext> compiles_;  ///< none: programs are compiled where they draw
   std::array<std::array<ShownTexture, kSlots>, kMostSides>

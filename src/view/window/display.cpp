@@ -103,6 +103,12 @@ void Display::take(const TracedPicture& picture) {
   checkGl("uploading a picture");
 }
 
+void Display::forget(size_t side) {
+  giveBack(side, sides_.at(side).waiting);
+  sides_[side].size = glm::ivec2(0);
+  sides_[side].traced = 0;
+}
+
 void Display::map(Side& side, const DisplaySide& settings) {
   if (side.fresh && side.settings == settings) return;
   glBindFramebuffer(GL_FRAMEBUFFER, side.framebuffer.name());

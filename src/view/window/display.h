@@ -36,6 +36,8 @@ class Display {
   explicit Display(Exchange& exchange);
 
   void take(const TracedPicture& picture);
+  /// Shows the first side in the place of this one until its next picture comes.
+  void forget(size_t side);
   bool shows(size_t side) const { return sides_[side].size.x > 0; }
   /// Returns true if the tracing thread still draws a picture that was taken.
   bool waits() const;

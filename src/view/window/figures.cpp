@@ -47,11 +47,13 @@ std::string passText(const PassTimes& times) {
   return text + " ms";
 }
 
-void drawCosts(const ViewState& state, const ViewFacts& facts, size_t side) {
+void drawCosts(const ViewState& state, const ViewFacts& facts, size_t side, const WindowLayout& layout) {
   const SideStatistics& s = facts.statistics[side];
   row("frame", "%.1f ms, 95th %.1f ms", s.frameMs, s.frameP95Ms);
   row("rays", "%.2f million/s", s.megaRaysPerSecond);
+  ImGui::PushTextWrapPos(layout.figuresMost.x - 2 * ImGui::GetStyle().WindowPadding.x);
   row("steps", "%s", passText(s.passes).c_str());
+  ImGui::PopTextWrapPos();
   if (s.filtered > 0.0) row("denoised", "%.0f %%, %.0f ms", 100.0 * s.filtered, s.filterMs);
   if (!state.split) row("paths", "%.2f million/s", s.megaPathsPerSecond);
   const glm::ivec2 size = facts.pictureSize[side];
@@ -84,7 +86,7 @@ float drawSide(const ViewState& state, ViewFacts& facts, size_t side, ImVec2 pla
       row("error", "%.2f %%", 100.0 * s.error);
     else
       row("error", "%.2f %% (goal %.2f %%)", 100.0 * s.error, 100.0 * state.sides[side].sampling.noise);
-    if (layout.figures == FigureDetail::All) drawCosts(state, facts, side);
+    if (layout.figures == FigureDetail::All) drawCosts(state, facts, side, layout);
     ImGui::EndTable();
     addWindowPlace(facts.places, name);
     end = ImGui::GetWindowPos().y + ImGui::GetWindowSize().y;

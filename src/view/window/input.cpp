@@ -79,7 +79,11 @@ glm::dvec2 Input::place() const { return inPixels(cursor_) / glm::dvec2(layout_.
 std::optional<glm::dvec2> Input::update(ViewState& state, const WindowLayout& layout, const RunTask& run) {
   layout_ = layout;
   const ImGuiIO& io = ImGui::GetIO();
-  for (const Event& event : std::exchange(events_, {})) {
+  // The field of the list takes what was typed before a key in the frame in which Dear ImGui sees it.
+  const bool behind = std::exchange(behind_, Interface::isBehind()) || behind_;
+  std::vector<Event> events = std::exchange(events_, {});
+  if (state.fileList && behind) std::swap(events, events_);
+  for (const Event& event : events) {
     const bool isPressed = event.kind == Kind::Key || event.kind == Kind::Button;
     presses_ += isPressed && event.action == GLFW_PRESS;
     switch (event.kind) {

@@ -73,11 +73,12 @@ class Input {
   std::vector<std::filesystem::path> drops_;
   std::vector<const Control*> held_;
   Button button_;
-  glm::dvec2 cursor_{0.0};
+  glm::dvec2 cursor_{-1.0};  ///< outside, until it has moved
   glm::dvec2 lastClick_{0.0};
   double lastClickTime_ = -1.0;  ///< seconds; negative: the next click is the first
   double lastUpdate_ = 0.0;
   bool woken_ = true;
+  bool behind_ = false;  ///< Interface::isBehind() at the latest update()
   int presses_ = 0;
   WindowLayout layout_;  ///< of the latest update()
 };

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "view/key_queue.h"
 #include "view/window/draw/theme.h"
 
 namespace fragtrace {
@@ -40,6 +41,32 @@ void loadFont(float scale) {
   io.Fonts->AddFontDefault(&config);
 }
 
+/// There is one window, as for Dear ImGui's own callbacks.
+KeyQueue& keyQueue() {
+  static KeyQueue queue;
+  return queue;
+}
+
+/// Takes keys and characters in the place of Dear ImGui's callbacks, which get them frame by frame.
+void queueKeys(GLFWwindow* window) {
+  if (IMGUI_VERSION_NUM >= 18700) return;
+  glfwSetKeyCallback(window, [](GLFWwindow*, int code, int scanCode, int action, int modifiers) {
+    keyQueue().push_back({.code = code, .scanCode = scanCode, .action = action, .modifiers = modifiers});
+  });
+  glfwSetCharCallback(window, [](GLFWwindow*, unsigned character) {
+    keyQueue().push_back({.isText = true, .character = character});
+  });
+}
+
+void passKeys(GLFWwindow* window) {
+  for (const TypedEvent& event : takeFrame(keyQueue())) {
+    if (event.isText)
+      ImGui_ImplGlfw_CharCallback(window, event.character);
+    else
+      ImGui_ImplGlfw_KeyCallback(window, event.code, event.scanCode, event.action, event.modifiers);
+  }
+}
+
 }  // namespace
 
 float displayScale(const glm::vec2& contentScale) {
@@ -51,6 +78,7 @@ Interface::Interface(GLFWwindow* window) : window_(window) {
   // Nothing is remembered behind the user's back.
   ImGui::GetIO().IniFilename = nullptr;
   ImGui_ImplGlfw_InitForOpenGL(window, true);
+  queueKeys(window);
   ImGui_ImplOpenGL3_Init("#version 450 core");
   fit();
 }
@@ -76,6 +104,7 @@ void Interface::fit() {
 
 void Interface::begin() {
   fit();
+  passKeys(window_);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
@@ -88,7 +117,9 @@ void Interface::end() {
 
 bool Interface::holding() { return ImGui::IsAnyItemActive(); }
 
-bool Interface::waiting() {
+bool Interface::waiting() { return !keyQueue().empty() || isBehind(); }
+
+bool Interface::isBehind() {
 #if IMGUI_VERSION_NUM >= 18700
   return ImGui::GetCurrentContext()->InputEventsQueue.Size > 0;
 #else

@@ -29,9 +29,12 @@ class Interface {
   /// Returns true if a slider or button is held, or a text edited.
   static bool holding();
 
-  /// True while events are left for the next frame: from Dear ImGui 1.87 on, a frame takes only one change of
-  /// a key or button.
+  /// True while events are left for the next frame.
   static bool waiting();
+
+  /// True while Dear ImGui has not seen all that was typed: from 1.87 on, it has a queue of its own. Before,
+  /// view/key_queue.h keeps keys for it, and for the callbacks that it passes them on to.
+  static bool isBehind();
 
   /// The receiver of keys: "text" that is edited, a "popup", or the "picture".
   static const char* focus();

@@ -78,10 +78,9 @@ void drawLines(const ViewState& state, const ViewFacts& facts, const WindowLayou
   }
 }
 
-/// Says at the top right of a picture which one it is, with its cost where there is room for that.
+/// Says at the top right of a picture which one it is: the first of these texts that has room, or the last.
 struct Label {
-  std::string name;
-  std::string cost;
+  std::vector<std::string> texts;
   ImVec2 topRight;     ///< of the picture, and
   float width = 0.0f;  ///< so wide it is
   bool chosen = false;
@@ -91,8 +90,9 @@ void drawLabel(const Label& label, ViewFacts& facts, const std::string& place, c
   const float pad = 0.5f * layout.margin;
   const float room = label.width - 2 * (layout.margin + pad);
   if (room <= 0.0f) return;
-  std::string text = label.name + label.cost;
-  if (ImGui::CalcTextSize(text.c_str()).x > room) text = label.name;
+  const auto fits = [&](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x <= room; };
+  const auto found = std::ranges::find_if(label.texts, fits);
+  const std::string& text = found == label.texts.end() ? label.texts.back() : *found;
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const float width = std::min(size.x, room);
   const ImVec2 from{label.topRight.x - width - 2 * pad - layout.margin, label.topRight.y + layout.margin};
@@ -107,20 +107,24 @@ void drawLabel(const Label& label, ViewFacts& facts, const std::string& place, c
   facts.places[place] = {from.x, from.y, to.x - from.x, to.y - from.y};
 }
 
-/// ", 12 samples, 3.5 ms"
-std::string costText(const SideStatistics& s) {
+/// "3.5 ms"
+std::string frameText(const SideStatistics& s) {
   char time[32];
-  std::snprintf(time, sizeof time, s.frameMs < 10.0 ? ", %.1f ms" : ", %.0f ms", s.frameMs);
-  return ", " + samplesText(s.samples) + time;
+  std::snprintf(time, sizeof time, s.frameMs < 10.0 ? "%.1f ms" : "%.0f ms", s.frameMs);
+  return time;
 }
+
+/// ", 12 samples, 3.5 ms"
+std::string costText(const SideStatistics& s) { return ", " + samplesText(s.samples) + ", " + frameText(s); }
 
 void drawStageNames(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
   for (const StageRow& row : stageRows()) {
     if (!row.cumulative) continue;
     const auto side = size_t(row.stage);
     const SidePlace place = placeOf(state, layout, side);
-    drawLabel({row.label,
-               costText(facts.statistics[side]),
+    const std::string cost = costText(facts.statistics[side]);
+    const std::string name = row.name;
+    drawLabel({{row.label + cost, name + cost, name + ", " + frameText(facts.statistics[side]), name},
                {place.to, place.corner.y},
                place.size.x,
                side == state.shownSide()},
@@ -135,22 +139,33 @@ void drawSideNames(const ViewState& state, ViewFacts& facts, const WindowLayout&
   const auto draw = [&](size_t side, float from, float to) {
     const RenderOptions& options = state.sides[side];
     const DebugView view = options.output.debugView;
-    Label label{side == 0 ? "A  " : "B  ", "", {to, 0.0f}, to - from, state.active == side};
-    if (side == 1 && !state.reference.empty()) {
-      label.name += shownText(state.reference.filename().string(), kMostNameCharacters);
-    } else {
-      label.name += view == DebugView::None ? presetName(options.stages) : std::string(rowOf(view).label);
-      label.cost = costText(facts.statistics[side]);
-    }
+    const bool file = side == 1 && !state.reference.empty();
+    const std::string name = std::string(side == 0 ? "A  " : "B  ") +
+                             (file ? shownText(state.reference.filename().string(), kMostNameCharacters)
+                              : view == DebugView::None ? presetName(options.stages)
+                                                        : std::string(rowOf(view).label));
+    Label label{{name}, {to, 0.0f}, to - from, state.active == side};
+    if (!file) label.texts.insert(label.texts.begin(), name + costText(facts.statistics[side]));
     drawLabel(label, facts, side == 0 ? "name A" : "name B", layout);
   };
   if (state.comparison == CompareMode::Difference) {
     char text[64];
     std::snprintf(text, sizeof text, "|A - B| x %g", std::exp2(state.differenceStops));
-    return drawLabel({text, "", {right, 0.0f}, right}, facts, "name difference", layout);
+    return drawLabel({{text}, {right, 0.0f}, right}, facts, "name difference", layout);
   }
   if (bar > 0.0f) draw(0, 0.0f, bar);
   if (bar < right) draw(1, bar, right);
+}
+
+/// A picture that shows something other than light says what.
+void drawViewName(const ViewState& state, ViewFacts& facts, const WindowLayout& layout) {
+  const DebugView view = state.options().output.debugView;
+  if (!state.scene || view == DebugView::None) return;
+  const std::string name(rowOf(view).label);
+  const float right = float(layout.picture.x);
+  const std::string keys = keyOf(Action::NextDebugView, 1) + ", " + keyOf(Action::NextDebugView, -1);
+  drawLabel({{name + "  (" + keys + ": others)", name}, {right, 0.0f}, right, true}, facts, "name view",
+            layout);
 }
 
 /// Left of what is said next.
@@ -244,7 +259,9 @@ Task drawWelcome(ViewFacts& facts, const WindowLayout& layout) {
     errandButton(facts.places, "Open...", Errand::Open, task);
     ImGui::SameLine();
     ImGui::TextUnformatted("or drop a model here");
+    ImGui::PushTextWrapPos(display.x - 4 * layout.margin);
     ImGui::TextDisabled(".gltf or .glb; with it, or later, an environment: .hdr, .exr or .pfm. H: help");
+    ImGui::PopTextWrapPos();
     if (!facts.remembered.recent.empty()) {
       ImGui::Separator();
       ImGui::TextDisabled("Shown before");
@@ -323,6 +340,7 @@ Task drawOverlay(ViewState& state, ViewFacts& facts, const WindowLayout& layout,
   if (state.compares() && state.comparison == CompareMode::Bar) drawBar(state, layout);
   if (state.compares()) drawSideNames(state, facts, layout);
   if (state.overview) drawStageNames(state, facts, layout);
+  if (!state.compares() && !state.overview) drawViewName(state, facts, layout);
   if (state.figures && state.scene && !state.overview) drawFigures(state, facts, layout);
   task.errand = drawNews(facts, layout, now);
   if (!state.scene && !facts.load.busy) task = drawWelcome(facts, layout);

@@ -87,7 +87,9 @@ void drawAnimation(ViewState& state, Places& places) {
   }
   label(places, "Time");
   float time = float(state.sides[0].selection.animationTime.value_or(0.0));
-  if (ImGui::SliderFloat("##time", &time, 0.0f, float(animationLength(state)), "%.2f s", kBounded)) {
+  const bool posed = state.sides[0].selection.animationTime.has_value();
+  if (ImGui::SliderFloat("##time", &time, 0.0f, float(animationLength(state)), posed ? "%.2f s" : "at rest",
+                         kBounded)) {
     state.playback.playing = false;
     showAnimation(state, shown, time);
   }

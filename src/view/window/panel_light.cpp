@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Exposure, tone map, environment and background.
+#include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "image/display/tone_map.h"
@@ -57,16 +58,21 @@ Task chooseEnvironment(const ViewedScene& scene, ViewFacts& facts) {
   return chosen;
 }
 
-/// Fog round the scene, which path tracing alone shows; none where a shadow catcher stands.
+/// Fog round the scene.
 void drawFog(ViewState& state, Places& places) {
   FogOptions fog = state.sides[0].fog;
-  const bool shown = has(state.options().stages, Stage::Gi) && !state.sides[0].light.shadowCatcher;
-  ImGui::BeginDisabled(!shown);
+  const std::string reason = whyNoFog(state);
+  ImGui::BeginDisabled(!reason.empty());
   label(places, "Fog");
+  // The box of its colour stands on the same line.
+  if (fog.density > 0.0) ImGui::SetNextItemWidth(-ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
   float density = float(fog.density);
-  if (ImGui::SliderFloat("##fog", &density, 0.0f, kMostFog, density > 0.0f ? "%.3f / m" : "none",
-                         kBoundedLogarithmic))
+  const char* format = !reason.empty() ? reason.c_str() : density > 0.0f ? "%.3f / m" : "none";
+  if (ImGui::SliderFloat("##fog", &density, 0.0f, kMostFog, format, kBoundedLogarithmic))
     fog.density = density;
+  tip(places,
+      "How dense the fog round the scene is: at 0.2 / m, light goes 5 m on average before it meets some "
+      "(--fog-density). --fog-distance says how far the fog reaches");
   if (fog.density > 0.0) {
     ImGui::SameLine();
     glm::vec3 color = fog.color.value_or(glm::vec3(1.0f));
@@ -74,15 +80,22 @@ void drawFog(ViewState& state, Places& places) {
     if (ImGui::ColorEdit3("##fogcolor", glm::value_ptr(color), kColor))
       fog.color = glm::clamp(color, glm::vec3(0.0f), glm::vec3(1.0f));
     addItemPlace(places, "Fog colour");
+    tip(places, "The part of the light that the fog scatters rather than swallows (--fog-color)");
     label(places, "Fog forward");
     float anisotropy = float(fog.anisotropy);
     if (ImGui::SliderFloat("##foganisotropy", &anisotropy, -kMostForward, kMostForward, "%.2f", kBounded))
       fog.anisotropy = anisotropy;
+    tip(places,
+        "Where the fog scatters light: above 0 rather forwards, as mist before a lamp; below 0 rather "
+        "back (--fog-anisotropy)");
     label(places, "Fog height");
     float height = float(fog.height.value_or(0.0));
     if (ImGui::SliderFloat("##fogheight", &height, 0.0f, kMostFogHeight,
-                           height > 0.0f ? "%.2f m" : "all alike", kBoundedLogarithmic))
+                           height > 0.0f ? "%.2f m" : "no limit", kBoundedLogarithmic))
       fog.height = height > 0.0f ? std::optional(double(height)) : std::nullopt;
+    tip(places,
+        "Ground fog: every so many metres up, it is thinner by a factor of e. At 0 it is as dense above "
+        "as below (--fog-height)");
   } else {
     fog = FogOptions();
   }
@@ -126,15 +139,21 @@ Task drawLight(ViewState& state, ViewFacts& facts) {
   task = chooseEnvironment(*state.scene, facts);
   label(places, "Rotation");
   ImGui::BeginDisabled(!map);
-  float degrees = float(o.light.hdriRotationDegrees);
-  if (ImGui::SliderFloat("##rotation", &degrees, -180.0f, 180.0f, map ? "%.0f degrees" : "no environment map",
-                         kBounded))
-    for (RenderOptions& side : state.sides) side.light.hdriRotationDegrees = degrees;
+  auto degrees = float(std::remainder(o.light.hdriRotationDegrees, 360.0));
+  // Typed values beyond the ends go round.
+  if (ImGui::SliderFloat("##rotation", &degrees, -180.0f, 180.0f,
+                         map ? "%.0f degrees" : "no environment map"))
+    for (RenderOptions& side : state.sides)
+      side.light.hdriRotationDegrees = std::isfinite(degrees) ? std::remainder(degrees, 360.0f) : 0.0f;
   ImGui::EndDisabled();
   label(places, "Intensity");
+  const bool lit = has(state.scene->present, Trait::Environment);
+  ImGui::BeginDisabled(!lit);
   float intensity = float(o.light.hdriIntensity);
-  if (ImGui::SliderFloat("##intensity", &intensity, 0.0f, kMostIntensity, "%.2f", kBoundedLogarithmic))
+  if (ImGui::SliderFloat("##intensity", &intensity, 0.0f, kMostIntensity, lit ? "%.2f" : "no environment",
+                         kBoundedLogarithmic))
     for (RenderOptions& side : state.sides) side.light.hdriIntensity = intensity;
+  ImGui::EndDisabled();
   if (!state.scene->options.light.hdriFile.empty()) {
     label(places, "Blur");
     const double blur = state.scene->options.light.backgroundBlur;

@@ -45,12 +45,14 @@ void tip(Places& places, const std::string& text) {
   const float right = std::max(std::min(item.x, display - width - padding), 0.0f);
   ImGui::SetNextWindowPos(beside ? ImVec2(left, item.y) : ImVec2(right, item.y), ImGuiCond_Always,
                           beside ? ImVec2(1.0f, 0.0f) : ImVec2(0.0f, 1.0f));
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0f);
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(most);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   addWindowPlace(places, "tip");
   ImGui::EndTooltip();
+  ImGui::PopStyleVar();
 }
 
 void stayOnLineFor(const char* text) {

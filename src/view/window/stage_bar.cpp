@@ -80,10 +80,13 @@ Task drawEndButtons(ViewState& state, ViewFacts& facts, float left, float right)
     const bool off = (button.errand == Errand::Undo && !facts.canUndo) ||
                      (button.errand == Errand::Redo && !facts.canRedo);
     ImGui::BeginDisabled(off);
+    const bool lit = button.action == Action::ToggleOverview && state.overview;
+    if (lit) ImGui::PushStyleColor(ImGuiCol_Button, kAccent);
     if (button.errand == Errand::None)
       controlButton(state, facts.places, button.text, button.action);
     else
       errandButton(facts.places, button.text, button.errand, task);
+    if (lit) ImGui::PopStyleColor();
     ImGui::EndDisabled();
     const Control& control = *controlOf(button.action);
     tip(facts.places, controlName(control) + ": " + control.sentence);

@@ -30,23 +30,33 @@ std::string activity(const ViewState& state, const ViewFacts& facts) {
   if (facts.load.busy) return "loading";
   if (!state.scene) return "no scene";
   // The news have all of it.
-  if (!facts.note.empty()) return facts.note.substr(0, facts.note.find(" ("));
+  if (!facts.note.empty()) return facts.note.substr(0, facts.note.find_first_of(",("));
   return progressText(facts.statistics[state.shownSide()], state.options());
 }
 
-std::vector<std::string> progressTexts(const ViewState& state, const ViewFacts& facts,
-                                       const ViewProgress& progress) {
+/// These are left out last.
+std::vector<std::string> firstTexts(const ViewState& state, const ViewFacts& facts) {
   const size_t side = state.shownSide();
   const SideStatistics& s = facts.statistics[side];
   const RenderOptions& o = state.options();
   std::vector<std::string> texts;
   const std::string name = state.compares() ? (side == 0 ? "A: " : "B: ") : "";
   texts.push_back(name + samplesText(s.samples) + " per pixel");
-  if (s.error >= 0.0) {
+  // It is the error of light, which a debug view does not show.
+  if (s.error >= 0.0 && o.output.debugView == DebugView::None) {
     texts.push_back(o.sampling.noise > 0.0
                         ? printed("error %.2f %% of %.2f %%", 100.0 * s.error, 100.0 * o.sampling.noise)
                         : printed("error %.2f %%", 100.0 * s.error));
   }
+  return texts;
+}
+
+/// These follow where there is room beside the pixel.
+std::vector<std::string> moreTexts(const ViewState& state, const ViewFacts& facts,
+                                   const ViewProgress& progress) {
+  const size_t side = state.shownSide();
+  const SideStatistics& s = facts.statistics[side];
+  std::vector<std::string> texts;
   if (!s.resting && progress.seconds) texts.push_back(durationText(*progress.seconds) + " left");
   if (facts.picturesPerSecond > 0.0) texts.push_back(printed("%.1f pictures/s", facts.picturesPerSecond));
   const glm::ivec2 size = facts.pictureSize[side];
@@ -99,13 +109,9 @@ void drawStatusBar(const ViewState& state, ViewFacts& facts, const WindowLayout&
                        {kProgressWidth * layout.scale, height}, word.c_str());
     ImGui::PopStyleVar();
     float end = ImGui::GetItemRectMax().x;
-    std::string pixel = known ? pixelText(state, facts) : "";
-    if (pixel.empty()) pixel = "H: help";
-    const float room = display.x - layout.margin -
-                       (pixel.empty() ? 0.0f : ImGui::CalcTextSize(pixel.c_str()).x + kGap * layout.scale);
     facts.status = word;
-    if (known) {
-      for (const std::string& text : progressTexts(state, facts, progress)) {
+    const auto put = [&](const std::vector<std::string>& texts, float room) {
+      for (const std::string& text : texts) {
         const float width = ImGui::CalcTextSize(text.c_str()).x;
         const float start = end + kGap * layout.scale;
         if (start + width > room) break;
@@ -114,9 +120,15 @@ void drawStatusBar(const ViewState& state, ViewFacts& facts, const WindowLayout&
         facts.status += "; " + text;
         end = start + width;
       }
-    }
+    };
+    if (known) put(firstTexts(state, facts), display.x - layout.margin);
+    std::string pixel = known ? pixelText(state, facts) : "";
+    if (pixel.empty()) pixel = "H: help";
     const float start = display.x - layout.margin - ImGui::CalcTextSize(pixel.c_str()).x;
-    if (!pixel.empty() && start > end) {
+    const bool fits = start >= end + kGap * layout.scale;
+    if (known)
+      put(moreTexts(state, facts, progress), fits ? start - kGap * layout.scale : display.x - layout.margin);
+    if (fits) {
       ImGui::SameLine(start);
       ImGui::TextUnformatted(pixel.c_str());
       facts.status += "; " + pixel;

@@ -53,6 +53,7 @@ class Window {
   // window_tasks.cpp
   void takePictures(std::vector<TracedPicture> pictures);
   void takeReference(const TracedPicture& picture);
+  void takePick(PickAnswer answer);
   void compareSizes();
   void takeThumbnail(const EnvironmentThumbnail& thumbnail);
   void askForThumbnails();
@@ -65,7 +66,7 @@ class Window {
   void copyCommand();
   void pasteCommand();
   void toggleFullscreen();
-  void takeText(const std::string& text, const std::string& otherwise);
+  bool takeText(const std::string& text, const std::string& otherwise);
   RenderOptions shownOptions() const;
 
   // window_files.cpp
@@ -110,6 +111,8 @@ class Window {
   std::vector<RenderOptions> askedSides_;
   glm::ivec2 askedSize_{0};
   bool askedMoving_ = false;
+  uint64_t picksAsked_ = 0;
+  uint64_t picksAnswered_ = 0;                          ///< or taken back
   int quitAskedAt_ = -2;                                ///< Input::presses() when Escape last asked
   std::deque<double> arrivals_;                         ///< of the first side's pictures in the last second
   std::deque<std::pair<uint64_t, double>> unanswered_;  ///< requests, and when they were made

@@ -154,7 +154,8 @@ void Window::wait() {
     glfwWaitEventsTimeout(seconds);
   else
     glfwPollEvents();
-  if (input_.waiting() || input_.active() || askedMoving_) frames_ = std::max(frames_, kSettleFrames);
+  if (input_.waiting() || Interface::waiting() || input_.active() || askedMoving_)
+    frames_ = std::max(frames_, kSettleFrames);
 }
 
 void Window::say(const std::string& message) {
@@ -169,18 +170,7 @@ void Window::take() {
   takePictures(std::move(news.pictures));
   if (news.bounds && state_.scene) state_.scene->bounds = *news.bounds;
   for (const EnvironmentThumbnail& thumbnail : news.thumbnails) takeThumbnail(thumbnail);
-  if (news.pick) {
-    if (news.pick->request.center && news.pick->hit) {
-      state_.pose = centerOn(state_.pose, news.pick->point);
-      state_.posed = true;
-    }
-    if (!news.pick->request.center) {
-      state_.selected = news.pick->bounds;
-      state_.selectedNode = news.pick->node;
-      facts_.pick = std::move(news.pick);
-    }
-    frames_ = kSettleFrames;
-  }
+  if (news.pick) takePick(std::move(*news.pick));
   for (const std::string& message : news.messages) say(message);
   if (const std::string errors = takeGlfwErrors(); !errors.empty()) say("window: " + errors);
   takeState(news);
@@ -200,6 +190,7 @@ void Window::adoptScene(ViewedScene scene) {
     remember([&](Remembered& r) { addRecent(r, wanted_.scene); });
   }
   askedSides_.clear();
+  picksAnswered_ = picksAsked_;
   facts_.pick.reset();
   state_.selected = {};
   state_.selectedNode.reset();
@@ -242,11 +233,18 @@ void Window::forgetBrokenEnvironment() {
 void Window::ask() {
   if (!state_.scene || state_.size.x <= 0 || state_.size.y <= 0) return;
   std::vector<RenderOptions> sides = tracedSides(state_);
-  bool other = sides.size() != askedSides_.size() || state_.size != askedSize_;
-  for (size_t i = 0; !other && i < sides.size(); ++i) other = !drawsTheSame(sides[i], askedSides_[i]);
+  bool turned = askedSides_.empty() || state_.size != askedSize_;
+  for (size_t i = 0; !turned && i < std::min(sides.size(), askedSides_.size()); ++i)
+    turned = !drawsTheSame(sides[i], askedSides_[i]);
+  const bool other = turned || sides.size() != askedSides_.size();
+  // A side that comes back showed another view long ago.
+  if (!askedSides_.empty()) {
+    for (size_t i = askedSides_.size(); i < sides.size(); ++i) display_.forget(i);
+  }
   const bool more = !other && sides != askedSides_;
   const double now = glfwGetTime();
-  if (other) changed_ = now;
+  // A side that comes or goes moves nothing: the others keep their samples.
+  if (turned) changed_ = now;
   const bool moving = changed_ >= 0.0 && now - changed_ < kMovingSeconds;
   if (!other && !more && moving == askedMoving_) return;
   const uint64_t number = exchange_.ask(sides, state_.size, moving);

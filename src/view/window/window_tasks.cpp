@@ -49,7 +49,7 @@ void Window::execute(const Task& task) {
         return;
       }
       if (facts_.load.busy) return cancelLoad();
-      if (facts_.pick) return executeOnScene({.errand = Errand::Deselect});
+      if (facts_.pick || picksAnswered_ < picksAsked_) return executeOnScene({.errand = Errand::Deselect});
       if (state_.fullscreen) return toggleFullscreen();
       // The press that has come here counts, too.
       if (input_.presses() != std::exchange(quitAskedAt_, input_.presses()) + 1 ||
@@ -72,11 +72,15 @@ void Window::executeOnScene(const Task& task) {
     case Errand::Inspect: {
       if (sideAt(state_, task.place) >= kMostSides) return;
       const glm::dvec2 place = magnifiedPlace(state_, task.place);
-      return exchange_.pick({sideAt(state_, task.place), place, task.errand == Errand::CenterOn});
+      const bool center = task.errand == Errand::CenterOn;
+      if (!center) ++picksAsked_;
+      return exchange_.pick(
+          {.side = sideAt(state_, task.place), .place = place, .center = center, .number = picksAsked_});
     }
     case Errand::SelectNode:
-      return exchange_.pick({.node = uint32_t(task.index)});
+      return exchange_.pick({.node = uint32_t(task.index), .number = ++picksAsked_});
     case Errand::Deselect:
+      picksAnswered_ = picksAsked_;
       facts_.pick.reset();
       state_.selected = {};
       state_.selectedNode.reset();
@@ -193,19 +197,24 @@ void Window::pasteCommand() {
   const char* text = glfwGetClipboardString(window_.get());
   // A clipboard without text is no failure of the window.
   if (!text) takeGlfwErrors();
-  takeText(text ? text : "", "cannot paste: ");
+  if (takeText(text ? text : "", "cannot paste: ")) say("pasted");
 }
 
-/// A command, or options of a camera.
-void Window::takeText(const std::string& text, const std::string& otherwise) {
+/// A command, or options of a camera; false: it cannot be taken, and why was said.
+bool Window::takeText(const std::string& text, const std::string& otherwise) {
   try {
     const RenderOptions options = start_.withCommandText(renderOptionsOf(state_, state_.active), text);
     if (options.scene.empty()) throw UsageError("it names no scene");
-    if (sameScene(options, state_.scene->options)) return takeOptions(state_, options);
-    load(options);
-    pasted_ = options;
+    if (sameScene(options, state_.scene->options)) {
+      takeOptions(state_, options);
+    } else {
+      load(options);
+      pasted_ = options;
+    }
+    return true;
   } catch (const std::exception& error) {
     say(otherwise + error.what());
+    return false;
   }
 }
 
@@ -272,6 +281,28 @@ void Window::takeReference(const TracedPicture& picture) {
   if (state_.sides[1].scene.empty()) state_.sides[1] = state_.sides[0];
   newReference_ = true;
   overlook(history_, state_);
+}
+
+/// Escape may have taken the request back. News say for a while that nothing is there.
+void Window::takePick(PickAnswer answer) {
+  frames_ = kSettleFrames;
+  const bool awaited = answer.request.number > picksAnswered_;
+  picksAnswered_ = std::max(picksAnswered_, answer.request.number);
+  if (answer.request.center) {
+    if (!answer.hit) return;
+    state_.pose = centerOn(state_.pose, answer.point);
+    state_.posed = true;
+    return;
+  }
+  if (!awaited) return;
+  state_.selected = answer.bounds;
+  state_.selectedNode = answer.node;
+  facts_.pick.reset();
+  if (answer.node) {
+    facts_.pick = std::move(answer);
+  } else {
+    for (const std::string& line : answer.lines) say(line);
+  }
 }
 
 /// Once the picture of the scene has its size.

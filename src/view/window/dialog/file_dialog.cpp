@@ -152,7 +152,12 @@ void FileDialog::drawEntries(Places& places, float height) {
         addItemPlace(places, "file " + entry.name);
       }
     }
-    if (reading_.busy() && list.content.entries.empty()) ImGui::TextDisabled("reading");
+    if (reading_.busy() && list.content.entries.empty())
+      ImGui::TextDisabled("reading");
+    else if (list.shown.empty()) {
+      ImGui::TextDisabled("none here: %s", list.question.filters[list.filter].name.c_str());
+      addItemPlace(places, "nothing here");
+    }
     if (!list.content.error.empty()) drawText(list.content.error, kMostLineCharacters);
   }
   ImGui::EndChild();
