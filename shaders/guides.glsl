@@ -62,13 +62,25 @@ Path guideAt(Path p, Surface s, uint flags, vec4 base) {
   return guideStop(p, base.rgb);
 }
 
-/// Fog before the surroundings is a white surface, since its light is noisy, too.
+/// A medium before all surfaces is a white surface at a distance, since its light is noisy, too.
+Path guideInMedium(Path p, float t) {
+  p = takeGuide(p, t * dot(p.direction, frame.cameraForward) * frame.metresPerUnit, -p.direction);
+  return guideStop(p, vec3(1.0));
+}
+
+/// Fog counts before the surroundings.
 Path guideInFog(Path p) {
   p = meetSurroundings(p);
-  if (!p.cameraRay || fogDepth(fog, p.origin, p.direction, 0.0, kFarAway) < kGuideFog) return p;
-  float exit = insideFog(fog, p.origin, p.direction, 0.0).y;
-  p = takeGuide(p, exit * dot(p.direction, frame.cameraForward.xyz) * frame.cameraForward.w, -p.direction);
-  return guideStop(p, vec3(1.0));
+  bool thick = p.cameraRay && fogDepth(fog, p.origin, p.direction, 0.0, kFarAway) >= kGuideFog;
+  return thick ? guideInMedium(p, insideFog(fog, p.origin, p.direction, 0.0).y) : p;
+}
+
+/// The distance at which a flight of the camera's ray ends in the grid before it meets a surface, or kFarAway. The
+/// guides of a pixel are means over such flights.
+float gridBefore(Path p) {
+  if (!p.cameraRay) return kFarAway;
+  uint seed = hashBits(p.sampler, flightNumber(p));
+  return walkVolume(volume, p.origin, p.direction, 0.0, p.hitT, false, unitFloat(mixBits(seed)), seed).end;
 }
 
 /// The path has ended: its last surface takes the rest.

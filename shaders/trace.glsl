@@ -130,14 +130,18 @@ FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
 
 /// Takes the step that follows from the hit or miss of the path's ray.
 Path meet(Path p) {
+  float grid = kFarAway;
+  if (kDensityGrid && kAov == kAovGuides) grid = gridBefore(p);
   if (kHeatmap) {
     p.phase = kPhaseEnd;
+  } else if (kAov == kAovGuides && grid < kFarAway) {
+    p = guideInMedium(p, grid);
   } else if (kShadowCatcher && meetsCatcher(p, p.hitSlot < 0 ? kFarAway : p.hitT)) {
     p = meetCatcher(p);
   } else if (kMedia && p.hitSlot < 0 && p.hitT < kFarAway) {
     p = scatterInMedium(p);
   } else if (p.hitSlot < 0) {
-    p = kFog && kFeature == kFeatureGuides ? guideInFog(p) : meetSurroundings(p);
+    p = kFog && kAov == kAovGuides ? guideInFog(p) : meetSurroundings(p);
   } else {
     p = shade(p);
   }

@@ -280,6 +280,7 @@ ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& pre
   const bool paths = guides && has(options.stages, Stage::Gi);
   v.shadowCatcher = paths && options.light.shadowCatcher;
   v.traits.set(size_t(Trait::Fog), paths && options.fog.density > 0.0 && !options.light.shadowCatcher);
+  v.traits.set(size_t(Trait::DensityGrid), paths && has(present, Trait::DensityGrid) && !v.shadowCatcher);
   v.aov = aov;
   return v;
 }

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "scene/volume/read_grid.h"
 #include "scene/volume/decode.h"
+#include "scene/volume/read_grid.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace fragtrace;

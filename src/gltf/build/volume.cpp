@@ -67,8 +67,8 @@ std::optional<Volume> volumeAt(Document& document, const PlacedNode& node) {
   volume.source.emission = numbers.number("emission", 0.0, kMostVolumeFactor);
   volume.toWorld = node.world;
   const std::string uri = volume.source.file.string();
-  volume.file = document.diagnostics.attempt(
-      place + "/volume", [&] { return readUri(document.access, uri, document.memory); });
+  volume.file = document.diagnostics.attempt(place + "/volume",
+                                             [&] { return readUri(document.access, uri, document.memory); });
   takeMemory(document, place + "/volume", volume.file.size());
   volume.source.file = isDataUri(uri) ? std::filesystem::path(place) : pathOfUri(document.access, uri);
   return volume;

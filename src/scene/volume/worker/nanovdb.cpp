@@ -25,8 +25,8 @@
 
 #include "base/message.h"
 #include "base/worker/module.h"
-#include "scene/volume/grid.h"
 #include "scene/volume/decode.h"
+#include "scene/volume/grid.h"
 
 namespace fragtrace {
 namespace {
