@@ -75,12 +75,14 @@ Path guideInFog(Path p) {
   return thick ? guideInMedium(p, insideFog(fog, p.origin, p.direction, 0.0).y) : p;
 }
 
-/// The distance at which a flight of the camera's ray ends in the grid before it meets a surface, or kFarAway. The
-/// guides of a pixel are means over such flights.
+/// The distance of the grid's box where a flight of the camera's ray ends in the grid before it meets a surface, or
+/// kFarAway. The guides of a pixel are means over such flights; their own distances would part its neighbours.
 float gridBefore(Path p) {
   if (!p.cameraRay) return kFarAway;
   uint seed = hashBits(p.sampler, flightNumber(p));
-  return walkVolume(volume, p.origin, p.direction, 0.0, p.hitT, false, unitFloat(mixBits(seed)), seed).end;
+  float first = unitFloat(mixBits(seed));
+  bool ends = walkVolume(volume, p.origin, p.direction, 0.0, p.hitT, false, first, seed).end < kFarAway;
+  return ends ? max(throughTable(volume, p.origin, p.direction).x, 0.0) : kFarAway;
 }
 
 /// The path has ended: its last surface takes the rest.

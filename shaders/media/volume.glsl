@@ -72,6 +72,13 @@ vec2 throughBox(vec3 size, vec3 origin, vec3 inverse) {
 
 float inverseOf(float d) { return abs(d) < float(1e-18) ? float(1e18) : 1.0f / d; }
 
+/// The same of a ray of local space through all bricks.
+vec2 throughTable(Volume v, vec3 origin, vec3 direction) {
+  vec3 d = inBricks(v, direction, 0.0f);
+  vec3 size = vec3(float(v.table.x), float(v.table.y), float(v.table.z));
+  return throughBox(size, inBricks(v, origin, 1.0f), vec3(inverseOf(d.x), inverseOf(d.y), inverseOf(d.z)));
+}
+
 /// Walks along a ray between two distances: to the end of the flight that `first`, a uniform number, draws, or all the
 /// way (`through`), for the transmittance.
 Walk walkVolume(Volume v, vec3 origin, vec3 direction, float from, float to, bool through, float first, uint seed) {
