@@ -43,7 +43,7 @@ class BeforeTheFirstSample(Case):
         # Mesa's cache of shaders would not get its files either.
         environment = {**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"}
         limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (10000, 10000))
-        self.refused("x.png", "File too large", preexec_fn=limit, env=environment)
+        self.refused("x.png", "ulimit -f", preexec_fn=limit, env=environment)
 
 
 class AtTheEnd(Case):
