@@ -35,7 +35,7 @@ struct AovRow {
   std::string_view channels;  ///< a letter each, behind the name and a dot
 };
 
-/// In the order of Feature.
+/// In the order of Aov.
 inline constexpr std::array<AovRow, 14> kAovRows{{{"", ""},
                                                   {"albedo", "RGB"},
                                                   {"normal", "XYZ"},

@@ -225,15 +225,15 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
 
 ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& present,
                                Surroundings surroundings, uint32_t treeDepth, BufferReads reads, Aov aov) {
+  RenderOptions wanted = options;
+  wanted.output.debugView = DebugView::None;
   if (isLightAov(aov)) {
-    ShaderVariant light = chooseVariant(options, present, surroundings, treeDepth, reads);
+    ShaderVariant light = chooseVariant(wanted, present, surroundings, treeDepth, reads);
     light.aov = aov;
     light.traits.reset(size_t(Trait::Caustics));
     light.neighbours = false;
     return light;
   }
-  RenderOptions wanted = options;
-  wanted.output.debugView = DebugView::None;
   const bool guides = aov == Aov::Guides;
   const bool normals = aov == Aov::Normal || guides;
   const bool follows = guides && has(present, Trait::SmoothSurfaces);

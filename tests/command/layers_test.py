@@ -142,6 +142,12 @@ class LightParts(Case):
             with self.subTest(scene, options=options):
                 self.adds_up(self.parts(scene, *options), 24, 16, negative="--shadow-catcher" in options)
 
+    def test_a_debug_view_leaves_them_alone(self):
+        plain, seen = (self.parts("cornell-box", *view, size="8,8") for view in ((), ("--debug-view", "visits")))
+        for layer in self.ALL:
+            names = self.names(layer)
+            self.assertEqual([plain.pixel(x, 4, *names) for x in range(8)], [seen.pixel(x, 4, *names) for x in range(8)], layer)
+
     def adds_up(self, exr, width, height, negative=False):
         """The estimate of a shadow may be darker than black: then parts may be negative."""
         for x, y in ((x, y) for y in range(height) for x in range(width)):

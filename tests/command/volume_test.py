@@ -118,7 +118,7 @@ class Volumes(Case):
         self.refused("cannot be combined with --shadow-catcher", "--volume", self.grid("ball"), "--shadow-catcher", "bottom", status=2)
         self.refused("--volume-color: a colour is in the range 0 to 1", "--volume", self.grid("ball"), "--volume-color", "2,1,1", status=2)
         self.refused("missing.nvdb", "--volume", self.folder / "missing.nvdb")
-        self.refused("box64.nvdb", "--volume", self.grid("box", side=64), "--memory-limit", "3MB")
+        self.refused("box64.nvdb", "--volume", self.grid("box", side=64), "--memory-limit", "1MB")
         text = self.folder / "text.nvdb"
         text.write_text("this is no grid, but a text that is long enough to be one\n" * 20)
         self.refused("text.nvdb", "--volume", text)

@@ -30,7 +30,10 @@ using glm::ivec3;      // NOLINT
 using layout::Volume;  // NOLINT
 uvec2 readTexels(int index) { return {texels[2 * size_t(index)], texels[2 * size_t(index) + 1]}; }
 vec2 unpackHalf2x16(uint32_t word) { return glm::unpackHalf2x16(word); }
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
 #include "media/volume.glsl"
+#pragma GCC diagnostic pop
 }  // namespace
 }  // namespace glsl_float
 

@@ -193,9 +193,11 @@ VolumeGrid gridOfAnswer(std::span<const uint8_t> bytes) {
   grid.largest = header.largest;
   grid.table.resize(bricks);
   grid.values.resize(header.stored * kBrickVoxels);
-  std::memcpy(grid.table.data(), bytes.data(), bricks * sizeof(uint32_t));
-  std::memcpy(grid.values.data(), bytes.data() + bricks * sizeof(uint32_t),
-              grid.values.size() * sizeof(uint16_t));
+  const auto fill = [&](auto& values, size_t from) {
+    if (!values.empty()) std::memcpy(values.data(), bytes.data() + from, std::span(values).size_bytes());
+  };
+  fill(grid.table, 0);
+  fill(grid.values, bricks * sizeof(uint32_t));
   constexpr uint16_t kOne = 0x3c00;
   check(std::ranges::all_of(grid.table, [&](uint32_t brick) { return brick <= header.stored; }) &&
         std::ranges::all_of(grid.values, [](uint16_t half) { return half <= kOne; }));
