@@ -18,7 +18,10 @@ bool sameGrid(const VolumeSource& a, const VolumeSource& b) {
 void placeVolume(Scene& scene, const RenderOptions& options, const Volume* before) {
   Volume& volume = scene.volume;
   // Those of the options replace the scene's, its node's place included.
-  if (!options.volume.file.empty()) volume = {.source = options.volume};
+  if (!options.volume.file.empty()) {
+    volume = Volume();
+    volume.source = options.volume;
+  }
   const VolumeSource& source = volume.source;
   if (source.file.empty()) return;
   volume.toWorld = glm::translate(volume.toWorld, source.position.value_or(glm::dvec3(0.0)));
