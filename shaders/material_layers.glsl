@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What extensions add to a Bsdf, read from the rows behind the texture slots (layout.glsl).
+// The parts of a Bsdf that extensions add, read from the rows behind the texture slots (layout.glsl).
 
 /// Direction in which facets are stretched, in tangent and bitangent (x, y), and strength of the anisotropy
 /// (KHR_materials_anisotropy).

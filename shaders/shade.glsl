@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What happens where a ray hits: alpha, absorption, emission, then light samples one by one, then the next ray.
+// The steps where a ray hits: alpha, absorption, emission, then light samples one by one, then the next ray.
 
 /// The base of the material, without its compensation.
 Bsdf baseBsdf(SurfaceMaterial m, bool front) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the programs of this project share around their work.
+// The frame that the programs of this project share around their work.
 #pragma once
 
 #include <functional>

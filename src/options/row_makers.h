@@ -191,7 +191,7 @@ OptionRow numbers(const char* name, std::string help, Member member, int count, 
   return row;
 }
 
-/// Of one scattering. Throws UsageError.
+/// The albedo of one scattering. Throws UsageError.
 glm::vec3 albedoOf(const char* option, const std::vector<double>& values);
 
 }  // namespace fragtrace

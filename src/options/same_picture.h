@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which options a picture depends on.
+// The options that a picture depends on.
 #pragma once
 
 #include <string>

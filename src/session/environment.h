@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What surrounds a scene, by the options: a map that is read, the studio, a default light.
+// The surroundings of a scene, by the options: a map that is read, the studio, a default light.
 #pragma once
 
 #include <future>

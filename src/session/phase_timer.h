@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a render does when, and in which thread.
+// The times of what a render does, and its threads.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much memory a picture takes while it is drawn, filtered and written.
+// The memory that a picture takes while it is drawn, filtered and written.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is told beside results: warnings, choices.
+// Words beside results: warnings, choices.
 #pragma once
 
 #include <functional>

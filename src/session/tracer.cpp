@@ -127,7 +127,7 @@ void warnOfNoEffect(const ShaderVariant& variant, const TraitSet& present, const
   const bool global = has(variant.stages, Stage::Gi);
   if (options.light.caustics == Caustics::On && !has(variant.traits, Trait::Caustics))
     warn("--caustics on: no light paths: " + (global ? stats.lightPathReason : "only stage gi has them"));
-  // Where a scene is lit by default, its lamps are too dim to be missed.
+  // A scene that is lit by default has lamps too dim to be missed.
   if (!stats.defaultLight && lightPathsGiveWay(variant, present, options))
     warn("no light paths for caustics (" + stats.lightPathReason +
          "): paths from the camera find fewer of them, and none of point, spot and directional lights");

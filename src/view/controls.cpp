@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each control of the table changes in the viewer's state.
+// The changes that each control of the table makes in the viewer's state.
 #include "view/view_state.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What files that are dropped on the window stand for.
+// The meaning of files that are dropped on the window.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What can light a scene, as the viewer offers it.
+// The lights of a scene that the viewer offers.
 #pragma once
 
 #include <filesystem>

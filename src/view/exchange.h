@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What passes between the window's thread and the tracing thread: wishes one way, pictures and news the
+// The passage between the window's thread and the tracing thread: wishes one way, pictures and news the
 // other.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the viewer has said: each text once, for some seconds.
+// The messages of the viewer: each text once, for some seconds.
 #pragma once
 
 #include <deque>

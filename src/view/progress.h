@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a side of the viewer is on its way to the goal that its options set, and how long it will take.
+// The progress of a side of the viewer towards the goal that its options set, and how long it will take.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the viewer remembers from one start to the next: files that were shown, and views with a name.
+// The memory of the viewer from one start to the next: files that were shown, and views with a name.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which resolution to draw at: while something moves, one whose frames take no longer than a target, by the
+// The resolution to draw at: while something moves, one whose frames take no longer than a target, by the
 // times measured, but no coarser than a quarter of the width and height; when all is still, finer and finer.
 #pragma once
 

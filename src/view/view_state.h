@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the viewer's user has set, and what each control changes in it.
+// The settings of the viewer's user, and what each control changes in it.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which nodes of the scene the viewer's user has hidden.
+// The nodes of the scene that the viewer's user has hidden.
 #include <algorithm>
 
 #include "view/view_state.h"

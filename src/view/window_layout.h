@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where picture, panel, stages, status bar, figures and news have room in a window, so that none covers
-// another.
+// The places where picture, panel, stages, status bar, figures and news have room in a window, so that none
+// covers another.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a node may place besides a mesh: a camera, a punctual light, a sphere.
+// The things that a node may place besides a mesh: a camera, a punctual light, a sphere.
 #pragma once
 
 #include <optional>

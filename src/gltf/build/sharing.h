@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which meshes the scene holds once, in place of a copy for each time that they stand in it.
+// The meshes that the scene holds once, in place of a copy for each time that they stand in it.
 #pragma once
 
 #include <cstdint>

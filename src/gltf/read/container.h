@@ -21,7 +21,7 @@ struct Container {
 
 /// Reads the file and splits it. Its content decides which container it is, not its name. Throws InputError
 /// if the file is missing, truncated, neither, or larger than the limit in bytes.
-/// Of a regular .glb the lengths of its chunks are checked before more than its beginning is read.
+/// The lengths of the chunks of a regular .glb are checked before more than its beginning is read.
 Container readContainer(const std::filesystem::path& path, uint64_t memoryLimit, Diagnostics& diagnostics,
                         const ReadProgress& progress = {});
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the viewer's tracing thread knows of a place of the picture, and of what was selected there.
+// The tracing thread's knowledge of a place of the picture, and of what was selected there.
 #include <algorithm>
 
 #include "session/picture/picture_file.h"

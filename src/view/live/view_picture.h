@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the viewer shows of a side, made on the device: its film, while the samples are few joined with what
-// its camera saw before, and filtered.
+// The picture that the viewer shows of a side, made on the device: its film, while the samples are few joined
+// with what its camera saw before, and filtered.
 #pragma once
 
 #include <functional>

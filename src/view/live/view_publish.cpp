@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the viewer's tracing thread gives out of a side: pictures for the window, and files.
+// The tracing thread's results of a side: pictures for the window, and files.
 #include <algorithm>
 
 #include "base/summary.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the viewer's tracing thread begins to draw what a side asks for: filter, program, camera, and a quick
+// The beginning of what a side asks the tracing thread for: filter, program, camera, and a quick
 // picture until the program is there.
 #include <algorithm>
 

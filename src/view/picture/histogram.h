@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How often which radiance occurs in a picture.
+// The histogram of the radiance in a picture.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How often which radiance occurs in the active side's picture.
+// The histogram of the radiance in the active side's picture.
 #include <algorithm>
 #include <array>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which of the file's scenes and material variants are shown.
+// The choice among the file's scenes and material variants.
 #include "view/window/panel_parts.h"
 
 namespace fragtrace {

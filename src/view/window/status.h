@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the window is doing, as JSON for those who drive it from outside (docs/viewer.md).
+// The state of the window, as JSON for those who drive it from outside (docs/viewer.md).
 #pragma once
 
 #include <deque>

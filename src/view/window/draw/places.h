@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where things stand in the window, for scripts that click on them (docs/viewer.md).
+// The places of things in the window, for scripts that click on them (docs/viewer.md).
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the window's controls look.
+// The look of the window's controls.
 #pragma once
 
 #include <imgui.h>
