@@ -89,7 +89,10 @@ Walk walkVolume(Volume v, vec3 origin, vec3 direction, float from, float to, boo
   vec2 inside = throughBox(size, o, inverse);
   float t = max(from, inside.x);
   float exit = min(to, inside.y);
-  Walk walk = Walk(kFarAway, 1.0f, 0);
+  Walk walk;
+  walk.end = kFarAway;
+  walk.transmittance = 1.0f;
+  walk.steps = 0;
   vec3 corner = clamp(floor(o + t * d), vec3(0.0f), size - 1.0f);
   ivec3 brick = ivec3(int(corner.x), int(corner.y), int(corner.z));
   ivec3 ahead = ivec3(d.x < 0.0f ? -1 : 1, d.y < 0.0f ? -1 : 1, d.z < 0.0f ? -1 : 1);

@@ -64,11 +64,13 @@ float storedAt(const VolumeGrid& grid, ivec3 voxel) {
     if (place[axis] < 0 || place[axis] >= kBrickSide * grid.bricks[axis]) return 0.0f;
   }
   const ivec3 brick = place / kBrickSide;
-  const uint32_t number = grid.table[size_t((brick.z * grid.bricks.y + brick.y) * grid.bricks.x + brick.x)];
+  const uint32_t number =
+      grid.table[(size_t(brick.z) * size_t(grid.bricks.y) + size_t(brick.y)) * size_t(grid.bricks.x) +
+                 size_t(brick.x)];
   const ivec3 inside = place % kBrickSide;
   if (number == 0) return 0.0f;
-  return glm::unpackHalf1x16(
-      grid.values[(number - 1) * kBrickVoxels + size_t((inside.z * 8 + inside.y) * 8 + inside.x)]);
+  return glm::unpackHalf1x16(grid.values[(number - 1) * kBrickVoxels +
+                                         (size_t(inside.z) * 8 + size_t(inside.y)) * 8 + size_t(inside.x)]);
 }
 
 /// Trilinear, as a part of the largest; voxel i lies at kSide * i.

@@ -33,7 +33,8 @@ float fading(float distance, float width) { return glm::clamp(0.5f - distance / 
 
 float noise(vec3 p) {
   float sum = 0.0f;
-  for (float size = 1.0f; size > 0.1f; size *= 0.5f, p *= 2.0f) sum += size * glm::perlin(p);
+  float size = 1.0f;
+  for (int octave = 0; octave < 4; ++octave, size *= 0.5f, p *= 2.0f) sum += size * glm::perlin(p);
   return sum;
 }
 
@@ -96,7 +97,7 @@ nanovdb::GridHandle<> gridOf(const std::string& kind, const char* name, int side
 
 }  // namespace
 
-int main(int count, char** arguments) {
+int main(int count, char** arguments) {  // NOLINT(bugprone-exception-escape): a tool of the tests
   if (count < 4) {
     std::fputs("make_grid SHAPE SIDE FILE.nvdb [none|zip] [float|fp8]\n", stderr);
     return 2;

@@ -33,10 +33,13 @@ double planck(double wavelength, double temperature) {
 glm::dvec3 blackBodyRadiance(double temperature) {
   if (!(temperature > 0.0)) return glm::dvec3(0.0);
   constexpr double kLumens = 683.002;  // a watt at 555 nm
-  constexpr double kStep = 1.0;        // nm
+  constexpr int kFirst = 380;          // nm
+  constexpr int kLast = 780;
   glm::dvec3 xyz(0.0);
-  for (double w = 380.5; w < 780.0; w += kStep)
-    xyz += observer(w) * planck(w * 1e-9, temperature) * (kStep * 1e-9 * kLumens);
+  for (int nm = kFirst; nm < kLast; ++nm) {
+    const double w = nm + 0.5;
+    xyz += observer(w) * planck(w * 1e-9, temperature) * (1e-9 * kLumens);
+  }
   const glm::dmat3 toSrgb(3.2404542, -0.9692660, 0.0556434, -1.5371385, 1.8760108, -0.2040259, -0.4985314,
                           0.0415560, 1.0572252);
   return glm::max(toSrgb * xyz, glm::dvec3(0.0));

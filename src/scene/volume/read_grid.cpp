@@ -110,7 +110,8 @@ float valueAt(const VolumeGrid& grid, glm::ivec3 voxel) {
                  size_t(brick.x)];
   if (stored == 0) return 0.0f;
   const glm::ivec3 inside = place & 7;
-  const auto voxelInside = size_t((inside.z * kBrickSide + inside.y) * kBrickSide + inside.x);
+  const size_t voxelInside =
+      (size_t(inside.z) * kBrickSide + size_t(inside.y)) * kBrickSide + size_t(inside.x);
   return glm::unpackHalf1x16(grid.values[(stored - 1) * kBrickVoxels + voxelInside]);
 }
 
