@@ -7,10 +7,12 @@ import random
 import statistics
 import subprocess
 import unittest
+from pathlib import Path
 
-from support import FRAGTRACE, Case, main, run
+from support import FRAGTRACE, SCENES, Case, main, run
 
-MAKE_GRID = FRAGTRACE.parent / "make_grid"
+# Beside the program, or in the build folder where a copy of it is tried.
+MAKE_GRID = next((path for path in (FRAGTRACE.parent / "make_grid", SCENES.parent / "build/make_grid") if path.exists()), Path("/nowhere"))
 WHITE = ["--default-light", "white", "--background-color", "1,1,1", "--bounces", "unlimited"]
 
 
