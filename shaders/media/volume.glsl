@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Grids of densities in bricks of 8 x 8 x 8 voxels. A ray passes from brick to brick, each of which knows the largest
-// pdf within it (its majorant). Flights meet the medium as often as if it were as dense as that; a meeting is real
-// with the pdf's share of the majorant (delta tracking: Woodcock et al., 1965; ratio tracking of transmittance:
-// Novak, Selle and Jarosz, Residual Ratio Tracking, 2014). Between voxels the pdf is interpolated by drawing one
+// density within it (its majorant). Flights meet the medium as often as if it were as dense as that; a meeting is real
+// with the density's share of the majorant (delta tracking: Woodcock et al., 1965; ratio tracking of transmittance:
+// Novak, Selle and Jarosz, Residual Ratio Tracking, 2014). Between voxels the density is interpolated by drawing one
 // of the eight, which both estimates keep unbiased (Hofmann and Evans, Efficient Unbiased Volume Path Tracing, 2021).
 
 struct Walk {

@@ -18,7 +18,7 @@ using glm::dvec3;
 using glm::ivec3;
 using glm::vec3;
 
-/// That the shader reads.
+/// The shader reads these.
 Words texels;
 
 }  // namespace
@@ -186,13 +186,13 @@ TEST(ShaderVolume, MajorantsBoundTheDensities) {
     const dvec3 voxel(draw.between(-18, 18), draw.between(-10, 18), draw.between(6, 34));
     const vec3 place = glsl_float::inBricks(volume, vec3(voxel * kSide), 1.0f);
     const ivec3 brick(glm::floor(place));
-    const double pdf = densityAt(grid, voxel * kSide);
+    const double density = densityAt(grid, voxel * kSide);
     if (!glsl_float::isInTable(volume, brick)) {
-      EXPECT_LT(pdf, 1e-5) << voxel.x << ' ' << voxel.y << ' ' << voxel.z;
+      EXPECT_LT(density, 1e-5) << voxel.x << ' ' << voxel.y << ' ' << voxel.z;
       continue;
     }
     const float majorant = glm::uintBitsToFloat(glsl_float::brickEntry(volume, brick).y);
-    EXPECT_LE(pdf, double(majorant) + 1e-5) << voxel.x << ' ' << voxel.y << ' ' << voxel.z;
+    EXPECT_LE(density, double(majorant) + 1e-5) << voxel.x << ' ' << voxel.y << ' ' << voxel.z;
   }
 }
 

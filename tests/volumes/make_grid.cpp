@@ -26,7 +26,7 @@ namespace {
 
 using glm::vec3;
 
-/// Of a place in the cube.
+/// A shape has a density at each place in the cube.
 using Shape = std::function<float(const vec3&)>;
 
 float fading(float distance, float width) { return glm::clamp(0.5f - distance / width, 0.0f, 1.0f); }
