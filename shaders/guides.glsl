@@ -80,9 +80,8 @@ Path guideInFog(Path p) {
 float gridBefore(Path p) {
   if (!p.cameraRay) return kFarAway;
   uint seed = hashBits(p.sampler, flightNumber(p));
-  float first = unitFloat(mixBits(seed));
-  bool ends = walkVolume(volume, p.origin, p.direction, 0.0, p.hitT, false, first, seed).end < kFarAway;
-  return ends ? max(throughTable(volume, p.origin, p.direction).x, 0.0) : kFarAway;
+  Walk walk = walkVolume(volume, p.origin, p.direction, 0.0, p.hitT, false, seed);
+  return walk.end < kFarAway ? max(walk.entry, 0.0) : kFarAway;
 }
 
 /// The path has ended: its last surface takes the rest.

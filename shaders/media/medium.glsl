@@ -64,8 +64,7 @@ Path limitFlight(Path p, float from) {
   p.traversal.t = flightEnd(p, from, flightRandom(p));
   if (kDensityGrid && p.medium == kPrimitiveNone) {
     uint seed = hashBits(p.sampler, flightNumber(p));
-    float first = unitFloat(mixBits(seed));
-    Walk walk = walkVolume(volume, p.origin, p.direction, from, p.traversal.t, false, first, seed);
+    Walk walk = walkVolume(volume, p.origin, p.direction, from, p.traversal.t, false, seed);
     p.traversal.t = min(p.traversal.t, walk.end);
     p.traversal.steps += walk.steps;
   }
@@ -105,8 +104,7 @@ Path dimShadow(Path p, uint medium, float to) {
   if (kFog && outside) p.contribution *= exp(-fogDepth(fog, p.shadowOrigin, p.shadowDirection, from, to));
   if (kDensityGrid && outside) {
     uint seed = hashBits(p.sampler, flightNumber(p) + kShadowFlights) ^ floatBitsToUint(from);
-    float first = unitFloat(mixBits(seed));
-    Walk walk = walkVolume(volume, p.shadowOrigin, p.shadowDirection, from, to, true, first, seed);
+    Walk walk = walkVolume(volume, p.shadowOrigin, p.shadowDirection, from, to, true, seed);
     p.contribution *= walk.transmittance;
     p.traversal.steps += walk.steps;
   }

@@ -6,6 +6,7 @@
 // of the eight, which both estimates keep unbiased (Hofmann and Evans, Efficient Unbiased Volume Path Tracing, 2021).
 
 struct Walk {
+  float entry;          // the distance at which the ray enters the box of all bricks
   float end;            // the distance of the flight's end; kFarAway where it meets nothing
   float transmittance;  // an estimate of it, of walks that go through
   int steps;            // loop iterations
@@ -72,16 +73,9 @@ vec2 throughBox(vec3 size, vec3 origin, vec3 inverse) {
 
 float inverseOf(float d) { return abs(d) < float(1e-18) ? float(1e18) : 1.0f / d; }
 
-/// The same of a ray of local space through all bricks.
-vec2 throughTable(Volume v, vec3 origin, vec3 direction) {
-  vec3 d = inBricks(v, direction, 0.0f);
-  vec3 size = vec3(float(v.table.x), float(v.table.y), float(v.table.z));
-  return throughBox(size, inBricks(v, origin, 1.0f), vec3(inverseOf(d.x), inverseOf(d.y), inverseOf(d.z)));
-}
-
-/// Walks along a ray between two distances: to the end of the flight that `first`, a uniform number, draws, or all the
-/// way (`through`), for the transmittance.
-Walk walkVolume(Volume v, vec3 origin, vec3 direction, float from, float to, bool through, float first, uint seed) {
+/// Walks along a ray between two distances: to the end of the flight that `seed` draws, or all the way (`through`), for
+/// the transmittance.
+Walk walkVolume(Volume v, vec3 origin, vec3 direction, float from, float to, bool through, uint seed) {
   vec3 o = inBricks(v, origin, 1.0f);
   vec3 d = inBricks(v, direction, 0.0f);
   vec3 inverse = vec3(inverseOf(d.x), inverseOf(d.y), inverseOf(d.z));
@@ -90,6 +84,7 @@ Walk walkVolume(Volume v, vec3 origin, vec3 direction, float from, float to, boo
   float t = max(from, inside.x);
   float exit = min(to, inside.y);
   Walk walk;
+  walk.entry = inside.x;
   walk.end = kFarAway;
   walk.transmittance = 1.0f;
   walk.steps = 0;
@@ -99,7 +94,7 @@ Walk walkVolume(Volume v, vec3 origin, vec3 direction, float from, float to, boo
   vec3 far = corner + vec3(d.x < 0.0f ? 0.0f : 1.0f, d.y < 0.0f ? 0.0f : 1.0f, d.z < 0.0f ? 0.0f : 1.0f);
   vec3 next = (far - o) * inverse;  // distances of the brick's sides ahead
   uint state = seed;
-  float depth = -log(1.0f - first);
+  float depth = -log(1.0f - unitFloat(mixBits(state)));
   while (t < exit && walk.steps < kMostVolumeSteps) {
     walk.steps += 1;
     float majorant = uintBitsToFloat(brickEntry(v, brick).y);

@@ -49,12 +49,6 @@ PackedGrid appendGrid(const VolumeGrid& grid, Words& texels) {
   const size_t stored = grid.values.size() / kBrickVoxels;
   std::vector<Largest> largest(stored);
   for (size_t i = 0; i < stored; ++i) largest[i] = largestOf(&grid.values[i * kBrickVoxels]);
-  const auto numberAt = [&](glm::ivec3 brick) -> uint32_t {
-    if (glm::any(glm::lessThan(brick, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(brick, grid.bricks)))
-      return 0;
-    return grid.table[(size_t(brick.z) * size_t(grid.bricks.y) + size_t(brick.y)) * size_t(grid.bricks.x) +
-                      size_t(brick.x)];
-  };
   const auto tableTexels = uint32_t(packed.bricks.x) * uint32_t(packed.bricks.y) * uint32_t(packed.bricks.z);
   const auto perBrick = uint32_t(layout::kBrickTexels + (grid.radiance.empty() ? 0 : int(kBrickVoxels)));
   texels.reserve(texels.size() + 2 * (size_t(tableTexels) + stored * perBrick));
@@ -65,10 +59,10 @@ PackedGrid appendGrid(const VolumeGrid& grid, Words& texels) {
         // Values between voxels reach to the lower sides of the next bricks.
         uint16_t most = 0;
         for (uint32_t s = 0; s < 8; ++s) {
-          const uint32_t number = numberAt(glm::ivec3(x, y, z) + glm::ivec3(s & 1, (s >> 1) & 1, s >> 2));
+          const uint32_t number = grid.entryOf(glm::ivec3(x, y, z) + glm::ivec3(s & 1, (s >> 1) & 1, s >> 2));
           if (number > 0) most = std::max(most, largest[number - 1][s]);
         }
-        const uint32_t number = numberAt({x, y, z});
+        const uint32_t number = grid.entryOf({x, y, z});
         texels.push_back(number == 0 ? 0 : tableTexels + (number - 1) * perBrick);
         texels.push_back(floatWord(glm::unpackHalf1x16(most)));
       }

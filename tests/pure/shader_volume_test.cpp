@@ -137,8 +137,8 @@ TEST(ShaderVolume, WalksThroughHaveTheTransmittanceOfTheIntegral) {
     double squares = 0.0;
     for (uint32_t k = 0; k < kWalks; ++k) {
       const uint32_t seed = glsl_float::mixBits(k + 77u * uint32_t(i));
-      const auto walk = glsl_float::walkVolume(volume, vec3(ray.origin), vec3(ray.direction), 0.0f, float(to),
-                                               true, draw.unit(), seed);
+      const auto walk =
+          glsl_float::walkVolume(volume, vec3(ray.origin), vec3(ray.direction), 0.0f, float(to), true, seed);
       sum += double(walk.transmittance);
       squares += double(walk.transmittance) * double(walk.transmittance);
       ASSERT_LT(walk.steps, layout::kMostVolumeSteps);
@@ -168,9 +168,8 @@ TEST(ShaderVolume, FlightsEndAsDenselyAsTheIntegralSays) {
       passed = next;
     }
     for (uint32_t k = 0; k < kWalks; ++k) {
-      const auto walk =
-          glsl_float::walkVolume(volume, vec3(ray.origin), vec3(ray.direction), 0.0f, float(to), false,
-                                 draw.unit(), glsl_float::mixBits(k + 1000003u * uint32_t(i)));
+      const auto walk = glsl_float::walkVolume(volume, vec3(ray.origin), vec3(ray.direction), 0.0f, float(to),
+                                               false, glsl_float::mixBits(k + 1000003u * uint32_t(i)));
       const bool ends = walk.end < glsl_float::kFarAway;
       counted[ends ? std::min(kBins - 1, size_t(double(walk.end) / to * kBins)) : kBins] += 1.0;
     }

@@ -30,8 +30,13 @@ struct VolumeGrid {
   glm::dmat4 toWorld{1.0};  ///< from indices of voxels to the file's own space
 
   bool empty() const { return values.empty(); }
-  size_t bytes() const {
-    return table.size() * sizeof(uint32_t) + (values.size() + radiance.size()) * sizeof(uint16_t);
+
+  /// The table's entry of a brick, counted along X, Y, Z; 0 outside of all bricks.
+  uint32_t entryOf(const glm::ivec3& brick) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (brick[axis] < 0 || brick[axis] >= bricks[axis]) return 0;
+    }
+    return table[(size_t(brick.z) * size_t(bricks.y) + size_t(brick.y)) * size_t(bricks.x) + size_t(brick.x)];
   }
 };
 

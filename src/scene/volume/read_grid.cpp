@@ -102,12 +102,7 @@ const GridDescription& choose(const std::vector<GridDescription>& grids,
 /// The value of a voxel, as a part of the largest.
 float valueAt(const VolumeGrid& grid, glm::ivec3 voxel) {
   const glm::ivec3 place = voxel - grid.minimum;
-  const glm::ivec3 brick = place >> 3;
-  if (glm::any(glm::lessThan(brick, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(brick, grid.bricks)))
-    return 0.0f;
-  const uint32_t stored =
-      grid.table[(size_t(brick.z) * size_t(grid.bricks.y) + size_t(brick.y)) * size_t(grid.bricks.x) +
-                 size_t(brick.x)];
+  const uint32_t stored = grid.entryOf(place >> 3);
   if (stored == 0) return 0.0f;
   const glm::ivec3 inside = place & 7;
   const size_t voxelInside =
