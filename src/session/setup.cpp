@@ -306,7 +306,8 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   loading.progress = progress;
   loaded.scene = loadGltf(options.scene, loading, before.document);
   stats.phases.push_back(sceneTimer.end());
-  step("reading the volume", 0.3);
+  if (!options.volume.file.empty() || !loaded.scene.volume.source.file.empty())
+    step("reading the volume", 0.48);
   placeVolume(loaded.scene, options, before.volume);
   if (options.device.instancing == Instancing::Share && !walksTree(options))
     loaded.scene.warnings.emplace_back("--instancing share: only trees hold shared meshes; all are copied");
