@@ -222,6 +222,15 @@ void sayDefaultLight(const RenderOptions& options, OwnLight light, Statistics& s
                   : ": a white environment that the camera does not see lights it (--default-light)"));
 }
 
+/// Says what lights the scene, where that is worth a word.
+void sayLight(const RenderOptions& options, OwnLight light, const Scene& scene, Statistics& stats) {
+  stats.defaultLight = light != OwnLight::Enough;
+  if (stats.defaultLight)
+    sayDefaultLight(options, light, stats);
+  else if (!hasMap(options) && shinesByTexturesAlone(scene))
+    say(options, "emissive textures are the scene's only light (--studio adds one)");
+}
+
 /// Says the warnings of the scene, with those about options in vain.
 void sayWarnings(const RenderOptions& options, Scene& scene) {
   std::ranges::move(vainOptions(options), std::back_inserter(scene.warnings));
@@ -244,6 +253,23 @@ Bvh refitOrBuild(const RefittableTree* earlier, const Scene& scene, const Render
   stats.phases.push_back(timer.end());
   stats.bvh = bvhQuality(bvh);
   return bvh;
+}
+
+/// The file's scene with its volume.
+Scene readScene(const RenderOptions& options, const LoadProgress& progress, const SceneBefore& before,
+                Statistics& stats) {
+  PhaseTimer timer("scene");
+  GltfOptions loading = gltfOptionsOf(options);
+  loading.progress = progress;
+  Scene scene = loadGltf(options.scene, loading, before.document);
+  stats.phases.push_back(timer.end());
+  const bool readsVolume = !options.volume.file.empty() || !scene.volume.source.file.empty();
+  if (readsVolume && progress) progress("reading the volume", 0.48);
+  placeVolume(scene, options, before.volume);
+  if (options.device.instancing == Instancing::Share && !walksTree(options))
+    scene.warnings.emplace_back("--instancing share: only trees hold shared meshes; all are copied");
+  if (!scene.images.empty()) startImageProcess();
+  return scene;
 }
 
 }  // namespace
@@ -301,17 +327,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
       return image;
     });
   }
-  PhaseTimer sceneTimer("scene");
-  GltfOptions loading = gltfOptionsOf(options);
-  loading.progress = progress;
-  loaded.scene = loadGltf(options.scene, loading, before.document);
-  stats.phases.push_back(sceneTimer.end());
-  if (!options.volume.file.empty() || !loaded.scene.volume.source.file.empty())
-    step("reading the volume", 0.48);
-  placeVolume(loaded.scene, options, before.volume);
-  if (options.device.instancing == Instancing::Share && !walksTree(options))
-    loaded.scene.warnings.emplace_back("--instancing share: only trees hold shared meshes; all are copied");
-  if (!loaded.scene.images.empty()) startImageProcess();
+  loaded.scene = readScene(options, progress, before, stats);
   const Scene& scene = loaded.scene;
   checkOutputs(outputsOf(options), inputsOf(scene));
   const OwnLight light = lightOf(options, scene);
@@ -344,11 +360,7 @@ LoadedScene loadScene(const RenderOptions& options, Statistics& stats, const Loa
   stats.size = loaded.region.size;
   stats.region = options.camera.region;
   stats.loadMs += watch.lap();
-  stats.defaultLight = light != OwnLight::Enough;
-  if (stats.defaultLight)
-    sayDefaultLight(options, light, stats);
-  else if (!hasMap(options) && shinesByTexturesAlone(scene))
-    say(options, "emissive textures are the scene's only light (--studio adds one)");
+  sayLight(options, light, scene, stats);
   return loaded;
 }
 
