@@ -22,16 +22,19 @@ def lanes(groups):
     }
 
 
+KEPT_FILM = {"trace.glsl": [("if (kGpu) film = loadFilm(pixel);", ""), ("if (kGpu) storeFilm(pixel, film);", "")]}
+
 # By name: for each file, texts and what takes their place, everywhere.
 EDITS = {
     "copied-frame": {"tune/frame_uniform.glsl": "tune/frame_variable.glsl"},
-    "kept-film": {"trace.glsl": [("if (kGpu) film = loadFilm(pixel);", ""), ("if (kGpu) storeFilm(pixel, film);", "")]},
+    "kept-film": KEPT_FILM,
     "two-traversals": {"trace.glsl": [("!kGpu && kShadows", "kShadows"), ("kGpu && kShadows &&", "false &&"), ("kGpu && kWholeRays && dark", "false"),
                                       ("kGpu && dark", "false")]},
     "array-stack": {"tune/stack_shared.glsl": [("shared int stackEntries[kStackSize * kGroupLanes];", "int stackEntries[kStackSize];"),
                                                ("return entry * kGroupLanes + int(gl_LocalInvocationIndex);", "return entry;")]},
     "128-lanes": lanes(2),
     "256-lanes": lanes(4),
+    "film-and-128-lanes": KEPT_FILM | lanes(2),
 }
 
 

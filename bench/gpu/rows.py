@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 WHOLE_SECONDS = 540
 CORRECTNESS_SECONDS = 150  # of all reference pictures together
 PICTURE_SECONDS = 30  # of one picture
+COMPILE_SECONDS = 60  # of one program, beside others
 
 FRAGMENT = ["--dispatch", "fragment"]
 COMPUTE = ["--dispatch", "compute", "--schedule", "megakernel"]
@@ -51,6 +52,7 @@ class Frame:
     wants: set  # words of the variant that is to draw
     aim: str = ""
     samples: int = 1  # of a picture whose time is told
+    size: str = "500,500"
     seconds: float = 40
     needs: list = field(default_factory=list)  # files that the bundle may lack
 
@@ -69,6 +71,15 @@ def ball(title, options, wants):
     return Frame("ball", f"room with the ball, {title}", "scenes/room-ball.gltf", options, wants)
 
 
+def large(title, options, wants):
+    """Sixteen times as many pixels: a lane of the wavefront has 32."""
+    return Frame("large", f"room with the ball, 2000 x 2000, {title}", "scenes/room-ball.gltf", options, wants, size="2000,2000")
+
+
+def medium(scene, title, options, wants):
+    return Frame("media", f"{scene}, {title}", f"scenes/{scene}.gltf", options, wants)
+
+
 def helmet(title, options, wants):
     return Frame("helmet", f"FlightHelmet under lightroom_14b, {title}", HELMET[0], ["--camera-orbit", "0,0", "--hdri-file", HELMET[1], *options], wants, needs=HELMET)
 
@@ -80,7 +91,7 @@ FRAMES = (
     box("box", "compute, tree", [*COMPUTE, *TREE], {"compute", "front-to-back"}),
     box("box", "wavefront", WAVEFRONT, {"wavefront"}),
     *(box("reads", f"compute, tree, {reads} reads", [*COMPUTE, *TREE, "--buffer-reads", reads], {"compute", f"{reads}-reads"})
-      for reads in ("ssbo", "texel", "image")),
+      for reads in ("ssbo", "texel")),
     *(box("draws", f"compute, literals, at most {count} samples a draw", [*COMPUTE, *LITERALS, "--samples-per-draw", str(count)],
           {"compute", "literals"}) for count in (1, 8, 32)),
     mesh("fragment", FRAGMENT, {"fragment"}),
@@ -88,15 +99,21 @@ FRAMES = (
     ball("fragment", FRAGMENT, {"fragment"}),
     ball("compute", COMPUTE, {"compute"}),
     ball("wavefront", WAVEFRONT, {"wavefront"}),
+    ball("compute, all triangles in the tree", [*COMPUTE, *TREE], {"compute", "front-to-back"}),
+    ball("compute, not watertight", [*COMPUTE, "--disable", "watertight"], {"compute"}),
+    large("compute", COMPUTE, {"compute"}),
+    large("wavefront", WAVEFRONT, {"wavefront"}),
     helmet("fragment", FRAGMENT, {"fragment"}),
     helmet("compute", COMPUTE, {"compute"}),
     helmet("wavefront", WAVEFRONT, {"wavefront"}),
+    *(medium(scene, title, options, wants) for scene in ("milk", "cloud", "smoke")
+      for title, options, wants in (("compute", COMPUTE, {"compute"}), ("wavefront", WAVEFRONT, {"wavefront"}))),
     *(row(f"{entry}, text for software", [*options, "--tune", "software"], wants) for row in (mesh, ball, helmet)
       for entry, options, wants in (("fragment", FRAGMENT, {"fragment"}), ("compute", COMPUTE, {"compute"}))),
     # By the folders of edits.py, beside "FlightHelmet ..., compute" and "room with the ball, compute".
-    *(row(f"compute, {title}", [*COMPUTE, *GPU_TEXT, "--shader-folder", f"edited/{name}"], {"compute", "gpu"}) for row in (ball, helmet)
+    *(row(f"compute, {title}", [*COMPUTE, *GPU_TEXT, "--shader-folder", f"edited/{name}"], {"compute", "gpu"}) for row in (mesh, ball, helmet)
       for name, title in (("copied-frame", "uniforms copied"), ("kept-film", "film in registers"), ("two-traversals", "a traversal for each kind of ray"),
-                          ("array-stack", "stack in an array"), ("128-lanes", "groups of 128 lanes"), ("256-lanes", "groups of 256 lanes"))),
+                          ("array-stack", "stack in an array"), ("128-lanes", "groups of 128 lanes"), ("256-lanes", "groups of 256 lanes"), ("film-and-128-lanes", "film in registers, groups of 128 lanes"))),
 )
 
 SCALE = ["--from", "10000000", "--to", "10000000", "--traversals", "front-to-back,bvh"]
@@ -118,10 +135,18 @@ PACE = ["--resolution", "1280,720", "--interval", "16.667", "--target", "16.667"
 PACE_SECONDS = 20
 PACE_AIM = "60 pictures/s, none after more than 50 ms"
 
+# From the start of the program to a written picture, with an empty cache of the driver's and with a full one: the name, and arguments of `bench start`.
+START = ["--starts", "2", "--spp", "1"]
+STARTS = (
+    ("room with the ball", ["scenes/room-ball.gltf"], []),
+    ("FlightHelmet under lightroom_14b", [HELMET[0], "--hdri-file", HELMET[1]], HELMET),
+)
+START_SECONDS = 40
+
 # To be looked at: the file, and arguments of `render`.
 PICTURES = (
     ("cornell-box.png", ["scenes/cornell-box.gltf", *SIZE, "--spp", "128"], []),
     ("room-ball.png", ["scenes/room-ball.gltf", *SIZE, "--spp", "64"], []),
     ("helmet.png", [HELMET[0], *SIZE, "--spp", "64", "--hdri-file", HELMET[1]], HELMET),
 )
-PARTS = ("correctness", "report", *dict.fromkeys(frame.part for frame in FRAMES), "scale", "rays", "motion", "pace", "pictures")
+PARTS = ("correctness", "report", *dict.fromkeys(frame.part for frame in FRAMES), "scale", "rays", "motion", "pace", "start", "pictures")

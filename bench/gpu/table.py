@@ -48,11 +48,11 @@ def aim_text(aim):
     return f"aim {aim}" if aim else ""
 
 
-def frame_cells(frame, line):
-    """Of a row of rows.FRAMES."""
+def frame_cells(frame, line, compiled_before):
+    """Of a row of rows.FRAMES; the driver may have compiled its program before, in so many milliseconds."""
     ms = line["frame_ms"]["median"] * frame.samples
     each = f"ms a picture of {frame.samples} samples" if frame.samples > 1 else "ms per frame"
-    notes = [verdict(line["picture"]), f"compiled in {line['compile_ms'] / 1000:.1f} s"]
+    notes = [verdict(line["picture"]), f"compiled in {max(line['compile_ms'], compiled_before) / 1000:.1f} s"]
     lacking = frame.wants - set(line["variant"].split("+"))
     if lacking:
         notes.append(f"NOT drawn as asked: without {', '.join(sorted(lacking))}")
@@ -89,6 +89,15 @@ def motion_rows(name, lines):
                         f"host {row['trace_cpu_ms'] / pictures:.2f} ms, {row['moved_bytes'] / pictures / 1000:.1f} kB a picture")
             beside = "aim 3 ms, 4 kB" if row["mode"] == "filtered" else "aim 1.5 ms, 4 kB" if row["mode"] == "raw" else ""
             yield f"{name}, {row['mode']}", measured, beside, f"FLIP {row['flip']:.4f}, relative MSE {row['relmse']:.4g}"
+
+
+def start_rows(name, lines):
+    """The milliseconds of each start of `bench start`."""
+    for line in lines:
+        phases = {phase["phase"]: [end - begin for begin, end in zip(phase["begin_ms"], phase["end_ms"])] for phase in line["phases"]}
+        cells = [f"{title} {', '.join(f'{ms:.0f}' for ms in values)} ms"
+                 for title, values in (("written after", line["written_ms"]), *((key, phases[key]) for key in ("context", "program", "first draw") if key in phases))]
+        yield name, "; ".join(cells), "", "each start"
 
 
 def pace_rows(name, lines):
