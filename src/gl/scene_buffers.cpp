@@ -36,6 +36,11 @@ std::string whatIsTooLarge(const GpuScene& scene, BufferReads reads, const ReadL
   return {};
 }
 
+void checkSize(const GpuScene& scene, BufferReads reads, const ReadLimits& limits) {
+  const std::string tooLarge = whatIsTooLarge(scene, reads, limits);
+  if (!tooLarge.empty()) throw RenderError(tooLarge + " (--buffer-reads)");
+}
+
 }  // namespace
 
 ReadLimits readLimits() {
@@ -52,7 +57,11 @@ int64_t mostTexelBytes(BufferReads wanted, const ReadLimits& limits) {
 }
 
 ReadChoice chooseReads(BufferReads wanted, bool software, const GpuScene& scene, const ReadLimits& limits) {
-  if (wanted != BufferReads::Auto) return {wanted, {}};
+  if (wanted != BufferReads::Auto) {
+    // A program that reads more than the driver has room for does not compile.
+    checkSize(scene, wanted, limits);
+    return {wanted, {}};
+  }
   const BufferReads first = software ? BufferReads::Image : BufferReads::Ssbo;
   const BufferReads other = software ? BufferReads::Ssbo : BufferReads::Texel;
   const std::string reason = whatIsTooLarge(scene, first, limits);
@@ -63,8 +72,7 @@ ReadChoice chooseReads(BufferReads wanted, bool software, const GpuScene& scene,
 SceneBuffers::SceneBuffers(GpuScene& scene, BufferReads reads) : reads_(reads) { replace(scene); }
 
 void SceneBuffers::replace(GpuScene& scene) {
-  const std::string tooLarge = whatIsTooLarge(scene, reads_, readLimits());
-  if (!tooLarge.empty()) throw RenderError(tooLarge + " (--buffer-reads)");
+  checkSize(scene, reads_, readLimits());
   for (uint32_t binding = 0; binding < layout::kSceneBufferCount; ++binding) {
     static constexpr std::array<uint32_t, 4> kNothing{};
     if (scene.unchanged[binding]) continue;

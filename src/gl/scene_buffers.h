@@ -47,8 +47,9 @@ struct ReadChoice {
   std::string fallback;  ///< why it is not the read that is fastest on this driver; empty when it is
 };
 
-/// Returns the read asked for. For Auto it is the fastest on this driver (image buffers on software, storage
-/// buffers on GPUs), or the other one if only that reads arrays of this size.
+/// Returns the read asked for; throws RenderError where the driver cannot read the scene so. For Auto it is
+/// the fastest on this driver (image buffers on software, storage buffers on GPUs), or the other one if only
+/// that reads arrays of this size.
 ReadChoice chooseReads(BufferReads wanted, bool software, const GpuScene& scene, const ReadLimits& limits);
 
 }  // namespace fragtrace

@@ -18,10 +18,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double milliseconds(Clock::time_point from, Clock::time_point to) {
-  return std::chrono::duration<double, std::milli>(to - from).count();
-}
-
 /// llvmpipe ends all loops of an invocation after 65,535 iterations in total. It runs 8 pixels in lockstep,
 /// and each iteration that one of them counts may cause up to two more that none counts: 65,535 / 24.
 constexpr int kSoftwareStepBudget = 2700;
@@ -203,8 +199,9 @@ void Renderer::useProgram(const ShaderVariant& variant) {
 void Renderer::bindPathStates(const ShaderVariant& variant) {
   const bool part = isLightAov(variant.aov) || variant.lightPaths;
   const int rows = int(layout::kPathRows) + 1 + variant.stackSize / 4 + (part ? 1 : 0);
-  const int64_t count =
-      variant.wavefront ? int64_t(kMaxWaveLanes) * layout::kWaveLaneRows : int64_t(kMaxTilePixels) * rows;
+  const glm::ivec2 wave = software_ ? kWaveTile : kGpuWaveTile;
+  const int64_t lanes = int64_t(wave.x) * wave.y / layout::kWaveSlots;
+  const int64_t count = variant.wavefront ? lanes * layout::kWaveLaneRows : int64_t(kMaxTilePixels) * rows;
   if (count > pathStateRows_) {
     pathStates_ = makeBuffer();
     glNamedBufferStorage(pathStates_.name(), GLsizeiptr(count) * 16, nullptr, 0);
@@ -271,7 +268,7 @@ layout::Progress Renderer::land(Flight& flight) {
   movedBytes() += sizeof progress;
   finishFence(std::exchange(flight.done, nullptr));
   if (software_) {
-    drawnMs_ += milliseconds(flight.start, Clock::now());
+    drawnMs_ += millisecondsBetween(flight.start, Clock::now());
   } else {
     GLuint64 nanoseconds = 0;
     glGetQueryObjectui64v(flight.timer.name(), GL_QUERY_RESULT, &nanoseconds);
@@ -294,12 +291,16 @@ bool Renderer::finishTile(const RenderPass& pass, Flight flight, const std::func
     pass.film.addCut((progress.cutHigh * 0x1p32 + progress.cutLow) / layout::kCutUnits);
     if (!goOn()) return false;
     if (progress.unfinished == 0) return true;
-    if (variant.wavefront) adaptBudget(milliseconds(flight.start, Clock::now()));
+    if (variant.wavefront) adaptBudget(millisecondsBetween(flight.start, Clock::now()));
     if (progress.stuck > 0 && !variant.resumable) {
       variant.resumable = true;
       variant.wavefront = false;
       variant.waveUnit = -1;
       useProgram(variant);
+      // The states of suspended paths have less room than a GPU's tile.
+      return std::ranges::all_of(tilesOf(flight.tile, glm::ivec2(kMaxTileSide)), [&](const Work& part) {
+        return finishTile(pass, submit(variant, part, true), goOn);
+      });
     }
     overBudget_ = true;
     flight = submit(variant, flight.tile, true);
@@ -336,65 +337,7 @@ double Renderer::compile(const ShaderVariant& variant, Film& film, const View& v
   drawPass({pace_->drawn, film, view, {tiny}}, toTheEnd);
   compileLightPaths(film, view);
   film.clear();
-  return milliseconds(start, Clock::now());
-}
-
-void Renderer::adaptPace(int samples) {
-  int& most = pace_->mostSamplesPerDraw;
-  most = overBudget_ ? std::max(1, samples / 2) : std::max(most, samples * 2);
-}
-
-bool Renderer::addSamples(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
-                          const Progress& progress) {
-  const double drawnBefore = drawnMs_;
-  const auto start = Clock::now();
-  const bool complete = addParts(film, view, parts, times, progress);
-  times.renderMs += milliseconds(start, Clock::now());
-  times.drawMs += drawnMs_ - drawnBefore;
-  if (complete) progress(1.0);
-  return complete;
-}
-
-bool Renderer::addParts(Film& film, const View& view, std::span<const Work> parts, RenderTimes& times,
-                        const Progress& progress) {
-  double total = 0.0;
-  for (const Work& part : parts) total += pixelSamples(part);
-  double done = 0.0;  // pixel-samples
-  double doneMs = 0.0;
-  const GoOn goOn = [&](double more) { return progress((done + more) / total); };
-  const GoOn stays = [&](double) { return goOn(0.0); };
-  ShaderVariant& variant = pace_->drawn;
-  for (const Work& part : parts) {
-    for (Work round = part; round.from < part.to; round.from = round.to) {
-      // Step: plan a round. Where pixels take light samples of others in the same sample, these are stored
-      // for one sample at a time.
-      const int left = variant.neighbours ? 1 : part.to - round.from;
-      const DrawPlan plan = variant.wavefront ? planWaves(part.size, round.from, left)
-                                              : planDraws(part.size, left, pace_->mostSamplesPerDraw,
-                                                          pace_->msPerSample * part.busy, targetMs_);
-      round.to = round.from + plan.samples;
-      const auto start = Clock::now();
-
-      // Step: draw it.
-      if (!keepLight(film, view, round.from, stays)) return false;
-      const auto drawStart = Clock::now();
-      if (!drawPass({variant, film, view, tilesOf(round, plan.tile)}, goOn)) return false;
-      done += pixelSamples(round);
-      doneMs += milliseconds(drawStart, Clock::now());
-      pace_->msPerSample = doneMs / done;
-      adaptPace(plan.samples);
-      const bool lit = addLightPaths(film, view, round.to, stays);
-
-      // Step: note its time, if it is that of whole frames.
-      const double frameMs = milliseconds(start, Clock::now()) / plan.samples;
-      if (part.size == film.size() && part.busy == 1.0) {
-        if (times.frameMs.empty()) times.firstFrameMs = frameMs;
-        times.frameMs.insert(times.frameMs.end(), size_t(plan.samples), frameMs);
-      }
-      if (!lit) return false;
-    }
-  }
-  return true;
+  return millisecondsBetween(start, Clock::now());
 }
 
 }  // namespace fragtrace

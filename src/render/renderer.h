@@ -73,6 +73,11 @@ struct RenderPass {
   std::vector<Work> work;
 };
 
+inline double millisecondsBetween(std::chrono::steady_clock::time_point from,
+                                  std::chrono::steady_clock::time_point to) {
+  return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
 class Renderer {
   static constexpr int kLeastWaveBudget = 2000;  // a round of 32 pixels takes a few hundred steps
 

@@ -299,6 +299,9 @@ class DriverLimits(Case):
         for backend in BACKENDS:
             self.compare("mesh-62975.gltf", backend, "iterative", "16", "12,12")
 
+    def test_a_tile_whose_paths_are_suspended_is_cut_into_those_that_their_states_have_room_for(self):
+        self.compare("mesh-15743.gltf", "egl", "iterative", "1", "1024,8", "gi")
+
     def test_iterative_with_shadow_rays(self):
         self.compare("mesh-15743.gltf", "egl", "iterative", "8", "12,12", "gi")
 

@@ -6,6 +6,7 @@
 //                        build: it is the glCompileShader or glLinkProgram of that number that fails
 //                        lost: the context is lost from then on, until another one is made
 //                        blend: none fails, but no format can be blended
+//                        gpu: none fails, and the driver says that it is one of a GPU
 //   FRAGTRACE_FAIL_NAME  a function that does nothing and gives no error, as often as it is called
 //   FRAGTRACE_FAIL_WHEN  a file: once it is there it is removed, and the context is lost
 //   FRAGTRACE_FAIL_AGAIN after so many calls the context that took a lost one's place is lost, too; once
@@ -122,6 +123,14 @@ void failingFormat(GLenum target, GLenum format, GLenum what, GLsizei size, GLin
   if (!blends && what == GL_FRAMEBUFFER_BLEND) *value = GL_NONE;
 }
 
+/// The driver's word for itself.
+template <const char* Name, typename Function>
+const GLubyte* renamed(GLenum what) {
+  const bool gpu = std::strcmp(setting("FRAGTRACE_FAIL_KIND"), "gpu") == 0;
+  if (gpu && what == GL_RENDERER) return reinterpret_cast<const GLubyte*>("a GPU that is not there");
+  return Wrapped<Name, Function>::call(what);
+}
+
 template <typename Function>
 Function realEgl(const char* name) {
   return reinterpret_cast<Function>(dlsym(faults().real, name));
@@ -139,6 +148,7 @@ Function realEgl(const char* name) {
 #define WRAP(function) WRAP_BY(function, Wrapped<kName, Function>::call)
 #define WRAP_STATUS(function) WRAP_BY(function, failingStatus<kName, Function>)
 #define WRAP_FORMAT(function) WRAP_BY(function, failingFormat<kName, Function>)
+#define WRAP_NAME(function) WRAP_BY(function, renamed<kName, Function>)
 
 extern "C" {
 
@@ -194,7 +204,7 @@ __eglMustCastToProperFunctionPointerType eglGetProcAddress(const char* name) {
   WRAP(glGetProgramInfoLog)
   WRAP(glGetQueryObjectui64v)
   WRAP(glGetShaderInfoLog)
-  WRAP(glGetString)
+  WRAP_NAME(glGetString)
   WRAP(glGetTextureSubImage)
   WRAP(glLinkProgram)
   WRAP(glMapNamedBufferRange)

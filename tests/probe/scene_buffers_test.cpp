@@ -43,8 +43,12 @@ TEST_P(SceneArrays, AreReadTheFastestWayThatHoldsThem) {
             BufferReads::Ssbo);
   EXPECT_EQ(chooseReads(BufferReads::Auto, true, sceneWith(pairs, 400), smallImages).reads,
             BufferReads::Image);
-  // What was asked for stays; what neither holds stays the first, whose upload says why it fails.
-  EXPECT_EQ(chosen(rows, 1600, BufferReads::Ssbo, true).reads, BufferReads::Ssbo);
+  // A read that was asked for stays, or says why it cannot; what neither holds stays the first, whose upload
+  // says why.
+  EXPECT_EQ(chosen(rows, 800, BufferReads::Ssbo, true).reads, BufferReads::Ssbo);
+  EXPECT_THROW(chosen(rows, 1600, BufferReads::Ssbo, true), RenderError);
+  const ReadLimits fewUnits{.texels = 100, .storageBytes = 800, .imageUnits = 8};  // NVIDIA's
+  EXPECT_THROW(chooseReads(BufferReads::Image, false, GpuScene(), fewUnits), RenderError);
   EXPECT_EQ(chosen(rows, 1616, BufferReads::Auto, true).reads, BufferReads::Image);
 }
 
