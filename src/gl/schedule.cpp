@@ -39,7 +39,7 @@ std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& opt
   if (variant.traversal != TraversalMethod::FrontToBack) return "the tree is not walked front to back";
   if (options.device.dispatch == Dispatch::Fragment) return "--dispatch fragment";
   if (options.device.schedule == Schedule::Wavefront) return "";
-  if (!work.software) return "a GPU: not measured";
+  if (!work.software) return "a GPU: the wavefront has too few lanes for it";
   const bool longPaths = has(variant.traits, Trait::Scattering);
   if (!longPaths && work.nodes < kSmallTree) return "a small tree";
   return work.paths < (longPaths ? kFewLongPaths : kFewPaths) ? "few paths" : "";
