@@ -183,11 +183,20 @@ int informOfVolume(const InfoOptions& options) {
       std::printf("  grid        %s (%s%s), %d x %d x %d voxels, %s active\n", inQuotes(grid.name).c_str(),
                   grid.type.c_str(), grid.isDensity ? "" : ", no densities", v.x, v.y, v.z,
                   std::to_string(grid.activeVoxels).c_str());
+    const glm::dvec3& a = grid.box.minimum;
+    const glm::dvec3& b = grid.box.maximum;
+    if (!options.json && !grid.box.empty()) {
+      std::printf("              (%g, %g, %g) to (%g, %g, %g), values up to %g\n", a.x, a.y, a.z, b.x, b.y,
+                  b.z, grid.largest);
+    }
     json["grids"].push_back({{"name", grid.name},
                              {"type", grid.type},
                              {"density", grid.isDensity},
                              {"voxels", {v.x, v.y, v.z}},
-                             {"active_voxels", grid.activeVoxels}});
+                             {"active_voxels", grid.activeVoxels},
+                             {"largest", grid.largest}});
+    if (!grid.box.empty())
+      json["grids"].back()["bounds"] = {{"min", {a.x, a.y, a.z}}, {"max", {b.x, b.y, b.z}}};
   }
   if (options.json) std::cout << jsonText(json);
   return 0;

@@ -23,6 +23,7 @@ struct GltfOptions {
   SceneSelection selection{};
   Instancing instancing = Instancing::Flatten;
   InputLimits limits{};
+  bool readsVolume = true;  ///< the grid of densities that a node brings
   GltfProgress progress{};
 };
 

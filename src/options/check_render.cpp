@@ -84,10 +84,6 @@ void checkFog(const RenderOptions& o) {
 }
 
 void checkVolume(const RenderOptions& o) {
-  if (o.volume.file.empty() && o.volume != VolumeSource())
-    throw UsageError(
-        "--volume-position, --volume-scale, --volume-density, --volume-color, --volume-anisotropy, "
-        "--volume-emission: go with --volume");
   if (!o.volume.file.empty() && o.light.shadowCatcher)
     throw UsageError("--volume: cannot be combined with --shadow-catcher, whose plane stands in clear air");
 }

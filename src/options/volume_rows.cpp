@@ -55,7 +55,8 @@ std::vector<OptionRow> volumeRows() {
                     FRAGTRACE_MEMBER(volume.density), {0.0, kMostVolumeFactor}, kPlaced),
       numbers<double>(
           "--volume-color",
-          "linear R,G,B: the part of the light that the grid scatters (albedo); by default 1,1,1",
+          "linear R,G,B: the part of the light that the grid scatters (albedo), and does not absorb; by "
+          "default 1,1,1",
           FRAGTRACE_MEMBER(volume.color), 3,
           [](const std::vector<double>& v) { return albedoOf("--volume-color", v); },
           [](const glm::vec3& c) { return numbersText(double(c.r), double(c.g), double(c.b)); },
@@ -66,8 +67,8 @@ std::vector<OptionRow> volumeRows() {
                     FRAGTRACE_MEMBER(volume.anisotropy), {-kMostAnisotropy, kMostAnisotropy}, kPlaced),
       limit<double>(
           "--volume-emission",
-          "let the grid glow as a black body at the temperatures (kelvin) of the grid `temperature` of its "
-          "file, times this factor; by default 0",
+          "let the part of the grid that absorbs light (--volume-color) glow as a black body at the "
+          "temperatures (kelvin) of the grid `temperature` of its file, times this factor; by default 0",
           FRAGTRACE_MEMBER(volume.emission), {0.0, kMostVolumeFactor}, kPlaced),
   };
 }

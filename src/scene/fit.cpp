@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <iterator>
 #include <limits>
 
 #include "base/bounds.h"
@@ -163,6 +164,7 @@ std::vector<glm::dvec3> outlineOf(const Scene& scene) {
   appendInstances(scene, points);
   for (const Sphere& sphere : scene.spheres)
     appendSphere(scene.space.worldOf(glm::dvec3(sphere.center)), scene.space.unit * sphere.radius, points);
+  if (scene.volume.grid) std::ranges::copy(scene.volume.corners(), std::back_inserter(points));
   return points;
 }
 

@@ -13,6 +13,7 @@
 #include "session/environment.h"
 #include "session/say.h"
 #include "session/setup.h"
+#include "session/volume.h"
 
 namespace fragtrace {
 
@@ -73,9 +74,12 @@ CameraOverrides overridesOfAllPoses(const RenderOptions& options, std::shared_pt
   }
   Filled filled;
   double lowest = std::numeric_limits<double>::infinity();
+  Volume volume;
   for (const double time : timesOf(first, options)) {
     posed.selection.animationTime = time;
-    const Scene scene = loadGltf(posed.scene, gltfOptionsOf(posed), &kept);
+    Scene scene = loadGltf(posed.scene, gltfOptionsOf(posed), &kept);
+    placeVolume(scene, options, &volume);
+    volume = scene.volume;
     if (scene.bounds.empty()) continue;
     filled.bounds.include(scene.bounds);
     if (!overrides.fit) continue;

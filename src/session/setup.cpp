@@ -146,6 +146,7 @@ GltfOptions gltfOptionsOf(const RenderOptions& options) {
   loading.selection = options.selection;
   loading.instancing = walksTree(options) ? options.device.instancing : Instancing::Flatten;
   loading.limits = options.limits;
+  loading.readsVolume = options.volume.file.empty();
   return loading;
 }
 

@@ -94,6 +94,41 @@ class Volumes(Case):
         self.refused("/nodes/1/extras/fragtrace_volume/volume",
                      scene=self.camera_alone(fragtrace_volume={**members, "volume": "../x.nvdb"}) + ".gltf")
 
+        # Options change the numbers of a node, and stand for a file that is missing.
+        changed = self.seen(self.camera_alone(fragtrace_volume={**members, "density": 1, "color": [1, 1, 1]}), *WHITE, "--volume-density", 5,
+                            "--volume-color", "0.5,0.25,1")
+        self.assertEqual(changed, of_options)
+        missing = self.camera_alone(fragtrace_volume={"volume": "missing.nvdb"})
+        self.refused("missing.nvdb", scene=missing + ".gltf")
+        self.seen(missing, *WHITE, "--volume", grid, spp=1)
+
+    def test_what_a_grid_does_not_do_is_said(self):
+        def warns(reason, *options, **extras):
+            scene = self.camera_alone(**({"fragtrace_volume": {"volume": self.grid("plume").name, **extras}} if extras else {}))
+            done = run("render", scene + ".gltf", "-o", self.folder / "x.pfm", "--spp", 1, "--resolution", "8,8", *WHITE, *options)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(reason, done.stderr)
+
+        warns("/nodes/1/extras/fragtrace_volume/densty: is no member of a volume", densty=14)
+        warns("only stage gi has grids", "--stage", "phong", density=14)
+        warns("only stage gi has grids", "--stage", "phong", "--volume", self.grid("plume"))
+        warns("the color 1,1,1 absorbs none", emission=1e-5)
+        flat = Path(self.camera_alone(fragtrace_volume={"volume": self.grid("plume").name}) + ".gltf")
+        gltf = json.loads(flat.read_text())
+        gltf["nodes"][1]["scale"] = [1, 0, 1]
+        flat.write_text(json.dumps(gltf))
+        self.assertIn("the grid's node has no size", run("render", flat, "-o", self.folder / "x.pfm", "--spp", 1, "--resolution", "8,8").stderr)
+        warns("paths are long", "--volume-density", 500, density=1)
+        self.refused("its plane stands in clear air, but the scene brings a grid", "--shadow-catcher", "bottom", status=2,
+                     scene=self.camera_alone(fragtrace_volume={"volume": self.grid("plume").name}) + ".gltf")
+
+    def test_the_camera_fits_it(self):
+        """The box of a grid far away is in the picture."""
+        seen = self.seen(self.camera_alone(), *WHITE, "--volume", self.grid("ball"), "--volume-position", "40,0,0", "--volume-color", "0,0,0",
+                         "--volume-density", 100, "--camera-orbit", "0,0", "--fit", spp=4, size="32,32")
+        self.assertLess(mean(seen), 0.8)
+        self.assertAlmostEqual(seen[0][0][0], 1, delta=1e-3)
+
     def test_all_ways_to_draw_it(self):
         """The same bits by all entries, schedules and reads; a region is that of the whole picture."""
         options = ["--volume", self.grid("plume"), "--volume-density", 20, "--volume-color", "0.9,0.8,0.7", "--fog-density", 0.2, "--seed", 3]
@@ -109,6 +144,8 @@ class Volumes(Case):
         grids = json.loads(run("info", "--json", self.grid("plume", "zip", "fp8")).stdout)["grids"]
         self.assertEqual([grid["name"] for grid in grids], ["density", "temperature"])
         self.assertTrue(all(grid["density"] for grid in grids))
+        self.assertEqual(grids[0]["bounds"], {"min": [-0.484375] * 3, "max": [0.515625] * 3})
+        self.assertAlmostEqual(grids[0]["largest"], 1.12, delta=0.01)
 
     def test_bad_grids(self):
         self.refused("is not finite", "--volume", self.grid("nan"))
@@ -116,7 +153,8 @@ class Volumes(Case):
         self.refused("holds no densities (float, a level set)", "--volume", self.grid("levelset"))
         self.refused("has no grid 'heat', but 'density', 'temperature'", "--volume", f"{self.grid('plume')}:heat")
         self.refused("has no grid 'temperature'", "--volume", self.grid("ball"), "--volume-emission", 1)
-        self.refused("go with --volume", "--volume-density", 2, status=2)
+        self.refused("--volume-density: goes with --volume, or with a scene", "--volume-density", 2, status=2)
+        self.refused("is not glTF; --volume places it", scene=self.grid("plume"))
         self.refused("cannot be combined with --shadow-catcher", "--volume", self.grid("ball"), "--shadow-catcher", "bottom", status=2)
         self.refused("--volume-color: a colour is in the range 0 to 1", "--volume", self.grid("ball"), "--volume-color", "2,1,1", status=2)
         self.refused("missing.nvdb", "--volume", self.folder / "missing.nvdb")

@@ -139,6 +139,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
     if (const auto camera = cameraAt(document, node)) scene.cameras.push_back(*camera);
     if (node.hidden) continue;
     if (const auto sphere = sphereAt(document, node)) spheres.push_back(*sphere);
+    if (!options.readsVolume) continue;
     if (auto volume = volumeAt(document, node)) {
       if (!scene.volume.source.file.empty())
         document.diagnostics.warn(pointerTo("nodes", node.index, "extras", "fragtrace_volume"),

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 
 #include "gltf/build/placed.h"
@@ -8,6 +9,8 @@ namespace fragtrace {
 namespace {
 
 constexpr const char* kName = "fragtrace_volume";
+constexpr std::string_view kMembers[] = {"volume", "position",   "scale",   "density",
+                                         "color",  "anisotropy", "emission"};
 
 /// Reads one group of numbers of the volume.
 class Numbers {
@@ -56,6 +59,10 @@ std::optional<Volume> volumeAt(Document& document, const PlacedNode& node) {
   const std::string place = pointerTo("nodes", node.index, "extras", kName);
   const Numbers numbers(document.diagnostics, place, object);
   const tinygltf::Value& named = memberOf(object, "volume");
+  for (const std::string& key : object.Keys()) {
+    if (std::ranges::find(kMembers, key) == std::end(kMembers))
+      document.diagnostics.warn(place + "/" + key, "is no member of a volume and is ignored");
+  }
   Volume volume;
   volume.source = volumeFile(named.IsString() ? named.Get<std::string>() : "");
   if (volume.source.file.empty()) document.diagnostics.refuse(place + "/volume", "names no file");

@@ -38,7 +38,10 @@ uint64_t checkBeginning(std::span<const uint8_t> bytes, uint64_t size, const Dia
     const size_t start = text.find_first_not_of(" \t\r\n", mark);
     const bool mayFollow = start == std::string_view::npos && size != bytes.size();
     if (!mayFollow && (start == std::string_view::npos || text[start] != '{'))
-      diagnostics.refuse("", bytes.empty() ? "is empty, not glTF" : "is not glTF: neither JSON nor a .glb");
+      diagnostics.refuse("", bytes.empty() ? "is empty, not glTF"
+                             : diagnostics.file().ends_with(".nvdb")
+                                 ? "is not glTF; --volume places it in a scene"
+                                 : "is not glTF: neither JSON nor a .glb");
     return std::numeric_limits<uint64_t>::max();
   }
   if (bytes.size() < kHeaderSize) diagnostics.refuse("", "truncated .glb: it ends inside its header");

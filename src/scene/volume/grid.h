@@ -2,6 +2,7 @@
 // A grid of densities, as a cloud or smoke is stored, in bricks of voxels.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -71,6 +72,11 @@ struct Volume {
   std::vector<uint8_t> file{};             ///< its bytes, where the scene's loader has read it
   std::shared_ptr<const VolumeGrid> grid;  ///< null: there is none
   glm::dmat4 toWorld{1.0};                 ///< from the file's space, metres
+
+  /// From indices of voxels to world space, metres.
+  glm::dmat4 voxelsToWorld() const { return toWorld * grid->toWorld; }
+  /// Of the box of its bricks, in world space, metres.
+  std::array<glm::dvec3, 8> corners() const;
 };
 
 }  // namespace fragtrace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
+#include <memory>
 #include <ranges>
 #include <stdexcept>
 
@@ -86,7 +87,6 @@ const GridDescription& choose(const std::vector<GridDescription>& grids,
   std::string names;
   for (const GridDescription& grid : grids)
     names.append(names.empty() ? "'" : ", '").append(grid.name).append("'");
-  if (grids.empty()) throw std::runtime_error("holds no grid");
   const std::string wanted = name.value_or("density");
   auto found = std::ranges::find(grids, wanted, &GridDescription::name);
   if (found == grids.end() && !name) found = std::ranges::find(grids, true, &GridDescription::isDensity);
@@ -209,11 +209,34 @@ VolumeSource volumeFile(const std::string& text) {
   return source;
 }
 
+std::array<glm::dvec3, 8> Volume::corners() const {
+  const glm::dmat4 place = voxelsToWorld();
+  std::array<glm::dvec3, 8> points{};
+  for (int i = 0; i < 8; ++i) {
+    const glm::ivec3 side(i & 1, (i >> 1) & 1, i >> 2);
+    const glm::dvec3 voxel(grid->minimum + kBrickSide * side * grid->bricks);
+    points[size_t(i)] = glm::dvec3(place * glm::dvec4(voxel, 1.0));
+  }
+  return points;
+}
+
 std::vector<GridDescription> listGrids(const std::filesystem::path& path, uint64_t memoryBytes) {
   const std::vector<uint8_t> file = readWholeFile(path, memoryBytes);
   try {
     Worker worker(kVolumeCodecs);
-    return list(worker, file, memoryBytes);
+    std::vector<GridDescription> grids = list(worker, file, memoryBytes);
+    if (grids.empty()) throw std::runtime_error("holds no grid");
+    for (GridDescription& grid : grids) {
+      if (!grid.isDensity) continue;
+      const VolumeGrid decoded = decode(worker, file, grid, memoryBytes);
+      grid.largest = decoded.largest;
+      if (decoded.empty()) continue;
+      BoundsDouble box;
+      const Volume volume{.grid = std::make_shared<const VolumeGrid>(decoded)};
+      for (const glm::dvec3& corner : volume.corners()) box.include(corner);
+      grid.box = box;
+    }
+    return grids;
   } catch (const std::runtime_error& error) {
     throw InputError(path.string() + ": " + error.what());
   }
@@ -225,6 +248,7 @@ VolumeGrid readGrid(const VolumeSource& source, std::span<const uint8_t> file, u
   try {
     Worker worker(kVolumeCodecs);
     const std::vector<GridDescription> grids = list(worker, file, memoryBytes);
+    if (grids.empty()) throw std::runtime_error("holds no grid");
     VolumeGrid grid = decode(worker, file, choose(grids, source.grid), memoryBytes);
     if (source.emits() && !grid.empty())
       heat(grid, decode(worker, file, choose(grids, "temperature"), memoryBytes));

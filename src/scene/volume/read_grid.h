@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/bounds.h"
 #include "scene/volume/grid.h"
 
 namespace fragtrace {
@@ -17,9 +18,12 @@ struct GridDescription {
   bool isDensity = false;  ///< of plain numbers, no level set: it may be a volume
   glm::ivec3 voxels{0};    ///< of the box of its active voxels
   uint64_t activeVoxels = 0;
+  double largest = 0.0;  ///< of its values, by listGrids(), as the next
+  BoundsDouble box;      ///< of its bricks above 0, in the file's own space; may be empty
 };
 
-/// Throws InputError, which names the file.
+/// The grids of a file, of which there is one at least. Those of densities are decoded. Throws InputError,
+/// which names the file.
 std::vector<GridDescription> listGrids(const std::filesystem::path& path, uint64_t memoryBytes);
 
 /// The grid that the source names; where it names none, `density`, or the first that may be a density. Where

@@ -58,10 +58,20 @@ bool isDensityType(nanovdb::GridType type) {
          type == GridType::Fp8 || type == GridType::Fp16 || type == GridType::FpN;
 }
 
-std::vector<nanovdb::io::GridMetaData> entriesOf(std::span<const uint8_t> bytes) {
+/// Reads by the library; what that throws says little to who has never seen NanoVDB.
+template <typename Read>
+auto readBy(std::span<const uint8_t> bytes, const Read& read) {
   MemoryFile file(bytes);
   std::istream stream(&file);
-  return nanovdb::io::readGridMetaData(stream);
+  try {
+    return read(stream);
+  } catch (const std::exception& error) {
+    throw std::runtime_error("is broken, or not a NanoVDB file (" + std::string(error.what()) + ")");
+  }
+}
+
+std::vector<nanovdb::io::GridMetaData> entriesOf(std::span<const uint8_t> bytes) {
+  return readBy(bytes, [](std::istream& file) { return nanovdb::io::readGridMetaData(file); });
 }
 
 template <size_t N>
@@ -247,9 +257,8 @@ extern "C" void fragtraceWork(std::span<const uint8_t> input, WorkOutput& output
   const auto request = takeMessage<GridRequest>(input);
   const std::string name(request.name.data(), ::strnlen(request.name.data(), request.name.size()));
   if (request.list != 0) return listGrids(input, output);
-  MemoryFile file(input);
-  std::istream stream(&file);
-  nanovdb::GridHandle<nanovdb::HostBuffer> grid = nanovdb::io::readGrid(stream, name);
+  nanovdb::GridHandle<nanovdb::HostBuffer> grid =
+      readBy(input, [&](std::istream& file) { return nanovdb::io::readGrid(file, name); });
   decodeGrid({grid.data(), grid.size()}, output);
 }
 
