@@ -4,6 +4,7 @@
 import base64
 import json
 import math
+import statistics
 import struct
 from pathlib import Path
 
@@ -113,7 +114,7 @@ class ShadowCatcher(CatcherCase):
             self.assertGreater(max(map(max, alpha)), 0.9)
         # From below, no shadow is seen, and none needs room; a long one is cut where the ball is still large.
         framed = ["--resolution", "48,48", "--spp", 1, "--no-background", "--fit", "--aov", "object", "--camera-orbit"]
-        wide = lambda scene, *options: sum(max(row[x] for row in self.picture(scene, "x.exr", *framed, *options).layers["object.Y"]) > 0 for x in range(48))
+        wide = lambda scene, *options: sum(max(column) > 0 for column in zip(*self.picture(scene, "x.exr", *framed, *options).layers["object.Y"]))
         below = ["30,-40", "--studio"]
         self.assertEqual(wide(self.ball(), *below, "--shadow-catcher", "0.3"), wide(self.ball(), *below))
         low = {"rotation": [-0.0436, 0, 0, 0.999]}, {"type": "directional", "intensity": 3}
@@ -192,13 +193,10 @@ class CutOutShadow(CatcherCase):
         """Of the catcher's alpha over many seeds, where nothing but the shadow is seen."""
         options = [*self.VIEW, "--disable", "sobol", "--spp", 4, "--aov", "variance"]
         shots = [self.picture("mesh-15743", "v.exr", *options, "--seed", seed) for seed in range(12)]
-        shadow = [i for i, alpha in enumerate(shots[0].values("A")) if all(s.values("G")[i] == 0 for s in shots) and alpha > 0]
-        told = sum(shot.values("variance.Y")[i] for shot in shots for i in shadow) / len(shots)
-        seen = 0
-        for i in shadow:
-            values = [shot.values("A")[i] for shot in shots]
-            mean = sum(values) / len(values)
-            seen += sum((v - mean)**2 for v in values) / (len(values) - 1)
+        alphas, greens, variances = ([shot.values(name) for shot in shots] for name in ("A", "G", "variance.Y"))
+        shadow = [i for i, alpha in enumerate(alphas[0]) if alpha > 0 and all(green[i] == 0 for green in greens)]
+        told = sum(variance[i] for variance in variances for i in shadow) / len(shots)
+        seen = sum(statistics.variance(alpha[i] for alpha in alphas) for i in shadow)
         self.assertAlmostEqual(told / seen, 1, delta=0.1)
 
 
