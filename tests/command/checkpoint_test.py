@@ -47,9 +47,9 @@ class Broken(Case):
             process.send_signal(by)
         return process.wait(60)
 
-    def interrupted_after_a_checkpoint(self, *options):
+    def interrupted_after_a_checkpoint(self, *options, scene=BOX):
         """Of a render that is long enough; on a busy machine seconds would tell nothing."""
-        process = subprocess.Popen([FRAGTRACE, *self.arguments("--checkpoint", 0.1, *options)])
+        process = subprocess.Popen([FRAGTRACE, *self.arguments("--checkpoint", 0.1, *options, scene=scene)])
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         deadline = time.monotonic() + 60
@@ -102,7 +102,7 @@ class Checkpoints(Broken):
         self.assertGreater(self.equal_after_kills(2, random.Random(5), *options, scene=BOX), 0)
 
     def test_drawn_in_parts(self):
-        options = ["--resolution", "400,300", "--spp", 60, "--memory-limit", "33MB", "--aov", "albedo"]
+        options = ["--resolution", "400,300", "--spp", 30, "--memory-limit", "33MB", "--aov", "albedo"]
         self.assertGreater(self.equal_after_kills(2, random.Random(9), *options, scene=BOX), 0)
 
     def test_without_a_checkpoint_it_begins_anew_or_is_finished(self):
@@ -134,17 +134,17 @@ class Checkpoints(Broken):
         for other, says in (({"--spp": 99999}, "spp 100000 and 99999"), ({"--bounces": 3}, "bounces 16 and 3"), ({"--seed": 5}, "seed 0 and 5"),
                             ({"--resolution": "90,120"}, "width 120 and 90"), ({"--noise": 0.1, "--spp": None}, "asked for): noise 0.0 and 0.1\n")):
             changed = [word for setting in (settings | other).items() if setting[1] is not None for word in setting]
-            self.fails(2, *self.arguments(*changed, "--resume"), says=["--resume", self.checkpoint, "another render", says])
+            self.fails(2, *self.arguments(*changed, "--resume", scene=BOX), says=["--resume", self.checkpoint, "another render", says])
         self.fails(2, *self.arguments(*options, "--resume", scene=SCENES / "furnace.gltf"), says=["another render", "and \"furnace.gltf\", and ", " more settings\n"])
         self.assertEqual(self.checkpoint.read_bytes(), kept)
 
     def test_more_samples_than_at_first_are_drawn_on(self):
         size = ["--resolution", "24,18", "--spp"]
-        whole, _ = self.unbroken(*size, 1000)
-        self.assertEqual(self.interrupted_after_a_checkpoint(*size, 800), 130)
-        said = run(*[a for a in self.arguments("--resume", *size, 1000) if a != "--quiet"])
+        whole, _ = self.unbroken(*size, 5000, scene=BOX)
+        self.assertEqual(self.interrupted_after_a_checkpoint(*size, 4000), 130)
+        said = run(*[a for a in self.arguments("--resume", *size, 5000, scene=BOX) if a != "--quiet"])
         self.assertEqual(said.returncode, 0, said.stderr)
-        self.assertRegex(said.stderr, r"(?m)^fragtrace: --resume: goes on after [\d.]+ of 1000 samples per pixel$")
+        self.assertRegex(said.stderr, r"(?m)^fragtrace: --resume: goes on after [\d.]+ of 5000 samples per pixel$")
         self.assertEqual(self.output.read_bytes(), whole)
 
     def test_broken_checkpoints_are_refused(self):
@@ -157,13 +157,13 @@ class Checkpoints(Broken):
                     good.replace(b'"size":[20,10]', b'"size":[10,20]'), good.replace(b'"part":0', b'"part":7')):
             self.assertNotEqual(bad, good)
             self.checkpoint.write_bytes(bad)
-            self.fails(3, *self.arguments(*options, "--resume"), says=[self.checkpoint])
+            self.fails(3, *self.arguments(*options, "--resume", scene=BOX), says=[self.checkpoint])
         self.checkpoint.unlink()
         self.output.unlink()
 
     def test_one_that_cannot_be_written_on_the_way_does_not_end_the_render(self):
         """Its name becomes a folder's while the picture is drawn."""
-        process = subprocess.Popen([FRAGTRACE, *[a for a in self.arguments("--checkpoint", 0.1, *SIZE, "--spp", 200) if a != "--quiet"]],
+        process = subprocess.Popen([FRAGTRACE, *[a for a in self.arguments("--checkpoint", 0.1, *SIZE, "--spp", 600, scene=BOX) if a != "--quiet"]],
                                    stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.kill)
         while not self.checkpoint.exists():

@@ -11,7 +11,7 @@ from pathlib import Path
 from support import FRAGTRACE, SCENES, Case, Exr, main
 
 SCRIPTS = SCENES.parent / "scripts"
-BALL = SCENES / "room-ball.gltf"
+BOX = SCENES / "cornell-box.gltf"
 
 
 class Farm(Case):
@@ -78,22 +78,22 @@ class FarmParts(Farm):
 
 
 class FarmParallel(Farm):
-    SIZE = ["--resolution", "64,48", "--spp", 300]
+    SIZE = ["--resolution", "64,48", "--spp", 900]
     OFTEN = ["--checkpoint", 0.1]
 
     def test_a_worker_that_is_killed_costs_nothing_but_time(self):
         def joined(kill):
-            process = self.script("farm_parallel", 3, "render", BALL, "-o", "x.exr", "--quiet", *self.SIZE, *self.OFTEN, JOBS="2")
+            process = self.script("farm_parallel", 3, "render", BOX, "-o", "x.exr", "--quiet", *self.SIZE, *self.OFTEN, JOBS="2")
             if kill:
                 os.kill(self.worker(), signal.SIGKILL)
             out, error = process.communicate(timeout=120)
             self.assertEqual(process.returncode, 0, out + error)
-            self.assertIn("3 parts, 300 samples per pixel", out)
+            self.assertIn("3 parts, 900 samples per pixel", out)
             self.assertEqual([p.name for p in self.folder.iterdir()], ["x.exr"])
             return (self.folder / "x.exr").read_bytes()
         self.assertEqual(joined(True), joined(False))
         merged = Exr(self.folder / "x.exr")
-        self.renders(BALL, "-o", self.folder / "whole.exr", "--quiet", *self.SIZE)
+        self.renders(BOX, "-o", self.folder / "whole.exr", "--quiet", *self.SIZE)
         for a, b in zip(merged.values("G"), Exr(self.folder / "whole.exr").values("G")):
             self.assertAlmostEqual(a, b, delta=2e-6 * max(1, b))
 

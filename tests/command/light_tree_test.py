@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Lights that are chosen by a tree, by power and all alike: white matt ground under 49 lamps of powers from 1 to 100, point lights and
 spots, whose irradiance is a closed form: none of them hides another. Means of 8 seeds lie within 5 standard errors."""
+import functools
 import itertools
 import json
 import math
@@ -20,6 +21,7 @@ POINTS = [((0.4 - 1.1 * k, 0.7 * k - 0.9, 0.5 + 0.15 * k), 0.2 + 0.3 * k) for k 
 SPOTS = [((-0.8 + 0.9 * k, 0.5 - 0.6 * k, 1.1), 0.6, 0.2 + 0.1 * k, 0.5 + 0.1 * k) for k in range(3)]
 
 
+@functools.cache
 def irradiance(x, y):
     total = 0.0
     for (px, py, pz), half, radiance in LAMPS:
