@@ -56,8 +56,8 @@ Path beginShadow(Path p) {
   uint dimension = kBounceDimensions * uint(p.bounce + 1);
   vec2 uv = drawPair(p.sampler, dimension + kDirectionDimension);
   p.phase = kPhaseExtend;
-  if (lightSlotCount() > 0) {
-    LightSample light = lightOfSlot(0, s.position, kNoNormal, p.sampler, dimension + kLightDimension);
+  if (lightSampleCount() > 0) {
+    LightSample light = sampleLight(0, s.position, kNoNormal, p.sampler, dimension + kLightDimension);
     float cosine = max(light.direction.y, 0.0);
     // The scene that casts the shadow includes emissive triangles, so their light does not count.
     bool counts = light.pdf <= 0.0 || light.distance == kFarAway;

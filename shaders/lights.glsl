@@ -325,7 +325,7 @@ float chanceOfLight(int emitter, vec3 point, uint normal) {
 
 /// The number of light samples that each shaded point takes: one with global illumination; else one of each punctual
 /// light, and one of the emissive triangles.
-int lightSlotCount() {
+int lightSampleCount() {
   if (kGi) return kPunctualLights || kEmissiveTriangles || kEnvironmentSampling ? 1 : 0;
   int count = kPunctualLights ? int(frame.punctualCount) : 0;
   return count + (kEmissiveTriangles ? 1 : 0);
@@ -377,13 +377,13 @@ LightSample lightFrom(LightNumbers n, vec3 point, uint normal) {
   return lightOfChoice(chooseLight(n, point, normal), point);
 }
 
-/// The light sample of one slot; uses four dimensions from `dimension` on. normal: of the surface, where it takes light
-/// from one side alone (Receiver).
-LightSample lightOfSlot(int slot, vec3 point, uint normal, Sampler sampler, uint dimension) {
+/// One of the lightSampleCount() samples; uses four dimensions from `dimension` on. normal: of the surface, where it
+/// takes light from one side alone (Receiver).
+LightSample sampleLight(int index, vec3 point, uint normal, Sampler sampler, uint dimension) {
   if (kGi) return lightFrom(lightNumbers(sampler, dimension), point, normal);
   int punctual = kPunctualLights ? int(frame.punctualCount) : 0;
   LightSample s = noLight();
-  if (kPunctualLights && slot < punctual) s = punctualLight(slot, point);
-  if (kEmissiveTriangles && slot == punctual) s = emitterLight(1.0f, point, drawPairBits(sampler, dimension), true);
+  if (kPunctualLights && index < punctual) s = punctualLight(index, point);
+  if (kEmissiveTriangles && index == punctual) s = emitterLight(1.0f, point, drawPairBits(sampler, dimension), true);
   return s;
 }

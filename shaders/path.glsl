@@ -5,7 +5,7 @@
 const bool kScatters = kGi || kReflections || kRefraction;
 
 /// The AOV is a number of a part of the scene. Such numbers have no mean: they are those of the pixel's middle.
-const bool kCountsParts = kAov == kAovObject || kAov == kAovMaterial;
+const bool kIdAov = kAov == kAovObject || kAov == kAovMaterial;
 
 const uint kCameraDimensions = 0u;
 const uint kChannelDimension = 2u;  // one number a path
@@ -84,7 +84,7 @@ Path goPast(Path p) {
 /// Goes on with the path's ray.
 Path extend(Path p) {
   p.phase = kPhaseExtend;
-  p.lightSlot = 0;
+  p.lightSampleIndex = 0;
   p = traceAnew(p, kFarAway);
   if (kMedia) p = limitFlight(p, 0.0);
   if (kCreases) p.traversal.tie = p.tie;
@@ -115,7 +115,7 @@ Path pathAlong(vec3 origin, vec3 direction, Sampler sampler, int steps) {
 Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   Sampler sampler = makeSampler(key, sampleIndex);
   vec2 place = vec2(inPicture(pixel)) + 0.5;
-  if (!kCountsParts) {
+  if (!kIdAov) {
     vec2 jitter = drawPair(sampler, kCameraDimensions);
     // A coarse picture's first sample is in the middle: edges with chance would be ragged.
     bool middle = frame.firstInMiddle > 0.0 && sampleIndex == uint(frame.firstSample);
@@ -124,7 +124,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
   vec2 point = place / vec2(frame.pictureSize) * 2.0 - 1.0;
   CameraRay ray = makeCameraRay(frame.cameraPosition, frame.cameraRight, frame.cameraUp,
                                 frame.cameraForward, frame.orthographic != 0.0, point.x, point.y);
-  if (kLens && !kCountsParts && frame.lens.x > 0.0) {
+  if (kLens && !kIdAov && frame.lens.x > 0.0) {
     vec2 uv = drawPair(sampler, kLensDimensions);
     vec2 lens = frame.lens.x * sampleAperture(uv.x, uv.y, int(frame.lens.z));
     ray = throughLens(ray, frame.cameraRight, frame.cameraUp, frame.cameraForward, lens, frame.lens.y);
@@ -136,7 +136,7 @@ Path startPath(ivec2 pixel, uint key, uint sampleIndex, int steps) {
 
 /// Adds light, or the share of it that belongs to the AOV.
 Path addLight(Path p, vec3 light) {
-  p.radiance += kLightAov ? p.aovWeight * light : light;
+  p.radiance += kPathAov ? p.aovWeight * light : light;
   return p;
 }
 
@@ -210,7 +210,7 @@ int nextCrossing(inout Path p) {
 /// (docs/design/surfaces.md).
 bool passesThrough(uint flags, float alpha, Sampler sampler, int crossing) {
   if ((flags & kMaterialMask) != 0u) return alpha == 0.0;
-  if ((flags & kMaterialBlend) != 0u && kCountsParts) return alpha < 0.5;
+  if ((flags & kMaterialBlend) != 0u && kIdAov) return alpha < 0.5;
   if ((flags & kMaterialBlend) != 0u) return hashFloat(sampler, kAlphaDimensions + uint(crossing)) >= alpha;
   return false;
 }
@@ -294,7 +294,7 @@ Path proceed(Path p) {
   if (p.phase == kPhaseExtend) p = extend(p);
   if (kThroughGlass && p.phase == kPhasePass) {
     p.phase = kPhaseExtend;
-    p.lightSlot = 0;
+    p.lightSampleIndex = 0;
     p = goPast(p);
   }
   return p;
@@ -321,7 +321,7 @@ Path spawnShadowRayFrom(Path p, vec3 point, vec3 origin, LightSample light, vec3
   if (maxComponent(value) <= 0.0) return p;
   value = clampIndirect(value, countedScatterings(p) + 1);
   if (!kMedia && !kShadows) return addLight(p, value);
-  p.contribution = kLightAov ? p.aovWeight * value : value;
+  p.contribution = kPathAov ? p.aovWeight * value : value;
   p.shadowOrigin = origin;
   p.shadowDirection = light.direction;
   p.shadowLimit = kShadows ? kFarAway : light.distance;

@@ -19,14 +19,14 @@ const int kRowTMin = 10;            // what the ray and the shadow ray have pass
 // crossings, instance of the row of the shadow ray's hit, instance that is walked, medium of the shadow ray
 const int kRowCrossings = 11;
 // kResumable:
-const int kRowSuspended = 12;       // node of the traversal, light slot, more flags, visits
+const int kRowSuspended = 12;       // node of the traversal, light sample, more flags, visits
 const int kRowStack = 13;
 const int kRowAov = kRowStack + kStackSize / 4;  // kAovRow: aovWeight, or splatPixel
 
 const bool kShadowRows = kShadows || kPassesLight || kInstances || kResumable;
 const bool kPassingRows = kPassing || kResumable || kMedia;
 
-const bool kAovRow = kLightAov || kLightPaths;
+const bool kAovRow = kPathAov || kLightPaths;
 
 /// Rows of a path of the megakernel.
 const int kSuspendedRows = kRowAov + (kAovRow ? 1 : 0);
@@ -165,7 +165,7 @@ void suspendPath(Path p, int row) {
   Traversal t = p.traversal;
   uint flags = uint(p.after) | (p.caught ? 16u : 0u) | (kLightPaths && p.fromLight.glassFirst ? 32u : 0u);
   pathStates[row + kRowShadowHit] = metBy(t);
-  pathStates[row + kRowSuspended] = uvec4(uint(t.node), uint(p.lightSlot), flags, uint(t.visits));
+  pathStates[row + kRowSuspended] = uvec4(uint(t.node), uint(p.lightSampleIndex), flags, uint(t.visits));
   if (!kIterative && !kLiterals) saveStack(t.stack, row + kRowStack);
   vec3 kept = kLightPaths ? vec3(p.fromLight.splatPixel, 0.0) : p.aovWeight;
   if (kAovRow) pathStates[row + kRowAov] = uvec4(floatBitsToUint(kept), 0u);
@@ -174,12 +174,12 @@ void suspendPath(Path p, int row) {
 Path resumePath(int row, uint key) {
   Path p = loadShadow(loadPath(row, key), row);
   uvec4 a = readPathStates(row + kRowSuspended);
-  p.lightSlot = int(a.y);
+  p.lightSampleIndex = int(a.y);
   p.after = int(a.z & 15u);
   p.caught = (a.z & 16u) != 0u;
   if (kLightPaths) p.fromLight.glassFirst = (a.z & 32u) != 0u;
   if (kLightPaths) p.fromLight.splatPixel = uintBitsToFloat(readPathStates(row + kRowAov).xy);
-  if (kLightAov) p.aovWeight = uintBitsToFloat(readPathStates(row + kRowAov).xyz);
+  if (kPathAov) p.aovWeight = uintBitsToFloat(readPathStates(row + kRowAov).xyz);
   p.traversal.node = int(a.x);
   p.traversal.visits = int(a.w);
   a = readPathStates(row + kRowTMin);

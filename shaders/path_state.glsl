@@ -2,7 +2,7 @@
 // The state of one path.
 
 const int kPhaseExtend = 0;  // the path's ray is being traced
-const int kPhaseShade = 1;   // it has hit something; light slot `lightSlot` is next
+const int kPhaseShade = 1;   // it has hit something; light sample `lightSampleIndex` is next
 const int kPhaseShadow = 2;  // the shadow ray of that slot is being traced
 const int kPhaseEnd = 3;     // the sample is complete
 const int kPhaseCut = 4;     // it is complete because the path has scattered as often as --bounces allows
@@ -18,8 +18,8 @@ const int kPrefixDiffuse = 1;  // E D: a rough surface
 const int kPrefixCaustic = 2;  // E D S+: delta lobes of casters of caustics since
 
 /// An AOV that is a part of the radiance: paths are traced to their ends.
-const bool kLightAov = kAov == kAovEmission || kAov == kAovDiffuse || kAov == kAovSpecular;
-const bool kDrawsLight = kAov == kAovNone || kLightAov;
+const bool kPathAov = kAov == kAovEmission || kAov == kAovDiffuse || kAov == kAovSpecular;
+const bool kDrawsLight = kAov == kAovNone || kPathAov;
 
 /// Light may be scattered between surfaces (media/).
 const bool kMedia = (kScattering || kFog || kDensityGrid) && kDrawsLight;
@@ -48,7 +48,7 @@ struct LightPath {
 struct Path {
   int phase;
   int after;       // the phase that follows once the shadow ray is settled
-  int lightSlot;
+  int lightSampleIndex;
   int bounce;      // scatterings so far
   int freeBounces;  // of these, at smooth glass (kTransmission) and in media: --bounces does not limit them
   int straightBounces;  // of these, straight through glass (kThroughGlass)
@@ -75,7 +75,7 @@ struct Path {
   vec3 shadowDirection;
   float shadowLimit;
   uint shadowMedium;  // that the shadow ray is inside of, as `medium` (kMedia)
-  vec3 aovWeight;       // the share of the light still to come that belongs to the AOV (kLightAov)
+  vec3 aovWeight;       // the share of the light still to come that belongs to the AOV (kPathAov)
   Guide guide;
   LightPath fromLight;
   vec3 contribution;  // added if the shadow ray meets nothing
@@ -91,7 +91,7 @@ Path newPath() {
   Path p;
   p.phase = kPhaseExtend;
   p.after = kPhaseEnd;
-  p.lightSlot = 0;
+  p.lightSampleIndex = 0;
   p.bounce = 0;
   p.freeBounces = 0;
   p.straightBounces = 0;

@@ -75,7 +75,7 @@ LightSample lightAt(Path p, Surface s, SurfaceMaterial m) {
     bool through = takesLightFromBehind(s, m);
     return lightOfCandidates(s.position, s.geometricNormal, through, normal, p.sampler, dimension);
   }
-  return lightOfSlot(0, s.position, normal, p.sampler, dimension);
+  return sampleLight(0, s.position, normal, p.sampler, dimension);
 }
 
 /// Takes one light sample, and sets up its shadow ray.
@@ -85,7 +85,7 @@ Path sampleLd(Path p, Surface s, SurfaceMaterial m, Scattering at) {
   bool sameSide = (dot(light.direction, s.geometricNormal) > 0.0) == (wi.z > 0.0);
   BsdfValue value = evaluateBsdf(at.b, at.wo, wi);
   float weight = lightWeight(light, value.pdf);
-  if (kLightAov && p.bounce == 0) p.aovWeight = aovShare(at.b, at.wo, wi);
+  if (kPathAov && p.bounce == 0) p.aovWeight = aovShare(at.b, at.wo, wi);
   if (kThroughGlass) p.throughGlass = passesGlass(p, s, m, light.direction);
   return spawnShadowRay(p, s, light, sameSide ? p.throughput * light.irradiance * value.value * weight : vec3(0.0));
 }
@@ -104,9 +104,9 @@ Path shadeGlobal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   // The numbers of this bounce are drawn before it is counted.
   float choice = kPassesLight ? pathRandom(p, kLobeDimension) : 0.0;
   vec2 uv = drawPair(p.sampler, dimension + kDirectionDimension);
-  if (lightSlotCount() > 0) p = sampleLd(p, s, m, at);
+  if (lightSampleCount() > 0) p = sampleLd(p, s, m, at);
   BsdfSample next = sampleBsdf(b, wo, choice, uv.x, uv.y);
-  if (kLightAov && p.bounce == 0) {
+  if (kPathAov && p.bounce == 0) {
     bool delta = next.pdf == 0.0;
     p.aovWeight = delta ? vec3(kAov == kAovSpecular ? 1.0 : 0.0) : aovShare(b, wo, next.wi);
   }
@@ -144,22 +144,22 @@ Path shadeLocal(Path p, Surface s, SurfaceMaterial m, vec3 normal) {
   vec3 f0 = phongF0(m.baseColor, m.metallic, m.dielectricF0);
   vec3 diffuse = (1.0 - m.metallic) * m.baseColor;
   float exponent = phongExponent(m.roughness);
-  if (p.lightSlot == 0) p.radiance += 0.03 * p.throughput * m.baseColor;
-  if (kEnvironmentLight && p.lightSlot == 0)
+  if (p.lightSampleIndex == 0) p.radiance += 0.03 * p.throughput * m.baseColor;
+  if (kEnvironmentLight && p.lightSampleIndex == 0)
     p.radiance += p.throughput * environmentReflected(diffuse, f0, exponent, normal, wo);
-  int lights = lightSlotCount();
-  if (p.lightSlot < lights) {
+  int lights = lightSampleCount();
+  if (p.lightSampleIndex < lights) {
     uint dimension = kBounceDimensions * uint(p.bounce + 1);
-    LightSample light = lightOfSlot(p.lightSlot, s.position, kNoNormal, p.sampler, dimension + kLightDimension);
+    LightSample light = sampleLight(p.lightSampleIndex, s.position, kNoNormal, p.sampler, dimension + kLightDimension);
     if (kVertexNormals) diffuse *= terminatorFade(s.geometricNormal, s.shadingNormal, light.direction);
     vec3 value = phongValue(diffuse, f0, exponent, normal, wo, light.direction);
     bool above = dot(light.direction, s.geometricNormal) > 0.0;
     if (kThinGlass) p.throughGlass = passesGlass(p, s, m, light.direction);
     p = spawnShadowRay(p, s, light, above ? p.throughput * light.irradiance * value : vec3(0.0));
   }
-  p.lightSlot += 1;
+  p.lightSampleIndex += 1;
   p.after = kPhaseShade;
-  if (p.lightSlot < lights) return p;
+  if (p.lightSampleIndex < lights) return p;
   float gloss = 1.0 - m.roughness;
   return scatterMirror(p, s, m, normal, gloss * gloss);
 }
@@ -219,7 +219,7 @@ Path shade(Path p) {
   Surface s = surfaceAt(p.hitSlot, p.hitInstance, p.origin, p.direction, p.hitT, p.hitWeights);
   uint flags = materialFlags(s.material);
   vec4 base = baseColorAt(s.material, s.texcoords, s.color);
-  bool first = p.lightSlot == 0;
+  bool first = p.lightSampleIndex == 0;
   if (kAov == kAovGuides) return guideAt(p, s, flags, base);
   if (kMedia && first) p = flyTo(p, s);
   if (kMedia && p.hitSlot < 0) return scatterInMedium(p);
@@ -268,7 +268,7 @@ Path shade(Path p) {
   return p;
 }
 
-/// The shadow ray is traced. One that met a surface with alpha may go on behind it; else the light slot is settled.
+/// The shadow ray is traced. One that met a surface with alpha may go on behind it; else the light sample is settled.
 Path settleShadow(Path p) {
   int slot = p.traversal.slot;
   bool passes = false;

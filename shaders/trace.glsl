@@ -110,7 +110,7 @@ Path beginSample(FilmPixel film, ivec2 pixel, uint key, int steps) {
 /// Adds the finished path to the film.
 FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
   film.rays += uint(p.rays);
-  if (kHeatmap) p.radiance = vec3(float(p.traversal.visits));
+  if (kCountVisits) p.radiance = vec3(float(p.traversal.visits));
   float alpha = coverageOf(p);
   if (kShadowCatcher) p = showShadow(p);
   if (kLightPaths) {
@@ -132,7 +132,7 @@ FilmPixel endSample(FilmPixel film, Path p, ivec2 pixel) {
 Path meet(Path p) {
   float grid = kFarAway;
   if (kDensityGrid && kAov == kAovGuides) grid = gridBefore(p);
-  if (kHeatmap) {
+  if (kCountVisits) {
     p.phase = kPhaseEnd;
   } else if (kAov == kAovGuides && grid < kFarAway) {
     p = guideInMedium(p, grid);

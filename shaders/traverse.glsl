@@ -122,7 +122,7 @@ Traversal traverseIterative(vec3 origin, vec3 direction, Traversal s, TreeFrame 
       s = intersectLeaf(s, s.node + i, origin, direction, shear, 0.0f);
     }
     s.steps += 1;
-    if (kHeatmap) s.visits += int(kLeafBlock);
+    if (kCountVisits) s.visits += int(kLeafBlock);
     s.node += int(kLeafBlock);
     if (s.node >= tree.leafCount || (anyHit && s.slot >= 0)) s.node = kTraversalDone;
   }
@@ -256,7 +256,7 @@ Traversal traverseTree(vec3 origin, vec3 direction, float rayLimit, Traversal s,
     while ((s.node | (stepLimit - 1 - s.steps)) >= 0) {
       s = stepNode(s, ray, rayLimit, tree, true);
       s.steps += 1;
-      if (kHeatmap) s.visits += 1;
+      if (kCountVisits) s.visits += 1;
     }
     bool atLeaf = s.node < 0 && s.node != kTraversalDone;
     if (kInstances && atLeaf && ~s.node >= kInstanceLeaf) {
@@ -267,7 +267,7 @@ Traversal traverseTree(vec3 origin, vec3 direction, float rayLimit, Traversal s,
     if (atLeaf) {
       s = meetLeaf(s, ray, anyHit);
       s.steps += 1;
-      if (kHeatmap) s.visits += 1;
+      if (kCountVisits) s.visits += 1;
     }
   }
   return s;

@@ -4,7 +4,7 @@
 /// The light sample of a point in a medium that light gets into.
 Path sampleLdInMedium(Path p, vec3 point, float g) {
   uint dimension = kBounceDimensions * uint(p.bounce + 1) + kLightDimension;
-  LightSample light = lightOfSlot(0, point, kNoNormal, p.sampler, dimension);
+  LightSample light = sampleLight(0, point, kNoNormal, p.sampler, dimension);
   float value = phasePdf(g, dot(p.direction, light.direction));
   float weight = lightWeight(light, value);
   if (kThroughGlass) p.throughGlass = true;
@@ -54,10 +54,10 @@ Path scatterInMedium(Path p) {
   if (p.cameraRay) p.covered = true;
   p.phase = kPhaseEnd;
   if (kAov == kAovEmission) return p;
-  if (kLightAov && p.bounce == 0) p.aovWeight = vec3(kAov == kAovDiffuse ? 1.0 : 0.0);
+  if (kPathAov && p.bounce == 0) p.aovWeight = vec3(kAov == kAovDiffuse ? 1.0 : 0.0);
   vec2 uv = drawPair(p.sampler, kBounceDimensions * uint(p.bounce + 1) + kDirectionDimension);
   bool open = isOpen(p.medium);
-  if (open && lightSlotCount() > 0) p = sampleLdInMedium(p, point, scatter.w);
+  if (open && lightSampleCount() > 0) p = sampleLdInMedium(p, point, scatter.w);
   vec3 before = p.direction;
   p.direction = samplePhase(scatter.w, before, uv.x, uv.y);
   p.pdf = open ? phasePdf(scatter.w, dot(before, p.direction)) : 0.0;

@@ -17,7 +17,7 @@ void storeReservoir(ivec2 pixel, Reservoir r) {
 /// Stores the light sample of the first surface of a camera path, which ends there.
 Path keepLight(Path p, Surface s, SurfaceMaterial m) {
   p.phase = kPhaseEnd;
-  if (p.bounce > 0 || lightSlotCount() == 0) return p;
+  if (p.bounce > 0 || lightSampleCount() == 0) return p;
   LitSurface on = LitSurface(s.position, packNormal(s.geometricNormal), takesLightFromBehind(s, m));
   storeReservoir(p.pixel, makeReservoir(on, normalOfLight(s, m), p.sampler, kBounceDimensions + kLightDimension));
   return p;

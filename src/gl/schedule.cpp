@@ -32,7 +32,7 @@ std::string whyMegakernel(const ShaderVariant& variant, const RenderOptions& opt
                           const ScheduleWork& work) {
   if (options.device.schedule == Schedule::Megakernel) return "--schedule";
   if (variant.aov != Aov::None) return "a layer of first hits";
-  if (variant.heatmap) return "the heat map";
+  if (variant.countsVisits) return "the heat map";
   if (!has(variant.stages, Stage::Gi)) return "a stage before global illumination";
   if (variant.shadowCatcher) return "--shadow-catcher";
   if (variant.traversal == TraversalMethod::Literals) return "the scene is shader text";

@@ -57,7 +57,7 @@ void checkOutput(const RenderOptions& o, bool anyOutput) {
   const OutputOptions& out = o.output;
   if (!out.file.empty() && !isWritableImageName(out.file))
     throw UsageError("--output: '" + out.file.string() + "' ends in none of .png, .jpg, .exr, .hdr, .pfm");
-  const auto part = std::ranges::find_if(out.aovs, isLightAov);
+  const auto part = std::ranges::find_if(out.aovs, isPathAov);
   if (part != out.aovs.end() && !has(o.stages, Stage::Gi))
     throw UsageError("--aov " + std::string(rowOf(*part).name) + ": only stage gi has it");
   const bool hasLayers = !out.aovs.empty() || out.aovSamples || out.aovVariance;
@@ -101,7 +101,7 @@ void checkLightPaths(const RenderOptions& o) {
     throw UsageError("--caustics on: light paths cannot be clamped (--clamp-indirect)");
   if (o.light.shadowCatcher)
     throw UsageError("--caustics on: a shadow catcher shows no caustics (--shadow-catcher)");
-  if (std::ranges::any_of(o.output.aovs, isLightAov))
+  if (std::ranges::any_of(o.output.aovs, isPathAov))
     throw UsageError("--caustics on: emission, diffuse and specular (--aov) would not add up to the picture");
 }
 
@@ -113,7 +113,7 @@ void checkReuse(const RenderOptions& o) {
   if (isAdaptive(o)) throw UsageError(refused + "--noise, --time: all pixels need as many samples");
   if (o.output.denoise != Denoise::None)
     throw UsageError(refused + "--denoise: a filter takes what pixels share for the picture");
-  if (std::ranges::any_of(o.output.aovs, isLightAov))
+  if (std::ranges::any_of(o.output.aovs, isPathAov))
     throw UsageError(refused + "emission, diffuse, specular (--aov): they would not add up to the picture");
 }
 

@@ -197,7 +197,7 @@ void Renderer::useProgram(const ShaderVariant& variant) {
 }
 
 void Renderer::bindPathStates(const ShaderVariant& variant) {
-  const bool part = isLightAov(variant.aov) || variant.lightPaths;
+  const bool part = isPathAov(variant.aov) || variant.lightPaths;
   const int rows = int(layout::kPathRows) + 1 + variant.stackSize / 4 + (part ? 1 : 0);
   const glm::ivec2 wave = software_ ? kWaveTile : kGpuWaveTile;
   const int64_t lanes = int64_t(wave.x) * wave.y / layout::kWaveSlots;

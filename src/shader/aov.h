@@ -55,9 +55,7 @@ inline const AovRow& rowOf(Aov aov) { return kAovRows[size_t(aov)]; }
 
 /// Returns true if the AOV is light, for which paths are traced to their ends, and not a property of the
 /// first hit.
-inline bool isLightAov(Aov aov) {
-  return aov == Aov::Emission || aov == Aov::Diffuse || aov == Aov::Specular;
-}
+inline bool isPathAov(Aov aov) { return aov == Aov::Emission || aov == Aov::Diffuse || aov == Aov::Specular; }
 
 /// The content of a picture. All but None are colours to be displayed as they are, without exposure and tone
 /// curve.

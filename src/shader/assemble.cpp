@@ -84,7 +84,7 @@ void appendConstants(std::ostringstream& text, const ShaderVariant& variant) {
     if (row.constant) constant(row.constant, has(variant.stages, row.stage));
   }
   for (const TraitRow& row : traitRows()) constant(row.constant, has(variant.traits, row.trait));
-  constant("kHeatmap", variant.heatmap);
+  constant("kCountVisits", variant.countsVisits);
   constant("kWeights", keepsWeights(variant));
   constant("kGlassTables", usesGlassTables(variant));
   constant("kPassing", passesSurfaces(variant));

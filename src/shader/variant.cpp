@@ -41,11 +41,11 @@ void drop(TraitSet& traits, std::initializer_list<Trait> members) {
 }
 
 /// A stage that is off by itself, or by what was asked for, turns others off.
-void dropStages(StageSet& stages, bool heatmap) {
+void dropStages(StageSet& stages, bool countsVisits) {
   // gi shades by itself; without it and phong nothing beyond flat has a meaning.
   stages.set(size_t(Stage::Flat));
   if (has(stages, Stage::Gi)) stages.set(size_t(Stage::Phong));
-  if (heatmap) stages &= StageSet(1ul << unsigned(Stage::Flat) | 1ul << unsigned(Stage::Watertight));
+  if (countsVisits) stages &= StageSet(1ul << unsigned(Stage::Flat) | 1ul << unsigned(Stage::Watertight));
   if (has(stages, Stage::Phong)) return;
   for (Stage s : {Stage::Shadows, Stage::Reflections, Stage::Refraction, Stage::NormalMaps, Stage::Gi,
                   Stage::Schlick, Stage::EnergyCompensation}) {
@@ -54,10 +54,11 @@ void dropStages(StageSet& stages, bool heatmap) {
 }
 
 /// Traits that no stage left on asks for, or that lack what they need.
-void dropTraits(const StageSet& stages, bool heatmap, Surroundings surroundings, TraitSet& traits) {
+void dropTraits(const StageSet& stages, bool countsVisits, Surroundings surroundings, TraitSet& traits) {
   const bool gi = has(stages, Stage::Gi);
   if (!has(stages, Stage::Phong) && surroundings != Surroundings::Map) drop(traits, {Trait::Environment});
-  if (heatmap) drop(traits, {Trait::Alpha, Trait::BaseColorTexture, Trait::VertexColors, Trait::Environment});
+  if (countsVisits)
+    drop(traits, {Trait::Alpha, Trait::BaseColorTexture, Trait::VertexColors, Trait::Environment});
   if (gi && !has(stages, Stage::Reflections)) drop(traits, {Trait::Specular});
   for (TraitSet before; before != traits;) {
     before = traits;
@@ -179,7 +180,7 @@ std::string whyNoLightPaths(const RenderOptions& options) {
   // Limits, catchers and parts know paths from the camera alone.
   if (options.sampling.clampIndirect > 0.0) return "--clamp-indirect";
   if (options.light.shadowCatcher) return "--shadow-catcher";
-  if (std::ranges::any_of(options.output.aovs, isLightAov)) return "--aov has parts of the light";
+  if (std::ranges::any_of(options.output.aovs, isPathAov)) return "--aov has parts of the light";
   return {};
 }
 
@@ -195,9 +196,9 @@ ShaderVariant chooseVariant(const RenderOptions& options, const TraitSet& presen
   if (options.light.shadowCatcher) v.traits.reset(size_t(Trait::DensityGrid));
   if (options.light.caustics == Caustics::Off || !whyNoLightPaths(options).empty())
     v.traits.reset(size_t(Trait::Caustics));
-  v.heatmap = options.output.debugView == DebugView::Visits;
-  dropStages(v.stages, v.heatmap);
-  dropTraits(v.stages, v.heatmap, surroundings, v.traits);
+  v.countsVisits = options.output.debugView == DebugView::Visits;
+  dropStages(v.stages, v.countsVisits);
+  dropTraits(v.stages, v.countsVisits, surroundings, v.traits);
   dropIdle(v);
 
   // Step: choose how rays find triangles. Literals need the packed scene, and useLiterals of
@@ -227,7 +228,7 @@ ShaderVariant chooseAovVariant(const RenderOptions& options, const TraitSet& pre
                                Surroundings surroundings, uint32_t treeDepth, BufferReads reads, Aov aov) {
   RenderOptions wanted = options;
   wanted.output.debugView = DebugView::None;
-  if (isLightAov(aov)) {
+  if (isPathAov(aov)) {
     ShaderVariant light = chooseVariant(wanted, present, surroundings, treeDepth, reads);
     light.aov = aov;
     light.traits.reset(size_t(Trait::Caustics));
@@ -345,7 +346,7 @@ std::string variantName(const ShaderVariant& variant) {
   if (variant.pixelFilter != PixelFilter::Box)
     append(std::string(kPixelFilterNames[size_t(variant.pixelFilter)]) + "-filter");
   if (variant.aov != Aov::None) append(std::string(rowOf(variant.aov).name));
-  if (variant.heatmap) append(std::string(rowOf(DebugView::Visits).name));
+  if (variant.countsVisits) append(std::string(rowOf(DebugView::Visits).name));
   if (variant.uniformLights) append("uniform-lights");
   if (variant.lightCandidates) append("light-candidates");
   if (variant.lightRecords) append("light-records");

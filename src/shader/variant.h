@@ -22,7 +22,7 @@ struct ShaderVariant {
   Dispatch dispatch = Dispatch::Fragment;
   PixelFilter pixelFilter = PixelFilter::Box;
   Aov aov = Aov::None;           ///< what is drawn in place of radiance
-  bool heatmap = false;          ///< the nodes that camera rays visit are, too
+  bool countsVisits = false;     ///< the nodes that camera rays visit are, too
   bool uniformLights = false;    ///< the light tree chooses all lights alike
   bool lightCandidates = false;  ///< a light sample is one of several (shaders/reuse/candidates.glsl)
   bool lightRecords = false;     ///< light samples of first hits are kept (shaders/reuse/neighbours.glsl)
@@ -41,9 +41,9 @@ struct ShaderVariant {
 
   auto key() const {
     return std::tuple(stages.to_ulong(), traits.to_ulong(), traversal, stackSize, reads, dispatch,
-                      pixelFilter, aov, heatmap, uniformLights, lightCandidates, lightRecords, neighbours,
-                      clampIndirect, shadowCatcher, lens, lightPaths, gpu, wavefront, waveUnit, resumable,
-                      literals);
+                      pixelFilter, aov, countsVisits, uniformLights, lightCandidates, lightRecords,
+                      neighbours, clampIndirect, shadowCatcher, lens, lightPaths, gpu, wavefront, waveUnit,
+                      resumable, literals);
   }
   bool operator<(const ShaderVariant& other) const { return key() < other.key(); }
   bool operator==(const ShaderVariant& other) const { return key() == other.key(); }

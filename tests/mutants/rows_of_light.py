@@ -142,7 +142,7 @@ ROWS = [
     F("shade.lightAt", "s.geometricNormal", "s.shadingNormal", "candidates are weighed by bent normals",
       "the weight is a guess: which one changes the noise alone, but where light comes from below"),
     F("path.takesLightFromBehind", "m.transmission > 0.0) return true", "m.transmission > 0.0) return false", "light that comes through rough glass is not sampled"),
-    F("lights.lightOfSlot before gi", "emitterLight(1.0f, point", "emitterLight(float(0.98), point", "lamps are 2 % too bright before gi"),
+    F("lights.sampleLight before gi", "emitterLight(1.0f, point", "emitterLight(float(0.98), point", "lamps are 2 % too bright before gi"),
     F("environment.environmentCoordinates", "* kInversePi);", "* kInversePi + float(0.003));", "the environment is seen a tenth of a texel too low"),
     F("environment.environmentDirection", "0.5f * uv.y", "0.5f * uv.y + float(0.0015)", "directions of the environment are drawn a tenth of a texel too low"),
     F("environment.environmentTexel", "return uintBitsToFloat", "return float(1.02) * uintBitsToFloat", "texels of the environment are 2 % too bright"),

@@ -21,7 +21,7 @@ namespace fragtrace::glsl_variant {
 inline bool kTriangles = true;
 inline bool kSpheres = true;
 inline bool kCulling = true;
-inline bool kHeatmap = true;
+inline bool kCountVisits = true;
 inline bool kIterative = false;
 inline bool kFrontToBack = true;
 inline bool kSpecular = true;

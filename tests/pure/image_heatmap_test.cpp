@@ -31,6 +31,27 @@ TEST(Heatmap, FewCountsAreBlueManyRedAndTheCountsAreKept) {
   EXPECT_EQ(painted.pixel(90, 10)[3], 100.0f);
 }
 
+/// The white cells of a part of the picture, a line a row.
+std::string cells(const Image& image, int left, int top, int width, int height) {
+  std::string text;
+  for (int y = top; y < top + height; ++y) {
+    for (int x = left; x < left + width; ++x) text += image.pixel(x, y)[1] == 1.0f ? '#' : '.';
+    text += '\n';
+  }
+  return text;
+}
+
+TEST(Heatmap, NumbersOfTheScaleAreThoseOfTheirPlaces) {
+  const Image painted = paintHeatmap(counts(200, 40, 5.0f));
+  EXPECT_EQ(cells(painted, 42, 29, 16, 5),
+            ".#......###.###.\n"
+            "##........#.#...\n"
+            ".#......###.###.\n"
+            ".#......#.....#.\n"
+            "###..#..###.###.\n");  // 1.25
+  EXPECT_EQ(cells(painted, 196, 29, 4, 5), "###.\n#...\n###.\n..#.\n###.\n");
+}
+
 TEST(Heatmap, TinyPicturesAreNotOverrun) {
   for (int size = 1; size < 12; ++size) EXPECT_EQ(paintHeatmap(counts(size, size, 7.0f)).width, size);
 }

@@ -278,7 +278,7 @@ TEST(LightTree, OneSampleOfAllLightsAndTheEnvironmentIsUnbiased) {
     for (uint32_t k = 0; k < kSamples; ++k) {
       const auto sampler = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
       estimate.add(
-          luminanceOf(glsl_double::lightOfSlot(0, kOrigin, layout::kNoNormal, sampler, 5).irradiance));
+          luminanceOf(glsl_double::sampleLight(0, kOrigin, layout::kNoNormal, sampler, 5).irradiance));
     }
     // That light samples by power have the right mean is a test of its own (ShaderLights).
     if (selection == LightSelection::Power) byPower = estimate.mean();
@@ -341,7 +341,7 @@ Estimate lightOnSurface(const LitPlace& place, LightReuse by, bool tree) {
         by == LightReuse::Spatial ? reusedLight(place, tree, k)
         : by == LightReuse::Candidates
             ? glsl_double::lightOfCandidates(place.point, place.normal, place.through, packed, sampler, 5)
-            : glsl_double::lightOfSlot(0, place.point, packed, sampler, 5);
+            : glsl_double::sampleLight(0, place.point, packed, sampler, 5);
     const double cosine = glm::dot(s.direction, place.normal);
     const double weight = s.pdf > 0.0 ? s.pdf / (s.pdf + 0.3) : 1.0;
     // From behind light comes through as red glass lets it.

@@ -265,35 +265,35 @@ TEST(ShaderLights, OneSampleOfAllLightsAndTheEnvironmentIsUnbiased) {
   const Lit lit(litScene(), true);
   ASSERT_GT(environmentChance(lit.packed.lightShare, 1.0), 0.1f);
   ASSERT_LT(environmentChance(lit.packed.lightShare, 1.0), 0.9f);
-  ASSERT_EQ(glsl_double::lightSlotCount(), 1);
+  ASSERT_EQ(glsl_double::lightSampleCount(), 1);
   Estimate estimate;
   for (uint32_t k = 0; k < kSamples; ++k) {
     const auto sampler = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
-    estimate.add(luminanceOf(glsl_double::lightOfSlot(0, kOrigin, layout::kNoNormal, sampler, 5).irradiance));
+    estimate.add(luminanceOf(glsl_double::sampleLight(0, kOrigin, layout::kNoNormal, sampler, 5).irradiance));
   }
   const double exact = trianglesAtOrigin(lit) + punctualsAtOrigin(lit) + environmentAllAround();
   EXPECT_LE(estimate.error(), 0.01 * exact);
   EXPECT_LE(std::abs(estimate.mean() - exact), kLimit * estimate.error());
 }
 
-TEST(ShaderLights, BeforeGlobalIlluminationEverySlotIsALightOfItsOwn) {
+TEST(ShaderLights, BeforeGlobalIlluminationEverySampleIsOfALightOfItsOwn) {
   constexpr uint32_t kSamples = 1 << 15;
   const With local(glsl_variant::kGi, false);
   const With independent(glsl_variant::kSobol, false);
   const Lit lit(litScene(), true);
-  ASSERT_EQ(glsl_double::lightSlotCount(), 4);  // three punctual lights, the triangles
+  ASSERT_EQ(glsl_double::lightSampleCount(), 4);  // three punctual lights, the triangles
   const double expected[] = {luminanceOf(punctualAtOrigin(lit.scene.lights[0])),
                              luminanceOf(punctualAtOrigin(lit.scene.lights[1])),
                              luminanceOf(punctualAtOrigin(lit.scene.lights[2])), trianglesAtOrigin(lit)};
-  for (int slot = 0; slot < 4; ++slot) {
+  for (int index = 0; index < 4; ++index) {
     Estimate estimate;
     for (uint32_t k = 0; k < kSamples; ++k) {
       const auto sampler = glsl_double::makeSampler(glsl_double::pixelKey(11, 13, 17), k);
       estimate.add(
-          luminanceOf(glsl_double::lightOfSlot(slot, kOrigin, layout::kNoNormal, sampler, 5).irradiance));
+          luminanceOf(glsl_double::sampleLight(index, kOrigin, layout::kNoNormal, sampler, 5).irradiance));
     }
-    EXPECT_LE(std::abs(estimate.mean() - expected[slot]), kLimit * estimate.error() + 3e-5 * expected[slot])
-        << "slot " << slot;
+    EXPECT_LE(std::abs(estimate.mean() - expected[index]), kLimit * estimate.error() + 3e-5 * expected[index])
+        << "light sample " << index;
   }
 }
 

@@ -171,7 +171,7 @@ TEST(DebugView, CountsAreThoseOfTheirPicture) {
   for (const DebugView view : {DebugView::None, DebugView::Samples, DebugView::Variance})
     EXPECT_EQ(pictureOf(view, allTraits()), picture);
   const ShaderVariant visits = pictureOf(DebugView::Visits, allTraits());
-  EXPECT_TRUE(visits.heatmap);
+  EXPECT_TRUE(visits.countsVisits);
   EXPECT_FALSE(has(visits.stages, Stage::Phong));
   EXPECT_FALSE(has(visits.traits, Trait::Alpha));
 }

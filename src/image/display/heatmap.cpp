@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 
 namespace fragtrace {
 
@@ -17,14 +19,14 @@ Color heatColor(double x) {
   return {ramp(h - 2.0), ramp(std::min(h, 4.0 - h)), ramp(2.0 - h) * float(0.25 + 0.75 * std::min(h, 1.0))};
 }
 
-/// Digits, 3 x 5 cells, a row an octal digit from the top.
-constexpr std::array<unsigned, 10> kDigits = {075557, 026227, 071747, 071717, 055711,
-                                              074717, 074757, 071111, 075757, 075717};
+/// Digits and the point, 3 x 5 cells, a row an octal digit from the top.
+constexpr std::array<unsigned, 11> kGlyphs = {075557, 026227, 071747, 071717, 055711, 074717,
+                                              074757, 071111, 075757, 075717, 000002};
 
-void drawNumber(Image& image, int value, int left, int top, int scale) {
-  const std::string digits = std::to_string(value);
-  for (size_t i = 0; i < digits.size(); ++i) {
-    const unsigned rows = kDigits[size_t(digits[i] - '0')];
+/// number: digits, and a point at most.
+void drawNumber(Image& image, const std::string& number, int left, int top, int scale) {
+  for (size_t i = 0; i < number.size(); ++i) {
+    const unsigned rows = number[i] == '.' ? kGlyphs[10] : kGlyphs[size_t(number[i] - '0')];
     for (int y = 0; y < 5 * scale; ++y) {
       for (int x = 0; x < 3 * scale; ++x) {
         const unsigned bit = (rows >> (3 * (4 - y / scale))) >> (2 - x / scale) & 1u;
@@ -78,10 +80,11 @@ Image paintHeatmap(const Image& counts, const std::string& countsAs) {
     }
   }
   for (int part = 0; part <= 4; ++part) {
-    const int value = int(std::lround(limit * part / 4.0));
-    const int width = int(std::to_string(value).size()) * 4 * scale;
-    drawNumber(image, value, std::clamp(image.width * part / 4 - width / 2, scale, image.width - width),
-               textTop, scale);
+    std::array<char, 32> number{};
+    std::snprintf(number.data(), number.size(), "%.12g", limit * part / 4.0);
+    const int width = int(std::strlen(number.data())) * 4 * scale;
+    drawNumber(image, number.data(),
+               std::clamp(image.width * part / 4 - width / 2, scale, image.width - width), textTop, scale);
   }
   return image;
 }

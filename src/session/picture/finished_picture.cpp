@@ -26,7 +26,7 @@ void sayWhatIsNotSeen(const RenderOptions& options, const LoadedScene& loaded, c
   const bool chosen = loaded.overrides == options.camera.overrides;
   const bool nothing = stats.scene.triangles == 0 && stats.scene.spheres == 0;
   const bool seen = stats.film.hitPixels > 0 || stats.film.samples == 0;
-  if (options.camera.region || nothing || seen || variant.heatmap) return;
+  if (options.camera.region || nothing || seen || variant.countsVisits) return;
   say(options, std::string("warning: ") + (chosen ? "this" : "the default") +
                    " view shows nothing of the scene; " +
                    (chosen ? "--fit moves the camera until it does"
