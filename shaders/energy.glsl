@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Tables behind the materials: the energy that single scattering loses between GGX facets (src/pack/ggx_energy.cpp),
-// the albedo of sheen (src/pack/sheen_albedo.cpp) and that of rough glass (src/pack/glass_energy.cpp). Each has one row
-// a cell with the values at its corners, over the roots of cosine and alpha. The first table continues with one row a
-// cell of the average loss.
+// Tables behind the materials: the energy that single scattering loses between GGX facets (src/pack/ggx_energy.cpp) and
+// the albedo of rough glass (src/pack/glass_energy.cpp). Each has one row a cell with the values at its corners, over
+// the roots of cosine and alpha. The first table continues with one row a cell of the average loss.
 
 const int kEnergyRows = int(kEnergyCells * kEnergyCells + kEnergyCells);
 
-/// The value of a table that begins after so many rows.
+/// The value of a table that begins so many rows behind that of energy, or before it.
 float energyTableAt(int first, float cosine, float alpha) {
   const int cells = int(kEnergyCells);
   float x = sqrt(clamp(cosine, 0.0, 1.0)) * float(cells);
@@ -34,11 +33,6 @@ float ggxAverageLoss(float alpha) {
 /// tables of all indices of refraction follow the other tables, two for each index.
 float glassAlbedo(int table, bool front, float cosine, float alpha) {
   const int rows = int(kEnergyCells * kEnergyCells);
-  int first = kEnergyRows + (kSheen ? rows : 0) + (2 * table + (front ? 0 : 1)) * rows;
+  int first = kEnergyRows + (2 * table + (front ? 0 : 1)) * rows;
   return energyTableAt(first, cosine, alpha);
-}
-
-/// Albedo of white sheen, seen at `cosine`.
-float sheenAlbedo(float cosine, float alpha) {
-  return kSheen ? energyTableAt(kCompensation ? kEnergyRows : 0, cosine, alpha) : 0.0;
 }

@@ -64,7 +64,6 @@ layout(std430, binding = kProgressBinding) restrict buffer ProgressBlock { Progr
 #include "ggx.glsl"
 #include "energy.glsl"
 #include "iridescence.glsl"
-#include "sheen.glsl"
 #include "bsdf.glsl"
 #include "layers.glsl"
 #include "material_layers.glsl"

@@ -322,10 +322,10 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
                    tableOf(glass, scene.materials[i]), traits, textures);
   }
   textures.appendTransforms(materials);
-  packed.energyTableRow = uint32_t(materials.size() / 4);
-  if (has(variant.stages, Stage::EnergyCompensation)) appendEnergyTable(materials);
   static_assert(SheenAlbedoTable::kCells == layout::kEnergyCells);
   if (has(traits, Trait::Sheen)) appendCells(materials, sheenAlbedoTable().albedo);
+  packed.energyTableRow = uint32_t(materials.size() / 4);
+  if (has(variant.stages, Stage::EnergyCompensation)) appendEnergyTable(materials);
   for (const float ior : glass) {
     const GlassAlbedoTable& table = glassAlbedoTable(ior);
     appendCells(materials, table.outside);

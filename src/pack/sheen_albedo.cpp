@@ -14,7 +14,7 @@ namespace {
 constexpr int kHeights = 32;  // of the quadrature
 constexpr int kTurns = 24;
 
-// These are the distribution and the fit of shaders/sheen.glsl, in double precision.
+// These are the distribution and the fit of shaders/layers.glsl, in double precision.
 
 double fit(double x, double alpha) {
   const double t = (1.0 - alpha) * (1.0 - alpha);

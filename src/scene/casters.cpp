@@ -132,7 +132,7 @@ std::pair<Group, Group> halves(const Group& group) {
 
 bool castsCaustics(const Material& m) {
   if (m.scattersInside() || m.scattersThinly()) return false;
-  if (m.unlit || m.clearcoated() || m.hasSheen() || m.specularGlossiness) return false;
+  if (m.unlit || m.layered() || m.specularGlossiness) return false;
   return m.mirrorLike() && !m.anisotropic() && (m.transmissive() || m.metallicFactor > 0.0f);
 }
 

@@ -10,7 +10,7 @@ namespace fragtrace {
 
 /// Returns true if the material is smooth all over, and glass or metal at least in places. Light paths find
 /// the light that scatters at such materials alone between a lamp and a rough surface (shaders/caustics/).
-/// Camera paths find it where textures decide what is smooth, or clearcoat and sheen lie above.
+/// Camera paths find it where textures decide what is smooth, or layers lie above.
 bool castsCaustics(const Material& material);
 
 /// A ball in local space.

@@ -172,6 +172,8 @@ struct Material {
   bool mirrorLike() const { return roughnessFactor * roughnessFactor < 0.001f; }
   bool clearcoated() const { return clearcoatFactor > 0.0f; }
   bool hasSheen() const { return sheenColorFactor != glm::vec3(0.0f); }
+  /// Layers lie over the base of the surface.
+  bool layered() const { return clearcoated() || hasSheen(); }
   bool anisotropic() const { return anisotropyStrength > 0.0f; }
   bool iridescent() const { return iridescenceFactor > 0.0f; }
   bool scalesSpecular() const {

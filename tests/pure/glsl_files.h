@@ -14,7 +14,6 @@
 #include "fresnel.glsl"
 #include "ggx.glsl"
 #include "iridescence.glsl"
-#include "sheen.glsl"
 #include "bsdf.glsl"
 #include "layers.glsl"
 #include "phong.glsl"

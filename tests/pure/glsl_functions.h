@@ -50,6 +50,6 @@ inline float ggxLoss(float cosine, float alpha) {
   return fragtrace::ggxLoss(ggxEnergyTable(), cosine, alpha);
 }
 inline float ggxAverageLoss(float alpha) { return fragtrace::ggxAverageLoss(ggxEnergyTable(), alpha); }
-inline float sheenAlbedo(float cosine, float alpha) {
+inline float energyTableAt(int, float cosine, float alpha) {  // only sheen's is read
   return fragtrace::sheenAlbedo(sheenAlbedoTable(), cosine, alpha);
 }

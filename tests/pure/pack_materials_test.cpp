@@ -125,11 +125,12 @@ TEST(PackMaterials, ExtensionsHaveRowsOfTheirOwn) {
   EXPECT_EQ(packed.floats(kMaterialAnisotropy), glm::vec4(0.5, 1, 0, 0));
   EXPECT_EQ(packed.floats(kMaterialIridescence), glm::vec4(1, 1.3f, 100, 400));
   EXPECT_EQ(packed.floats(kMaterialDiffuseTransmission), glm::vec4(0.25, 1, 0, 0.5));
-  // The tables: GGX's loss with its averages, then sheen's albedo.
-  const size_t sheen = packed.scene.energyTableRow + kEnergyCells * kEnergyCells + kEnergyCells;
+  // The tables: sheen's albedo, then GGX's loss with its averages.
+  const size_t sheen = packed.scene.energyTableRow - kEnergyCells * kEnergyCells;
   const std::vector<float>& albedo = sheenAlbedoTable().albedo;
   EXPECT_EQ(packed.floats(sheen + 1), glm::vec4(albedo[1], albedo[2], albedo[34], albedo[35]));
-  EXPECT_EQ(packed.scene.buffers[kMaterialsBinding].size() / 4, sheen + kEnergyCells * kEnergyCells);
+  EXPECT_EQ(packed.scene.buffers[kMaterialsBinding].size() / 4,
+            packed.scene.energyTableRow + kEnergyCells * kEnergyCells + kEnergyCells);
   for (Trait t :
        {Trait::Clearcoat, Trait::Sheen, Trait::Anisotropy, Trait::Iridescence, Trait::DiffuseTransmission}) {
     EXPECT_TRUE(has(packed.variant.traits, t)) << traitRows()[size_t(t)].name;

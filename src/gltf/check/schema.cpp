@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "gltf/check/schema.h"
 
-#include <algorithm>
+#include <deque>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <vector>
 
+#include "gltf/check/extensions.h"
 #include "gltf/check/schema_checker.h"
 
 namespace fragtrace {
@@ -94,56 +97,8 @@ constexpr Rule kRules[] = {
     {"/materials/*/alphaCutoff", Kind::Number},
     {"/materials/*/doubleSided", Kind::Flag},
     {"/materials/*/extensions", Kind::Object},
-    {"/materials/*/extensions/KHR_materials_unlit", Kind::Object},
-    {"/materials/*/extensions/KHR_materials_emissive_strength", Kind::Object},
-    {"/materials/*/extensions/KHR_materials_emissive_strength/emissiveStrength", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_ior", Kind::Object},
-    {"/materials/*/extensions/KHR_materials_ior/ior", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_transmission", Kind::Object},
-    {"/materials/*/extensions/KHR_materials_transmission/transmissionFactor", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_volume", Kind::Object},
-    {"/materials/*/extensions/KHR_materials_volume/thicknessFactor", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_volume/attenuationDistance", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_volume/attenuationColor", Kind::Numbers, nullptr, 3},
-    {"/materials/*/extensions/KHR_materials_specular", Kind::Object},
-    {"/materials/*/extensions/KHR_materials_specular/specularFactor", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_specular/specularColorFactor", Kind::Numbers, nullptr, 3},
     {"/materials/*/normalTexture/scale", Kind::Number},
     {"/materials/*/occlusionTexture/strength", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_clearcoat/clearcoatNormalTexture/scale", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_pbrSpecularGlossiness", Kind::Object},
-    {"/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor", Kind::Numbers, nullptr, 4},
-    {"/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/specularFactor", Kind::Numbers, nullptr, 3},
-    {"/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_clearcoat", Kind::Object},
-    {"/materials/*/extensions/KHR_materials_clearcoat/clearcoatFactor", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_sheen", Kind::Object},
-    {"/materials/*/extensions/KHR_materials_sheen/sheenColorFactor", Kind::Numbers, nullptr, 3},
-    {"/materials/*/extensions/KHR_materials_sheen/sheenRoughnessFactor", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_anisotropy", Kind::Object},
-    {"/materials/*/extensions/KHR_materials_anisotropy/anisotropyStrength", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_anisotropy/anisotropyRotation", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_iridescence", Kind::Object},
-    {"/materials/*/extensions/KHR_materials_iridescence/iridescenceFactor", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_iridescence/iridescenceIor", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_iridescence/iridescenceThicknessMinimum", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_iridescence/iridescenceThicknessMaximum", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_diffuse_transmission", Kind::Object},
-    {"/materials/*/extensions/KHR_materials_diffuse_transmission/diffuseTransmissionFactor", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorFactor",
-     Kind::Numbers, nullptr, 3},
-    {"/materials/*/extensions/KHR_materials_dispersion", Kind::Object},
-    {"/materials/*/extensions/KHR_materials_dispersion/dispersion", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_scatter", Kind::Object},
-    {"/materials/*/extensions/KHR_materials_scatter/scatterStrengthFactor", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_scatter/multiscatterColorFactor", Kind::Numbers, nullptr, 3},
-    {"/materials/*/extensions/KHR_materials_scatter/scatterAnisotropy", Kind::Number},
-    {"/materials/*/extensions/KHR_materials_volume_scatter", Kind::Object},
-    {"/materials/*/extensions/KHR_materials_volume_scatter/multiscatterColor", Kind::Numbers, nullptr, 3},
-    {"/materials/*/extensions/KHR_materials_volume_scatter/multiscatterColorFactor", Kind::Numbers, nullptr,
-     3},
-    {"/materials/*/extensions/KHR_materials_volume_scatter/scatterAnisotropy", Kind::Number},
     {"/materials/*/extras/perlinNormal", Kind::Object},
     {"/materials/*/extras/perlinNormal/frequency", Kind::Number},
     {"/materials/*/extras/perlinNormal/amplitude", Kind::Number},
@@ -259,31 +214,13 @@ constexpr Rule kRules[] = {
     {"/scene", Kind::Index, "/scenes"},
 };
 
-/// The members of a material that name a texture.
+/// The members of glTF's own material that name a texture.
 constexpr const char* kTextureSlots[] = {
     "/materials/*/pbrMetallicRoughness/baseColorTexture",
     "/materials/*/pbrMetallicRoughness/metallicRoughnessTexture",
     "/materials/*/normalTexture",
     "/materials/*/emissiveTexture",
     "/materials/*/occlusionTexture",
-    "/materials/*/extensions/KHR_materials_transmission/transmissionTexture",
-    "/materials/*/extensions/KHR_materials_volume/thicknessTexture",
-    "/materials/*/extensions/KHR_materials_specular/specularTexture",
-    "/materials/*/extensions/KHR_materials_specular/specularColorTexture",
-    "/materials/*/extensions/KHR_materials_clearcoat/clearcoatTexture",
-    "/materials/*/extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
-    "/materials/*/extensions/KHR_materials_clearcoat/clearcoatNormalTexture",
-    "/materials/*/extensions/KHR_materials_sheen/sheenColorTexture",
-    "/materials/*/extensions/KHR_materials_sheen/sheenRoughnessTexture",
-    "/materials/*/extensions/KHR_materials_anisotropy/anisotropyTexture",
-    "/materials/*/extensions/KHR_materials_iridescence/iridescenceTexture",
-    "/materials/*/extensions/KHR_materials_iridescence/iridescenceThicknessTexture",
-    "/materials/*/extensions/KHR_materials_diffuse_transmission/diffuseTransmissionTexture",
-    "/materials/*/extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorTexture",
-    "/materials/*/extensions/KHR_materials_scatter/scatterStrengthTexture",
-    "/materials/*/extensions/KHR_materials_scatter/multiscatterColorTexture",
-    "/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture",
-    "/materials/*/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture",
 };
 
 /// The members of such a use of a texture.
@@ -299,6 +236,40 @@ constexpr Rule kTextureInfoRules[] = {
     {"/extensions/KHR_texture_transform/texCoord", Kind::Int},
 };
 
+/// kRules, and the rules of material extensions and of all uses of textures.
+const std::vector<Rule>& rules() {
+  static std::deque<std::string> patterns;  // the rules point to them
+  static const std::vector<Rule> all = [] {
+    std::vector<Rule> made(std::begin(kRules), std::end(kRules));
+    const auto add = [&](std::string pattern, Rule rule) {
+      rule.pattern = patterns.emplace_back(std::move(pattern)).c_str();
+      made.push_back(rule);
+    };
+    const auto addTexture = [&](const std::string& place) {
+      for (const Rule& rule : kTextureInfoRules) add(place + rule.pattern, rule);
+    };
+    for (const char* place : kTextureSlots) addTexture(place);
+    for (const Extension& extension : extensions()) {
+      if (extension.members.empty()) continue;
+      const std::string place = "/materials/*/extensions/" + std::string(extension.name);
+      add(place, {"", Kind::Object});
+      std::istringstream members{std::string(extension.members)};
+      for (std::string member; members >> member;) {
+        const size_t bracket = member.find('[');
+        const std::string at = place + "/" + member.substr(0, bracket);
+        if (bracket != std::string::npos)
+          add(at, {"", Kind::Numbers, nullptr, size_t(member[bracket + 1] - '0')});
+        else if (member.ends_with("Texture"))
+          addTexture(at);
+        else
+          add(at, {"", Kind::Number});
+      }
+    }
+    return made;
+  }();
+  return all;
+}
+
 bool matches(std::string_view pattern, std::string_view pointer) {
   if (pattern.ends_with('!')) pattern.remove_suffix(1);
   while (pattern.starts_with('/') && pointer.starts_with('/')) {
@@ -313,30 +284,18 @@ bool matches(std::string_view pattern, std::string_view pointer) {
 
 void checkSchema(json& root, const Diagnostics& diagnostics) {
   if (!root.is_object()) diagnostics.refuse("", "is not glTF: the JSON is not an object");
-  for (const Rule& rule : kRules) applyRule(rule, root, diagnostics);
-  for (const std::string slot : kTextureSlots) {
-    for (Rule rule : kTextureInfoRules) {
-      const std::string pattern = slot + rule.pattern;
-      rule.pattern = pattern.c_str();
-      applyRule(rule, root, diagnostics);
-    }
-  }
+  for (const Rule& rule : rules()) applyRule(rule, root, diagnostics);
 }
 
 std::optional<NumberRule> numberRuleAt(std::string_view pointer) {
-  std::optional<NumberRule> found;
-  const auto tryRule = [&](const Rule& rule, const std::string& pattern) {
-    const bool isArray = rule.kind == Kind::Numbers;
-    if ((isArray || rule.kind == Kind::Number) && matches(pattern, pointer))
-      found = NumberRule{isArray ? rule.size : 1, isArray, false};
-  };
-  for (const Rule& rule : kRules) tryRule(rule, rule.pattern);
   // The one flag that glTF's object model lets animations change.
-  if (matches("/nodes/*/extensions/KHR_node_visibility/visible", pointer)) found = NumberRule{1, false, true};
-  for (const std::string slot : kTextureSlots) {
-    for (const Rule& rule : kTextureInfoRules) tryRule(rule, slot + rule.pattern);
+  if (matches("/nodes/*/extensions/KHR_node_visibility/visible", pointer)) return NumberRule{1, false, true};
+  for (const Rule& rule : rules()) {
+    const bool isArray = rule.kind == Kind::Numbers;
+    if ((isArray || rule.kind == Kind::Number) && matches(rule.pattern, pointer))
+      return NumberRule{isArray ? rule.size : 1, isArray, false};
   }
-  return found;
+  return std::nullopt;
 }
 
 }  // namespace fragtrace
