@@ -11,7 +11,7 @@ namespace fragtrace {
 struct Summary {
   double median = 0;
   double mean = 0;
-  double stddev = 0;  ///< of the sample, with n - 1; 0 for one value
+  double stddev = 0;  ///< standard deviation of the sample, with n - 1; 0 for one value
   double min = 0;
   double p95 = 0;  ///< the quantile of q = 0.95
 };

@@ -22,7 +22,7 @@ namespace fragtrace {
 struct WorkerKind {
   const char* module;   ///< the file that the worker opens, which links the libraries
   const char* library;  ///< their name in messages
-  const char* advice;   ///< how to install them
+  const char* advice;   ///< a command that installs them
   const char* instead;  ///< ends messages: what works without them
 };
 

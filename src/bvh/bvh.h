@@ -80,7 +80,7 @@ struct BvhQuality {
   uint32_t leafCount = 0;
   uint32_t depth = 0;
   double primitivesPerLeaf = 0.0;
-  uint32_t meshNodeCount = 0;  ///< of the nodes, those of shared meshes
+  uint32_t meshNodeCount = 0;  ///< nodes that belong to shared meshes
 };
 BvhQuality bvhQuality(const Bvh& bvh);
 

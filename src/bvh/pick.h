@@ -14,10 +14,10 @@ struct Pick {
   std::string node;                 ///< its name, or its JSON pointer
   uint32_t nodeIndex = 0;           ///< its place in the file
   std::string mesh;                 ///< the same; empty for a sphere
-  uint32_t primitive = kMissIndex;  ///< of the scene: triangles first, then spheres
+  uint32_t primitive = kMissIndex;  ///< index in the scene: triangles first, then spheres
   uint32_t triangle = kMissIndex;   ///< its number in the mesh primitive; kMissIndex for a sphere
   uint32_t material = 0;
-  uint32_t instance = kMissIndex;  ///< of a shared mesh, that it belongs to
+  uint32_t instance = kMissIndex;  ///< index of the shared mesh's instance that it belongs to
   double distance = 0.0;           ///< from the camera, orthographic: from its plane; metres
   glm::dvec3 point{0.0};           ///< world space
   glm::dvec3 normal{0.0};          ///< geometric, unit, towards the camera

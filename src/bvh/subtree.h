@@ -17,7 +17,7 @@ struct Subtree {
   std::vector<BvhLeaf> leaves;
   uint32_t root = 0;   ///< as BvhNode::child
   uint32_t depth = 0;  ///< inner nodes on the longest path
-  double area = 0.0;   ///< of all boxes in the nodes, summed
+  double area = 0.0;   ///< sum over all boxes in the nodes
 };
 
 Bounds boundsOf(std::span<const BuildItem> items);

@@ -11,7 +11,7 @@ namespace fragtrace {
 
 struct DenoiseOptions {
   std::filesystem::path picture;
-  RenderOptions render;  ///< of these: output, filter and its library, backend, how a display shows it
+  RenderOptions render;  ///< read are output, filter and its library, backend, display
 };
 
 struct RawDenoise {

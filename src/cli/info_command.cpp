@@ -23,7 +23,7 @@ namespace fragtrace {
 namespace {
 
 struct InfoOptions {
-  RenderOptions render;  ///< of it the file, and how it is read
+  RenderOptions render;  ///< read are the file, and the options of reading it
   bool json = false;
   bool nodes = false;
   bool decode = false;

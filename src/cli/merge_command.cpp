@@ -23,7 +23,7 @@ namespace {
 struct MergeOptions {
   std::vector<std::filesystem::path> parts;
   std::filesystem::path output;
-  RenderOptions filter;  ///< of these: whether and how the joined picture is denoised
+  RenderOptions filter;  ///< read are the options that denoise the joined picture
 };
 
 int runMerge(const MergeOptions& options) {

@@ -163,7 +163,7 @@ struct SequenceRun {
   std::optional<LoadedScene> loaded;       ///< as of the picture before
   std::optional<RefittableTree> tree;      ///< that was built last, where the next may take it over
   std::shared_ptr<KeptDocument> document;  ///< that is posed for each picture
-  Statistics prepared;                     ///< of a turntable's scene
+  Statistics prepared;                     ///< time spent on a turntable's scene
 };
 
 /// Returns true if the next picture may refit this one's tree. `merge` tells scenes apart by their arrays,

@@ -32,7 +32,7 @@ class SceneBuffers {
 
 /// The largest arrays that a driver reads in each way.
 struct ReadLimits {
-  int64_t texels = 0;  ///< of image and texel buffers
+  int64_t texels = 0;  ///< texels in image and texel buffers
   int64_t storageBytes = 0;
   int64_t imageUnits = 0;
 };

@@ -50,7 +50,7 @@ struct TexelImage {
   int width = 0;
   int height = 0;
   std::span<const uint16_t> rgba;      ///< width * height * 4; missing channels: grey to RGB, alpha 65535
-  std::shared_ptr<const void> memory;  ///< where they lie
+  std::shared_ptr<const void> memory;  ///< keeps the values alive
 };
 
 /// Reads a picture file (.pfm by our own code, the rest through the image library). Values are as stored:

@@ -15,7 +15,7 @@ struct Region {
 
 /// The place of a picture in a larger one.
 struct Placement {
-  glm::ivec2 corner{0};  ///< of its top left pixel, from the larger one's top left
+  glm::ivec2 corner{0};  ///< its top left pixel, counted from the larger one's top left
   glm::ivec2 whole{0};   ///< size of the larger one
 
   bool operator==(const Placement&) const = default;

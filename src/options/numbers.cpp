@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "base/count_text.h"
 #include "options/choose.h"
 
 namespace fragtrace {
@@ -35,12 +35,6 @@ std::string whyNoNumber(const std::string& text) {
   const std::optional<double> value = numberIn(text);
   if (!value) return "'" + text + "' is no number";
   return std::isfinite(*value) ? "" : "'" + text + "' is not a finite number";
-}
-
-std::string shortText(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace fragtrace {
 
 struct ViewOptions {
-  RenderOptions render;  ///< what is shown at first
+  RenderOptions render;  ///< options of the first picture
   bool watch = false;    ///< reload when the scene's files or the shaders change
   std::filesystem::path statusFile;
   std::filesystem::path reference;  ///< a picture that is shown as side B; empty: none

@@ -61,9 +61,9 @@ struct GpuScene {
   LightShare lightShare;
   uint32_t emitterCount = 0;
   uint32_t punctualLights = 0;
-  std::vector<glm::vec4> casters{};  ///< of caustics: balls, middle and radius in local space
+  std::vector<glm::vec4> casters{};  ///< balls that cast caustics: middle and radius in local space
   PackedGrid densities{};
-  uint32_t energyTableRow = 0;       ///< where the energy table begins among the material rows
+  uint32_t energyTableRow = 0;       ///< first row of the energy table among the material rows
   uint32_t objectRow = 0;            ///< and the numbers of objects
   glm::vec3 upwardIrradiance{0.0f};  ///< by the environment, of a plane that faces up; for shadow catchers
   std::array<bool, layout::kSceneBufferCount> unchanged{};  ///< those that are as packed before: empty here

@@ -39,7 +39,7 @@ struct KeptArrays {
     bool forCatcher = false;  ///< upwardIrradiance is known
     bool light = false;       ///< appendEnvironmentLight()
   };
-  std::optional<KeptEnvironment> environment;  ///< of the map; there is one a sequence
+  std::optional<KeptEnvironment> environment;  ///< environment map; there is one a sequence
 };
 
 }  // namespace fragtrace

@@ -19,9 +19,9 @@ struct LiteralFace {
   bool parallelogram = false;        ///< a quadrilateral that is one
   bool culled = false;               ///< its back is not there
   uint32_t slot = 0;        ///< leaf slot of the triangle; of a quadrilateral, of its first three corners
-  uint32_t otherSlot = 0;   ///< of a quadrilateral's third, fourth and first corner
-  uint32_t first = 0;       ///< which vertex of the triangle in `slot` the first corner is
-  uint32_t otherFirst = 0;  ///< which vertex of the other triangle the third corner is
+  uint32_t otherSlot = 0;   ///< leaf slot of a quadrilateral's other triangle
+  uint32_t first = 0;       ///< the vertex of the triangle in `slot` that is the first corner
+  uint32_t otherFirst = 0;  ///< the vertex of the other triangle that is the third corner
 };
 
 struct LiteralMesh {

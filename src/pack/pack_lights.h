@@ -9,7 +9,7 @@ namespace fragtrace {
 struct PackedEmitters {
   Words entries;  ///< layout.glsl: emitters
   uint32_t count = 0;
-  double power = 0.0;               ///< of all, watts of luminance
+  double power = 0.0;               ///< sum, watts of luminance
   std::vector<double> materialPdf;  ///< by material: probability per square metre of its triangles
 };
 

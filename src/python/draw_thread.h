@@ -18,7 +18,7 @@ namespace fragtrace {
 struct DrawJob {
   std::function<void(DrawJob&)> work;
   std::atomic<int> interrupts = 0;   ///< interrupts() of the work
-  std::atomic<double> fraction = 0;  ///< of the samples
+  std::atomic<double> fraction = 0;  ///< share of the samples
   std::vector<std::string> said;     ///< by say(); read it when the job has ended
   std::exception_ptr error;          ///< likewise
 

@@ -19,7 +19,7 @@ struct KeptScene {
   RenderOptions loadedFor;
   std::optional<Tracer> tracer;
   RenderOptions tracedFor;
-  Statistics prepared;  ///< of loading and uploading
+  Statistics prepared;  ///< statistics of loading and uploading
   bool isKept = true;   ///< else one picture is drawn, and memory that only loading needs is freed before
 };
 

@@ -24,7 +24,7 @@ struct Block {
   int target = kFirstSamples;  ///< samples after this round
   int pixels = 0;
   int noisy = 0;  ///< pixels that can be
-  int lit = 0;    ///< of these, such as light has met
+  int lit = 0;    ///< pixels among these that light has met
   int above = 0;  ///< pixels above the noise asked for
   int litAbove = 0;
   double error = 0.0;  ///< sum of the squared relative errors

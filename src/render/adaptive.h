@@ -15,17 +15,16 @@ struct AdaptiveGoal {
   double noise = 0.0;  ///< relative error that 95 % of the pixels that can be noisy are to stay under; 0: as
                        ///< good as time allows
   double seconds = 0.0;  ///< for drawing; 0: no limit
-  int mostSamples = 0;   ///< of any pixel
+  int mostSamples = 0;   ///< largest number in a pixel
 };
 
 struct AdaptivePicture {
   FilmPixels pixels;
-  std::vector<double> variance;  ///< of each pixel's mean, as estimated
+  std::vector<double> variance;  ///< estimated variance of each pixel's mean
   double error = 0.0;  ///< the relative error that 95 % of those that can be noisy are estimated to be below
-  double share = 0.0;  ///< of these, what is under the noise asked for
+  double share = 0.0;  ///< share of these under the noise asked for
   int rounds = 0;
-  bool known =
-      true;  ///< whether there are samples enough, and light, to tell an error; else it is 1, and share 0
+  bool known = true;     ///< there are samples enough, and light, to tell an error; else it is 1, and share 0
   bool black = false;    ///< no sample has brought any light, so that nothing is known of the noise
   bool stopped = false;  ///< by progress
 };

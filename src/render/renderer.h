@@ -27,7 +27,7 @@ namespace fragtrace {
 struct Lens {
   double radius = 0.0;         ///< metres; 0: a pinhole
   double focusDistance = 1.0;  ///< along the view, metres
-  int blades = 0;              ///< of a polygonal aperture; 0: a round one
+  int blades = 0;              ///< blades of a polygonal aperture; 0: a round one
 };
 
 /// Returns true if this driver can add points to a film of 32-bit floats, as caustics need.
@@ -53,13 +53,13 @@ struct View {
   uint32_t seed = 0;
   int sampleOffset = 0;                ///< index of sample 0 of the film in the seed's sequence
   float clampIndirect = 0.0f;          ///< largest indirect radiance of a sample, when the variant clamps
-  std::optional<Placement> placement;  ///< of the film in the picture; none: it is the whole
+  std::optional<Placement> placement;  ///< place of the film in the picture; none: it is the whole
 };
 
 /// The times of the draws so far; a frame is one sample in every pixel.
 struct RenderTimes {
   double renderMs = 0.0;  ///< by the wall's clock, with all that is done between draws
-  double drawMs = 0.0;    ///< of the draws alone, by Renderer::clock()
+  double drawMs = 0.0;    ///< time of the draws alone, by Renderer::clock()
   double firstFrameMs = 0.0;
   std::vector<double> frameMs;
 };

@@ -16,7 +16,7 @@ namespace fragtrace {
 struct Orbit {
   double azimuthDegrees = 0.0;    ///< 0: in front of it (+Z); positive: to the right of a viewer there
   double elevationDegrees = 0.0;  ///< -90 to 90, up
-  double zoom = 1.0;              ///< how many times as large things are in the picture
+  double zoom = 1.0;              ///< factor by which things are larger in the picture
 
   bool operator==(const Orbit&) const = default;
 };

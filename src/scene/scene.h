@@ -77,7 +77,7 @@ struct TextureTransform {
 /// A material's use of a texture; texture == kMissIndex means the factor alone.
 struct TextureRef {
   uint32_t texture = kMissIndex;
-  uint32_t texcoord = 0;  ///< which TEXCOORD_n, 0 or 1
+  uint32_t texcoord = 0;  ///< n of TEXCOORD_n, 0 or 1
   TextureTransform transform{};
   bool lost = false;  ///< its picture could not be read: there is no texture
   bool present() const { return texture != kMissIndex; }
@@ -101,7 +101,7 @@ inline constexpr float kInfiniteIor = 1e6f;
 /// specification's.
 struct Material {
   std::string name;
-  uint32_t number = 0;  ///< of the glTF material, from 1; the default one comes after those of the file
+  uint32_t number = 0;  ///< number of the glTF material, from 1; the default one comes last
   glm::vec4 baseColorFactor{1.0f};
   float metallicFactor = 1.0f;
   float roughnessFactor = 1.0f;
@@ -345,7 +345,7 @@ struct Scene {
   std::vector<uint32_t> insets;  ///< one a triangle, or none (creaseInsets of creases.h)
   std::vector<Sphere> spheres;
   std::vector<Strokes> strokes;
-  uint32_t strokeTriangles = 0;     ///< what addStrokes() made of them: the last triangles in local space
+  uint32_t strokeTriangles = 0;  ///< triangles that addStrokes() made of them: the last ones, in local space
   std::vector<Material> materials;  ///< never empty: the default material is appended when something needs it
   std::vector<Texture> textures;
   std::vector<EncodedImage> images;
@@ -357,7 +357,7 @@ struct Scene {
   std::vector<Instance> instances;
   std::string sharing;  ///< why meshes are shared or are not, in a few words
   std::vector<std::string> extensionsUsed;
-  std::vector<std::string> sceneNames;  ///< of all that SceneSelection may name; "" where one has no name
+  std::vector<std::string> sceneNames;  ///< all that SceneSelection may name; "" for one without a name
   std::vector<std::string> animationNames;
   std::vector<std::optional<double>>
       animationSeconds;  ///< when the last key stands; none: the file does not say

@@ -43,7 +43,7 @@ bool holds(const Polygon& hull, const glm::dvec2& p) {
 /// One light's shadow, X and Z.
 struct Shadow {
   Polygon hull;
-  double share = 0.0;  ///< of all light
+  double share = 0.0;  ///< share of all light
 };
 
 /// Points below the plane cast no shadow on it, nor do points at or above the height of a lamp.

@@ -10,7 +10,7 @@ namespace fragtrace {
 
 /// Light that reaches a level plane, world space.
 struct PlaneLight {
-  glm::dvec3 from{0.0, 1.0, 0.0};  ///< where it comes from: a unit direction, or the place of a lamp
+  glm::dvec3 from{0.0, 1.0, 0.0};  ///< a unit direction towards the light, or the place of a lamp
   bool isPlace = false;
   double irradiance = 0.0;  ///< of the plane, in any unit
 };

@@ -5,7 +5,7 @@
 
 namespace fragtrace {
 
-inline constexpr int kInterruptedStatus = 130;  ///< of a program that was interrupted
+inline constexpr int kInterruptedStatus = 130;  ///< exit status of a program that was interrupted
 
 /// From now on Ctrl-C (SIGINT), SIGTERM and SIGHUP are counted; until then they end the program with status
 /// 130.

@@ -15,7 +15,7 @@ namespace fragtrace {
 struct NamedOutput {
   const char* option;
   std::filesystem::path path;
-  bool orStandardOutput = false;  ///< which is what "-" means there
+  bool orStandardOutput = false;  ///< "-" means standard output
 };
 
 /// Returns true if a path means standard output, for options that allow it.

@@ -12,7 +12,7 @@ struct Phase {
   std::string thread;
   double begin = 0.0;
   double end = 0.0;
-  double cpu = 0.0;  ///< of the thread that took it; llvmpipe's own threads and other processes come on top
+  double cpu = 0.0;  ///< time of its own thread, without llvmpipe's threads and other processes
 };
 
 /// Now, by that clock.

@@ -22,9 +22,9 @@ struct LoadedScene {
   Environment environment;
   Camera camera;
   CameraOverrides overrides;       ///< that it was chosen by (settledOverrides())
-  std::optional<int> cameraIndex;  ///< which of the scene's that is, if one was asked for
+  std::optional<int> cameraIndex;  ///< index of that camera in the scene, if one was asked for
   glm::ivec2 size{0};              ///< of the picture
-  Region region;                   ///< of it, that is drawn
+  Region region;                   ///< part of the picture that is drawn
   Bvh bvh;
   View view;
   DecodeProgress decoding{};  ///< told when the textures are, which is later

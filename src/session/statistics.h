@@ -18,7 +18,7 @@ struct AdaptiveStatistics {
   double noise = 0.0;    ///< asked for; 0: none
   double seconds = 0.0;  ///< asked for; 0: none
   double error = 0.0;    ///< the relative error that 95 % of the pixels are estimated to stay under
-  double share = 0.0;    ///< of the pixels under the noise asked for
+  double share = 0.0;    ///< share of the pixels under the noise asked for
   int rounds = 0;
   bool known = true;   ///< else error and share say nothing
   bool black = false;  ///< no light was found
@@ -46,21 +46,21 @@ struct Statistics {
   double compileMs = 0.0;
   RenderTimes times;
   int spp = 0;
-  glm::ivec2 size{0};            ///< of what is drawn
-  std::optional<Region> region;  ///< of the picture, that this is, if one was asked for
+  glm::ivec2 size{0};            ///< size of the drawn part
+  std::optional<Region> region;  ///< the drawn part of the picture, if one was asked for
   int parts = 1;                 ///< in which it was drawn
   FilmTotals film;
   std::optional<AdaptiveStatistics> adaptive;
   double featureMs = 0.0;  ///< drawing the layers of first hits
   std::optional<DenoiseStatistics> denoise;
   size_t sceneBytes = 0;     ///< on the device
-  size_t geometryBytes = 0;  ///< of these, tree, leaves, records and vertex attributes
+  size_t geometryBytes = 0;  ///< bytes among these for tree, leaves, records and vertex attributes
   bool defaultLight = false;
   std::string defaultLightReason;
   double clampIndirect = 0.0;  ///< 0: not clamped
-  std::string lightSelection;  ///< how lights are chosen; empty: there is none to choose
+  std::string lightSelection;  ///< name of the choice of lights; empty: there is none to choose
   std::string lightSelectionReason;
-  std::string lightReuse;       ///< how a light sample is taken, as --light-reuse has it
+  std::string lightReuse;       ///< value of --light-reuse
   std::string lightPathReason;  ///< why light paths are traced, or are not; empty: the stage has none
   size_t casters = 0;           ///< groups of surfaces that they are aimed at; 0: none are traced
   bool complete = true;

@@ -17,9 +17,9 @@ struct Tracer {
   std::vector<ShaderVariant> aovs;  ///< in the order of options.aovs
   std::unique_ptr<Renderer> renderer;
   double programMs = 0.0;  ///< that building the variant's program took
-  uint64_t sceneHash = 0;  ///< of all that was uploaded; only for .exr and checkpoints, which keep it
-  KeptArrays kept;         ///< what of it the next scene of a sequence need not upload
-  std::array<uint64_t, layout::kSceneBufferCount> arrayHashes{};  ///< where sceneHash is
+  uint64_t sceneHash = 0;  ///< hash of all that was uploaded; only for .exr and checkpoints, which keep it
+  KeptArrays kept;         ///< arrays that the next scene of a sequence need not upload
+  std::array<uint64_t, layout::kSceneBufferCount> arrayHashes{};  ///< set if sceneHash is
   BufferReads reads = BufferReads::Auto;
   int textureSide = kLargestTextureSide;
 };

@@ -31,7 +31,7 @@ enum class Aov : uint8_t {
 };
 
 struct AovRow {
-  std::string_view name;      ///< of the layer
+  std::string_view name;      ///< name of the layer
   std::string_view channels;  ///< a letter each, behind the name and a dot
 };
 

@@ -103,7 +103,7 @@ struct SequenceOptions {
 struct LensOptions {
   std::optional<double> fStop;          ///< none: a pinhole
   std::optional<double> focusDistance;  ///< along the view, metres; none: to the focal point
-  int blades = 0;                       ///< of the aperture; 0: it is round
+  int blades = 0;                       ///< blades of the aperture; 0: it is round
 
   bool operator==(const LensOptions&) const = default;
 };
@@ -111,14 +111,14 @@ struct LensOptions {
 /// From where a scene is seen, and what a pixel is.
 struct CameraOptions {
   std::optional<glm::ivec2> resolution;
-  std::optional<Region> region;  ///< of the picture, that is drawn; none: all of it
+  std::optional<Region> region;  ///< the drawn part of the picture; none: all of it
   std::optional<int> index;
   CameraOverrides overrides;
   LensOptions lens;
   std::optional<glm::dvec3>
       sceneOrigin;  ///< place that positions are rounded about; none: the focal point given
   PixelFilter pixelFilter = PixelFilter::Box;
-  double lineWidth = 2.0;  ///< of points and lines, pixels
+  double lineWidth = 2.0;  ///< width of points and lines, pixels
 
   bool operator==(const CameraOptions&) const = default;
 };
@@ -173,7 +173,7 @@ struct FogOptions {
 /// The files that are written, what they show, and what is said meanwhile.
 struct OutputOptions {
   std::filesystem::path file;
-  std::string format;  ///< of standard output
+  std::string format;  ///< format of standard output
   std::filesystem::path statsFile;
   std::filesystem::path oidnLibrary;  ///< file of Open Image Denoise; none: it is looked for
   std::vector<Aov> aovs;              ///< more layers of .exr files

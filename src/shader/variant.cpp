@@ -171,11 +171,6 @@ std::string whyOff(Stage stage, const TraitSet& present, bool gi) {
   return traitRows()[size_t(*needed)].absence;
 }
 
-std::string whyBlank(DebugView view, const TraitSet& present) {
-  const bool coordinates = has(present, Trait::Texcoords) || has(present, Trait::Spheres);
-  return view == DebugView::Texcoords && !coordinates ? traitRows()[size_t(Trait::Texcoords)].absence : "";
-}
-
 std::string whyNoLightPaths(const RenderOptions& options) {
   // Limits, catchers and parts know paths from the camera alone.
   if (options.sampling.clampIndirect > 0.0) return "--clamp-indirect";

@@ -21,7 +21,7 @@ struct ShaderVariant {
   BufferReads reads = BufferReads::Ssbo;
   Dispatch dispatch = Dispatch::Fragment;
   PixelFilter pixelFilter = PixelFilter::Box;
-  Aov aov = Aov::None;           ///< what is drawn in place of radiance
+  Aov aov = Aov::None;           ///< drawn in place of radiance
   bool countsVisits = false;     ///< the nodes that camera rays visit are, too
   bool uniformLights = false;    ///< the light tree chooses all lights alike
   bool lightCandidates = false;  ///< a light sample is one of several (shaders/reuse/candidates.glsl)
@@ -97,8 +97,5 @@ std::string whyOff(Stage stage, const TraitSet& present, bool gi = true);
 
 /// The option that light paths cannot go with; empty when there is none.
 std::string whyNoLightPaths(const RenderOptions& options);
-
-/// Why there is nothing to see in a debug view of this scene; empty when there is.
-std::string whyBlank(DebugView view, const TraitSet& present);
 
 }  // namespace fragtrace

@@ -51,7 +51,7 @@ struct SideStatistics {
   double megaPathsPerSecond = 0.0;
   bool resting = false;   ///< converged, or as many samples as asked for
   double filtered = 0.0;  ///< the share of the noise filter in what is shown, 0 to 1
-  double filterMs = 0.0;  ///< what it took, with the layers it needs
+  double filterMs = 0.0;  ///< time that it took, with the layers it needs
   std::string variant;
   size_t deviceBytes = 0;   ///< scene, film and pictures
   uint64_t movedBytes = 0;  ///< between host and device since the side's picture before
@@ -64,7 +64,7 @@ inline constexpr size_t kMostSides = 7;
 
 /// A texture that the contexts of both threads see: RGBA32F, linear, the first row at the top.
 struct SharedTexture {
-  int slot = -1;  ///< of the side's kSlots; negative: there is none
+  int slot = -1;  ///< index among the side's kSlots; negative: there is none
   unsigned texture = 0;
   void* ready = nullptr;  ///< the GLsync after which it holds the picture; the tracing thread's
 };
@@ -135,15 +135,15 @@ struct PickRequest {
   bool center = false;             ///< the camera is to be centred on it
   bool clear = false;              ///< nothing is selected any more
   std::optional<uint32_t> node{};  ///< this one and what is below it, rather than a place (SceneNode::index)
-  uint64_t number = 0;             ///< of the latest selection that was asked for
+  uint64_t number = 0;             ///< number of the latest selection that was asked for
 };
 
 struct PickAnswer {
   PickRequest request;
   bool hit = false;
   glm::dvec3 point{0.0};           ///< world space
-  std::vector<std::string> lines;  ///< what was hit, in words
-  BoundsDouble bounds;             ///< of what its node draws, world space
+  std::vector<std::string> lines;  ///< description of the hit, in words
+  BoundsDouble bounds;             ///< bounds of all that its node draws, world space
   std::optional<uint32_t> node;    ///< that was selected
 };
 
@@ -158,14 +158,14 @@ struct Delivery {
   std::vector<TracedPicture> pictures;  ///< at most one a side
   std::optional<ViewedScene> scene;     ///< a new one
   std::optional<PickAnswer> pick;
-  std::optional<BoundsDouble> bounds;  ///< of the scene as it is posed now
+  std::optional<BoundsDouble> bounds;  ///< bounds of the scene as it is posed now
   std::vector<EnvironmentThumbnail> thumbnails;
   LoadStatus load;
   uint64_t request = 0;               ///< the latest that the tracing thread has seen
   bool resting = false;               ///< it has nothing to do
-  std::string note;                   ///< what keeps the tracing thread from drawing; empty: nothing
+  std::string note;                   ///< reason why the tracing thread does not draw; empty: it does
   std::string error;                  ///< why the latest wish could not be met; empty: it was
-  std::vector<std::string> messages;  ///< of the driver, of files written
+  std::vector<std::string> messages;  ///< messages about the driver and about files written
   std::exception_ptr failure;         ///< ends the program
 };
 

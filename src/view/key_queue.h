@@ -11,7 +11,7 @@ namespace fragtrace {
 /// A key that goes down, repeats or goes up, or a character that is typed, as GLFW tells it.
 struct TypedEvent {
   bool isText = false;
-  int code = 0;  ///< of the key
+  int code = 0;  ///< code of the key
   int scanCode = 0;
   int action = 0;
   int modifiers = 0;

@@ -69,7 +69,7 @@ enum class Action : uint8_t {
   SaveAs,
   Screenshot,
   WriteExr,
-  Close,  ///< what is open; where nothing is, the viewer
+  Close,  ///< closes an open window; if none is open, the viewer
   Quit
 };
 

@@ -34,7 +34,7 @@ struct ViewState {
   /// All stages are shown side by side, with the active side's settings: the pictures of kMostSides cells.
   bool overview = false;
   std::filesystem::path reference;  ///< a picture that is side B; empty: B is traced
-  double bar = 0.5;                 ///< where the sides meet, as a part of the width
+  double bar = 0.5;                 ///< border between the sides, as a part of the width
   CompareMode comparison = CompareMode::Bar;
   double differenceStops = 0.0;  ///< the difference is shown times 2^this
   Magnifier magnifier;
@@ -57,7 +57,7 @@ struct ViewState {
   float panelWidth = 0.0f;    ///< pixels at 96 dots an inch; 0: the standard width
   std::optional<float> blur;  ///< of the backdrop, degrees, while its slider is held
   std::array<char, 64> bookmarkName{};
-  std::array<char, 64> search{};  ///< what the sheet is searched for; ends with a 0
+  std::array<char, 64> search{};  ///< text that the sheet is searched for; ends with a 0
   bool sheet = false;
   bool fileList = false;  ///< stands before all else, and takes the keys
   bool fullscreen = false;

@@ -21,7 +21,7 @@ struct LayoutWishes {
 /// Lengths in pixels. The picture stands at the top left, the panel beside it at the right; below them, as
 /// wide as the window, the bar of the stages, and below that the status bar.
 struct WindowLayout {
-  float scale = 1.0f;  ///< of a length at 96 dots an inch
+  float scale = 1.0f;  ///< factor for a length at 96 dots an inch
   float margin = 0.0f;
   glm::ivec2 picture{0};
   float stagesHeight = 0.0f;

@@ -176,11 +176,5 @@ TEST(DebugView, CountsAreThoseOfTheirPicture) {
   EXPECT_FALSE(has(visits.traits, Trait::Alpha));
 }
 
-TEST(DebugView, SaysWhyItIsBlank) {
-  EXPECT_EQ(whyBlank(DebugView::Texcoords, {}), "no texture coordinates in use");
-  EXPECT_EQ(whyBlank(DebugView::Texcoords, allTraits()), "");
-  EXPECT_EQ(whyBlank(DebugView::Normal, {}), "");
-}
-
 }  // namespace
 }  // namespace fragtrace

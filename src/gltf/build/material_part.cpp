@@ -2,8 +2,8 @@
 #include "gltf/build/material_part.h"
 
 #include <cmath>
-#include <cstdio>
 
+#include "base/count_text.h"
 #include "gltf/read/value.h"
 
 namespace fragtrace {
@@ -11,10 +11,7 @@ namespace fragtrace {
 float MaterialPart::within(double value, float least, float most, const std::string& name) const {
   if (value >= double(least) && value <= double(most)) return float(value);
   const float nearest = value < double(least) ? least : most;
-  char text[80];
-  std::snprintf(text, sizeof text, "is out of range, the nearest possible value is taken: %g",
-                double(nearest));
-  warn(name, text);
+  warn(name, "is out of range, the nearest possible value is taken: " + shortText(double(nearest)));
   return nearest;
 }
 

@@ -14,7 +14,7 @@ namespace fragtrace {
 /// that the material does not need, or that is not given, is empty; all others have one entry a vertex.
 struct MeshPrimitive {
   Vertices vertices;
-  std::vector<Influence> influences;  ///< of joints, equally many a vertex; none: the mesh is not skinned
+  std::vector<Influence> influences;  ///< joints, equally many a vertex; none: the mesh is not skinned
   std::vector<Triangle> triangles;
   Strokes strokes;  ///< without a node
 
@@ -23,8 +23,8 @@ struct MeshPrimitive {
 
 /// The pose of a mesh; by default that of the file.
 struct MeshPose {
-  std::vector<double> weights;  ///< of its morph targets; those left out are 0
-  size_t jointCount = 0;        ///< of the skin that bends it; 0: none does
+  std::vector<double> weights;  ///< a weight per morph target; those left out are 0
+  size_t jointCount = 0;        ///< joints in the skin that bends it; 0: none does
 
   bool operator<(const MeshPose& other) const {
     if (jointCount != other.jointCount) return jointCount < other.jointCount;

@@ -25,7 +25,7 @@ struct MeshUse {
   const MeshPrimitive* first = nullptr;  ///< its first primitive that has triangles
   uint64_t triangles = 0;
   uint64_t bytes = 0;
-  uint64_t places = 0;  ///< where it may be shared
+  uint64_t places = 0;  ///< places in which it may be shared
   uint64_t allPlaces = 0;
   bool shines = false;
   bool isShared = false;

@@ -21,9 +21,9 @@ bool paysToShare(const SharingCost& cost, uint64_t limit);
 struct PlacedMeshes {
   std::vector<PrimitiveInstance> flat;
   std::vector<MeshToShare> shared;
-  uint64_t bytes = 0;  ///< what they take
+  uint64_t bytes = 0;  ///< memory that they take
   std::string reason;  ///< for it, in a few words
-  std::string copies;  ///< what cannot be shared though it stands in the scene more than once; may be empty
+  std::string copies;  ///< repeated meshes that cannot be shared; may be empty
 };
 
 /// Parts what is to be copied from what is to be shared. Never shared are meshes that shine, whose triangles

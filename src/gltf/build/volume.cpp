@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 
+#include "base/count_text.h"
 #include "gltf/build/placed.h"
 #include "gltf/read/value.h"
 
@@ -35,14 +35,8 @@ class Numbers {
   double checked(const char* name, double value, double least, double most) const {
     if (!(value >= least && value <= most))
       diagnostics_.refuse(place_ + "/" + name,
-                          "is not in the range " + numberText(least) + " to " + numberText(most));
+                          "is not in the range " + shortText(least) + " to " + shortText(most));
     return value;
-  }
-
-  static std::string numberText(double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%g", value);
-    return text.data();
   }
 
   Diagnostics& diagnostics_;

@@ -20,9 +20,9 @@ struct Extension {
   std::string_view reader;                 ///< the file of src/gltf that reads it; empty where it is ignored
   std::array<std::string_view, 2> places;  ///< where it may stand: pointers with * for an index, "" the root,
                                            ///< kTextureInfo; kNowhere
-  std::string_view advice = {};            ///< what to do with a file that requires it, where it is ignored
-  std::string_view members = {};  ///< of a material's extension, with spaces between: a texture ends in
-                                  ///< Texture, NAME[3] is three numbers, all others are numbers
+  std::string_view advice = {};            ///< advice for a file that requires it, if it is ignored
+  std::string_view members = {};  ///< members of a material's extension, with spaces between: a texture ends
+                                  ///< in Texture, NAME[3] is three numbers, all others are numbers
 };
 
 /// The place of extensions without an object of their own, and a second place that does not exist.

@@ -19,7 +19,7 @@ void checkSchema(nlohmann::json& root, const Diagnostics& diagnostics);
 
 /// Numbers that the loader reads.
 struct NumberRule {
-  size_t width = 1;  ///< how many; 0: any number of them, as of morph weights
+  size_t width = 1;  ///< count; 0: any number of them, as of morph weights
   bool isArray = false;
   bool isFlag = false;  ///< 0: false
 };

@@ -25,7 +25,7 @@ struct ImageSource {
   std::string uri;
   int bufferView = -1;
   std::string mimeType;
-  std::vector<uint8_t> bytes{};  ///< of the URI, where Document::keepsPictures; empty until it is read
+  std::vector<uint8_t> bytes{};  ///< content of the URI, with Document::keepsPictures; empty until it is read
 };
 
 struct Document {
@@ -37,7 +37,7 @@ struct Document {
 
   tinygltf::Model model;  ///< without skins, animations and pictures
   FileAccess access;
-  GltfProgress progress{};  ///< of this load; a document that is kept has none
+  GltfProgress progress{};  ///< reports this load; a document that is kept has none
   std::vector<ImageSource> images;
   std::vector<Skin> skins;
   std::vector<std::string> sceneNames, animationNames, materialVariants;
@@ -46,7 +46,7 @@ struct Document {
   int textureSide;             ///< larger pictures are scaled down
   bool drawMissingTextures;    ///< pictures that cannot be read are warned of
   bool keepsPictures = false;  ///< their bytes are read once for all poses
-  MemoryBudget memory;         ///< what loading may still take
+  MemoryBudget memory;         ///< memory that loading may still take
 };
 
 /// The bytes of a buffer view. Throws InputError if its buffer has none, as a buffer without URI may.

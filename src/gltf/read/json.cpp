@@ -10,7 +10,7 @@ namespace fragtrace {
 namespace {
 
 struct Extent {
-  size_t depth = 0;   ///< of objects and arrays
+  size_t depth = 0;   ///< nesting of objects and arrays
   size_t values = 0;  ///< at most
 };
 

@@ -14,9 +14,9 @@ namespace fragtrace {
 
 /// The places to which a file's URIs may lead.
 struct FileAccess {
-  std::filesystem::path folder;  ///< what relative URIs start from
+  std::filesystem::path folder;  ///< the start of relative URIs
   bool allowExternal = false;    ///< also out of the folder
-  ReadProgress progress{};       ///< of every file
+  ReadProgress progress{};       ///< reports every file
 };
 
 /// "%20" to " ", byte by byte, so that UTF-8 stays UTF-8; what is no valid escape is kept as it is.

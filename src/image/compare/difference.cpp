@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "image/compare/difference.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -63,12 +62,6 @@ Image differenceImage(const Image& picture, const Image& reference) {
 }
 
 std::span<const std::string_view> metricNames() { return kMetricNames; }
-
-std::optional<Metric> parseMetric(std::string_view name) {
-  const auto* found = std::ranges::find(kMetricNames, name);
-  if (found == kMetricNames.end()) return std::nullopt;
-  return Metric(found - kMetricNames.begin());
-}
 
 double metricValue(const Difference& difference, Metric metric) {
   const std::array values{difference.rmse, difference.mse,     difference.relmse,

@@ -2,7 +2,6 @@
 // Metrics of the difference between a picture and its reference, by the formulas of docs/numbers.md.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string_view>
 
@@ -32,7 +31,6 @@ Image differenceImage(const Image& picture, const Image& reference);
 
 /// The metrics' names on the command line, in the order of Metric.
 std::span<const std::string_view> metricNames();
-std::optional<Metric> parseMetric(std::string_view name);
 
 /// NaN for Flip, which looks at more than single pixels and is flipError's (image/flip.h).
 double metricValue(const Difference& difference, Metric metric);

@@ -13,7 +13,7 @@ inline constexpr double kFlipPixelsPerDegree = 0.7 * (3840 / 0.7) * 3.1415926535
 
 struct FlipError {
   Image map;        ///< one channel "Y", as large as the pictures: 0 where none is seen, 1 at most
-  double mean = 0;  ///< of the map, in double precision
+  double mean = 0;  ///< mean of the map, in double precision
 };
 
 /// Compares display pictures: R, G and B (or grey) sRGB-encoded in 0..1, as toDisplay makes them and

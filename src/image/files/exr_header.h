@@ -8,7 +8,7 @@
 namespace fragtrace {
 
 struct ExrHeader {
-  int64_t width = 0;  ///< of the display window
+  int64_t width = 0;  ///< width of the display window
   int64_t height = 0;
   int channelCount = 0;
 };

@@ -11,7 +11,7 @@ namespace fragtrace {
 
 struct ImageHeader {
   ImageFormat format = ImageFormat::Png;
-  int width = 0;  ///< of an .exr: of its display window
+  int width = 0;  ///< in an .exr: width of its display window
   int height = 0;
   int channelCount = 0;  ///< at most, once decoded
 };

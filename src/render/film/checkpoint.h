@@ -20,7 +20,7 @@ struct FilmState {
   std::vector<float> compensation;
   std::vector<uint32_t> counts;
   double cut = 0.0;             ///< as in FilmPixels
-  std::vector<float> splats{};  ///< of light paths, and their squares; empty: there are none
+  std::vector<float> splats{};  ///< splats of light paths, and their squares; empty: there are none
   uint64_t lightPaths = 0;
 };
 

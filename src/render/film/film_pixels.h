@@ -14,7 +14,7 @@ namespace fragtrace {
 
 /// The sums and counts of one pixel (shaders/film.glsl).
 struct FilmPixel {
-  glm::dvec3 sum{0.0};  ///< of radiance, or of an AOV
+  glm::dvec3 sum{0.0};  ///< sum of radiance, or of an AOV
   double alpha = 0.0;   ///< sum
   double m2 = 0.0;      ///< sum of squared deviations of the samples' luminance() from its mean
   uint32_t samples = 0;

@@ -17,8 +17,8 @@ constexpr double kPrior = 24.0;
 /// Sums over pixels, by which a ratio of variances and its reliability are known.
 struct Sums {
   double differences = 0.0;  ///< squared differences of the halves
-  double independent = 0.0;  ///< what independent samples would give for them
-  double squares = 0.0;      ///< of the latter
+  double independent = 0.0;  ///< the sum that independent samples would give
+  double squares = 0.0;      ///< sum of squares of the latter
 
   void add(const Sums& other) {
     differences += other.differences;

@@ -45,11 +45,11 @@ std::vector<double> relativeErrors(const FilmPixels& pooled, const std::vector<d
 /// light has reached, whichever is larger. Otherwise black pixels would hide the few that are lit.
 struct GoalDistance {
   double error = 0.0;  ///< that 95 % of the pixels do not exceed; 0 without any
-  double share = 1.0;  ///< of the pixels, at or below the goal
+  double share = 1.0;  ///< share of the pixels at or below the goal
 };
 GoalDistance distanceTo(double goal, const FilmPixels& film, const std::vector<double>& errors);
 
-inline constexpr double kPartUnderGoal = 0.95;  ///< of these pixels
+inline constexpr double kPartUnderGoal = 0.95;  ///< share of these pixels
 
 /// The smallest value that this part of all values does not exceed.
 double quantileOf(std::vector<double> values, double part);

@@ -36,12 +36,12 @@ enum class ListKey : uint8_t { Up, Down, PageUp, PageDown, Parent, Accept };
 
 struct FolderList {
   FileQuestion question;
-  size_t filter = 0;                ///< of question.filters
-  FolderContent content;            ///< what has been read last
+  size_t filter = 0;                ///< index in question.filters
+  FolderContent content;            ///< content of the latest read
   std::array<char, 1024> text{};    ///< to save under, or to be found in names; ends with a 0
-  std::vector<FolderEntry> shown;   ///< what filter and text leave
+  std::vector<FolderEntry> shown;   ///< entries that filter and text leave
   std::optional<size_t> chosen;     ///< of these
-  std::string note;                 ///< what is in the way of the choice; empty: nothing
+  std::string note;                 ///< obstacle to the choice; empty: none
   std::filesystem::path toReplace;  ///< the file that is there already, when the user was asked
 };
 

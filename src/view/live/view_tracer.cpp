@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kLongWait = 3600.0;  ///< seconds
 constexpr double kWatchSeconds = 0.25;
-constexpr int kMostLosses = 3;  ///< of the context, without a picture between them
+constexpr int kMostLosses = 3;  ///< losses of the context in a row, without a picture between them
 
 /// A command that cannot be carried out ends the program; another file may be shown.
 void endIfHopeless(const std::exception_ptr& error, const std::filesystem::path& scene) {

@@ -62,7 +62,7 @@ class ViewTracer {
     double published = 0.0;  ///< its latest picture
     double error = -1.0;
     int errorAt = 0;    ///< samples when it was estimated
-    bool stale = true;  ///< what the film holds is another picture
+    bool stale = true;  ///< the film holds another picture
     SideMemory memory;
     int shownAt = 0;          ///< samples when it was published last
     int shownIn = -1;         ///< slot of that picture; negative: it is not there any more
@@ -157,7 +157,7 @@ class ViewTracer {
   std::unique_ptr<PictureMaker> maker_;
   TraceRequest request_;
   uint64_t answered_ = 0;  ///< the latest request that the sides draw
-  Selected selected_;      ///< what was picked last
+  Selected selected_;      ///< the latest pick
   std::vector<Side> sides_;
   enum class Shows : uint8_t { Nothing, Preview, Picture };
   std::atomic<Shows> shows_ = Shows::Nothing;
@@ -171,7 +171,7 @@ class ViewTracer {
   std::vector<SaveRequest> saves_;
   std::optional<Image> reference_;  ///< that the window shows as side B
   int losses_ = 0;                  ///< of the context since the latest publication
-  double publishMs_ = 0.0;          ///< what the latest publication took
+  double publishMs_ = 0.0;          ///< time of the latest publication
   double filterMsPerPixel_ = 0.0;   ///< in it, of layers and filter
   FileWatch sceneFiles_;
   FileWatch shaderFiles_;

@@ -17,7 +17,7 @@ struct ComposedSide {
 
 /// The way in which two sides are put together.
 struct Composition {
-  double bar = 0.5;  ///< where the right side begins, a part of the width
+  double bar = 0.5;  ///< start of the right side, a part of the width
   bool difference = false;
   double differenceStops = 0.0;
   double exposure = 0.0;

@@ -61,14 +61,14 @@ class Display {
     SharedTexture waiting;  ///< until it is ready
     glm::ivec2 waitingSize{0};
     bool waitingAsItIs = false;
-    GLuint traced = 0;    ///< what is shown
+    GLuint traced = 0;    ///< texture that is shown
     uint64_t number = 0;  ///< of the picture
     ValueReader reader;
     GlTexture displayed;
-    GlFramebuffer framebuffer;  ///< of the latter
+    GlFramebuffer framebuffer;  ///< framebuffer of the latter
     glm::ivec2 size{0};
     bool asItIs = false;
-    bool fresh = false;    ///< what is displayed is of the traced picture,
+    bool fresh = false;    ///< the display shows the traced picture,
     DisplaySide settings;  ///< shown like this
   };
   void adopt();

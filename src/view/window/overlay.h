@@ -50,12 +50,12 @@ struct ViewFacts {
   bool resting = false;
   bool canUndo = false;
   bool canRedo = false;
-  std::string status;  ///< what the status bar says
+  std::string status;  ///< text of the status bar
   Remembered remembered;
   RecentFiles recent;
   DialogKind dialog = DialogKind::None;
   size_t sheetLines = 0;          ///< of the sheet, that the search has found
-  const char* focus = "picture";  ///< what keys go to (Interface::focus)
+  const char* focus = "picture";  ///< receiver of keys (Interface::focus)
   Places places;                  ///< of the latest frame
 };
 

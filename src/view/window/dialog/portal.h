@@ -12,7 +12,7 @@ namespace fragtrace {
 struct PortalAnswer {
   bool there = false;  ///< the desktop has shown a dialog; else it cannot,
   std::string why;     ///< for this reason; empty: there is no portal
-  std::string uri;     ///< what was chosen; empty: nothing
+  std::string uri;     ///< the choice; empty: none
 };
 
 /// Shows the dialog over a window ("x11:" and its number in hexadecimal; empty: over none) and waits until
