@@ -2,8 +2,8 @@
 // The whole surface: clearcoat (KHR_materials_clearcoat) over sheen (KHR_materials_sheen) over the base of bsdf.glsl. A
 // clearcoat of weight w and reflectance F, at the angle of the viewer, is w F x its lobe + (1 - w F) x all below. Sheen
 // s is s x its lobe + (1 - max(s) E) x the base, where E is the larger of the lobe's albedos in the two directions.
-// Its lobe is that of velvet (Estevez and Kulla, Production Friendly Microfacet Sheen BRDF, 2017), in a frame whose z is
-// the normal; its alpha is the square of the extension's sheenRoughness.
+// Its lobe is that of velvet (Estevez and Kulla, Production Friendly Microfacet Sheen BRDF, 2017), in a frame whose z
+// is the normal; its alpha is the square of the extension's sheenRoughness.
 
 const float kCoatF0 = float(0.04);  // of the index 1.5
 
