@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <sstream>
 #include <string>
 
@@ -54,6 +55,20 @@ TEST(GltfExtensions, EachIsReadWhereTheTableSays) {
     if (extension.reader.empty()) continue;
     EXPECT_NE(textOf(folder / extension.reader).find(extension.name), std::string::npos) << extension.name;
   }
+}
+
+TEST(GltfExtensions, MembersOfMaterialsThatAreReadAreInTheTable) {
+  std::string members;
+  for (const Extension& extension : extensions()) members += " " + std::string(extension.members);
+  const std::string reader =
+      textOf(std::filesystem::path(FRAGTRACE_DOCS) / "../src/gltf/build/material_extensions.cpp");
+  const std::regex call(R"re(part\.(factor|color|texture)\("(\w+)")re");
+  size_t found = 0;
+  for (std::sregex_iterator it(reader.begin(), reader.end(), call), end; it != end; ++it, ++found) {
+    const std::string entry = " " + (*it)[2].str() + ((*it)[1] == "color" ? "[3]" : "");
+    EXPECT_NE((members + " ").find(entry + " "), std::string::npos) << entry;
+  }
+  EXPECT_GT(found, 30u);
 }
 
 TEST(GltfExtensions, WhatIsIgnoredMayBeUsedAndNotRequired) {
