@@ -26,13 +26,14 @@ DEVICES = {"GA102": ("nouveau", {"NOUVEAU_CHIPSET": "172", "ZINK_DEBUG": "shader
 # Messages of compilers come at once and in this thread without Gallium's own thread.
 COMPILING = {"ST_DEBUG": "precompile", "shader_precompile": "true", "GALLIUM_THREAD": "0", "MESA_SHADER_CACHE_DISABLE": "true", "EGL_PLATFORM": "surfaceless"}
 
+# After what the shims are built with: the other way round, the libraries of backports are newer than those that it asks for.
 DRIVERS = f"""
-apt-get update
 apt-get install -y --no-install-recommends -t {RELEASE}-backports libgl1-mesa-dri mesa-vulkan-drivers libegl-mesa0 libegl1 libgl1
 apt-get install -y --no-install-recommends python3-opengl
 """
 # amdgpu: the version that today's driver asks for. Without assertions: the intel one has a region of no size.
 SHIM_BUILD = f"""
+apt-get update
 apt-get build-dep -y --no-install-recommends mesa
 apt-get source mesa
 cd mesa-*/
@@ -58,7 +59,7 @@ def made():
     if not finished.exists():
         sources = f"deb-src {debian.mirror()} {RELEASE} main\ndeb {debian.mirror()} {RELEASE}-backports main\n"
         (system.root / "etc/apt/sources.list.d/mesa.list").write_text(sources)
-        done = system.run(f"set -e\n{DRIVERS}{SHIM_BUILD}", timeout=3600)
+        done = system.run(f"set -e\n{SHIM_BUILD}{DRIVERS}", timeout=3600)
         if done.returncode:
             raise RuntimeError(f"the root of the compilers could not be made: {done.stderr[-2000:]}")
         finished.touch()
