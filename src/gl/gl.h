@@ -19,8 +19,9 @@ void* makeFence();
 /// Commands of this context that follow wait for the fence, which is released.
 void awaitFence(void* fence);
 bool isSignalled(void* fence);
-/// Waits for the fence and releases it. Without a fence it waits for all commands of this context.
-void finishFence(void* fence);
+/// Waits for the fence and releases it. Without a fence it waits for all commands of this context. `sleeps`:
+/// the thread looks at the fence every 0.1 ms, for a driver that would keep a processor busy (NVIDIA's).
+void finishFence(void* fence, bool sleeps);
 void releaseFence(void* fence);
 
 /// Waits until all commands of this context are done.
