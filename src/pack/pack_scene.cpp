@@ -270,6 +270,31 @@ std::vector<std::pair<std::string, size_t>> imagesOf(const Scene& scene) {
   return images;
 }
 
+/// Materials, their tables, and the numbers of objects. materialPdf: of the light samples on each material.
+void packMaterials(const Scene& scene, const Bvh& bvh, const ShaderVariant& variant,
+                   const std::vector<double>& materialPdf, TexturePacker& textures, GpuScene& packed) {
+  using namespace layout;
+  const TraitSet& traits = variant.traits;
+  const std::vector<float> glass = indicesOfRoughGlass(scene, variant);
+  Words& materials = packed.buffers[kMaterialsBinding];
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    appendMaterial(materials, scene.materials[i], scene.space.unit, materialPdf[i],
+                   tableOf(glass, scene.materials[i]), traits, textures);
+  }
+  textures.appendTransforms(materials);
+  static_assert(SheenAlbedoTable::kCells == layout::kEnergyCells);
+  if (has(traits, Trait::Sheen)) appendCells(materials, sheenAlbedoTable().albedo);
+  packed.energyTableRow = uint32_t(materials.size() / 4);
+  if (has(variant.stages, Stage::EnergyCompensation)) appendEnergyTable(materials);
+  for (const float ior : glass) {
+    const GlassAlbedoTable& table = glassAlbedoTable(ior);
+    appendCells(materials, table.outside);
+    appendCells(materials, table.inside);
+  }
+  packed.objectRow = uint32_t(materials.size() / 4);
+  if (has(traits, Trait::ObjectNumbers)) appendObjectNumbers(scene, bvh, materials);
+}
+
 }  // namespace
 
 GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& environment,
@@ -315,24 +340,7 @@ GpuScene packScene(const Scene& scene, const Bvh& bvh, const Environment& enviro
                          emitters.power, emitters.count > 0};
   }
 
-  const std::vector<float> glass = indicesOfRoughGlass(scene, variant);
-  Words& materials = packed.buffers[kMaterialsBinding];
-  for (size_t i = 0; i < scene.materials.size(); ++i) {
-    appendMaterial(materials, scene.materials[i], scene.space.unit, emitters.materialPdf[i],
-                   tableOf(glass, scene.materials[i]), traits, textures);
-  }
-  textures.appendTransforms(materials);
-  static_assert(SheenAlbedoTable::kCells == layout::kEnergyCells);
-  if (has(traits, Trait::Sheen)) appendCells(materials, sheenAlbedoTable().albedo);
-  packed.energyTableRow = uint32_t(materials.size() / 4);
-  if (has(variant.stages, Stage::EnergyCompensation)) appendEnergyTable(materials);
-  for (const float ior : glass) {
-    const GlassAlbedoTable& table = glassAlbedoTable(ior);
-    appendCells(materials, table.outside);
-    appendCells(materials, table.inside);
-  }
-  packed.objectRow = uint32_t(materials.size() / 4);
-  if (has(traits, Trait::ObjectNumbers)) appendObjectNumbers(scene, bvh, materials);
+  packMaterials(scene, bvh, variant, emitters.materialPdf, textures, packed);
   if (kept != nullptr && !kept->textures.empty()) {
     if (!textures.allKnown()) {  // one that no picture before has shown: all of them are placed anew
       kept->textures.clear();

@@ -191,6 +191,18 @@ void loadState(Blocks& blocks, const AdaptiveState& state) {
   }
 }
 
+/// Says how far the picture's pixels are from the goal.
+void judge(AdaptivePicture& picture, double noise, const std::vector<double>& errors) {
+  const GoalDistance distance = distanceTo(noise, picture.pixels, errors);
+  // An error needs at least two samples in each half.
+  const bool enough = totalsOf(picture.pixels).fewestSamples >= 4;
+  picture.share = enough && noise > 0.0 ? distance.share : 0.0;
+  picture.error = enough ? distance.error : 1.0;
+  picture.black =
+      std::ranges::all_of(picture.pixels.pixels, [](const FilmPixel& p) { return p.luminance() == 0.0; });
+  picture.known = enough && !picture.black;
+}
+
 }  // namespace
 
 size_t AdaptiveRun::blocksOf(glm::ivec2 size) { return Blocks(size).blocks.size(); }
@@ -234,18 +246,7 @@ AdaptivePicture renderAdaptively(Renderer& renderer, AdaptiveRun& run, const Vie
     run.state.rounds += 1;
     picture.rounds = run.state.rounds;
     weigh(blocks, picture.pixels, errors, goal.noise);
-    const GoalDistance distance = distanceTo(goal.noise, picture.pixels, errors);
-    picture.share = goal.noise > 0.0 ? distance.share : 0.0;
-    picture.error = distance.error;
-    // An error needs at least two samples in each half.
-    const bool enough = totalsOf(picture.pixels).fewestSamples >= 4;
-    if (!enough) {
-      picture.share = 0.0;
-      picture.error = 1.0;
-    }
-    picture.black =
-        std::ranges::all_of(picture.pixels.pixels, [](const FilmPixel& p) { return p.luminance() == 0.0; });
-    picture.known = enough && !picture.black;
+    judge(picture, goal.noise, errors);
     const bool blind = goal.seconds > 0.0 && std::ranges::all_of(errors, [](double e) { return e == 0.0; });
     // Errors fall with the root of the samples.
     roundsDone = goal.noise > 0.0 ? std::pow(goal.noise / std::max(picture.error, goal.noise), 2.0) : 0.0;

@@ -107,6 +107,25 @@ std::vector<SceneNode> namedNodes(const Document& document, const std::vector<Pl
   return nodes;
 }
 
+/// Gives the scene its cameras and its volume, and returns its spheres: all in world space.
+std::vector<PlacedSphere> takeParts(Document& document, const std::vector<PlacedNode>& nodes,
+                                    bool readsVolume, Scene& scene) {
+  std::vector<PlacedSphere> spheres;
+  for (const PlacedNode& node : nodes) {
+    if (const auto camera = cameraAt(document, node)) scene.cameras.push_back(*camera);
+    if (node.hidden) continue;
+    if (const auto sphere = sphereAt(document, node)) spheres.push_back(*sphere);
+    std::optional<Volume> volume;
+    if (readsVolume) volume = volumeAt(document, node);
+    if (volume && !scene.volume.source.file.empty())
+      document.diagnostics.warn(pointerTo("nodes", node.index, "extras", "fragtrace_volume"),
+                                "a scene has one volume; this one is left out");
+    else if (volume)
+      scene.volume = std::move(*volume);
+  }
+  return spheres;
+}
+
 Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
                  std::shared_ptr<KeptDocument>* kept) {
   std::shared_ptr<KeptDocument> read = kept != nullptr ? std::move(*kept) : nullptr;
@@ -134,20 +153,7 @@ Scene buildScene(const std::filesystem::path& path, const GltfOptions& options,
     *kept = std::move(read);
   }
   document.model.buffers.clear();
-  std::vector<PlacedSphere> spheres;
-  for (const PlacedNode& node : nodes) {
-    if (const auto camera = cameraAt(document, node)) scene.cameras.push_back(*camera);
-    if (node.hidden) continue;
-    if (const auto sphere = sphereAt(document, node)) spheres.push_back(*sphere);
-    if (!options.readsVolume) continue;
-    if (auto volume = volumeAt(document, node)) {
-      if (!scene.volume.source.file.empty())
-        document.diagnostics.warn(pointerTo("nodes", node.index, "extras", "fragtrace_volume"),
-                                  "a scene has one volume; this one is left out");
-      else
-        scene.volume = std::move(*volume);
-    }
-  }
+  const std::vector<PlacedSphere> spheres = takeParts(document, nodes, options.readsVolume, scene);
 
   // Local space.
   const PlacedMeshes meshes =
