@@ -116,7 +116,7 @@ class FailingDriver(Failing):
             for path in (SOURCES / folder).glob("*.*"):
                 called |= set(re.findall(r"\b(gl[A-Z]\w*)\(", path.read_text()))
         stand_in = Path(__file__).parent.parent / "faults/failing_egl.cpp"
-        wrapped = set(re.findall(r"WRAP(?:_STATUS|_FORMAT)?\((gl\w+)\)", stand_in.read_text()))
+        wrapped = set(re.findall(r"WRAP(?:_STATUS|_FORMAT|_NAME)?\((gl\w+)\)", stand_in.read_text()))
         self.assertEqual(called - {"glGetError"}, wrapped)
 
 

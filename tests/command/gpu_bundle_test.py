@@ -81,8 +81,8 @@ class GpuTable(Case):
                           "FLIP 0.0500, relative MSE 0.1 |"])
         self.assertEqual(rows["Cornell box"], ["2.0 pictures/s of 1.00 Mpixels; one after 16.5 ms, 95 % within 17.0, all within 40.0",
                                                "aim 60 pictures/s, none after more than 50 ms", " |"])
-        self.assertIn("28 rows failed or are wrong", text.splitlines()[-1])
-        self.assertEqual(len((self.out / "figures.jsonl").read_text().splitlines()), 19)
+        self.assertIn("39 rows failed or are wrong", text.splitlines()[-1])
+        self.assertEqual(len((self.out / "figures.jsonl").read_text().splitlines()), 29)
 
     def test_an_interrupted_run_keeps_its_table(self):
         process = self.begin("--only", "mesh,rays")
@@ -96,7 +96,7 @@ class GpuTable(Case):
         process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130)
         self.assertLess(time.monotonic() - began, 10)
-        self.assertEqual(len(self.rows()), 4)
+        self.assertEqual(len(self.rows()), 11)
         self.assertIn("INTERRUPTED", (self.out / "table.md").read_text())
         with self.assertRaises(ProcessLookupError):
             os.kill(int((self.bundle / "process").read_text()), 0)
