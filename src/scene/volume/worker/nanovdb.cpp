@@ -115,6 +115,8 @@ class Grid {
 
   pnanovdb_coord_t minimum() const { return pnanovdb_root_get_bbox_min(buffer_, root_); }
   pnanovdb_coord_t maximum() const { return pnanovdb_root_get_bbox_max(buffer_, root_); }
+  /// Of 4,096^3 voxels each, among which a voxel's is searched one after the other.
+  uint32_t tiles() const { return pnanovdb_root_get_tile_count(buffer_, root_); }
 
   /// Returns true where all voxels of the brick that begins there have one value.
   bool isUniform(pnanovdb_coord_t at) {
@@ -174,11 +176,14 @@ int brickOf(int voxel) { return voxel >> 3; }
 void measure(const Grid& grid, size_t room, GridHeader& header) {
   constexpr int64_t kMostSide = 1 << 15;
   constexpr int64_t kMostBricks = int64_t(1) << 28;
+  constexpr int64_t kTileBricks = 512;  // a side of a tile
+  constexpr int64_t kFewTiles = 64;
   const pnanovdb_coord_t low = grid.minimum();
   const pnanovdb_coord_t high = grid.maximum();
   const std::array<int, 3> first{low.x, low.y, low.z};
   const std::array<int, 3> last{high.x, high.y, high.z};
   int64_t all = 1;
+  int64_t tiles = 1;  // the most that the box touches
   for (size_t axis = 0; axis < 3; ++axis) {
     const int64_t count =
         last[axis] < first[axis] ? 0 : int64_t(brickOf(last[axis])) - brickOf(first[axis]) + 1;
@@ -189,9 +194,13 @@ void measure(const Grid& grid, size_t room, GridHeader& header) {
     header.minimum[axis] = brickOf(first[axis]) * kBrickSide;
     header.bricks[axis] = int(count);
     all *= count;
+    tiles *= count / kTileBricks + 2;
   }
   if (all > kMostBricks || size_t(all) * sizeof(uint32_t) > room)
     throw std::runtime_error("its grid reaches over more voxels than fit into memory");
+  if (grid.tiles() > kFewTiles + 4 * tiles)
+    throw std::runtime_error("its grid has " + std::to_string(grid.tiles()) +
+                             " tiles at its root, many more than its box has room for");
 }
 
 /// Calls work(brick, its first voxel) for each brick in the order of the table.
