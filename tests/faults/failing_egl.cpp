@@ -152,6 +152,7 @@ Function realEgl(const char* name) {
 
 extern "C" {
 
+// NOLINTNEXTLINE(readability-function-size): a table
 __eglMustCastToProperFunctionPointerType eglGetProcAddress(const char* name) {
   using Pointer = __eglMustCastToProperFunctionPointerType;
   const Pointer real = realEgl<Pointer (*)(const char*)>("eglGetProcAddress")(name);

@@ -55,7 +55,8 @@ std::optional<Volume> volumeAt(Document& document, const PlacedNode& node) {
   const tinygltf::Value& named = memberOf(object, "volume");
   for (const std::string& key : object.Keys()) {
     if (std::ranges::find(kMembers, key) == std::end(kMembers))
-      document.diagnostics.warn(place + "/" + key, "is no member of a volume and is ignored");
+      document.diagnostics.warn(pointerTo("nodes", node.index, "extras", kName, key),
+                                "is no member of a volume and is ignored");
   }
   Volume volume;
   volume.source = volumeFile(named.IsString() ? named.Get<std::string>() : "");
