@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What extensions of materials make of a Bsdf, for their tests.
+// Cases of material extensions and their Bsdf, for tests.
 #pragma once
 
 #include <algorithm>

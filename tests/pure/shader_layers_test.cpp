@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What extensions of materials make of shaders/bsdf.glsl, ggx.glsl, iridescence.glsl and
+// These tests add extensions of materials to shaders/bsdf.glsl, ggx.glsl, iridescence.glsl and
 // layers.glsl: sampling, energy, reciprocity, and values by formulas written down a second time.
 #include <gtest/gtest.h>
 

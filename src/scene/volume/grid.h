@@ -75,7 +75,7 @@ struct Volume {
 
   /// From indices of voxels to world space, metres.
   glm::dmat4 voxelsToWorld() const { return toWorld * grid->toWorld; }
-  /// Of the box of its bricks, in world space, metres.
+  /// The corners of the box of its bricks, in world space, metres.
   std::array<glm::dvec3, 8> corners() const;
 };
 

@@ -228,13 +228,11 @@ std::vector<GridDescription> listGrids(const std::filesystem::path& path, uint64
     if (grids.empty()) throw std::runtime_error("holds no grid");
     for (GridDescription& grid : grids) {
       if (!grid.isDensity) continue;
-      const VolumeGrid decoded = decode(worker, file, grid, memoryBytes);
-      grid.largest = decoded.largest;
-      if (decoded.empty()) continue;
-      BoundsDouble box;
-      const Volume volume{.grid = std::make_shared<const VolumeGrid>(decoded)};
-      for (const glm::dvec3& corner : volume.corners()) box.include(corner);
-      grid.box = box;
+      const Volume volume{.grid =
+                              std::make_shared<const VolumeGrid>(decode(worker, file, grid, memoryBytes))};
+      grid.largest = volume.grid->largest;
+      if (volume.grid->empty()) continue;
+      for (const glm::dvec3& corner : volume.corners()) grid.box.include(corner);
     }
     return grids;
   } catch (const std::runtime_error& error) {

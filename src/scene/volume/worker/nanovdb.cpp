@@ -115,7 +115,7 @@ class Grid {
 
   pnanovdb_coord_t minimum() const { return pnanovdb_root_get_bbox_min(buffer_, root_); }
   pnanovdb_coord_t maximum() const { return pnanovdb_root_get_bbox_max(buffer_, root_); }
-  /// Of 4,096^3 voxels each, among which a voxel's is searched one after the other.
+  /// The number of tiles of 4,096^3 voxels. A search for the tile of a voxel looks at one after the other.
   uint32_t tiles() const { return pnanovdb_root_get_tile_count(buffer_, root_); }
 
   /// Returns true where all voxels of the brick that begins there have one value.
