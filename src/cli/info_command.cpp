@@ -12,9 +12,11 @@
 #include "options/option_table.h"
 #include "options/parse_render.h"
 #include "pack/gpu_scene.h"
+#include "pack/pack_grid.h"
 #include "scene/parts.h"
 #include "scene/volume/read_grid.h"
 #include "session/scene_json.h"
+#include "session/volume.h"
 #include "shader/render_options.h"
 #include "shader/variant.h"
 
@@ -130,7 +132,7 @@ nlohmann::ordered_json nodesJson(const std::vector<SceneNode>& nodes) {
 }
 
 void printText(const std::filesystem::path& path, const SceneDescription& s, const BvhQuality& bvh,
-               double bytesPerTriangle, const TraitSet& traits) {
+               double bytesPerTriangle, size_t volumeBytes, const TraitSet& traits) {
   std::printf("%s\n", path.string().c_str());
   std::printf("  triangles   %zu (%zu emissive), vertices %zu, spheres %zu\n", s.triangles,
               s.emissiveTriangles, s.vertices, s.spheres);
@@ -161,10 +163,12 @@ void printText(const std::filesystem::path& path, const SceneDescription& s, con
         s.sharedMeshes, s.sharedInstances, s.trianglesDrawn, bvh.meshNodeCount,
         bvh.nodeCount - bvh.meshNodeCount);
   std::printf("  instancing  %s\n", s.sharing.c_str());
-  std::printf("  GPU memory  %.1f MB: geometry %.1f", (geometry + double(s.texelBytes)) / 1e6,
-              geometry / 1e6);
+  std::printf("  GPU memory  %.1f MB: geometry %.1f",
+              (geometry + double(s.texelBytes) + double(volumeBytes)) / 1e6, geometry / 1e6);
   if (s.triangles > 0) std::printf(" (%.1f bytes per triangle)", bytesPerTriangle);
-  std::printf(", textures %.1f\n", double(s.texelBytes) / 1e6);
+  std::printf(", textures %.1f", double(s.texelBytes) / 1e6);
+  if (volumeBytes > 0) std::printf(", volume %.1f", double(volumeBytes) / 1e6);
+  std::printf("\n");
   for (const StageRow& row : stageRows()) {
     const std::string reason = whyOff(row.stage, traits);
     if (!reason.empty()) std::printf("  not needed  %s (%s)\n", row.name, reason.c_str());
@@ -208,7 +212,8 @@ int inform(const InfoOptions& options) {
   loading.selection = options.render.selection;
   loading.instancing = options.render.device.instancing;
   loading.limits = options.render.limits;
-  const Scene scene = loadGltf(options.render.scene, loading);
+  Scene scene = loadGltf(options.render.scene, loading);
+  placeVolume(scene, options.render, nullptr);
   if (options.decode) {
     for (const EncodedImage& image : scene.images) decodeTexels(image.bytes, nameOf(image));
   }
@@ -220,8 +225,9 @@ int inform(const InfoOptions& options) {
   const TraitSet traits = traitsOf(scene, surroundings);
   const double bytesPerTriangle =
       scene.triangles.empty() ? 0.0 : gpuBytesPerTriangle(scene, tree, traits, surroundings);
+  const size_t volumeBytes = scene.volume.grid ? texelsOf(*scene.volume.grid) * sizeof(glm::uvec2) : 0;
   if (!options.json) {
-    printText(options.render.scene, description, bvh, bytesPerTriangle, traits);
+    printText(options.render.scene, description, bvh, bytesPerTriangle, volumeBytes, traits);
     printAllParts(scene);
     if (options.nodes) printNodes(scene.nodes);
     return 0;
@@ -233,6 +239,7 @@ int inform(const InfoOptions& options) {
   json["bvh"] = bvhJson(bvh);
   if (bytesPerTriangle > 0.0) json["gpu_bytes_per_triangle"] = bytesPerTriangle;
   json["texture_bytes"] = description.texelBytes;
+  if (volumeBytes > 0) json["volume_bytes"] = volumeBytes;
   nlohmann::ordered_json notNeeded = nlohmann::ordered_json::object();
   for (const StageRow& row : stageRows()) {
     const std::string reason = whyOff(row.stage, traits);

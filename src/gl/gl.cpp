@@ -64,15 +64,14 @@ bool isSignalled(void* fence) {
   return fence == nullptr || glClientWaitSync(static_cast<GLsync>(fence), 0, 0) != GL_TIMEOUT_EXPIRED;
 }
 
-void finishFence(void* fence, bool sleeps) {
+void finishFence(void* fence) {
   if (fence == nullptr) return glFinish();
   constexpr GLuint64 kShort = 200'000;  // ns; short draws are not made longer
-  constexpr GLuint64 kSecond = 1'000'000'000;
   const auto sync = static_cast<GLsync>(fence);
   GLenum state = glClientWaitSync(sync, GL_SYNC_FLUSH_COMMANDS_BIT, kShort);
   while (state == GL_TIMEOUT_EXPIRED) {
-    if (sleeps) std::this_thread::sleep_for(std::chrono::microseconds(100));
-    state = glClientWaitSync(sync, 0, sleeps ? 0 : kSecond);
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+    state = glClientWaitSync(sync, 0, 0);
   }
   if (state != GL_ALREADY_SIGNALED && state != GL_CONDITION_SATISFIED) glFinish();
   releaseFence(fence);
@@ -80,7 +79,7 @@ void finishFence(void* fence, bool sleeps) {
 
 void releaseFence(void* fence) { glDeleteSync(static_cast<GLsync>(fence)); }
 
-void waitForDevice() { glFinish(); }
+void waitForDevice() { finishFence(makeFence()); }
 
 uint64_t& movedBytes() {
   static thread_local uint64_t bytes = 0;

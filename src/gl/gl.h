@@ -19,12 +19,12 @@ void* makeFence();
 /// Commands of this context that follow wait for the fence, which is released.
 void awaitFence(void* fence);
 bool isSignalled(void* fence);
-/// Waits for the fence and releases it. Without a fence it waits for all commands of this context. `sleeps`:
-/// the thread looks at the fence every 0.1 ms, for a driver that would keep a processor busy (NVIDIA's).
-void finishFence(void* fence, bool sleeps);
+/// Waits for the fence and releases it. Without a fence it waits for all commands of this context. The thread
+/// sleeps between looks at the fence, because NVIDIA's driver keeps a processor busy while it waits.
+void finishFence(void* fence);
 void releaseFence(void* fence);
 
-/// Waits until all commands of this context are done.
+/// Waits until all commands of this context are done, as finishFence() does.
 void waitForDevice();
 
 /// The number of bytes that this thread has moved between host and device. Code that moves bytes adds to it.

@@ -34,7 +34,21 @@ void appendHalves(Words& texels, const uint16_t* halves, size_t count) {
   for (size_t i = 0; i < count; i += 2) texels.push_back(uint32_t(halves[i]) | uint32_t(halves[i + 1]) << 16);
 }
 
+/// The table has an entry for the bricks before the first along each axis, too.
+size_t tableTexelsOf(const VolumeGrid& grid) {
+  const glm::ivec3 bricks = grid.bricks + 1;
+  return size_t(bricks.x) * size_t(bricks.y) * size_t(bricks.z);
+}
+
+size_t texelsPerBrick(const VolumeGrid& grid) {
+  return size_t(layout::kBrickTexels) + (grid.radiance.empty() ? 0 : kBrickVoxels);
+}
+
 }  // namespace
+
+size_t texelsOf(const VolumeGrid& grid) {
+  return tableTexelsOf(grid) + grid.values.size() / kBrickVoxels * texelsPerBrick(grid);
+}
 
 PackedGrid appendGrid(const VolumeGrid& grid, Words& texels) {
   PackedGrid packed;
@@ -49,9 +63,9 @@ PackedGrid appendGrid(const VolumeGrid& grid, Words& texels) {
   const size_t stored = grid.values.size() / kBrickVoxels;
   std::vector<Largest> largest(stored);
   for (size_t i = 0; i < stored; ++i) largest[i] = largestOf(&grid.values[i * kBrickVoxels]);
-  const auto tableTexels = uint32_t(packed.bricks.x) * uint32_t(packed.bricks.y) * uint32_t(packed.bricks.z);
-  const auto perBrick = uint32_t(layout::kBrickTexels + (grid.radiance.empty() ? 0 : int(kBrickVoxels)));
-  texels.reserve(texels.size() + 2 * (size_t(tableTexels) + stored * perBrick));
+  const auto tableTexels = uint32_t(tableTexelsOf(grid));
+  const auto perBrick = uint32_t(texelsPerBrick(grid));
+  texels.reserve(texels.size() + 2 * texelsOf(grid));
 
   for (int z = -1; z < grid.bricks.z; ++z) {
     for (int y = -1; y < grid.bricks.y; ++y) {

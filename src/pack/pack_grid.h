@@ -6,6 +6,9 @@
 
 namespace fragtrace {
 
+/// Texels of 8 bytes that a grid takes on the device.
+size_t texelsOf(const VolumeGrid& grid);
+
 /// Appends the grid's table, which is larger by a brick before the first along each axis, and its bricks
 /// (shaders/media/volume.glsl).
 PackedGrid appendGrid(const VolumeGrid& grid, Words& texels);

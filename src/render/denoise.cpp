@@ -69,7 +69,7 @@ const GlTexture* VarianceFilter::filtered(const NoisyTextures& noisy, glm::ivec2
     passes.draw(filter_, size, {&turns_[turn], &guides_}, {&turns_[1 - turn]});
     turn = 1 - turn;
     if (!goOn) continue;
-    glFinish();
+    waitForDevice();
     if (!goOn()) return nullptr;
   }
   const GlTexture& latest = turns_[turn];

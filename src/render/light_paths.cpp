@@ -102,7 +102,7 @@ void Renderer::splat(const RenderPass& pass, glm::ivec2 tile) {
   glDrawArrays(GL_POINTS, 0, tile.x * tile.y);
   glDisable(GL_BLEND);
   glDisable(GL_PROGRAM_POINT_SIZE);
-  glFinish();
+  waitForDevice();
   checkGl("adding light paths to the film");
 }
 

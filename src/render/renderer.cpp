@@ -266,7 +266,7 @@ Renderer::Flight Renderer::submit(const ShaderVariant& variant, const Work& tile
 layout::Progress Renderer::land(Flight& flight) {
   layout::Progress progress{};
   movedBytes() += sizeof progress;
-  finishFence(std::exchange(flight.done, nullptr), !software_);
+  finishFence(std::exchange(flight.done, nullptr));
   if (software_) {
     drawnMs_ += millisecondsBetween(flight.start, Clock::now());
   } else {

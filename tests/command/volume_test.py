@@ -90,6 +90,9 @@ class Volumes(Case):
         of_options = self.seen(self.camera_alone(), *WHITE, "--volume", f"{grid}:density", "--volume-density", 5, "--volume-color",
                                "0.5,0.25,1", "--volume-anisotropy", 0.3, "--volume-position", "0.25,0,0", "--volume-scale", 0.5)
         self.assertEqual(of_node, of_options)
+        told = json.loads(run("info", "--json", self.camera_alone(fragtrace_volume=members) + ".gltf").stdout)
+        self.assertEqual(told["scene"]["bounds"], {"min": [0.0078125, -0.2421875, -0.2421875], "max": [0.5078125, 0.2578125, 0.2578125]})
+        self.assertEqual(told["volume_bytes"], 8 * (5**3 + 128 * told["scene"]["volume_bricks"]))
         self.refused("/nodes/1/extras/fragtrace_volume/density", scene=self.camera_alone(fragtrace_volume={**members, "density": -1}) + ".gltf")
         self.refused("/nodes/1/extras/fragtrace_volume/volume",
                      scene=self.camera_alone(fragtrace_volume={**members, "volume": "../x.nvdb"}) + ".gltf")
