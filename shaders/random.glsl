@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Random numbers as a pure function of pixel, sample, dimension and seed.
 
-/// A bijective mix of 32 bits (Wellons, 2018: lowbias32).
-uint mixBits(uint x) {
-  x ^= x >> 16;
-  x *= 0x7feb352du;
-  x ^= x >> 15;
-  x *= 0x846ca68bu;
-  x ^= x >> 16;
-  return x;
-}
+#include "mix_bits.glsl"
 
 /// The key from which all random numbers of a pixel derive.
 uint pixelKey(uint pixelX, uint pixelY, uint seed) { return mixBits(pixelX + mixBits(pixelY + mixBits(seed))); }

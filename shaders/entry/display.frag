@@ -2,10 +2,12 @@
 // Shows a traced picture as a display does: exposure, tone map and sRGB. The curves and their sources are those of
 // src/image/display/tone_map.cpp. Coverage stays in alpha.
 #include "srgb.glsl"
+#include "picture/dither.glsl"
 
 layout(binding = 0) uniform sampler2D traced;
 layout(location = 0) uniform float factor;  // 2^EV
 layout(location = 1) uniform int toneMap;   // in the order of ToneMap
+layout(location = 2) uniform bool dithers;
 
 layout(location = 0) out vec4 displayed;
 
@@ -58,5 +60,10 @@ void main() {
   vec4 texel = texelFetch(traced, ivec2(gl_FragCoord.xy), 0);
   float coverage = clamp(texel.a, 0.0, 1.0);
   vec3 color = coverage > 0.0 ? texel.rgb / coverage : vec3(0.0);
-  displayed = vec4(encoded(mapped(color * factor, toneMap)), coverage);
+  vec3 value = encoded(mapped(color * factor, toneMap));
+  if (dithers) {
+    uvec2 place = uvec2(gl_FragCoord.xy);
+    for (uint c = 0u; c < 3u; ++c) value[c] = dithered(value[c], place.x, place.y, c);
+  }
+  displayed = vec4(value, coverage);
 }

@@ -46,6 +46,11 @@ constexpr VainRow kRows[] = {
      "values above 1 are brighter than white; divide values from 0 to 255 by 255"},
     {"--alpha", [](const Options& o) { return o.light.background || !writes(o, {ImageFormat::Png}); },
      "changes a .png with --no-background only"},
+    {"--no-dither",
+     [](const Options& o) {
+       return isLinear(o) || (writes(o, {ImageFormat::Png}) && o.output.encoding.pngBits == 16);
+     },
+     "changes .png and .jpg of 8 bits only"},
     {"--exposure", isLinear, "changes .png and .jpg only; this file holds linear radiance"},
     {"--tone-map", isLinear, "changes .png and .jpg only; this file holds linear radiance"},
     {"--output",

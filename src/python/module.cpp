@@ -16,6 +16,7 @@
 #include "base/errors.h"
 #include "image/compare/difference.h"
 #include "image/compare/flip.h"
+#include "image/display/dither.h"
 #include "image/display/tone_map.h"
 #include "image/image.h"
 #include "options/choose.h"
@@ -139,13 +140,15 @@ double differenceOfArrays(const GivenValues& picture, const GivenValues& referen
   return metricValue(compare(a, b), chosen);
 }
 
-/// sRGB-encoded display values, 0..1, of R, G, B and perhaps A.
+/// sRGB-encoded display values, 0..1, of R, G, B and perhaps A; with the noise for 8 bits (dither()) if
+/// wanted.
 nb::tuple displayed(const GivenValues& values, const std::vector<std::string>& channels, double exposure,
-                    const std::string& curve) {
+                    const std::string& curve, bool dithers) {
   const std::optional<ToneMap> toneMap = parseToneMap(curve);
   if (!std::isfinite(exposure)) throw UsageError("exposure: is not a finite number");
   if (!toneMap) throw UsageError("tone_map: '" + curve + "' is none of " + joined(toneMapNames()));
   Image display = toDisplay(imageOfArray(values, channels), exposure, *toneMap);
+  if (dithers) dither(display);
   return pictureTuple(display);
 }
 

@@ -2,9 +2,14 @@
 # SPDX-License-Identifier: MIT
 """How pictures are stored: 16-bit floats and integers, and what the header of an .exr says of its camera."""
 import json
+import sys
 
+from debug_view_test import encoded
 from materials_test import quad
 from support import SCENES, SMALL, Case, Exr, main, run
+
+sys.path.insert(0, str(SCENES))
+from picture_files import read_png  # noqa: E402
 
 BOX = SCENES / "cornell-box.gltf"
 
@@ -47,6 +52,21 @@ class Encodings(Case):
             path = self.folder / f"{depth}.png"
             self.renders(BOX, "-o", path, *SMALL, "--png-depth", depth)
             self.assertEqual(path.read_bytes()[24], depth)
+
+    def test_noise_before_8_bits(self):
+        """Within a step of the exact value; without it, the nearest level."""
+        linear = self.folder / "x.exr"
+        self.renders(BOX, "-o", linear, *SMALL)
+        exact = [255 * encoded(max(0, min(1, value))) for pixel in zip(*map(Exr(linear).values, "RGB")) for value in pixel]
+        seen = {}
+        for name, options, apart in (("noisy", [], 1.51), ("plain", ["--no-dither"], 0.51)):
+            path = self.folder / f"{name}.png"
+            self.renders(BOX, "-o", path, *SMALL, "--tone-map", "linear", *options)
+            _, _, rows, step = read_png(path)
+            seen[name] = [row[x + c] for row in rows for x in range(0, len(row), step) for c in range(3)]
+            self.assertLess(max(abs(level - value) for level, value in zip(seen[name], exact, strict=True)), apart)
+        self.assertNotEqual(seen["noisy"], seen["plain"])
+        self.assertIn("--no-dither: changes .png", run("render", BOX, "-o", linear, "--resolution", "8,8", "--spp", 1, "--no-dither").stderr)
 
     def test_refusals(self):
         for options, reason in (

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "image/display/dither.h"
 
 namespace fragtrace {
 namespace {
@@ -153,6 +154,53 @@ TEST(ToneMap, AlphaForBlendedValuesShowsOverWhiteWhatLightShows) {
         EXPECT_NEAR(alpha * value, encodeSrgb(light.values[i + c]), 1e-6);
       }
     }
+  }
+}
+
+/// The mean level of 65,536 pixels after noise and rounding, and its variance.
+std::pair<double, double> ditheredLevel(float level) {
+  Image picture{
+      256, 256, {"R", "G", "B", "A"}, std::vector<float>(size_t{256} * 256 * 4, level / 255.0F), {}};
+  dither(picture);
+  double sum = 0.0;
+  double squares = 0.0;
+  for (size_t i = 0; i < picture.values.size(); ++i) {
+    if (i % 4 == 3) {
+      EXPECT_EQ(picture.values[i], level / 255.0F);  // alpha
+      continue;
+    }
+    const double rounded = std::round(255.0 * double(picture.values[i]));
+    sum += rounded;
+    squares += rounded * rounded;
+  }
+  const double count = 3.0 * 256 * 256;
+  return {sum / count, squares / count - sum * sum / count / count};
+}
+
+TEST(ImageDither, RoundedValuesHaveTheMeanAndVarianceOfTriangularNoise) {
+  for (const float level : {1.1F, 17.25F, 100.5F, 101.9F, 253.75F}) {
+    const auto [mean, variance] = ditheredLevel(level);
+    EXPECT_NEAR(mean, level, 0.006) << level;  // 5 standard errors of 0.5 / sqrt(196,608)
+    EXPECT_NEAR(variance, 0.25, 0.01) << level;
+  }
+}
+
+TEST(ImageDither, LevelsOf8BitsAreKept) {
+  for (const float level : {0.0F, 1.0F, 128.0F, 255.0F}) {
+    const auto [mean, variance] = ditheredLevel(level);
+    EXPECT_DOUBLE_EQ(mean, level);
+    EXPECT_DOUBLE_EQ(variance, 0.0);
+  }
+}
+
+TEST(ImageDither, ARegionHasTheNoiseOfTheWholePicture) {
+  const std::vector<std::string> channels{"R", "G", "B"};
+  Image whole{8, 8, channels, std::vector<float>(size_t{8} * 8 * 3, 0.3F), {}};
+  Image region{3, 2, channels, std::vector<float>(size_t{3} * 2 * 3, 0.3F), {}, Placement{{4, 5}, {8, 8}}};
+  dither(whole);
+  dither(region);
+  for (int y = 0; y < 2; ++y) {
+    for (int i = 0; i < 9; ++i) EXPECT_EQ(region.pixel(0, y)[i], whole.pixel(4, 5 + y)[i]);
   }
 }
 

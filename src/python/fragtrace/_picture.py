@@ -26,7 +26,7 @@ def tonemap(picture, exposure=0.0, tone_map="neutral"):
 
     exposure is in stops (EV). tone_map: linear, reinhard, aces, agx or neutral, as the command's options. Raises UsageError."""
     values, channels = _planes(picture)
-    _, shown, _ = _core.display(values, channels, float(exposure), tone_map)
+    _, shown, _ = _core.display(values, channels, float(exposure), tone_map, False)
     return np.rint(np.clip(shown, 0.0, 1.0) * 255.0).astype(np.uint8)
 
 
@@ -57,11 +57,11 @@ class Picture(np.ndarray):
         super().__setstate__(state[0])
         self.__dict__.update(state[1])
 
-    def save(self, path, *, exposure=None, tone_map=None, half=False, png_depth=8):
+    def save(self, path, *, exposure=None, tone_map=None, half=False, png_depth=8, no_dither=False):
         """Writes .exr, .hdr, .pfm (linear) or .png, .jpg (as tonemap() shows it), whole or not at all. half: 16-bit floats in an .exr;
-        png_depth: 8 or 16. Raises RenderError, and UsageError for what the format cannot hold."""
+        png_depth: 8 or 16; no_dither: 8 bits are rounded without noise. Raises RenderError, and UsageError for what the format cannot hold."""
         planes = {"" if name == "color" else name: np.asarray(layer) for name, layer in self.layers.items()}
-        _save(path, {**planes, "": np.asarray(self)}, self, exposure, tone_map, half, png_depth, self.layers.channels)
+        _save(path, {**planes, "": np.asarray(self)}, self, exposure, tone_map, half, png_depth, no_dither, self.layers.channels)
 
     def _repr_png_(self):
         return _png(self)
@@ -84,10 +84,10 @@ class Layers(dict):
     def messages(self):
         return self["color"].messages
 
-    def save(self, path, *, exposure=None, tone_map=None, half=False, png_depth=8):
+    def save(self, path, *, exposure=None, tone_map=None, half=False, png_depth=8, no_dither=False):
         """As Picture.save(); an .exr holds all layers."""
         planes = {"" if name == "color" else name: np.asarray(layer) for name, layer in self.items()}
-        _save(path, planes, self["color"], exposure, tone_map, half, png_depth, self.channels)
+        _save(path, planes, self["color"], exposure, tone_map, half, png_depth, no_dither, self.channels)
 
     def _repr_png_(self):
         return _png(self["color"])
@@ -96,12 +96,12 @@ class Layers(dict):
 def _png(picture):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "picture.png")
-        _save(path, {"": np.asarray(picture)}, None, None, None, False, 8)
+        _save(path, {"": np.asarray(picture)}, None, None, None, False, 8, False)
         with open(path, "rb") as file:
             return file.read()
 
 
-def _save(path, planes, made, exposure, tone_map, half, png_depth, channels=None):
+def _save(path, planes, made, exposure, tone_map, half, png_depth, no_dither, channels=None):
     attributes, numbers = ({}, {}) if made is None else (made.attributes, made.numbers)
     path = os.fspath(path)
     color, names = _planes(planes[""])
@@ -110,7 +110,7 @@ def _save(path, planes, made, exposure, tone_map, half, png_depth, channels=None
             color, names = np.repeat(color, 3, axis=2), list(COLOR[:3])
         if not path.lower().endswith(".png"):
             color, names = color[:, :, :3], names[:3]  # over black: colour is multiplied by alpha
-        names, color, _ = _core.display(np.ascontiguousarray(color), names, float(exposure or 0.0), tone_map or "neutral")
+        names, color, _ = _core.display(np.ascontiguousarray(color), names, float(exposure or 0.0), tone_map or "neutral", png_depth == 8 and not no_dither)
         attributes, numbers = {}, {}
     elif exposure is not None or tone_map is not None:
         raise _core.UsageError(f"{path}: holds linear values, which exposure and tone_map are not for")

@@ -8,7 +8,7 @@ import numpy as np
 from fragtrace import _core
 
 SHORT = {"hdri": "hdri-file"}
-OF_FILES = ("exposure", "tone_map", "half", "png_depth")
+OF_FILES = ("exposure", "tone_map", "half", "png_depth", "no_dither")
 SINGLE = "only the command `fragtrace render` has it; animation_time and camera_orbit draw single pictures"
 ENDS = "only the command `fragtrace render` has it, since a picture in memory leaves no file to go on from"
 SAID = "nothing is printed here; `messages` of the picture has what the command says"

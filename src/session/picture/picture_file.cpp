@@ -4,6 +4,7 @@
 #include <set>
 
 #include "image/channels.h"
+#include "image/display/dither.h"
 #include "image/display/heatmap.h"
 #include "image/display/lines.h"
 #include "image/display/tone_map.h"
@@ -116,6 +117,12 @@ void writePicture(const RenderOptions& options, const Image& linear, std::span<c
       toDisplay(keepsAlpha ? linear : withoutAlpha(linear), colors ? 0.0 : options.output.exposure,
                 colors ? ToneMap::Linear : options.output.toneMap);
   if (options.output.alpha == AlphaOf::Display) display = forBlendedValues(std::move(display));
+  const bool hasSteps =
+      formatOfName(options.output.file) == ImageFormat::Jpeg || options.output.encoding.pngBits == 8;
+  if (options.output.dither && hasSteps && !colors) {
+    display.placement = linear.placement;
+    dither(display);
+  }
   drawLines(display, lines, linear.placement.value_or(Placement{{0, 0}, {linear.width, linear.height}}));
   writeOut(options, display);
 }

@@ -15,6 +15,7 @@ namespace {
 // As shaders/entry/display.frag and shaders/entry/window.frag have them.
 constexpr GLint kFactor = 0;
 constexpr GLint kToneMap = 1;
+constexpr GLint kDithers = 2;
 constexpr GLint kPictureSize = 0;
 constexpr GLint kBar = 1;
 constexpr GLint kCorner = 2;
@@ -117,6 +118,7 @@ void Display::map(Side& side, const DisplaySide& settings) {
   glUseProgram(mapping_.name());
   glUniform1f(kFactor, side.asItIs ? 1.0f : float(std::exp2(settings.exposure)));
   glUniform1i(kToneMap, side.asItIs ? GLint(ToneMap::Linear) : GLint(settings.toneMap));
+  glUniform1i(kDithers, side.asItIs ? 0 : 1);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   side.settings = settings;
   side.fresh = true;
